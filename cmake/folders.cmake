@@ -1,0 +1,53 @@
+# sinew_folder(PATH DEPS...)   the library of sinew/PATH, its tests beside its sources (*_test.cpp).
+# A folder with headers only becomes an interface library.
+
+function(sinew_target path out)
+  string(REPLACE "/" "_" name "${path}")
+  set(${out} "sinew_${name}" PARENT_SCOPE)
+endfunction()
+
+function(sinew_folder path)
+  sinew_target(${path} target)
+  set(dir ${PROJECT_SOURCE_DIR}/sinew/${path})
+  file(GLOB sources CONFIGURE_DEPENDS ${dir}/*.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS ${dir}/*.h)
+  set(tests ${sources})
+  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
+
+  if(sources)
+    add_library(${target} STATIC ${sources} ${headers})
+    set(scope PUBLIC)
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(sinew::${target} ALIAS ${target})
+  set_property(GLOBAL APPEND PROPERTY SINEW_FOLDERS ${target})
+  target_compile_features(${target} ${scope} cxx_std_20)
+  target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                                $<INSTALL_INTERFACE:include>)
+  foreach(dep ${ARGN})
+    sinew_target(${dep} dep_target)
+    target_link_libraries(${target} ${scope} ${dep_target})
+  endforeach()
+
+  if(SINEW_TESTS AND tests)
+    add_executable(${target}_test ${tests})
+    target_link_libraries(${target}_test PRIVATE ${target} GTest::gtest_main)
+    target_compile_definitions(${target}_test PRIVATE SINEW_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    gtest_discover_tests(${target}_test TEST_PREFIX "${path}: " DISCOVERY_TIMEOUT 60)
+  endif()
+endfunction()
+
+# An outside library stands behind one folder; PRIVATE keeps its headers out of everyone else's.
+function(sinew_uses path scope)
+  sinew_target(${path} target)
+  get_target_property(type ${target} TYPE)
+  if(NOT type STREQUAL "INTERFACE_LIBRARY")
+    target_link_libraries(${target} ${scope} ${ARGN})
+  endif()
+  if(TARGET ${target}_test)
+    target_link_libraries(${target}_test PRIVATE ${ARGN})
+  endif()
+endfunction()

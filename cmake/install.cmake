@@ -1,0 +1,1 @@
+# cmake --install gives find_package(sinew) and one target, sinew::sinew.

@@ -1,0 +1,19 @@
+#include "sinew/signals/table.h"
+
+namespace sinew::signals {
+
+const Series* Table::find(std::string_view topic) const {
+  for (const Series& s : series)
+    if (s.topic.name == topic) return &s;
+  return nullptr;
+}
+
+const std::vector<double>* Table::column(std::string_view topic, std::string_view field) const {
+  const Series* s = find(topic);
+  if (!s) return nullptr;
+  for (std::size_t i = 0; i < s->topic.fields.size(); ++i)
+    if (s->topic.fields[i].name == field) return &s->columns[i];
+  return nullptr;
+}
+
+}  // namespace sinew::signals

@@ -1,0 +1,42 @@
+// units/field.h - how a folder describes its parameters.
+//
+// A folder with parameters has a header `<name>.fields.h` with one function template per struct:
+//
+//   template <class Visitor>
+//   void fields(Visitor& v, Braid& braid) {
+//     v.number({.name = "turns", .unit = "1", .min = 0.01, .doc = "turns of one thread [18]"}, braid.turns);
+//   }
+//
+// The same function reads the struct from a file, prints it, documents it and names the channels'
+// metadata: the visitors stand in config/, which knows nothing of the structs.
+//
+// A visitor has:
+//   v.number(Field, double&)                  a quantity; text at the border, SI inside
+//   v.numbers(Field, std::vector<double>&)    a list of quantities of one unit
+//   v.polynomial(Field, std::vector<double>&, per)   c0, c1, ... in unit, unit/per, unit/per^2 ...
+//   v.integer(Field, int&)
+//   v.flag(Field, bool&)
+//   v.text(Field, std::string&)
+//   v.texts(Field, std::vector<std::string>&)
+//   v.choice(Field, Enum&, {{"stop", Enum::stop}, ...})
+//   v.group(Field, [&](auto& v) {...})        a table with fixed keys
+//   v.each(Field, std::vector<T>&, [&](auto& v, T&) {...})   a table of named tables; T has `name`
+#pragma once
+
+#include <limits>
+#include <string_view>
+
+namespace sinew::units {
+
+inline constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+struct Field {
+  std::string_view name;       // key in the file
+  std::string_view unit = "";  // SI; "Pa abs", "Pa gauge", "Pa diff" for pressures; "1" for a bare number
+  double min = -unbounded;     // inclusive, in `unit`
+  double max = unbounded;
+  bool optional = false;  // absent: the struct's default stays
+  std::string_view doc;   // one line
+};
+
+}  // namespace sinew::units
