@@ -1,0 +1,68 @@
+// actuator/actuator.h - one braided pneumatic actuator (McKibben muscle): its parameters.
+//
+// The laws stand in braid.h (geometry), tension.h, loss.h and stiffness.h. Everything is SI; pressure
+// is absolute unless a name says gauge. Sources: Colbrunn (2000), equation numbers in brackets.
+#pragma once
+
+#include <string>
+
+namespace sinew::actuator {
+
+// [1]-[4]: threads of a fixed length that wind around a cylinder.
+struct Braid {
+  double thread_length = 0;  // b [m]
+  double turns = 0;          // n [-] of one thread
+};
+
+// [30]: share of the ideal tension that arrives, a polynomial of the pressure.
+struct Effectiveness {
+  enum class Argument { gauge, absolute };  // the text has gauge, appendix A absolute
+  double c0 = 1, c1 = 0, c2 = 0;            // [1], [1/Pa], [1/Pa^2]
+  double scale = 1;                         // times the polynomial [-]
+  Argument argument = Argument::gauge;
+  double valid_from = 0, valid_to = 7.6e5;  // gauge pressures that were fitted [Pa]
+};
+
+// [32], [35]: beyond `length` the threads themselves stretch.
+struct LongEnd {
+  double length = 0;     // L_max [m]
+  double stiffness = 0;  // K_braid [N/m]
+  double damping = 0;    // C_braid [N s/m]
+};
+
+// [31] below the shortest length b/sqrt 3. As printed the tension is zero there, so that nothing
+// holds a load that has gone past it; `stop` is an end stop that pushes back.
+struct ShortEnd {
+  enum class Law { stop, zero };
+  Law law = Law::stop;
+  double stiffness = 0;  // [N/m]
+  double damping = 0;    // [N s/m]
+};
+
+// [33], [34]: viscous loss, and dry friction between bladder and mesh of at most Q times a stiffness.
+struct Loss {
+  enum class Scale { secant, sealed, constant };
+  double viscous = 0;         // c [N s/m]
+  double coulomb_length = 0;  // Q [m]
+  Scale coulomb_scale = Scale::secant;
+  double coulomb_stiffness = 0;  // the stiffness for Scale::constant [N/m]
+  bool stick = true;             // false: sign(v) as printed
+};
+
+// The bladder as a spring of its own; not in the thesis, see docs/calibration.md.
+struct Bladder {
+  double stiffness = 0;    // [N/m]
+  double rest_length = 0;  // [m]
+};
+
+struct Actuator {
+  std::string name;
+  Braid braid;
+  Effectiveness effectiveness;
+  LongEnd long_end;
+  ShortEnd short_end;
+  Loss loss;
+  Bladder bladder;
+};
+
+}  // namespace sinew::actuator

@@ -1,0 +1,35 @@
+// actuator/loss.h - the bound of the dry friction between bladder and mesh, [33], [34].
+//
+//   |F_coulomb| <= Q k,  Q = mu N / k [m]
+//
+// k is the secant stiffness [34] as printed, or the sealed stiffness that Q was identified with
+// ([45]), or a constant. Below the bound the mesh sticks; which of the two it does is solved for
+// once per step by the plant (design.md, "Dry friction").
+#pragma once
+
+#include "sinew/actuator/actuator.h"
+#include "sinew/actuator/braid.h"
+#include "sinew/actuator/tension.h"
+
+namespace sinew::actuator {
+
+// [34] as F/(L - L_min), written without its 0/0 at L_min:
+//   k = 3 P_g Eff (L + L_min)/(4 pi n^2)   [N/m]
+inline double secant_stiffness(const Actuator& a, double length, double gauge_pressure,
+                               double atmosphere) {
+  return 3.0 * gauge_pressure * effectiveness(a.effectiveness, gauge_pressure, atmosphere) *
+         (length + shortest_length(a.braid)) * braid_factor(a.braid);
+}
+
+// Largest dry friction  [N], never negative. `sealed_stiffness` is used by Scale::sealed only.
+inline double coulomb_bound(const Actuator& a, double length, double gauge_pressure,
+                            double atmosphere, double sealed_stiffness) {
+  double k = a.loss.coulomb_stiffness;
+  if (a.loss.coulomb_scale == Loss::Scale::secant)
+    k = secant_stiffness(a, length, gauge_pressure, atmosphere);
+  if (a.loss.coulomb_scale == Loss::Scale::sealed) k = sealed_stiffness;
+  const double bound = a.loss.coulomb_length * k;
+  return bound > 0 ? bound : 0.0;
+}
+
+}  // namespace sinew::actuator

@@ -1,0 +1,56 @@
+// actuator/tension.h - what one actuator pulls with, [22], [30]-[32], [35].
+//
+//   F = P_g b^2/(4 pi n^2) (3 L^2/b^2 - 1) Eff(p) + ends + bladder + c v          [31], [33]
+//
+//   P_g  gauge pressure [Pa]        L  length [m]         v  dL/dt [m/s]
+//
+// The dry friction of [33] is not in here: it is a force of the step, see loss.h and design.md.
+// Departures: P - P_atm keeps its sign (appendix A takes |P - 14.7|, so that vacuum would pull);
+// below the shortest length an end stop, or zero as printed.
+#pragma once
+
+#include "sinew/actuator/actuator.h"
+#include "sinew/actuator/braid.h"
+
+namespace sinew::actuator {
+
+// [30]  [-]. Constant outside the fitted range of pressures: a polynomial is no law there.
+constexpr double effectiveness(const Effectiveness& e, double gauge_pressure, double atmosphere) {
+  const double low = gauge_pressure < e.valid_from ? e.valid_from : gauge_pressure;
+  const double inside = low > e.valid_to ? e.valid_to : low;
+  const double p = e.argument == Effectiveness::Argument::absolute ? inside + atmosphere : inside;
+  return e.scale * (e.c0 + p * (e.c1 + p * e.c2));
+}
+
+// [22]: the ideal tension  [N].
+constexpr double ideal_tension(const Braid& braid, double length, double gauge_pressure) {
+  const double b2 = braid.thread_length * braid.thread_length;
+  return gauge_pressure * (3.0 * length * length - b2) * braid_factor(braid);
+}
+
+// [32], [35]: the stretched threads  [N], zero up to L_max.
+constexpr double long_end_tension(const LongEnd& end, double length, double velocity) {
+  const double force = end.stiffness * (length - end.length) + end.damping * velocity;
+  return length > end.length ? force : 0.0;
+}
+
+// Passive bladder  [N].
+constexpr double bladder_tension(const Bladder& bladder, double length) {
+  return bladder.stiffness * (length - bladder.rest_length);
+}
+
+// [31], [33] without dry friction: an actuator clamped at both ends, so the result may push  [N].
+inline double tension(const Actuator& a, double length, double velocity, double gauge_pressure,
+                      double atmosphere) {
+  const double pull = ideal_tension(a.braid, length, gauge_pressure) *
+                      effectiveness(a.effectiveness, gauge_pressure, atmosphere);
+  const double passive = bladder_tension(a.bladder, length) + a.loss.viscous * velocity;
+  const double inside = pull + passive + long_end_tension(a.long_end, length, velocity);
+
+  const double shortest = shortest_length(a.braid);
+  if (length >= shortest) return inside;
+  if (a.short_end.law == ShortEnd::Law::zero) return 0.0;
+  return inside + a.short_end.stiffness * (length - shortest) + a.short_end.damping * velocity;
+}
+
+}  // namespace sinew::actuator
