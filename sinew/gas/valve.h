@@ -24,7 +24,7 @@ struct Flow {
 };
 
 struct Valve {
-  enum class Kind { two_way, three_way };      // three_way: supply or atmosphere, never sealed
+  enum class Kind { two_way, three_way };  // three_way: supply or atmosphere, never sealed
   enum class Profile { ideal, dead_time, ramp };
 
   std::string name;
