@@ -118,11 +118,11 @@ struct FlowConstants {
   double spread = 0;       // ISO: 1/(1 - b) [-]
   double linear_gain = 0;  // of y_a^7 - y_b^7 [kg/s]
   double linear_from = 1;  // y_down/y_up above which the law is linear [-]
-  bool iso = false;
+  double iso = 0;          // 1: ISO 6358 (a double: a bool per lane would stop vectorisation)
 };
 
 // Flow from a to b out of y at both ports  [kg/s]. + - x sqrt and selections only, one root: loops
-// over lanes vectorise, and every lane gives the scalar's bits.
+// over lanes that keep each constant in an array vectorise, and every lane has the scalar's bits.
 inline double flow_y(const FlowConstants& c, double y_a, double y_b) {
   const double up = y_a > y_b ? y_a : y_b;
   const double down = y_a > y_b ? y_b : y_a;
@@ -140,8 +140,8 @@ inline double flow_y(const FlowConstants& c, double y_a, double y_b) {
   const double over = p_down - c.choke * p_up;
   const double share = (over > 0 ? over : 0.0) * c.spread;
 
-  const double factor = c.iso ? 1.0 : d2 * d2 * d * up;
-  const double inside = c.iso ? p_up * p_up - share * share : up2 - d2;
+  const double factor = c.iso > 0 ? 1.0 : d2 * d2 * d * up;
+  const double inside = c.iso > 0 ? p_up * p_up - share * share : up2 - d2;
   const double free = c.gain * factor * std::sqrt(inside > 0 ? inside : 0.0);
   const double linear = c.linear_gain * (p_up - p_down);
 
@@ -151,8 +151,8 @@ inline double flow_y(const FlowConstants& c, double y_a, double y_b) {
 
 inline FlowConstants flow_constants(const Flow& flow, const Air& air) {
   FlowConstants c;
-  c.iso = flow.law == Flow::Law::iso6358;
-  if (c.iso) {
+  c.iso = flow.law == Flow::Law::iso6358 ? 1 : 0;
+  if (c.iso > 0) {
     c.gain = flow.sonic_conductance * iso_density * air.atmosphere *
              std::sqrt(iso_temperature / air.temperature);
     c.choke = flow.critical_pressure_ratio;
