@@ -146,7 +146,7 @@ inline double flow_y(const FlowConstants& c, double y_a, double y_b) {
   const double linear = c.linear_gain * (p_up - p_down);
 
   const double size = down > c.linear_from * up ? linear : free;
-  return y_a > y_b ? size : -size;
+  return y_a >= y_b ? size : -size;
 }
 
 inline FlowConstants flow_constants(const Flow& flow, const Air& air) {

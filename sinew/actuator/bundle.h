@@ -1,0 +1,47 @@
+// actuator/bundle.h - equal actuators side by side that share their air, 4.2 (two per muscle).
+//
+//   tension, stiffness = count x one actuator's        volume = count x one actuator's + external
+//
+// Sealed, a bundle is `count` single actuators that have external/count each.
+#pragma once
+
+#include "sinew/actuator/actuator.h"
+#include "sinew/actuator/braid.h"
+#include "sinew/actuator/stiffness.h"
+#include "sinew/actuator/tension.h"
+
+namespace sinew::actuator {
+
+struct Bundle {
+  Actuator actuator;           // each of them
+  int count = 1;               // in parallel
+  double external_volume = 0;  // hoses and fittings of all together, downstream of the valves [m^3]
+};
+
+// Of the air  [m^3].
+constexpr double volume(const Bundle& bundle, double length) {
+  return bundle.count * volume(bundle.actuator.braid, length) + bundle.external_volume;
+}
+
+// Static and viscous, both ends clamped  [N].
+inline double tension(const Bundle& bundle, double length, double velocity, double gauge_pressure,
+                      double atmosphere) {
+  return bundle.count * tension(bundle.actuator, length, velocity, gauge_pressure, atmosphere);
+}
+
+// Of the braid, valves holding the pressure  [N/m].
+constexpr double stiffness_at_constant_pressure(const Bundle& bundle, double length,
+                                                double gauge_pressure, double atmosphere) {
+  return bundle.count *
+         stiffness_at_constant_pressure(bundle.actuator, length, gauge_pressure, atmosphere);
+}
+
+// Of the braid, valves shut; pressure absolute  [N/m].
+constexpr double stiffness_sealed(const Bundle& bundle, double length, double pressure,
+                                  double atmosphere, double polytropic_exponent) {
+  return bundle.count * stiffness_sealed(bundle.actuator, length, pressure, atmosphere,
+                                         bundle.external_volume / bundle.count,
+                                         polytropic_exponent);
+}
+
+}  // namespace sinew::actuator

@@ -1,0 +1,99 @@
+// actuator/stiffness.h - how tension grows with length, [23]-[27], and what a sealed valve adds.
+//
+//   k_P = dF/dL at constant pressure = 6 P_g L Eff/(4 pi n^2)                          [26]
+//   k_m = dF/dL at constant air mass = k_P + dF/dP_g dP/dL                             [24]
+//         dP/dL = -n_p P V'/(V + V_ext)      because P (V + V_ext)^n_p is constant     [40]
+//   k_F = [26] with the pressure taken from the tension = 6 F L/(3 L^2 - b^2)          [27]
+//
+//   L, b, n  braid.h     P, P_g  absolute, gauge pressure [Pa]     n_p  polytropic exponent [-]
+//   V, V'    volume of one actuator [m3] and its slope [m2]         V_ext  hoses, per actuator [m3]
+//
+// The thesis sets dP/dL = 0 in [25]. That is k_P; a muscle whose valves are shut has k_m, which is
+// 1.23 to 1.85 of it at 60 psi gauge between 3.15 and 3.4 in (V_ext 0.495 and 0.114 in3, n_p
+// = 1.4).
+//
+// Of the braid alone, for one actuator, inside 0 < L < b. Ends and bladder: passive_stiffness.
+// n actuators in parallel: bundle.h. Eff is not in the thesis's [26]; it is in its [31], whose
+// derivative is wanted.
+#pragma once
+
+#include "sinew/actuator/actuator.h"
+#include "sinew/actuator/braid.h"
+#include "sinew/actuator/tension.h"
+
+namespace sinew::actuator {
+
+// Does Eff move with the pressure while the length changes, as in [30], or is it a constant?
+enum class EffectivenessSlope { included, neglected };
+
+// [26] as printed, without Eff  [N/m].
+constexpr double ideal_stiffness(const Braid& braid, double length, double gauge_pressure) {
+  return 6.0 * gauge_pressure * length * braid_factor(braid);
+}
+
+// [26] of the effective tension [31]  [N/m].
+constexpr double stiffness_at_constant_pressure(const Actuator& a, double length,
+                                                double gauge_pressure, double atmosphere) {
+  return ideal_stiffness(a.braid, length, gauge_pressure) *
+         effectiveness(a.effectiveness, gauge_pressure, atmosphere);
+}
+
+// [27]: the same from the tension, without knowing the pressure  [N/m].
+//
+// It has a pole at the shortest length b/sqrt 3, where 0/0 stands for a finite k, and below it a
+// positive tension gives a negative k. The effectiveness cancels; tension of ends, bladder and
+// friction does not, and near the pole it is all there is. Whoever uses it must keep away from
+// there.
+constexpr double stiffness_from_tension(const Braid& braid, double length, double tension) {
+  const double b2 = braid.thread_length * braid.thread_length;
+  return 6.0 * tension * length / (3.0 * length * length - b2);
+}
+
+// dEff/dP: zero outside the fitted pressures, where Eff is held  [1/Pa].
+constexpr double effectiveness_slope(const Effectiveness& e, double gauge_pressure,
+                                     double atmosphere) {
+  if (gauge_pressure < e.valid_from || gauge_pressure > e.valid_to) return 0.0;
+  const bool absolute = e.argument == Effectiveness::Argument::absolute;
+  const double p = absolute ? gauge_pressure + atmosphere : gauge_pressure;
+  return e.scale * (e.c1 + 2.0 * e.c2 * p);
+}
+
+// dP/dL of air that can neither come nor go, [40] with m' = 0  [Pa/m].
+constexpr double pressure_slope_sealed(const Braid& braid, double length, double pressure,
+                                       double external_volume, double polytropic_exponent) {
+  return -polytropic_exponent * pressure * volume_slope(braid, length) /
+         (volume(braid, length) + external_volume);
+}
+
+// dF/dL at constant air mass, [24] with its first term  [N/m]. `external_volume` is one actuator's
+// share: that of the bundle divided by the actuators in it.
+constexpr double stiffness_sealed(const Actuator& a, double length, double pressure,
+                                  double atmosphere, double external_volume,
+                                  double polytropic_exponent,
+                                  EffectivenessSlope slope = EffectivenessSlope::included) {
+  const double gauge_pressure = pressure - atmosphere;
+  const double eff = effectiveness(a.effectiveness, gauge_pressure, atmosphere);
+  const double eff_slope = slope == EffectivenessSlope::included
+                               ? effectiveness_slope(a.effectiveness, gauge_pressure, atmosphere)
+                               : 0.0;
+
+  // F = P_g g(L) Eff(P_g), so dF/dP_g = g (Eff + P_g Eff').
+  const double tension_per_pressure =
+      ideal_tension(a.braid, length, 1.0) * (eff + gauge_pressure * eff_slope);
+  return ideal_stiffness(a.braid, length, gauge_pressure) * eff +
+         tension_per_pressure *
+             pressure_slope_sealed(a.braid, length, pressure, external_volume, polytropic_exponent);
+}
+
+// dF/dL of what pulls without air: stretched threads, end stop, bladder  [N/m]. Together with one
+// of the above it is the slope of tension(), except below the short end with ShortEnd::Law::zero.
+inline double passive_stiffness(const Actuator& a, double length) {
+  double k = a.bladder.stiffness;
+  if (length > a.long_end.length) k += a.long_end.stiffness;
+  if (length < shortest_length(a.braid) && a.short_end.law == ShortEnd::Law::stop) {
+    k += a.short_end.stiffness;
+  }
+  return k;
+}
+
+}  // namespace sinew::actuator
