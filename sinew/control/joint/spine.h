@@ -1,0 +1,103 @@
+// control/joint/spine.h - the low-level controller, the leg's "spinal cord" [thesis 5.1, 5.2].
+//
+// Reads the sensors in a fixed scan, runs each joint's two laws once per period and turns their
+// duties into valve edges. It never sees a port and owns no time: a loop asks what is next,
+//
+//   Tick t = 0;
+//   for (; t < end; t = spine.next_event(t)) {
+//     if (t % spine.scan().period == 0) spine.command(brain.update(spine.seen(), t));
+//     for (const Edge& e : spine.edges(t)) port.drive(e);
+//     if (const Conversion* c = spine.due(t)) spine.take(*c, port.read(c->channel, t), t);
+//   }
+//
+// and may as well visit every tick: the edges are the same. Ticks never decrease.
+//
+//   startup --(startup_vent)--> running --(shut_down, fault, end)--> venting --(shutdown_vent)-->
+//   off
+//
+// Embedded core: no heap, no exceptions, no clock, single precision; the same bits on every
+// machine.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "sinew/control/joint/command.h"
+#include "sinew/control/joint/config.h"
+#include "sinew/control/joint/pulse_train.h"
+#include "sinew/control/joint/seen.h"
+#include "sinew/signals/port.h"
+#include "sinew/signals/tick.h"
+
+namespace sinew::control {
+
+class Spine {
+ public:
+  // problem(config) must be nullptr.
+  explicit Spine(const SpineConfig& config) noexcept;
+
+  // The spans point into this object.
+  signals::Scan scan() const noexcept;
+
+  // The first tick after t at which anything happens: period start, edge or conversion.
+  signals::Tick next_event(signals::Tick t) noexcept;
+
+  // From the high level, at a period's start.
+  void command(const Command& command) noexcept { command_ = command; }
+
+  // Edges to drive at tick t, decided earlier; closing ones first. Each is handed out once; the
+  // span holds until the next call.
+  std::span<const signals::Edge> edges(signals::Tick t) noexcept;
+
+  // The conversion to be read at tick t, or nullptr.
+  const signals::Conversion* due(signals::Tick t) noexcept;
+
+  // Its result. Runs the laws that wait for it.
+  void take(const signals::Conversion&, signals::Reading, signals::Tick t) noexcept;
+
+  const Seen& seen() const noexcept { return seen_; }
+  const SpineConfig& config() const noexcept { return config_; }
+
+  // The clock came too late for tick t, which is worked off all the same.
+  void missed(signals::Tick t) noexcept;
+
+  // Vent, then shut; the loop goes on until seen().phase is `off`.
+  void shut_down(signals::Tick t) noexcept;
+
+ private:
+  static constexpr std::size_t valves_per_joint = 4;  // in the order of Duties
+  using JointValves = std::array<PulseTrain, valves_per_joint>;
+
+  void locate(signals::Tick t) noexcept;
+  void store(signals::Channel, signals::Reading, signals::Tick t) noexcept;
+  void run_law(std::size_t joint, signals::Tick t) noexcept;
+  void schedule(std::size_t joint, signals::Tick t) noexcept;
+  void vent(signals::Tick from, std::uint32_t ticks, Phase during, Phase after) noexcept;
+  void hand_out(signals::Tick t, bool open) noexcept;
+  void find_next_edge() noexcept;
+
+  SpineConfig config_;
+  Command command_;
+  Seen seen_;
+
+  // Laws
+  std::array<std::int32_t, max_joints> previous_angle_{};  // [count], of the last law
+  std::array<std::uint32_t, max_channels> bad_in_a_row_{};
+  std::array<bool, max_channels> answered_{};  // has had a good reading
+
+  // Time
+  signals::Tick period_start_ = 0;
+  std::size_t cursor_ = 0;       // first conversion of the period not before the located tick
+  signals::Tick phase_end_ = 0;  // of startup or venting
+  Phase next_phase_ = Phase::running;
+
+  // Valves
+  std::array<JointValves, max_joints> valves_;
+  signals::Tick next_edge_ = PulseTrain::never;
+  std::array<signals::Edge, max_joints * valves_per_joint> out_;
+  std::size_t out_count_ = 0;
+};
+
+}  // namespace sinew::control
