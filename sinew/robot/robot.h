@@ -1,17 +1,19 @@
 // robot/robot.h - what the machine is: links, joints, antagonist pairs, sensors. Description only:
 // plants move it, controllers drive it, analysis reads its logs.
 //
-// Plane x forward, y up, origin at the hip axis; angles counter-clockwise, the first joint's from +x,
-// every other joint's from its proximal link's direction. Link k hangs at joint k. SI throughout.
+// Plane x forward, y up, origin at the hip axis; angles counter-clockwise, the first joint's from
+// +x, every other joint's from its proximal link's direction. Link k hangs at joint k. SI
+// throughout.
 #pragma once
 
-#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "sinew/signals/tick.h"
-
 namespace sinew::robot {
+
+inline constexpr int max_joints = 4;                // what the loop's fixed arrays hold
+inline constexpr int max_muscles = 2 * max_joints;  // one pair per joint
 
 struct Link {
   std::string name;
@@ -50,13 +52,13 @@ struct Muscle {
   std::string name;
   std::string joint;
   Role role = Role::flexor;
-  std::string actuator;            // name in the actuator files
-  int count = 1;                   // actuators in parallel
-  double mount_length = 0;         // at the joint's rest angle [m]
-  double external_volume = 0;      // of the whole bundle, downstream of the valves [m^3]
-  double bladder_stiffness = 0;    // per actuator [N/m]
-  double bladder_rest_length = 0;  // [m]
-  std::string inlet, exhaust;      // names in the valves file
+  std::string actuator;                // name in the actuator files
+  int count = 1;                       // actuators in parallel
+  double mount_length = 0;             // at the joint's rest angle [m]
+  double external_volume = 0;          // of the whole bundle, downstream of the valves [m^3]
+  double bladder_stiffness = 0;        // per actuator [N/m]
+  double bladder_rest_length = 0;      // [m]
+  std::string inlet, exhaust;          // names in the valves file; no exhaust with a 3-way inlet
   int inlet_bit = 0, exhaust_bit = 8;  // of the output port, B.1
 };
 
@@ -117,11 +119,11 @@ struct LowLevel {
   int pwm_ticks = 100;   // per period
   int output_delay = 1;  // ticks between law and edge
   Rounding rounding = Rounding::truncate_each_law;
-  double stiffness_pole_clamp = 0;  // angle from the pole of [27] within which the last value is held [rad]
+  double stiffness_pole_clamp =
+      0;  // angle from the pole of [27] within which the last value is held; -800 deg: never [rad]
   double assumed_thread_length = 0;  // b in the stiffness law; 0: the actuator's [m]
   double assumed_mount_length = 0;   // free length in the stiffness law; 0: the muscle's [m]
   double stiffness_factor = 0;       // 5.5 in B.1; 0: from the assumed scales
-  std::string valve_timing;          // path of predict.dat; empty: the identity table
   double vent_time = 0;              // exhausts open at start-up and shut-down [s]
 };
 
@@ -130,8 +132,16 @@ struct Thesis {
   bool knee_lengths_swapped = false;  // B.1 lengthens the flexor when a knee's angle falls
 };
 
+// Paths beside the robot's file.
+struct Files {
+  std::string actuator;      // actuators
+  std::string valves;        // valves
+  std::string valve_timing;  // predict.dat; empty: the identity table
+};
+
 struct Robot {
   std::string name;
+  Files files;
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Muscle> muscles;
@@ -146,10 +156,18 @@ struct Robot {
 };
 
 // Position in the list, or -1.
-int find_joint(const Robot&, const std::string& name);
-int find_muscle(const Robot&, const std::string& name);
-int find_sensor(const Robot&, const std::string& name);
+int find_joint(const Robot&, std::string_view name);
+int find_muscle(const Robot&, std::string_view name);
+int find_sensor(const Robot&, std::string_view name);
 int muscle_of(const Robot&, int joint, Muscle::Role role);
+int angle_sensor_of(const Robot&, int joint);
+int tension_sensor_of(const Robot&, int muscle);
+
+// Links and foot together  [kg].
+double leg_mass(const Robot&);
+
+// What is left of the total for the trolley itself  [kg]; 0 without a trolley.
+double trolley_own_mass(const Robot&);
 
 // What cannot be: names that lead nowhere, a joint without its pair, masses that do not add up.
 struct Contradiction {

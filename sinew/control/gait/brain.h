@@ -1,0 +1,104 @@
+// control/gait/brain.h - the high-level controller, the "brain" of 5.1.
+//
+// Once per brain period it reads what the low level believes and says what it wants: joint angles
+// from the foot path by [63], [64], stiffnesses, gains, or open-loop duties. It may end a phase on
+// any measured quantity, also on the ground reaction that [75] makes of the tensions.
+//
+//   settling (plan.settle) -> sequence, plan.repeat times -> finished (vent or hold)
+//
+// No heap, no exceptions in update(); double and SI throughout. The loop turns angles into counts.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sinew/control/gait/plan.h"
+#include "sinew/robot/kinematics.h"
+#include "sinew/robot/robot.h"
+
+namespace sinew::gait {
+
+// What the low level believes, in the robot's order of joints and muscles.
+struct Measured {
+  std::array<double, robot::max_joints> angle{};      // [rad]
+  std::array<double, robot::max_joints> stiffness{};  // [N m/rad]
+  std::array<double, robot::max_muscles> tension{};   // [N]
+};
+
+struct DesiredJoint {
+  double angle = 0;      // [rad] 0 .. 2 pi
+  double stiffness = 0;  // [N m/rad]
+  robot::Gains gains;    // [1/count], [1/(N m/rad)], [s/count]
+  bool enabled = false;
+  bool open_loop = false;  // the duties in place of the laws; angle stays the last one desired
+  double flexor_inlet = 0, flexor_exhaust = 0;      // [-] 0 .. 1
+  double extensor_inlet = 0, extensor_exhaust = 0;  // [-]
+};
+
+enum class Stage : std::uint8_t { settling, walking, finished };
+
+struct Desired {
+  std::array<DesiredJoint, robot::max_joints> joint;
+
+  Stage stage = Stage::settling;
+  bool vent = false;    // finished: every exhaust open, every inlet shut
+  int step = 0;         // 0 .. repeat - 1
+  int phase = -1;       // position in Plan::phases; -1 outside the sequence
+  double progress = 0;  // s of the phase
+
+  bool has_foot = false;     // the phase has a foot path
+  robot::Point foot;         // where it is now [m]
+  bool unreachable = false;  // the angles are those of the nearest point that can be reached
+};
+
+class Brain {
+ public:
+  // contradictions(robot, plan) must be empty.
+  Brain(const robot::Robot&, const Plan&);
+
+  // At the start of brain period `period_index` (0, 1, 2, ...). The same index again gives the
+  // same.
+  const Desired& update(const Measured&, std::int64_t period_index) noexcept;
+
+  const Desired& desired() const noexcept { return desired_; }
+  bool finished() const noexcept { return desired_.stage == Stage::finished; }
+  std::int64_t unreachable_periods() const noexcept { return unreachable_periods_; }
+
+  // [75] from the tensions  [N], on the foot by the ground; no force at a singular pose.
+  robot::Point ground_reaction(const Measured&) const noexcept;
+
+  const Plan& plan() const noexcept { return plan_; }
+
+ private:
+  void advance(const Measured&) noexcept;
+  void enter(int position) noexcept;
+  bool ended(const Measured&) const noexcept;
+  void describe() noexcept;
+  void follow_path(const Phase&) noexcept;
+  void set_joint(const JointPhase&, std::size_t joint) noexcept;
+  void finish() noexcept;
+
+  struct Slot {
+    int phase = 0;     // position in Plan::phases
+    int periods = 0;   // at most
+    double steps = 1;  // periods from s = 0 to s = 1
+    Measure measure;
+    std::array<bool, robot::max_joints> enabled{};
+  };
+
+  Plan plan_;
+  robot::Robot robot_;
+  robot::TwoLinks links_;
+  std::vector<Slot> sequence_;
+
+  std::int64_t settle_periods_ = 0;
+  std::int64_t period_ = -1;  // the last one answered
+  int position_ = 0;          // in sequence_
+  int step_ = 0;
+  int k_ = 0;  // period within the phase
+  std::int64_t unreachable_periods_ = 0;
+  Desired desired_;
+};
+
+}  // namespace sinew::gait

@@ -1,0 +1,196 @@
+// control/gait/plan.fields.h - the keys of [control], [sequence] and [phase.<name>].
+//
+// Tables with one key per joint need the robot's joints: start from plan_for(robot).
+#pragma once
+
+#include "sinew/control/gait/plan.h"
+#include "sinew/units/field.h"
+
+namespace sinew::gait {
+
+template <class Visitor>
+void fields(Visitor& v, Coordinate& c, bool of_x) {
+  if (of_x)
+    v.choice({.name = "of", .optional = true, .doc = "what the polynomial is a function of"}, c.of,
+             {{"s", Coordinate::Of::s}, {"x", Coordinate::Of::x}});
+  v.polynomial({.name = "polynomial",
+                .unit = "m",
+                .optional = true,
+                .doc = "lowest order first, in s (0 to 1) or in x"},
+               c.polynomial, c.of == Coordinate::Of::x ? "m" : "1");
+
+  const bool straight = c.polynomial.empty();
+  v.number({.name = "from", .unit = "m", .optional = !straight, .doc = "at the phase's start"},
+           c.from);
+  v.number(
+      {.name = "to", .unit = "m", .optional = !straight, .doc = "at its end, straight in time"},
+      c.to);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Points& p) {
+  v.numbers({.name = "x", .unit = "m", .doc = "of the corners"}, p.x);
+  v.numbers({.name = "y", .unit = "m", .doc = "of the corners"}, p.y);
+}
+
+template <class Visitor>
+void fields(Visitor& v, GainProfiles& g) {
+  v.numbers({.name = "angle", .unit = "1/count", .min = 0, .optional = true, .doc = "G_theta [59]"},
+            g.angle);
+  v.numbers(
+      {.name = "stiffness", .unit = "1/(N m/rad)", .min = 0, .optional = true, .doc = "G_k [58]"},
+      g.stiffness);
+  v.numbers({.name = "velocity", .unit = "s/count", .min = 0, .optional = true, .doc = "G_v, 6.5"},
+            g.velocity);
+}
+
+template <class Visitor>
+void fields(Visitor& v, DutyProfiles& d) {
+  const auto duty = [&](std::string_view name, Profile& profile) {
+    v.numbers({.name = name,
+               .unit = "1",
+               .min = 0,
+               .max = 1,
+               .optional = true,
+               .doc = "share of the period it is open"},
+              profile);
+  };
+  duty("flexor_inlet", d.flexor_inlet);
+  duty("flexor_exhaust", d.flexor_exhaust);
+  duty("extensor_inlet", d.extensor_inlet);
+  duty("extensor_exhaust", d.extensor_exhaust);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Until& until) {
+  v.text({.name = "measure",
+          .optional = true,
+          .doc = "foot.normal_force, foot.friction_force, joint.<name>.angle, "
+                 "joint.<name>.stiffness or muscle.<name>.tension"},
+         until.measure);
+  v.choice({.name = "is", .optional = true, .doc = "on which side of the level"}, until.is,
+           {{"above", Until::Is::above}, {"below", Until::Is::below}});
+  v.number({.name = "level",
+            .unit = unit_of(until.measure),
+            .optional = until.measure.empty(),
+            .doc = "that ends the phase"},
+           until.level);
+}
+
+// Tables whose keys are the joints.
+template <class Visitor>
+void joint_fields(Visitor& v, const Plan& plan, Phase& phase) {
+  phase.joints.resize(plan.joints.size());
+
+  const auto profiles = [&](units::Field table, units::Field value, auto of) {
+    v.group(table, [&](auto& g) {
+      for (std::size_t i = 0; i < phase.joints.size(); ++i) {
+        value.name = plan.joints[i].name;
+        g.numbers(value, of(phase.joints[i]));
+      }
+    });
+  };
+  const auto groups = [&](units::Field table, auto of) {
+    v.group(table, [&](auto& g) {
+      for (std::size_t i = 0; i < phase.joints.size(); ++i)
+        g.group({.name = plan.joints[i].name, .optional = true},
+                [&](auto& joint) { fields(joint, of(phase.joints[i])); });
+    });
+  };
+
+  profiles({.name = "joint_angles", .optional = true, .doc = "in place of the foot path"},
+           {.unit = "rad", .optional = true, .doc = "desired"},
+           [](JointPhase& j) -> Profile& { return j.angle; });
+  profiles({.name = "stiffness", .optional = true, .doc = "from this phase on"},
+           {.unit = "N m/rad", .min = 0, .optional = true, .doc = "K_des [58]"},
+           [](JointPhase& j) -> Profile& { return j.stiffness; });
+  groups({.name = "gains", .optional = true, .doc = "from this phase on"},
+         [](JointPhase& j) -> GainProfiles& { return j.gains; });
+  groups({.name = "feedforward",
+          .optional = true,
+          .doc = "open loop in place of the laws, in this phase"},
+         [](JointPhase& j) -> DutyProfiles& { return j.feedforward; });
+}
+
+template <class Visitor>
+void fields(Visitor& v, const Plan& plan, Phase& phase) {
+  v.number({.name = "duration", .unit = "s", .min = 0, .doc = "at the latest"}, phase.duration);
+  v.number({.name = "thesis_duration",
+            .unit = "s",
+            .min = 0,
+            .optional = true,
+            .doc = "with thesis_timing, where the code's differs; 0: the same"},
+           phase.thesis_duration);
+
+  v.group({.name = "x", .optional = true, .doc = "of the foot"},
+          [&](auto& g) { fields(g, phase.x, false); });
+  v.group({.name = "y", .optional = true, .doc = "of the foot"},
+          [&](auto& g) { fields(g, phase.y, true); });
+  v.group({.name = "points",
+           .optional = true,
+           .doc = "a polyline in place of x and y, at constant speed"},
+          [&](auto& g) { fields(g, phase.points); });
+
+  joint_fields(v, plan, phase);
+  v.texts({.name = "disabled", .optional = true, .doc = "joints that the low level leaves alone"},
+          phase.disabled);
+  v.group({.name = "until", .optional = true, .doc = "ends the phase early"},
+          [&](auto& g) { fields(g, phase.until); });
+}
+
+// [control]
+template <class Visitor>
+void control_fields(Visitor& v, Plan& plan) {
+  v.number({.name = "brain_period",
+            .unit = "s",
+            .min = 1e-3,
+            .max = 1,
+            .optional = true,
+            .doc = "of the high level, a multiple of the low level's"},
+           plan.brain_period);
+  v.group({.name = "stiffness", .doc = "K_des [58], until a phase says otherwise"}, [&](auto& g) {
+    for (JointPlan& joint : plan.joints)
+      g.number({.name = joint.name, .unit = "N m/rad", .min = 0, .doc = "desired"},
+               joint.stiffness);
+  });
+  v.group({.name = "gains", .optional = true, .doc = "in place of the robot's"}, [&](auto& g) {
+    for (JointPlan& joint : plan.joints)
+      g.group({.name = joint.name, .optional = true}, [&](auto& gains) {
+        gains.number(
+            {.name = "angle", .unit = "1/count", .min = 0, .optional = true, .doc = "G_theta [59]"},
+            joint.gains.angle);
+        gains.number({.name = "stiffness",
+                      .unit = "1/(N m/rad)",
+                      .min = 0,
+                      .optional = true,
+                      .doc = "G_k [58]"},
+                     joint.gains.stiffness);
+        gains.number(
+            {.name = "velocity", .unit = "s/count", .min = 0, .optional = true, .doc = "G_v, 6.5"},
+            joint.gains.velocity);
+      });
+  });
+}
+
+template <class Visitor>
+void fields(Visitor& v, Plan& plan) {
+  v.group({.name = "control", .doc = "what holds until a phase says otherwise"},
+          [&](auto& g) { control_fields(g, plan); });
+  v.group({.name = "sequence", .doc = "the phases of a step"}, [&](auto& g) {
+    g.texts({.name = "phases", .doc = "in their order"}, plan.sequence);
+    g.integer({.name = "repeat", .min = 1, .max = 1e6, .optional = true, .doc = "steps"},
+              plan.repeat);
+    g.choice({.name = "finish",
+              .optional = true,
+              .doc = "vent: exhausts open, then shut; hold: the last command"},
+             plan.finish, {{"vent", Plan::Finish::vent}, {"hold", Plan::Finish::hold}});
+    g.flag({.name = "thesis_timing",
+            .optional = true,
+            .doc = "the code's loops: one more period per phase"},
+           plan.thesis_timing);
+  });
+  v.each({.name = "phase", .doc = "by name"}, plan.phases,
+         [&](auto& g, Phase& phase) { fields(g, plan, phase); });
+}
+
+}  // namespace sinew::gait

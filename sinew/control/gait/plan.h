@@ -1,0 +1,133 @@
+// control/gait/plan.h - what the brain does over time: phases, their order, how often.
+//
+//   [control]        what holds until a phase says otherwise
+//   [sequence]       the phases of a step, repeated
+//   [phase.<name>]   a foot path or joint angles, and what else changes in that phase
+//
+// Within a phase the progress s runs from 0 to 1. What may change over a phase is a *profile*: a
+// list of values. None: stays as it was. One: holds from this phase on. Several: passed through at
+// equal steps of s, straight in between; the last one holds from there on.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/robot/robot.h"
+
+namespace sinew::gait {
+
+using Profile = std::vector<double>;
+
+// One coordinate of the foot path, about the first joint  [m].
+struct Coordinate {
+  enum class Of { s, x };
+
+  double from = 0, to = 0;  // straight in s, where there is no polynomial
+  Profile polynomial;       // c0 + c1 u + c2 u^2 + ..., u = s or x
+  Of of = Of::s;
+
+  bool given() const { return from != 0 || to != 0 || !polynomial.empty(); }
+};
+
+// A polyline, run through at constant speed: s is the share of its length.
+struct Points {
+  std::vector<double> x, y;  // [m]
+
+  bool given() const { return !x.empty() || !y.empty(); }
+};
+
+struct GainProfiles {
+  Profile angle;      // [1/count]
+  Profile stiffness;  // [1/(N m/rad)]
+  Profile velocity;   // [s/count]
+};
+
+// Open loop: duties in place of the joint's laws, while the phase lasts. What is not given is 0.
+struct DutyProfiles {
+  Profile flexor_inlet, flexor_exhaust, extensor_inlet, extensor_exhaust;  // [-] 0 .. 1
+
+  bool given() const {
+    return !(flexor_inlet.empty() && flexor_exhaust.empty() && extensor_inlet.empty() &&
+             extensor_exhaust.empty());
+  }
+};
+
+// Of one joint in one phase.
+struct JointPhase {
+  Profile angle;      // in place of the foot path's [rad]
+  Profile stiffness;  // [N m/rad]
+  GainProfiles gains;
+  DutyProfiles feedforward;
+};
+
+// Ends the phase early: at the first period, its own first one excepted, at which the measure
+// stands beyond the level. The phase's duration is the latest end.
+struct Until {
+  enum class Is { above, below };
+
+  std::string measure;  // "foot.normal_force", "joint.hip.angle", ...; empty: by time alone
+  Is is = Is::above;
+  double level = 0;  // in the measure's SI unit
+};
+
+struct Phase {
+  std::string name;
+  double duration = 0;         // [s]
+  double thesis_duration = 0;  // with thesis_timing, where the code's differs; 0: the same [s]
+
+  Coordinate x, y;
+  Points points;
+  std::vector<JointPhase> joints;     // of Plan::joints
+  std::vector<std::string> disabled;  // joints that the low level leaves alone in this phase
+  Until until;
+
+  bool has_path() const { return x.given() || y.given() || points.given(); }
+};
+
+// What holds from the start.
+struct JointPlan {
+  std::string name;
+  double stiffness = 0;  // K_des [N m/rad]
+  robot::Gains gains;    // the robot's, or the experiment's
+  bool enabled = true;
+};
+
+struct Plan {
+  enum class Finish { vent, hold };  // vent: all exhausts open, all inlets shut
+
+  double brain_period = 0.01;  // [s]
+  double settle = 0;  // before the first phase, joints left alone [s]; not in the file's tables
+  bool thesis_timing = false;  // loops of the code: one more period per phase, s reaches 1
+
+  std::vector<JointPlan> joints;      // the robot's, in its order
+  std::vector<std::string> sequence;  // names of phases
+  int repeat = 1;                     // steps
+  Finish finish = Finish::vent;
+  std::vector<Phase> phases;
+};
+
+// A plan that knows the robot's joints and gains; `fields` fills in the rest.
+Plan plan_for(const robot::Robot&);
+
+// What ends a phase, and what it is measured in.
+struct Measure {
+  enum class Kind { none, normal_force, friction_force, angle, stiffness, tension, unknown };
+
+  Kind kind = Kind::none;
+  int index = -1;  // joint or muscle
+};
+Measure find_measure(const robot::Robot&, std::string_view name);
+std::string_view unit_of(std::string_view measure);  // SI
+
+// Names that lead nowhere, phases without a target, and every stretch of a foot path that the leg
+// cannot reach.
+std::vector<robot::Contradiction> contradictions(const robot::Robot&, const Plan&);
+
+// Periods of a phase that nothing ends early, of one step, and of the whole run up to `finish`.
+int periods(const Plan&, const Phase&);
+int periods_per_step(const Plan&);
+std::int64_t periods(const Plan&);
+
+}  // namespace sinew::gait

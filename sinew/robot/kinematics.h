@@ -1,0 +1,95 @@
+// robot/kinematics.h - where the joints are, and which angles put the foot where, [61]-[64], [72].
+//
+// Angles as in robot.h: the first from +x, every other from its proximal link's direction, counter-
+// clockwise. Inverse kinematics and Jacobian are those of the leg with two links.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "sinew/robot/robot.h"
+
+namespace sinew::robot {
+
+struct Point {
+  double x = 0, y = 0;  // [m], or [N] of a force
+};
+
+struct TwoLinks {
+  double l1 = 0, l2 = 0;  // [m]
+};
+
+// The joints of a chain and its end, from the first joint outwards  [m].
+struct Pose {
+  std::array<Point, max_joints + 1> joint;  // joint[0] is the origin
+  int links = 0;
+
+  Point foot() const { return joint[static_cast<std::size_t>(links)]; }
+};
+
+// [61], [62] for up to max_joints links; as many angles.
+Pose forward(std::span<const double> lengths, std::span<const double> angles);
+Pose forward(const Robot&, std::span<const double> angles);
+Point foot_position(const TwoLinks&, double theta1, double theta2);
+
+// The angle in 0 .. 2 pi  [rad].
+double normalised(double angle);
+
+// Which way the knee points: theta2 in pi .. 2 pi as the leg's does [code of B.1], or in 0 .. pi.
+enum class Knee { above_pi, below_pi };
+
+struct Inverse {
+  enum class Status { reached, too_far, too_near, not_a_number };
+
+  Status status = Status::reached;
+  std::array<double, 2> angle{};     // of `nearest`, 0 .. 2 pi [rad]
+  double distance = 0;               // of the target from the first joint [m]
+  double shortest = 0, longest = 0;  // that can be reached [m]
+  Point nearest;                     // the target, or the reachable point next to it [m]
+
+  bool reached() const { return status == Status::reached; }
+};
+
+// [63], [64] without acos, which loses half its digits near a straight or a folded knee:
+//
+//   theta2 = +- 2 atan2(sqrt((l1 + l2)^2 - d^2), sqrt(d^2 - (l1 - l2)^2))
+//   theta1 = atan2(y, x) - atan2(l2 sin theta2, l1 + l2 cos theta2)
+Inverse inverse(const TwoLinks&, Point target, Knee = Knee::above_pi);
+
+// [63], [64] as the code of B.1 has them (minus in [63], + or - in [64] by the side of the hip),
+// made a function of any target by the normalised angle. NaN where the target is out of reach.
+std::array<double, 2> inverse_as_printed(const TwoLinks&, Point target);
+
+// [72]: d(x, y)/d(theta1, theta2), row by row  [m/rad].
+struct Jacobian {
+  double x1 = 0, x2 = 0;
+  double y1 = 0, y2 = 0;
+
+  double determinant() const { return x1 * y2 - x2 * y1; }  // l1 l2 sin theta2
+};
+Jacobian jacobian(const TwoLinks&, double theta1, double theta2);
+
+// The force on the foot by the ground, from the torques of the muscles  [N]:
+//
+//   F = -(J^T)^-1 T                                             [71], [75] and docs/departures.md
+//
+// Static: inertia and weight of the links are left out, as in 6.3. Near a straight or a folded knee
+// the pose carries any force along the leg: singular, and no force is given.
+struct GroundReaction {
+  Point force;
+  bool singular = false;  // |sin theta2| < singular_sine
+};
+inline constexpr double singular_sine = 0.02;  // 1.1 deg from straight or folded
+GroundReaction ground_reaction(const TwoLinks&, double theta1, double theta2,
+                               std::array<double, 2> torque);
+
+// Torque of a joint from its muscles, > 0 raises the angle  [N m]: [71]'s T with the sign of each.
+double torque(const Joint&, double flexor_tension, double extensor_tension);
+
+// Length of a muscle by the cam  [m]; the flexor shortens where its joint flexes.
+double muscle_length(const Joint&, Muscle::Role, double mount_length, double angle);
+
+// The same as the low level believes: its own mount length, and B.1's exchange at the knee.
+double believed_muscle_length(const Robot&, int muscle, double angle);
+
+}  // namespace sinew::robot

@@ -1,0 +1,295 @@
+// robot/robot.fields.h - the keys of robots/*/robot.toml: name, unit, range and meaning of each.
+//
+// See units/field.h for what a visitor has. The tables [air] belong to gas, the files named under
+// `files` to actuator and gas.
+#pragma once
+
+#include "sinew/robot/robot.h"
+#include "sinew/units/field.h"
+
+namespace sinew::robot {
+
+template <class Visitor>
+void fields(Visitor& v, Files& files) {
+  v.text({.name = "actuator", .doc = "file of the actuators"}, files.actuator);
+  v.text({.name = "valves", .doc = "file of the valves"}, files.valves);
+  v.text({.name = "valve_timing",
+          .optional = true,
+          .doc = "duty, close, open in ticks (B.4); absent: close at duty, open at 100"},
+         files.valve_timing);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Trolley& trolley) {
+  v.flag({.name = "present", .doc = "false: the first joint is fixed to the world"},
+         trolley.present);
+  v.number({.name = "total_mass",
+            .unit = "kg",
+            .min = 0,
+            .doc = "everything that moves along the track, links and foot included"},
+           trolley.total_mass);
+  v.number({.name = "drag", .unit = "N", .min = 0, .doc = "dry, against the motion"}, trolley.drag);
+  v.number({.name = "track_length", .unit = "m", .min = 0, .doc = "from the start to the stop"},
+           trolley.track_length);
+  v.number({.name = "stop_stiffness", .unit = "N/m", .min = 0, .doc = "of the track's end"},
+           trolley.stop_stiffness);
+  v.number({.name = "stop_damping", .unit = "N s/m", .min = 0, .doc = "of the track's end"},
+           trolley.stop_damping);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Link& link) {
+  v.number({.name = "length", .unit = "m", .min = 1e-3, .doc = "joint to joint, or joint to foot"},
+           link.length);
+  v.number({.name = "mass", .unit = "kg", .min = 0, .doc = "without what is named elsewhere"},
+           link.mass);
+  v.number({.name = "center_of_mass", .unit = "m", .min = 0, .doc = "from the proximal joint"},
+           link.center_of_mass);
+  v.number({.name = "inertia", .unit = "kg m2", .min = 0, .doc = "about the centre of mass"},
+           link.inertia);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Foot& foot) {
+  v.flag({.name = "present", .doc = "false: nothing ever touches the ground"}, foot.present);
+  v.number({.name = "mass", .unit = "kg", .min = 0, .doc = "at the end of the last link"},
+           foot.mass);
+  v.number({.name = "radius", .unit = "m", .min = 0, .doc = "of a disc about the ankle"},
+           foot.radius);
+  v.number(
+      {.name = "friction", .unit = "1", .min = 0, .max = 10, .doc = "Coulomb, static = sliding"},
+      foot.friction);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Ground& ground) {
+  v.flag({.name = "present", .doc = "false: the leg hangs in the air"}, ground.present);
+  v.number({.name = "height",
+            .unit = "m",
+            .doc = "of the ankle point at contact, below the first joint"},
+           ground.height);
+  v.number({.name = "normal_stiffness", .unit = "N/m", .min = 0, .doc = "of the contact"},
+           ground.normal_stiffness);
+  v.number({.name = "normal_damping", .unit = "N s/m", .min = 0, .doc = "of the contact"},
+           ground.normal_damping);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Joint& joint) {
+  constexpr double turn = 6.283185307179586;
+
+  v.number({.name = "rest_angle",
+            .unit = "rad",
+            .min = 0,
+            .max = turn,
+            .doc = "where both muscles have their mount_length"},
+           joint.rest_angle);
+  v.choice({.name = "flexion", .doc = "what a shorter flexor does to the angle"}, joint.flexion,
+           {{"raises angle", Joint::Flexion::raises_angle},
+            {"lowers angle", Joint::Flexion::lowers_angle}});
+  v.number({.name = "moment_arm", .unit = "m", .min = 1e-4, .doc = "radius of the cam"},
+           joint.moment_arm);
+  v.number({.name = "dry_friction", .unit = "N m", .min = 0, .doc = "largest"}, joint.dry_friction);
+  v.number({.name = "damping", .unit = "N m s/rad", .min = 0, .doc = "viscous"}, joint.damping);
+
+  v.number({.name = "angle_gain", .unit = "1/count", .min = 0, .doc = "G_theta [59]"},
+           joint.gains.angle);
+  v.number({.name = "stiffness_gain", .unit = "1/(N m/rad)", .min = 0, .doc = "G_k [58]"},
+           joint.gains.stiffness);
+  v.number(
+      {.name = "velocity_gain", .unit = "s/count", .min = 0, .optional = true, .doc = "G_v, 6.5"},
+      joint.gains.velocity);
+  v.flag(
+      {.name = "enabled", .optional = true, .doc = "false: the low level leaves the joint alone"},
+      joint.enabled);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Muscle& muscle) {
+  v.text({.name = "joint", .doc = "the joint it pulls"}, muscle.joint);
+  v.choice({.name = "role", .doc = "which way"}, muscle.role,
+           {{"flexor", Muscle::Role::flexor}, {"extensor", Muscle::Role::extensor}});
+  v.text({.name = "actuator", .doc = "name in the actuator file"}, muscle.actuator);
+  v.integer({.name = "count", .min = 1, .max = 100, .doc = "actuators in parallel"}, muscle.count);
+  v.number({.name = "mount_length", .unit = "m", .min = 1e-3, .doc = "at the joint's rest angle"},
+           muscle.mount_length);
+  v.number({.name = "external_volume",
+            .unit = "m3",
+            .min = 0,
+            .doc = "of the whole bundle, downstream of the valves"},
+           muscle.external_volume);
+  v.number({.name = "bladder_stiffness", .unit = "N/m", .min = 0, .doc = "of one actuator"},
+           muscle.bladder_stiffness);
+  v.number({.name = "bladder_rest_length",
+            .unit = "m",
+            .min = 0,
+            .doc = "where the bladder pulls nothing"},
+           muscle.bladder_rest_length);
+
+  const auto bit = units::Field{.name = "bit", .min = 0, .max = 15, .doc = "of the output port"};
+  v.group({.name = "inlet", .doc = "the valve that fills"}, [&](auto& g) {
+    g.text({.name = "valve", .doc = "name in the valves file"}, muscle.inlet);
+    g.integer(bit, muscle.inlet_bit);
+  });
+  v.group({.name = "exhaust",
+           .optional = true,
+           .doc = "the valve that empties; none with a 3-way inlet"},
+          [&](auto& g) {
+            g.text({.name = "valve", .optional = true, .doc = "name in the valves file"},
+                   muscle.exhaust);
+            g.integer(bit, muscle.exhaust_bit);
+          });
+}
+
+template <class Visitor>
+void fields(Visitor& v, Converter& converter) {
+  v.integer({.name = "bits", .min = 1, .max = 16, .doc = "of a conversion"}, converter.bits);
+  v.number({.name = "full_scale", .unit = "V", .min = 1e-3, .doc = "voltage of the top count"},
+           converter.full_scale);
+}
+
+// What a sensor really does. The unit of `scale` follows its kind.
+template <class Visitor>
+void real_fields(Visitor& v, Sensor& sensor) {
+  if (sensor.kind == Sensor::Kind::angle)
+    v.number({.name = "scale", .unit = "rad/V", .doc = "of the potentiometer"}, sensor.scale);
+  if (sensor.kind == Sensor::Kind::tension)
+    v.number({.name = "scale", .unit = "V/N", .doc = "of the transducer"}, sensor.scale);
+  v.number({.name = "at_rest",
+            .unit = "count",
+            .min = 0,
+            .max = 65535,
+            .doc = "at the rest angle, at no tension, or always"},
+           sensor.at_rest);
+  v.number(
+      {.name = "noise", .unit = "count", .min = 0, .optional = true, .doc = "standard deviation"},
+      sensor.noise);
+}
+
+// What the controller takes it for.
+template <class Visitor>
+void assumed_fields(Visitor& v, Sensor& sensor) {
+  if (sensor.kind == Sensor::Kind::angle)
+    v.number({.name = "scale", .unit = "count/rad", .doc = "767 in B.1, 714 by 4.5"},
+             sensor.assumed_scale);
+  if (sensor.kind == Sensor::Kind::tension)
+    v.number({.name = "scale", .unit = "V/N", .doc = "one for all transducers in B.1"},
+             sensor.assumed_scale);
+  v.number({.name = "at_rest",
+            .unit = "count",
+            .min = 0,
+            .max = 65535,
+            .optional = true,
+            .doc = "at the rest angle, at no tension, or always"},
+           sensor.assumed_at_rest);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Sensor& sensor) {
+  v.choice({.name = "kind", .doc = "what it measures; fixed: something that does not move"},
+           sensor.kind,
+           {{"angle", Sensor::Kind::angle},
+            {"tension", Sensor::Kind::tension},
+            {"fixed", Sensor::Kind::fixed}});
+  v.text({.name = "of", .optional = true, .doc = "joint of an angle, muscle of a tension"},
+         sensor.of);
+  v.integer({.name = "channel", .min = 0, .max = 255, .doc = "of the converter board"},
+            sensor.channel);
+  v.integer({.name = "tick",
+             .min = 1,
+             .max = 65535,
+             .doc = "of the period, when it is read; the conversion starts a tick earlier"},
+            sensor.tick);
+  v.group({.name = "real", .doc = "what the hardware does"},
+          [&](auto& g) { real_fields(g, sensor); });
+  v.group({.name = "assumed", .optional = true, .doc = "what the controller believes"},
+          [&](auto& g) { assumed_fields(g, sensor); });
+}
+
+template <class Visitor>
+void fields(Visitor& v, LowLevel& low) {
+  v.integer({.name = "pwm_ticks",
+             .min = 2,
+             .max = 65535,
+             .doc = "of 100 us per period; the duty's resolution follows"},
+            low.pwm_ticks);
+  v.integer(
+      {.name = "output_delay", .min = 0, .max = 100, .doc = "ticks between the law and its edge"},
+      low.output_delay);
+  v.choice({.name = "duty_rounding", .doc = "U_k and U_theta are short in B.1"}, low.rounding,
+           {{"truncate each law", LowLevel::Rounding::truncate_each_law},
+            {"truncate sum", LowLevel::Rounding::truncate_sum},
+            {"none", LowLevel::Rounding::none}});
+  v.number(
+      {.name = "stiffness_pole_clamp",
+       .unit = "rad",
+       .min = -20,
+       .max = 0.7,
+       .doc = "nearer to the pole of [27] the last stiffness is held; -800 deg: never, as in B.1"},
+      low.stiffness_pole_clamp);
+  v.number({.name = "assumed_thread_length",
+            .unit = "m",
+            .min = 0,
+            .optional = true,
+            .doc = "b in the stiffness law; 0: the actuator's"},
+           low.assumed_thread_length);
+  v.number({.name = "assumed_mount_length",
+            .unit = "m",
+            .min = 0,
+            .optional = true,
+            .doc = "free length in the stiffness law; 0: the muscle's"},
+           low.assumed_mount_length);
+  v.number(
+      {.name = "stiffness_factor",
+       .unit = "1",
+       .min = 0,
+       .optional = true,
+       .doc = "tension counts/length counts to lbf in/rad, 5.5 in B.1; 0: from the assumed scales"},
+      low.stiffness_factor);
+  v.number({.name = "vent_time",
+            .unit = "s",
+            .min = 0,
+            .optional = true,
+            .doc = "exhausts open at the end, then shut"},
+           low.vent_time);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Robot& robot) {
+  v.text({.name = "name", .doc = "of the robot"}, robot.name);
+  v.group({.name = "files", .doc = "paths beside this file"},
+          [&](auto& g) { fields(g, robot.files); });
+  v.number({.name = "gravity", .unit = "m/s2", .min = 0, .optional = true, .doc = "downwards"},
+           robot.gravity);
+
+  v.group(
+      {.name = "trolley", .optional = true, .doc = "what carries the first joint along the track"},
+      [&](auto& g) { fields(g, robot.trolley); });
+  v.each({.name = "link", .doc = "from the first joint outwards"}, robot.links,
+         [](auto& g, Link& link) { fields(g, link); });
+  v.group({.name = "foot", .optional = true, .doc = "at the end of the last link"},
+          [&](auto& g) { fields(g, robot.foot); });
+  v.group({.name = "ground", .optional = true, .doc = "the table"},
+          [&](auto& g) { fields(g, robot.ground); });
+  v.each({.name = "joint", .doc = "one per link, in the same order"}, robot.joints,
+         [](auto& g, Joint& joint) { fields(g, joint); });
+  v.each({.name = "muscle", .doc = "a flexor and an extensor per joint"}, robot.muscles,
+         [](auto& g, Muscle& muscle) { fields(g, muscle); });
+
+  v.group({.name = "converter", .doc = "analogue to digital"},
+          [&](auto& g) { fields(g, robot.converter); });
+  v.each({.name = "sensor", .doc = "ascending in tick"}, robot.sensors,
+         [](auto& g, Sensor& sensor) { fields(g, sensor); });
+  v.group({.name = "low_level", .doc = "timing and rounding of the joint controller"},
+          [&](auto& g) { fields(g, robot.low_level); });
+  v.group({.name = "thesis", .optional = true, .doc = "true: as the thesis or its code has it"},
+          [&](auto& g) {
+            g.flag(
+                {.name = "knee_lengths_swapped",
+                 .optional = true,
+                 .doc = "a joint whose flexion lowers its angle takes the wrong lengths into [27]"},
+                robot.thesis.knee_lengths_swapped);
+          });
+}
+
+}  // namespace sinew::robot
