@@ -1,7 +1,8 @@
 // actuator/actuator.h - one braided pneumatic actuator (McKibben muscle): its parameters.
 //
-// The laws stand in braid.h (geometry), tension.h, loss.h and stiffness.h. Everything is SI; pressure
-// is absolute unless a name says gauge. Sources: Colbrunn (2000), equation numbers in brackets.
+// The laws stand in braid.h (geometry), tension.h, loss.h and stiffness.h. Everything is SI;
+// pressure is absolute unless a name says gauge. Sources: Colbrunn (2000), equation numbers in
+// brackets.
 #pragma once
 
 #include <string>
@@ -39,7 +40,8 @@ struct ShortEnd {
   double damping = 0;    // [N s/m]
 };
 
-// [33], [34]: viscous loss, and dry friction between bladder and mesh of at most Q times a stiffness.
+// [33], [34]: viscous loss, and dry friction between bladder and mesh of at most Q times a
+// stiffness.
 struct Loss {
   enum class Scale { secant, sealed, constant };
   double viscous = 0;         // c [N s/m]

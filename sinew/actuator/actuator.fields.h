@@ -1,0 +1,153 @@
+// actuator/actuator.fields.h - the keys of robots/*/actuator.toml: name, unit, range, meaning.
+//
+// See units/field.h for what a visitor has. What no single key can know - that the braid is given
+// at all, that L_max lies where it should - is in check.h.
+#pragma once
+
+#include <vector>
+
+#include "sinew/actuator/actuator.h"
+#include "sinew/actuator/braid.h"
+#include "sinew/units/field.h"
+
+namespace sinew::actuator {
+
+// Thread length and turns, or the opened mesh they follow from. The mesh is not kept: what is
+// written back has the former.
+template <class Visitor>
+void fields(Visitor& v, Braid& braid) {
+  v.number({.name = "thread_length",
+            .unit = "m",
+            .min = 0,
+            .optional = true,
+            .doc = "b, length of one thread [17]; or give trapezoids"},
+           braid.thread_length);
+  v.number({.name = "turns",
+            .unit = "1",
+            .min = 0,
+            .optional = true,
+            .doc = "n, turns of one thread about the axis [18]; or give trapezoids"},
+           braid.turns);
+
+  double lengthwise = 0, around = 0, side = 0;
+  v.group({.name = "trapezoids", .optional = true, .doc = "counted on the opened mesh, figure 2-4"},
+          [&](auto& g) {
+            g.number({.name = "lengthwise", .unit = "1", .min = 0, .doc = "A [14]"}, lengthwise);
+            g.number({.name = "around", .unit = "1", .min = 0, .doc = "B [15]"}, around);
+            g.number({.name = "side", .unit = "m", .min = 0, .doc = "l, of one trapezoid"}, side);
+          });
+  if (lengthwise > 0 && around > 0 && side > 0) {
+    braid = braid_from_trapezoids(lengthwise, around, side);
+  }
+}
+
+template <class Visitor>
+void fields(Visitor& v, Effectiveness& e) {
+  std::vector<double> coefficients{e.c0, e.c1, e.c2};
+  v.polynomial({.name = "polynomial",
+                .unit = "1",
+                .doc = "c0 + c1 p + c2 p^2, share of the ideal tension that arrives [30]"},
+               coefficients, "Pa");
+  coefficients.resize(3);
+  e.c0 = coefficients[0];
+  e.c1 = coefficients[1];
+  e.c2 = coefficients[2];
+
+  v.choice(
+      {.name = "argument", .doc = "the polynomial's p: gauge by [30], absolute by appendix A"},
+      e.argument,
+      {{"gauge", Effectiveness::Argument::gauge}, {"absolute", Effectiveness::Argument::absolute}});
+  v.number({.name = "scale",
+            .unit = "1",
+            .min = 0,
+            .max = 2,
+            .optional = true,
+            .doc = "times the polynomial"},
+           e.scale);
+
+  std::vector<double> valid{e.valid_from, e.valid_to};
+  v.numbers({.name = "valid",
+             .unit = "Pa gauge",
+             .optional = true,
+             .doc = "lowest and highest pressure that were fitted; held constant outside"},
+            valid);
+  valid.resize(2);
+  e.valid_from = valid[0];
+  e.valid_to = valid[1];
+}
+
+template <class Visitor>
+void fields(Visitor& v, LongEnd& end) {
+  v.number({.name = "length",
+            .unit = "m",
+            .min = 0,
+            .doc = "L_max, from which the threads stretch [32]"},
+           end.length);
+  v.number({.name = "stiffness", .unit = "N/m", .min = 0, .doc = "K_braid [32]"}, end.stiffness);
+  v.number({.name = "damping", .unit = "N s/m", .min = 0, .doc = "C_braid [35]"}, end.damping);
+}
+
+template <class Visitor>
+void fields(Visitor& v, ShortEnd& end) {
+  v.choice({.name = "law", .doc = "below b/sqrt 3: an end stop, or no tension as printed in [31]"},
+           end.law, {{"stop", ShortEnd::Law::stop}, {"zero", ShortEnd::Law::zero}});
+  v.number({.name = "stiffness",
+            .unit = "N/m",
+            .min = 0,
+            .optional = true,
+            .doc = "of the stop, in compression"},
+           end.stiffness);
+  v.number({.name = "damping", .unit = "N s/m", .min = 0, .optional = true, .doc = "of the stop"},
+           end.damping);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Loss& loss) {
+  v.number({.name = "viscous", .unit = "N s/m", .min = 0, .doc = "c [33]"}, loss.viscous);
+  v.number({.name = "coulomb_length",
+            .unit = "m",
+            .min = 0,
+            .doc = "Q = mu N/k, dry friction per stiffness [33]"},
+           loss.coulomb_length);
+  v.choice({.name = "coulomb_scale",
+            .doc = "the k in Q k: secant [34], of the sealed muscle [45], or constant"},
+           loss.coulomb_scale,
+           {{"secant", Loss::Scale::secant},
+            {"sealed", Loss::Scale::sealed},
+            {"constant", Loss::Scale::constant}});
+  v.number({.name = "coulomb_stiffness",
+            .unit = "N/m",
+            .min = 0,
+            .optional = true,
+            .doc = "k of coulomb_scale = \"constant\""},
+           loss.coulomb_stiffness);
+  v.flag({.name = "stick",
+          .optional = true,
+          .doc = "false: friction by the sign of the speed as printed; it creeps under load"},
+         loss.stick);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Bladder& bladder) {
+  v.number({.name = "stiffness", .unit = "N/m", .min = 0, .doc = "in parallel; not in the thesis"},
+           bladder.stiffness);
+  v.number({.name = "rest_length", .unit = "m", .min = 0, .optional = true, .doc = "no tension"},
+           bladder.rest_length);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Actuator& a) {
+  v.text({.name = "name", .doc = "by which muscles refer to it"}, a.name);
+  v.group({.name = "braid", .doc = "geometry of the mesh"}, [&](auto& g) { fields(g, a.braid); });
+  v.group({.name = "effectiveness", .optional = true, .doc = "losses of tension with pressure"},
+          [&](auto& g) { fields(g, a.effectiveness); });
+  v.group({.name = "long_end", .doc = "the mesh pulled straight"},
+          [&](auto& g) { fields(g, a.long_end); });
+  v.group({.name = "short_end", .doc = "the mesh at its widest, b/sqrt 3"},
+          [&](auto& g) { fields(g, a.short_end); });
+  v.group({.name = "loss", .doc = "what is lost in motion"}, [&](auto& g) { fields(g, a.loss); });
+  v.group({.name = "bladder", .optional = true, .doc = "the tube inside, as a spring"},
+          [&](auto& g) { fields(g, a.bladder); });
+}
+
+}  // namespace sinew::actuator
