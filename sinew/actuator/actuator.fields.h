@@ -4,10 +4,12 @@
 // at all, that L_max lies where it should - is in check.h.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "sinew/actuator/actuator.h"
 #include "sinew/actuator/braid.h"
+#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
 
 namespace sinew::actuator {
@@ -36,9 +38,16 @@ void fields(Visitor& v, Braid& braid) {
             g.number({.name = "around", .unit = "1", .min = 0, .doc = "B [15]"}, around);
             g.number({.name = "side", .unit = "m", .min = 0, .doc = "l, of one trapezoid"}, side);
           });
-  if (lengthwise > 0 && around > 0 && side > 0) {
-    braid = braid_from_trapezoids(lengthwise, around, side);
+  const bool mesh = lengthwise > 0 && around > 0 && side > 0;
+  const bool thread = braid.thread_length > 0 && braid.turns > 0;
+  if (mesh && (braid.thread_length > 0 || braid.turns > 0)) {
+    units::complain(v, "trapezoids", "a second description of the braid",
+                    "thread_length and turns, or trapezoids");
+  } else if (!mesh && !thread) {
+    units::complain(v, "thread_length", "no complete braid",
+                    "thread_length and turns, or trapezoids");
   }
+  if (mesh) braid = braid_from_trapezoids(lengthwise, around, side);
 }
 
 template <class Visitor>
@@ -48,6 +57,10 @@ void fields(Visitor& v, Effectiveness& e) {
                 .unit = "1",
                 .doc = "c0 + c1 p + c2 p^2, share of the ideal tension that arrives [30]"},
                coefficients, "Pa");
+  if (coefficients.size() > 3) {
+    units::complain(v, "polynomial", std::to_string(coefficients.size()) + " coefficients",
+                    "at most 3");
+  }
   coefficients.resize(3);
   e.c0 = coefficients[0];
   e.c1 = coefficients[1];
@@ -71,6 +84,10 @@ void fields(Visitor& v, Effectiveness& e) {
              .optional = true,
              .doc = "lowest and highest pressure that were fitted; held constant outside"},
             valid);
+  if (valid.size() != 2 || !(valid[0] < valid[1])) {
+    units::complain(v, "valid", "no range of pressures", "the lowest and the highest",
+                    R"(["0 psi gauge", "110 psi gauge"])");
+  }
   valid.resize(2);
   e.valid_from = valid[0];
   e.valid_to = valid[1];
@@ -125,6 +142,10 @@ void fields(Visitor& v, Loss& loss) {
           .optional = true,
           .doc = "false: friction by the sign of the speed as printed; it creeps under load"},
          loss.stick);
+  if (loss.coulomb_scale == Loss::Scale::constant && !(loss.coulomb_stiffness > 0)) {
+    units::complain(v, "coulomb_scale", "\"constant\" without a stiffness",
+                    "a coulomb_stiffness above zero beside it");
+  }
 }
 
 template <class Visitor>
@@ -143,6 +164,10 @@ void fields(Visitor& v, Actuator& a) {
           [&](auto& g) { fields(g, a.effectiveness); });
   v.group({.name = "long_end", .doc = "the mesh pulled straight"},
           [&](auto& g) { fields(g, a.long_end); });
+  if (a.long_end.length < shortest_length(a.braid)) {
+    units::complain(v, "long_end", "a greatest length below the shortest, thread_length / sqrt 3",
+                    "a length between that and the thread's");
+  }
   v.group({.name = "short_end", .doc = "the mesh at its widest, b/sqrt 3"},
           [&](auto& g) { fields(g, a.short_end); });
   v.group({.name = "loss", .doc = "what is lost in motion"}, [&](auto& g) { fields(g, a.loss); });

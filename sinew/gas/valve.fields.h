@@ -1,11 +1,12 @@
 // gas/valve.fields.h - the keys of [valve.*] in robots/*/valves.toml: name, unit, range, meaning.
 //
-// A law of flow uses its own keys only; check.h reports the other law's.
+// See units/field.h for what a visitor has, units/complain.h for keys that do not go together.
 #pragma once
 
 #include <vector>
 
 #include "sinew/gas/valve.h"
+#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
 
 namespace sinew::gas {
@@ -15,10 +16,11 @@ void fields(Visitor& v, Flow& flow) {
   v.choice({.name = "law", .doc = "orifice [42]-[44], or ISO 6358"}, flow.law,
            {{"orifice", Flow::Law::orifice}, {"iso6358", Flow::Law::iso6358}});
 
+  const bool orifice = flow.law == Flow::Law::orifice;
   v.number({.name = "area",
             .unit = "m2",
             .min = 0,
-            .optional = true,
+            .optional = !orifice,
             .doc = "orifice: A_p C_q lumped, of the open valve [42], [43]"},
            flow.area);
   v.number({.name = "efficiency",
@@ -32,16 +34,24 @@ void fields(Visitor& v, Flow& flow) {
   v.number({.name = "sonic_conductance",
             .unit = "m3/(s Pa)",
             .min = 0,
-            .optional = true,
+            .optional = orifice,
             .doc = "iso6358: C, choked volume flow of reference air per upstream pressure"},
            flow.sonic_conductance);
   v.number({.name = "critical_pressure_ratio",
             .unit = "1",
             .min = 0,
             .max = 0.999,
-            .optional = true,
+            .optional = orifice,
             .doc = "iso6358: b, downstream/upstream at and below which the flow is choked"},
            flow.critical_pressure_ratio);
+
+  if (orifice && flow.sonic_conductance > 0) {
+    units::complain(v, "sonic_conductance", "a key of law = \"iso6358\"", "area and efficiency");
+  }
+  if (!orifice && flow.area > 0) {
+    units::complain(v, "area", "a key of law = \"orifice\"",
+                    "sonic_conductance and critical_pressure_ratio");
+  }
 }
 
 template <class Visitor>
@@ -91,6 +101,9 @@ void fields(Visitor& v, Valve& valve) {
             .optional = true,
             .doc = "profile ramp: from open to shut"},
            valve.closing_ramp);
+  if (valve.profile != Valve::Profile::ramp && (valve.opening_ramp > 0 || valve.closing_ramp > 0)) {
+    units::complain(v, "profile", "a ramp's time with another profile", "\"ramp\"");
+  }
 }
 
 // All of a file's valves.
