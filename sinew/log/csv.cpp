@@ -1,0 +1,127 @@
+#include "sinew/log/csv.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <fstream>
+#include <ostream>
+#include <string_view>
+
+#include "sinew/log/file.h"
+#include "sinew/log/message.h"
+
+namespace sinew::log {
+namespace {
+
+bool is_edges(const signals::Topic& topic) {
+  return topic.name.starts_with("/valve/") && topic.name.ends_with("/open");
+}
+
+bool is_chosen(const std::string& topic, const std::vector<std::string>& chosen) {
+  if (chosen.empty()) return true;
+  return std::any_of(chosen.begin(), chosen.end(), [&](const std::string& name) {
+    return topic.starts_with(name) &&
+           (topic.size() == name.size() || name.ends_with('/') || topic[name.size()] == '/');
+  });
+}
+
+std::string quoted_if_needed(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  return quoted + '"';
+}
+
+std::string heading(const signals::Topic& topic, const signals::Field& field) {
+  std::string text = topic.name;
+  if (topic.fields.size() > 1 || field.name != "value") text += "." + field.name;
+  if (!field.unit.empty()) text += " [" + field.unit + "]";
+  return quoted_if_needed(text);
+}
+
+// One series while the rows go by.
+class Walker {
+ public:
+  explicit Walker(const signals::Series& series)
+      : series_(series), edges_(is_edges(series.topic)) {}
+
+  bool edges() const { return edges_; }
+  const signals::Series& series() const { return series_; }
+
+  // Moves past all samples up to this time. Times must ascend.
+  void go_to(std::int64_t time_ns) {
+    while (next_ < series_.time_ns.size() && series_.time_ns[next_] <= time_ns) ++next_;
+    here_ = next_ > 0 && (edges_ || series_.time_ns[next_ - 1] == time_ns);
+  }
+
+  void append_cells(std::string& line) const {
+    char room[32];
+    for (const std::vector<double>& column : series_.columns) {
+      line += ',';
+      const double value = here_ ? column[next_ - 1] : edges_ ? 0.0 : NAN;
+      if (std::isfinite(value)) line += digits(value, room);
+    }
+  }
+
+ private:
+  const signals::Series& series_;
+  bool edges_;
+  std::size_t next_ = 0;
+  bool here_ = false;
+};
+
+std::vector<std::int64_t> row_times(const std::vector<Walker>& walkers) {
+  const bool all = std::all_of(walkers.begin(), walkers.end(), [](auto& w) { return w.edges(); });
+  std::vector<std::int64_t> times;
+  for (const Walker& walker : walkers) {
+    if (walker.edges() && !all) continue;
+    // Topics that share their times, as most do, add nothing.
+    const std::vector<std::int64_t>& more = walker.series().time_ns;
+    if (more == times) continue;
+    std::vector<std::int64_t> both;
+    std::set_union(times.begin(), times.end(), more.begin(), more.end(), std::back_inserter(both));
+    times = std::move(both);
+  }
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+}  // namespace
+
+void write_csv(const signals::Table& table, std::ostream& out,
+               const std::vector<std::string>& topics) {
+  std::vector<Walker> walkers;
+  std::string line = "time [s]";
+  for (const signals::Series& series : table.series) {
+    if (!is_chosen(series.topic.name, topics)) continue;
+    walkers.emplace_back(series);
+    for (const signals::Field& field : series.topic.fields) {
+      line += ',';
+      line += heading(series.topic, field);
+    }
+  }
+  out << line << '\n';
+
+  char room[32];
+  for (const std::int64_t time_ns : row_times(walkers)) {
+    line = digits(static_cast<double>(time_ns) / 1e9, room);
+    for (Walker& walker : walkers) {
+      walker.go_to(time_ns);
+      walker.append_cells(line);
+    }
+    out << line << '\n';
+  }
+}
+
+void write_csv(const signals::Table& table, const std::filesystem::path& file,
+               const std::vector<std::string>& topics) {
+  errno = 0;
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  if (out) write_csv(table, out, topics);
+  out.close();
+  if (!out)
+    throw Error(file, "cannot write the table: " + system_words(errno),
+                "choose a folder that exists, that you may write to and that has room");
+}
+
+}  // namespace sinew::log

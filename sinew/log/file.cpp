@@ -1,0 +1,80 @@
+#include "sinew/log/file.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "sinew/log/error.h"
+
+namespace sinew::log {
+namespace {
+
+const char* const kWhereToLook = "check the name, and that `sinew run` wrote a log there";
+
+}  // namespace
+
+Mapping::Mapping(const std::filesystem::path& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) throw Error(path, "cannot open the log: " + system_words(errno), kWhereToLook);
+  struct stat info {};
+  const bool regular = ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
+  size_ = regular ? static_cast<std::size_t>(info.st_size) : 0;
+  void* at = size_ ? ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, fd, 0) : nullptr;
+  const int error = errno;
+  ::close(fd);
+  if (!regular) throw Error(path, "not a file", "name the log itself, for instance log.mcap");
+  if (size_ == 0) throw Error(path, "the file is empty", "run the experiment again");
+  if (at == MAP_FAILED)
+    throw Error(path, "cannot read the log: " + system_words(error), "copy it to a local disk");
+  data_ = static_cast<const char*>(at);
+}
+
+Mapping::~Mapping() { ::munmap(const_cast<char*>(data_), size_); }
+
+Output::Output(const std::filesystem::path& path) {
+  // An old file is unlinked rather than truncated: whoever has it mapped keeps it.
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
+  fd_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (fd_ < 0)
+    throw Error(path, "cannot create the log: " + system_words(errno),
+                "choose a folder that exists and that you may write to");
+}
+
+Output::~Output() { close(); }
+
+bool Output::write(std::string_view bytes) noexcept {
+  while (!bytes.empty() && error_ == 0) {
+    const ssize_t n = ::write(fd_, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) {
+      error_ = errno;
+      break;
+    }
+    const auto done = static_cast<std::size_t>(n);
+    crc_ = crc32(bytes.substr(0, done), crc_);
+    position_ += done;
+    bytes.remove_prefix(done);
+  }
+  return error_ == 0;
+}
+
+bool Output::close() noexcept {
+  if (fd_ >= 0 && ::close(fd_) != 0 && error_ == 0) error_ = errno;
+  fd_ = -1;
+  return error_ == 0;
+}
+
+std::uint32_t crc32(std::string_view bytes, std::uint32_t before) {
+  return static_cast<std::uint32_t>(
+      ::crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+std::string system_words(int error) { return std::generic_category().message(error); }
+
+}  // namespace sinew::log

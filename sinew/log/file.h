@@ -1,0 +1,54 @@
+// log/file.h - the two ways this folder touches a file: reading it as a view, and appending to it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace sinew::log {
+
+// A whole file as bytes, mapped and not copied, so that an hour's log needs no memory of its own.
+class Mapping {
+ public:
+  explicit Mapping(const std::filesystem::path& path);  // throws Error: missing, unreadable, empty
+  ~Mapping();
+  Mapping(const Mapping&) = delete;
+  Mapping& operator=(const Mapping&) = delete;
+
+  std::string_view bytes() const { return {data_, size_}; }
+
+ private:
+  const char* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+// A new file that is only appended to. The first failure is final: it is kept, and nothing more is
+// written, so that what stands in the file remains a prefix of what was meant.
+class Output {
+ public:
+  explicit Output(const std::filesystem::path& path);  // replaces a file; throws Error
+  ~Output();
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  bool write(std::string_view bytes) noexcept;
+  bool close() noexcept;
+
+  int error() const { return error_; }                  // errno of the first failure, or 0
+  std::uint64_t position() const { return position_; }  // bytes written
+  std::uint32_t crc() const { return crc_; }            // CRC-32 of all of them
+
+ private:
+  int fd_ = -1;
+  int error_ = 0;
+  std::uint64_t position_ = 0;
+  std::uint32_t crc_ = 0;
+};
+
+std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
+
+// "No space left on device": the system's words for an errno.
+std::string system_words(int error);
+
+}  // namespace sinew::log

@@ -1,0 +1,237 @@
+#include "sinew/log/index.h"
+
+#include <algorithm>
+#include <map>
+#include <system_error>
+
+#include "sinew/log/error.h"
+#include "sinew/log/file.h"
+#include "sinew/log/mcap.h"
+
+namespace sinew::log {
+namespace {
+
+constexpr std::size_t kChunkBytes = 1 << 20;
+
+struct Span {  // of time; as the format wants it, zero to zero without messages
+  std::uint64_t first = 0, last = 0;
+  std::uint64_t count = 0;
+  void add(std::uint64_t t) {
+    first = count ? std::min(first, t) : t;
+    last = count ? std::max(last, t) : t;
+    ++count;
+  }
+};
+
+// Copies the records of one file into another, the messages in chunks, and adds the summary.
+class Indexer {
+ public:
+  explicit Indexer(Output& output) : output_(output) {}
+
+  bool copy(std::string_view source);
+
+ private:
+  void copy(const Record& record);
+  void add_message(const Record& record);
+  void end_chunk();
+  void put_message_indexes(Bytes& out);
+  void put_statistics(Bytes& out) const;
+  void put_summary();
+
+  Output& output_;
+
+  // The chunk being filled: its records, and per channel (time, offset) of each message.
+  Bytes chunk_;
+  Span chunk_time_;
+  std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> places_;
+  // Where the message index of a channel went, for the chunk's index.
+  std::vector<std::pair<std::uint16_t, std::uint64_t>> index_places_;
+
+  // What the summary will say.
+  Bytes schemas_, channels_, chunk_indexes_, metadata_indexes_;
+  std::uint16_t schema_count_ = 0;
+  std::uint32_t channel_count_ = 0, metadata_count_ = 0, chunk_count_ = 0;
+  std::map<std::uint16_t, std::uint64_t> message_counts_;
+  Span time_;
+};
+
+bool Indexer::copy(std::string_view source) {
+  output_.write(kMagic);
+  Records records(source.substr(kMagic.size()));
+  while (const auto record = records.next()) {
+    if (record->op == Op::data_end) break;
+    copy(*record);
+  }
+  end_chunk();
+  Bytes end;
+  put_data_end(end, output_.crc());
+  output_.write(end.view());
+  put_summary();
+  return !records.torn() && output_.close();
+}
+
+void Indexer::copy(const Record& record) {
+  switch (record.op) {
+    case Op::message:
+      return add_message(record);
+    case Op::schema:
+      schemas_.raw(record.whole);
+      ++schema_count_;
+      break;
+    case Op::channel:
+      channels_.raw(record.whole);
+      ++channel_count_;
+      break;
+    case Op::metadata: {
+      const std::size_t index = metadata_indexes_.open(Op::metadata_index);
+      metadata_indexes_.u64(output_.position());
+      metadata_indexes_.u64(record.whole.size());
+      metadata_indexes_.text(Fields(record.content).text());
+      metadata_indexes_.close(index);
+      ++metadata_count_;
+      break;
+    }
+    default:
+      break;
+  }
+  output_.write(record.whole);  // only messages stand in chunks
+}
+
+void Indexer::add_message(const Record& record) {
+  const auto message = parse_message(record.content);
+  if (!message) return;
+  chunk_time_.add(message->log_time);
+  time_.add(message->log_time);
+  ++message_counts_[message->channel];
+  places_[message->channel].emplace_back(message->log_time, chunk_.size());
+  chunk_.raw(record.whole);
+  if (chunk_.size() >= kChunkBytes) end_chunk();
+}
+
+void Indexer::end_chunk() {
+  if (chunk_.size() == 0) return;
+  const std::uint64_t start = output_.position();
+  Bytes out;
+  const std::size_t record = out.open(Op::chunk);
+  out.u64(chunk_time_.first);
+  out.u64(chunk_time_.last);
+  out.u64(chunk_.size());
+  out.u32(crc32(chunk_.view()));
+  out.text("");  // not compressed
+  out.u64(chunk_.size());
+  out.raw(chunk_.view());
+  out.close(record);
+  const std::uint64_t chunk_length = out.size();
+  put_message_indexes(out);
+  output_.write(out.view());
+
+  const std::size_t index = chunk_indexes_.open(Op::chunk_index);
+  chunk_indexes_.u64(chunk_time_.first);
+  chunk_indexes_.u64(chunk_time_.last);
+  chunk_indexes_.u64(start);
+  chunk_indexes_.u64(chunk_length);
+  const std::size_t list = chunk_indexes_.open_list();
+  for (const auto& [channel, place] : index_places_) {
+    chunk_indexes_.u16(channel);
+    chunk_indexes_.u64(start + place);
+  }
+  chunk_indexes_.close_list(list);
+  chunk_indexes_.u64(out.size() - chunk_length);
+  chunk_indexes_.text("");
+  chunk_indexes_.u64(chunk_.size());
+  chunk_indexes_.u64(chunk_.size());
+  chunk_indexes_.close(index);
+  ++chunk_count_;
+  chunk_.clear();
+  chunk_time_ = {};
+}
+
+// One per channel, behind the chunk; sorted by time, whatever order the messages came in.
+void Indexer::put_message_indexes(Bytes& out) {
+  index_places_.clear();
+  for (auto& [channel, places] : places_) {
+    std::sort(places.begin(), places.end());
+    index_places_.emplace_back(channel, out.size());
+    const std::size_t record = out.open(Op::message_index);
+    out.u16(channel);
+    const std::size_t list = out.open_list();
+    for (const auto& [time, offset] : places) {
+      out.u64(time);
+      out.u64(offset);
+    }
+    out.close_list(list);
+    out.close(record);
+  }
+  places_.clear();
+}
+
+void Indexer::put_statistics(Bytes& out) const {
+  const std::size_t record = out.open(Op::statistics);
+  out.u64(time_.count);
+  out.u16(schema_count_);
+  out.u32(channel_count_);
+  out.u32(0);  // attachments
+  out.u32(metadata_count_);
+  out.u32(chunk_count_);
+  out.u64(time_.first);
+  out.u64(time_.last);
+  const std::size_t list = out.open_list();
+  for (const auto& [channel, count] : message_counts_) {
+    out.u16(channel);
+    out.u64(count);
+  }
+  out.close_list(list);
+  out.close(record);
+}
+
+// Groups of records, one per opcode; then where each group stands; then the footer.
+void Indexer::put_summary() {
+  const std::uint64_t start = output_.position();
+  Bytes statistics;
+  put_statistics(statistics);
+  Bytes out;
+  Bytes offsets;
+  const auto group = [&](Op op, const Bytes& records) {
+    if (records.size() == 0) return;
+    const std::size_t record = offsets.open(Op::summary_offset);
+    offsets.u8(static_cast<std::uint8_t>(op));
+    offsets.u64(start + out.size());
+    offsets.u64(records.size());
+    offsets.close(record);
+    out.raw(records.view());
+  };
+  group(Op::schema, schemas_);
+  group(Op::channel, channels_);
+  group(Op::statistics, statistics);
+  group(Op::chunk_index, chunk_indexes_);
+  group(Op::metadata_index, metadata_indexes_);
+  const std::uint64_t offsets_start = start + out.size();
+  out.raw(offsets.view());
+  put_footer(out, start, offsets_start);
+  output_.write(out.view());
+}
+
+}  // namespace
+
+void make_indexed(const std::filesystem::path& file) {
+  const std::filesystem::path beside = file.string() + ".tmp";
+  const char* const advice = "the log is whole and can be read, only its index is missing";
+  std::error_code error;
+  {
+    const Mapping source(file);
+    Output output(beside);
+    if (!Indexer(output).copy(source.bytes())) {
+      std::filesystem::remove(beside, error);
+      const std::string why = output.error() ? system_words(output.error()) : "the file is damaged";
+      throw Error(file, "cannot index the log: " + why, advice);
+    }
+  }
+  std::filesystem::rename(beside, file, error);
+  if (error) {
+    const std::string why = error.message();
+    std::filesystem::remove(beside, error);
+    throw Error(file, "cannot index the log: " + why, advice);
+  }
+}
+
+}  // namespace sinew::log

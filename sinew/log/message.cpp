@@ -1,0 +1,113 @@
+#include "sinew/log/message.h"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace sinew::log {
+namespace {
+
+using Json = nlohmann::ordered_json;  // keeps the fields' order
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::string text_or_empty(const Json& object, const char* key) {
+  const auto it = object.find(key);
+  return it != object.end() && it->is_string() ? it->get<std::string>() : std::string();
+}
+
+bool holds_number(const Json& property) {
+  const std::string type = text_or_empty(property, "type");
+  return type == "number" || type == "integer" || type == "boolean";
+}
+
+double number(const Json& value) {
+  if (value.is_boolean()) return value.get<bool>() ? 1.0 : 0.0;
+  return value.is_number() ? value.get<double>() : kNaN;
+}
+
+// Removes `start` from the front of `text`, if it stands there.
+bool skip(std::string_view& text, std::string_view start) {
+  if (!text.starts_with(start)) return false;
+  text.remove_prefix(start.size());
+  return true;
+}
+
+}  // namespace
+
+std::string to_schema(const signals::Topic& topic) {
+  Json properties = Json::object();
+  Json required = Json::array();
+  for (const signals::Field& field : topic.fields) {
+    properties[field.name] = {{"type", "number"}, {"unit", field.unit}};
+    required.push_back(field.name);
+  }
+  const Json schema = {{"type", "object"},
+                       {"title", topic.name},
+                       {"description", topic.description},
+                       {"properties", std::move(properties)},
+                       {"required", std::move(required)}};
+  return schema.dump();
+}
+
+std::optional<signals::Topic> from_schema(std::string_view schema, std::string_view topic) {
+  const Json json = Json::parse(schema, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object()) return std::nullopt;
+  const auto properties = json.find("properties");
+  if (properties == json.end() || !properties->is_object()) return std::nullopt;
+
+  signals::Topic result{std::string(topic), text_or_empty(json, "description"), {}};
+  for (const auto& [name, property] : properties->items())
+    if (property.is_object() && holds_number(property))
+      result.fields.push_back({name, text_or_empty(property, "unit")});
+  if (result.fields.empty()) return std::nullopt;
+  return result;
+}
+
+MessageFormat::MessageFormat(const signals::Topic& topic) {
+  for (const signals::Field& field : topic.fields) {
+    names_.push_back(field.name);
+    std::string& key = keys_.emplace_back(keys_.empty() ? "{" : ",");
+    key += Json(field.name).dump();
+    key += ':';
+  }
+}
+
+void MessageFormat::append(std::string& out, std::span<const double> values) const {
+  char room[32];
+  for (std::size_t i = 0; i < keys_.size(); ++i) {
+    out += keys_[i];
+    out += std::isfinite(values[i]) ? digits(values[i], room) : std::string_view("null");
+  }
+  out += '}';
+}
+
+bool MessageFormat::parse(std::string_view text, std::span<double> values) const {
+  return parse_own(text, values) || parse_any(text, values);
+}
+
+bool MessageFormat::parse_own(std::string_view text, std::span<double> values) const {
+  for (std::size_t i = 0; i < keys_.size(); ++i) {
+    if (!skip(text, keys_[i])) return false;
+    if (skip(text, "null")) {
+      values[i] = kNaN;
+      continue;
+    }
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), values[i]);
+    if (error != std::errc() || !std::isfinite(values[i])) return false;
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  }
+  return text == "}";
+}
+
+bool MessageFormat::parse_any(std::string_view text, std::span<double> values) const {
+  const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object()) return false;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const auto it = json.find(names_[i]);
+    values[i] = it == json.end() ? kNaN : number(*it);
+  }
+  return true;
+}
+
+}  // namespace sinew::log

@@ -1,0 +1,50 @@
+// log/message.h - a topic in JSON: its schema, and its messages {"x":1.5,"y":-2}.
+//
+// Numbers take the fewest digits that read back to the same bits. JSON has no NaN and no infinity:
+// both are written as null, and null is read as NaN.
+#pragma once
+
+#include <charconv>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/signals/table.h"
+
+namespace sinew::log {
+
+// The JSON schema of a topic: its description, its fields in order, their units.
+std::string to_schema(const signals::Topic& topic);
+
+// The topic that a schema describes; nothing where it has no field with a number. Fields of other
+// kinds, which foreign logs have, are left out.
+std::optional<signals::Topic> from_schema(std::string_view schema, std::string_view topic);
+
+class MessageFormat {
+ public:
+  explicit MessageFormat(const signals::Topic& topic);
+
+  std::size_t fields() const { return keys_.size(); }
+  void append(std::string& out, std::span<const double> values) const;
+
+  // Reads any flat object; what append() has written is read without building a document. A field
+  // that is missing gives NaN. False: not a JSON object. `values` has fields() elements.
+  bool parse(std::string_view text, std::span<double> values) const;
+
+ private:
+  bool parse_own(std::string_view text, std::span<double> values) const;
+  bool parse_any(std::string_view text, std::span<double> values) const;
+
+  std::vector<std::string> names_;
+  std::vector<std::string> keys_;  // what stands before each value: {"x": and then ,"y":
+};
+
+// The digits of a finite number; 32 characters are enough.
+inline std::string_view digits(double value, std::span<char, 32> room) {
+  const auto end = std::to_chars(room.data(), room.data() + room.size(), value).ptr;
+  return {room.data(), static_cast<std::size_t>(end - room.data())};
+}
+
+}  // namespace sinew::log

@@ -1,0 +1,12 @@
+// log/names.h - the words that Sinew's logs use and that its writer and its reader must share.
+#pragma once
+
+#include <string_view>
+
+namespace sinew::log {
+
+inline constexpr std::string_view kSchemaEncoding = "jsonschema";
+inline constexpr std::string_view kMessageEncoding = "json";
+inline constexpr std::string_view kRunMetadata = "sinew.run";  // the record that says what was run
+
+}  // namespace sinew::log

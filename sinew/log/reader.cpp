@@ -1,0 +1,211 @@
+#include "sinew/log/reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <numeric>
+
+#include "sinew/log/file.h"
+#include "sinew/log/mcap.h"
+#include "sinew/log/message.h"
+#include "sinew/log/names.h"
+
+namespace sinew::log {
+namespace {
+
+using std::filesystem::path;
+
+void check_magic(const path& file, std::string_view bytes) {
+  if (bytes.starts_with(kMagic)) return;
+  if (kMagic.starts_with(bytes))
+    throw Error(file, fmt::format("the log ends after {} bytes", bytes.size()),
+                "it was cut off before anything was written: run the experiment again");
+  std::string found;
+  for (const char c : bytes.substr(0, kMagic.size()))
+    found += fmt::format(" {:02x}", static_cast<unsigned char>(c));
+  throw Error(file, fmt::format("not an MCAP file: it begins with{}", found),
+              "expected 89 4d 43 41 50 30 0d 0a; name a run's log.mcap");
+}
+
+// Takes a file's records, one after the other, into a table.
+class Collector {
+ public:
+  Collector(const path& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
+
+  signals::Table table();
+
+ private:
+  // False where the record is damaged, so that nothing behind it can be trusted.
+  bool take(const Record& record);
+  bool take_schema(std::string_view content);
+  bool take_channel(std::string_view content);
+  bool take_message(std::string_view content);
+  bool take_chunk(std::string_view content);
+  bool leave_out();
+  bool ends_properly(const Record& last) const;
+
+  struct Source {  // of a channel that is read
+    std::size_t series;
+    MessageFormat format;
+  };
+
+  const path& file_;
+  const std::string_view bytes_;
+  std::map<std::uint16_t, Schema> schemas_;
+  // By channel number; null for a channel that is passed over.
+  std::map<std::uint16_t, std::unique_ptr<Source>> sources_;
+  std::vector<signals::Series> series_;
+  std::vector<double> values_;
+  bool whole_ = true;  // no message was damaged
+};
+
+signals::Table Collector::table() {
+  Records records(bytes_.substr(kMagic.size()));
+  bool ended = false;
+  while (const auto record = records.next()) {
+    if (record->op == Op::data_end || record->op == Op::footer) {
+      ended = ends_properly(*record);
+      break;
+    }
+    if (!take(*record)) break;
+  }
+  return {std::move(series_), ended && whole_};
+}
+
+bool Collector::take(const Record& record) {
+  switch (record.op) {
+    case Op::schema:
+      return take_schema(record.content);
+    case Op::channel:
+      return take_channel(record.content);
+    case Op::message:
+      return take_message(record.content);
+    case Op::chunk:
+      return take_chunk(record.content);
+    default:
+      return true;  // indexes, attachments, and what later versions may add
+  }
+}
+
+bool Collector::take_schema(std::string_view content) {
+  const auto schema = parse_schema(content);
+  if (schema) schemas_.try_emplace(schema->id, *schema);
+  return schema.has_value();
+}
+
+bool Collector::take_channel(std::string_view content) {
+  const auto channel = parse_channel(content);
+  if (!channel) return false;
+  const auto [source, is_new] = sources_.try_emplace(channel->id, nullptr);
+  const auto schema = schemas_.find(channel->schema);
+  if (!is_new || channel->encoding != kMessageEncoding || schema == schemas_.end() ||
+      schema->second.encoding != kSchemaEncoding)
+    return true;
+  auto topic = from_schema(schema->second.data, channel->topic);
+  if (!topic) return true;
+
+  // Two channels of one topic, as foreign logs may have them: the first one is the topic.
+  for (const signals::Series& series : series_)
+    if (series.topic.name == topic->name) return true;
+  source->second = std::make_unique<Source>(Source{series_.size(), MessageFormat(*topic)});
+  const std::size_t fields = topic->fields.size();
+  series_.push_back({std::move(*topic), {}, std::vector<std::vector<double>>(fields)});
+  return true;
+}
+
+// A message that is damaged in itself: the next one can be found all the same.
+bool Collector::leave_out() {
+  whole_ = false;
+  return true;
+}
+
+bool Collector::take_message(std::string_view content) {
+  const auto message = parse_message(content);
+  if (!message) return false;
+  const auto source = sources_.find(message->channel);
+  if (source == sources_.end()) return leave_out();
+  if (!source->second) return true;
+  const MessageFormat& format = source->second->format;
+  values_.resize(format.fields());
+  if (!format.parse(message->data, values_)) return leave_out();
+
+  signals::Series& series = series_[source->second->series];
+  series.time_ns.push_back(static_cast<std::int64_t>(message->log_time));
+  for (std::size_t i = 0; i < values_.size(); ++i) series.columns[i].push_back(values_[i]);
+  return true;
+}
+
+bool Collector::take_chunk(std::string_view content) {
+  const auto chunk = parse_chunk(content);
+  if (!chunk) return false;
+  if (chunk->compression == "zstd" || chunk->compression == "lz4")
+    throw Error(file_, fmt::format("the log is compressed with {}", chunk->compression),
+                "write an uncompressed copy with `mcap decompress IN -o OUT` and read that");
+  if (!chunk->compression.empty()) return false;
+  if (chunk->crc != 0 && chunk->crc != crc32(chunk->records)) return false;
+
+  Records records(chunk->records);
+  while (const auto record = records.next())
+    if (record->op == Op::chunk || !take(*record)) return false;
+  return !records.torn();
+}
+
+// The data's checksum, if there is one, and the end of the file in its place.
+bool Collector::ends_properly(const Record& last) const {
+  const std::size_t tail = kRecordHead + kFooterContent + kMagic.size();
+  const auto at = static_cast<std::size_t>(last.whole.data() - bytes_.data());
+  if (last.op == Op::data_end) {
+    Fields fields(last.content);
+    const std::uint32_t crc = fields.u32();
+    if (!fields.ok() || (crc != 0 && crc != crc32(bytes_.substr(0, at)))) return false;
+    if (bytes_.size() < at + last.whole.size() + tail) return false;
+  } else if (bytes_.size() != at + tail) {
+    return false;
+  }
+  Records end(bytes_.substr(bytes_.size() - tail, tail - kMagic.size()));
+  const auto footer = end.next();
+  return footer && footer->op == Op::footer && bytes_.ends_with(kMagic);
+}
+
+// Samples belong in the order of their times; most logs have them so already.
+void sort_by_time(signals::Series& series) {
+  if (std::is_sorted(series.time_ns.begin(), series.time_ns.end())) return;
+  std::vector<std::size_t> order(series.time_ns.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return series.time_ns[a] < series.time_ns[b];
+  });
+  const auto reorder = [&](auto& values) {
+    auto sorted = values;
+    for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = values[order[i]];
+    values = std::move(sorted);
+  };
+  reorder(series.time_ns);
+  for (auto& column : series.columns) reorder(column);
+}
+
+}  // namespace
+
+signals::Table read(const path& file) {
+  const Mapping mapping(file);
+  check_magic(file, mapping.bytes());
+  signals::Table table = Collector(file, mapping.bytes()).table();
+  for (signals::Series& series : table.series) sort_by_time(series);
+  return table;
+}
+
+Pairs read_metadata(const path& file) {
+  const Mapping mapping(file);
+  check_magic(file, mapping.bytes());
+  Records records(mapping.bytes().substr(kMagic.size()));
+  while (const auto record = records.next()) {
+    if (record->op != Op::metadata) continue;
+    auto metadata = parse_metadata(record->content);
+    if (metadata && metadata->first == kRunMetadata) return std::move(metadata->second);
+  }
+  return {};
+}
+
+}  // namespace sinew::log
