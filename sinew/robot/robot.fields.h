@@ -1,23 +1,13 @@
 // robot/robot.fields.h - the keys of robots/*/robot.toml: name, unit, range and meaning of each.
 //
-// See units/field.h for what a visitor has. The tables [air] belong to gas, the files named under
-// `files` to actuator and gas.
+// See units/field.h for what a visitor has. The table [air] belongs to gas; what `files` names is
+// put beside these tables by config/compose.h.
 #pragma once
 
 #include "sinew/robot/robot.h"
 #include "sinew/units/field.h"
 
 namespace sinew::robot {
-
-template <class Visitor>
-void fields(Visitor& v, Files& files) {
-  v.text({.name = "actuator", .doc = "file of the actuators"}, files.actuator);
-  v.text({.name = "valves", .doc = "file of the valves"}, files.valves);
-  v.text({.name = "valve_timing",
-          .optional = true,
-          .doc = "duty, close, open in ticks (B.4); absent: close at duty, open at 100"},
-         files.valve_timing);
-}
 
 template <class Visitor>
 void fields(Visitor& v, Trolley& trolley) {
@@ -246,6 +236,11 @@ void fields(Visitor& v, LowLevel& low) {
        .optional = true,
        .doc = "tension counts/length counts to lbf in/rad, 5.5 in B.1; 0: from the assumed scales"},
       low.stiffness_factor);
+  v.text({.name = "valve_timing",
+          .optional = true,
+          .doc = "duty, close, open in ticks (B.4), from files.valve_timing; absent: close at "
+                 "duty, open at 100"},
+         low.valve_timing);
   v.number({.name = "vent_time",
             .unit = "s",
             .min = 0,
@@ -256,9 +251,7 @@ void fields(Visitor& v, LowLevel& low) {
 
 template <class Visitor>
 void fields(Visitor& v, Robot& robot) {
-  v.text({.name = "name", .doc = "of the robot"}, robot.name);
-  v.group({.name = "files", .doc = "paths beside this file"},
-          [&](auto& g) { fields(g, robot.files); });
+  v.text({.name = "robot_name", .doc = "`name` in the file of the robot"}, robot.name);
   v.number({.name = "gravity", .unit = "m/s2", .min = 0, .optional = true, .doc = "downwards"},
            robot.gravity);
 

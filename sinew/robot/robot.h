@@ -124,6 +124,7 @@ struct LowLevel {
   double assumed_thread_length = 0;  // b in the stiffness law; 0: the actuator's [m]
   double assumed_mount_length = 0;   // free length in the stiffness law; 0: the muscle's [m]
   double stiffness_factor = 0;       // 5.5 in B.1; 0: from the assumed scales
+  std::string valve_timing;          // path of predict.dat; empty: the identity table
   double vent_time = 0;              // exhausts open at start-up and shut-down [s]
 };
 
@@ -132,16 +133,8 @@ struct Thesis {
   bool knee_lengths_swapped = false;  // B.1 lengthens the flexor when a knee's angle falls
 };
 
-// Paths beside the robot's file.
-struct Files {
-  std::string actuator;      // actuators
-  std::string valves;        // valves
-  std::string valve_timing;  // predict.dat; empty: the identity table
-};
-
 struct Robot {
   std::string name;
-  Files files;
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Muscle> muscles;

@@ -31,7 +31,7 @@ struct DesiredJoint {
   double stiffness = 0;  // [N m/rad]
   robot::Gains gains;    // [1/count], [1/(N m/rad)], [s/count]
   bool enabled = false;
-  bool open_loop = false;  // the duties in place of the laws; angle stays the last one desired
+  bool open_loop = false;                           // the duties in place of the laws
   double flexor_inlet = 0, flexor_exhaust = 0;      // [-] 0 .. 1
   double extensor_inlet = 0, extensor_exhaust = 0;  // [-]
 };
@@ -71,32 +71,40 @@ class Brain {
   const Plan& plan() const noexcept { return plan_; }
 
  private:
-  void advance(const Measured&) noexcept;
-  void enter(int position) noexcept;
-  bool ended(const Measured&) const noexcept;
-  void describe() noexcept;
-  void follow_path(const Phase&) noexcept;
-  void set_joint(const JointPhase&, std::size_t joint) noexcept;
-  void finish() noexcept;
-
+  // A phase in its place of the sequence.
   struct Slot {
-    int phase = 0;     // position in Plan::phases
-    int periods = 0;   // at most
-    double steps = 1;  // periods from s = 0 to s = 1
+    int phase = 0;    // position in Plan::phases
+    int periods = 1;  // at most
+    int steps = 1;    // periods from s = 0 to s = 1
     Measure measure;
     std::array<bool, robot::max_joints> enabled{};
   };
+  struct Pair {
+    std::size_t flexor = 0, extensor = 0;  // positions in Measured::tension
+  };
+
+  void advance(const Measured&) noexcept;
+  void enter(std::size_t position) noexcept;
+  void leave(bool early) noexcept;
+  void finish() noexcept;
+  bool ended(const Measured&) const noexcept;
+  double value(const Measure&, const Measured&) const noexcept;
+
+  void describe(double s) noexcept;
+  void follow_path(const Phase&, double s) noexcept;
+  void set_joint(const JointPhase&, DesiredJoint&, double s) const noexcept;
 
   Plan plan_;
-  robot::Robot robot_;
+  std::vector<robot::Joint> joints_;
+  std::vector<Pair> pairs_;
   robot::TwoLinks links_;
+  bool two_links_ = false;
   std::vector<Slot> sequence_;
-
   std::int64_t settle_periods_ = 0;
+
   std::int64_t period_ = -1;  // the last one answered
-  int position_ = 0;          // in sequence_
-  int step_ = 0;
-  int k_ = 0;  // period within the phase
+  std::size_t position_ = 0;  // in sequence_
+  int k_ = 0;                 // period within the phase
   std::int64_t unreachable_periods_ = 0;
   Desired desired_;
 };

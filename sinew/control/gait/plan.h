@@ -6,7 +6,7 @@
 //
 // Within a phase the progress s runs from 0 to 1. What may change over a phase is a *profile*: a
 // list of values. None: stays as it was. One: holds from this phase on. Several: passed through at
-// equal steps of s, straight in between; the last one holds from there on.
+// equal steps of s, straight in between; what was reached last holds from there on.
 #pragma once
 
 #include <cstdint>
@@ -119,15 +119,25 @@ struct Measure {
   int index = -1;  // joint or muscle
 };
 Measure find_measure(const robot::Robot&, std::string_view name);
-std::string_view unit_of(std::string_view measure);  // SI
+std::string_view unit_of(std::string_view measure);  // SI; by the name alone
 
-// Names that lead nowhere, phases without a target, and every stretch of a foot path that the leg
-// cannot reach.
+// What the robot or the plan itself does not allow: names that lead nowhere, lists of unequal
+// length.
 std::vector<robot::Contradiction> contradictions(const robot::Robot&, const Plan&);
+
+// Every stretch of a foot path that the leg cannot reach: phase, s, target and reach. A run with
+// such a plan is possible, the brain then aims at the nearest point that can be reached.
+std::vector<robot::Contradiction> unreachable(const robot::Robot&, const Plan&);
 
 // Periods of a phase that nothing ends early, of one step, and of the whole run up to `finish`.
 int periods(const Plan&, const Phase&);
 int periods_per_step(const Plan&);
 std::int64_t periods(const Plan&);
+
+// Periods from s = 0 to s = 1, whether or not the last of them is reached.
+int steps_of_s(const Plan&, const Phase&);
+
+// Position in the list, or -1.
+int find_phase(const Plan&, std::string_view name);
 
 }  // namespace sinew::gait

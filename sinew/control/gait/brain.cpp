@@ -1,0 +1,182 @@
+#include "sinew/control/gait/brain.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/control/gait/path.h"
+
+namespace sinew::gait {
+namespace {
+
+bool listed(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// What holds before the first phase: rest angles, as B.1 sets `thetades` to `potoffset`.
+DesiredJoint at_rest(const robot::Joint& joint, const JointPlan& plan) {
+  DesiredJoint desired;
+  desired.angle = joint.rest_angle;
+  desired.stiffness = plan.stiffness;
+  desired.gains = plan.gains;
+  return desired;
+}
+
+}  // namespace
+
+Brain::Brain(const robot::Robot& robot, const Plan& plan)
+    : plan_(plan),
+      joints_(robot.joints),
+      two_links_(robot.links.size() == 2),
+      settle_periods_(std::llround(plan.settle / plan.brain_period)) {
+  using Role = robot::Muscle::Role;
+  if (two_links_) links_ = {robot.links[0].length, robot.links[1].length};
+
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const int joint = static_cast<int>(i);
+    pairs_.push_back({static_cast<std::size_t>(muscle_of(robot, joint, Role::flexor)),
+                      static_cast<std::size_t>(muscle_of(robot, joint, Role::extensor))});
+    desired_.joint[i] = at_rest(joints_[i], plan_.joints[i]);
+  }
+  for (Phase& phase : plan_.phases) phase.joints.resize(joints_.size());
+
+  for (const std::string& name : plan_.sequence) {
+    Slot slot;
+    slot.phase = find_phase(plan_, name);
+    const Phase& phase = plan_.phases[static_cast<std::size_t>(slot.phase)];
+    slot.periods = periods(plan_, phase);
+    slot.steps = steps_of_s(plan_, phase);
+    slot.measure = find_measure(robot, phase.until.measure);
+    for (std::size_t i = 0; i < joints_.size(); ++i)
+      slot.enabled[i] = plan_.joints[i].enabled && !listed(phase.disabled, joints_[i].name);
+    sequence_.push_back(slot);
+  }
+}
+
+const Desired& Brain::update(const Measured& measured, std::int64_t period_index) noexcept {
+  while (period_ < period_index && !finished()) {
+    ++period_;
+    advance(measured);
+  }
+  return desired_;
+}
+
+void Brain::advance(const Measured& measured) noexcept {
+  if (period_ < settle_periods_) return;
+  if (desired_.stage == Stage::settling) {
+    desired_.stage = Stage::walking;
+    if (sequence_.empty()) return finish();
+    enter(0);
+  } else {
+    ++k_;
+    const bool over = k_ >= sequence_[position_].periods;
+    const bool early = !over && ended(measured);
+    if (over || early) {
+      leave(early);
+      if (position_ + 1 < sequence_.size()) {
+        enter(position_ + 1);
+      } else if (desired_.step + 1 < plan_.repeat) {
+        ++desired_.step;
+        enter(0);
+      } else {
+        return finish();
+      }
+    }
+  }
+  describe(static_cast<double>(k_) / sequence_[position_].steps);
+  if (desired_.unreachable) ++unreachable_periods_;
+}
+
+void Brain::enter(std::size_t position) noexcept {
+  position_ = position;
+  k_ = 0;
+  desired_.phase = sequence_[position].phase;
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    desired_.joint[i].enabled = sequence_[position].enabled[i];
+}
+
+// A phase that took its time has reached s = 1, also where no period showed it.
+void Brain::leave(bool early) noexcept {
+  if (!early) describe(1.0);
+}
+
+void Brain::finish() noexcept {
+  desired_.stage = Stage::finished;
+  desired_.vent = plan_.finish == Plan::Finish::vent;
+  desired_.phase = -1;
+  if (!desired_.vent) return;
+  for (DesiredJoint& joint : desired_.joint) {
+    joint.enabled = false;
+    joint.open_loop = false;
+  }
+}
+
+bool Brain::ended(const Measured& measured) const noexcept {
+  const Slot& slot = sequence_[position_];
+  if (slot.measure.kind == Measure::Kind::none) return false;
+  const Until& until = plan_.phases[static_cast<std::size_t>(slot.phase)].until;
+  const double now = value(slot.measure, measured);
+  return until.is == Until::Is::above ? now > until.level : now < until.level;
+}
+
+double Brain::value(const Measure& measure, const Measured& measured) const noexcept {
+  const auto i = static_cast<std::size_t>(std::max(measure.index, 0));
+  switch (measure.kind) {
+    case Measure::Kind::normal_force:
+      return ground_reaction(measured).y;
+    case Measure::Kind::friction_force:
+      return ground_reaction(measured).x;
+    case Measure::Kind::angle:
+      return measured.angle[i];
+    case Measure::Kind::stiffness:
+      return measured.stiffness[i];
+    case Measure::Kind::tension:
+      return measured.tension[i];
+    case Measure::Kind::none:
+    case Measure::Kind::unknown:
+      break;
+  }
+  return std::nan("");  // beyond no level
+}
+
+// Everything that is desired at progress s of the present phase.
+void Brain::describe(double s) noexcept {
+  const Phase& phase = plan_.phases[static_cast<std::size_t>(desired_.phase)];
+  desired_.progress = s;
+  desired_.has_foot = phase.has_path() && two_links_;
+  desired_.unreachable = false;
+  if (desired_.has_foot) follow_path(phase, s);
+  for (std::size_t i = 0; i < joints_.size(); ++i) set_joint(phase.joints[i], desired_.joint[i], s);
+}
+
+void Brain::follow_path(const Phase& phase, double s) noexcept {
+  desired_.foot = foot_at(phase, s);
+  const robot::Inverse inverse = robot::inverse(links_, desired_.foot);
+  desired_.unreachable = !inverse.reached();
+  if (inverse.status == robot::Inverse::Status::not_a_number) return;
+  for (std::size_t i = 0; i < inverse.angle.size(); ++i) desired_.joint[i].angle = inverse.angle[i];
+}
+
+void Brain::set_joint(const JointPhase& phase, DesiredJoint& joint, double s) const noexcept {
+  if (!phase.angle.empty()) joint.angle = robot::normalised(value_at(phase.angle, s, 0));
+  joint.stiffness = value_at(phase.stiffness, s, joint.stiffness);
+  joint.gains.angle = value_at(phase.gains.angle, s, joint.gains.angle);
+  joint.gains.stiffness = value_at(phase.gains.stiffness, s, joint.gains.stiffness);
+  joint.gains.velocity = value_at(phase.gains.velocity, s, joint.gains.velocity);
+
+  joint.open_loop = phase.feedforward.given();
+  joint.flexor_inlet = value_at(phase.feedforward.flexor_inlet, s, 0);
+  joint.flexor_exhaust = value_at(phase.feedforward.flexor_exhaust, s, 0);
+  joint.extensor_inlet = value_at(phase.feedforward.extensor_inlet, s, 0);
+  joint.extensor_exhaust = value_at(phase.feedforward.extensor_exhaust, s, 0);
+}
+
+robot::Point Brain::ground_reaction(const Measured& measured) const noexcept {
+  if (!two_links_) return {};
+  std::array<double, 2> torque{};
+  for (std::size_t i = 0; i < torque.size(); ++i)
+    torque[i] = robot::torque(joints_[i], measured.tension[pairs_[i].flexor],
+                              measured.tension[pairs_[i].extensor]);
+  return robot::ground_reaction(links_, measured.angle[0], measured.angle[1], torque).force;
+}
+
+}  // namespace sinew::gait

@@ -1,0 +1,169 @@
+// control/gait/check.cpp - what is wrong with a plan, before anything moves.
+#include <cmath>
+#include <cstdio>
+
+#include "sinew/control/gait/path.h"
+#include "sinew/control/gait/plan.h"
+
+namespace sinew::gait {
+namespace {
+
+using List = std::vector<robot::Contradiction>;
+
+std::string quoted(const std::string& text) { return "\"" + text + "\""; }
+
+std::string joint_names(const Plan& plan) {
+  std::string all;
+  for (const JointPlan& joint : plan.joints) all += (all.empty() ? "" : ", ") + joint.name;
+  return all;
+}
+
+void check_sequence(const Plan& plan, List& out) {
+  if (plan.sequence.empty())
+    out.push_back(
+        {"sequence.phases", "an empty list", "the names of phases", "phases = [\"swing\"]"});
+  for (const std::string& name : plan.sequence)
+    if (find_phase(plan, name) < 0)
+      out.push_back(
+          {"sequence.phases", quoted(name), "the name of a phase", "a table [phase." + name + "]"});
+}
+
+void check_path(const robot::Robot& robot, const Phase& phase, List& out) {
+  const std::string key = "phase." + phase.name;
+  if (!phase.has_path()) return;
+
+  if (robot.links.size() != 2)
+    out.push_back({key, "a foot path for " + std::to_string(robot.links.size()) + " links",
+                   "a leg with two links", "joint_angles"});
+  if (phase.points.x.size() != phase.points.y.size())
+    out.push_back({key + ".points",
+                   std::to_string(phase.points.x.size()) + " x and " +
+                       std::to_string(phase.points.y.size()) + " y",
+                   "as many of each", "one x and one y per corner"});
+  if (phase.points.given() && (phase.x.given() || phase.y.given()))
+    out.push_back({key, "points and x or y", "one of them", "leave out x and y"});
+  if (!phase.points.given() && phase.x.given() != phase.y.given())
+    out.push_back({key, phase.x.given() ? "x without y" : "y without x", "both coordinates",
+                   "{ from = …, to = … } or { polynomial = […] }"});
+  for (const auto& [name, c] : {std::pair{".x", &phase.x}, std::pair{".y", &phase.y}})
+    if (!c->polynomial.empty() && (c->from != 0 || c->to != 0))
+      out.push_back({key + name, "a polynomial and from or to", "one of them", "leave one out"});
+}
+
+// A joint follows its laws or the given duties, not both; inlet and exhaust not together.
+void check_joints(const Plan& plan, const Phase& phase, List& out) {
+  for (std::size_t i = 0; i < phase.joints.size() && i < plan.joints.size(); ++i) {
+    const JointPhase& joint = phase.joints[i];
+    const std::string key = "phase." + phase.name + ".feedforward." + plan.joints[i].name;
+    if (joint.feedforward.given() && !joint.angle.empty())
+      out.push_back({key, "duties and joint_angles", "one of them", "leave one out"});
+  }
+  for (const std::string& name : phase.disabled) {
+    bool known = false;
+    for (const JointPlan& joint : plan.joints) known = known || joint.name == name;
+    if (!known)
+      out.push_back({"phase." + phase.name + ".disabled", quoted(name), "a joint",
+                     "one of " + joint_names(plan)});
+  }
+}
+
+void check_until(const robot::Robot& robot, const Phase& phase, List& out) {
+  const Measure measure = find_measure(robot, phase.until.measure);
+  const std::string key = "phase." + phase.name + ".until.measure";
+  if (measure.kind == Measure::Kind::unknown)
+    out.push_back({key, quoted(phase.until.measure), "a measured quantity",
+                   "foot.normal_force, joint.<name>.angle or muscle.<name>.tension"});
+  const bool foot =
+      measure.kind == Measure::Kind::normal_force || measure.kind == Measure::Kind::friction_force;
+  if (foot && robot.links.size() != 2)
+    out.push_back(
+        {key, quoted(phase.until.measure), "a leg with two links [75]", "an angle or a tension"});
+}
+
+void check_times(const Plan& plan, List& out) {
+  for (const Phase& phase : plan.phases)
+    if (!(phase.duration > 0))
+      out.push_back({"phase." + phase.name + ".duration", "no time", "more than 0 s",
+                     "at least one brain_period"});
+  if (!(plan.brain_period > 0))
+    out.push_back({"control.brain_period", "no time", "more than 0 s", "10 ms"});
+}
+
+std::string point(robot::Point p) {
+  char text[64];
+  std::snprintf(text, sizeof text, "(%.1f, %.1f) mm", 1e3 * p.x, 1e3 * p.y);
+  return text;
+}
+
+// One stretch of s in which the foot path is out of reach, and its worst point.
+struct Stretch {
+  double from = 0, to = 0;
+  double worst_s = 0, worst = 0;  // [m] beyond the reach
+  robot::Point target;
+  robot::Inverse inverse;
+
+  robot::Contradiction contradiction(const std::string& phase) const {
+    char found[160], expected[80];
+    std::snprintf(
+        found, sizeof found,
+        "a path out of reach for s = %.3f to %.3f; at s = %.3f %s is %.1f mm from the hip", from,
+        to, worst_s, point(target).c_str(), 1e3 * inverse.distance);
+    std::snprintf(expected, sizeof expected, "%.1f to %.1f mm", 1e3 * inverse.shortest,
+                  1e3 * inverse.longest);
+    return {"phase." + phase, found, expected, "the nearest point " + point(inverse.nearest)};
+  }
+};
+
+void check_reach(const robot::TwoLinks& leg, const Plan& plan, const Phase& phase, List& out) {
+  const int steps = steps_of_s(plan, phase);
+  Stretch stretch;
+  bool inside = true;
+
+  for (int k = 0; k <= steps; ++k) {
+    const double s = static_cast<double>(k) / steps;
+    const robot::Point target = foot_at(phase, s);
+    const robot::Inverse inverse = robot::inverse(leg, target);
+
+    if (inverse.reached()) {
+      if (!inside) out.push_back(stretch.contradiction(phase.name));
+      inside = true;
+      continue;
+    }
+    if (inside) stretch = Stretch{s, s, s, -1, {}, {}};
+    inside = false;
+    stretch.to = s;
+    const double beyond = std::hypot(target.x - inverse.nearest.x, target.y - inverse.nearest.y);
+    if (!(beyond <= stretch.worst)) {
+      stretch.worst_s = s;
+      stretch.worst = beyond;
+      stretch.target = target;
+      stretch.inverse = inverse;
+    }
+  }
+  if (!inside) out.push_back(stretch.contradiction(phase.name));
+}
+
+}  // namespace
+
+List contradictions(const robot::Robot& robot, const Plan& plan) {
+  List out;
+  check_times(plan, out);
+  check_sequence(plan, out);
+  for (const Phase& phase : plan.phases) {
+    check_path(robot, phase, out);
+    check_joints(plan, phase, out);
+    check_until(robot, phase, out);
+  }
+  return out;
+}
+
+List unreachable(const robot::Robot& robot, const Plan& plan) {
+  List out;
+  if (robot.links.size() != 2 || !(plan.brain_period > 0)) return out;
+  const robot::TwoLinks leg{robot.links[0].length, robot.links[1].length};
+  for (const Phase& phase : plan.phases)
+    if (phase.has_path()) check_reach(leg, plan, phase, out);
+  return out;
+}
+
+}  // namespace sinew::gait

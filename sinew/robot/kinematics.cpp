@@ -1,0 +1,145 @@
+#include "sinew/robot/kinematics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sinew::robot {
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+
+// A target on the edge of the reach stays reachable whatever its last bits say [-].
+constexpr double edge = 1e-12;
+
+// +1 where the muscle flexes its joint, -1 where it extends it.
+double pull(Muscle::Role role) { return role == Muscle::Role::flexor ? 1.0 : -1.0; }
+
+// The target moved along its own ray to distance d; straight down where it has no direction.
+Point on_ray(Point target, double distance, double d) {
+  if (distance == 0) return {0, -d};
+  return {target.x / distance * d, target.y / distance * d};
+}
+
+// Angles for a target that is in reach.
+std::array<double, 2> solve(const TwoLinks& leg, Point p, Knee knee) {
+  const double d = std::hypot(p.x, p.y);
+  const double straight = (leg.l1 + leg.l2 - d) * (leg.l1 + leg.l2 + d);
+  const double folded = (d - leg.l1 + leg.l2) * (d + leg.l1 - leg.l2);
+  const double half =
+      std::atan2(std::sqrt(std::max(straight, 0.0)), std::sqrt(std::max(folded, 0.0)));
+
+  const double theta2 = knee == Knee::below_pi ? 2.0 * half : -2.0 * half;
+  const double theta1 = std::atan2(p.y, p.x) -
+                        std::atan2(leg.l2 * std::sin(theta2), leg.l1 + leg.l2 * std::cos(theta2));
+  return {normalised(theta1), normalised(theta2)};
+}
+
+}  // namespace
+
+double normalised(double angle) {
+  const double rest = std::fmod(angle, turn);
+  const double positive = rest < 0 ? rest + turn : rest;
+  return positive >= turn ? 0.0 : positive;  // -1e-17 + 2 pi is 2 pi; NaN stays NaN
+}
+
+Pose forward(std::span<const double> lengths, std::span<const double> angles) {
+  Pose pose;
+  const std::size_t n =
+      std::min({lengths.size(), angles.size(), static_cast<std::size_t>(max_joints)});
+  pose.links = static_cast<int>(n);
+
+  double heading = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    heading += angles[i];
+    pose.joint[i + 1] = {pose.joint[i].x + lengths[i] * std::cos(heading),
+                         pose.joint[i].y + lengths[i] * std::sin(heading)};
+  }
+  return pose;
+}
+
+Pose forward(const Robot& robot, std::span<const double> angles) {
+  std::array<double, max_joints> lengths{};
+  const std::size_t n = std::min(robot.links.size(), lengths.size());
+  for (std::size_t i = 0; i < n; ++i) lengths[i] = robot.links[i].length;
+  return forward(std::span(lengths).first(n), angles);
+}
+
+Point foot_position(const TwoLinks& leg, double theta1, double theta2) {
+  return {leg.l1 * std::cos(theta1) + leg.l2 * std::cos(theta1 + theta2),   // [61]
+          leg.l1 * std::sin(theta1) + leg.l2 * std::sin(theta1 + theta2)};  // [62]
+}
+
+Inverse inverse(const TwoLinks& leg, Point target, Knee knee) {
+  Inverse out;
+  out.longest = leg.l1 + leg.l2;
+  out.shortest = std::abs(leg.l1 - leg.l2);
+  out.distance = std::hypot(target.x, target.y);
+  if (!std::isfinite(target.x) || !std::isfinite(target.y)) {
+    out.status = Inverse::Status::not_a_number;
+    return out;
+  }
+
+  out.nearest = target;
+  const double slack = edge * out.longest;
+  if (out.distance > out.longest + slack) out.status = Inverse::Status::too_far;
+  if (out.distance < out.shortest - slack) out.status = Inverse::Status::too_near;
+  if (!out.reached())
+    out.nearest = on_ray(target, out.distance,
+                         out.status == Inverse::Status::too_far ? out.longest : out.shortest);
+  out.angle = solve(leg, out.nearest, knee);
+  return out;
+}
+
+std::array<double, 2> inverse_as_printed(const TwoLinks& leg, Point p) {
+  const double l1 = leg.l1, l2 = leg.l2;
+  const double square = p.x * p.x + p.y * p.y;
+  const double theta2 = -std::acos((square - l1 * l1 - l2 * l2) / (2.0 * l1 * l2));  // [63]
+
+  const double along = l1 + l2 * std::cos(theta2);
+  const double reach = std::sqrt(l1 * l1 + l2 * l2 + 2.0 * l1 * l2 * std::cos(theta2));
+  const double tilt = std::acos(p.y / reach);
+  const double side = p.x < 0 ? 1.0 : -1.0;
+  const double theta1 = std::atan2(along, l2 * std::sin(theta2)) + side * tilt;  // [64]
+  return {normalised(theta1), normalised(theta2)};
+}
+
+Jacobian jacobian(const TwoLinks& leg, double theta1, double theta2) {
+  const double x2 = -leg.l2 * std::sin(theta1 + theta2);
+  const double y2 = leg.l2 * std::cos(theta1 + theta2);
+  return {-leg.l1 * std::sin(theta1) + x2, x2,  //
+          leg.l1 * std::cos(theta1) + y2, y2};
+}
+
+GroundReaction ground_reaction(const TwoLinks& leg, double theta1, double theta2,
+                               std::array<double, 2> torque) {
+  // Also true of NaN.
+  if (!(std::abs(std::sin(theta2)) >= singular_sine)) return {.force = {}, .singular = true};
+
+  // (J^T)^-1 = 1/det [ y2 -y1; -x2 x1 ]
+  const Jacobian j = jacobian(leg, theta1, theta2);
+  const double det = j.determinant();
+  const Point by_foot = {(j.y2 * torque[0] - j.y1 * torque[1]) / det,
+                         (j.x1 * torque[1] - j.x2 * torque[0]) / det};
+  return {.force = {-by_foot.x, -by_foot.y}, .singular = false};
+}
+
+double torque(const Joint& joint, double flexor_tension, double extensor_tension) {
+  return joint.sign() * joint.moment_arm * (flexor_tension - extensor_tension);
+}
+
+double muscle_length(const Joint& joint, Muscle::Role role, double mount_length, double angle) {
+  return mount_length - pull(role) * joint.sign() * joint.moment_arm * (angle - joint.rest_angle);
+}
+
+double believed_muscle_length(const Robot& robot, int muscle, double angle) {
+  const Muscle& m = robot.muscles[static_cast<std::size_t>(muscle)];
+  const Joint& joint = robot.joints[static_cast<std::size_t>(find_joint(robot, m.joint))];
+
+  const double assumed = robot.low_level.assumed_mount_length;
+  const double mount = assumed > 0 ? assumed : m.mount_length;
+  const double sign = robot.thesis.knee_lengths_swapped ? 1.0 : joint.sign();
+  return mount - pull(m.role) * sign * joint.moment_arm * (angle - joint.rest_angle);
+}
+
+}  // namespace sinew::robot

@@ -1,0 +1,54 @@
+#include "sinew/robot/robot.h"
+
+#include <algorithm>
+
+namespace sinew::robot {
+namespace {
+
+template <class List, class Test>
+int position(const List& list, Test test) {
+  const auto found = std::find_if(list.begin(), list.end(), test);
+  return found == list.end() ? -1 : static_cast<int>(found - list.begin());
+}
+
+template <class List>
+int find(const List& list, std::string_view name) {
+  return position(list, [&](const auto& item) { return item.name == name; });
+}
+
+int sensor_of(const Robot& robot, Sensor::Kind kind, std::string_view of) {
+  return position(robot.sensors, [&](const Sensor& s) { return s.kind == kind && s.of == of; });
+}
+
+}  // namespace
+
+int find_joint(const Robot& robot, std::string_view name) { return find(robot.joints, name); }
+int find_muscle(const Robot& robot, std::string_view name) { return find(robot.muscles, name); }
+int find_sensor(const Robot& robot, std::string_view name) { return find(robot.sensors, name); }
+
+int muscle_of(const Robot& robot, int joint, Muscle::Role role) {
+  const std::string& name = robot.joints[static_cast<std::size_t>(joint)].name;
+  return position(robot.muscles,
+                  [&](const Muscle& m) { return m.joint == name && m.role == role; });
+}
+
+int angle_sensor_of(const Robot& robot, int joint) {
+  return sensor_of(robot, Sensor::Kind::angle, robot.joints[static_cast<std::size_t>(joint)].name);
+}
+
+int tension_sensor_of(const Robot& robot, int muscle) {
+  return sensor_of(robot, Sensor::Kind::tension,
+                   robot.muscles[static_cast<std::size_t>(muscle)].name);
+}
+
+double leg_mass(const Robot& robot) {
+  double mass = robot.foot.present ? robot.foot.mass : 0.0;
+  for (const Link& link : robot.links) mass += link.mass;
+  return mass;
+}
+
+double trolley_own_mass(const Robot& robot) {
+  return robot.trolley.present ? robot.trolley.total_mass - leg_mass(robot) : 0.0;
+}
+
+}  // namespace sinew::robot
