@@ -51,3 +51,11 @@ function(sinew_uses path scope)
     target_link_libraries(${target}_test PRIVATE ${ARGN})
   endif()
 endfunction()
+
+# What only the tests of a folder need.
+function(sinew_test_uses path)
+  sinew_target(${path} target)
+  if(TARGET ${target}_test)
+    target_link_libraries(${target}_test PRIVATE ${ARGN})
+  endif()
+endfunction()
