@@ -4,7 +4,8 @@
 //
 //   template <class Visitor>
 //   void fields(Visitor& v, Braid& braid) {
-//     v.number({.name = "turns", .unit = "1", .min = 0.01, .doc = "turns of one thread [18]"}, braid.turns);
+//     v.number({.name = "turns", .unit = "1", .min = 0.01, .doc = "turns of one thread [18]"},
+//     braid.turns);
 //   }
 //
 // The same function reads the struct from a file, prints it, documents it and names the channels'
@@ -21,6 +22,8 @@
 //   v.choice(Field, Enum&, {{"stop", Enum::stop}, ...})
 //   v.group(Field, [&](auto& v) {...})        a table with fixed keys
 //   v.each(Field, std::vector<T>&, [&](auto& v, T&) {...})   a table of named tables; T has `name`
+//   v.list(Field, std::vector<T>&, [&](auto& v, T&) {...})   an array of tables, in their order
+//   v.named_numbers(Field, std::map<std::string, double>&)   { hip = "300 deg", knee = "292 deg" }
 #pragma once
 
 #include <limits>
@@ -31,12 +34,20 @@ namespace sinew::units {
 inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 struct Field {
-  std::string_view name;       // key in the file
-  std::string_view unit = "";  // SI; "Pa abs", "Pa gauge", "Pa diff" for pressures; "1" for a bare number
-  double min = -unbounded;     // inclusive, in `unit`
+  std::string_view name;  // key in the file
+  std::string_view unit =
+      "";  // SI; "Pa abs", "Pa gauge", "Pa diff" for pressures; "1" for a bare number
+  double min = -unbounded;  // inclusive, in `unit`
   double max = unbounded;
   bool optional = false;  // absent: the struct's default stays
   std::string_view doc;   // one line
+};
+
+// One allowed word of a choice and what it stands for.
+template <class Enum>
+struct Choice {
+  std::string_view word;
+  Enum value;
 };
 
 }  // namespace sinew::units

@@ -1,0 +1,321 @@
+#include "sinew/config/compose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+
+namespace sinew::config {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int newest_format = 1;
+const char* const set_origin = "--set";
+
+std::vector<std::string_view> kinds() {
+  return {"robot", "actuator", "valves", "experiment", "rig", "plan"};
+}
+
+// --- format = "sinew.robot/1" ---
+
+struct Format {
+  std::string_view kind;
+  int version = 0;
+};
+
+Format split_format(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  if (text.substr(0, 6) != "sinew." || slash == text.npos) return {};
+  Format format{text.substr(6, slash - 6), 0};
+  const std::string_view number = text.substr(slash + 1);
+  const auto [end, error] =
+      std::from_chars(number.data(), number.data() + number.size(), format.version);
+  if (error != std::errc{} || end != number.data() + number.size()) format.version = 0;
+  return format;
+}
+
+std::string likely_format(std::string_view kind) {
+  const std::string_view near = closest(kind, kinds());
+  return fmt::format("format = \"sinew.{}/{}\"", near.empty() ? "experiment" : near, newest_format);
+}
+
+void check_format(const Node& root) {
+  const Node* node = root.find("format");
+  const std::string expected =
+      fmt::format("\"sinew.<kind>/{}\", kind being {}", newest_format, either(kinds()));
+  if (!node)
+    fail(root.where, "format", "nothing", expected, likely_format("") + " as the first line");
+  node->used = true;
+  const Format format = split_format(node->text);
+  const auto all = kinds();
+  const bool known = std::ranges::count(all, format.kind) == 1;
+  if (node->kind != Node::Kind::text || !known || format.version < 1) {
+    fail(node->where, "format", shown(*node), expected, likely_format(format.kind));
+  }
+  if (format.version > newest_format) {
+    fail(node->where, "format", shown(*node),
+         fmt::format("\"sinew.{}/{}\" or older", format.kind, newest_format),
+         "a newer Sinew: the file was written for one");
+  }
+}
+
+// --- names of other files ---
+
+// A file named in `entry` is relative to the file in which the entry stands.
+std::string resolved_path(const Node& entry) {
+  const fs::path named = entry.text;
+  if (named.is_absolute()) return named.lexically_normal().string();
+  const fs::path file = entry.where.line > 0 ? fs::path(entry.where.file) : fs::path();
+  return (file.parent_path() / named).lexically_normal().string();
+}
+
+void check_file_entry(const Node& entry, const std::string& key) {
+  if (entry.kind != Node::Kind::text) {
+    fail(entry.where, key, shown(entry), "the name of a file, relative to this one");
+  }
+  std::error_code ignored;
+  const std::string path = resolved_path(entry);
+  if (!fs::is_regular_file(path, ignored)) {
+    fail(entry.where, key, in_quotes(entry.text), "a file that exists",
+         "the path: looked for " + path);
+  }
+}
+
+void check_kind(const Node& root, const Node& entry, const std::string& key,
+                std::string_view kind) {
+  if (format_kind(root) == kind) return;
+  fail(entry.where, key,
+       fmt::format("{}, a file of kind {}", in_quotes(entry.text), format_kind(root)),
+       fmt::format("a file of kind {}", kind));
+}
+
+// --- base ---
+
+// One file with its base merged under it.
+Node load(const std::string& path) {
+  Node own = parse_file(path);
+  check_format(own);
+  const Node* base_entry = own.find("base");
+  if (!base_entry) return own;
+
+  check_file_entry(*base_entry, "base");
+  Node base = parse_file(resolved_path(*base_entry));
+  check_format(base);
+  check_kind(base, *base_entry, "base", format_kind(own));
+  if (const Node* second = base.find("base")) {
+    fail(second->where, "base", shown(*second),
+         "a base without a base of its own: one level is allowed",
+         "naming that file as the base in " + path);
+  }
+  base.where = own.where;
+  merge(base, own);
+  base.erase("base");
+  base.find("format")->used = true;
+  return base;
+}
+
+Node load_named(const Node& entry, const std::string& key, std::string_view kind) {
+  check_file_entry(entry, key);
+  Node root = load(resolved_path(entry));
+  check_kind(root, entry, key, kind);
+  return root;
+}
+
+// --- the parts of a robot ---
+
+// The table `key` of the root, made where it is missing.
+Node& root_table(Node& root, std::string_view key, const Location& where) {
+  if (Node* there = root.find(key)) {
+    if (!there->is_table()) fail(there->where, std::string(key), shown(*there), "a table");
+    return *there;
+  }
+  return root.put(make_table(key, where));
+}
+
+// An actuator file becomes actuator.<name>.
+void put_actuator(Node& root, Node actuator) {
+  const Node* name = actuator.find("name");
+  actuator.key = name ? name->text : fs::path(actuator.where.file).stem().string();
+  Node& all = root_table(root, "actuator", actuator.where);
+  if (const Node* twice = all.find(actuator.key)) {
+    fail((name ? *name : actuator).where, "name", in_quotes(actuator.key),
+         fmt::format("a name that {} does not use", twice->where.file));
+  }
+  actuator.erase("format");
+  actuator.erase("name");
+  all.put(std::move(actuator));
+}
+
+void put_valves(Node& root, Node valves) {
+  valves.erase("format");
+  valves.erase("name");
+  merge(root, valves);
+}
+
+void add_actuators(Node& root, const Node& entry) {
+  const bool many = entry.kind == Node::Kind::array;
+  if (!many) return put_actuator(root, load_named(entry, "files.actuator", "actuator"));
+  for (const Node& one : entry.children) {
+    put_actuator(root, load_named(one, "files.actuator", "actuator"));
+  }
+}
+
+void add_valve_timing(Node& root, const Node& entry) {
+  check_file_entry(entry, "files.valve_timing");
+  Node& low_level = root_table(root, "low_level", entry.where);
+  const std::string path = fs::absolute(resolved_path(entry)).lexically_normal().string();
+  low_level.put(make_text("valve_timing", path, entry.where));
+}
+
+// Takes `files` out of the tree and puts in what it names.
+void resolve_files(Node& root) {
+  const Node* there = root.find("files");
+  if (!there) return;
+  const Node files = *there;
+  if (!files.is_table()) fail(files.where, "files", shown(files), "a table of file names");
+  root.erase("files");
+  for (const Node& entry : files.children) {
+    if (entry.key == "actuator") {
+      add_actuators(root, entry);
+    } else if (entry.key == "valves") {
+      put_valves(root, load_named(entry, "files.valves", "valves"));
+    } else if (entry.key == "valve_timing") {
+      add_valve_timing(root, entry);
+    } else {
+      const std::vector<std::string_view> known = {"actuator", "valves", "valve_timing"};
+      fail(entry.where, "files." + entry.key, "an unknown key", either(known),
+           std::string(closest(entry.key, known)));
+    }
+  }
+}
+
+// A robot calls itself `name`; beside an experiment that is robot_name.
+void rename_robot(Node& robot) {
+  if (Node* name = robot.find("name")) name->key = "robot_name";
+}
+
+Node with_robot(Node root) {
+  const Node* entry = root.find("robot");
+  if (!entry) return root;
+  Node robot = load_named(*entry, "robot", "robot");
+  resolve_files(robot);
+  rename_robot(robot);
+  robot.erase("format");
+  root.erase("robot");
+  robot.where = root.where;
+  merge(robot, root);
+  return robot;
+}
+
+// A file alone takes the place that it has in an experiment.
+Node placed(Node root) {
+  const std::string_view kind = format_kind(root);
+  if (kind == "robot") rename_robot(root);
+  if (kind != "actuator") return root;
+  Node alone = make_table("", root.where);
+  alone.put(*root.find("format"));
+  put_actuator(alone, std::move(root));
+  return alone;
+}
+
+// --- --set ---
+
+Location set_location() { return {set_origin, 0, 0}; }
+
+Node set_value(std::string_view key, std::string_view text) {
+  if (text == "true" || text == "false") return make_flag(key, text == "true", set_location());
+  const char* last = text.data() + text.size();
+  const bool number_like = text.find_first_of("0123456789") < 2;  // not nan, not inf
+  std::int64_t whole = 0;
+  if (std::from_chars(text.data(), last, whole).ptr == last && number_like) {
+    return make_integer(key, whole, set_location());
+  }
+  double real = 0;
+  if (std::from_chars(text.data(), last, real).ptr == last && number_like) {
+    return make_number(key, real, set_location());
+  }
+  return make_text(key, std::string(text), set_location());
+}
+
+// Everything that came with --set says so.
+void mark_as_set(Node& node) {
+  node.where = set_location();
+  for (Node& child : node.children) mark_as_set(child);
+}
+
+Node set_node(std::string_view key, std::string_view text) {
+  const bool toml = !text.empty() && (text[0] == '[' || text[0] == '{' || text[0] == '"');
+  if (!toml) return set_value(key, text);
+  Node value = parse_text(fmt::format("value = {}", text), set_origin).children.front();
+  value.key = key;
+  mark_as_set(value);
+  return value;
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
+// The table for the next segment. It may be new, unless its name looks like a slip.
+Node& set_step(Node& table, std::string_view segment, const std::string& key) {
+  if (Node* there = table.find(segment)) {
+    if (there->is_table()) return *there;
+    fail(set_location(), key, fmt::format("{} is {}", segment, shown(*there)),
+         "a table to set a key in", "");
+  }
+  const std::string_view near = closest(segment, keys_of(table));
+  if (!near.empty()) {
+    fail(set_location(), key, fmt::format("no table {}", in_quotes(segment)), "a table that exists",
+         in_quotes(near));
+  }
+  return table.put(make_table(segment, set_location()));
+}
+
+}  // namespace
+
+std::string_view format_kind(const Node& root) {
+  const Node* node = root.find("format");
+  return node ? split_format(node->text).kind : std::string_view{};
+}
+
+void apply_set(Node& root, std::string_view set) {
+  const std::size_t equals = set.find('=');
+  const std::string key(trimmed(set.substr(0, equals)));
+  const bool empty_segment =
+      key.empty() || key.front() == '.' || key.back() == '.' || key.find("..") != key.npos;
+  if (equals == set.npos || empty_segment) {
+    fail(set_location(), "", in_quotes(set), "key=value",
+         "\"muscle.hip_flexor.mount_length=3.2 in\"");
+  }
+  Node* table = &root;
+  std::string_view rest = key;
+  for (std::size_t dot; (dot = rest.find('.')) != rest.npos; rest.remove_prefix(dot + 1)) {
+    table = &set_step(*table, rest.substr(0, dot), key);
+  }
+  table->put(set_node(rest, trimmed(set.substr(equals + 1))));
+}
+
+Node compose(const std::string& path, const std::vector<std::string>& sets) {
+  Node root = load(path);
+  // Another robot must be known before its tables can be set.
+  const auto names_robot = [](std::string_view set) {
+    return trimmed(set.substr(0, set.find('='))) == "robot";
+  };
+  for (const std::string& set : sets) {
+    if (names_robot(set)) apply_set(root, set);
+  }
+  root = with_robot(std::move(root));
+  resolve_files(root);
+  root = placed(std::move(root));
+  for (const std::string& set : sets) {
+    if (!names_robot(set)) apply_set(root, set);
+  }
+  return root;
+}
+
+}  // namespace sinew::config

@@ -1,0 +1,32 @@
+// config/compose.h - several files become the one resolved namespace.
+//
+//   experiment ── base = "other.toml"      merged under the file, one level deep
+//              ── robot = "robot.toml"     its tables appear beside the experiment's own
+//                   ── files.actuator      actuator.<name>
+//                   ── files.valves        valve.<name>
+//                   ── files.valve_timing  low_level.valve_timing, an absolute path
+//              ── --set key=value          last word
+//
+// The result holds what `--set` and messages call a key: joint.hip.damping, valve.inlet.area,
+// phase.swing.duration. A name in a file is relative to the file in which it is written. Robot,
+// actuator and valves files compose alone too, and so does a resolved.toml.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/config/node.h"
+
+namespace sinew::config {
+
+// Throws Error. Every node keeps the file in which it was written.
+Node compose(const std::string& path, const std::vector<std::string>& sets = {});
+
+// "experiment" of format = "sinew.experiment/1"; empty where there is no such key.
+std::string_view format_kind(const Node& root);
+
+// Puts "key=value" into the tree: true, false, numbers, TOML lists and tables, else text.
+void apply_set(Node& root, std::string_view set);
+
+}  // namespace sinew::config

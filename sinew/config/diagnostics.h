@@ -1,0 +1,58 @@
+// config/diagnostics.h - what is wrong with a file, all of it at once.
+//
+// A problem reads `file:line:col: key: found …; expected …; try …`, one line each.
+#pragma once
+
+#include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sinew::config {
+
+// Where something stands. line = 0: the place has no lines (a file that is missing, "--set").
+struct Location {
+  std::string file;
+  int line = 0;
+  int column = 0;
+};
+
+struct Problem {
+  Location where;
+  std::string key;  // dotted path in the resolved namespace; empty where there is none
+  std::string found;
+  std::string expected;
+  std::string try_this;  // empty: nothing to suggest
+};
+
+std::string to_text(const Problem& problem);
+std::string to_text(const std::vector<Problem>& problems);  // one line each
+
+// All problems of one file. what() is their text.
+class Error : public std::exception {
+ public:
+  explicit Error(std::vector<Problem> problems);
+  explicit Error(const Problem& problem);
+
+  const std::vector<Problem>& problems() const { return problems_; }
+  const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  std::vector<Problem> problems_;
+  std::string text_;
+};
+
+// Throws Error with one problem.
+[[noreturn]] void fail(Location where, std::string key, std::string found, std::string expected,
+                       std::string try_this = "");
+
+// The candidate most like `word`, empty where none is near enough to be a slip of the pen.
+std::string_view closest(std::string_view word, const std::vector<std::string_view>& candidates);
+
+// "hip, knee or ankle"
+std::string either(const std::vector<std::string_view>& words);
+
+// In double quotes; what is too long for a message is cut.
+std::string in_quotes(std::string_view text);
+
+}  // namespace sinew::config

@@ -1,0 +1,136 @@
+#include "sinew/config/node.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sinew/config/quantity.h"
+
+namespace sinew::config {
+
+namespace {
+
+Node make(Node::Kind kind, std::string_view key, Location where) {
+  Node node;
+  node.kind = kind;
+  node.key = key;
+  node.where = std::move(where);
+  return node;
+}
+
+}  // namespace
+
+const Node* Node::find(std::string_view child_key) const {
+  const auto it = std::find_if(children.begin(), children.end(),
+                               [&](const Node& child) { return child.key == child_key; });
+  return is_table() && it != children.end() ? &*it : nullptr;
+}
+
+Node* Node::find(std::string_view child_key) {
+  return const_cast<Node*>(std::as_const(*this).find(child_key));
+}
+
+Node& Node::put(Node child) {
+  if (Node* there = find(child.key)) return *there = std::move(child);
+  return children.emplace_back(std::move(child));
+}
+
+void Node::erase(std::string_view child_key) {
+  std::erase_if(children, [&](const Node& child) { return child.key == child_key; });
+}
+
+Node make_text(std::string_view key, std::string text, Location where) {
+  Node node = make(Node::Kind::text, key, std::move(where));
+  node.text = std::move(text);
+  return node;
+}
+
+Node make_table(std::string_view key, Location where) {
+  return make(Node::Kind::table, key, std::move(where));
+}
+
+Node make_number(std::string_view key, double value, Location where) {
+  Node node = make(Node::Kind::real, key, std::move(where));
+  node.real = value;
+  return node;
+}
+
+Node make_integer(std::string_view key, std::int64_t value, Location where) {
+  Node node = make(Node::Kind::integer, key, std::move(where));
+  node.integer = value;
+  return node;
+}
+
+Node make_flag(std::string_view key, bool value, Location where) {
+  Node node = make(Node::Kind::flag, key, std::move(where));
+  node.flag = value;
+  return node;
+}
+
+std::string shown(const Node& node) {
+  switch (node.kind) {
+    case Node::Kind::text:
+      return in_quotes(node.text);
+    case Node::Kind::table:
+      return "a table";
+    case Node::Kind::array:
+      return "a list";
+    default:
+      return written(node);
+  }
+}
+
+std::string written(const Node& node) {
+  switch (node.kind) {
+    case Node::Kind::text:
+      return node.text;
+    case Node::Kind::integer:
+      return std::to_string(node.integer);
+    case Node::Kind::real:
+      return format_number(node.real);
+    case Node::Kind::flag:
+      return node.flag ? "true" : "false";
+    default:
+      break;
+  }
+  std::string text;
+  for (const Node& child : node.children) text += (text.empty() ? "" : ", ") + written(child);
+  return text;
+}
+
+std::string_view kind_name(Node::Kind kind) {
+  switch (kind) {
+    case Node::Kind::table:
+      return "a table";
+    case Node::Kind::array:
+      return "a list";
+    case Node::Kind::text:
+      return "text";
+    case Node::Kind::integer:
+      return "a whole number";
+    case Node::Kind::real:
+      return "a number";
+    case Node::Kind::flag:
+      return "true or false";
+  }
+  return "";
+}
+
+void merge(Node& base, const Node& over) {
+  for (const Node& child : over.children) {
+    Node* there = base.find(child.key);
+    const bool both_tables = there && there->is_table() && child.is_table();
+    if (both_tables && !there->is_value_table() && !child.is_value_table()) {
+      merge(*there, child);
+    } else {
+      base.put(child);
+    }
+  }
+}
+
+std::vector<std::string_view> keys_of(const Node& table) {
+  std::vector<std::string_view> keys;
+  for (const Node& child : table.children) keys.push_back(child.key);
+  return keys;
+}
+
+}  // namespace sinew::config

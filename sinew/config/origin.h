@@ -1,0 +1,32 @@
+// config/origin.h - where a value came from: the provenance that `sinew show` prints.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/config/diagnostics.h"
+
+namespace sinew::config {
+
+struct Origin {
+  std::string path;    // muscle.hip_flexor.mount_length
+  std::string unit;    // the field's, SI; empty for text, flags and whole numbers
+  std::string text;    // as written; of a default: as it would be written
+  std::string source;  // "table 6-1"; empty where the file gives none
+  bool fit = false;
+  bool guess = false;
+  bool is_default = false;                        // the file does not say it
+  std::vector<std::string> range;                 // as written: lowest and highest, or empty
+  std::optional<std::array<double, 2>> range_si;  // the same, for `number` fields
+  std::string uncertainty;                        // as written
+  Location where;
+};
+
+using Origins = std::vector<Origin>;
+
+const Origin* find_origin(const Origins& origins, std::string_view path);
+
+}  // namespace sinew::config

@@ -1,0 +1,283 @@
+#include "sinew/config/quantity.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/units/unit.h"
+
+namespace sinew::config {
+
+namespace {
+
+using units::Dimension;
+
+// What a pressure is measured against.
+enum class Reference { none, absolute, gauge, difference };
+
+struct FullUnit {
+  std::string_view text;  // without the reference
+  units::UnitReading reading;
+  Reference reference = Reference::none;
+};
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+FullUnit split_unit(std::string_view text) {
+  text = trimmed(text);
+  FullUnit full{text, {}, Reference::none};
+  const std::size_t space = text.rfind(' ');
+  const std::string_view last = space == text.npos ? text : text.substr(space + 1);
+  if (last == "abs") full.reference = Reference::absolute;
+  if (last == "gauge") full.reference = Reference::gauge;
+  if (last == "diff") full.reference = Reference::difference;
+  if (full.reference != Reference::none) {
+    full.text = trimmed(space == text.npos ? std::string_view{} : text.substr(0, space));
+  }
+  // An empty text is a plain number.
+  full.reading = units::read_unit(full.text.empty() ? "1" : full.text);
+  return full;
+}
+
+// A field's own unit comes from our source code: a wrong one is a bug, not a user's mistake.
+FullUnit field_unit(std::string_view text) {
+  const FullUnit full = split_unit(text);
+  if (!full.reading.ok) throw std::logic_error(fmt::format("a field has the unit \"{}\"", text));
+  return full;
+}
+
+std::string base_units(Dimension d) {
+  const std::pair<int, std::string_view> bases[] = {
+      {d.mass, "kg"},   {d.length, "m"},    {d.time, "s"},   {d.temperature, "K"},
+      {d.angle, "rad"}, {d.count, "count"}, {d.voltage, "V"}};
+  std::string above, below;
+  for (auto [power, name] : bases) {
+    if (power == 0) continue;
+    std::string& side = power > 0 ? above : below;
+    if (!side.empty()) side += ' ';
+    side += name;
+    if (std::abs(power) > 1) side += std::to_string(std::abs(power));
+  }
+  const std::string_view top = above.empty() ? "1" : std::string_view(above);
+  if (below.empty()) return std::string(top);
+  return below.find(' ') == below.npos ? fmt::format("{}/{}", top, below)
+                                       : fmt::format("{}/({})", top, below);
+}
+
+const units::DimensionName* name_of(Dimension dimension) {
+  for (const auto& name : units::dimension_names) {
+    if (name.dimension == dimension) return &name;
+  }
+  return nullptr;
+}
+
+std::string describe_dimension(Dimension dimension) {
+  const auto* name = name_of(dimension);
+  if (!name) return base_units(dimension);
+  if (dimension == units::dimension::none) return "a plain number";
+  return fmt::format("{} ({})", name->unit, name->word);
+}
+
+std::string dimension_hint(Dimension found, Dimension expected, std::string_view unit) {
+  using namespace units::dimension;
+  const bool mass_for_force = combine(found, acceleration) == expected;
+  const bool force_for_mass = combine(found, acceleration, -1) == expected;
+  if (mass_for_force) return "lbf: lb is mass, lbf is force";
+  if (force_for_mass) return "lb: lbf is force, lb is mass";
+  if (combine(found, angle, -1) == expected || combine(found, angle) == expected) {
+    return fmt::format("\"{}\": rad counts as a dimension here", unit);
+  }
+  return fmt::format("a quantity such as \"1 {}\"", unit);
+}
+
+struct NumberAndRest {
+  double number = 0;
+  std::string_view rest;  // the unit's text
+  bool ok = false;
+};
+
+NumberAndRest split_number(std::string_view text) {
+  const char* first = text.data();
+  const char* last = first + text.size();
+  if (first != last && *first == '+') ++first;
+  NumberAndRest result;
+  const auto [end, error] = std::from_chars(first, last, result.number);
+  result.ok = error == std::errc{};
+  result.rest = result.ok ? trimmed({end, static_cast<std::size_t>(last - end)}) : text;
+  return result;
+}
+
+// "3,15 in": the comma stands where the number ended.
+std::string comma_hint(std::string_view text, std::string_view rest) {
+  const bool comma = rest.size() > 1 && rest[0] == ',' && rest[1] >= '0' && rest[1] <= '9';
+  if (!comma) return {};
+  std::string with_point(text);
+  with_point[text.size() - rest.size()] = '.';
+  return fmt::format("a decimal point: \"{}\"", with_point);
+}
+
+std::string unknown_unit_hint(std::string_view piece) {
+  std::vector<std::string_view> names{"gauge", "abs", "diff"};
+  for (const auto& unit : units::known_units) names.push_back(unit.name);
+  const std::string_view near = closest(piece, names);
+  if (!near.empty()) return fmt::format("\"{}\"", near);
+  if (piece == "inch" || piece == "inches" || piece == "\"") return "\"in\"";
+  if (piece == "lbs" || piece == "pound" || piece == "pounds") {
+    return "\"lb\" for mass, \"lbf\" for force";
+  }
+  return "spaces between units, digits for powers, at most one \"/\": \"lbf in/rad\", \"1/psi2\"";
+}
+
+std::optional<Mistake> check_unit(std::string_view text, const FullUnit& found,
+                                  const FullUnit& wanted, std::string_view unit) {
+  if (!found.reading.ok) {
+    const auto piece = found.reading.trouble;
+    return Mistake{fmt::format("{} with the unknown unit {}", in_quotes(text),
+                               in_quotes(piece.empty() ? found.text : piece)),
+                   describe_unit(unit), unknown_unit_hint(piece)};
+  }
+  const Dimension has = found.reading.unit.dimension;
+  const Dimension needs = wanted.reading.unit.dimension;
+  if (has == needs) return std::nullopt;
+  return Mistake{fmt::format("{}, {}", in_quotes(text), describe_dimension(has)),
+                 describe_unit(unit), dimension_hint(has, needs, unit)};
+}
+
+std::optional<Mistake> check_reference(std::string_view text, const FullUnit& found,
+                                       const FullUnit& wanted, std::string_view unit) {
+  const std::string bare = found.reference == Reference::none
+                               ? std::string(text)
+                               : std::string(text.substr(0, text.rfind(' ')));
+  if (wanted.reference == Reference::none) {
+    if (found.reference == Reference::none) return std::nullopt;
+    return Mistake{in_quotes(text), describe_unit(unit), in_quotes(bare)};
+  }
+  const bool want_difference = wanted.reference == Reference::difference;
+  const bool have_difference = found.reference == Reference::difference;
+  if (found.reference != Reference::none && want_difference == have_difference) return std::nullopt;
+  const bool silent = found.reference == Reference::none;
+  return Mistake{silent ? fmt::format("{}, a pressure without its reference", in_quotes(text))
+                        : in_quotes(text),
+                 describe_unit(unit),
+                 want_difference ? fmt::format("\"{} diff\"", bare)
+                                 : fmt::format("\"{} gauge\" or \"{} abs\"", bare, bare)};
+}
+
+double moved(double pressure, Reference from, Reference to, double atmosphere) {
+  if (from == Reference::gauge && to == Reference::absolute) {
+    return units::absolute(pressure, atmosphere);
+  }
+  if (from == Reference::absolute && to == Reference::gauge) {
+    return units::gauge(pressure, atmosphere);
+  }
+  return pressure;
+}
+
+}  // namespace
+
+Mistake missing_unit(std::string_view number, std::string_view unit) {
+  return {fmt::format("{} without a unit", number), describe_unit(unit),
+          fmt::format("\"{} {}\"", number, unit)};
+}
+
+Parsed parse_quantity(std::string_view text, std::string_view unit, double atmosphere) {
+  const FullUnit wanted = field_unit(unit);
+  const std::string_view body = trimmed(text);
+  const auto [number, rest, ok] = split_number(body);
+  if (!ok) {
+    const std::string example = unit == "1" ? "0.5" : fmt::format("1 {}", unit);
+    return {0, Mistake{in_quotes(text), describe_unit(unit),
+                       fmt::format("a number first, as in \"{}\"", example)}};
+  }
+  if (!std::isfinite(number)) {
+    return {0, Mistake{in_quotes(text), "a finite number in " + describe_unit(unit), ""}};
+  }
+  if (const auto hint = comma_hint(body, rest); !hint.empty()) {
+    return {0, Mistake{in_quotes(text), describe_unit(unit), hint}};
+  }
+  if (rest.empty() && wanted.reading.unit.dimension != Dimension{}) {
+    return {0, missing_unit(body, unit)};
+  }
+  const FullUnit found = split_unit(rest);
+  if (auto mistake = check_unit(body, found, wanted, unit)) return {0, mistake};
+  if (auto mistake = check_reference(body, found, wanted, unit)) return {0, mistake};
+  const double si = wanted.reading.unit.from_si(found.reading.unit.to_si(number));
+  return {moved(si, found.reference, wanted.reference, atmosphere), std::nullopt};
+}
+
+double quantity(std::string_view text, std::string_view unit, std::string_view key,
+                double atmosphere) {
+  const Parsed parsed = parse_quantity(text, unit, atmosphere);
+  if (!parsed.mistake) return parsed.si;
+  const Mistake& m = *parsed.mistake;
+  fail({"text", 0, 0}, std::string(key), m.found, m.expected, m.try_this);
+}
+
+std::string format_number(double value) {
+  char buffer[32];
+  const auto result = std::to_chars(std::begin(buffer), std::end(buffer), value);
+  return {buffer, result.ptr};
+}
+
+std::string format_quantity(double si, std::string_view unit) {
+  return unit == "1" || unit.empty() ? format_number(si)
+                                     : fmt::format("{} {}", format_number(si), unit);
+}
+
+std::string format_quantity(double si, std::string_view unit, std::string_view display,
+                            int significant_digits, double atmosphere) {
+  const double number = convert(si, unit, display, atmosphere);
+  return fmt::format("{:.{}g}{}{}", number, significant_digits, display == "1" ? "" : " ",
+                     display == "1" ? "" : display);
+}
+
+double convert(double si, std::string_view unit, std::string_view display, double atmosphere) {
+  const FullUnit from = field_unit(unit);
+  const FullUnit to = field_unit(display);
+  const bool same = from.reading.unit.dimension == to.reading.unit.dimension;
+  const bool difference_from = from.reference == Reference::difference;
+  const bool difference_to = to.reference == Reference::difference;
+  if (!same || difference_from != difference_to) {
+    throw std::logic_error(fmt::format("cannot show {} in {}", unit, display));
+  }
+  const double shifted = moved(si, from.reference, to.reference, atmosphere);
+  return to.reading.unit.from_si(from.reading.unit.to_si(shifted));
+}
+
+std::string coefficient_unit(std::string_view unit, std::string_view per, int k) {
+  if (unit == per && k > 0) {
+    // x polynomial in x: m, 1, 1/m, 1/m2 ...
+    return k == 1 ? "1" : coefficient_unit("1", per, k - 1);
+  }
+  if (k == 0 || per == "1") return std::string(unit);
+  const bool compound_unit = unit.find('/') != unit.npos;
+  const bool compound_per = per.find_first_of(" /*") != per.npos;
+  std::string power = k == 1 ? std::string(per) : fmt::format("{}{}", per, k);
+  if (compound_per) {
+    power = fmt::format("({})", per);
+    for (int i = 1; i < k; ++i) power += fmt::format(" ({})", per);
+    if (k > 1) power = fmt::format("({})", power);
+  }
+  return compound_unit ? fmt::format("({})/{}", unit, power) : fmt::format("{}/{}", unit, power);
+}
+
+std::string_view difference_unit(std::string_view unit) {
+  return unit == "Pa abs" || unit == "Pa gauge" ? "Pa diff" : unit;
+}
+
+std::string describe_unit(std::string_view unit) {
+  const Dimension dimension = field_unit(unit).reading.unit.dimension;
+  if (dimension == Dimension{}) return "a number";
+  const auto* name = name_of(dimension);
+  return name ? fmt::format("{} ({})", unit, name->word) : std::string(unit);
+}
+
+}  // namespace sinew::config

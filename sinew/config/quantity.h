@@ -1,0 +1,61 @@
+// config/quantity.h - "62 psi gauge": a number with its unit, between text and SI.
+//
+// A field says what it wants in SI: "m", "N m/rad", "1" for a plain number, and for a pressure
+// "Pa abs", "Pa gauge" or "Pa diff". Text for a pressure must say the same word; gauge and absolute
+// are converted into each other with the atmosphere, a difference stands alone.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "sinew/units/constants.h"
+
+namespace sinew::config {
+
+// Why a text is not the wanted quantity; the parts of a Problem that the text decides.
+struct Mistake {
+  std::string found;
+  std::string expected;
+  std::string try_this;
+};
+
+struct Parsed {
+  double si = 0;
+  std::optional<Mistake> mistake;
+};
+
+// `unit` is a field's unit. A bare number is right for "1" only.
+Parsed parse_quantity(std::string_view text, std::string_view unit,
+                      double atmosphere = units::atmosphere);
+
+// The same for callers without a file: throws Error, which calls the text `key`.
+double quantity(std::string_view text, std::string_view unit, std::string_view key = "",
+                double atmosphere = units::atmosphere);
+
+// The mistake of a bare number where a unit is needed: "3.15" for "m".
+Mistake missing_unit(std::string_view number, std::string_view unit);
+
+// Shortest text that reads back to the same double: "0.08001 m", "0.55" for unit "1".
+std::string format_quantity(double si, std::string_view unit);
+
+// For people: in another unit of the same dimension, rounded: "3.15 in", "62 psi gauge".
+std::string format_quantity(double si, std::string_view unit, std::string_view display,
+                            int significant_digits = 6, double atmosphere = units::atmosphere);
+
+// The number alone, in `display`.
+double convert(double si, std::string_view unit, std::string_view display,
+               double atmosphere = units::atmosphere);
+
+std::string format_number(double value);
+
+// Unit of the k-th coefficient of a polynomial: ("1", "Pa", 2) -> "1/Pa2", ("m", "m", 2) -> "1/m".
+std::string coefficient_unit(std::string_view unit, std::string_view per, int k);
+
+// Unit of a difference between two such quantities: "Pa abs" -> "Pa diff".
+std::string_view difference_unit(std::string_view unit);
+
+// "Pa abs" -> "Pa abs (pressure)", "N m/rad" -> "N m/rad (joint stiffness)", "1" -> "a number".
+std::string describe_unit(std::string_view unit);
+
+}  // namespace sinew::config

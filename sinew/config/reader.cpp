@@ -1,0 +1,334 @@
+#include "sinew/config/reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sinew/config/quantity.h"
+
+namespace sinew::config {
+
+namespace {
+
+std::string joined(const std::vector<double>& values, std::string_view unit) {
+  std::string text;
+  for (double v : values) text += (text.empty() ? "" : ", ") + format_quantity(v, unit);
+  return text;
+}
+
+std::string bounds_text(const units::Field& field) {
+  const std::string low = format_quantity(field.min, field.unit);
+  const std::string high = format_quantity(field.max, field.unit);
+  if (field.max == units::unbounded) return "at least " + low;
+  if (field.min == -units::unbounded) return "at most " + high;
+  return fmt::format("{} to {}", low, high);
+}
+
+}  // namespace
+
+Reader::Reader(const Node& root, ReaderOptions options)
+    : options_(std::move(options)), root_(&root) {
+  enter(root, "");
+}
+
+// --- values ---
+
+void Reader::number(const Field& field, double& value) {
+  auto entry = open(field, format_quantity(value, field.unit), field.unit);
+  if (!entry) return;
+  const auto si = si_of(*entry->value, field.unit, entry->origin.path);
+  if (si && in_bounds(field, *si, *entry->value, entry->origin.path)) {
+    value = *si;
+    read_range(field, *entry, value);
+  }
+  check_uncertainty(field, *entry);
+  close(std::move(*entry), true);
+}
+
+void Reader::numbers(const Field& field, std::vector<double>& values) {
+  auto entry = open(field, joined(values, field.unit), field.unit);
+  if (!entry) return;
+  if (expect_kind(*entry->value, Node::Kind::array, entry->origin.path)) {
+    values.clear();
+    for (const Node& item : entry->value->children) {
+      const auto si = si_of(item, field.unit, entry->origin.path);
+      if (si && in_bounds(field, *si, item, entry->origin.path)) values.push_back(*si);
+    }
+  }
+  close(std::move(*entry), true);
+}
+
+void Reader::polynomial(const Field& field, std::vector<double>& coefficients,
+                        std::string_view per) {
+  auto entry = open(field, "", field.unit);
+  if (!entry) return;
+  if (expect_kind(*entry->value, Node::Kind::array, entry->origin.path)) {
+    coefficients.clear();
+    for (const Node& item : entry->value->children) {
+      const int power = static_cast<int>(coefficients.size());
+      const std::string unit = coefficient_unit(field.unit, per, power);
+      coefficients.push_back(si_of(item, unit, entry->origin.path).value_or(0));
+    }
+    if (coefficients.empty()) {
+      add_problem(*entry->value, entry->origin.path, "an empty list", "at least one coefficient");
+    }
+  }
+  close(std::move(*entry), true);
+}
+
+void Reader::integer(const Field& field, int& value) {
+  auto entry = open(field, std::to_string(value), "");
+  if (!entry) return;
+  const Node& node = *entry->value;
+  if (expect_kind(node, Node::Kind::integer, entry->origin.path)) {
+    using Limits = std::numeric_limits<int>;
+    const double low = std::max<double>(field.min, Limits::min());
+    const double high = std::min<double>(field.max, Limits::max());
+    const double found = static_cast<double>(node.integer);
+    if (found >= low && found <= high) {
+      value = static_cast<int>(node.integer);
+    } else {
+      add_problem(node, entry->origin.path, shown(node),
+                  fmt::format("{:.0f} to {:.0f}", low, high));
+    }
+  }
+  close(std::move(*entry), true);
+}
+
+void Reader::flag(const Field& field, bool& value) {
+  auto entry = open(field, value ? "true" : "false", "");
+  if (!entry) return;
+  if (expect_kind(*entry->value, Node::Kind::flag, entry->origin.path)) value = entry->value->flag;
+  close(std::move(*entry), false);
+}
+
+void Reader::text(const Field& field, std::string& value) {
+  auto entry = open(field, value, "");
+  if (!entry) return;
+  if (expect_kind(*entry->value, Node::Kind::text, entry->origin.path)) value = entry->value->text;
+  close(std::move(*entry), false);
+}
+
+void Reader::texts(const Field& field, std::vector<std::string>& values) {
+  const std::vector<std::string_view> defaults(values.begin(), values.end());
+  auto entry = open(field, fmt::format("{}", fmt::join(defaults, ", ")), "");
+  if (!entry) return;
+  if (expect_kind(*entry->value, Node::Kind::array, entry->origin.path)) {
+    values.clear();
+    for (const Node& item : entry->value->children) {
+      if (expect_kind(item, Node::Kind::text, entry->origin.path)) values.push_back(item.text);
+    }
+  }
+  close(std::move(*entry), false);
+}
+
+void Reader::named_numbers(const Field& field, std::map<std::string, double>& values) {
+  const Node* table = open_container(field, Node::Kind::table);
+  if (!table) return;
+  values.clear();
+  enter(*table, path_of(field.name));
+  for (const Node& child : table->children) {
+    if (describes_values(child)) continue;
+    Field one = field;
+    one.name = child.key;
+    number(one, values[child.key]);
+  }
+  leave();
+}
+
+std::optional<std::size_t> Reader::pick(const Field& field,
+                                        const std::vector<std::string_view>& words,
+                                        std::string_view default_word) {
+  auto entry = open(field, std::string(default_word), "");
+  if (!entry) return std::nullopt;
+  std::optional<std::size_t> index;
+  const Node& node = *entry->value;
+  const auto it = std::find(words.begin(), words.end(), node.text);
+  if (node.kind == Node::Kind::text && it != words.end()) {
+    index = static_cast<std::size_t>(it - words.begin());
+  } else {
+    std::vector<std::string> quoted_words;
+    for (auto word : words) quoted_words.push_back(in_quotes(word));
+    const std::string_view near = closest(node.text, words);
+    add_problem(node, entry->origin.path, shown(node),
+                either({quoted_words.begin(), quoted_words.end()}),
+                near.empty() ? "" : in_quotes(near));
+  }
+  close(std::move(*entry), false);
+  return index;
+}
+
+// --- what a value must be ---
+
+bool Reader::expect_kind(const Node& node, Node::Kind kind, const std::string& path) {
+  if (node.kind == kind) return true;
+  std::string try_this;
+  if (kind == Node::Kind::array) try_this = "brackets around it: [ … ]";
+  if (kind == Node::Kind::text && !node.is_table() && node.kind != Node::Kind::array) {
+    try_this = in_quotes(written(node));
+  }
+  add_problem(node, path, shown(node), std::string(kind_name(kind)), try_this);
+  return false;
+}
+
+std::optional<double> Reader::si_of(const Node& node, std::string_view unit,
+                                    const std::string& path) {
+  std::optional<Mistake> mistake;
+  if (node.kind == Node::Kind::text) {
+    const Parsed parsed = parse_quantity(node.text, unit, options_.atmosphere);
+    if (!parsed.mistake) return parsed.si;
+    mistake = parsed.mistake;
+  } else if (node.is_number()) {
+    const double value = node.kind == Node::Kind::real ? node.real : double(node.integer);
+    if (!std::isfinite(value)) {
+      mistake = Mistake{written(node), "a finite number in " + describe_unit(unit), ""};
+    } else if (unit == "1") {
+      return value;
+    } else {
+      mistake = missing_unit(written(node), unit);
+    }
+  } else {
+    mistake = Mistake{shown(node), describe_unit(unit), ""};
+  }
+  add_problem(node, path, mistake->found, mistake->expected, mistake->try_this);
+  return std::nullopt;
+}
+
+bool Reader::in_bounds(const Field& field, double value, const Node& node,
+                       const std::string& path) {
+  if (value >= field.min && value <= field.max) return true;
+  std::string found = shown(node);
+  const std::string si = format_quantity(value, field.unit);
+  if (written(node) != si) found += ", which is " + si;
+  add_problem(node, path, found, bounds_text(field));
+  return false;
+}
+
+// --- from a field to its node, and what is known about it ---
+
+std::string Reader::path_of(std::string_view key) const {
+  const std::string& path = scopes_.back().path;
+  return path.empty() ? std::string(key) : fmt::format("{}.{}", path, key);
+}
+
+const Node* Reader::ask(const Field& field) {
+  const Node* table = scopes_.back().table;
+  asked_[table].emplace_back(field.name);
+  const Node* node = table->find(field.name);
+  if (node) node->used = true;
+  return node;
+}
+
+std::optional<Reader::Entry> Reader::open(const Field& field, std::string default_text,
+                                          std::string_view unit) {
+  const Node* node = ask(field);
+  Entry entry{node, {}, scopes_.back().range, false};
+  entry.origin.path = path_of(field.name);
+  entry.origin.unit = unit;
+  if (!node) {
+    if (field.optional) {
+      entry.origin.text = std::move(default_text);
+      entry.origin.is_default = true;
+      origins_.push_back(std::move(entry.origin));
+    } else {
+      const std::string what = unit.empty() ? "a value" : describe_unit(unit);
+      add_problem(*scopes_.back().table, entry.origin.path, "nothing",
+                  field.doc.empty() ? what : fmt::format("{}: {}", what, field.doc));
+    }
+    return std::nullopt;
+  }
+  entry.origin.where = node->where;
+  if (node->is_value_table()) read_value_table(*node, entry);
+  add_provenance(*node, entry);
+  entry.origin.text = written(*entry.value);
+  return entry;
+}
+
+// --- tables ---
+
+const Node* Reader::open_container(const Field& field, Node::Kind kind) {
+  const Node* node = ask(field);
+  const std::string path = path_of(field.name);
+  if (!node) {
+    if (!field.optional) {
+      add_problem(*scopes_.back().table, path, "nothing", std::string(kind_name(kind)),
+                  fmt::format("[{}]", path));
+    }
+    return nullptr;
+  }
+  return expect_kind(*node, kind, path) ? node : nullptr;
+}
+
+void Reader::enter(const Node& table, const std::string& path) {
+  Scope scope = scopes_.empty() ? Scope{} : scopes_.back();
+  scope.table = &table;
+  scope.path = path;
+  scope.range = described(table, "range");
+  if (const Node* source = described(table, "source")) scope.source = source;
+  if (const Node* fit = described(table, "fit")) scope.fit = fit;
+  if (const Node* guess = described(table, "guess")) scope.guess = guess;
+  scopes_.push_back(std::move(scope));
+}
+
+// The tables in a table of named tables, or in a list.
+std::vector<const Node*> Reader::tables_in(const Node& container) {
+  std::vector<const Node*> tables;
+  for (const Node& child : container.children) {
+    child.used = true;
+    if (child.is_table()) {
+      tables.push_back(&child);
+    } else if (!describes_values(child)) {
+      expect_kind(child, Node::Kind::table, path_of(child.key));
+    }
+  }
+  return tables;
+}
+
+// --- the end ---
+
+void Reader::find_unused(const Node& table, const std::string& path) {
+  const auto asked = asked_.find(&table);
+  std::vector<std::string_view> known;
+  if (asked != asked_.end()) known.assign(asked->second.begin(), asked->second.end());
+  std::sort(known.begin(), known.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  for (const Node& child : table.children) {
+    const std::string child_path =
+        path.empty() || child.key.empty() ? path + child.key : path + "." + child.key;
+    if (child.used) {
+      find_unused(child, child_path);
+    } else if (table.kind == Node::Kind::table && !describes_values(child)) {
+      const std::string_view near = closest(child.key, known);
+      add_problem(child, child_path, "an unknown key",
+                  known.empty() || known.size() > 12 ? "a key that is read here" : either(known),
+                  near.empty() ? "" : fmt::format("{}; did you mean that?", near));
+    }
+  }
+}
+
+void Reader::finish() {
+  find_unused(*root_, "");
+  finish_part();
+}
+
+void Reader::finish_part() {
+  if (!problems_.empty()) throw Error(problems_);
+}
+
+void Reader::complain(std::string_view key, std::string found, std::string expected,
+                      std::string try_this) {
+  const Node& table = *scopes_.back().table;
+  const Node* node = table.find(key);
+  add_problem(node ? *node : table, path_of(key), std::move(found), std::move(expected),
+              std::move(try_this));
+}
+
+void Reader::add_problem(const Node& at, std::string path, std::string found, std::string expected,
+                         std::string try_this) {
+  problems_.push_back(
+      {at.where, std::move(path), std::move(found), std::move(expected), std::move(try_this)});
+}
+
+}  // namespace sinew::config

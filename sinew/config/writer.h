@@ -1,0 +1,94 @@
+// config/writer.h - the visitor that prints structs as TOML, in the namespace that Reader reads.
+//
+//   config::Writer writer(&reader.origins());
+//   writer.format("experiment");
+//   fields(writer, robot);
+//   file << writer.text();
+//
+// Quantities come out in SI with as many digits as bring back the same bits. A number that is not
+// finite means "not set" and is left out.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "sinew/config/node.h"
+#include "sinew/config/origin.h"
+#include "sinew/units/field.h"
+
+namespace sinew::config {
+
+class Writer {
+ public:
+  using Field = units::Field;
+
+  // With origins every value is written with its source, fit, guess, range and uncertainty.
+  explicit Writer(const Origins* origins = nullptr) : origins_(origins) {}
+
+  void format(std::string_view kind);  // format = "sinew.<kind>/1"
+
+  // The visitor of units/field.h.
+  void number(const Field& field, double& value);
+  void numbers(const Field& field, std::vector<double>& values);
+  void polynomial(const Field& field, std::vector<double>& coefficients, std::string_view per);
+  void integer(const Field& field, int& value);
+  void flag(const Field& field, bool& value);
+  void text(const Field& field, std::string& value);
+  void texts(const Field& field, std::vector<std::string>& values);
+  void named_numbers(const Field& field, std::map<std::string, double>& values);
+  template <class Enum>
+  void choice(const Field& field, Enum& value,
+              std::initializer_list<units::Choice<std::type_identity_t<Enum>>> choices) {
+    for (const auto& choice : choices) {
+      if (choice.value == value) return add(make_text(field.name, std::string(choice.word)));
+    }
+  }
+  template <class Visit>
+  void group(const Field& field, Visit visit) {
+    enter(field.name, Node::Kind::table);
+    visit(*this);
+    leave();
+  }
+  template <class T, class Visit>
+  void each(const Field& field, std::vector<T>& items, Visit visit) {
+    enter(field.name, Node::Kind::table);
+    for (T& item : items) {
+      enter(item.name, Node::Kind::table);
+      visit(*this, item);
+      leave();
+    }
+    leave();
+  }
+  template <class T, class Visit>
+  void list(const Field& field, std::vector<T>& items, Visit visit) {
+    enter(field.name, Node::Kind::array);
+    for (T& item : items) {
+      enter("", Node::Kind::table);
+      visit(*this, item);
+      leave();
+    }
+    leave();
+  }
+
+  std::string text() const;
+  // The tree so far; complete when the outermost fields() has returned.
+  const Node& root() const { return open_.front(); }
+
+ private:
+  // Opening a table that is there already (another struct wrote into it) goes on with it.
+  void enter(std::string_view key, Node::Kind kind);
+  void leave();
+  void add(Node value);
+  std::string path_of(std::string_view key) const;
+
+  const Origins* origins_;
+  std::vector<Node> open_{Node{}};  // the tables from the root to the one being written
+};
+
+// A tree as TOML: values first, then tables under their headers.
+std::string to_toml(const Node& root);
+
+}  // namespace sinew::config
