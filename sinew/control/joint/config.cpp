@@ -49,6 +49,10 @@ const char* problem_of_joint(const SpineConfig& config, const JointConfig& joint
     return "angle_at_rest out of range";
   if (joint.pole_clamp < -max_length || joint.pole_clamp > max_length)
     return "pole_clamp out of range";
+  for (const std::int32_t duty :
+       {joint.feedforward.flexor_inlet, joint.feedforward.flexor_exhaust,
+        joint.feedforward.extensor_inlet, joint.feedforward.extensor_exhaust})
+    if (duty < 0 || duty > signals::max_duty) return "feedforward duties must be 0 to 100 %";
   if (const char* p = problem_of_muscle(config, joint.flexor, joint.kind)) return p;
   return problem_of_muscle(config, joint.extensor, joint.kind);
 }

@@ -56,6 +56,11 @@ Tick Spine::next_event(Tick t) noexcept {
   return next > t ? next : t + 1;
 }
 
+bool Spine::starts_period(Tick t) noexcept {
+  locate(t);
+  return period_start_ == t;
+}
+
 const Conversion* Spine::due(Tick t) noexcept {
   locate(t);
   if (cursor_ == config_.conversions) return nullptr;
@@ -114,7 +119,8 @@ void Spine::run_law(std::size_t j, Tick t) noexcept {
   if (seen.law_at >= 0 && t - seen.law_at < config_.period) return;
 
   const std::int32_t angle = seen_.reading[joint.angle.index].counts;
-  const std::int32_t previous = seen.law_at < 0 ? angle : previous_angle_[j];
+  const bool has_speed = antagonist && seen.law_at >= 0;
+  const std::int32_t previous = has_speed ? previous_angle_[j] : angle;
   const Exact position = angle_law(command.gains, joint.flexion, command.angle, angle, previous,
                                    ticks_per_second / static_cast<float>(config_.period));
   previous_angle_[j] = angle;

@@ -5,7 +5,7 @@
 //
 //   Tick t = 0;
 //   for (; t < end; t = spine.next_event(t)) {
-//     if (t % spine.scan().period == 0) spine.command(brain.update(spine.seen(), t));
+//     if (spine.starts_period(t)) spine.command(brain.update(spine.seen(), t));
 //     for (const Edge& e : spine.edges(t)) port.drive(e);
 //     if (const Conversion* c = spine.due(t)) spine.take(*c, port.read(c->channel, t), t);
 //   }
@@ -43,6 +43,9 @@ class Spine {
 
   // The first tick after t at which anything happens: period start, edge or conversion.
   signals::Tick next_event(signals::Tick t) noexcept;
+
+  // Is t a multiple of the period? (A 64-bit remainder is a library call on a small machine.)
+  bool starts_period(signals::Tick t) noexcept;
 
   // From the high level, at a period's start.
   void command(const Command& command) noexcept { command_ = command; }

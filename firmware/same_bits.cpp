@@ -1,0 +1,132 @@
+// firmware/same_bits.cpp - runs the spinal cord over seeded random periods and prints a hash of all
+// it did: duties, edges, stiffnesses bit for bit. firmware/same-bits.sh compares controller and
+// host.
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "sinew/control/joint/spine.h"
+#include "sinew/control/joint/test_leg.h"
+#include "sinew/signals/timing.h"
+
+namespace sinew::firmware {
+
+void print(const char* text);  // the board's, or the host's below
+
+namespace {
+
+using control::Command;
+using control::Spine;
+using control::SpineConfig;
+using control::Truncation;
+using signals::Tick;
+
+constexpr Tick periods = 5000;  // per run
+
+// Fowler-Noll-Vo, 64 bits, a word at a time.
+class Hash {
+ public:
+  template <class Word>  // 32 bits, whatever they mean
+  void add(Word word) {
+    value_ = (value_ ^ std::bit_cast<std::uint32_t>(word)) * 0x100000001b3u;
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+// xorshift32 (Marsaglia 2003)
+class Random {
+ public:
+  explicit Random(std::uint32_t seed) : state_(seed) {}
+  std::uint32_t below(std::uint32_t n) {
+    state_ ^= state_ << 13;
+    state_ ^= state_ >> 17;
+    state_ ^= state_ << 5;
+    return (state_ >> 8) % n;
+  }
+  float unit() { return static_cast<float>(below(1u << 24)) / static_cast<float>(1u << 24); }
+
+ private:
+  std::uint32_t state_;
+};
+
+void random_command(Random& random, Command& command) {
+  for (std::size_t j = 0; j < 3; ++j) {
+    control::JointCommand& c = command.joint[j];
+    c.angle = static_cast<std::int32_t>(random.below(4096));
+    c.stiffness = 60.0f * random.unit();
+    c.gains = {0.3f * random.unit(), 8.0f * random.unit(), 0.002f * random.unit()};
+    c.enabled = random.below(8) != 0;
+    c.open_loop = random.below(16) == 0;
+    c.duties.flexor_inlet = static_cast<std::int32_t>(random.below(120));
+    c.duties.extensor_exhaust = static_cast<std::int32_t>(random.below(120));
+  }
+}
+
+// One run; now and then a reading is late.
+void run(const SpineConfig& config, std::uint32_t seed, Hash& hash) {
+  Spine spine(config);
+  Random random(seed);
+  Command command = control::rest_command(config);
+  for (Tick t = 0; t < periods * config.period; t = spine.next_event(t)) {
+    if (spine.starts_period(t)) {
+      random_command(random, command);
+      spine.command(command);
+    }
+    for (const signals::Edge& e : spine.edges(t)) {
+      hash.add(static_cast<std::uint32_t>(e.at));
+      hash.add(2u * e.valve.index + e.open);
+    }
+    if (const signals::Conversion* c = spine.due(t)) {
+      const auto status = random.below(50) == 0 ? signals::Status::late : signals::Status::ok;
+      spine.take(*c, {static_cast<std::uint16_t>(random.below(4096)), status}, t);
+    }
+    for (std::size_t j = 0; j < config.joints; ++j) {
+      const control::JointSeen& s = spine.seen().joint[j];
+      hash.add(s.stiffness);
+      hash.add(s.stiffness_output);
+      hash.add(s.angle_output);
+      for (const std::int32_t d : {s.duties.flexor_inlet, s.duties.flexor_exhaust,
+                                   s.duties.extensor_inlet, s.duties.extensor_exhaust})
+        hash.add(d);
+    }
+  }
+}
+
+void print_hex(std::uint64_t x) {
+  char text[18];
+  for (int i = 0; i < 16; ++i) text[i] = "0123456789abcdef"[x >> (60 - 4 * i) & 15];
+  text[16] = '\n';
+  text[17] = '\0';
+  print(text);
+}
+
+}  // namespace
+
+void same_bits() {
+  Hash hash;
+  SpineConfig config = control::test_leg();
+  config.joint[control::cylinder].feedforward = {55, 55, 45, 45};
+  for (const Truncation mode : {Truncation::each_law, Truncation::sum, Truncation::none}) {
+    config.truncation = mode;
+    config.timing = signals::identity_timing();
+    run(config, 1, hash);
+    config.timing = signals::compensated_timing(5, 12);
+    config.joint[control::knee].lengths_swapped ^= true;
+    config.joint[control::hip].pole_clamp = -10'000;  // through the pole as well
+    run(config, 2, hash);
+  }
+  print_hex(hash.value());
+}
+
+}  // namespace sinew::firmware
+
+#if __STDC_HOSTED__
+#include <cstdio>
+
+void sinew::firmware::print(const char* text) { std::fputs(text, stdout); }
+
+int main() { sinew::firmware::same_bits(); }
+#endif

@@ -1,0 +1,390 @@
+// The spinal cord as a whole: events, safety, states, readings that fail, no heap.
+#include "sinew/control/joint/spine.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <functional>
+#include <new>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "sinew/control/joint/test_leg.h"
+
+namespace {
+std::size_t allocations = 0;
+}
+
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size)) return p;
+  std::abort();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace sinew::control {
+namespace {
+
+using signals::Reading;
+using signals::Status;
+using signals::Tick;
+
+// --- a world of random readings and commands that depend on the tick only
+// --------------------------
+
+struct World {
+  std::uint32_t seed = 1;
+  int bad_per_thousand = 0;
+  bool commands = true;  // false: the first one holds
+  std::function<void(Spine&, Tick)> interfere = [](Spine&, Tick) {};
+
+  std::uint32_t random(Tick t, std::uint32_t what) const {
+    std::uint64_t x =
+        static_cast<std::uint64_t>(t) * 0x9E3779B97F4A7C15u + seed * 0xBF58476D1CE4E5B9u + what;
+    x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9u;
+    x = (x ^ x >> 27) * 0x94D049BB133111EBu;
+    return static_cast<std::uint32_t>(x >> 33);
+  }
+
+  Reading read(signals::Channel c, Tick t) const {
+    const bool bad = static_cast<int>(random(t, 100) % 1000) < bad_per_thousand;
+    return {static_cast<std::uint16_t>(random(t, c.index) % 4096), !bad ? Status::ok
+                                                                   : random(t, 101) % 2
+                                                                       ? Status::late
+                                                                       : Status::invalid};
+  }
+
+  Command command(const SpineConfig& config, Tick t) const {
+    Command command = rest_command(config);
+    if (!commands) t = 0;
+    for (std::uint32_t j = 0; j < max_joints; ++j) {
+      JointCommand& c = command.joint[j];
+      c.angle = static_cast<std::int32_t>(random(t, 200 + j) % 4096);
+      c.stiffness = static_cast<float>(random(t, 210 + j) % 60);
+      c.enabled = !commands || random(t, 220 + j) % 6 != 0;
+      c.open_loop = commands && random(t, 230 + j) % 6 == 0;
+      const auto duty = [&](std::uint32_t v) {
+        return static_cast<std::int32_t>(random(t, 240 + 4 * j + v) % 150);
+      };
+      c.duties = {duty(0), duty(1), duty(2), duty(3)};
+    }
+    return command;
+  }
+};
+
+struct Event {
+  Tick at;
+  int valve;
+  bool open;
+  friend bool operator==(const Event&, const Event&) = default;
+};
+
+struct Trace {
+  std::vector<Event> edges;
+  std::vector<Seen> seen;  // at each period's start
+  int visited = 0;
+};
+
+Trace run(Spine& spine, const World& world, Tick end, bool every_tick = false) {
+  Trace trace;
+  for (Tick t = 0; t < end; t = every_tick ? t + 1 : spine.next_event(t)) {
+    ++trace.visited;
+    if (t % spine.scan().period == 0) {
+      trace.seen.push_back(spine.seen());
+      spine.command(world.command(spine.config(), t));
+    }
+    for (const signals::Edge& e : spine.edges(t)) {
+      EXPECT_EQ(e.at, t);
+      trace.edges.push_back({e.at, e.valve.index, e.open});
+    }
+    if (const signals::Conversion* c = spine.due(t)) spine.take(*c, world.read(c->channel, t), t);
+    world.interfere(spine, t);
+  }
+  return trace;
+}
+
+Trace run(const SpineConfig& config, const World& world, Tick end, bool every_tick = false) {
+  Spine spine(config);
+  return run(spine, world, end, every_tick);
+}
+
+SpineConfig leg_with(const signals::ValveTiming& timing, std::uint16_t delay = 1) {
+  SpineConfig config = test_leg();
+  config.timing = timing;
+  config.output_delay = delay;
+  return config;
+}
+
+bool same(const Seen& a, const Seen& b) {
+  for (std::size_t j = 0; j < max_joints; ++j)
+    if (a.joint[j].duties != b.joint[j].duties || a.joint[j].stiffness != b.joint[j].stiffness ||
+        a.joint[j].law_at != b.joint[j].law_at || a.joint[j].pole_holds != b.joint[j].pole_holds)
+      return false;
+  return a.phase == b.phase && a.late == b.late && a.invalid == b.invalid;
+}
+
+// --- events -------------------------------------------------------------------------------------
+
+TEST(Spine, NextEventSkipsOnlyEmptyTicks) {
+  for (const std::uint16_t delay : {1, 3, 99, 100})
+    for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+      SpineConfig config = leg_with(
+          seed % 2 ? signals::identity_timing() : signals::compensated_timing(5, 12), delay);
+      config.startup_vent = 37 * seed;
+      const World world{.seed = seed, .bad_per_thousand = 20, .interfere = [](Spine& s, Tick t) {
+                          if (t == 40'013) s.shut_down(t);
+                        }};
+      const Trace jumps = run(config, world, 60'000), all = run(config, world, 60'000, true);
+      ASSERT_EQ(jumps.edges, all.edges);
+      ASSERT_GT(jumps.edges.size(), 300u);
+      ASSERT_EQ(jumps.seen.size(), all.seen.size());
+      for (std::size_t i = 0; i < all.seen.size(); ++i)
+        ASSERT_TRUE(same(jumps.seen[i], all.seen[i])) << i;
+      ASSERT_LT(jumps.visited, all.visited / 5);
+    }
+}
+
+TEST(Spine, VisitsPeriodsAndConversionsWithoutValves) {
+  SpineConfig config = test_leg();
+  config.joints = 0;
+  Spine spine(config);
+  std::vector<Tick> ticks;
+  for (Tick t = 0; t < 200; t = spine.next_event(t)) ticks.push_back(t);
+  EXPECT_EQ(ticks,
+            (std::vector<Tick>{0, 1, 3, 5, 7, 9, 11, 13, 100, 101, 103, 105, 107, 109, 111, 113}));
+}
+
+// --- safety -------------------------------------------------------------------------------------
+
+// Not even for an instant: edges are followed one by one.
+void expect_never_both(const SpineConfig& config, const World& world, Tick end) {
+  std::array<bool, 12> open{};
+  for (const Event& e : run(config, world, end).edges) {
+    ASSERT_NE(open[e.valve], e.open) << "an edge changes its valve";
+    open[e.valve] = e.open;
+    if (e.valve < 8) {  // a muscle's
+      ASSERT_FALSE(open[e.valve & ~1] && open[e.valve | 1])
+          << "tick " << e.at << " valve " << e.valve;
+    }
+  }
+}
+
+TEST(Spine, InletAndExhaustAreNeverOpenTogether) {
+  std::mt19937 random(3);
+  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+    signals::ValveTiming timing = signals::identity_timing();
+    if (seed % 3 == 1) timing = signals::compensated_timing(seed, 2 * seed);
+    if (seed % 3 == 2)
+      for (std::size_t d = 1; d <= 100; ++d)
+        timing.closing[d] = random() % 102, timing.opening[d] = random() % 102;
+    SpineConfig config = leg_with(timing, seed % 4 == 0 ? 60 : 1);
+    config.startup_vent = seed % 2 ? 250 : 0;
+    ASSERT_EQ(problem(config), nullptr);
+    const World world{.seed = seed, .bad_per_thousand = 10, .interfere = [](Spine& s, Tick t) {
+                        if (t == 200'003) s.shut_down(t);
+                      }};
+    expect_never_both(config, world, 220'000);
+  }
+}
+
+TEST(Spine, StartupVentsThenRuns) {
+  SpineConfig config = test_leg();
+  config.startup_vent = 250;
+  Spine spine(config);
+  const Trace trace = run(spine, {.commands = false}, 1000);
+  const std::vector<Event> vent = {{0, 1, true},    {0, 3, true},    {0, 5, true},
+                                   {0, 7, true},    {0, 9, true},    {0, 11, true},
+                                   {250, 1, false}, {250, 3, false}, {250, 5, false},
+                                   {250, 7, false}, {250, 9, false}, {250, 11, false}};
+  ASSERT_GE(trace.edges.size(), vent.size());
+  EXPECT_TRUE(std::equal(vent.begin(), vent.end(), trace.edges.begin()));
+  for (std::size_t i = vent.size(); i < trace.edges.size(); ++i) EXPECT_GT(trace.edges[i].at, 301);
+  EXPECT_EQ(trace.seen[2].phase, Phase::startup);
+  EXPECT_EQ(trace.seen[3].phase, Phase::running);
+  EXPECT_EQ(trace.seen[3].joint[hip].law_at, -1);
+  EXPECT_EQ(trace.seen[4].joint[hip].law_at, 309);
+}
+
+// From tick `at` on: inlets shut and exhausts open at once, all shut `vent` later, then nothing.
+void expect_safe_after(const Trace& trace, Tick at, Tick vent) {
+  std::array<bool, 12> open{};
+  std::array<int, 12> edges_after{};
+  for (const Event& e : trace.edges) {
+    open[e.valve] = e.open;
+    if (e.at <= at) continue;
+    ++edges_after[e.valve];
+    ASSERT_TRUE(e.at == at + 1 || e.at == at + 1 + vent) << e.at;
+    ASSERT_TRUE(e.at == at + 1 ? e.open == (e.valve % 2 == 1) : !e.open);
+  }
+  for (int v = 0; v < 12; ++v) {
+    EXPECT_FALSE(open[v]);
+    if (v % 2) {
+      EXPECT_GE(edges_after[v], 1);
+    }
+  }
+}
+
+TEST(Spine, ShutDownVentsThenShuts) {
+  SpineConfig config = test_leg();
+  config.shutdown_vent = 3000;
+  for (const Tick at : {0, 5009, 5010, 5050, 5108, 7313}) {
+    Spine spine(config);
+    const World world{.interfere = [at](Spine& s, Tick t) {
+      if (t >= at && t < at + 1000) s.shut_down(t);  // asking again changes nothing
+    }};
+    const Trace trace = run(spine, world, 20'000, true);
+    expect_safe_after(trace, at, 3000);
+    EXPECT_EQ(spine.seen().phase, Phase::off);
+    EXPECT_EQ(spine.seen().fault, Status::ok);
+  }
+}
+
+TEST(Spine, FaultAndEndLeadToTheSafeState) {
+  for (const Status status : {Status::fault, Status::ended}) {
+    Spine spine(test_leg());
+    const World world{.commands = false};
+    const Trace before = run(spine, world, 5000);
+    EXPECT_EQ(spine.seen().phase, Phase::running);
+    spine.take({{4}, 8, 9}, {123, status}, 5009);
+    EXPECT_EQ(spine.seen().phase, Phase::venting);
+    EXPECT_EQ(spine.seen().fault, status);
+    EXPECT_EQ(spine.seen().fault_channel.index, 4);
+    EXPECT_NE(spine.seen().reading[4].counts, 123);
+    EXPECT_LT(spine.seen().joint[hip].law_at, 5009);
+    EXPECT_EQ(spine.next_event(5009), 5010);
+    for (const signals::Edge& e : spine.edges(5010)) EXPECT_EQ(e.open, e.valve.index % 2 == 1);
+  }
+}
+
+// --- readings -----------------------------------------------------------------------------------
+
+TEST(Spine, BadReadingsHoldTheLastGoodOnes) {
+  Spine spine(test_leg());
+  run(spine, {.commands = false}, 1000);
+  const std::uint16_t good = spine.seen().reading[1].counts;
+  spine.take({{1}, 2, 3}, {7, Status::late}, 1003);
+  spine.take({{1}, 2, 3}, {7, Status::invalid}, 1103);
+  EXPECT_EQ(spine.seen().reading[1].counts, good);
+  EXPECT_EQ(spine.seen().reading[1].status, Status::invalid);
+  EXPECT_EQ(spine.seen().late, 1u);
+  EXPECT_EQ(spine.seen().invalid, 1u);
+  EXPECT_EQ(spine.seen().phase, Phase::running);
+  spine.take({{1}, 2, 3}, {60'000, Status::ok}, 1203);  // 12 bits, whatever the port says
+  EXPECT_EQ(spine.seen().reading[1].counts, 4095);
+  spine.missed(1203);
+  EXPECT_EQ(spine.seen().missed, 1u);
+}
+
+TEST(Spine, HoldLimitEndsTheRun) {
+  SpineConfig config = test_leg();
+  config.hold_limit = 3;
+  Spine spine(config);
+  run(spine, {.commands = false}, 1000);
+  for (const Tick t : {1003, 1103}) spine.take({{1}, 2, 3}, {0, Status::late}, t);
+  spine.take({{1}, 2, 3}, {0, Status::ok}, 1203);
+  for (const Tick t : {1303, 1403}) spine.take({{1}, 2, 3}, {0, Status::late}, t);
+  EXPECT_EQ(spine.seen().phase, Phase::running);
+  spine.take({{1}, 2, 3}, {0, Status::late}, 1503);
+  EXPECT_EQ(spine.seen().phase, Phase::venting);
+  EXPECT_EQ(spine.seen().fault, Status::late);
+}
+
+TEST(Spine, NoLawBeforeItsChannelsAnswered) {
+  Spine spine(test_leg());
+  for (Tick t = 0; t < 1000; t = spine.next_event(t)) {
+    spine.edges(t);
+    const signals::Conversion* c = spine.due(t);
+    if (c) spine.take(*c, {2000, c->channel.index == 3 ? Status::late : Status::ok}, t);
+  }
+  EXPECT_EQ(spine.seen().joint[hip].law_at, -1);
+  EXPECT_EQ(spine.seen().joint[knee].law_at, 913);
+}
+
+TEST(Spine, StiffnessIsHeldNearThePole) {
+  Spine spine(test_leg());
+  const auto period = [&](Tick start, std::uint16_t angle) {
+    for (Tick t = start; t < start + 100; t = spine.next_event(t)) {
+      spine.edges(t);
+      if (const signals::Conversion* c = spine.due(t))
+        spine.take(*c, {c->channel.index == 1 ? angle : std::uint16_t{1000}, Status::ok}, t);
+    }
+    return spine.seen().joint[hip];
+  };
+  const JointSeen rest = period(0, 1895);
+  EXPECT_NEAR(rest.stiffness, 2 * 33 * 1000 / 2917.0, 0.01);
+  EXPECT_FALSE(rest.pole_held);
+  const JointSeen held = period(100, 1895 + 500);  // 48 counts from the pole
+  EXPECT_TRUE(held.pole_held);
+  EXPECT_EQ(held.stiffness, rest.stiffness);
+  EXPECT_EQ(held.pole_holds, 1u);
+  const JointSeen again = period(200, 1895 + 300);
+  EXPECT_FALSE(again.pole_held);
+  EXPECT_GT(again.stiffness, rest.stiffness);
+}
+
+// --- commands -----------------------------------------------------------------------------------
+
+TEST(Spine, EachJointIsEnabledOnItsOwn) {
+  SpineConfig config = test_leg();
+  config.joint[cylinder].enabled = false;  // for good
+  Spine spine(config);
+  Command command = rest_command(config);
+  command.joint[knee].enabled = command.joint[cylinder].enabled = true;
+  for (JointCommand& c : command.joint) c.open_loop = true, c.duties = {30, 0, 0, 40};
+  bool knee_moved = false;
+  for (Tick t = 0; t < 2000; t = spine.next_event(t)) {
+    if (spine.starts_period(t)) spine.command(command);
+    for (const signals::Edge& e : spine.edges(t)) {
+      EXPECT_TRUE(e.valve.index == 4 || e.valve.index == 7);
+      knee_moved = true;
+    }
+    if (const signals::Conversion* c = spine.due(t)) spine.take(*c, {1500, Status::ok}, t);
+  }
+  EXPECT_TRUE(knee_moved);
+  EXPECT_EQ(spine.seen().joint[hip].duties, (Duties{30, 0, 0, 40}));  // computed, not driven
+  EXPECT_FALSE(spine.seen().joint[hip].enabled);
+}
+
+// --- configuration, heap ------------------------------------------------------------------------
+
+TEST(SpineConfig, ProblemsAreNamed) {
+  const auto with = [](void (*change)(SpineConfig&)) {
+    SpineConfig config = test_leg();
+    change(config);
+    const char* p = problem(config);
+    return std::string(p ? p : "");
+  };
+  EXPECT_EQ(problem(test_leg()), nullptr);
+  EXPECT_NE(with([](SpineConfig& c) { c.joint[hip].law_tick = 10; }), "");
+  EXPECT_NE(with([](SpineConfig& c) { c.joint[knee].flexion = 0; }), "");
+  EXPECT_NE(with([](SpineConfig& c) { c.joint[knee].flexor.inlet = c.joint[hip].flexor.inlet; }),
+            "");
+  EXPECT_NE(with([](SpineConfig& c) { c.conversion[3].start = c.conversion[3].read; }), "");
+  EXPECT_NE(with([](SpineConfig& c) { std::swap(c.conversion[3], c.conversion[4]); }), "");
+  EXPECT_NE(with([](SpineConfig& c) { c.output_delay = 0; }), "");
+  EXPECT_NE(with([](SpineConfig& c) { c.timing.closing[0] = 5; }), "");
+  EXPECT_NE(with([](SpineConfig& c) { c.joint[hip].flexor.tension = {12}; }), "");
+}
+
+TEST(Spine, NeverAllocates) {
+  const World world{.bad_per_thousand = 5};
+  SpineConfig config = test_leg();
+  config.startup_vent = 300;
+  const std::size_t before = allocations;
+  Spine spine(config);
+  std::size_t edges = 0;
+  for (Tick t = 0; t < 100'000; t = spine.next_event(t)) {
+    if (spine.starts_period(t)) spine.command(world.command(config, t));
+    edges += spine.edges(t).size();
+    if (const signals::Conversion* c = spine.due(t)) spine.take(*c, world.read(c->channel, t), t);
+    if (t == 90'000) spine.shut_down(t);
+  }
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(edges, 1000u);
+}
+
+}  // namespace
+}  // namespace sinew::control
