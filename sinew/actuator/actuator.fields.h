@@ -158,7 +158,6 @@ void fields(Visitor& v, Bladder& bladder) {
 
 template <class Visitor>
 void fields(Visitor& v, Actuator& a) {
-  v.text({.name = "name", .doc = "by which muscles refer to it"}, a.name);
   v.group({.name = "braid", .doc = "geometry of the mesh"}, [&](auto& g) { fields(g, a.braid); });
   v.group({.name = "effectiveness", .optional = true, .doc = "losses of tension with pressure"},
           [&](auto& g) { fields(g, a.effectiveness); });

@@ -1,0 +1,91 @@
+// experiment/experiment.fields.h - the keys of experiments/*.toml that are the run's own. The tables
+// of robot and plan stand in their folders' field tables.
+#pragma once
+
+#include "sinew/actuator/actuator.fields.h"
+#include "sinew/control/gait/plan.fields.h"
+#include "sinew/experiment/experiment.h"
+#include "sinew/gas/air.fields.h"
+#include "sinew/gas/valve.fields.h"
+#include "sinew/robot/robot.fields.h"
+#include "sinew/units/field.h"
+
+namespace sinew::experiment {
+
+template <class Visitor>
+void fields(Visitor& v, Start& start) {
+  v.named_numbers({.name = "joint_angles", .unit = "rad", .doc = "of every joint"},
+                  start.joint_angles);
+  v.texts({.name = "blocked", .optional = true, .doc = "joints that are held where they start"},
+          start.blocked);
+  v.number({.name = "pressure", .unit = "Pa abs", .min = 0, .doc = "of the air in every muscle"},
+           start.pressure);
+  v.number({.name = "trolley", .unit = "m", .optional = true, .doc = "along the track"},
+           start.trolley);
+  v.number({.name = "settle",
+            .unit = "s",
+            .min = 0,
+            .optional = true,
+            .doc = "exhausts open, before the first phase"},
+           start.settle);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Log& log) {
+  v.flag({.name = "enabled", .optional = true, .doc = "false: only summary.json is left"},
+         log.enabled);
+  v.texts({.name = "channels", .optional = true, .doc = "topics; * stands for anything"},
+          log.channels);
+  v.number({.name = "period",
+            .unit = "s",
+            .min = 1e-4,
+            .optional = true,
+            .doc = "between samples, a multiple of 0.1 ms; edges are logged one by one"},
+           log.period);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Reported& r) {
+  v.text({.name = "key", .doc = "of summary.json"}, r.key);
+  v.text({.name = "value", .doc = "as reported"}, r.value);
+  v.texts({.name = "accept", .optional = true, .doc = "lowest and highest that agrees"}, r.accept);
+  v.text({.name = "source", .doc = "where it is reported"}, r.source);
+}
+
+// Machine first: the plan's tables are named after its joints.
+template <class Visitor>
+void machine_fields(Visitor& v, Experiment& e) {
+  robot::fields(v, e.robot);
+  v.each({.name = "actuator", .doc = "by name"}, e.actuators,
+         [](auto& g, actuator::Actuator& a) { actuator::fields(g, a); });
+  v.each({.name = "valve", .doc = "by name"}, e.valves,
+         [](auto& g, gas::Valve& valve) { gas::fields(g, valve); });
+  v.group({.name = "air", .doc = "atmosphere and supply"},
+          [&](auto& g) { gas::fields(g, e.air, e.supply); });
+}
+
+template <class Visitor>
+void run_fields(Visitor& v, Experiment& e) {
+  v.text({.name = "title", .doc = "of the experiment"}, e.title);
+  v.text({.name = "reproduces", .optional = true, .doc = "section and figures"}, e.reproduces);
+  v.text({.name = "plant", .optional = true, .doc = "the world: planar"}, e.plant);
+  v.integer({.name = "seed", .min = 0, .optional = true, .doc = "of the sensors' noise"}, e.seed);
+  v.group({.name = "plant_steps", .optional = true, .doc = "numerics"}, [&](auto& g) {
+    g.number({.name = "body",
+              .unit = "s",
+              .min = 1e-6,
+              .max = 5e-3,
+              .optional = true,
+              .doc = "between committed nodes"},
+             e.body_step);
+  });
+  v.group({.name = "start", .doc = "where the machine is at time 0"},
+          [&](auto& g) { fields(g, e.start); });
+  gait::fields(v, e.plan);
+  v.group({.name = "log", .optional = true, .doc = "what is recorded"},
+          [&](auto& g) { fields(g, e.log); });
+  v.list({.name = "reported", .optional = true, .doc = "printed beside our figures"}, e.reported,
+         [](auto& g, Reported& r) { fields(g, r); });
+}
+
+}  // namespace sinew::experiment

@@ -1,0 +1,79 @@
+// experiment/experiment.h - what is run: a robot, a plan, a start, and what was reported of it.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sinew/actuator/actuator.h"
+#include "sinew/config/node.h"
+#include "sinew/config/origin.h"
+#include "sinew/config/reader.h"
+#include "sinew/control/gait/plan.h"
+#include "sinew/gas/air.h"
+#include "sinew/gas/supply.h"
+#include "sinew/gas/valve.h"
+#include "sinew/robot/robot.h"
+#include "sinew/signals/timing.h"
+
+namespace sinew::experiment {
+
+struct Start {
+  std::map<std::string, double> joint_angles;  // [rad]
+  std::vector<std::string> blocked;            // joints that are held there
+  double pressure = 0;                         // of every muscle, absolute [Pa]
+  double trolley = 0;                          // [m]
+  double settle = 0;                           // exhausts open, before the first phase [s]
+};
+
+struct Log {
+  bool enabled = true;
+  std::vector<std::string> channels = {"*"};  // topics, * for any run of characters
+  double period = 0.01;                       // [s]
+};
+
+// A figure that the source reports, for the table at the end of a run. Text: its unit follows from
+// the summary's key, see analysis/reported.h.
+struct Reported {
+  std::string key;                  // of summary.json, "trolley.distance_m"
+  std::string value;                // as reported, "55 to 60 in"
+  std::vector<std::string> accept;  // lowest and highest that agrees, ["53 in", "60 in"]
+  std::string source;
+};
+
+struct Experiment {
+  std::string path;  // of the file
+  std::string name;  // of the file, without its ending
+  std::string title;
+  std::string reproduces;
+  std::string plant = "planar";
+  int seed = 1;
+  double body_step = 1e-3;  // between committed nodes [s]
+
+  robot::Robot robot;
+  std::vector<actuator::Actuator> actuators;
+  std::vector<gas::Valve> valves;
+  gas::Air air;
+  gas::Supply supply;
+  signals::ValveTiming timing = signals::identity_timing();
+
+  Start start;
+  gait::Plan plan;
+  Log log;
+  std::vector<Reported> reported;
+
+  config::Origins origins;                 // where every value came from
+  std::vector<config::Problem> warnings;
+};
+
+// Reads the file and everything it names, with --set overrides. Throws config::Error with all that
+// is wrong, also what contradicts itself: names that lead nowhere, points that cannot be reached.
+Experiment load(const std::string& path, const std::vector<std::string>& sets = {});
+
+// The same from a tree that is composed already.
+Experiment load(config::Node root, const std::string& path);
+
+// What was run, as a file that runs again: every value in SI, with its source.
+std::string resolved(const Experiment& experiment, const std::string& version);
+
+}  // namespace sinew::experiment

@@ -1,0 +1,88 @@
+#include "sinew/experiment/high_level.h"
+
+#include <cmath>
+
+#include "sinew/units/constants.h"
+
+namespace sinew::experiment {
+namespace {
+
+// One lbf in/rad, the controller's unit of stiffness  [N m/rad].
+constexpr double stiffness_unit = units::pound_force * units::inch;
+
+// What is no whole percent by rounding alone is one: 0.29 x 100 = 28.999...
+int percent(double share) { return static_cast<int>(std::lround(share * 100.0)); }
+
+}  // namespace
+
+Believed believed(const robot::Robot& robot) {
+  Believed b;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const int s = robot::angle_sensor_of(robot, static_cast<int>(j));
+    const robot::Sensor& sensor = robot.sensors[static_cast<std::size_t>(s)];
+    b.rest[j] = robot.joints[j].rest_angle;
+    b.counts_per_rad[j] = sensor.assumed_scale;
+    b.counts_at_rest[j] = sensor.assumed_at_rest;
+    b.angle_channel[j] = s;
+  }
+  for (std::size_t m = 0; m < robot.muscles.size(); ++m) {
+    const int s = robot::tension_sensor_of(robot, static_cast<int>(m));
+    const robot::Sensor& sensor = robot.sensors[static_cast<std::size_t>(s)];
+    b.newtons_per_count[m] = 1.0 / (sensor.assumed_scale * robot.converter.counts_per_volt());
+    b.counts_at_zero[m] = sensor.assumed_at_rest;
+    b.tension_channel[m] = s;
+  }
+  return b;
+}
+
+HighLevel::HighLevel(const robot::Robot& robot, const gait::Plan& plan)
+    : joints_(static_cast<int>(robot.joints.size())),
+      muscles_(static_cast<int>(robot.muscles.size())),
+      brain_ticks_(std::llround(plan.brain_period / signals::tick_seconds)),
+      scale_(believed(robot)),
+      brain_(robot, plan) {}
+
+void HighLevel::believe(const control::Seen& seen) noexcept {
+  for (int j = 0; j < joints_; ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    const double counts = seen.reading[static_cast<std::size_t>(scale_.angle_channel[k])].counts;
+    measured_.angle[k] =
+        scale_.rest[k] + (counts - scale_.counts_at_rest[k]) / scale_.counts_per_rad[k];
+    measured_.stiffness[k] = static_cast<double>(seen.joint[k].stiffness) * stiffness_unit;
+  }
+  for (int m = 0; m < muscles_; ++m) {
+    const auto k = static_cast<std::size_t>(m);
+    const double counts = seen.reading[static_cast<std::size_t>(scale_.tension_channel[k])].counts;
+    measured_.tension[k] = (counts - scale_.counts_at_zero[k]) * scale_.newtons_per_count[k];
+  }
+}
+
+const control::Command& HighLevel::update(const control::Seen& seen, signals::Tick t) noexcept {
+  believe(seen);
+  translate(brain_.update(measured_, t / brain_ticks_));
+  return command_;
+}
+
+void HighLevel::translate(const gait::Desired& desired) noexcept {
+  for (int j = 0; j < joints_; ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    const gait::DesiredJoint& want = desired.joint[k];
+    control::JointCommand& joint = command_.joint[k];
+
+    // B.1: thetades = (theta - rest) * 767 + potoffset, cut to an integer.
+    joint.angle = static_cast<std::int32_t>((want.angle - scale_.rest[k]) * scale_.counts_per_rad[k] +
+                                            scale_.counts_at_rest[k]);
+    joint.stiffness = static_cast<float>(want.stiffness / stiffness_unit);
+    joint.gains.angle = static_cast<float>(want.gains.angle * 100.0);
+    joint.gains.stiffness = static_cast<float>(want.gains.stiffness * 100.0 * stiffness_unit);
+    joint.gains.velocity = static_cast<float>(want.gains.velocity * 100.0);
+    joint.enabled = want.enabled;
+    joint.open_loop = want.open_loop;
+    joint.duties = {.flexor_inlet = percent(want.flexor_inlet),
+                    .flexor_exhaust = percent(want.flexor_exhaust),
+                    .extensor_inlet = percent(want.extensor_inlet),
+                    .extensor_exhaust = percent(want.extensor_exhaust)};
+  }
+}
+
+}  // namespace sinew::experiment

@@ -1,0 +1,48 @@
+// experiment/high_level.h - joins brain and spinal cord: SI on one side, counts on the other.
+#pragma once
+
+#include "sinew/control/gait/brain.h"
+#include "sinew/control/joint/spine.h"
+#include "sinew/robot/robot.h"
+
+namespace sinew::experiment {
+
+// What one count, or one of the controller's stiffness units, stands for.
+struct Believed {
+  std::array<double, robot::max_joints> rest{}, counts_per_rad{}, counts_at_rest{};
+  std::array<double, robot::max_muscles> newtons_per_count{}, counts_at_zero{};
+  std::array<int, robot::max_joints> angle_channel{};
+  std::array<int, robot::max_muscles> tension_channel{};
+};
+
+Believed believed(const robot::Robot& robot);
+
+class HighLevel {
+ public:
+  HighLevel(const robot::Robot& robot, const gait::Plan& plan);
+
+  // At every low-level period; the brain itself thinks once per brain period.
+  const control::Command& update(const control::Seen& seen, signals::Tick t) noexcept;
+  bool finished() const noexcept { return brain_.finished(); }
+
+  const gait::Brain& brain() const noexcept { return brain_; }
+  const gait::Measured& measured() const noexcept { return measured_; }
+  double newtons_per_count(std::size_t muscle) const noexcept {
+    return scale_.newtons_per_count[muscle];
+  }
+
+  // Readings as the brain gets them.
+  void believe(const control::Seen& seen) noexcept;
+
+ private:
+  void translate(const gait::Desired& desired) noexcept;
+
+  int joints_, muscles_;
+  signals::Tick brain_ticks_;
+  Believed scale_;
+  gait::Brain brain_;
+  gait::Measured measured_;
+  control::Command command_;
+};
+
+}  // namespace sinew::experiment

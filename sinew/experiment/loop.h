@@ -1,0 +1,49 @@
+// experiment/loop.h - the one loop. Simulation, replay and hardware run these lines; the spinal cord
+// never sees a port, and the port never sees the brain.
+#pragma once
+
+#include "sinew/control/joint/spine.h"
+#include "sinew/signals/port.h"
+
+namespace sinew::experiment {
+
+// Brain   update(seen, t) -> Command, finished()
+// Clock   wait_until(t) -> false when late
+// Watch   command(t), edge(e), sample(t), next(t): whoever records; it changes nothing
+//
+// Ends at `end`, when the body ends or fails, or when the spinal cord has shut down.
+template <class Brain, class Clock, class Watch>
+signals::Status loop(control::Spine& spine, Brain& brain, signals::Port& port, Clock& clock,
+                     Watch& watch, signals::Tick end) noexcept {
+  using signals::Status;
+  using signals::Tick;
+
+  Status status = port.start(spine.scan());
+  Tick t = 0;
+  while (status == Status::ok && t < end && spine.seen().phase != control::Phase::off) {
+    if (!clock.wait_until(t)) spine.missed(t);
+
+    // The high level's word for this period, and its last one.
+    if (t % spine.scan().period == 0) {
+      spine.command(brain.update(spine.seen(), t));
+      watch.command(t);
+      if (brain.finished() && spine.seen().phase == control::Phase::running) spine.shut_down(t);
+    }
+
+    // Edges that were decided earlier, then the conversion that is due.
+    for (const signals::Edge& edge : spine.edges(t)) {
+      const Status driven = port.drive(edge);
+      status = status == Status::ok ? driven : status;
+      watch.edge(edge);
+    }
+    if (const signals::Conversion* c = spine.due(t)) spine.take(*c, port.read(c->channel, t), t);
+    watch.sample(t);
+
+    const Tick next = spine.next_event(t), sample = watch.next(t);
+    t = sample < next ? sample : next;
+  }
+  const Status safe = port.stop(t);
+  return status == Status::ok ? safe : status;
+}
+
+}  // namespace sinew::experiment

@@ -1,0 +1,80 @@
+// experiment/recorder.h - watches a run and fills the channel table.
+//
+// One sample of everything per period, right after the last law has run (or every log period, where
+// that is shorter or longer), and each valve edge by itself. The table is reserved before the run;
+// while it goes, recording is noexcept and allocates nothing. What is recorded can be passed on to a
+// log as it comes (Tap). Looking never changes the run: the world is peeked.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "sinew/control/joint/spine.h"
+#include "sinew/experiment/experiment.h"
+#include "sinew/experiment/high_level.h"
+#include "sinew/plant/planar/setup.h"
+#include "sinew/signals/table.h"
+
+namespace sinew::experiment {
+
+// Where else a record goes, for instance log::Writer::push. noexcept, no heap.
+struct Tap {
+  void* object = nullptr;
+  void (*push)(void* object, std::uint16_t topic, std::int64_t time_ns,
+               std::span<const double> values) noexcept = nullptr;
+};
+
+// The topics of a robot's run, in the order in which the recorder writes them.
+std::vector<signals::Topic> topics(const robot::Robot& robot);
+
+class Recorder {
+ public:
+  // `truth` answers what only a simulation knows, at a tick; empty for a body that is none.
+  using TruthAt = std::function<plant::Truth(signals::Tick)>;
+
+  Recorder(const Experiment& experiment, const control::Spine& spine, HighLevel& high_level,
+           TruthAt truth, signals::Tick end);
+
+  void tap(Tap t, std::vector<std::uint16_t> topic_of_series) {
+    tap_ = t;
+    tapped_ = std::move(topic_of_series);
+  }
+  void progress(std::atomic<std::int64_t>* tick) { progress_ = tick; }
+
+  // The loop's side.
+  void command(signals::Tick t) noexcept;
+  void edge(const signals::Edge& edge) noexcept;
+  void sample(signals::Tick t) noexcept;
+  signals::Tick next(signals::Tick) const noexcept { return next_; }
+
+  signals::Table take() { return std::move(table_); }
+
+ private:
+  void put(std::span<const double> values) noexcept;
+  void record_joints() noexcept;
+  void record_muscles() noexcept;
+  void record_plan() noexcept;
+  void record_truth(const plant::Truth& truth) noexcept;
+
+  const robot::Robot& robot_;
+  const control::Spine& spine_;
+  HighLevel& high_;
+  TruthAt truth_;
+  std::vector<double> true_newtons_per_count_;  // of each muscle's own transducer
+
+  signals::Table table_;
+  std::size_t first_edge_ = 0;  // series of the first valve
+  std::size_t cursor_ = 0;      // series that the next put() goes to
+  std::int64_t now_ns_ = 0;
+  signals::Tick period_ = 100, next_ = 0;
+  Tap tap_;
+  std::vector<std::uint16_t> tapped_;  // topic in the log of each series, or none
+  std::atomic<std::int64_t>* progress_ = nullptr;
+};
+
+inline constexpr std::uint16_t not_tapped = 0xffff;
+
+}  // namespace sinew::experiment

@@ -1,0 +1,136 @@
+#include "sinew/experiment/run.h"
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "sinew/experiment/clock.h"
+#include "sinew/experiment/high_level.h"
+#include "sinew/experiment/loop.h"
+#include "sinew/experiment/spinal.h"
+#include "sinew/plant/planar/world.h"
+#include "sinew/plant/recorded/recorded.h"
+
+namespace sinew::experiment {
+
+using signals::Tick;
+
+namespace {
+
+// The recorder, and on demand more looks and more visits than a run needs, which change nothing.
+template <class World>
+struct Watch {
+  Recorder& recorder;
+  World* world;
+  bool every_tick;
+  int extra_readers;
+
+  void command(Tick t) noexcept { recorder.command(t); }
+  void edge(const signals::Edge& e) noexcept { recorder.edge(e); }
+  void sample(Tick t) noexcept {
+    for (int i = 0; i < extra_readers; ++i)
+      if (world) (void)world->truth(static_cast<double>(t) * signals::tick_seconds);
+    recorder.sample(t);
+  }
+  Tick next(Tick t) const noexcept { return every_tick ? t + 1 : recorder.next(t); }
+};
+
+template <class World, class Clock>
+Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& port, World* world,
+              Clock& clock) {
+  control::Spine spine(spine_config(e));
+  HighLevel high_level(e.robot, e.plan);
+  const Tick end = last_tick(e);
+
+  Recorder::TruthAt truth;
+  if (world)
+    truth = [world](Tick t) { return world->truth(static_cast<double>(t) * signals::tick_seconds); };
+  Recorder recorder(e, spine, high_level, truth, end);
+  if (options.tap.push) recorder.tap(options.tap, options.tapped);
+  recorder.progress(options.progress);
+  Watch<World> watch{recorder, world, options.every_tick, options.extra_readers};
+
+  const auto before = std::chrono::steady_clock::now();
+  Outcome out;
+  out.status = loop(spine, high_level, port, clock, watch, end);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - before;
+
+  out.wall = wall.count();
+  out.table = recorder.take();
+  out.seen = spine.seen();
+  out.unreachable_periods = high_level.brain().unreachable_periods();
+  out.duration = static_cast<double>(end) * signals::tick_seconds;
+  for (const signals::Series& s : out.table.series)
+    if (!s.time_ns.empty() && s.topic.name == "/plan/phase")
+      out.duration = 1e-9 * static_cast<double>(s.time_ns.back());
+  return out;
+}
+
+template <int N>
+Outcome run_world(const Experiment& e, const RunOptions& options) {
+  plant::World<N> world(planar_setup(e));
+  if (options.pace > 0) {
+    PacedClock clock(options.pace);
+    return drive(e, options, world, &world, clock);
+  }
+  SimulatedClock clock;
+  Outcome out = drive(e, options, world, &world, clock);
+  out.nodes = world.nodes();
+  return out;
+}
+
+}  // namespace
+
+Tick last_tick(const Experiment& e) {
+  const double vent = e.plan.finish == gait::Plan::Finish::vent ? e.robot.low_level.vent_time : 0.0;
+  const auto brain_ticks = std::llround(e.plan.brain_period / signals::tick_seconds);
+  const Tick plan = gait::periods(e.plan) * brain_ticks;
+  // One period for the last valves to shut.
+  const Tick shut = vent > 0 ? e.robot.low_level.pwm_ticks : 0;
+  return plan + std::llround(vent / signals::tick_seconds) + shut;
+}
+
+plant::Setup planar_setup(const Experiment& e) {
+  plant::Setup s{.robot = e.robot, .air = e.air, .supply = e.supply};
+  for (const robot::Muscle& m : e.robot.muscles) {
+    muscle::Muscle out{.name = m.name, .count = m.count, .external_volume = m.external_volume};
+    for (const actuator::Actuator& a : e.actuators)
+      if (a.name == m.actuator) out.actuator = a;
+    out.actuator.bladder = {.stiffness = m.bladder_stiffness, .rest_length = m.bladder_rest_length};
+    for (const gas::Valve& v : e.valves) {
+      if (v.name == m.inlet) out.inlet = v;
+      if (v.name == m.exhaust) out.exhaust = v;
+    }
+    s.muscles.push_back(std::move(out));
+  }
+  for (const robot::Joint& j : e.robot.joints) {
+    s.start.joint_angle.push_back(e.start.joint_angles.at(j.name));
+    bool blocked = false;
+    for (const std::string& name : e.start.blocked) blocked = blocked || name == j.name;
+    s.start.blocked.push_back(blocked);
+  }
+  s.start.trolley = e.start.trolley;
+  s.start.pressure = e.start.pressure;
+  s.steps.body = e.body_step;
+  s.seed = static_cast<std::uint64_t>(e.seed);
+  return s;
+}
+
+Outcome run(const Experiment& e, const RunOptions& options) {
+  switch (e.robot.joints.size()) {
+    case 1:
+      return run_world<1>(e, options);
+    case 2:
+      return run_world<2>(e, options);
+    default:
+      throw std::invalid_argument("the planar plant holds robots of one or two joints");
+  }
+}
+
+Outcome replay(const Experiment& e, const signals::Table& recorded) {
+  plant::Recorded port(e.robot, recorded);
+  SimulatedClock clock;
+  return drive<plant::World<1>>(e, {}, port, nullptr, clock);
+}
+
+}  // namespace sinew::experiment

@@ -1,0 +1,48 @@
+// experiment/run.h - an experiment from start to finish.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "sinew/control/joint/seen.h"
+#include "sinew/experiment/experiment.h"
+#include "sinew/experiment/recorder.h"
+#include "sinew/plant/planar/setup.h"
+#include "sinew/signals/table.h"
+
+namespace sinew::experiment {
+
+struct RunOptions {
+  double pace = 0;  // simulated per wall second; 0: as fast as it goes
+  Tap tap;
+  std::vector<std::uint16_t> tapped;                // topic in the log of each of topics(), or not_tapped
+  std::atomic<std::int64_t>* progress = nullptr;    // the tick that the run has reached
+  bool every_tick = false;                          // visit each tick: slower, the same bits
+  int extra_readers = 0;                            // looks at the world per event: the same bits
+};
+
+struct Outcome {
+  signals::Status status = signals::Status::ok;
+  signals::Table table;
+  control::Seen seen;               // the low level's last word
+  std::int64_t unreachable_periods = 0;
+  std::int64_t nodes = 0;           // steps of the integrator
+  double duration = 0;              // simulated [s]
+  double wall = 0;                  // [s]
+};
+
+// The last tick that the run can reach.
+signals::Tick last_tick(const Experiment& experiment);
+
+// A planar world for the experiment's robot.
+plant::Setup planar_setup(const Experiment& experiment);
+
+// Throws std::invalid_argument for a robot that no plant can hold; nothing once the loop runs.
+Outcome run(const Experiment& experiment, const RunOptions& options = {});
+
+// The recorded readings of a run through today's controller. Returns the edges it decides, to be
+// compared with the recorded ones.
+Outcome replay(const Experiment& experiment, const signals::Table& recorded);
+
+}  // namespace sinew::experiment

@@ -1,0 +1,116 @@
+// muscle/bank.h - all muscles of a machine, side by side, as the air half of one ODE.
+//
+// State per muscle: the mass of its air, [40]. The bank owns the valves and what they have let
+// through; whoever integrates owns the masses and asks, in every stage,
+//
+//   lengths, rates, masses  ->  tensions, pressures, mass flows in and out
+//
+// With sigma = m/V and x = sigma/sigma_ref - 1 the pressure comes from
+//
+//   y = (P/P_atm)^(1/7) = y_ref (1 + x)^(n/7)
+//
+// by six terms of the binomial series while |x| <= 0.05 (2e-11 relative; the reference is taken
+// anew, exactly, at a node from |x| > 0.02 on), else by units::power. No libm, no branches between
+// lanes: one muscle alone and in a bank has the same bits.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "sinew/gas/air.h"
+#include "sinew/gas/delay.h"
+#include "sinew/gas/orifice.h"
+#include "sinew/gas/supply.h"
+#include "sinew/muscle/muscle.h"
+
+namespace sinew::muscle {
+
+inline constexpr int lanes = 4;     // that are evaluated together
+
+struct alignas(64) Lanes {
+  std::array<double, capacity> of{};
+
+  double& operator[](int i) { return of[static_cast<std::size_t>(i)]; }
+  double operator[](int i) const { return of[static_cast<std::size_t>(i)]; }
+};
+
+// Answer to one evaluation.
+struct Pull {
+  Lanes tension;   // of the bundle, static and viscous, never negative: a cord cannot push [N]
+  Lanes pressure;  // absolute [Pa]
+  Lanes inflow;    // from the supply [kg/s]
+  Lanes outflow;   // to the atmosphere [kg/s]
+};
+
+class Bank {
+ public:
+  // Throws std::invalid_argument for more than `capacity` muscles.
+  Bank(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply);
+
+  int size() const { return size_; }
+
+  // Mass of air in muscle i at this pressure and length  [kg].
+  double mass_at(int i, double pressure, double length) const;
+
+  // Volume of the air  [m^3].
+  double volume(int i, double length) const;
+
+  // An electrical edge of a valve (2 x muscle + (0 inlet | 1 exhaust)) at time t [s].
+  void electrical(int valve, double t, bool open) noexcept;
+
+  // The next instant at which a valve really changes, or infinity  [s].
+  double next_change() const noexcept { return next_change_; }
+
+  // At a node: valves move to t, and the pressure's reference follows where it has drifted.
+  void node(double t, const Lanes& length, const Lanes& mass) noexcept;
+
+  // The law itself. Pure between two nodes; t matters only to valves that ramp.
+  void evaluate(double t, const Lanes& length, const Lanes& rate, const Lanes& mass,
+                Pull& out) const noexcept;
+
+  // Bounds of the bundles' dry friction [33], [34]  [N]; zero where the actuator is not `stick`.
+  Lanes coulomb_bound(const Lanes& length, const Lanes& pressure) const noexcept;
+
+  // True while some valve lets air through, or pressure could move without it.
+  bool any_open() const noexcept { return any_open_; }
+
+  // Share of the valve's area that is open at t  [-].
+  double open_share(int valve, double t) const noexcept;
+
+ private:
+  struct Ports;
+  double exact_y(double density) const noexcept;
+  void pressures(const Lanes& length, const Lanes& mass, Lanes& y) const noexcept;
+  void flows(double t, const Lanes& y, Pull& out) const noexcept;
+  void loose_signs(const Lanes& length, const Lanes& rate, Pull& out) const noexcept;
+  void refresh(double t) noexcept;
+
+  int size_ = 0, padded_ = 0;
+  gas::Air air_;
+  double inverse_reference_density_ = 0;
+  double supply_y_ = 0;
+
+  std::vector<Muscle> muscles_;
+  bool all_stick_ = true;
+
+  // Constants in lanes.
+  Lanes thread2_, factor_, count_, external_;             // b^2, 1/(4 pi n^2), -, m^3
+  Lanes c0_, c1_, c2_, offset_, low_, high_;              // effectiveness
+  Lanes long_length_, long_stiffness_, long_damping_;     // [32], [35]
+  Lanes short_length_, short_stiffness_, short_damping_;  // end stop
+  Lanes short_zero_;                                      // 1 where [31]'s zero holds, else 0
+  Lanes viscous_, bladder_, bladder_rest_;
+
+  std::array<double, 7> series_{};  // binomial coefficients of (1 + x)^(n/7)
+  Lanes y_reference_, inverse_sigma_;
+
+  // Valves: two per muscle.
+  std::vector<gas::Shutter> shutters_;
+  std::vector<gas::FlowConstants> flow_;
+  std::array<double, 2 * capacity> share_{};
+  double next_change_ = 0;
+  bool any_open_ = false, ramping_ = false;
+};
+
+}  // namespace sinew::muscle

@@ -1,0 +1,149 @@
+// plant/planar/chain.h - a chain of N rigid links in the plane, hung from a trolley (or a fixed base).
+//
+// With absolute link angles phi the equations of motion are short for any N (Lagrange):
+//
+//   T = 1/2 M x'^2 - x' sum_i c_i sin(phi_i) phi_i' + 1/2 sum_ij A_ij cos(phi_i - phi_j) phi_i' phi_j'
+//   U = g sum_i c_i sin(phi_i)
+//
+//   M x''              - sum_i c_i sin(phi_i) phi_i''      = F   + sum_i c_i cos(phi_i) phi_i'^2
+//   -c_i sin(phi_i) x'' + sum_j A_ij cos(phi_i-phi_j) phi_j'' = Q_i - g c_i cos(phi_i)
+//                                                            - sum_j A_ij sin(phi_i-phi_j) phi_j'^2
+//
+//   c_i  = m_i r_i + l_i (masses beyond link i)       first moment about joint i   [kg m]
+//   A_ii = I_i + m_i r_i^2 + l_i^2 (masses beyond i),  A_ij = l_i c_j for i < j    [kg m^2]
+//   M    all that moves along the track [kg];  x trolley [m];  F, Q generalised forces [N], [N m]
+//
+// Solved by eliminating the trolley and an LDL^T of the N x N rest. Without trolley 1/M = 0.
+#pragma once
+
+#include <array>
+
+#include "sinew/units/math.h"
+
+namespace sinew::plant {
+
+template <int N>
+struct ChainConstants {
+  std::array<double, N> length{}, first_moment{};      // l [m], c [kg m]
+  std::array<std::array<double, N>, N> inertia{};      // A [kg m^2]
+  double total_mass = 0;                               // M [kg]
+  double inverse_total_mass = 0;                       // 0 for a fixed base [1/kg]
+  double gravity = 9.80665;                            // [m/s^2]
+};
+
+// Coordinates and their rates.
+template <int N>
+struct Pose {
+  double x = 0, x_rate = 0;                  // trolley [m], [m/s]
+  std::array<double, N> angle{}, rate{};     // of the links, from +x [rad], [rad/s]
+};
+
+// A force on each coordinate, or an acceleration of each.
+template <int N>
+struct Generalised {
+  double x = 0;
+  std::array<double, N> angle{};
+};
+
+// What of the equations depends on the pose: evaluated once, used for several right-hand sides.
+template <int N>
+class Chain {
+ public:
+  Chain(const ChainConstants<N>& constants, const Pose<N>& pose) : k_(constants), pose_(pose) {
+    for (int i = 0; i < N; ++i) {
+      const units::SinCos sc = units::sin_cos(pose.angle[i]);
+      sin_[i] = sc.sin;
+      cos_[i] = sc.cos;
+      lever_[i] = k_.first_moment[i] * sin_[i];
+    }
+    factor();
+  }
+
+  double sin(int i) const { return sin_[i]; }
+  double cos(int i) const { return cos_[i]; }
+
+  // Accelerations under the given forces, gravity and the velocities' own terms.
+  Generalised<N> accelerations(Generalised<N> force) const {
+    for (int i = 0; i < N; ++i) {
+      const double rate2 = pose_.rate[i] * pose_.rate[i];
+      force.x += k_.first_moment[i] * cos_[i] * rate2;
+      force.angle[i] -= k_.gravity * k_.first_moment[i] * cos_[i];
+      for (int j = 0; j < N; ++j) {
+        if (j == i) continue;
+        const double sine = sin_[i] * cos_[j] - cos_[i] * sin_[j];
+        force.angle[i] -= k_.inertia[i][j] * sine * (pose_.rate[j] * pose_.rate[j]);
+      }
+    }
+    return response(force);
+  }
+
+  // Accelerations that the forces alone cause: the inverse mass matrix times `force`.
+  Generalised<N> response(const Generalised<N>& force) const {
+    // Eliminate the trolley, then forward and back substitution.
+    std::array<double, N> a;
+    const double push = force.x * k_.inverse_total_mass;
+    for (int i = 0; i < N; ++i) {
+      a[i] = force.angle[i] + lever_[i] * push;
+      for (int j = 0; j < i; ++j) a[i] -= lower_[i][j] * a[j];
+    }
+    for (int i = N - 1; i >= 0; --i) {
+      a[i] *= inverse_pivot_[i];
+      for (int j = i + 1; j < N; ++j) a[i] -= lower_[j][i] * a[j];
+    }
+    Generalised<N> out{.x = push, .angle = a};
+    for (int i = 0; i < N; ++i) out.x += k_.inverse_total_mass * lever_[i] * a[i];
+    return out;
+  }
+
+ private:
+  // LDL^T of A_ij cos(phi_i - phi_j) - c_i sin(phi_i) c_j sin(phi_j)/M.
+  void factor() {
+    for (int i = 0; i < N; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        const double cosine = i == j ? 1.0 : cos_[i] * cos_[j] + sin_[i] * sin_[j];
+        double a = k_.inertia[i][j] * cosine - lever_[i] * lever_[j] * k_.inverse_total_mass;
+        for (int k = 0; k < j; ++k) a -= lower_[i][k] * lower_[j][k] * pivot_[k];
+        if (i == j) {
+          pivot_[i] = a;
+          inverse_pivot_[i] = 1.0 / a;
+        } else {
+          lower_[i][j] = a * inverse_pivot_[j];
+        }
+      }
+    }
+  }
+
+  const ChainConstants<N>& k_;
+  const Pose<N>& pose_;
+  std::array<double, N> sin_, cos_, lever_;
+  std::array<double, N> pivot_, inverse_pivot_;
+  std::array<std::array<double, N>, N> lower_;
+};
+
+// Kinetic plus potential energy [J], zero potential at the height of the first joint.
+template <int N>
+double energy(const ChainConstants<N>& k, const Pose<N>& pose) {
+  double e = 0.5 * k.total_mass * pose.x_rate * pose.x_rate;
+  for (int i = 0; i < N; ++i) {
+    const units::SinCos a = units::sin_cos(pose.angle[i]);
+    e += k.gravity * k.first_moment[i] * a.sin;
+    e -= pose.x_rate * k.first_moment[i] * a.sin * pose.rate[i];
+    for (int j = 0; j < N; ++j) {
+      const units::SinCos b = units::sin_cos(pose.angle[j]);
+      const double cosine = a.cos * b.cos + a.sin * b.sin;
+      e += 0.5 * k.inertia[i][j] * cosine * pose.rate[i] * pose.rate[j];
+    }
+  }
+  return e;
+}
+
+// Momentum along the track [N s].
+template <int N>
+double momentum(const ChainConstants<N>& k, const Pose<N>& pose) {
+  double p = k.total_mass * pose.x_rate;
+  for (int i = 0; i < N; ++i)
+    p -= k.first_moment[i] * units::sin_cos(pose.angle[i]).sin * pose.rate[i];
+  return p;
+}
+
+}  // namespace sinew::plant

@@ -1,0 +1,18 @@
+#include "sinew/plant/planar/layout.h"
+
+namespace sinew::plant {
+
+Strings strings_of(const robot::Robot& robot) {
+  Strings s;
+  for (const robot::Muscle& m : robot.muscles) {
+    const int i = s.count++;
+    s.joint[i] = robot::find_joint(robot, m.joint);
+    const robot::Joint& joint = robot.joints[static_cast<std::size_t>(s.joint[i])];
+    const double role = m.role == robot::Muscle::Role::flexor ? 1.0 : -1.0;
+    s.mount[i] = m.mount_length;
+    s.pull[i] = role * joint.sign() * joint.moment_arm;
+  }
+  return s;
+}
+
+}  // namespace sinew::plant

@@ -1,0 +1,48 @@
+// plant/planar/layout.h - a robot's description turned into the constants of a planar world.
+#pragma once
+
+#include <array>
+
+#include "sinew/muscle/bank.h"
+#include "sinew/plant/planar/chain.h"
+#include "sinew/plant/planar/setup.h"
+
+namespace sinew::plant {
+
+// Muscle i pulls joint `joint[i]` with a constant moment arm; pull[i] = arm, positive where tension
+// raises the angle:  L = mount - pull (theta - rest),  torque = pull * tension.
+struct Strings {
+  int count = 0;
+  std::array<int, muscle::capacity> joint{};
+  muscle::Lanes mount, pull;  // [m]
+};
+
+Strings strings_of(const robot::Robot& robot);
+
+template <int N>
+ChainConstants<N> chain_of(const robot::Robot& robot) {
+  ChainConstants<N> k;
+  k.gravity = robot.gravity;
+
+  // From the tip inwards: what hangs beyond link i.
+  double beyond = robot.foot.present ? robot.foot.mass : 0.0;
+  for (int i = N - 1; i >= 0; --i) {
+    const robot::Link& link = robot.links[static_cast<std::size_t>(i)];
+    const double l = link.length, r = link.center_of_mass;
+    k.length[i] = l;
+    k.first_moment[i] = link.mass * r + l * beyond;
+    k.inertia[i][i] = link.inertia + link.mass * r * r + l * l * beyond;
+    beyond += link.mass;
+  }
+  for (int i = 0; i < N; ++i)
+    for (int j = i + 1; j < N; ++j)
+      k.inertia[i][j] = k.inertia[j][i] = k.length[i] * k.first_moment[j];
+
+  if (robot.trolley.present) {
+    k.total_mass = robot.trolley.total_mass;
+    k.inverse_total_mass = 1.0 / k.total_mass;
+  }
+  return k;
+}
+
+}  // namespace sinew::plant

@@ -1,0 +1,39 @@
+#include "sinew/plant/planar/sensing.h"
+
+namespace sinew::plant {
+namespace {
+
+// A mixer with full avalanche: every input bit flips half of the output's.
+std::uint64_t mix(std::uint64_t x) {
+  x ^= x >> 32;
+  x *= 0xd6e8feb86659fd93ull;
+  x ^= x >> 32;
+  x *= 0xd6e8feb86659fd93ull;
+  x ^= x >> 32;
+  return x;
+}
+
+}  // namespace
+
+double noise(std::uint64_t seed, int sensor, signals::Tick tick) {
+  const std::uint64_t key = mix(seed + 0x9e3779b97f4a7c15ull * static_cast<std::uint64_t>(tick + 1));
+  std::uint64_t sum = 0;
+  for (std::uint64_t half = 0; half < 3; ++half) {
+    std::uint64_t bits = mix(key + 8 * static_cast<std::uint64_t>(sensor) + half);
+    for (int piece = 0; piece < 4; ++piece, bits >>= 16) sum += bits & 0xffffu;
+  }
+  return static_cast<double>(sum) / 65536.0 + 12.0 * 0.5 / 65536.0 - 6.0;
+}
+
+std::uint16_t counts(const robot::Sensor& sensor, const robot::Converter& converter,
+                     double quantity, double noise) {
+  const double per_volt = converter.counts_per_volt();
+  double value = sensor.at_rest + sensor.noise * noise;
+  if (sensor.kind == robot::Sensor::Kind::angle) value += quantity / sensor.scale * per_volt;
+  if (sensor.kind == robot::Sensor::Kind::tension) value += quantity * sensor.scale * per_volt;
+  const double top = converter.top();
+  const double bounded = value < 0 ? 0.0 : value > top ? top : value;
+  return static_cast<std::uint16_t>(bounded + 0.5);
+}
+
+}  // namespace sinew::plant

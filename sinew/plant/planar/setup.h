@@ -1,0 +1,50 @@
+// plant/planar/setup.h - everything a planar world is made from.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sinew/gas/air.h"
+#include "sinew/gas/supply.h"
+#include "sinew/muscle/muscle.h"
+#include "sinew/robot/robot.h"
+
+namespace sinew::plant {
+
+inline constexpr int most_joints = 4;
+
+// Where the machine starts, and what holds it.
+struct Start {
+  std::vector<double> joint_angle;  // [rad]
+  std::vector<bool> blocked;        // joints that are held where they start
+  double trolley = 0;               // [m]
+  double pressure = 0;              // of every muscle, absolute [Pa]
+};
+
+struct Steps {
+  double body = 1e-3;  // between nodes [s]
+};
+
+struct Setup {
+  robot::Robot robot;
+  std::vector<muscle::Muscle> muscles;  // in the order of robot.muscles
+  gas::Air air;
+  gas::Supply supply;
+  Start start;
+  Steps steps;
+  std::uint64_t seed = 1;  // of the sensors' noise
+};
+
+// What only a simulation knows, at one instant.
+struct Truth {
+  double x = 0, x_rate = 0;                                // trolley [m], [m/s]
+  std::array<double, most_joints> angle{}, rate{};         // joints [rad], [rad/s]
+  std::array<double, most_joints> torque{};                // of the muscles, friction apart [N m]
+  std::array<double, muscle::capacity> tension{}, pressure{}, length{}, mass{};  // [N] [Pa] [m] [kg]
+  std::array<double, muscle::capacity> air_in{}, air_out{};  // since the start [kg]
+  double foot_x = 0, foot_y = 0;    // ankle, from the hip [m]
+  double force_x = 0, force_y = 0;  // on the foot by the ground [N]
+};
+
+}  // namespace sinew::plant

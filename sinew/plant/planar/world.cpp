@@ -1,0 +1,428 @@
+#include "sinew/plant/planar/world.h"
+
+namespace sinew::plant {
+
+using signals::Status;
+
+namespace {
+
+constexpr double blocked_bound = 1e9;  // of a joint that is held [N m]
+
+// Shift a pose by h along the given rates.
+template <int N>
+void move(Pose<N>& out, const Pose<N>& from, double h, const Pose<N>& rate,
+          const Generalised<N>& acceleration) {
+  out.x = from.x + h * rate.x_rate;
+  out.x_rate = from.x_rate + h * acceleration.x;
+  for (int i = 0; i < N; ++i) {
+    out.angle[i] = from.angle[i] + h * rate.rate[i];
+    out.rate[i] = from.rate[i] + h * acceleration.angle[i];
+  }
+}
+
+}  // namespace
+
+template <int N>
+World<N>::World(const Setup& setup)
+    : chain_(chain_of<N>(setup.robot)),
+      strings_(strings_of(setup.robot)),
+      bank_(setup.muscles, setup.air, setup.supply),
+      robot_(setup.robot),
+      step_(setup.steps.body),
+      seed_(setup.seed) {
+  for (std::size_t s = 0; s < robot_.sensors.size() && s < source_.size(); ++s) {
+    const robot::Sensor& sensor = robot_.sensors[s];
+    source_[s] = sensor.kind == robot::Sensor::Kind::angle
+                     ? robot::find_joint(robot_, sensor.of)
+                     : robot::find_muscle(robot_, sensor.of);
+  }
+  double absolute = 0;
+  for (int j = 0; j < N; ++j) {
+    const robot::Joint& joint = robot_.joints[static_cast<std::size_t>(j)];
+    rest_[j] = joint.rest_angle;
+    damping_[j] = joint.damping;
+    dry_[j] = setup.start.blocked[static_cast<std::size_t>(j)] ? blocked_bound : joint.dry_friction;
+    absolute += setup.start.joint_angle[static_cast<std::size_t>(j)];
+    state_.pose.angle[j] = absolute;
+  }
+  state_.pose.x = setup.start.trolley;
+
+  Look look;
+  strings(state_.pose, look);
+  for (int i = 0; i < strings_.count; ++i)
+    state_.mass[i] = bank_.mass_at(i, setup.start.pressure, look.length[i]);
+  for (int i = strings_.count; i < muscle::capacity; ++i) {
+    state_.mass[i] = state_.mass[strings_.count > 0 ? strings_.count - 1 : 0];
+  }
+  prepare();
+}
+
+template <int N>
+void World<N>::set_rates(const std::array<double, N>& joint_rates, double x_rate) noexcept {
+  double absolute = 0;
+  for (int j = 0; j < N; ++j) state_.pose.rate[j] = absolute += joint_rates[j];
+  state_.pose.x_rate = x_rate;
+  prepare();
+}
+
+// Lengths of the muscles and their rates, from the joints' angles.
+template <int N>
+void World<N>::strings(const Pose<N>& pose, Look& look) const noexcept {
+  std::array<double, N> travel, rate;
+  for (int j = 0; j < N; ++j) {
+    travel[j] = pose.angle[j] - (j > 0 ? pose.angle[j - 1] : 0.0) - rest_[j];
+    rate[j] = pose.rate[j] - (j > 0 ? pose.rate[j - 1] : 0.0);
+  }
+  for (int i = 0; i < strings_.count; ++i) {
+    const int j = strings_.joint[i];
+    look.length[i] = strings_.mount[i] - strings_.pull[i] * travel[j];
+    look.rate[i] = -strings_.pull[i] * rate[j];
+  }
+  // Idle lanes repeat the last muscle, so that they hold sensible numbers.
+  for (int i = strings_.count; i < muscle::capacity && strings_.count > 0; ++i) {
+    look.length[i] = look.length[strings_.count - 1];
+    look.rate[i] = 0;
+  }
+}
+
+// Everything that pushes the coordinates but dry friction.
+template <int N>
+void World<N>::forces(const Chain<N>& chain, const Pose<N>& pose, Look& look) const noexcept {
+  std::array<double, N + 1> torque{};
+  for (int i = 0; i < strings_.count; ++i)
+    torque[strings_.joint[i]] += strings_.pull[i] * look.pull.tension[i];
+  for (int j = 0; j < N; ++j)
+    torque[j] -= damping_[j] * (pose.rate[j] - (j > 0 ? pose.rate[j - 1] : 0.0));
+
+  look.force.x = 0;
+  for (int j = 0; j < N; ++j) look.force.angle[j] = torque[j] - torque[j + 1];
+
+  // The track's stop: one-sided, and never pulling.
+  const double beyond = pose.x - robot_.trolley.track_length;
+  if (robot_.trolley.present && beyond > 0) {
+    const double push =
+        robot_.trolley.stop_stiffness * beyond + robot_.trolley.stop_damping * pose.x_rate;
+    look.force.x -= push > 0 ? push : 0.0;
+  }
+  contact(chain, pose, look);
+}
+
+// The foot: a disc about the ankle that belongs to the last link. Compliant normal force only; the
+// tangential force is one of the step's dry frictions.
+template <int N>
+void World<N>::contact(const Chain<N>& chain, const Pose<N>& pose, Look& look) const noexcept {
+  look.ankle_x = look.ankle_y = look.normal = 0;
+  double rate_y = 0;
+  for (int i = 0; i < N; ++i) {
+    look.ankle_x += chain_.length[i] * chain.cos(i);
+    look.ankle_y += chain_.length[i] * chain.sin(i);
+    rate_y += chain_.length[i] * chain.cos(i) * pose.rate[i];
+  }
+  if (!robot_.ground.present || !robot_.foot.present) return;
+  const double depth = robot_.ground.height - look.ankle_y;
+  if (depth <= 0) return;
+  const double push = robot_.ground.normal_stiffness * depth - robot_.ground.normal_damping * rate_y;
+  look.normal = push > 0 ? push : 0.0;
+  for (int i = 0; i < N; ++i)
+    look.force.angle[i] += look.normal * chain_.length[i] * chain.cos(i);
+}
+
+// Generalised force of the contacts' frictions, J^T f.
+template <int N>
+Generalised<N> World<N>::friction(const Chain<N>& chain,
+                                  const std::array<double, contacts>& f) const noexcept {
+  Generalised<N> out;
+  out.x = f[trolley] + f[foot];
+  for (int i = 0; i < N; ++i)
+    out.angle[i] = f[i] - (i + 1 < N ? f[i + 1] : 0.0) -
+                   f[foot] * chain_.length[i] * chain.sin(i);
+  out.angle[N - 1] += f[foot] * robot_.foot.radius;
+  return out;
+}
+
+// One evaluation of the right-hand side, with the frictions f held.
+template <int N>
+void World<N>::look_at(double t, const State& state, const std::array<double, contacts>& f,
+                       Look& look) const noexcept {
+  strings(state.pose, look);
+  bank_.evaluate(t, look.length, look.rate, state.mass, look.pull);
+  const Chain<N> chain(chain_, state.pose);
+  forces(chain, state.pose, look);
+  Generalised<N> force = look.force;
+  const Generalised<N> rub = friction(chain, f);
+  force.x += rub.x;
+  for (int i = 0; i < N; ++i) force.angle[i] += rub.angle[i];
+  look.acceleration = chain.accelerations(force);
+}
+
+// A new node: valves and references, the first stage, and what friction can do about it.
+template <int N>
+void World<N>::prepare() noexcept {
+  strings(state_.pose, first_);
+  bank_.node(time_, first_.length, state_.mass);
+  bank_.evaluate(time_, first_.length, first_.rate, state_.mass, first_.pull);
+  const Chain<N> chain(chain_, state_.pose);
+  forces(chain, state_.pose, first_);
+  first_.acceleration = chain.accelerations(first_.force);
+
+  // Bounds. The mesh's own friction acts through the cams and is part of the joint's.
+  mesh_ = bank_.coulomb_bound(first_.length, first_.pull.pressure);
+  for (int j = 0; j < N; ++j) problem_.bound[j] = dry_[j];
+  for (int i = 0; i < strings_.count; ++i)
+    problem_.bound[strings_.joint[i]] += std::abs(strings_.pull[i]) * mesh_[i];
+  problem_.bound[trolley] = robot_.trolley.present ? robot_.trolley.drag : 0.0;
+  problem_.bound[foot] = robot_.foot.friction * first_.normal;
+
+  // Columns of M^-1 J^T, and W / h = J M^-1 J^T.
+  for (int c = 0; c < contacts; ++c) {
+    if (problem_.bound[c] <= 0) {
+      column_[c] = {};
+      continue;
+    }
+    std::array<double, contacts> unit{};
+    unit[c] = 1.0;
+    column_[c] = chain.response(friction(chain, unit));
+  }
+  for (int c = 0; c < contacts; ++c) {
+    const Generalised<N>& a = column_[c];
+    for (int j = 0; j < N; ++j)
+      problem_.response[j][c] = a.angle[j] - (j > 0 ? a.angle[j - 1] : 0.0);
+    problem_.response[trolley][c] = a.x;
+    double slip = a.x + robot_.foot.radius * a.angle[N - 1];
+    for (int i = 0; i < N; ++i) slip -= chain_.length[i] * chain.sin(i) * a.angle[i];
+    problem_.response[foot][c] = slip;
+  }
+
+  // Slip velocities now; hold() adds what the step's acceleration makes of them.
+  const Pose<N>& pose = state_.pose;
+  for (int j = 0; j < N; ++j)
+    problem_.slip[j] = pose.rate[j] - (j > 0 ? pose.rate[j - 1] : 0.0);
+  problem_.slip[trolley] = pose.x_rate;
+  problem_.slip[foot] = pose.x_rate + robot_.foot.radius * pose.rate[N - 1];
+  for (int i = 0; i < N; ++i)
+    problem_.slip[foot] -= chain_.length[i] * chain.sin(i) * pose.rate[i];
+  slip_rate_[trolley] = first_.acceleration.x;
+  slip_rate_[foot] = first_.acceleration.x + robot_.foot.radius * first_.acceleration.angle[N - 1];
+  for (int i = 0; i < N; ++i) {
+    const double a = first_.acceleration.angle[i];
+    slip_rate_[i] = a - (i > 0 ? first_.acceleration.angle[i - 1] : 0.0);
+    // The foot's lever turns with the link: d/dt of J is part of the slip's rate.
+    slip_rate_[foot] -= chain_.length[i] * (chain.sin(i) * a + chain.cos(i) * pose.rate[i] * pose.rate[i]);
+  }
+}
+
+// Dry friction of a step of length h.
+template <int N>
+auto World<N>::hold(double h) const noexcept -> std::array<double, contacts> {
+  FrictionProblem<contacts> p = problem_;
+  for (int c = 0; c < contacts; ++c) {
+    p.slip[c] += h * slip_rate_[c];
+    for (int d = 0; d < contacts; ++d) p.response[c][d] *= h;
+  }
+  return solve_friction<contacts>(p, held_);
+}
+
+template <int N>
+void World<N>::step(double h) noexcept {
+  held_ = hold(h);
+
+  Look k[4];
+  k[0] = first_;
+  for (int c = 0; c < contacts; ++c) {
+    k[0].acceleration.x += column_[c].x * held_[c];
+    for (int i = 0; i < N; ++i) k[0].acceleration.angle[i] += column_[c].angle[i] * held_[c];
+  }
+
+  // Stages two to four at 1/2, 1/2 and 1.
+  State stage[4];
+  stage[0].pose = state_.pose;
+  for (int s = 1; s < 4; ++s) {
+    const double part = s == 3 ? h : 0.5 * h;
+    move(stage[s].pose, state_.pose, part, stage[s - 1].pose, k[s - 1].acceleration);
+    for (int i = 0; i < muscle::capacity; ++i)
+      stage[s].mass[i] = state_.mass[i] + part * (k[s - 1].pull.inflow[i] - k[s - 1].pull.outflow[i]);
+    look_at(time_ + part, stage[s], held_, k[s]);
+  }
+
+  const double sixth = h / 6.0;
+  const auto mean = [&](auto&& part) {
+    return sixth * (part(0) + 2.0 * part(1) + 2.0 * part(2) + part(3));
+  };
+  state_.pose.x += mean([&](int s) { return stage[s].pose.x_rate; });
+  for (int i = 0; i < N; ++i) state_.pose.angle[i] += mean([&](int s) { return stage[s].pose.rate[i]; });
+  state_.pose.x_rate += mean([&](int s) { return k[s].acceleration.x; });
+  for (int i = 0; i < N; ++i)
+    state_.pose.rate[i] += mean([&](int s) { return k[s].acceleration.angle[i]; });
+
+  if (!bank_.any_open()) return;
+  for (int i = 0; i < strings_.count; ++i) {
+    const double in = mean([&](int s) { return k[s].pull.inflow[i]; });
+    const double out = mean([&](int s) { return k[s].pull.outflow[i]; });
+    state_.air_in[i] += in;
+    state_.air_out[i] += out;
+    state_.mass[i] += in - out;
+  }
+}
+
+// The next multiple of the body step, or the next change of a valve.
+template <int N>
+double World<N>::next_node() const noexcept {
+  const double multiple = static_cast<double>(multiple_ + 1) * step_;
+  const double change = bank_.next_change();
+  return change < multiple ? change : multiple;
+}
+
+template <int N>
+void World<N>::advance(double t) noexcept {
+  for (double next = next_node(); next <= t; next = next_node()) {
+    const double h = next - time_;
+    if (h > 0) step(h);
+    time_ = next > time_ ? next : time_;
+    if (next >= static_cast<double>(multiple_ + 1) * step_) ++multiple_;
+    ++nodes_;
+    prepare();
+  }
+}
+
+// The friction that a whole body step from the last node would have: what a peek goes by, however
+// far it looks, so that it depends on the node alone.
+template <int N>
+auto World<N>::glance() const noexcept -> Glance {
+  Glance g{.held = hold(step_), .acceleration = first_.acceleration};
+  for (int c = 0; c < contacts; ++c) {
+    g.acceleration.x += column_[c].x * g.held[c];
+    for (int i = 0; i < N; ++i) g.acceleration.angle[i] += column_[c].angle[i] * g.held[c];
+  }
+  return g;
+}
+
+// From the last node to t in a copy: the body by its acceleration ...
+template <int N>
+Pose<N> World<N>::peek_pose(const Glance& g, double t) const noexcept {
+  const double dt = t - time_;
+  Pose<N> pose = state_.pose;
+  move(pose, state_.pose, dt, state_.pose, g.acceleration);
+  pose.x += 0.5 * dt * dt * g.acceleration.x;
+  for (int i = 0; i < N; ++i) pose.angle[i] += 0.5 * dt * dt * g.acceleration.angle[i];
+  return pose;
+}
+
+// ... and the air by Heun's rule where some valve is open.
+template <int N>
+auto World<N>::peek(const Glance& g, double t) const noexcept -> Peek {
+  const double dt = t - time_;
+  Peek p{.state = state_, .look = first_};
+  p.state.pose = peek_pose(g, t);
+  const muscle::Pull& before = first_.pull;
+  for (int pass = 0; pass < 2; ++pass) {
+    strings(p.state.pose, p.look);
+    bank_.evaluate(t, p.look.length, p.look.rate, p.state.mass, p.look.pull);
+    if (!bank_.any_open() || pass == 1) break;
+    for (int i = 0; i < strings_.count; ++i) {
+      const double in = 0.5 * dt * (before.inflow[i] + p.look.pull.inflow[i]);
+      const double out = 0.5 * dt * (before.outflow[i] + p.look.pull.outflow[i]);
+      p.state.air_in[i] = state_.air_in[i] + in;
+      p.state.air_out[i] = state_.air_out[i] + out;
+      p.state.mass[i] = state_.mass[i] + (in - out);
+    }
+  }
+  return p;
+}
+
+// What a gauge in the cord sees: the pull and its share of the mesh's friction.
+template <int N>
+double World<N>::gauge(const Glance& g, const Peek& p, int muscle) const noexcept {
+  const int j = strings_.joint[muscle];
+  double f = p.look.pull.tension[muscle];
+  if (mesh_[muscle] > 0) {
+    const double share = g.held[j] * mesh_[muscle] / problem_.bound[j];
+    f += strings_.pull[muscle] > 0 ? share : -share;
+  }
+  return f > 0 ? f : 0.0;
+}
+
+template <int N>
+Status World<N>::start(const signals::Scan& scan) noexcept {
+  for (const signals::Conversion& c : scan.conversions) {
+    if (c.channel.index >= robot_.sensors.size()) return Status::invalid;
+    lag_[c.channel.index] = c.read - c.start;
+  }
+  return Status::ok;
+}
+
+template <int N>
+Status World<N>::drive(signals::Edge edge) noexcept {
+  if (ended_) return Status::ended;
+  if (edge.valve.index >= 2 * strings_.count) return Status::invalid;
+  bank_.electrical(edge.valve.index, static_cast<double>(edge.at) * signals::tick_seconds, edge.open);
+  return Status::ok;
+}
+
+template <int N>
+signals::Reading World<N>::read(signals::Channel channel, signals::Tick now) noexcept {
+  const robot::Sensor& sensor = robot_.sensors[channel.index];
+  const signals::Tick sampled = now - lag_[channel.index];
+  const double t = static_cast<double>(sampled) * signals::tick_seconds;
+  double quantity = 0;
+  if (sensor.kind != robot::Sensor::Kind::fixed) {
+    advance(t);
+    const Glance g = glance();
+    const int of = source_[channel.index];
+    if (sensor.kind == robot::Sensor::Kind::angle) {
+      const Pose<N> pose = peek_pose(g, t);
+      const auto j = static_cast<std::size_t>(of);
+      quantity = pose.angle[j] - (of > 0 ? pose.angle[j - 1] : 0.0) - rest_[j];
+    } else {
+      quantity = gauge(g, peek(g, t), of);
+    }
+  }
+  const double hiss = sensor.noise > 0 ? noise(seed_, channel.index, sampled) : 0.0;
+  return {counts(sensor, robot_.converter, quantity, hiss), ended_ ? Status::ended : Status::ok};
+}
+
+template <int N>
+Status World<N>::stop(signals::Tick) noexcept {
+  ended_ = true;  // nothing moves a simulated body after its last tick
+  return Status::ok;
+}
+
+template <int N>
+Truth World<N>::truth(double t) noexcept {
+  advance(t);
+  const Glance g = glance();
+  const Peek p = peek(g, t);
+  const Pose<N>& pose = p.state.pose;
+
+  Truth out;
+  out.x = pose.x;
+  out.x_rate = pose.x_rate;
+  for (int j = 0; j < N; ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    out.angle[k] = pose.angle[j] - (j > 0 ? pose.angle[j - 1] : 0.0);
+    out.rate[k] = pose.rate[j] - (j > 0 ? pose.rate[j - 1] : 0.0);
+  }
+  for (int i = 0; i < strings_.count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    out.tension[k] = gauge(g, p, i);
+    out.pressure[k] = p.look.pull.pressure[i];
+    out.length[k] = p.look.length[i];
+    out.mass[k] = p.state.mass[i];
+    out.air_in[k] = p.state.air_in[i];
+    out.air_out[k] = p.state.air_out[i];
+    out.torque[static_cast<std::size_t>(strings_.joint[i])] += strings_.pull[i] * out.tension[k];
+  }
+
+  Look look = p.look;
+  const Chain<N> chain(chain_, pose);
+  contact(chain, pose, look);
+  out.foot_x = look.ankle_x;
+  out.foot_y = look.ankle_y;
+  out.force_x = look.normal > 0 ? g.held[foot] : 0.0;
+  out.force_y = look.normal;
+  return out;
+}
+
+template class World<1>;
+template class World<2>;
+
+}  // namespace sinew::plant
