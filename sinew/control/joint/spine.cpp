@@ -105,44 +105,57 @@ void Spine::store(Channel channel, Reading reading, Tick t) noexcept {
 
 // --- laws ---------------------------------------------------------------------------------------
 
+// Never a law on a channel that has not answered yet, nor twice in a period.
+bool Spine::ready(std::size_t j, Tick t) const noexcept {
+  const JointConfig& joint = config_.joint[j];
+  const Tick last = seen_.joint[j].law_at;
+  if (last >= 0 && t - last < config_.period) return false;
+  if (!answered_[joint.angle.index]) return false;
+  return joint.kind == JointKind::cylinder ||
+         (answered_[joint.flexor.tension.index] && answered_[joint.extensor.tension.index]);
+}
+
 void Spine::run_law(std::size_t j, Tick t) noexcept {
+  if (!ready(j, t)) return;
   const JointConfig& joint = config_.joint[j];
   const JointCommand& command = command_.joint[j];
   const bool antagonist = joint.kind == JointKind::antagonist;
   JointSeen& seen = seen_.joint[j];
 
-  // Never a law on a channel that has not answered yet, nor twice in a period.
-  if (!answered_[joint.angle.index]) return;
-  if (antagonist &&
-      !(answered_[joint.flexor.tension.index] && answered_[joint.extensor.tension.index]))
-    return;
-  if (seen.law_at >= 0 && t - seen.law_at < config_.period) return;
-
+  // The first law sees no speed; nor does a cylinder's, as in the code.
   const std::int32_t angle = seen_.reading[joint.angle.index].counts;
-  const bool has_speed = antagonist && seen.law_at >= 0;
-  const std::int32_t previous = has_speed ? previous_angle_[j] : angle;
-  const Exact position = angle_law(command.gains, joint.flexion, command.angle, angle, previous,
-                                   ticks_per_second / static_cast<float>(config_.period));
+  const std::int32_t previous = antagonist && seen.law_at >= 0 ? previous_angle_[j] : angle;
+  const float rate = ticks_per_second / static_cast<float>(config_.period);
+  const Exact u_theta =
+      angle_law(command.gains, joint.flexion, command.angle, angle, previous, rate);
   previous_angle_[j] = angle;
+
   seen.law_at = t;
   seen.enabled = joint.enabled && command.enabled;
-  seen.angle_output = position.high;
-
-  if (antagonist) {
-    const Stiffness stiffness = joint_stiffness(joint, config_.truncation, angle,
-                                                seen_.reading[joint.flexor.tension.index].counts,
-                                                seen_.reading[joint.extensor.tension.index].counts);
-    seen.pole_held = !stiffness.valid;
-    seen.pole_holds += seen.pole_held;
-    if (stiffness.valid) seen.stiffness = stiffness.value;
-    const Exact stiffen = stiffness_law(command.gains.stiffness, command.stiffness, seen.stiffness);
-    seen.stiffness_output = stiffen.high;
-    seen.duties = to_duties(stiffen, position, config_.truncation);
-  } else {
-    seen.duties = cylinder_duties(joint.feedforward, position, config_.truncation);
-  }
+  seen.angle_output = u_theta.high;
+  seen.duties = antagonist ? to_duties(stiffness_output(j), u_theta, config_.truncation)
+                           : cylinder_duties(joint.feedforward, u_theta, config_.truncation);
   if (command.open_loop) seen.duties = open_loop_duties(command.duties, joint.kind);
   schedule(j, t);
+}
+
+// U_k, from a new stiffness or, near the pole of [27], from the last one.
+Exact Spine::stiffness_output(std::size_t j) noexcept {
+  const JointConfig& joint = config_.joint[j];
+  const JointCommand& command = command_.joint[j];
+  const auto counts = [&](Channel c) -> std::int32_t { return seen_.reading[c.index].counts; };
+  JointSeen& seen = seen_.joint[j];
+
+  const Stiffness now =
+      joint_stiffness(joint, config_.truncation, counts(joint.angle), counts(joint.flexor.tension),
+                      counts(joint.extensor.tension));
+  if (now.valid) seen.stiffness = now.value;
+  seen.pole_held = !now.valid;
+  seen.pole_holds += seen.pole_held;
+
+  const Exact u_k = stiffness_law(command.gains.stiffness, command.stiffness, seen.stiffness);
+  seen.stiffness_output = u_k.high;
+  return u_k;
 }
 
 // --- valves -------------------------------------------------------------------------------------

@@ -26,6 +26,7 @@
 
 #include "sinew/control/joint/command.h"
 #include "sinew/control/joint/config.h"
+#include "sinew/control/joint/exact.h"
 #include "sinew/control/joint/pulse_train.h"
 #include "sinew/control/joint/seen.h"
 #include "sinew/signals/port.h"
@@ -75,7 +76,9 @@ class Spine {
 
   void locate(signals::Tick t) noexcept;
   void store(signals::Channel, signals::Reading, signals::Tick t) noexcept;
+  bool ready(std::size_t joint, signals::Tick t) const noexcept;
   void run_law(std::size_t joint, signals::Tick t) noexcept;
+  Exact stiffness_output(std::size_t joint) noexcept;
   void schedule(std::size_t joint, signals::Tick t) noexcept;
   void vent(signals::Tick from, std::uint32_t ticks, Phase during, Phase after) noexcept;
   void hand_out(signals::Tick t, bool open) noexcept;

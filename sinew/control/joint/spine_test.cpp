@@ -230,16 +230,18 @@ void expect_safe_after(const Trace& trace, Tick at, Tick vent) {
 TEST(Spine, ShutDownVentsThenShuts) {
   SpineConfig config = test_leg();
   config.shutdown_vent = 3000;
-  for (const Tick at : {0, 5009, 5010, 5050, 5108, 7313}) {
-    Spine spine(config);
-    const World world{.interfere = [at](Spine& s, Tick t) {
-      if (t >= at && t < at + 1000) s.shut_down(t);  // asking again changes nothing
-    }};
-    const Trace trace = run(spine, world, 20'000, true);
-    expect_safe_after(trace, at, 3000);
-    EXPECT_EQ(spine.seen().phase, Phase::off);
-    EXPECT_EQ(spine.seen().fault, Status::ok);
-  }
+  for (const std::uint32_t startup : {0, 6000})
+    for (const Tick at : {0, 5009, 5010, 5050, 5108, 7313}) {
+      config.startup_vent = startup;
+      Spine spine(config);
+      const World world{.interfere = [at](Spine& s, Tick t) {
+        if (t >= at && t < at + 1000) s.shut_down(t);  // asking again changes nothing
+      }};
+      const Trace trace = run(spine, world, 20'000, true);
+      expect_safe_after(trace, at, 3000);
+      EXPECT_EQ(spine.seen().phase, Phase::off);
+      EXPECT_EQ(spine.seen().fault, Status::ok);
+    }
 }
 
 TEST(Spine, FaultAndEndLeadToTheSafeState) {
