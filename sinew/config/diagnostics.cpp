@@ -59,8 +59,12 @@ Error::Error(const Problem& problem) : Error(std::vector<Problem>(1, problem)) {
 
 void fail(Location where, std::string key, std::string found, std::string expected,
           std::string try_this) {
-  const Problem problem{std::move(where), std::move(key), std::move(found), std::move(expected),
-                        std::move(try_this)};
+  Problem problem;
+  problem.where = std::move(where);
+  problem.key = std::move(key);
+  problem.found = std::move(found);
+  problem.expected = std::move(expected);
+  problem.try_this = std::move(try_this);
   throw Error(problem);
 }
 

@@ -198,7 +198,7 @@ Parsed parse_quantity(std::string_view text, std::string_view unit, double atmos
                        fmt::format("a number first, as in \"{}\"", example)}};
   }
   if (!std::isfinite(number)) {
-    return {0, Mistake{in_quotes(text), "a finite number in " + describe_unit(unit), ""}};
+    return {0, Mistake{in_quotes(text), describe_finite(unit), ""}};
   }
   if (const auto hint = comma_hint(body, rest); !hint.empty()) {
     return {0, Mistake{in_quotes(text), describe_unit(unit), hint}};
@@ -222,8 +222,13 @@ double quantity(std::string_view text, std::string_view unit, std::string_view k
 }
 
 std::string format_number(double value) {
-  char buffer[32];
-  const auto result = std::to_chars(std::begin(buffer), std::end(buffer), value);
+  char buffer[64];
+  // 100000 rather than 1e+05, as long as the zeros can be counted.
+  const double size = std::abs(value);
+  const bool plain = size == 0 || (size >= 1e-5 && size < 1e9);
+  const auto result =
+      plain ? std::to_chars(std::begin(buffer), std::end(buffer), value, std::chars_format::fixed)
+            : std::to_chars(std::begin(buffer), std::end(buffer), value);
   return {buffer, result.ptr};
 }
 
@@ -271,6 +276,11 @@ std::string coefficient_unit(std::string_view unit, std::string_view per, int k)
 
 std::string_view difference_unit(std::string_view unit) {
   return unit == "Pa abs" || unit == "Pa gauge" ? "Pa diff" : unit;
+}
+
+std::string describe_finite(std::string_view unit) {
+  const std::string what = describe_unit(unit);
+  return what == "a number" ? "a finite number" : "a finite number of " + what;
 }
 
 std::string describe_unit(std::string_view unit) {

@@ -47,7 +47,7 @@ std::string format_quantity(double si, std::string_view unit, std::string_view d
 double convert(double si, std::string_view unit, std::string_view display,
                double atmosphere = units::atmosphere);
 
-std::string format_number(double value);
+std::string format_number(double value);  // shortest that brings back the same bits
 
 // Unit of the k-th coefficient of a polynomial: ("1", "Pa", 2) -> "1/Pa2", ("m", "m", 2) -> "1/m".
 std::string coefficient_unit(std::string_view unit, std::string_view per, int k);
@@ -57,5 +57,6 @@ std::string_view difference_unit(std::string_view unit);
 
 // "Pa abs" -> "Pa abs (pressure)", "N m/rad" -> "N m/rad (joint stiffness)", "1" -> "a number".
 std::string describe_unit(std::string_view unit);
+std::string describe_finite(std::string_view unit);  // "a finite number of m (length)"
 
 }  // namespace sinew::config

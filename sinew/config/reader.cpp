@@ -183,7 +183,7 @@ std::optional<double> Reader::si_of(const Node& node, std::string_view unit,
   } else if (node.is_number()) {
     const double value = node.kind == Node::Kind::real ? node.real : double(node.integer);
     if (!std::isfinite(value)) {
-      mistake = Mistake{written(node), "a finite number in " + describe_unit(unit), ""};
+      mistake = Mistake{written(node), describe_finite(unit), ""};
     } else if (unit == "1") {
       return value;
     } else {
@@ -200,7 +200,8 @@ bool Reader::in_bounds(const Field& field, double value, const Node& node,
                        const std::string& path) {
   if (value >= field.min && value <= field.max) return true;
   std::string found = shown(node);
-  const std::string si = format_quantity(value, field.unit);
+  const std::string unit(field.unit.empty() ? "1" : field.unit);
+  const std::string si = format_quantity(value, unit, unit);
   if (written(node) != si) found += ", which is " + si;
   add_problem(node, path, found, bounds_text(field));
   return false;
@@ -294,12 +295,19 @@ void Reader::find_unused(const Node& table, const std::string& path) {
   if (asked != asked_.end()) known.assign(asked->second.begin(), asked->second.end());
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
+
+  const bool list = table.kind == Node::Kind::array;
+  int index = 0;
   for (const Node& child : table.children) {
-    const std::string child_path =
-        path.empty() || child.key.empty() ? path + child.key : path + "." + child.key;
+    std::string child_path = path;
+    if (list) {
+      child_path += fmt::format("[{}]", index++);
+    } else {
+      child_path += (path.empty() ? "" : ".") + child.key;
+    }
     if (child.used) {
       find_unused(child, child_path);
-    } else if (table.kind == Node::Kind::table && !describes_values(child)) {
+    } else if (!list && !describes_values(child)) {
       const std::string_view near = closest(child.key, known);
       add_problem(child, child_path, "an unknown key",
                   known.empty() || known.size() > 12 ? "a key that is read here" : either(known),

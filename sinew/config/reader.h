@@ -32,7 +32,7 @@ enum class Severity { ignore, warning, error };
 struct ReaderOptions {
   double atmosphere = units::atmosphere;  // [Pa], between gauge and absolute
   // How bad is a number without a source in this file? Absent: not at all.
-  std::function<Severity(const std::string& file)> missing_source;
+  std::function<Severity(const std::string& file)> missing_source = {};
 };
 
 class Reader {

@@ -6,7 +6,7 @@
 namespace sinew::units {
 
 inline constexpr double inch = 0.0254;                    // [m]
-inline constexpr double foot = 12 * inch;                 // [m]
+inline constexpr double foot = 0.3048;                    // [m]
 inline constexpr double pound_mass = 0.45359237;          // [kg]
 inline constexpr double standard_gravity = 9.80665;       // [m/s2]
 inline constexpr double pound_force = 4.4482216152605;    // [N], pound_mass x standard_gravity

@@ -4,8 +4,7 @@
 //
 //   template <class Visitor>
 //   void fields(Visitor& v, Braid& braid) {
-//     v.number({.name = "turns", .unit = "1", .min = 0.01, .doc = "turns of one thread [18]"},
-//     braid.turns);
+//     v.number({.name = "turns", .unit = "1", .min = 0.01, .doc = "of one thread"}, braid.turns);
 //   }
 //
 // The same function reads the struct from a file, prints it, documents it and names the channels'
@@ -24,6 +23,8 @@
 //   v.each(Field, std::vector<T>&, [&](auto& v, T&) {...})   a table of named tables; T has `name`
 //   v.list(Field, std::vector<T>&, [&](auto& v, T&) {...})   an array of tables, in their order
 //   v.named_numbers(Field, std::map<std::string, double>&)   { hip = "300 deg", knee = "292 deg" }
+//
+// Only a reader has v.complain(...); units/complain.h asks for it.
 #pragma once
 
 #include <limits>
@@ -35,12 +36,12 @@ inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 struct Field {
   std::string_view name;  // key in the file
-  std::string_view unit =
-      "";  // SI; "Pa abs", "Pa gauge", "Pa diff" for pressures; "1" for a bare number
+  // SI; "Pa abs", "Pa gauge" or "Pa diff" for a pressure; "1" for a bare number.
+  std::string_view unit = "";
   double min = -unbounded;  // inclusive, in `unit`
   double max = unbounded;
-  bool optional = false;  // absent: the struct's default stays
-  std::string_view doc;   // one line
+  bool optional = false;      // absent: the struct's default stays
+  std::string_view doc = "";  // one line
 };
 
 // One allowed word of a choice and what it stands for.

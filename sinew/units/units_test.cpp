@@ -1,6 +1,9 @@
 // units/units_test.cpp - the laws of constants, dimensions and the unit grammar.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
 #include "sinew/units/literals.h"
 #include "sinew/units/unit.h"
 

@@ -1,0 +1,220 @@
+// Several files to one namespace, in a folder of our own.
+#include "sinew/config/compose.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+namespace sinew::config {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Compose : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "sinew-compose-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+    write("leg/actuator.toml",
+          "format = \"sinew.actuator/1\"\nname = \"bpa\"\n[braid]\nturns = 2\n");
+    write("leg/valves.toml", "format = \"sinew.valves/1\"\n[valve.inlet]\nkind = \"2-way\"\n");
+    write("leg/predict.dat", "0,0,101\n");
+    write("leg/robot.toml",
+          "format = \"sinew.robot/1\"\nname = \"leg\"\n"
+          "files = { actuator = \"actuator.toml\", valves = \"valves.toml\", "
+          "valve_timing = \"predict.dat\" }\n"
+          "[joint.hip]\nsource = \"6.3\"\nrest_angle = \"278 deg\"\n"
+          "damping = { value = \"1 N m s/rad\", source = \"fit\" }\n"
+          "[muscle.hip_flexor]\nmount_length = \"3.25 in\"\n[low_level]\ntick = \"100 us\"\n");
+    write("tests/walk.toml",
+          "format = \"sinew.experiment/1\"\nrobot = \"../leg/robot.toml\"\nseed = 1\n"
+          "[phase.swing]\nduration = \"1.5 s\"\n");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  void write(const std::string& name, const std::string& content) const {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << content;
+  }
+  std::string message(const std::string& name, const std::vector<std::string>& sets = {}) const {
+    try {
+      compose(path(name), sets);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  fs::path folder_;
+};
+
+// "a.b.c" in a tree.
+const Node* at(const Node& root, std::string_view dotted) {
+  const std::size_t dot = dotted.find('.');
+  const Node* child = root.find(dotted.substr(0, dot));
+  return dot == dotted.npos || !child ? child : at(*child, dotted.substr(dot + 1));
+}
+
+bool contains(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(Compose, an_experiment_holds_its_robot_and_the_robots_files) {
+  const Node root = compose(path("tests/walk.toml"));
+  EXPECT_EQ(format_kind(root), "experiment");
+  EXPECT_TRUE(root.find("format")->used);
+  EXPECT_EQ(at(root, "robot_name")->text, "leg");
+  EXPECT_EQ(at(root, "phase.swing.duration")->text, "1.5 s");
+  EXPECT_EQ(at(root, "muscle.hip_flexor.mount_length")->text, "3.25 in");
+  EXPECT_EQ(at(root, "actuator.bpa.braid.turns")->integer, 2);
+  EXPECT_EQ(at(root, "valve.inlet.kind")->text, "2-way");
+  EXPECT_EQ(at(root, "low_level.tick")->text, "100 us");
+  EXPECT_EQ(at(root, "low_level.valve_timing")->text, path("leg/predict.dat"));
+  EXPECT_EQ(root.find("robot"), nullptr);
+  EXPECT_EQ(root.find("files"), nullptr);
+  EXPECT_EQ(at(root, "actuator.bpa.name"), nullptr);
+  EXPECT_EQ(at(root, "actuator.bpa.braid.turns")->where.file, path("leg/actuator.toml"));
+}
+
+TEST_F(Compose, robot_actuator_and_valves_files_compose_alone) {
+  EXPECT_EQ(at(compose(path("leg/robot.toml")), "actuator.bpa.braid.turns")->integer, 2);
+  EXPECT_EQ(at(compose(path("leg/robot.toml")), "robot_name")->text, "leg");
+  EXPECT_EQ(at(compose(path("leg/actuator.toml")), "actuator.bpa.braid.turns")->integer, 2);
+  EXPECT_EQ(at(compose(path("leg/valves.toml")), "valve.inlet.kind")->text, "2-way");
+}
+
+TEST_F(Compose, several_actuators_stand_side_by_side) {
+  write("leg/thin.toml", "format = \"sinew.actuator/1\"\n[braid]\nturns = 3\n");
+  write("leg/two.toml",
+        "format = \"sinew.robot/1\"\nfiles = { actuator = [\"actuator.toml\", \"thin.toml\"] }\n");
+  const Node root = compose(path("leg/two.toml"));
+  EXPECT_EQ(at(root, "actuator.thin.braid.turns")->integer, 3);  // no name: the file's
+  write("leg/two.toml",
+        "format = \"sinew.robot/1\"\nfiles = { actuator = [\"actuator.toml\", \"actuator.toml\"] "
+        "}\n");
+  EXPECT_TRUE(contains(message("leg/two.toml"), "found \"bpa\"; expected a name that"));
+}
+
+TEST_F(Compose, a_base_lies_under_the_file) {
+  write("heavy/robot.toml",
+        "format = \"sinew.robot/1\"\nname = \"heavy\"\nbase = \"../leg/robot.toml\"\n"
+        "[joint.hip]\ndamping = \"2 N m s/rad\"\n");
+  const Node root = compose(path("heavy/robot.toml"));
+  EXPECT_EQ(at(root, "robot_name")->text, "heavy");
+  EXPECT_EQ(at(root, "joint.hip.damping")->text, "2 N m s/rad");
+  EXPECT_EQ(at(root, "joint.hip.rest_angle")->text, "278 deg");
+  // `files` is written in leg/robot.toml, so its names are relative to leg/.
+  EXPECT_EQ(at(root, "actuator.bpa.braid.turns")->integer, 2);
+}
+
+TEST_F(Compose, a_base_has_no_base) {
+  write("a.toml", "format = \"sinew.robot/1\"\n");
+  write("b.toml", "format = \"sinew.robot/1\"\nbase = \"a.toml\"\n");
+  write("c.toml", "format = \"sinew.robot/1\"\nbase = \"b.toml\"\n");
+  EXPECT_TRUE(
+      contains(message("c.toml"), "base: found \"a.toml\"; expected a base without a base"));
+  write("d.toml", "format = \"sinew.experiment/1\"\nbase = \"a.toml\"\n");
+  EXPECT_TRUE(contains(message("d.toml"), "expected a file of kind experiment"));
+}
+
+TEST_F(Compose, an_experiment_may_change_its_robot) {
+  write("tests/derived.toml",
+        "format = \"sinew.experiment/1\"\nbase = \"walk.toml\"\nseed = 2\n"
+        "[muscle.hip_flexor]\nmount_length = \"3.1 in\"\n");
+  const Node root = compose(path("tests/derived.toml"));
+  EXPECT_EQ(root.find("seed")->integer, 2);
+  EXPECT_EQ(at(root, "muscle.hip_flexor.mount_length")->text, "3.1 in");
+  EXPECT_EQ(at(root, "phase.swing.duration")->text, "1.5 s");
+}
+
+TEST_F(Compose, a_resolved_file_composes_as_it_is) {
+  write("resolved.toml",
+        "format = \"sinew.experiment/1\"\nrobot_name = \"leg\"\n[actuator.bpa.braid]\nturns = 2\n");
+  EXPECT_EQ(at(compose(path("resolved.toml")), "actuator.bpa.braid.turns")->integer, 2);
+}
+
+TEST_F(Compose, set_has_the_last_word_and_its_own_type) {
+  const Node root =
+      compose(path("tests/walk.toml"),
+              {"muscle.hip_flexor.mount_length=3.2 in", "seed = 3", "log.enabled=false",
+               "joint.hip.damping=0.5", "phase.swing.path=[\"1 m\", 2]", "title=nan"});
+  EXPECT_EQ(at(root, "muscle.hip_flexor.mount_length")->text, "3.2 in");
+  EXPECT_EQ(at(root, "muscle.hip_flexor.mount_length")->where.file, "--set");
+  EXPECT_EQ(root.find("seed")->integer, 3);
+  EXPECT_EQ(at(root, "log.enabled")->kind, Node::Kind::flag);
+  EXPECT_EQ(at(root, "joint.hip.damping")->real, 0.5);
+  EXPECT_EQ(at(root, "phase.swing.path")->children.size(), 2u);
+  EXPECT_EQ(root.find("title")->kind, Node::Kind::text);
+}
+
+TEST_F(Compose, set_can_name_another_robot) {
+  write("other/robot.toml", "format = \"sinew.robot/1\"\nname = \"other\"\n[joint.hip]\nx = 1\n");
+  const Node root =
+      compose(path("tests/walk.toml"), {"joint.hip.x=2", "robot=" + path("other/robot.toml")});
+  EXPECT_EQ(at(root, "robot_name")->text, "other");
+  EXPECT_EQ(at(root, "joint.hip.x")->integer, 2);
+}
+
+TEST_F(Compose, set_reports_slips) {
+  EXPECT_EQ(message("tests/walk.toml", {"seed"}),
+            "--set: found \"seed\"; expected key=value; try "
+            "\"muscle.hip_flexor.mount_length=3.2 in\"");
+  EXPECT_EQ(message("tests/walk.toml", {"muscle.hip_flexr.mount_length=1 m"}),
+            "--set: muscle.hip_flexr.mount_length: found no table \"hip_flexr\"; expected a table "
+            "that exists; try \"hip_flexor\"");
+  EXPECT_EQ(message("tests/walk.toml", {"seed.x=1"}),
+            "--set: seed.x: found seed is 1; expected a table to set a key in");
+  EXPECT_NE(message("tests/walk.toml", {"a..b=1"}), "no error");
+  EXPECT_NE(message("tests/walk.toml", {"a=[1"}), "no error");
+}
+
+TEST_F(Compose, the_format_line_is_checked) {
+  write("x.toml", "seed = 1\n");
+  EXPECT_TRUE(contains(message("x.toml"), "x.toml:1:1: format: found nothing; expected \"sinew."));
+  write("x.toml", "format = \"sinew.robt/1\"\n");
+  EXPECT_TRUE(contains(message("x.toml"), "try format = \"sinew.robot/1\""));
+  write("x.toml", "format = \"sinew.robot/2\"\n");
+  EXPECT_TRUE(contains(message("x.toml"),
+                       "found \"sinew.robot/2\"; expected \"sinew.robot/1\" or older; try a newer "
+                       "Sinew"));
+  for (const char* bad :
+       {"1", "\"\"", "\"sinew.robot\"", "\"sinew.robot/x\"", "\"sinew.robot/0\""}) {
+    write("x.toml", std::string("format = ") + bad + "\n");
+    EXPECT_TRUE(contains(message("x.toml"), "format: found ")) << bad;
+  }
+}
+
+TEST_F(Compose, a_named_file_must_exist_and_be_of_its_kind) {
+  write("x.toml", "format = \"sinew.experiment/1\"\nrobot = \"nowhere.toml\"\n");
+  EXPECT_EQ(message("x.toml"), path("x.toml") +
+                                   ":2:1: robot: found \"nowhere.toml\"; expected a file that "
+                                   "exists; try the path: looked for " +
+                                   path("nowhere.toml"));
+  write("x.toml", "format = \"sinew.experiment/1\"\nrobot = \"leg/valves.toml\"\n");
+  EXPECT_TRUE(contains(message("x.toml"), "a file of kind valves; expected a file of kind robot"));
+  write("x.toml", "format = \"sinew.robot/1\"\nfiles = { actuators = \"a.toml\" }\n");
+  EXPECT_TRUE(contains(message("x.toml"), "files.actuators: found an unknown key"));
+  write("x.toml", "format = \"sinew.robot/1\"\nfiles = 3\n");
+  EXPECT_TRUE(contains(message("x.toml"), "files: found 3; expected a table"));
+}
+
+TEST(ComposeLeg, the_shipped_files_compose) {
+  const fs::path source = SINEW_SOURCE_DIR;
+  int composed = 0;
+  for (const char* folder : {"robots", "experiments"}) {
+    if (!fs::exists(source / folder)) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(source / folder)) {
+      if (entry.path().extension() != ".toml") continue;
+      EXPECT_NO_THROW(compose(entry.path().string())) << entry.path();
+      ++composed;
+    }
+  }
+  RecordProperty("composed", composed);
+}
+
+}  // namespace
+}  // namespace sinew::config

@@ -1,0 +1,98 @@
+// TOML text to our tree, and the text of messages.
+#include "sinew/config/node.h"
+
+#include <gtest/gtest.h>
+
+namespace sinew::config {
+namespace {
+
+std::string message(std::string_view toml) {
+  try {
+    parse_text(toml, "file.toml");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Node, keeps_order_kind_and_place) {
+  const Node root = parse_text(
+      "zebra = 1\napple = \"two\"\n[muscle.b]\nx = 0.5\n[muscle.a]\ny = true\n", "file.toml");
+  EXPECT_EQ(keys_of(root), (std::vector<std::string_view>{"zebra", "apple", "muscle"}));
+  EXPECT_EQ(keys_of(*root.find("muscle")), (std::vector<std::string_view>{"b", "a"}));
+  EXPECT_EQ(root.find("zebra")->integer, 1);
+  EXPECT_EQ(root.find("apple")->text, "two");
+  const Node& x = *root.find("muscle")->find("b")->find("x");
+  EXPECT_EQ(x.real, 0.5);
+  EXPECT_EQ(x.where.file, "file.toml");
+  EXPECT_EQ(x.where.line, 4);
+  EXPECT_EQ(x.where.column, 1);
+  EXPECT_FALSE(x.used);
+}
+
+TEST(Node, lists_have_no_keys) {
+  const Node root = parse_text("range = [\"1 in\", 2, [true]]", "file.toml");
+  const Node& range = *root.find("range");
+  ASSERT_EQ(range.children.size(), 3u);
+  EXPECT_EQ(written(range), "1 in, 2, true");
+  EXPECT_EQ(range.find(""), nullptr);
+}
+
+TEST(Node, a_syntax_error_has_a_place) {
+  const std::string text = message("a = 1\nb = [1, 2\n");
+  EXPECT_EQ(text.substr(0, 10), "file.toml:");
+  EXPECT_NE(text.find("found a syntax error"), std::string::npos);
+  EXPECT_NE(text.find("; expected TOML"), std::string::npos);
+}
+
+TEST(Node, a_quantity_without_quotes_gets_the_hint) {
+  EXPECT_NE(message("mount_length = 3.15 in\n").find("try quotes around a quantity"),
+            std::string::npos);
+}
+
+TEST(Node, a_key_given_twice_is_an_error) { EXPECT_NE(message("a = 1\na = 2\n"), "no error"); }
+
+TEST(Node, a_date_is_an_error) {
+  EXPECT_NE(message("a = 2000-05-01\n").find("found a date"), std::string::npos);
+}
+
+TEST(Node, a_missing_file_is_an_error) {
+  try {
+    parse_file("no/such/file.toml");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "no/such/file.toml: found no readable file; expected a TOML file");
+  }
+}
+
+TEST(Node, merging_goes_into_tables_and_replaces_values) {
+  Node base = parse_text("[t]\na = 1\nb = { value = \"1 m\", source = \"old\" }\n", "base.toml");
+  merge(base, parse_text("[t]\nb = { value = \"2 m\" }\nc = 3\n", "own.toml"));
+  const Node& t = *base.find("t");
+  EXPECT_EQ(keys_of(t), (std::vector<std::string_view>{"a", "b", "c"}));
+  EXPECT_EQ(t.find("b")->find("source"), nullptr);  // the old source does not vouch for 2 m
+  EXPECT_EQ(t.find("b")->where.file, "own.toml");
+}
+
+TEST(Diagnostics, a_problem_is_one_line) {
+  Problem problem;
+  problem.where = {"a.toml", 3, 7};
+  problem.key = "x.y";
+  problem.found = "\"3\"";
+  problem.expected = "m (length)";
+  problem.try_this = "\"3 m\"";
+  EXPECT_EQ(to_text(problem), "a.toml:3:7: x.y: found \"3\"; expected m (length); try \"3 m\"");
+  EXPECT_EQ(to_text(std::vector{problem, problem}), to_text(problem) + "\n" + to_text(problem));
+}
+
+TEST(Diagnostics, suggests_only_what_is_near) {
+  EXPECT_EQ(closest("mount_lenght", {"mount_length", "moment_arm"}), "mount_length");
+  EXPECT_EQ(closest("hip_flexr", {"hip_flexor", "knee_flexor"}), "hip_flexor");
+  EXPECT_EQ(closest("x", {"y"}), "");
+  EXPECT_EQ(closest("temperature", {"pressure"}), "");
+  EXPECT_EQ(either({"a", "b", "c"}), "a, b or c");
+  EXPECT_EQ(in_quotes(std::string(100, 'x')).size(), 60 + 2 + std::string("…").size());
+}
+
+}  // namespace
+}  // namespace sinew::config

@@ -1,0 +1,140 @@
+// Text to SI and back, and what the messages say when it does not work.
+#include "sinew/config/quantity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/units/literals.h"
+
+namespace sinew::config {
+namespace {
+
+using namespace units::literals;
+
+double read(std::string_view text, std::string_view unit) { return quantity(text, unit); }
+
+std::string message(std::string_view text, std::string_view unit) {
+  try {
+    quantity(text, unit, "key");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Quantity, reads_what_the_leg_files_write) {
+  EXPECT_EQ(read("3.250 in", "m"), 3.25_in);
+  EXPECT_EQ(read("5.724e-6 ft2", "m2"), 5.724e-6_ft2);
+  EXPECT_EQ(read("0.240 in3", "m3"), 0.24_in3);
+  EXPECT_EQ(read("278 deg", "rad"), 278.0_deg);
+  EXPECT_EQ(read("528 degR", "K"), 528.0_degR);
+  EXPECT_DOUBLE_EQ(read("20 degC", "K"), 293.15);
+  EXPECT_DOUBLE_EQ(read("0.9 %/count", "1/count"), 0.009);
+  EXPECT_DOUBLE_EQ(read("6.5 %/(lbf in/rad)", "rad/(N m)"), 0.065 / (1.0_lbf * 1.0_in));
+  EXPECT_DOUBLE_EQ(read("-0.00002 1/psi2", "1/Pa2"), -0.00002 / (1.0_psi * 1.0_psi));
+  EXPECT_DOUBLE_EQ(read("0.57 in/V", "m/V"), 0.57_in);
+  EXPECT_DOUBLE_EQ(read("10.36 lb in2", "kg m2"), 10.36_lb * 1.0_in2);
+  EXPECT_EQ(read("55 %", "1"), 0.55);
+  EXPECT_EQ(read("-0.2571", "1"), -0.2571);
+  EXPECT_EQ(read(" +3mm ", "m"), 0.003);
+}
+
+TEST(Quantity, gauge_and_absolute_convert_with_the_atmosphere) {
+  EXPECT_EQ(read("62 psi gauge", "Pa abs"), 62.0_psi + units::atmosphere);
+  EXPECT_EQ(read("14.7 psi abs", "Pa abs"), units::atmosphere);
+  EXPECT_DOUBLE_EQ(read("14.7 psi abs", "Pa gauge"), 0);
+  EXPECT_EQ(parse_quantity("1 bar gauge", "Pa abs", 90'000).si, 190'000);
+  EXPECT_EQ(read("2 psi diff", "Pa diff"), 2.0_psi);
+}
+
+TEST(Quantity, a_pressure_without_its_reference_is_refused) {
+  EXPECT_EQ(message("62 psi", "Pa abs"),
+            "text: key: found \"62 psi\", a pressure without its reference; expected Pa abs "
+            "(pressure); try \"62 psi gauge\" or \"62 psi abs\"");
+  EXPECT_EQ(message("2 psi gauge", "Pa diff"),
+            "text: key: found \"2 psi gauge\"; expected Pa diff (pressure); try \"2 psi diff\"");
+  EXPECT_NE(message("2 psi diff", "Pa abs").find("try \"2 psi gauge\" or"), std::string::npos);
+  EXPECT_NE(message("3 in abs", "m").find("try \"3 in\""), std::string::npos);
+}
+
+TEST(Quantity, mass_is_not_force) {
+  EXPECT_EQ(message("2 lb", "N"),
+            "text: key: found \"2 lb\", kg (mass); expected N (force); "
+            "try lbf: lb is mass, lbf is force");
+  EXPECT_EQ(message("2 lbf", "kg"),
+            "text: key: found \"2 lbf\", N (force); expected kg (mass); "
+            "try lb: lbf is force, lb is mass");
+  EXPECT_NE(message("35 lb in/rad", "N m/rad").find("try lbf"), std::string::npos);
+}
+
+TEST(Quantity, an_angle_is_a_dimension) {
+  EXPECT_EQ(message("35 lbf in", "N m/rad"),
+            "text: key: found \"35 lbf in\", N m (torque or energy); expected N m/rad (joint "
+            "stiffness); try \"N m/rad\": rad counts as a dimension here");
+}
+
+TEST(Quantity, other_mistakes_say_what_to_do) {
+  EXPECT_EQ(message("3.15", "m"),
+            "text: key: found 3.15 without a unit; expected m (length); try \"3.15 m\"");
+  EXPECT_EQ(message("3,15 in", "m"),
+            "text: key: found \"3,15 in\"; expected m (length); try a decimal point: \"3.15 in\"");
+  EXPECT_EQ(message("3.15 s", "m"),
+            "text: key: found \"3.15 s\", s (time); expected m (length); "
+            "try a quantity such as \"1 m\"");
+  EXPECT_NE(message("3 ins", "m").find("unknown unit \"ins\""), std::string::npos);
+  EXPECT_NE(message("3 ins", "m").find("try \"in\""), std::string::npos);
+  EXPECT_NE(message("3 inches", "m").find("try \"in\""), std::string::npos);
+  EXPECT_NE(message("about 3 in", "m").find("a number first"), std::string::npos);
+  EXPECT_NE(message("", "m").find("a number first"), std::string::npos);
+  EXPECT_NE(message("3 s", "1").find("expected a number"), std::string::npos);
+}
+
+TEST(Quantity, is_finite) {
+  EXPECT_EQ(message("nan m", "m"),
+            "text: key: found \"nan m\"; expected a finite number of m (length)");
+  EXPECT_NE(message("inf", "1").find("a finite number"), std::string::npos);
+  EXPECT_NE(message("1e999 m", "m"), "no error");
+}
+
+TEST(Quantity, a_wrong_unit_in_a_field_is_our_bug) {
+  EXPECT_THROW(parse_quantity("1 m", "metre"), std::logic_error);
+}
+
+TEST(Quantity, printing_and_reading_bring_back_the_same_bits) {
+  std::mt19937_64 random(17);
+  std::uniform_real_distribution<double> mantissa(-10, 10);
+  std::uniform_int_distribution<int> exponent(-12, 12);
+  for (const char* unit : {"m", "1", "N m/rad", "Pa abs", "Pa gauge", "Pa diff", "1/Pa2", "K"}) {
+    for (int i = 0; i < 200; ++i) {
+      const double value = mantissa(random) * std::pow(10.0, exponent(random));
+      EXPECT_EQ(read(format_quantity(value, unit), unit), value) << format_quantity(value, unit);
+    }
+  }
+  EXPECT_TRUE(std::signbit(read(format_quantity(-0.0, "m"), "m")));
+}
+
+TEST(Quantity, shows_in_the_unit_a_person_wants) {
+  EXPECT_EQ(format_quantity(3.15_in, "m", "in"), "3.15 in");
+  EXPECT_EQ(format_quantity(62.0_psi + units::atmosphere, "Pa abs", "psi gauge"), "62 psi gauge");
+  EXPECT_EQ(format_quantity(0.94, "1", "%"), "94 %");
+  EXPECT_THROW(convert(1, "m", "s"), std::logic_error);
+}
+
+TEST(Quantity, coefficients_of_a_polynomial_have_falling_units) {
+  EXPECT_EQ(coefficient_unit("1", "Pa", 0), "1");
+  EXPECT_EQ(coefficient_unit("1", "Pa", 2), "1/Pa2");
+  EXPECT_EQ(coefficient_unit("m", "m", 0), "m");
+  EXPECT_EQ(coefficient_unit("m", "m", 1), "1");
+  EXPECT_EQ(coefficient_unit("m", "m", 2), "1/m");
+  EXPECT_EQ(coefficient_unit("m", "m", 3), "1/m2");
+  EXPECT_EQ(coefficient_unit("N", "Pa", 1), "N/Pa");
+  EXPECT_EQ(read("2 lbf/psi2", coefficient_unit("N", "Pa", 2)), read("2 lbf/psi2", "N/Pa2"));
+  EXPECT_NO_THROW(read("2 N m/(rad s2)", coefficient_unit("N m/rad", "s", 2)));
+  EXPECT_NO_THROW(read("2 (s/m) (s/m)", coefficient_unit("1", "m/s", 2)));
+}
+
+}  // namespace
+}  // namespace sinew::config
