@@ -156,6 +156,7 @@ void fields(Visitor& v, Bladder& bladder) {
            bladder.rest_length);
 }
 
+// The name is the key of the table that holds this one.
 template <class Visitor>
 void fields(Visitor& v, Actuator& a) {
   v.group({.name = "braid", .doc = "geometry of the mesh"}, [&](auto& g) { fields(g, a.braid); });

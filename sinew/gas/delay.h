@@ -50,7 +50,7 @@ struct Shutter {
   // More instants were waiting than fit: the oldest was taken too early.
   bool overrun() const noexcept { return overrun_; }
 
-  static constexpr std::size_t capacity = 16;
+  static constexpr std::size_t capacity = 8;
 
   // Edge and instant count as simultaneous within this, so that rounding does not decide whether a
   // pulse of exactly the opening delay opens  [s].

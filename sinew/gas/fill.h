@@ -54,7 +54,8 @@ inline double transfer_time(const Flow& flow, const Air& air, double volume, dou
                             double from, double to) {
   if (from == to) return 0.0;
   const double side = to > from ? -1.0 : 1.0;  // of the port on which the chamber is
-  if (!(side * (to - port) > 0)) return std::numeric_limits<double>::infinity();
+  const bool shut = mass_flow(flow, air, port, from) == 0.0;
+  if (shut || !(side * (to - port) > 0)) return std::numeric_limits<double>::infinity();
 
   // Distances |P - port| of start, kinks and end, descending.
   const bool iso = flow.law == Flow::Law::iso6358;

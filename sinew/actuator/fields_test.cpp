@@ -1,0 +1,156 @@
+// The field table of actuator.toml: its keys, its units, and what does not go together.
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "sinew/actuator/actuator.fields.h"
+#include "sinew/actuator/thesis_actuator.h"
+#include "tests/field_visitor.h"
+
+namespace sinew::actuator {
+namespace {
+
+using tests::FieldVisitor;
+
+// What robots/*/actuator.toml may hold, in SI.
+FieldVisitor leg() {
+  FieldVisitor v;
+  v.numbers_given = {
+      {"braid.thread_length", {0.1071372}},
+      {"braid.turns", {2.3125}},
+      {"effectiveness.polynomial", {0.9969, 7.25e-8, -4.2e-13}},
+      {"effectiveness.scale", {0.91}},
+      {"effectiveness.valid", {1000, 700000}},
+      {"long_end.length", {0.0995}},
+      {"long_end.stiffness", {87563}},
+      {"long_end.damping", {122}},
+      {"short_end.stiffness", {87000}},
+      {"short_end.damping", {120}},
+      {"loss.viscous", {3.5}},
+      {"loss.coulomb_length", {0.00047}},
+      {"loss.stick", {0}},
+      {"bladder.stiffness", {364}},
+      {"bladder.rest_length", {0.08}},
+  };
+  v.words_given = {{"effectiveness.argument", "absolute"},
+                   {"short_end.law", "zero"},
+                   {"loss.coulomb_scale", "sealed"}};
+  return v;
+}
+
+TEST(ActuatorFields, fill_every_member) {
+  FieldVisitor v = leg();
+  Actuator a;
+  fields(v, a);
+  EXPECT_TRUE(v.complaints.empty());
+
+  EXPECT_EQ(a.braid.thread_length, 0.1071372);
+  EXPECT_EQ(a.braid.turns, 2.3125);
+  EXPECT_EQ(a.effectiveness.c0, 0.9969);
+  EXPECT_EQ(a.effectiveness.c1, 7.25e-8);
+  EXPECT_EQ(a.effectiveness.c2, -4.2e-13);
+  EXPECT_EQ(a.effectiveness.scale, 0.91);
+  EXPECT_EQ(a.effectiveness.argument, Effectiveness::Argument::absolute);
+  EXPECT_EQ(a.effectiveness.valid_from, 1000);
+  EXPECT_EQ(a.effectiveness.valid_to, 700000);
+  EXPECT_EQ(a.long_end.length, 0.0995);
+  EXPECT_EQ(a.long_end.stiffness, 87563);
+  EXPECT_EQ(a.long_end.damping, 122);
+  EXPECT_EQ(a.short_end.law, ShortEnd::Law::zero);
+  EXPECT_EQ(a.short_end.stiffness, 87000);
+  EXPECT_EQ(a.short_end.damping, 120);
+  EXPECT_EQ(a.loss.viscous, 3.5);
+  EXPECT_EQ(a.loss.coulomb_length, 0.00047);
+  EXPECT_EQ(a.loss.coulomb_scale, Loss::Scale::sealed);
+  EXPECT_FALSE(a.loss.stick);
+  EXPECT_EQ(a.bladder.stiffness, 364);
+  EXPECT_EQ(a.bladder.rest_length, 0.08);
+}
+
+TEST(ActuatorFields, ask_for_what_was_given_and_a_few_more) {
+  FieldVisitor v = leg();
+  Actuator a;
+  fields(v, a);
+  std::set<std::string> asked;
+  for (const auto& field : v.asked) {
+    EXPECT_TRUE(asked.insert(field.key).second) << field.key << " twice";
+    EXPECT_FALSE(field.doc.empty()) << field.key;
+    EXPECT_EQ(field.doc.find('\n'), std::string::npos) << field.key;
+  }
+  for (const auto& [key, value] : v.numbers_given) EXPECT_TRUE(asked.count(key)) << key;
+  for (const auto& [key, value] : v.words_given) EXPECT_TRUE(asked.count(key)) << key;
+}
+
+TEST(ActuatorFields, leave_the_defaults_where_nothing_is_given) {
+  FieldVisitor v;
+  Actuator a = thesis_actuator();
+  fields(v, a);
+  EXPECT_EQ(a.braid.thread_length, thesis_actuator().braid.thread_length);
+  EXPECT_EQ(a.effectiveness.c2, thesis_actuator().effectiveness.c2);
+  EXPECT_EQ(a.effectiveness.valid_to, thesis_actuator().effectiveness.valid_to);
+  EXPECT_TRUE(v.complaints.empty());
+}
+
+TEST(ActuatorFields, trapezoids_stand_for_thread_and_turns) {
+  FieldVisitor v = leg();
+  v.numbers_given.erase("braid.thread_length");
+  v.numbers_given.erase("braid.turns");
+  v.numbers_given["braid.trapezoids.lengthwise"] = {37};
+  v.numbers_given["braid.trapezoids.around"] = {16};
+  v.numbers_given["braid.trapezoids.side"] = {0.0014478};
+  Actuator a;
+  fields(v, a);
+  EXPECT_TRUE(v.complaints.empty());
+  EXPECT_DOUBLE_EQ(a.braid.thread_length, 0.1071372);
+  EXPECT_DOUBLE_EQ(a.braid.turns, 2.3125);
+}
+
+std::vector<std::string> complaints(FieldVisitor v) {
+  Actuator a;
+  fields(v, a);
+  return v.complaints;
+}
+
+TEST(ActuatorFields, complain_about_what_does_not_go_together) {
+  using Strings = std::vector<std::string>;
+
+  FieldVisitor v = leg();
+  v.numbers_given["braid.trapezoids.lengthwise"] = {37};
+  v.numbers_given["braid.trapezoids.around"] = {16};
+  v.numbers_given["braid.trapezoids.side"] = {0.0014478};
+  EXPECT_EQ(complaints(v), Strings{"braid.trapezoids"});
+
+  v = leg();
+  v.numbers_given.erase("braid.turns");
+  EXPECT_EQ(complaints(v), Strings{"braid.thread_length"});
+
+  v = leg();
+  v.numbers_given["effectiveness.polynomial"] = {1, 2, 3, 4};
+  EXPECT_EQ(complaints(v), Strings{"effectiveness.polynomial"});
+
+  v = leg();
+  v.numbers_given["effectiveness.valid"] = {7e5, 0};
+  EXPECT_EQ(complaints(v), Strings{"effectiveness.valid"});
+
+  v = leg();
+  v.numbers_given["long_end.length"] = {0.05};
+  EXPECT_EQ(complaints(v), Strings{"long_end"});
+
+  v = leg();
+  v.words_given["loss.coulomb_scale"] = "constant";
+  EXPECT_EQ(complaints(v), Strings{"loss.coulomb_scale"});
+}
+
+TEST(ActuatorFields, a_shorter_polynomial_ends_in_zeros) {
+  FieldVisitor v = leg();
+  v.numbers_given["effectiveness.polynomial"] = {0.95};
+  Actuator a;
+  fields(v, a);
+  EXPECT_EQ(a.effectiveness.c0, 0.95);
+  EXPECT_EQ(a.effectiveness.c1, 0);
+  EXPECT_EQ(a.effectiveness.c2, 0);
+}
+
+}  // namespace
+}  // namespace sinew::actuator

@@ -1,0 +1,127 @@
+// The field tables of [air] and valves.toml: keys, units, and what does not go together.
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "sinew/gas/air.fields.h"
+#include "sinew/gas/valve.fields.h"
+#include "tests/field_visitor.h"
+
+namespace sinew::gas {
+namespace {
+
+using tests::FieldVisitor;
+using Strings = std::vector<std::string>;
+
+FieldVisitor orifice_valve() {
+  FieldVisitor v;
+  v.words_given = {
+      {"valve.x.kind", "3-way"}, {"valve.x.flow.law", "orifice"}, {"valve.x.profile", "ramp"}};
+  v.numbers_given = {{"valve.x.flow.area", {5e-7}},     {"valve.x.flow.efficiency", {0.85}},
+                     {"valve.x.linear_below", {2e-3}},  {"valve.x.opening_delay", {3e-4}},
+                     {"valve.x.closing_delay", {4e-4}}, {"valve.x.opening_ramp", {5e-4}},
+                     {"valve.x.closing_ramp", {6e-4}}};
+  return v;
+}
+
+FieldVisitor iso_valve() {
+  FieldVisitor v;
+  v.words_given = {{"valve.x.flow.law", "iso6358"}, {"valve.x.profile", "dead time"}};
+  v.numbers_given = {{"valve.x.flow.sonic_conductance", {3e-9}},
+                     {"valve.x.flow.critical_pressure_ratio", {0.3}}};
+  return v;
+}
+
+Valve read(FieldVisitor& v) {
+  std::vector<Valve> valves{{.name = "x"}};
+  fields(v, valves);
+  return valves[0];
+}
+
+void expect_each_key_once_with_a_line(const FieldVisitor& v) {
+  std::set<std::string> asked;
+  for (const auto& field : v.asked) {
+    EXPECT_TRUE(asked.insert(field.key).second) << field.key << " twice";
+    EXPECT_FALSE(field.doc.empty()) << field.key;
+  }
+  for (const auto& [key, value] : v.numbers_given) EXPECT_TRUE(asked.count(key)) << key;
+  for (const auto& [key, value] : v.words_given) EXPECT_TRUE(asked.count(key)) << key;
+}
+
+TEST(ValveFields, fill_every_member) {
+  FieldVisitor v = orifice_valve();
+  const Valve valve = read(v);
+  EXPECT_TRUE(v.complaints.empty());
+  expect_each_key_once_with_a_line(v);
+
+  EXPECT_EQ(valve.kind, Valve::Kind::three_way);
+  EXPECT_EQ(valve.flow.law, Flow::Law::orifice);
+  EXPECT_EQ(valve.flow.area, 5e-7);
+  EXPECT_EQ(valve.flow.efficiency, 0.85);
+  EXPECT_EQ(valve.flow.linear_below, 2e-3);
+  EXPECT_EQ(valve.profile, Valve::Profile::ramp);
+  EXPECT_EQ(valve.opening_delay, 3e-4);
+  EXPECT_EQ(valve.closing_delay, 4e-4);
+  EXPECT_EQ(valve.opening_ramp, 5e-4);
+  EXPECT_EQ(valve.closing_ramp, 6e-4);
+}
+
+TEST(ValveFields, law_decides_which_keys_are_needed) {
+  FieldVisitor v = iso_valve();
+  const Valve valve = read(v);
+  EXPECT_TRUE(v.complaints.empty());
+  expect_each_key_once_with_a_line(v);
+  EXPECT_EQ(valve.flow.sonic_conductance, 3e-9);
+  EXPECT_EQ(valve.flow.critical_pressure_ratio, 0.3);
+
+  EXPECT_TRUE(v.find("valve.x.flow.area")->optional);
+  EXPECT_FALSE(v.find("valve.x.flow.sonic_conductance")->optional);
+  FieldVisitor w = orifice_valve();
+  read(w);
+  EXPECT_FALSE(w.find("valve.x.flow.area")->optional);
+  EXPECT_TRUE(w.find("valve.x.flow.sonic_conductance")->optional);
+}
+
+TEST(ValveFields, complain_about_what_does_not_go_together) {
+  FieldVisitor v = orifice_valve();
+  v.numbers_given["valve.x.flow.sonic_conductance"] = {1e-9};
+  read(v);
+  EXPECT_EQ(v.complaints, Strings{"valve.x.flow.sonic_conductance"});
+
+  v = iso_valve();
+  v.numbers_given["valve.x.flow.area"] = {1e-7};
+  read(v);
+  EXPECT_EQ(v.complaints, Strings{"valve.x.flow.area"});
+
+  v = iso_valve();
+  v.numbers_given["valve.x.opening_ramp"] = {1e-3};
+  read(v);
+  EXPECT_EQ(v.complaints, Strings{"valve.x.profile"});
+}
+
+TEST(AirFields, fill_every_member) {
+  FieldVisitor v;
+  v.numbers_given = {{"atmosphere", {1e5}},
+                     {"temperature", {290}},
+                     {"polytropic_exponent", {1.1}},
+                     {"gas_constant", {287}},
+                     {"supply.pressure", {7e5}}};
+  v.words_given = {{"supply.kind", "constant"}};
+  Air air;
+  Supply supply;
+  fields(v, air, supply);
+  expect_each_key_once_with_a_line(v);
+  EXPECT_EQ(air.atmosphere, 1e5);
+  EXPECT_EQ(air.temperature, 290);
+  EXPECT_EQ(air.polytropic_exponent, 1.1);
+  EXPECT_EQ(air.gas_constant, 287);
+  EXPECT_EQ(supply.pressure, 7e5);
+
+  // Pressures of the state are absolute; a file may say gauge, config converts.
+  EXPECT_EQ(v.find("atmosphere")->unit, "Pa abs");
+  EXPECT_EQ(v.find("supply.pressure")->unit, "Pa abs");
+}
+
+}  // namespace
+}  // namespace sinew::gas

@@ -1,0 +1,136 @@
+// Fill and vent times against closed forms where there are any, and against themselves elsewhere.
+
+#include "sinew/gas/fill.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace sinew::gas {
+namespace {
+
+constexpr double volume = 1e-5, supply = 7.9e5;
+
+Flow orifice() { return {.area = 1.6722547200000001e-06, .efficiency = 0.85}; }
+Flow iso() {
+  return {.law = Flow::Law::iso6358, .sonic_conductance = 3e-9, .critical_pressure_ratio = 0.35};
+}
+
+// K in m' = K P_up of the choked valve.
+double choked_gain(const Flow& flow, const Air& air) {
+  return mass_flow(flow, air, 1e6, 1.0) / 1e6;
+}
+
+TEST(Fill, choked_at_constant_flow) {
+  for (double n : {1.0, 1.2, 1.4}) {
+    const Air air{.polytropic_exponent = n};
+    for (const Flow& flow : {orifice(), iso()}) {
+      const double to = 0.34 * supply;  // choked for both
+      const double exact = volume * (density(air, to) - density(air, air.atmosphere)) /
+                           (choked_gain(flow, air) * supply);
+      EXPECT_NEAR(fill_time(flow, air, volume, supply, air.atmosphere, to) / exact, 1, 1e-9);
+    }
+  }
+}
+
+TEST(Fill, venting_choked_isothermal_air_is_exponential) {
+  const Air air{.polytropic_exponent = 1};
+  const double from = 8e5, to = 3e5;
+  const double exact = volume / (choked_gain(orifice(), air) * air.gas_constant * air.temperature) *
+                       std::log(from / to);
+  EXPECT_NEAR(vent_time(orifice(), air, volume, from, to) / exact, 1, 1e-9);
+}
+
+TEST(Fill, venting_choked_polytropic_air_in_closed_form) {
+  const Air air{.polytropic_exponent = 1.4};
+  const double from = 8e5, to = 3e5, power = 1 / 1.4 - 1;
+  const double exact =
+      volume * density_at_atmosphere(air) / (choked_gain(orifice(), air) * air.atmosphere * 0.4) *
+      (std::pow(to / air.atmosphere, power) - std::pow(from / air.atmosphere, power));
+  EXPECT_NEAR(vent_time(orifice(), air, volume, from, to) / exact, 1, 1e-9);
+}
+
+TEST(Fill, last_part_is_exponential) {
+  const Air air{.polytropic_exponent = 1};
+  const Flow flow = orifice();
+  const double from = supply * (1 - 0.9 * flow.linear_below);
+  const double gain = mass_flow(flow, air, supply, from) / (supply - from);
+  const double exact = volume / (gain * air.gas_constant * air.temperature) * std::log(1e3);
+  EXPECT_NEAR(fill_time(flow, air, volume, supply, from, supply - (supply - from) * 1e-3) / exact,
+              1, 1e-9);
+}
+
+TEST(Fill, is_the_sum_of_its_parts) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<> inside(1.02e5, 7.89e5);
+  const Air air{.polytropic_exponent = 1.1};
+  for (const Flow& flow : {orifice(), iso()}) {
+    const double whole = fill_time(flow, air, volume, supply, 1.01e5, 7.899e5);
+    const double back = vent_time(flow, air, volume, 7.899e5, 1.02e5);
+    for (int i = 0; i < 50; ++i) {
+      const double p = inside(random);
+      const double parts = fill_time(flow, air, volume, supply, 1.01e5, p) +
+                           fill_time(flow, air, volume, supply, p, 7.899e5);
+      EXPECT_NEAR(parts / whole, 1, 1e-9);
+      const double back_parts =
+          vent_time(flow, air, volume, 7.899e5, p) + vent_time(flow, air, volume, p, 1.02e5);
+      EXPECT_NEAR(back_parts / back, 1, 1e-9);
+    }
+  }
+}
+
+// The same by time steps on the mass, RK4.
+TEST(Fill, agrees_with_a_simulation) {
+  const Air air{.polytropic_exponent = 1.3};
+  const Flow flow = orifice();
+  const double to = 0.95 * supply, h = 1e-6;
+  const auto rate = [&](double mass) {
+    return mass_flow(flow, air, supply, pressure(air, mass / volume));
+  };
+  double mass = volume * density(air, air.atmosphere), time = 0;
+  const double enough = volume * density(air, to);
+  for (;;) {
+    const double k1 = rate(mass), k2 = rate(mass + h / 2 * k1), k3 = rate(mass + h / 2 * k2);
+    const double step = h / 6 * (k1 + 2 * k2 + 2 * k3 + rate(mass + h * k3));
+    if (mass + step > enough) {
+      time += h * (enough - mass) / step;
+      break;
+    }
+    mass += step;
+    time += h;
+  }
+  EXPECT_NEAR(fill_time(flow, air, volume, supply, air.atmosphere, to), time, 1e-6 * time);
+}
+
+TEST(Fill, goes_with_volume_and_against_area) {
+  const Air air;
+  Flow wide = orifice();
+  wide.area *= 4;
+  const double one = fill_time(orifice(), air, volume, supply, 1.1e5, 7e5);
+  EXPECT_NEAR(fill_time(orifice(), air, 3 * volume, supply, 1.1e5, 7e5), 3 * one, 1e-12);
+  EXPECT_NEAR(fill_time(wide, air, volume, supply, 1.1e5, 7e5), one / 4, 1e-12);
+}
+
+TEST(Fill, knows_what_cannot_be) {
+  const Air air;
+  const double never = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(fill_time(orifice(), air, volume, supply, 1e5, supply), never);
+  EXPECT_EQ(fill_time(orifice(), air, volume, supply, 1e5, 9e5), never);
+  EXPECT_EQ(fill_time(orifice(), air, volume, supply, 3e5, 2e5), never);
+  EXPECT_EQ(vent_time(orifice(), air, volume, 3e5, air.atmosphere), never);
+  EXPECT_EQ(vent_time(orifice(), air, volume, 2e5, 3e5), never);
+  EXPECT_EQ(fill_time(Flow{}, air, volume, supply, 2e5, 3e5), never);
+  EXPECT_EQ(fill_time(orifice(), air, volume, supply, 2e5, 2e5), 0);
+}
+
+TEST(Fill, does_without_a_linear_part) {
+  Flow flow = orifice();
+  flow.linear_below = 0;
+  const Air air;
+  const double with = fill_time(orifice(), air, volume, supply, 1.1e5, 0.99 * supply);
+  EXPECT_NEAR(fill_time(flow, air, volume, supply, 1.1e5, 0.99 * supply) / with, 1, 1e-9);
+}
+
+}  // namespace
+}  // namespace sinew::gas
