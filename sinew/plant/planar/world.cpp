@@ -209,15 +209,54 @@ void World<N>::prepare() noexcept {
     // The foot's lever turns with the link: d/dt of J is part of the slip's rate.
     slip_rate_[foot] -= chain_.length[i] * (chain.sin(i) * a + chain.cos(i) * pose.rate[i] * pose.rate[i]);
   }
+  if (first_.normal > 0) prepare_normal(chain);
+}
+
+// How the ground's normal force answers within the step.
+template <int N>
+void World<N>::prepare_normal(const Chain<N>& chain) noexcept {
+  Generalised<N> up;
+  for (int i = 0; i < N; ++i) up.angle[i] = chain_.length[i] * chain.cos(i);
+  const Generalised<N> column = chain.response(up);
+  normal_ = {};
+  for (int i = 0; i < N; ++i) {
+    const double rate = state_.pose.rate[i];
+    normal_.response += up.angle[i] * column.angle[i];
+    normal_.rate += up.angle[i] * rate;
+    normal_.acceleration += up.angle[i] * first_.acceleration.angle[i] -
+                            chain_.length[i] * chain.sin(i) * rate * rate;
+    for (int c = 0; c < contacts; ++c) normal_.along[c] += up.angle[i] * column_[c].angle[i];
+  }
 }
 
 // Dry friction of a step of length h.
+//
+// The ground is stiff: its normal force changes within the step, by about
+//
+//   dF = -k (h/2 v_y + h/6 dv_y) - c/2 dv_y      the mean over the step for a linear v_y(t)
+//
+// and so do the slips. Solving for dF adds a rank-one term to W; without it the joints would slip a
+// little where they should stick, and the walk would converge with the first order only.
 template <int N>
 auto World<N>::hold(double h) const noexcept -> std::array<double, contacts> {
   FrictionProblem<contacts> p = problem_;
   for (int c = 0; c < contacts; ++c) {
     p.slip[c] += h * slip_rate_[c];
     for (int d = 0; d < contacts; ++d) p.response[c][d] *= h;
+  }
+  if (first_.normal > 0) {
+    const double k = robot_.ground.normal_stiffness;
+    const double beta = h * (h / 6.0 * k + 0.5 * robot_.ground.normal_damping);
+    const double share = 1.0 / (1.0 + beta * normal_.response);
+    const double change = -(0.5 * h * k * normal_.rate + beta * normal_.acceleration) * share;
+    const double mean = first_.normal + change;
+    p.bound[foot] = mean > 0 ? robot_.foot.friction * mean : 0.0;
+    if (mean > 0)
+      for (int c = 0; c < contacts; ++c) {
+        p.slip[c] += h * normal_.along[c] * change;
+        for (int d = 0; d < contacts; ++d)
+          p.response[c][d] -= h * beta * share * normal_.along[c] * normal_.along[d];
+      }
   }
   return solve_friction<contacts>(p, held_);
 }

@@ -81,7 +81,15 @@ class World final : public signals::Port {
   void look_at(double t, const State& state, const std::array<double, contacts>& f,
                Look& look) const noexcept;
 
+  // The ground's normal force as one more direction, for the friction of a step.
+  struct Normal {
+    double response = 0;                        // upward acceleration per force [1/kg]
+    double rate = 0, acceleration = 0;          // of the ankle, upwards [m/s], [m/s^2]
+    std::array<double, contacts> along{};       // upward acceleration per friction force
+  };
+
   void prepare() noexcept;  // the look at a new node
+  void prepare_normal(const Chain<N>& chain) noexcept;
   std::array<double, contacts> hold(double h) const noexcept;
   void step(double h) noexcept;
 
@@ -107,6 +115,7 @@ class World final : public signals::Port {
   std::array<Generalised<N>, contacts> column_{};  // M^-1 J^T
   FrictionProblem<contacts> problem_;               // slip at the node, response per second
   std::array<double, contacts> slip_rate_{};        // of the slips, without friction
+  Normal normal_;                                   // where the foot stands
   muscle::Lanes mesh_;                              // bounds of the muscles' own friction [N]
   std::array<double, contacts> held_{};             // friction of the last step
 
