@@ -1,0 +1,129 @@
+#include "sinew/robot/robot.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "sinew/robot/robot.fields.h"
+#include "sinew/robot/test_leg.h"
+
+namespace sinew::robot {
+namespace {
+
+// Keys that contradict something once `damage` is done to a sound leg.
+std::vector<std::string> keys_after(const std::function<void(Robot&)>& damage) {
+  Robot robot = test::leg();
+  damage(robot);
+  std::vector<std::string> keys;
+  for (const Contradiction& c : contradictions(robot)) keys.push_back(c.key);
+  return keys;
+}
+
+using Keys = std::vector<std::string>;
+
+TEST(Contradictions, NoneInASoundLeg) {
+  EXPECT_EQ(keys_after([](Robot&) {}), Keys{});
+}
+
+TEST(Contradictions, NamesThatLeadNowhere) {
+  EXPECT_EQ(keys_after([](Robot& r) { r.sensors[0].of = "ankle"; }),
+            (Keys{"sensor.hip_sensor.of", "joint.hip"}));
+  EXPECT_EQ(keys_after([](Robot& r) { r.muscles[0].joint = "ankle"; }),
+            (Keys{"muscle.hip_flexor.joint", "joint.hip"}));
+  EXPECT_EQ(keys_after([](Robot& r) { r.muscles[0].inlet = ""; }),
+            (Keys{"muscle.hip_flexor.inlet"}));
+}
+
+TEST(Contradictions, PairsAndTheirSensors) {
+  EXPECT_EQ(keys_after([](Robot& r) { r.muscles[1].role = Muscle::Role::flexor; }),
+            (Keys{"joint.hip", "joint.hip"}));
+  EXPECT_EQ(keys_after([](Robot& r) { r.sensors.pop_back(); }), (Keys{"muscle.knee_extensor"}));
+  EXPECT_EQ(keys_after([](Robot& r) { r.muscles[2].exhaust_bit = r.muscles[0].inlet_bit; }),
+            (Keys{"muscle.knee_flexor.exhaust.bit"}));
+}
+
+TEST(Contradictions, AThreeWayMuscleHasNoExhaust) {
+  EXPECT_EQ(keys_after([](Robot& r) {
+              r.muscles[0].exhaust = "";
+              r.muscles[0].exhaust_bit = r.muscles[0].inlet_bit;
+            }),
+            Keys{});
+}
+
+TEST(Contradictions, TheScanAscendsWithinThePeriod) {
+  EXPECT_EQ(keys_after([](Robot& r) { r.sensors[3].tick = r.sensors[2].tick; }),
+            (Keys{"sensor.hip_extensor_sensor.tick"}));
+  EXPECT_EQ(keys_after([](Robot& r) { r.sensors.back().tick = r.low_level.pwm_ticks; }),
+            (Keys{"sensor.knee_extensor_sensor.tick"}));
+  EXPECT_EQ(keys_after([](Robot& r) { r.sensors[1].channel = r.sensors[0].channel; }),
+            (Keys{"sensor.knee_sensor.channel"}));
+  EXPECT_EQ(keys_after([](Robot& r) { r.sensors[0].at_rest = 5000; }),
+            (Keys{"sensor.hip_sensor.real.at_rest"}));
+  EXPECT_EQ(keys_after([](Robot& r) { r.sensors[0].assumed_scale = 0; }),
+            (Keys{"sensor.hip_sensor.assumed.scale"}));
+}
+
+TEST(Contradictions, MassesThatDoNotAddUp) {
+  EXPECT_EQ(keys_after([](Robot& r) { r.trolley.total_mass = 0.9; }), (Keys{"trolley.total_mass"}));
+  EXPECT_EQ(keys_after([](Robot& r) { r.links[0].inertia = 0; }), (Keys{"link.femur"}));
+  EXPECT_EQ(keys_after([](Robot& r) { r.foot.present = false; }), (Keys{"ground.present"}));
+  EXPECT_EQ(keys_after([](Robot& r) { r.links.pop_back(); }), (Keys{"joint"}));
+}
+
+TEST(Robot, TheTrolleyIsWhatTheLegLeaves) {
+  const Robot robot = test::leg();
+  EXPECT_DOUBLE_EQ(leg_mass(robot), 0.7 + 0.2 + 0.05);
+  EXPECT_DOUBLE_EQ(trolley_own_mass(robot) + leg_mass(robot), robot.trolley.total_mass);
+  EXPECT_EQ(trolley_own_mass(Robot{}), 0);
+}
+
+TEST(Robot, Finders) {
+  const Robot robot = test::leg();
+  EXPECT_EQ(find_joint(robot, "knee"), 1);
+  EXPECT_EQ(find_joint(robot, "ankle"), -1);
+  EXPECT_EQ(muscle_of(robot, 1, Muscle::Role::extensor), find_muscle(robot, "knee_extensor"));
+  EXPECT_EQ(angle_sensor_of(robot, 1), find_sensor(robot, "knee_sensor"));
+  EXPECT_EQ(tension_sensor_of(robot, 3), find_sensor(robot, "knee_extensor_sensor"));
+}
+
+// Every key of a file has one line of explanation, and every quantity its unit.
+struct Census {
+  int count = 0;
+
+  void note(const units::Field& field, bool quantity) {
+    ++count;
+    EXPECT_FALSE(field.name.empty());
+    EXPECT_FALSE(field.doc.empty()) << field.name;
+    EXPECT_EQ(field.unit.empty(), !quantity) << field.name;
+    EXPECT_LT(field.min, field.max) << field.name;
+  }
+  void number(const units::Field& f, double&) { note(f, true); }
+  void integer(const units::Field& f, int&) { note(f, false); }
+  void flag(const units::Field& f, bool&) { note(f, false); }
+  void text(const units::Field& f, std::string&) { note(f, false); }
+  template <class Enum>
+  void choice(const units::Field& f, Enum&,
+              std::initializer_list<units::Choice<std::type_identity_t<Enum>>> choices) {
+    note(f, false);
+    EXPECT_GT(choices.size(), 1u);
+  }
+  void group(const units::Field& f, const auto& visit) {
+    note(f, false);
+    visit(*this);
+  }
+  template <class T>
+  void each(const units::Field& f, std::vector<T>& items, const auto& visit) {
+    note(f, false);
+    for (T& item : items) visit(*this, item);
+  }
+};
+
+TEST(RobotFields, EveryKeyIsExplained) {
+  Robot robot = test::leg();
+  Census census;
+  fields(census, robot);
+  EXPECT_GT(census.count, 100);
+}
+
+}  // namespace
+}  // namespace sinew::robot
