@@ -1,0 +1,262 @@
+#include "sinew/control/gait/brain.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <new>
+
+#include "sinew/control/gait/path.h"
+#include "sinew/control/gait/test_walk.h"
+
+// Every allocation of this program is counted.
+namespace {
+std::atomic<long> allocations{0};
+}
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size ? size : 1)) return p;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace sinew::gait {
+namespace {
+
+using test::degree;
+using test::inch;
+
+const robot::TwoLinks links{8.875 * inch, 6.25 * inch};
+
+// Periods that the brain spent in each phase, by name, until it had finished.
+std::map<std::string, int> spent(Brain& brain, const Measured& measured = {}) {
+  std::map<std::string, int> count;
+  for (std::int64_t p = 0; p < 100000; ++p) {
+    const Desired& want = brain.update(measured, p);
+    if (want.stage == Stage::finished) break;
+    const auto& phases = brain.plan().phases;
+    ++count[want.phase < 0 ? "settling" : phases[static_cast<std::size_t>(want.phase)].name];
+  }
+  return count;
+}
+
+TEST(Brain, FourStepsOfTheText) {
+  const robot::Robot robot = robot::test::leg();
+  Brain brain(robot, test::walk(robot));
+  const auto count = spent(brain);
+  EXPECT_EQ(count.at("swing"), 4 * 150);
+  EXPECT_EQ(count.at("foot_plant"), 4 * 3);
+  EXPECT_EQ(count.at("propulsion"), 4 * 150);
+  EXPECT_EQ(brain.desired().step, 3);
+  EXPECT_TRUE(brain.desired().vent);
+  EXPECT_FALSE(brain.desired().joint[0].enabled);
+  EXPECT_EQ(brain.unreachable_periods(), 0);
+}
+
+// B.1: p[0] = -6.5 + timer * 0.01 * 9.5/1.5 for timer = 0 ... 150, and so on.
+TEST(Brain, LoopsOfTheCode) {
+  const robot::Robot robot = robot::test::leg();
+  Plan plan = test::walk(robot);
+  plan.thesis_timing = true;
+  plan.repeat = 1;
+  Brain brain(robot, plan);
+
+  std::int64_t p = 0;
+  const auto expect_x = [&](double inches) {
+    EXPECT_NEAR(brain.update({}, p++).foot.x, inches * inch, 1e-15);
+  };
+  for (int timer = 0; timer <= 150; ++timer) expect_x(-6.5 + timer * 0.01 * 9.5 / 1.5);
+  for (int timer = 0; timer <= 1; ++timer) expect_x(3 - timer * 0.01 * 1.0 / 0.01);
+  for (int timer = 0; timer <= 150; ++timer) expect_x(2.0 - (timer * 0.01) * 8.5 / 1.5);
+  EXPECT_EQ(brain.update({}, p).stage, Stage::finished);
+}
+
+TEST(Brain, AnglesPutTheFootOnThePathWithTheThesissKnee) {
+  const robot::Robot robot = robot::test::leg();
+  Brain brain(robot, test::walk(robot));
+  for (std::int64_t p = 0; p < 303; ++p) {
+    const Desired& want = brain.update({}, p);
+    const robot::Point foot = robot::foot_position(links, want.joint[0].angle, want.joint[1].angle);
+    ASSERT_NEAR(foot.x, want.foot.x, 2e-15);
+    ASSERT_NEAR(foot.y, want.foot.y, 2e-15);
+    ASSERT_GT(want.joint[1].angle, 180 * degree);
+    ASSERT_FALSE(want.unreachable);
+  }
+}
+
+TEST(Brain, TheSamePeriodAgainGivesTheSame) {
+  const robot::Robot robot = robot::test::leg();
+  Brain once(robot, test::walk(robot)), thrice(robot, test::walk(robot));
+  for (std::int64_t p = 0; p < 400; ++p) {
+    for (int i = 0; i < 3; ++i) thrice.update({}, p);
+    EXPECT_EQ(once.update({}, p).joint[0].angle, thrice.desired().joint[0].angle);
+  }
+  // Periods that were not asked for have passed all the same.
+  Brain jumps(robot, test::walk(robot));
+  EXPECT_EQ(jumps.update({}, 399).joint[1].angle, once.desired().joint[1].angle);
+}
+
+TEST(Brain, SettlesWithItsJointsLeftAlone) {
+  const robot::Robot robot = robot::test::leg();
+  Plan plan = test::walk(robot);
+  plan.settle = 0.6;
+  Brain brain(robot, plan);
+  for (std::int64_t p = 0; p < 60; ++p) {
+    const Desired& want = brain.update({}, p);
+    ASSERT_EQ(want.stage, Stage::settling);
+    ASSERT_FALSE(want.joint[0].enabled);
+    ASSERT_EQ(want.joint[0].angle, robot.joints[0].rest_angle);
+    ASSERT_EQ(want.phase, -1);
+  }
+  EXPECT_EQ(brain.update({}, 60).progress, 0);
+  EXPECT_TRUE(brain.desired().joint[0].enabled);
+}
+
+TEST(Brain, HoldsAtTheEndIfToldTo) {
+  const robot::Robot robot = robot::test::leg();
+  Plan plan = test::walk(robot);
+  plan.finish = Plan::Finish::hold;
+  Brain brain(robot, plan);
+  brain.update({}, 5000);
+  EXPECT_TRUE(brain.finished());
+  EXPECT_FALSE(brain.desired().vent);
+  EXPECT_TRUE(brain.desired().joint[0].enabled);
+  EXPECT_NEAR(brain.desired().foot.x, -6.5 * inch, 1e-15);
+}
+
+// A foot that stands: the tensions of which [75] makes 5 N upwards.
+Measured standing(const robot::Robot& robot, robot::Point force) {
+  Measured m;
+  const robot::Inverse inv = robot::inverse(links, {2.5 * inch, -13 * inch});
+  const robot::Jacobian j = robot::jacobian(links, inv.angle[0], inv.angle[1]);
+  const std::array torque{-(j.x1 * force.x + j.y1 * force.y), -(j.x2 * force.x + j.y2 * force.y)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    m.angle[i] = inv.angle[i];
+    const double pull = torque[i] / (robot.joints[i].sign() * robot.joints[i].moment_arm);
+    m.tension[2 * i] = 100 + pull;
+    m.tension[2 * i + 1] = 100;
+  }
+  return m;
+}
+
+TEST(Brain, GroundReactionFromTensions) {
+  const robot::Robot robot = robot::test::leg();
+  const Brain brain(robot, test::walk(robot));
+  const robot::Point force = brain.ground_reaction(standing(robot, {1.5, 5}));
+  EXPECT_NEAR(force.x, 1.5, 1e-12);
+  EXPECT_NEAR(force.y, 5, 1e-12);
+}
+
+TEST(Brain, APhaseEndsWhereTheFootStands) {
+  const robot::Robot robot = robot::test::leg();
+  Plan plan = test::walk(robot);
+  plan.phases[1].duration = 0.3;
+  plan.phases[1].until = {.measure = "foot.normal_force", .is = Until::Is::above, .level = 4};
+  plan.repeat = 1;
+
+  Brain never(robot, plan);
+  EXPECT_EQ(spent(never, standing(robot, {0, 3})).at("foot_plant"), 30);  // at the latest
+
+  Brain brain(robot, plan);
+  std::int64_t p = 0;
+  for (; p < 150 + 7; ++p) brain.update(standing(robot, {0, 0}), p);
+  EXPECT_EQ(brain.desired().phase, 1);
+  brain.update(standing(robot, {0, 5}), p++);
+  EXPECT_EQ(brain.desired().phase, 2);
+  EXPECT_EQ(brain.desired().progress, 0);
+}
+
+TEST(Brain, APhaseLastsAtLeastOnePeriod) {
+  const robot::Robot robot = robot::test::leg();
+  Plan plan = test::walk(robot);
+  for (Phase& phase : plan.phases)
+    phase.until = {.measure = "joint.hip.angle", .is = Until::Is::below, .level = 1};
+  Brain brain(robot, plan);
+  const auto count = spent(brain);  // measured: 0 rad
+  EXPECT_EQ(count.at("swing"), 4);
+  EXPECT_EQ(count.at("foot_plant"), 4);
+}
+
+TEST(Brain, OutOfReachItAimsAtTheNearestPointAndCounts) {
+  const robot::Robot robot = robot::test::leg();
+  Plan plan = test::walk(robot);
+  plan.phases[2].x.to = -9 * inch;
+  plan.repeat = 2;
+  Brain brain(robot, plan);
+  std::int64_t flagged = 0;
+  for (std::int64_t p = 0; p < 606; ++p) {
+    const Desired& want = brain.update({}, p);
+    flagged += want.unreachable;
+    const robot::Point aim = robot::foot_position(links, want.joint[0].angle, want.joint[1].angle);
+    const robot::Inverse inv = robot::inverse(links, want.foot);
+    ASSERT_NEAR(aim.x, inv.nearest.x, 1e-9);
+    ASSERT_NEAR(aim.y, inv.nearest.y, 1e-9);
+  }
+  EXPECT_GT(flagged, 0);
+  EXPECT_EQ(brain.unreachable_periods(), flagged);
+}
+
+TEST(Brain, WhatAPhaseChangesHoldsFromThenOn) {
+  const robot::Robot robot = robot::test::leg();
+  Plan plan = test::walk(robot);
+  plan.phases[0].joints[0].stiffness = {4, 2};     // a ramp
+  plan.phases[1].joints[1].gains.angle = {0.002};  // from the plant on
+  plan.phases[2].joints[1].gains.angle = {0.0015};
+  Brain brain(robot, plan);
+  EXPECT_EQ(brain.update({}, 0).joint[1].gains.angle, robot.joints[1].gains.angle);
+  EXPECT_DOUBLE_EQ(brain.update({}, 75).joint[0].stiffness, 3);
+  EXPECT_DOUBLE_EQ(brain.update({}, 150).joint[0].stiffness, 2);  // s = 1 was reached
+  EXPECT_EQ(brain.desired().joint[1].gains.angle, 0.002);
+  EXPECT_EQ(brain.update({}, 303).joint[1].gains.angle, 0.0015);  // the second swing
+  EXPECT_DOUBLE_EQ(brain.desired().joint[0].stiffness, 4);
+}
+
+TEST(Brain, OpenLoopAndDisabledLastAsLongAsTheirPhase) {
+  const robot::Robot robot = robot::test::leg();
+  Plan plan = test::walk(robot);
+  plan.phases[0].joints[0].feedforward.flexor_inlet = {1};
+  plan.phases[0].disabled = {"knee"};
+  Brain brain(robot, plan);
+  brain.update({}, 10);
+  EXPECT_TRUE(brain.desired().joint[0].open_loop);
+  EXPECT_EQ(brain.desired().joint[0].flexor_inlet, 1);
+  EXPECT_EQ(brain.desired().joint[0].extensor_exhaust, 0);
+  EXPECT_FALSE(brain.desired().joint[1].enabled);
+  brain.update({}, 150);
+  EXPECT_FALSE(brain.desired().joint[0].open_loop);
+  EXPECT_TRUE(brain.desired().joint[1].enabled);
+}
+
+TEST(Brain, JointAnglesNeedNoFoot) {
+  robot::Robot robot = robot::test::leg();
+  Plan plan = plan_for(robot);
+  Phase turn = test::phase("turn", 1);
+  turn.joints[0].angle = {278 * degree, 298 * degree};
+  plan.phases = {turn};
+  plan.sequence = {"turn"};
+  Brain brain(robot, plan);
+  brain.update({}, 50);
+  EXPECT_NEAR(brain.desired().joint[0].angle, 288 * degree, 1e-14);
+  EXPECT_EQ(brain.desired().joint[1].angle, robot.joints[1].rest_angle);
+  EXPECT_FALSE(brain.desired().has_foot);
+}
+
+TEST(Brain, NoHeapInUpdate) {
+  const robot::Robot robot = robot::test::leg();
+  Plan plan = test::walk(robot);
+  plan.phases[1].until = {.measure = "foot.normal_force", .is = Until::Is::above, .level = 4};
+  plan.phases[0].points = {{0, 0.1, 0.1}, {-0.3, -0.3, -0.32}};
+  plan.phases[2].joints[0].stiffness = {4, 2, 4};
+  Brain brain(robot, plan);
+  const Measured measured = standing(robot, {0, 0});
+  const long before = allocations;
+  for (std::int64_t p = 0; p < 2000; ++p) brain.update(measured, p);
+  EXPECT_EQ(allocations, before);
+  EXPECT_TRUE(brain.finished());
+}
+
+}  // namespace
+}  // namespace sinew::gait
