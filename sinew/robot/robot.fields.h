@@ -196,20 +196,9 @@ void fields(Visitor& v, Sensor& sensor) {
           [&](auto& g) { assumed_fields(g, sensor); });
 }
 
+// What the stiffness law [27] takes the muscles for.
 template <class Visitor>
-void fields(Visitor& v, LowLevel& low) {
-  v.integer({.name = "pwm_ticks",
-             .min = 2,
-             .max = 65535,
-             .doc = "of 100 us per period; the duty's resolution follows"},
-            low.pwm_ticks);
-  v.integer(
-      {.name = "output_delay", .min = 0, .max = 100, .doc = "ticks between the law and its edge"},
-      low.output_delay);
-  v.choice({.name = "duty_rounding", .doc = "U_k and U_theta are short in B.1"}, low.rounding,
-           {{"truncate each law", LowLevel::Rounding::truncate_each_law},
-            {"truncate sum", LowLevel::Rounding::truncate_sum},
-            {"none", LowLevel::Rounding::none}});
+void stiffness_fields(Visitor& v, LowLevel& low) {
   v.number(
       {.name = "stiffness_pole_clamp",
        .unit = "rad",
@@ -236,6 +225,23 @@ void fields(Visitor& v, LowLevel& low) {
        .optional = true,
        .doc = "tension counts/length counts to lbf in/rad, 5.5 in B.1; 0: from the assumed scales"},
       low.stiffness_factor);
+}
+
+template <class Visitor>
+void fields(Visitor& v, LowLevel& low) {
+  v.integer({.name = "pwm_ticks",
+             .min = 2,
+             .max = 65535,
+             .doc = "of 100 us per period; the duty's resolution follows"},
+            low.pwm_ticks);
+  v.integer(
+      {.name = "output_delay", .min = 0, .max = 100, .doc = "ticks between the law and its edge"},
+      low.output_delay);
+  v.choice({.name = "duty_rounding", .doc = "U_k and U_theta are short in B.1"}, low.rounding,
+           {{"truncate each law", LowLevel::Rounding::truncate_each_law},
+            {"truncate sum", LowLevel::Rounding::truncate_sum},
+            {"none", LowLevel::Rounding::none}});
+  stiffness_fields(v, low);
   v.text({.name = "valve_timing",
           .optional = true,
           .doc = "duty, close, open in ticks (B.4), from files.valve_timing; absent: close at "
