@@ -4,7 +4,7 @@
 //
 // k is the secant stiffness [34] as printed, or the sealed stiffness that Q was identified with
 // ([45]), or a constant. Below the bound the mesh sticks; which of the two it does is solved for
-// once per step by the plant (design.md, "Dry friction").
+// once per step by whoever integrates the body (docs/theory/actuator.md, "Losses").
 #pragma once
 
 #include "sinew/actuator/actuator.h"

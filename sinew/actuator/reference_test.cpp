@@ -154,7 +154,7 @@ TEST(ReferenceActuator, equilibria_of_the_trapped_air_tests) {
   }
 }
 
-// errata.md on [33] with [45]: secant over sealed stiffness at these equilibria.
+// docs/departures.md on [33] with [45]: secant over sealed stiffness at these equilibria.
 TEST(ReferenceActuator, secant_is_well_below_the_sealed_stiffness) {
   const double pressure[] = {60, 80, 60}, load[] = {6, 11, 11}, ratio[] = {.82, .74, .62};
   for (int i = 0; i < 3; ++i) {

@@ -113,7 +113,7 @@ TEST(Stiffness, both_agree_at_the_shortest_length_and_with_endless_volume) {
               stiffness_at_constant_pressure(a, 0.08, p - atmosphere, atmosphere), 1e-5);
 }
 
-// errata.md, [25]: adiabatic, without Eff, hoses of both set-ups of chapter 3.
+// docs/departures.md, [25]: adiabatic, without Eff, hoses of both set-ups of chapter 3.
 TEST(Stiffness, sealed_is_1_23_to_1_85_of_the_thesis_stiffness) {
   Actuator a = thesis_actuator();
   a.effectiveness = {};

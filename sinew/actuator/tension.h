@@ -4,7 +4,7 @@
 //
 //   P_g  gauge pressure [Pa]        L  length [m]         v  dL/dt [m/s]
 //
-// The dry friction of [33] is not in here: it is a force of the step, see loss.h and design.md.
+// The dry friction of [33] is not in here: it is a force of the step, see loss.h.
 // Departures: P - P_atm keeps its sign (appendix A takes |P - 14.7|, so that vacuum would pull);
 // below the shortest length an end stop, or zero as printed.
 #pragma once

@@ -82,14 +82,14 @@ TEST(ReferenceGas, flow_factor_83_62) {
   EXPECT_NEAR(to_si * printed("Cm_free_code") / si("Cm_free_code"), 1, 1e-12);
 }
 
-// errata.md: .38 % jump at the limit in the code; none with the exact coefficients.
+// docs/departures.md: .38 % jump at the limit in the code; none with the exact coefficients.
 TEST(ReferenceGas, rounded_coefficients_jump_where_the_code_switches) {
   const double r = si("critical_ratio_code");
   const double free = 0.064 * std::sqrt(std::pow(r, 2 / 1.4) - std::pow(r, 2.4 / 1.4));
   EXPECT_NEAR(free / 0.0165 - 1, 0.0038, 5e-5);
 }
 
-// errata.md: R = 53.34 as printed lacks g_c = 32.174 under the root.
+// docs/departures.md: R = 53.34 as printed lacks g_c = 32.174 under the root.
 TEST(ReferenceGas, gas_constant_as_printed_is_wrong_by_5_67) {
   const double slug_constant = si("R_air") * slug * rankine / (foot * pound_force);
   EXPECT_NEAR(slug_constant, 1716, 0.5);
@@ -103,7 +103,8 @@ TEST(ReferenceGas, density_of_the_code_is_air_at_529_degR) {
   EXPECT_NEAR(si("density") * foot * foot * foot / pound_mass, 0.0750, 5e-5);
 }
 
-// errata.md: on the adiabat through the atmosphere, air at 100 psi gauge would be at 950 degR.
+// docs/departures.md: on the adiabat through the atmosphere, air at 100 psi gauge would be at 950
+// degR.
 TEST(ReferenceGas, adiabatic_supply_would_be_hot) {
   const Air air;
   const double p = si("supply_text");
