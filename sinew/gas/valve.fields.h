@@ -54,20 +54,9 @@ void fields(Visitor& v, Flow& flow) {
   }
 }
 
+// When it opens: delay.h.
 template <class Visitor>
-void fields(Visitor& v, Valve& valve) {
-  v.choice({.name = "kind", .doc = "2-way: open or shut; 3-way: supply or atmosphere"}, valve.kind,
-           {{"2-way", Valve::Kind::two_way}, {"3-way", Valve::Kind::three_way}});
-  v.group({.name = "flow", .doc = "mass flow through the open valve"},
-          [&](auto& g) { fields(g, valve.flow); });
-  v.number({.name = "linear_below",
-            .unit = "1",
-            .min = 0,
-            .max = 0.1,
-            .optional = true,
-            .doc = "pressure difference / upstream pressure below which the flow is linear in it"},
-           valve.flow.linear_below);
-
+void shutter_fields(Visitor& v, Valve& valve) {
   v.choice({.name = "profile", .doc = "how the shutter moves after the electrical edge"},
            valve.profile,
            {{"ideal", Valve::Profile::ideal},
@@ -104,6 +93,22 @@ void fields(Visitor& v, Valve& valve) {
   if (valve.profile != Valve::Profile::ramp && (valve.opening_ramp > 0 || valve.closing_ramp > 0)) {
     units::complain(v, "profile", "a ramp's time with another profile", "\"ramp\"");
   }
+}
+
+template <class Visitor>
+void fields(Visitor& v, Valve& valve) {
+  v.choice({.name = "kind", .doc = "2-way: open or shut; 3-way: supply or atmosphere"}, valve.kind,
+           {{"2-way", Valve::Kind::two_way}, {"3-way", Valve::Kind::three_way}});
+  v.group({.name = "flow", .doc = "mass flow through the open valve"},
+          [&](auto& g) { fields(g, valve.flow); });
+  v.number({.name = "linear_below",
+            .unit = "1",
+            .min = 0,
+            .max = 0.1,
+            .optional = true,
+            .doc = "pressure difference / upstream pressure below which the flow is linear in it"},
+           valve.flow.linear_below);
+  shutter_fields(v, valve);
 }
 
 // All of a file's valves.
