@@ -40,13 +40,12 @@ void solve_sticking(const FrictionProblem<C>& p, const std::array<bool, C>& stic
   for (int a = 0; a < n; ++a) {
     const int i = index[a];
     rhs[a] = -p.slip[i];
-    for (int j = 0; j < C; ++j)
-      if (!stick[j]) rhs[a] -= p.response[i][j] * force[j];
+    for (int j = 0; j < C; ++j) rhs[a] -= p.response[i][j] * force[j];
     for (int b = 0; b <= a; ++b) {
-      double m = p.response[i][index[b]] + (a == b ? 1e-12 * largest : 0.0);
+      double m = p.response[i][index[b]] + (a == b ? 1e-9 * largest : 0.0);
       for (int k = 0; k < b; ++k) m -= lower[a][k] * lower[b][k] * pivot[k];
       if (a == b)
-        pivot[a] = m > 1e-13 * largest ? m : 1e-13 * largest;
+        pivot[a] = m > 1e-10 * largest ? m : 1e-10 * largest;
       else
         lower[a][b] = m / pivot[b];
     }
@@ -56,7 +55,7 @@ void solve_sticking(const FrictionProblem<C>& p, const std::array<bool, C>& stic
     rhs[a] /= pivot[a];
     for (int k = a + 1; k < n; ++k) rhs[a] -= lower[k][a] * rhs[k];
   }
-  for (int a = 0; a < n; ++a) force[index[a]] = rhs[a];
+  for (int a = 0; a < n; ++a) force[index[a]] += rhs[a];
 }
 
 }  // namespace detail
