@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# format.sh [--fix]   C++ files are laid out as .clang-format says; --fix lays them out.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+case ${1:-} in
+  '') how=(--dry-run -Werror) ;;
+  --fix) how=(-i) ;;
+  *) echo "usage: $0 [--fix]" >&2; exit 2 ;;
+esac
+
+# Versions lay out differently: it must be this one.
+version=14
+tool=
+for candidate in clang-format-$version clang-format; do
+  [[ $("$candidate" --version 2>/dev/null) == *"version $version."* ]] && { tool=$candidate; break; }
+done
+[[ -n $tool ]] || { echo "format.sh: needs clang-format $version" >&2; exit 1; }
+
+folders=()
+for folder in sinew cli firmware tests bench examples; do [[ -d $folder ]] && folders+=("$folder"); done
+find "${folders[@]}" -name node_modules -prune -o -type f \( -name '*.h' -o -name '*.cpp' \) -print0 |
+  xargs -0 -r -P "$(nproc)" -n 20 "$tool" "${how[@]}"

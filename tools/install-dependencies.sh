@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# install-dependencies.sh [demo|quick|check]   installs with apt what is missing, and nothing else.
+#
+#   demo    to build and run Sinew
+#   quick   and to test it: ./check --quick
+#   check   and for everything ./check does
+#
+# Can be run again. Needs Debian 12 or a system with the same packages; docs/dependencies.md tells
+# more about each. Where you have the tools from elsewhere, SINEW_DEPENDENCIES=present skips this.
+set -euo pipefail
+
+# Sets add up. A tool is looked for by its command, since it may come from elsewhere (Debian's npm
+# conflicts with other installations of Node); a library by its package ("-").
+#   set    command             package                          reason
+list='
+    demo   g++                 g++                              compiles C++20
+    demo   cmake               cmake                            configures the build
+    demo   ninja               ninja-build                      builds
+    demo   -                   libtomlplusplus-dev              reads robots and experiments
+    demo   -                   libcli11-dev                     parses the command line
+    demo   -                   nlohmann-json3-dev               writes logs and summaries
+    demo   -                   libfmt-dev                       formats numbers and messages
+    demo   -                   zlib1g-dev                       checksums of logs
+    quick  -                   libgtest-dev                     tests
+    quick  -                   libgmock-dev                     tests
+    quick  clang-format-14     clang-format-14                  one layout of code; versions differ
+    quick  node                nodejs                           reads our logs with the MCAP library
+    quick  npm                 npm                              installs that library
+    check  arm-none-eabi-g++   gcc-arm-none-eabi                embedded core for Cortex-M4F
+    check  -                   libstdc++-arm-none-eabi-newlib   its headers
+    check  qemu-system-arm     qemu-system-arm                  runs it
+'
+
+case ${1:-demo} in
+  demo) sets=' demo ' ;;
+  quick) sets=' demo quick ' ;;
+  check) sets=' demo quick check ' ;;
+  *) echo "usage: $0 [demo|quick|check]" >&2; exit 2 ;;
+esac
+
+if [[ ${SINEW_DEPENDENCIES:-} == present ]]; then
+  echo "dependencies: taken as present"
+  exit 0
+fi
+
+has_package() { [[ $(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null) == installed ]]; }
+
+missing=()
+while read -r set command package reason; do
+  [[ -n $set && $sets == *" $set "* ]] || continue
+  if [[ $command == - ]]; then
+    command -v dpkg-query >/dev/null && has_package "$package" && continue
+  else
+    command -v "$command" >/dev/null && continue
+  fi
+  missing+=("$package")
+  printf 'missing: %-31s %s\n' "$package" "$reason"
+done <<<"$list"
+
+if ((${#missing[@]} == 0)); then
+  echo "dependencies: all present"
+  exit 0
+fi
+if ! command -v apt-get >/dev/null; then
+  echo "This system has no apt-get: install the above by other means, then run again with" \
+       "SINEW_DEPENDENCIES=present" >&2
+  exit 1
+fi
+
+as_root=()
+if [[ $(id -u) != 0 ]]; then
+  command -v sudo >/dev/null || { echo "Run as root: apt-get install ${missing[*]}" >&2; exit 1; }
+  as_root=(sudo)
+fi
+apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q "$@"; }
+
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+echo "installing ${#missing[@]} package(s) …"
+for step in "update" "install -y --no-install-recommends ${missing[*]}"; do
+  # shellcheck disable=SC2086  # words of a command
+  apt $step >"$log" 2>&1 || { tail -n 30 "$log" >&2; echo "apt-get $step: failed" >&2; exit 1; }
+done
+echo "dependencies: installed"

@@ -1,0 +1,248 @@
+#!/usr/bin/env bash
+# layers.sh [--self-test]   who may include whom, and a few rules a compiler does not know.
+#
+# Prints "file:line: what is wrong" for each finding; exit 1 if there is one.
+
+# A folder may include itself, what its row names, and everything that those may. A name stands for
+# the rows below it too: `plant` for plant/planar. Every folder with sources needs a row.
+layers='
+    units
+    signals
+    gas             units
+    actuator        units
+    muscle          gas actuator signals
+    robot           actuator signals
+    control/joint   signals
+    control/gait    robot signals
+    config          units
+    log             signals
+    plant/planar    muscle robot signals
+    plant/rig       muscle robot signals
+    plant/recorded  muscle robot signals log
+    plant/mujoco    muscle robot signals
+    plant/hardware  muscle robot signals
+    experiment      plant control config
+    identify        muscle signals log config
+    analysis        signals robot actuator config
+    report          analysis log robot
+    tune            experiment analysis
+'
+
+# What only the tests of a folder may include besides (*_test.cpp, *_test.h, test_*.h, testing.h).
+# Tests of any folder may include config, to read a file of robots/ or experiments/.
+test_layers='
+    *               config
+    identify        plant/rig
+'
+
+# Each outside library sits behind one folder.
+libraries='
+    toml[+][+]/     sinew/config
+    zlib[.]h        sinew/log
+    mcap/           sinew/log
+    mujoco/         sinew/plant/mujoco
+    CLI/            cli
+'
+
+# A file is one thought: at most this many lines, tables (*.fields.h) and tests apart.
+longest_file=400
+
+set -euo pipefail
+export LC_ALL=C.UTF-8
+
+check_tree() {  # check_tree ROOT: findings on stdout, status 1 if there are any
+  (
+    cd "$1"
+    find sinew cli -type f \( -name '*.h' -o -name '*.cpp' \) 2>/dev/null | sort |
+      awk -v layers="$layers" -v test_layers="$test_layers" -v libraries="$libraries" \
+          -v longest_file="$longest_file" "$program"
+  )
+}
+
+# shellcheck disable=SC2016  # $ belongs to awk
+program='
+function say(file, line, what) { print file ":" line ": " what; findings = 1 }
+
+# The longest row that is the path or above it; "" if there is none.
+function row_of(path) {
+  while (path != "") {
+    if (path in row) return path
+    if (!sub(/\/[^\/]*$/, "", path)) path = ""
+  }
+  return ""
+}
+function below(path, name) { return path == name || index(path, name "/") == 1 }
+
+# reach[a, b]: a may include b, through any number of rows.
+function read_tables(   lines, words, n, i, j, k, m, a, b, c, again) {
+  n = split(layers, lines, "\n")
+  for (i = 1; i <= n; ++i) {
+    m = split(lines[i], words, " ")
+    if (m > 0) row[words[1]] = lines[i]
+  }
+  for (a in row) {
+    reach[a, a] = 1
+    m = split(row[a], words, " ")
+    for (j = 2; j <= m; ++j) for (b in row) if (below(b, words[j])) reach[a, b] = 1
+  }
+  do {
+    again = 0
+    for (a in row) for (b in row) if ((a, b) in reach)
+      for (c in row) if ((b, c) in reach && !((a, c) in reach)) reach[a, c] = again = 1
+  } while (again)
+
+  n = split(test_layers, lines, "\n")
+  for (i = 1; i <= n; ++i) {
+    m = split(lines[i], words, " ")
+    for (j = 2; j <= m; ++j) for (b in row) if (below(b, words[j]))
+      for (c in row) if ((b, c) in reach) test_reach[words[1], c] = 1
+  }
+
+  n = split(libraries, lines, "\n")
+  for (i = 1; i <= n; ++i) if (split(lines[i], words, " ") == 2) library[words[1]] = words[2]
+}
+
+# Code without comments and without what stands between quotes.
+function code_of(text,   at) {
+  if (in_comment) {
+    at = index(text, "*/")
+    if (!at) return ""
+    text = substr(text, at + 2)
+    in_comment = 0
+  }
+  gsub(/\047([^\047\\]|\\.)\047/, "0", text)
+  gsub(/"([^"\\]|\\.)*"/, "\"\"", text)
+  sub(/\/\/.*/, "", text)
+  gsub(/\/\*[^*]*\*+([^\/*][^*]*\*+)*\//, " ", text)
+  at = index(text, "/*")
+  if (at) { text = substr(text, 1, at - 1); in_comment = 1 }
+  return text
+}
+
+function check_include(file, line, target,   folder, mine, theirs, name) {
+  for (name in library)
+    if (target ~ ("^" name) && !below(file, library[name]))
+      say(file, line, "<" target "> belongs behind " library[name])
+  if (target !~ /^sinew\//) return
+  if (file !~ /^sinew\//) return
+
+  folder = file
+  sub(/^sinew\//, "", folder); sub(/\/[^\/]*$/, "", folder)
+  sub(/^sinew\//, "", target); sub(/\/[^\/]*$/, "", target)
+  mine = row_of(folder)
+  theirs = row_of(target)
+  if (mine == "") { unknown(file, line, folder); return }
+  if (theirs == "") { unknown(file, line, target); return }
+  if ((mine, theirs) in reach) return
+  if (is_test && (("*", theirs) in test_reach || (mine, theirs) in test_reach)) return
+  say(file, line, mine " may not include " theirs)
+}
+function unknown(file, line, folder) {
+  say(file, line, "sinew/" folder " has no row in tools/layers.sh")
+}
+
+function check_file(file,   text, line, code, name, folder) {
+  name = file
+  sub(/.*\//, "", name)
+  is_test = name ~ /_test\.(cpp|h)$|^test_.*\.h$|^testing\.h$/
+  in_comment = 0
+  line = 0
+
+  if (file ~ /^sinew\//) {
+    folder = file
+    sub(/^sinew\//, "", folder); sub(/\/[^\/]*$/, "", folder)
+    if (row_of(folder) == "" && !(folder in told)) { unknown(file, 1, folder); told[folder] = 1 }
+  }
+
+  while ((getline text < file) > 0) {
+    ++line
+    if (!in_comment && match(text, /^[ \t]*#[ \t]*include[ \t]*[<"][^>"]+[>"]/)) {
+      text = substr(text, RSTART, RLENGTH - 1)
+      sub(/.*[<"]/, "", text)
+      check_include(file, line, text)
+      continue
+    }
+    code = code_of(text)
+    if (code ~ /(^|[^A-Za-z0-9_])virtual($|[^A-Za-z0-9_])/ && file != "sinew/signals/port.h" && !is_test)
+      say(file, line, "virtual: the port is the one virtual class")
+    if (code ~ /^[ \t]*#[ \t]*define[ \t]+[A-Za-z0-9_]+\(/ && !is_test)
+      say(file, line, "a macro with arguments: write a function")
+    if (file ~ /^sinew\// && !is_test &&
+        (code ~ /std::(cout|cerr|clog)/ || code ~ /(^|[^A-Za-z0-9_])v?(printf|puts|putchar)[ \t]*\(/ ||
+         code ~ /(^|[^A-Za-z0-9_])fprintf[ \t]*\([ \t]*std(out|err)/ || code ~ /fmt::print(ln)?[ \t]*\(/))
+      say(file, line, "the library does not print: return it, or throw it")
+  }
+  close(file)
+  if (line > longest_file && !is_test && name !~ /\.fields\.h$/)
+    say(file, line, line " lines, more than " longest_file ": split it")
+}
+
+BEGIN { read_tables() }
+{ check_file($0) }
+END { exit findings ? 1 : 0 }
+'
+
+# Each rule is broken once, and kept once where it looks broken.
+self_test() {
+  local count=0 failed=0
+  tree=$(mktemp -d)  # not local: the trap outlives this function
+  trap 'rm -rf "$tree"' EXIT
+
+  file() { mkdir -p "$tree/$(dirname "$1")"; printf '%b\n' "$2" >"$tree/$1"; }
+  report() { echo "layers.sh --self-test: $1"; failed=1; }
+  expect() {  # expect FILE TEXT FINDING   ("" for none)
+    count=$((count + 1))
+    rm -rf "${tree:?}"/*
+    file "$1" "$2"
+    local found
+    found=$(check_tree "$tree" 2>&1) || true
+    if [[ -z $3 ]]; then
+      [[ -z $found ]] || report "in $1 it should have accepted: $2, said: $found"
+    else
+      [[ $found == *"$1:"*"$3"* ]] || report "in $1 it should have said \"$3\" of: $2, said: $found"
+    fi
+  }
+
+  expect sinew/units/a.h          '#include "sinew/gas/air.h"'                 'units may not include gas'
+  expect sinew/muscle/a.h         '#include "sinew/units/unit.h"'              ''  # through gas
+  expect sinew/control/joint/a.h  '#include "sinew/units/unit.h"'              'control/joint may not include units'
+  expect sinew/control/joint/a.h  '#include "sinew/control/gait/a.h"'          'may not include control/gait'
+  expect sinew/plant/planar/a.cpp '#include "sinew/log/writer.h"'              'plant/planar may not include log'
+  expect sinew/plant/recorded/a.h '#include "sinew/log/reader.h"'              ''
+  expect sinew/experiment/a.h     '#include "sinew/plant/planar/world.h"'      ''  # plant stands for it
+  expect sinew/analysis/a.cpp     '#include "sinew/control/gait/a.h"'          'analysis may not include control/gait'
+  expect sinew/gas/a_test.cpp     '#include "sinew/config/reader.h"'           ''
+  expect sinew/gas/a.cpp          '#include "sinew/config/reader.h"'           'gas may not include config'
+  expect sinew/identify/a_test.cpp '#include "sinew/plant/rig/rig.h"'          ''
+  expect sinew/identify/a.cpp     '#include "sinew/plant/rig/rig.h"'           'identify may not include plant/rig'
+  expect sinew/novelty/a.h        'int a;'                                     'no row'
+  expect sinew/gas/a.h            '#include "sinew/novelty/a.h"'               'no row'
+  expect sinew/gas/a.cpp          '#include <toml++/toml.h>'                   'behind sinew/config'
+  expect sinew/config/a.cpp       '#include <toml++/toml.h>'                   ''
+  expect cli/a.cpp                '#include <zlib.h>'                          'behind sinew/log'
+  expect cli/a.cpp                '#include <CLI/CLI.hpp>'                     ''
+  expect sinew/log/a.cpp          '#include <CLI/CLI.hpp>'                     'behind cli'
+  expect sinew/gas/a.h            'struct A { virtual void f(); };'            'virtual'
+  expect sinew/gas/a.h            'int a;  // virtual work'                    ''
+  expect sinew/gas/a.h            '/* virtual\n   virtual work */ int a;'      ''
+  expect sinew/gas/a.h            'auto t = "virtual";'                        ''
+  expect sinew/signals/port.h     'struct A { virtual void f(); };'            ''
+  expect sinew/gas/a.h            '#define twice(x) (2 * (x))'                 'macro'
+  expect sinew/gas/a_test.cpp     '#define twice(x) (2 * (x))'                 ''
+  expect sinew/gas/a.h            '#define version 3'                          ''
+  expect sinew/gas/a.cpp          'void f() { std::cout << 1; }'               'does not print'
+  expect sinew/gas/a.cpp          'void f() { printf("a"); }'                  'does not print'
+  expect sinew/gas/a.cpp          'void f() { std::snprintf(b, 3, "a"); }'     ''
+  expect cli/a.cpp                'void f() { std::cout << 1; }'               ''
+  expect sinew/gas/a.cpp          "$(printf '\\n%.0s' {1..401})"               'more than 400'
+  expect sinew/gas/a.fields.h     "$(printf '\\n%.0s' {1..401})"               ''
+
+  if ((failed)); then exit 1; fi
+  echo "layers: $count cases of the self-test"
+}
+
+case ${1:-} in
+  '') check_tree "$(dirname "$0")/.." || exit 1; echo "layers: in order" ;;
+  --self-test) self_test ;;
+  *) echo "usage: $0 [--self-test]" >&2; exit 2 ;;
+esac
