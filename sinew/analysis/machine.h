@@ -1,0 +1,61 @@
+// analysis/machine.h - what the numbers of a log mean: the machine, the phases' names, what is
+// reported of the run. Read from the composed experiment, or from the resolved.toml beside a log.
+//
+// Only what analysis needs is read, so a file may hold more than this folder knows of.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/actuator/actuator.h"
+#include "sinew/analysis/reported.h"
+#include "sinew/config/node.h"
+#include "sinew/robot/kinematics.h"
+#include "sinew/robot/robot.h"
+#include "sinew/units/constants.h"
+
+namespace sinew::analysis {
+
+// When a valve follows its coil: [valve.<name>]. Zero where the profile is ideal.
+struct ValveDelays {
+  std::string name;
+  double opening = 0, closing = 0;  // from the edge until half of the way is done [s]
+};
+
+struct Machine {
+  std::string title;
+  std::string reproduces;
+
+  robot::Robot robot;
+  std::vector<actuator::Actuator> actuators;
+  std::vector<ValveDelays> valves;
+  double atmosphere = units::atmosphere;  // [Pa]
+
+  std::vector<std::string> phases;    // in the file's order: the position is /plan/phase
+  std::vector<std::string> sequence;  // of one step
+  double period = 0.01;               // between samples [s]
+  std::vector<Reported> reported;
+};
+
+// Throws config::Error with everything that is wrong in what is read.
+Machine read_machine(const config::Node& root);
+
+// Positions in Machine::phases by what 5.4 calls them: `foot_plant` and `propulsion` are stance,
+// `swing` is swing. Any other phase is neither.
+bool is_stance(const Machine&, int phase);
+bool is_swing(const Machine&, int phase);
+std::string_view phase_name(const Machine&, int phase);  // empty outside the sequence
+
+// A foot at the end of two links: where the thesis's kinematics and [75] apply.
+bool has_leg(const Machine&);
+robot::TwoLinks links_of(const Machine&);
+
+// The muscle's actuator with the muscle's own bladder; nullptr-like default where there is none.
+actuator::Actuator actuator_of(const Machine&, const robot::Muscle&);
+
+// The delays of a valve by its name; none for an unknown one.
+ValveDelays delays_of(const Machine&, std::string_view valve);
+
+}  // namespace sinew::analysis

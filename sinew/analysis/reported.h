@@ -1,0 +1,62 @@
+// analysis/reported.h - what the source reports beside what came out.
+//
+//   [[reported]]
+//   key    = "trolley.distance_m"      of the summary
+//   value  = "55 to 60 in"             as reported
+//   accept = ["53 in", "60 in"]        lowest and highest that agrees
+//   source = "6.3"
+//
+// The quantity's unit follows from the last part of the key, so "53 lb" for a distance is an error.
+// Our own figure is shown in the unit in which the source speaks.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/config/quantity.h"
+#include "sinew/units/constants.h"
+
+namespace sinew::analysis {
+
+class Summary;
+
+struct Reported {
+  std::string key;                  // of the summary
+  std::string value;                // as reported, free text that ends with the unit
+  std::vector<std::string> accept;  // lowest and highest that agrees; empty: not judged
+  std::string source;
+};
+
+// The SI unit that a key's ending stands for, as config/quantity.h wants it: _m, _m_per_s, _rad,
+// _N, _Nm, _Nm_per_rad, _kg, _kg_per_m, _per_m, _Pa (absolute), _s. "1" for every other ending.
+std::string unit_of_key(std::string_view key);
+
+// What is wrong with `accept`; nothing for an empty one.
+std::optional<config::Mistake> mistake_in_accept(const Reported&,
+                                                 double atmosphere = units::atmosphere);
+
+struct Verdict {
+  enum class Is { agrees, differs, not_applicable };
+
+  std::string key;
+  std::string reported;  // as reported
+  std::string ours;      // "57.7 in", "93.1 %"; empty where the summary has no such key
+  std::string accept;    // "53 in to 60 in"; empty where nothing is judged
+  std::string source;
+  Is is = Is::not_applicable;  // no such key in the summary, or nothing to judge by
+};
+
+std::string_view to_text(Verdict::Is is);  // "agrees", "differs", "not applicable"
+
+// One verdict each, in the order of the file. Throws config::Error for an `accept` that cannot be
+// read.
+std::vector<Verdict> compare(const Summary&, const std::vector<Reported>&,
+                             double atmosphere = units::atmosphere);
+
+// For people, in another unit of the key's kind: one decimal from 1 on, two digits below.
+std::string show(double si, std::string_view key, std::string_view unit,
+                 double atmosphere = units::atmosphere);
+
+}  // namespace sinew::analysis

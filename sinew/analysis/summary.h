@@ -1,0 +1,44 @@
+// analysis/summary.h - a run in numbers: summary.json.
+//
+// Keys are dotted, "joints.hip.min_angle_rad", values SI with the unit in the key; what each means
+// stands in docs/analysis.md. A key that does not apply, or whose topics the log lacks, is absent.
+// Means, extremes and shares are over the phases of the sequence; settling and finish are left out.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sinew/analysis/machine.h"
+#include "sinew/signals/table.h"
+
+namespace sinew::analysis {
+
+struct Entry {
+  std::string key;
+  double value = 0;
+};
+
+class Summary {
+ public:
+  std::string title;
+  std::string reproduces;
+
+  // Keys come in a fixed order. What is not finite is not added.
+  void add(std::string key, double value);
+  const double* find(std::string_view key) const;  // nullptr: absent
+  const std::vector<Entry>& entries() const { return entries_; }
+
+ private:
+  std::vector<Entry> entries_;
+};
+
+Summary summarize(const signals::Table&, const Machine&);
+
+// summary.json: format, title, the keys as nested objects in the summary's order, `host` last.
+// Numbers have the fewest digits that read back to the same bits. No dates, nothing of the machine
+// that ran but `host`, which comparisons leave out.
+std::string to_json(const Summary&, const std::vector<std::pair<std::string, double>>& host = {});
+
+}  // namespace sinew::analysis
