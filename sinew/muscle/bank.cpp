@@ -8,18 +8,19 @@
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
 
+// Lanes of four doubles where the machine has them; the same operations, so the same bits. The
+// sanitizers start before the loader could choose.
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
+#define SINEW_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define SINEW_WIDE
+#endif
+
 namespace sinew::muscle {
 namespace {
 
 constexpr double series_reach = 0.05;  // |x| up to which six terms are enough
 constexpr double rebase_at = 0.02;     // |x| from which a node takes a new reference
-
-// P/P_atm = y^7.
-constexpr double seventh_power(double y) {
-  const double y2 = y * y;
-  const double y4 = y2 * y2;
-  return y4 * y2 * y;
-}
 
 }  // namespace
 
@@ -38,33 +39,13 @@ Bank::Bank(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supp
 
   for (int i = 0; i < padded_; ++i) {
     // Lanes beyond the last muscle repeat it: harmless numbers, never read.
-    const Muscle& m = muscles_[static_cast<std::size_t>(i < size_ ? i : size_ - 1)];
-    const actuator::Actuator& a = m.actuator;
-    thread2_[i] = a.braid.thread_length * a.braid.thread_length;
-    factor_[i] = actuator::braid_factor(a.braid);
-    count_[i] = m.count;
-    external_[i] = m.external_volume;
-    c0_[i] = a.effectiveness.scale * a.effectiveness.c0;
-    c1_[i] = a.effectiveness.scale * a.effectiveness.c1;
-    c2_[i] = a.effectiveness.scale * a.effectiveness.c2;
-    const bool absolute = a.effectiveness.argument == actuator::Effectiveness::Argument::absolute;
-    offset_[i] = absolute ? air.atmosphere : 0.0;
-    low_[i] = a.effectiveness.valid_from;
-    high_[i] = a.effectiveness.valid_to;
-    long_length_[i] = a.long_end.length;
-    long_stiffness_[i] = a.long_end.stiffness;
-    long_damping_[i] = a.long_end.damping;
-    short_length_[i] = actuator::shortest_length(a.braid);
-    short_stiffness_[i] = a.short_end.stiffness;
-    short_damping_[i] = a.short_end.damping;
-    short_zero_[i] = a.short_end.law == actuator::ShortEnd::Law::zero ? 1.0 : 0.0;
-    viscous_[i] = a.loss.viscous;
-    bladder_[i] = a.bladder.stiffness;
-    bladder_rest_[i] = a.bladder.rest_length;
+    set_constants(i, muscles_[static_cast<std::size_t>(i < size_ ? i : size_ - 1)]);
     y_reference_[i] = 1.0;
     inverse_sigma_[i] = inverse_reference_density_;
-    if (i >= size_) continue;
-    all_stick_ = all_stick_ && a.loss.stick;
+  }
+  for (const Muscle& m : muscles_) {
+    all_stick_ = all_stick_ && m.actuator.loss.stick;
+    any_sealed_ = any_sealed_ || m.actuator.loss.coulomb_scale == actuator::Loss::Scale::sealed;
     shutters_.emplace_back(m.inlet);
     shutters_.emplace_back(m.exhaust);
     const bool three_way = m.inlet.kind == gas::Valve::Kind::three_way;
@@ -72,6 +53,37 @@ Bank::Bank(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supp
     flow_.push_back(gas::flow_constants(three_way ? m.inlet.flow : m.exhaust.flow, air));
   }
   refresh(0.0);
+}
+
+void Bank::set_constants(int i, const Muscle& m) {
+  const actuator::Actuator& a = m.actuator;
+  k_.thread2[i] = a.braid.thread_length * a.braid.thread_length;
+  k_.factor[i] = actuator::braid_factor(a.braid);
+  k_.count[i] = m.count;
+  k_.external[i] = m.external_volume;
+  k_.c0[i] = a.effectiveness.scale * a.effectiveness.c0;
+  k_.c1[i] = a.effectiveness.scale * a.effectiveness.c1;
+  k_.c2[i] = a.effectiveness.scale * a.effectiveness.c2;
+  const bool absolute = a.effectiveness.argument == actuator::Effectiveness::Argument::absolute;
+  k_.offset[i] = absolute ? air_.atmosphere : 0.0;
+  k_.low[i] = a.effectiveness.valid_from;
+  k_.high[i] = a.effectiveness.valid_to;
+  k_.long_length[i] = a.long_end.length;
+  k_.long_stiffness[i] = a.long_end.stiffness;
+  k_.long_damping[i] = a.long_end.damping;
+  k_.short_length[i] = actuator::shortest_length(a.braid);
+  k_.short_stiffness[i] = a.short_end.stiffness;
+  k_.short_damping[i] = a.short_end.damping;
+  k_.short_zero[i] = a.short_end.law == actuator::ShortEnd::Law::zero ? 1.0 : 0.0;
+  k_.viscous[i] = a.loss.viscous;
+  k_.bladder[i] = a.bladder.stiffness;
+  k_.bladder_rest[i] = a.bladder.rest_length;
+
+  using Scale = actuator::Loss::Scale;
+  const double q = a.loss.coulomb_length;
+  k_.mesh_secant[i] = a.loss.coulomb_scale == Scale::secant ? m.count * q : 0.0;
+  k_.mesh_constant[i] =
+      a.loss.coulomb_scale == Scale::constant ? m.count * q * a.loss.coulomb_stiffness : 0.0;
 }
 
 double Bank::volume(int i, double length) const {
@@ -85,14 +97,15 @@ double Bank::mass_at(int i, double pressure, double length) const {
 
 void Bank::electrical(int valve, double t, bool open) noexcept {
   shutters_[static_cast<std::size_t>(valve)].electrical(t, open);
-  const double next = shutters_[static_cast<std::size_t>(valve)].next();
-  next_change_ = next < next_change_ ? next : next_change_;
-  // A command can also take a pending change back.
-  if (next > next_change_) {
-    next_change_ = std::numeric_limits<double>::infinity();
-    for (const gas::Shutter& s : shutters_)
-      next_change_ = s.next() < next_change_ ? s.next() : next_change_;
-  }
+  // A command can also take a pending change back, so look at all of them.
+  next_change_ = std::numeric_limits<double>::infinity();
+  for (const gas::Shutter& s : shutters_)
+    next_change_ = s.next() < next_change_ ? s.next() : next_change_;
+}
+
+void Bank::move_valves(double t) noexcept {
+  for (gas::Shutter& s : shutters_) s.advance(t);
+  refresh(t);
 }
 
 // Shares of area after a change. A 3-way valve that leaves the supply opens to the atmosphere.
@@ -101,18 +114,15 @@ void Bank::refresh(double t) noexcept {
   next_change_ = std::numeric_limits<double>::infinity();
   for (int i = 0; i < size_; ++i) {
     const Muscle& m = muscles_[static_cast<std::size_t>(i)];
-    const bool three_way = m.inlet.kind == gas::Valve::Kind::three_way;
-    for (int v = 2 * i; v < 2 * i + 2; ++v) {
-      const gas::Shutter& s = shutters_[static_cast<std::size_t>(v)];
-      share_[static_cast<std::size_t>(v)] = s.fraction(t);
-      next_change_ = s.next() < next_change_ ? s.next() : next_change_;
+    const auto inlet = static_cast<std::size_t>(2 * i), exhaust = inlet + 1;
+    for (std::size_t v : {inlet, exhaust}) {
+      share_[v] = shutters_[v].fraction(t);
+      next_change_ = shutters_[v].next() < next_change_ ? shutters_[v].next() : next_change_;
     }
-    if (three_way)
-      share_[static_cast<std::size_t>(2 * i + 1)] = 1.0 - share_[static_cast<std::size_t>(2 * i)];
+    if (m.inlet.kind == gas::Valve::Kind::three_way) share_[exhaust] = 1.0 - share_[inlet];
     const gas::Valve::Profile ramp = gas::Valve::Profile::ramp;
     ramping_ = ramping_ || m.inlet.profile == ramp || m.exhaust.profile == ramp;
-    any_open_ = any_open_ || ramping_ || share_[static_cast<std::size_t>(2 * i)] > 0 ||
-                share_[static_cast<std::size_t>(2 * i + 1)] > 0;
+    any_open_ = any_open_ || ramping_ || share_[inlet] > 0 || share_[exhaust] > 0;
   }
 }
 
@@ -129,17 +139,10 @@ double Bank::exact_y(double density) const noexcept {
   return units::power(density * inverse_reference_density_, air_.polytropic_exponent / 7.0);
 }
 
-void Bank::node(double t, const Lanes& length, const Lanes& mass) noexcept {
-  if (next_change_ <= t) {
-    for (gas::Shutter& s : shutters_) s.advance(t);
-    refresh(t);
-  }
+void Bank::follow(const Lanes& drift) noexcept {
   for (int i = 0; i < size_; ++i) {
-    const double inside = length[i] * (thread2_[i] - length[i] * length[i]) * factor_[i];
-    const double volume = count_[i] * (inside > 0 ? inside : 0.0) + external_[i];
-    const double sigma = mass[i] / volume;
-    const double x = sigma * inverse_sigma_[i] - 1.0;
-    if (x < rebase_at && x > -rebase_at) continue;
+    if (drift[i] < rebase_at && drift[i] > -rebase_at) continue;
+    const double sigma = (drift[i] + 1.0) / inverse_sigma_[i];
     y_reference_[i] = exact_y(sigma);
     inverse_sigma_[i] = 1.0 / sigma;
   }
@@ -149,102 +152,99 @@ void Bank::node(double t, const Lanes& length, const Lanes& mass) noexcept {
   }
 }
 
-void Bank::pressures(const Lanes& length, const Lanes& mass, Lanes& y) const noexcept {
+// [31]-[34] and [40] in lanes. actuator/tension.h and loss.h have the same laws in words, and a test
+// holds them together.
+SINEW_WIDE void Bank::evaluate(double t, const Lanes& length, const Lanes& rate, const Lanes& mass,
+                               Pull& out) const noexcept {
+  Lanes y;
+  const Constants& k = k_;
   const auto& c = series_;
-  for (int first = 0; first < padded_; first += lanes) {
-    double x[lanes], farthest = 0;
-    for (int k = 0; k < lanes; ++k) {
-      const int i = first + k;
-      const double inside = length[i] * (thread2_[i] - length[i] * length[i]) * factor_[i];
-      const double volume = count_[i] * (inside > 0 ? inside : 0.0) + external_[i];
-      x[k] = mass[i] / volume * inverse_sigma_[i] - 1.0;
-      const double z = x[k];
-      y[i] = y_reference_[i] *
-             (1.0 + z * (c[1] + z * (c[2] + z * (c[3] + z * (c[4] + z * (c[5] + z * c[6]))))));
-    }
-    for (int k = 0; k < lanes; ++k) {
-      const double size = x[k] < 0 ? -x[k] : x[k];
-      farthest = size > farthest ? size : farthest;
-    }
-    if (farthest <= series_reach) continue;
-    for (int k = 0; k < lanes; ++k)
-      if (x[k] > series_reach || x[k] < -series_reach)
-        y[first + k] = exact_y((x[k] + 1.0) / inverse_sigma_[first + k]);
+  const Four zero{};
+  bool far = false;
+  for (int i = 0; i < padded_; i += lanes) {
+    const Four l = length.four(i);
+    const Four inside = l * (k.thread2.four(i) - l * l) * k.factor.four(i);
+    const Four volume = k.count.four(i) * (inside > zero ? inside : zero) + k.external.four(i);
+    const Four x = mass.four(i) / volume * inverse_sigma_.four(i) - 1.0;
+    out.drift.four(i) = x;
+    // Terms in pairs, which wait less for one another than Horner's.
+    const Four x2 = x * x, low = 1.0 + c[1] * x, middle = c[2] + c[3] * x;
+    const Four high = (c[4] + c[5] * x) + c[6] * x2;
+    y.four(i) = y_reference_.four(i) * ((low + x2 * middle) + (x2 * x2) * high);
+    const auto outside = (x > series_reach) | (x < -series_reach);
+    far = far || (outside[0] | outside[1] | outside[2] | outside[3]) != 0;
+  }
+  if (far) far_pressures(out.drift, y);
+
+  for (int i = 0; i < padded_; i += lanes) {
+    const Four root = y.four(i), root2 = root * root, root4 = root2 * root2;
+    const Four p = air_.atmosphere * (root4 * (root2 * root));
+    const Four gauge = p - air_.atmosphere;
+    const Four raised = gauge < k.low.four(i) ? k.low.four(i) : gauge;
+    const Four bounded = raised > k.high.four(i) ? k.high.four(i) : raised;
+    const Four argument = bounded + k.offset.four(i);
+    const Four share = k.c0.four(i) + argument * (k.c1.four(i) + argument * k.c2.four(i));
+
+    const Four l = length.four(i), v = rate.four(i);
+    const Four drive = gauge * k.factor.four(i) * share;
+    const Four pull = drive * (3.0 * l * l - k.thread2.four(i)) +
+                      k.bladder.four(i) * (l - k.bladder_rest.four(i)) + k.viscous.four(i) * v;
+    const Four stretch = l - k.long_length.four(i), squeeze = l - k.short_length.four(i);
+    const Four braid = k.long_stiffness.four(i) * stretch + k.long_damping.four(i) * v;
+    const Four f = pull + (stretch > zero ? braid : zero);
+    const Four stop = f + k.short_stiffness.four(i) * squeeze + k.short_damping.four(i) * v;
+    const Four beyond = k.short_zero.four(i) > zero ? zero : stop;
+    const Four all = k.count.four(i) * (squeeze < zero ? beyond : f);
+    const Four mesh = k.mesh_secant.four(i) * (3.0 * drive * (l + k.short_length.four(i))) +
+                      k.mesh_constant.four(i);
+    out.tension.four(i) = all > zero ? all : zero;
+    out.mesh.four(i) = mesh > zero ? mesh : zero;
+    out.pressure.four(i) = p;
+  }
+
+  if (any_sealed_) sealed_mesh(length, out);
+  if (!all_stick_) loose_signs(rate, out);
+  if (any_open_) flows(t, y, out);
+}
+
+// Beyond the reach of the series.
+void Bank::far_pressures(const Lanes& drift, Lanes& y) const noexcept {
+  for (int i = 0; i < size_; ++i)
+    if (drift[i] > series_reach || drift[i] < -series_reach)
+      y[i] = exact_y((drift[i] + 1.0) / inverse_sigma_[i]);
+}
+
+// Loss::Scale::sealed: Q times the stiffness that it was identified with.
+void Bank::sealed_mesh(const Lanes& length, Pull& out) const noexcept {
+  for (int i = 0; i < size_; ++i) {
+    const Muscle& m = muscles_[static_cast<std::size_t>(i)];
+    if (m.actuator.loss.coulomb_scale != actuator::Loss::Scale::sealed) continue;
+    const double p = out.pressure[i], gauge = p - air_.atmosphere;
+    const double sealed =
+        actuator::stiffness_sealed(m.actuator, length[i], p, air_.atmosphere,
+                                   m.external_volume / m.count, air_.polytropic_exponent);
+    out.mesh[i] = m.count * actuator::coulomb_bound(m.actuator, length[i], gauge, air_.atmosphere,
+                                                    sealed);
   }
 }
 
-void Bank::evaluate(double t, const Lanes& length, const Lanes& rate, const Lanes& mass,
-                    Pull& out) const noexcept {
-  Lanes y;
-  pressures(length, mass, y);
-
-  // [31]-[33] in lanes; actuator/tension.h has the same law in words, a test holds them together.
-  for (int first = 0; first < padded_; first += lanes)
-    for (int k = 0; k < lanes; ++k) {
-      const int i = first + k;
-      const double p = air_.atmosphere * seventh_power(y[i]);
-      const double gauge = p - air_.atmosphere;
-      const double bounded = gauge < low_[i] ? low_[i] : gauge;
-      const double argument = (bounded > high_[i] ? high_[i] : bounded) + offset_[i];
-      const double share = c0_[i] + argument * (c1_[i] + argument * c2_[i]);
-
-      const double l = length[i], v = rate[i];
-      double f = gauge * (3.0 * l * l - thread2_[i]) * factor_[i] * share;
-      f += bladder_[i] * (l - bladder_rest_[i]) + viscous_[i] * v;
-      const double stretch = l - long_length_[i];
-      f += stretch > 0 ? long_stiffness_[i] * stretch + long_damping_[i] * v : 0.0;
-      const double squeeze = l - short_length_[i];
-      const double stop = f + short_stiffness_[i] * squeeze + short_damping_[i] * v;
-      const double beyond = short_zero_[i] > 0 ? 0.0 : stop;
-      f = squeeze < 0 ? beyond : f;
-      f = count_[i] * f;
-      out.tension[i] = f > 0 ? f : 0.0;
-      out.pressure[i] = p;
-    }
-
-  if (!all_stick_) loose_signs(length, rate, out);
-  flows(t, y, out);
-}
-
 // [33] as printed, sign(v): for actuators that do not stick.
-void Bank::loose_signs(const Lanes& length, const Lanes& rate, Pull& out) const noexcept {
+void Bank::loose_signs(const Lanes& rate, Pull& out) const noexcept {
   for (int i = 0; i < size_; ++i) {
-    const Muscle& m = muscles_[static_cast<std::size_t>(i)];
-    if (m.actuator.loss.stick) continue;
-    const double gauge = out.pressure[i] - air_.atmosphere;
-    const double bound =
-        m.count * actuator::coulomb_bound(m.actuator, length[i], gauge, air_.atmosphere, 0.0);
-    const double f = out.tension[i] + (rate[i] >= 0 ? bound : -bound);
+    if (muscles_[static_cast<std::size_t>(i)].actuator.loss.stick) continue;
+    const double f = out.tension[i] + (rate[i] >= 0 ? out.mesh[i] : -out.mesh[i]);
     out.tension[i] = f > 0 ? f : 0.0;
+    out.mesh[i] = 0;
   }
 }
 
 void Bank::flows(double t, const Lanes& y, Pull& out) const noexcept {
-  out.inflow = {};
-  out.outflow = {};
-  if (!any_open_) return;
   for (int i = 0; i < size_; ++i) {
     const double inlet = open_share(2 * i, t), exhaust = open_share(2 * i + 1, t);
     const auto v = static_cast<std::size_t>(2 * i);
-    if (inlet > 0) out.inflow[i] = inlet * gas::flow_y(flow_[v], supply_y_, y[i]);
-    if (exhaust > 0) out.outflow[i] = exhaust * gas::flow_y(flow_[v + 1], y[i], 1.0);
+    out.inflow[i] = inlet > 0 ? inlet * gas::flow_y(flow_[v], supply_y_, y[i]) : 0.0;
+    out.outflow[i] = exhaust > 0 ? exhaust * gas::flow_y(flow_[v + 1], y[i], 1.0) : 0.0;
   }
-}
-
-Lanes Bank::coulomb_bound(const Lanes& length, const Lanes& pressure) const noexcept {
-  Lanes bound;
-  for (int i = 0; i < size_; ++i) {
-    const Muscle& m = muscles_[static_cast<std::size_t>(i)];
-    if (!m.actuator.loss.stick || m.actuator.loss.coulomb_length <= 0) continue;
-    double sealed = 0;
-    if (m.actuator.loss.coulomb_scale == actuator::Loss::Scale::sealed)
-      sealed = actuator::stiffness_sealed(m.actuator, length[i], pressure[i], air_.atmosphere,
-                                          m.external_volume / m.count, air_.polytropic_exponent);
-    bound[i] = m.count * actuator::coulomb_bound(m.actuator, length[i],
-                                                 pressure[i] - air_.atmosphere, air_.atmosphere,
-                                                 sealed);
-  }
-  return bound;
 }
 
 }  // namespace sinew::muscle

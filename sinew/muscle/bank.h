@@ -28,19 +28,30 @@ namespace sinew::muscle {
 
 inline constexpr int lanes = 4;     // that are evaluated together
 
+// Four doubles that are added, multiplied, compared and chosen lane by lane: GCC's and Clang's vector
+// extension. Without wide registers it is two pairs; the bits are those of four scalars.
+using Four = double __attribute__((vector_size(8 * lanes), may_alias));
+
+// One number per muscle. Not set when made: `Lanes x{}` is zero.
 struct alignas(64) Lanes {
-  std::array<double, capacity> of{};
+  std::array<double, capacity> of;
 
   double& operator[](int i) { return of[static_cast<std::size_t>(i)]; }
   double operator[](int i) const { return of[static_cast<std::size_t>(i)]; }
+
+  // Lanes first ... first + 3.
+  const Four& four(int first) const { return reinterpret_cast<const Four&>(of[first]); }
+  Four& four(int first) { return reinterpret_cast<Four&>(of[first]); }
 };
 
 // Answer to one evaluation.
 struct Pull {
   Lanes tension;   // of the bundle, static and viscous, never negative: a cord cannot push [N]
   Lanes pressure;  // absolute [Pa]
-  Lanes inflow;    // from the supply [kg/s]
-  Lanes outflow;   // to the atmosphere [kg/s]
+  Lanes mesh;      // bound of the bundle's dry friction, [33], [34]; 0 if not `stick` [N]
+  Lanes drift;     // x, how far the density is from the pressure's reference [-]
+  Lanes inflow;    // from the supply [kg/s]; only while some valve is open
+  Lanes outflow;   // to the atmosphere [kg/s]; only while some valve is open
 };
 
 class Bank {
@@ -62,15 +73,17 @@ class Bank {
   // The next instant at which a valve really changes, or infinity  [s].
   double next_change() const noexcept { return next_change_; }
 
-  // At a node: valves move to t, and the pressure's reference follows where it has drifted.
-  void node(double t, const Lanes& length, const Lanes& mass) noexcept;
+  // At a node: valves move to t.
+  void node(double t) noexcept {
+    if (next_change_ <= t) move_valves(t);
+  }
+
+  // At a node, after its evaluation: the pressure's reference follows where it has drifted.
+  void follow(const Lanes& drift) noexcept;
 
   // The law itself. Pure between two nodes; t matters only to valves that ramp.
   void evaluate(double t, const Lanes& length, const Lanes& rate, const Lanes& mass,
                 Pull& out) const noexcept;
-
-  // Bounds of the bundles' dry friction [33], [34]  [N]; zero where the actuator is not `stick`.
-  Lanes coulomb_bound(const Lanes& length, const Lanes& pressure) const noexcept;
 
   // True while some valve lets air through, or pressure could move without it.
   bool any_open() const noexcept { return any_open_; }
@@ -79,11 +92,24 @@ class Bank {
   double open_share(int valve, double t) const noexcept;
 
  private:
-  struct Ports;
+  // Constants in lanes; those beyond the last muscle repeat it.
+  struct Constants {
+    Lanes thread2, factor, count, external;             // b^2, 1/(4 pi n^2), -, m^3
+    Lanes c0, c1, c2, offset, low, high;                // effectiveness
+    Lanes long_length, long_stiffness, long_damping;    // [32], [35]
+    Lanes short_length, short_stiffness, short_damping;  // end stop
+    Lanes short_zero;                                   // 1 where [31]'s zero holds, else 0
+    Lanes viscous, bladder, bladder_rest;
+    Lanes mesh_secant, mesh_constant;                   // Q for [34], or the bound itself
+  };
+
+  void set_constants(int lane, const Muscle& muscle);
   double exact_y(double density) const noexcept;
-  void pressures(const Lanes& length, const Lanes& mass, Lanes& y) const noexcept;
   void flows(double t, const Lanes& y, Pull& out) const noexcept;
-  void loose_signs(const Lanes& length, const Lanes& rate, Pull& out) const noexcept;
+  void far_pressures(const Lanes& drift, Lanes& y) const noexcept;
+  void sealed_mesh(const Lanes& length, Pull& out) const noexcept;
+  void loose_signs(const Lanes& rate, Pull& out) const noexcept;
+  void move_valves(double t) noexcept;
   void refresh(double t) noexcept;
 
   int size_ = 0, padded_ = 0;
@@ -92,18 +118,11 @@ class Bank {
   double supply_y_ = 0;
 
   std::vector<Muscle> muscles_;
-  bool all_stick_ = true;
-
-  // Constants in lanes.
-  Lanes thread2_, factor_, count_, external_;             // b^2, 1/(4 pi n^2), -, m^3
-  Lanes c0_, c1_, c2_, offset_, low_, high_;              // effectiveness
-  Lanes long_length_, long_stiffness_, long_damping_;     // [32], [35]
-  Lanes short_length_, short_stiffness_, short_damping_;  // end stop
-  Lanes short_zero_;                                      // 1 where [31]'s zero holds, else 0
-  Lanes viscous_, bladder_, bladder_rest_;
+  Constants k_;
+  bool all_stick_ = true, any_sealed_ = false;
 
   std::array<double, 7> series_{};  // binomial coefficients of (1 + x)^(n/7)
-  Lanes y_reference_, inverse_sigma_;
+  Lanes y_reference_{}, inverse_sigma_{};
 
   // Valves: two per muscle.
   std::vector<gas::Shutter> shutters_;

@@ -4,7 +4,7 @@
 // same bits on every machine and in every lane. Errors, tested against long double in
 // math_test.cpp:
 //
-//   sin, cos   1.6e-16 absolute      |x| < 1e6, no reduction for more
+//   sin, cos   1.8e-16 absolute      |x| < 1e6, no reduction for more
 //   log        3.5e-16 relative      positive, normal numbers
 //   exp        2e-16 relative        |x| < 700
 //   power      2e-16 + 4e-16 |log result| relative: 1e-15 for a gas, 1e-14 at 1e12
@@ -33,27 +33,20 @@ constexpr SinCos sin_cos(double x) {
   const double r = (x - quarter * half_pi_high) - quarter * half_pi_low;
   const double z = r * r;
 
-  // One line per term.
-  // clang-format off
-  const double s = r + r * z * (-1.0 / 6
-                        + z * (1.0 / 120
-                        + z * (-1.0 / 5040
-                        + z * (1.0 / 362880
-                        + z * (-1.0 / 39916800
-                        + z * (1.0 / 6227020800
-                        + z * (-1.0 / 1307674368000)))))));
-  const double c = 1.0 + z * (-1.0 / 2
-                       + z * (1.0 / 24
-                       + z * (-1.0 / 720
-                       + z * (1.0 / 40320
-                       + z * (-1.0 / 3628800
-                       + z * (1.0 / 479001600
-                       + z * (-1.0 / 87178291200
-                       + z * (1.0 / 20922789888000))))))));
-  // clang-format on
+  // Taylor, terms in pairs (they wait less for one another than Horner's).
+  const double z2 = z * z, z4 = z2 * z2;
+  const double s_low = -1.0 / 6 + z * (1.0 / 120);
+  const double s_middle = -1.0 / 5040 + z * (1.0 / 362880);
+  const double s_high = (-1.0 / 39916800 + z * (1.0 / 6227020800)) + z2 * (-1.0 / 1307674368000);
+  const double s = r + (r * z) * ((s_low + z2 * s_middle) + z4 * s_high);
+
+  const double c_low = 1.0 / 24 + z * (-1.0 / 720);
+  const double c_middle = 1.0 / 40320 + z * (-1.0 / 3628800);
+  const double c_high = (1.0 / 479001600 + z * (-1.0 / 87178291200)) + z2 * (1.0 / 20922789888000);
+  const double c = (1.0 - 0.5 * z) + z2 * ((c_low + z2 * c_middle) + z4 * c_high);
 
   // sin(r + q pi/2), cos(r + q pi/2) by the quadrant q mod 4.
-  const auto quadrant = static_cast<std::uint64_t>(static_cast<std::int64_t>(quarter)) & 3u;
+  const auto quadrant = std::bit_cast<std::uint64_t>(shifted) & 3u;
   const double sine = (quadrant & 1u) ? c : s;
   const double cosine = (quadrant & 1u) ? s : c;
   return {(quadrant & 2u) ? -sine : sine, ((quadrant + 1u) & 2u) ? -cosine : cosine};

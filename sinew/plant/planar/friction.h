@@ -4,9 +4,13 @@
 //
 //   s = s0 + W f,   s0 = J (v + h a),   W = h J M^-1 J^T,   |f_i| <= bound_i
 //
-// and each contact either sticks (s_i = 0) or slides (f_i = -sign(s_i) bound_i). Three Gauss-Seidel
-// sweeps guess which contacts stick; for those the equations are then solved exactly. The forces are
-// held over the step, so without friction the integrator is pure RK4.
+// and each contact either sticks (s_i = 0) or slides (f_i = -sign(s_i) bound_i). What stuck in the
+// last step is tried first and nearly always right; contacts then change sides until all agree.
+// Where they do not come to rest, Gauss-Seidel sweeps guess the sides anew.
+//
+// More contacts can stick than the machine has freedoms (foot, trolley and both joints of a standing
+// leg); their shares of the load are then not determined by rigid bodies. The forces change as little
+// as they must from the last step's, so that the shares are a matter of history and not of the step.
 #pragma once
 
 #include <array>
@@ -15,91 +19,126 @@ namespace sinew::plant {
 
 template <int C>
 struct FrictionProblem {
-  std::array<double, C> slip{};                     // s0, without friction
-  std::array<std::array<double, C>, C> response{};  // W, symmetric, slip per force
-  std::array<double, C> bound{};                    // >= 0; a contact with bound 0 carries nothing
+  std::array<double, C> slip;                     // s0, without friction
+  std::array<std::array<double, C>, C> response;  // W, symmetric, slip per force
+  std::array<double, C> bound;                    // >= 0; a contact with bound 0 carries nothing
 };
 
 namespace detail {
 
-// Cholesky on the contacts in `stick`; a hair of damping where more stick than can move.
+enum class Side : unsigned char { idle, sticks, slides };
+
 template <int C>
-void solve_sticking(const FrictionProblem<C>& p, const std::array<bool, C>& stick,
+double slip_under(const FrictionProblem<C>& p, const std::array<double, C>& force, int i) {
+  double s = p.slip[i];
+  for (int j = 0; j < C; ++j) s += p.response[i][j] * force[j];
+  return s;
+}
+
+// Brings the sticking contacts' slips to zero by the smallest change of their forces: LDL^T with a
+// hair of damping, 1e-9 of the largest response, for those that cannot move independently.
+template <int C>
+void solve_sticking(const FrictionProblem<C>& p, const std::array<Side, C>& side,
                     std::array<double, C>& force) {
-  std::array<int, C> index{};
+  std::array<int, C> index;
   int n = 0;
   double largest = 0;
   for (int i = 0; i < C; ++i)
-    if (stick[i]) {
+    if (side[i] == Side::sticks) {
       index[n++] = i;
       largest = p.response[i][i] > largest ? p.response[i][i] : largest;
     }
 
-  std::array<std::array<double, C>, C> lower{};
-  std::array<double, C> pivot{}, rhs{};
+  std::array<std::array<double, C>, C> lower;
+  std::array<double, C> pivot, inverse, x;
+  const double damping = 1e-9 * largest;
   for (int a = 0; a < n; ++a) {
     const int i = index[a];
-    rhs[a] = -p.slip[i];
-    for (int j = 0; j < C; ++j) rhs[a] -= p.response[i][j] * force[j];
+    x[a] = -slip_under<C>(p, force, i);
     for (int b = 0; b <= a; ++b) {
-      double m = p.response[i][index[b]] + (a == b ? 1e-9 * largest : 0.0);
+      double m = p.response[i][index[b]];
       for (int k = 0; k < b; ++k) m -= lower[a][k] * lower[b][k] * pivot[k];
-      if (a == b)
-        pivot[a] = m > 1e-10 * largest ? m : 1e-10 * largest;
-      else
-        lower[a][b] = m / pivot[b];
+      if (a == b) {
+        pivot[a] = (m > 0 ? m : 0.0) + damping;
+        inverse[a] = 1.0 / pivot[a];
+      } else {
+        lower[a][b] = m * inverse[b];
+      }
     }
-    for (int k = 0; k < a; ++k) rhs[a] -= lower[a][k] * rhs[k];
+    for (int k = 0; k < a; ++k) x[a] -= lower[a][k] * x[k];
   }
   for (int a = n - 1; a >= 0; --a) {
-    rhs[a] /= pivot[a];
-    for (int k = a + 1; k < n; ++k) rhs[a] -= lower[k][a] * rhs[k];
+    x[a] *= inverse[a];
+    for (int k = a + 1; k < n; ++k) x[a] -= lower[k][a] * x[k];
+    force[index[a]] += x[a];
   }
-  for (int a = 0; a < n; ++a) force[index[a]] += rhs[a];
+}
+
+// Lets go what asks for more than its bound, holds what slides the way it is pushed. True if all
+// contacts agree with their sides.
+template <int C>
+bool settle(const FrictionProblem<C>& p, std::array<Side, C>& side, std::array<double, C>& force) {
+  bool agreed = true;
+  for (int i = 0; i < C; ++i) {
+    if (side[i] == Side::sticks && (force[i] > p.bound[i] || force[i] < -p.bound[i])) {
+      force[i] = force[i] > 0 ? p.bound[i] : -p.bound[i];
+      side[i] = Side::slides;
+      agreed = false;
+    } else if (side[i] == Side::slides && slip_under<C>(p, force, i) * force[i] > 0) {
+      side[i] = Side::sticks;
+      agreed = false;
+    }
+  }
+  return agreed;
+}
+
+// Projected Gauss-Seidel: each contact in turn takes what stops it, within its bound.
+template <int C>
+void sweep(const FrictionProblem<C>& p, std::array<double, C>& force) {
+  for (int i = 0; i < C; ++i) {
+    if (p.bound[i] <= 0) continue;
+    const double f = force[i] - slip_under<C>(p, force, i) / p.response[i][i];
+    force[i] = f < -p.bound[i] ? -p.bound[i] : f > p.bound[i] ? p.bound[i] : f;
+  }
+}
+
+template <int C>
+std::array<Side, C> sides_of(const FrictionProblem<C>& p, std::array<double, C>& force) {
+  std::array<Side, C> side;
+  for (int i = 0; i < C; ++i) {
+    const double b = p.bound[i];
+    const bool free = force[i] < b && force[i] > -b;
+    side[i] = b <= 0 ? Side::idle : free ? Side::sticks : Side::slides;
+    force[i] = b <= 0 ? 0.0 : free ? force[i] : force[i] > 0 ? b : -b;
+  }
+  return side;
 }
 
 }  // namespace detail
 
-// Forces that stop or slow each contact. `guess` is where the sweeps start (the last step's forces).
+// Forces that stop or slow each contact. `last` is the last step's.
 template <int C>
 std::array<double, C> solve_friction(const FrictionProblem<C>& p,
-                                     const std::array<double, C>& guess) {
-  constexpr int sweeps = 3;
-  std::array<double, C> force{}, inverse{};
-  for (int i = 0; i < C; ++i) {
-    if (p.bound[i] <= 0) continue;
-    inverse[i] = 1.0 / p.response[i][i];
-    force[i] = guess[i] < -p.bound[i] ? -p.bound[i] : guess[i] > p.bound[i] ? p.bound[i] : guess[i];
+                                     const std::array<double, C>& last) {
+  std::array<double, C> force = last;
+  std::array<detail::Side, C> side = detail::sides_of<C>(p, force);
+  for (int change = 0; change < 2 * C; ++change) {
+    detail::solve_sticking<C>(p, side, force);
+    if (detail::settle<C>(p, side, force)) return force;
   }
 
-  for (int sweep = 0; sweep < sweeps; ++sweep)
-    for (int i = 0; i < C; ++i) {
-      if (p.bound[i] <= 0) continue;
-      double s = p.slip[i];
-      for (int j = 0; j < C; ++j) s += p.response[i][j] * force[j];
-      const double f = force[i] - s * inverse[i];
-      force[i] = f < -p.bound[i] ? -p.bound[i] : f > p.bound[i] ? p.bound[i] : f;
-    }
-
-  // The guess: inside its bound a contact sticks. Solve, and let go whatever then asks for too much.
-  std::array<bool, C> stick{};
-  bool any = false;
-  for (int i = 0; i < C; ++i) {
-    stick[i] = p.bound[i] > 0 && force[i] > -p.bound[i] && force[i] < p.bound[i];
-    any = any || stick[i];
-  }
-  while (any) {
-    detail::solve_sticking<C>(p, stick, force);
-    any = false;
-    for (int i = 0; i < C; ++i) {
-      if (!stick[i] || (force[i] >= -p.bound[i] && force[i] <= p.bound[i])) continue;
-      force[i] = force[i] > 0 ? p.bound[i] : -p.bound[i];
-      stick[i] = false;
-      any = true;
-    }
-    bool left = false;
-    for (int i = 0; i < C; ++i) left = left || stick[i];
-    any = any && left;
+  // Undecided: sweep, then let go only.
+  force = last;
+  side = detail::sides_of<C>(p, force);
+  for (int i = 0; i < 3; ++i) detail::sweep<C>(p, force);
+  side = detail::sides_of<C>(p, force);
+  for (int left = C; left > 0; --left) {
+    detail::solve_sticking<C>(p, side, force);
+    bool inside = true;
+    for (int i = 0; i < C; ++i)
+      inside = inside && force[i] <= p.bound[i] && force[i] >= -p.bound[i];
+    if (inside) break;
+    side = detail::sides_of<C>(p, force);
   }
   return force;
 }

@@ -12,6 +12,12 @@ Strings strings_of(const robot::Robot& robot) {
     s.mount[i] = m.mount_length;
     s.pull[i] = role * joint.sign() * joint.moment_arm;
   }
+  s.padded = (s.count + muscle::lanes - 1) / muscle::lanes * muscle::lanes;
+  for (int i = s.count; i < s.padded; ++i) {
+    s.joint[i] = s.joint[s.count - 1];
+    s.mount[i] = s.mount[s.count - 1];
+    s.pull[i] = s.pull[s.count - 1];
+  }
   return s;
 }
 

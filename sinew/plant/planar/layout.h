@@ -12,9 +12,10 @@ namespace sinew::plant {
 // Muscle i pulls joint `joint[i]` with a constant moment arm; pull[i] = arm, positive where tension
 // raises the angle:  L = mount - pull (theta - rest),  torque = pull * tension.
 struct Strings {
-  int count = 0;
+  int count = 0, padded = 0;  // padded to whole lanes by repeating the last
+
   std::array<int, muscle::capacity> joint{};
-  muscle::Lanes mount, pull;  // [m]
+  muscle::Lanes mount{}, pull{};  // [m]
 };
 
 Strings strings_of(const robot::Robot& robot);

@@ -47,13 +47,12 @@ World<N>::World(const Setup& setup)
   }
   state_.pose.x = setup.start.trolley;
 
-  Look look;
+  Look look{};
   strings(state_.pose, look);
   for (int i = 0; i < strings_.count; ++i)
     state_.mass[i] = bank_.mass_at(i, setup.start.pressure, look.length[i]);
-  for (int i = strings_.count; i < muscle::capacity; ++i) {
-    state_.mass[i] = state_.mass[strings_.count > 0 ? strings_.count - 1 : 0];
-  }
+  for (int i = strings_.count; i < strings_.padded; ++i)
+    state_.mass[i] = state_.mass[strings_.count - 1];
   prepare();
 }
 
@@ -73,15 +72,10 @@ void World<N>::strings(const Pose<N>& pose, Look& look) const noexcept {
     travel[j] = pose.angle[j] - (j > 0 ? pose.angle[j - 1] : 0.0) - rest_[j];
     rate[j] = pose.rate[j] - (j > 0 ? pose.rate[j - 1] : 0.0);
   }
-  for (int i = 0; i < strings_.count; ++i) {
+  for (int i = 0; i < strings_.padded; ++i) {
     const int j = strings_.joint[i];
     look.length[i] = strings_.mount[i] - strings_.pull[i] * travel[j];
     look.rate[i] = -strings_.pull[i] * rate[j];
-  }
-  // Idle lanes repeat the last muscle, so that they hold sensible numbers.
-  for (int i = strings_.count; i < muscle::capacity && strings_.count > 0; ++i) {
-    look.length[i] = look.length[strings_.count - 1];
-    look.rate[i] = 0;
   }
 }
 
@@ -159,17 +153,17 @@ void World<N>::look_at(double t, const State& state, const std::array<double, co
 template <int N>
 void World<N>::prepare() noexcept {
   strings(state_.pose, first_);
-  bank_.node(time_, first_.length, state_.mass);
+  bank_.node(time_);
   bank_.evaluate(time_, first_.length, first_.rate, state_.mass, first_.pull);
+  bank_.follow(first_.pull.drift);
   const Chain<N> chain(chain_, state_.pose);
   forces(chain, state_.pose, first_);
   first_.acceleration = chain.accelerations(first_.force);
 
   // Bounds. The mesh's own friction acts through the cams and is part of the joint's.
-  mesh_ = bank_.coulomb_bound(first_.length, first_.pull.pressure);
   for (int j = 0; j < N; ++j) problem_.bound[j] = dry_[j];
   for (int i = 0; i < strings_.count; ++i)
-    problem_.bound[strings_.joint[i]] += std::abs(strings_.pull[i]) * mesh_[i];
+    problem_.bound[strings_.joint[i]] += std::abs(strings_.pull[i]) * first_.pull.mesh[i];
   problem_.bound[trolley] = robot_.trolley.present ? robot_.trolley.drag : 0.0;
   problem_.bound[foot] = robot_.foot.friction * first_.normal;
 
@@ -264,6 +258,7 @@ auto World<N>::hold(double h) const noexcept -> std::array<double, contacts> {
 template <int N>
 void World<N>::step(double h) noexcept {
   held_ = hold(h);
+  const bool flowing = bank_.any_open();
 
   Look k[4];
   k[0] = first_;
@@ -278,8 +273,10 @@ void World<N>::step(double h) noexcept {
   for (int s = 1; s < 4; ++s) {
     const double part = s == 3 ? h : 0.5 * h;
     move(stage[s].pose, state_.pose, part, stage[s - 1].pose, k[s - 1].acceleration);
-    for (int i = 0; i < muscle::capacity; ++i)
-      stage[s].mass[i] = state_.mass[i] + part * (k[s - 1].pull.inflow[i] - k[s - 1].pull.outflow[i]);
+    stage[s].mass = state_.mass;
+    if (flowing)
+      for (int i = 0; i < strings_.count; ++i)
+        stage[s].mass[i] += part * (k[s - 1].pull.inflow[i] - k[s - 1].pull.outflow[i]);
     look_at(time_ + part, stage[s], held_, k[s]);
   }
 
@@ -293,12 +290,12 @@ void World<N>::step(double h) noexcept {
   for (int i = 0; i < N; ++i)
     state_.pose.rate[i] += mean([&](int s) { return k[s].acceleration.angle[i]; });
 
-  if (!bank_.any_open()) return;
+  if (!flowing) return;
   for (int i = 0; i < strings_.count; ++i) {
     const double in = mean([&](int s) { return k[s].pull.inflow[i]; });
     const double out = mean([&](int s) { return k[s].pull.outflow[i]; });
-    state_.air_in[i] += in;
-    state_.air_out[i] += out;
+    air_in_[i] += in;
+    air_out_[i] += out;
     state_.mass[i] += in - out;
   }
 }
@@ -350,7 +347,7 @@ Pose<N> World<N>::peek_pose(const Glance& g, double t) const noexcept {
 template <int N>
 auto World<N>::peek(const Glance& g, double t) const noexcept -> Peek {
   const double dt = t - time_;
-  Peek p{.state = state_, .look = first_};
+  Peek p{.state = state_, .look = first_, .air_in = air_in_, .air_out = air_out_};
   p.state.pose = peek_pose(g, t);
   const muscle::Pull& before = first_.pull;
   for (int pass = 0; pass < 2; ++pass) {
@@ -360,8 +357,8 @@ auto World<N>::peek(const Glance& g, double t) const noexcept -> Peek {
     for (int i = 0; i < strings_.count; ++i) {
       const double in = 0.5 * dt * (before.inflow[i] + p.look.pull.inflow[i]);
       const double out = 0.5 * dt * (before.outflow[i] + p.look.pull.outflow[i]);
-      p.state.air_in[i] = state_.air_in[i] + in;
-      p.state.air_out[i] = state_.air_out[i] + out;
+      p.air_in[i] = air_in_[i] + in;
+      p.air_out[i] = air_out_[i] + out;
       p.state.mass[i] = state_.mass[i] + (in - out);
     }
   }
@@ -373,8 +370,9 @@ template <int N>
 double World<N>::gauge(const Glance& g, const Peek& p, int muscle) const noexcept {
   const int j = strings_.joint[muscle];
   double f = p.look.pull.tension[muscle];
-  if (mesh_[muscle] > 0) {
-    const double share = g.held[j] * mesh_[muscle] / problem_.bound[j];
+  const double mesh = first_.pull.mesh[muscle];
+  if (mesh > 0) {
+    const double share = g.held[j] * mesh / problem_.bound[j];
     f += strings_.pull[muscle] > 0 ? share : -share;
   }
   return f > 0 ? f : 0.0;
@@ -446,8 +444,8 @@ Truth World<N>::truth(double t) noexcept {
     out.pressure[k] = p.look.pull.pressure[i];
     out.length[k] = p.look.length[i];
     out.mass[k] = p.state.mass[i];
-    out.air_in[k] = p.state.air_in[i];
-    out.air_out[k] = p.state.air_out[i];
+    out.air_in[k] = p.air_in[i];
+    out.air_out[k] = p.air_out[i];
     out.torque[static_cast<std::size_t>(strings_.joint[i])] += strings_.pull[i] * out.tension[k];
   }
 

@@ -50,7 +50,7 @@ class World final : public signals::Port {
 
   struct State {
     Pose<N> pose;
-    muscle::Lanes mass, air_in, air_out;
+    muscle::Lanes mass;
   };
 
   // Everything that one look at a state yields.
@@ -72,6 +72,7 @@ class World final : public signals::Port {
   struct Peek {
     State state;
     Look look;
+    muscle::Lanes air_in, air_out;
   };
 
   void strings(const Pose<N>& pose, Look& look) const noexcept;
@@ -107,16 +108,16 @@ class World final : public signals::Port {
   double step_ = 1e-3;
   std::uint64_t seed_ = 1;
 
-  State state_;
+  State state_{};
+  muscle::Lanes air_in_{}, air_out_{};  // since the start [kg]
   double time_ = 0;             // of the last committed node [s]
   std::int64_t multiple_ = 0;   // of the body step that was passed last
   std::int64_t nodes_ = 0;
-  Look first_;                  // first stage at the node, without friction
+  Look first_{};                // first stage at the node, without friction
   std::array<Generalised<N>, contacts> column_{};  // M^-1 J^T
-  FrictionProblem<contacts> problem_;               // slip at the node, response per second
+  FrictionProblem<contacts> problem_{};             // slip at the node, response per second
   std::array<double, contacts> slip_rate_{};        // of the slips, without friction
   Normal normal_;                                   // where the foot stands
-  muscle::Lanes mesh_;                              // bounds of the muscles' own friction [N]
   std::array<double, contacts> held_{};             // friction of the last step
 
   std::array<signals::Tick, 256> lag_{};  // per channel, from the start of a conversion to its read
