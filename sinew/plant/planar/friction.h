@@ -6,7 +6,6 @@
 //
 // and each contact either sticks (s_i = 0) or slides (f_i = -sign(s_i) bound_i). What stuck in the
 // last step is tried first and nearly always right; contacts then change sides until all agree.
-// Where they do not come to rest, Gauss-Seidel sweeps guess the sides anew.
 //
 // More contacts can stick than the machine has freedoms (foot, trolley and both joints of a standing
 // leg); their shares of the load are then not determined by rigid bodies. The forces change as little
@@ -74,12 +73,13 @@ void solve_sticking(const FrictionProblem<C>& p, const std::array<Side, C>& side
   }
 }
 
-// Lets go what asks for more than its bound, holds what slides the way it is pushed. True if all
-// contacts agree with their sides.
+// Lets go what asks for more than its bound, holds what slides the way it is pushed: all of them,
+// or only the first. True if all contacts agree with their sides.
 template <int C>
-bool settle(const FrictionProblem<C>& p, std::array<Side, C>& side, std::array<double, C>& force) {
+bool settle(const FrictionProblem<C>& p, bool only_first, std::array<Side, C>& side,
+            std::array<double, C>& force) {
   bool agreed = true;
-  for (int i = 0; i < C; ++i) {
+  for (int i = 0; i < C && (agreed || !only_first); ++i) {
     if (side[i] == Side::sticks && (force[i] > p.bound[i] || force[i] < -p.bound[i])) {
       force[i] = force[i] > 0 ? p.bound[i] : -p.bound[i];
       side[i] = Side::slides;
@@ -90,16 +90,6 @@ bool settle(const FrictionProblem<C>& p, std::array<Side, C>& side, std::array<d
     }
   }
   return agreed;
-}
-
-// Projected Gauss-Seidel: each contact in turn takes what stops it, within its bound.
-template <int C>
-void sweep(const FrictionProblem<C>& p, std::array<double, C>& force) {
-  for (int i = 0; i < C; ++i) {
-    if (p.bound[i] <= 0) continue;
-    const double f = force[i] - slip_under<C>(p, force, i) / p.response[i][i];
-    force[i] = f < -p.bound[i] ? -p.bound[i] : f > p.bound[i] ? p.bound[i] : f;
-  }
 }
 
 template <int C>
@@ -122,24 +112,15 @@ std::array<double, C> solve_friction(const FrictionProblem<C>& p,
                                      const std::array<double, C>& last) {
   std::array<double, C> force = last;
   std::array<detail::Side, C> side = detail::sides_of<C>(p, force);
-  for (int change = 0; change < 2 * C; ++change) {
+  // Changing all at once is nearly always enough; one at a time, the first one first, comes to rest
+  // for every positive definite W.
+  constexpr int all_at_once = 2 * C, one_at_a_time = 24 * C;
+  for (int change = 0; change < all_at_once + one_at_a_time; ++change) {
     detail::solve_sticking<C>(p, side, force);
-    if (detail::settle<C>(p, side, force)) return force;
+    if (detail::settle<C>(p, change >= all_at_once, side, force)) return force;
   }
-
-  // Undecided: sweep, then let go only.
-  force = last;
-  side = detail::sides_of<C>(p, force);
-  for (int i = 0; i < 3; ++i) detail::sweep<C>(p, force);
-  side = detail::sides_of<C>(p, force);
-  for (int left = C; left > 0; --left) {
-    detail::solve_sticking<C>(p, side, force);
-    bool inside = true;
-    for (int i = 0; i < C; ++i)
-      inside = inside && force[i] <= p.bound[i] && force[i] >= -p.bound[i];
-    if (inside) break;
-    side = detail::sides_of<C>(p, force);
-  }
+  for (int i = 0; i < C; ++i)
+    force[i] = force[i] < -p.bound[i] ? -p.bound[i] : force[i] > p.bound[i] ? p.bound[i] : force[i];
   return force;
 }
 

@@ -1,13 +1,16 @@
-// plant/planar/test_setups.h - small machines for the tests of this folder, stated in SI in one place.
+// plant/planar/test_setups.h - small machines for the tests of this folder, stated in SI.
 #pragma once
 
+#include "sinew/actuator/thesis_actuator.h"
 #include "sinew/plant/planar/setup.h"
+#include "sinew/units/constants.h"
 
 namespace sinew::plant {
 
-// The leg's two links under its trolley, and nothing that pulls or rubs.
+inline constexpr double inch = units::inch, pound = units::pound_mass;
+
+// The leg's two links under its trolley, in the air, and nothing that pulls or rubs.
 inline Setup leg_without_muscles(double hip, double knee) {
-  constexpr double inch = 0.0254, pound = 0.45359237;
   Setup s;
   s.robot.name = "leg";
   s.robot.links = {{"femur", 8.875 * inch, 1.579 * pound, 4.4375 * inch, 10.36 * pound * inch * inch},
@@ -15,15 +18,56 @@ inline Setup leg_without_muscles(double hip, double knee) {
   robot::Joint joint;
   joint.moment_arm = inch;
   joint.name = "hip";
+  joint.rest_angle = 4.85;
   s.robot.joints.push_back(joint);
   joint.name = "knee";
+  joint.rest_angle = 5.48;
   joint.flexion = robot::Joint::Flexion::lowers_angle;
   s.robot.joints.push_back(joint);
-  s.robot.trolley = {.present = true, .total_mass = 23.8 * pound, .drag = 0, .track_length = 100};
-  s.robot.foot = {.present = true, .mass = 0.1 * pound, .radius = 0.02, .friction = 0};
+  s.robot.trolley = {.present = true,
+                     .total_mass = 23.8 * pound,
+                     .drag = 0,
+                     .track_length = 100,
+                     .stop_stiffness = 2e4,
+                     .stop_damping = 300};
+  s.robot.foot = {.present = true, .mass = 0.1 * pound, .radius = 0.02, .friction = 0.8};
+  s.robot.ground = {.present = false,
+                    .height = -13 * inch,
+                    .normal_stiffness = 5e4,
+                    .normal_damping = 90};
   s.start.joint_angle = {hip, knee};
   s.start.blocked = {false, false};
   s.start.pressure = s.air.atmosphere;
+  return s;
+}
+
+inline gas::Valve test_valve(double area) {
+  gas::Valve v{.name = "valve"};
+  v.flow.area = area;
+  v.opening_delay = 0.37e-3;
+  v.closing_delay = 0.61e-3;
+  return v;
+}
+
+// The same leg with its four doubled muscles, sensors for their tensions and angles.
+inline Setup leg_with_muscles(double hip, double knee) {
+  Setup s = leg_without_muscles(hip, knee);
+  for (const char* joint : {"hip", "knee"})
+    for (const auto role : {robot::Muscle::Role::flexor, robot::Muscle::Role::extensor}) {
+      robot::Muscle m;
+      m.joint = joint;
+      m.role = role;
+      m.name = m.joint + (role == robot::Muscle::Role::flexor ? "_flexor" : "_extensor");
+      m.count = 2;
+      m.mount_length = 3.15 * inch;
+      s.robot.muscles.push_back(m);
+      muscle::Muscle out{.name = m.name, .actuator = actuator::thesis_actuator(), .count = 2};
+      out.external_volume = 4e-6;
+      out.inlet = test_valve(5e-7);
+      out.exhaust = test_valve(2e-6);
+      s.muscles.push_back(out);
+    }
+  s.air.polytropic_exponent = 1.2;
   return s;
 }
 

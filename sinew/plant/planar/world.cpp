@@ -310,14 +310,17 @@ double World<N>::next_node() const noexcept {
 
 template <int N>
 void World<N>::advance(double t) noexcept {
-  for (double next = next_node(); next <= t; next = next_node()) {
-    const double h = next - time_;
-    if (h > 0) step(h);
-    time_ = next > time_ ? next : time_;
-    if (next >= static_cast<double>(multiple_ + 1) * step_) ++multiple_;
-    ++nodes_;
-    prepare();
-  }
+  while (next_node() <= t) commit();
+}
+
+template <int N>
+void World<N>::commit() noexcept {
+  const double next = next_node(), h = next - time_;
+  if (h > 0) step(h);
+  time_ = next > time_ ? next : time_;
+  if (next >= static_cast<double>(multiple_ + 1) * step_) ++multiple_;
+  ++nodes_;
+  prepare();
 }
 
 // The friction that a whole body step from the last node would have: what a peek goes by, however
@@ -391,7 +394,9 @@ template <int N>
 Status World<N>::drive(signals::Edge edge) noexcept {
   if (ended_) return Status::ended;
   if (edge.valve.index >= 2 * strings_.count) return Status::invalid;
-  bank_.electrical(edge.valve.index, static_cast<double>(edge.at) * signals::tick_seconds, edge.open);
+  const double t = static_cast<double>(edge.at) * signals::tick_seconds;
+  while (next_node() < t) commit();  // later edges act at t or after: these nodes are final
+  bank_.electrical(edge.valve.index, t, edge.open);
   return Status::ok;
 }
 

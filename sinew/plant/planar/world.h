@@ -99,6 +99,7 @@ class World final : public signals::Port {
   Peek peek(const Glance& g, double t) const noexcept;
   double gauge(const Glance& g, const Peek& p, int muscle) const noexcept;
   double next_node() const noexcept;
+  void commit() noexcept;
 
   ChainConstants<N> chain_;
   Strings strings_;
