@@ -114,6 +114,8 @@ Experiment load(config::Node root, const std::string& path) {
   config::Reader reader(root, options);
   std::string format;
   reader.text({.name = "format", .doc = "kind and version"}, format);
+  std::string written_by;  // a resolved.toml says it
+  reader.text({.name = "sinew_version", .optional = true, .doc = "that ran"}, written_by);
   machine_fields(reader, e);
   e.plan = gait::plan_for(e.robot);
   run_fields(reader, e);

@@ -1,0 +1,206 @@
+// cli/actuator.cpp - `sinew actuator`: what one braided actuator does at a length and a pressure.
+#include "sinew/actuator/actuator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/arguments.h"
+#include "cli/command.h"
+#include "cli/machine_file.h"
+#include "cli/named.h"
+#include "cli/terminal.h"
+#include "cli/text_table.h"
+#include "sinew/actuator/braid.h"
+#include "sinew/actuator/loss.h"
+#include "sinew/actuator/stiffness.h"
+#include "sinew/actuator/tension.h"
+#include "sinew/config/quantity.h"
+
+namespace sinew::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string file, name, length, pressure, external_volume = "0 m3";
+  bool json = false, quiet = false;
+};
+
+// All laws at one length and one pressure, SI.
+struct Point {
+  double length = 0, gauge_pressure = 0;
+  double tension = 0, effectiveness = 0, coulomb_bound = 0;
+  double stiffness_at_constant_pressure = 0, stiffness_sealed = 0, passive_stiffness = 0;
+  double volume = 0, diameter = 0, braid_angle = 0;
+  std::vector<std::string> beyond;  // where the model ends
+};
+
+std::vector<std::string> beyond(const actuator::Actuator& a, double length, double gauge) {
+  std::vector<std::string> out;
+  if (length >= a.braid.thread_length) out.emplace_back("longer than the thread: no braid angle");
+  if (length > a.long_end.length) out.emplace_back("beyond the long end: the threads stretch");
+  if (length < actuator::shortest_length(a.braid))
+    out.emplace_back("below the shortest length: the end stop pushes, or nothing pulls");
+  if (gauge < a.effectiveness.valid_from || gauge > a.effectiveness.valid_to)
+    out.emplace_back("outside the fitted pressures: the effectiveness is held");
+  return out;
+}
+
+Point evaluate(const actuator::Actuator& a, const gas::Air& air, double length, double gauge,
+               double external_volume) {
+  const double atmosphere = air.atmosphere;
+  Point p{.length = length, .gauge_pressure = gauge};
+  p.tension = tension(a, length, 0.0, gauge, atmosphere);
+  p.effectiveness = effectiveness(a.effectiveness, gauge, atmosphere);
+  p.stiffness_at_constant_pressure = stiffness_at_constant_pressure(a, length, gauge, atmosphere);
+  p.stiffness_sealed = stiffness_sealed(a, length, gauge + atmosphere, atmosphere, external_volume,
+                                        air.polytropic_exponent);
+  p.passive_stiffness = passive_stiffness(a, length);
+  p.coulomb_bound = coulomb_bound(a, length, gauge, atmosphere, p.stiffness_sealed);
+  p.volume = volume(a.braid, length);
+  p.diameter = diameter(a.braid, length);
+  p.braid_angle = braid_angle(a.braid, length);
+  p.beyond = beyond(a, length, gauge);
+  return p;
+}
+
+// What is reported of a point: key of the JSON, words, SI unit and the thesis's.
+struct Row {
+  const char* key;
+  const char* words;
+  double Point::*value;
+  const char* unit;
+  const char* display;
+};
+constexpr Row rows[] = {
+    {"length_m", "length", &Point::length, "m", "in"},
+    {"gauge_pressure_Pa", "pressure", &Point::gauge_pressure, "Pa gauge", "psi gauge"},
+    {"tension_N", "tension, at rest", &Point::tension, "N", "lbf"},
+    {"effectiveness", "effectiveness", &Point::effectiveness, "1", "1"},
+    {"coulomb_bound_N", "dry friction, at most", &Point::coulomb_bound, "N", "lbf"},
+    {"stiffness_at_constant_pressure_N_per_m", "stiffness, constant pressure",
+     &Point::stiffness_at_constant_pressure, "N/m", "lbf/in"},
+    {"stiffness_sealed_N_per_m", "stiffness, valves shut", &Point::stiffness_sealed, "N/m",
+     "lbf/in"},
+    {"passive_stiffness_N_per_m", "stiffness without air", &Point::passive_stiffness, "N/m",
+     "lbf/in"},
+    {"volume_m3", "volume", &Point::volume, "m3", "in3"},
+    {"diameter_m", "diameter", &Point::diameter, "m", "in"},
+    {"braid_angle_rad", "braid angle", &Point::braid_angle, "rad", "deg"},
+};
+
+Json to_json(const Point& p) {
+  Json out;
+  for (const Row& row : rows)
+    if (std::isfinite(p.*row.value)) out[row.key] = p.*row.value;
+  out["beyond"] = p.beyond;
+  return out;
+}
+
+// A dash where the law gives no number.
+std::string shown(double value, const char* format) {
+  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
+}
+
+void print_point(const Point& p) {
+  TextTable table({"", "SI", "thesis"},
+                  {TextTable::Align::left, TextTable::Align::right, TextTable::Align::right});
+  for (const Row& row : rows) {
+    const double value = p.*row.value;
+    const bool plain = std::string_view(row.unit) == "1";
+    if (!std::isfinite(value)) {
+      table.add({row.words, "-"});
+      continue;
+    }
+    table.add({row.words, config::format_quantity(value, row.unit, row.unit),
+               plain ? "" : config::format_quantity(value, row.unit, row.display)});
+  }
+  fmt::print("{}", table.text());
+}
+
+void print_table(const std::vector<Point>& points, const Values& lengths, const Values& pressures) {
+  using enum TextTable::Align;
+  TextTable table({"length [" + lengths.display + "]", "pressure [" + pressures.display + "]",
+                   "tension [N]", "Eff", "k at p [N/m]", "k sealed [N/m]", "friction [N]",
+                   "volume [mL]", "diameter [mm]", "angle [deg]", ""},
+                  {right, right, right, right, right, right, right, right, right, right, left});
+  for (const Point& p : points) {
+    const auto in = [](double si, const char* unit, std::string_view display, const char* format) {
+      return shown(config::convert(si, unit, display), format);
+    };
+    table.add({in(p.length, "m", lengths.display, "{:.5g}"),
+               in(p.gauge_pressure, "Pa gauge", pressures.display, "{:.5g}"),
+               shown(p.tension, "{:.3f}"), shown(p.effectiveness, "{:.4f}"),
+               shown(p.stiffness_at_constant_pressure, "{:.1f}"),
+               shown(p.stiffness_sealed, "{:.1f}"), shown(p.coulomb_bound, "{:.3f}"),
+               in(p.volume, "m3", "mL", "{:.3f}"), in(p.diameter, "m", "mm", "{:.3f}"),
+               in(p.braid_angle, "rad", "deg", "{:.3f}"), p.beyond.empty() ? "" : "*"});
+  }
+  fmt::print("{}", table.text());
+}
+
+// Each word of doubt once.
+void warn(const std::vector<Point>& points, const Messages& messages) {
+  std::vector<std::string> said;
+  for (const Point& p : points)
+    for (const std::string& text : p.beyond)
+      if (std::ranges::find(said, text) == said.end()) said.push_back(text);
+  for (const std::string& text : said)
+    messages.warning(text + (points.size() > 1 ? " (rows with *)" : ""));
+}
+
+ExitCode run_actuator(const Options& options) {
+  const MachineFile file = read_machine_file(options.file);
+  const gas::Air& air = file.experiment.air;
+  const actuator::Actuator& a =
+      named(file.experiment.actuators, options.name, "--name", "actuator");
+  const Values lengths = arguments("--length", options.length, "m", air.atmosphere);
+  const Values pressures = arguments("--pressure", options.pressure, "Pa gauge", air.atmosphere);
+  const double external =
+      argument("--external-volume", options.external_volume, "m3", air.atmosphere);
+
+  std::vector<Point> points;
+  for (const double pressure : pressures.si)
+    for (const double length : lengths.si)
+      points.push_back(evaluate(a, air, length, pressure, external));
+
+  if (options.json) {
+    Json out{{"actuator", a.name},
+             {"atmosphere_Pa", air.atmosphere},
+             {"polytropic_exponent", air.polytropic_exponent},
+             {"external_volume_m3", external},
+             {"shortest_length_m", actuator::shortest_length(a.braid)},
+             {"greatest_length_m", a.long_end.length}};
+    for (const Point& p : points) out["points"].push_back(to_json(p));
+    fmt::print("{}\n", out.dump(2));
+    return ok;
+  }
+  points.size() == 1 ? print_point(points[0]) : print_table(points, lengths, pressures);
+  warn(points, Messages(options.quiet));
+  return ok;
+}
+
+}  // namespace
+
+void add_actuator(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App& sub =
+      subcommand(app, "actuator", "tension, stiffness and geometry of one braided actuator",
+                 "sinew actuator robots/leg/actuator.toml --length 2.5in:3.9in:0.2in --pressure "
+                 "\"60 psi gauge\"");
+  sub.add_option("FILE", options->file, "actuator, robot or experiment file")->required();
+  sub.add_option("--length", options->length, "a length, or from:to:step")->required();
+  sub.add_option("--pressure", options->pressure, "gauge or abs, or from:to:step")->required();
+  sub.add_option("--name", options->name, "which actuator, where the file has several");
+  sub.add_option("--external-volume", options->external_volume,
+                 "of hose and fittings, for the stiffness with valves shut; 0");
+  sub.add_flag("--json", options->json, "as JSON, SI");
+  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
+  sub.callback([=, &action] { action = [=] { return run_actuator(*options); }; });
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,61 @@
+// cli/analyze.cpp - `sinew analyze`: a run's numbers from its log alone.
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/report.h"
+#include "cli/run_folder.h"
+#include "cli/terminal.h"
+#include "sinew/config/compose.h"
+#include "sinew/log/reader.h"
+
+namespace sinew::cli {
+
+namespace {
+
+struct Options {
+  std::string run, machine, out;
+  bool json = false, force = false, quiet = false;
+};
+
+ExitCode analyze_run(const Options& options) {
+  const Messages messages(options.quiet);
+  const RecordedRun run = recorded_run(options.run);
+  const auto machine =
+      analysis::read_machine(config::compose(machine_of(run, options.machine).string()));
+  const signals::Table table = log::read(run.log);
+  if (!table.complete)
+    messages.warning(run.log.string() +
+                     " was cut off or is damaged; the figures are of what stands before");
+
+  const analysis::Summary summary = analysis::summarize(table, machine);
+  const std::string json = to_json(summary);
+  if (!options.out.empty()) {
+    refuse_to_overwrite(options.out, options.force);
+    write_file(options.out, json);
+  }
+  if (options.json) {
+    fmt::print("{}", json);
+  } else {
+    print_verdicts(summary, machine);
+  }
+  return ok;
+}
+
+}  // namespace
+
+void add_analyze(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App& sub =
+      subcommand(app, "analyze", "a run's numbers from its log, beside what is reported",
+                 "sinew analyze runs/walk-test-1/1 --json");
+  sub.add_option("DIR", options->run, "a run's folder, or a log file")->required();
+  sub.add_option("--machine", options->machine,
+                 "what was run, in place of the folder's resolved.toml");
+  sub.add_option("-o,--output", options->out, "also write the summary to this file");
+  sub.add_flag("--force", options->force, "replace that file");
+  sub.add_flag("--json", options->json, "print the summary as JSON");
+  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
+  sub.callback([=, &action] { action = [=] { return analyze_run(*options); }; });
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,29 @@
+// cli/arguments.h - quantities on the command line: "3.4in", "60 psi gauge", and ranges of them.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/gas/air.h"
+
+namespace sinew::cli {
+
+// One quantity in SI; throws config::Error that begins with the option's name.
+double argument(std::string_view option, std::string_view text, std::string_view unit,
+                double atmosphere);
+
+// "2.5in:3.9in:0.1in", first and last included; or one quantity. A pressure's step is a difference:
+// "20 psi gauge:110 psi gauge:10 psi".
+struct Values {
+  std::vector<double> si;
+  std::string display;  // the unit that was written, for columns of a table
+};
+Values arguments(std::string_view option, std::string_view text, std::string_view unit,
+                 double atmosphere);
+
+// "-2 in, -13 in": as many quantities as there are commas and one.
+std::vector<double> argument_list(std::string_view option, std::string_view text,
+                                  std::string_view unit);
+
+}  // namespace sinew::cli

@@ -1,0 +1,129 @@
+// cli/check.cpp - `sinew check`: everything that is wrong with files, without running anything.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/machine_file.h"
+#include "cli/run_folder.h"
+#include "sinew/config/valve_timing.h"
+#include "sinew/log/reader.h"
+
+namespace sinew::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Problems = std::vector<config::Problem>;
+
+struct Options {
+  std::vector<std::string> files;
+  bool json = false;
+};
+
+struct Finding {
+  std::string file;
+  std::vector<std::string> problems, warnings;
+
+  void add(const Problems& found, std::vector<std::string>& to) {
+    for (const config::Problem& problem : found) to.push_back(config::to_text(problem));
+  }
+};
+
+void check_log(const std::filesystem::path& file, Finding& out) {
+  const signals::Table table = log::read(file);
+  if (table.series.empty())
+    out.problems.push_back(file.string() + ": found no topic with numbers; expected a run's log");
+  if (!table.complete)
+    out.warnings.push_back(file.string() +
+                           ": was cut off or is damaged; everything before can be read");
+}
+
+void check_run(const std::filesystem::path& folder, Finding& out) {
+  const RecordedRun run = recorded_run(folder);
+  check_log(run.log, out);
+  out.add(read_machine_file(machine_of(run, "")).warnings, out.warnings);
+}
+
+// One line per file: an experiment's own choices need no more.
+void tell_of_sources(const Problems& unsourced, Finding& out) {
+  std::map<std::string, std::vector<std::string>> keys;
+  for (const config::Problem& p : unsourced)
+    keys[p.where.file].push_back(fmt::format("{} ({})", p.key, p.where.line));
+  for (const auto& [file, list] : keys)
+    out.warnings.push_back(fmt::format("{}: {} value{} without a source (line): {}", file,
+                                       list.size(), list.size() == 1 ? "" : "s",
+                                       fmt::join(list, ", ")));
+}
+
+void check_machine(const std::string& path, Finding& out) {
+  const MachineFile file = read_machine_file(path);
+  out.add(file.warnings, out.warnings);
+  tell_of_sources(without_source(path), out);
+  if (file.kind == "experiment") out.add(unreachable(file.experiment), out.problems);
+}
+
+Finding check(const std::string& path) {
+  Finding out{.file = path};
+  try {
+    const std::filesystem::path file(path);
+    if (std::filesystem::is_directory(file)) {
+      check_run(file, out);
+    } else if (file.extension() == ".mcap") {
+      check_log(file, out);
+    } else if (file.extension() == ".dat") {
+      config::read_valve_timing(path);
+    } else {
+      check_machine(path, out);
+    }
+  } catch (const config::Error& e) {
+    out.add(e.problems(), out.problems);
+  } catch (const std::exception& e) {
+    out.problems.push_back(e.what());
+  }
+  return out;
+}
+
+void print(const Finding& finding) {
+  for (const std::string& text : finding.problems) fmt::print("{}\n", text);
+  for (const std::string& text : finding.warnings) fmt::print("warning: {}\n", text);
+  const auto count = [](std::size_t n, std::string_view what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+  };
+  const bool good = finding.problems.empty();
+  std::string line = good ? "ok" : count(finding.problems.size(), "problem");
+  if (!finding.warnings.empty()) line += ", " + count(finding.warnings.size(), "warning");
+  fmt::print("{}: {}\n", finding.file, line);
+}
+
+ExitCode check_all(const Options& options) {
+  bool good = true;
+  Json report = Json::array();
+  for (const std::string& file : options.files) {
+    const Finding finding = check(file);
+    good = good && finding.problems.empty();
+    report.push_back(
+        {{"file", finding.file}, {"problems", finding.problems}, {"warnings", finding.warnings}});
+    if (!options.json) print(finding);
+  }
+  if (options.json) fmt::print("{}\n", report.dump(2));
+  return good ? ok : failed;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App& sub = subcommand(app, "check", "what is wrong with files, all of it at once",
+                             "sinew check robots/leg/*.toml robots/leg/predict.dat");
+  sub.add_option("FILE", options->files,
+                 "experiment, robot, actuator, valves file, predict.dat, or a run's folder or log")
+      ->required();
+  sub.add_flag("--json", options->json, "as JSON");
+  sub.callback([=, &action] { action = [=] { return check_all(*options); }; });
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,57 @@
+#include "cli/globs.h"
+
+#include "sinew/config/diagnostics.h"
+
+namespace sinew::cli {
+
+bool matches(std::string_view pattern, std::string_view text) {
+  // Where the last star stood, and how much it has swallowed so far.
+  std::size_t p = 0, t = 0, star = pattern.npos, swallowed = 0;
+  while (t < text.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      swallowed = t;
+    } else if (p < pattern.size() && pattern[p] == text[t]) {
+      ++p;
+      ++t;
+    } else if (star != pattern.npos) {
+      p = star + 1;
+      t = ++swallowed;
+    } else {
+      return false;
+    }
+  }
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  return p == pattern.size();
+}
+
+std::vector<bool> select(const std::vector<std::string>& patterns,
+                         const std::vector<std::string_view>& topics, const std::string& key) {
+  std::vector<bool> chosen(topics.size(), false);
+  for (const std::string& pattern : patterns) {
+    bool any = false;
+    for (std::size_t i = 0; i < topics.size(); ++i) {
+      if (!matches(pattern, topics[i]) && !matches(pattern + "/*", topics[i])) continue;
+      chosen[i] = any = true;
+    }
+    if (any) continue;
+    const std::string near(config::closest(pattern, topics));
+    config::fail({key, 0, 0}, "", config::in_quotes(pattern), "a topic, or * in place of its parts",
+                 near.empty() ? "\"/joint/*\"" : config::in_quotes(near));
+  }
+  return chosen;
+}
+
+std::vector<std::string_view> names_of(const std::vector<signals::Topic>& topics) {
+  std::vector<std::string_view> names;
+  for (const signals::Topic& topic : topics) names.push_back(topic.name);
+  return names;
+}
+
+std::vector<std::string_view> names_of(const signals::Table& table) {
+  std::vector<std::string_view> names;
+  for (const signals::Series& series : table.series) names.push_back(series.topic.name);
+  return names;
+}
+
+}  // namespace sinew::cli

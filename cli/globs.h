@@ -1,0 +1,23 @@
+// cli/globs.h - which topics "/joint/*/angle" means.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/signals/table.h"
+
+namespace sinew::cli {
+
+// * stands for any run of characters, "/" included.
+bool matches(std::string_view pattern, std::string_view text);
+
+// True for each topic that a pattern means: itself, or all below it ("/joint/hip"). Throws
+// config::Error for a pattern that means none; `key` is what the message calls the list.
+std::vector<bool> select(const std::vector<std::string>& patterns,
+                         const std::vector<std::string_view>& topics, const std::string& key);
+
+std::vector<std::string_view> names_of(const std::vector<signals::Topic>& topics);
+std::vector<std::string_view> names_of(const signals::Table& table);
+
+}  // namespace sinew::cli

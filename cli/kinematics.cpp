@@ -1,0 +1,184 @@
+// cli/kinematics.cpp - `sinew kinematics`: foot to joint angles and back.
+#include "sinew/robot/kinematics.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+
+#include "cli/arguments.h"
+#include "cli/command.h"
+#include "cli/machine_file.h"
+#include "cli/text_table.h"
+#include "sinew/actuator/braid.h"
+#include "sinew/config/quantity.h"
+
+namespace sinew::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string file, foot, angles;
+  bool json = false;
+};
+
+struct MuscleAt {
+  std::string name;
+  double length = 0, shortest = 0, longest = 0;  // [m]
+
+  bool within() const { return length >= shortest && length <= longest; }
+};
+
+// One way in which the leg can stand.
+struct Branch {
+  std::vector<double> angles;  // [rad]
+  robot::Point foot;           // [m]
+  std::vector<MuscleAt> muscles;
+  std::optional<robot::Jacobian> jacobian;  // of two links
+
+  bool within() const {
+    return std::ranges::all_of(muscles, [](const MuscleAt& m) { return m.within(); });
+  }
+};
+
+robot::TwoLinks two_links(const robot::Robot& robot) {
+  if (robot.links.size() != 2)
+    throw std::invalid_argument(fmt::format("{}: has {} link{}; --foot needs two; try --angles",
+                                            robot.name, robot.links.size(),
+                                            robot.links.size() == 1 ? "" : "s"));
+  return {robot.links[0].length, robot.links[1].length};
+}
+
+// A joint turns from its rest angle, so of all equal angles the one next to that is meant.
+double next_to_rest(const robot::Joint& joint, double angle) {
+  return joint.rest_angle + std::remainder(angle - joint.rest_angle, 2 * std::numbers::pi);
+}
+
+Branch stand(const experiment::Experiment& e, const std::vector<double>& angles) {
+  Branch out{.angles = angles, .foot = robot::forward(e.robot, angles).foot()};
+  for (const robot::Muscle& m : e.robot.muscles) {
+    const auto j = static_cast<std::size_t>(robot::find_joint(e.robot, m.joint));
+    const robot::Joint& joint = e.robot.joints[j];
+    MuscleAt at{.name = m.name};
+    at.length = robot::muscle_length(joint, m.role, m.mount_length, next_to_rest(joint, angles[j]));
+    for (const actuator::Actuator& a : e.actuators) {
+      if (a.name != m.actuator) continue;
+      at.shortest = actuator::shortest_length(a.braid);
+      at.longest = a.long_end.length;
+    }
+    out.muscles.push_back(at);
+  }
+  if (e.robot.links.size() == 2)
+    out.jacobian = robot::jacobian(two_links(e.robot), angles[0], angles[1]);
+  return out;
+}
+
+[[noreturn]] void out_of_reach(const std::string& text, const robot::Inverse& inverse) {
+  const auto inches = [](double m) { return config::format_quantity(m, "m", "in", 5); };
+  config::fail({"--foot", 0, 0}, "",
+               fmt::format("\"{}\", {} from the first joint", text, inches(inverse.distance)),
+               fmt::format("{} to {}", inches(inverse.shortest), inches(inverse.longest)),
+               fmt::format("\"{}, {}\", the nearest point that can be reached",
+                           inches(inverse.nearest.x), inches(inverse.nearest.y)));
+}
+
+std::vector<Branch> branches_to(const experiment::Experiment& e, const std::string& text) {
+  const std::vector<double> target = argument_list("--foot", text, "m");
+  if (target.size() != 2)
+    config::fail({"--foot", 0, 0}, "", config::in_quotes(text), "x and y", "\"-2 in, -13 in\"");
+
+  std::vector<Branch> out;
+  for (const robot::Knee knee : {robot::Knee::above_pi, robot::Knee::below_pi}) {
+    const robot::Inverse inverse = robot::inverse(two_links(e.robot), {target[0], target[1]}, knee);
+    if (!inverse.reached()) out_of_reach(text, inverse);
+    out.push_back(stand(e, {inverse.angle[0], inverse.angle[1]}));
+  }
+  return out;
+}
+
+Branch branch_at(const experiment::Experiment& e, const std::string& text) {
+  const std::vector<double> angles = argument_list("--angles", text, "rad");
+  if (angles.size() != e.robot.joints.size())
+    config::fail({"--angles", 0, 0}, "", config::in_quotes(text),
+                 fmt::format("{} angles, as there are joints", e.robot.joints.size()));
+  return stand(e, angles);
+}
+
+Json to_json(const experiment::Experiment& e, const Branch& b) {
+  Json out{{"foot_m", {b.foot.x, b.foot.y}}};
+  for (std::size_t j = 0; j < b.angles.size(); ++j)
+    out["angles_rad"][e.robot.joints[j].name] = b.angles[j];
+  for (const MuscleAt& m : b.muscles)
+    out["muscles"][m.name] = {{"length_m", m.length},
+                              {"shortest_m", m.shortest},
+                              {"longest_m", m.longest},
+                              {"within", m.within()}};
+  if (b.jacobian)
+    out["jacobian_m_per_rad"] = {{b.jacobian->x1, b.jacobian->x2},
+                                 {b.jacobian->y1, b.jacobian->y2}};
+  out["within"] = b.within();
+  return out;
+}
+
+void print(const experiment::Experiment& e, const Branch& b) {
+  const auto show = [](double si, std::string_view unit, std::string_view display) {
+    return config::format_quantity(si, unit, display, 5);
+  };
+  fmt::print("foot at {}, {}{}\n", show(b.foot.x, "m", "in"), show(b.foot.y, "m", "in"),
+             b.within() ? "" : ": beyond a muscle's lengths");
+  for (std::size_t j = 0; j < b.angles.size(); ++j)
+    fmt::print("  {:<14} {}\n", e.robot.joints[j].name, show(b.angles[j], "rad", "deg"));
+
+  TextTable table({"muscle", "length", "from", "to", ""});
+  for (const MuscleAt& m : b.muscles)
+    table.add({m.name, show(m.length, "m", "in"), show(m.shortest, "m", "in"),
+               show(m.longest, "m", "in"), m.within() ? "" : "beyond"});
+  fmt::print("{}", table.text("  "));
+  if (!b.jacobian) return;
+  fmt::print("  Jacobian [m/rad]  x: {:9.5f} {:9.5f}\n                    y: {:9.5f} {:9.5f}\n",
+             b.jacobian->x1, b.jacobian->x2, b.jacobian->y1, b.jacobian->y2);
+}
+
+ExitCode run_kinematics(const Options& options) {
+  const MachineFile file = read_machine_file(options.file);
+  const experiment::Experiment& e = file.experiment;
+  if (e.robot.joints.empty())
+    throw std::invalid_argument(options.file + ": has no joints; try a robot's file");
+  const std::vector<Branch> branches = options.foot.empty()
+                                           ? std::vector{branch_at(e, options.angles)}
+                                           : branches_to(e, options.foot);
+  if (options.json) {
+    Json out{{"robot", e.robot.name}};
+    for (const Branch& b : branches) out["branches"].push_back(to_json(e, b));
+    fmt::print("{}\n", out.dump(2));
+    return ok;
+  }
+  for (std::size_t i = 0; i < branches.size(); ++i) {
+    if (i > 0) fmt::print("\n");
+    print(e, branches[i]);
+  }
+  return ok;
+}
+
+}  // namespace
+
+void add_kinematics(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App& sub = subcommand(app, "kinematics", "foot to joint angles and muscle lengths, and back",
+                             "sinew kinematics robots/leg/robot.toml --foot \"-2 in, -13 in\"");
+  sub.add_option("ROBOT", options->file, "robot or experiment file")->required();
+  auto& target = *sub.add_option_group("target");
+  target.add_option("--foot", options->foot, "x, y about the first joint: all ways to stand there");
+  target.add_option("--angles", options->angles, "one per joint, in the robot's order");
+  target.require_option(1);
+  sub.add_flag("--json", options->json, "as JSON, SI");
+  sub.callback([=, &action] { action = [=] { return run_kinematics(*options); }; });
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,70 @@
+// cli/main.cpp - the program `sinew`: understands the command line and runs one subcommand.
+//
+// Results go to stdout, everything else to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/terminal.h"
+#include "sinew/config/diagnostics.h"
+
+namespace {
+
+using namespace sinew;
+
+// "sinew rnu": the word that was probably meant.
+void suggest_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(sub->get_name());
+  const std::string_view near =
+      config::closest(argv[1], std::vector<std::string_view>(names.begin(), names.end()));
+  if (near.empty() || near == argv[1]) return;
+  cli::error(fmt::format("no subcommand \"{}\"; did you mean {}?", argv[1], near));
+}
+
+cli::ExitCode run_safely(const cli::Action& action) {
+  try {
+    const cli::ExitCode code = action();
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
+    cli::error("stdout: cannot write the result; make room or choose another place");
+  } catch (const std::exception& e) {
+    std::fflush(stdout);
+    cli::error(e.what());
+  }
+  return cli::failed;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Sinew: robots driven by braided pneumatic actuators.");
+  app.set_version_flag("--version", std::string("sinew ") + SINEW_VERSION);
+  app.require_subcommand(1);
+  app.footer("Example:\n  sinew run experiments/walk-test-1.toml");
+
+  cli::Action action;
+  cli::add_run(app, action);
+  cli::add_analyze(app, action);
+  cli::add_export(app, action);
+  cli::add_replay(app, action);
+  cli::add_show(app, action);
+  cli::add_check(app, action);
+  cli::add_actuator(app, action);
+  cli::add_valve(app, action);
+  cli::add_kinematics(app, action);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    const int code = app.exit(e);
+    if (code == 0) return cli::ok;
+    suggest_command(app, argc, argv);
+    return cli::wrong_usage;
+  }
+  return run_safely(action);
+}

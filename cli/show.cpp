@@ -1,0 +1,132 @@
+// cli/show.cpp - `sinew show`: every value as it is used, and where it came from.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/machine_file.h"
+#include "cli/text_table.h"
+
+namespace sinew::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string file;
+  std::vector<std::string> keys;
+  std::vector<std::string> sets;
+  bool json = false;
+};
+
+// The value under "reported[0].accept" or "joint.hip.damping"; nullptr where the tree has none.
+const config::Node* value_at(const config::Node& root, std::string_view path) {
+  const config::Node* node = &root;
+  while (node && !path.empty()) {
+    const std::size_t end = std::min(path.find('.'), path.size());
+    std::string_view segment = path.substr(0, end);
+    path.remove_prefix(std::min(end + 1, path.size()));
+
+    const std::size_t bracket = segment.find('[');
+    node = node->find(segment.substr(0, bracket));
+    if (!node || bracket == segment.npos) continue;
+    std::size_t index = 0;
+    std::from_chars(segment.data() + bracket + 1, segment.data() + segment.size(), index);
+    node = index < node->children.size() ? &node->children[index] : nullptr;
+  }
+  return node;
+}
+
+std::string si_text(const config::Node& values, const config::Origin& origin) {
+  if (origin.unit.empty()) return "";
+  const config::Node* node = value_at(values, origin.path);
+  if (!node) return "";
+  return config::written(node->is_value_table() ? *node->find("value") : *node);
+}
+
+std::string mark(const config::Origin& o) {
+  return o.fit ? "fit" : o.guess ? "guess" : o.is_default ? "default" : "";
+}
+
+std::string place(const config::Origin& o) {
+  if (o.is_default) return "";
+  return o.where.line > 0 ? fmt::format("{}:{}", o.where.file, o.where.line) : o.where.file;
+}
+
+// Those below the keys that were asked for; all, where none was.
+config::Origins chosen(const config::Origins& all, const std::vector<std::string>& keys) {
+  if (keys.empty()) return all;
+  config::Origins out;
+  std::vector<bool> found(keys.size(), false);
+  for (const config::Origin& origin : all) {
+    bool wanted = false;
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      if (origin.path.starts_with(keys[k])) found[k] = wanted = true;
+    if (wanted) out.push_back(origin);
+  }
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    if (found[k]) continue;
+    std::vector<std::string_view> paths;
+    for (const config::Origin& origin : all) paths.push_back(origin.path);
+    const std::string near(config::closest(keys[k], paths));
+    config::fail({"sinew show", 0, 0}, "", config::in_quotes(keys[k]),
+                 "a key of the file, or the beginning of one",
+                 near.empty() ? "sinew show without a key" : near);
+  }
+  return out;
+}
+
+Json to_json(const config::Origin& o, const config::Node& values) {
+  Json out{{"key", o.path}, {"written", o.text}};
+  if (const std::string si = si_text(values, o); !si.empty()) out["si"] = si;
+  if (!o.unit.empty()) out["unit"] = o.unit;
+  if (!o.source.empty()) out["source"] = o.source;
+  for (const auto& [name, value] :
+       {std::pair{"fit", o.fit}, {"guess", o.guess}, {"default", o.is_default}})
+    if (value) out[name] = true;
+  if (!o.range.empty()) out["range"] = o.range;
+  if (o.range_si) out["range_si"] = *o.range_si;
+  if (!o.uncertainty.empty()) out["uncertainty"] = o.uncertainty;
+  if (!o.is_default) out["file"] = o.where.file;
+  if (o.where.line > 0) out["line"] = o.where.line;
+  return out;
+}
+
+ExitCode show(const Options& options) {
+  MachineFile file = read_machine_file(options.file, options.sets);
+  const config::Node values = values_in_si(file);
+  const config::Origins origins = chosen(file.origins, options.keys);
+
+  if (options.json) {
+    Json out = Json::array();
+    for (const config::Origin& origin : origins) out.push_back(to_json(origin, values));
+    fmt::print("{}\n", out.dump(2));
+    return ok;
+  }
+  TextTable table({"key", "as written", "SI", "", "range", "where", "source"});
+  for (const config::Origin& o : origins) {
+    const std::string si = si_text(values, o);
+    const std::string range = fmt::format("{}", fmt::join(o.range, " to "));
+    table.add({o.path, o.text, si == o.text ? "" : si, mark(o), range, place(o), o.source});
+  }
+  fmt::print("{}", table.text());
+  return ok;
+}
+
+}  // namespace
+
+void add_show(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App& sub = subcommand(app, "show", "values of a file, and where each one came from",
+                             "sinew show robots/leg/robot.toml joint.knee muscle.hip");
+  sub.add_option("FILE", options->file, "experiment, robot, actuator or valves file")->required();
+  sub.add_option("KEY", options->keys, "keys, or how they begin");
+  add_sets(sub, options->sets);
+  sub.add_flag("--json", options->json, "as JSON");
+  sub.callback([=, &action] { action = [=] { return show(*options); }; });
+}
+
+}  // namespace sinew::cli

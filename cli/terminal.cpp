@@ -1,0 +1,76 @@
+#include "cli/terminal.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+namespace sinew::cli {
+
+namespace {
+
+bool on_terminal() {
+  static const bool terminal = [] {
+    const char* term = std::getenv("TERM");
+    return isatty(STDERR_FILENO) == 1 && !(term && std::string_view(term) == "dumb");
+  }();
+  return terminal;
+}
+
+bool coloured() {
+  const char* no_color = std::getenv("NO_COLOR");
+  return on_terminal() && !(no_color && *no_color);
+}
+
+std::string in_colour(std::string_view text, std::string_view code) {
+  if (!coloured()) return std::string(text);
+  return fmt::format("\033[{}m{}\033[0m", code, text);
+}
+
+}  // namespace
+
+// Each line starts with its place, so that editors can jump there.
+void error(std::string_view text) { fmt::print(stderr, "{}\n", in_colour(text, "31")); }
+
+void Messages::warning(std::string_view text) const {
+  if (!quiet_) fmt::print(stderr, "{} {}\n", in_colour("warning:", "33"), text);
+}
+
+void Messages::note(std::string_view text) const {
+  if (!quiet_) fmt::print(stderr, "{}\n", text);
+}
+
+ProgressBar::ProgressBar(const std::atomic<std::int64_t>& now, std::int64_t end,
+                         double seconds_per_step, bool quiet)
+    : now_(now), end_(end), seconds_per_step_(seconds_per_step) {
+  if (!quiet && end > 0 && on_terminal()) thread_ = std::thread([this] { watch(); });
+}
+
+ProgressBar::~ProgressBar() {
+  done_ = true;
+  if (!thread_.joinable()) return;
+  thread_.join();
+  fmt::print(stderr, "\r\033[K");
+}
+
+// Short runs end before anything is drawn.
+void ProgressBar::watch() {
+  constexpr auto look = std::chrono::milliseconds(20);
+  for (int looks = 1; !done_; ++looks) {
+    std::this_thread::sleep_for(look);
+    if (looks % 5 == 0 && !done_) draw(now_.load(std::memory_order_relaxed));
+  }
+}
+
+void ProgressBar::draw(std::int64_t now) const {
+  constexpr std::int64_t width = 30;
+  const std::string done(static_cast<std::size_t>(width * now / end_), '#');
+  fmt::print(stderr, "\r[{:<{}}] {:3} %  {:.1f} of {:.1f} s", done, width, 100 * now / end_,
+             static_cast<double>(now) * seconds_per_step_,
+             static_cast<double>(end_) * seconds_per_step_);
+  std::fflush(stderr);
+}
+
+}  // namespace sinew::cli

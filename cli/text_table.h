@@ -1,0 +1,31 @@
+// cli/text_table.h - rows of words in columns that line up.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sinew::cli {
+
+class TextTable {
+ public:
+  enum class Align { left, right };
+
+  // Titles of the columns; `align` is that of the values, left where it says nothing.
+  explicit TextTable(std::vector<std::string> titles, std::vector<Align> align = {});
+
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  bool empty() const { return rows_.size() == 1; }
+
+  // The last column is never padded. `indent` stands before each line.
+  std::string text(std::string_view indent = "") const;
+
+ private:
+  std::vector<std::vector<std::string>> rows_;  // titles first
+  std::vector<Align> align_;
+};
+
+// Letters of a UTF-8 text; none here is wider than one column.
+std::size_t columns(std::string_view text);
+
+}  // namespace sinew::cli

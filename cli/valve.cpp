@@ -1,0 +1,197 @@
+// cli/valve.cpp - `sinew valve`: what flows through a valve, how long a volume takes, what its
+// delays make of a duty.
+#include "sinew/gas/valve.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/arguments.h"
+#include "cli/command.h"
+#include "cli/machine_file.h"
+#include "cli/named.h"
+#include "cli/text_table.h"
+#include "sinew/config/quantity.h"
+#include "sinew/gas/fill.h"
+#include "sinew/gas/orifice.h"
+#include "sinew/signals/pulse.h"
+
+namespace sinew::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string file, name, upstream, downstream, volume, duty, frequency = "100 Hz";
+  bool json = false;
+};
+
+struct FlowResult {
+  double upstream = 0, downstream = 0;  // [Pa]
+  double mass_flow = 0;                 // [kg/s]
+  double normal_flow = 0;               // of reference air [m3/s]
+  double critical_ratio = 0, ratio = 0;
+  double sonic_conductance = 0, area = 0;  // of either law, and what it equals in the other
+
+  bool choked() const { return ratio <= critical_ratio; }
+};
+
+// When the volume has gone a share of the way between the two pressures.
+struct Transfer {
+  double share = 0, fill = 0, vent = 0;  // [-], [s]
+};
+
+struct Delivered {
+  double duty = 0, delivered = 0;
+};
+
+FlowResult flow_through(const gas::Flow& flow, const gas::Air& air, double upstream,
+                        double downstream) {
+  FlowResult out{.upstream = upstream, .downstream = downstream};
+  const bool iso = flow.law == gas::Flow::Law::iso6358;
+  const double high = std::max(upstream, downstream), low = std::min(upstream, downstream);
+  out.mass_flow = gas::mass_flow(flow, air, upstream, downstream);
+  out.normal_flow = out.mass_flow / gas::iso_density;
+  out.ratio = low / high;
+  out.critical_ratio = iso ? flow.critical_pressure_ratio : gas::critical_pressure_ratio();
+  out.area =
+      iso ? gas::effective_area_of(flow.sonic_conductance, air) : flow.area * flow.efficiency;
+  out.sonic_conductance = iso ? flow.sonic_conductance : gas::sonic_conductance_of(out.area, air);
+  return out;
+}
+
+std::vector<Transfer> transfers(const gas::Flow& flow, const gas::Air& air, double volume,
+                                const FlowResult& f) {
+  std::vector<Transfer> out;
+  for (const double share : {0.5, 0.9, 0.99}) {
+    const double way = share * (f.upstream - f.downstream);
+    out.push_back(
+        {share, gas::transfer_time(flow, air, volume, f.upstream, f.downstream, f.downstream + way),
+         gas::transfer_time(flow, air, volume, f.downstream, f.upstream, f.upstream - way)});
+  }
+  return out;
+}
+
+std::vector<Delivered> deliveries(const gas::Valve& valve, const Options& options) {
+  std::vector<Delivered> out;
+  if (options.duty.empty()) return out;
+  const bool ideal = valve.profile == gas::Valve::Profile::ideal;
+  const double period = 1.0 / argument("--frequency", options.frequency, "1/s", units::atmosphere);
+  for (const double duty : arguments("--duty", options.duty, "1", units::atmosphere).si)
+    out.push_back({duty, signals::delivered_duty(duty, period, ideal ? 0 : valve.opening_delay,
+                                                 ideal ? 0 : valve.closing_delay)});
+  return out;
+}
+
+Json to_json(const gas::Valve& valve, const FlowResult& f, const std::vector<Transfer>& times,
+             const std::vector<Delivered>& duties) {
+  Json out{{"valve", valve.name},
+           {"upstream_Pa", f.upstream},
+           {"downstream_Pa", f.downstream},
+           {"mass_flow_kg_per_s", f.mass_flow},
+           {"normal_flow_m3_per_s", f.normal_flow},
+           {"pressure_ratio", f.ratio},
+           {"critical_pressure_ratio", f.critical_ratio},
+           {"choked", f.choked()},
+           {"effective_area_m2", f.area},
+           {"sonic_conductance_m3_per_s_Pa", f.sonic_conductance},
+           {"opening_delay_s", valve.opening_delay},
+           {"closing_delay_s", valve.closing_delay}};
+  for (const Transfer& t : times)
+    out["transfers"].push_back(
+        {{"share", t.share}, {"fill_time_s", t.fill}, {"vent_time_s", t.vent}});
+  for (const Delivered& d : duties)
+    out["duties"].push_back({{"duty", d.duty}, {"delivered_duty", d.delivered}});
+  return out;
+}
+
+void print_flow(const gas::Valve& valve, const FlowResult& f) {
+  const auto show = [](double si, std::string_view unit, std::string_view display) {
+    return config::format_quantity(si, unit, display, 5);
+  };
+  TextTable table({"", "", ""});
+  table.add({"mass flow", show(f.mass_flow, "kg/s", "kg/s"),
+             show(f.normal_flow, "m3/s", "L/min") + " ANR"});
+  table.add({"flow", f.choked() ? "choked" : "free",
+             fmt::format("ratio {:.4f}, critical {:.4f}", f.ratio, f.critical_ratio)});
+  table.add({"effective area", show(f.area, "m2", "mm2"), show(f.area, "m2", "in2")});
+  table.add({"sonic conductance C", show(f.sonic_conductance, "m3/(s Pa)", "L/(s bar)"), ""});
+  table.add({"delays", "opens after " + show(valve.opening_delay, "s", "ms"),
+             "shuts after " + show(valve.closing_delay, "s", "ms")});
+  fmt::print("{}", table.text().substr(1));
+}
+
+void print_times(const std::vector<Transfer>& times, double volume, const FlowResult& f) {
+  if (times.empty()) return;
+  const auto bar = [](double p) { return config::format_quantity(p, "Pa abs", "psi abs", 4); };
+  fmt::print("\n{} between {} and {}, valve open:\n", config::format_quantity(volume, "m3", "in3"),
+             bar(f.downstream), bar(f.upstream));
+  using enum TextTable::Align;
+  TextTable table({"of the way", "fill [ms]", "vent [ms]"}, {right, right, right});
+  for (const Transfer& t : times)
+    table.add({fmt::format("{:.0f} %", 100 * t.share), fmt::format("{:.3f}", 1e3 * t.fill),
+               fmt::format("{:.3f}", 1e3 * t.vent)});
+  fmt::print("{}", table.text());
+}
+
+void print_duties(const std::vector<Delivered>& duties, const std::string& frequency) {
+  if (duties.empty()) return;
+  using enum TextTable::Align;
+  fmt::print("\nat {}:\n", frequency);
+  TextTable table({"duty", "delivered"}, {right, right});
+  for (const Delivered& d : duties)
+    table.add({fmt::format("{:.4g} %", 100 * d.duty), fmt::format("{:.4g} %", 100 * d.delivered)});
+  fmt::print("{}", table.text());
+}
+
+ExitCode run_valve(const Options& options) {
+  const MachineFile file = read_machine_file(options.file);
+  const gas::Air& air = file.experiment.air;
+  const gas::Valve& valve = named(file.experiment.valves, options.name, "NAME", "valve");
+  const double up = argument("--upstream", options.upstream, "Pa abs", air.atmosphere);
+  const double down = argument("--downstream", options.downstream, "Pa abs", air.atmosphere);
+  for (const auto& [option, p] : {std::pair{"--upstream", up}, {"--downstream", down}})
+    if (!(p > 0))
+      config::fail({option, 0, 0}, "", config::format_quantity(p, "Pa abs"),
+                   "a pressure above 0 Pa abs");
+
+  const FlowResult f = flow_through(valve.flow, air, up, down);
+  std::vector<Transfer> times;
+  double volume = 0;
+  if (!options.volume.empty()) {
+    volume = argument("--volume", options.volume, "m3", air.atmosphere);
+    times = transfers(valve.flow, air, volume, f);
+  }
+  const std::vector<Delivered> duties = deliveries(valve, options);
+
+  if (options.json) {
+    fmt::print("{}\n", to_json(valve, f, times, duties).dump(2));
+    return ok;
+  }
+  print_flow(valve, f);
+  print_times(times, volume, f);
+  print_duties(duties, options.frequency);
+  return ok;
+}
+
+}  // namespace
+
+void add_valve(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App& sub =
+      subcommand(app, "valve", "flow, filling times and delays of a valve",
+                 "sinew valve robots/leg/valves.toml inlet --upstream \"100 psi gauge\" "
+                 "--downstream \"0 psi gauge\" --volume \"1 in3\"");
+  sub.add_option("FILE", options->file, "valves, robot or experiment file")->required();
+  sub.add_option("NAME", options->name, "of the valve")->required();
+  sub.add_option("--upstream", options->upstream, "pressure, gauge or abs")->required();
+  sub.add_option("--downstream", options->downstream, "pressure, gauge or abs")->required();
+  sub.add_option("--volume", options->volume, "rigid, to be filled and vented");
+  sub.add_option("--duty", options->duty, "share of the period, or from:to:step");
+  sub.add_option("--frequency", options->frequency, "of the pulses; 100 Hz");
+  sub.add_flag("--json", options->json, "as JSON, SI");
+  sub.callback([=, &action] { action = [=] { return run_valve(*options); }; });
+}
+
+}  // namespace sinew::cli
