@@ -1,0 +1,234 @@
+// The whole loop: the same bits however it is looked at, no heap, converged, and what it refuses.
+#include "sinew/experiment/run.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <new>
+#include <string>
+#include <thread>
+#include <unistd.h>
+#include <vector>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/experiment/clock.h"
+#include "sinew/experiment/loop.h"
+#include "sinew/experiment/spinal.h"
+#include "sinew/plant/planar/world.h"
+
+namespace {
+thread_local bool counting = false;
+thread_local int allocations = 0;
+}  // namespace
+
+// Counts heap use of the thread that asks for it.
+void* operator new(std::size_t size) {
+  if (counting) ++allocations;
+  if (void* p = std::malloc(size ? size : 1)) return p;
+  throw std::bad_alloc();
+}
+void* operator new(std::size_t size, std::align_val_t align) {
+  if (counting) ++allocations;
+  const auto a = static_cast<std::size_t>(align);
+  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace sinew::experiment {
+namespace {
+
+const std::string source = SINEW_SOURCE_DIR;
+
+Experiment walk(std::vector<std::string> sets = {}) {
+  sets.push_back("sequence.repeat=1");  // one step is enough for these
+  return load(source + "/experiments/walk-test-1.toml", sets);
+}
+
+// Bit for bit: same topics, times and numbers; NaN equals NaN.
+void expect_same(const signals::Table& a, const signals::Table& b) {
+  ASSERT_EQ(a.series.size(), b.series.size());
+  for (std::size_t s = 0; s < a.series.size(); ++s) {
+    const std::string& name = a.series[s].topic.name;
+    ASSERT_EQ(name, b.series[s].topic.name);
+    ASSERT_EQ(a.series[s].time_ns, b.series[s].time_ns) << name;
+    for (std::size_t c = 0; c < a.series[s].columns.size(); ++c)
+      for (std::size_t i = 0; i < a.series[s].columns[c].size(); ++i) {
+        const double x = a.series[s].columns[c][i], y = b.series[s].columns[c][i];
+        ASSERT_TRUE(x == y || (std::isnan(x) && std::isnan(y))) << name << " sample " << i;
+      }
+  }
+}
+
+TEST(Run, TwiceTheSameBits) {
+  const Experiment e = walk();
+  const Outcome a = run(e), b = run(e);
+  EXPECT_EQ(a.status, signals::Status::ok);
+  EXPECT_TRUE(a.table.complete);
+  EXPECT_EQ(a.nodes, b.nodes);
+  expect_same(a.table, b.table);
+}
+
+TEST(Run, ExtraReadersChangeNothing) {
+  const Experiment e = walk();
+  expect_same(run(e).table, run(e, {.extra_readers = 3}).table);
+}
+
+TEST(Run, VisitingEveryTickChangesNothing) {
+  const Experiment e = walk();
+  expect_same(run(e).table, run(e, {.every_tick = true}).table);
+}
+
+TEST(Run, ThreadsChangeNothing) {
+  const Experiment e = walk();
+  const Outcome alone = run(e);
+  Outcome together[3];
+  std::vector<std::thread> threads;
+  for (Outcome& o : together) threads.emplace_back([&] { o = run(e); });
+  for (std::thread& t : threads) t.join();
+  for (const Outcome& o : together) expect_same(alone.table, o.table);
+}
+
+TEST(Run, AFasterLogSeesTheSameRun) {
+  const Outcome slow = run(walk()), fast = run(walk({"log.period=0.5 ms"}));
+  const auto& a = *slow.table.find("/valve/hip_flexor/inlet/open");
+  const auto& b = *fast.table.find("/valve/hip_flexor/inlet/open");
+  EXPECT_EQ(a.time_ns, b.time_ns);
+  EXPECT_EQ(slow.nodes, fast.nodes);
+  EXPECT_GT(fast.table.find("/true/trolley/position")->time_ns.size(),
+            19 * slow.table.find("/true/trolley/position")->time_ns.size());
+}
+
+// A log that went through the controller again gives the edges that are in it.
+TEST(Run, ARecordedRunReplaysItsOwnEdges) {
+  const Experiment e = walk();
+  const Outcome recorded = run(e), again = replay(e, recorded.table);
+  std::size_t edges = 0;
+  for (const signals::Series& s : recorded.table.series) {
+    if (s.topic.name.rfind("/valve/", 0) != 0) continue;
+    const signals::Series* t = again.table.find(s.topic.name);
+    ASSERT_NE(t, nullptr);
+    EXPECT_EQ(s.time_ns, t->time_ns) << s.topic.name;
+    EXPECT_EQ(s.columns, t->columns) << s.topic.name;
+    edges += s.time_ns.size();
+  }
+  EXPECT_GT(edges, 200u);
+}
+
+TEST(Run, ALogWithoutASensorCannotBeReplayed) {
+  const Experiment e = walk();
+  try {
+    replay(e, signals::Table{});
+    FAIL();
+  } catch (const std::invalid_argument& problem) {
+    EXPECT_STREQ(problem.what(), "the log has no /sensor/cylinder_position/count");
+  }
+}
+
+TEST(Run, NoHeapInTheLoop) {
+  const Experiment e = walk();
+  plant::World<2> world(planar_setup(e));
+  control::Spine spine(spine_config(e));
+  HighLevel high(e.robot, e.plan);
+  const signals::Tick end = last_tick(e);
+  plant::World<2>* body = &world;
+  Recorder recorder(e, spine, high, [body](signals::Tick t) { return body->truth(t * 1e-4); }, end);
+  SimulatedClock clock;
+
+  allocations = 0;
+  counting = true;
+  const signals::Status status = loop(spine, high, world, clock, recorder, end);
+  counting = false;
+  EXPECT_EQ(status, signals::Status::ok);
+  EXPECT_EQ(allocations, 0);
+  EXPECT_GT(recorder.take().find("/plan/phase")->time_ns.size(), 300u);
+}
+
+// Without noise, over many nodes: a step's distance at 1 ms is that at 50 us.
+TEST(Run, TheWalkConvergesWithTheNodes) {
+  const auto distance = [](const char* step) {
+    double sum = 0;
+    for (int seed = 1; seed <= 4; ++seed) {
+      const std::string set = "seed=" + std::to_string(seed);
+      const Experiment e = load(source + "/experiments/walk-test-1.toml",
+                                {std::string("plant_steps.body=") + step, set});
+      sum += run(e).table.column("/true/trolley/position")->back();
+    }
+    return sum / 4;
+  };
+  EXPECT_NEAR(distance("1 ms"), distance("50 us"), 0.0254);  // 1 in of about 57
+}
+
+TEST(Run, EveryShippedExperimentRuns) {
+  for (const auto& file : std::filesystem::directory_iterator(source + "/experiments")) {
+    if (file.path().extension() != ".toml") continue;
+    const Experiment e = load(file.path().string());
+    EXPECT_TRUE(e.warnings.empty()) << file.path();
+    const Outcome o = run(e);
+    EXPECT_EQ(o.status, signals::Status::ok) << file.path();
+    for (const signals::Series& s : o.table.series)
+      if (s.topic.name.rfind("/true/", 0) == 0)
+        for (const std::vector<double>& column : s.columns)
+          ASSERT_TRUE(std::all_of(column.begin(), column.end(), [](double v) { return std::isfinite(v); }))
+              << file.path() << s.topic.name;
+  }
+}
+
+TEST(Run, EveryShippedRobotWalksTheSamePlan) {
+  for (const char* robot : {"leg-as-printed", "leg-ideal"}) {
+    const Experiment e = walk({"robot=" + source + "/robots/" + robot + "/robot.toml"});
+    EXPECT_EQ(e.robot.name, robot);
+    EXPECT_EQ(run(e).status, signals::Status::ok) << robot;
+  }
+}
+
+// What was run can be run again from resolved.toml alone, to the same bits.
+TEST(Resolved, RunsAgainToTheSameBits) {
+  const Experiment e = walk();
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("resolved-" + std::to_string(::getpid()) + ".toml");
+  {
+    std::FILE* file = std::fopen(path.c_str(), "w");
+    const std::string text = resolved(e, "test");
+    std::fwrite(text.data(), 1, text.size(), file);
+    std::fclose(file);
+  }
+  const Experiment again = load(path.string());
+  expect_same(run(e).table, run(again).table);
+  std::filesystem::remove(path);
+}
+
+std::string refusal(const std::vector<std::string>& sets) {
+  try {
+    walk(sets);
+  } catch (const config::Error& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+TEST(Load, SaysWhatContradictsItself) {
+  EXPECT_NE(refusal({"muscle.hip_flexor.inlet.valve=inlett"}).find("found \"inlett\"; expected"),
+            std::string::npos);
+  EXPECT_NE(refusal({"log.period=0.25 ms"}).find("multiple of 0.1 ms"), std::string::npos);
+  EXPECT_NE(refusal({"plant=mars"}).find("expected planar"), std::string::npos);
+  EXPECT_NE(refusal({"control.brain_period=15 ms"}).find("multiple of the low level's period"),
+            std::string::npos);
+}
+
+TEST(Clock, PacedTimeWaits) {
+  PacedClock clock(10.0);  // ten times real time
+  const auto before = std::chrono::steady_clock::now();
+  for (signals::Tick t = 0; t <= 2000; t += 100) clock.wait_until(t);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - before;
+  EXPECT_GE(wall.count(), 0.0199);
+}
+
+}  // namespace
+}  // namespace sinew::experiment
