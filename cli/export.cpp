@@ -27,7 +27,7 @@ struct Options {
 std::vector<std::string> chosen_topics(const Options& options, const signals::Table& table) {
   if (options.channels.empty()) return {};
   const std::vector<std::string_view> names = names_of(table);
-  const std::vector<bool> chosen = select(options.channels, names, "--channels");
+  const std::vector<bool> chosen = select(options.channels, names, {"--channels", 0, 0});
   std::vector<std::string> topics;
   for (std::size_t i = 0; i < names.size(); ++i)
     if (chosen[i]) topics.emplace_back(names[i]);

@@ -1,7 +1,5 @@
 #include "cli/globs.h"
 
-#include "sinew/config/diagnostics.h"
-
 namespace sinew::cli {
 
 bool matches(std::string_view pattern, std::string_view text) {
@@ -26,7 +24,8 @@ bool matches(std::string_view pattern, std::string_view text) {
 }
 
 std::vector<bool> select(const std::vector<std::string>& patterns,
-                         const std::vector<std::string_view>& topics, const std::string& key) {
+                         const std::vector<std::string_view>& topics, const config::Location& where,
+                         const std::string& key) {
   std::vector<bool> chosen(topics.size(), false);
   for (const std::string& pattern : patterns) {
     bool any = false;
@@ -36,7 +35,7 @@ std::vector<bool> select(const std::vector<std::string>& patterns,
     }
     if (any) continue;
     const std::string near(config::closest(pattern, topics));
-    config::fail({key, 0, 0}, "", config::in_quotes(pattern), "a topic, or * in place of its parts",
+    config::fail(where, key, config::in_quotes(pattern), "a topic, or * in place of its parts",
                  near.empty() ? "\"/joint/*\"" : config::in_quotes(near));
   }
   return chosen;

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/config/diagnostics.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::cli {
@@ -13,9 +14,10 @@ namespace sinew::cli {
 bool matches(std::string_view pattern, std::string_view text);
 
 // True for each topic that a pattern means: itself, or all below it ("/joint/hip"). Throws
-// config::Error for a pattern that means none; `key` is what the message calls the list.
+// config::Error for a pattern that means none, `where` and `key` being the list's.
 std::vector<bool> select(const std::vector<std::string>& patterns,
-                         const std::vector<std::string_view>& topics, const std::string& key);
+                         const std::vector<std::string_view>& topics, const config::Location& where,
+                         const std::string& key = "");
 
 std::vector<std::string_view> names_of(const std::vector<signals::Topic>& topics);
 std::vector<std::string_view> names_of(const signals::Table& table);

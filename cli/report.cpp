@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cli/text_table.h"
 #include "sinew/config/quantity.h"
@@ -44,6 +45,31 @@ void warn_of_clipping(const experiment::Experiment& e, const signals::Table& tab
   }
 }
 
+bool finite(const signals::Series& s, std::size_t i) {
+  return std::ranges::all_of(s.columns, [i](const auto& c) { return std::isfinite(c[i]); });
+}
+
+// Until when the simulated state was made of numbers.
+std::int64_t last_good_time(const signals::Table& table) {
+  std::int64_t end = INT64_MAX;
+  for (const signals::Series& s : table.series) {
+    if (!s.topic.name.starts_with("/true/")) continue;
+    for (std::size_t i = 0; i < s.time_ns.size() && s.time_ns[i] <= end; ++i)
+      if (!finite(s, i)) end = s.time_ns[i] - 1;
+  }
+  return end;
+}
+
+std::string record_text(const signals::Series& s, std::size_t i) {
+  std::string text =
+      fmt::format("{:.4f} s  {}", 1e-9 * static_cast<double>(s.time_ns[i]), s.topic.name);
+  for (std::size_t f = 0; f < s.columns.size(); ++f) {
+    const std::string& unit = s.topic.fields[f].unit;
+    text += fmt::format("  {:.6g}{}", s.columns[f][i], unit == "1" ? "" : " " + unit);
+  }
+  return text;
+}
+
 }  // namespace
 
 void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine) {
@@ -76,17 +102,16 @@ void warn_of(const experiment::Experiment& e, const experiment::Outcome& outcome
 
 std::string black_box(const experiment::Experiment& e, const experiment::Outcome& outcome) {
   const control::Seen& seen = outcome.seen;
-  std::string text = fmt::format("{}: the run was ended by {}", e.path, word(outcome.status));
-  if (seen.fault != signals::Status::ok && seen.fault_channel.index < e.robot.sensors.size())
-    text += fmt::format(" of sensor {} ({})", e.robot.sensors[seen.fault_channel.index].name,
-                        word(seen.fault));
-  text += "; try a smaller plant_steps.body, or a look at the last records:";
+  const bool by_sensor = seen.fault != signals::Status::ok;
+  std::string text = fmt::format("{}: the run was ended by {}", e.path,
+                                 word(by_sensor ? seen.fault : outcome.status));
+  if (by_sensor && seen.fault_channel.index < e.robot.sensors.size())
+    text += " of sensor " + e.robot.sensors[seen.fault_channel.index].name;
+  text += "; try a smaller plant_steps.body; the last records before:";
+  const std::int64_t end = last_good_time(outcome.table);
   for (const signals::Series& s : outcome.table.series) {
-    if (s.time_ns.empty()) continue;
-    text +=
-        fmt::format("\n  {:.4f} s  {}", 1e-9 * static_cast<double>(s.time_ns.back()), s.topic.name);
-    for (std::size_t f = 0; f < s.columns.size(); ++f)
-      text += fmt::format("  {:.6g} {}", s.columns[f].back(), s.topic.fields[f].unit);
+    const auto after = std::ranges::upper_bound(s.time_ns, end) - s.time_ns.begin();
+    if (after > 0) text += "\n  " + record_text(s, static_cast<std::size_t>(after - 1));
   }
   return text;
 }

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cmath>
 #include <optional>
 
 #include "cli/command.h"
@@ -60,6 +62,19 @@ std::string summary_json(const analysis::Summary& summary, const experiment::Out
   return to_json(summary, {{"real_time_factor", factor}, {"threads", 1}});
 }
 
+bool ended_early(const experiment::Outcome& outcome) {
+  return outcome.status != signals::Status::ok || outcome.seen.fault != signals::Status::ok;
+}
+
+// CLI11's own words for it name the largest double there is.
+std::string not_negative(const std::string& text) {
+  double value = -1;
+  const char* last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  const bool good = error == std::errc{} && end == last && value >= 0 && std::isfinite(value);
+  return good ? "" : fmt::format("found \"{}\"; expected a number, 0 or more", text);
+}
+
 ExitCode run_experiment(const Options& options) {
   const Messages messages(options.quiet);
   const experiment::Experiment e = load(options, messages);
@@ -68,15 +83,17 @@ ExitCode run_experiment(const Options& options) {
   const analysis::Machine machine =
       analysis::read_machine(config::parse_text(resolved, std::string(resolved_name)));
 
+  LoggedTopics logged = logged_topics(e);
+
   const fs::path folder = folder_for(options, e);
   std::optional<RunLog> log;
   if (e.log.enabled) {
     write_file(folder / resolved_name, resolved);
-    log.emplace(folder / log_name, e, resolved);
+    log.emplace(folder / log_name, e, resolved, std::move(logged));
   }
   const experiment::Outcome outcome = run_logged(options, e, log ? &*log : nullptr);
   warn_of(e, outcome, messages);
-  if (outcome.status != signals::Status::ok) throw std::runtime_error(black_box(e, outcome));
+  if (ended_early(outcome)) throw std::runtime_error(black_box(e, outcome));
 
   const analysis::Summary summary = analysis::summarize(outcome.table, machine);
   const std::string json = summary_json(summary, outcome);
@@ -103,7 +120,7 @@ void add_run(CLI::App& app, Action& action) {
   sub.add_flag("--force", options->force, "replace the run that is in the folder");
   add_sets(sub, options->sets);
   sub.add_option("--pace", options->pace, "simulated seconds per second of wall time; 0: no limit")
-      ->check(CLI::NonNegativeNumber);
+      ->check(not_negative, "");
   sub.add_flag("--allow-unreachable", options->allow_unreachable,
                "aim at the nearest point where the foot path is out of reach");
   sub.add_flag("--json", options->json, "print summary.json");

@@ -14,10 +14,14 @@ void push(void* writer, std::uint16_t topic, std::int64_t time_ns,
 
 }  // namespace
 
-RunLog::Chosen RunLog::choose(const experiment::Experiment& e) {
+LoggedTopics logged_topics(const experiment::Experiment& e) {
   const std::vector<signals::Topic> all = experiment::topics(e.robot);
-  const std::vector<bool> wanted = select(e.log.channels, names_of(all), "log.channels");
-  Chosen out;
+  const config::Origin* origin = config::find_origin(e.origins, "log.channels");
+  const bool written = origin && !origin->is_default;
+  const std::vector<bool> wanted =
+      select(e.log.channels, names_of(all),
+             written ? origin->where : config::Location{e.path, 0, 0}, "log.channels");
+  LoggedTopics out;
   for (std::size_t i = 0; i < all.size(); ++i) {
     out.of_series.push_back(wanted[i] ? static_cast<std::uint16_t>(out.topics.size())
                                       : experiment::not_tapped);
@@ -27,13 +31,9 @@ RunLog::Chosen RunLog::choose(const experiment::Experiment& e) {
 }
 
 RunLog::RunLog(const std::filesystem::path& file, const experiment::Experiment& e,
-               const std::string& resolved)
-    : RunLog(file, e, resolved, choose(e)) {}
-
-RunLog::RunLog(const std::filesystem::path& file, const experiment::Experiment& e,
-               const std::string& resolved, Chosen chosen)
-    : of_series_(std::move(chosen.of_series)),
-      writer_(file, std::move(chosen.topics),
+               const std::string& resolved, LoggedTopics logged)
+    : of_series_(std::move(logged.of_series)),
+      writer_(file, std::move(logged.topics),
               {{"experiment", e.name},
                {"seed", std::to_string(e.seed)},
                {"version", SINEW_VERSION},

@@ -9,12 +9,20 @@
 
 namespace sinew::cli {
 
+// What of a run is logged.
+struct LoggedTopics {
+  std::vector<signals::Topic> topics;
+  std::vector<std::uint16_t> of_series;  // their places, by the recorder's order
+};
+
+// By log.channels. Throws config::Error where a pattern means no topic.
+LoggedTopics logged_topics(const experiment::Experiment& experiment);
+
 class RunLog {
  public:
-  // Only the topics that log.channels names. Throws config::Error where it names none, log::Error
-  // where the file cannot be made.
+  // Throws log::Error where the file cannot be made.
   RunLog(const std::filesystem::path& file, const experiment::Experiment& experiment,
-         const std::string& resolved);
+         const std::string& resolved, LoggedTopics logged);
 
   // The log must outlive the run.
   void tap(experiment::RunOptions& options);
@@ -23,14 +31,6 @@ class RunLog {
   void finish() { writer_.finish(); }
 
  private:
-  struct Chosen {
-    std::vector<signals::Topic> topics;    // that are logged
-    std::vector<std::uint16_t> of_series;  // their places, by the recorder's order
-  };
-  static Chosen choose(const experiment::Experiment& experiment);
-  RunLog(const std::filesystem::path& file, const experiment::Experiment& experiment,
-         const std::string& resolved, Chosen chosen);
-
   std::vector<std::uint16_t> of_series_;
   log::Writer writer_;
 };
