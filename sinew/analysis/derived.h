@@ -5,8 +5,10 @@
 //   /joint/<j>/torque    of the measured tensions; > 0 raises the angle
 //   /joint/<j>/error     measured - desired angle
 //   /joint/<j>/oscillation   the same without its mean over 0.21 s about each sample
-//   /joint/<j>/passive, /muscle/<m>/passive   share of the period in which no valve is open
+//   /muscle/<m>/passive     share of the period in which neither valve is open, as commanded
 //   /trolley/position, /trolley/velocity      of /foot/force and drag, integrated as in 6.3
+//   /trolley/to_liftoff/position, /trolley/to_liftoff/velocity   the same, the force counting until
+//                        the foot is unloaded, which may be later than the plan's end of stance
 //   /true/joint/<j>/stiffness   of the true lengths and pressures
 //   /true/foot/slip      velocity of the foot's lowest point along the ground
 //

@@ -4,7 +4,6 @@
 // Only what analysis needs is read, so a file may hold more than this folder knows of.
 #pragma once
 
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,12 +46,13 @@ Machine read_machine(const config::Node& root);
 bool is_stance(const Machine&, int phase);
 bool is_swing(const Machine&, int phase);
 std::string_view phase_name(const Machine&, int phase);  // empty outside the sequence
+int find_phase(const Machine&, std::string_view name);   // -1: no such phase
 
 // A foot at the end of two links: where the thesis's kinematics and [75] apply.
 bool has_leg(const Machine&);
 robot::TwoLinks links_of(const Machine&);
 
-// The muscle's actuator with the muscle's own bladder; nullptr-like default where there is none.
+// The muscle's actuator with the muscle's own bladder.
 actuator::Actuator actuator_of(const Machine&, const robot::Muscle&);
 
 // The delays of a valve by its name; none for an unknown one.

@@ -1,0 +1,220 @@
+#include "sinew/analysis/derived.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "sinew/actuator/stiffness.h"
+#include "sinew/analysis/foot.h"
+#include "sinew/analysis/laws.h"
+#include "sinew/analysis/record.h"
+#include "sinew/analysis/trolley.h"
+
+namespace sinew::analysis {
+namespace {
+
+using Role = robot::Muscle::Role;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// Collects the series; what has no column is left out.
+class Series {
+ public:
+  explicit Series(const Record& record) : record_(record) {}
+
+  void scalar(std::string topic, std::string unit, std::string description, Column values) {
+    if (values.empty()) return;
+    table.series.push_back({{std::move(topic), std::move(description), {{"value", unit}}},
+                            record_.time_ns(),
+                            {std::move(values)}});
+  }
+  void vector(std::string topic, std::string unit, std::string description, Column x, Column y) {
+    if (x.empty() || y.empty()) return;
+    table.series.push_back({{std::move(topic), std::move(description), {{"x", unit}, {"y", unit}}},
+                            record_.time_ns(),
+                            {std::move(x), std::move(y)}});
+  }
+
+  signals::Table table;
+
+ private:
+  const Record& record_;
+};
+
+// out[i] = of(i) where every column is there, else empty.
+template <class Of, class... Columns>
+Column rowwise(const Record& record, Of of, const Columns&... columns) {
+  if ((columns.empty() || ...)) return {};
+  Column out(record.rows());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = of(i);
+  return out;
+}
+
+const robot::Muscle* muscle_of(const Machine& m, std::size_t joint, Role role) {
+  const int i = robot::muscle_of(m.robot, static_cast<int>(joint), role);
+  return i < 0 ? nullptr : &m.robot.muscles[static_cast<std::size_t>(i)];
+}
+
+// Of the pair that pulls a joint: flexor first. Empty where one is missing.
+std::array<Column, 2> of_pair(const Record& record, const Machine& m, std::size_t joint,
+                              const std::string& prefix, const std::string& what) {
+  std::array<Column, 2> out;
+  for (const Role role : {Role::flexor, Role::extensor})
+    if (const robot::Muscle* muscle = muscle_of(m, joint, role))
+      out[role == Role::flexor ? 0 : 1] = record.column(prefix + muscle->name + what);
+  return out;
+}
+
+Column measured_torque(const Record& record, const Machine& m, std::size_t joint) {
+  const auto [flexor, extensor] = of_pair(record, m, joint, "/muscle/", "/tension");
+  return rowwise(
+      record,
+      [&](std::size_t i) { return robot::torque(m.robot.joints[joint], flexor[i], extensor[i]); },
+      flexor, extensor);
+}
+
+Column true_joint_stiffness(const Record& record, const Machine& m, std::size_t joint) {
+  const double arm = m.robot.joints[joint].moment_arm;
+  Column sum(record.rows(), 0.0);
+  for (const Role role : {Role::flexor, Role::extensor}) {
+    const robot::Muscle* muscle = muscle_of(m, joint, role);
+    if (!muscle) return {};
+    const actuator::Actuator a = actuator_of(m, *muscle);
+    const std::string at = "/true/muscle/" + muscle->name;
+    const Column length = record.column(at + "/length"), pressure = record.column(at + "/pressure"),
+                 tension = record.column(at + "/tension");
+    if (length.empty() || pressure.empty() || tension.empty()) return {};
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] += joint_stiffness(
+          arm, muscle->count, true_stiffness(a, length[i], pressure[i], m.atmosphere, tension[i]));
+  }
+  return sum;
+}
+
+void add_joint(Series& out, const Record& record, const Machine& m, std::size_t joint) {
+  const std::string at = "/joint/" + m.robot.joints[joint].name;
+  const Column angle = record.column(at + "/angle");
+  const Column desired = record.column("/desired" + at + "/angle");
+  const Column error = rowwise(
+      record, [&](std::size_t i) { return turn_between(desired[i], angle[i]); }, angle, desired);
+
+  out.scalar(at + "/torque", "N m", "of the measured tensions", measured_torque(record, m, joint));
+  out.scalar(at + "/error", "rad", "measured - desired angle", error);
+  out.scalar(at + "/oscillation", "rad", "the error without its mean over 0.21 s",
+             high_passed(error, half_window(oscillation_window, record.period())));
+  out.scalar("/true" + at + "/stiffness", "N m/rad", "of true lengths and pressures, [26]",
+             true_joint_stiffness(record, m, joint));
+}
+
+void add_passive(Series& out, const Record& record, const Machine& m) {
+  for (const robot::Muscle& muscle : m.robot.muscles) {
+    const std::string at = "/muscle/" + muscle.name;
+    const Column inlet = record.column(at + "/inlet_duty");
+    const Column exhaust = record.column(at + "/exhaust_duty");
+    out.scalar(
+        at + "/passive", "1", "share of the period with both valves shut, as commanded",
+        rowwise(
+            record, [&](std::size_t i) { return passive(inlet[i], exhaust[i]); }, inlet, exhaust));
+  }
+}
+
+void add_leg(Series& out, const Record& record, const Machine& m) {
+  const robot::TwoLinks links = links_of(m);
+  const Column hip = record.column("/joint/" + m.robot.joints[0].name + "/angle");
+  const Column knee = record.column("/joint/" + m.robot.joints[1].name + "/angle");
+  const Column t1 = measured_torque(record, m, 0), t2 = measured_torque(record, m, 1);
+
+  const auto position = [&](std::size_t i) { return robot::foot_position(links, hip[i], knee[i]); };
+  const auto force = [&](std::size_t i) {
+    const auto f = robot::ground_reaction(links, hip[i], knee[i], {t1[i], t2[i]});
+    return f.singular ? robot::Point{none, none} : f.force;
+  };
+  const auto x = [](const auto& point) { return [&](std::size_t i) { return point(i).x; }; };
+  const auto y = [](const auto& point) { return [&](std::size_t i) { return point(i).y; }; };
+
+  out.vector("/foot/position", "m", "of the ankle, of the measured angles [61], [62]",
+             rowwise(record, x(position), hip, knee), rowwise(record, y(position), hip, knee));
+  out.vector("/foot/force", "N", "on the foot by the ground, of the measured torques [75]",
+             rowwise(record, x(force), hip, knee, t1, t2),
+             rowwise(record, y(force), hip, knee, t1, t2));
+}
+
+// The rows in which the friction force of [75] counts.
+std::vector<bool> stance_rows(const Record& record) {
+  std::vector<bool> out(record.rows());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = record.stance()[i] > 0;
+  return out;
+}
+
+// The same and on into the swing while the normal force of [75] goes on pushing.
+std::vector<bool> loaded_rows(const Record& record, const Column& normal) {
+  std::vector<bool> out(record.rows());
+  bool loaded = true;  // a leg that starts on the ground
+  for (std::size_t i = record.first_row(); i <= record.last_row(); ++i) {
+    loaded = record.stance()[i] > 0 || (loaded && normal[i] > 0);
+    out[i] = loaded;
+  }
+  return out;
+}
+
+void add_motion(Series& out, const Record& record, const robot::Trolley& trolley, Column push,
+                const std::vector<bool>& counts, const std::string& topic,
+                const std::string& what) {
+  for (std::size_t i = 0; i < push.size(); ++i)
+    if (!counts[i]) push[i] = 0;
+  TrolleyMotion motion =
+      integrate(push, record.run(), trolley.drag, trolley.total_mass, record.first_row());
+  out.scalar(topic + "/position", "m", what, std::move(motion.position));
+  out.scalar(topic + "/velocity", "m/s", what, std::move(motion.velocity));
+}
+
+// 6.3: the friction force in stance, nothing but drag otherwise.
+void add_trolley(Series& out, const Record& record, const Machine& m) {
+  const robot::Trolley& trolley = m.robot.trolley;
+  const std::vector<double>* x = out.table.column("/foot/force", "x");
+  const std::vector<double>* y = out.table.column("/foot/force", "y");
+  if (!trolley.present || !(trolley.total_mass > 0) || !x || !record.has_sequence()) return;
+
+  const Column push = *x, normal = *y;  // adding series moves them
+  add_motion(out, record, trolley, push, stance_rows(record), "/trolley",
+             "of /foot/force in stance, and drag");
+  add_motion(out, record, trolley, push, loaded_rows(record, normal), "/trolley/to_liftoff",
+             "of /foot/force until the foot is unloaded, and drag");
+}
+
+void add_slip(Series& out, const Record& record, const Machine& m) {
+  std::array<Column, 2> angle, rate;
+  for (std::size_t j = 0; j < 2; ++j) {
+    const std::string at = "/true/joint/" + m.robot.joints[j].name;
+    angle[j] = record.column(at + "/angle");
+    rate[j] = record.column(at + "/velocity");
+  }
+  Column trolley = record.column("/true/trolley/velocity");
+  if (!m.robot.trolley.present) trolley.assign(record.rows(), 0.0);
+  const robot::TwoLinks links = links_of(m);
+  const auto slip = [&](std::size_t i) {
+    return slip_velocity(links, {angle[0][i], angle[1][i]}, {rate[0][i], rate[1][i]},
+                         m.robot.foot.radius, trolley[i]);
+  };
+  out.scalar("/true/foot/slip", "m/s", "of the foot's lowest point along the ground",
+             rowwise(record, slip, angle[0], angle[1], rate[0], rate[1], trolley));
+}
+
+}  // namespace
+
+signals::Table derive(const signals::Table& table, const Machine& machine) {
+  const Record record(table, machine);
+  Series out(record);
+  for (std::size_t j = 0; j < machine.robot.joints.size(); ++j) add_joint(out, record, machine, j);
+  add_passive(out, record, machine);
+  if (has_leg(machine)) {
+    add_leg(out, record, machine);
+    add_trolley(out, record, machine);
+    add_slip(out, record, machine);
+  }
+  out.table.complete = table.complete;
+  return std::move(out.table);
+}
+
+}  // namespace sinew::analysis

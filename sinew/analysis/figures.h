@@ -1,0 +1,55 @@
+// analysis/figures.h - the parts of a summary, in its order. Each adds what the record allows.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "sinew/analysis/machine.h"
+#include "sinew/analysis/record.h"
+#include "sinew/analysis/summary.h"
+
+namespace sinew::analysis {
+
+struct Figures {
+  const Machine& machine;
+  const Record& record;  // of the log and of what derive() makes of it
+  Summary& summary;
+
+  // Absent where the topic is: a statistic of no samples is not a number.
+  template <class Statistic>
+  void add(std::string key, Statistic statistic, const Column& column,
+           const std::vector<double>& seconds) {
+    if (!column.empty()) summary.add(std::move(key), statistic(column, seconds));
+  }
+};
+
+inline constexpr double no_figure = std::numeric_limits<double>::quiet_NaN();
+
+// What is counted or used up, for rates over the sequence.
+struct Extent {
+  double steps = 0;             // complete ones; 0 where there is none
+  double distance = no_figure;  // true, over the sequence [m]
+};
+Extent extent_of(const Figures&);
+
+// An amount of the sequence, per step and per metre of the trolley's true way.
+void add_rates(Figures&, double amount, const std::string& per_step, const std::string& per_metre);
+
+// Of one muscle over the sequence: as commanded, and as its valves really stood open.
+double passiveness(const Figures&, const robot::Muscle&);
+double delivered_passiveness(const Figures&, const robot::Muscle&);
+
+void add_run(Figures&);
+void add_trolley(Figures&);
+void add_joints(Figures&);
+void add_muscles(Figures&);
+void add_passiveness(Figures&);
+void add_foot(Figures&);
+void add_ground_reaction(Figures&);
+void add_air(Figures&);
+void add_valves(Figures&);
+void add_phases(Figures&);
+
+}  // namespace sinew::analysis

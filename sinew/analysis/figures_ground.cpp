@@ -1,0 +1,213 @@
+// The run itself, trolley.*, foot.*, ground_reaction.*: what the leg does on the table.
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "sinew/analysis/figures.h"
+#include "sinew/analysis/foot.h"
+#include "sinew/analysis/laws.h"
+#include "sinew/analysis/statistics.h"
+
+namespace sinew::analysis {
+namespace {
+
+struct Travel {
+  double distance = no_figure;  // [m]
+  double time = no_figure;      // [s]
+};
+
+// Over the sequence, or up to the first row at which the track has ended.
+Travel travel(const Figures& f) {
+  const Column x = f.record.column("/true/trolley/position");
+  if (x.empty() || !f.record.has_sequence()) return {};
+  const std::size_t first = f.record.first_row();
+  std::size_t end = f.record.end_row();
+  for (std::size_t i = first; i < end; ++i)
+    if (x[i] >= f.machine.robot.trolley.track_length) end = i;
+  return {.distance = x[end] - x[first], .time = f.record.time(end) - f.record.time(first)};
+}
+
+// Steps by their place in the sequence; every phase of a step by its share of the time.
+std::vector<Path> step_paths(const Record& record, const Column& x, const Column& y) {
+  const std::vector<int> steps = record.complete_steps();
+  std::map<int, Path> paths;
+  for (std::size_t i = 1; i < steps.size(); ++i) paths[steps[i]];
+  for (const Stretch& s : record.stretches()) {
+    const auto path = paths.find(s.step);
+    if (path == paths.end()) continue;
+    const auto px = at_progress(x, s.first, s.last, points_per_phase);
+    const auto py = at_progress(y, s.first, s.last, points_per_phase);
+    for (std::size_t k = 0; k < px.size(); ++k) path->second.push_back({px[k], py[k]});
+  }
+  std::vector<Path> out;
+  for (auto& [step, path] : paths) out.push_back(std::move(path));
+  return out;
+}
+
+// The time that each point of a path stands for, of the first step that is compared.
+std::vector<double> point_weights(const Record& record) {
+  const std::vector<int> steps = record.complete_steps();
+  std::vector<double> out;
+  if (steps.size() < 2) return out;
+  for (const Stretch& s : record.stretches())
+    if (s.step == steps[1])
+      out.insert(out.end(), points_per_phase, record.end_of(s.last - 1) - record.time(s.first));
+  return out;
+}
+
+double step_repeat(const Record& record, const std::string& topic) {
+  const Column x = record.column(topic, "x"), y = record.column(topic, "y");
+  if (x.empty() || y.empty()) return no_figure;
+  const std::vector<Path> paths = step_paths(record, x, y);
+  return repeat_rms(paths, point_weights(record));
+}
+
+// Distance of the foot from where it should be, row by row.
+Column foot_error(const Record& record) {
+  const Column x = record.column("/foot/position", "x"), y = record.column("/foot/position", "y");
+  const Column wx = record.column("/desired/foot/position", "x");
+  const Column wy = record.column("/desired/foot/position", "y");
+  if (x.empty() || y.empty() || wx.empty() || wy.empty()) return {};
+  Column out(record.rows());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::hypot(x[i] - wx[i], y[i] - wy[i]);
+  return out;
+}
+
+// While the foot stands on the ground: does it stick (1), does it slide (0)? Else not a number.
+struct Contact {
+  Column sticks, slides;  // [-], |slip velocity| [m/s]
+};
+
+Contact contact(const Record& record) {
+  const Column normal = record.column("/true/foot/force", "y");
+  const Column slip = record.column("/true/foot/slip");
+  if (normal.empty() || slip.empty()) return {};
+  Contact out;
+  for (std::size_t i = 0; i < record.rows(); ++i) {
+    const bool stands = normal[i] > 0;
+    const double speed = std::abs(slip[i]);
+    out.sticks.push_back(stands && speed < sticking ? 1.0 : 0.0);
+    out.slides.push_back(stands ? speed : 0.0);
+  }
+  return out;
+}
+
+void add_stick(Figures& f) {
+  const Contact c = contact(f.record);
+  if (c.sticks.empty()) return;
+  const int propulsion = find_phase(f.machine, "propulsion");
+  if (propulsion >= 0) {
+    f.summary.add("foot.stick_share_first_half_propulsion",
+                  mean(c.sticks, f.record.part(propulsion, 0.0, 0.5)));
+    f.summary.add("foot.stick_share_propulsion",
+                  mean(c.sticks, f.record.part(propulsion, 0.0, 1.0)));
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < c.slides.size(); ++i)
+    if (f.record.stance()[i] > 0 && std::isfinite(c.slides[i]))
+      sum += c.slides[i] * f.record.stance()[i];
+  const double steps = extent_of(f).steps;
+  if (steps > 0) f.summary.add("foot.slip_per_step_m", sum / steps);
+}
+
+// The kick of 6.4: from the retracted hold to the first peak of x.
+void add_kick(Figures& f) {
+  const int kick = find_phase(f.machine, "kick");
+  const Stretch* s = kick >= 0 ? f.record.last_of(kick) : nullptr;
+  const Column x = f.record.column("/foot/position", "x");
+  if (!s || x.empty()) return;
+  const Rise r = rise(Values(x).subspan(s->first, s->last - s->first), f.record.period());
+  if (!r.found) return;
+  f.summary.add("foot.extension_time_s", r.partial);
+  f.summary.add("foot.extension_whole_time_s", r.whole);
+}
+
+struct Components {
+  Column x, y;
+  bool empty() const { return x.empty() || y.empty(); }
+};
+
+Components force(const Record& record, const std::string& topic) {
+  return {record.column(topic, "x"), record.column(topic, "y")};
+}
+
+void add_force_errors(Figures& f, const Components& estimate, const Components& real) {
+  Column both(f.record.rows()), normal(f.record.rows());
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    normal[i] = estimate.y[i] - real.y[i];
+    both[i] = std::hypot(estimate.x[i] - real.x[i], normal[i]);
+  }
+  const std::string key = "ground_reaction.";
+  f.add(key + "estimate_rms_error_N", rms, both, f.record.stance());
+  f.add(key + "estimate_rms_error_normal_N", rms, normal, f.record.stance());
+  f.add(key + "estimate_mean_error_normal_N", mean, normal, f.record.stance());
+}
+
+}  // namespace
+
+Extent extent_of(const Figures& f) {
+  return {.steps = static_cast<double>(f.record.complete_steps().size()),
+          .distance = travel(f).distance};
+}
+
+void add_rates(Figures& f, double amount, const std::string& per_step,
+               const std::string& per_metre) {
+  const Extent extent = extent_of(f);
+  if (extent.steps > 0) f.summary.add(per_step, amount / extent.steps);
+  if (extent.distance > 0) f.summary.add(per_metre, amount / extent.distance);
+}
+
+void add_run(Figures& f) {
+  const Record& r = f.record;
+  f.summary.add("duration_s", r.end_of(r.rows() - 1) - r.time(0));
+  if (!r.has_sequence()) return;
+  f.summary.add("sequence_duration_s", r.sequence_end() - r.sequence_start());
+  f.summary.add("steps", extent_of(f).steps);
+  f.add("unreachable_share", mean, r.column("/plan/unreachable"), r.sequence());
+}
+
+void add_trolley(Figures& f) {
+  const Travel real = travel(f);
+  f.summary.add("trolley.distance_m", real.distance);
+  f.summary.add("trolley.mean_speed_m_per_s", real.distance / real.time);
+  f.add("trolley.peak_speed_m_per_s", largest, f.record.column("/true/trolley/velocity"),
+        f.record.sequence());
+
+  if (!f.record.has_sequence() || !f.machine.robot.ground.present) return;
+  const auto from_torques = [&](const std::string& topic) {
+    const Column x = f.record.column(topic);
+    return x.empty() ? no_figure : x[f.record.end_row()];
+  };
+  const double distance = from_torques("/trolley/position");
+  const double time = f.record.sequence_end() - f.record.sequence_start();
+  f.summary.add("trolley.distance_from_torques_m", distance);
+  f.summary.add("trolley.mean_speed_from_torques_m_per_s", distance / time);
+  f.summary.add("trolley.distance_from_torques_to_liftoff_m",
+                from_torques("/trolley/to_liftoff/position"));
+}
+
+void add_foot(Figures& f) {
+  if (!has_leg(f.machine)) return;
+  f.add("foot.tracking_rms_m", rms, foot_error(f.record), f.record.sequence());
+  f.summary.add("foot.step_repeat_rms_m", step_repeat(f.record, "/foot/position"));
+  f.summary.add("foot.step_repeat_true_rms_m", step_repeat(f.record, "/true/foot/position"));
+  if (f.machine.robot.ground.present) add_stick(f);
+  add_kick(f);
+}
+
+void add_ground_reaction(Figures& f) {
+  if (!f.machine.robot.ground.present) return;
+  const std::vector<double>& stance = f.record.stance();
+  const Components estimate = force(f.record, "/foot/force");
+  const Components real = force(f.record, "/true/foot/force");
+  const std::string key = "ground_reaction.";
+  f.add(key + "mean_normal_stance_N", mean, estimate.y, stance);
+  f.add(key + "peak_normal_N", largest, estimate.y, stance);
+  f.add(key + "peak_friction_N", largest, estimate.x, stance);
+  f.add(key + "mean_normal_stance_true_N", mean, real.y, stance);
+  f.add(key + "peak_normal_true_N", largest, real.y, stance);
+  f.add(key + "peak_friction_true_N", largest, real.x, stance);
+  if (!estimate.empty() && !real.empty()) add_force_errors(f, estimate, real);
+}
+
+}  // namespace sinew::analysis

@@ -1,0 +1,122 @@
+// joints.<j>.*, and phases.<p>.*: angles, tracking, stiffness, torque.
+#include <algorithm>
+#include <string>
+
+#include "sinew/analysis/figures.h"
+#include "sinew/analysis/statistics.h"
+
+namespace sinew::analysis {
+namespace {
+
+constexpr std::string_view relaxed = "relaxed";  // how such a phase's name begins
+
+// The row at which a relaxed joint is looked at; rows() where there is none.
+std::size_t relaxed_row(const Figures& f) {
+  for (auto s = f.record.stretches().rbegin(); s != f.record.stretches().rend(); ++s)
+    if (phase_name(f.machine, s->phase).substr(0, relaxed.size()) == relaxed) return s->last - 1;
+
+  // Settling leaves the exhausts open: in the air, where nothing else holds the joints.
+  const bool settled = f.record.has_sequence() && f.record.first_row() > 0;
+  if (settled && !f.machine.robot.ground.present) return f.record.first_row() - 1;
+  return f.record.rows();
+}
+
+void add_angles(Figures& f, const std::string& joint, const std::string& key) {
+  const std::vector<double>& sequence = f.record.sequence();
+  const Column angle = f.record.column("/joint/" + joint + "/angle");
+  const Column real = f.record.column("/true/joint/" + joint + "/angle");
+  f.add(key + "min_angle_rad", smallest, angle, sequence);
+  f.add(key + "max_angle_rad", largest, angle, sequence);
+  f.add(key + "min_angle_true_rad", smallest, real, sequence);
+  f.add(key + "max_angle_true_rad", largest, real, sequence);
+
+  const std::size_t row = relaxed_row(f);
+  if (row >= f.record.rows()) return;
+  if (!angle.empty()) f.summary.add(key + "relaxed_angle_rad", angle[row]);
+  if (!real.empty()) f.summary.add(key + "relaxed_angle_true_rad", real[row]);
+}
+
+// The swings of all steps but the first, which comes from wherever the machine was put.
+std::vector<double> later_swings(const Figures& f) {
+  std::vector<double> out = f.record.swing();
+  for (const Stretch& s : f.record.stretches())
+    if (s.step == 0)
+      std::fill(out.begin() + static_cast<std::ptrdiff_t>(s.first),
+                out.begin() + static_cast<std::ptrdiff_t>(s.last), 0.0);
+  return out;
+}
+
+void add_control(Figures& f, const std::string& joint, const std::string& key) {
+  const std::vector<double>& sequence = f.record.sequence();
+  const std::string at = "/joint/" + joint;
+  f.add(key + "tracking_rms_rad", rms, f.record.column(at + "/error"), sequence);
+  const Column oscillation = f.record.column(at + "/oscillation");
+  f.add(key + "swing_oscillation_rms_rad", rms, oscillation, f.record.swing());
+  f.add(key + "swing_oscillation_later_steps_rms_rad", rms, oscillation, later_swings(f));
+
+  const Column believed = f.record.column(at + "/stiffness");
+  const Column real = f.record.column("/true" + at + "/stiffness");
+  f.add(key + "stiffness_mean_Nm_per_rad", mean, believed, sequence);
+  f.add(key + "stiffness_std_Nm_per_rad", deviation, believed, sequence);
+  f.add(key + "stiffness_mean_true_Nm_per_rad", mean, real, sequence);
+  f.add(key + "stiffness_std_true_Nm_per_rad", deviation, real, sequence);
+  f.add(key + "peak_torque_Nm", largest_magnitude, f.record.column(at + "/torque"), sequence);
+  f.add(key + "peak_torque_true_Nm", largest_magnitude, f.record.column("/true" + at + "/torque"),
+        sequence);
+}
+
+// Where one phase leaves the machine.
+void add_end(Figures& f, const std::string& key, std::size_t row) {
+  const auto last = [&](const std::string& name, const std::string& topic) {
+    const Column column = f.record.column(topic);
+    if (!column.empty()) f.summary.add(key + name, column[row]);
+  };
+  for (const robot::Joint& j : f.machine.robot.joints) {
+    last("joints." + j.name + ".end_angle_rad", "/joint/" + j.name + "/angle");
+    last("joints." + j.name + ".end_angle_true_rad", "/true/joint/" + j.name + "/angle");
+  }
+  for (const robot::Muscle& m : f.machine.robot.muscles)
+    last("muscles." + m.name + ".end_pressure_Pa", "/true/muscle/" + m.name + "/pressure");
+}
+
+// Of all the times that it was gone through  [s].
+double mean_duration(const Record& record, int phase) {
+  double sum = 0, n = 0;
+  for (const Stretch& s : record.stretches()) {
+    if (s.phase != phase) continue;
+    sum += record.end_of(s.last - 1) - record.time(s.first);
+    ++n;
+  }
+  return sum / n;
+}
+
+}  // namespace
+
+void add_joints(Figures& f) {
+  for (const robot::Joint& joint : f.machine.robot.joints) {
+    const std::string key = "joints." + joint.name + ".";
+    add_angles(f, joint.name, key);
+    add_control(f, joint.name, key);
+    // Its passiveness is that of its muscles.
+    double commanded = no_figure, delivered = no_figure;
+    for (const robot::Muscle& m : f.machine.robot.muscles) {
+      if (m.joint != joint.name) continue;
+      commanded = std::fmin(commanded, passiveness(f, m));
+      delivered = std::fmin(delivered, delivered_passiveness(f, m));
+    }
+    f.summary.add(key + "passiveness", commanded);
+    f.summary.add(key + "passiveness_delivered", delivered);
+  }
+}
+
+void add_phases(Figures& f) {
+  for (std::size_t i = 0; i < f.machine.phases.size(); ++i) {
+    const Stretch* stretch = f.record.last_of(static_cast<int>(i));
+    if (!stretch) continue;
+    const std::string key = "phases." + f.machine.phases[i] + ".";
+    f.summary.add(key + "mean_duration_s", mean_duration(f.record, static_cast<int>(i)));
+    add_end(f, key, stretch->last - 1);
+  }
+}
+
+}  // namespace sinew::analysis

@@ -1,0 +1,168 @@
+// muscles.<m>.*, passiveness, air, valves: what the muscles do and what they cost.
+#include <cmath>
+#include <string>
+
+#include "sinew/analysis/figures.h"
+#include "sinew/analysis/laws.h"
+#include "sinew/analysis/statistics.h"
+#include "sinew/analysis/valves.h"
+
+namespace sinew::analysis {
+namespace {
+
+std::string topic(const robot::Muscle& m, const char* what) {
+  return "/muscle/" + m.name + "/" + what;
+}
+
+double mean_duty(const Figures& f, const robot::Muscle& m, const char* what) {
+  return mean(f.record.column(topic(m, what)), f.record.sequence());
+}
+
+// The valve's edges; nothing where the log has none. A valve that never opens has an empty series.
+struct Switching {
+  bool logged = false;
+  Edges electrical, delivered;
+};
+
+Switching switching(const Figures& f, const robot::Muscle& m, const char* which) {
+  const signals::Series* s = f.record.table().find("/valve/" + m.name + "/" + which + "/open");
+  if (!s || s->columns.empty()) return {};
+  const bool inlet = std::string_view(which) == "inlet";
+  const ValveDelays delays = delays_of(f.machine, inlet ? m.inlet : m.exhaust);
+  Switching out{.logged = true, .electrical = edges_of(s->time_ns, s->columns[0]), .delivered = {}};
+  out.delivered = delivered(out.electrical, delays.opening, delays.closing);
+  return out;
+}
+
+// Share of the sequence's time in which the valve really stands open.
+double delivered_duty(const Figures& f, const robot::Muscle& m, const char* which) {
+  if (!f.record.has_sequence()) return no_figure;
+  const Switching s = switching(f, m, which);
+  if (!s.logged) return no_figure;
+  const double from = f.record.sequence_start(), to = f.record.sequence_end();
+  return open_time(s.delivered, from, to) / (to - from);
+}
+
+// Of a topic that only grows: what it gains between two rows.
+double gained(const Figures& f, const std::string& name, std::size_t from, std::size_t to) {
+  const Column c = f.record.column(name);
+  return c.empty() ? no_figure : c[to] - c[from];
+}
+
+double air_in(const Figures& f, const robot::Muscle& m) {
+  return gained(f, "/true" + topic(m, "air_in"), 0, f.record.rows() - 1);
+}
+
+// What the converter says of a muscle's tension; nothing where it has no transducer.
+struct Reading {
+  const robot::Sensor* sensor = nullptr;
+  Column counts;
+};
+
+Reading reading(const Figures& f, std::size_t muscle) {
+  const int s = robot::tension_sensor_of(f.machine.robot, static_cast<int>(muscle));
+  if (s < 0) return {};
+  const robot::Sensor& sensor = f.machine.robot.sensors[static_cast<std::size_t>(s)];
+  return {&sensor, f.record.column("/sensor/" + sensor.name + "/count")};
+}
+
+// Share of the sequence at the converter's ceiling.
+double clipped(const Figures& f, Reading r) {
+  for (double& c : r.counts)
+    if (std::isfinite(c)) c = c >= f.machine.robot.converter.top() ? 1.0 : 0.0;
+  return mean(r.counts, f.record.sequence());
+}
+
+// The largest tension that the controller believes: one scale for all transducers  [N].
+double believed_peak(const Figures& f, const Reading& r) {
+  if (!r.sensor || !(r.sensor->assumed_scale > 0)) return no_figure;
+  const double counts = largest(r.counts, f.record.sequence());
+  return (counts - r.sensor->assumed_at_rest) /
+         (r.sensor->assumed_scale * f.machine.robot.converter.counts_per_volt());
+}
+
+// All valves together, electrical, within [from, to).
+struct Use {
+  double openings = 0, time = 0;  // [s]
+  bool logged = false;
+};
+
+Use use_of_valves(const Figures& f, double from, double to) {
+  Use use;
+  for (const robot::Muscle& m : f.machine.robot.muscles)
+    for (const char* which : {"inlet", "exhaust"}) {
+      const Switching s = switching(f, m, which);
+      use.logged = use.logged || s.logged;
+      use.openings += openings(s.electrical, from, to);
+      use.time += open_time(s.electrical, from, to);
+    }
+  return use;
+}
+
+}  // namespace
+
+double passiveness(const Figures& f, const robot::Muscle& m) {
+  return passive(mean_duty(f, m, "inlet_duty"), mean_duty(f, m, "exhaust_duty"));
+}
+
+double delivered_passiveness(const Figures& f, const robot::Muscle& m) {
+  return passive(delivered_duty(f, m, "inlet"), delivered_duty(f, m, "exhaust"));
+}
+
+void add_muscles(Figures& f) {
+  const std::vector<double>& sequence = f.record.sequence();
+  for (std::size_t i = 0; i < f.machine.robot.muscles.size(); ++i) {
+    const robot::Muscle& m = f.machine.robot.muscles[i];
+    const std::string key = "muscles." + m.name + ".";
+    f.add(key + "peak_tension_N", largest, f.record.column("/true" + topic(m, "tension")),
+          sequence);
+    f.add(key + "measured_peak_tension_N", largest, f.record.column(topic(m, "tension")), sequence);
+    f.summary.add(key + "believed_peak_tension_N", believed_peak(f, reading(f, i)));
+    f.summary.add(key + "clipped_share", clipped(f, reading(f, i)));
+    f.summary.add(key + "mean_inlet_duty", mean_duty(f, m, "inlet_duty"));
+    f.summary.add(key + "mean_exhaust_duty", mean_duty(f, m, "exhaust_duty"));
+    f.summary.add(key + "delivered_inlet_duty", delivered_duty(f, m, "inlet"));
+    f.summary.add(key + "delivered_exhaust_duty", delivered_duty(f, m, "exhaust"));
+    f.summary.add(key + "passiveness", passiveness(f, m));
+    f.summary.add(key + "passiveness_delivered", delivered_passiveness(f, m));
+    f.summary.add(key + "air_used_kg", air_in(f, m));
+  }
+}
+
+void add_passiveness(Figures& f) {
+  double commanded = no_figure, delivered = no_figure;
+  for (const robot::Muscle& m : f.machine.robot.muscles) {
+    commanded = std::fmin(commanded, passiveness(f, m));
+    delivered = std::fmin(delivered, delivered_passiveness(f, m));
+  }
+  f.summary.add("passiveness", commanded);
+  f.summary.add("passiveness_delivered", delivered);
+}
+
+void add_air(Figures& f) {
+  double all = 0, in_sequence = 0;
+  for (const robot::Muscle& m : f.machine.robot.muscles) {
+    all += air_in(f, m);
+    if (f.record.has_sequence())
+      in_sequence +=
+          gained(f, "/true" + topic(m, "air_in"), f.record.first_row(), f.record.end_row());
+  }
+  f.summary.add("air_used_kg", all);
+  add_rates(f, in_sequence, "air_used_per_step_kg", "air_used_kg_per_m");
+}
+
+void add_valves(Figures& f) {
+  const std::size_t last = f.record.rows() - 1;
+  const Use run = use_of_valves(f, f.record.time(0), f.record.end_of(last));
+  if (!run.logged) return;
+  Use walk;
+  if (f.record.has_sequence())
+    walk = use_of_valves(f, f.record.sequence_start(), f.record.sequence_end());
+
+  f.summary.add("valves.switchings", run.openings);
+  add_rates(f, walk.openings, "valves.switchings_per_step", "valves.switchings_per_m");
+  f.summary.add("valves.coil_time_s", run.time);
+  add_rates(f, walk.time, "valves.coil_time_per_step_s", "valves.coil_time_s_per_m");
+}
+
+}  // namespace sinew::analysis

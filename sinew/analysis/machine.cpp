@@ -1,0 +1,145 @@
+#include "sinew/analysis/machine.h"
+
+#include <algorithm>
+#include <array>
+
+#include "sinew/actuator/actuator.fields.h"
+#include "sinew/analysis/reported.fields.h"
+#include "sinew/config/reader.h"
+#include "sinew/robot/robot.fields.h"
+
+namespace sinew::analysis {
+namespace {
+
+using units::Field;
+
+constexpr std::array<std::string_view, 2> stance_phases = {"foot_plant", "propulsion"};
+constexpr std::string_view swing_phase = "swing";
+
+// Tables whose keys matter to others; here only that they are there.
+struct Named {
+  std::string name;
+};
+
+// What of a valve's table says when it opens.
+struct ValveTable {
+  enum class Profile { ideal, dead_time, ramp };
+
+  std::string name;
+  Profile profile = Profile::dead_time;
+  double opening_delay = 0, closing_delay = 0, opening_ramp = 0, closing_ramp = 0;
+};
+
+template <class Visitor>
+void fields(Visitor& v, ValveTable& valve) {
+  v.choice({.name = "profile", .doc = "of the shutter"}, valve.profile,
+           {{"ideal", ValveTable::Profile::ideal},
+            {"dead time", ValveTable::Profile::dead_time},
+            {"ramp", ValveTable::Profile::ramp}});
+  const auto seconds = [&](std::string_view name, double& value) {
+    v.number({.name = name, .unit = "s", .min = 0, .optional = true}, value);
+  };
+  seconds("opening_delay", valve.opening_delay);
+  seconds("closing_delay", valve.closing_delay);
+  seconds("opening_ramp", valve.opening_ramp);
+  seconds("closing_ramp", valve.closing_ramp);
+}
+
+ValveDelays delays(const ValveTable& valve) {
+  if (valve.profile == ValveTable::Profile::ideal) return {.name = valve.name};
+  return {.name = valve.name,
+          .opening = valve.opening_delay + 0.5 * valve.opening_ramp,
+          .closing = valve.closing_delay + 0.5 * valve.closing_ramp};
+}
+
+// First: what is gauge in the rest depends on it.
+double read_atmosphere(const config::Node& root) {
+  config::Reader reader(root);
+  double atmosphere = units::atmosphere;
+  reader.group({.name = "air", .optional = true}, [&](auto& g) {
+    g.number({.name = "atmosphere", .unit = "Pa abs", .min = 1e4, .max = 2e5, .optional = true},
+             atmosphere);
+  });
+  return atmosphere;
+}
+
+void read_parts(config::Reader& reader, Machine& m) {
+  robot::fields(reader, m.robot);
+  reader.each({.name = "actuator"}, m.actuators,
+              [](auto& g, actuator::Actuator& a) { actuator::fields(g, a); });
+  std::vector<ValveTable> valves;
+  reader.each({.name = "valve", .optional = true}, valves,
+              [](auto& g, ValveTable& valve) { fields(g, valve); });
+  for (const ValveTable& valve : valves) m.valves.push_back(delays(valve));
+}
+
+void read_run(config::Reader& reader, Machine& m) {
+  reader.text({.name = "title", .optional = true}, m.title);
+  reader.text({.name = "reproduces", .optional = true}, m.reproduces);
+  reader.group({.name = "sequence", .optional = true},
+               [&](auto& g) { g.texts({.name = "phases", .optional = true}, m.sequence); });
+
+  std::vector<Named> phases;
+  reader.each({.name = "phase", .optional = true}, phases, [](auto&, Named&) {});
+  for (const Named& phase : phases) m.phases.push_back(phase.name);
+
+  reader.group({.name = "log", .optional = true}, [&](auto& g) {
+    g.number({.name = "period", .unit = "s", .min = 1e-4, .optional = true}, m.period);
+  });
+  reader.list({.name = "reported", .optional = true}, m.reported,
+              [&](auto& g, Reported& r) { fields(g, r, m.atmosphere); });
+}
+
+}  // namespace
+
+Machine read_machine(const config::Node& root) {
+  Machine m;
+  m.atmosphere = read_atmosphere(root);
+  config::Reader reader(root, {.atmosphere = m.atmosphere});
+  read_parts(reader, m);
+  read_run(reader, m);
+  reader.finish_part();
+  return m;
+}
+
+std::string_view phase_name(const Machine& m, int phase) {
+  if (phase < 0 || phase >= static_cast<int>(m.phases.size())) return {};
+  return m.phases[static_cast<std::size_t>(phase)];
+}
+
+bool is_stance(const Machine& m, int phase) {
+  return std::find(stance_phases.begin(), stance_phases.end(), phase_name(m, phase)) !=
+         stance_phases.end();
+}
+
+bool is_swing(const Machine& m, int phase) { return phase_name(m, phase) == swing_phase; }
+
+int find_phase(const Machine& m, std::string_view name) {
+  for (std::size_t i = 0; i < m.phases.size(); ++i)
+    if (m.phases[i] == name) return static_cast<int>(i);
+  return -1;
+}
+
+bool has_leg(const Machine& m) {
+  return m.robot.foot.present && m.robot.links.size() == 2 && m.robot.joints.size() == 2;
+}
+
+robot::TwoLinks links_of(const Machine& m) {
+  return {m.robot.links.at(0).length, m.robot.links.at(1).length};
+}
+
+actuator::Actuator actuator_of(const Machine& m, const robot::Muscle& muscle) {
+  actuator::Actuator out;
+  for (const actuator::Actuator& a : m.actuators)
+    if (a.name == muscle.actuator) out = a;
+  out.bladder = {.stiffness = muscle.bladder_stiffness, .rest_length = muscle.bladder_rest_length};
+  return out;
+}
+
+ValveDelays delays_of(const Machine& m, std::string_view valve) {
+  for (const ValveDelays& v : m.valves)
+    if (v.name == valve) return v;
+  return {};
+}
+
+}  // namespace sinew::analysis

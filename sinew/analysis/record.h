@@ -1,0 +1,80 @@
+// analysis/record.h - a log as rows: every topic at the same times, and which phase each row is in.
+//
+// Rows stand at the samples of /plan/phase, or of the first joint's angle where a log has no plan.
+// A topic with other times is held from one of its samples to the next. A row holds until the next
+// one; the last one as long as the one before it.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "sinew/analysis/machine.h"
+#include "sinew/analysis/statistics.h"
+#include "sinew/signals/table.h"
+
+namespace sinew::analysis {
+
+using Column = std::vector<double>;  // a value per row; empty: the log has no such topic
+
+// One phase of one step: rows first .. last - 1.
+struct Stretch {
+  int phase = 0, step = 0;
+  std::size_t first = 0, last = 0;
+};
+
+class Record {
+ public:
+  // `more` may hold derived series; all three outlive the record.
+  Record(const signals::Table& table, const Machine& machine, const signals::Table* more = nullptr);
+
+  std::size_t rows() const { return seconds_.size(); }
+  const std::vector<std::int64_t>& time_ns() const { return time_ns_; }
+  double time(std::size_t row) const { return 1e-9 * static_cast<double>(time_ns_[row]); }
+  double end_of(std::size_t row) const { return time(row) + seconds_[row]; }  // [s]
+  double period() const { return period_; }                                   // median [s]
+
+  Column column(std::string_view topic, std::string_view field = "value") const;
+  const signals::Table& table() const { return *table_; }
+
+  // How long each row holds; 0 where it does not belong  [s].
+  const std::vector<double>& run() const { return seconds_; }
+  const std::vector<double>& sequence() const { return sequence_; }
+  const std::vector<double>& stance() const { return stance_; }
+  const std::vector<double>& swing() const { return swing_; }
+  // Rows of that phase (-1: any), with progress in [from, to) of its time.
+  std::vector<double> part(int phase, double from, double to) const;
+
+  const std::vector<Stretch>& stretches() const { return stretches_; }
+  const Stretch* last_of(int phase) const;  // nullptr: the phase never was
+  bool has_sequence() const { return !stretches_.empty(); }
+  std::size_t first_row() const { return stretches_.front().first; }
+  std::size_t last_row() const { return stretches_.back().last - 1; }
+  // The row at which the sequence is over; its last one where nothing was logged afterwards.
+  std::size_t end_row() const { return last_row() + 1 < rows() ? last_row() + 1 : last_row(); }
+  double sequence_start() const { return time(first_row()); }  // [s]
+  double sequence_end() const { return end_of(last_row()); }   // [s]
+
+  // Steps that went through every phase. Of a log that was cut the last one is not.
+  std::vector<int> complete_steps() const;
+
+ private:
+  void find_times();
+  void find_stretches();
+  std::vector<double> only(const std::function<bool(const Stretch&)>& wanted) const;
+
+  const signals::Table* table_;
+  const signals::Table* more_;
+  const Machine* machine_;
+  std::vector<std::int64_t> time_ns_;
+  std::vector<double> seconds_, sequence_, stance_, swing_;
+  double period_ = 0;
+  std::vector<Stretch> stretches_;
+};
+
+// Values at `at`, each held until the next one; not a number before the first.
+Column held(const std::vector<std::int64_t>& times, const std::vector<double>& values,
+            const std::vector<std::int64_t>& at);
+
+}  // namespace sinew::analysis

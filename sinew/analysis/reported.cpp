@@ -1,0 +1,158 @@
+#include "sinew/analysis/reported.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "sinew/analysis/summary.h"
+#include "sinew/config/diagnostics.h"
+
+namespace sinew::analysis {
+namespace {
+
+// Longest first: "_m_per_s" ends with "_s" too.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 13> endings = {{
+    {"_Nm_per_rad", "N m/rad"},
+    {"_m_per_s", "m/s"},
+    {"_kg_per_m", "kg/m"},
+    {"_s_per_m", "s/m"},
+    {"_per_m", "1/m"},
+    {"_rad", "rad"},
+    {"_Nm", "N m"},
+    {"_kg", "kg"},
+    {"_Pa", "Pa abs"},
+    {"_N", "N"},
+    {"_J", "J"},
+    {"_m", "m"},
+    {"_s", "s"},
+}};
+
+struct Band {
+  double lowest = 0, highest = 0;
+};
+
+struct BandOrMistake {
+  Band band;
+  std::optional<config::Mistake> mistake;
+};
+
+// Of an `accept` that is not empty.
+BandOrMistake read_band(const Reported& r, double atmosphere) {
+  if (r.accept.size() != 2)
+    return {{},
+            config::Mistake{fmt::format("{} values", r.accept.size()),
+                            "two: the lowest and the highest that agrees", ""}};
+  const std::string unit = unit_of_key(r.key);
+  std::array<double, 2> si{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const config::Parsed parsed = config::parse_quantity(r.accept[i], unit, atmosphere);
+    if (parsed.mistake) return {{}, parsed.mistake};
+    si[i] = parsed.si;
+  }
+  if (si[0] > si[1])
+    return {{},
+            config::Mistake{fmt::format("\"{}\" before \"{}\"", r.accept[0], r.accept[1]),
+                            "the lowest first", ""}};
+  return {{si[0], si[1]}, std::nullopt};
+}
+
+bool is_unit(std::string_view text, const std::string& unit, double atmosphere) {
+  return !config::parse_quantity(fmt::format("1 {}", text), unit, atmosphere).mistake;
+}
+
+// What follows the last number: "in" of "55 to 60 in", "psi gauge" of "100 psi gauge".
+std::string_view after_last_number(std::string_view text) {
+  std::size_t number = text.npos;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool starts_word = i == 0 || text[i - 1] == ' ';
+    if (starts_word && std::string_view("+-.0123456789").find(text[i]) != text.npos) number = i;
+  }
+  if (number == text.npos) return {};
+  const std::size_t end = text.find_first_not_of("+-.0123456789", number);
+  const std::size_t unit = text.find_first_not_of(' ', end);
+  return unit == text.npos ? std::string_view{} : text.substr(unit);
+}
+
+// The unit in which the source speaks; where its text has none, that of `accept`, else SI.
+std::string spoken_unit(const Reported& r, double atmosphere) {
+  const std::string unit = unit_of_key(r.key);
+  std::string_view text = after_last_number(r.value);
+  if (!text.empty() && is_unit(text, unit, atmosphere)) return std::string(text);
+  if (!r.accept.empty()) {
+    text = after_last_number(r.accept.back());
+    if (!text.empty() && is_unit(text, unit, atmosphere)) return std::string(text);
+  }
+  return unit;
+}
+
+Verdict judge(const Summary& summary, const Reported& r, double atmosphere) {
+  Verdict v{.key = r.key, .reported = r.value, .ours = {}, .accept = {}, .source = r.source};
+  std::optional<Band> band;
+  if (!r.accept.empty()) {
+    const BandOrMistake read = read_band(r, atmosphere);
+    if (read.mistake) {
+      const config::Mistake& m = *read.mistake;
+      config::fail({"reported", 0, 0}, r.key + ": accept", m.found, m.expected, m.try_this);
+    }
+    band = read.band;
+    v.accept = fmt::format("{} to {}", r.accept[0], r.accept[1]);
+  }
+
+  const double* ours = summary.find(r.key);
+  if (!ours) return v;
+  v.ours = show(*ours, r.key, spoken_unit(r, atmosphere), atmosphere);
+  if (!band) return v;
+  const bool inside = *ours >= band->lowest && *ours <= band->highest;
+  v.is = inside ? Verdict::Is::agrees : Verdict::Is::differs;
+  return v;
+}
+
+}  // namespace
+
+std::string unit_of_key(std::string_view key) {
+  for (const auto& [ending, unit] : endings)
+    if (key.ends_with(ending)) return std::string(unit);
+  return "1";
+}
+
+std::optional<config::Mistake> mistake_in_accept(const Reported& r, double atmosphere) {
+  if (r.accept.empty()) return std::nullopt;
+  return read_band(r, atmosphere).mistake;
+}
+
+std::string_view to_text(Verdict::Is is) {
+  switch (is) {
+    case Verdict::Is::agrees:
+      return "agrees";
+    case Verdict::Is::differs:
+      return "differs";
+    case Verdict::Is::not_applicable:
+      break;
+  }
+  return "not applicable";
+}
+
+std::vector<Verdict> compare(const Summary& summary, const std::vector<Reported>& reported,
+                             double atmosphere) {
+  std::vector<Verdict> out;
+  for (const Reported& r : reported) out.push_back(judge(summary, r, atmosphere));
+  return out;
+}
+
+std::string show(double si, std::string_view key, std::string_view unit, double atmosphere) {
+  const double number = config::convert(si, unit_of_key(key), unit, atmosphere);
+  const double size = std::abs(number);
+  std::string text;
+  if (size < 1e-9) {
+    text = "0";  // what conversion left over
+  } else if (size < 0.95) {
+    text = fmt::format("{:.2g}", number);
+  } else {
+    text = fmt::format("{:.{}f}", number, size < 1000 ? 1 : 0);
+  }
+  return unit == "1" ? text : fmt::format("{} {}", text, unit);
+}
+
+}  // namespace sinew::analysis

@@ -1,0 +1,85 @@
+#include "sinew/analysis/summary.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sinew/analysis/derived.h"
+#include "sinew/analysis/figures.h"
+#include "sinew/config/quantity.h"
+
+namespace sinew::analysis {
+namespace {
+
+using Json = nlohmann::ordered_json;  // keys stay in the order in which they come
+
+// "a.b.c" becomes { a: { b: { c: value } } }.
+void put(Json& root, std::string_view key, double value) {
+  Json* at = &root;
+  for (std::size_t dot; (dot = key.find('.')) != key.npos; key.remove_prefix(dot + 1))
+    at = &(*at)[std::string(key.substr(0, dot))];
+  (*at)[std::string(key)] = value;
+}
+
+// Our own printing, for numbers with the fewest digits; nlohmann's may have one more.
+std::string text_of(const Json& json, const std::string& indent) {
+  if (json.is_number_float()) return config::format_number(json.get<double>());
+  if (!json.is_object()) return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (json.empty()) return "{}";
+
+  std::string out = "{";
+  const char* before = "\n";
+  for (const auto& [key, value] : json.items()) {
+    out += before + indent + "  " + Json(key).dump() + ": " + text_of(value, indent + "  ");
+    before = ",\n";
+  }
+  return out + "\n" + indent + "}";
+}
+
+}  // namespace
+
+void Summary::add(std::string key, double value) {
+  if (!std::isfinite(value)) return;
+  entries_.push_back({std::move(key), value == 0 ? 0.0 : value});  // no -0
+}
+
+const double* Summary::find(std::string_view key) const {
+  for (const Entry& e : entries_)
+    if (e.key == key) return &e.value;
+  return nullptr;
+}
+
+Summary summarize(const signals::Table& table, const Machine& machine) {
+  const signals::Table derived = derive(table, machine);
+  const Record record(table, machine, &derived);
+  Summary summary;
+  summary.title = machine.title;
+  summary.reproduces = machine.reproduces;
+  if (record.rows() == 0) return summary;
+
+  Figures figures{machine, record, summary};
+  add_run(figures);
+  add_trolley(figures);
+  add_joints(figures);
+  add_muscles(figures);
+  add_passiveness(figures);
+  add_foot(figures);
+  add_ground_reaction(figures);
+  add_air(figures);
+  add_valves(figures);
+  add_phases(figures);
+  return summary;
+}
+
+std::string to_json(const Summary& summary,
+                    const std::vector<std::pair<std::string, double>>& host) {
+  Json root;
+  root["format"] = "sinew.summary/1";
+  root["title"] = summary.title;
+  if (!summary.reproduces.empty()) root["reproduces"] = summary.reproduces;
+  for (const Entry& e : summary.entries()) put(root, e.key, e.value);
+  for (const auto& [key, value] : host)
+    if (std::isfinite(value)) put(root, "host." + key, value);
+  return text_of(root, "") + "\n";
+}
+
+}  // namespace sinew::analysis

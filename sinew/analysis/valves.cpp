@@ -1,0 +1,49 @@
+#include "sinew/analysis/valves.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace sinew::analysis {
+
+Edges edges_of(std::span<const std::int64_t> time_ns, std::span<const double> open) {
+  Edges out;
+  for (std::size_t i = 0; i < time_ns.size() && i < open.size(); ++i) {
+    const bool now = open[i] > 0.5, before = !out.empty() && out.back().open;
+    if (now != before) out.push_back({1e-9 * static_cast<double>(time_ns[i]), now});
+  }
+  return out;
+}
+
+Edges delivered(const Edges& electrical, double opening_delay, double closing_delay) {
+  // Edge and instant count as simultaneous within this  [s].
+  constexpr double simultaneous = 1e-9;
+  Edges out;
+  for (const Edge& e : electrical) {
+    const bool too_early = !out.empty() && out.back().time >= e.time - simultaneous;
+    if (too_early) {
+      out.pop_back();
+    } else {
+      out.push_back({e.time + (e.open ? opening_delay : closing_delay), e.open});
+    }
+  }
+  return out;
+}
+
+double open_time(const Edges& edges, double from, double to) {
+  double sum = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (!edges[i].open) continue;
+    const double shut =
+        i + 1 < edges.size() ? edges[i + 1].time : std::numeric_limits<double>::infinity();
+    sum += std::max(0.0, std::min(shut, to) - std::max(edges[i].time, from));
+  }
+  return sum;
+}
+
+int openings(const Edges& edges, double from, double to) {
+  return static_cast<int>(std::count_if(edges.begin(), edges.end(), [&](const Edge& e) {
+    return e.open && e.time >= from && e.time < to;
+  }));
+}
+
+}  // namespace sinew::analysis
