@@ -110,7 +110,8 @@ void Bank::move_valves(double t) noexcept {
 
 // Shares of area after a change. A 3-way valve that leaves the supply opens to the atmosphere.
 void Bank::refresh(double t) noexcept {
-  any_open_ = ramping_ = false;
+  ramping_ = false;
+  open_count_ = 0;
   next_change_ = std::numeric_limits<double>::infinity();
   for (int i = 0; i < size_; ++i) {
     const Muscle& m = muscles_[static_cast<std::size_t>(i)];
@@ -122,7 +123,8 @@ void Bank::refresh(double t) noexcept {
     if (m.inlet.kind == gas::Valve::Kind::three_way) share_[exhaust] = 1.0 - share_[inlet];
     const gas::Valve::Profile ramp = gas::Valve::Profile::ramp;
     ramping_ = ramping_ || m.inlet.profile == ramp || m.exhaust.profile == ramp;
-    any_open_ = any_open_ || ramping_ || share_[inlet] > 0 || share_[exhaust] > 0;
+    for (std::size_t v : {inlet, exhaust})
+      if (share_[v] > 0) open_[static_cast<std::size_t>(open_count_++)] = {static_cast<int>(v), share_[v]};
   }
 }
 
@@ -204,7 +206,7 @@ SINEW_WIDE void Bank::evaluate(double t, const Lanes& length, const Lanes& rate,
 
   if (any_sealed_) sealed_mesh(length, out);
   if (!all_stick_) loose_signs(rate, out);
-  if (any_open_) flows(t, y, out);
+  if (any_open()) flows(t, y, out);
 }
 
 // Beyond the reach of the series.
@@ -239,12 +241,22 @@ void Bank::loose_signs(const Lanes& rate, Pull& out) const noexcept {
 }
 
 void Bank::flows(double t, const Lanes& y, Pull& out) const noexcept {
-  for (int i = 0; i < size_; ++i) {
-    const double inlet = open_share(2 * i, t), exhaust = open_share(2 * i + 1, t);
-    const auto v = static_cast<std::size_t>(2 * i);
-    out.inflow[i] = inlet > 0 ? inlet * gas::flow_y(flow_[v], supply_y_, y[i]) : 0.0;
-    out.outflow[i] = exhaust > 0 ? exhaust * gas::flow_y(flow_[v + 1], y[i], 1.0) : 0.0;
-  }
+  for (int i = 0; i < padded_; i += lanes) out.inflow.four(i) = out.outflow.four(i) = Four{};
+  const auto through = [&](int valve, double share) {
+    const int i = valve / 2;
+    const gas::FlowConstants& c = flow_[static_cast<std::size_t>(valve)];
+    if (valve % 2 == 0)
+      out.inflow[i] = share * gas::flow_y(c, supply_y_, y[i]);
+    else
+      out.outflow[i] = share * gas::flow_y(c, y[i], 1.0);
+  };
+  if (ramping_)
+    for (int valve = 0; valve < 2 * size_; ++valve) through(valve, open_share(valve, t));
+  else
+    for (int k = 0; k < open_count_; ++k) {
+      const Open& open = open_[static_cast<std::size_t>(k)];
+      through(open.valve, open.share);
+    }
 }
 
 }  // namespace sinew::muscle

@@ -86,7 +86,7 @@ class Bank {
                 Pull& out) const noexcept;
 
   // True while some valve lets air through, or pressure could move without it.
-  bool any_open() const noexcept { return any_open_; }
+  bool any_open() const noexcept { return ramping_ || open_count_ > 0; }
 
   // Share of the valve's area that is open at t  [-].
   double open_share(int valve, double t) const noexcept;
@@ -127,9 +127,15 @@ class Bank {
   // Valves: two per muscle.
   std::vector<gas::Shutter> shutters_;
   std::vector<gas::FlowConstants> flow_;
+  struct Open {
+    int valve = 0;
+    double share = 0;  // of its area
+  };
   std::array<double, 2 * capacity> share_{};
+  std::array<Open, 2 * capacity> open_{};  // those that let air through
+  int open_count_ = 0;
   double next_change_ = 0;
-  bool any_open_ = false, ramping_ = false;
+  bool ramping_ = false;
 };
 
 }  // namespace sinew::muscle

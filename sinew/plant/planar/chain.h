@@ -13,7 +13,8 @@
 //   A_ii = I_i + m_i r_i^2 + l_i^2 (masses beyond i),  A_ij = l_i c_j for i < j    [kg m^2]
 //   M    all that moves along the track [kg];  x trolley [m];  F, Q generalised forces [N], [N m]
 //
-// Solved by eliminating the trolley and an LDL^T of the N x N rest. Without trolley 1/M = 0.
+// Solved by eliminating the trolley and an LDL^T of the N x N rest; for N = 2 by Cramer's rule, which
+// has one division to wait for in place of two. Without trolley 1/M = 0.
 #pragma once
 
 #include <array>
@@ -79,16 +80,15 @@ class Chain {
 
   // Accelerations that the forces alone cause: the inverse mass matrix times `force`.
   Generalised<N> response(const Generalised<N>& force) const {
-    // Eliminate the trolley, then forward and back substitution.
-    std::array<double, N> a;
     const double push = force.x * k_.inverse_total_mass;
-    for (int i = 0; i < N; ++i) {
-      a[i] = force.angle[i] + lever_[i] * push;
-      for (int j = 0; j < i; ++j) a[i] -= lower_[i][j] * a[j];
-    }
-    for (int i = N - 1; i >= 0; --i) {
-      a[i] *= inverse_pivot_[i];
-      for (int j = i + 1; j < N; ++j) a[i] -= lower_[j][i] * a[j];
+    std::array<double, N> a;
+    for (int i = 0; i < N; ++i) a[i] = force.angle[i] + lever_[i] * push;
+    if constexpr (N == 2) {
+      const double first = (pivot_[1] * a[0] - lower_[1][0] * a[1]) * inverse_pivot_[0];
+      a[1] = (pivot_[0] * a[1] - lower_[1][0] * a[0]) * inverse_pivot_[0];
+      a[0] = first;
+    } else {
+      substitute(a);
     }
     Generalised<N> out{.x = push, .angle = a};
     for (int i = 0; i < N; ++i) out.x += k_.inverse_total_mass * lever_[i] * a[i];
@@ -96,12 +96,32 @@ class Chain {
   }
 
  private:
+  void substitute(std::array<double, N>& a) const {
+    for (int i = 0; i < N; ++i)
+      for (int j = 0; j < i; ++j) a[i] -= lower_[i][j] * a[j];
+    for (int i = N - 1; i >= 0; --i) {
+      a[i] *= inverse_pivot_[i];
+      for (int j = i + 1; j < N; ++j) a[i] -= lower_[j][i] * a[j];
+    }
+  }
+
+  double reduced(int i, int j) const {
+    const double cosine = i == j ? 1.0 : cos_[i] * cos_[j] + sin_[i] * sin_[j];
+    return k_.inertia[i][j] * cosine - lever_[i] * lever_[j] * k_.inverse_total_mass;
+  }
+
   // LDL^T of A_ij cos(phi_i - phi_j) - c_i sin(phi_i) c_j sin(phi_j)/M.
+  // For N = 2 the matrix itself and 1/det.
   void factor() {
+    if constexpr (N == 2) {
+      pivot_ = {reduced(0, 0), reduced(1, 1)};
+      lower_[1][0] = reduced(1, 0);
+      inverse_pivot_[0] = 1.0 / (pivot_[0] * pivot_[1] - lower_[1][0] * lower_[1][0]);
+      return;
+    }
     for (int i = 0; i < N; ++i) {
       for (int j = 0; j <= i; ++j) {
-        const double cosine = i == j ? 1.0 : cos_[i] * cos_[j] + sin_[i] * sin_[j];
-        double a = k_.inertia[i][j] * cosine - lever_[i] * lever_[j] * k_.inverse_total_mass;
+        double a = reduced(i, j);
         for (int k = 0; k < j; ++k) a -= lower_[i][k] * lower_[j][k] * pivot_[k];
         if (i == j) {
           pivot_[i] = a;

@@ -72,10 +72,14 @@ void World<N>::strings(const Pose<N>& pose, Look& look) const noexcept {
     travel[j] = pose.angle[j] - (j > 0 ? pose.angle[j - 1] : 0.0) - rest_[j];
     rate[j] = pose.rate[j] - (j > 0 ? pose.rate[j - 1] : 0.0);
   }
-  for (int i = 0; i < strings_.padded; ++i) {
-    const int j = strings_.joint[i];
-    look.length[i] = strings_.mount[i] - strings_.pull[i] * travel[j];
-    look.rate[i] = -strings_.pull[i] * rate[j];
+  // In whole lanes from the start: a wide load would have to wait for narrow stores.
+  for (int i = 0; i < strings_.padded; i += muscle::lanes) {
+    const int* j = &strings_.joint[i];
+    const muscle::Four pull = strings_.pull.four(i);
+    const muscle::Four turn = {travel[j[0]], travel[j[1]], travel[j[2]], travel[j[3]]};
+    const muscle::Four speed = {rate[j[0]], rate[j[1]], rate[j[2]], rate[j[3]]};
+    look.length.four(i) = strings_.mount.four(i) - pull * turn;
+    look.rate.four(i) = -pull * speed;
   }
 }
 
@@ -152,6 +156,7 @@ void World<N>::look_at(double t, const State& state, const std::array<double, co
 // A new node: valves and references, the first stage, and what friction can do about it.
 template <int N>
 void World<N>::prepare() noexcept {
+  glanced_ = false;
   strings(state_.pose, first_);
   bank_.node(time_);
   bank_.evaluate(time_, first_.length, first_.rate, state_.mass, first_.pull);
@@ -273,10 +278,12 @@ void World<N>::step(double h) noexcept {
   for (int s = 1; s < 4; ++s) {
     const double part = s == 3 ? h : 0.5 * h;
     move(stage[s].pose, state_.pose, part, stage[s - 1].pose, k[s - 1].acceleration);
-    stage[s].mass = state_.mass;
-    if (flowing)
-      for (int i = 0; i < strings_.count; ++i)
-        stage[s].mass[i] += part * (k[s - 1].pull.inflow[i] - k[s - 1].pull.outflow[i]);
+    const muscle::Pull& before = k[s - 1].pull;
+    for (int i = 0; i < strings_.padded; i += muscle::lanes) {
+      muscle::Four mass = state_.mass.four(i);
+      if (flowing) mass += part * (before.inflow.four(i) - before.outflow.four(i));
+      stage[s].mass.four(i) = mass;
+    }
     look_at(time_ + part, stage[s], held_, k[s]);
   }
 
@@ -326,13 +333,16 @@ void World<N>::commit() noexcept {
 // The friction that a whole body step from the last node would have: what a peek goes by, however
 // far it looks, so that it depends on the node alone.
 template <int N>
-auto World<N>::glance() const noexcept -> Glance {
-  Glance g{.held = hold(step_), .acceleration = first_.acceleration};
+auto World<N>::glance() noexcept -> const Glance& {
+  if (glanced_) return glance_;
+  glanced_ = true;
+  glance_ = {.held = hold(step_), .acceleration = first_.acceleration};
   for (int c = 0; c < contacts; ++c) {
-    g.acceleration.x += column_[c].x * g.held[c];
-    for (int i = 0; i < N; ++i) g.acceleration.angle[i] += column_[c].angle[i] * g.held[c];
+    glance_.acceleration.x += column_[c].x * glance_.held[c];
+    for (int i = 0; i < N; ++i)
+      glance_.acceleration.angle[i] += column_[c].angle[i] * glance_.held[c];
   }
-  return g;
+  return glance_;
 }
 
 // From the last node to t in a copy: the body by its acceleration ...
@@ -351,6 +361,7 @@ template <int N>
 auto World<N>::peek(const Glance& g, double t) const noexcept -> Peek {
   const double dt = t - time_;
   Peek p{.state = state_, .look = first_, .air_in = air_in_, .air_out = air_out_};
+  if (dt <= 0) return p;
   p.state.pose = peek_pose(g, t);
   const muscle::Pull& before = first_.pull;
   for (int pass = 0; pass < 2; ++pass) {
@@ -408,7 +419,7 @@ signals::Reading World<N>::read(signals::Channel channel, signals::Tick now) noe
   double quantity = 0;
   if (sensor.kind != robot::Sensor::Kind::fixed) {
     advance(t);
-    const Glance g = glance();
+    const Glance& g = glance();
     const int of = source_[channel.index];
     if (sensor.kind == robot::Sensor::Kind::angle) {
       const Pose<N> pose = peek_pose(g, t);
@@ -433,7 +444,7 @@ Status World<N>::stop(signals::Tick) noexcept {
 template <int N>
 Truth World<N>::truth(double t) noexcept {
   advance(t);
-  const Glance g = glance();
+  const Glance& g = glance();
   const Peek p = peek(g, t);
   const Pose<N>& pose = p.state.pose;
 

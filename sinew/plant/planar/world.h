@@ -94,7 +94,7 @@ class World final : public signals::Port {
   std::array<double, contacts> hold(double h) const noexcept;
   void step(double h) noexcept;
 
-  Glance glance() const noexcept;
+  const Glance& glance() noexcept;
   Pose<N> peek_pose(const Glance& g, double t) const noexcept;
   Peek peek(const Glance& g, double t) const noexcept;
   double gauge(const Glance& g, const Peek& p, int muscle) const noexcept;
@@ -114,6 +114,8 @@ class World final : public signals::Port {
   double time_ = 0;             // of the last committed node [s]
   std::int64_t multiple_ = 0;   // of the body step that was passed last
   std::int64_t nodes_ = 0;
+  Glance glance_{};             // from this node, once somebody has looked
+  bool glanced_ = false;
   Look first_{};                // first stage at the node, without friction
   std::array<Generalised<N>, contacts> column_{};  // M^-1 J^T
   FrictionProblem<contacts> problem_{};             // slip at the node, response per second
