@@ -1,0 +1,243 @@
+// What the program says to what cannot be: message, exit code, and that nothing is left behind.
+#include <gmock/gmock.h>
+
+#include "tests/cli/program.h"
+
+namespace sinew::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+const std::string walk = "experiments/walk-test-1.toml";
+const std::string robot = "robots/leg/robot.toml";
+
+std::string at(const std::string& file, int line) { return file + ":" + std::to_string(line); }
+
+// --- values of a file ---
+
+struct Case {
+  const char* name;
+  const char* file;
+  const char* from;
+  const char* to;
+  std::vector<const char*> says;
+};
+
+class BadValue : public ::testing::TestWithParam<Case> {};
+
+TEST_P(BadValue, IsNamedWithItsPlaceAndNothingRuns) {
+  const Case& c = GetParam();
+  const Workspace w;
+  const int line = w.edit(c.file, c.from, c.to);
+  for (const char* command : {"run", "check"}) {
+    const Result result = w.sinew({command, walk});
+    EXPECT_EQ(result.code, 1) << result.err;
+    const std::string said = result.err + result.out;
+    EXPECT_THAT(said, HasSubstr(at(c.file, line) + ":"));
+    for (const char* words : c.says) EXPECT_THAT(said, HasSubstr(words));
+  }
+  EXPECT_FALSE(std::filesystem::exists(w / "runs"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BadValue,
+    ::testing::Values(Case{"WrongUnit",
+                           "robots/leg/robot.toml",
+                           R"("23.8 lb")",
+                           R"("23.8 lbf")",
+                           {"trolley.total_mass: found \"23.8 lbf\", N (force); expected kg (mass)",
+                            "try lb: lbf is force, lb is mass"}},
+                      Case{"NoUnit",
+                           "robots/leg/robot.toml",
+                           R"("5 ft")",
+                           "5",
+                           {"trolley.track_length: found 5 without a unit; expected m (length)"}},
+                      Case{"GaugeOrAbsMissing",
+                           "robots/leg/robot.toml",
+                           R"("100 psi gauge")",
+                           R"("100 psi")",
+                           {"a pressure without its reference",
+                            "try \"100 psi gauge\" or \"100 psi abs\""}},
+                      Case{"UnknownKey",
+                           "experiments/walk-test-1.toml",
+                           "settle       =",
+                           "setle        =",
+                           {"start.setle: found an unknown key", "did you mean that?", "settle"}},
+                      Case{"NegativeMass",
+                           "robots/leg/robot.toml",
+                           R"("0.469 lb")",
+                           R"("-0.469 lb")",
+                           {"link.tibia.mass: found \"-0.469 lb\"", "expected at least 0 kg"}},
+                      Case{"NotANumber",
+                           "experiments/walk-test-1.toml",
+                           R"("0.6 s")",
+                           R"("nan s")",
+                           {"start.settle: found \"nan s\"; expected a finite number of s (time)"}},
+                      Case{"BareNotANumber",
+                           "robots/leg/robot.toml",
+                           "stiffness_factor      = 5.5",
+                           "stiffness_factor      = nan",
+                           {"low_level.stiffness_factor: found nan"}},
+                      Case{"DecimalComma",
+                           "experiments/walk-test-1.toml",
+                           R"("0.6 s")",
+                           R"("0,6 s")",
+                           {"start.settle: found \"0,6 s\"", "try a decimal point: \"0.6 s\""}},
+                      Case{"NewerFormat",
+                           "experiments/walk-test-1.toml",
+                           "sinew.experiment/1",
+                           "sinew.experiment/2",
+                           {"or older", "a newer Sinew"}}),
+    [](const auto& one) { return std::string(one.param.name); });
+
+TEST(BadPath, OutOfReachIsNamedUnlessTheNearestPointWillDo) {
+  const Workspace w;
+  w.edit(walk, R"(["-13.5 in"])", R"(["-16 in"])");
+  for (const char* command : {"run", "check"}) {
+    const Result result = w.sinew({command, walk});
+    EXPECT_EQ(result.code, 1);
+    EXPECT_THAT(
+        result.err + result.out,
+        AllOf(HasSubstr(walk + ":"), HasSubstr("phase.propulsion: found a path out of reach"),
+              HasSubstr("try the nearest point")));
+  }
+  EXPECT_FALSE(std::filesystem::exists(w / "runs"));
+
+  const Result nearest = w.sinew({"run", walk, "--allow-unreachable"});
+  EXPECT_EQ(nearest.code, 0);
+  EXPECT_THAT(nearest.err, HasSubstr("periods with a foot out of reach"));
+}
+
+TEST(BadFile, AllOfItsProblemsAreToldAtOnce) {
+  const Workspace w;
+  const int first = w.edit(robot, R"("23.8 lb")", R"("23.8 lbf")");
+  const int second = w.edit(robot, R"("0.469 lb")", R"("-0.469 lb")");
+  const Result result = w.sinew({"run", walk});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, AllOf(HasSubstr(at(robot, first)), HasSubstr(at(robot, second))));
+  EXPECT_THAT(result.out, IsEmpty());
+}
+
+TEST(BadFile, MissingExperimentIsNamed) {
+  const Workspace w;
+  const Result result = w.sinew({"run", "experiments/wlak.toml"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, StartsWith("experiments/wlak.toml: found no readable file"));
+}
+
+TEST(BadFile, MissingRobotIsNamedWhereItIsAskedFor) {
+  const Workspace w;
+  const int line = w.edit(walk, "../robots/leg/robot.toml", "../robots/dog/robot.toml");
+  const Result result = w.sinew({"run", walk});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, AllOf(HasSubstr(at(walk, line)), HasSubstr("a file that exists")));
+}
+
+TEST(BadFile, ARobotIsNoExperiment) {
+  const Workspace w;
+  const Result result = w.sinew({"run", robot});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("found \"robot\"; expected \"sinew.experiment/1\""));
+}
+
+// --- predict.dat ---
+
+TEST(BadValveTiming, CutShort) {
+  const Workspace w;
+  const std::string text = read_text(w / "robots/leg/predict.dat");
+  write_text(w / "robots/leg/predict.dat", text.substr(0, text.size() / 2));
+  for (const Words& words : {Words{"run", walk}, Words{"check", "robots/leg/predict.dat"}}) {
+    const Result result = w.sinew(words);
+    EXPECT_EQ(result.code, 1);
+    EXPECT_THAT(result.err + result.out, AllOf(HasSubstr("predict.dat:"), HasSubstr("cut short")));
+  }
+}
+
+TEST(BadValveTiming, NotMonotone) {
+  const Workspace w;
+  std::string text = read_text(w / "robots/leg/predict.dat");
+  const std::size_t row = text.find("\n60,") + 1, close = text.find(',', row) + 1;
+  text = text.substr(0, close) + "1" + text.substr(text.find(',', close));
+  write_text(w / "robots/leg/predict.dat", text);
+  for (const Words& words : {Words{"run", walk}, Words{"check", "robots/leg/predict.dat"}}) {
+    const Result result = w.sinew(words);
+    EXPECT_EQ(result.code, 1);
+    EXPECT_THAT(result.err + result.out,
+                AllOf(HasSubstr("predict.dat:61:"), HasSubstr("close: found 1 after")));
+  }
+}
+
+// --- --set ---
+
+TEST(BadSet, TyposAreSuggestedRight) {
+  const Workspace w;
+  const Result table = w.sinew({"run", walk, "--set", "troley.drag=1 lbf"});
+  EXPECT_EQ(table.code, 1);
+  EXPECT_THAT(table.err, AllOf(HasSubstr("--set: troley.drag"), HasSubstr("try \"trolley\"")));
+
+  const Result key = w.sinew({"run", walk, "--set", "trolley.darg=1 lbf"});
+  EXPECT_EQ(key.code, 1);
+  EXPECT_THAT(key.err, AllOf(HasSubstr("--set: trolley.darg"), HasSubstr("try drag")));
+
+  const Result form = w.sinew({"run", walk, "--set", "trolley.drag"});
+  EXPECT_EQ(form.code, 1);
+  EXPECT_THAT(form.err, HasSubstr("expected key=value"));
+  EXPECT_FALSE(std::filesystem::exists(w / "runs"));
+}
+
+TEST(BadSet, AnUnknownChannelIsSuggestedRight) {
+  const Workspace w;
+  const Result result = w.sinew({"run", walk, "--set", R"(log.channels=["/jiont/*"])"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("log.channels: found \"/jiont/*\""), HasSubstr("try \"/joint/*\"")));
+  EXPECT_FALSE(std::filesystem::exists(w / "runs"));
+}
+
+// --- a run that cannot go on ---
+
+TEST(Fault, EndsTheRunWithItsLastRecords) {
+  const Workspace w;
+  const Result result = w.sinew({"run", walk, "-o", "run", "--set", "plant_steps.body=5 ms",
+                                 "--set", "ground.normal_stiffness=1e9 N/m"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("the run was ended by a fault of sensor "),
+                                HasSubstr(" s  /sensor/hip_angle/count  ")));
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(names_in(w / "run"), ::testing::ElementsAre("log.mcap", "resolved.toml"));
+}
+
+// --- wrong usage ---
+
+TEST(Usage, WhatCannotBeUnderstoodIsExitCodeTwo) {
+  const Workspace w;
+  for (const Words& words :
+       {Words{}, Words{"wlak"}, Words{"run"}, Words{"run", walk, "--pace", "fast"},
+        Words{"run", walk, "--pace", "-1"}, Words{"run", walk, "--force=maybe"},
+        Words{"run", walk, "--speed", "2"}, Words{"export", "somewhere"},
+        Words{"kinematics", robot}, Words{"valve", "robots/leg/valves.toml", "inlet"}}) {
+    const Result result = w.sinew(words);
+    EXPECT_EQ(result.code, 2) << ::testing::PrintToString(words);
+    EXPECT_THAT(result.err, ::testing::Not(IsEmpty()));
+    EXPECT_THAT(result.out, IsEmpty());
+  }
+  EXPECT_THAT(w.sinew({"rnu", walk}).err, HasSubstr("did you mean run?"));
+}
+
+TEST(Usage, EverySubcommandHasAnExampleAtTheEndOfItsHelp) {
+  const Workspace w;
+  for (const char* command :
+       {"run", "analyze", "export", "replay", "show", "check", "actuator", "valve", "kinematics"}) {
+    const Result result = w.sinew({command, "--help"});
+    EXPECT_EQ(result.code, 0);
+    EXPECT_THAT(result.err, IsEmpty());
+    EXPECT_THAT(result.out, HasSubstr(std::string("\nExample:\n  sinew ") + command + " "));
+  }
+  EXPECT_THAT(w.sinew({"--version"}).out, StartsWith("sinew 0."));
+}
+
+}  // namespace
+}  // namespace sinew::test

@@ -1,0 +1,209 @@
+// `actuator`, `valve` and `kinematics`: the laws' own numbers, and what is said where they end.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sinew/actuator/tension.h"
+#include "sinew/actuator/thesis_actuator.h"
+#include "sinew/units/literals.h"
+#include "tests/cli/program.h"
+
+namespace sinew::test {
+namespace {
+
+using namespace units::literals;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using Json = nlohmann::ordered_json;
+
+const std::string actuator_file = "robots/leg/actuator.toml";
+const std::string valves = "robots/leg/valves.toml";
+const std::string robot = "robots/leg/robot.toml";
+
+Json json(const Workspace& w, Words words) {
+  words.push_back("--json");
+  const Result result = w.sinew(words);
+  EXPECT_EQ(result.code, 0) << result.err;
+  return result.code == 0 ? Json::parse(result.out) : Json::object();
+}
+
+// --- actuator ---
+
+TEST(Actuator, GivesTheIdealTensionOfEquation22) {
+  const Workspace w;
+  const Json out =
+      json(w, {"actuator", actuator_file, "--length", "3.4in", "--pressure", "60 psi gauge"});
+  const Json& p = out["points"][0];
+  const double ideal = actuator::ideal_tension({4.218_in, 2.3125}, 3.4_in, 60.0_psi);
+  EXPECT_NEAR(p["tension_N"], ideal * p["effectiveness"].get<double>(), 1e-9 * ideal);
+  EXPECT_NEAR(p["length_m"], 3.4_in, 1e-15);
+  EXPECT_GT(p["stiffness_sealed_N_per_m"], p["stiffness_at_constant_pressure_N_per_m"]);
+  EXPECT_EQ(p["beyond"], Json::array());
+}
+
+TEST(Actuator, TakesAbsolutePressureAndUnitsWithAndWithoutASpace) {
+  const Workspace w;
+  const Json gauge =
+      json(w, {"actuator", robot, "--length", "3.4 in", "--pressure", "60 psi gauge"});
+  const Json absolute =
+      json(w, {"actuator", robot, "--length", "86.36mm", "--pressure", "74.7psi abs"});
+  EXPECT_NEAR(gauge["points"][0]["tension_N"], absolute["points"][0]["tension_N"], 1e-9);
+}
+
+TEST(Actuator, MakesTablesOverRanges) {
+  const Workspace w;
+  const Json out = json(w, {"actuator", actuator_file, "--length", "2.5in:3.9in:0.1in",
+                            "--pressure", "20 psi gauge:110 psi gauge:10 psi"});
+  ASSERT_EQ(out["points"].size(), 15u * 10u);
+  EXPECT_NEAR(out["points"].back()["length_m"], 3.9_in, 1e-12);
+  EXPECT_NEAR(out["points"].back()["gauge_pressure_Pa"], 110.0_psi, 1e-6);
+
+  const Result text = w.sinew(
+      {"actuator", actuator_file, "--length", "2.5in:3.9in:0.1in", "--pressure", "60 psi gauge"});
+  EXPECT_EQ(std::count(text.out.begin(), text.out.end(), '\n'), 16);
+  EXPECT_THAT(text.out, HasSubstr("length [in]  pressure [psi gauge]"));
+}
+
+TEST(Actuator, SaysWhereTheModelEnds) {
+  const Workspace w;
+  const Result inside =
+      w.sinew({"actuator", actuator_file, "--length", "3.4in", "--pressure", "60 psi gauge"});
+  EXPECT_THAT(inside.err, IsEmpty());
+  const Result beyond =
+      w.sinew({"actuator", actuator_file, "--length", "4.3in", "--pressure", "120 psi gauge"});
+  EXPECT_EQ(beyond.code, 0);
+  EXPECT_THAT(beyond.err,
+              AllOf(HasSubstr("longer than the thread"), HasSubstr("beyond the long end"),
+                    HasSubstr("outside the fitted pressures")));
+  EXPECT_THAT(beyond.out, ::testing::Not(HasSubstr("nan")));
+}
+
+TEST(Actuator, RefusesWhatIsNoQuantity) {
+  const Workspace w;
+  const auto said = [&](const std::string& length, const std::string& pressure) {
+    const Result r =
+        w.sinew({"actuator", actuator_file, "--length", length, "--pressure", pressure});
+    EXPECT_EQ(r.code, 1) << length << " " << pressure;
+    EXPECT_THAT(r.out, IsEmpty());
+    return r.err;
+  };
+  EXPECT_THAT(said("3.4", "60 psi gauge"), HasSubstr("--length: found 3.4 without a unit"));
+  EXPECT_THAT(said("3,4 in", "60 psi gauge"), HasSubstr("a decimal point: \"3.4 in\""));
+  EXPECT_THAT(said("nan m", "60 psi gauge"), HasSubstr("a finite number"));
+  EXPECT_THAT(said("3.4 lb", "60 psi gauge"), HasSubstr("expected m (length)"));
+  EXPECT_THAT(said("3.4in", "60 psi"), HasSubstr("\"60 psi gauge\" or \"60 psi abs\""));
+  EXPECT_THAT(said("3in:2in:0.1in", "60 psi gauge"), HasSubstr("a step that leads"));
+  EXPECT_THAT(said("3in:4in", "60 psi gauge"), HasSubstr("from:to:step"));
+  EXPECT_THAT(said("3in:4in:1um", "60 psi gauge"), HasSubstr("--length"));
+}
+
+// --- valve ---
+
+TEST(Valve, ChokesBelowTheCriticalRatio) {
+  const Workspace w;
+  const auto flow = [&](const std::string& downstream) {
+    return json(
+        w, {"valve", valves, "inlet", "--upstream", "100 psi gauge", "--downstream", downstream});
+  };
+  const Json choked = flow("0 psi gauge"), more = flow("40 psi gauge"), free = flow("80 psi gauge");
+  EXPECT_EQ(choked["choked"], true);
+  EXPECT_EQ(more["mass_flow_kg_per_s"], choked["mass_flow_kg_per_s"]);
+  EXPECT_EQ(free["choked"], false);
+  EXPECT_LT(free["mass_flow_kg_per_s"], choked["mass_flow_kg_per_s"]);
+  EXPECT_NEAR(choked["critical_pressure_ratio"], 0.528282, 1e-6);
+  EXPECT_NEAR(choked["normal_flow_m3_per_s"].get<double>() * 1.185, choked["mass_flow_kg_per_s"],
+              1e-12);
+}
+
+TEST(Valve, RunsBackwardsWithTheOtherSign) {
+  const Workspace w;
+  const auto flow = [&](const std::string& up, const std::string& down) {
+    return json(w, {"valve", valves, "exhaust", "--upstream", up, "--downstream",
+                    down})["mass_flow_kg_per_s"]
+        .get<double>();
+  };
+  EXPECT_EQ(flow("3 bar abs", "2 bar abs"), -flow("2 bar abs", "3 bar abs"));
+}
+
+TEST(Valve, TakesTwiceAsLongForTwiceTheVolume) {
+  const Workspace w;
+  const auto times = [&](const std::string& volume) {
+    return json(w, {"valve", valves, "inlet", "--upstream", "100 psi gauge", "--downstream",
+                    "0 psi gauge", "--volume", volume})["transfers"];
+  };
+  const Json one = times("1 in3"), two = times("2 in3");
+  ASSERT_EQ(one.size(), two.size());
+  for (std::size_t i = 0; i < one.size(); ++i)
+    for (const char* key : {"fill_time_s", "vent_time_s"})
+      EXPECT_NEAR(two[i][key], 2 * one[i][key].get<double>(), 1e-9) << key;
+}
+
+// Section 3.4: 4 and 1 ms make 42.5 % of 50 % at 25 Hz, and 35 % at 50 Hz.
+TEST(Valve, DeliversWhatItsDelaysLeaveOfADuty) {
+  const Workspace w;
+  const auto delivered = [&](const std::string& frequency) {
+    return json(w, {"valve", valves, "758", "--upstream", "100 psi gauge", "--downstream",
+                    "0 psi gauge", "--duty", "50 %", "--frequency",
+                    frequency})["duties"][0]["delivered_duty"]
+        .get<double>();
+  };
+  EXPECT_NEAR(delivered("25 Hz"), 0.425, 1e-12);
+  EXPECT_NEAR(delivered("50 Hz"), 0.35, 1e-12);
+}
+
+TEST(Valve, NamesTheValvesThereAre) {
+  const Workspace w;
+  const Result result =
+      w.sinew({"valve", valves, "inlett", "--upstream", "2 bar abs", "--downstream", "1 bar abs"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("found \"inlett\"; expected inlet, exhaust or 758"),
+                                HasSubstr("try \"inlet\"")));
+  const Result vacuum =
+      w.sinew({"valve", valves, "inlet", "--upstream", "2 bar abs", "--downstream", "0 bar abs"});
+  EXPECT_EQ(vacuum.code, 1);
+  EXPECT_THAT(vacuum.err, HasSubstr("--downstream: "));
+}
+
+// --- kinematics ---
+
+TEST(Kinematics, GoesToTheFootAndBack) {
+  const Workspace w;
+  const Json there = json(w, {"kinematics", robot, "--foot", "-2 in, -13 in"});
+  ASSERT_EQ(there["branches"].size(), 2u);
+  for (const Json& branch : there["branches"]) {
+    const auto angle = [&](const char* joint) {
+      return std::to_string(branch["angles_rad"][joint].get<double>()) + " rad";
+    };
+    const Json back =
+        json(w, {"kinematics", robot, "--angles", angle("hip") + "," + angle("knee")});
+    EXPECT_NEAR(back["branches"][0]["foot_m"][0], -2.0_in, 1e-6);
+    EXPECT_NEAR(back["branches"][0]["foot_m"][1], -13.0_in, 1e-6);
+  }
+  EXPECT_EQ(there["branches"][0]["within"], true) << "the leg's own branch comes first";
+  EXPECT_EQ(there["branches"][1]["within"], false);
+}
+
+TEST(Kinematics, SaysHowFarAFootCannotReach) {
+  const Workspace w;
+  const Result result = w.sinew({"kinematics", robot, "--foot", "-2 in, -23 in"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("23.087 in from the first joint"), HasSubstr("2.625 in to 15.125 in"),
+                    HasSubstr("the nearest point that can be reached")));
+}
+
+TEST(Kinematics, KnowsOtherRobotsThanTheLeg) {
+  const Workspace w;
+  const Json lever = json(w, {"kinematics", "robots/one-joint/robot.toml", "--angles", "270 deg"});
+  EXPECT_NEAR(lever["branches"][0]["foot_m"][1], -6.0_in, 1e-12);
+  const Result foot =
+      w.sinew({"kinematics", "robots/one-joint/robot.toml", "--foot", "1 in, 2 in"});
+  EXPECT_EQ(foot.code, 1);
+  EXPECT_THAT(foot.err, HasSubstr("--foot needs two"));
+}
+
+}  // namespace
+}  // namespace sinew::test

@@ -1,0 +1,71 @@
+// A run that is killed leaves a log that goes up to the kill.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "sinew/log/reader.h"
+#include "tests/cli/program.h"
+
+namespace sinew::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double now() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
+
+// Time of the last sample in the log so far [s]; negative where there is none yet.
+double last_sample(const std::filesystem::path& file) {
+  std::int64_t last = -1;
+  try {
+    for (const signals::Series& s : log::read(file).series)
+      if (!s.time_ns.empty()) last = std::max(last, s.time_ns.back());
+  } catch (const log::Error&) {
+    return -1;  // not even the beginning
+  }
+  return 1e-9 * static_cast<double>(last);
+}
+
+// Slowed to real time, wall time minus simulated time is where the run started, plus how far the
+// log is behind. The smallest of many looks is the start, but for the least delay there is (there
+// is a sample every 10 ms and a write at most 10 ms later); what is missing beyond that after
+// SIGKILL was lost. 20 ms are promised; 100 ms are allowed here, for machines that have other
+// things to do than to wake a thread in time.
+TEST(Killed, LosesNoMoreThanTheLastMoment) {
+  constexpr double allowed = 0.1;
+  const Workspace w;
+  const pid_t run = w.start({"run", "experiments/walk-test-1.toml", "-o", "run", "--pace", "1"});
+  const std::filesystem::path file = w / "run/log.mcap";
+
+  double start = 1e300;
+  for (const double until = now() + 1.5; now() < until;) {
+    const double before = now();
+    const double last = last_sample(file);
+    if (last >= 0) start = std::min(start, before - last);
+    std::this_thread::sleep_for(std::chrono::milliseconds(7));
+  }
+  const double killed = now();
+  kill(run, SIGKILL);
+  int status = 0;
+  waitpid(run, &status, 0);
+  ASSERT_TRUE(WIFSIGNALED(status))
+      << "the run was over before it was killed: " << read_text(w / "err");
+
+  EXPECT_FALSE(log::read(file).complete);
+  EXPECT_THAT(names_in(w / "run"), ::testing::ElementsAre("log.mcap", "resolved.toml"));
+  EXPECT_GT(last_sample(file), 0.5);
+  const double lost = killed - start - last_sample(file);
+  RecordProperty("lost_ms", std::to_string(1e3 * lost));
+  EXPECT_LE(lost, allowed);
+
+  // And it can be worked with.
+  EXPECT_EQ(w.sinew({"analyze", "run"}).code, 0);
+  EXPECT_EQ(w.sinew({"replay", "run"}).code, 0);
+  EXPECT_EQ(w.sinew({"export", "run", "--csv", "-o", "run.csv"}).code, 0);
+}
+
+}  // namespace
+}  // namespace sinew::test
