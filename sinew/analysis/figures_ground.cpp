@@ -50,8 +50,7 @@ std::vector<double> point_weights(const Record& record) {
   std::vector<double> out;
   if (steps.size() < 2) return out;
   for (const Stretch& s : record.stretches())
-    if (s.step == steps[1])
-      out.insert(out.end(), points_per_phase, record.end_of(s.last - 1) - record.time(s.first));
+    if (s.step == steps[1]) out.insert(out.end(), points_per_phase, record.lasting(s));
   return out;
 }
 
@@ -159,9 +158,9 @@ void add_rates(Figures& f, double amount, const std::string& per_step,
 
 void add_run(Figures& f) {
   const Record& r = f.record;
-  f.summary.add("duration_s", r.end_of(r.rows() - 1) - r.time(0));
+  f.summary.add("duration_s", r.lasting(0, r.rows() - 1));
   if (!r.has_sequence()) return;
-  f.summary.add("sequence_duration_s", r.sequence_end() - r.sequence_start());
+  f.summary.add("sequence_duration_s", r.sequence_lasts());
   f.summary.add("steps", extent_of(f).steps);
   f.add("unreachable_share", mean, r.column("/plan/unreachable"), r.sequence());
 }
@@ -179,9 +178,8 @@ void add_trolley(Figures& f) {
     return x.empty() ? no_figure : x[f.record.end_row()];
   };
   const double distance = from_torques("/trolley/position");
-  const double time = f.record.sequence_end() - f.record.sequence_start();
   f.summary.add("trolley.distance_from_torques_m", distance);
-  f.summary.add("trolley.mean_speed_from_torques_m_per_s", distance / time);
+  f.summary.add("trolley.mean_speed_from_torques_m_per_s", distance / f.record.sequence_lasts());
   f.summary.add("trolley.distance_from_torques_to_liftoff_m",
                 from_torques("/trolley/to_liftoff/position"));
 }

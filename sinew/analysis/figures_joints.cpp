@@ -84,7 +84,7 @@ double mean_duration(const Record& record, int phase) {
   double sum = 0, n = 0;
   for (const Stretch& s : record.stretches()) {
     if (s.phase != phase) continue;
-    sum += record.end_of(s.last - 1) - record.time(s.first);
+    sum += record.lasting(s);
     ++n;
   }
   return sum / n;

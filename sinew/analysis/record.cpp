@@ -37,15 +37,15 @@ void Record::find_times() {
   if (!base) return;
 
   time_ns_ = base->time_ns;
-  for (std::size_t i = 0; i + 1 < time_ns_.size(); ++i)
-    seconds_.push_back(1e-9 * static_cast<double>(time_ns_[i + 1] - time_ns_[i]));
-  if (!seconds_.empty()) {
-    std::vector<double> sorted = seconds_;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    period_ = *middle;
-  }
-  if (!time_ns_.empty()) seconds_.push_back(seconds_.empty() ? period_ : seconds_.back());
+  const std::size_t n = time_ns_.size();
+  last_ns_ = n > 1 ? time_ns_[n - 1] - time_ns_[n - 2] : std::llround(1e9 * period_);
+  for (std::size_t i = 0; i < n; ++i) seconds_.push_back(lasting(i, i));
+  if (n == 0) return;
+
+  std::vector<double> sorted = seconds_;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(n / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  period_ = *middle;
 }
 
 void Record::find_stretches() {
@@ -75,7 +75,7 @@ std::vector<double> Record::part(int phase, double from, double to) const {
   std::vector<double> out(rows(), 0.0);
   for (const Stretch& s : stretches_) {
     if (phase >= 0 && s.phase != phase) continue;
-    const double start = time(s.first), duration = end_of(s.last - 1) - start;
+    const double start = time(s.first), duration = lasting(s);
     for (std::size_t i = s.first; i < s.last; ++i) {
       const double progress = (time(i) - start) / duration;
       if (progress >= from && progress < to) out[i] = seconds_[i];

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string_view>
 #include <vector>
@@ -31,9 +32,14 @@ class Record {
 
   std::size_t rows() const { return seconds_.size(); }
   const std::vector<std::int64_t>& time_ns() const { return time_ns_; }
-  double time(std::size_t row) const { return 1e-9 * static_cast<double>(time_ns_[row]); }
-  double end_of(std::size_t row) const { return time(row) + seconds_[row]; }  // [s]
-  double period() const { return period_; }                                   // median [s]
+  double time(std::size_t row) const { return static_cast<double>(time_ns_[row]) / 1e9; }
+  double end_of(std::size_t row) const { return static_cast<double>(end_ns(row)) / 1e9; }  // [s]
+  // From the start of row `first` to the end of row `last`  [s].
+  double lasting(std::size_t first, std::size_t last) const {
+    return static_cast<double>(end_ns(last) - time_ns_[first]) / 1e9;
+  }
+  double lasting(const Stretch& s) const { return lasting(s.first, s.last - 1); }
+  double period() const { return period_; }  // median [s]
 
   Column column(std::string_view topic, std::string_view field = "value") const;
   const signals::Table& table() const { return *table_; }
@@ -55,11 +61,15 @@ class Record {
   std::size_t end_row() const { return last_row() + 1 < rows() ? last_row() + 1 : last_row(); }
   double sequence_start() const { return time(first_row()); }  // [s]
   double sequence_end() const { return end_of(last_row()); }   // [s]
+  double sequence_lasts() const { return lasting(first_row(), last_row()); }
 
   // Steps that went through every phase. Of a log that was cut the last one is not.
   std::vector<int> complete_steps() const;
 
  private:
+  std::int64_t end_ns(std::size_t row) const {
+    return row + 1 < time_ns_.size() ? time_ns_[row + 1] : time_ns_[row] + last_ns_;
+  }
   void find_times();
   void find_stretches();
   std::vector<double> only(const std::function<bool(const Stretch&)>& wanted) const;
@@ -68,6 +78,7 @@ class Record {
   const signals::Table* more_;
   const Machine* machine_;
   std::vector<std::int64_t> time_ns_;
+  std::int64_t last_ns_ = 0;  // how long the last row holds
   std::vector<double> seconds_, sequence_, stance_, swing_;
   double period_ = 0;
   std::vector<Stretch> stretches_;

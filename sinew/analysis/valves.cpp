@@ -9,7 +9,7 @@ Edges edges_of(std::span<const std::int64_t> time_ns, std::span<const double> op
   Edges out;
   for (std::size_t i = 0; i < time_ns.size() && i < open.size(); ++i) {
     const bool now = open[i] > 0.5, before = !out.empty() && out.back().open;
-    if (now != before) out.push_back({1e-9 * static_cast<double>(time_ns[i]), now});
+    if (now != before) out.push_back({static_cast<double>(time_ns[i]) / 1e9, now});
   }
   return out;
 }
