@@ -9,9 +9,9 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 prefix=${SINEW_PREFIX:-$work/prefix}
 if [[ ! ${SINEW_PREFIX:-} ]]; then
-  cmake --install "$root/${SINEW_BUILD:-build/release}" --prefix "$prefix" >&2
+  cmake --install "$root/${SINEW_BUILD:-build/release}" --prefix "$prefix" >/dev/null
 fi
 
-cmake -S "$here" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >&2
-cmake --build "$work/build" >&2
+cmake -S "$here" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >/dev/null
+cmake --build "$work/build" >/dev/null
 "$work/build/hanging_mass"
