@@ -19,5 +19,13 @@ done
 
 folders=()
 for folder in sinew cli firmware tests bench examples; do [[ -d $folder ]] && folders+=("$folder"); done
+found=$(mktemp)
+trap 'rm -f "$found"' EXIT
 find "${folders[@]}" -name node_modules -prune -o -type f \( -name '*.h' -o -name '*.cpp' \) -print0 |
-  xargs -0 -r -P "$(nproc)" -n 20 "$tool" "${how[@]}"
+  xargs -0 -r -P "$(nproc)" -n 20 "$tool" "${how[@]}" 2>"$found" && exit
+
+# One line per file is enough: --fix does the rest.
+grep -E '^[^ ]+: (error|warning): ' "$found" | awk -F: '!seen[$1]++ { print $1 ":" $2 ": laid out differently" }' |
+  sort || cat "$found"
+echo "format.sh: tools/format.sh --fix lays them out"
+exit 1
