@@ -172,11 +172,14 @@ TEST(Run, EveryShippedExperimentRuns) {
     EXPECT_TRUE(e.warnings.empty()) << file.path();
     const Outcome o = run(e);
     EXPECT_EQ(o.status, signals::Status::ok) << file.path();
-    for (const signals::Series& s : o.table.series)
-      if (s.topic.name.rfind("/true/", 0) == 0)
-        for (const std::vector<double>& column : s.columns)
-          ASSERT_TRUE(std::all_of(column.begin(), column.end(), [](double v) { return std::isfinite(v); }))
-              << file.path() << s.topic.name;
+    for (const signals::Series& s : o.table.series) {
+      if (s.topic.name.rfind("/true/", 0) != 0) continue;
+      for (const std::vector<double>& column : s.columns) {
+        EXPECT_TRUE(std::all_of(column.begin(), column.end(), [](double v) {
+          return std::isfinite(v);
+        })) << file.path() << s.topic.name;
+      }
+    }
   }
 }
 
