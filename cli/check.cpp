@@ -11,6 +11,7 @@
 #include "cli/run_folder.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/log/reader.h"
+#include "sinew/signals/timing.h"
 
 namespace sinew::cli {
 
@@ -40,6 +41,14 @@ void check_log(const std::filesystem::path& file, Finding& out) {
   if (!table.complete)
     out.warnings.push_back(file.string() +
                            ": was cut off or is damaged; everything before can be read");
+}
+
+void check_timing(const std::string& path, Finding& out) {
+  const config::ValveTiming read = config::read_valve_timing(path);
+  if (!signals::closes_at_zero({.closing = read.closing, .opening = read.opening}))
+    out.warnings.push_back(path +
+                           ":1: duty 0 does not shut at once and stay shut; inlet and exhaust of "
+                           "one muscle could be open together");
 }
 
 void check_run(const std::filesystem::path& folder, Finding& out) {
@@ -75,7 +84,7 @@ Finding check(const std::string& path) {
     } else if (file.extension() == ".mcap") {
       check_log(file, out);
     } else if (file.extension() == ".dat") {
-      config::read_valve_timing(path);
+      check_timing(path, out);
     } else {
       check_machine(path, out);
     }

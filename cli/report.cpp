@@ -92,7 +92,8 @@ void warn_of(const experiment::Experiment& e, const experiment::Outcome& outcome
   };
   tell(seen.late, "readings came late");
   tell(seen.invalid, "readings were invalid");
-  tell(seen.missed, "ticks were missed: this machine did not keep the pace");
+  tell(seen.missed,
+       "ticks came late by more than a tick: this machine cannot keep the pace that finely");
   tell(outcome.unreachable_periods,
        "periods with a foot out of reach: the nearest point was aimed at");
   if (!outcome.table.complete)
