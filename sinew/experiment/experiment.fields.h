@@ -1,5 +1,5 @@
-// experiment/experiment.fields.h - the keys of experiments/*.toml that are the run's own. The tables
-// of robot and plan stand in their folders' field tables.
+// experiment/experiment.fields.h - the keys of experiments/*.toml that are the run's own. The
+// tables of robot and plan stand in their folders' field tables.
 #pragma once
 
 #include "sinew/actuator/actuator.fields.h"

@@ -62,7 +62,7 @@ struct Experiment {
   Log log;
   std::vector<Reported> reported;
 
-  config::Origins origins;                 // where every value came from
+  config::Origins origins;  // where every value came from
   std::vector<config::Problem> warnings;
 };
 

@@ -70,8 +70,8 @@ void HighLevel::translate(const gait::Desired& desired) noexcept {
     control::JointCommand& joint = command_.joint[k];
 
     // B.1: thetades = (theta - rest) * 767 + potoffset, cut to an integer.
-    joint.angle = static_cast<std::int32_t>((want.angle - scale_.rest[k]) * scale_.counts_per_rad[k] +
-                                            scale_.counts_at_rest[k]);
+    joint.angle = static_cast<std::int32_t>(
+        (want.angle - scale_.rest[k]) * scale_.counts_per_rad[k] + scale_.counts_at_rest[k]);
     joint.stiffness = static_cast<float>(want.stiffness / stiffness_unit);
     joint.gains.angle = static_cast<float>(want.gains.angle * 100.0);
     joint.gains.stiffness = static_cast<float>(want.gains.stiffness * 100.0 * stiffness_unit);

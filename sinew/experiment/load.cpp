@@ -86,8 +86,7 @@ void check_numbers(const Experiment& e, std::vector<robot::Contradiction>& out) 
   whole("log.period", e.log.period, signals::tick_seconds, "0.1 ms");
   const double period = e.robot.low_level.pwm_ticks * signals::tick_seconds;
   whole("control.brain_period", e.plan.brain_period, period, "the low level's period");
-  if (e.plant != "planar")
-    out.push_back({"plant", config::in_quotes(e.plant), "planar", ""});
+  if (e.plant != "planar") out.push_back({"plant", config::in_quotes(e.plant), "planar", ""});
   if (e.robot.joints.empty() || e.robot.joints.size() > 2)
     out.push_back({"joint", std::to_string(e.robot.joints.size()) + " joints",
                    "one or two: what the planar plant holds", ""});

@@ -1,5 +1,5 @@
-// experiment/loop.h - the one loop. Simulation, replay and hardware run these lines; the spinal cord
-// never sees a port, and the port never sees the brain.
+// experiment/loop.h - the one loop. Simulation, replay and hardware run these lines; the spinal
+// cord never sees a port, and the port never sees the brain.
 #pragma once
 
 #include "sinew/control/joint/spine.h"

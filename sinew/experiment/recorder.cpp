@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-
 namespace sinew::experiment {
 
 using signals::Tick;
@@ -208,7 +207,8 @@ void Recorder::record_truth(const plant::Truth& truth) noexcept {
     one(truth.x_rate);
   }
   if (!robot_.foot.present) return;
-  const double position[2] = {truth.foot_x, truth.foot_y}, force[2] = {truth.force_x, truth.force_y};
+  const double position[2] = {truth.foot_x, truth.foot_y},
+               force[2] = {truth.force_x, truth.force_y};
   put(position);
   put(force);
 }

@@ -2,8 +2,8 @@
 //
 // One sample of everything per period, right after the last law has run (or every log period, where
 // that is shorter or longer), and each valve edge by itself. The table is reserved before the run;
-// while it goes, recording is noexcept and allocates nothing. What is recorded can be passed on to a
-// log as it comes (Tap). Looking never changes the run: the world is peeked.
+// while it goes, recording is noexcept and allocates nothing. What is recorded can be passed on to
+// a log as it comes (Tap). Looking never changes the run: the world is peeked.
 #pragma once
 
 #include <atomic>

@@ -44,7 +44,9 @@ Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& por
 
   Recorder::TruthAt truth;
   if (world)
-    truth = [world](Tick t) { return world->truth(static_cast<double>(t) * signals::tick_seconds); };
+    truth = [world](Tick t) {
+      return world->truth(static_cast<double>(t) * signals::tick_seconds);
+    };
   Recorder recorder(e, spine, high_level, truth, end);
   if (options.tap.push) recorder.tap(options.tap, options.tapped);
   recorder.progress(options.progress);

@@ -16,20 +16,20 @@ namespace sinew::experiment {
 struct RunOptions {
   double pace = 0;  // simulated per wall second; 0: as fast as it goes
   Tap tap;
-  std::vector<std::uint16_t> tapped;                // topic in the log of each of topics(), or not_tapped
-  std::atomic<std::int64_t>* progress = nullptr;    // the tick that the run has reached
-  bool every_tick = false;                          // visit each tick: slower, the same bits
-  int extra_readers = 0;                            // looks at the world per event: the same bits
+  std::vector<std::uint16_t> tapped;  // topic in the log of each of topics(), or not_tapped
+  std::atomic<std::int64_t>* progress = nullptr;  // the tick that the run has reached
+  bool every_tick = false;                        // visit each tick: slower, the same bits
+  int extra_readers = 0;                          // looks at the world per event: the same bits
 };
 
 struct Outcome {
   signals::Status status = signals::Status::ok;
   signals::Table table;
-  control::Seen seen;               // the low level's last word
+  control::Seen seen;  // the low level's last word
   std::int64_t unreachable_periods = 0;
-  std::int64_t nodes = 0;           // steps of the integrator
-  double duration = 0;              // simulated [s]
-  double wall = 0;                  // [s]
+  std::int64_t nodes = 0;  // steps of the integrator
+  double duration = 0;     // simulated [s]
+  double wall = 0;         // [s]
 };
 
 // The last tick that the run can reach.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -10,7 +11,6 @@
 #include <new>
 #include <string>
 #include <thread>
-#include <unistd.h>
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
@@ -138,7 +138,8 @@ TEST(Run, NoHeapInTheLoop) {
   HighLevel high(e.robot, e.plan);
   const signals::Tick end = last_tick(e);
   plant::World<2>* body = &world;
-  Recorder recorder(e, spine, high, [body](signals::Tick t) { return body->truth(t * 1e-4); }, end);
+  Recorder recorder(
+      e, spine, high, [body](signals::Tick t) { return body->truth(t * 1e-4); }, end);
   SimulatedClock clock;
 
   allocations = 0;
@@ -175,9 +176,9 @@ TEST(Run, EveryShippedExperimentRuns) {
     for (const signals::Series& s : o.table.series) {
       if (s.topic.name.rfind("/true/", 0) != 0) continue;
       for (const std::vector<double>& column : s.columns) {
-        EXPECT_TRUE(std::all_of(column.begin(), column.end(), [](double v) {
-          return std::isfinite(v);
-        })) << file.path() << s.topic.name;
+        EXPECT_TRUE(
+            std::all_of(column.begin(), column.end(), [](double v) { return std::isfinite(v); }))
+            << file.path() << s.topic.name;
       }
     }
   }
@@ -194,8 +195,8 @@ TEST(Run, EveryShippedRobotWalksTheSamePlan) {
 // What was run can be run again from resolved.toml alone, to the same bits.
 TEST(Resolved, RunsAgainToTheSameBits) {
   const Experiment e = walk();
-  const auto path = std::filesystem::temp_directory_path() /
-                    ("resolved-" + std::to_string(::getpid()) + ".toml");
+  const auto path =
+      std::filesystem::temp_directory_path() / ("resolved-" + std::to_string(::getpid()) + ".toml");
   {
     std::FILE* file = std::fopen(path.c_str(), "w");
     const std::string text = resolved(e, "test");

@@ -11,7 +11,8 @@ namespace {
 
 signals::Channel channel(int sensor) { return {static_cast<std::uint8_t>(sensor)}; }
 
-control::MuscleConfig muscle_config(const robot::Robot& robot, int muscle, double counts_per_metre) {
+control::MuscleConfig muscle_config(const robot::Robot& robot, int muscle,
+                                    double counts_per_metre) {
   const robot::Muscle& m = robot.muscles[static_cast<std::size_t>(muscle)];
   const double assumed = robot.low_level.assumed_mount_length;
   const double length = assumed > 0 ? assumed : m.mount_length;
@@ -32,8 +33,8 @@ int law_tick(const robot::Robot& robot, int joint, int flexor, int extensor) {
 }
 
 // 767/(819.2 x 0.17) = 5.5075 by the assumed scales; B.1 rounds to 5.5, for its 1 in cam.
-void set_stiffness_factor(const robot::Robot& robot, const robot::Joint& joint, double counts_per_rad,
-                          int flexor, control::JointConfig& out) {
+void set_stiffness_factor(const robot::Robot& robot, const robot::Joint& joint,
+                          double counts_per_rad, int flexor, control::JointConfig& out) {
   const double arm_inches = joint.moment_arm / units::inch;
   out.moment_arm_factor = static_cast<float>(arm_inches);
   if (robot.low_level.stiffness_factor > 0) {

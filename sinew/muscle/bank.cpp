@@ -124,7 +124,8 @@ void Bank::refresh(double t) noexcept {
     const gas::Valve::Profile ramp = gas::Valve::Profile::ramp;
     ramping_ = ramping_ || m.inlet.profile == ramp || m.exhaust.profile == ramp;
     for (std::size_t v : {inlet, exhaust})
-      if (share_[v] > 0) open_[static_cast<std::size_t>(open_count_++)] = {static_cast<int>(v), share_[v]};
+      if (share_[v] > 0)
+        open_[static_cast<std::size_t>(open_count_++)] = {static_cast<int>(v), share_[v]};
   }
 }
 
@@ -154,8 +155,8 @@ void Bank::follow(const Lanes& drift) noexcept {
   }
 }
 
-// [31]-[34] and [40] in lanes. actuator/tension.h and loss.h have the same laws in words, and a test
-// holds them together.
+// [31]-[34] and [40] in lanes. actuator/tension.h and loss.h have the same laws in words, and a
+// test holds them together.
 SINEW_WIDE void Bank::evaluate(double t, const Lanes& length, const Lanes& rate, const Lanes& mass,
                                Pull& out) const noexcept {
   Lanes y;
@@ -225,8 +226,8 @@ void Bank::sealed_mesh(const Lanes& length, Pull& out) const noexcept {
     const double sealed =
         actuator::stiffness_sealed(m.actuator, length[i], p, air_.atmosphere,
                                    m.external_volume / m.count, air_.polytropic_exponent);
-    out.mesh[i] = m.count * actuator::coulomb_bound(m.actuator, length[i], gauge, air_.atmosphere,
-                                                    sealed);
+    out.mesh[i] =
+        m.count * actuator::coulomb_bound(m.actuator, length[i], gauge, air_.atmosphere, sealed);
   }
 }
 

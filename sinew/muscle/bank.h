@@ -26,10 +26,10 @@
 
 namespace sinew::muscle {
 
-inline constexpr int lanes = 4;     // that are evaluated together
+inline constexpr int lanes = 4;  // that are evaluated together
 
-// Four doubles that are added, multiplied, compared and chosen lane by lane: GCC's and Clang's vector
-// extension. Without wide registers it is two pairs; the bits are those of four scalars.
+// Four doubles that are added, multiplied, compared and chosen lane by lane: GCC's and Clang's
+// vector extension. Without wide registers it is two pairs; the bits are those of four scalars.
 using Four = double __attribute__((vector_size(8 * lanes), may_alias));
 
 // One number per muscle. Not set when made: `Lanes x{}` is zero.
@@ -94,13 +94,13 @@ class Bank {
  private:
   // Constants in lanes; those beyond the last muscle repeat it.
   struct Constants {
-    Lanes thread2, factor, count, external;             // b^2, 1/(4 pi n^2), -, m^3
-    Lanes c0, c1, c2, offset, low, high;                // effectiveness
-    Lanes long_length, long_stiffness, long_damping;    // [32], [35]
+    Lanes thread2, factor, count, external;              // b^2, 1/(4 pi n^2), -, m^3
+    Lanes c0, c1, c2, offset, low, high;                 // effectiveness
+    Lanes long_length, long_stiffness, long_damping;     // [32], [35]
     Lanes short_length, short_stiffness, short_damping;  // end stop
-    Lanes short_zero;                                   // 1 where [31]'s zero holds, else 0
+    Lanes short_zero;                                    // 1 where [31]'s zero holds, else 0
     Lanes viscous, bladder, bladder_rest;
-    Lanes mesh_secant, mesh_constant;                   // Q for [34], or the bound itself
+    Lanes mesh_secant, mesh_constant;  // Q for [34], or the bound itself
   };
 
   void set_constants(int lane, const Muscle& muscle);

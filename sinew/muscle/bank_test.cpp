@@ -86,7 +86,8 @@ TEST(Bank, PressureBySeriesIsThePower) {
     const std::vector<Muscle> one{bundle(0)};
     Bank bank(one, air, {});
     Lanes length{}, rate{}, mass{};
-    for (int i = 0; i < lanes; ++i) length[i] = 3.1 * inch, mass[i] = 4.0 * bank.volume(0, length[i]);
+    for (int i = 0; i < lanes; ++i)
+      length[i] = 3.1 * inch, mass[i] = 4.0 * bank.volume(0, length[i]);
     Pull pull;
     bank.evaluate(0, length, rate, mass, pull);
     bank.follow(pull.drift);
@@ -159,8 +160,8 @@ TEST(Bank, FlowsFollowTheValvesAndTheirDelays) {
   EXPECT_EQ(flows(2.6e-3).first, 0.0);
 
   // Supply into an empty muscle is choked: [42] with [44] above.
-  const double choked = gas::mass_flow(5e-7, k.supply.pressure, k.air.temperature,
-                                       k.air.atmosphere, k.air);
+  const double choked =
+      gas::mass_flow(5e-7, k.supply.pressure, k.air.temperature, k.air.atmosphere, k.air);
   bank.electrical(0, 3e-3, true);
   EXPECT_NEAR(flows(4e-3).first, choked, 1e-12 * choked);
 }

@@ -1,9 +1,10 @@
-// plant/planar/chain.h - a chain of N rigid links in the plane, hung from a trolley (or a fixed base).
+// plant/planar/chain.h - a chain of N rigid links in the plane, hung from a trolley (or a fixed
+// base).
 //
 // With absolute link angles phi the equations of motion are short for any N (Lagrange):
 //
-//   T = 1/2 M x'^2 - x' sum_i c_i sin(phi_i) phi_i' + 1/2 sum_ij A_ij cos(phi_i - phi_j) phi_i' phi_j'
-//   U = g sum_i c_i sin(phi_i)
+//   T = 1/2 M x'^2 - x' sum_i c_i sin(phi_i) phi_i' + 1/2 sum_ij A_ij cos(phi_i - phi_j) phi_i'
+//   phi_j' U = g sum_i c_i sin(phi_i)
 //
 //   M x''              - sum_i c_i sin(phi_i) phi_i''      = F   + sum_i c_i cos(phi_i) phi_i'^2
 //   -c_i sin(phi_i) x'' + sum_j A_ij cos(phi_i-phi_j) phi_j'' = Q_i - g c_i cos(phi_i)
@@ -13,8 +14,8 @@
 //   A_ii = I_i + m_i r_i^2 + l_i^2 (masses beyond i),  A_ij = l_i c_j for i < j    [kg m^2]
 //   M    all that moves along the track [kg];  x trolley [m];  F, Q generalised forces [N], [N m]
 //
-// Solved by eliminating the trolley and an LDL^T of the N x N rest; for N = 2 by Cramer's rule, which
-// has one division to wait for in place of two. Without trolley 1/M = 0.
+// Solved by eliminating the trolley and an LDL^T of the N x N rest; for N = 2 by Cramer's rule,
+// which has one division to wait for in place of two. Without trolley 1/M = 0.
 #pragma once
 
 #include <array>
@@ -25,18 +26,18 @@ namespace sinew::plant {
 
 template <int N>
 struct ChainConstants {
-  std::array<double, N> length{}, first_moment{};      // l [m], c [kg m]
-  std::array<std::array<double, N>, N> inertia{};      // A [kg m^2]
-  double total_mass = 0;                               // M [kg]
-  double inverse_total_mass = 0;                       // 0 for a fixed base [1/kg]
-  double gravity = 9.80665;                            // [m/s^2]
+  std::array<double, N> length{}, first_moment{};  // l [m], c [kg m]
+  std::array<std::array<double, N>, N> inertia{};  // A [kg m^2]
+  double total_mass = 0;                           // M [kg]
+  double inverse_total_mass = 0;                   // 0 for a fixed base [1/kg]
+  double gravity = 9.80665;                        // [m/s^2]
 };
 
 // Coordinates and their rates.
 template <int N>
 struct Pose {
-  double x = 0, x_rate = 0;                  // trolley [m], [m/s]
-  std::array<double, N> angle{}, rate{};     // of the links, from +x [rad], [rad/s]
+  double x = 0, x_rate = 0;               // trolley [m], [m/s]
+  std::array<double, N> angle{}, rate{};  // of the links, from +x [rad], [rad/s]
 };
 
 // A force on each coordinate, or an acceleration of each.

@@ -7,9 +7,10 @@
 // and each contact either sticks (s_i = 0) or slides (f_i = -sign(s_i) bound_i). What stuck in the
 // last step is tried first and nearly always right; contacts then change sides until all agree.
 //
-// More contacts can stick than the machine has freedoms (foot, trolley and both joints of a standing
-// leg); their shares of the load are then not determined by rigid bodies. The forces change as little
-// as they must from the last step's, so that the shares are a matter of history and not of the step.
+// More contacts can stick than the machine has freedoms (foot, trolley and both joints of a
+// standing leg); their shares of the load are then not determined by rigid bodies. The forces
+// change as little as they must from the last step's, so that the shares are a matter of history
+// and not of the step.
 #pragma once
 
 #include <array>

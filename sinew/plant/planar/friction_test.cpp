@@ -95,7 +95,8 @@ TEST(Friction, ATrolleySticksUnderLoad) {
     world.set_rates({0, 0}, 0);
     world.advance(0.1);
     const double moved = -world.pose().x;
-    // The hanging leg lags behind, so the trolley starts a little faster than all of its mass would.
+    // The hanging leg lags behind, so the trolley starts a little faster than all of its mass
+    // would.
     const double expected = push > 4.0 ? 0.5 * (push - 4.0) / (23.8 * pound) * 0.01 : 0.0;
     EXPECT_NEAR(moved, expected, push > 4.0 ? 2e-4 : 1e-15);
     EXPECT_GE(moved, 0.9 * expected);

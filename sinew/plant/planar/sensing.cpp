@@ -16,7 +16,8 @@ std::uint64_t mix(std::uint64_t x) {
 }  // namespace
 
 double noise(std::uint64_t seed, int sensor, signals::Tick tick) {
-  const std::uint64_t key = mix(seed + 0x9e3779b97f4a7c15ull * static_cast<std::uint64_t>(tick + 1));
+  const std::uint64_t key =
+      mix(seed + 0x9e3779b97f4a7c15ull * static_cast<std::uint64_t>(tick + 1));
   std::uint64_t sum = 0;
   for (std::uint64_t half = 0; half < 3; ++half) {
     std::uint64_t bits = mix(key + 8 * static_cast<std::uint64_t>(sensor) + half);

@@ -38,13 +38,14 @@ struct Setup {
 
 // What only a simulation knows, at one instant.
 struct Truth {
-  double x = 0, x_rate = 0;                                // trolley [m], [m/s]
-  std::array<double, most_joints> angle{}, rate{};         // joints [rad], [rad/s]
-  std::array<double, most_joints> torque{};                // of the muscles, friction apart [N m]
-  std::array<double, muscle::capacity> tension{}, pressure{}, length{}, mass{};  // [N] [Pa] [m] [kg]
+  double x = 0, x_rate = 0;                         // trolley [m], [m/s]
+  std::array<double, most_joints> angle{}, rate{};  // joints [rad], [rad/s]
+  std::array<double, most_joints> torque{};         // of the muscles, friction apart [N m]
+  std::array<double, muscle::capacity> tension{}, pressure{}, length{},
+      mass{};                                                // [N] [Pa] [m] [kg]
   std::array<double, muscle::capacity> air_in{}, air_out{};  // since the start [kg]
-  double foot_x = 0, foot_y = 0;    // ankle, from the hip [m]
-  double force_x = 0, force_y = 0;  // on the foot by the ground [N]
+  double foot_x = 0, foot_y = 0;                             // ankle, from the hip [m]
+  double force_x = 0, force_y = 0;                           // on the foot by the ground [N]
 };
 
 }  // namespace sinew::plant

@@ -13,8 +13,9 @@ inline constexpr double inch = units::inch, pound = units::pound_mass;
 inline Setup leg_without_muscles(double hip, double knee) {
   Setup s;
   s.robot.name = "leg";
-  s.robot.links = {{"femur", 8.875 * inch, 1.579 * pound, 4.4375 * inch, 10.36 * pound * inch * inch},
-                   {"tibia", 6.25 * inch, 0.469 * pound, 3.125 * inch, 1.527 * pound * inch * inch}};
+  s.robot.links = {
+      {"femur", 8.875 * inch, 1.579 * pound, 4.4375 * inch, 10.36 * pound * inch * inch},
+      {"tibia", 6.25 * inch, 0.469 * pound, 3.125 * inch, 1.527 * pound * inch * inch}};
   robot::Joint joint;
   joint.moment_arm = inch;
   joint.name = "hip";
@@ -31,10 +32,8 @@ inline Setup leg_without_muscles(double hip, double knee) {
                      .stop_stiffness = 2e4,
                      .stop_damping = 300};
   s.robot.foot = {.present = true, .mass = 0.1 * pound, .radius = 0.02, .friction = 0.8};
-  s.robot.ground = {.present = false,
-                    .height = -13 * inch,
-                    .normal_stiffness = 5e4,
-                    .normal_damping = 90};
+  s.robot.ground = {
+      .present = false, .height = -13 * inch, .normal_stiffness = 5e4, .normal_damping = 90};
   s.start.joint_angle = {hip, knee};
   s.start.blocked = {false, false};
   s.start.pressure = s.air.atmosphere;

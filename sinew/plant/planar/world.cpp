@@ -27,14 +27,14 @@ World<N>::World(const Setup& setup)
     : chain_(chain_of<N>(setup.robot)),
       strings_(strings_of(setup.robot)),
       bank_(setup.muscles, setup.air, setup.supply),
+      contacts_(chain_, setup.robot),
       robot_(setup.robot),
       step_(setup.steps.body),
       seed_(setup.seed) {
   for (std::size_t s = 0; s < robot_.sensors.size() && s < source_.size(); ++s) {
     const robot::Sensor& sensor = robot_.sensors[s];
-    source_[s] = sensor.kind == robot::Sensor::Kind::angle
-                     ? robot::find_joint(robot_, sensor.of)
-                     : robot::find_muscle(robot_, sensor.of);
+    source_[s] = sensor.kind == robot::Sensor::Kind::angle ? robot::find_joint(robot_, sensor.of)
+                                                           : robot::find_muscle(robot_, sensor.of);
   }
   double absolute = 0;
   for (int j = 0; j < N; ++j) {
@@ -119,35 +119,21 @@ void World<N>::contact(const Chain<N>& chain, const Pose<N>& pose, Look& look) c
   if (!robot_.ground.present || !robot_.foot.present) return;
   const double depth = robot_.ground.height - look.ankle_y;
   if (depth <= 0) return;
-  const double push = robot_.ground.normal_stiffness * depth - robot_.ground.normal_damping * rate_y;
+  const double push =
+      robot_.ground.normal_stiffness * depth - robot_.ground.normal_damping * rate_y;
   look.normal = push > 0 ? push : 0.0;
-  for (int i = 0; i < N; ++i)
-    look.force.angle[i] += look.normal * chain_.length[i] * chain.cos(i);
-}
-
-// Generalised force of the contacts' frictions, J^T f.
-template <int N>
-Generalised<N> World<N>::friction(const Chain<N>& chain,
-                                  const std::array<double, contacts>& f) const noexcept {
-  Generalised<N> out;
-  out.x = f[trolley] + f[foot];
-  for (int i = 0; i < N; ++i)
-    out.angle[i] = f[i] - (i + 1 < N ? f[i + 1] : 0.0) -
-                   f[foot] * chain_.length[i] * chain.sin(i);
-  out.angle[N - 1] += f[foot] * robot_.foot.radius;
-  return out;
+  for (int i = 0; i < N; ++i) look.force.angle[i] += look.normal * chain_.length[i] * chain.cos(i);
 }
 
 // One evaluation of the right-hand side, with the frictions f held.
 template <int N>
-void World<N>::look_at(double t, const State& state, const std::array<double, contacts>& f,
-                       Look& look) const noexcept {
+void World<N>::look_at(double t, const State& state, const Forces& f, Look& look) const noexcept {
   strings(state.pose, look);
   bank_.evaluate(t, look.length, look.rate, state.mass, look.pull);
   const Chain<N> chain(chain_, state.pose);
   forces(chain, state.pose, look);
   Generalised<N> force = look.force;
-  const Generalised<N> rub = friction(chain, f);
+  const Generalised<N> rub = contacts_.generalised(chain, f);
   force.x += rub.x;
   for (int i = 0; i < N; ++i) force.angle[i] += rub.angle[i];
   look.acceleration = chain.accelerations(force);
@@ -166,111 +152,23 @@ void World<N>::prepare() noexcept {
   first_.acceleration = chain.accelerations(first_.force);
 
   // Bounds. The mesh's own friction acts through the cams and is part of the joint's.
-  for (int j = 0; j < N; ++j) problem_.bound[j] = dry_[j];
+  Forces bound;
+  for (int j = 0; j < N; ++j) bound[j] = dry_[j];
   for (int i = 0; i < strings_.count; ++i)
-    problem_.bound[strings_.joint[i]] += std::abs(strings_.pull[i]) * first_.pull.mesh[i];
-  problem_.bound[trolley] = robot_.trolley.present ? robot_.trolley.drag : 0.0;
-  problem_.bound[foot] = robot_.foot.friction * first_.normal;
-
-  // Columns of M^-1 J^T, and W / h = J M^-1 J^T.
-  for (int c = 0; c < contacts; ++c) {
-    if (problem_.bound[c] <= 0) {
-      column_[c] = {};
-      continue;
-    }
-    std::array<double, contacts> unit{};
-    unit[c] = 1.0;
-    column_[c] = chain.response(friction(chain, unit));
-  }
-  for (int c = 0; c < contacts; ++c) {
-    const Generalised<N>& a = column_[c];
-    for (int j = 0; j < N; ++j)
-      problem_.response[j][c] = a.angle[j] - (j > 0 ? a.angle[j - 1] : 0.0);
-    problem_.response[trolley][c] = a.x;
-    double slip = a.x + robot_.foot.radius * a.angle[N - 1];
-    for (int i = 0; i < N; ++i) slip -= chain_.length[i] * chain.sin(i) * a.angle[i];
-    problem_.response[foot][c] = slip;
-  }
-
-  // Slip velocities now; hold() adds what the step's acceleration makes of them.
-  const Pose<N>& pose = state_.pose;
-  for (int j = 0; j < N; ++j)
-    problem_.slip[j] = pose.rate[j] - (j > 0 ? pose.rate[j - 1] : 0.0);
-  problem_.slip[trolley] = pose.x_rate;
-  problem_.slip[foot] = pose.x_rate + robot_.foot.radius * pose.rate[N - 1];
-  for (int i = 0; i < N; ++i)
-    problem_.slip[foot] -= chain_.length[i] * chain.sin(i) * pose.rate[i];
-  slip_rate_[trolley] = first_.acceleration.x;
-  slip_rate_[foot] = first_.acceleration.x + robot_.foot.radius * first_.acceleration.angle[N - 1];
-  for (int i = 0; i < N; ++i) {
-    const double a = first_.acceleration.angle[i];
-    slip_rate_[i] = a - (i > 0 ? first_.acceleration.angle[i - 1] : 0.0);
-    // The foot's lever turns with the link: d/dt of J is part of the slip's rate.
-    slip_rate_[foot] -= chain_.length[i] * (chain.sin(i) * a + chain.cos(i) * pose.rate[i] * pose.rate[i]);
-  }
-  if (first_.normal > 0) prepare_normal(chain);
-}
-
-// How the ground's normal force answers within the step.
-template <int N>
-void World<N>::prepare_normal(const Chain<N>& chain) noexcept {
-  Generalised<N> up;
-  for (int i = 0; i < N; ++i) up.angle[i] = chain_.length[i] * chain.cos(i);
-  const Generalised<N> column = chain.response(up);
-  normal_ = {};
-  for (int i = 0; i < N; ++i) {
-    const double rate = state_.pose.rate[i];
-    normal_.response += up.angle[i] * column.angle[i];
-    normal_.rate += up.angle[i] * rate;
-    normal_.acceleration += up.angle[i] * first_.acceleration.angle[i] -
-                            chain_.length[i] * chain.sin(i) * rate * rate;
-    for (int c = 0; c < contacts; ++c) normal_.along[c] += up.angle[i] * column_[c].angle[i];
-  }
-}
-
-// Dry friction of a step of length h.
-//
-// The ground is stiff: its normal force changes within the step, by about
-//
-//   dF = -k (h/2 v_y + h/6 dv_y) - c/2 dv_y      the mean over the step for a linear v_y(t)
-//
-// and so do the slips. Solving for dF adds a rank-one term to W; without it the joints would slip a
-// little where they should stick, and the walk would converge with the first order only.
-template <int N>
-auto World<N>::hold(double h) const noexcept -> std::array<double, contacts> {
-  FrictionProblem<contacts> p = problem_;
-  for (int c = 0; c < contacts; ++c) {
-    p.slip[c] += h * slip_rate_[c];
-    for (int d = 0; d < contacts; ++d) p.response[c][d] *= h;
-  }
-  if (first_.normal > 0) {
-    const double k = robot_.ground.normal_stiffness;
-    const double beta = h * (h / 6.0 * k + 0.5 * robot_.ground.normal_damping);
-    const double share = 1.0 / (1.0 + beta * normal_.response);
-    const double change = -(0.5 * h * k * normal_.rate + beta * normal_.acceleration) * share;
-    const double mean = first_.normal + change;
-    p.bound[foot] = mean > 0 ? robot_.foot.friction * mean : 0.0;
-    if (mean > 0)
-      for (int c = 0; c < contacts; ++c) {
-        p.slip[c] += h * normal_.along[c] * change;
-        for (int d = 0; d < contacts; ++d)
-          p.response[c][d] -= h * beta * share * normal_.along[c] * normal_.along[d];
-      }
-  }
-  return solve_friction<contacts>(p, held_);
+    bound[strings_.joint[i]] += std::abs(strings_.pull[i]) * first_.pull.mesh[i];
+  bound[Contacts<N>::trolley] = robot_.trolley.present ? robot_.trolley.drag : 0.0;
+  bound[Contacts<N>::foot] = robot_.foot.friction * first_.normal;
+  contacts_.prepare(chain, state_.pose, first_.acceleration, bound, first_.normal);
 }
 
 template <int N>
 void World<N>::step(double h) noexcept {
-  held_ = hold(h);
+  held_ = contacts_.hold(h, held_);
   const bool flowing = bank_.any_open();
 
   Look k[4];
   k[0] = first_;
-  for (int c = 0; c < contacts; ++c) {
-    k[0].acceleration.x += column_[c].x * held_[c];
-    for (int i = 0; i < N; ++i) k[0].acceleration.angle[i] += column_[c].angle[i] * held_[c];
-  }
+  k[0].acceleration = contacts_.accelerations(first_.acceleration, held_);
 
   // Stages two to four at 1/2, 1/2 and 1.
   State stage[4];
@@ -292,7 +190,8 @@ void World<N>::step(double h) noexcept {
     return sixth * (part(0) + 2.0 * part(1) + 2.0 * part(2) + part(3));
   };
   state_.pose.x += mean([&](int s) { return stage[s].pose.x_rate; });
-  for (int i = 0; i < N; ++i) state_.pose.angle[i] += mean([&](int s) { return stage[s].pose.rate[i]; });
+  for (int i = 0; i < N; ++i)
+    state_.pose.angle[i] += mean([&](int s) { return stage[s].pose.rate[i]; });
   state_.pose.x_rate += mean([&](int s) { return k[s].acceleration.x; });
   for (int i = 0; i < N; ++i)
     state_.pose.rate[i] += mean([&](int s) { return k[s].acceleration.angle[i]; });
@@ -336,12 +235,8 @@ template <int N>
 auto World<N>::glance() noexcept -> const Glance& {
   if (glanced_) return glance_;
   glanced_ = true;
-  glance_ = {.held = hold(step_), .acceleration = first_.acceleration};
-  for (int c = 0; c < contacts; ++c) {
-    glance_.acceleration.x += column_[c].x * glance_.held[c];
-    for (int i = 0; i < N; ++i)
-      glance_.acceleration.angle[i] += column_[c].angle[i] * glance_.held[c];
-  }
+  glance_.held = contacts_.hold(step_, held_);
+  glance_.acceleration = contacts_.accelerations(first_.acceleration, glance_.held);
   return glance_;
 }
 
@@ -386,7 +281,7 @@ double World<N>::gauge(const Glance& g, const Peek& p, int muscle) const noexcep
   double f = p.look.pull.tension[muscle];
   const double mesh = first_.pull.mesh[muscle];
   if (mesh > 0) {
-    const double share = g.held[j] * mesh / problem_.bound[j];
+    const double share = g.held[j] * mesh / contacts_.bound(j);
     f += strings_.pull[muscle] > 0 ? share : -share;
   }
   return f > 0 ? f : 0.0;
@@ -472,7 +367,7 @@ Truth World<N>::truth(double t) noexcept {
   contact(chain, pose, look);
   out.foot_x = look.ankle_x;
   out.foot_y = look.ankle_y;
-  out.force_x = look.normal > 0 ? g.held[foot] : 0.0;
+  out.force_x = look.normal > 0 ? g.held[Contacts<N>::foot] : 0.0;
   out.force_y = look.normal;
   return out;
 }

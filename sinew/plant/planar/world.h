@@ -1,9 +1,9 @@
 // plant/planar/world.h - a planar machine with N joints, its muscles and its air, as a Port.
 //
 // One RK4 over body and air. Committed nodes are the multiples of the body step and the instants at
-// which valves really open or close, nothing else; a node is committed only when no earlier edge can
-// still arrive. Readings, logs and viewers peek: they extrapolate from the last node in a copy, so
-// that nobody's looking changes a bit.
+// which valves really open or close, nothing else; a node is committed only when no earlier edge
+// can still arrive. Readings, logs and viewers peek: they extrapolate from the last node in a copy,
+// so that nobody's looking changes a bit.
 //
 //   order of one step:  node (valves, reference of the pressure, first stage)
 //                       -> dry friction for this step -> three more stages -> next node
@@ -14,7 +14,7 @@
 
 #include "sinew/muscle/bank.h"
 #include "sinew/plant/planar/chain.h"
-#include "sinew/plant/planar/friction.h"
+#include "sinew/plant/planar/contacts.h"
 #include "sinew/plant/planar/layout.h"
 #include "sinew/plant/planar/sensing.h"
 #include "sinew/plant/planar/setup.h"
@@ -33,7 +33,8 @@ class World final : public signals::Port {
   signals::Reading read(signals::Channel channel, signals::Tick now) noexcept override;
   signals::Status stop(signals::Tick now) noexcept override;
 
-  // The machine at time t [s], at or after every earlier call's. Commits what is due, peeks the rest.
+  // The machine at time t [s], at or after every earlier call's. Commits what is due, peeks the
+  // rest.
   Truth truth(double t) noexcept;
 
   // For tests and tools: commit every node up to t.
@@ -45,8 +46,7 @@ class World final : public signals::Port {
   void set_rates(const std::array<double, N>& joint_rates, double x_rate) noexcept;
 
  private:
-  static constexpr int contacts = N + 2;  // the joints, the trolley, the foot
-  static constexpr int trolley = N, foot = N + 1;
+  using Forces = typename Contacts<N>::Forces;
 
   struct State {
     Pose<N> pose;
@@ -57,15 +57,15 @@ class World final : public signals::Port {
   struct Look {
     muscle::Lanes length, rate;
     muscle::Pull pull;
-    Generalised<N> force;         // muscles, damping, ground, track's stop; no friction
-    double normal = 0;            // on the foot [N]
+    Generalised<N> force;  // muscles, damping, ground, track's stop; no friction
+    double normal = 0;     // on the foot [N]
     double ankle_x = 0, ankle_y = 0;
     Generalised<N> acceleration;  // with the friction of the step
   };
 
   // Friction and accelerations that a look beyond the last node goes by.
   struct Glance {
-    std::array<double, contacts> held;
+    Forces held{};
     Generalised<N> acceleration;
   };
 
@@ -78,20 +78,9 @@ class World final : public signals::Port {
   void strings(const Pose<N>& pose, Look& look) const noexcept;
   void forces(const Chain<N>& chain, const Pose<N>& pose, Look& look) const noexcept;
   void contact(const Chain<N>& chain, const Pose<N>& pose, Look& look) const noexcept;
-  Generalised<N> friction(const Chain<N>& chain, const std::array<double, contacts>& f) const noexcept;
-  void look_at(double t, const State& state, const std::array<double, contacts>& f,
-               Look& look) const noexcept;
-
-  // The ground's normal force as one more direction, for the friction of a step.
-  struct Normal {
-    double response = 0;                        // upward acceleration per force [1/kg]
-    double rate = 0, acceleration = 0;          // of the ankle, upwards [m/s], [m/s^2]
-    std::array<double, contacts> along{};       // upward acceleration per friction force
-  };
+  void look_at(double t, const State& state, const Forces& f, Look& look) const noexcept;
 
   void prepare() noexcept;  // the look at a new node
-  void prepare_normal(const Chain<N>& chain) noexcept;
-  std::array<double, contacts> hold(double h) const noexcept;
   void step(double h) noexcept;
 
   const Glance& glance() noexcept;
@@ -104,6 +93,7 @@ class World final : public signals::Port {
   ChainConstants<N> chain_;
   Strings strings_;
   muscle::Bank bank_;
+  Contacts<N> contacts_;
   robot::Robot robot_;
   std::array<double, N> rest_{}, damping_{}, dry_{};
   double step_ = 1e-3;
@@ -111,17 +101,13 @@ class World final : public signals::Port {
 
   State state_{};
   muscle::Lanes air_in_{}, air_out_{};  // since the start [kg]
-  double time_ = 0;             // of the last committed node [s]
-  std::int64_t multiple_ = 0;   // of the body step that was passed last
+  double time_ = 0;                     // of the last committed node [s]
+  std::int64_t multiple_ = 0;           // of the body step that was passed last
   std::int64_t nodes_ = 0;
-  Glance glance_{};             // from this node, once somebody has looked
+  Glance glance_{};  // from this node, once somebody has looked
   bool glanced_ = false;
-  Look first_{};                // first stage at the node, without friction
-  std::array<Generalised<N>, contacts> column_{};  // M^-1 J^T
-  FrictionProblem<contacts> problem_{};             // slip at the node, response per second
-  std::array<double, contacts> slip_rate_{};        // of the slips, without friction
-  Normal normal_;                                   // where the foot stands
-  std::array<double, contacts> held_{};             // friction of the last step
+  Look first_{};   // first stage at the node, without friction
+  Forces held_{};  // friction of the last step
 
   std::array<signals::Tick, 256> lag_{};  // per channel, from the start of a conversion to its read
   std::array<int, 256> source_{};         // per channel, its joint or muscle

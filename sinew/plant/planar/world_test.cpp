@@ -31,7 +31,8 @@ TEST(World, EnergyIsKeptOnAFixedBase) {
   World<2> world(setup);
   const double before = energy(world.constants(), world.pose());
   world.advance(10.0);
-  EXPECT_LE(std::abs(energy(world.constants(), world.pose()) - before) / swinging_energy(world), 1e-7);
+  EXPECT_LE(std::abs(energy(world.constants(), world.pose()) - before) / swinging_energy(world),
+            1e-7);
   EXPECT_EQ(world.pose().x, 0.0);
 }
 
@@ -80,7 +81,7 @@ TEST(World, SealedMusclesConvergeWithTheFourthOrder) {
     return std::hypot(p.angle[0] - exact.angle[0], p.angle[1] - exact.angle[1]);
   };
   const double coarse = error(4e-3), fine = error(2e-3);
-  EXPECT_GT(coarse, 1e-9);             // there is something to converge
+  EXPECT_GT(coarse, 1e-9);  // there is something to converge
   EXPECT_NEAR(std::log2(coarse / fine), 4.0, 0.5);
 }
 

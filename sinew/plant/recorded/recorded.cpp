@@ -13,8 +13,7 @@ Recorded::Recorded(const robot::Robot& robot, const signals::Table& table)
   for (const robot::Sensor& sensor : robot.sensors) {
     const std::string topic = "/sensor/" + sensor.name + "/count";
     const signals::Series* series = table.find(topic);
-    if (!series || series->time_ns.empty())
-      throw std::invalid_argument("the log has no " + topic);
+    if (!series || series->time_ns.empty()) throw std::invalid_argument("the log has no " + topic);
 
     // The last sample of each period, which was taken after its scan.
     std::vector<std::uint16_t> counts;

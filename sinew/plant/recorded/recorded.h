@@ -1,5 +1,5 @@
-// plant/recorded/recorded.h - a log as a body: it answers with the readings of that run, whatever it
-// is told to do. The same controller must then decide the same edges.
+// plant/recorded/recorded.h - a log as a body: it answers with the readings of that run, whatever
+// it is told to do. The same controller must then decide the same edges.
 #pragma once
 
 #include <cstdint>

@@ -1,0 +1,160 @@
+// Where the time of a walk goes. Goals (bench/README.md) are ratios of one run of this program.
+#include <benchmark/benchmark.h>
+
+#include <string>
+
+#include "sinew/experiment/clock.h"
+#include "sinew/experiment/loop.h"
+#include "sinew/experiment/run.h"
+#include "sinew/experiment/spinal.h"
+#include "sinew/plant/planar/world.h"
+
+namespace {
+
+using namespace sinew;
+
+const experiment::Experiment& walk() {
+  static const experiment::Experiment e =
+      experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml");
+  return e;
+}
+
+// The whole closed loop with the channel table in memory and no log: what `sinew run` does with
+// --set log.enabled=false.
+void closed_loop_walk(benchmark::State& state) {
+  double simulated = 0;
+  std::int64_t nodes = 0;
+  for (auto _ : state) {
+    const experiment::Outcome out = experiment::run(walk());
+    simulated += out.duration;
+    nodes += out.nodes;
+  }
+  state.counters["real_time_factor"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);
+  state.counters["nodes"] =
+      benchmark::Counter(static_cast<double>(nodes), benchmark::Counter::kIsRate);
+}
+BENCHMARK(closed_loop_walk)->Unit(benchmark::kMillisecond);
+
+struct Nothing {
+  void command(signals::Tick) noexcept {}
+  void edge(const signals::Edge&) noexcept {}
+  void sample(signals::Tick) noexcept {}
+  signals::Tick next(signals::Tick t) const noexcept { return t + 1'000'000; }
+};
+
+// The same, nobody recording.
+void unwatched_walk(benchmark::State& state) {
+  const signals::Tick end = experiment::last_tick(walk());
+  double simulated = 0;
+  for (auto _ : state) {
+    plant::World<2> world(experiment::planar_setup(walk()));
+    control::Spine spine(experiment::spine_config(walk()));
+    experiment::HighLevel high(walk().robot, walk().plan);
+    experiment::SimulatedClock clock;
+    Nothing nobody;
+    benchmark::DoNotOptimize(experiment::loop(spine, high, world, clock, nobody, end));
+    simulated += static_cast<double>(end) * signals::tick_seconds;
+  }
+  state.counters["real_time_factor"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);
+}
+BENCHMARK(unwatched_walk)->Unit(benchmark::kMillisecond);
+
+// A body that always answers the same: brain, spinal cord and loop alone.
+class Still final : public signals::Port {
+ public:
+  signals::Status start(const signals::Scan&) noexcept override { return signals::Status::ok; }
+  signals::Status drive(signals::Edge) noexcept override { return signals::Status::ok; }
+  signals::Reading read(signals::Channel c, signals::Tick t) noexcept override {
+    return {static_cast<std::uint16_t>(700 + 10 * c.index + t % 7), signals::Status::ok};
+  }
+  signals::Status stop(signals::Tick) noexcept override { return signals::Status::ok; }
+};
+
+void controller_alone(benchmark::State& state) {
+  const signals::Tick end = experiment::last_tick(walk());
+  double simulated = 0;
+  for (auto _ : state) {
+    Still body;
+    control::Spine spine(experiment::spine_config(walk()));
+    experiment::HighLevel high(walk().robot, walk().plan);
+    experiment::SimulatedClock clock;
+    Nothing nobody;
+    benchmark::DoNotOptimize(experiment::loop(spine, high, body, clock, nobody, end));
+    simulated += static_cast<double>(end) * signals::tick_seconds;
+  }
+  state.counters["real_time_factor"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);
+}
+BENCHMARK(controller_alone)->Unit(benchmark::kMillisecond);
+
+// One 1 ms step of the standing leg: four stages, friction, contact.
+void one_node(benchmark::State& state) {
+  plant::World<2> world(experiment::planar_setup(walk()));
+  double t = 0.5;
+  world.advance(t);
+  for (auto _ : state) world.advance(t += 1e-3);
+}
+BENCHMARK(one_node);
+
+// One look between two nodes.
+void one_peek(benchmark::State& state) {
+  plant::World<2> world(experiment::planar_setup(walk()));
+  for (auto _ : state) benchmark::DoNotOptimize(world.truth(0.5005));
+}
+BENCHMARK(one_peek);
+
+struct FourMuscles {
+  plant::Setup setup = experiment::planar_setup(walk());
+  muscle::Bank bank{setup.muscles, setup.air, setup.supply};
+  muscle::Lanes length{}, rate{}, mass{};
+
+  FourMuscles() {
+    for (int i = 0; i < muscle::capacity; ++i) {
+      length[i] = 0.08;
+      mass[i] = bank.mass_at(i % 4, 3e5, 0.08);
+    }
+    muscle::Pull pull;
+    bank.evaluate(0, length, rate, mass, pull);
+    bank.follow(pull.drift);
+  }
+};
+
+// Tensions and pressures of four muscles, one evaluation after the other (throughput) ...
+void four_muscles(benchmark::State& state) {
+  FourMuscles m;
+  muscle::Pull pull;
+  for (auto _ : state) {
+    m.bank.evaluate(0, m.length, m.rate, m.mass, pull);
+    benchmark::DoNotOptimize(pull);
+  }
+}
+BENCHMARK(four_muscles);
+
+// ... and each waiting for the last one's answer, as the stages of a step do.
+void four_muscles_in_sequence(benchmark::State& state) {
+  FourMuscles m;
+  muscle::Pull pull;
+  pull.tension[0] = 0;
+  for (auto _ : state) {
+    m.length[0] = 0.08 + 1e-12 * pull.tension[0];
+    m.bank.evaluate(0, m.length, m.rate, m.mass, pull);
+  }
+  benchmark::DoNotOptimize(pull);
+}
+BENCHMARK(four_muscles_in_sequence);
+
+// Mass matrix, its factors and the accelerations of the two-link leg on its trolley.
+void body_accelerations(benchmark::State& state) {
+  const plant::ChainConstants<2> k = plant::chain_of<2>(walk().robot);
+  plant::Pose<2> pose;
+  pose.angle = {5.1, 9.9};
+  pose.rate = {0.1, 0.2};
+  for (auto _ : state) {
+    const plant::Chain<2> chain(k, pose);
+    const plant::Generalised<2> a = chain.accelerations({.x = 1.0, .angle = {0.1, 0.2}});
+    pose.angle[0] += 1e-15 * a.x;
+  }
+  benchmark::DoNotOptimize(pose);
+}
+BENCHMARK(body_accelerations);
+
+}  // namespace
