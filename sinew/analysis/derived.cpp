@@ -177,9 +177,9 @@ void add_trolley(Series& out, const Record& record, const Machine& m) {
   if (!trolley.present || !(trolley.total_mass > 0) || !x || !record.has_sequence()) return;
 
   const Column push = *x, normal = *y;  // adding series moves them
-  add_motion(out, record, trolley, push, stance_rows(record), "/trolley",
-             "of /foot/force in stance, and drag");
-  add_motion(out, record, trolley, push, loaded_rows(record, normal), "/trolley/to_liftoff",
+  add_motion(out, record, trolley, push, stance_rows(record), "/trolley/by_plan",
+             "of /foot/force in stance by plan, and drag");
+  add_motion(out, record, trolley, push, loaded_rows(record, normal), "/trolley",
              "of /foot/force until the foot is unloaded, and drag");
 }
 

@@ -6,9 +6,10 @@
 //   /joint/<j>/error     measured - desired angle
 //   /joint/<j>/oscillation   the same without its mean over 0.21 s about each sample
 //   /muscle/<m>/passive     share of the period in which neither valve is open, as commanded
-//   /trolley/position, /trolley/velocity      of /foot/force and drag, integrated as in 6.3
-//   /trolley/to_liftoff/position, /trolley/to_liftoff/velocity   the same, the force counting until
-//                        the foot is unloaded, which may be later than the plan's end of stance
+//   /trolley/position, /trolley/velocity      of /foot/force and drag, integrated as in 6.3; the
+//                        force counts until the foot is unloaded
+//   /trolley/by_plan/position, /trolley/by_plan/velocity   the same, the force counting in the
+//                        plan's stance alone, which ends earlier
 //   /true/joint/<j>/stiffness   of the true lengths and pressures
 //   /true/foot/slip      velocity of the foot's lowest point along the ground
 //

@@ -62,18 +62,18 @@ TEST(Derived, TrolleyIsPushedInStanceOnly) {
   const double a = 9 / m.robot.trolley.total_mass;
   const signals::Table out = derive(standing({9, 25}).table, m);
   // Straight lines at both ends of a stance add and take half a sample.
-  EXPECT_NEAR(out.column("/trolley/velocity")->back(), 1.2 * a, 1e-12);
+  EXPECT_NEAR(out.column("/trolley/by_plan/velocity")->back(), 1.2 * a, 1e-12);
 
   // Loaded all the time: it never lifts off before the sequence ends.
-  EXPECT_NEAR(out.column("/trolley/to_liftoff/velocity")->back(), (2.0 - 0.005) * a, 1e-9);
+  EXPECT_NEAR(out.column("/trolley/velocity")->back(), (2.0 - 0.005) * a, 1e-9);
 }
 
 TEST(Derived, TrolleyComesToRestUnderDrag) {
   Machine m = walking_leg();
   m.robot.trolley.drag = 8;
   const signals::Table out = derive(standing({9, 25}).table, m);
-  EXPECT_EQ(out.column("/trolley/velocity")->back(), 0);
-  EXPECT_GT(out.column("/trolley/position")->back(), 0);
+  EXPECT_EQ(out.column("/trolley/by_plan/velocity")->back(), 0);
+  EXPECT_GT(out.column("/trolley/by_plan/position")->back(), 0);
 }
 
 TEST(Derived, LiftoffIsWhereTheNormalForceEnds) {
@@ -85,8 +85,7 @@ TEST(Derived, LiftoffIsWhereTheNormalForceEnds) {
   for (signals::Series& s : log.table.series)
     if (s.topic.name.ends_with("tension"))
       for (std::size_t i = 20; i < 40; ++i) s.columns[0][i] = 200;
-  EXPECT_NEAR(derive(log.table, m).column("/trolley/to_liftoff/velocity")->back(),
-              (0.8 - 0.005) * a, 1e-9);
+  EXPECT_NEAR(derive(log.table, m).column("/trolley/velocity")->back(), (0.8 - 0.005) * a, 1e-9);
 }
 
 TEST(Derived, ErrorGoesTheShorterWayRound) {
@@ -107,7 +106,7 @@ TEST(Derived, SingularPosesAndMissingReadingsGiveNoForce) {
   EXPECT_TRUE(std::isnan(y[10]));
   EXPECT_TRUE(std::isnan(y[20]));
   EXPECT_NEAR(y[11], 25, 1e-10);
-  EXPECT_TRUE(std::isfinite(out.column("/trolley/position")->back()));
+  EXPECT_TRUE(std::isfinite(out.column("/trolley/by_plan/position")->back()));
 }
 
 // Two actuators of known braid on one side, a slack cord on the other.
@@ -152,8 +151,9 @@ TEST(Derived, AHardwareLogLacksOnlyTheTruth) {
     EXPECT_FALSE(s.topic.name.starts_with("/true")) << s.topic.name;
     for (const auto& column : s.columns) EXPECT_EQ(column.size(), s.time_ns.size());
   }
-  for (const char* name : {"/foot/position", "/foot/force", "/joint/hip/torque",
-                           "/joint/knee/torque", "/trolley/position", "/trolley/velocity"})
+  for (const char* name :
+       {"/foot/position", "/foot/force", "/joint/hip/torque", "/joint/knee/torque",
+        "/trolley/by_plan/position", "/trolley/by_plan/velocity"})
     EXPECT_TRUE(names.count(name)) << name;
 }
 

@@ -180,8 +180,8 @@ void add_trolley(Figures& f) {
   const double distance = from_torques("/trolley/position");
   f.summary.add("trolley.distance_from_torques_m", distance);
   f.summary.add("trolley.mean_speed_from_torques_m_per_s", distance / f.record.sequence_lasts());
-  f.summary.add("trolley.distance_from_torques_to_liftoff_m",
-                from_torques("/trolley/to_liftoff/position"));
+  f.summary.add("trolley.distance_from_torques_by_plan_m",
+                from_torques("/trolley/by_plan/position"));
 }
 
 void add_foot(Figures& f) {

@@ -116,8 +116,9 @@ void add_muscles(Figures& f) {
     const std::string key = "muscles." + m.name + ".";
     f.add(key + "peak_tension_N", largest, f.record.column("/true" + topic(m, "tension")),
           sequence);
-    f.add(key + "measured_peak_tension_N", largest, f.record.column(topic(m, "tension")), sequence);
-    f.summary.add(key + "believed_peak_tension_N", believed_peak(f, reading(f, i)));
+    f.summary.add(key + "measured_peak_tension_N", believed_peak(f, reading(f, i)));
+    f.add(key + "own_scale_peak_tension_N", largest, f.record.column(topic(m, "tension")),
+          sequence);
     f.summary.add(key + "clipped_share", clipped(f, reading(f, i)));
     f.summary.add(key + "mean_inlet_duty", mean_duty(f, m, "inlet_duty"));
     f.summary.add(key + "mean_exhaust_duty", mean_duty(f, m, "exhaust_duty"));

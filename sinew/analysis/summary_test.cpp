@@ -200,8 +200,8 @@ TEST(Summary, ClippingAndPeaksOfAMuscle) {
   log.scalar("/true/muscle/hip_extensor/tension", [](double t) { return 200 - t; });
   const Summary s = summarize(log.table, m);
   EXPECT_NEAR(value(s, "muscles.hip_extensor.clipped_share"), 0.25, 1e-12);
-  EXPECT_NEAR(value(s, "muscles.hip_extensor.believed_peak_tension_N"), 4095 / 819.2, 1e-12);
-  EXPECT_NEAR(value(s, "muscles.hip_extensor.measured_peak_tension_N"), 100.99, 1e-12);
+  EXPECT_NEAR(value(s, "muscles.hip_extensor.measured_peak_tension_N"), 4095 / 819.2, 1e-12);
+  EXPECT_NEAR(value(s, "muscles.hip_extensor.own_scale_peak_tension_N"), 100.99, 1e-12);
   EXPECT_NEAR(value(s, "muscles.hip_extensor.peak_tension_N"), 200, 1e-12);
 }
 
