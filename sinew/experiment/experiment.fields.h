@@ -45,6 +45,15 @@ void fields(Visitor& v, Log& log) {
 }
 
 template <class Visitor>
+void fields(Visitor& v, PulseTable& p) {
+  constexpr double never = 65535;
+  v.numbers({.name = "closing", .unit = "1", .min = 0, .max = never, .doc = "[ticks], by duty"},
+            p.closing);
+  v.numbers({.name = "opening", .unit = "1", .min = 0, .max = never, .doc = "[ticks], by duty"},
+            p.opening);
+}
+
+template <class Visitor>
 void fields(Visitor& v, Reported& r) {
   v.text({.name = "key", .doc = "of summary.json"}, r.key);
   v.text({.name = "value", .doc = "as reported"}, r.value);
@@ -62,6 +71,10 @@ void machine_fields(Visitor& v, Experiment& e) {
          [](auto& g, gas::Valve& valve) { gas::fields(g, valve); });
   v.group({.name = "air", .doc = "atmosphere and supply"},
           [&](auto& g) { gas::fields(g, e.air, e.supply); });
+  v.group({.name = "pulses",
+           .optional = true,
+           .doc = "low_level.valve_timing as numbers, in a resolved file"},
+          [&](auto& g) { fields(g, e.pulses); });
 }
 
 template <class Visitor>

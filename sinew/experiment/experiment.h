@@ -32,6 +32,11 @@ struct Log {
   double period = 0.01;                       // [s]
 };
 
+// predict.dat as numbers, so that a resolved file needs no other  [ticks], by duty 0 ... 100 %.
+struct PulseTable {
+  std::vector<double> closing, opening;
+};
+
 // A figure that the source reports, for the table at the end of a run. Text: its unit follows from
 // the summary's key, see analysis/reported.h.
 struct Reported {
@@ -55,6 +60,7 @@ struct Experiment {
   std::vector<gas::Valve> valves;
   gas::Air air;
   gas::Supply supply;
+  PulseTable pulses;  // empty: from the robot's low_level.valve_timing
   signals::ValveTiming timing = signals::identity_timing();
 
   Start start;

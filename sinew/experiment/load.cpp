@@ -78,6 +78,9 @@ void check_names(const Experiment& e, std::vector<robot::Contradiction>& out) {
 }
 
 void check_numbers(const Experiment& e, std::vector<robot::Contradiction>& out) {
+  for (const auto* column : {&e.pulses.closing, &e.pulses.opening})
+    if (!column->empty() && column->size() != config::ValveTiming::rows)
+      out.push_back({"pulses", std::to_string(column->size()) + " numbers", "101, by duty", ""});
   const auto whole = [&](const std::string& key, double value, double unit, const char* what) {
     const double n = value / unit;
     if (std::abs(n - std::round(n)) > 1e-9 * std::max(1.0, n))
@@ -90,6 +93,20 @@ void check_numbers(const Experiment& e, std::vector<robot::Contradiction>& out) 
   if (e.robot.joints.empty() || e.robot.joints.size() > 2)
     out.push_back({"joint", std::to_string(e.robot.joints.size()) + " joints",
                    "one or two: what the planar plant holds", ""});
+}
+
+// The valves' pulses: as numbers in the file, from predict.dat, or the identity.
+void read_timing(Experiment& e) {
+  constexpr std::size_t rows = config::ValveTiming::rows;
+  if (e.pulses.closing.size() == rows && e.pulses.opening.size() == rows) {
+    for (std::size_t duty = 0; duty < rows; ++duty) {
+      e.timing.closing[duty] = static_cast<std::uint16_t>(e.pulses.closing[duty]);
+      e.timing.opening[duty] = static_cast<std::uint16_t>(e.pulses.opening[duty]);
+    }
+  } else if (!e.robot.low_level.valve_timing.empty()) {
+    const config::ValveTiming read = config::read_valve_timing(e.robot.low_level.valve_timing);
+    e.timing = {.closing = read.closing, .opening = read.opening};
+  }
 }
 
 }  // namespace
@@ -122,10 +139,7 @@ Experiment load(config::Node root, const std::string& path) {
   e.origins = reader.origins();
   e.warnings = reader.warnings();
   e.plan.settle = e.start.settle;
-  if (!e.robot.low_level.valve_timing.empty()) {
-    const config::ValveTiming read = config::read_valve_timing(e.robot.low_level.valve_timing);
-    e.timing = {.closing = read.closing, .opening = read.opening};
-  }
+  read_timing(e);
 
   // What each value allows, but not all together.
   std::vector<robot::Contradiction> wrong;
@@ -141,6 +155,9 @@ Experiment load(config::Node root, const std::string& path) {
 
 std::string resolved(const Experiment& experiment, const std::string& version) {
   Experiment e = experiment;  // visitors take what they print by reference
+  e.pulses.closing.assign(e.timing.closing.begin(), e.timing.closing.end());
+  e.pulses.opening.assign(e.timing.opening.begin(), e.timing.opening.end());
+  e.robot.low_level.valve_timing.clear();
   config::Writer writer(&e.origins);
   writer.format("experiment");
   std::string sinew = version;
