@@ -57,31 +57,36 @@ Bank::Bank(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supp
 
 void Bank::set_constants(int i, const Muscle& m) {
   const actuator::Actuator& a = m.actuator;
+  const double factor = actuator::braid_factor(a.braid);
   k_.thread2[i] = a.braid.thread_length * a.braid.thread_length;
-  k_.factor[i] = actuator::braid_factor(a.braid);
-  k_.count[i] = m.count;
+  k_.cubic[i] = m.count * factor;
+  k_.linear[i] = k_.cubic[i] * k_.thread2[i];
   k_.external[i] = m.external_volume;
-  k_.c0[i] = a.effectiveness.scale * a.effectiveness.c0;
-  k_.c1[i] = a.effectiveness.scale * a.effectiveness.c1;
-  k_.c2[i] = a.effectiveness.scale * a.effectiveness.c2;
-  const bool absolute = a.effectiveness.argument == actuator::Effectiveness::Argument::absolute;
-  k_.offset[i] = absolute ? air_.atmosphere : 0.0;
-  k_.low[i] = a.effectiveness.valid_from;
-  k_.high[i] = a.effectiveness.valid_to;
-  k_.long_length[i] = a.long_end.length;
-  k_.long_stiffness[i] = a.long_end.stiffness;
-  k_.long_damping[i] = a.long_end.damping;
-  k_.short_length[i] = actuator::shortest_length(a.braid);
-  k_.short_stiffness[i] = a.short_end.stiffness;
-  k_.short_damping[i] = a.short_end.damping;
-  k_.short_zero[i] = a.short_end.law == actuator::ShortEnd::Law::zero ? 1.0 : 0.0;
-  k_.viscous[i] = a.loss.viscous;
-  k_.bladder[i] = a.bladder.stiffness;
+
+  // Absolute pressure as the argument: the polynomial about one atmosphere.
+  const actuator::Effectiveness& e = a.effectiveness;
+  const bool absolute = e.argument == actuator::Effectiveness::Argument::absolute;
+  const double shift = absolute ? air_.atmosphere : 0.0;
+  k_.c0[i] = e.scale * (e.c0 + shift * (e.c1 + shift * e.c2));
+  k_.c1[i] = e.scale * (e.c1 + 2.0 * shift * e.c2);
+  k_.c2[i] = e.scale * e.c2;
+  k_.low[i] = e.valid_from;
+  k_.high[i] = e.valid_to;
+
+  k_.viscous[i] = m.count * a.loss.viscous;
+  k_.bladder[i] = m.count * a.bladder.stiffness;
   k_.bladder_rest[i] = a.bladder.rest_length;
+  k_.long_length[i] = a.long_end.length;
+  k_.long_stiffness[i] = m.count * a.long_end.stiffness;
+  k_.long_damping[i] = m.count * a.long_end.damping;
+  k_.short_length[i] = actuator::shortest_length(a.braid);
+  k_.short_stiffness[i] = m.count * a.short_end.stiffness;
+  k_.short_damping[i] = m.count * a.short_end.damping;
+  k_.short_zero[i] = a.short_end.law == actuator::ShortEnd::Law::zero ? 1.0 : 0.0;
 
   using Scale = actuator::Loss::Scale;
   const double q = a.loss.coulomb_length;
-  k_.mesh_secant[i] = a.loss.coulomb_scale == Scale::secant ? m.count * q : 0.0;
+  k_.mesh_secant[i] = a.loss.coulomb_scale == Scale::secant ? 3.0 * k_.cubic[i] * q : 0.0;
   k_.mesh_constant[i] =
       a.loss.coulomb_scale == Scale::constant ? m.count * q * a.loss.coulomb_stiffness : 0.0;
 }
@@ -163,43 +168,44 @@ SINEW_WIDE void Bank::evaluate(double t, const Lanes& length, const Lanes& rate,
   const Constants& k = k_;
   const auto& c = series_;
   const Four zero{};
-  bool far = false;
   for (int i = 0; i < padded_; i += lanes) {
-    const Four l = length.four(i);
-    const Four inside = l * (k.thread2.four(i) - l * l) * k.factor.four(i);
-    const Four volume = k.count.four(i) * (inside > zero ? inside : zero) + k.external.four(i);
-    const Four x = mass.four(i) / volume * inverse_sigma_.four(i) - 1.0;
-    out.drift.four(i) = x;
-    // Terms in pairs, which wait less for one another than Horner's.
+    // Density against the reference, and y by the series: its terms in pairs, which wait less for
+    // one another than Horner's.
+    const Four l = length.four(i), v = rate.four(i), l2 = l * l;
+    const Four inside = l * (k.linear.four(i) - k.cubic.four(i) * l2);
+    const Four volume = (inside > zero ? inside : zero) + k.external.four(i);
+    const Four x = (mass.four(i) * inverse_sigma_.four(i)) / volume - 1.0;
     const Four x2 = x * x, low = 1.0 + c[1] * x, middle = c[2] + c[3] * x;
     const Four high = (c[4] + c[5] * x) + c[6] * x2;
-    y.four(i) = y_reference_.four(i) * ((low + x2 * middle) + (x2 * x2) * high);
+    Four root = y_reference_.four(i) * ((low + x2 * middle) + (x2 * x2) * high);
+    out.drift.four(i) = x;
     const auto outside = (x > series_reach) | (x < -series_reach);
-    far = far || (outside[0] | outside[1] | outside[2] | outside[3]) != 0;
-  }
-  if (far) far_pressures(out.drift, y);
+    if ((outside[0] | outside[1] | outside[2] | outside[3]) != 0) far_roots(i, x, root);
+    y.four(i) = root;
 
-  for (int i = 0; i < padded_; i += lanes) {
-    const Four root = y.four(i), root2 = root * root, root4 = root2 * root2;
-    const Four p = air_.atmosphere * (root4 * (root2 * root));
+    // What does not depend on the pressure.
+    const Four lever = k.cubic.four(i) * (3.0 * l2 - k.thread2.four(i));
+    const Four stretch = l - k.long_length.four(i), squeeze = l - k.short_length.four(i);
+    const Four braid = k.long_stiffness.four(i) * stretch + k.long_damping.four(i) * v;
+    const Four passive =
+        (k.bladder.four(i) * (l - k.bladder_rest.four(i)) + k.viscous.four(i) * v) +
+        (stretch > zero ? braid : zero);
+    const Four stop = k.short_stiffness.four(i) * squeeze + k.short_damping.four(i) * v;
+    const Four squeezed = squeeze < zero ? stop : zero;
+    const Four secant = k.mesh_secant.four(i) * (l + k.short_length.four(i));
+
+    // Gauge pressure times effectiveness, and what it pulls with.
+    const Four root2 = root * root, root4 = root2 * root2;
+    const Four p = (air_.atmosphere * root4) * (root2 * root);
     const Four gauge = p - air_.atmosphere;
     const Four raised = gauge < k.low.four(i) ? k.low.four(i) : gauge;
     const Four bounded = raised > k.high.four(i) ? k.high.four(i) : raised;
-    const Four argument = bounded + k.offset.four(i);
-    const Four share = k.c0.four(i) + argument * (k.c1.four(i) + argument * k.c2.four(i));
-
-    const Four l = length.four(i), v = rate.four(i);
-    const Four drive = gauge * k.factor.four(i) * share;
-    const Four pull = drive * (3.0 * l * l - k.thread2.four(i)) +
-                      k.bladder.four(i) * (l - k.bladder_rest.four(i)) + k.viscous.four(i) * v;
-    const Four stretch = l - k.long_length.four(i), squeeze = l - k.short_length.four(i);
-    const Four braid = k.long_stiffness.four(i) * stretch + k.long_damping.four(i) * v;
-    const Four f = pull + (stretch > zero ? braid : zero);
-    const Four stop = f + k.short_stiffness.four(i) * squeeze + k.short_damping.four(i) * v;
-    const Four beyond = k.short_zero.four(i) > zero ? zero : stop;
-    const Four all = k.count.four(i) * (squeeze < zero ? beyond : f);
-    const Four mesh = k.mesh_secant.four(i) * (3.0 * drive * (l + k.short_length.four(i))) +
-                      k.mesh_constant.four(i);
+    const Four share = k.c0.four(i) + bounded * (k.c1.four(i) + bounded * k.c2.four(i));
+    const Four drive = gauge * share;
+    const Four pull = drive * lever + (passive + squeezed);
+    const Four nothing = squeeze < zero ? k.short_zero.four(i) : zero;  // [31] as printed
+    const Four all = nothing > zero ? zero : pull;
+    const Four mesh = drive * secant + k.mesh_constant.four(i);
     out.tension.four(i) = all > zero ? all : zero;
     out.mesh.four(i) = mesh > zero ? mesh : zero;
     out.pressure.four(i) = p;
@@ -211,10 +217,10 @@ SINEW_WIDE void Bank::evaluate(double t, const Lanes& length, const Lanes& rate,
 }
 
 // Beyond the reach of the series.
-void Bank::far_pressures(const Lanes& drift, Lanes& y) const noexcept {
-  for (int i = 0; i < size_; ++i)
-    if (drift[i] > series_reach || drift[i] < -series_reach)
-      y[i] = exact_y((drift[i] + 1.0) / inverse_sigma_[i]);
+void Bank::far_roots(int first, const Four& drift, Four& root) const noexcept {
+  for (int k = 0; k < lanes; ++k)
+    if (drift[k] > series_reach || drift[k] < -series_reach)
+      root[k] = exact_y((drift[k] + 1.0) / inverse_sigma_[first + k]);
 }
 
 // Loss::Scale::sealed: Q times the stiffness that it was identified with.

@@ -92,21 +92,22 @@ class Bank {
   double open_share(int valve, double t) const noexcept;
 
  private:
-  // Constants in lanes; those beyond the last muscle repeat it.
+  // Constants of the bundles in lanes, the count of actuators and what can be multiplied beforehand
+  // folded in; lanes beyond the last muscle repeat it.
   struct Constants {
-    Lanes thread2, factor, count, external;              // b^2, 1/(4 pi n^2), -, m^3
-    Lanes c0, c1, c2, offset, low, high;                 // effectiveness
+    Lanes thread2, cubic, linear, external;  // b^2; volume: external + l (linear - cubic l^2)
+    Lanes c0, c1, c2, low, high;             // effectiveness, of the gauge pressure
+    Lanes viscous, bladder, bladder_rest;    // passive
     Lanes long_length, long_stiffness, long_damping;     // [32], [35]
     Lanes short_length, short_stiffness, short_damping;  // end stop
     Lanes short_zero;                                    // 1 where [31]'s zero holds, else 0
-    Lanes viscous, bladder, bladder_rest;
-    Lanes mesh_secant, mesh_constant;  // Q for [34], or the bound itself
+    Lanes mesh_secant, mesh_constant;                    // Q for [34], or the bound itself
   };
 
   void set_constants(int lane, const Muscle& muscle);
   double exact_y(double density) const noexcept;
   void flows(double t, const Lanes& y, Pull& out) const noexcept;
-  void far_pressures(const Lanes& drift, Lanes& y) const noexcept;
+  void far_roots(int first, const Four& drift, Four& root) const noexcept;
   void sealed_mesh(const Lanes& length, Pull& out) const noexcept;
   void loose_signs(const Lanes& rate, Pull& out) const noexcept;
   void move_valves(double t) noexcept;
