@@ -94,51 +94,80 @@ Recorder::Recorder(const Experiment& e, const control::Spine& spine, HighLevel& 
     const int s = robot::tension_sensor_of(robot_, static_cast<int>(m));
     const robot::Sensor& sensor = robot_.sensors[static_cast<std::size_t>(s)];
     true_newtons_per_count_.push_back(1.0 / (sensor.scale * robot_.converter.counts_per_volt()));
+    const int joint = robot::find_joint(robot_, robot_.muscles[m].joint);
+    joint_of_.push_back(static_cast<std::size_t>(joint));
   }
+
+  // What a row holds; without a truth the topics under /true have no samples.
+  topics_ = topics(robot_);
+  first_edge_ = topics_.size() - 2 * robot_.muscles.size();
+  for (std::size_t i = 0; i < first_edge_; ++i)
+    if (truth_ || !topics_[i].name.starts_with("/true/")) width_ += topics_[i].fields.size();
 
   // Room for everything that can come: samples, and four edges per valve and period.
   const auto samples = static_cast<std::size_t>(end / period_ + 2);
-  const auto edges = static_cast<std::size_t>(4 * (end / scan + 2));
-  const std::size_t valves = 2 * robot_.muscles.size();
-  for (Topic& topic : topics(robot_)) table_.series.push_back({std::move(topic), {}, {}});
-  first_edge_ = table_.series.size() - valves;
-  for (std::size_t i = 0; i < table_.series.size(); ++i) {
-    signals::Series& s = table_.series[i];
-    s.columns.resize(s.topic.fields.size());
-    s.time_ns.reserve(i < first_edge_ ? samples : edges);
-    for (std::vector<double>& column : s.columns) column.reserve(i < first_edge_ ? samples : edges);
-  }
+  rows_.reserve(samples * width_);
+  row_time_ns_.reserve(samples);
+  edges_.reserve(4 * 2 * robot_.muscles.size() * static_cast<std::size_t>(end / scan + 2));
 }
 
 void Recorder::command(Tick t) noexcept {
   if (progress_) progress_->store(t, std::memory_order_relaxed);
 }
 
-// One record of the series at the cursor. Never grows beyond what was reserved.
+// The numbers of the topic at the cursor.
 void Recorder::put(std::span<const double> values) noexcept {
-  signals::Series& s = table_.series[cursor_];
-  if (s.time_ns.size() == s.time_ns.capacity()) {
-    table_.complete = false;
-    ++cursor_;
-    return;
-  }
-  s.time_ns.push_back(now_ns_);
-  for (std::size_t i = 0; i < values.size(); ++i) s.columns[i].push_back(values[i]);
+  rows_.insert(rows_.end(), values.begin(), values.end());
   if (tap_.push && tapped_[cursor_] != not_tapped)
     tap_.push(tap_.object, tapped_[cursor_], now_ns_, values);
   ++cursor_;
 }
 
 void Recorder::edge(const signals::Edge& edge) noexcept {
-  now_ns_ = edge.at * signals::tick_nanoseconds;
-  cursor_ = first_edge_ + edge.valve.index;
+  if (edges_.size() == edges_.capacity()) {
+    complete_ = false;
+    return;
+  }
+  edges_.push_back(edge);
+  const std::size_t topic = first_edge_ + edge.valve.index;
   const double open = edge.open ? 1.0 : 0.0;
-  put({&open, 1});
+  if (tap_.push && tapped_[topic] != not_tapped)
+    tap_.push(tap_.object, tapped_[topic], edge.at * signals::tick_nanoseconds, {&open, 1});
+}
+
+signals::Table Recorder::take() {
+  signals::Table table;
+  table.complete = complete_;
+  std::size_t column = 0;  // of a row
+  for (std::size_t i = 0; i < topics_.size(); ++i) {
+    signals::Series s{std::move(topics_[i]), {}, {}};
+    s.columns.resize(s.topic.fields.size());
+    if (i < first_edge_ && column < width_) {
+      s.time_ns = row_time_ns_;
+      for (std::vector<double>& values : s.columns) {
+        values.reserve(row_time_ns_.size());
+        for (std::size_t at = column; at < rows_.size(); at += width_) values.push_back(rows_[at]);
+        ++column;
+      }
+    }
+    table.series.push_back(std::move(s));
+  }
+  for (const signals::Edge& edge : edges_) {
+    signals::Series& s = table.series[first_edge_ + edge.valve.index];
+    s.time_ns.push_back(edge.at * signals::tick_nanoseconds);
+    s.columns[0].push_back(edge.open ? 1.0 : 0.0);
+  }
+  return table;
 }
 
 void Recorder::sample(Tick t) noexcept {
   if (t < next_) return;
   next_ += period_;
+  if (rows_.capacity() - rows_.size() < width_) {
+    complete_ = false;
+    return;
+  }
+  row_time_ns_.push_back(t * signals::tick_nanoseconds);
   now_ns_ = t * signals::tick_nanoseconds;
   cursor_ = 0;
   high_.believe(spine_.seen());
@@ -166,7 +195,7 @@ void Recorder::record_muscles() noexcept {
   const control::Seen& seen = spine_.seen();
   const auto one = [&](double value) { put({&value, 1}); };
   for (std::size_t m = 0; m < robot_.muscles.size(); ++m) {
-    const auto j = static_cast<std::size_t>(robot::find_joint(robot_, robot_.muscles[m].joint));
+    const std::size_t j = joint_of_[m];
     const bool active = seen.joint[j].enabled && seen.phase == control::Phase::running;
     const control::Duties& d = seen.joint[j].duties;
     const bool flexor = robot_.muscles[m].role == robot::Muscle::Role::flexor;

@@ -50,7 +50,8 @@ class Recorder {
   void sample(signals::Tick t) noexcept;
   signals::Tick next(signals::Tick) const noexcept { return next_; }
 
-  signals::Table take() { return std::move(table_); }
+  // What was recorded, as series. Once, after the run.
+  signals::Table take();
 
  private:
   void put(std::span<const double> values) noexcept;
@@ -64,14 +65,23 @@ class Recorder {
   HighLevel& high_;
   TruthAt truth_;
   std::vector<double> true_newtons_per_count_;  // of each muscle's own transducer
+  std::vector<std::size_t> joint_of_;           // of each muscle
 
-  signals::Table table_;
-  std::size_t first_edge_ = 0;  // series of the first valve
-  std::size_t cursor_ = 0;      // series that the next put() goes to
+  // While the run goes: rows of numbers one behind the other, and the edges. Both are reserved for
+  // all that can come.
+  std::vector<signals::Topic> topics_;
+  std::size_t first_edge_ = 0;  // topic of the first valve
+  std::size_t width_ = 0;       // numbers in a row
+  std::vector<double> rows_;
+  std::vector<std::int64_t> row_time_ns_;
+  std::vector<signals::Edge> edges_;
+  bool complete_ = true;
+
+  std::size_t cursor_ = 0;  // topic that the next put() is of
   std::int64_t now_ns_ = 0;
   signals::Tick period_ = 100, next_ = 0;
   Tap tap_;
-  std::vector<std::uint16_t> tapped_;  // topic in the log of each series, or none
+  std::vector<std::uint16_t> tapped_;  // topic in the log of each of ours, or none
   std::atomic<std::int64_t>* progress_ = nullptr;
 };
 
