@@ -19,7 +19,8 @@ struct Channel {
 };
 
 struct Valve {
-  std::uint8_t index = 0;  // 2 x muscle + (0 inlet | 1 exhaust); a 3-way valve uses its inlet's index
+  std::uint8_t index =
+      0;  // 2 x muscle + (0 inlet | 1 exhaust); a 3-way valve uses its inlet's index
 };
 
 enum class Status : std::uint8_t { ok, late, invalid, ended, fault };  // ended and fault are sticky
