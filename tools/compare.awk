@@ -24,8 +24,8 @@ function last_digit(number,   exponent, point) {
 }
 
 function differ(at, a, b) {
+  if (++different > most) return
   printf "line %d: expected %s\n            found %s\n", at, a, b
-  different = 1
 }
 
 function compare(at, a, b,   x, y, left, right, allowed, off, before_a, before_b) {
@@ -51,6 +51,7 @@ function compare(at, a, b,   x, y, left, right, allowed, off, before_a, before_b
 
 BEGIN {
   if (ARGC != 3) { print "usage: awk [-v relative=R] -f compare.awk EXPECTED FOUND"; exit 2 }
+  most = 5  # differences that are shown
   pattern = "[-+]?[0-9]+([.][0-9]+)?([eE][-+]?[0-9]+)?"
   while ((getline line < ARGV[1]) > 0) expected[++lines_expected] = line
   while ((getline line < ARGV[2]) > 0) found[++lines_found] = line
@@ -59,5 +60,6 @@ BEGIN {
   for (i = 1; i <= lines_expected && i <= lines_found; ++i) compare(i, expected[i], found[i])
   for (; i <= lines_expected; ++i) differ(i, expected[i], "the end")
   for (; i <= lines_found; ++i) differ(i, "the end", found[i])
+  if (different > most) print "and " different - most " more lines"
   exit different ? 1 : 0
 }

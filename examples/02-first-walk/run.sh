@@ -17,7 +17,7 @@ echo '$ sinew run experiments/walk-test-1.toml'
 echo
 
 echo '$ awk -f tools/flatten.awk summary.json | grep …'
-numbers walk '^trolley|passiveness |stick_share|^air_used'
+numbers walk '^(trolley.(distance|mean_speed|distance_from_torques)_m|joints.*passiveness |passiveness |foot.stick_share|air_used)'
 
 echo '$ sinew run experiments/walk-test-1.toml --set "trolley.drag=0 lbf"'
 "$program" run experiments/walk-test-1.toml --set "trolley.drag=0 lbf" -o "$work/easy" --quiet >/dev/null
