@@ -166,40 +166,42 @@ void World<N>::step(double h) noexcept {
   held_ = contacts_.hold(h, held_);
   const bool flowing = bank_.any_open();
 
-  Look k[4];
-  k[0] = first_;
-  k[0].acceleration = contacts_.accelerations(first_.acceleration, held_);
-
-  // Stages two to four at 1/2, 1/2 and 1.
-  State stage[4];
-  stage[0].pose = state_.pose;
-  for (int s = 1; s < 4; ++s) {
-    const double part = s == 3 ? h : 0.5 * h;
-    move(stage[s].pose, state_.pose, part, stage[s - 1].pose, k[s - 1].acceleration);
-    const muscle::Pull& before = k[s - 1].pull;
+  // The first stage is the look at the node; two to four stand at 1/2, 1/2 and 1.
+  Look later[3];
+  const Look* look[4] = {&first_, &later[0], &later[1], &later[2]};
+  Generalised<N> a[4] = {contacts_.accelerations(first_.acceleration, held_)};
+  State stage[3];
+  const Pose<N>* pose[4] = {&state_.pose, &stage[0].pose, &stage[1].pose, &stage[2].pose};
+  for (int s = 0; s < 3; ++s) {
+    const double part = s == 2 ? h : 0.5 * h;
+    move(stage[s].pose, state_.pose, part, *pose[s], a[s]);
+    const muscle::Pull& before = look[s]->pull;
     for (int i = 0; i < strings_.padded; i += muscle::lanes) {
       muscle::Four mass = state_.mass.four(i);
       if (flowing) mass += part * (before.inflow.four(i) - before.outflow.four(i));
       stage[s].mass.four(i) = mass;
     }
-    look_at(time_ + part, stage[s], held_, k[s]);
+    look_at(time_ + part, stage[s], held_, later[s]);
+    a[s + 1] = later[s].acceleration;
   }
 
+  // Their weighted mean.
   const double sixth = h / 6.0;
-  const auto mean = [&](auto&& part) {
-    return sixth * (part(0) + 2.0 * part(1) + 2.0 * part(2) + part(3));
-  };
-  state_.pose.x += mean([&](int s) { return stage[s].pose.x_rate; });
-  for (int i = 0; i < N; ++i)
-    state_.pose.angle[i] += mean([&](int s) { return stage[s].pose.rate[i]; });
-  state_.pose.x_rate += mean([&](int s) { return k[s].acceleration.x; });
-  for (int i = 0; i < N; ++i)
-    state_.pose.rate[i] += mean([&](int s) { return k[s].acceleration.angle[i]; });
+  const auto mean = [&](auto&& of) { return sixth * (of(0) + 2.0 * of(1) + 2.0 * of(2) + of(3)); };
+  Pose<N>& now = state_.pose;
+  const Pose<N> rates = now;  // of the first stage: `now` moves
+  pose[0] = &rates;
+  now.x += mean([&](int s) { return pose[s]->x_rate; });
+  now.x_rate += mean([&](int s) { return a[s].x; });
+  for (int i = 0; i < N; ++i) {
+    now.angle[i] += mean([&](int s) { return pose[s]->rate[i]; });
+    now.rate[i] += mean([&](int s) { return a[s].angle[i]; });
+  }
 
   if (!flowing) return;
   for (int i = 0; i < strings_.count; ++i) {
-    const double in = mean([&](int s) { return k[s].pull.inflow[i]; });
-    const double out = mean([&](int s) { return k[s].pull.outflow[i]; });
+    const double in = mean([&](int s) { return look[s]->pull.inflow[i]; });
+    const double out = mean([&](int s) { return look[s]->pull.outflow[i]; });
     air_in_[i] += in;
     air_out_[i] += out;
     state_.mass[i] += in - out;
