@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "sinew/actuator/loss.h"
+#include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/actuator/thesis_actuator.h"
 
@@ -73,6 +75,53 @@ TEST(Bank, TensionAndPressureAreTheLawsInWords) {
       const double mesh =
           m.count * actuator::coulomb_bound(m.actuator, length[i], gauge, k.air.atmosphere, 0);
       EXPECT_NEAR(pull.mesh[i], mesh, 1e-8 * (1 + mesh));
+    }
+  }
+}
+
+// Every switch of the losses and of the short end, against the laws in words.
+TEST(Bank, SwitchesAreTheLawsInWords) {
+  using Scale = actuator::Loss::Scale;
+  using Law = actuator::ShortEnd::Law;
+  const Machine k;
+  std::vector<Muscle> muscles;
+  for (const Scale scale : {Scale::secant, Scale::sealed, Scale::constant})
+    for (const Law law : {Law::stop, Law::zero}) {
+      Muscle m = bundle(0.3);
+      m.actuator.loss.coulomb_scale = scale;
+      m.actuator.loss.coulomb_stiffness = 5000;
+      m.actuator.loss.stick = law == Law::stop;
+      m.actuator.short_end.law = law;
+      muscles.push_back(m);
+    }
+  Bank bank(muscles, k.air, k.supply);
+
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> lengths(2.2 * inch, 4.0 * inch), rates(-0.3, 0.3);
+  for (int trial = 0; trial < 1000; ++trial) {
+    Lanes length{}, rate{}, mass{};
+    for (int i = 0; i < capacity; ++i) {
+      length[i] = lengths(random);
+      rate[i] = rates(random);
+      mass[i] = 4.0 * bank.volume(std::min(i, 5), length[i]);
+    }
+    Pull pull;
+    bank.evaluate(0, length, rate, mass, pull);
+    for (int i = 0; i < 6; ++i) {
+      const Muscle& m = muscles[static_cast<std::size_t>(i)];
+      const actuator::Actuator& a = m.actuator;
+      const double p = pull.pressure[i], gauge = p - k.air.atmosphere;
+      const double sealed =
+          actuator::stiffness_sealed(a, length[i], p, k.air.atmosphere, m.external_volume / m.count,
+                                     k.air.polytropic_exponent);
+      const double bound =
+          m.count * actuator::coulomb_bound(a, length[i], gauge, k.air.atmosphere, sealed);
+      const double smooth = std::max(
+          m.count * actuator::tension(a, length[i], rate[i], gauge, k.air.atmosphere), 0.0);
+      // [33] as printed adds sign(v) times the bound and leaves nothing to stick.
+      const double printed = std::max(smooth + (rate[i] >= 0 ? bound : -bound), 0.0);
+      EXPECT_NEAR(pull.tension[i], a.loss.stick ? smooth : printed, 1e-6 * (1 + smooth)) << i;
+      EXPECT_NEAR(pull.mesh[i], a.loss.stick ? bound : 0.0, 1e-7 * (1 + bound)) << i;
     }
   }
 }

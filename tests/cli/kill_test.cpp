@@ -32,11 +32,8 @@ double last_sample(const std::filesystem::path& file) {
 // Slowed to real time, wall time minus simulated time is where the run started, plus how far the
 // log is behind. The smallest of many looks is the start, but for the least delay there is (there
 // is a sample every 10 ms and a write at most 10 ms later); what is missing beyond that after
-// SIGKILL was lost. 20 ms are promised; 100 ms are allowed here, for machines that have other
-// things to do than to wake a thread in time.
-TEST(Killed, LosesNoMoreThanTheLastMoment) {
-  constexpr double allowed = 0.1;
-  const Workspace w;
+// SIGKILL was lost.
+double lost_in_a_kill(const Workspace& w) {
   const pid_t run = w.start({"run", "experiments/walk-test-1.toml", "-o", "run", "--pace", "1"});
   const std::filesystem::path file = w / "run/log.mcap";
 
@@ -51,20 +48,30 @@ TEST(Killed, LosesNoMoreThanTheLastMoment) {
   kill(run, SIGKILL);
   int status = 0;
   waitpid(run, &status, 0);
-  ASSERT_TRUE(WIFSIGNALED(status))
+  EXPECT_TRUE(WIFSIGNALED(status))
       << "the run was over before it was killed: " << read_text(w / "err");
-
   EXPECT_FALSE(log::read(file).complete);
-  EXPECT_THAT(names_in(w / "run"), ::testing::ElementsAre("log.mcap", "resolved.toml"));
   EXPECT_GT(last_sample(file), 0.5);
-  const double lost = killed - start - last_sample(file);
-  RecordProperty("lost_ms", std::to_string(1e3 * lost));
-  EXPECT_LE(lost, allowed);
+  return killed - start - last_sample(file);
+}
 
-  // And it can be worked with.
-  EXPECT_EQ(w.sinew({"analyze", "run"}).code, 0);
-  EXPECT_EQ(w.sinew({"replay", "run"}).code, 0);
-  EXPECT_EQ(w.sinew({"export", "run", "--csv", "-o", "run.csv"}).code, 0);
+// 20 ms of wall time. A machine with other things to do may wake a thread late, so the best of five
+// kills counts.
+TEST(Killed, LosesNoMoreThanTheLastMoment) {
+  constexpr double promised = 0.020;
+  double best = 1e300;
+  for (int attempt = 0; attempt < 5 && best > promised; ++attempt) {
+    const Workspace w;
+    best = std::min(best, lost_in_a_kill(w));
+    EXPECT_THAT(names_in(w / "run"), ::testing::ElementsAre("log.mcap", "resolved.toml"));
+
+    // And what is left can be worked with.
+    EXPECT_EQ(w.sinew({"analyze", "run"}).code, 0);
+    EXPECT_EQ(w.sinew({"replay", "run"}).code, 0);
+    EXPECT_EQ(w.sinew({"export", "run", "--csv", "-o", "run.csv"}).code, 0);
+  }
+  RecordProperty("lost_ms", std::to_string(1e3 * best));
+  EXPECT_LE(best, promised);
 }
 
 }  // namespace
