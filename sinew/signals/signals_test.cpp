@@ -1,37 +1,11 @@
-// The converter, the timing tables and what a slow valve makes of a pulse.
+// The timing tables and what a slow valve makes of a pulse.
 #include <gtest/gtest.h>
 
-#include <limits>
-
-#include "sinew/signals/converter.h"
 #include "sinew/signals/pulse.h"
 #include "sinew/signals/timing.h"
 
 namespace sinew::signals {
 namespace {
-
-TEST(Converter, StepsAreEqualAndClippedAtBothEnds) {
-  EXPECT_EQ(to_counts(0.0), 0);
-  EXPECT_EQ(to_counts(-0.3), 0);
-  EXPECT_EQ(to_counts(2.5), 2048);
-  EXPECT_EQ(to_counts(5.0), 4095);
-  EXPECT_EQ(to_counts(1e30), 4095);
-  EXPECT_EQ(to_counts(std::numeric_limits<double>::quiet_NaN()), 0);
-  EXPECT_EQ(to_counts(-std::numeric_limits<float>::infinity()), 0);
-}
-
-TEST(Converter, EveryCountComesBack) {
-  for (std::uint16_t c = 0; c <= max_counts; ++c) {
-    ASSERT_EQ(to_counts(to_volts<double>(c)), c);
-    ASSERT_EQ(to_counts(to_volts<float>(c)), c);
-  }
-}
-
-// Thesis 4.4: 0.17 V/lbf reaches 5 V before 30 lbf.
-TEST(Converter, TensionReadsAtMost29Point4) {
-  EXPECT_EQ(to_counts(0.17 * 30), to_counts(0.17 * 29.42));
-  EXPECT_LT(to_counts(0.17 * 29.40), max_counts);
-}
 
 TEST(Timing, IdentityIsThePrintedRule) {
   constexpr ValveTiming t = identity_timing();

@@ -10,7 +10,7 @@ namespace sinew::plant {
 
 // Noise of unit standard deviation as a hash of (seed, sensor, tick): no stream, so that reading
 // more, or in another order, changes nothing. Sum of twelve uniform numbers minus six, from the
-// eight-bit pieces of two 64-bit hashes; bounded at 6.
+// sixteen-bit pieces of three 64-bit hashes; bounded at 6.
 double noise(std::uint64_t seed, int sensor, signals::Tick tick);
 
 // What the converter reports for the angle [rad] or tension [N] at its input: offset, noise,
