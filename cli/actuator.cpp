@@ -9,7 +9,6 @@
 
 #include "cli/arguments.h"
 #include "cli/command.h"
-#include "cli/machine_file.h"
 #include "cli/named.h"
 #include "cli/terminal.h"
 #include "cli/text_table.h"
@@ -18,6 +17,7 @@
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/config/quantity.h"
+#include "sinew/experiment/machine_file.h"
 
 namespace sinew::cli {
 
@@ -154,7 +154,7 @@ void warn(const std::vector<Point>& points, const Messages& messages) {
 }
 
 ExitCode run_actuator(const Options& options) {
-  const MachineFile file = read_machine_file(options.file);
+  const auto file = experiment::load_machine_file(options.file);
   const gas::Air& air = file.experiment.air;
   const actuator::Actuator& a =
       named(file.experiment.actuators, options.name, "--name", "actuator");

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
-#include "cli/machine_file.h"
 #include "cli/run_folder.h"
 #include "sinew/config/valve_timing.h"
+#include "sinew/experiment/machine_file.h"
 #include "sinew/log/reader.h"
 #include "sinew/signals/timing.h"
 
@@ -54,7 +54,7 @@ void check_timing(const std::string& path, Finding& out) {
 void check_run(const std::filesystem::path& folder, Finding& out) {
   const RecordedRun run = recorded_run(folder);
   check_log(run.log, out);
-  out.add(read_machine_file(machine_of(run, "")).warnings, out.warnings);
+  out.add(experiment::load_machine_file(machine_of(run, "")).experiment.warnings, out.warnings);
 }
 
 // One line per file: an experiment's own choices need no more.
@@ -69,10 +69,10 @@ void tell_of_sources(const Problems& unsourced, Finding& out) {
 }
 
 void check_machine(const std::string& path, Finding& out) {
-  const MachineFile file = read_machine_file(path);
-  out.add(file.warnings, out.warnings);
-  tell_of_sources(without_source(path), out);
-  if (file.kind == "experiment") out.add(unreachable(file.experiment), out.problems);
+  const experiment::Experiment e = experiment::load_machine_file(path).experiment;
+  out.add(e.warnings, out.warnings);
+  tell_of_sources(e.unsourced, out);
+  refuse_unreachable(e);  // a file without a plan has no path
 }
 
 Finding check(const std::string& path) {

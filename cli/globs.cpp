@@ -34,17 +34,11 @@ std::vector<bool> select(const std::vector<std::string>& patterns,
       chosen[i] = any = true;
     }
     if (any) continue;
-    const std::string near(config::closest(pattern, topics));
+    const std::string near = config::closest_in_quotes(pattern, topics);
     config::fail(where, key, config::in_quotes(pattern), "a topic, or * in place of its parts",
-                 near.empty() ? "\"/joint/*\"" : config::in_quotes(near));
+                 near.empty() ? "\"/joint/*\"" : near);
   }
   return chosen;
-}
-
-std::vector<std::string_view> names_of(const std::vector<signals::Topic>& topics) {
-  std::vector<std::string_view> names;
-  for (const signals::Topic& topic : topics) names.push_back(topic.name);
-  return names;
 }
 
 std::vector<std::string_view> names_of(const signals::Table& table) {

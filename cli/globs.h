@@ -19,7 +19,6 @@ std::vector<bool> select(const std::vector<std::string>& patterns,
                          const std::vector<std::string_view>& topics, const config::Location& where,
                          const std::string& key = "");
 
-std::vector<std::string_view> names_of(const std::vector<signals::Topic>& topics);
 std::vector<std::string_view> names_of(const signals::Table& table);
 
 }  // namespace sinew::cli

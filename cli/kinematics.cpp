@@ -12,10 +12,11 @@
 
 #include "cli/arguments.h"
 #include "cli/command.h"
-#include "cli/machine_file.h"
 #include "cli/text_table.h"
 #include "sinew/actuator/braid.h"
 #include "sinew/config/quantity.h"
+#include "sinew/experiment/machine_file.h"
+#include "sinew/robot/actuator_of.h"
 
 namespace sinew::cli {
 
@@ -47,12 +48,12 @@ struct Branch {
   }
 };
 
-robot::TwoLinks two_links(const robot::Robot& robot) {
+robot::TwoLinks need_two_links(const robot::Robot& robot) {
   if (robot.links.size() != 2)
     throw std::invalid_argument(fmt::format("{}: has {} link{}; --foot needs two; try --angles",
                                             robot.name, robot.links.size(),
                                             robot.links.size() == 1 ? "" : "s"));
-  return {robot.links[0].length, robot.links[1].length};
+  return robot::two_links(robot);
 }
 
 // A joint turns from its rest angle, so of all equal angles the one next to that is meant.
@@ -67,15 +68,13 @@ Branch stand(const experiment::Experiment& e, const std::vector<double>& angles)
     const robot::Joint& joint = e.robot.joints[j];
     MuscleAt at{.name = m.name};
     at.length = robot::muscle_length(joint, m.role, m.mount_length, next_to_rest(joint, angles[j]));
-    for (const actuator::Actuator& a : e.actuators) {
-      if (a.name != m.actuator) continue;
-      at.shortest = actuator::shortest_length(a.braid);
-      at.longest = a.long_end.length;
-    }
+    const actuator::Actuator a = robot::actuator_of(m, e.actuators);
+    at.shortest = actuator::shortest_length(a.braid);
+    at.longest = a.long_end.length;
     out.muscles.push_back(at);
   }
   if (e.robot.links.size() == 2)
-    out.jacobian = robot::jacobian(two_links(e.robot), angles[0], angles[1]);
+    out.jacobian = robot::jacobian(robot::two_links(e.robot), angles[0], angles[1]);
   return out;
 }
 
@@ -95,7 +94,8 @@ std::vector<Branch> branches_to(const experiment::Experiment& e, const std::stri
 
   std::vector<Branch> out;
   for (const robot::Knee knee : {robot::Knee::above_pi, robot::Knee::below_pi}) {
-    const robot::Inverse inverse = robot::inverse(two_links(e.robot), {target[0], target[1]}, knee);
+    const robot::Inverse inverse =
+        robot::inverse(need_two_links(e.robot), {target[0], target[1]}, knee);
     if (!inverse.reached()) out_of_reach(text, inverse);
     out.push_back(stand(e, {inverse.angle[0], inverse.angle[1]}));
   }
@@ -146,7 +146,7 @@ void print(const experiment::Experiment& e, const Branch& b) {
 }
 
 ExitCode run_kinematics(const Options& options) {
-  const MachineFile file = read_machine_file(options.file);
+  const auto file = experiment::load_machine_file(options.file);
   const experiment::Experiment& e = file.experiment;
   if (e.robot.joints.empty())
     throw std::invalid_argument(options.file + ": has no joints; try a robot's file");

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "cli/command.h"
-#include "cli/machine_file.h"
 #include "cli/report.h"
 #include "cli/run_folder.h"
 #include "cli/run_log.h"
@@ -30,9 +29,7 @@ struct Options {
 
 experiment::Experiment load(const Options& options, const Messages& messages) {
   experiment::Experiment e = experiment::load(options.experiment, options.sets);
-  if (!options.allow_unreachable)
-    if (std::vector<config::Problem> far = unreachable(e); !far.empty())
-      throw config::Error(std::move(far));
+  if (!options.allow_unreachable) refuse_unreachable(e);
   for (const config::Problem& warning : e.warnings) messages.warning(config::to_text(warning));
   return e;
 }

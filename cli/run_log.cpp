@@ -19,7 +19,7 @@ LoggedTopics logged_topics(const experiment::Experiment& e) {
   const config::Origin* origin = config::find_origin(e.origins, "log.channels");
   const bool written = origin && !origin->is_default;
   const std::vector<bool> wanted =
-      select(e.log.channels, names_of(all),
+      select(e.log.channels, config::names_of(all),
              written ? origin->where : config::Location{e.path, 0, 0}, "log.channels");
   LoggedTopics out;
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
-#include "cli/machine_file.h"
 #include "cli/text_table.h"
+#include "sinew/experiment/machine_file.h"
 
 namespace sinew::cli {
 
@@ -96,9 +96,9 @@ Json to_json(const config::Origin& o, const config::Node& values) {
 }
 
 ExitCode show(const Options& options) {
-  MachineFile file = read_machine_file(options.file, options.sets);
-  const config::Node values = values_in_si(file);
-  const config::Origins origins = chosen(file.origins, options.keys);
+  const auto file = experiment::load_machine_file(options.file, options.sets);
+  const config::Node values = experiment::values_in_si(file);
+  const config::Origins origins = chosen(file.experiment.origins, options.keys);
 
   if (options.json) {
     Json out = Json::array();

@@ -8,10 +8,10 @@
 
 #include "cli/arguments.h"
 #include "cli/command.h"
-#include "cli/machine_file.h"
 #include "cli/named.h"
 #include "cli/text_table.h"
 #include "sinew/config/quantity.h"
+#include "sinew/experiment/machine_file.h"
 #include "sinew/gas/fill.h"
 #include "sinew/gas/orifice.h"
 #include "sinew/signals/pulse.h"
@@ -146,7 +146,7 @@ void print_duties(const std::vector<Delivered>& duties, const std::string& frequ
 }
 
 ExitCode run_valve(const Options& options) {
-  const MachineFile file = read_machine_file(options.file);
+  const auto file = experiment::load_machine_file(options.file);
   const gas::Air& air = file.experiment.air;
   const gas::Valve& valve = named(file.experiment.valves, options.name, "NAME", "valve");
   const double up = argument("--upstream", options.upstream, "Pa abs", air.atmosphere);

@@ -175,4 +175,11 @@ void fields(Visitor& v, Actuator& a) {
           [&](auto& g) { fields(g, a.bladder); });
 }
 
+// All of a file's actuators.
+template <class Visitor>
+void fields(Visitor& v, std::vector<Actuator>& actuators) {
+  v.each({.name = "actuator", .doc = "actuators, by name"}, actuators,
+         [](auto& g, Actuator& a) { fields(g, a); });
+}
+
 }  // namespace sinew::actuator

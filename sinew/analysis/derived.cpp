@@ -10,6 +10,8 @@
 #include "sinew/analysis/laws.h"
 #include "sinew/analysis/record.h"
 #include "sinew/analysis/trolley.h"
+#include "sinew/robot/actuator_of.h"
+#include "sinew/robot/kinematics.h"
 
 namespace sinew::analysis {
 namespace {
@@ -80,7 +82,7 @@ Column true_joint_stiffness(const Record& record, const Machine& m, std::size_t 
   for (const Role role : {Role::flexor, Role::extensor}) {
     const robot::Muscle* muscle = muscle_of(m, joint, role);
     if (!muscle) return {};
-    const actuator::Actuator a = actuator_of(m, *muscle);
+    const actuator::Actuator a = robot::actuator_of(*muscle, m.actuators);
     const std::string at = "/true/muscle/" + muscle->name;
     const Column length = record.column(at + "/length"), pressure = record.column(at + "/pressure"),
                  tension = record.column(at + "/tension");
@@ -120,7 +122,7 @@ void add_passive(Series& out, const Record& record, const Machine& m) {
 }
 
 void add_leg(Series& out, const Record& record, const Machine& m) {
-  const robot::TwoLinks links = links_of(m);
+  const robot::TwoLinks links = robot::two_links(m.robot);
   const Column hip = record.column("/joint/" + m.robot.joints[0].name + "/angle");
   const Column knee = record.column("/joint/" + m.robot.joints[1].name + "/angle");
   const Column t1 = measured_torque(record, m, 0), t2 = measured_torque(record, m, 1);
@@ -192,7 +194,7 @@ void add_slip(Series& out, const Record& record, const Machine& m) {
   }
   Column trolley = record.column("/true/trolley/velocity");
   if (!m.robot.trolley.present) trolley.assign(record.rows(), 0.0);
-  const robot::TwoLinks links = links_of(m);
+  const robot::TwoLinks links = robot::two_links(m.robot);
   const auto slip = [&](std::size_t i) {
     return slip_velocity(links, {angle[0][i], angle[1][i]}, {rate[0][i], rate[1][i]},
                          m.robot.foot.radius, trolley[i]);

@@ -52,21 +52,9 @@ ValveDelays delays(const ValveTable& valve) {
           .closing = valve.closing_delay + 0.5 * valve.closing_ramp};
 }
 
-// First: what is gauge in the rest depends on it.
-double read_atmosphere(const config::Node& root) {
-  config::Reader reader(root);
-  double atmosphere = units::atmosphere;
-  reader.group({.name = "air", .optional = true}, [&](auto& g) {
-    g.number({.name = "atmosphere", .unit = "Pa abs", .min = 1e4, .max = 2e5, .optional = true},
-             atmosphere);
-  });
-  return atmosphere;
-}
-
 void read_parts(config::Reader& reader, Machine& m) {
   robot::fields(reader, m.robot);
-  reader.each({.name = "actuator"}, m.actuators,
-              [](auto& g, actuator::Actuator& a) { actuator::fields(g, a); });
+  actuator::fields(reader, m.actuators);
   std::vector<ValveTable> valves;
   reader.each({.name = "valve", .optional = true}, valves,
               [](auto& g, ValveTable& valve) { fields(g, valve); });
@@ -94,7 +82,7 @@ void read_run(config::Reader& reader, Machine& m) {
 
 Machine read_machine(const config::Node& root) {
   Machine m;
-  m.atmosphere = read_atmosphere(root);
+  m.atmosphere = config::atmosphere_of(root);
   config::Reader reader(root, {.atmosphere = m.atmosphere});
   read_parts(reader, m);
   read_run(reader, m);
@@ -122,18 +110,6 @@ int find_phase(const Machine& m, std::string_view name) {
 
 bool has_leg(const Machine& m) {
   return m.robot.foot.present && m.robot.links.size() == 2 && m.robot.joints.size() == 2;
-}
-
-robot::TwoLinks links_of(const Machine& m) {
-  return {m.robot.links.at(0).length, m.robot.links.at(1).length};
-}
-
-actuator::Actuator actuator_of(const Machine& m, const robot::Muscle& muscle) {
-  actuator::Actuator out;
-  for (const actuator::Actuator& a : m.actuators)
-    if (a.name == muscle.actuator) out = a;
-  out.bladder = {.stiffness = muscle.bladder_stiffness, .rest_length = muscle.bladder_rest_length};
-  return out;
 }
 
 ValveDelays delays_of(const Machine& m, std::string_view valve) {

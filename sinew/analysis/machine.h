@@ -11,7 +11,6 @@
 #include "sinew/actuator/actuator.h"
 #include "sinew/analysis/reported.h"
 #include "sinew/config/node.h"
-#include "sinew/robot/kinematics.h"
 #include "sinew/robot/robot.h"
 #include "sinew/units/constants.h"
 
@@ -50,10 +49,6 @@ int find_phase(const Machine&, std::string_view name);   // -1: no such phase
 
 // A foot at the end of two links: where the thesis's kinematics and [75] apply.
 bool has_leg(const Machine&);
-robot::TwoLinks links_of(const Machine&);
-
-// The muscle's actuator with the muscle's own bladder.
-actuator::Actuator actuator_of(const Machine&, const robot::Muscle&);
 
 // The delays of a valve by its name; none for an unknown one.
 ValveDelays delays_of(const Machine&, std::string_view valve);

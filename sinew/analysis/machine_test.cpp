@@ -4,6 +4,8 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/robot/actuator_of.h"
+#include "sinew/robot/kinematics.h"
 
 namespace sinew::analysis {
 namespace {
@@ -21,7 +23,7 @@ TEST(Machine, ReadsTheWalkOfTheThesis) {
   EXPECT_EQ(m.title, "Walking, test 1");
   EXPECT_FALSE(m.reported.empty());
   EXPECT_TRUE(has_leg(m));
-  EXPECT_NEAR(links_of(m).l1, 8.875 * 0.0254, 1e-15);
+  EXPECT_NEAR(robot::two_links(m.robot).l1, 8.875 * 0.0254, 1e-15);
   EXPECT_DOUBLE_EQ(m.period, 0.01);
   EXPECT_TRUE(is_swing(m, 0) && is_stance(m, 1) && is_stance(m, 2));
   EXPECT_FALSE(is_swing(m, -1) || is_stance(m, -1) || is_stance(m, 3));
@@ -32,7 +34,7 @@ TEST(Machine, ReadsTheWalkOfTheThesis) {
 TEST(Machine, ActuatorsCarryTheirMusclesBladder) {
   const Machine m = read("walk-test-1.toml");
   const robot::Muscle& muscle = m.robot.muscles.front();
-  const actuator::Actuator a = actuator_of(m, muscle);
+  const actuator::Actuator a = robot::actuator_of(muscle, m.actuators);
   EXPECT_GT(a.braid.thread_length, 0);
   EXPECT_EQ(a.bladder.stiffness, muscle.bladder_stiffness);
 }

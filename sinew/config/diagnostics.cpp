@@ -83,6 +83,12 @@ std::string_view closest(std::string_view word, const std::vector<std::string_vi
   return best;
 }
 
+std::string closest_in_quotes(std::string_view word,
+                              const std::vector<std::string_view>& candidates) {
+  const std::string_view near = closest(word, candidates);
+  return near.empty() ? "" : in_quotes(near);
+}
+
 std::string either(const std::vector<std::string_view>& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {

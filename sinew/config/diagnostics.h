@@ -49,6 +49,18 @@ class Error : public std::exception {
 // The candidate most like `word`, empty where none is near enough to be a slip of the pen.
 std::string_view closest(std::string_view word, const std::vector<std::string_view>& candidates);
 
+// The same in quotes, for Problem::try_this.
+std::string closest_in_quotes(std::string_view word,
+                              const std::vector<std::string_view>& candidates);
+
+// Of things that have one, for the two above and below.
+template <class Items>
+std::vector<std::string_view> names_of(const Items& items) {
+  std::vector<std::string_view> names;
+  for (const auto& item : items) names.push_back(item.name);
+  return names;
+}
+
 // "hip, knee or ankle"
 std::string either(const std::vector<std::string_view>& words);
 

@@ -28,6 +28,15 @@ std::string bounds_text(const units::Field& field) {
 
 }  // namespace
 
+double atmosphere_of(const Node& root) {
+  Reader reader(root);
+  double atmosphere = units::atmosphere;
+  reader.group({.name = "air", .optional = true}, [&](Reader& air) {
+    air.number({.name = "atmosphere", .unit = "Pa abs", .optional = true}, atmosphere);
+  });
+  return atmosphere;
+}
+
 Reader::Reader(const Node& root, ReaderOptions options)
     : options_(std::move(options)), root_(&root) {
   enter(root, "");
@@ -151,10 +160,9 @@ std::optional<std::size_t> Reader::pick(const Field& field,
   } else {
     std::vector<std::string> quoted_words;
     for (auto word : words) quoted_words.push_back(in_quotes(word));
-    const std::string_view near = closest(node.text, words);
     add_problem(node, entry->origin.path, shown(node),
                 either({quoted_words.begin(), quoted_words.end()}),
-                near.empty() ? "" : in_quotes(near));
+                closest_in_quotes(node.text, words));
   }
   close(std::move(*entry), false);
   return index;

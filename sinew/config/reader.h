@@ -27,13 +27,15 @@
 
 namespace sinew::config {
 
-enum class Severity { ignore, warning, error };
-
 struct ReaderOptions {
   double atmosphere = units::atmosphere;  // [Pa], between gauge and absolute
-  // How bad is a number without a source in this file? Absent: not at all.
-  std::function<Severity(const std::string& file)> missing_source = {};
+  // Is a number without a source in this file a problem? Absent: in none.
+  std::function<bool(const std::string& file)> needs_source = {};
 };
+
+// What the file's own gauge pressures stand on: its air.atmosphere, or else the standard one. To be
+// known before the rest is read  [Pa].
+double atmosphere_of(const Node& root);
 
 class Reader {
  public:
@@ -74,6 +76,8 @@ class Reader {
   const Origins& origins() const { return origins_; }
   const std::vector<Problem>& problems() const { return problems_; }
   const std::vector<Problem>& warnings() const { return warnings_; }
+  // Numbers without a source, where none is needed.
+  const std::vector<Problem>& unsourced() const { return unsourced_; }
 
  private:
   // The table being visited, and what it says about keys that say nothing themselves.
@@ -129,6 +133,7 @@ class Reader {
   Origins origins_;
   std::vector<Problem> problems_;
   std::vector<Problem> warnings_;
+  std::vector<Problem> unsourced_;
 };
 
 template <class Enum>

@@ -77,10 +77,9 @@ void Reader::close(Entry entry, bool numeric) {
 }
 
 void Reader::check_source(const Origin& origin) {
-  if (!origin.source.empty() || !options_.missing_source) return;
-  const Severity severity = options_.missing_source(origin.where.file);
-  if (severity == Severity::ignore) return;
-  auto& list = severity == Severity::error ? problems_ : warnings_;
+  if (!origin.source.empty()) return;
+  const bool needed = options_.needs_source && options_.needs_source(origin.where.file);
+  auto& list = needed ? problems_ : unsourced_;
   list.push_back({origin.where, origin.path, in_quotes(origin.text) + " without a source",
                   "where the value comes from",
                   fmt::format("{{ value = {}, source = \"…\" }}", in_quotes(origin.text))});

@@ -253,13 +253,15 @@ TEST(Reader, a_damaged_range_or_uncertainty_is_reported) {
 }
 
 TEST(Reader, a_number_without_a_source_is_as_bad_as_the_caller_says) {
-  const auto severity = [](Severity s) {
-    return ReaderOptions{.missing_source = [s](const std::string&) { return s; }};
+  const auto needed = [](bool is) {
+    return ReaderOptions{.needs_source = [is](const std::string&) { return is; }};
   };
   const std::string toml = "length = \"1 m\"\nnote = \"no source needed\"";
-  EXPECT_TRUE(Reading(toml, severity(Severity::ignore)).reader.warnings().empty());
-  EXPECT_EQ(Reading(toml, severity(Severity::warning)).reader.warnings().size(), 1u);
-  EXPECT_EQ(Reading(toml, severity(Severity::error)).message,
+  const Reading told(toml, needed(false));
+  EXPECT_EQ(told.message, "");
+  ASSERT_EQ(told.reader.unsourced().size(), 1u);
+  EXPECT_EQ(told.reader.unsourced()[0].key, "length");
+  EXPECT_EQ(Reading(toml, needed(true)).message,
             "a.toml:1:1: length: found \"1 m\" without a source; expected where the value comes "
             "from; try { value = \"1 m\", source = \"…\" }");
 }

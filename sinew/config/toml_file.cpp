@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <sstream>
 
 #include "sinew/config/node.h"
+#include "sinew/config/text_file.h"
 
 #define TOML_HEADER_ONLY 1
 #define TOML_EXCEPTIONS 0
@@ -94,13 +93,7 @@ Node parse_text(std::string_view text, const std::string& name) {
 }
 
 Node parse_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  if (file) content << file.rdbuf();
-  if (!file) {
-    fail({path, 0, 0}, "", "no readable file", "a TOML file", "");
-  }
-  return parse_text(content.str(), path);
+  return parse_text(read_text_file(path, "a TOML file"), path);
 }
 
 }  // namespace sinew::config

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <fstream>
 #include <sstream>
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/text_file.h"
 
 namespace sinew::config {
 
@@ -127,13 +127,7 @@ ValveTiming parse_valve_timing(std::string_view text, const std::string& name) {
 }
 
 ValveTiming read_valve_timing(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  if (file) content << file.rdbuf();
-  if (!file) {
-    fail({path, 0, 0}, "", "no readable file", "a table duty,close,open", "");
-  }
-  return parse_valve_timing(content.str(), path);
+  return parse_valve_timing(read_text_file(path, "a table duty,close,open"), path);
 }
 
 }  // namespace sinew::config

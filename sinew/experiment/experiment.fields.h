@@ -2,6 +2,8 @@
 // tables of robot and plan stand in their folders' field tables.
 #pragma once
 
+#include <string_view>
+
 #include "sinew/actuator/actuator.fields.h"
 #include "sinew/control/gait/plan.fields.h"
 #include "sinew/experiment/experiment.h"
@@ -65,16 +67,22 @@ void fields(Visitor& v, Reported& r) {
 template <class Visitor>
 void machine_fields(Visitor& v, Experiment& e) {
   robot::fields(v, e.robot);
-  v.each({.name = "actuator", .doc = "by name"}, e.actuators,
-         [](auto& g, actuator::Actuator& a) { actuator::fields(g, a); });
-  v.each({.name = "valve", .doc = "by name"}, e.valves,
-         [](auto& g, gas::Valve& valve) { gas::fields(g, valve); });
+  actuator::fields(v, e.actuators);
+  gas::fields(v, e.valves);
   v.group({.name = "air", .doc = "atmosphere and supply"},
           [&](auto& g) { gas::fields(g, e.air, e.supply); });
   v.group({.name = "pulses",
            .optional = true,
            .doc = "low_level.valve_timing as numbers, in a resolved file"},
           [&](auto& g) { fields(g, e.pulses); });
+}
+
+// What a file of that kind says of the machine.
+template <class Visitor>
+void machine_fields(Visitor& v, std::string_view kind, Experiment& e) {
+  if (kind == "robot" || kind == "experiment") machine_fields(v, e);
+  if (kind == "actuator") actuator::fields(v, e.actuators);
+  if (kind == "valves") gas::fields(v, e.valves);
 }
 
 template <class Visitor>

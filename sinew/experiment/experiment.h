@@ -70,14 +70,19 @@ struct Experiment {
 
   config::Origins origins;  // where every value came from
   std::vector<config::Problem> warnings;
+  std::vector<config::Problem> unsourced;  // numbers outside robots/ that no source is given for
 };
 
 // Reads the file and everything it names, with --set overrides. Throws config::Error with all that
-// is wrong, also what contradicts itself: names that lead nowhere, points that cannot be reached.
+// is wrong, also what contradicts itself, such as names that lead nowhere.
 Experiment load(const std::string& path, const std::vector<std::string>& sets = {});
 
 // The same from a tree that is composed already.
-Experiment load(config::Node root, const std::string& path);
+Experiment load(const config::Node& root, const std::string& path);
+
+// Throws config::Error with every stretch of a foot path that the leg cannot reach. No part of
+// load(): a run is possible, the brain then aims at the nearest point that can be reached.
+void refuse_unreachable(const Experiment& experiment);
 
 // What was run, as a file that runs again: every value in SI, with its source.
 std::string resolved(const Experiment& experiment, const std::string& version);

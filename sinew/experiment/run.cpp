@@ -10,6 +10,7 @@
 #include "sinew/experiment/spinal.h"
 #include "sinew/plant/planar/world.h"
 #include "sinew/plant/recorded/recorded.h"
+#include "sinew/robot/actuator_of.h"
 
 namespace sinew::experiment {
 
@@ -96,9 +97,7 @@ plant::Setup planar_setup(const Experiment& e) {
   plant::Setup s{.robot = e.robot, .air = e.air, .supply = e.supply};
   for (const robot::Muscle& m : e.robot.muscles) {
     muscle::Muscle out{.name = m.name, .count = m.count, .external_volume = m.external_volume};
-    for (const actuator::Actuator& a : e.actuators)
-      if (a.name == m.actuator) out.actuator = a;
-    out.actuator.bladder = {.stiffness = m.bladder_stiffness, .rest_length = m.bladder_rest_length};
+    out.actuator = robot::actuator_of(m, e.actuators);
     for (const gas::Valve& v : e.valves) {
       if (v.name == m.inlet) out.inlet = v;
       if (v.name == m.exhaust) out.exhaust = v;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sinew/robot/actuator_of.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::experiment {
@@ -69,9 +70,9 @@ control::JointConfig joint_config(const Experiment& e, int index) {
 
   // b in counts, cut as in B.1: 3235^2 = 10465225.
   double thread = robot.low_level.assumed_thread_length;
-  for (const actuator::Actuator& a : e.actuators)
-    if (thread <= 0 && a.name == robot.muscles[static_cast<std::size_t>(flexor)].actuator)
-      thread = a.braid.thread_length;
+  if (thread <= 0)
+    thread = robot::actuator_of(robot.muscles[static_cast<std::size_t>(flexor)], e.actuators)
+                 .braid.thread_length;
   const auto counts = static_cast<std::int32_t>(thread * counts_per_metre);
   c.thread_length_squared = counts * counts;
   set_stiffness_factor(robot, joint, sensor.assumed_scale, flexor, c);

@@ -37,6 +37,10 @@ std::array<double, 2> solve(const TwoLinks& leg, Point p, Knee knee) {
 
 }  // namespace
 
+TwoLinks two_links(const Robot& robot) {
+  return {robot.links.at(0).length, robot.links.at(1).length};
+}
+
 double normalised(double angle) {
   const double rest = std::fmod(angle, turn);
   const double positive = rest < 0 ? rest + turn : rest;

@@ -18,6 +18,7 @@ struct Point {
 struct TwoLinks {
   double l1 = 0, l2 = 0;  // [m]
 };
+TwoLinks two_links(const Robot&);  // of one that has two
 
 // The joints of a chain and its end, from the first joint outwards  [m].
 struct Pose {

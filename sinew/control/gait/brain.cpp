@@ -29,7 +29,7 @@ Brain::Brain(const robot::Robot& robot, const Plan& plan)
       two_links_(robot.links.size() == 2),
       settle_periods_(std::llround(plan.settle / plan.brain_period)) {
   using Role = robot::Muscle::Role;
-  if (two_links_) links_ = {robot.links[0].length, robot.links[1].length};
+  if (two_links_) links_ = robot::two_links(robot);
 
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const int joint = static_cast<int>(i);

@@ -160,7 +160,7 @@ List contradictions(const robot::Robot& robot, const Plan& plan) {
 List unreachable(const robot::Robot& robot, const Plan& plan) {
   List out;
   if (robot.links.size() != 2 || !(plan.brain_period > 0)) return out;
-  const robot::TwoLinks leg{robot.links[0].length, robot.links[1].length};
+  const robot::TwoLinks leg = robot::two_links(robot);
   for (const Phase& phase : plan.phases)
     if (phase.has_path()) check_reach(leg, plan, phase, out);
   return out;

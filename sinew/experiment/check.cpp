@@ -1,0 +1,102 @@
+#include "sinew/experiment/check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/config/valve_timing.h"
+#include "sinew/signals/tick.h"
+
+namespace sinew::experiment {
+namespace {
+
+using List = std::vector<robot::Contradiction>;
+
+// Names that lead from one table to another.
+template <class Items>
+void need(const std::string& key, const std::string& name, const Items& items, List& out) {
+  const std::vector<std::string_view> names = config::names_of(items);
+  if (std::ranges::count(names, name) > 0) return;
+  out.push_back({key, config::in_quotes(name), config::either(names),
+                 config::closest_in_quotes(name, names)});
+}
+
+void check_muscles(const Experiment& e, List& out) {
+  for (const robot::Muscle& m : e.robot.muscles) {
+    const std::string key = "muscle." + m.name;
+    need(key + ".actuator", m.actuator, e.actuators, out);
+    need(key + ".inlet.valve", m.inlet, e.valves, out);
+    if (!m.exhaust.empty()) need(key + ".exhaust.valve", m.exhaust, e.valves, out);
+  }
+}
+
+void check_start(const Experiment& e, List& out) {
+  for (const std::string& name : e.start.blocked) need("start.blocked", name, e.robot.joints, out);
+  for (const auto& [name, angle] : e.start.joint_angles)
+    need("start.joint_angles." + name, name, e.robot.joints, out);
+  for (const robot::Joint& j : e.robot.joints)
+    if (!e.start.joint_angles.count(j.name))
+      out.push_back({"start.joint_angles", "no " + j.name, "an angle for every joint", ""});
+}
+
+void check_pulses(const Experiment& e, List& out) {
+  for (const auto* column : {&e.pulses.closing, &e.pulses.opening})
+    if (!column->empty() && column->size() != config::ValveTiming::rows)
+      out.push_back({"pulses", std::to_string(column->size()) + " numbers", "101, by duty", ""});
+}
+
+void check_numbers(const Experiment& e, List& out) {
+  const auto whole = [&](const std::string& key, double value, double unit, const char* what) {
+    const double n = value / unit;
+    if (std::abs(n - std::round(n)) > 1e-9 * std::max(1.0, n))
+      out.push_back({key, std::to_string(value) + " s", std::string("a multiple of ") + what, ""});
+  };
+  whole("log.period", e.log.period, signals::tick_seconds, "0.1 ms");
+  const double period = e.robot.low_level.pwm_ticks * signals::tick_seconds;
+  whole("control.brain_period", e.plan.brain_period, period, "the low level's period");
+  if (e.plant != "planar") out.push_back({"plant", config::in_quotes(e.plant), "planar", ""});
+  if (e.robot.joints.empty() || e.robot.joints.size() > 2)
+    out.push_back({"joint", std::to_string(e.robot.joints.size()) + " joints",
+                   "one or two: what the planar plant holds", ""});
+}
+
+// Where the key stands, or the first one of the table that it names; on a line, if one does.
+config::Location place_of(const std::string& key, const Experiment& e) {
+  const config::Location nowhere{e.path, 0, 0};
+  if (const config::Origin* origin = config::find_origin(e.origins, key))
+    return origin->where.file.empty() ? nowhere : origin->where;
+
+  const config::Location* first = nullptr;
+  for (const config::Origin& o : e.origins) {
+    if (!o.path.starts_with(key + ".")) continue;
+    if (o.where.line > 0) return o.where;
+    if (!first && !o.where.file.empty()) first = &o.where;
+  }
+  return first ? *first : nowhere;
+}
+
+void refuse(const List& wrong, const Experiment& e) {
+  if (wrong.empty()) return;
+  std::vector<config::Problem> problems;
+  for (const robot::Contradiction& c : wrong)
+    problems.push_back({place_of(c.key, e), c.key, c.found, c.expected, c.try_this});
+  throw config::Error(std::move(problems));
+}
+
+}  // namespace
+
+void refuse_contradictions(std::string_view kind, const Experiment& e) {
+  const bool runs = kind == "experiment";
+  if (!runs && kind != "robot") return;
+  List wrong;
+  check_muscles(e, wrong);
+  if (runs) check_start(e, wrong);
+  check_pulses(e, wrong);
+  if (runs) check_numbers(e, wrong);
+  std::ranges::move(robot::contradictions(e.robot), std::back_inserter(wrong));
+  if (runs && wrong.empty()) wrong = gait::contradictions(e.robot, e.plan);
+  refuse(wrong, e);
+}
+
+void refuse_unreachable(const Experiment& e) { refuse(gait::unreachable(e.robot, e.plan), e); }
+
+}  // namespace sinew::experiment

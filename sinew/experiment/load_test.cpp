@@ -1,0 +1,76 @@
+// Files read alone, and what load() leaves to others.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/experiment/machine_file.h"
+
+namespace sinew::experiment {
+namespace {
+
+const std::string source = std::string(SINEW_SOURCE_DIR) + "/";
+const std::string walk = source + "experiments/walk-test-1.toml";
+const std::string robot = source + "robots/leg/robot.toml";
+
+template <class Act>
+std::string refusal(Act act) {
+  try {
+    act();
+  } catch (const config::Error& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+TEST(MachineFile, IsThePartOfAnExperimentThatItsKindSays) {
+  const MachineFile whole = load_machine_file(walk), machine = load_machine_file(robot);
+  EXPECT_EQ(whole.kind, "experiment");
+  EXPECT_FALSE(whole.experiment.plan.phases.empty());
+  EXPECT_EQ(machine.kind, "robot");
+  EXPECT_EQ(machine.experiment.robot.joints.size(), whole.experiment.robot.joints.size());
+  EXPECT_TRUE(machine.experiment.plan.phases.empty());
+
+  const MachineFile actuators = load_machine_file(source + "robots/leg/actuator.toml");
+  EXPECT_EQ(actuators.experiment.actuators.size(), machine.experiment.actuators.size());
+  EXPECT_TRUE(actuators.experiment.robot.joints.empty());
+  const MachineFile valves = load_machine_file(source + "robots/leg/valves.toml");
+  EXPECT_EQ(valves.experiment.valves.size(), machine.experiment.valves.size());
+}
+
+TEST(MachineFile, ValuesComeInSiUnderTheKeysOfTheirOrigins) {
+  const config::Node values = values_in_si(load_machine_file(robot, {"trolley.drag=1 lbf"}));
+  const config::Node* trolley = values.find("trolley");
+  ASSERT_NE(trolley, nullptr);
+  ASSERT_NE(trolley->find("drag"), nullptr);
+  EXPECT_EQ(config::written(*trolley->find("drag")), "4.4482216152605 N");
+  EXPECT_EQ(values.find("phase"), nullptr);
+}
+
+TEST(MachineFile, ARobotAloneIsHeldToItsNames) {
+  const auto load_with = [](const std::string& set) {
+    return refusal([&] { load_machine_file(robot, {set}); });
+  };
+  EXPECT_EQ(load_with("muscle.hip_flexor.actuator=bqa"),
+            "--set: muscle.hip_flexor.actuator: found \"bqa\"; expected bpa; try \"bpa\"");
+  EXPECT_NE(load_with("muscle.hip_flexor.role=extensor").find("robot.toml:"), std::string::npos);
+}
+
+TEST(Load, TellsOfNumbersWithoutASourceOutsideRobots) {
+  const Experiment e = load(walk);
+  for (const config::Problem& p : e.unsourced)
+    EXPECT_EQ(p.where.file.find("robots/"), std::string::npos) << config::to_text(p);
+  EXPECT_TRUE(load_machine_file(robot).experiment.unsourced.empty());
+}
+
+TEST(Load, LeavesWhatIsOutOfReachToWhoWantsToRefuseIt) {
+  EXPECT_EQ(refusal([] { refuse_unreachable(load(walk)); }), "nothing");
+  const Experiment far = load(walk, {"phase.propulsion.y.polynomial=[\"-16 in\"]"});
+  const std::string words = refusal([&] { refuse_unreachable(far); });
+  EXPECT_EQ(words.find(walk + ":"), 0u) << words;
+  EXPECT_NE(words.find("phase.propulsion: found a path out of reach"), std::string::npos) << words;
+}
+
+}  // namespace
+}  // namespace sinew::experiment

@@ -1,0 +1,24 @@
+// robot/actuator_of.h - the actuator that a muscle is made of.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "sinew/actuator/actuator.h"
+#include "sinew/robot/robot.h"
+
+namespace sinew::robot {
+
+// The one that the muscle names, with the muscle's own bladder where it has one.
+inline actuator::Actuator actuator_of(const Muscle& muscle,
+                                      const std::vector<actuator::Actuator>& actuators) {
+  actuator::Actuator out;
+  for (const actuator::Actuator& a : actuators)
+    if (a.name == muscle.actuator) out = a;
+  if (std::isfinite(muscle.bladder_stiffness)) out.bladder.stiffness = muscle.bladder_stiffness;
+  if (std::isfinite(muscle.bladder_rest_length))
+    out.bladder.rest_length = muscle.bladder_rest_length;
+  return out;
+}
+
+}  // namespace sinew::robot
