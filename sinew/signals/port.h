@@ -25,6 +25,8 @@ struct Valve {
 
 enum class Status : std::uint8_t { ok, late, invalid, ended, fault };  // ended and fault are sticky
 
+inline constexpr std::uint16_t max_counts = 4095;  // of the 12-bit converter, 4.1
+
 struct Reading {
   std::uint16_t counts = 0;  // the last good value unless status == ok
   Status status = Status::ok;

@@ -1,7 +1,6 @@
 #include "sinew/control/joint/spine.h"
 
 #include "sinew/control/joint/laws.h"
-#include "sinew/signals/converter.h"
 
 namespace sinew::control {
 
@@ -85,8 +84,8 @@ void Spine::store(Channel channel, Reading reading, Tick t) noexcept {
   if (i >= max_channels) return;
   seen_.reading[i].status = reading.status;
   if (reading.status == Status::ok) {
-    seen_.reading[i].counts =
-        reading.counts < signals::max_counts ? reading.counts : signals::max_counts;
+    constexpr std::uint16_t top = 4095;  // 12 bits [5.2]: what the laws' integers are made for
+    seen_.reading[i].counts = reading.counts < top ? reading.counts : top;
     answered_[i] = true;
     bad_in_a_row_[i] = 0;
     return;
