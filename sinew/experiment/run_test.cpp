@@ -156,21 +156,6 @@ TEST(Run, NoHeapInTheLoop) {
   EXPECT_GT(recorder.take().find("/plan/phase")->time_ns.size(), 300u);
 }
 
-// Without noise, over many nodes: a step's distance at 1 ms is that at 50 us.
-TEST(Run, TheWalkConvergesWithTheNodes) {
-  const auto distance = [](const char* step) {
-    double sum = 0;
-    for (int seed = 1; seed <= 4; ++seed) {
-      const std::string set = "seed=" + std::to_string(seed);
-      const Experiment e = load(source + "/experiments/walk-test-1.toml",
-                                {std::string("plant_steps.body=") + step, set});
-      sum += run(e).table.column("/true/trolley/position")->back();
-    }
-    return sum / 4;
-  };
-  EXPECT_NEAR(distance("1 ms"), distance("50 us"), 0.0254);  // 1 in of about 57
-}
-
 TEST(Run, EveryShippedExperimentRuns) {
   for (const auto& file : std::filesystem::directory_iterator(source + "/experiments")) {
     if (file.path().extension() != ".toml") continue;

@@ -205,7 +205,8 @@ SINEW_WIDE void Bank::evaluate(double t, const Lanes& length, const Lanes& rate,
     const Four pull = drive * lever + (passive + squeezed);
     const Four nothing = squeeze < zero ? k.short_zero.four(i) : zero;  // [31] as printed
     const Four all = nothing > zero ? zero : pull;
-    const Four mesh = drive * secant + k.mesh_constant.four(i);
+    const Four rub = drive * secant + k.mesh_constant.four(i);
+    const Four mesh = nothing > zero ? zero : rub;
     out.tension.four(i) = all > zero ? all : zero;
     out.mesh.four(i) = mesh > zero ? mesh : zero;
     out.pressure.four(i) = p;

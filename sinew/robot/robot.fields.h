@@ -108,12 +108,17 @@ void fields(Visitor& v, Muscle& muscle) {
             .min = 0,
             .doc = "of the whole bundle, downstream of the valves"},
            muscle.external_volume);
-  v.number({.name = "bladder_stiffness", .unit = "N/m", .min = 0, .doc = "of one actuator"},
+  v.number({.name = "bladder_stiffness",
+            .unit = "N/m",
+            .min = 0,
+            .optional = true,
+            .doc = "of one actuator; absent: as in the actuator's file"},
            muscle.bladder_stiffness);
   v.number({.name = "bladder_rest_length",
             .unit = "m",
             .min = 0,
-            .doc = "where the bladder pulls nothing"},
+            .optional = true,
+            .doc = "where the bladder pulls nothing; absent: as in the actuator's file"},
            muscle.bladder_rest_length);
 
   const auto bit = units::Field{.name = "bit", .min = 0, .max = 15, .doc = "of the output port"};
@@ -133,7 +138,7 @@ void fields(Visitor& v, Muscle& muscle) {
 
 template <class Visitor>
 void fields(Visitor& v, Converter& converter) {
-  v.integer({.name = "bits", .min = 1, .max = 16, .doc = "of a conversion"}, converter.bits);
+  v.integer({.name = "bits", .min = 1, .max = 12, .doc = "of a conversion"}, converter.bits);
   v.number({.name = "full_scale", .unit = "V", .min = 1e-3, .doc = "voltage of the top count"},
            converter.full_scale);
 }

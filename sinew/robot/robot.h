@@ -6,6 +6,7 @@
 // throughout.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,8 @@ namespace sinew::robot {
 
 inline constexpr int max_joints = 4;                // what the loop's fixed arrays hold
 inline constexpr int max_muscles = 2 * max_joints;  // one pair per joint
+
+inline constexpr double not_set = std::numeric_limits<double>::quiet_NaN();
 
 struct Link {
   std::string name;
@@ -52,14 +55,14 @@ struct Muscle {
   std::string name;
   std::string joint;
   Role role = Role::flexor;
-  std::string actuator;                // name in the actuator files
-  int count = 1;                       // actuators in parallel
-  double mount_length = 0;             // at the joint's rest angle [m]
-  double external_volume = 0;          // of the whole bundle, downstream of the valves [m^3]
-  double bladder_stiffness = 0;        // per actuator [N/m]
-  double bladder_rest_length = 0;      // [m]
-  std::string inlet, exhaust;          // names in the valves file; no exhaust with a 3-way inlet
-  int inlet_bit = 0, exhaust_bit = 8;  // of the output port, B.1
+  std::string actuator;                  // name in the actuator files
+  int count = 1;                         // actuators in parallel
+  double mount_length = 0;               // at the joint's rest angle [m]
+  double external_volume = 0;            // of the whole bundle, downstream of the valves [m^3]
+  double bladder_stiffness = not_set;    // per actuator; not set: the actuator file's [N/m]
+  double bladder_rest_length = not_set;  // [m]
+  std::string inlet, exhaust;            // names in the valves file; no exhaust with a 3-way inlet
+  int inlet_bit = 0, exhaust_bit = 8;    // of the output port, B.1
 };
 
 struct Foot {

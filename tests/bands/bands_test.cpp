@@ -2,6 +2,7 @@
 // parameter file, robots/leg, for all of them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -42,12 +43,6 @@ void expect_band(const std::vector<analysis::Summary>& runs, const char* key, do
     EXPECT_GE(*value / unit, low) << key << " of seed " << i + 1;
     EXPECT_LE(*value / unit, high) << key << " of seed " << i + 1;
   }
-}
-
-double mean(const std::vector<analysis::Summary>& runs, const char* key) {
-  double sum = 0;
-  for (const analysis::Summary& s : runs) sum += *s.find(key);
-  return sum / static_cast<double>(runs.size());
 }
 
 TEST(Bands, Test1WalksAsReported) {
@@ -99,20 +94,30 @@ TEST(Bands, TheActuatorsLimitTheJoints) {
   expect("phases.flexed.joints.hip.end_angle_true_rad", 307);
   expect("phases.extended.joints.knee.end_angle_true_rad", 343);
   expect("phases.flexed.joints.knee.end_angle_true_rad", 289);
-  expect("phases.relaxed.joints.hip.end_angle_true_rad", 278);
-  expect("phases.relaxed.joints.knee.end_angle_true_rad", 314);
+
+  // Vented, a joint rests where dry friction lets it: the table's angle lies between the two.
+  const auto between = [&](const char* joint, double degrees) {
+    const auto end = [&](const char* side) {
+      return *s.find(std::string("phases.relaxed_from_") + side + ".joints." + joint +
+                     ".end_angle_true_rad") /
+             degree;
+    };
+    EXPECT_LT(std::min(end("flexion"), end("extension")), degrees) << joint;
+    EXPECT_GT(std::max(end("flexion"), end("extension")), degrees) << joint;
+  };
+  between("hip", 278);
+  between("knee", 314);
 }
 
-// At 50 us between nodes the same walk: within an inch, on average over seeds.
+// At 50 us between nodes the same walk, seed by seed: within an inch.
 TEST(Bands, Test1IsConverged) {
-  std::vector<analysis::Summary> coarse, fine;
   for (int seed = 1; seed <= 4; ++seed) {
     const std::string set = "seed=" + std::to_string(seed);
-    coarse.push_back(summary_of("walk-test-1", {set}));
-    fine.push_back(summary_of("walk-test-1", {set, "plant_steps.body=50 us"}));
+    const analysis::Summary coarse = summary_of("walk-test-1", {set});
+    const analysis::Summary fine = summary_of("walk-test-1", {set, "plant_steps.body=50 us"});
+    const char* key = "trolley.distance_m";
+    EXPECT_NEAR(*coarse.find(key) / inch, *fine.find(key) / inch, 1.0) << set;
   }
-  EXPECT_NEAR(mean(coarse, "trolley.distance_m") / inch, mean(fine, "trolley.distance_m") / inch,
-              1.0);
 }
 
 // What an experiment says of itself holds: no verdict of a shipped experiment is `differs`.

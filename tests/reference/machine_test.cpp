@@ -424,8 +424,10 @@ const experiment::Reported& reported(const experiment::Experiment& e, const std:
 
 TEST(Reference, table_6_1) {
   const auto limits = load("joint-limits");
-  const std::map<std::string, std::string> phases = {
-      {"relaxed", "relaxed"}, {"flexed", "flex"}, {"extended", "ext"}};
+  const std::map<std::string, std::string> phases = {{"relaxed_from_flexion", "relaxed"},
+                                                     {"relaxed_from_extension", "relaxed"},
+                                                     {"flexed", "flex"},
+                                                     {"extended", "ext"}};
   const json& table = reference()["tables"]["t6_1_deg"];
   for (const char* joint : {"hip", "knee"}) {
     for (const auto& [name, key] : phases) {
