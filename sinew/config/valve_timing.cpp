@@ -75,7 +75,7 @@ bool parse_row(std::string_view text, int line, Row& row, Checker& checker) {
 }
 
 // Against the row above: the duty counts up, a larger duty never closes earlier.
-void check_row(const Row& row, int line, int duty, int last_close, Checker& checker) {
+void check_row(const Row& row, int line, int duty, const Row& last, Checker& checker) {
   if (row[0] != duty) {
     checker.add(line, 1, "duty", std::to_string(row[0]), std::to_string(duty),
                 "one row per percent, 0 to 100 in order");
@@ -86,9 +86,13 @@ void check_row(const Row& row, int line, int duty, int last_close, Checker& chec
                 fmt::format("0 to {} ticks", ValveTiming::never),
                 fmt::format("{} for never", ValveTiming::never));
   }
-  if (row[1] < last_close) {
-    checker.add(line, 1, "close", fmt::format("{} after {}", row[1], last_close),
+  if (row[1] < last[1]) {
+    checker.add(line, 1, "close", fmt::format("{} after {}", row[1], last[1]),
                 "a closing tick that does not fall as the duty rises");
+  }
+  if (row[2] > last[2] && row[2] <= ValveTiming::never) {
+    checker.add(line, 1, "open", fmt::format("{} after {}", row[2], last[2]),
+                "an opening tick that does not rise as the duty rises");
   }
 }
 
@@ -99,7 +103,8 @@ ValveTiming parse_valve_timing(std::string_view text, const std::string& name) {
   Checker checker(name);
   std::istringstream lines{std::string(text)};
   std::string line_text;
-  int line = 0, duty = 0, last_close = 0;
+  int line = 0, duty = 0;
+  Row last = {0, 0, ValveTiming::never};
   while (std::getline(lines, line_text)) {
     ++line;
     if (trimmed(line_text).empty()) continue;
@@ -109,8 +114,8 @@ ValveTiming parse_valve_timing(std::string_view text, const std::string& name) {
     }
     Row row{};
     if (parse_row(line_text, line, row, checker)) {
-      check_row(row, line, duty, last_close, checker);
-      last_close = row[1];
+      check_row(row, line, duty, last, checker);
+      last = row;
       const auto index = static_cast<std::size_t>(duty);
       timing.closing[index] = static_cast<std::uint16_t>(row[1]);
       timing.opening[index] = static_cast<std::uint16_t>(row[2]);

@@ -63,6 +63,9 @@ TEST(ValveTiming, refuses_what_is_not_a_table_of_ticks) {
   EXPECT_EQ(message_with_row(5, "5,2,3"),
             "predict.dat:6:1: close: found 2 after 4; expected a closing tick that does not fall "
             "as the duty rises");
+  EXPECT_EQ(message_with_row(5, "5,5,4"),
+            "predict.dat:6:1: open: found 4 after 3; expected an opening tick that does not rise "
+            "as the duty rises");
   EXPECT_EQ(message_with_row(5, "5,5,3.5"),
             "predict.dat:6:5: open: found \"3.5\"; expected a whole number of ticks");
   EXPECT_EQ(message_with_row(5, "5,5,102"),

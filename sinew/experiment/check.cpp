@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/config/quantity.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/signals/tick.h"
 
@@ -38,6 +39,41 @@ void check_start(const Experiment& e, List& out) {
       out.push_back({"start.joint_angles", "no " + j.name, "an angle for every joint", ""});
 }
 
+std::string inches(double metres) { return config::format_quantity(metres, "m", "in"); }
+
+// Where the machine starts must be a place where it can be.
+void check_place(const Experiment& e, List& out) {
+  const robot::Trolley& trolley = e.robot.trolley;
+  if (trolley.present && (e.start.trolley < 0 || e.start.trolley > trolley.track_length))
+    out.push_back({"start.trolley", inches(e.start.trolley),
+                   "0 to the track's end, " + inches(trolley.track_length), ""});
+  for (const robot::Link& link : e.robot.links)
+    if (link.center_of_mass > link.length)
+      out.push_back({"link." + link.name + ".center_of_mass", inches(link.center_of_mass),
+                     "within the link, " + inches(link.length), ""});
+  for (const robot::Muscle& m : e.robot.muscles)
+    for (const actuator::Actuator& a : e.actuators) {
+      if (a.name != m.actuator || m.mount_length < a.braid.thread_length) continue;
+      out.push_back({"muscle." + m.name + ".mount_length", inches(m.mount_length),
+                     "less than the thread's length, " + inches(a.braid.thread_length), ""});
+    }
+}
+
+// A run that would take hours, or more memory than there is, is a slip of the pen.
+void check_size(const Experiment& e, List& out) {
+  constexpr double longest = 3600;    // [s]
+  constexpr double most = 2'000'000;  // samples
+  double step = 0;
+  for (const gait::Phase& phase : e.plan.phases)
+    step += phase.duration * static_cast<double>(std::ranges::count(e.plan.sequence, phase.name));
+  const double lasts = e.start.settle + e.plan.repeat * step + e.robot.low_level.vent_time;
+  if (!(lasts <= longest))
+    out.push_back({"sequence", config::format_number(lasts) + " s in all", "at most 3600 s", ""});
+  else if (lasts > most * e.log.period)
+    out.push_back({"log.period", config::format_number(lasts / e.log.period) + " samples",
+                   "at most 2000000", "a longer period"});
+}
+
 void check_pulses(const Experiment& e, List& out) {
   for (const auto* column : {&e.pulses.closing, &e.pulses.opening})
     if (!column->empty() && column->size() != config::ValveTiming::rows)
@@ -53,6 +89,9 @@ void check_numbers(const Experiment& e, List& out) {
   whole("log.period", e.log.period, signals::tick_seconds, "0.1 ms");
   const double period = e.robot.low_level.pwm_ticks * signals::tick_seconds;
   whole("control.brain_period", e.plan.brain_period, period, "the low level's period");
+  if (!e.robot.low_level.valve_timing.empty() && e.robot.low_level.pwm_ticks != 100)
+    out.push_back({"low_level.pwm_ticks", std::to_string(e.robot.low_level.pwm_ticks),
+                   "100: predict.dat counts the ticks of such a period", "leave out its file"});
   if (e.plant != "planar") out.push_back({"plant", config::in_quotes(e.plant), "planar", ""});
   if (e.robot.joints.empty() || e.robot.joints.size() > 2)
     out.push_back({"joint", std::to_string(e.robot.joints.size()) + " joints",
@@ -91,7 +130,11 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
   check_muscles(e, wrong);
   if (runs) check_start(e, wrong);
   check_pulses(e, wrong);
-  if (runs) check_numbers(e, wrong);
+  if (runs) {
+    check_numbers(e, wrong);
+    check_place(e, wrong);
+    check_size(e, wrong);
+  }
   std::ranges::move(robot::contradictions(e.robot), std::back_inserter(wrong));
   if (runs && wrong.empty()) wrong = gait::contradictions(e.robot, e.plan);
   refuse(wrong, e);

@@ -34,6 +34,8 @@ void read_timing(Experiment& e) {
   } else if (!e.robot.low_level.valve_timing.empty()) {
     const config::ValveTiming read = config::read_valve_timing(e.robot.low_level.valve_timing);
     e.timing = {.closing = read.closing, .opening = read.opening};
+  } else {
+    e.timing = signals::identity_timing(static_cast<std::uint16_t>(e.robot.low_level.pwm_ticks));
   }
 }
 

@@ -216,6 +216,19 @@ TEST(Load, SaysWhatContradictsItself) {
             std::string::npos);
 }
 
+// What no machine can be, and what no machine should be asked.
+TEST(Load, RefusesWhatCannotBe) {
+  const auto expect = [](const char* set, const char* text) {
+    EXPECT_NE(refusal({set}).find(text), std::string::npos) << set << ": " << refusal({set});
+  };
+  expect("start.trolley=100 in", "expected 0 to the track's end, 60 in");
+  expect("muscle.hip_flexor.mount_length=9 in", "expected less than the thread's length");
+  expect("link.femur.center_of_mass=30 in", "expected within the link, 8.875 in");
+  expect("phase.swing.duration=4e7 s", "expected at most 3600 s");
+  expect("low_level.pwm_ticks=50", "predict.dat counts the ticks");
+  expect("low_level.output_delay=0", "expected 1 to 100");
+}
+
 TEST(Clock, PacedTimeWaits) {
   PacedClock clock(10.0);  // ten times real time
   const auto before = std::chrono::steady_clock::now();

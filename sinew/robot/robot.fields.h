@@ -240,7 +240,7 @@ void fields(Visitor& v, LowLevel& low) {
              .doc = "of 100 us per period; the duty's resolution follows"},
             low.pwm_ticks);
   v.integer(
-      {.name = "output_delay", .min = 0, .max = 100, .doc = "ticks between the law and its edge"},
+      {.name = "output_delay", .min = 1, .max = 100, .doc = "ticks between the law and its edge"},
       low.output_delay);
   v.choice({.name = "duty_rounding", .doc = "U_k and U_theta are short in B.1"}, low.rounding,
            {{"truncate each law", LowLevel::Rounding::truncate_each_law},
