@@ -12,6 +12,6 @@ if [[ ! ${SINEW_PREFIX:-} ]]; then
   cmake --install "$root/${SINEW_BUILD:-build/release}" --prefix "$prefix" >/dev/null
 fi
 
-cmake -S "$here" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >/dev/null
+cmake -G Ninja -S "$here" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >/dev/null
 cmake --build "$work/build" >/dev/null
 "$work/build/hanging_mass"
