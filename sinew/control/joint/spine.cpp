@@ -84,8 +84,9 @@ void Spine::store(Channel channel, Reading reading, Tick t) noexcept {
   if (i >= max_channels) return;
   seen_.reading[i].status = reading.status;
   if (reading.status == Status::ok) {
-    constexpr std::uint16_t top = 4095;  // 12 bits [5.2]: what the laws' integers are made for
-    seen_.reading[i].counts = reading.counts < top ? reading.counts : top;
+    // What the laws' integers are made for.
+    seen_.reading[i].counts =
+        reading.counts < signals::max_counts ? reading.counts : signals::max_counts;
     answered_[i] = true;
     bad_in_a_row_[i] = 0;
     return;
