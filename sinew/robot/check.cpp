@@ -1,6 +1,7 @@
 // robot/check.cpp - what cannot be in a robot, whatever the ranges of its single values say.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -42,7 +43,39 @@ void check_sizes(const Robot& robot, List& out) {
   check_names(robot.sensors, "sensor", out);
 }
 
-// Each joint has its pair, each muscle a joint and an inlet.
+void check_cam(const Cam& cam, const std::string& key, List& out) {
+  if (cam.angle.size() != cam.radii.size())
+    out.push_back({key + ".cam",
+                   std::to_string(cam.angle.size()) + " angles and " +
+                       std::to_string(cam.radii.size()) + " radii",
+                   "as many of both", "one radius per angle"});
+  if (std::adjacent_find(cam.angle.begin(), cam.angle.end(), std::greater_equal<>()) !=
+      cam.angle.end())
+    out.push_back({key + ".cam.angle", "angles that do not ascend", "each above the one before",
+                   "the joint's angle, counter-clockwise"});
+}
+
+void check_second(const Robot& robot, const Muscle& muscle, List& out) {
+  const std::string key = "muscle." + muscle.name;
+  check_cam(muscle.cam, key, out);
+  const Muscle::Second& second = muscle.second;
+  if (second.joint.empty()) return;
+  check_cam(second.cam, key + ".second", out);
+  const int other = find_joint(robot, second.joint);
+  if (other < 0 || second.joint == muscle.joint)
+    out.push_back({key + ".second.joint", "\"" + second.joint + "\"",
+                   "a joint other than its first, \"" + muscle.joint + "\"",
+                   "one of " + names(robot.joints)});
+}
+
+void check_passive(const Robot& robot, const Joint& joint, List& out) {
+  for (const Muscle& m : robot.muscles)
+    if (m.joint == joint.name || m.second.joint == joint.name)
+      out.push_back({"joint." + joint.name + ".kind", "passive, and muscle \"" + m.name + "\"",
+                     "no muscle at a passive joint", "kind = \"driven\""});
+}
+
+// Each driven joint has its pair, each muscle a joint and an inlet.
 void check_pairs(const Robot& robot, List& out) {
   for (const Muscle& muscle : robot.muscles) {
     const std::string key = "muscle." + muscle.name;
@@ -51,8 +84,13 @@ void check_pairs(const Robot& robot, List& out) {
           {key + ".joint", "\"" + muscle.joint + "\"", "a joint", "one of " + names(robot.joints)});
     if (muscle.inlet.empty())
       out.push_back({key + ".inlet", "no valve", "the name of a valve", "inlet = { valve = … }"});
+    check_second(robot, muscle, out);
   }
-  for (const Joint& joint : robot.joints)
+  for (const Joint& joint : robot.joints) {
+    if (joint.kind == Joint::Kind::passive) {
+      check_passive(robot, joint, out);
+      continue;
+    }
     for (const auto role : {Muscle::Role::flexor, Muscle::Role::extensor}) {
       const auto count =
           std::count_if(robot.muscles.begin(), robot.muscles.end(),
@@ -62,6 +100,7 @@ void check_pairs(const Robot& robot, List& out) {
         out.push_back({"joint." + joint.name, std::to_string(count) + " muscles as " + word, "one",
                        "actuators in parallel are one muscle with a larger count"});
     }
+  }
 }
 
 void check_bits(const Robot& robot, List& out) {
@@ -76,12 +115,22 @@ void check_bits(const Robot& robot, List& out) {
     take(muscle.inlet_bit, "muscle." + muscle.name + ".inlet.bit");
     if (!muscle.exhaust.empty()) take(muscle.exhaust_bit, "muscle." + muscle.name + ".exhaust.bit");
   }
+  if (!robot.cylinder.present || robot.cylinder.mode != Cylinder::Mode::valves) return;
+  for (const auto& [word, chamber] :
+       {std::pair{"up", &robot.cylinder.up}, std::pair{"down", &robot.cylinder.down}}) {
+    take(chamber->inlet_bit, std::string("cylinder.") + word + ".inlet.bit");
+    take(chamber->exhaust_bit, std::string("cylinder.") + word + ".exhaust.bit");
+  }
 }
 
 void check_sensor(const Robot& robot, const Sensor& sensor, List& out) {
   const std::string key = "sensor." + sensor.name;
-  const bool angle = sensor.kind == Sensor::Kind::angle;
-  const bool tension = sensor.kind == Sensor::Kind::tension;
+  using Kind = Sensor::Kind;
+  const bool angle = sensor.kind == Kind::angle || sensor.kind == Kind::velocity;
+  const bool tension = sensor.kind == Kind::tension || sensor.kind == Kind::pressure;
+  if (sensor.kind == Kind::cylinder && !robot.cylinder.present)
+    out.push_back({key + ".kind", "\"cylinder\"", "a robot with a [cylinder]",
+                   "kind = \"fixed\" for one that does not move"});
 
   if (angle && find_joint(robot, sensor.of) < 0)
     out.push_back(
@@ -89,9 +138,9 @@ void check_sensor(const Robot& robot, const Sensor& sensor, List& out) {
   if (tension && find_muscle(robot, sensor.of) < 0)
     out.push_back(
         {key + ".of", "\"" + sensor.of + "\"", "a muscle", "one of " + names(robot.muscles)});
-  if ((angle || tension) && (sensor.scale == 0 || sensor.assumed_scale == 0))
+  if (sensor.kind != Kind::fixed && (sensor.scale == 0 || sensor.assumed_scale == 0))
     out.push_back({key + (sensor.scale == 0 ? ".real.scale" : ".assumed.scale"), "0", "a scale",
-                   "what the sensor gives for one radian or newton"});
+                   "what the sensor gives for one unit of what it measures"});
 
   const double top = robot.converter.top();
   for (const auto& [word, rest] : {std::pair{".real.at_rest", sensor.at_rest},
@@ -134,12 +183,47 @@ void check_coverage(const Robot& robot, List& out) {
                    "[sensor.…] with kind = \"" + word + "\", of = \"" + of + "\""});
   };
   for (const Joint& joint : robot.joints)
-    need_one(Sensor::Kind::angle, joint.name, "joint." + joint.name, "angle");
+    if (joint.kind == Joint::Kind::driven)
+      need_one(Sensor::Kind::angle, joint.name, "joint." + joint.name, "angle");
   for (const Muscle& muscle : robot.muscles)
     need_one(Sensor::Kind::tension, muscle.name, "muscle." + muscle.name, "tension");
 }
 
+void check_cylinder(const Robot& robot, List& out) {
+  const Cylinder& c = robot.cylinder;
+  if (!c.present) return;
+  if (!(c.bore > c.rod_diameter && c.stroke > 0))
+    out.push_back({"cylinder", "a bore not above its rod, or no stroke",
+                   "bore > rod_diameter and stroke > 0", "0.627 in and 2 in, 4.2"});
+  if (!(c.body_mass > 0))
+    out.push_back({"cylinder.body_mass", "0 kg", "above 0", "what moves with the rod"});
+  if (c.mode == Cylinder::Mode::regulator && !(c.pressure > 0))
+    out.push_back({"cylinder.pressure", "none", "a pressure, as the mode is \"regulator\"",
+                   "pressure = \"20 psi gauge\""});
+  if (c.mode != Cylinder::Mode::valves) return;
+  for (const auto& [word, chamber] : {std::pair{"up", &c.up}, std::pair{"down", &c.down}})
+    if (chamber->inlet.empty() || chamber->exhaust.empty())
+      out.push_back({std::string("cylinder.") + word, "no inlet or no exhaust",
+                     "both, as the mode is \"valves\"", "inlet = { valve = …, bit = … }"});
+  if (cylinder_sensor(robot) < 0)
+    out.push_back({"cylinder.mode", "\"valves\" without a sensor of its travel",
+                   "[sensor.…] with kind = \"cylinder\"", "4.5, B.1: channel 24, tick 1"});
+}
+
+void check_rollers(const Robot& robot, List& out) {
+  const Rollers& r = robot.rollers;
+  if (!r.present) return;
+  if (!robot.trolley.present || !(r.front > r.rear))
+    out.push_back({"rollers", "no trolley, or a front roller that is not ahead of the rear one",
+                   "[trolley] and front > rear", "positions from the first joint, forward > 0"});
+  if (robot.trolley.present && r.counterweight > trolley_own_mass(robot))
+    out.push_back({"rollers.counterweight", std::to_string(r.counterweight) + " kg",
+                   "at most the trolley's own " + std::to_string(trolley_own_mass(robot)) + " kg",
+                   "it is part of trolley.total_mass"});
+}
+
 void check_masses(const Robot& robot, List& out) {
+  check_names(robot.foot.points, "foot.point", out);
   if (robot.trolley.present && trolley_own_mass(robot) <= 0)
     out.push_back({"trolley.total_mass", std::to_string(robot.trolley.total_mass) + " kg",
                    "more than links and foot together, " + std::to_string(leg_mass(robot)) + " kg",
@@ -163,6 +247,8 @@ std::vector<Contradiction> contradictions(const Robot& robot) {
   check_scan(robot, out);
   check_coverage(robot, out);
   check_masses(robot, out);
+  check_cylinder(robot, out);
+  check_rollers(robot, out);
   return out;
 }
 

@@ -28,8 +28,9 @@ int find_sensor(const Robot& robot, std::string_view name) { return find(robot.s
 
 int muscle_of(const Robot& robot, int joint, Muscle::Role role) {
   const std::string& name = robot.joints[static_cast<std::size_t>(joint)].name;
-  return position(robot.muscles,
-                  [&](const Muscle& m) { return m.joint == name && m.role == role; });
+  return position(robot.muscles, [&](const Muscle& m) {
+    return (m.joint == name && m.role == role) || (m.second.joint == name && m.second.role == role);
+  });
 }
 
 int angle_sensor_of(const Robot& robot, int joint) {
@@ -41,6 +42,34 @@ int tension_sensor_of(const Robot& robot, int muscle) {
                    robot.muscles[static_cast<std::size_t>(muscle)].name);
 }
 
+int pressure_sensor_of(const Robot& robot, int muscle) {
+  return sensor_of(robot, Sensor::Kind::pressure,
+                   robot.muscles[static_cast<std::size_t>(muscle)].name);
+}
+
+int velocity_sensor_of(const Robot& robot, int joint) {
+  return sensor_of(robot, Sensor::Kind::velocity,
+                   robot.joints[static_cast<std::size_t>(joint)].name);
+}
+
+int cylinder_sensor(const Robot& robot) {
+  return position(robot.sensors, [](const Sensor& s) { return s.kind == Sensor::Kind::cylinder; });
+}
+
+bool is_plain(const Robot& robot) {
+  const auto round = [](const Cam& cam) { return cam.angle.empty() && !(cam.radius > 0); };
+  for (const Joint& j : robot.joints)
+    if (j.kind == Joint::Kind::passive || j.damper != 0 || j.spring != 0) return false;
+  for (const Muscle& m : robot.muscles)
+    if (!m.second.joint.empty() || !round(m.cam)) return false;
+  for (const Sensor& s : robot.sensors)
+    if (s.kind == Sensor::Kind::pressure || s.kind == Sensor::Kind::velocity ||
+        s.kind == Sensor::Kind::cylinder)
+      return false;
+  return robot.joints.size() <= 2 && robot.foot.points.empty() &&
+         (!robot.cylinder.present || robot.cylinder.mode == Cylinder::Mode::locked);
+}
+
 double leg_mass(const Robot& robot) {
   double mass = robot.foot.present ? robot.foot.mass : 0.0;
   for (const Link& link : robot.links) mass += link.mass;
@@ -48,7 +77,9 @@ double leg_mass(const Robot& robot) {
 }
 
 double trolley_own_mass(const Robot& robot) {
-  return robot.trolley.present ? robot.trolley.total_mass - leg_mass(robot) : 0.0;
+  if (!robot.trolley.present) return 0.0;
+  const double body = robot.cylinder.present ? robot.cylinder.body_mass : 0.0;
+  return robot.trolley.total_mass - leg_mass(robot) - body;
 }
 
 }  // namespace sinew::robot

@@ -25,6 +25,102 @@ void fields(Visitor& v, Trolley& trolley) {
            trolley.stop_stiffness);
   v.number({.name = "stop_damping", .unit = "N s/m", .min = 0, .doc = "of the track's end"},
            trolley.stop_damping);
+  v.number({.name = "payload",
+            .unit = "kg",
+            .min = 0,
+            .optional = true,
+            .doc = "rides on the trolley, beside the total mass"},
+           trolley.payload);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Rollers& rollers) {
+  const auto at = [&](std::string_view name, std::string_view doc, double& value) {
+    v.number({.name = name, .unit = "m", .doc = doc}, value);
+  };
+  v.flag({.name = "present", .doc = "false: no load is reported"}, rollers.present);
+  at("front", "ahead of the first joint", rollers.front);
+  at("rear", "ahead of the first joint, below 0", rollers.rear);
+  at("height", "of the track above the first joint, cylinder extended", rollers.height);
+  v.number({.name = "counterweight", .unit = "kg", .min = 0, .doc = "part of the total mass"},
+           rollers.counterweight);
+  at("counterweight_at", "ahead of the first joint", rollers.counterweight_at);
+  at("center_of_mass", "of the trolley without it, ahead of the first joint",
+     rollers.center_of_mass);
+  at("center_of_mass_up", "the same, above the first joint", rollers.center_of_mass_up);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Cylinder::Chamber& chamber) {
+  const auto bit = units::Field{
+      .name = "bit", .min = 0, .max = 15, .optional = true, .doc = "of the output port"};
+  v.number({.name = "dead_volume",
+            .unit = "m3",
+            .min = 0,
+            .doc = "of the chamber at its end of the stroke, with its hoses"},
+           chamber.dead_volume);
+  v.group({.name = "inlet", .optional = true, .doc = "the valve that fills"}, [&](auto& g) {
+    g.text({.name = "valve", .doc = "name in the valves file"}, chamber.inlet);
+    g.integer(bit, chamber.inlet_bit);
+  });
+  v.group({.name = "exhaust", .optional = true, .doc = "the valve that empties"}, [&](auto& g) {
+    g.text({.name = "valve", .doc = "name in the valves file"}, chamber.exhaust);
+    g.integer(bit, chamber.exhaust_bit);
+  });
+}
+
+// What a position loop and a regulator need.
+template <class Visitor>
+void mode_fields(Visitor& v, Cylinder& c) {
+  const auto share = [&](std::string_view name, std::string_view doc, double& value) {
+    v.number({.name = name, .unit = "1", .min = 0, .max = 1, .optional = true, .doc = doc}, value);
+  };
+  v.number({.name = "pressure",
+            .unit = "Pa abs",
+            .min = 0,
+            .optional = true,
+            .doc = "regulator: what the chamber `down` is kept at"},
+           c.pressure);
+  v.number({.name = "position_gain",
+            .unit = "1/count",
+            .min = 0,
+            .optional = true,
+            .doc = "valves: of the position loop, B.1"},
+           c.position_gain);
+  share("up_feedforward", "valves: duty of both valves of `up` at no error, B.1", c.up_feedforward);
+  share("down_feedforward", "valves: the same of `down`", c.down_feedforward);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Cylinder& c) {
+  const auto length = [&](std::string_view name, std::string_view doc, double& value) {
+    v.number({.name = name, .unit = "m", .min = 0, .doc = doc}, value);
+  };
+  v.flag({.name = "present", .doc = "false: the first joint keeps its height"}, c.present);
+  v.choice({.name = "mode", .doc = "locked: at the extended stop"}, c.mode,
+           {{"locked", Cylinder::Mode::locked},
+            {"regulator", Cylinder::Mode::regulator},
+            {"valves", Cylinder::Mode::valves}});
+  length("bore", "of the cylinder", c.bore);
+  length("rod_diameter", "of its rod, on the side of `up`", c.rod_diameter);
+  length("stroke", "upwards from the extended stop", c.stroke);
+  v.number({.name = "body_mass",
+            .unit = "kg",
+            .min = 0,
+            .doc = "moves up and down beside links and foot; part of the total mass"},
+           c.body_mass);
+  v.number({.name = "friction", .unit = "N", .min = 0, .doc = "of piston and bearings, dry"},
+           c.friction);
+  v.number({.name = "damping", .unit = "N s/m", .min = 0, .doc = "viscous"}, c.damping);
+  v.number({.name = "stop_stiffness", .unit = "N/m", .min = 0, .doc = "of the stroke's ends"},
+           c.stop_stiffness);
+  v.number({.name = "stop_damping", .unit = "N s/m", .min = 0, .doc = "of the stroke's ends"},
+           c.stop_damping);
+  v.group({.name = "up", .doc = "the chamber that pushes the body up, on the rod's side"},
+          [&](auto& g) { fields(g, c.up); });
+  v.group({.name = "down", .doc = "the chamber that pushes the body down"},
+          [&](auto& g) { fields(g, c.down); });
+  mode_fields(v, c);
 }
 
 template <class Visitor>
@@ -49,6 +145,14 @@ void fields(Visitor& v, Foot& foot) {
   v.number(
       {.name = "friction", .unit = "1", .min = 0, .max = 10, .doc = "Coulomb, static = sliding"},
       foot.friction);
+  v.each({.name = "point", .optional = true, .doc = "discs in place of the one at the link's end"},
+         foot.points, [](auto& g, Foot::Point& p) {
+           g.number({.name = "along", .unit = "m", .doc = "from the last joint along its link"},
+                    p.along);
+           g.number({.name = "across", .unit = "m", .doc = "to the left of the link's direction"},
+                    p.across);
+           g.number({.name = "radius", .unit = "m", .min = 0, .doc = "of the disc"}, p.radius);
+         });
 }
 
 template <class Visitor>
@@ -64,24 +168,14 @@ void fields(Visitor& v, Ground& ground) {
            ground.normal_damping);
 }
 
+// What only a joint with muscles has.
 template <class Visitor>
-void fields(Visitor& v, Joint& joint) {
-  constexpr double turn = 6.283185307179586;
-
-  v.number({.name = "rest_angle",
-            .unit = "rad",
-            .min = 0,
-            .max = turn,
-            .doc = "where both muscles have their mount_length"},
-           joint.rest_angle);
+void driven_fields(Visitor& v, Joint& joint) {
   v.choice({.name = "flexion", .doc = "what a shorter flexor does to the angle"}, joint.flexion,
            {{"raises angle", Joint::Flexion::raises_angle},
             {"lowers angle", Joint::Flexion::lowers_angle}});
   v.number({.name = "moment_arm", .unit = "m", .min = 1e-4, .doc = "radius of the cam"},
            joint.moment_arm);
-  v.number({.name = "dry_friction", .unit = "N m", .min = 0, .doc = "largest"}, joint.dry_friction);
-  v.number({.name = "damping", .unit = "N m s/rad", .min = 0, .doc = "viscous"}, joint.damping);
-
   v.number({.name = "angle_gain", .unit = "1/count", .min = 0, .doc = "G_theta [59]"},
            joint.gains.angle);
   v.number({.name = "stiffness_gain", .unit = "1/(N m/rad)", .min = 0, .doc = "G_k [58]"},
@@ -95,6 +189,55 @@ void fields(Visitor& v, Joint& joint) {
 }
 
 template <class Visitor>
+void fields(Visitor& v, Joint& joint) {
+  constexpr double turn = 6.283185307179586;
+
+  v.choice({.name = "kind", .optional = true, .doc = "passive: no muscles, no sensors, an ankle"},
+           joint.kind, {{"driven", Joint::Kind::driven}, {"passive", Joint::Kind::passive}});
+
+  v.number({.name = "rest_angle",
+            .unit = "rad",
+            .min = 0,
+            .max = turn,
+            .doc = "where both muscles have their mount_length"},
+           joint.rest_angle);
+  v.number({.name = "dry_friction", .unit = "N m", .min = 0, .doc = "largest"}, joint.dry_friction);
+  v.number({.name = "damping", .unit = "N m s/rad", .min = 0, .doc = "viscous"}, joint.damping);
+  v.number({.name = "damper",
+            .unit = "N m s/rad",
+            .min = 0,
+            .optional = true,
+            .doc = "of a rotary damper beside it, 7.3"},
+           joint.damper);
+  v.number({.name = "spring", .unit = "N m/rad", .min = 0, .optional = true, .doc = "about it"},
+           joint.spring);
+  v.number({.name = "spring_angle",
+            .unit = "rad",
+            .min = 0,
+            .max = turn,
+            .optional = true,
+            .doc = "where the spring pulls nothing"},
+           joint.spring_angle);
+  if (joint.kind == Joint::Kind::driven) driven_fields(v, joint);
+}
+
+// Keys of a cam; `moment_arm` and `cam` in the table that the cord belongs to.
+template <class Visitor>
+void fields(Visitor& v, Cam& cam) {
+  v.number({.name = "moment_arm",
+            .unit = "m",
+            .min = 1e-4,
+            .optional = true,
+            .doc = "of a round cam; absent: the joint's"},
+           cam.radius);
+  v.group({.name = "cam", .optional = true, .doc = "one that is not round"}, [&](auto& g) {
+    g.numbers({.name = "angle", .unit = "rad", .doc = "of the joint, ascending"}, cam.angle);
+    g.numbers({.name = "radius", .unit = "m", .min = 0, .doc = "there; straight in between"},
+              cam.radii);
+  });
+}
+
+template <class Visitor>
 void fields(Visitor& v, Muscle& muscle) {
   v.text({.name = "joint", .doc = "the joint it pulls"}, muscle.joint);
   v.choice({.name = "role", .doc = "which way"}, muscle.role,
@@ -103,6 +246,14 @@ void fields(Visitor& v, Muscle& muscle) {
   v.integer({.name = "count", .min = 1, .max = 100, .doc = "actuators in parallel"}, muscle.count);
   v.number({.name = "mount_length", .unit = "m", .min = 1e-3, .doc = "at the joint's rest angle"},
            muscle.mount_length);
+  fields(v, muscle.cam);
+  v.group({.name = "second", .optional = true, .doc = "another joint that it runs across"},
+          [&](auto& g) {
+            g.text({.name = "joint", .doc = "its name"}, muscle.second.joint);
+            g.choice({.name = "role", .doc = "which way it pulls there"}, muscle.second.role,
+                     {{"flexor", Muscle::Role::flexor}, {"extensor", Muscle::Role::extensor}});
+            fields(g, muscle.second.cam);
+          });
   v.number({.name = "external_volume",
             .unit = "m3",
             .min = 0,
@@ -150,6 +301,12 @@ void real_fields(Visitor& v, Sensor& sensor) {
     v.number({.name = "scale", .unit = "rad/V", .doc = "of the potentiometer"}, sensor.scale);
   if (sensor.kind == Sensor::Kind::tension)
     v.number({.name = "scale", .unit = "V/N", .doc = "of the transducer"}, sensor.scale);
+  if (sensor.kind == Sensor::Kind::pressure)
+    v.number({.name = "scale", .unit = "V/Pa", .doc = "of the transducer"}, sensor.scale);
+  if (sensor.kind == Sensor::Kind::velocity)
+    v.number({.name = "scale", .unit = "V s/rad", .doc = "of the spindle"}, sensor.scale);
+  if (sensor.kind == Sensor::Kind::cylinder)
+    v.number({.name = "scale", .unit = "m/V", .doc = "of the potentiometer"}, sensor.scale);
   v.number({.name = "at_rest",
             .unit = "count",
             .min = 0,
@@ -170,6 +327,12 @@ void assumed_fields(Visitor& v, Sensor& sensor) {
   if (sensor.kind == Sensor::Kind::tension)
     v.number({.name = "scale", .unit = "V/N", .doc = "one for all transducers in B.1"},
              sensor.assumed_scale);
+  if (sensor.kind == Sensor::Kind::pressure)
+    v.number({.name = "scale", .unit = "V/Pa", .doc = "of the transducer"}, sensor.assumed_scale);
+  if (sensor.kind == Sensor::Kind::velocity)
+    v.number({.name = "scale", .unit = "V s/rad", .doc = "of the spindle"}, sensor.assumed_scale);
+  if (sensor.kind == Sensor::Kind::cylinder)
+    v.number({.name = "scale", .unit = "count/m", .doc = "of its travel"}, sensor.assumed_scale);
   v.number({.name = "at_rest",
             .unit = "count",
             .min = 0,
@@ -185,8 +348,13 @@ void fields(Visitor& v, Sensor& sensor) {
            sensor.kind,
            {{"angle", Sensor::Kind::angle},
             {"tension", Sensor::Kind::tension},
-            {"fixed", Sensor::Kind::fixed}});
-  v.text({.name = "of", .optional = true, .doc = "joint of an angle, muscle of a tension"},
+            {"fixed", Sensor::Kind::fixed},
+            {"pressure", Sensor::Kind::pressure},
+            {"velocity", Sensor::Kind::velocity},
+            {"cylinder", Sensor::Kind::cylinder}});
+  v.text({.name = "of",
+          .optional = true,
+          .doc = "joint of an angle or velocity, muscle of a tension or pressure"},
          sensor.of);
   v.integer({.name = "channel", .min = 0, .max = 255, .doc = "of the converter board"},
             sensor.channel);
@@ -269,6 +437,10 @@ void fields(Visitor& v, Robot& robot) {
   v.group(
       {.name = "trolley", .optional = true, .doc = "what carries the first joint along the track"},
       [&](auto& g) { fields(g, robot.trolley); });
+  v.group({.name = "rollers", .optional = true, .doc = "where the trolley's weight rests, 7.2"},
+          [&](auto& g) { fields(g, robot.rollers); });
+  v.group({.name = "cylinder", .optional = true, .doc = "joint 0, between trolley and body, 4.2"},
+          [&](auto& g) { fields(g, robot.cylinder); });
   v.each({.name = "link", .doc = "from the first joint outwards"}, robot.links,
          [](auto& g, Link& link) { fields(g, link); });
   v.group({.name = "foot", .optional = true, .doc = "at the end of the last link"},

@@ -35,28 +35,49 @@ struct Gains {
 
 struct Joint {
   enum class Flexion { raises_angle, lowers_angle };
+  enum class Kind { driven, passive };  // passive: no muscles, no sensors, the low level knows none
 
   std::string name;
+  Kind kind = Kind::driven;
   double rest_angle = 0;  // where every muscle has its mount_length [rad]
   Flexion flexion = Flexion::raises_angle;
   double moment_arm = 0;    // cam radius [m]
   double dry_friction = 0;  // bound [N m]
   double damping = 0;       // [N m s/rad]
+  double damper = 0;        // of a rotary damper beside it, 7.3 [N m s/rad]
+  double spring = 0;        // [N m/rad]
+  double spring_angle = 0;  // where the spring pulls nothing [rad]
   Gains gains;
   bool enabled = true;  // the low level may leave a joint alone
 
   double sign() const { return flexion == Flexion::raises_angle ? 1.0 : -1.0; }
 };
 
+// What a cord runs over: a round cam, or one whose radius changes with the joint's angle, straight
+// between the points and constant beyond them.
+struct Cam {
+  double radius = not_set;           // not set: the joint's moment_arm [m]
+  std::vector<double> angle, radii;  // ascending [rad], [m]; empty: round
+};
+
 // Actuators in parallel that pull one joint one way, with their air and valves.
 struct Muscle {
   enum class Role { flexor, extensor };
 
+  // The other joint that a muscle runs across.
+  struct Second {
+    std::string joint;  // empty: none
+    Role role = Role::flexor;
+    Cam cam;
+  };
+
   std::string name;
   std::string joint;
   Role role = Role::flexor;
-  std::string actuator;                  // name in the actuator files
-  int count = 1;                         // actuators in parallel
+  std::string actuator;  // name in the actuator files
+  int count = 1;         // actuators in parallel
+  Cam cam;               // at `joint`
+  Second second;
   double mount_length = 0;               // at the joint's rest angle [m]
   double external_volume = 0;            // of the whole bundle, downstream of the valves [m^3]
   double bladder_stiffness = not_set;    // per actuator; not set: the actuator file's [N/m]
@@ -66,10 +87,19 @@ struct Muscle {
 };
 
 struct Foot {
+  // A disc fixed to the last link, which touches the ground.
+  struct Point {
+    std::string name;
+    double along = 0;   // of its centre, from the last joint along the link [m]
+    double across = 0;  // to the left of the link's direction [m]
+    double radius = 0;  // [m]
+  };
+
   bool present = false;
-  double mass = 0;      // at the end of the last link [kg]
-  double radius = 0;    // a disc about the ankle, fixed to the last link [m]
-  double friction = 0;  // Coulomb, static = sliding [-]
+  double mass = 0;            // at the end of the last link [kg]
+  double radius = 0;          // a disc about the ankle, fixed to the last link [m]
+  double friction = 0;        // Coulomb, static = sliding [-]
+  std::vector<Point> points;  // in place of the one disc at the link's end; a shoe has two
 };
 
 struct Ground {
@@ -87,6 +117,46 @@ struct Trolley {
   double track_length = 0;    // from the start to the stop [m]
   double stop_stiffness = 0;  // [N/m]
   double stop_damping = 0;    // [N s/m]
+  double payload = 0;         // rides on it, beside the total mass [kg]
+
+  double moving_mass() const { return total_mass + payload; }
+};
+
+// Where the trolley's weight rests, 7.2: two rollers on the track. Along from the first joint,
+// forward > 0. The rollers are loads to be reported; no motion depends on them.
+struct Rollers {
+  bool present = false;
+  double front = 0, rear = 0;    // of the rollers [m]
+  double height = 0;             // of the track above the first joint, cylinder extended [m]
+  double counterweight = 0;      // part of the total mass [kg]
+  double counterweight_at = 0;   // [m]
+  double center_of_mass = 0;     // of the rest of the trolley and its payload [m]
+  double center_of_mass_up = 0;  // above the first joint, cylinder extended [m]
+};
+
+// Joint 0 of 4.2: an air cylinder between trolley and body moves the first joint up and down.
+// Travel counts upwards from the extended stop, where the first joint is at the origin.
+struct Cylinder {
+  enum class Mode { locked, regulator, valves };
+  struct Chamber {
+    double dead_volume = 0;      // with its hoses, at its end of the stroke [m^3]
+    std::string inlet, exhaust;  // names in the valves file
+    int inlet_bit = 4, exhaust_bit = 12;
+  };
+
+  bool present = false;
+  Mode mode =
+      Mode::locked;  // at the extended stop; or behind a regulator; or four valves in a loop
+  double bore = 0, rod_diameter = 0, stroke = 0;  // [m]
+  double body_mass = 0;  // what moves up and down, links and foot apart; in the total mass [kg]
+  double friction = 0;   // of piston and bearings, dry [N]
+  double damping = 0;    // [N s/m]
+  double stop_stiffness = 0;  // of both ends of the stroke [N/m]
+  double stop_damping = 0;    // [N s/m]
+  double pressure = 0;  // Mode::regulator: in `down`, which pushes the body down, absolute [Pa]
+  Chamber up, down;     // the chambers that push the body up (rod side) and down
+  double position_gain = 0;                         // Mode::valves, B.1: 0.9 % per count [1/count]
+  double up_feedforward = 0, down_feedforward = 0;  // duties of inlet and exhaust alike, B.1 [-]
 };
 
 struct Converter {
@@ -99,7 +169,8 @@ struct Converter {
 
 // `real` is what the hardware does, `assumed` what the controller believes.
 struct Sensor {
-  enum class Kind { angle, tension, fixed };  // fixed: a quantity that does not move (yet)
+  // fixed: a quantity that does not move; cylinder: its travel; pressure: gauge, of a muscle
+  enum class Kind { angle, tension, fixed, pressure, velocity, cylinder };
 
   std::string name;
   Kind kind = Kind::angle;
@@ -107,11 +178,11 @@ struct Sensor {
   int channel = 0;  // of the converter board
   int tick = 1;     // of the period, when the result is read; the conversion starts a tick earlier
 
-  double scale = 0;    // real: [rad/V] or [V/N]
-  double at_rest = 0;  // real: counts at the joint's rest angle, at no tension or of what is fixed
+  double scale = 0;    // real: [rad/V], [V/N], [V/Pa], [V s/rad] or [m/V]
+  double at_rest = 0;  // real: counts at the joint's rest angle, or where the quantity is zero
   double noise = 0;    // real: standard deviation [count]
 
-  double assumed_scale = 0;    // [count/rad] or [V/N]
+  double assumed_scale = 0;    // [count/rad], [V/N], [V/Pa], [V s/rad] or [count/m]
   double assumed_at_rest = 0;  // [count]
 };
 
@@ -144,6 +215,8 @@ struct Robot {
   Foot foot;
   Ground ground;
   Trolley trolley;
+  Rollers rollers;
+  Cylinder cylinder;
   double gravity = 9.80665;  // [m/s^2]
   Converter converter;
   std::vector<Sensor> sensors;  // ascending in tick
@@ -155,9 +228,16 @@ struct Robot {
 int find_joint(const Robot&, std::string_view name);
 int find_muscle(const Robot&, std::string_view name);
 int find_sensor(const Robot&, std::string_view name);
-int muscle_of(const Robot&, int joint, Muscle::Role role);
+int muscle_of(const Robot&, int joint, Muscle::Role role);  // also one that has it as its second
 int angle_sensor_of(const Robot&, int joint);
 int tension_sensor_of(const Robot&, int muscle);
+int pressure_sensor_of(const Robot&, int muscle);
+int velocity_sensor_of(const Robot&, int joint);
+int cylinder_sensor(const Robot&);
+
+// What the fast planar world leaves out: anything but driven joints with round cams and their own
+// pairs, a disc for a foot, a locked cylinder.
+bool is_plain(const Robot&);
 
 // Links and foot together  [kg].
 double leg_mass(const Robot&);

@@ -98,6 +98,7 @@ struct Census {
     EXPECT_LT(field.min, field.max) << field.name;
   }
   void number(const units::Field& f, double&) { note(f, true); }
+  void numbers(const units::Field& f, std::vector<double>&) { note(f, true); }
   void integer(const units::Field& f, int&) { note(f, false); }
   void flag(const units::Field& f, bool&) { note(f, false); }
   void text(const units::Field& f, std::string&) { note(f, false); }
