@@ -1,0 +1,141 @@
+// muscle/plumbing.h - the air half of a machine whose air does more than a bank's: a tank that
+// empties, hoses that resist, walls that warm, leaks, regulators, an air cylinder.
+//
+// Like a bank it owns the valves and is asked in every stage; whoever integrates owns the state:
+//
+//   lengths, rates, state  ->  tensions, pressures, flows, and the state's derivative
+//
+// What the state holds depends on what is switched on: the muscles' masses come first. Scalar and
+// exact (one power per chamber); with nothing switched on it says what the bank says. The laws:
+// gas/orifice.h, series.h, hose.h, leak.h, heat.h, supply.h, regulator.h, cylinder.h.
+//
+//   order   electrical, level ... at t, from the look at the last node
+//           node(t) at next_change() and wherever the integrator wants one, then evaluate
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sinew/gas/air.h"
+#include "sinew/gas/delay.h"
+#include "sinew/gas/orifice.h"
+#include "sinew/gas/supply.h"
+#include "sinew/muscle/bank.h"
+#include "sinew/muscle/cylinder.h"
+#include "sinew/muscle/muscle.h"
+
+namespace sinew::muscle {
+
+inline constexpr int max_air_states = 64;
+
+// Only the first states() are used. Not set when made: `AirState x{}` is zero.
+struct AirState {
+  std::array<double, max_air_states> of;
+
+  double& operator[](int i) { return of[static_cast<std::size_t>(i)]; }
+  double operator[](int i) const { return of[static_cast<std::size_t>(i)]; }
+};
+
+// Pull's inflow and outflow are always set, `drift` never. Pairs of the cylinder: up, down.
+struct AirPull : Pull {
+  Lanes leak;      // out of the muscle to the atmosphere [kg/s]
+  Lanes manifold;  // pressure between valves and hose; the muscle's own without a hose [Pa]
+
+  double cylinder_force = 0;  // on the body, up > 0 [N]
+  std::array<double, 2> cylinder_pressure{}, cylinder_inflow{}, cylinder_outflow{};  // [Pa] [kg/s]
+
+  double supply_pressure = 0;  // of the line to the inlets, absolute [Pa]
+  double tank_pressure = 0;    // the line's without a tank [Pa]
+};
+
+// Is there anything that a bank cannot do?
+bool needs_plumbing(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
+                    const std::optional<Cylinder>& cylinder);
+
+class Plumbing {
+ public:
+  // Throws std::invalid_argument for more than `capacity` muscles.
+  Plumbing(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
+           const std::optional<Cylinder>& cylinder = {});
+
+  int muscles() const { return size_; }
+  int states() const { return states_; }
+
+  // 2 x muscle + (0 inlet | 1 exhaust), then the cylinder's: up inlet, up exhaust, down inlet, down
+  // exhaust.
+  int valves() const { return static_cast<int>(taps_.size()); }
+
+  // All muscles at one absolute pressure and at rest, air at the wall's temperature.
+  AirState initial(double pressure, const Lanes& length, double travel) const;
+
+  // Air in the machine: chambers, hoses and tank  [kg]. What it loses has left through an exhaust
+  // or a leak.
+  double total_mass(const AirState& state, double travel) const;
+
+  // An electrical edge of a valve at t, not before the last node. `at_node`: the look at that node,
+  // for delays and failures that depend on the pressure difference.
+  void electrical(int valve, double t, bool open, const AirPull& at_node) noexcept;
+
+  // Set point of a regulator from t on, as a share 0..1 of its range; not before the last node.
+  void level(int valve, double t, double share) noexcept;
+
+  // The next instant at which a valve really changes or a set point jumps, or infinity  [s].
+  double next_change() const noexcept { return next_change_; }
+
+  // At a node: valves and set points move to t.
+  void node(double t) noexcept {
+    if (next_change_ <= t) move_valves(t);
+  }
+
+  // The law itself. Pure between two nodes; t matters only to valves that ramp.
+  void evaluate(double t, const Lanes& length, const Lanes& rate, double travel, double travel_rate,
+                const AirState& state, AirPull& out, AirState& derivative) const noexcept;
+
+  // Nothing flows or warms: the derivative is all zero until the next change.
+  bool quiet() const noexcept { return !restless_ && !ramping_ && open_count_ == 0; }
+
+  // Share of the valve's area that is open at t  [-].
+  double open_share(int valve, double t) const noexcept;
+
+  // RK4 is stable up to this step: the fastest chamber, lag or wall that an option adds, or
+  // infinity [s]. The muscles' own chambers are not in it.
+  double longest_step() const noexcept { return longest_step_; }
+
+ private:
+  // One valve: where it is and what it lets through.
+  struct Tap {
+    gas::Valve valve;
+    gas::Shutter shutter;
+    gas::FlowConstants flow;
+    double share = 0;  // of its area
+  };
+  // Air of one chamber.
+  struct Chamber {
+    double mass = 0, volume = 0, pressure = 0, y = 0;
+  };
+
+  void set_muscle(const Muscle& muscle);
+  Chamber chamber(double mass, double volume) const noexcept;
+  void pull(int i, double length, double rate, double pressure, AirPull& out) const noexcept;
+  double through(int valve, double t, double y_from, double y_to) const noexcept;
+  void cylinder(double t, double travel, double travel_rate, const AirState& state, AirPull& out,
+                AirState& derivative) const noexcept;
+  void move_valves(double t) noexcept;
+  void refresh(double t) noexcept;
+
+  int size_ = 0, states_ = 0;
+  gas::Air air_;
+  gas::Supply supply_;
+  std::vector<Muscle> muscles_;
+  std::optional<Cylinder> cylinder_;
+
+  std::vector<Tap> taps_;
+  int open_count_ = 0;
+  double next_change_ = 0;
+  bool ramping_ = false, restless_ = false;
+  double longest_step_ = 0;
+};
+
+}  // namespace sinew::muscle
