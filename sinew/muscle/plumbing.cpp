@@ -69,8 +69,8 @@ void Plumbing::electrical(int valve, double t, bool open, const AirPull&) noexce
   tap.shutter.electrical(t, open);
   // A command can also take a pending change back, so look at all of them.
   next_change_ = never;
-  for (const Tap& tap : taps_)
-    next_change_ = tap.shutter.next() < next_change_ ? tap.shutter.next() : next_change_;
+  for (const Tap& each : taps_)
+    next_change_ = each.shutter.next() < next_change_ ? each.shutter.next() : next_change_;
 }
 
 void Plumbing::level(int, double, double) noexcept {}
