@@ -8,10 +8,12 @@
 
 #include "cli/command.h"
 #include "cli/run_folder.h"
+#include "sinew/config/compose.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/log/reader.h"
 #include "sinew/signals/timing.h"
+#include "sinew/tune/study.h"
 
 namespace sinew::cli {
 
@@ -85,6 +87,8 @@ Finding check(const std::string& path) {
       check_log(file, out);
     } else if (file.extension() == ".dat") {
       check_timing(path, out);
+    } else if (config::format_kind(config::parse_file(path)) == "plan") {
+      tune::check(tune::sweep_of(tune::load_study(path)));
     } else {
       check_machine(path, out);
     }
@@ -128,8 +132,9 @@ void add_check(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App& sub = subcommand(app, "check", "what is wrong with files, all of it at once",
                              "sinew check robots/leg/*.toml robots/leg/predict.dat");
-  sub.add_option("FILE", options->files,
-                 "experiment, robot, actuator, valves file, predict.dat, or a run's folder or log")
+  sub.add_option(
+         "FILE", options->files,
+         "experiment, plan, robot, actuator, valves file, predict.dat, or a run's folder or log")
       ->required();
   sub.add_flag("--json", options->json, "as JSON");
   sub.callback([=, &action] { action = [=] { return check_all(*options); }; });

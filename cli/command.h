@@ -16,6 +16,7 @@ void add_run(CLI::App& app, Action& action);
 void add_analyze(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
+void add_sweep(CLI::App& app, Action& action);
 void add_show(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_actuator(CLI::App& app, Action& action);

@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   cli::add_analyze(app, action);
   cli::add_export(app, action);
   cli::add_replay(app, action);
+  cli::add_sweep(app, action);
   cli::add_show(app, action);
   cli::add_check(app, action);
   cli::add_actuator(app, action);

@@ -47,7 +47,7 @@ experiment::Outcome run_logged(const Options& options, const experiment::Experim
   if (log) log->tap(run_options);
 
   std::optional<ProgressBar> bar(std::in_place, tick, experiment::last_tick(e),
-                                 signals::tick_seconds, options.quiet);
+                                 Steps{signals::tick_seconds, "s", 1}, options.quiet);
   experiment::Outcome outcome = experiment::run(e, run_options);
   bar.reset();
   if (log) log->finish();

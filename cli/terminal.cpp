@@ -42,9 +42,9 @@ void Messages::note(std::string_view text) const {
   if (!quiet_) fmt::print(stderr, "{}\n", text);
 }
 
-ProgressBar::ProgressBar(const std::atomic<std::int64_t>& now, std::int64_t end,
-                         double seconds_per_step, bool quiet)
-    : now_(now), end_(end), seconds_per_step_(seconds_per_step) {
+ProgressBar::ProgressBar(const std::atomic<std::int64_t>& now, std::int64_t end, Steps steps,
+                         bool quiet)
+    : now_(now), end_(end), steps_(steps) {
   if (!quiet && end > 0 && on_terminal()) thread_ = std::thread([this] { watch(); });
 }
 
@@ -67,9 +67,9 @@ void ProgressBar::watch() {
 void ProgressBar::draw(std::int64_t now) const {
   constexpr std::int64_t width = 30;
   const std::string done(static_cast<std::size_t>(width * now / end_), '#');
-  fmt::print(stderr, "\r[{:<{}}] {:3} %  {:.1f} of {:.1f} s", done, width, 100 * now / end_,
-             static_cast<double>(now) * seconds_per_step_,
-             static_cast<double>(end_) * seconds_per_step_);
+  fmt::print(stderr, "\r[{:<{}}] {:3} %  {:.{}f} of {:.{}f} {}", done, width, 100 * now / end_,
+             static_cast<double>(now) * steps_.each, steps_.decimals,
+             static_cast<double>(end_) * steps_.each, steps_.decimals, steps_.unit);
   std::fflush(stderr);
 }
 

@@ -27,11 +27,17 @@ class Messages {
   bool quiet_;
 };
 
+// What one step of a progress bar stands for, as people count.
+struct Steps {
+  double each = 1;
+  std::string_view unit;
+  int decimals = 0;
+};
+
 // Shows how far `now` is on its way to `end` until it is destroyed. Reads, never writes.
 class ProgressBar {
  public:
-  ProgressBar(const std::atomic<std::int64_t>& now, std::int64_t end, double seconds_per_step,
-              bool quiet);
+  ProgressBar(const std::atomic<std::int64_t>& now, std::int64_t end, Steps steps, bool quiet);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -42,7 +48,7 @@ class ProgressBar {
 
   const std::atomic<std::int64_t>& now_;
   std::int64_t end_;
-  double seconds_per_step_;
+  Steps steps_;
   std::atomic<bool> done_{false};
   std::thread thread_;
 };

@@ -117,6 +117,12 @@ std::string unit_of_key(std::string_view key) {
   return "1";
 }
 
+std::string_view without_unit(std::string_view key) {
+  for (const auto& [ending, unit] : endings)
+    if (key.ends_with(ending)) return key.substr(0, key.size() - ending.size());
+  return key;
+}
+
 std::optional<config::Mistake> mistake_in_accept(const Reported& r, double atmosphere) {
   if (r.accept.empty()) return std::nullopt;
   return read_band(r, atmosphere).mistake;

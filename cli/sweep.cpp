@@ -1,0 +1,191 @@
+// cli/sweep.cpp - `sinew sweep`: many runs of one experiment as one table.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "cli/command.h"
+#include "cli/run_folder.h"
+#include "cli/terminal.h"
+#include "sinew/config/compose.h"
+#include "sinew/tune/study.h"
+#include "sinew/tune/table.h"
+
+namespace sinew::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string file, out;
+  tune::Study study;  // what the command line says
+  int halvings = -1, threads = 0;
+  bool force = false, json = false, quiet = false;
+};
+
+// Set by Ctrl-C, which then waits for the runs that have begun.
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void on_interrupt(int) { interrupted = true; }
+
+// A plan's own words, and those of the command line behind them.
+tune::Sweep sweep_for(const Options& options) {
+  const bool plan = config::format_kind(config::parse_file(options.file)) == "plan";
+  tune::Study study = plan ? tune::load_study(options.file) : tune::Study{};
+  if (!plan) study.experiment = options.file;
+
+  const tune::Study& said = options.study;
+  const auto append = [](std::vector<std::string>& to, const std::vector<std::string>& more) {
+    to.insert(to.end(), more.begin(), more.end());
+  };
+  append(study.set, said.set);
+  append(study.vary, said.vary);
+  append(study.where, said.where);
+  append(study.report, said.report);
+  if (!said.largest.empty()) study.largest = said.largest;
+  if (said.seeds > 0) study.seeds = said.seeds;
+  if (options.halvings >= 0) study.halvings = options.halvings;
+  study.allow_unreachable = study.allow_unreachable || said.allow_unreachable;
+  return tune::sweep_of(study);
+}
+
+// Rows as they come, so that a run that is killed leaves them; to stdout where no file is named.
+// Made with the first row: a sweep that is refused leaves nothing.
+class CsvTable {
+ public:
+  CsvTable(const std::string& name, std::vector<std::string> headings, bool force)
+      : name_(name), headings_(std::move(headings)) {
+    if (!name.empty()) refuse_to_overwrite(name, force);
+  }
+
+  void add(const std::vector<std::string>& cells) {
+    const std::string text =
+        (lines_++ == 0 ? tune::csv_line(headings_) : "") + tune::csv_line(cells);
+    if (name_.empty()) return fmt::print("{}", text);
+    if (!file_.is_open()) file_.open(name_, std::ios::binary | std::ios::trunc);
+    file_ << text << std::flush;
+  }
+  void finish() {
+    if (!name_.empty() && !file_)
+      config::fail({name_, 0, 0}, "", "an error while writing", "room for the file",
+                   "another folder");
+  }
+
+ private:
+  std::string name_;
+  std::vector<std::string> headings_;
+  std::int64_t lines_ = 0;
+  std::ofstream file_;
+};
+
+// A number or a flag as such.
+Json json_cell(const std::string& cell) {
+  if (cell.empty()) return nullptr;
+  return Json::accept(cell) ? Json::parse(cell) : Json(cell);
+}
+
+std::string json_text(const std::vector<std::string>& headings,
+                      const std::vector<tune::Row>& rows) {
+  Json out{{"format", "sinew.sweep/1"}, {"rows", Json::array()}};
+  for (const tune::Row& row : rows) {
+    Json entry = Json::object();
+    for (std::size_t i = 0; i < headings.size(); ++i) entry[headings[i]] = json_cell(row.cells[i]);
+    out["rows"].push_back(std::move(entry));
+  }
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+int threads_for(const Options& options) {
+  if (options.threads > 0) return options.threads;
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+// The bar would run through a table on the same terminal.
+std::vector<tune::Row> run_all(const Options& options, const tune::Sweep& s, CsvTable* csv) {
+  std::atomic<std::int64_t> progress{0};
+  const ProgressBar bar(progress, static_cast<std::int64_t>(tune::points(s)),
+                        {.each = 1, .unit = "points", .decimals = 0},
+                        options.quiet || options.out.empty());
+  const auto before = std::signal(SIGINT, on_interrupt);
+  auto rows = tune::sweep(s, {.threads = threads_for(options),
+                              .stop = &interrupted,
+                              .progress = &progress,
+                              .row = [&](const tune::Row& row) {
+                                if (csv) csv->add(row.cells);
+                              }});
+  std::signal(SIGINT, before);
+  return rows;
+}
+
+void tell(const std::vector<tune::Row>& rows, std::size_t points, const Messages& messages) {
+  const auto bad = std::ranges::count_if(rows, [](const tune::Row& row) { return !row.ok; });
+  if (bad > 0)
+    messages.warning(
+        fmt::format("{} of {} rows have no figures; their status says why", bad, rows.size()));
+  if (rows.size() < points)
+    throw std::runtime_error(
+        fmt::format("interrupted: {} of {} points are done and kept", rows.size(), points));
+}
+
+ExitCode sweep_all(const Options& options) {
+  const Messages messages(options.quiet);
+  const tune::Sweep s = sweep_for(options);
+  tune::check(s);
+
+  const std::vector<std::string> headings = tune::headings(s);
+  std::optional<CsvTable> csv;
+  if (!options.out.empty() || !options.json) csv.emplace(options.out, headings, options.force);
+  const std::vector<tune::Row> rows = run_all(options, s, csv ? &*csv : nullptr);
+  if (csv) csv->finish();
+  if (options.json) fmt::print("{}", json_text(headings, rows));
+  tell(rows, tune::points(s), messages);
+  if (!options.out.empty()) messages.note(options.out);
+  return ok;
+}
+
+// One each, so that what follows stays what it is.
+void add_words(CLI::App& sub, const char* name, std::vector<std::string>& words,
+               const char* description) {
+  sub.add_option(name, words, description)->allow_extra_args(false);
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App& sub = subcommand(
+      app, "sweep", "many runs of one experiment as one table",
+      "sinew sweep experiments/leg-in-air.toml --vary \"joint.hip.angle_gain=0.02:0.1:5 %/count\" "
+      "--report \"joints.hip.tracking_rms_rad [deg]\" -o gain.csv");
+  sub.add_option("FILE", options->file, "the experiment, or a plan: the same options as a file")
+      ->required();
+  add_words(sub, "--vary", options->study.vary,
+            "KEY=a,b,c unit or KEY=from:to:how many unit; repeated: all combinations");
+  sub.add_option("--seeds", options->study.seeds, "each point with the noise of seeds 1 … N")
+      ->check(CLI::Range(1, 10000));
+  add_words(sub, "--report", options->study.report,
+            "keys of summary.json, with commas: key, or key [unit]");
+  sub.add_option("--largest", options->study.largest,
+                 "the largest value of one more key for which --where holds; written like --vary");
+  add_words(sub, "--where", options->study.where,
+            "\"key < value\" of summary.json, also <=, >, >=; repeated: all must hold");
+  sub.add_option("--halvings", options->halvings, "of the interval that --largest finds; 6")
+      ->check(CLI::Range(0, 50));
+  add_sets(sub, options->study.set);
+  sub.add_flag("--allow-unreachable", options->study.allow_unreachable, "as in sinew run");
+  sub.add_option("--threads", options->threads, "at a time; as many as the machine has")
+      ->check(CLI::Range(1, 1024));
+  sub.add_option("-o,--output", options->out, "the CSV file to write; else stdout");
+  sub.add_flag("--force", options->force, "replace that file");
+  sub.add_flag("--json", options->json, "print the table as JSON");
+  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
+  sub.callback([=, &action] { action = [=] { return sweep_all(*options); }; });
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,165 @@
+#include "sinew/tune/axis.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+
+namespace sinew::tune {
+namespace {
+
+constexpr double most_values = 10000;
+
+[[noreturn]] void refuse(std::string_view option, std::string_view text, std::string expected,
+                         std::string try_this = "") {
+  config::fail({std::string(option), 0, 0}, "", config::in_quotes(text), std::move(expected),
+               std::move(try_this));
+}
+
+// "0.05 %/count"; a word such as "2-way" is none.
+struct Number {
+  double value = 0;
+  std::string_view unit;
+};
+
+std::optional<Number> number_in(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  Number out;
+  const char* last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, out.value);
+  if (error != std::errc{} || !std::isfinite(out.value)) return std::nullopt;
+  out.unit = std::string_view(end, static_cast<std::size_t>(last - end));
+  const bool letter =
+      out.unit.empty() || out.unit[0] == ' ' || out.unit[0] == '%' || (out.unit[0] | 32) >= 'a';
+  if (!letter) return std::nullopt;
+  out.unit = trimmed(out.unit);
+  return out;
+}
+
+Value number_value(double number, std::string_view unit) {
+  // Steps round: 0.30000000000000004 is 0.3.
+  const std::string cell = config::format_number(std::stod(fmt::format("{:.12g}", number)));
+  return {unit.empty() ? cell : fmt::format("{} {}", cell, unit), cell, number};
+}
+
+// Numbers share one unit: that of the last, or of those that say one.
+void add_list(Axis& axis, const std::vector<std::string_view>& items, std::string_view text,
+              std::string_view option) {
+  std::vector<std::optional<Number>> numbers;
+  for (const std::string_view item : items) {
+    if (item.empty()) refuse(option, text, "a value between two commas");
+    numbers.push_back(number_in(item));
+    if (!numbers.back() || numbers.back()->unit.empty()) continue;
+    if (!axis.unit.empty() && axis.unit != numbers.back()->unit)
+      refuse(option, text, "one unit for all values", "the same words for it: " + axis.unit);
+    axis.unit = numbers.back()->unit;
+  }
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const std::string word(items[i]);
+    axis.values.push_back(numbers[i] ? number_value(numbers[i]->value, axis.unit)
+                                     : Value{word, word, std::nullopt});
+  }
+}
+
+// from : to : how many, each may say the unit.
+void add_range(Axis& axis, std::string_view text, std::string_view option) {
+  const std::string example = fmt::format("\"{}=0:1:5 unit\"", axis.key);
+  std::vector<Number> parts;
+  for (std::string_view rest = text;;) {
+    const std::size_t colon = rest.find(':');
+    const auto part = number_in(trimmed(rest.substr(0, colon)));
+    if (!part) refuse(option, text, "from:to:how many", example);
+    parts.push_back(*part);
+    if (colon == rest.npos) break;
+    rest.remove_prefix(colon + 1);
+  }
+  if (parts.size() != 3) refuse(option, text, "from:to:how many", example);
+  for (const Number& part : parts) {
+    if (part.unit.empty()) continue;
+    if (!axis.unit.empty() && axis.unit != part.unit) refuse(option, text, "one unit", example);
+    axis.unit = part.unit;
+  }
+  const double from = parts[0].value, to = parts[1].value, n = parts[2].value;
+  if (n != std::floor(n) || n < 2 || n > most_values)
+    refuse(option, text, "2 to 10000 values: from:to:how many", example);
+  if (from == to) refuse(option, text, "two different ends", example);
+  for (double i = 0; i < n; ++i)
+    axis.values.push_back(number_value(from + i * (to - from) / (n - 1), axis.unit));
+}
+
+}  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
+std::vector<std::string_view> list_of(std::string_view text) {
+  std::vector<std::string_view> out;
+  std::size_t start = 0;
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i <= text.size(); ++i) {
+    const char c = i < text.size() ? text[i] : ',';
+    if (c == '"') quoted = !quoted;
+    if (!quoted && (c == '[' || c == '{')) ++depth;
+    if (!quoted && (c == ']' || c == '}')) --depth;
+    const bool ends = i == text.size() || (c == ',' && depth <= 0 && !quoted);
+    if (!ends) continue;
+    out.push_back(trimmed(text.substr(start, i - start)));
+    start = i + 1;
+  }
+  return out;
+}
+
+std::string Axis::heading() const { return unit.empty() ? key : fmt::format("{} [{}]", key, unit); }
+
+Value Axis::at(double number) const { return number_value(number, unit); }
+
+std::string Axis::set(const Value& value) const { return key + "=" + value.text; }
+
+Axis parse_axis(std::string_view text, std::string_view option) {
+  const std::size_t equals = text.find('=');
+  Axis axis{.key = std::string(trimmed(text.substr(0, equals))), .unit = {}, .values = {}};
+  if (equals == text.npos || axis.key.empty())
+    refuse(option, text, "KEY=a,b,c or KEY=from:to:how many, and the unit",
+           "\"joint.hip.angle_gain=0.02:0.1:5 %/count\"");
+  const std::string_view values = trimmed(text.substr(equals + 1));
+  const std::vector<std::string_view> items = list_of(values);
+  const bool range = items.size() == 1 && values.find(':') != values.npos &&
+                     number_in(trimmed(values.substr(0, values.find(':'))));
+  if (range) {
+    add_range(axis, values, option);
+  } else {
+    add_list(axis, items, text, option);
+  }
+  return axis;
+}
+
+Axis seeds(int n) {
+  Axis axis{.key = "seed", .unit = {}, .values = {}};
+  for (int i = 1; i <= n; ++i) axis.values.push_back(axis.at(i));
+  return axis;
+}
+
+std::size_t Grid::size() const {
+  std::size_t n = 1;
+  for (const Axis& axis : *axes_) n *= axis.values.size();
+  return n;
+}
+
+std::vector<const Value*> Grid::point(std::size_t index) const {
+  std::vector<const Value*> out(axes_->size());
+  for (std::size_t i = axes_->size(); i-- > 0;) {
+    const std::vector<Value>& values = (*axes_)[i].values;
+    out[i] = &values[index % values.size()];
+    index /= values.size();
+  }
+  return out;
+}
+
+}  // namespace sinew::tune

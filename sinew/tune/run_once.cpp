@@ -1,0 +1,47 @@
+#include <fmt/format.h>
+
+#include "sinew/config/compose.h"
+#include "sinew/experiment/run.h"
+#include "sinew/tune/sweep.h"
+
+namespace sinew::tune {
+namespace {
+
+// The first of what is wrong, in one line of a table.
+std::string first_problem(const config::Error& e) {
+  const std::size_t more = e.problems().size() - 1;
+  return config::to_text(e.problems().front()) +
+         (more > 0 ? fmt::format(" (and {} more)", more) : "");
+}
+
+std::string status_of(const experiment::Outcome& outcome) {
+  const bool ended =
+      outcome.status != signals::Status::ok || outcome.seen.fault != signals::Status::ok;
+  if (ended) return fmt::format("ended early, at {:.4f} s", outcome.duration);
+  if (!outcome.table.complete) return "more valve edges than there was room for";
+  return "ok";
+}
+
+}  // namespace
+
+// The log's files are not written: the summary is of the table in memory.
+Ran run_once(const Sweep& s, const std::vector<std::string>& sets) {
+  Ran out;
+  try {
+    const config::Node root = config::compose(s.experiment, sets);
+    const analysis::Machine machine = analysis::read_machine(root);
+    const experiment::Experiment e = experiment::load(root, s.experiment);
+    if (!s.allow_unreachable) experiment::refuse_unreachable(e);
+    const experiment::Outcome outcome = experiment::run(e);
+    out.status = status_of(outcome);
+    out.atmosphere = machine.atmosphere;
+    if (out.ok()) out.summary = analysis::summarize(outcome.table, machine);
+  } catch (const config::Error& e) {
+    out.status = "refused: " + first_problem(e);
+  } catch (const std::exception& e) {
+    out.status = std::string("refused: ") + e.what();
+  }
+  return out;
+}
+
+}  // namespace sinew::tune

@@ -1,0 +1,52 @@
+#include "sinew/tune/study.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "sinew/config/compose.h"
+#include "sinew/config/reader.h"
+#include "sinew/tune/study.fields.h"
+
+namespace sinew::tune {
+
+Study load_study(const std::string& path) {
+  const config::Node root = config::compose(path);
+  if (config::format_kind(root) != "plan")
+    config::fail({path, 0, 0}, "format", config::in_quotes(config::format_kind(root)),
+                 "\"sinew.plan/1\"");
+  Study out;
+  config::Reader reader(root);
+  std::string format;
+  reader.text({.name = "format", .doc = "kind and version"}, format);
+  fields(reader, out);
+  reader.finish();
+
+  const config::Origin* named = config::find_origin(reader.origins(), "experiment");
+  const std::filesystem::path folder = std::filesystem::path(named->where.file).parent_path();
+  out.experiment = (folder / out.experiment).lexically_normal().string();
+  return out;
+}
+
+Sweep sweep_of(const Study& study) {
+  Sweep out{.experiment = study.experiment, .sets = study.set};
+  out.allow_unreachable = study.allow_unreachable;
+  for (const std::string& text : study.vary) out.axes.push_back(parse_axis(text, "vary"));
+  if (study.seeds > 0) out.axes.push_back(seeds(study.seeds));
+  for (const std::string& text : study.report)
+    std::ranges::move(parse_figures(text, "report"), std::back_inserter(out.report));
+  if (study.largest.empty()) {
+    if (!study.where.empty())
+      config::fail({"where", 0, 0}, "", config::in_quotes(study.where.front()),
+                   "a key whose largest value is searched", "--largest KEY=from:to:n");
+    return out;
+  }
+  out.largest = Search{parse_axis(study.largest, "largest"), {}, study.halvings};
+  for (const std::string& text : study.where)
+    out.largest->where.push_back(parse_condition(text, "where"));
+  if (study.where.empty())
+    config::fail({"largest", 0, 0}, "", "nothing that must hold", "key < value",
+                 "--where \"joints.hip.tracking_rms_rad < 5 deg\"");
+  return out;
+}
+
+}  // namespace sinew::tune

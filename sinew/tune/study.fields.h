@@ -1,0 +1,35 @@
+// tune/study.fields.h - the keys of studies/*.toml.
+#pragma once
+
+#include "sinew/tune/study.h"
+#include "sinew/units/field.h"
+
+namespace sinew::tune {
+
+template <class Visitor>
+void fields(Visitor& v, Study& s) {
+  v.text({.name = "title", .doc = "of the study"}, s.title);
+  v.text({.name = "reproduces", .optional = true, .doc = "section and figures"}, s.reproduces);
+  v.text({.name = "experiment", .doc = "file of the experiment, relative to this one"},
+         s.experiment);
+  v.texts({.name = "set", .optional = true, .doc = "key=value, for every run"}, s.set);
+  v.texts({.name = "vary", .optional = true, .doc = "KEY=a,b,c unit or KEY=from:to:n unit"},
+          s.vary);
+  v.integer({.name = "seeds", .min = 0, .max = 10000, .optional = true, .doc = "runs per point"},
+            s.seeds);
+  v.text({.name = "largest", .optional = true, .doc = "like vary: the key that is searched"},
+         s.largest);
+  v.texts({.name = "where", .optional = true, .doc = "key < value: what must hold"}, s.where);
+  v.integer({.name = "halvings",
+             .min = 0,
+             .max = 50,
+             .optional = true,
+             .doc = "of the interval that the search finds"},
+            s.halvings);
+  v.texts({.name = "report", .optional = true, .doc = "keys of summary.json: key [unit]"},
+          s.report);
+  v.flag({.name = "allow_unreachable", .optional = true, .doc = "as sinew run's"},
+         s.allow_unreachable);
+}
+
+}  // namespace sinew::tune

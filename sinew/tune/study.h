@@ -1,0 +1,35 @@
+// tune/study.h - a sweep as a file, so that a published table can be made again.
+//
+//   format     = "sinew.plan/1"
+//   title      = "Largest angle gain against stiffness gain"
+//   experiment = "../experiments/leg-in-air.toml"
+//   vary       = ["joint.hip.stiffness_gain=0:13:5 %/(lbf in/rad)"]
+//   largest    = "joint.hip.angle_gain=0.02:0.4:20 %/count"
+//   where      = ["joints.hip.swing_oscillation_later_steps_rms_rad < 2 deg"]
+#pragma once
+
+#include <string>
+
+#include "sinew/config/node.h"
+#include "sinew/tune/sweep.h"
+
+namespace sinew::tune {
+
+struct Study {
+  std::string title;
+  std::string reproduces;
+  std::string experiment;  // relative to the file
+  std::vector<std::string> set, vary, where, report;
+  std::string largest;  // empty: every point is one run
+  int halvings = 6;
+  int seeds = 0;  // 0: the experiment's own seed
+  bool allow_unreachable = false;
+};
+
+// Throws config::Error with everything that is wrong with the file.
+Study load_study(const std::string& path);
+
+// Its words understood. Throws config::Error for those that cannot be.
+Sweep sweep_of(const Study&);
+
+}  // namespace sinew::tune

@@ -1,0 +1,218 @@
+#include "sinew/tune/sweep.h"
+
+#include <algorithm>
+#include <mutex>
+#include <thread>
+
+#include "sinew/config/compose.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+#include "sinew/experiment/experiment.h"
+#include "sinew/tune/largest.h"
+
+namespace sinew::tune {
+namespace {
+
+// --- what an axis asks of the experiment ---
+
+const std::string& first_text(const Axis& axis) { return axis.values.front().text; }
+
+[[noreturn]] void unknown_key(const Axis& axis, const config::Origins& origins) {
+  std::vector<std::string_view> known;
+  for (const config::Origin& origin : origins) known.push_back(origin.path);
+  config::fail({axis.key, 0, 0}, "", "an unknown key", "one that sinew show lists",
+               config::closest_in_quotes(axis.key, known));
+}
+
+void check_values(const Axis& axis, const std::string& unit, double atmosphere) {
+  if (unit.empty()) return;  // words, whole numbers: the run says
+  for (const Value& value : axis.values) {
+    const auto mistake = config::parse_quantity(value.text, unit, atmosphere).mistake;
+    if (mistake)
+      config::fail({axis.key, 0, 0}, "", mistake->found, mistake->expected, mistake->try_this);
+  }
+}
+
+void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins,
+                double atmosphere) {
+  if (axis.key == "robot") return;
+  if (const config::Origin* origin = config::find_origin(origins, axis.key))
+    return check_values(axis, origin->unit, atmosphere);
+
+  // It may be a key that is there only once it is set. If not, the reader says what it is.
+  std::vector<std::string> sets = s.sets;
+  sets.push_back(axis.key + "=" + first_text(axis));
+  if (axis.key.find('.') == axis.key.npos) unknown_key(axis, origins);
+  const experiment::Experiment e = experiment::load(s.experiment, sets);
+  const config::Origin* origin = config::find_origin(e.origins, axis.key);
+  if (!origin) unknown_key(axis, e.origins);
+  check_values(axis, origin->unit, atmosphere);
+}
+
+// A key that the summary lacks may not apply; one that is nearly another is a mistake.
+void check_keys(const Sweep& s, const analysis::Summary& summary) {
+  std::vector<std::string> keys;
+  for (const Figure& figure : s.report) keys.push_back(figure.key);
+  if (s.largest)
+    for (const Condition& condition : s.largest->where) keys.push_back(condition.key);
+  for (const std::string& key : keys) {
+    const std::string near = nearest_key(key, summary);
+    if (!near.empty())
+      config::fail({key, 0, 0}, "", "no such key in the summary", "a key of summary.json",
+                   config::in_quotes(near));
+  }
+}
+
+// --- one point ---
+
+struct Point {
+  std::vector<std::string> sets, cells;
+};
+
+Point point_of(const Sweep& s, std::size_t index) {
+  Point out{.sets = s.sets, .cells = {}};
+  const std::vector<const Value*> values = Grid(s.axes).point(index);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    out.sets.push_back(s.axes[i].set(*values[i]));
+    out.cells.push_back(values[i]->cell);
+  }
+  return out;
+}
+
+void add_report(const Sweep& s, const Ran& ran, std::vector<std::string>& cells) {
+  for (const Figure& figure : s.report)
+    cells.push_back(ran.ok() ? figure.cell(ran.summary, ran.atmosphere) : "");
+}
+
+Row single(const Sweep& s, std::size_t index) {
+  Point point = point_of(s, index);
+  const Ran ran = run_once(s, point.sets);
+  if (index == 0 && ran.ok()) check_keys(s, ran.summary);
+  add_report(s, ran, point.cells);
+  point.cells.push_back(ran.status);
+  return {index, std::move(point.cells), ran.ok()};
+}
+
+// Keeps the run of the largest value that held.
+Row searched(const Sweep& s, std::size_t index) {
+  const Search& search = *s.largest;
+  Point point = point_of(s, index);
+  Ran best, last;
+  int runs = 0;
+  const auto holds = [&](double number) {
+    std::vector<std::string> sets = point.sets;
+    sets.push_back(search.axis.set(search.axis.at(number)));
+    last = run_once(s, sets);
+    if (++runs == 1 && index == 0 && last.ok()) check_keys(s, last.summary);
+    const bool all = last.ok() && std::ranges::all_of(search.where, [&](const Condition& c) {
+                       return c.holds(last.summary);
+                     });
+    if (all) best = last;
+    return all;
+  };
+  std::vector<double> values;
+  for (const Value& value : search.axis.values) values.push_back(*value.number);
+
+  const Largest found = largest(values, search.halvings, holds);
+  const bool any = found.is != Largest::Is::never;
+  point.cells.push_back(any ? search.axis.at(found.value).cell : "");
+  if (!any) best.status = last.ok() ? "does not hold at the first value" : last.status;
+  add_report(s, best, point.cells);
+  point.cells.push_back(std::to_string(runs));
+  point.cells.push_back(found.is == Largest::Is::to_the_end ? "holds to the last value"
+                                                            : best.status);
+  return {index, std::move(point.cells), any};
+}
+
+// --- all of them ---
+
+// Hands out points to the threads, and rows in their order.
+class Work {
+ public:
+  Work(const Sweep& s, const Options& options)
+      : sweep_(s), options_(options), rows_(points(s)), next_(0) {}
+
+  // Also the first one's refusal is thrown by the caller's thread.
+  void first() { done(row(next_++)); }
+
+  void go_on() noexcept {
+    while (!stopped()) {
+      const std::size_t index = next_++;
+      if (index >= rows_.size()) return;
+      done(row(index));
+    }
+  }
+
+  // Those behind a gap too, where it was stopped.
+  std::vector<Row> finish() {
+    std::vector<Row> out;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (!rows_[i]) continue;
+      if (i >= told_ && options_.row) options_.row(*rows_[i]);
+      out.push_back(std::move(*rows_[i]));
+    }
+    return out;
+  }
+
+ private:
+  bool stopped() const { return options_.stop && options_.stop->load(); }
+  Row row(std::size_t index) const {
+    return sweep_.largest ? searched(sweep_, index) : single(sweep_, index);
+  }
+  void done(Row row) {
+    const std::lock_guard lock(mutex_);
+    const std::size_t index = row.point;
+    rows_[index] = std::move(row);
+    if (options_.progress) ++*options_.progress;
+    for (; told_ < rows_.size() && rows_[told_]; ++told_)
+      if (options_.row) options_.row(*rows_[told_]);
+  }
+
+  const Sweep& sweep_;
+  const Options& options_;
+  std::vector<std::optional<Row>> rows_;
+  std::atomic<std::size_t> next_;
+  std::size_t told_ = 0;  // rows that were handed out
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+void check(const Sweep& s) {
+  const config::Node root = config::compose(s.experiment, s.sets);
+  const double atmosphere = config::atmosphere_of(root);
+  const config::Origins origins = experiment::load(root, s.experiment).origins;
+  for (const Axis& axis : s.axes) check_axis(s, axis, origins, atmosphere);
+  if (!s.largest) return;
+  check_axis(s, s.largest->axis, origins, atmosphere);
+  for (const Value& value : s.largest->axis.values)
+    if (!value.number)
+      config::fail({s.largest->axis.key, 0, 0}, "", config::in_quotes(value.text),
+                   "numbers, to be halved between");
+}
+
+std::vector<std::string> headings(const Sweep& s) {
+  std::vector<std::string> out;
+  for (const Axis& axis : s.axes) out.push_back(axis.heading());
+  if (s.largest) out.push_back("largest " + s.largest->axis.heading());
+  for (const Figure& figure : s.report) out.push_back(figure.heading());
+  if (s.largest) out.push_back("runs");
+  out.push_back("status");
+  return out;
+}
+
+std::size_t points(const Sweep& s) { return Grid(s.axes).size(); }
+
+std::vector<Row> sweep(const Sweep& s, const Options& options) {
+  check(s);
+  Work work(s, options);
+  work.first();
+  std::vector<std::thread> helpers;
+  const auto others = std::min<std::size_t>(static_cast<std::size_t>(options.threads), points(s));
+  for (std::size_t i = 1; i < others; ++i) helpers.emplace_back([&work] { work.go_on(); });
+  work.go_on();
+  for (std::thread& helper : helpers) helper.join();
+  return work.finish();
+}
+
+}  // namespace sinew::tune

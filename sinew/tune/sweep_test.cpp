@@ -1,0 +1,185 @@
+// Tables of runs: the same by any number of threads, and as single runs say.
+#include "sinew/tune/sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/experiment/run.h"
+#include "sinew/tune/study.h"
+#include "sinew/tune/table.h"
+
+namespace sinew::tune {
+namespace {
+
+const std::string root = SINEW_SOURCE_DIR;
+const std::string lever = root + "/experiments/one-joint.toml";
+const std::string leg = root + "/experiments/leg-in-air.toml";
+
+Sweep gains() {
+  return {.experiment = leg,
+          .axes = {parse_axis("joint.hip.angle_gain=0.02,0.04 %/count"), seeds(3)},
+          .report = parse_figures("joints.hip.tracking_rms_rad,joints.hip.tracking_rms_rad [deg],"
+                                  "air_used_kg")};
+}
+
+std::string table(const Sweep& s, int threads) {
+  std::string rows;
+  sweep(s, {.threads = threads, .row = [&](const Row& row) { rows += csv_line(row.cells); }});
+  return csv_line(headings(s)) + rows;
+}
+
+template <class Act>
+std::string message(Act act) {
+  try {
+    act();
+  } catch (const config::Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+// By the resolved file, as `sinew run` and `sinew analyze` do it.
+analysis::Summary single_run(const std::vector<std::string>& sets) {
+  const experiment::Experiment e = experiment::load(leg, sets);
+  const auto resolved = config::parse_text(experiment::resolved(e, "test"), "resolved.toml");
+  return analysis::summarize(experiment::run(e).table, analysis::read_machine(resolved));
+}
+
+TEST(Sweep, IsTheSameForAnyNumberOfThreads) {
+  const std::string alone = table(gains(), 1);
+  EXPECT_EQ(std::count(alone.begin(), alone.end(), '\n'), 7);
+  for (int threads : {2, 3, 16}) EXPECT_EQ(table(gains(), threads), alone) << threads;
+}
+
+TEST(Sweep, ARowIsWhatTheSingleRunSays) {
+  const Sweep s = gains();
+  const std::vector<Row> rows = sweep(s, {.threads = 2});
+  ASSERT_EQ(rows.size(), 6U);
+  const Row& row = rows[4];
+  ASSERT_EQ(row.cells.size(), headings(s).size());
+  EXPECT_EQ(row.cells[0], "0.04");
+  EXPECT_EQ(row.cells[1], "2");
+  EXPECT_EQ(row.cells.back(), "ok");
+  const analysis::Summary run = single_run({"joint.hip.angle_gain=0.04 %/count", "seed=2"});
+  for (std::size_t i = 0; i < s.report.size(); ++i)
+    EXPECT_EQ(row.cells[2 + i], s.report[i].cell(run)) << s.report[i].key;
+  EXPECT_EQ(std::stod(row.cells[2]), *run.find("joints.hip.tracking_rms_rad")) << "bit for bit";
+}
+
+// A run that cannot be is a row, and so is one that blows up.
+TEST(Sweep, FailuresAreRows) {
+  Sweep s{.experiment = root + "/experiments/walk-test-1.toml",
+          .axes = {parse_axis("link.femur.length=8,8.875 in"),
+                   parse_axis("ground.normal_stiffness=300,3e7 lbf/in")},
+          .report = parse_figures("trolley.distance_m")};
+  const std::vector<Row> rows = sweep(s, {.threads = 2});
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_NE(rows[0].cells.back().find("refused: "), std::string::npos);
+  EXPECT_NE(rows[0].cells.back().find("out of reach"), std::string::npos);
+  EXPECT_EQ(rows[0].cells[2], "");
+  EXPECT_FALSE(rows[0].ok);
+  EXPECT_TRUE(rows[2].ok);
+  EXPECT_EQ(rows[3].cells.back().find("ended early, at "), 0U);
+  EXPECT_EQ(rows[3].cells[2], "");
+}
+
+TEST(Sweep, StopsAfterTheRunsThatHaveBegun) {
+  std::atomic<bool> stop{false};
+  std::size_t told = 0;
+  const auto rows = sweep(gains(), {.threads = 1, .stop = &stop, .row = [&](const Row&) {
+                                      if (++told == 2) stop = true;
+                                    }});
+  EXPECT_EQ(rows.size(), 2U);
+  EXPECT_EQ(told, 2U);
+}
+
+TEST(Sweep, RefusesWhatTheExperimentDoesNotKnow) {
+  const auto of = [](const char* axis, const char* report = "duration_s") {
+    return message([=] {
+      sweep({.experiment = lever, .axes = {parse_axis(axis)}, .report = parse_figures(report)}, {});
+    });
+  };
+  EXPECT_NE(of("joint.arm.angle_gian=1 %/count").find("did you mean"), std::string::npos);
+  EXPECT_NE(of("seeed=1,2").find("try \"seed\""), std::string::npos);
+  EXPECT_NE(of("phase.up.duration=1,2 lb").find("\"1 lb\", kg (mass)"), std::string::npos);
+  EXPECT_NE(of("phase.up.duration=1,2").find("1 without a unit"), std::string::npos);
+  EXPECT_NE(of("seed=1", "durations_s").find("try \"duration_s\""), std::string::npos);
+  EXPECT_EQ(of("seed=1", "of.another.machine_m"), "") << "a key that does not apply";
+}
+
+// The search's answer holds, the next finer one does not.
+TEST(Sweep, FindsTheLargestValueThatHolds) {
+  const Axis gain = parse_axis("joint.hip.angle_gain=0.02:0.3:8 %/count");
+  const auto where = parse_condition("joints.hip.swing_oscillation_rms_rad < 3 deg");
+  const Sweep s{.experiment = leg, .largest = Search{gain, {where}, 5}};
+  const std::vector<Row> rows = sweep(s, {});
+  ASSERT_EQ(rows.size(), 1U);
+  ASSERT_TRUE(rows[0].ok) << rows[0].cells.back();
+  const double found = std::stod(rows[0].cells[0]), step = 0.04 / 32;
+  const auto holds = [&](double x) { return where.holds(single_run({gain.set(gain.at(x))})); };
+  EXPECT_TRUE(holds(found));
+  EXPECT_FALSE(holds(found + step));
+
+  Sweep never = s;
+  never.largest->where = {parse_condition("joints.hip.swing_oscillation_rms_rad < 0 deg")};
+  EXPECT_EQ(sweep(never, {})[0].cells.back(), "does not hold at the first value");
+  Sweep always = s;
+  always.largest->where = {parse_condition("joints.hip.swing_oscillation_rms_rad >= 0 deg")};
+  EXPECT_EQ(sweep(always, {})[0].cells[0], "0.3");
+  EXPECT_EQ(sweep(always, {})[0].cells.back(), "holds to the last value");
+}
+
+TEST(Csv, QuotesWhatNeedsIt) {
+  EXPECT_EQ(csv_line({"a", "b,c", "d\"e", ""}), "a,\"b,c\",\"d\"\"e\",\n");
+}
+
+// --- plans ---
+
+class Plan : public ::testing::Test {
+ protected:
+  std::string file(const std::string& text) const {
+    std::ofstream(path_) << text;
+    return path_.string();
+  }
+  void TearDown() override { std::filesystem::remove(path_); }
+  const std::filesystem::path path_ =
+      std::filesystem::temp_directory_path() /
+      (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".toml");
+};
+
+TEST_F(Plan, SaysWhatTheCommandLineSays) {
+  const std::string name =
+      file("format = \"sinew.plan/1\"\ntitle = \"gains\"\nexperiment = \"" + leg +
+           "\"\nvary = [\"joint.hip.angle_gain=0.02,0.04 %/count\"]\n"
+           "seeds = 3\nreport = [\"joints.hip.tracking_rms_rad\", "
+           "\"joints.hip.tracking_rms_rad [deg],air_used_kg\"]\n");
+  EXPECT_EQ(table(sweep_of(load_study(name)), 2), table(gains(), 1));
+}
+
+TEST_F(Plan, NamesItsExperimentFromWhereItStands) {
+  const std::string name =
+      file("format = \"sinew.plan/1\"\ntitle = \"t\"\nexperiment = \"../some/walk.toml\"\n");
+  const auto expected = (path_.parent_path() / "../some/walk.toml").lexically_normal();
+  EXPECT_EQ(load_study(name).experiment, expected.string());
+}
+
+TEST_F(Plan, SaysWhatIsWrong) {
+  const std::string start = "format = \"sinew.plan/1\"\ntitle = \"t\"\nexperiment = \"e.toml\"\n";
+  const auto of = [&](const std::string& text) {
+    const std::string name = file(text);
+    return message([&] { sweep_of(load_study(name)); });
+  };
+  EXPECT_NE(of(start + "varry = []\n").find("did you mean"), std::string::npos);
+  EXPECT_NE(of("format = \"sinew.plan/1\"\ntitle = \"t\"\n").find("experiment"), std::string::npos);
+  EXPECT_NE(of(start + "where = [\"passiveness > 0.5\"]\n").find("largest value"),
+            std::string::npos);
+  EXPECT_NE(of(start + "largest = \"k=1:2:3 m\"\n").find("nothing that must hold"),
+            std::string::npos);
+  EXPECT_NE(of("format = \"sinew.valves/1\"\n").find("\"sinew.plan/1\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sinew::tune

@@ -1,0 +1,95 @@
+// `sweep`: a table on stdout or in a file.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/cli/program.h"
+
+namespace sinew::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+const std::string bench = "experiments/one-joint.toml";
+
+TEST(Sweep, IsATableOnStdout) {
+  const Workspace w;
+  const Result r = w.sinew({"sweep", bench, "--vary", "phase.up.duration=1,2 s", "--seeds", "2",
+                            "--report", "duration_s,sequence_duration_s [ms]"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out, StartsWith("phase.up.duration [s],seed,duration [s],sequence_duration [ms],"
+                                "status\n1,1,"));
+  EXPECT_EQ(std::count(r.out.begin(), r.out.end(), '\n'), 5);
+  EXPECT_THAT(r.err, IsEmpty());
+}
+
+TEST(Sweep, IsTheSameInAFileAsJsonAndWithMoreThreads) {
+  const Workspace w;
+  const Words words = {"sweep", bench, "--seeds", "5", "--report", "joints.lever.tracking_rms_rad"};
+  const auto with = [&](Words more) {
+    Words all = words;
+    all.insert(all.end(), more.begin(), more.end());
+    return w.sinew(all);
+  };
+  const Result one = with({"--threads", "1"});
+  EXPECT_EQ(with({"--threads", "2"}).out, one.out);
+  EXPECT_EQ(with({"-o", "t.csv"}).err, "t.csv\n");
+  EXPECT_EQ(read_text(w / "t.csv"), one.out);
+
+  const Json json = Json::parse(with({"--json"}).out);
+  ASSERT_EQ(json["rows"].size(), 5U);
+  EXPECT_EQ(json["rows"][4]["seed"], 5);
+  EXPECT_EQ(json["rows"][4]["status"], "ok");
+  EXPECT_TRUE(json["rows"][4]["joints.lever.tracking_rms [rad]"].is_number());
+
+  const Result again = with({"-o", "t.csv"});
+  EXPECT_EQ(again.code, 1);
+  EXPECT_THAT(again.err, HasSubstr("--force"));
+  EXPECT_EQ(with({"-o", "t.csv", "--force"}).code, 0);
+}
+
+TEST(Sweep, ThatIsRefusedLeavesNothing) {
+  const Workspace w;
+  const Result r = w.sinew({"sweep", bench, "--report", "durations_s", "-o", "t.csv"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_EQ(r.out, "");
+  EXPECT_THAT(r.err, HasSubstr("try \"duration_s\""));
+  EXPECT_FALSE(fs::exists(w / "t.csv"));
+  EXPECT_EQ(w.sinew({"sweep", bench, "--threads", "0"}).code, 2);
+}
+
+TEST(Sweep, InterruptedKeepsWhatIsDone) {
+  const Workspace w;
+  const pid_t pid = w.start({"sweep", bench, "--seeds", "10000", "-o", "t.csv", "--quiet"});
+  for (int i = 0; i < 500 && !fs::exists(w / "t.csv"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  kill(pid, SIGINT);
+  int status = 0;
+  waitpid(pid, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status)) << "it should end by itself";
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  const std::string text = read_text(w / "t.csv");
+  EXPECT_THAT(text, AllOf(StartsWith("seed,status\n1,ok\n"), EndsWith(",ok\n")));
+}
+
+TEST(Sweep, RunsAPlan) {
+  const Workspace w;
+  write_text(w / "plan.toml", "format = \"sinew.plan/1\"\ntitle = \"noise\"\nexperiment = \"" +
+                                  bench + "\"\nseeds = 2\nreport = [\"duration_s\"]\n");
+  EXPECT_EQ(w.sinew({"sweep", "plan.toml"}).out,
+            w.sinew({"sweep", bench, "--seeds", "2", "--report", "duration_s"}).out);
+  EXPECT_EQ(w.sinew({"check", "plan.toml"}).code, 0);
+}
+
+}  // namespace
+}  // namespace sinew::test
