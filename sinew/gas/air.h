@@ -18,6 +18,7 @@ struct Air {
   double temperature = 293.33333333333333;  // of the air upstream of an orifice and at rest [K]
   double polytropic_exponent = 1.4;         // n [-]
   double gas_constant = 286.98629312304;    // R [J/(kg K)], 53.34 ft lbf/(lb degR)
+  double wall_time = 0;  // of heat exchange with the walls, heat.h; 0: the polytrope instead [s]
 };
 
 // Density of the reference state (P_atm, T)  [kg/m^3].

@@ -1,9 +1,13 @@
-// gas/valve.h - a solenoid valve: its flow law, and when it really opens.
+// gas/valve.h - a solenoid valve: its flow law, when it really opens, what its coil takes; or a
+// pressure regulator in its place.
 //
-// Laws of flow stand in orifice.h, the delays in delay.h.
+// Laws of flow stand in orifice.h, the delays in delay.h, the coil in coil.h, the regulator in
+// regulator.h.
 #pragma once
 
 #include <string>
+
+#include "sinew/gas/regulator.h"
 
 namespace sinew::gas {
 
@@ -23,9 +27,23 @@ struct Flow {
   double linear_below = 1e-3;  // of pressure difference / upstream pressure: dQ/dP is infinite at 0
 };
 
+// From the electrical edge until the shutter moves  [s].
+struct Delays {
+  double opening = 0, closing = 0;
+};
+
+// Electrical power  [W].
+struct Coil {
+  double power = 0;        // to hold, or always
+  double boost_power = 0;  // speed-up: at the start of a pulse
+  double boost_time = 0;   // speed-up: [s]
+};
+
 struct Valve {
-  enum class Kind { two_way, three_way };  // three_way: supply or atmosphere, never sealed
+  // three_way: supply or atmosphere, never sealed; regulator: a set point instead of pulses
+  enum class Kind { two_way, three_way, regulator };
   enum class Profile { ideal, dead_time, ramp };
+  enum class Drive { standard, speed_up };  // speed_up: more current at the edge, 4.3
 
   std::string name;
   Kind kind = Kind::two_way;
@@ -35,6 +53,15 @@ struct Valve {
   double closing_delay = 0;  // [s]
   double opening_ramp = 0;   // [s] from shut to open, Profile::ramp
   double closing_ramp = 0;   // [s]
+
+  Drive drive = Drive::standard;
+  Delays speed_up;                 // in place of the delays above with Drive::speed_up
+  double opening_delay_slope = 0;  // delay per pressure difference at the edge [s/Pa]
+  double closing_delay_slope = 0;  // [s/Pa]
+  double max_frequency = 0;        // of a square wave that the shutter follows; 0: any [Hz]
+  double fails_above = 0;          // pressure difference that the coil cannot lift; 0: none [Pa]
+  Coil coil;
+  Regulator regulator;
 };
 
 }  // namespace sinew::gas

@@ -1,15 +1,15 @@
-// muscle/cylinder.h - a double-acting air cylinder that lifts the body, 4.2.
+// muscle/cylinder.h - a double-acting air cylinder between trolley and body, 4.2.
 //
-//   V_up   = dead_volume_up   + A_up s          A_up, A_down  pi bore^2/4, less the rod's area
-//   V_down = dead_volume_down + A_down (S - s)                on the side where the rod is
+//   V_up   = dead_volume[up]   + A_up s         A_up = pi (bore^2 - rod^2)/4
+//   V_down = dead_volume[down] + A_down (S - s)      A_down = pi bore^2/4
 //   F = (P_up - P_atm) A_up - (P_down - P_atm) A_down
 //
-//   s  travel: how far the `up` chamber has grown, 0 ... S, the stroke [m]
+//   s  travel upwards from the extended stop, 0 ... S, the stroke [m]
 //   F  of the air on the body, up > 0; the atmosphere's push on the rod is in it [N]
 //
-// Chambers are named after the way in which they push the body. Friction, end stops and the body's
-// weight are not in here. Valid within 0 <= s <= S; a stop that gives way a little needs a dead
-// volume.
+// Chambers are named after the way in which they push the body; the rod is in `up`. Friction, end
+// stops and weights are not in here. Valid within 0 <= s <= S; stops that give way a little are
+// what the dead volumes have to spare.
 #pragma once
 
 #include <array>
@@ -19,37 +19,32 @@
 
 namespace sinew::muscle {
 
+enum Side : int { up = 0, down = 1 };
+
 struct Cylinder {
-  // regulator: the up chamber is held at `pressure`, the down chamber is open.
+  // regulator: `down` is held at `pressure`, `up` is open to the room.
   // valves:    four valves; inlet and exhaust of a chamber may be open together.
   enum class Mode { regulator, valves };
-  enum class Rod { in_down_chamber, in_up_chamber };
 
   Mode mode = Mode::valves;
-  double bore = 0;          // diameter of the piston [m]
-  double rod_diameter = 0;  // [m]
-  Rod rod = Rod::in_down_chamber;
-  double stroke = 0;                    // S [m]
-  double dead_volume_up = 0;            // left in the chamber and its hoses at s = 0 [m^3]
-  double dead_volume_down = 0;          // at s = S [m^3]
-  double pressure = 101352.9322095749;  // regulator: what it holds; valves: where the up chamber
-                                        // starts, the down chamber at the atmosphere's [Pa abs]
-  std::array<gas::Valve, 2> inlet, exhaust;  // up, down
+  double bore = 0;                           // diameter of the piston [m]
+  double rod_diameter = 0;                   // [m]
+  double stroke = 0;                         // S [m]
+  std::array<double, 2> dead_volume{};       // up, down; with hoses, above 0 [m^3]
+  double pressure = 0;                       // regulator: held in `down`, absolute [Pa]
+  std::array<double, 2> initial_pressure{};  // valves: absolute; 0: the atmosphere [Pa]
+  std::array<gas::Valve, 2> inlet, exhaust;  // valves: up, down
 };
-
-enum Side : int { up = 0, down = 1 };
 
 // Of the piston, facing the chamber  [m^2].
 constexpr double area(const Cylinder& c, Side side) {
-  const bool with_rod = (side == down) == (c.rod == Cylinder::Rod::in_down_chamber);
-  const double rod = with_rod ? c.rod_diameter : 0.0;
+  const double rod = side == up ? c.rod_diameter : 0.0;
   return 0.25 * std::numbers::pi * (c.bore * c.bore - rod * rod);
 }
 
 // Of the air in a chamber  [m^3].
 constexpr double volume(const Cylinder& c, Side side, double travel) {
-  return side == up ? c.dead_volume_up + area(c, up) * travel
-                    : c.dead_volume_down + area(c, down) * (c.stroke - travel);
+  return c.dead_volume[side] + area(c, side) * (side == up ? travel : c.stroke - travel);
 }
 
 // dV/ds  [m^2].

@@ -4,6 +4,8 @@
 #include <string>
 
 #include "sinew/actuator/actuator.h"
+#include "sinew/gas/hose.h"
+#include "sinew/gas/leak.h"
 #include "sinew/gas/valve.h"
 
 namespace sinew::muscle {
@@ -17,6 +19,8 @@ struct Muscle {
   double external_volume = 0;   // hoses and fittings of the bundle, downstream of the valves [m^3]
   gas::Valve inlet;             // from the supply; a 3-way valve stands here and serves both ways
   gas::Valve exhaust;           // to the atmosphere
+  gas::Hose hose;               // between the valves and the rest; not in a bank
+  gas::Leak leak;               // of the muscle; not in a bank
 };
 
 }  // namespace sinew::muscle

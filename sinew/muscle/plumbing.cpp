@@ -1,82 +1,67 @@
 #include "sinew/muscle/plumbing.h"
 
 #include <limits>
-#include <stdexcept>
 
 #include "sinew/actuator/braid.h"
 #include "sinew/actuator/loss.h"
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
+#include "sinew/gas/heat.h"
+#include "sinew/gas/series.h"
 
 namespace sinew::muscle {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-bool three_way(const gas::Valve& valve) { return valve.kind == gas::Valve::Kind::three_way; }
+using Kind = gas::Valve::Kind;
 
-double volume_at(const Muscle& m, double length) {
-  return m.count * actuator::volume(m.actuator.braid, length) + m.external_volume;
-}
+double lesser(double a, double b) { return a < b ? a : b; }
+double greater(double a, double b) { return a > b ? a : b; }
 
 }  // namespace
 
-bool needs_plumbing(std::span<const Muscle>, const gas::Air&, const gas::Supply&,
-                    const std::optional<Cylinder>& cylinder) {
-  return cylinder.has_value();
+// How much higher the pressure is on the side that the valve holds back  [Pa].
+double Plumbing::difference(int valve, const AirPull& at_node) const noexcept {
+  const int pair = valve / 2;
+  const double p = pair < size_ ? at_node.manifold[pair]
+                                : at_node.cylinder_pressure[static_cast<std::size_t>(pair - size_)];
+  return valve % 2 == 0 ? at_node.supply_pressure - p : p - air_.atmosphere;
 }
 
-Plumbing::Plumbing(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
-                   const std::optional<Cylinder>& cylinder)
-    : size_(static_cast<int>(muscles.size())),
-      states_(size_),
-      air_(air),
-      supply_(supply),
-      muscles_(muscles.begin(), muscles.end()),
-      cylinder_(cylinder),
-      longest_step_(never) {
-  if (size_ > capacity) throw std::invalid_argument("a machine has at most 8 muscles");
-  for (const Muscle& m : muscles_) set_muscle(m);
-  if (cylinder_)
-    for (const Side side : {up, down})
-      for (const gas::Valve& v : {cylinder_->inlet[side], cylinder_->exhaust[side]})
-        taps_.push_back({v, gas::Shutter(v), gas::flow_constants(v.flow, air_)});
-  if (cylinder_ && cylinder_->mode == Cylinder::Mode::valves) states_ += 2;
-  refresh(0.0);
-}
-
-void Plumbing::set_muscle(const Muscle& m) {
-  const gas::Valve& exhaust = three_way(m.inlet) ? m.inlet : m.exhaust;
-  taps_.push_back({m.inlet, gas::Shutter(m.inlet), gas::flow_constants(m.inlet.flow, air_)});
-  taps_.push_back({exhaust, gas::Shutter(exhaust), gas::flow_constants(exhaust.flow, air_)});
-}
-
-AirState Plumbing::initial(double pressure, const Lanes& length, double travel) const {
-  AirState state{};
-  for (int i = 0; i < size_; ++i)
-    state[i] =
-        gas::density(air_, pressure) * volume_at(muscles_[static_cast<std::size_t>(i)], length[i]);
-  if (cylinder_ && cylinder_->mode == Cylinder::Mode::valves) {
-    state[size_] = gas::density(air_, cylinder_->pressure) * volume(*cylinder_, up, travel);
-    state[size_ + 1] = gas::density(air_, air_.atmosphere) * volume(*cylinder_, down, travel);
-  }
-  return state;
-}
-
-void Plumbing::electrical(int valve, double t, bool open, const AirPull&) noexcept {
+void Plumbing::electrical(int valve, double t, bool open, const AirPull& at_node) noexcept {
   Tap& tap = taps_[static_cast<std::size_t>(valve)];
-  if (valve % 2 == 1 && three_way(tap.valve)) return;  // it has one coil
-  tap.shutter.electrical(t, open);
-  // A command can also take a pending change back, so look at all of them.
-  next_change_ = never;
-  for (const Tap& each : taps_)
-    next_change_ = each.shutter.next() < next_change_ ? each.shutter.next() : next_change_;
+  const gas::Valve& v = tap.valve;
+  // A 3-way valve has one coil, a regulator has none.
+  if (v.kind == Kind::regulator || (v.kind == Kind::three_way && valve % 2 == 1)) return;
+  const double dp = difference(valve, at_node);
+  if (open && v.fails_above > 0 && dp > v.fails_above) return;  // and its end will be no edge
+  tap.shutter.electrical(t, open, gas::delay_at(v, open, dp));
+  look_ahead();
 }
 
-void Plumbing::level(int, double, double) noexcept {}
+void Plumbing::level(int valve, double t, double share) noexcept {
+  Tap& tap = taps_[static_cast<std::size_t>(valve)];
+  if (tap.valve.kind != Kind::regulator) return;
+  tap.next_set = gas::set_point(tap.valve.regulator, share, air_.atmosphere);
+  tap.next_set_at = t;
+  look_ahead();
+}
+
+// A command can also take a pending change back, so look at all of them.
+void Plumbing::look_ahead() noexcept {
+  next_change_ = never;
+  for (const Tap& tap : taps_)
+    next_change_ = lesser(next_change_, lesser(tap.shutter.next(), tap.next_set_at));
+}
 
 void Plumbing::move_valves(double t) noexcept {
-  for (Tap& tap : taps_) tap.shutter.advance(t);
+  for (Tap& tap : taps_) {
+    tap.shutter.advance(t);
+    if (tap.next_set_at > t) continue;
+    tap.set = tap.next_set;
+    tap.next_set_at = never;
+  }
   refresh(t);
 }
 
@@ -84,34 +69,56 @@ void Plumbing::move_valves(double t) noexcept {
 void Plumbing::refresh(double t) noexcept {
   ramping_ = false;
   open_count_ = 0;
-  next_change_ = never;
   for (std::size_t v = 0; v < taps_.size(); ++v) {
     Tap& tap = taps_[v];
-    const bool other_way = v % 2 == 1 && three_way(tap.valve);
+    const bool other_way = v % 2 == 1 && tap.valve.kind == Kind::three_way;
     tap.share = other_way ? 1.0 - taps_[v - 1].share : tap.shutter.fraction(t);
-    next_change_ = tap.shutter.next() < next_change_ ? tap.shutter.next() : next_change_;
+    if (tap.valve.kind == Kind::regulator) tap.share = 1.0;
     ramping_ = ramping_ || tap.valve.profile == gas::Valve::Profile::ramp;
     if (tap.share > 0) ++open_count_;
   }
+  look_ahead();
 }
 
 double Plumbing::open_share(int valve, double t) const noexcept {
   const Tap& tap = taps_[static_cast<std::size_t>(valve)];
-  if (!ramping_) return tap.share;
-  if (valve % 2 == 1 && three_way(tap.valve)) return 1.0 - open_share(valve - 1, t);
+  if (!ramping_ || tap.valve.kind == Kind::regulator) return tap.share;
+  if (valve % 2 == 1 && tap.valve.kind == Kind::three_way) return 1.0 - open_share(valve - 1, t);
   return tap.shutter.fraction(t);
 }
 
-Plumbing::Chamber Plumbing::chamber(double mass, double volume) const noexcept {
-  const double y = units::power(mass / volume / gas::density_at_atmosphere(air_),
-                                air_.polytropic_exponent / 7.0);
-  return {mass, volume, gas::pressure_of_y(air_, y), y};
+bool Plumbing::shut(int inlet, double t) const noexcept {
+  return !(open_share(inlet, t) > 0) && !(open_share(inlet + 1, t) > 0);
 }
 
-double Plumbing::through(int valve, double t, double y_from, double y_to) const noexcept {
-  const double share = open_share(valve, t);
-  if (share <= 0) return 0.0;
-  return share * gas::flow_y(taps_[static_cast<std::size_t>(valve)].flow, y_from, y_to);
+// By [40], or from the energy where there is one.
+Plumbing::Chamber Plumbing::chamber(const Slot& slot, double volume,
+                                    const AirState& state) const noexcept {
+  const double mass = state[slot.mass];
+  if (slot.energy != none) {
+    const double p = gas::pressure_of_energy(state[slot.energy], volume);
+    return {p, gas::y_of(air_, p), gas::temperature(air_, state[slot.energy], mass)};
+  }
+  const double relative = mass / volume / gas::density_at_atmosphere(air_);
+  const double y = units::power(relative, air_.polytropic_exponent / 7.0);
+  return {gas::pressure_of_y(air_, y), y, air_.temperature};
+}
+
+// Through a pair of valves that ends at y: `inlet` and the one after it.
+Plumbing::Flows Plumbing::through(int inlet, double t, double y_supply, double y,
+                                  const AirState& state) const noexcept {
+  const Tap& tap = taps_[static_cast<std::size_t>(inlet)];
+  if (tap.valve.kind == Kind::regulator) {
+    const double outlet = tap.outlet != none ? state[tap.outlet] : tap.set;
+    const double flow = gas::flow_y(tap.flow, lesser(gas::y_of(air_, outlet), y_supply), y);
+    return {greater(flow, 0.0), greater(-flow, 0.0)};
+  }
+  Flows flows;
+  const double in = open_share(inlet, t), out = open_share(inlet + 1, t);
+  if (in > 0) flows.in = in * gas::flow_y(tap.flow, y_supply, y);
+  if (out > 0)
+    flows.out = out * gas::flow_y(taps_[static_cast<std::size_t>(inlet + 1)].flow, y, 1.0);
+  return flows;
 }
 
 // [31]-[35] of the bundle.
@@ -121,70 +128,149 @@ void Plumbing::pull(int i, double length, double rate, double pressure,
   const double gauge = pressure - air_.atmosphere;
   const double smooth =
       m.count * actuator::tension(m.actuator, length, rate, gauge, air_.atmosphere);
-  const double sealed =
-      actuator::stiffness_sealed(m.actuator, length, pressure, air_.atmosphere,
-                                 m.external_volume / m.count, air_.polytropic_exponent);
+  const double exponent = air_.wall_time > 0 ? gas::heat_capacity_ratio : air_.polytropic_exponent;
+  const double sealed = actuator::stiffness_sealed(m.actuator, length, pressure, air_.atmosphere,
+                                                   m.external_volume / m.count, exponent);
   const double bound =
       m.count * actuator::coulomb_bound(m.actuator, length, gauge, air_.atmosphere, sealed);
 
   // A cord cannot push; without stick [33] as printed, sign(v).
-  const double cord = smooth > 0 ? smooth : 0.0;
-  const double printed = cord + (rate >= 0 ? bound : -bound);
   const bool stick = m.actuator.loss.stick;
-  const double tension = stick ? cord : printed;
-  out.tension[i] = tension > 0 ? tension : 0.0;
+  const double cord = greater(smooth, 0.0);
+  out.tension[i] = stick ? cord : greater(cord + (rate >= 0 ? bound : -bound), 0.0);
   out.mesh[i] = stick ? bound : 0.0;
-  out.pressure[i] = pressure;
+  out.pressure[i] = out.manifold[i] = pressure;
 }
 
-void Plumbing::evaluate(double t, const Lanes& length, const Lanes& rate, double travel,
-                        double travel_rate, const AirState& state, AirPull& out,
-                        AirState& derivative) const noexcept {
-  out = AirPull{};
-  out.supply_pressure = out.tank_pressure = supply_.pressure;
-  const double y_supply = gas::y_of(air_, out.supply_pressure);
-  for (int i = 0; i < size_; ++i) {
-    const Chamber c =
-        chamber(state[i], volume_at(muscles_[static_cast<std::size_t>(i)], length[i]));
-    pull(i, length[i], rate[i], c.pressure, out);
-    out.inflow[i] = through(2 * i, t, y_supply, c.y);
-    out.outflow[i] = through(2 * i + 1, t, c.y, 1.0);
-    out.manifold[i] = c.pressure;
-    derivative[i] = out.inflow[i] - out.outflow[i];
+// m' c_p T of a flow between two bodies of air; against its arrow it has the other's temperature.
+double Plumbing::enthalpy(double flow, double from, double to) const noexcept {
+  return flow * (gas::heat_capacity_pressure(air_) * (flow > 0 ? from : to));
+}
+
+// U' of a chamber: enthalpy gained, work done on the outside, heat from the wall.
+void Plumbing::warm(const Slot& slot, const AirState& state, double gained, double work,
+                    AirState& derivative) const noexcept {
+  if (slot.energy == none) return;
+  derivative[slot.energy] =
+      gained - work + gas::heat_flow(air_, state[slot.energy], state[slot.mass]);
+}
+
+// Flows of the valves where the hose holds no air: what they let in goes through it.
+Plumbing::Flows Plumbing::series(int i, double t, double y_supply, const Chamber& c,
+                                 const AirState& state, AirPull& out) const noexcept {
+  const gas::HoseConstants& hose = lines_[static_cast<std::size_t>(i)].hose_flow;
+  if (shut(2 * i, t)) return {};
+  const auto surplus = [&](double y) {
+    const Flows f = through(2 * i, t, y_supply, y, state);
+    return f.in - f.out - gas::hose_flow_y(hose, y, c.y);
+  };
+  const double low = lesser(1.0, lesser(y_supply, c.y)),
+               high = greater(1.0, greater(y_supply, c.y));
+  const double y = gas::balance(surplus, low, high);
+  out.manifold[i] = gas::pressure_of_y(air_, y);
+  return through(2 * i, t, y_supply, y, state);
+}
+
+// The same where the hose is a chamber: it takes what the valves let in, and hands on `passed`.
+Plumbing::Flows Plumbing::buffered(int i, double t, double y_supply, const Chamber& h,
+                                   const Chamber& c, double passed, const AirState& state,
+                                   AirPull& out, AirState& derivative) const noexcept {
+  const Slot& slot = lines_[static_cast<std::size_t>(i)].hose;
+  const Flows valves = through(2 * i, t, y_supply, h.y, state);
+  out.manifold[i] = h.pressure;
+  derivative[slot.mass] = valves.in - valves.out - passed;
+  const double room = air_.temperature;
+  warm(slot, state,
+       enthalpy(valves.in, room, h.temperature) - enthalpy(valves.out, h.temperature, room) -
+           enthalpy(passed, h.temperature, c.temperature),
+       0.0, derivative);
+  return valves;
+}
+
+// Air of muscle i: valves, hose, leak.
+void Plumbing::line(int i, double t, double y_supply, double volume_rate, const Chamber& c,
+                    const AirState& state, AirPull& out, AirState& derivative) const noexcept {
+  const Line& l = lines_[static_cast<std::size_t>(i)];
+  const double room = air_.temperature;
+  Flows valves;
+  double arrives, there = room;  // in the muscle [kg/s], from air of this temperature
+  if (l.hose.mass != none) {
+    const Chamber h = chamber(l.hose, muscles_[static_cast<std::size_t>(i)].hose.volume, state);
+    arrives = gas::hose_flow_y(l.hose_flow, h.y, c.y);
+    there = h.temperature;
+    valves = buffered(i, t, y_supply, h, c, arrives, state, out, derivative);
+  } else {
+    valves =
+        l.resists ? series(i, t, y_supply, c, state, out) : through(2 * i, t, y_supply, c.y, state);
+    arrives = valves.in - valves.out;
   }
-  if (cylinder_) cylinder(t, travel, travel_rate, state, out, derivative);
+  const double leak = l.leak.tight() ? 0.0 : gas::leak_flow_y(l.leak, c.y);
+  out.inflow[i] = valves.in;
+  out.outflow[i] = valves.out;
+  out.leak[i] = leak;
+  derivative[l.chamber.mass] = arrives - leak;
+  warm(l.chamber, state,
+       enthalpy(arrives, there, c.temperature) - enthalpy(leak, c.temperature, room),
+       c.pressure * volume_rate, derivative);
 }
 
-void Plumbing::cylinder(double t, double travel, double travel_rate, const AirState& state,
-                        AirPull& out, AirState& derivative) const noexcept {
+void Plumbing::cylinder(double t, double y_supply, double travel, double travel_rate,
+                        const AirState& state, AirPull& out, AirState& derivative) const noexcept {
   const Cylinder& c = *cylinder_;
   if (c.mode == Cylinder::Mode::regulator) {
     // Held pressure: the regulator lets in or relieves what the volume asks for.
-    const double held = c.pressure < out.supply_pressure ? c.pressure : out.supply_pressure;
-    const double flow = gas::density(air_, held) * area(c, up) * travel_rate;
-    out.cylinder_pressure = {held, air_.atmosphere};
-    out.cylinder_inflow[up] = flow > 0 ? flow : 0.0;
-    out.cylinder_outflow[up] = flow < 0 ? -flow : 0.0;
+    const double held = lesser(c.pressure, out.supply_pressure);
+    const double flow = gas::density(air_, held) * volume_slope(c, down) * travel_rate;
+    out.cylinder_pressure = {air_.atmosphere, held};
+    out.cylinder_inflow[down] = greater(flow, 0.0);
+    out.cylinder_outflow[down] = greater(-flow, 0.0);
   } else {
-    const double y_supply = gas::y_of(air_, out.supply_pressure);
+    const double room = air_.temperature;
     for (const Side side : {up, down}) {
-      const Chamber air = chamber(state[size_ + side], volume(c, side, travel));
+      const Slot& slot = sides_[side];
+      const Chamber air = chamber(slot, volume(c, side, travel), state);
+      const Flows f = through(2 * (size_ + side), t, y_supply, air.y, state);
       out.cylinder_pressure[side] = air.pressure;
-      out.cylinder_inflow[side] = through(2 * (size_ + side), t, y_supply, air.y);
-      out.cylinder_outflow[side] = through(2 * (size_ + side) + 1, t, air.y, 1.0);
-      derivative[size_ + side] = out.cylinder_inflow[side] - out.cylinder_outflow[side];
+      out.cylinder_inflow[side] = f.in;
+      out.cylinder_outflow[side] = f.out;
+      derivative[slot.mass] = f.in - f.out;
+      warm(slot, state,
+           enthalpy(f.in, room, air.temperature) - enthalpy(f.out, air.temperature, room),
+           air.pressure * volume_slope(c, side) * travel_rate, derivative);
     }
   }
   out.cylinder_force =
       force(c, out.cylinder_pressure[up], out.cylinder_pressure[down], air_.atmosphere);
 }
 
-double Plumbing::total_mass(const AirState& state, double travel) const {
-  double sum = 0;
-  for (int i = 0; i < states_; ++i) sum += state[i];
-  if (cylinder_ && cylinder_->mode == Cylinder::Mode::regulator)
-    sum += gas::density(air_, cylinder_->pressure) * volume(*cylinder_, up, travel);
-  return sum;
+void Plumbing::evaluate(double t, const Lanes& length, const Lanes& rate, double travel,
+                        double travel_rate, const AirState& state, AirPull& out,
+                        AirState& derivative) const noexcept {
+  out = AirPull{};
+  out.tank_pressure =
+      tank_ != none ? gas::tank_pressure(supply_, air_, state[tank_]) : supply_.pressure;
+  out.supply_pressure =
+      tank_ != none ? gas::line_pressure(supply_, out.tank_pressure) : supply_.pressure;
+  const double y_supply = gas::y_of(air_, out.supply_pressure);
+
+  double taken = 0;  // from the supply [kg/s]
+  for (int i = 0; i < size_; ++i) {
+    const Muscle& m = muscles_[static_cast<std::size_t>(i)];
+    const actuator::Braid& braid = m.actuator.braid;
+    const double volume = m.count * actuator::volume(braid, length[i]) + m.external_volume;
+    const Chamber c = chamber(lines_[static_cast<std::size_t>(i)].chamber, volume, state);
+    pull(i, length[i], rate[i], c.pressure, out);
+    line(i, t, y_supply, m.count * actuator::volume_slope(braid, length[i]) * rate[i], c, state,
+         out, derivative);
+    taken += out.inflow[i];
+  }
+  if (cylinder_) cylinder(t, y_supply, travel, travel_rate, state, out, derivative);
+  taken += out.cylinder_inflow[up] + out.cylinder_inflow[down];
+
+  for (const Tap& tap : taps_)
+    if (tap.outlet != none)
+      derivative[tap.outlet] = gas::outlet_rate(tap.valve.regulator, state[tap.outlet], tap.set);
+  if (tank_ != none) derivative[tank_] = -taken;
 }
 
 }  // namespace sinew::muscle

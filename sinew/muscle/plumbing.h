@@ -56,7 +56,8 @@ bool needs_plumbing(std::span<const Muscle> muscles, const gas::Air& air, const 
 
 class Plumbing {
  public:
-  // Throws std::invalid_argument for more than `capacity` muscles.
+  // Throws std::invalid_argument for more than `capacity` muscles, and for a cylinder with valves
+  // whose chambers vanish at a stop.
   Plumbing(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
            const std::optional<Cylinder>& cylinder = {});
 
@@ -104,24 +105,64 @@ class Plumbing {
   double longest_step() const noexcept { return longest_step_; }
 
  private:
-  // One valve: where it is and what it lets through.
+  static constexpr int none = -1;
+
+  // One valve, or regulator: where it is and what it lets through.
   struct Tap {
     gas::Valve valve;
     gas::Shutter shutter;
     gas::FlowConstants flow;
     double share = 0;  // of its area
+
+    // Kind::regulator
+    double set = 0;                        // set point in force [Pa]
+    double next_set = 0, next_set_at = 0;  // and the one to come
+    int outlet = none;                     // state of its outlet pressure
   };
-  // Air of one chamber.
+  // One body of air and where its numbers stand in the state.
+  struct Slot {
+    int mass = none, energy = none;
+  };
+  struct Line {
+    Slot chamber, hose;  // no hose's mass: it holds no air
+    bool resists = false;
+    gas::HoseConstants hose_flow;
+    gas::LeakConstants leak;
+  };
   struct Chamber {
-    double mass = 0, volume = 0, pressure = 0, y = 0;
+    double pressure = 0, y = 0, temperature = 0;
+  };
+  struct Flows {
+    double in = 0, out = 0;  // from the supply, to the room [kg/s]
   };
 
-  void set_muscle(const Muscle& muscle);
-  Chamber chamber(double mass, double volume) const noexcept;
+  void add_muscle(const Muscle& muscle);
+  void add_cylinder();
+  void add_tap(const gas::Valve& valve);
+  Slot add_chamber();
+  void limit_step();
+  double fastest_slope(int inlet) const;
+
+  void fill(const Slot& slot, double mass, AirState& state) const;
+  Chamber chamber(const Slot& slot, double volume, const AirState& state) const noexcept;
   void pull(int i, double length, double rate, double pressure, AirPull& out) const noexcept;
-  double through(int valve, double t, double y_from, double y_to) const noexcept;
-  void cylinder(double t, double travel, double travel_rate, const AirState& state, AirPull& out,
-                AirState& derivative) const noexcept;
+  Flows through(int inlet, double t, double y_supply, double y,
+                const AirState& state) const noexcept;
+  bool shut(int inlet, double t) const noexcept;
+  Flows series(int i, double t, double y_supply, const Chamber& c, const AirState& state,
+               AirPull& out) const noexcept;
+  Flows buffered(int i, double t, double y_supply, const Chamber& h, const Chamber& c,
+                 double passed, const AirState& state, AirPull& out,
+                 AirState& derivative) const noexcept;
+  void line(int i, double t, double y_supply, double volume_rate, const Chamber& c,
+            const AirState& state, AirPull& out, AirState& derivative) const noexcept;
+  void cylinder(double t, double y_supply, double travel, double travel_rate, const AirState& state,
+                AirPull& out, AirState& derivative) const noexcept;
+  double enthalpy(double flow, double from, double to) const noexcept;
+  void warm(const Slot& slot, const AirState& state, double gained, double work,
+            AirState& derivative) const noexcept;
+  double difference(int valve, const AirPull& at_node) const noexcept;
+  void look_ahead() noexcept;
   void move_valves(double t) noexcept;
   void refresh(double t) noexcept;
 
@@ -132,6 +173,9 @@ class Plumbing {
   std::optional<Cylinder> cylinder_;
 
   std::vector<Tap> taps_;
+  std::vector<Line> lines_;
+  std::array<Slot, 2> sides_;  // of the cylinder
+  int tank_ = none;
   int open_count_ = 0;
   double next_change_ = 0;
   bool ramping_ = false, restless_ = false;

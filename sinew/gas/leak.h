@@ -1,0 +1,37 @@
+// gas/leak.h - what a chamber loses to the room: through a hole, and through a porous wall or a
+// seal.
+//
+//   m' = orifice(area, P, P_atm) + G (P - P_atm)
+//
+// Choked and isothermal the first empties a rigid chamber by P = P_0 exp(-t K R T/V), m' = K P; the
+// second brings P - P_atm down by exp(-t G R T/V). 6.2: three bladders burst in 200 steps; nobody
+// measured the leaks before.
+#pragma once
+
+#include "sinew/gas/orifice.h"
+
+namespace sinew::gas {
+
+struct Leak {
+  double area = 0;         // effective, of a hole [m^2]
+  double conductance = 0;  // G [kg/(s Pa)]
+};
+
+struct LeakConstants {
+  FlowConstants hole;
+  double slope = 0;  // of P/P_atm [kg/s]
+
+  bool tight() const { return hole.gain == 0 && slope == 0; }
+};
+
+inline LeakConstants leak_constants(const Leak& leak, const Air& air) {
+  return {flow_constants({.area = leak.area}, air), leak.conductance * air.atmosphere};
+}
+
+// Out of a chamber at y into the room  [kg/s]; negative below the atmosphere.
+inline double leak_flow_y(const LeakConstants& c, double y) {
+  const double y3 = y * y * y;
+  return flow_y(c.hole, y, 1.0) + c.slope * (y3 * y3 * y - 1.0);
+}
+
+}  // namespace sinew::gas

@@ -1,0 +1,175 @@
+// muscle/plumbing_setup.cpp - what a plumbing's state holds, how it starts, and how fast it can be.
+#include <limits>
+#include <stdexcept>
+
+#include "sinew/actuator/braid.h"
+#include "sinew/gas/heat.h"
+#include "sinew/muscle/plumbing.h"
+
+namespace sinew::muscle {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double stable = 2.5;  // step x rate of a decay that RK4 can bear, 2.78 at the limit
+
+using Kind = gas::Valve::Kind;
+
+bool regulates(const gas::Valve& valve) { return valve.kind == Kind::regulator; }
+
+bool needs_pressures(const gas::Valve& v) {
+  return v.fails_above > 0 || v.opening_delay_slope != 0 || v.closing_delay_slope != 0;
+}
+
+}  // namespace
+
+bool needs_plumbing(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
+                    const std::optional<Cylinder>& cylinder) {
+  bool any =
+      cylinder.has_value() || air.wall_time > 0 || supply.kind != gas::Supply::Kind::constant;
+  for (const Muscle& m : muscles) {
+    any = any || m.hose.law != gas::Hose::Law::none || m.leak.area > 0 || m.leak.conductance > 0;
+    for (const gas::Valve* v : {&m.inlet, &m.exhaust})
+      any = any || regulates(*v) || needs_pressures(*v);
+  }
+  return any;
+}
+
+Plumbing::Plumbing(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
+                   const std::optional<Cylinder>& cylinder)
+    : size_(static_cast<int>(muscles.size())),
+      air_(air),
+      supply_(supply),
+      muscles_(muscles.begin(), muscles.end()),
+      cylinder_(cylinder) {
+  if (size_ > capacity) throw std::invalid_argument("a machine has at most 8 muscles");
+  for (const Muscle& m : muscles_) add_muscle(m);
+  for (int i = 0; i < size_; ++i) lines_[static_cast<std::size_t>(i)].chamber.mass = states_++;
+  if (air_.wall_time > 0)
+    for (Line& l : lines_) l.chamber.energy = states_++;
+  for (Line& l : lines_)
+    if (l.resists && muscles_[static_cast<std::size_t>(&l - lines_.data())].hose.volume > 0)
+      l.hose = add_chamber();
+  if (cylinder_) add_cylinder();
+  for (Tap& tap : taps_)
+    if (regulates(tap.valve) && tap.valve.regulator.time_constant > 0) tap.outlet = states_++;
+  if (supply_.kind == gas::Supply::Kind::tank) tank_ = states_++;
+
+  // What flows or warms although every valve is shut.
+  restless_ = air_.wall_time > 0 || (cylinder_ && cylinder_->mode == Cylinder::Mode::regulator);
+  for (const Line& l : lines_) restless_ = restless_ || !l.leak.tight() || l.hose.mass != none;
+  for (const Tap& tap : taps_) restless_ = restless_ || regulates(tap.valve);
+  limit_step();
+  refresh(0.0);
+}
+
+Plumbing::Slot Plumbing::add_chamber() {
+  Slot slot{.mass = states_++};
+  if (air_.wall_time > 0) slot.energy = states_++;
+  return slot;
+}
+
+void Plumbing::add_tap(const gas::Valve& valve) {
+  Tap tap{.valve = valve, .shutter = gas::Shutter(valve)};
+  tap.flow = gas::flow_constants(valve.flow, air_);
+  tap.set = air_.atmosphere;
+  tap.next_set_at = never;
+  taps_.push_back(tap);
+}
+
+// A 3-way valve and a regulator serve both ways; no other valve stands beside them.
+void Plumbing::add_muscle(const Muscle& m) {
+  add_tap(m.inlet);
+  add_tap(m.inlet.kind == Kind::two_way ? m.exhaust : m.inlet);
+  if (regulates(m.inlet)) taps_.back() = {};
+  if (regulates(m.inlet)) taps_.back().next_set_at = never;
+
+  Line line;
+  line.resists = m.hose.law != gas::Hose::Law::none;
+  line.hose_flow = gas::hose_constants(m.hose, air_);
+  line.leak = gas::leak_constants(m.leak, air_);
+  lines_.push_back(line);
+}
+
+void Plumbing::add_cylinder() {
+  for (const Side side : {up, down}) {
+    add_tap(cylinder_->inlet[side]);
+    add_tap(cylinder_->exhaust[side]);
+    if (cylinder_->mode != Cylinder::Mode::valves) continue;
+    if (!(cylinder_->dead_volume[side] > 0))
+      throw std::invalid_argument("a cylinder's chambers need a dead volume");
+    sides_[side] = add_chamber();
+  }
+}
+
+// Of the flow through a pair of valves, at nearly equal pressures  [kg/(s Pa)].
+double Plumbing::fastest_slope(int inlet) const {
+  const auto v = static_cast<std::size_t>(inlet);
+  return (taps_[v].flow.linear_gain + taps_[v + 1].flow.linear_gain) / air_.atmosphere;
+}
+
+// A chamber of volume V whose flow has the slope G decays at n R T G/V.
+void Plumbing::limit_step() {
+  double rate = air_.wall_time > 0 ? 1.0 / air_.wall_time : 0.0;
+  const auto faster = [&](double one) { rate = one > rate ? one : rate; };
+  for (const Tap& tap : taps_)
+    if (tap.outlet != none) faster(1.0 / tap.valve.regulator.time_constant);
+  const double exponent = air_.wall_time > 0 ? gas::heat_capacity_ratio : air_.polytropic_exponent;
+  const double spring = exponent * air_.gas_constant * air_.temperature;
+  for (int i = 0; i < size_; ++i) {
+    const Line& l = lines_[static_cast<std::size_t>(i)];
+    if (l.hose.mass == none) continue;
+    const double p = supply_.pressure, y = gas::y_of(air_, p), y_less = gas::y_of(air_, 0.999 * p);
+    const double hose = gas::hose_flow_y(l.hose_flow, y, y_less) / (1e-3 * p);
+    faster(spring * (fastest_slope(2 * i) + hose) /
+           muscles_[static_cast<std::size_t>(i)].hose.volume);
+  }
+  for (const Side side : {up, down})
+    if (sides_[side].mass != none)
+      faster(spring * fastest_slope(2 * (size_ + side)) / cylinder_->dead_volume[side]);
+  longest_step_ = rate > 0 ? stable / rate : never;
+}
+
+void Plumbing::fill(const Slot& slot, double mass, AirState& state) const {
+  state[slot.mass] = mass;
+  if (slot.energy != none) state[slot.energy] = gas::energy_at_rest(air_, mass);
+}
+
+AirState Plumbing::initial(double pressure, const Lanes& length, double travel) const {
+  const auto density = [&](double p) {
+    return air_.wall_time > 0 ? p / (air_.gas_constant * air_.temperature) : gas::density(air_, p);
+  };
+  AirState state{};
+  for (int i = 0; i < size_; ++i) {
+    const Line& l = lines_[static_cast<std::size_t>(i)];
+    const Muscle& m = muscles_[static_cast<std::size_t>(i)];
+    const double volume =
+        m.count * actuator::volume(m.actuator.braid, length[i]) + m.external_volume;
+    fill(l.chamber, density(pressure) * volume, state);
+    if (l.hose.mass != none) fill(l.hose, density(pressure) * m.hose.volume, state);
+  }
+  for (const Side side : {up, down}) {
+    if (sides_[side].mass == none) continue;
+    const double given = cylinder_->initial_pressure[side];
+    fill(sides_[side],
+         density(given > 0 ? given : air_.atmosphere) * volume(*cylinder_, side, travel), state);
+  }
+  for (const Tap& tap : taps_)
+    if (tap.outlet != none) state[tap.outlet] = air_.atmosphere;
+  if (tank_ != none) state[tank_] = gas::tank_mass(supply_, air_, supply_.initial_pressure);
+  return state;
+}
+
+double Plumbing::total_mass(const AirState& state, double travel) const {
+  double sum = tank_ != none ? state[tank_] : 0.0;
+  for (const Line& l : lines_) {
+    sum += state[l.chamber.mass];
+    if (l.hose.mass != none) sum += state[l.hose.mass];
+  }
+  for (const Slot& side : sides_)
+    if (side.mass != none) sum += state[side.mass];
+  if (cylinder_ && cylinder_->mode == Cylinder::Mode::regulator)
+    sum += gas::density(air_, cylinder_->pressure) * volume(*cylinder_, down, travel);
+  return sum;
+}
+
+}  // namespace sinew::muscle
