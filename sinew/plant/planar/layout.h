@@ -40,7 +40,7 @@ ChainConstants<N> chain_of(const robot::Robot& robot) {
       k.inertia[i][j] = k.inertia[j][i] = k.length[i] * k.first_moment[j];
 
   if (robot.trolley.present) {
-    k.total_mass = robot.trolley.total_mass;
+    k.total_mass = robot.trolley.moving_mass();
     k.inverse_total_mass = 1.0 / k.total_mass;
   }
   return k;

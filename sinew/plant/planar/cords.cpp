@@ -1,0 +1,84 @@
+#include "sinew/plant/planar/cords.h"
+
+#include <cmath>
+
+namespace sinew::plant {
+
+CamLaw::CamLaw(const robot::Cam& cam, const robot::Joint& joint)
+    : angle_(cam.angle), radius_(cam.radii), rest_(joint.rest_angle) {
+  if (angle_.empty()) {
+    angle_ = {joint.rest_angle};
+    radius_ = {std::isfinite(cam.radius) ? cam.radius : joint.moment_arm};
+  }
+  area_ = {0.0};
+  for (std::size_t k = 1; k < angle_.size(); ++k)
+    area_.push_back(area_.back() +
+                    0.5 * (radius_[k - 1] + radius_[k]) * (angle_[k] - angle_[k - 1]));
+  area_at_rest_ = area(rest_);
+}
+
+double CamLaw::radius(double angle) const noexcept {
+  if (angle <= angle_.front()) return radius_.front();
+  for (std::size_t k = 1; k < angle_.size(); ++k) {
+    if (angle > angle_[k]) continue;
+    const double share = (angle - angle_[k - 1]) / (angle_[k] - angle_[k - 1]);
+    return radius_[k - 1] + share * (radius_[k] - radius_[k - 1]);
+  }
+  return radius_.back();
+}
+
+double CamLaw::area(double angle) const noexcept {
+  if (angle <= angle_.front()) return radius_.front() * (angle - angle_.front());
+  for (std::size_t k = 1; k < angle_.size(); ++k) {
+    if (angle > angle_[k]) continue;
+    const double inside = angle - angle_[k - 1];
+    return area_[k - 1] + 0.5 * (radius_[k - 1] + radius(angle)) * inside;
+  }
+  return area_.back() + radius_.back() * (angle - angle_.back());
+}
+
+// A round cam is exactly r (theta - rest), as in the fast world.
+double CamLaw::travel(double angle) const noexcept {
+  if (angle_.size() == 1) return radius_[0] * (angle - rest_);
+  return area(angle) - area_at_rest_;
+}
+
+Cords::Cords(const robot::Robot& robot) {
+  const auto attach = [&](Cord& cord, int k, const std::string& name, robot::Muscle::Role role,
+                          const robot::Cam& cam) {
+    if (name.empty()) return;
+    const auto at = static_cast<std::size_t>(k);
+    cord.joint[at] = robot::find_joint(robot, name);
+    const robot::Joint& joint = robot.joints[static_cast<std::size_t>(cord.joint[at])];
+    const bool flexes = role == robot::Muscle::Role::flexor;
+    cord.sign[at] = flexes ? joint.sign() : -joint.sign();
+    cord.cam[at] = CamLaw(cam, joint);
+  };
+  for (const robot::Muscle& m : robot.muscles) {
+    Cord cord{.mount = m.mount_length};
+    attach(cord, 0, m.joint, m.role, m.cam);
+    attach(cord, 1, m.second.joint, m.second.role, m.second.cam);
+    cords_.push_back(cord);
+  }
+}
+
+void Cords::at(const double* angle, const double* rate, muscle::Lanes& length,
+               muscle::Lanes& length_rate, Pulls& pull) const noexcept {
+  for (int i = 0; i < count(); ++i) {
+    const Cord& cord = cords_[static_cast<std::size_t>(i)];
+    double l = cord.mount, v = 0;
+    for (std::size_t k = 0; k < most; ++k) {
+      double& p = pull[static_cast<std::size_t>(i)][k];
+      p = 0;
+      const int j = cord.joint[k];
+      if (j < 0) continue;
+      p = cord.sign[k] * cord.cam[k].radius(angle[j]);
+      l -= cord.sign[k] * cord.cam[k].travel(angle[j]);
+      v -= p * rate[j];
+    }
+    length[i] = l;
+    length_rate[i] = v;
+  }
+}
+
+}  // namespace sinew::plant

@@ -1,0 +1,63 @@
+// plant/planar/cords.h - muscles over cams of any shape, across one joint or two.
+//
+//   L = mount - sum_k s_k S_k(theta_k),   S_k = integral of r_k from the rest angle to theta_k
+//   torque_k = s_k r_k(theta_k) F         the same r: virtual work
+//
+//   r_k  radius of the cam at joint k [m]: constant, or straight between the points of a table and
+//        constant beyond them, so that S is exact: parabolas and straight lines
+//   s_k  +1 where tension raises the angle
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sinew/muscle/bank.h"
+#include "sinew/robot/robot.h"
+
+namespace sinew::plant {
+
+// Radius of a cam and what has run over it.
+class CamLaw {
+ public:
+  CamLaw() = default;
+  CamLaw(const robot::Cam& cam, const robot::Joint& joint);
+
+  double radius(double angle) const noexcept;  // [m]
+  double travel(double angle) const noexcept;  // S [m]
+
+ private:
+  double area(double angle) const noexcept;  // integral of r from the first point [m]
+
+  std::vector<double> angle_, radius_, area_;  // ascending; one point: round
+  double rest_ = 0, area_at_rest_ = 0;
+};
+
+class Cords {
+ public:
+  static constexpr int most = 2;  // joints of a muscle
+
+  // s_k r_k of every muscle at the present pose.
+  using Pulls = std::array<std::array<double, most>, muscle::capacity>;
+
+  explicit Cords(const robot::Robot& robot);
+
+  int count() const { return static_cast<int>(cords_.size()); }
+
+  // Of muscle i: its joints; the second is -1 where there is none.
+  int joint(int i, int k) const { return cords_[static_cast<std::size_t>(i)].joint[k]; }
+
+  // From the joints' angles [rad] and rates [rad/s].
+  void at(const double* angle, const double* rate, muscle::Lanes& length,
+          muscle::Lanes& length_rate, Pulls& pull) const noexcept;
+
+ private:
+  struct Cord {
+    double mount = 0;
+    std::array<int, most> joint{-1, -1};
+    std::array<double, most> sign{};
+    std::array<CamLaw, most> cam;
+  };
+  std::vector<Cord> cords_;
+};
+
+}  // namespace sinew::plant

@@ -1,0 +1,184 @@
+#include "sinew/plant/planar/rubs.h"
+
+namespace sinew::plant {
+namespace {
+
+double dot(const Coordinates& a, const Coordinates& b, std::size_t n) {
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+}  // namespace
+
+Rubs::Rubs(const BodyConstants& body, const robot::Robot& robot)
+    : k_(body), foot_(robot.foot), ground_(robot.ground) {
+  if (!robot.foot.present || body.links == 0) return;
+  surface_ = robot.ground.height - robot.foot.radius;
+  disc_[0] = {.along = body.length[body.links - 1], .radius = robot.foot.radius};
+  disc_count_ = 1;
+  if (robot.foot.points.empty()) return;
+  disc_count_ = 0;
+  for (const robot::Foot::Point& p : robot.foot.points)
+    if (disc_count_ < most_discs) disc_[static_cast<std::size_t>(disc_count_++)] = p;
+}
+
+DiscAt Rubs::disc(const Body& body, const Motion& motion, int i) const {
+  const robot::Foot::Point& d = disc_[static_cast<std::size_t>(i)];
+  DiscAt at;
+  at.x = motion.at[along_track];
+  at.y = motion.at[up];
+  at.slip[along_track] = 1;
+  at.rise[up] = 1;
+  for (std::size_t link = 0; link < k_.links; ++link) {
+    const bool last = link + 1 == k_.links;
+    const double a = last ? d.along : k_.length[link], b = last ? d.across : 0.0;
+    const double dx = a * body.cos(link) - b * body.sin(link);
+    const double dy = a * body.sin(link) + b * body.cos(link);
+    const double rate = motion.rate[first_link + link];
+    at.x += dx;
+    at.y += dy;
+    at.slip[first_link + link] = (last ? d.radius : 0.0) - dy;
+    at.rise[first_link + link] = dx;
+    at.slip_bias -= dx * rate * rate;
+    at.rise_bias -= dy * rate * rate;
+  }
+  return at;
+}
+
+double Rubs::push(const DiscAt& disc, int i, const Motion& motion) const {
+  if (!ground_.present) return 0;
+  const double depth = surface_ + disc_[static_cast<std::size_t>(i)].radius - disc.y;
+  if (depth <= 0) return 0;
+  const double rate = dot(disc.rise, motion.rate, k_.coordinates());
+  const double force = ground_.normal_stiffness * depth - ground_.normal_damping * rate;
+  return force > 0 ? force : 0.0;
+}
+
+Coordinates Rubs::row(int c, const std::array<DiscAt, most_discs>& discs) const {
+  if (c >= first_disc) return discs[static_cast<std::size_t>(c - first_disc)].slip;
+  Coordinates j{};
+  if (c == trolley) j[along_track] = 1;
+  if (c == lift) j[up] = 1;
+  if (c >= static_cast<int>(k_.links)) return j;
+  const auto link = static_cast<std::size_t>(c);
+  j[first_link + link] = 1;
+  if (link > 0) j[first_link + link - 1] = -1;
+  return j;
+}
+
+Coordinates Rubs::generalised(const Body& body, const Motion& motion, const Forces& f) const {
+  std::array<DiscAt, most_discs> discs;
+  for (int i = 0; i < disc_count_; ++i)
+    if (f[static_cast<std::size_t>(first_disc + i)] != 0)
+      discs[static_cast<std::size_t>(i)] = disc(body, motion, i);
+  Coordinates sum{};
+  for (int c = 0; c < count; ++c) {
+    const double force = f[static_cast<std::size_t>(c)];
+    if (force == 0) continue;
+    const Coordinates j = row(c, discs);
+    for (std::size_t i = 0; i < k_.coordinates(); ++i) sum[i] += j[i] * force;
+  }
+  return sum;
+}
+
+void Rubs::prepare(const Body& body, const Motion& motion, const Coordinates& acceleration,
+                   const Forces& bound, const Normals& normal) {
+  const std::size_t n = k_.coordinates();
+  std::array<DiscAt, most_discs> discs;
+  for (int i = 0; i < disc_count_; ++i)
+    discs[static_cast<std::size_t>(i)] = disc(body, motion, i);
+
+  problem_.bound = bound;
+  normal_ = normal;
+  std::array<Coordinates, count> rows;
+  for (std::size_t c = 0; c < count; ++c) {
+    rows[c] = row(static_cast<int>(c), discs);
+    problem_.slip[c] = dot(rows[c], motion.rate, n);
+    slip_rate_[c] = dot(rows[c], acceleration, n);
+    if (c >= first_disc) slip_rate_[c] += discs[c - first_disc].slip_bias;
+    column_[c] = bound[c] > 0 ? body.response(rows[c]) : Coordinates{};
+  }
+  for (std::size_t c = 0; c < count; ++c)
+    for (std::size_t d = 0; d < count; ++d)
+      problem_.response[d][c] = bound[c] > 0 ? dot(rows[d], column_[c], n) : 0.0;
+
+  for (std::size_t i = 0; i < most_discs; ++i) {
+    if (normal[i] <= 0) continue;
+    const DiscAt& at = discs[i];
+    const Coordinates column = body.response(at.rise);
+    rise_[i] = dot(at.rise, motion.rate, n);
+    rise_rate_[i] = dot(at.rise, acceleration, n) + at.rise_bias;
+    for (std::size_t k = 0; k < most_discs; ++k)
+      response_[k][i] = normal[k] > 0 ? dot(discs[k].rise, column, n) : 0.0;
+    for (std::size_t c = 0; c < count; ++c) along_[i][c] = dot(at.rise, column_[c], n);
+  }
+}
+
+// Gaussian elimination of the discs that touch; the matrix is a unit matrix plus a positive one.
+Rubs::Normals Rubs::solve(Matrix m, Normals b) const {
+  for (std::size_t i = 0; i < most_discs; ++i)
+    for (std::size_t k = i + 1; k < most_discs; ++k) {
+      const double share = m[k][i] / m[i][i];
+      for (std::size_t j = i; j < most_discs; ++j) m[k][j] -= share * m[i][j];
+      b[k] -= share * b[i];
+    }
+  for (std::size_t i = most_discs; i-- > 0;) {
+    for (std::size_t j = i + 1; j < most_discs; ++j) b[i] -= m[i][j] * b[j];
+    b[i] /= m[i][i];
+  }
+  return b;
+}
+
+// The ground's give within the step, put into slips, responses and bounds.
+void Rubs::soften(double h, FrictionProblem<count>& p) const {
+  const double k = ground_.normal_stiffness;
+  const double beta = h * (h / 6.0 * k + 0.5 * ground_.normal_damping);
+  Matrix m{};
+  Normals change{};
+  for (std::size_t i = 0; i < most_discs; ++i) {
+    m[i][i] = 1.0;
+    if (normal_[i] <= 0) continue;
+    for (std::size_t j = 0; j < most_discs; ++j)
+      if (normal_[j] > 0) m[i][j] += beta * response_[i][j];
+    change[i] = -(0.5 * h * k * rise_[i] + beta * rise_rate_[i]);
+  }
+  change = solve(m, change);
+
+  std::array<bool, most_discs> bears{};
+  for (std::size_t i = 0; i < most_discs; ++i) {
+    const double mean = normal_[i] + change[i];
+    bears[i] = normal_[i] > 0 && mean > 0;
+    p.bound[first_disc + i] = bears[i] ? foot_.friction * mean : 0.0;
+  }
+  for (std::size_t c = 0; c < count; ++c) {
+    Normals give{};  // change of the normal forces per friction force c, divided by -beta
+    for (std::size_t i = 0; i < most_discs; ++i) give[i] = bears[i] ? along_[i][c] : 0.0;
+    give = solve(m, give);
+    for (std::size_t i = 0; i < most_discs; ++i) {
+      if (!bears[i]) continue;
+      p.slip[c] += h * along_[i][c] * change[i];
+      for (std::size_t d = 0; d < count; ++d) p.response[d][c] -= h * beta * along_[i][d] * give[i];
+    }
+  }
+}
+
+Rubs::Forces Rubs::hold(double h, const Forces& last) const {
+  FrictionProblem<count> p = problem_;
+  bool touches = false;
+  for (std::size_t c = 0; c < count; ++c) {
+    p.slip[c] += h * slip_rate_[c];
+    for (std::size_t d = 0; d < count; ++d) p.response[c][d] *= h;
+  }
+  for (const double force : normal_) touches = touches || force > 0;
+  if (touches) soften(h, p);
+  return solve_friction<count>(p, last);
+}
+
+Coordinates Rubs::accelerations(Coordinates without, const Forces& f) const {
+  for (std::size_t c = 0; c < count; ++c)
+    for (std::size_t i = 0; i < k_.coordinates(); ++i) without[i] += column_[c][i] * f[c];
+  return without;
+}
+
+}  // namespace sinew::plant
