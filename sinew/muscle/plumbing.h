@@ -63,6 +63,7 @@ class Plumbing {
 
   int muscles() const { return size_; }
   int states() const { return states_; }
+  double atmosphere() const { return air_.atmosphere; }  // [Pa]
 
   // 2 x muscle + (0 inlet | 1 exhaust), then the cylinder's: up inlet, up exhaust, down inlet, down
   // exhaust.

@@ -23,8 +23,7 @@ BodyConstants body_of(const robot::Robot& robot) {
     for (std::size_t j = i + 1; j < k.links; ++j)
       k.inertia[i][j] = k.inertia[j][i] = k.length[i] * k.first_moment[j];
 
-  const bool lifts =
-      robot.cylinder.present && robot.cylinder.mode != robot::Cylinder::Mode::locked;
+  const bool lifts = robot.cylinder.present && robot.cylinder.mode != robot::Cylinder::Mode::locked;
   k.held = {!robot.trolley.present, !lifts};
   k.sliding_mass = robot.trolley.moving_mass();
   k.lifted_mass = robot::leg_mass(robot) + robot.cylinder.body_mass;

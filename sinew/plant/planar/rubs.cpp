@@ -3,9 +3,10 @@
 namespace sinew::plant {
 namespace {
 
-double dot(const Coordinates& a, const Coordinates& b, std::size_t n) {
+// What a machine has not is zero in both.
+double dot(const Coordinates& a, const Coordinates& b) {
   double sum = 0;
-  for (std::size_t i = 0; i < n; ++i) sum += a[i] * b[i];
+  for (std::size_t i = 0; i < most_coordinates; ++i) sum += a[i] * b[i];
   return sum;
 }
 
@@ -50,7 +51,7 @@ double Rubs::push(const DiscAt& disc, int i, const Motion& motion) const {
   if (!ground_.present) return 0;
   const double depth = surface_ + disc_[static_cast<std::size_t>(i)].radius - disc.y;
   if (depth <= 0) return 0;
-  const double rate = dot(disc.rise, motion.rate, k_.coordinates());
+  const double rate = dot(disc.rise, motion.rate);
   const double force = ground_.normal_stiffness * depth - ground_.normal_damping * rate;
   return force > 0 ? force : 0.0;
 }
@@ -60,7 +61,7 @@ Coordinates Rubs::row(int c, const std::array<DiscAt, most_discs>& discs) const 
   Coordinates j{};
   if (c == trolley) j[along_track] = 1;
   if (c == lift) j[up] = 1;
-  if (c >= static_cast<int>(k_.links)) return j;
+  if (c >= most_links || c >= static_cast<int>(k_.links)) return j;
   const auto link = static_cast<std::size_t>(c);
   j[first_link + link] = 1;
   if (link > 0) j[first_link + link - 1] = -1;
@@ -77,41 +78,39 @@ Coordinates Rubs::generalised(const Body& body, const Motion& motion, const Forc
     const double force = f[static_cast<std::size_t>(c)];
     if (force == 0) continue;
     const Coordinates j = row(c, discs);
-    for (std::size_t i = 0; i < k_.coordinates(); ++i) sum[i] += j[i] * force;
+    for (std::size_t i = 0; i < most_coordinates; ++i) sum[i] += j[i] * force;
   }
   return sum;
 }
 
 void Rubs::prepare(const Body& body, const Motion& motion, const Coordinates& acceleration,
                    const Forces& bound, const Normals& normal) {
-  const std::size_t n = k_.coordinates();
   std::array<DiscAt, most_discs> discs;
-  for (int i = 0; i < disc_count_; ++i)
-    discs[static_cast<std::size_t>(i)] = disc(body, motion, i);
+  for (int i = 0; i < disc_count_; ++i) discs[static_cast<std::size_t>(i)] = disc(body, motion, i);
 
   problem_.bound = bound;
   normal_ = normal;
   std::array<Coordinates, count> rows;
   for (std::size_t c = 0; c < count; ++c) {
     rows[c] = row(static_cast<int>(c), discs);
-    problem_.slip[c] = dot(rows[c], motion.rate, n);
-    slip_rate_[c] = dot(rows[c], acceleration, n);
+    problem_.slip[c] = dot(rows[c], motion.rate);
+    slip_rate_[c] = dot(rows[c], acceleration);
     if (c >= first_disc) slip_rate_[c] += discs[c - first_disc].slip_bias;
     column_[c] = bound[c] > 0 ? body.response(rows[c]) : Coordinates{};
   }
   for (std::size_t c = 0; c < count; ++c)
     for (std::size_t d = 0; d < count; ++d)
-      problem_.response[d][c] = bound[c] > 0 ? dot(rows[d], column_[c], n) : 0.0;
+      problem_.response[d][c] = bound[c] > 0 ? dot(rows[d], column_[c]) : 0.0;
 
   for (std::size_t i = 0; i < most_discs; ++i) {
     if (normal[i] <= 0) continue;
     const DiscAt& at = discs[i];
     const Coordinates column = body.response(at.rise);
-    rise_[i] = dot(at.rise, motion.rate, n);
-    rise_rate_[i] = dot(at.rise, acceleration, n) + at.rise_bias;
+    rise_[i] = dot(at.rise, motion.rate);
+    rise_rate_[i] = dot(at.rise, acceleration) + at.rise_bias;
     for (std::size_t k = 0; k < most_discs; ++k)
-      response_[k][i] = normal[k] > 0 ? dot(discs[k].rise, column, n) : 0.0;
-    for (std::size_t c = 0; c < count; ++c) along_[i][c] = dot(at.rise, column_[c], n);
+      response_[k][i] = normal[k] > 0 ? dot(discs[k].rise, column) : 0.0;
+    for (std::size_t c = 0; c < count; ++c) along_[i][c] = dot(at.rise, column_[c]);
   }
 }
 
@@ -177,7 +176,7 @@ Rubs::Forces Rubs::hold(double h, const Forces& last) const {
 
 Coordinates Rubs::accelerations(Coordinates without, const Forces& f) const {
   for (std::size_t c = 0; c < count; ++c)
-    for (std::size_t i = 0; i < k_.coordinates(); ++i) without[i] += column_[c][i] * f[c];
+    for (std::size_t i = 0; i < most_coordinates; ++i) without[i] += column_[c][i] * f[c];
   return without;
 }
 

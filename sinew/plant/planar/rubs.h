@@ -26,8 +26,8 @@ inline constexpr int most_discs = 4;
 
 // Where a disc is and how its lowest point moves with the coordinates.
 struct DiscAt {
-  double x = 0, y = 0;              // of its centre, from the origin of the trolley [m]
-  Coordinates slip{}, rise{};       // d(slip velocity)/dq', d(y')/dq'
+  double x = 0, y = 0;                  // of its centre, from the origin of the trolley [m]
+  Coordinates slip{}, rise{};           // d(slip velocity)/dq', d(y')/dq'
   double slip_bias = 0, rise_bias = 0;  // of the accelerations, from the rates [m/s^2]
 };
 

@@ -30,8 +30,12 @@ std::uint16_t counts(const robot::Sensor& sensor, const robot::Converter& conver
                      double quantity, double noise) {
   const double per_volt = converter.counts_per_volt();
   double value = sensor.at_rest + sensor.noise * noise;
-  if (sensor.kind == robot::Sensor::Kind::angle) value += quantity / sensor.scale * per_volt;
-  if (sensor.kind == robot::Sensor::Kind::tension) value += quantity * sensor.scale * per_volt;
+  using Kind = robot::Sensor::Kind;
+  // A potentiometer's scale is given per volt, a transducer's in volts.
+  if (sensor.kind == Kind::angle || sensor.kind == Kind::cylinder)
+    value += quantity / sensor.scale * per_volt;
+  else if (sensor.kind != Kind::fixed)
+    value += quantity * sensor.scale * per_volt;
   const double top = converter.top();
   const double bounded = value < 0 ? 0.0 : value > top ? top : value;
   return static_cast<std::uint16_t>(bounded + 0.5);

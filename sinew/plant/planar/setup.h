@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
+#include "sinew/muscle/cylinder.h"
 #include "sinew/muscle/muscle.h"
 #include "sinew/robot/robot.h"
 
@@ -19,6 +21,7 @@ struct Start {
   std::vector<double> joint_angle;  // [rad]
   std::vector<bool> blocked;        // joints that are held where they start
   double trolley = 0;               // [m]
+  double lift = 0;                  // of the body, from the cylinder's extended stop [m]
   double pressure = 0;              // of every muscle, absolute [Pa]
 };
 
@@ -31,6 +34,7 @@ struct Setup {
   std::vector<muscle::Muscle> muscles;  // in the order of robot.muscles
   gas::Air air;
   gas::Supply supply;
+  std::optional<muscle::Cylinder> cylinder;  // one that moves
   Start start;
   Steps steps;
   std::uint64_t seed = 1;  // of the sensors' noise
@@ -46,6 +50,15 @@ struct Truth {
   std::array<double, muscle::capacity> air_in{}, air_out{};  // since the start [kg]
   double foot_x = 0, foot_y = 0;                             // ankle, from the hip [m]
   double force_x = 0, force_y = 0;                           // on the foot by the ground [N]
+  double roller_front = 0, roller_rear = 0;                  // loads, below 0: lifted off [N]
+
+  // Of a whole machine.
+  std::array<double, 4> disc_force{};                   // of the ground on each disc, up [N]
+  std::array<double, muscle::capacity> air_leaked{};    // since the start [kg]
+  double supply_pressure = 0, tank_pressure = 0;        // absolute [Pa]
+  double lift = 0, lift_rate = 0;                       // of the body [m], [m/s]
+  std::array<double, 2> cylinder_pressure{};            // up, down; absolute [Pa]
+  std::array<double, 2> cylinder_in{}, cylinder_out{};  // since the start [kg]
 };
 
 }  // namespace sinew::plant

@@ -1,5 +1,7 @@
 #include "sinew/plant/planar/world.h"
 
+#include "sinew/plant/planar/rollers.h"
+
 namespace sinew::plant {
 
 using signals::Status;
@@ -371,7 +373,28 @@ Truth World<N>::truth(double t) noexcept {
   out.foot_y = look.ankle_y;
   out.force_x = look.normal > 0 ? g.held[Contacts<N>::foot] : 0.0;
   out.force_y = look.normal;
+  if (robot_.rollers.present) rollers(g, chain, pose, out);
   return out;
+}
+
+// The force on what hangs from the trolley is what its momentum asks for, less the ground's.
+template <int N>
+void World<N>::rollers(const Glance& g, const Chain<N>& chain, const Pose<N>& pose,
+                       Truth& out) const noexcept {
+  const Generalised<N>& a = g.acceleration;
+  const double hung = robot::leg_mass(robot_) + robot_.cylinder.body_mass;
+  Hanging h{.acceleration = a.x};
+  h.force_x = hung * a.x - out.force_x;
+  h.force_y = hung * chain_.gravity - out.force_y;
+  for (int i = 0; i < N; ++i) {
+    const double c = chain_.first_moment[i], rate2 = pose.rate[i] * pose.rate[i];
+    h.force_x -= c * (chain.sin(i) * a.angle[i] + chain.cos(i) * rate2);
+    h.force_y += c * (chain.cos(i) * a.angle[i] - chain.sin(i) * rate2);
+  }
+  h.torque = out.torque[0] - damping_[0] * pose.rate[0] + g.held[0];
+  const RollerLoads loads = roller_loads(robot_, h);
+  out.roller_front = loads.front;
+  out.roller_rear = loads.rear;
 }
 
 template class World<1>;

@@ -87,6 +87,8 @@ class World final : public signals::Port {
   Pose<N> peek_pose(const Glance& g, double t) const noexcept;
   Peek peek(const Glance& g, double t) const noexcept;
   double gauge(const Glance& g, const Peek& p, int muscle) const noexcept;
+  void rollers(const Glance& g, const Chain<N>& chain, const Pose<N>& pose,
+               Truth& out) const noexcept;
   double next_node() const noexcept;
   void commit() noexcept;
 

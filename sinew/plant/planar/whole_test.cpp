@@ -1,0 +1,283 @@
+// Laws that a whole machine keeps, and that it agrees with the fast world where both hold a robot.
+#include "sinew/plant/planar/whole.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "sinew/plant/planar/test_setups.h"
+#include "sinew/plant/planar/world.h"
+
+namespace sinew::plant {
+namespace {
+
+// Links from the leg's on, each a little smaller, joints that nothing pulls.
+Setup chain_setup(std::size_t links) {
+  plant::Setup s = leg_without_muscles(0.6, -0.9);
+  const robot::Link femur = s.robot.links[0];
+  s.robot.links.clear();
+  s.robot.joints.clear();
+  s.start.joint_angle.clear();
+  s.start.blocked.clear();
+  for (std::size_t i = 0; i < links; ++i) {
+    robot::Link link = femur;
+    link.name = "link" + std::to_string(i);
+    link.length *= 1.0 - 0.15 * static_cast<double>(i);
+    link.mass *= 1.0 - 0.2 * static_cast<double>(i);
+    s.robot.links.push_back(link);
+    robot::Joint joint;
+    joint.name = "joint" + std::to_string(i);
+    joint.kind = robot::Joint::Kind::passive;
+    s.robot.joints.push_back(joint);
+    s.start.joint_angle.push_back(i % 2 == 0 ? 0.6 : -0.9);
+    s.start.blocked.push_back(false);
+  }
+  return s;
+}
+
+// The body hangs on a spring of air alone: a cylinder whose valves stay shut.
+muscle::Cylinder thesis_cylinder() {
+  muscle::Cylinder c;
+  c.bore = 0.627 * inch;
+  c.rod_diameter = 0.1875 * inch;
+  c.stroke = 2 * inch;
+  c.dead_volume_up = c.dead_volume_down = 5e-7;
+  return c;
+}
+
+void give_cylinder(Setup& s, robot::Cylinder::Mode mode) {
+  s.cylinder = thesis_cylinder();
+  s.robot.cylinder = {.present = true,
+                      .mode = mode,
+                      .bore = s.cylinder->bore,
+                      .rod_diameter = s.cylinder->rod_diameter,
+                      .stroke = s.cylinder->stroke,
+                      .body_mass = 3 * pound,
+                      .stop_stiffness = 2e4,
+                      .stop_damping = 100};
+}
+
+double swinging_energy(const BodyConstants& k) {
+  double e = 0;
+  for (std::size_t i = 0; i < k.links; ++i) e += k.gravity * k.first_moment[i];
+  return e;
+}
+
+class Chains : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(Chains, KeepEnergyAndMomentum) {
+  WholeWorld world(chain_setup(GetParam()));
+  const double before = energy(world.constants(), world.motion());
+  world.advance(4.0);
+  const double scale = swinging_energy(world.constants());
+  EXPECT_LE(std::abs(energy(world.constants(), world.motion()) - before) / scale, 2e-6);
+  const double unit = world.constants().sliding_mass;  // times 1 m/s
+  EXPECT_LE(std::abs(momentum(world.constants(), world.motion())[0]) / unit, 1e-6);
+}
+INSTANTIATE_TEST_SUITE_P(OneToFour, Chains, ::testing::Values(1u, 2u, 3u, 4u));
+
+// Two derivations of the same equations: eliminated trolley, and dense with a held lift.
+TEST(Whole, BodyAgreesWithTheFastChain) {
+  const plant::Setup s = leg_without_muscles(0.6, -0.9);
+  const BodyConstants whole = body_of(s.robot);
+  const ChainConstants<2> fast = chain_of<2>(s.robot);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-3, 3);
+  for (int trial = 0; trial < 200; ++trial) {
+    Pose<2> pose{any(random), any(random), {any(random), any(random)}, {any(random), any(random)}};
+    const Motion motion{{pose.x, 0, pose.angle[0], pose.angle[1]},
+                        {pose.x_rate, 0, pose.rate[0], pose.rate[1]}};
+    const Generalised<2> force{any(random), {any(random), any(random)}};
+    const Generalised<2> a = Chain<2>(fast, pose).accelerations(force);
+    const Coordinates b =
+        Body(whole, motion).accelerations({force.x, any(random), force.angle[0], force.angle[1]});
+    const double scale = 1 + std::abs(a.x) + std::abs(a.angle[0]) + std::abs(a.angle[1]);
+    EXPECT_NEAR(a.x, b[along_track], 1e-11 * scale);
+    EXPECT_NEAR(a.angle[0], b[first_link], 1e-11 * scale);
+    EXPECT_NEAR(a.angle[1], b[first_link + 1], 1e-11 * scale);
+    EXPECT_EQ(b[up], 0.0);
+  }
+}
+
+// A muscled leg that walks over its ground with friction everywhere, valves opened at random: the
+// same motion from both worlds, to what rounding grows to.
+TEST(Whole, AgreesWithTheFastWorld) {
+  plant::Setup s = leg_with_muscles(4.95, 5.40);
+  s.robot.ground.present = true;
+  s.robot.trolley.drag = 4;
+  for (robot::Joint& j : s.robot.joints) {
+    j.dry_friction = 0.1;
+    j.damping = 0.05;
+  }
+  World<2> fast(s);
+  WholeWorld whole(s);
+  std::mt19937 random(11);
+  bool touched = false;
+  for (signals::Tick t = 100; t <= 20000; t += 100) {
+    const signals::Edge edge{t, {static_cast<std::uint8_t>(random() % 8)}, random() % 3 == 0};
+    fast.drive(edge);
+    whole.drive(edge);
+    const Truth a = fast.truth(t * 1e-4), b = whole.truth(t * 1e-4);
+    touched = touched || a.force_y > 0;
+    for (std::size_t j = 0; j < 2; ++j) EXPECT_NEAR(a.angle[j], b.angle[j], 2e-6) << t;
+    EXPECT_NEAR(a.x, b.x, 1e-6) << t;
+    EXPECT_NEAR(a.force_y, b.force_y, 0.1) << t;
+    for (std::size_t m = 0; m < 4; ++m) EXPECT_NEAR(a.tension[m], b.tension[m], 2e-2) << t;
+  }
+  EXPECT_TRUE(touched);
+}
+
+// Behind a regulator the air carries p A: the body rests where it is, and any less lets it fall.
+TEST(Whole, RegulatorLiftsAKnownForce) {
+  plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0);
+  give_cylinder(s, robot::Cylinder::Mode::regulator);
+  s.cylinder->mode = muscle::Cylinder::Mode::regulator;
+  s.start.lift = 1 * inch;
+  const double weight = (robot::leg_mass(s.robot) + s.robot.cylinder.body_mass) * 9.80665;
+  const double balance = s.air.atmosphere + weight / muscle::area(*s.cylinder, muscle::up);
+
+  s.cylinder->pressure = balance;
+  WholeWorld held(s);
+  held.advance(1.0);
+  EXPECT_NEAR(held.motion().at[up], s.start.lift, 1e-9);
+
+  s.cylinder->pressure = balance - 1000;  // 1000 Pa on the piston: a known acceleration
+  WholeWorld falls(s);
+  falls.advance(0.05);
+  const double acceleration = -1000 * muscle::area(*s.cylinder, muscle::up) / (weight / 9.80665);
+  EXPECT_NEAR(falls.motion().at[up] - s.start.lift, 0.5 * acceleration * 0.05 * 0.05, 1e-9);
+}
+
+// Two sealed chambers are a spring k = n (P_u A_u^2/V_u + P_d A_d^2/V_d); the body swings on it.
+TEST(Whole, SealedCylinderIsAGasSpring) {
+  plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0);
+  give_cylinder(s, robot::Cylinder::Mode::valves);
+  s.cylinder->mode = muscle::Cylinder::Mode::valves;
+  s.air.polytropic_exponent = 1.4;
+  const double mass = robot::leg_mass(s.robot) + s.robot.cylinder.body_mass;
+  const double area_up = muscle::area(*s.cylinder, muscle::up);
+  s.cylinder->pressure = s.air.atmosphere + mass * 9.80665 / area_up;
+  s.start.lift = 1 * inch;
+  const double stiffness =
+      1.4 * (s.cylinder->pressure * area_up * area_up /
+                 muscle::volume(*s.cylinder, muscle::up, s.start.lift) +
+             s.air.atmosphere * std::pow(muscle::area(*s.cylinder, muscle::down), 2) /
+                 muscle::volume(*s.cylinder, muscle::down, s.start.lift));
+  const double omega = std::sqrt(stiffness / mass), rate = 0.005;
+
+  WholeWorld world(s);
+  world.set_rates({}, 0, rate);
+  const double quarter = 0.5 * std::numbers::pi / omega;
+  world.advance(quarter);
+  const double t = world.time();
+  EXPECT_NEAR(world.motion().at[up] - s.start.lift, rate / omega * std::sin(omega * t),
+              0.01 * rate / omega);
+}
+
+// Trolley and ground away, the whole leg falls with its body as one mass.
+TEST(Whole, LiftedMassFallsFreely) {
+  plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0.4);
+  give_cylinder(s, robot::Cylinder::Mode::regulator);
+  s.cylinder->mode = muscle::Cylinder::Mode::regulator;
+  s.cylinder->pressure = s.air.atmosphere;
+  s.start.lift = 2 * inch;
+  WholeWorld world(s);
+  world.advance(0.08);
+  EXPECT_NEAR(world.motion().at[up] - 2 * inch, -0.5 * 9.80665 * 0.08 * 0.08, 1e-9);
+}
+
+// A body on its ankle, over a shoe with heel and toe: each carries what the levers say.
+TEST(Whole, ShoeStandsOnHeelAndToe) {
+  plant::Setup s = chain_setup(1);
+  give_cylinder(s, robot::Cylinder::Mode::regulator);
+  s.cylinder->mode = muscle::Cylinder::Mode::regulator;
+  s.cylinder->pressure = s.air.atmosphere;
+  s.robot.trolley.present = false;
+  s.start.joint_angle = {0};
+  s.start.lift = 1 * inch;
+  s.robot.ground = {
+      .present = true, .height = 0.5 * inch, .normal_stiffness = 5e4, .normal_damping = 300};
+  s.robot.foot = {.present = true, .mass = 0, .radius = 0, .friction = 0};
+  const double heel = 0.03, toe = 0.09;
+  s.robot.foot.points = {{"heel", -heel, -0.01, 0.004}, {"toe", toe, -0.01, 0.004}};
+  WholeWorld world(s);
+  const Truth truth = world.truth(4.0);
+
+  const robot::Link& link = s.robot.links[0];
+  const double weight = (link.mass + s.robot.cylinder.body_mass) * 9.80665;
+  EXPECT_NEAR(truth.force_y, weight, 1e-6 * weight);
+  EXPECT_NEAR(truth.disc_force[0] + truth.disc_force[1], weight, 1e-6 * weight);
+  const double balance = truth.disc_force[1] * toe - truth.disc_force[0] * heel;
+  // To the tilt that heel and toe sink by.
+  EXPECT_NEAR(balance, link.mass * 9.80665 * link.center_of_mass, 1e-3 * weight * heel);
+}
+
+// Virtual work: what the cord pulls with is what its length gives per angle, for any cam and for
+// muscles across two joints.
+TEST(Cords, TorqueIsTheSlopeOfLength) {
+  plant::Setup s = leg_with_muscles(4.95, 5.40);
+  robot::Muscle& m = s.robot.muscles[1];
+  m.cam.angle = {4.2, 4.8, 5.5};
+  m.cam.radii = {0.02, 0.03, 0.015};
+  m.second = {"knee", robot::Muscle::Role::flexor, {}};
+  m.second.cam.radius = 0.018;
+  const Cords cords(s.robot);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> hip(4.0, 5.8), knee(5.0, 6.0);
+  for (int trial = 0; trial < 100; ++trial) {
+    const double angle[2] = {hip(random), knee(random)}, still[2] = {0, 0};
+    muscle::Lanes length, rate, ahead, behind;
+    Cords::Pulls pulls, other;
+    cords.at(angle, still, length, rate, pulls);
+    const double h = 1e-6;
+    for (int k = 0; k < 2; ++k) {
+      double a[2] = {angle[0], angle[1]}, b[2] = {angle[0], angle[1]};
+      a[k] += h;
+      b[k] -= h;
+      cords.at(a, still, ahead, rate, other);
+      cords.at(b, still, behind, rate, other);
+      EXPECT_NEAR(-(ahead[1] - behind[1]) / (2 * h), pulls[1][static_cast<std::size_t>(k)], 1e-7);
+    }
+  }
+  EXPECT_EQ(cords.joint(1, 1), 1);
+  EXPECT_EQ(cords.joint(0, 1), -1);
+}
+
+// A passive joint with a spring alone: the pendulum's period with k + m g r in place of m g r.
+TEST(Whole, SpringAtAJointIsAPendulumInNoGravity) {
+  plant::Setup s = chain_setup(1);
+  s.robot.trolley.present = false;
+  s.robot.foot.present = false;
+  s.robot.gravity = 0;
+  s.robot.joints[0].spring = 2.0;
+  s.robot.joints[0].spring_angle = 1.0;
+  s.start.joint_angle = {1.1};
+  const robot::Link& link = s.robot.links[0];
+  const double inertia = link.inertia + link.mass * link.center_of_mass * link.center_of_mass;
+  WholeWorld world(s);
+  world.advance(0.5);
+  EXPECT_NEAR(world.motion().at[first_link], 1.0 + 0.1 * std::cos(std::sqrt(2.0 / inertia) * 0.5),
+              1e-5);
+}
+
+// Standing still, the rollers carry the weight, and the counterweight loads the one it hangs on.
+TEST(Whole, RollersCarryTheWeight) {
+  plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0);
+  for (auto&& blocked : s.start.blocked) blocked = true;
+  s.robot.trolley.drag = 4;
+  s.robot.rollers = {.present = true,
+                     .front = 0.1,
+                     .rear = -0.1,
+                     .counterweight = 10 * pound,
+                     .counterweight_at = 0.1};
+  const Truth whole = WholeWorld(s).truth(0), fast = World<2>(s).truth(0);
+  const double weight = 23.8 * pound * 9.80665;
+  EXPECT_NEAR(whole.roller_front + whole.roller_rear, weight, 1e-6);
+  EXPECT_NEAR(whole.roller_front - whole.roller_rear, 10 * pound * 9.80665, 1e-6);
+  EXPECT_NEAR(fast.roller_front, whole.roller_front, 1e-6);
+}
+
+}  // namespace
+}  // namespace sinew::plant
