@@ -15,7 +15,7 @@ void push(void* writer, std::uint16_t topic, std::int64_t time_ns,
 }  // namespace
 
 LoggedTopics logged_topics(const experiment::Experiment& e) {
-  const std::vector<signals::Topic> all = experiment::topics(e.robot);
+  const std::vector<signals::Topic> all = experiment::topics(e);
   const config::Origin* origin = config::find_origin(e.origins, "log.channels");
   const bool written = origin && !origin->is_default;
   const std::vector<bool> wanted =

@@ -24,6 +24,12 @@ void fields(Visitor& v, Start& start) {
            start.pressure);
   v.number({.name = "trolley", .unit = "m", .optional = true, .doc = "along the track"},
            start.trolley);
+  v.number({.name = "lift",
+            .unit = "m",
+            .min = 0,
+            .optional = true,
+            .doc = "of the body, from the cylinder's extended stop"},
+           start.lift);
   v.number({.name = "settle",
             .unit = "s",
             .min = 0,

@@ -23,6 +23,7 @@ struct Start {
   std::vector<std::string> blocked;            // joints that are held there
   double pressure = 0;                         // of every muscle, absolute [Pa]
   double trolley = 0;                          // [m]
+  double lift = 0;                             // of the body on its cylinder [m]
   double settle = 0;                           // exhausts open, before the first phase [s]
 };
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "sinew/control/joint/spine.h"
+#include "sinew/experiment/columns.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/experiment/high_level.h"
 #include "sinew/plant/planar/setup.h"
@@ -26,9 +27,6 @@ struct Tap {
   void (*push)(void* object, std::uint16_t topic, std::int64_t time_ns,
                std::span<const double> values) noexcept = nullptr;
 };
-
-// The topics of a robot's run, in the order in which the recorder writes them.
-std::vector<signals::Topic> topics(const robot::Robot& robot);
 
 class Recorder {
  public:
@@ -55,23 +53,17 @@ class Recorder {
 
  private:
   void put(std::span<const double> values) noexcept;
-  void record_joints() noexcept;
-  void record_muscles() noexcept;
-  void record_plan() noexcept;
-  void record_truth(const plant::Truth& truth) noexcept;
 
-  const robot::Robot& robot_;
   const control::Spine& spine_;
   HighLevel& high_;
   TruthAt truth_;
-  std::vector<double> true_newtons_per_count_;  // of each muscle's own transducer
-  std::vector<std::size_t> joint_of_;           // of each muscle
 
   // While the run goes: rows of numbers one behind the other, and the edges. Both are reserved for
   // all that can come.
-  std::vector<signals::Topic> topics_;
-  std::size_t first_edge_ = 0;  // topic of the first valve
-  std::size_t width_ = 0;       // numbers in a row
+  std::vector<Column> columns_;
+  std::vector<signals::Topic> topics_;  // of the columns, then of the valves
+  std::size_t first_edge_ = 0;          // topic of the first valve
+  std::size_t width_ = 0;               // numbers in a row
   std::vector<double> rows_;
   std::vector<std::int64_t> row_time_ns_;
   std::vector<signals::Edge> edges_;

@@ -8,6 +8,7 @@
 #include "sinew/experiment/high_level.h"
 #include "sinew/experiment/loop.h"
 #include "sinew/experiment/spinal.h"
+#include "sinew/plant/planar/whole.h"
 #include "sinew/plant/planar/world.h"
 #include "sinew/plant/recorded/recorded.h"
 #include "sinew/robot/actuator_of.h"
@@ -69,9 +70,9 @@ Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& por
   return out;
 }
 
-template <int N>
-Outcome run_world(const Experiment& e, const RunOptions& options) {
-  plant::World<N> world(planar_setup(e));
+template <class World>
+Outcome run_world(const Experiment& e, const plant::Setup& setup, const RunOptions& options) {
+  World world(setup);
   if (options.pace > 0) {
     PacedClock clock(options.pace);
     return drive(e, options, world, &world, clock);
@@ -93,15 +94,48 @@ Tick last_tick(const Experiment& e) {
   return plan + std::llround(vent / signals::tick_seconds) + shut;
 }
 
+namespace {
+
+const gas::Valve* find_valve(const Experiment& e, const std::string& name) {
+  for (const gas::Valve& v : e.valves)
+    if (v.name == name) return &v;
+  return nullptr;
+}
+
+// The robot's cylinder with its valves, if it moves.
+std::optional<muscle::Cylinder> cylinder_of(const Experiment& e) {
+  using Mode = robot::Cylinder::Mode;
+  const robot::Cylinder& c = e.robot.cylinder;
+  if (!c.present || c.mode == Mode::locked) return {};
+  muscle::Cylinder out{.bore = c.bore,
+                       .rod_diameter = c.rod_diameter,
+                       .rod = muscle::Cylinder::Rod::in_up_chamber,
+                       .stroke = c.stroke,
+                       .dead_volume_up = c.up.dead_volume,
+                       .dead_volume_down = c.down.dead_volume,
+                       .pressure = e.start.pressure};
+  if (c.mode == Mode::regulator) {
+    out.mode = muscle::Cylinder::Mode::regulator;
+    out.pressure = c.pressure;
+    return out;
+  }
+  for (const muscle::Side side : {muscle::up, muscle::down}) {
+    const robot::Cylinder::Chamber& chamber = side == muscle::up ? c.up : c.down;
+    if (const gas::Valve* v = find_valve(e, chamber.inlet)) out.inlet[side] = *v;
+    if (const gas::Valve* v = find_valve(e, chamber.exhaust)) out.exhaust[side] = *v;
+  }
+  return out;
+}
+
+}  // namespace
+
 plant::Setup planar_setup(const Experiment& e) {
   plant::Setup s{.robot = e.robot, .air = e.air, .supply = e.supply};
   for (const robot::Muscle& m : e.robot.muscles) {
     muscle::Muscle out{.name = m.name, .count = m.count, .external_volume = m.external_volume};
     out.actuator = robot::actuator_of(m, e.actuators);
-    for (const gas::Valve& v : e.valves) {
-      if (v.name == m.inlet) out.inlet = v;
-      if (v.name == m.exhaust) out.exhaust = v;
-    }
+    if (const gas::Valve* v = find_valve(e, m.inlet)) out.inlet = *v;
+    if (const gas::Valve* v = find_valve(e, m.exhaust)) out.exhaust = *v;
     s.muscles.push_back(std::move(out));
   }
   for (const robot::Joint& j : e.robot.joints) {
@@ -110,7 +144,9 @@ plant::Setup planar_setup(const Experiment& e) {
     for (const std::string& name : e.start.blocked) blocked = blocked || name == j.name;
     s.start.blocked.push_back(blocked);
   }
+  s.cylinder = cylinder_of(e);
   s.start.trolley = e.start.trolley;
+  s.start.lift = e.start.lift;
   s.start.pressure = e.start.pressure;
   s.steps.body = e.body_step;
   s.seed = static_cast<std::uint64_t>(e.seed);
@@ -118,14 +154,13 @@ plant::Setup planar_setup(const Experiment& e) {
 }
 
 Outcome run(const Experiment& e, const RunOptions& options) {
-  switch (e.robot.joints.size()) {
-    case 1:
-      return run_world<1>(e, options);
-    case 2:
-      return run_world<2>(e, options);
-    default:
-      throw std::invalid_argument("the planar plant holds robots of one or two joints");
+  const plant::Setup setup = planar_setup(e);
+  if (robot::is_plain(e.robot) &&
+      !muscle::needs_plumbing(setup.muscles, setup.air, setup.supply, setup.cylinder)) {
+    if (e.robot.joints.size() == 1) return run_world<plant::World<1>>(e, setup, options);
+    return run_world<plant::World<2>>(e, setup, options);
   }
+  return run_world<plant::WholeWorld>(e, setup, options);
 }
 
 Outcome replay(const Experiment& e, const signals::Table& recorded) {

@@ -436,12 +436,9 @@ void WholeWorld::tell_rollers(const Glance& g, const Peek& p, Truth& out) const 
   Hanging h{.acceleration = g.acceleration[along_track], .lift = m.at[up]};
   h.force_x = hung * g.acceleration[along_track] - out.force_x;
   h.force_y = hung * (g.acceleration[up] + constants_.gravity) - out.force_y;
-  for (std::size_t i = 0; i < constants_.links; ++i) {
-    const double c = constants_.first_moment[i], rate = m.rate[first_link + i];
-    const double turn = g.acceleration[first_link + i], rate2 = rate * rate;
-    h.force_x -= c * (body.sin(i) * turn + body.cos(i) * rate2);
-    h.force_y += c * (body.cos(i) * turn - body.sin(i) * rate2);
-  }
+  for (std::size_t i = 0; i < constants_.links; ++i)
+    h.add(constants_.first_moment[i], body.sin(i), body.cos(i), m.rate[first_link + i],
+          g.acceleration[first_link + i]);
   h.torque = out.torque[0] + first_.passive_torque[0] + g.held[0];
   const RollerLoads loads = roller_loads(robot_, h);
   out.roller_front = loads.front;

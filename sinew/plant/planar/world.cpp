@@ -386,11 +386,8 @@ void World<N>::rollers(const Glance& g, const Chain<N>& chain, const Pose<N>& po
   Hanging h{.acceleration = a.x};
   h.force_x = hung * a.x - out.force_x;
   h.force_y = hung * chain_.gravity - out.force_y;
-  for (int i = 0; i < N; ++i) {
-    const double c = chain_.first_moment[i], rate2 = pose.rate[i] * pose.rate[i];
-    h.force_x -= c * (chain.sin(i) * a.angle[i] + chain.cos(i) * rate2);
-    h.force_y += c * (chain.cos(i) * a.angle[i] - chain.sin(i) * rate2);
-  }
+  for (int i = 0; i < N; ++i)
+    h.add(chain_.first_moment[i], chain.sin(i), chain.cos(i), pose.rate[i], a.angle[i]);
   h.torque = out.torque[0] - damping_[0] * pose.rate[0] + g.held[0];
   const RollerLoads loads = roller_loads(robot_, h);
   out.roller_front = loads.front;

@@ -1,0 +1,200 @@
+#include "sinew/experiment/columns.h"
+
+#include <cmath>
+
+namespace sinew::experiment {
+namespace {
+
+using signals::Topic;
+
+class Columns {
+ public:
+  template <class Value>
+  void scalar(std::string name, std::string unit, std::string description, Value value) {
+    list.push_back({{std::move(name), std::move(description), {{"value", std::move(unit)}}},
+                    [value](const Moment& m, double* out) { *out = value(m); }});
+  }
+
+  template <class Value>
+  void vector(std::string name, std::string unit, std::string description, Value value) {
+    list.push_back({{std::move(name), std::move(description), {{"x", unit}, {"y", unit}}},
+                    [value](const Moment& m, double* out) { value(m, out[0], out[1]); }});
+  }
+
+  std::vector<Column> list;
+};
+
+bool moves(const robot::Cylinder& c) {
+  return c.present && c.mode != robot::Cylinder::Mode::locked;
+}
+
+// What hardware would log as well, joint by joint.
+void joint_columns(const robot::Robot& robot, Columns& out) {
+  for (std::size_t s = 0; s < robot.sensors.size(); ++s)
+    out.scalar("/sensor/" + robot.sensors[s].name + "/count", "count", "as converted",
+               [s](const Moment& m) { return m.seen.reading[s].counts; });
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const std::string& name = robot.joints[j].name;
+    const std::string at = "/joint/" + name, want = "/desired/joint/" + name;
+    out.scalar(at + "/angle", "rad", "measured, by the controller's scale",
+               [j](const Moment& m) { return m.measured.angle[j]; });
+    out.scalar(at + "/stiffness", "N m/rad", "as the controller believes it, [27], [60]",
+               [j](const Moment& m) { return m.measured.stiffness[j]; });
+    out.scalar(want + "/angle", "rad", "desired by the brain",
+               [j](const Moment& m) { return m.desired.joint[j].angle; });
+    out.scalar(want + "/stiffness", "N m/rad", "desired by the brain",
+               [j](const Moment& m) { return m.desired.joint[j].stiffness; });
+  }
+}
+
+// A gauge's counts by its own scale; a duty counts only while its joint is enabled and laws run.
+void muscle_columns(const robot::Robot& robot, Columns& out) {
+  for (std::size_t i = 0; i < robot.muscles.size(); ++i) {
+    const robot::Muscle& muscle = robot.muscles[i];
+    const std::string at = "/muscle/" + muscle.name;
+    const int s = robot::tension_sensor_of(robot, static_cast<int>(i));
+    const robot::Sensor& sensor = robot.sensors[static_cast<std::size_t>(s)];
+    const double per_volt = robot.converter.counts_per_volt();
+    const double believed = 1.0 / (sensor.assumed_scale * per_volt);
+    const double own = 1.0 / (sensor.scale * per_volt);
+    out.scalar(at + "/tension", "N", "measured, by its own transducer's scale; clips",
+               [=](const Moment& m) { return m.measured.tension[i] / believed * own; });
+
+    const auto j = static_cast<std::size_t>(robot::find_joint(robot, muscle.joint));
+    const bool flexor = muscle.role == robot::Muscle::Role::flexor;
+    const auto duty = [j](const Moment& m, std::int32_t percent) {
+      const bool active = m.seen.joint[j].enabled && m.seen.phase == control::Phase::running;
+      return active ? 0.01 * percent : 0.0;
+    };
+    out.scalar(at + "/inlet_duty", "1", "commanded share of the period", [=](const Moment& m) {
+      const control::Duties& d = m.seen.joint[j].duties;
+      return duty(m, flexor ? d.flexor_inlet : d.extensor_inlet);
+    });
+    out.scalar(at + "/exhaust_duty", "1", "commanded share of the period", [=](const Moment& m) {
+      const control::Duties& d = m.seen.joint[j].duties;
+      return duty(m, flexor ? d.flexor_exhaust : d.extensor_exhaust);
+    });
+  }
+}
+
+void plan_columns(Columns& out) {
+  out.scalar("/plan/phase", "1", "position in the experiment's phases; -1 outside",
+             [](const Moment& m) { return m.desired.phase; });
+  out.scalar("/plan/step", "1", "counts from 0", [](const Moment& m) { return m.desired.step; });
+  out.scalar("/plan/unreachable", "1", "1 while the nearest reachable point is held",
+             [](const Moment& m) { return m.desired.unreachable ? 1.0 : 0.0; });
+  out.vector("/desired/foot/position", "m", "about the first joint; none: not a number",
+             [](const Moment& m, double& x, double& y) {
+               x = m.desired.has_foot ? m.desired.foot.x : std::nan("");
+               y = m.desired.has_foot ? m.desired.foot.y : std::nan("");
+             });
+}
+
+void true_joint_columns(const robot::Robot& robot, Columns& out) {
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    const std::string at = "/true/joint/" + robot.joints[j].name;
+    out.scalar(at + "/angle", "rad", "of the simulated joint",
+               [j](const Moment& m) { return m.truth.angle[j]; });
+    out.scalar(at + "/velocity", "rad/s", "of the simulated joint",
+               [j](const Moment& m) { return m.truth.rate[j]; });
+    out.scalar(at + "/torque", "N m", "of its muscles",
+               [j](const Moment& m) { return m.truth.torque[j]; });
+  }
+}
+
+void true_muscle_columns(const robot::Robot& robot, Columns& out) {
+  for (std::size_t i = 0; i < robot.muscles.size(); ++i) {
+    const std::string at = "/true/muscle/" + robot.muscles[i].name;
+    out.scalar(at + "/tension", "N", "at the cord",
+               [i](const Moment& m) { return m.truth.tension[i]; });
+    out.scalar(at + "/pressure", "Pa", "absolute",
+               [i](const Moment& m) { return m.truth.pressure[i]; });
+    out.scalar(at + "/length", "m", "of the actuators",
+               [i](const Moment& m) { return m.truth.length[i]; });
+    out.scalar(at + "/mass", "kg", "of the air in the bundle",
+               [i](const Moment& m) { return m.truth.mass[i]; });
+    out.scalar(at + "/air_in", "kg", "from the supply since the start",
+               [i](const Moment& m) { return m.truth.air_in[i]; });
+    out.scalar(at + "/air_out", "kg", "to the atmosphere since the start",
+               [i](const Moment& m) { return m.truth.air_out[i]; });
+  }
+}
+
+void true_body_columns(const robot::Robot& robot, Columns& out) {
+  if (robot.trolley.present) {
+    out.scalar("/true/trolley/position", "m", "along the track",
+               [](const Moment& m) { return m.truth.x; });
+    out.scalar("/true/trolley/velocity", "m/s", "along the track",
+               [](const Moment& m) { return m.truth.x_rate; });
+  }
+  if (robot.foot.present) {
+    out.vector("/true/foot/position", "m", "of the ankle, about the first joint",
+               [](const Moment& m, double& x, double& y) {
+                 x = m.truth.foot_x;
+                 y = m.truth.foot_y;
+               });
+    out.vector("/true/foot/force", "N", "on the foot, by the ground",
+               [](const Moment& m, double& x, double& y) {
+                 x = m.truth.force_x;
+                 y = m.truth.force_y;
+               });
+  }
+  for (std::size_t i = 0; i < robot.foot.points.size(); ++i)
+    out.scalar("/true/foot/" + robot.foot.points[i].name + "/load", "N", "of the ground, up",
+               [i](const Moment& m) { return m.truth.disc_force[i]; });
+  if (!robot.rollers.present) return;
+  out.scalar("/true/roller/front/load", "N", "below 0: it has lifted off",
+             [](const Moment& m) { return m.truth.roller_front; });
+  out.scalar("/true/roller/rear/load", "N", "below 0: it has lifted off",
+             [](const Moment& m) { return m.truth.roller_rear; });
+}
+
+void true_cylinder_columns(const robot::Robot& robot, Columns& out) {
+  if (!moves(robot.cylinder)) return;
+  out.scalar("/true/cylinder/position", "m", "up from the extended stop",
+             [](const Moment& m) { return m.truth.lift; });
+  out.scalar("/true/cylinder/velocity", "m/s", "upwards",
+             [](const Moment& m) { return m.truth.lift_rate; });
+  for (const auto& [name, c] :
+       {std::pair{"up", std::size_t{0}}, std::pair{"down", std::size_t{1}}}) {
+    const std::string at = std::string("/true/cylinder/") + name;
+    out.scalar(at + "/pressure", "Pa", "absolute",
+               [c = c](const Moment& m) { return m.truth.cylinder_pressure[c]; });
+    out.scalar(at + "/air_in", "kg", "from the supply since the start",
+               [c = c](const Moment& m) { return m.truth.cylinder_in[c]; });
+    out.scalar(at + "/air_out", "kg", "to the atmosphere since the start",
+               [c = c](const Moment& m) { return m.truth.cylinder_out[c]; });
+  }
+}
+
+}  // namespace
+
+std::vector<Column> columns(const Experiment& e) {
+  Columns out;
+  joint_columns(e.robot, out);
+  muscle_columns(e.robot, out);
+  plan_columns(out);
+  true_joint_columns(e.robot, out);
+  true_muscle_columns(e.robot, out);
+  true_body_columns(e.robot, out);
+  true_cylinder_columns(e.robot, out);
+  return std::move(out.list);
+}
+
+std::vector<Topic> topics(const Experiment& e) {
+  std::vector<Topic> out;
+  for (Column& c : columns(e)) out.push_back(std::move(c.topic));
+  const auto valve = [&](const std::string& of, const char* which) {
+    out.push_back({"/valve/" + of + "/" + which + "/open",
+                   "electrical edges: 1 opens, 0 shuts",
+                   {{"value", "1"}}});
+  };
+  for (const robot::Muscle& m : e.robot.muscles)
+    for (const char* which : {"inlet", "exhaust"}) valve(m.name, which);
+  if (e.robot.cylinder.present && e.robot.cylinder.mode == robot::Cylinder::Mode::valves)
+    for (const char* chamber : {"cylinder_up", "cylinder_down"})
+      for (const char* which : {"inlet", "exhaust"}) valve(chamber, which);
+  return out;
+}
+
+}  // namespace sinew::experiment
