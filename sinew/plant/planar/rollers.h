@@ -22,6 +22,12 @@ struct Hanging {
   double force_x = 0, force_y = 0;  // R [N]
   double torque = 0;                // T [N m]
   double lift = 0;                  // y [m]
+
+  // A link's share of the momentum's rate: first moment c [kg m], sine, cosine, rate, acceleration.
+  void add(double c, double sine, double cosine, double rate, double turn) {
+    force_x -= c * (sine * turn + cosine * rate * rate);
+    force_y += c * (cosine * turn - sine * rate * rate);
+  }
 };
 
 struct RollerLoads {
