@@ -109,14 +109,12 @@ std::optional<muscle::Cylinder> cylinder_of(const Experiment& e) {
   if (!c.present || c.mode == Mode::locked) return {};
   muscle::Cylinder out{.bore = c.bore,
                        .rod_diameter = c.rod_diameter,
-                       .rod = muscle::Cylinder::Rod::in_up_chamber,
                        .stroke = c.stroke,
-                       .dead_volume_up = c.up.dead_volume,
-                       .dead_volume_down = c.down.dead_volume,
-                       .pressure = e.start.pressure};
+                       .dead_volume = {c.up.dead_volume, c.down.dead_volume},
+                       .pressure = c.pressure,
+                       .initial_pressure = {e.start.pressure, e.start.pressure}};
   if (c.mode == Mode::regulator) {
     out.mode = muscle::Cylinder::Mode::regulator;
-    out.pressure = c.pressure;
     return out;
   }
   for (const muscle::Side side : {muscle::up, muscle::down}) {
