@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/run_folder.h"
 #include "sinew/config/compose.h"
+#include "sinew/config/gains.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/log/reader.h"
@@ -85,6 +86,8 @@ Finding check(const std::string& path) {
       check_run(file, out);
     } else if (file.extension() == ".mcap") {
       check_log(file, out);
+    } else if (file.extension() == ".dat" && file.filename().string().starts_with("gain")) {
+      config::read_gains(path);
     } else if (file.extension() == ".dat") {
       check_timing(path, out);
     } else if (config::format_kind(config::parse_file(path)) == "plan") {
@@ -132,9 +135,9 @@ void add_check(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App& sub = subcommand(app, "check", "what is wrong with files, all of it at once",
                              "sinew check robots/leg/*.toml robots/leg/predict.dat");
-  sub.add_option(
-         "FILE", options->files,
-         "experiment, plan, robot, actuator, valves file, predict.dat, or a run's folder or log")
+  sub.add_option("FILE", options->files,
+                 "experiment, plan, robot, actuator, valves file, predict.dat, gain*.dat, or a "
+                 "run's folder or log")
       ->required();
   sub.add_flag("--json", options->json, "as JSON");
   sub.callback([=, &action] { action = [=] { return check_all(*options); }; });

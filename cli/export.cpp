@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <iostream>
+#include <sstream>
 
 #include "cli/command.h"
 #include "cli/globs.h"
@@ -11,6 +11,7 @@
 #include "sinew/analysis/derived.h"
 #include "sinew/analysis/machine.h"
 #include "sinew/config/compose.h"
+#include "sinew/experiment/out_dat.h"
 #include "sinew/log/csv.h"
 #include "sinew/log/reader.h"
 
@@ -20,6 +21,7 @@ namespace {
 
 struct Options {
   std::string run, out, machine;
+  std::string format = "csv";
   std::vector<std::string> channels;
   bool csv = false, derived = false, force = false, quiet = false;
 };
@@ -34,8 +36,33 @@ std::vector<std::string> chosen_topics(const Options& options, const signals::Ta
   return topics;
 }
 
+// What is only CSV's.
+void refuse_csv_options(const Options& options) {
+  if (options.format == "csv" || (options.channels.empty() && !options.derived)) return;
+  config::fail({"--format", 0, 0}, "", config::in_quotes(options.format),
+               "csv, for --channels and --derived");
+}
+
+experiment::Experiment experiment_of(const RecordedRun& run, const Options& options) {
+  return experiment::load(machine_of(run, options.machine).string());
+}
+
+std::string text_of(const RecordedRun& run, const Options& options, signals::Table table) {
+  if (options.format == "out.dat") return write_out_dat(table, experiment_of(run, options));
+
+  if (options.derived) {
+    const config::Node root = config::compose(machine_of(run, options.machine).string());
+    signals::Table derived = analysis::derive(table, analysis::read_machine(root));
+    for (signals::Series& s : derived.series) table.series.push_back(std::move(s));
+  }
+  std::ostringstream out;
+  log::write_csv(table, out, chosen_topics(options, table));
+  return std::move(out).str();
+}
+
 ExitCode export_run(const Options& options) {
   const Messages messages(options.quiet);
+  refuse_csv_options(options);
   const RecordedRun run = recorded_run(options.run);
   if (!options.out.empty()) refuse_to_overwrite(options.out, options.force);
 
@@ -43,17 +70,11 @@ ExitCode export_run(const Options& options) {
   if (!table.complete)
     messages.warning(
         fmt::format("{} was cut off; what stands before is exported", run.log.string()));
-  if (options.derived) {
-    const config::Node root = config::compose(machine_of(run, options.machine).string());
-    signals::Table derived = analysis::derive(table, analysis::read_machine(root));
-    for (signals::Series& s : derived.series) table.series.push_back(std::move(s));
-  }
-  const std::vector<std::string> topics = chosen_topics(options, table);
+  const std::string text = text_of(run, options, std::move(table));
   if (options.out.empty()) {
-    log::write_csv(table, std::cout, topics);
-    std::cout.flush();
+    fmt::print("{}", text);
   } else {
-    log::write_csv(table, std::filesystem::path(options.out), topics);
+    write_file(options.out, text);
     messages.note(options.out);
   }
   return ok;
@@ -63,13 +84,18 @@ ExitCode export_run(const Options& options) {
 
 void add_export(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(app, "export", "a run's log as CSV",
+  CLI::App& sub = subcommand(app, "export", "a run's log as CSV, or as the thesis's out.dat",
                              "sinew export runs/walk-test-1/1 --csv -o walk.csv");
   sub.add_option("DIR", options->run, "a run's folder, or a log file")->required();
-  sub.add_flag("--csv", options->csv, "as CSV: time [s], then a column per channel")->required();
+  CLI::App& how = *sub.add_option_group("format");
+  how.add_option("--format", options->format,
+                 "csv: time [s], then a column per channel; out.dat: the log of B.1")
+      ->check(CLI::IsMember({"csv", "out.dat"}));
+  how.add_flag("--csv", options->csv, "the same as --format csv");
+  how.require_option(1);
   sub.add_option("-o,--output", options->out, "the file to write; else stdout");
-  sub.add_option("--channels", options->channels, "topics only; * stands for anything");
-  sub.add_flag("--derived", options->derived, "also what the analysis derives");
+  sub.add_option("--channels", options->channels, "csv: topics only; * stands for anything");
+  sub.add_flag("--derived", options->derived, "csv: also what the analysis derives");
   sub.add_option("--machine", options->machine, "what was run, in place of the folder's");
   sub.add_flag("--force", options->force, "replace the file");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");

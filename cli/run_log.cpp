@@ -1,5 +1,7 @@
 #include "cli/run_log.h"
 
+#include <algorithm>
+
 #include "cli/globs.h"
 
 namespace sinew::cli {
@@ -30,6 +32,15 @@ LoggedTopics logged_topics(const experiment::Experiment& e) {
   return out;
 }
 
+LoggedTopics logged_topics(const signals::Table& table) {
+  LoggedTopics out;
+  for (const signals::Series& s : table.series) {
+    out.of_series.push_back(static_cast<std::uint16_t>(out.topics.size()));
+    out.topics.push_back(s.topic);
+  }
+  return out;
+}
+
 RunLog::RunLog(const std::filesystem::path& file, const experiment::Experiment& e,
                const std::string& resolved, LoggedTopics logged)
     : of_series_(std::move(logged.of_series)),
@@ -39,6 +50,26 @@ RunLog::RunLog(const std::filesystem::path& file, const experiment::Experiment& 
                {"version", SINEW_VERSION},
                {"resolved", resolved}},
               {.version = SINEW_VERSION}) {}
+
+void RunLog::write(const signals::Table& table) {
+  struct At {
+    std::int64_t time_ns;
+    std::uint16_t topic;
+    std::size_t sample;
+  };
+  std::vector<At> all;
+  for (std::size_t s = 0; s < table.series.size(); ++s)
+    for (std::size_t i = 0; i < table.series[s].time_ns.size(); ++i)
+      all.push_back({table.series[s].time_ns[i], of_series_[s], i});
+  std::ranges::stable_sort(all, {}, &At::time_ns);
+
+  std::vector<double> values;
+  for (const At& at : all) {
+    values.clear();
+    for (const auto& column : table.series[at.topic].columns) values.push_back(column[at.sample]);
+    writer_.push(at.topic, at.time_ns, values);
+  }
+}
 
 void RunLog::tap(experiment::RunOptions& options) {
   options.tap = {&writer_, push};

@@ -15,6 +15,9 @@ struct LoggedTopics {
   std::vector<std::uint16_t> of_series;  // their places, by the recorder's order
 };
 
+// All of a table's.
+LoggedTopics logged_topics(const signals::Table& table);
+
 // By log.channels. Throws config::Error where a pattern means no topic.
 LoggedTopics logged_topics(const experiment::Experiment& experiment);
 
@@ -23,6 +26,9 @@ class RunLog {
   // Throws log::Error where the file cannot be made.
   RunLog(const std::filesystem::path& file, const experiment::Experiment& experiment,
          const std::string& resolved, LoggedTopics logged);
+
+  // A table that is there already, in the order of its times.
+  void write(const signals::Table& table);
 
   // The log must outlive the run.
   void tap(experiment::RunOptions& options);

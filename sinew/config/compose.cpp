@@ -6,6 +6,8 @@
 #include <charconv>
 #include <filesystem>
 
+#include "sinew/config/gains.h"
+
 namespace sinew::config {
 
 namespace {
@@ -170,6 +172,12 @@ void add_valve_timing(Node& root, const Node& entry) {
   low_level.put(make_text("valve_timing", path, entry.where));
 }
 
+// An experiment's also says which stiffness the first joint is asked for.
+void add_gains(Node& root, const Node& entry) {
+  check_file_entry(entry, "files.gains");
+  put_gains(root, entry, resolved_path(entry), format_kind(root) == "experiment");
+}
+
 // Takes `files` out of the tree and puts in what it names.
 void resolve_files(Node& root) {
   const Node* there = root.find("files");
@@ -184,8 +192,10 @@ void resolve_files(Node& root) {
       put_valves(root, load_named(entry, "files.valves", "valves"));
     } else if (entry.key == "valve_timing") {
       add_valve_timing(root, entry);
+    } else if (entry.key == "gains") {
+      add_gains(root, entry);
     } else {
-      const std::vector<std::string_view> known = {"actuator", "valves", "valve_timing"};
+      const std::vector<std::string_view> known = {"actuator", "valves", "valve_timing", "gains"};
       fail(entry.where, "files." + entry.key, "an unknown key", either(known),
            std::string(closest(entry.key, known)));
     }

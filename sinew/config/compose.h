@@ -5,6 +5,7 @@
 //                   ── files.actuator      actuator.<name>
 //                   ── files.valves        valve.<name>
 //                   ── files.valve_timing  low_level.valve_timing, an absolute path
+//                   ── files.gains         joint.<name>.angle_gain … (gains.h); an experiment's too
 //              ── --set key=value          last word
 //
 // The result holds what `--set` and messages call a key: joint.hip.damping, valve.inlet.area,

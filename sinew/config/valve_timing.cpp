@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/rows.h"
 #include "sinew/config/text_file.h"
 
 namespace sinew::config {
@@ -18,56 +19,18 @@ constexpr std::array<std::string_view, columns> column_names = {"duty", "close",
 
 using Row = std::array<int, columns>;
 
-// Collects what is wrong, row by row; stops talking after a handful.
-class Checker {
- public:
-  explicit Checker(std::string name) : name_(std::move(name)) {}
-
-  void add(int line, int column, std::string_view key, std::string found, std::string expected,
-           std::string try_this = "") {
-    if (problems_.size() < most) {
-      problems_.push_back({{name_, line, column},
-                           std::string(key),
-                           std::move(found),
-                           std::move(expected),
-                           std::move(try_this)});
-    }
-  }
-  bool ok() const { return problems_.empty(); }
-  void finish() const {
-    if (!problems_.empty()) throw Error(problems_);
-  }
-
- private:
-  static constexpr std::size_t most = 10;
-  std::string name_;
-  std::vector<Problem> problems_;
-};
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-bool parse_row(std::string_view text, int line, Row& row, Checker& checker) {
-  std::vector<std::string_view> cells;
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', start), text.size());
-    cells.push_back(text.substr(start, comma - start));
-    start = comma + 1;
-  }
+bool parse_row(std::string_view text, int line, Row& row, RowProblems& problems) {
+  const std::vector<Cell> cells = cells_of(text);
   if (cells.size() != columns) {
-    checker.add(line, 1, "", fmt::format("{} columns", cells.size()), "duty,close,open",
-                "a comma between whole numbers");
+    problems.add(line, 1, "", fmt::format("{} columns", cells.size()), "duty,close,open",
+                 "a comma between whole numbers");
     return false;
   }
   for (std::size_t i = 0; i < columns; ++i) {
-    const std::string_view cell = trimmed(cells[i]);
-    const int column = static_cast<int>(cells[i].data() - text.data()) + 1;
+    const auto& [cell, column] = cells[i];
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), row[i]);
     if (error != std::errc{} || end != cell.data() + cell.size()) {
-      checker.add(line, column, column_names[i], in_quotes(cell), "a whole number of ticks");
+      problems.add(line, column, column_names[i], in_quotes(cell), "a whole number of ticks");
       return false;
     }
   }
@@ -75,24 +38,24 @@ bool parse_row(std::string_view text, int line, Row& row, Checker& checker) {
 }
 
 // Against the row above: the duty counts up, a larger duty never closes earlier.
-void check_row(const Row& row, int line, int duty, const Row& last, Checker& checker) {
+void check_row(const Row& row, int line, int duty, const Row& last, RowProblems& problems) {
   if (row[0] != duty) {
-    checker.add(line, 1, "duty", std::to_string(row[0]), std::to_string(duty),
-                "one row per percent, 0 to 100 in order");
+    problems.add(line, 1, "duty", std::to_string(row[0]), std::to_string(duty),
+                 "one row per percent, 0 to 100 in order");
   }
   for (std::size_t i = 1; i < columns; ++i) {
     if (row[i] >= 0 && row[i] <= ValveTiming::never) continue;
-    checker.add(line, 1, column_names[i], std::to_string(row[i]),
-                fmt::format("0 to {} ticks", ValveTiming::never),
-                fmt::format("{} for never", ValveTiming::never));
+    problems.add(line, 1, column_names[i], std::to_string(row[i]),
+                 fmt::format("0 to {} ticks", ValveTiming::never),
+                 fmt::format("{} for never", ValveTiming::never));
   }
   if (row[1] < last[1]) {
-    checker.add(line, 1, "close", fmt::format("{} after {}", row[1], last[1]),
-                "a closing tick that does not fall as the duty rises");
+    problems.add(line, 1, "close", fmt::format("{} after {}", row[1], last[1]),
+                 "a closing tick that does not fall as the duty rises");
   }
   if (row[2] > last[2] && row[2] <= ValveTiming::never) {
-    checker.add(line, 1, "open", fmt::format("{} after {}", row[2], last[2]),
-                "an opening tick that does not rise as the duty rises");
+    problems.add(line, 1, "open", fmt::format("{} after {}", row[2], last[2]),
+                 "an opening tick that does not rise as the duty rises");
   }
 }
 
@@ -100,21 +63,21 @@ void check_row(const Row& row, int line, int duty, const Row& last, Checker& che
 
 ValveTiming parse_valve_timing(std::string_view text, const std::string& name) {
   ValveTiming timing;
-  Checker checker(name);
+  RowProblems problems(name);
   std::istringstream lines{std::string(text)};
   std::string line_text;
   int line = 0, duty = 0;
   Row last = {0, 0, ValveTiming::never};
   while (std::getline(lines, line_text)) {
     ++line;
-    if (trimmed(line_text).empty()) continue;
+    if (trimmed_row(line_text).empty()) continue;
     if (duty == ValveTiming::rows) {
-      checker.add(line, 1, "", "a row more", fmt::format("{} rows", ValveTiming::rows));
+      problems.add(line, 1, "", "a row more", fmt::format("{} rows", ValveTiming::rows));
       break;
     }
     Row row{};
-    if (parse_row(line_text, line, row, checker)) {
-      check_row(row, line, duty, last, checker);
+    if (parse_row(line_text, line, row, problems)) {
+      check_row(row, line, duty, last, problems);
       last = row;
       const auto index = static_cast<std::size_t>(duty);
       timing.closing[index] = static_cast<std::uint16_t>(row[1]);
@@ -123,11 +86,11 @@ ValveTiming parse_valve_timing(std::string_view text, const std::string& name) {
     ++duty;
   }
   if (duty < ValveTiming::rows) {
-    checker.add(line, 1, "", fmt::format("{} rows of {}", duty, ValveTiming::rows),
-                fmt::format("{} rows, duty 0 to 100", ValveTiming::rows),
-                "a fresh copy: this one is cut short");
+    problems.add(line, 1, "", fmt::format("{} rows of {}", duty, ValveTiming::rows),
+                 fmt::format("{} rows, duty 0 to 100", ValveTiming::rows),
+                 "a fresh copy: this one is cut short");
   }
-  checker.finish();
+  problems.finish();
   return timing;
 }
 

@@ -1,0 +1,69 @@
+// cli/import.cpp - `sinew import`: the thesis's own log, out.dat, as the folder of a run.
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/report.h"
+#include "cli/run_folder.h"
+#include "cli/run_log.h"
+#include "cli/terminal.h"
+#include "sinew/config/text_file.h"
+#include "sinew/experiment/out_dat.h"
+
+namespace sinew::cli {
+
+namespace {
+
+struct Options {
+  std::string file, experiment, folder;
+  std::vector<std::string> sets;
+  bool force = false, json = false, quiet = false;
+};
+
+ExitCode import_log(const Options& options) {
+  const Messages messages(options.quiet);
+  const experiment::Experiment e = experiment::load(options.experiment, options.sets);
+  const signals::Table table = experiment::parse_out_dat(
+      config::read_text_file(options.file, "a log out.dat"), options.file, e);
+
+  const std::string resolved = experiment::resolved(e, SINEW_VERSION);
+  const analysis::Machine machine =
+      analysis::read_machine(config::parse_text(resolved, std::string(resolved_name)));
+  const analysis::Summary summary = analysis::summarize(table, machine);
+  const std::string json = to_json(summary);
+
+  const std::filesystem::path folder = options.folder.empty()
+                                           ? next_run_folder(e.name)
+                                           : chosen_run_folder(options.folder, options.force);
+  write_file(folder / resolved_name, resolved);
+  RunLog log(folder / log_name, e, resolved, logged_topics(table));
+  log.write(table);
+  log.finish();
+  write_file(folder / summary_name, json);
+
+  if (options.json) {
+    fmt::print("{}", json);
+  } else {
+    print_verdicts(summary, machine);
+  }
+  messages.note(folder.string());
+  return ok;
+}
+
+}  // namespace
+
+void add_import(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App& sub = subcommand(app, "import", "the thesis's log, out.dat, as the folder of a run",
+                             "sinew import out.dat --experiment experiments/walk-test-1.toml");
+  sub.add_option("FILE", options->file, "out.dat, as B.1 or sinew export writes it")->required();
+  sub.add_option("--experiment", options->experiment, "what was run: its robot, phases, scales")
+      ->required();
+  sub.add_option("-o,--output", options->folder, "folder; else runs/<experiment>/<n>, counting up");
+  sub.add_flag("--force", options->force, "replace the run that is in the folder");
+  add_sets(sub, options->sets);
+  sub.add_flag("--json", options->json, "print summary.json");
+  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
+  sub.callback([=, &action] { action = [=] { return import_log(*options); }; });
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,37 @@
+#include "sinew/config/rows.h"
+
+#include <algorithm>
+
+namespace sinew::config {
+
+std::string_view trimmed_row(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::vector<Cell> cells_of(std::string_view line) {
+  std::vector<Cell> cells;
+  for (std::size_t start = 0; start <= line.size();) {
+    const std::size_t comma = std::min(line.find(',', start), line.size());
+    const std::string_view cell = trimmed_row(line.substr(start, comma - start));
+    const std::size_t at =
+        cell.empty() ? start : static_cast<std::size_t>(cell.data() - line.data());
+    cells.push_back({cell, static_cast<int>(at) + 1});
+    start = comma + 1;
+  }
+  return cells;
+}
+
+void RowProblems::add(int line, int column, std::string_view key, std::string found,
+                      std::string expected, std::string try_this) {
+  constexpr std::size_t most = 10;
+  if (problems_.size() >= most) return;
+  problems_.push_back({{name_, line, column},
+                       std::string(key),
+                       std::move(found),
+                       std::move(expected),
+                       std::move(try_this)});
+}
+
+}  // namespace sinew::config
