@@ -78,6 +78,7 @@ void run(const SpineConfig& config, std::uint32_t seed, Hash& hash) {
     for (const signals::Edge& e : spine.edges(t)) {
       hash.add(static_cast<std::uint32_t>(e.at));
       hash.add(2u * e.valve.index + e.open);
+      hash.add(static_cast<std::uint32_t>(e.level));
     }
     if (const signals::Conversion* c = spine.due(t)) {
       const auto status = random.below(50) == 0 ? signals::Status::late : signals::Status::ok;
@@ -88,6 +89,7 @@ void run(const SpineConfig& config, std::uint32_t seed, Hash& hash) {
       hash.add(s.stiffness);
       hash.add(s.stiffness_output);
       hash.add(s.angle_output);
+      hash.add(s.velocity);
       for (const std::int32_t d : {s.duties.flexor_inlet, s.duties.flexor_exhaust,
                                    s.duties.extensor_inlet, s.duties.extensor_exhaust})
         hash.add(d);
@@ -101,6 +103,55 @@ void print_hex(std::uint64_t x) {
   text[16] = '\n';
   text[17] = '\0';
   print(text);
+}
+
+// One source of stiffness and one estimator per joint: hip, knee.
+SpineConfig other_sensors(control::Estimator hip, control::Estimator knee) {
+  SpineConfig config = control::test_leg();
+  const auto set = [&](control::JointConfig& joint, control::Estimator estimator) {
+    joint.velocity = {.estimator = estimator,
+                      .samples = 5,
+                      .weight = control::line_weights(5, 100.0f),
+                      .decay = 0.93f,
+                      .speed_gain = 0.11f,
+                      .margin = 150.0f,
+                      .limit = 3000.0f,
+                      .travel = 0.0096f,
+                      .travel_gain = 0.0006f,
+                      .angle_share = 0.31f,
+                      .speed_share = 7.7f,
+                      .channel = {0},
+                      .at_rest = 2048,
+                      .scale = 1.7f};
+    joint.stiffness_source = control::StiffnessSource::pressure;
+    for (control::MuscleConfig* m : {&joint.flexor, &joint.extensor}) {
+      m->pressure = m->tension;
+      m->pressure_factor = 3e-6f;
+      m->effectiveness = {0.997f, 1e-5f, -3e-9f};
+    }
+  };
+  set(config.joint[control::hip], hip);
+  set(config.joint[control::knee], knee);
+  config.dead_band = 3;
+  return config;
+}
+
+// 3-way valves at the hip, regulators at the knee; a muscle over both joints.
+void other_machines(Hash& hash) {
+  using enum control::Estimator;
+  SpineConfig config = other_sensors(weighted_average, kalman);
+  run(config, 3, hash);
+  control::JointConfig &hip = config.joint[control::hip], &knee = config.joint[control::knee];
+  knee.extensor.inlet = hip.extensor.inlet;
+  knee.extensor.exhaust = hip.extensor.exhaust;
+  knee.extensor.share = 0.3f, hip.extensor.share = 0.7f;
+  knee.extensor.other_travel = -0.43f;
+  run(config, 4, hash);
+  config = other_sensors(bounded_observer, sensor);
+  config.joint[control::hip].kind = control::JointKind::three_way;
+  config.joint[control::knee].kind = control::JointKind::regulated;
+  config.joint[control::knee].regulator = {0.003f, 0.1f};
+  run(config, 5, hash);
 }
 
 }  // namespace
@@ -118,6 +169,7 @@ void same_bits() {
     config.joint[control::hip].pole_clamp = -10'000;  // through the pole as well
     run(config, 2, hash);
   }
+  other_machines(hash);
   print_hex(hash.value());
 }
 

@@ -74,7 +74,7 @@ control::JointConfig joint_config(const Experiment& e, int index) {
     thread = robot::actuator_of(robot.muscles[static_cast<std::size_t>(flexor)], e.actuators)
                  .braid.thread_length;
   const auto counts = static_cast<std::int32_t>(thread * counts_per_metre);
-  c.thread_length_squared = counts * counts;
+  c.flexor.thread_length_squared = c.extensor.thread_length_squared = counts * counts;
   set_stiffness_factor(robot, joint, sensor.assumed_scale, flexor, c);
   c.pole_clamp = static_cast<std::int32_t>(
       std::lround(robot.low_level.stiffness_pole_clamp * sensor.assumed_scale));

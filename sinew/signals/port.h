@@ -26,6 +26,7 @@ struct Valve {
 enum class Status : std::uint8_t { ok, late, invalid, ended, fault };  // ended and fault are sticky
 
 inline constexpr std::uint16_t max_counts = 4095;  // of the 12-bit converter, 4.1
+inline constexpr std::uint16_t max_level = 4095;   // of a regulator's set point, 12 bits as well
 
 struct Reading {
   std::uint16_t counts = 0;  // the last good value unless status == ok
@@ -48,7 +49,8 @@ struct Scan {
 struct Edge {
   Tick at = 0;  // acts on [at, infinity)
   Valve valve;
-  bool open = false;
+  bool open = false;        // of a regulator: is the set point above 0?
+  std::uint16_t level = 0;  // set point of a regulator, 0 .. max_level; on/off valves ignore it
 };
 
 class Port {

@@ -162,7 +162,7 @@ TEST(Reference, low_levels_constants) {
   ASSERT_EQ(config.joints, 2u);
   for (std::size_t j = 0; j < 2; ++j) {
     const control::JointConfig& c = config.joint[j];
-    EXPECT_EQ(c.thread_length_squared, printed("b_sq_counts"));
+    EXPECT_EQ(c.flexor.thread_length_squared, printed("b_sq_counts"));
     EXPECT_EQ(c.flexor.free_length, printed("free_length_counts"));
     EXPECT_EQ(c.extensor.free_length, printed("free_length_counts"));
     EXPECT_EQ(c.stiffness_factor, static_cast<float>(printed("stiffness_factor")));

@@ -31,47 +31,129 @@ const char* problem_of_scan(const SpineConfig& config) noexcept {
   return nullptr;
 }
 
-const char* problem_of_muscle(const SpineConfig& config, const MuscleConfig& muscle,
-                              JointKind kind) noexcept {
+bool within(float x, float limit) noexcept { return x >= -limit && x <= limit; }
+
+// Both may be open together only in a cylinder.
+bool has_exhaust(JointKind kind) noexcept {
+  return kind == JointKind::antagonist || kind == JointKind::cylinder;
+}
+
+const char* problem_of_muscle(const MuscleConfig& muscle, JointKind kind) noexcept {
   if (muscle.free_length < 0 || muscle.free_length > max_length) return "free_length out of range";
-  if (kind == JointKind::antagonist && !converted(config, muscle.tension))
-    return "a tension is not among the conversions";
+  if (muscle.thread_length_squared <= 0 || muscle.thread_length_squared >= 1 << 30)
+    return "thread_length_squared out of range";
+  if (!(muscle.share >= 0 && muscle.share <= 1)) return "a muscle's share must be 0 to 1";
+  if (!within(muscle.other_travel, 100)) return "other_travel out of range";
+  if (!within(muscle.tension_ratio, 1000)) return "tension_ratio out of range";
+  if (!within(muscle.pressure_factor, 1)) return "pressure_factor out of range";
+  if (muscle.exhaust_inverted && !has_exhaust(kind)) return "no exhaust that could be inverted";
   return nullptr;
 }
 
+const char* problem_of_velocity(const VelocityConfig& v) noexcept {
+  if (v.estimator == Estimator::weighted_average && (v.samples < 2 || v.samples > max_samples))
+    return "a weighted average needs 2 to 16 samples";
+  for (const float x : {v.decay, v.speed_gain, v.travel, v.travel_gain, v.angle_share,
+                        v.speed_share, v.scale})
+    if (!within(x, 1e5f)) return "a constant of the velocity estimator is out of range";
+  if (!(v.margin >= 0) || !(v.limit >= 0 && v.limit <= speed_limit))
+    return "the velocity's margin and limit must not be negative";
+  return nullptr;
+}
+
+// A source that one muscle cannot give.
+bool source_without_muscle(const JointConfig& joint) noexcept {
+  return (joint.stiffness_source == StiffnessSource::flexor_force && !joint.flexor.present) ||
+         (joint.stiffness_source == StiffnessSource::extensor_force && !joint.extensor.present);
+}
+
 const char* problem_of_joint(const SpineConfig& config, const JointConfig& joint) noexcept {
+  if (joint.kind == JointKind::passive)
+    return joint.flexor.present || joint.extensor.present ? "a passive joint has no muscles"
+                                                          : nullptr;
   if (joint.flexion != 1 && joint.flexion != -1) return "flexion must be +1 or -1";
   if (!read_at(config, joint.law_tick)) return "no conversion is read at a joint's law_tick";
-  if (!converted(config, joint.angle)) return "a joint's angle is not among the conversions";
-  if (joint.thread_length_squared <= 0 || joint.thread_length_squared >= 1 << 30)
-    return "thread_length_squared out of range";
+  for (const signals::Channel c : readings_of(joint))
+    if (!converted(config, c)) return "an angle, tension, pressure or velocity is not converted";
   if (joint.angle_at_rest < 0 || joint.angle_at_rest > max_length)
     return "angle_at_rest out of range";
   if (joint.pole_clamp < -max_length || joint.pole_clamp > max_length)
     return "pole_clamp out of range";
   for (const std::int32_t duty :
        {joint.feedforward.flexor_inlet, joint.feedforward.flexor_exhaust,
-        joint.feedforward.extensor_inlet, joint.feedforward.extensor_exhaust})
+        joint.feedforward.extensor_inlet, joint.feedforward.extensor_exhaust, joint.bias})
     if (duty < 0 || duty > signals::max_duty) return "feedforward duties must be 0 to 100 %";
-  if (const char* p = problem_of_muscle(config, joint.flexor, joint.kind)) return p;
-  return problem_of_muscle(config, joint.extensor, joint.kind);
+  if (source_without_muscle(joint)) return "the stiffness source is a muscle that is not there";
+  if (const char* p = problem_of_velocity(joint.velocity)) return p;
+  if (const char* p = problem_of_muscle(joint.flexor, joint.kind)) return p;
+  return problem_of_muscle(joint.extensor, joint.kind);
 }
 
-// One coil, one pulse train.
-bool valves_differ(const SpineConfig& config) noexcept {
-  std::array<bool, 256> used{};
+// One coil, one pulse train: valves differ, but for the two of a muscle over two joints.
+struct Owner {
+  bool taken = false;
+  std::uint8_t times = 0;           // as an inlet
+  std::uint8_t joint = 0;           // that named it first
+  const MuscleConfig* muscle = nullptr;  // as an inlet
+};
+
+const char* problem_of_inlet(const SpineConfig& config, std::size_t j, const MuscleConfig& m,
+                             Owner& owner) noexcept {
+  if (!owner.taken) {
+    owner = {true, 1, static_cast<std::uint8_t>(j), &m};
+    return nullptr;
+  }
+  const bool both_seal = config.joint[owner.joint].kind == JointKind::antagonist &&
+                         config.joint[j].kind == JointKind::antagonist;
+  if (!owner.muscle || owner.joint == j || ++owner.times > 2 || !both_seal ||
+      owner.muscle->exhaust.index != m.exhaust.index)
+    return "two muscles use the same valve";
+  return nullptr;
+}
+
+const char* problem_of_valves(const SpineConfig& config) noexcept {
+  std::array<Owner, 256> owner{};
   for (std::size_t j = 0; j < config.joints; ++j) {
     const JointConfig& joint = config.joint[j];
-    for (const MuscleConfig* m : {&joint.flexor, &joint.extensor})
-      for (const signals::Valve v : {m->inlet, m->exhaust}) {
-        if (used[v.index]) return false;
-        used[v.index] = true;
-      }
+    for (const MuscleConfig* m : {&joint.flexor, &joint.extensor}) {
+      if (!m->present) continue;
+      Owner& inlet = owner[m->inlet.index];
+      const bool shared = inlet.muscle != nullptr;
+      if (const char* p = problem_of_inlet(config, j, *m, inlet)) return p;
+      if (shared || !has_exhaust(joint.kind)) continue;
+      if (owner[m->exhaust.index].taken) return "two muscles use the same valve";
+      owner[m->exhaust.index].taken = true;
+      if (m->exhaust_inverted && config.startup_vent == 0)
+        return "an inverted exhaust is open until it is driven: it needs a startup_vent";
+    }
   }
-  return true;
+  return nullptr;
+}
+
+void need(Readings& readings, signals::Channel channel) noexcept {
+  readings.channel[readings.count++] = channel;
 }
 
 }  // namespace
+
+Readings readings_of(const JointConfig& joint) noexcept {
+  Readings out;
+  if (joint.kind == JointKind::passive) return out;
+  need(out, joint.angle);
+  if (joint.kind == JointKind::cylinder) return out;
+
+  using enum StiffnessSource;
+  const StiffnessSource from = joint.stiffness_source;
+  const bool moves = joint.velocity.speed_gain != 0;
+  const bool flexor = from == force || from == flexor_force || moves;
+  const bool extensor = from == force || from == extensor_force || moves;
+  if (joint.flexor.present && flexor) need(out, joint.flexor.tension);
+  if (joint.extensor.present && extensor) need(out, joint.extensor.tension);
+  if (joint.flexor.present && from == pressure) need(out, joint.flexor.pressure);
+  if (joint.extensor.present && from == pressure) need(out, joint.extensor.pressure);
+  if (joint.velocity.estimator == Estimator::sensor) need(out, joint.velocity.channel);
+  return out;
+}
 
 const char* problem(const SpineConfig& config) noexcept {
   if (config.joints > max_joints) return "more joints than max_joints";
@@ -83,8 +165,9 @@ const char* problem(const SpineConfig& config) noexcept {
   if (const char* p = problem_of_scan(config)) return p;
   for (std::size_t j = 0; j < config.joints; ++j)
     if (const char* p = problem_of_joint(config, config.joint[j])) return p;
-  if (!valves_differ(config)) return "two muscles use the same valve";
-  return nullptr;
+  if (config.dead_band < 0 || config.dead_band > signals::max_duty)
+    return "dead_band must be 0 to 100 %";
+  return problem_of_valves(config);
 }
 
 Command rest_command(const SpineConfig& config) noexcept {

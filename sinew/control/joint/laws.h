@@ -14,7 +14,7 @@
 // Departures from appendix B, all outside what the leg's runs reach:
 //   - near its pole [27] gives no value, where the code casts whatever it finds to `short`
 //   - outputs and sums saturate, where the code's `short` wraps
-//   - the speed is the step times 100/s, where the code divides by the double 0.01, which is larger
+//   - the speed is by default the step times 100/s, where the code divides by the double 0.01, which is larger
 //     by 2e-17: an output that is a whole number but for that comes out one lower in the code
 #pragma once
 
@@ -26,22 +26,24 @@
 
 namespace sinew::control {
 
-struct Lengths {
-  std::int32_t flexor, extensor;  // [count]
+// Of a joint's two muscles.
+struct Pair {
+  std::int32_t flexor = 0, extensor = 0;  // lengths, readings [count], or signed duties [%]
 };
 
 // A muscle shortens by as many counts as the joint turns towards it. `lengths_swapped` is the
 // code's way at the knee, where it forgets that flexion lowers the angle.
-constexpr Lengths muscle_lengths(const JointConfig& joint, std::int32_t angle) noexcept {
+constexpr Pair muscle_lengths(const JointConfig& joint, std::int32_t angle) noexcept {
   const std::int32_t towards = joint.lengths_swapped ? -joint.flexion : joint.flexion;
   const std::int32_t flexed = towards * (angle - joint.angle_at_rest);
   return {joint.flexor.free_length - flexed, joint.extensor.free_length + flexed};
 }
 
 // Shorter than the pole of [27], L = b/sqrt(3), plus `clamp`.
-constexpr bool near_pole(const JointConfig& joint, std::int32_t length) noexcept {
-  const std::int64_t above = length - joint.pole_clamp;
-  return above <= 0 || 3 * above * above <= joint.thread_length_squared;
+constexpr bool near_pole(const MuscleConfig& muscle, std::int32_t clamp,
+                         std::int32_t length) noexcept {
+  const std::int64_t above = std::int64_t{length} - clamp;
+  return above <= 0 || 3 * above * above <= muscle.thread_length_squared;
 }
 
 // 3 L - b^2/L of [27], [count]; 0 where there is none. The code divides whole numbers.
@@ -57,20 +59,62 @@ struct Stiffness {
   bool valid = false;  // false: a muscle is too near the pole, keep the last one
 };
 
+// A muscle's F/(3 L - b^2/L), in counts of the flexor's transducer; 0 of one that is not there.
+constexpr Stiffness tension_share(const MuscleConfig& muscle, const JointConfig& joint,
+                                  Truncation mode, std::int32_t length, float tension) noexcept {
+  if (!muscle.present) return {0, true};
+  if (near_pole(muscle, joint.pole_clamp, length)) return {};
+  const float pole = pole_term(length, muscle.thread_length_squared, mode);
+  if (pole == 0) return {};
+  return {tension / pole, true};
+}
+
 // [60] with [27], tensions in counts. One pair of actuators or several in parallel: the tension is
-// the bundle's, so is the stiffness (thesis 5.1).
+// the bundle's, so is the stiffness (thesis 5.1). With one transducer the other muscle is taken to
+// pull as hard: right for a joint at rest without a load, and what it carries besides is an error
+// of the stiffness.
+constexpr Stiffness joint_stiffness(const JointConfig& joint, Truncation mode, const Pair& length,
+                                    const Pair& tension) noexcept {
+  float flexor_tension = static_cast<float>(tension.flexor);
+  float extensor_tension = joint.extensor.tension_ratio * static_cast<float>(tension.extensor);
+  if (joint.stiffness_source == StiffnessSource::flexor_force) extensor_tension = flexor_tension;
+  if (joint.stiffness_source == StiffnessSource::extensor_force) flexor_tension = extensor_tension;
+
+  const Stiffness flexor =
+      tension_share(joint.flexor, joint, mode, length.flexor, flexor_tension);
+  const Stiffness extensor =
+      tension_share(joint.extensor, joint, mode, length.extensor, extensor_tension);
+  if (!flexor.valid || !extensor.valid) return {};
+  const float six = 6.0f * joint.stiffness_factor * joint.moment_arm_factor;
+  return {six * (flexor.value + extensor.value), true};
+}
+
+// The same where nothing but the joint's own angle moves its muscles.
 constexpr Stiffness joint_stiffness(const JointConfig& joint, Truncation mode, std::int32_t angle,
                                     std::int32_t flexor_tension,
                                     std::int32_t extensor_tension) noexcept {
-  const Lengths length = muscle_lengths(joint, angle);
-  if (near_pole(joint, length.flexor) || near_pole(joint, length.extensor)) return {};
-  const float flexor = pole_term(length.flexor, joint.thread_length_squared, mode);
-  const float extensor = pole_term(length.extensor, joint.thread_length_squared, mode);
-  if (flexor == 0 || extensor == 0) return {};
-  const float six = 6.0f * joint.stiffness_factor * joint.moment_arm_factor;
-  return {six * (static_cast<float>(flexor_tension) / flexor +
-                 static_cast<float>(extensor_tension) / extensor),
-          true};
+  return joint_stiffness(joint, mode, muscle_lengths(joint, angle),
+                         {flexor_tension, extensor_tension});
+}
+
+// [26] of one muscle from its gauge pressure, with [30]:  k = factor L p Eff(p)  [lbf in/rad].
+// No pole: what [27] divides by is not there. A vacuum gives none.
+constexpr float pressure_stiffness(const MuscleConfig& muscle, std::int32_t length,
+                                   std::int32_t reading) noexcept {
+  const float p = static_cast<float>(reading - muscle.pressure_at_zero);
+  if (!muscle.present || !(p > 0)) return 0;
+  const float low = p < muscle.valid_from ? muscle.valid_from : p;
+  const float inside = low > muscle.valid_to ? muscle.valid_to : low;
+  const auto& e = muscle.effectiveness;
+  const float eff = e[0] + inside * (e[1] + inside * e[2]);
+  return muscle.pressure_factor * static_cast<float>(length) * p * eff;
+}
+
+// [60] with [26].
+constexpr float joint_stiffness_from_pressure(const JointConfig& joint, const Pair& length,
+                                              const Pair& pressure) noexcept {
+  return pressure_stiffness(joint.flexor, length.flexor, pressure.flexor) +
+         pressure_stiffness(joint.extensor, length.extensor, pressure.extensor);
 }
 
 inline constexpr float gain_limit = 1000.0f;
@@ -83,13 +127,13 @@ constexpr Exact stiffness_law(float gain, float desired, float actual) noexcept 
          two_sum(clamped(desired, stiffness_limit), -clamped(actual, stiffness_limit));
 }
 
-// [59], with the velocity term of appendix B. `rate`: laws per second.
+// [59], with the velocity term of appendix B; velocity.h has the speed [count/s].
 constexpr Exact angle_law(const Gains& gains, std::int8_t flexion, std::int32_t desired,
-                          std::int32_t actual, std::int32_t previous, float rate) noexcept {
+                          std::int32_t actual, float velocity) noexcept {
   const std::int32_t error = flexion * (clamped(desired, -angle_limit, angle_limit) - actual);
-  const std::int32_t step = flexion * (actual - previous);
+  const float speed = flexion > 0 ? velocity : 0.0f - velocity;
   return two_product(clamped(gains.angle, gain_limit), static_cast<float>(error)) -
-         two_product(clamped(gains.velocity, gain_limit), static_cast<float>(step) * rate);
+         two_product(clamped(gains.velocity, gain_limit), speed);
 }
 
 // 0 .. 100, what is negative makes no sense as a duty (thesis 5.1).
@@ -97,23 +141,47 @@ constexpr std::int32_t clipped(std::int32_t duty) noexcept {
   return clamped(duty, 0, signals::max_duty);
 }
 
-// [54]-[57]: each muscle's signed duty to its two valves, of which one at least stays shut.
-constexpr Duties to_duties(std::int32_t flexor, std::int32_t extensor) noexcept {
-  return {clipped(flexor), clipped(-flexor), clipped(extensor), clipped(-extensor)};
+// The same, and 0 below a dead band: pulses too short to open the valve only wear it.
+constexpr std::int32_t clipped(std::int32_t duty, std::int32_t dead_band) noexcept {
+  return duty < dead_band ? 0 : clipped(duty);
 }
 
-// The same from the laws' real outputs: where they become whole percents is the mode's choice.
-constexpr Duties to_duties(Exact stiffness, Exact angle, Truncation mode) noexcept {
+// [54]-[57]: each muscle's signed duty to its two valves, of which one at least stays shut.
+constexpr Duties to_duties(const Pair& asked, std::int32_t dead_band = 0) noexcept {
+  return {clipped(asked.flexor, dead_band), clipped(-asked.flexor, dead_band),
+          clipped(asked.extensor, dead_band), clipped(-asked.extensor, dead_band)};
+}
+
+// Signed duties of both muscles from the laws' real outputs [%]: where they become whole percents
+// is the mode's choice.
+constexpr Pair asked(Exact stiffness, Exact angle, Truncation mode) noexcept {
   switch (mode) {
     case Truncation::sum:
-      return to_duties(truncated(stiffness + angle), truncated(stiffness - angle));
+      return {truncated(stiffness + angle), truncated(stiffness - angle)};
     case Truncation::none:
-      return to_duties(rounded(stiffness + angle), rounded(stiffness - angle));
+      return {rounded(stiffness + angle), rounded(stiffness - angle)};
     case Truncation::each_law:
       break;
   }
   const std::int32_t u_k = truncated(stiffness), u_theta = truncated(angle);
-  return to_duties(u_k + u_theta, u_k - u_theta);
+  return {u_k + u_theta, u_k - u_theta};
+}
+
+// A muscle over two joints gets one signed duty: the mean of what both ask, weighted by its moment
+// arms, r/(r + r_other). What both ask is done; what only one asks counts by its arm; with no arm
+// at the other joint it is an ordinary muscle.
+constexpr std::int32_t shared_duty(float share, std::int32_t own, float other_share,
+                                   std::int32_t other, Truncation mode) noexcept {
+  const Exact sum = two_product(share, static_cast<float>(own)) +
+                    two_product(other_share, static_cast<float>(other));
+  return mode == Truncation::none ? rounded(sum) : truncated(sum);
+}
+
+// Robot III (5.1): a 3-way valve joins its muscle to the supply for the duty and to the room for
+// the rest, so that the duty sets the pressure. `bias` is the duty without errors; there is no
+// valve that could shut, so the exhausts have none and a dead band makes no sense.
+constexpr Duties three_way_duties(std::int32_t bias, const Pair& asked) noexcept {
+  return {clipped(bias + asked.flexor), 0, clipped(bias + asked.extensor), 0};
 }
 
 // Appendix B's joint 0: position of a double-acting cylinder. With feedforward on inlet and exhaust
@@ -125,11 +193,12 @@ constexpr Duties cylinder_duties(const Duties& forward, Exact position, Truncati
 }
 
 // Duties from outside in place of a law's. An exhaust shuts out its muscle's inlet (ours: the code
-// takes any four).
+// takes any four), and there is none where a valve is never shut.
 constexpr Duties open_loop_duties(const Duties& wanted, JointKind kind) noexcept {
   Duties d{clipped(wanted.flexor_inlet), clipped(wanted.flexor_exhaust),
            clipped(wanted.extensor_inlet), clipped(wanted.extensor_exhaust)};
   if (kind == JointKind::cylinder) return d;
+  if (kind != JointKind::antagonist) return {d.flexor_inlet, 0, d.extensor_inlet, 0};
   if (d.flexor_exhaust > 0) d.flexor_inlet = 0;
   if (d.extensor_exhaust > 0) d.extensor_inlet = 0;
   return d;

@@ -49,7 +49,7 @@ TEST(Exact, AngleLawAgreesWithIntegerArithmetic) {
     const Wide u =
         whole(g.angle) * (desired - actual) - whole(g.velocity) * (100 * (actual - previous));
     const int expected = clamped(static_cast<int>(u / (Wide(1) << scale)), -16'000, 16'000);
-    ASSERT_EQ(truncated(angle_law(g, 1, desired, actual, previous, 100.0f)), expected)
+    ASSERT_EQ(truncated(angle_law(g, 1, desired, actual, difference(actual, previous, 100.0f))), expected)
         << g.angle << " " << g.velocity << " " << desired << " " << actual << " " << previous;
   }
 }
@@ -65,7 +65,7 @@ TEST(Exact, RoundingGoesToTheNearest) {
 // The code divides by the double 0.01: 0.5 x 99.999999999999998 is cut off to 49. We take 100/s.
 TEST(Exact, SpeedIsTheStepTimesAHundred) {
   const Gains g{.velocity = 0.5f};
-  EXPECT_EQ(truncated(angle_law(g, 1, 0, 1, 0, 100.0f)), -50);
+  EXPECT_EQ(truncated(angle_law(g, 1, 0, 1, difference(1, 0, 100.0f))), -50);
   EXPECT_EQ(static_cast<int>(-0.5f * (1 / static_cast<long double>(0.01))), -49);
 }
 
@@ -74,7 +74,7 @@ TEST(Exact, SpeedIsTheStepTimesAHundred) {
 // 1 / 0.035 = 28.6 counts, 1 / 0.12 = 8.3 counts: the first whole percent lies beyond.
 TEST(AngleLaw, DeadBand) {
   const auto u = [](const JointConfig& joint, int error) {
-    return truncated(angle_law(joint.gains, +1, error, 0, 0, 100.0f));
+    return truncated(angle_law(joint.gains, +1, error, 0, 0.0f));
   };
   for (const int sign : {-1, 1}) {
     EXPECT_EQ(u(leg.joint[hip], sign * 28), 0);
@@ -86,8 +86,8 @@ TEST(AngleLaw, DeadBand) {
 
 TEST(AngleLaw, FlexionSaysWhichWayIsUp) {
   const Gains g{.angle = 0.1f, .velocity = 0.001f};
-  const Exact up = angle_law(g, +1, 2000, 1800, 1790, 100.0f);
-  const Exact down = angle_law(g, -1, 2000, 1800, 1790, 100.0f);
+  const Exact up = angle_law(g, +1, 2000, 1800, difference(1800, 1790, 100.0f));
+  const Exact down = angle_law(g, -1, 2000, 1800, difference(1800, 1790, 100.0f));
   EXPECT_EQ(up.high, -down.high);
   EXPECT_EQ(up.low, -down.low);
   EXPECT_EQ(truncated(up), 19);
@@ -96,7 +96,7 @@ TEST(AngleLaw, FlexionSaysWhichWayIsUp) {
 // --- the stiffness [27], [60] -------------------------------------------------------------------
 
 TEST(Stiffness, ThreadLengthIsTheActuators) {
-  const double b = std::sqrt(leg.joint[hip].thread_length_squared);
+  const double b = std::sqrt(leg.joint[hip].flexor.thread_length_squared);
   EXPECT_NEAR(b / counts_per_rad, 4.218, 0.0005);  // [17], with 1 in of moment arm
   EXPECT_NEAR(leg.joint[hip].flexor.free_length / counts_per_rad, 3.15, 0.0005);
 }
@@ -129,7 +129,7 @@ TEST(Stiffness, AgreesWithEquation27) {
 
 TEST(Stiffness, NoValueNearThePole) {
   JointConfig joint = leg.joint[hip];
-  const double pole = std::sqrt(joint.thread_length_squared / 3.0);
+  const double pole = std::sqrt(joint.flexor.thread_length_squared / 3.0);
   const auto valid = [&](double length) {  // of the flexor
     const int angle = joint.angle_at_rest + 2416 - static_cast<int>(length);
     return joint_stiffness(joint, Truncation::each_law, angle, 1, 1).valid;
@@ -147,7 +147,7 @@ TEST(Stiffness, NoValueNearThePole) {
 
 TEST(Duties, NeverBothValvesOfAMuscle) {
   for (int flexor = -250; flexor <= 250; ++flexor) {
-    const Duties d = to_duties(flexor, -flexor / 2);
+    const Duties d = to_duties(Pair{flexor, -flexor / 2});
     EXPECT_TRUE(d.flexor_inlet == 0 || d.flexor_exhaust == 0);
     EXPECT_TRUE(d.extensor_inlet == 0 || d.extensor_exhaust == 0);
     EXPECT_EQ(d.flexor_inlet - d.flexor_exhaust, clamped(flexor, -100, 100));
@@ -158,9 +158,9 @@ TEST(Duties, NeverBothValvesOfAMuscle) {
 
 TEST(Duties, WhereRealPercentsBecomeWhole) {
   const Exact u_k{1.9f, 0}, u_theta{3.9f, 0};
-  EXPECT_EQ(to_duties(u_k, u_theta, Truncation::each_law), (Duties{4, 0, 0, 2}));
-  EXPECT_EQ(to_duties(u_k, u_theta, Truncation::sum), (Duties{5, 0, 0, 2}));
-  EXPECT_EQ(to_duties(u_k, u_theta, Truncation::none), (Duties{6, 0, 0, 2}));
+  EXPECT_EQ(to_duties(asked(u_k, u_theta, Truncation::each_law)), (Duties{4, 0, 0, 2}));
+  EXPECT_EQ(to_duties(asked(u_k, u_theta, Truncation::sum)), (Duties{5, 0, 0, 2}));
+  EXPECT_EQ(to_duties(asked(u_k, u_theta, Truncation::none)), (Duties{6, 0, 0, 2}));
 }
 
 TEST(Duties, CylinderWorksAgainstItsFeedforward) {
@@ -193,8 +193,8 @@ TEST(Laws, AnyInputGivesDuties) {
                  {Truncation::each_law, Truncation::sum, Truncation::none}) {
               joint.pole_clamp = clamp;
               const Stiffness k = joint_stiffness(joint, mode, reading, 4095, 0);
-              const Exact u_theta = angle_law({x, 0, y}, -1, desired, reading, 0, 100.0f);
-              const Duties d = to_duties(stiffness_law(x, y, k.value), u_theta, mode);
+              const Exact u_theta = angle_law({x, 0, y}, -1, desired, reading, difference(reading, 0, 100.0f));
+              const Duties d = to_duties(asked(stiffness_law(x, y, k.value), u_theta, mode));
               for (const int duty :
                    {d.flexor_inlet, d.flexor_exhaust, d.extensor_inlet, d.extensor_exhaust})
                 ASSERT_TRUE(duty >= 0 && duty <= 100);

@@ -23,7 +23,9 @@ struct JointSeen {
   float stiffness = 0;         // K_act [27], [60] [lbf in/rad]
   float stiffness_output = 0;  // U_k [58] [%], before truncation
   float angle_output = 0;      // U_theta [59] [%], before truncation
+  float velocity = 0;          // as estimated [count/s]
   Duties duties;               // computed also while the joint is disabled
+  Levels levels;               // of a regulated joint, in place of the duties
   bool enabled = false;        // as the law found it
   bool pole_held = false;      // the stiffness is an old one: a muscle is too near the pole of [27]
   std::uint32_t pole_holds = 0;  // laws with a held stiffness
@@ -38,6 +40,7 @@ struct Seen {
 
   std::uint32_t late = 0, invalid = 0;  // readings so far that were not good
   std::uint32_t missed = 0;             // ticks the clock came too late for
+  std::uint32_t overruns = 0;           // laws too long for their interrupt, laws_overrun
 
   // Why the run was ended: ok while it was not, or when shut_down() asked for it.
   signals::Status fault = signals::Status::ok;

@@ -1,7 +1,5 @@
 #include "sinew/control/joint/spine.h"
 
-#include "sinew/control/joint/laws.h"
-
 namespace sinew::control {
 
 using signals::Channel;
@@ -14,13 +12,12 @@ using signals::Tick;
 
 namespace {
 
-constexpr float ticks_per_second = 10'000.0f;
-
 enum ValveOfJoint : std::size_t { flexor_inlet, flexor_exhaust, extensor_inlet, extensor_exhaust };
 
 }  // namespace
 
 Spine::Spine(const SpineConfig& config) noexcept : config_(config), command_(rest_command(config)) {
+  find_partners();
   if (config.startup_vent > 0)
     vent(0, config.startup_vent, Phase::startup, Phase::running);
   else
@@ -103,76 +100,63 @@ void Spine::store(Channel channel, Reading reading, Tick t) noexcept {
   }
 }
 
-// --- laws ---------------------------------------------------------------------------------------
-
-// Never a law on a channel that has not answered yet, nor twice in a period.
-bool Spine::ready(std::size_t j, Tick t) const noexcept {
-  const JointConfig& joint = config_.joint[j];
-  const Tick last = seen_.joint[j].law_at;
-  if (last >= 0 && t - last < config_.period) return false;
-  if (!answered_[joint.angle.index]) return false;
-  return joint.kind == JointKind::cylinder ||
-         (answered_[joint.flexor.tension.index] && answered_[joint.extensor.tension.index]);
-}
-
-void Spine::run_law(std::size_t j, Tick t) noexcept {
-  if (!ready(j, t)) return;
-  const JointConfig& joint = config_.joint[j];
-  const JointCommand& command = command_.joint[j];
-  const bool antagonist = joint.kind == JointKind::antagonist;
-  JointSeen& seen = seen_.joint[j];
-
-  // The first law sees no speed; nor does a cylinder's, as in the code.
-  const std::int32_t angle = seen_.reading[joint.angle.index].counts;
-  const std::int32_t previous = antagonist && seen.law_at >= 0 ? previous_angle_[j] : angle;
-  const float rate = ticks_per_second / static_cast<float>(config_.period);
-  const Exact u_theta =
-      angle_law(command.gains, joint.flexion, command.angle, angle, previous, rate);
-  previous_angle_[j] = angle;
-
-  seen.law_at = t;
-  seen.enabled = joint.enabled && command.enabled;
-  seen.angle_output = u_theta.high;
-  seen.duties = antagonist ? to_duties(stiffness_output(j), u_theta, config_.truncation)
-                           : cylinder_duties(joint.feedforward, u_theta, config_.truncation);
-  if (command.open_loop) seen.duties = open_loop_duties(command.duties, joint.kind);
-  schedule(j, t);
-}
-
-// U_k, from a new stiffness or, near the pole of [27], from the last one.
-Exact Spine::stiffness_output(std::size_t j) noexcept {
-  const JointConfig& joint = config_.joint[j];
-  const JointCommand& command = command_.joint[j];
-  const auto counts = [&](Channel c) -> std::int32_t { return seen_.reading[c.index].counts; };
-  JointSeen& seen = seen_.joint[j];
-
-  const Stiffness now =
-      joint_stiffness(joint, config_.truncation, counts(joint.angle), counts(joint.flexor.tension),
-                      counts(joint.extensor.tension));
-  if (now.valid) seen.stiffness = now.value;
-  seen.pole_held = !now.valid;
-  seen.pole_holds += seen.pole_held;
-
-  const Exact u_k = stiffness_law(command.gains.stiffness, command.stiffness, seen.stiffness);
-  seen.stiffness_output = u_k.high;
-  return u_k;
-}
-
 // --- valves -------------------------------------------------------------------------------------
+
+const MuscleConfig& Spine::muscle(std::size_t j, Side side) const noexcept {
+  return side == flexor ? config_.joint[j].flexor : config_.joint[j].extensor;
+}
+
+// Is there a muscle, and is it this joint's business to open its valves?
+bool Spine::drives(std::size_t j, Side side) const noexcept {
+  return muscle(j, side).present && partner_[j][side].drives;
+}
+
+// Two joints that name the same inlet share its muscle.
+void Spine::find_partners() noexcept {
+  for (std::size_t a = 0; a < config_.joints; ++a)
+    for (std::size_t b = a + 1; b < config_.joints; ++b)
+      for (const Side x : sides)
+        for (const Side y : sides) {
+          const MuscleConfig &one = muscle(a, x), &other = muscle(b, y);
+          if (!one.present || !other.present || one.inlet.index != other.inlet.index) continue;
+          const bool b_is_later = config_.joint[b].law_tick >= config_.joint[a].law_tick;
+          partner_[a][x] = {static_cast<std::int8_t>(b), y, !b_is_later};
+          partner_[b][y] = {static_cast<std::int8_t>(a), x, b_is_later};
+        }
+}
 
 void Spine::schedule(std::size_t j, Tick t) noexcept {
   const JointSeen& seen = seen_.joint[j];
-  const auto cycle = [&](ValveOfJoint valve, std::int32_t duty) {
+  const auto cycle = [&](std::size_t valve, std::int32_t duty, bool enabled) {
     const std::size_t d = static_cast<std::size_t>(duty);
     const Pulse pulse{config_.timing.closing[d], config_.timing.opening[d], config_.period,
                       config_.output_delay};
-    valves_[j][valve].cycle(t, pulse, seen.enabled);
+    valves_[j][valve].cycle(t, pulse, enabled);
   };
-  cycle(flexor_inlet, seen.duties.flexor_inlet);
-  cycle(flexor_exhaust, seen.duties.flexor_exhaust);
-  cycle(extensor_inlet, seen.duties.extensor_inlet);
-  cycle(extensor_exhaust, seen.duties.extensor_exhaust);
+  for (const Side side : sides) {
+    if (!drives(j, side)) continue;
+    if (config_.joint[j].kind == JointKind::regulated) {
+      schedule_level(j, side, t);
+      continue;
+    }
+    const Partner& partner = partner_[j][side];
+    const bool enabled =
+        seen.enabled ||
+        (partner.joint >= 0 && seen_.joint[static_cast<std::size_t>(partner.joint)].enabled);
+    const bool flexes = side == flexor;
+    cycle(flexes ? flexor_inlet : extensor_inlet,
+          flexes ? seen.duties.flexor_inlet : seen.duties.extensor_inlet, enabled);
+    if (config_.joint[j].kind == JointKind::three_way) continue;
+    cycle(flexes ? flexor_exhaust : extensor_exhaust,
+          flexes ? seen.duties.flexor_exhaust : seen.duties.extensor_exhaust, enabled);
+  }
   find_next_edge();
+}
+
+void Spine::schedule_level(std::size_t j, Side side, Tick t) noexcept {
+  const JointSeen& seen = seen_.joint[j];
+  const std::uint16_t level = side == flexor ? seen.levels.flexor : seen.levels.extensor;
+  levels_[j][side] = {t + config_.output_delay, seen.enabled ? level : std::uint16_t{0}};
 }
 
 void Spine::shut_down(Tick t) noexcept {
@@ -180,15 +164,22 @@ void Spine::shut_down(Tick t) noexcept {
   vent(t + config_.output_delay, config_.shutdown_vent, Phase::venting, Phase::off);
 }
 
-// Also the muscles of disabled joints, as in the thesis's hardware_start_up.
+// Also the muscles of disabled joints, as in the thesis's hardware_start_up. A 3-way valve that is
+// off vents for good; so does a regulator set to nothing.
 void Spine::vent(Tick from, std::uint32_t ticks, Phase during, Phase after) noexcept {
-  for (std::size_t j = 0; j < config_.joints; ++j) {
-    JointValves& valves = valves_[j];
-    valves[flexor_inlet].shut(from);
-    valves[extensor_inlet].shut(from);
-    valves[flexor_exhaust].pulse(from, from + ticks);
-    valves[extensor_exhaust].pulse(from, from + ticks);
-  }
+  for (std::size_t j = 0; j < config_.joints; ++j)
+    for (const Side side : sides) {
+      if (!drives(j, side)) continue;
+      const JointKind kind = config_.joint[j].kind;
+      if (kind == JointKind::regulated) {
+        levels_[j][side] = {from, 0};
+        continue;
+      }
+      JointValves& valves = valves_[j];
+      valves[side == flexor ? flexor_inlet : extensor_inlet].shut(from);
+      if (kind != JointKind::three_way)
+        valves[side == flexor ? flexor_exhaust : extensor_exhaust].pulse(from, from + ticks);
+    }
   seen_.phase = during;
   next_phase_ = after;
   phase_end_ = from + ticks;
@@ -202,6 +193,7 @@ std::span<const Edge> Spine::edges(Tick t) noexcept {
   if (next_edge_ <= t) {
     hand_out(t, false);
     hand_out(t, true);
+    hand_out_levels(t);
     find_next_edge();
   }
   return {out_.data(), out_count_};
@@ -213,20 +205,35 @@ void Spine::hand_out(Tick t, bool open) noexcept {
     const JointConfig& joint = config_.joint[j];
     const signals::Valve index[] = {joint.flexor.inlet, joint.flexor.exhaust, joint.extensor.inlet,
                                     joint.extensor.exhaust};
+    const bool inverted[] = {false, joint.flexor.exhaust_inverted, false,
+                             joint.extensor.exhaust_inverted};
     for (std::size_t v = 0; v < valves_per_joint; ++v) {
       PulseTrain& train = valves_[j][v];
       if (train.next() > t || train.next_opens() != open || out_count_ == out_.size()) continue;
       train.drive();
-      out_[out_count_++] = {t, index[v], open};
+      out_[out_count_++] = {t, index[v], open != inverted[v]};
     }
   }
 }
 
+void Spine::hand_out_levels(Tick t) noexcept {
+  for (std::size_t j = 0; j < config_.joints; ++j)
+    for (const Side side : sides) {
+      PendingLevel& pending = levels_[j][side];
+      if (pending.at > t || out_count_ == out_.size()) continue;
+      out_[out_count_++] = {t, muscle(j, side).inlet, pending.level > 0, pending.level};
+      pending.at = PulseTrain::never;
+    }
+}
+
 void Spine::find_next_edge() noexcept {
   next_edge_ = PulseTrain::never;
-  for (std::size_t j = 0; j < config_.joints; ++j)
+  for (std::size_t j = 0; j < config_.joints; ++j) {
     for (const PulseTrain& train : valves_[j])
       if (train.next() < next_edge_) next_edge_ = train.next();
+    for (const PendingLevel& pending : levels_[j])
+      if (pending.at < next_edge_) next_edge_ = pending.at;
+  }
 }
 
 }  // namespace sinew::control

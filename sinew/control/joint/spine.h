@@ -27,6 +27,7 @@
 #include "sinew/control/joint/command.h"
 #include "sinew/control/joint/config.h"
 #include "sinew/control/joint/exact.h"
+#include "sinew/control/joint/laws.h"
 #include "sinew/control/joint/pulse_train.h"
 #include "sinew/control/joint/seen.h"
 #include "sinew/signals/port.h"
@@ -74,14 +75,48 @@ class Spine {
   static constexpr std::size_t valves_per_joint = 4;  // in the order of Duties
   using JointValves = std::array<PulseTrain, valves_per_joint>;
 
+  enum Side : std::size_t { flexor, extensor };
+  static constexpr std::array sides = {flexor, extensor};
+
+  // A set point on its way to a regulator.
+  struct PendingLevel {
+    signals::Tick at = PulseTrain::never;
+    std::uint16_t level = 0;
+  };
+
+  // The other joint of a muscle over two; the later of their laws drives its valves.
+  struct Partner {
+    std::int8_t joint = -1;
+    Side side = flexor;
+    bool drives = true;  // this joint, not the partner
+  };
+
+  // Time and readings: spine.cpp
   void locate(signals::Tick t) noexcept;
   void store(signals::Channel, signals::Reading, signals::Tick t) noexcept;
+  std::int32_t counts(signals::Channel c) const noexcept { return seen_.reading[c.index].counts; }
+
+  // Laws: spine_laws.cpp
   bool ready(std::size_t joint, signals::Tick t) const noexcept;
   void run_law(std::size_t joint, signals::Tick t) noexcept;
+  float speed(std::size_t joint) noexcept;
+  Pair lengths(std::size_t joint) const noexcept;
+  Stiffness measured_stiffness(std::size_t joint) const noexcept;
   Exact stiffness_output(std::size_t joint) noexcept;
+  void set_duties(std::size_t joint, Exact u_k, Exact u_theta) noexcept;
+  void set_levels(std::size_t joint, Exact u_k, Exact u_theta) noexcept;
+  void open_loop(std::size_t joint) noexcept;
+  void share_duties(std::size_t joint) noexcept;
+
+  // Valves: spine.cpp
+  const MuscleConfig& muscle(std::size_t joint, Side side) const noexcept;
+  bool drives(std::size_t joint, Side side) const noexcept;
+  void find_partners() noexcept;
   void schedule(std::size_t joint, signals::Tick t) noexcept;
+  void schedule_level(std::size_t joint, Side side, signals::Tick t) noexcept;
   void vent(signals::Tick from, std::uint32_t ticks, Phase during, Phase after) noexcept;
   void hand_out(signals::Tick t, bool open) noexcept;
+  void hand_out_levels(signals::Tick t) noexcept;
   void find_next_edge() noexcept;
 
   SpineConfig config_;
@@ -89,7 +124,9 @@ class Spine {
   Seen seen_;
 
   // Laws
-  std::array<std::int32_t, max_joints> previous_angle_{};  // [count], of the last law
+  std::array<VelocityState, max_joints> velocity_;
+  std::array<RegulatorState, max_joints> regulator_;
+  std::array<Pair, max_joints> asked_;  // signed duties of the last law [%]
   std::array<std::uint32_t, max_channels> bad_in_a_row_{};
   std::array<bool, max_channels> answered_{};  // has had a good reading
 
@@ -100,7 +137,9 @@ class Spine {
   Phase next_phase_ = Phase::running;
 
   // Valves
+  std::array<std::array<Partner, 2>, max_joints> partner_;
   std::array<JointValves, max_joints> valves_;
+  std::array<std::array<PendingLevel, 2>, max_joints> levels_;
   signals::Tick next_edge_ = PulseTrain::never;
   std::array<signals::Edge, max_joints * valves_per_joint> out_;
   std::size_t out_count_ = 0;

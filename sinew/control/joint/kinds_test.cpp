@@ -1,0 +1,448 @@
+// Joints other than the leg's: sources of stiffness, one muscle, two joints on a muscle, 3-way
+// valves, regulators, dead band.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "sinew/control/joint/laws.h"
+#include "sinew/control/joint/spine.h"
+#include "sinew/control/joint/test_leg.h"
+
+namespace sinew::control {
+namespace {
+
+using signals::Edge;
+using signals::Status;
+using signals::Tick;
+
+// Readings by channel, held; commands of all joints alike.
+struct Bench {
+  explicit Bench(const SpineConfig& config) : spine(config) {
+    EXPECT_EQ(problem(config), nullptr);
+    command = rest_command(config);
+    for (JointCommand& c : command.joint) c.enabled = true;
+    reading.fill(1000);
+  }
+
+  void run(int periods) {
+    const Tick end = now + periods * spine.config().period;
+    for (; now < end; now = spine.next_event(now)) {
+      if (spine.starts_period(now)) spine.command(command);
+      for (const Edge& e : spine.edges(now)) edges.push_back(e);
+      if (const signals::Conversion* c = spine.due(now))
+        spine.take(*c, {reading[c->channel.index], Status::ok}, now);
+    }
+  }
+
+  // The share of a period for which a valve is open, over the last periods.
+  double open_share(int valve, int periods) const {
+    const Tick from = now - periods * spine.config().period;
+    double open = 0;
+    Tick since = from;
+    bool on = false;
+    for (const Edge& e : edges) {
+      if (e.valve.index != valve) continue;
+      if (e.at > from && on) open += static_cast<double>(e.at - since);
+      on = e.open, since = std::max(e.at, from);
+    }
+    if (on) open += static_cast<double>(now - since);
+    return open / static_cast<double>(now - from);
+  }
+
+  Spine spine;
+  Command command;
+  std::array<std::uint16_t, max_channels> reading{};
+  std::vector<Edge> edges;
+  Tick now = 0;
+};
+
+SpineConfig leg_with(const std::function<void(SpineConfig&)>& change) {
+  SpineConfig config = test_leg();
+  change(config);
+  return config;
+}
+
+// --- where the stiffness comes from -------------------------------------------------------------
+
+// [26] with F = P f (3 L^2 - b^2) is [27]: both sources agree where both know the same.
+TEST(StiffnessSource, PressureAndForceAgree) {
+  JointConfig joint = test_leg().joint[hip];
+  constexpr double factor = 5.5 * 6;  // lbf in/rad per (count/count), of both
+  const double b2 = joint.flexor.thread_length_squared;
+  std::mt19937 random(1);
+  for (int i = 0; i < 1000; ++i) {
+    const auto length = static_cast<std::int32_t>(2200 + random() % 700);
+    const auto pressure = static_cast<std::int32_t>(500 + random() % 2500);
+    joint.flexor.pressure_factor = joint.extensor.pressure_factor = 1e-6f;
+    joint.flexor.effectiveness = {0.95f, 1e-5f, -3e-9f};
+    // The tension of that pressure, in counts.
+    const double p = pressure, eff = 0.95 + p * (1e-5 - 3e-9 * p);
+    const double tension = 1e-6 * p * eff / factor * (3.0 * length * length - b2);
+    const double expected = 6 * 5.5 * tension * length / (3.0 * length * length - b2);
+    const double ours = static_cast<double>(pressure_stiffness(joint.flexor, length, pressure));
+    ASSERT_NEAR(ours, expected, 1e-5 * expected);
+  }
+}
+
+TEST(StiffnessSource, EffectivenessIsHeldOutsideItsRange) {
+  MuscleConfig m;
+  m.pressure_factor = 1e-6f;
+  m.effectiveness = {1, 1e-3f, 0};
+  m.valid_from = 200, m.valid_to = 1000;
+  const auto share = [&](int p) {
+    return static_cast<double>(pressure_stiffness(m, 2400, p)) / (1e-6 * 2400 * p);
+  };
+  EXPECT_NEAR(share(100), 1.2, 1e-5);
+  EXPECT_NEAR(share(500), 1.5, 1e-5);
+  EXPECT_NEAR(share(3000), 2.0, 1e-5);
+  EXPECT_EQ(pressure_stiffness(m, 2400, -5), 0);
+}
+
+// One transducer is as good as two where both muscles pull alike, and off by what the load is.
+TEST(StiffnessSource, OneForceIsExactWithoutLoad) {
+  JointConfig joint = test_leg().joint[hip];
+  const auto k = [&](StiffnessSource source, int flexor, int extensor) {
+    joint.stiffness_source = source;
+    return joint_stiffness(joint, Truncation::none, 1950, flexor, extensor).value;
+  };
+  using enum StiffnessSource;
+  EXPECT_EQ(k(flexor_force, 1200, 1200), k(force, 1200, 1200));
+  EXPECT_EQ(k(extensor_force, 1200, 1200), k(force, 1200, 1200));
+  EXPECT_EQ(k(flexor_force, 1200, 0), k(force, 1200, 1200));
+  EXPECT_GT(k(flexor_force, 1200, 900), k(force, 1200, 900));
+  EXPECT_LT(k(extensor_force, 1200, 900), k(force, 1200, 900));
+}
+
+TEST(StiffnessSource, TransducersOfDifferentScales) {
+  JointConfig joint = test_leg().joint[hip];
+  const auto k = [&](float ratio, int extensor) {
+    joint.extensor.tension_ratio = ratio;
+    return joint_stiffness(joint, Truncation::none, 1950, 1200, extensor).value;
+  };
+  EXPECT_EQ(k(0.5f, 1600), k(1, 800));
+}
+
+// No sensor of tension is scanned, and the laws run: with the angle alone.
+TEST(StiffnessSource, NoneNeedsNoTension) {
+  SpineConfig config = leg_with([](SpineConfig& c) {
+    c.conversions = 3;
+    c.joints = 2;
+    for (std::size_t j = 0; j < 2; ++j) {
+      c.joint[j].stiffness_source = StiffnessSource::none;
+      c.joint[j].law_tick = static_cast<std::uint16_t>(3 + 2 * j);
+    }
+  });
+  Bench bench(config);
+  for (JointCommand& c : bench.command.joint) c.stiffness = 40;
+  bench.reading[1] = 1895 - 400;
+  bench.run(20);
+  const JointSeen& seen = bench.spine.seen().joint[hip];
+  EXPECT_EQ(seen.stiffness_output, 0);
+  EXPECT_EQ(seen.duties, (Duties{14, 0, 0, 14}));  // 0.035 x 400, cut
+  EXPECT_NEAR(bench.open_share(0, 10), 0.14, 1e-9);
+  config.joint[hip].stiffness_source = StiffnessSource::force;
+  EXPECT_NE(problem(config), nullptr);
+}
+
+// --- velocity -----------------------------------------------------------------------------------
+
+TEST(Velocity, IsSeenAndCountsInTheLaw) {
+  for (const bool sensor : {false, true}) {
+    Bench bench(leg_with([&](SpineConfig& c) {
+      c.joint[hip].gains = {.velocity = 0.02f};
+      c.joint[hip].stiffness_source = StiffnessSource::none;
+      c.joint[hip].velocity = {.estimator = Estimator::weighted_average,
+                               .samples = 4,
+                               .weight = line_weights(4, 100)};
+      if (sensor)
+        c.joint[hip].velocity = {
+            .estimator = Estimator::sensor, .channel = {6}, .at_rest = 2000, .scale = 2};
+    }));
+    bench.reading[6] = 2150;
+    bench.command.joint[hip].gains.velocity = 0.02f;
+    for (int i = 0; i < 20; ++i) bench.reading[1] = static_cast<std::uint16_t>(1895 + 3 * i),
+                                 bench.run(1);
+    EXPECT_NEAR(bench.spine.seen().joint[hip].velocity, 300, 1e-3);
+    const Duties& d = bench.spine.seen().joint[hip].duties;
+    EXPECT_NEAR(d.flexor_exhaust, 6, 1);
+    EXPECT_NEAR(d.extensor_inlet, 6, 1);
+  }
+}
+
+// --- dead band, overruns, inverted exhaust ------------------------------------------------------
+
+TEST(DeadBand, ShutsWhatIsBelowIt) {
+  for (int duty = -30; duty <= 30; ++duty) {
+    const Duties d = to_duties({duty, -duty}, 10);
+    EXPECT_EQ(d.flexor_inlet, duty >= 10 ? duty : 0);
+    EXPECT_EQ(d.flexor_exhaust, -duty >= 10 ? -duty : 0);
+    EXPECT_EQ(to_duties({duty, 0}, 0), to_duties({duty, 0}, 1));  // as in B.1
+  }
+  Bench bench(leg_with([](SpineConfig& c) {
+    c.dead_band = 15;
+    c.joint[hip].stiffness_source = StiffnessSource::none;
+  }));
+  bench.reading[1] = 1895 - 400;  // 14 %
+  bench.run(20);
+  EXPECT_EQ(bench.spine.seen().joint[hip].duties, Duties{});
+}
+
+TEST(Overruns, AreTheLawsThatTakeTooLong) {
+  Bench bench(leg_with([](SpineConfig& c) { c.laws_overrun = true; }));
+  bench.run(10);
+  EXPECT_EQ(bench.spine.seen().overruns, 30u);  // three joints
+  Bench quick(test_leg());
+  quick.run(10);
+  EXPECT_EQ(quick.spine.seen().overruns, 0u);
+}
+
+// The same edges, but the levels of the exhausts.
+TEST(Exhaust, InvertedIsTheSameWithTheOtherLevel) {
+  const auto edges = [](bool inverted) {
+    Bench bench(leg_with([&](SpineConfig& c) {
+      c.startup_vent = 200;
+      for (JointConfig& joint : c.joint)
+        joint.flexor.exhaust_inverted = joint.extensor.exhaust_inverted = inverted;
+    }));
+    std::mt19937 random(1);
+    for (int i = 0; i < 200; ++i) {
+      for (std::uint16_t& r : bench.reading) r = static_cast<std::uint16_t>(random() % 4096);
+      bench.run(1);
+    }
+    return bench.edges;
+  };
+  const std::vector<Edge> plain = edges(false), inverted = edges(true);
+  ASSERT_EQ(plain.size(), inverted.size());
+  ASSERT_GT(plain.size(), 400u);
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    ASSERT_EQ(plain[i].at, inverted[i].at);
+    ASSERT_EQ(plain[i].open, inverted[i].open != (plain[i].valve.index % 2 == 1));
+  }
+  SpineConfig config = test_leg();
+  config.joint[hip].flexor.exhaust_inverted = true;
+  EXPECT_NE(problem(config), nullptr);  // nothing would shut it at the start
+}
+
+// --- 3-way valves -------------------------------------------------------------------------------
+
+SpineConfig three_way_leg() {
+  return leg_with([](SpineConfig& c) {
+    c.joints = 1;
+    c.joint[hip].kind = JointKind::three_way;
+    c.joint[hip].bias = 40;
+    c.joint[hip].stiffness_source = StiffnessSource::none;
+  });
+}
+
+TEST(ThreeWay, DutySetsTheMeanAndTheDifference) {
+  Bench bench(three_way_leg());
+  bench.reading[1] = 1895 - 400;  // U_theta = 14 %
+  bench.run(20);
+  EXPECT_EQ(bench.spine.seen().joint[hip].duties, (Duties{54, 0, 26, 0}));
+  EXPECT_NEAR(bench.open_share(0, 10), 0.54, 1e-9);
+  EXPECT_NEAR(bench.open_share(2, 10), 0.26, 1e-9);
+}
+
+TEST(ThreeWay, NeverDrivesAnExhaustAndVentsByShutting) {
+  Bench bench(three_way_leg());
+  std::mt19937 random(1);
+  for (int i = 0; i < 300; ++i) {
+    for (std::uint16_t& r : bench.reading) r = static_cast<std::uint16_t>(random() % 4096);
+    bench.run(1);
+  }
+  bench.spine.shut_down(bench.now - 1);
+  bench.run(150);
+  EXPECT_EQ(bench.spine.seen().phase, Phase::off);
+  std::array<bool, 4> open{};
+  for (const Edge& e : bench.edges) {
+    ASSERT_EQ(e.valve.index % 2, 0);
+    open[e.valve.index] = e.open;
+  }
+  EXPECT_EQ(open, (std::array<bool, 4>{}));
+  EXPECT_GT(bench.edges.size(), 300u);
+}
+
+// --- regulators ---------------------------------------------------------------------------------
+
+SpineConfig regulated_leg(float angle_integral) {
+  return leg_with([&](SpineConfig& c) {
+    c.joints = 1;
+    c.joint[hip].kind = JointKind::regulated;
+    c.joint[hip].stiffness_source = StiffnessSource::none;
+    c.joint[hip].regulator.angle_integral = angle_integral;
+  });
+}
+
+TEST(Regulated, SendsBothLevelsOncePerPeriod) {
+  Bench bench(regulated_leg(0));
+  bench.reading[1] = 1895 - 400;
+  bench.run(20);
+  ASSERT_EQ(bench.edges.size(), 40u);
+  for (std::size_t i = 0; i < 40; i += 2) {
+    EXPECT_EQ(bench.edges[i].at, static_cast<Tick>(100 * (i / 2) + 10));
+    EXPECT_EQ(bench.edges[i].level, level_of(64));
+    EXPECT_EQ(bench.edges[i + 1].level, level_of(36));
+    EXPECT_TRUE(bench.edges[i].open);
+  }
+}
+
+// The error that stays ends at one muscle full, the other empty, as the sealed muscles of 5.1 do.
+TEST(Regulated, IntegratesToTheEnd) {
+  Bench bench(regulated_leg(0.002f));
+  bench.reading[1] = 1895 - 400;
+  bench.run(200);
+  EXPECT_EQ(bench.spine.seen().joint[hip].levels, (Levels{signals::max_level, 0}));
+  bench.reading[1] = 1895 + 30;
+  bench.run(60);
+  EXPECT_LT(bench.spine.seen().joint[hip].levels.flexor, signals::max_level);
+}
+
+TEST(Regulated, DisabledOrShutDownIsNoPressure) {
+  Bench bench(regulated_leg(0.1f));
+  bench.reading[1] = 1000;
+  bench.run(5);
+  bench.command.joint[hip].enabled = false;
+  bench.run(2);
+  EXPECT_EQ(bench.edges.back().level, 0);
+  bench.command.joint[hip].enabled = true;
+  bench.command.joint[hip].open_loop = true;
+  bench.command.joint[hip].duties = {.flexor_inlet = 25, .extensor_inlet = 75};
+  bench.run(2);
+  EXPECT_EQ(bench.spine.seen().joint[hip].levels, (Levels{level_of(25), level_of(75)}));
+  bench.spine.shut_down(bench.now - 1);
+  bench.run(1);
+  EXPECT_EQ(bench.edges.back().level, 0);
+  EXPECT_FALSE(bench.edges.back().open);
+}
+
+// --- one muscle, and one for two joints ---------------------------------------------------------
+
+TEST(SingleMuscle, LeavesTheOtherSideAlone) {
+  Bench bench(leg_with([](SpineConfig& c) {
+    c.joints = 1;
+    c.joint[hip].extensor = {.present = false};
+  }));
+  bench.command.joint[hip].stiffness = 30;
+  bench.reading[1] = 1895 - 400;
+  bench.reading[3] = 700;
+  bench.run(10);
+  const JointSeen& seen = bench.spine.seen().joint[hip];
+  EXPECT_EQ(seen.duties.extensor_inlet, 0);
+  EXPECT_EQ(seen.duties.extensor_exhaust, 0);
+  EXPECT_GT(seen.duties.flexor_inlet, 0);
+  // [27] of one muscle
+  const int length = 2416 + 400;
+  EXPECT_NEAR(seen.stiffness, 33.0 * 700 / (3 * length - 10465225 / length), 1e-3);
+  for (const Edge& e : bench.edges) EXPECT_LT(e.valve.index, 2);
+}
+
+// Hip flexor and knee flexor are one muscle.
+SpineConfig biarticular(float hip_share, float travel = 0) {
+  return leg_with([&](SpineConfig& c) {
+    c.joints = 2;
+    MuscleConfig &at_hip = c.joint[hip].flexor, &at_knee = c.joint[knee].flexor;
+    at_knee.inlet = at_hip.inlet, at_knee.exhaust = at_hip.exhaust, at_knee.tension = at_hip.tension;
+    at_hip.share = hip_share, at_knee.share = 1 - hip_share;
+    at_hip.other_travel = travel;
+    for (JointConfig& j : c.joint) j.stiffness_source = StiffnessSource::none;
+  });
+}
+
+TEST(SharedMuscle, DutyIsTheWeightedSum) {
+  for (const float share : {0.0f, 0.25f, 0.5f, 1.0f}) {
+    Bench bench(biarticular(share));
+    bench.reading[1] = 1895 - 1000;  // hip asks 35 %
+    bench.reading[2] = 1175 - 505;   // knee asks -60 %
+    bench.run(20);
+    const int expected = static_cast<int>(share * 35 - (1 - share) * 60);
+    for (const std::size_t j : {hip, knee}) {
+      const Duties& d = bench.spine.seen().joint[j].duties;
+      EXPECT_EQ(d.flexor_inlet - d.flexor_exhaust, expected) << share;
+    }
+    EXPECT_NEAR(bench.open_share(0, 10), std::max(0.0, 0.01 * expected), 1e-9);
+    EXPECT_NEAR(bench.open_share(1, 10), std::max(0.0, -0.01 * expected), 1e-9);
+  }
+}
+
+TEST(SharedMuscle, BothAskingTheSameIsDone) {
+  for (int duty = -100; duty <= 100; duty += 7)
+    for (const float share : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f})
+      EXPECT_EQ(shared_duty(share, duty, 1 - share, duty, Truncation::each_law), duty);
+}
+
+// Each valve has one pulse train: no edge twice, none that changes nothing, never both open.
+TEST(SharedMuscle, IsDrivenOnce) {
+  Bench bench(biarticular(0.4f));
+  std::mt19937 random(1);
+  for (int i = 0; i < 500; ++i) {
+    for (std::uint16_t& r : bench.reading) r = static_cast<std::uint16_t>(random() % 4096);
+    bench.command.joint[random() % 2].enabled ^= random() % 8 == 0;
+    bench.run(1);
+  }
+  bench.spine.shut_down(bench.now - 1);
+  bench.run(150);
+  std::array<bool, 12> open{};
+  for (const Edge& e : bench.edges) {
+    ASSERT_NE(open[e.valve.index], e.open);
+    open[e.valve.index] = e.open;
+    ASSERT_FALSE(open[e.valve.index & ~1] && open[e.valve.index | 1]);
+  }
+  EXPECT_EQ(open, (std::array<bool, 12>{}));
+}
+
+TEST(SharedMuscle, ItsLengthFollowsBothJoints) {
+  SpineConfig config = biarticular(0.5f, -0.5f);
+  config.joint[hip].stiffness_source = StiffnessSource::force;
+  Bench bench(config);
+  bench.reading[1] = 1895;
+  bench.reading[2] = 1175 + 200;  // shortens it by 100 counts at the hip
+  bench.reading[3] = bench.reading[4] = 900;
+  bench.run(3);
+  JointConfig alone = config.joint[hip];
+  const float expected =
+      joint_stiffness(alone, Truncation::each_law, Pair{2416 - 100, 2416}, Pair{900, 900}).value;
+  EXPECT_EQ(bench.spine.seen().joint[hip].stiffness, expected);
+}
+
+// --- configurations that cannot be --------------------------------------------------------------
+
+TEST(SpineConfig, ProblemsOfTheKinds) {
+  const auto of = [](const std::function<void(SpineConfig&)>& change) {
+    const SpineConfig config = leg_with(change);
+    const char* p = problem(config);
+    return std::string(p ? p : "");
+  };
+  EXPECT_NE(of([](SpineConfig& c) { c.joint[hip].velocity.estimator = Estimator::sensor,
+                                    c.joint[hip].velocity.channel = {20}; })
+                .find("not converted"),
+            std::string::npos);
+  EXPECT_NE(of([](SpineConfig& c) {
+              c.joint[hip].velocity = {.estimator = Estimator::weighted_average, .samples = 17};
+            }).find("2 to 16 samples"),
+            std::string::npos);
+  EXPECT_NE(of([](SpineConfig& c) {
+              c.joint[hip].stiffness_source = StiffnessSource::extensor_force;
+              c.joint[hip].extensor.present = false;
+            }).find("not there"),
+            std::string::npos);
+  EXPECT_NE(of([](SpineConfig& c) { c.dead_band = 101; }).find("dead_band"), std::string::npos);
+  EXPECT_NE(of([](SpineConfig& c) { c.joint[hip].kind = JointKind::passive; }).find("passive"),
+            std::string::npos);
+  // The inlet alone is not a shared muscle; nor can both sides of a joint be one.
+  EXPECT_NE(of([](SpineConfig& c) { c.joint[knee].flexor.inlet = c.joint[hip].flexor.inlet; })
+                .find("same valve"),
+            std::string::npos);
+  EXPECT_NE(of([](SpineConfig& c) {
+              c.joint[hip].extensor.inlet = c.joint[hip].flexor.inlet;
+              c.joint[hip].extensor.exhaust = c.joint[hip].flexor.exhaust;
+            }).find("same valve"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace sinew::control
