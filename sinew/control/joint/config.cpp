@@ -53,8 +53,8 @@ const char* problem_of_muscle(const MuscleConfig& muscle, JointKind kind) noexce
 const char* problem_of_velocity(const VelocityConfig& v) noexcept {
   if (v.estimator == Estimator::weighted_average && (v.samples < 2 || v.samples > max_samples))
     return "a weighted average needs 2 to 16 samples";
-  for (const float x : {v.decay, v.speed_gain, v.travel, v.travel_gain, v.angle_share,
-                        v.speed_share, v.scale})
+  for (const float x :
+       {v.decay, v.speed_gain, v.travel, v.travel_gain, v.angle_share, v.speed_share, v.scale})
     if (!within(x, 1e5f)) return "a constant of the velocity estimator is out of range";
   if (!(v.margin >= 0) || !(v.limit >= 0 && v.limit <= speed_limit))
     return "the velocity's margin and limit must not be negative";
@@ -92,8 +92,8 @@ const char* problem_of_joint(const SpineConfig& config, const JointConfig& joint
 // One coil, one pulse train: valves differ, but for the two of a muscle over two joints.
 struct Owner {
   bool taken = false;
-  std::uint8_t times = 0;           // as an inlet
-  std::uint8_t joint = 0;           // that named it first
+  std::uint8_t times = 0;                // as an inlet
+  std::uint8_t joint = 0;                // that named it first
   const MuscleConfig* muscle = nullptr;  // as an inlet
 };
 

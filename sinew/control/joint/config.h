@@ -83,8 +83,8 @@ struct JointConfig {
                                    // places. The code does so at the knee (`knee_lengths_swapped`)
 
   StiffnessSource stiffness_source = StiffnessSource::force;
-  float stiffness_factor = 5.5f;  // counts of tension per count of length -> lbf/in
-  float moment_arm_factor = 1.0f;                 // what a moment arm other than 1 in adds to [60]
+  float stiffness_factor = 5.5f;   // counts of tension per count of length -> lbf/in
+  float moment_arm_factor = 1.0f;  // what a moment arm other than 1 in adds to [60]
   std::int32_t pole_clamp =
       134;  // [count] the stiffness is held where a muscle is shorter than the
             // pole b/sqrt(3) of [27] plus this (10 deg). Far below zero, say
@@ -125,7 +125,8 @@ struct SpineConfig {
   std::uint32_t shutdown_vent = 10'000;  // [ticks] the same before all valves stay shut
   std::uint32_t hold_limit = 0;  // bad readings of a channel in a row that end the run; 0: any
 
-  // A law takes longer than the interrupt that runs it may (5.2: a hundredth of the period): counted.
+  // A law takes longer than the interrupt that runs it may (5.2: a hundredth of the period):
+  // counted.
   bool laws_overrun = false;
 };
 

@@ -156,17 +156,16 @@ TEST(Velocity, IsSeenAndCountsInTheLaw) {
     Bench bench(leg_with([&](SpineConfig& c) {
       c.joint[hip].gains = {.velocity = 0.02f};
       c.joint[hip].stiffness_source = StiffnessSource::none;
-      c.joint[hip].velocity = {.estimator = Estimator::weighted_average,
-                               .samples = 4,
-                               .weight = line_weights(4, 100)};
+      c.joint[hip].velocity = {
+          .estimator = Estimator::weighted_average, .samples = 4, .weight = line_weights(4, 100)};
       if (sensor)
         c.joint[hip].velocity = {
             .estimator = Estimator::sensor, .channel = {6}, .at_rest = 2000, .scale = 2};
     }));
     bench.reading[6] = 2150;
     bench.command.joint[hip].gains.velocity = 0.02f;
-    for (int i = 0; i < 20; ++i) bench.reading[1] = static_cast<std::uint16_t>(1895 + 3 * i),
-                                 bench.run(1);
+    for (int i = 0; i < 20; ++i)
+      bench.reading[1] = static_cast<std::uint16_t>(1895 + 3 * i), bench.run(1);
     EXPECT_NEAR(bench.spine.seen().joint[hip].velocity, 300, 1e-3);
     const Duties& d = bench.spine.seen().joint[hip].duties;
     EXPECT_NEAR(d.flexor_exhaust, 6, 1);
@@ -346,7 +345,8 @@ SpineConfig biarticular(float hip_share, float travel = 0) {
   return leg_with([&](SpineConfig& c) {
     c.joints = 2;
     MuscleConfig &at_hip = c.joint[hip].flexor, &at_knee = c.joint[knee].flexor;
-    at_knee.inlet = at_hip.inlet, at_knee.exhaust = at_hip.exhaust, at_knee.tension = at_hip.tension;
+    at_knee.inlet = at_hip.inlet, at_knee.exhaust = at_hip.exhaust,
+    at_knee.tension = at_hip.tension;
     at_hip.share = hip_share, at_knee.share = 1 - hip_share;
     at_hip.other_travel = travel;
     for (JointConfig& j : c.joint) j.stiffness_source = StiffnessSource::none;
@@ -417,9 +417,10 @@ TEST(SpineConfig, ProblemsOfTheKinds) {
     const char* p = problem(config);
     return std::string(p ? p : "");
   };
-  EXPECT_NE(of([](SpineConfig& c) { c.joint[hip].velocity.estimator = Estimator::sensor,
-                                    c.joint[hip].velocity.channel = {20}; })
-                .find("not converted"),
+  EXPECT_NE(of([](SpineConfig& c) {
+              c.joint[hip].velocity.estimator = Estimator::sensor,
+              c.joint[hip].velocity.channel = {20};
+            }).find("not converted"),
             std::string::npos);
   EXPECT_NE(of([](SpineConfig& c) {
               c.joint[hip].velocity = {.estimator = Estimator::weighted_average, .samples = 17};
@@ -434,8 +435,9 @@ TEST(SpineConfig, ProblemsOfTheKinds) {
   EXPECT_NE(of([](SpineConfig& c) { c.joint[hip].kind = JointKind::passive; }).find("passive"),
             std::string::npos);
   // The inlet alone is not a shared muscle; nor can both sides of a joint be one.
-  EXPECT_NE(of([](SpineConfig& c) { c.joint[knee].flexor.inlet = c.joint[hip].flexor.inlet; })
-                .find("same valve"),
+  EXPECT_NE(of([](SpineConfig& c) {
+              c.joint[knee].flexor.inlet = c.joint[hip].flexor.inlet;
+            }).find("same valve"),
             std::string::npos);
   EXPECT_NE(of([](SpineConfig& c) {
               c.joint[hip].extensor.inlet = c.joint[hip].flexor.inlet;

@@ -14,7 +14,8 @@
 // Departures from appendix B, all outside what the leg's runs reach:
 //   - near its pole [27] gives no value, where the code casts whatever it finds to `short`
 //   - outputs and sums saturate, where the code's `short` wraps
-//   - the speed is by default the step times 100/s, where the code divides by the double 0.01, which is larger
+//   - the speed is by default the step times 100/s, where the code divides by the double 0.01,
+//   which is larger
 //     by 2e-17: an output that is a whole number but for that comes out one lower in the code
 #pragma once
 
@@ -80,8 +81,7 @@ constexpr Stiffness joint_stiffness(const JointConfig& joint, Truncation mode, c
   if (joint.stiffness_source == StiffnessSource::flexor_force) extensor_tension = flexor_tension;
   if (joint.stiffness_source == StiffnessSource::extensor_force) flexor_tension = extensor_tension;
 
-  const Stiffness flexor =
-      tension_share(joint.flexor, joint, mode, length.flexor, flexor_tension);
+  const Stiffness flexor = tension_share(joint.flexor, joint, mode, length.flexor, flexor_tension);
   const Stiffness extensor =
       tension_share(joint.extensor, joint, mode, length.extensor, extensor_tension);
   if (!flexor.valid || !extensor.valid) return {};

@@ -49,7 +49,8 @@ TEST(Exact, AngleLawAgreesWithIntegerArithmetic) {
     const Wide u =
         whole(g.angle) * (desired - actual) - whole(g.velocity) * (100 * (actual - previous));
     const int expected = clamped(static_cast<int>(u / (Wide(1) << scale)), -16'000, 16'000);
-    ASSERT_EQ(truncated(angle_law(g, 1, desired, actual, difference(actual, previous, 100.0f))), expected)
+    ASSERT_EQ(truncated(angle_law(g, 1, desired, actual, difference(actual, previous, 100.0f))),
+              expected)
         << g.angle << " " << g.velocity << " " << desired << " " << actual << " " << previous;
   }
 }
@@ -193,7 +194,8 @@ TEST(Laws, AnyInputGivesDuties) {
                  {Truncation::each_law, Truncation::sum, Truncation::none}) {
               joint.pole_clamp = clamp;
               const Stiffness k = joint_stiffness(joint, mode, reading, 4095, 0);
-              const Exact u_theta = angle_law({x, 0, y}, -1, desired, reading, difference(reading, 0, 100.0f));
+              const Exact u_theta =
+                  angle_law({x, 0, y}, -1, desired, reading, difference(reading, 0, 100.0f));
               const Duties d = to_duties(asked(stiffness_law(x, y, k.value), u_theta, mode));
               for (const int duty :
                    {d.flexor_inlet, d.flexor_exhaust, d.extensor_inlet, d.extensor_exhaust})

@@ -45,9 +45,9 @@ constexpr std::uint16_t level_of(float percent) noexcept {
 }
 
 struct RegulatorInput {
-  float bias = 50;         // [%]
-  float u_k = 0;           // [58] [%]
-  float u_theta = 0;       // [59], positive flexes [%]
+  float bias = 50;           // [%]
+  float u_k = 0;             // [58] [%]
+  float u_theta = 0;         // [59], positive flexes [%]
   float stiffness_step = 0;  // what this law would add to I_k [%]
   float angle_step = 0;      // and to I_theta [%]
 };

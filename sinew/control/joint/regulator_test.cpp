@@ -69,8 +69,11 @@ TEST(Regulator, StateStaysWithinTheRangeWhateverComes) {
   RegulatorState state;
   for (int i = 0; i < 100'000; ++i) {
     const float wild = i % 100 == 0 ? inf : any(random);
-    regulate(state, {.bias = 30, .u_k = any(random), .u_theta = any(random),
-                     .stiffness_step = wild, .angle_step = any(random)});
+    regulate(state, {.bias = 30,
+                     .u_k = any(random),
+                     .u_theta = any(random),
+                     .stiffness_step = wild,
+                     .angle_step = any(random)});
     ASSERT_TRUE(state.mean >= -30 && state.mean <= 70);
     ASSERT_TRUE(state.difference >= -100 && state.difference <= 100);
   }

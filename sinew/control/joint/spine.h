@@ -76,7 +76,7 @@ class Spine {
   using JointValves = std::array<PulseTrain, valves_per_joint>;
 
   enum Side : std::size_t { flexor, extensor };
-  static constexpr std::array sides = {flexor, extensor};
+  static constexpr Side sides[] = {flexor, extensor};
 
   // A set point on its way to a regulator.
   struct PendingLevel {

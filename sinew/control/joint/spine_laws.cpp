@@ -87,9 +87,10 @@ Pair Spine::lengths(std::size_t j) const noexcept {
 Stiffness Spine::measured_stiffness(std::size_t j) const noexcept {
   const JointConfig& joint = config_.joint[j];
   if (joint.stiffness_source == StiffnessSource::pressure)
-    return {joint_stiffness_from_pressure(
-                joint, lengths(j), {counts(joint.flexor.pressure), counts(joint.extensor.pressure)}),
-            true};
+    return {
+        joint_stiffness_from_pressure(
+            joint, lengths(j), {counts(joint.flexor.pressure), counts(joint.extensor.pressure)}),
+        true};
   return joint_stiffness(joint, config_.truncation, lengths(j),
                          {counts(joint.flexor.tension), counts(joint.extensor.tension)});
 }
@@ -164,7 +165,9 @@ void Spine::share_duties(std::size_t j) noexcept {
     const Partner& partner = partner_[j][side];
     if (partner.joint < 0 || !partner.drives) continue;
     const auto other = static_cast<std::size_t>(partner.joint);
-    const auto of = [](const Pair& pair, Side s) { return s == flexor ? pair.flexor : pair.extensor; };
+    const auto of = [](const Pair& pair, Side s) {
+      return s == flexor ? pair.flexor : pair.extensor;
+    };
     const auto wish = [&](std::size_t joint, Side s) {
       return seen_.joint[joint].enabled ? of(asked_[joint], s) : 0;
     };

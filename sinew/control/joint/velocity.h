@@ -40,18 +40,18 @@ struct VelocityConfig {
   Estimator estimator = Estimator::difference;
 
   // Weighted average
-  std::uint8_t samples = 2;                  // angles looked at, 2 .. max_samples
-  std::array<float, max_samples> weight{};   // [1/s] newest first; the first is not used
+  std::uint8_t samples = 2;                 // angles looked at, 2 .. max_samples
+  std::array<float, max_samples> weight{};  // [1/s] newest first; the first is not used
 
   // Bounded observer and Kalman: the joint over one period
-  float decay = 1;         // a, share of the speed that is left [-]
-  float speed_gain = 0;    // c [count/s per count of tension]; 0: no tension is needed
-  float margin = 0;        // bounded: largest change of speed that the model does not know [count/s]
+  float decay = 1;       // a, share of the speed that is left [-]
+  float speed_gain = 0;  // c [count/s per count of tension]; 0: no tension is needed
+  float margin = 0;      // bounded: largest change of speed that the model does not know [count/s]
   float limit = speed_limit;  // bounded: largest speed [count/s]
-  float travel = 0;        // g, Kalman [s]
-  float travel_gain = 0;   // d, Kalman [count per count of tension]
-  float angle_share = 0;   // Kalman: of the angle's error, into the angle [-]
-  float speed_share = 0;   // and into the speed [1/s]
+  float travel = 0;           // g, Kalman [s]
+  float travel_gain = 0;      // d, Kalman [count per count of tension]
+  float angle_share = 0;      // Kalman: of the angle's error, into the angle [-]
+  float speed_share = 0;      // and into the speed [1/s]
 
   // Sensor
   signals::Channel channel;
@@ -103,8 +103,7 @@ constexpr float bounded(const VelocityConfig& config, float calculated, float la
 // One period of the model, then the share of what the reading says otherwise.
 constexpr void kalman(const VelocityConfig& config, VelocityState& state, std::int32_t angle,
                       float push) noexcept {
-  const float predicted =
-      state.predicted + config.travel * state.speed + config.travel_gain * push;
+  const float predicted = state.predicted + config.travel * state.speed + config.travel_gain * push;
   const float expected = config.decay * state.speed + config.speed_gain * push;
   const float error = static_cast<float>(angle) - predicted;
   state.predicted = clamped(predicted + config.angle_share * error, speed_limit);
@@ -141,8 +140,7 @@ constexpr float estimate(const VelocityConfig& config, VelocityState& state,
       break;
     case Estimator::bounded_observer:
       if (!first)
-        state.speed =
-            bounded(config, difference(now.angle, previous, now.rate), state.speed, push);
+        state.speed = bounded(config, difference(now.angle, previous, now.rate), state.speed, push);
       break;
     case Estimator::kalman:
       if (!first) kalman(config, state, now.angle, push);

@@ -22,9 +22,11 @@ std::vector<double> estimates(const VelocityConfig& config, const std::vector<st
   VelocityState state;
   std::vector<double> out;
   for (std::size_t i = 0; i < angles.size(); ++i)
-    out.push_back(static_cast<double>(estimate(
-        config, state,
-        {.angle = angles[i], .push = push.empty() ? 0.0f : push[i], .sensor = angles[i], .rate = rate})));
+    out.push_back(static_cast<double>(estimate(config, state,
+                                               {.angle = angles[i],
+                                                .push = push.empty() ? 0.0f : push[i],
+                                                .sensor = angles[i],
+                                                .rate = rate})));
   return out;
 }
 
@@ -135,10 +137,8 @@ TEST(BoundedObserver, LiesBetweenDifferenceAndModel) {
 
 // A model without error needs no correction; a wrong start dies out with it.
 TEST(Kalman, FollowsARampWithoutError) {
-  const VelocityConfig config{.estimator = Estimator::kalman,
-                              .travel = 0.01f,
-                              .angle_share = 0.4f,
-                              .speed_share = 10.0f};
+  const VelocityConfig config{
+      .estimator = Estimator::kalman, .travel = 0.01f, .angle_share = 0.4f, .speed_share = 10.0f};
   const std::vector<double> v = estimates(config, ramp(5, 200));
   EXPECT_NEAR(v.back(), 500, 0.05);  // a float of 3000 counts has 2.4e-4
   EXPECT_GT(std::abs(v[1] - 500), 100);
