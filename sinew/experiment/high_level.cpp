@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sinew/experiment/spinal.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::experiment {
@@ -17,20 +18,29 @@ int percent(double share) { return static_cast<int>(std::lround(share * 100.0));
 
 Believed believed(const robot::Robot& robot) {
   Believed b;
+  const auto sensor = [&](int s) -> const robot::Sensor& {
+    return robot.sensors[static_cast<std::size_t>(s)];
+  };
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const int s = robot::angle_sensor_of(robot, static_cast<int>(j));
-    const robot::Sensor& sensor = robot.sensors[static_cast<std::size_t>(s)];
     b.rest[j] = robot.joints[j].rest_angle;
-    b.counts_per_rad[j] = sensor.assumed_scale;
-    b.counts_at_rest[j] = sensor.assumed_at_rest;
     b.angle_channel[j] = s;
+    if (s < 0) continue;
+    b.counts_per_rad[j] = sensor(s).assumed_scale;
+    b.counts_at_rest[j] = sensor(s).assumed_at_rest;
   }
   for (std::size_t m = 0; m < robot.muscles.size(); ++m) {
     const int s = robot::tension_sensor_of(robot, static_cast<int>(m));
-    const robot::Sensor& sensor = robot.sensors[static_cast<std::size_t>(s)];
-    b.newtons_per_count[m] = 1.0 / (sensor.assumed_scale * robot.converter.counts_per_volt());
-    b.counts_at_zero[m] = sensor.assumed_at_rest;
     b.tension_channel[m] = s;
+    if (s < 0) continue;
+    b.newtons_per_count[m] = 1.0 / (sensor(s).assumed_scale * robot.converter.counts_per_volt());
+    b.counts_at_zero[m] = sensor(s).assumed_at_rest;
+  }
+  const int s = robot::cylinder_sensor(robot);
+  b.cylinder_channel = s;
+  if (s >= 0) {
+    b.cylinder_counts_per_metre = sensor(s).assumed_scale;
+    b.cylinder_at_rest = sensor(s).assumed_at_rest;
   }
   return b;
 }
@@ -38,23 +48,42 @@ Believed believed(const robot::Robot& robot) {
 HighLevel::HighLevel(const robot::Robot& robot, const gait::Plan& plan)
     : joints_(static_cast<int>(robot.joints.size())),
       muscles_(static_cast<int>(robot.muscles.size())),
+      has_cylinder_(has_cylinder_joint(robot)),
+      cylinder_gain_(static_cast<float>(robot.cylinder.position_gain * 100.0)),
       brain_ticks_(std::llround(plan.brain_period / signals::tick_seconds)),
       scale_(believed(robot)),
       brain_(robot, plan) {}
 
+// What has no sensor is believed to rest.
 void HighLevel::believe(const control::Seen& seen) noexcept {
+  const auto counts = [&](int channel) -> double {
+    return seen.reading[static_cast<std::size_t>(channel)].counts;
+  };
   for (int j = 0; j < joints_; ++j) {
     const auto k = static_cast<std::size_t>(j);
-    const double counts = seen.reading[static_cast<std::size_t>(scale_.angle_channel[k])].counts;
-    measured_.angle[k] =
-        scale_.rest[k] + (counts - scale_.counts_at_rest[k]) / scale_.counts_per_rad[k];
+    measured_.angle[k] = scale_.rest[k];
+    if (scale_.angle_channel[k] < 0) continue;
+    measured_.angle[k] = scale_.rest[k] + (counts(scale_.angle_channel[k]) -
+                                           scale_.counts_at_rest[k]) / scale_.counts_per_rad[k];
     measured_.stiffness[k] = static_cast<double>(seen.joint[k].stiffness) * stiffness_unit;
   }
   for (int m = 0; m < muscles_; ++m) {
     const auto k = static_cast<std::size_t>(m);
-    const double counts = seen.reading[static_cast<std::size_t>(scale_.tension_channel[k])].counts;
-    measured_.tension[k] = (counts - scale_.counts_at_zero[k]) * scale_.newtons_per_count[k];
+    if (scale_.tension_channel[k] < 0) continue;
+    measured_.tension[k] = (counts(scale_.tension_channel[k]) - scale_.counts_at_zero[k]) *
+                           scale_.newtons_per_count[k];
   }
+}
+
+double HighLevel::velocity(const control::Seen& seen, std::size_t joint) const noexcept {
+  if (scale_.angle_channel[joint] < 0) return 0;
+  return static_cast<double>(seen.joint[joint].velocity) / scale_.counts_per_rad[joint];
+}
+
+double HighLevel::cylinder_travel(const control::Seen& seen) const noexcept {
+  if (scale_.cylinder_channel < 0) return 0;
+  const double counts = seen.reading[static_cast<std::size_t>(scale_.cylinder_channel)].counts;
+  return (counts - scale_.cylinder_at_rest) / scale_.cylinder_counts_per_metre;
 }
 
 const control::Command& HighLevel::update(const control::Seen& seen, signals::Tick t) noexcept {
@@ -83,6 +112,15 @@ void HighLevel::translate(const gait::Desired& desired) noexcept {
                     .extensor_inlet = percent(want.extensor_inlet),
                     .extensor_exhaust = percent(want.extensor_exhaust)};
   }
+  if (has_cylinder_) hold_cylinder(desired);
+}
+
+// At its extended stop, as the thesis's runs have it.
+void HighLevel::hold_cylinder(const gait::Desired& desired) noexcept {
+  control::JointCommand& joint = command_.joint[static_cast<std::size_t>(joints_)];
+  joint.angle = static_cast<std::int32_t>(std::lround(scale_.cylinder_at_rest));
+  joint.gains.angle = cylinder_gain_;
+  joint.enabled = desired.stage != gait::Stage::settling && !desired.vent;
 }
 
 }  // namespace sinew::experiment

@@ -7,12 +7,15 @@
 
 namespace sinew::experiment {
 
-// What one count, or one of the controller's stiffness units, stands for.
+// What one count, or one of the controller's stiffness units, stands for. A channel is -1 where
+// there is no sensor.
 struct Believed {
   std::array<double, robot::max_joints> rest{}, counts_per_rad{}, counts_at_rest{};
   std::array<double, robot::max_muscles> newtons_per_count{}, counts_at_zero{};
   std::array<int, robot::max_joints> angle_channel{};
   std::array<int, robot::max_muscles> tension_channel{};
+  double cylinder_counts_per_metre = 0, cylinder_at_rest = 0;
+  int cylinder_channel = -1;
 };
 
 Believed believed(const robot::Robot& robot);
@@ -31,13 +34,22 @@ class HighLevel {
     return scale_.newtons_per_count[muscle];
   }
 
+  // Speed of a joint as the low level estimates it  [rad/s].
+  double velocity(const control::Seen& seen, std::size_t joint) const noexcept;
+
+  // Travel of the cylinder, by the controller's scale  [m]; 0 without its sensor.
+  double cylinder_travel(const control::Seen& seen) const noexcept;
+
   // Readings as the brain gets them.
   void believe(const control::Seen& seen) noexcept;
 
  private:
   void translate(const gait::Desired& desired) noexcept;
+  void hold_cylinder(const gait::Desired& desired) noexcept;
 
   int joints_, muscles_;
+  bool has_cylinder_;
+  float cylinder_gain_;  // [%/count]
   signals::Tick brain_ticks_;
   Believed scale_;
   gait::Brain brain_;

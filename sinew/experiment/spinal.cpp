@@ -4,80 +4,265 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sinew/actuator/braid.h"
+#include "sinew/experiment/estimators.h"
 #include "sinew/robot/actuator_of.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::experiment {
 namespace {
 
-signals::Channel channel(int sensor) { return {static_cast<std::uint8_t>(sensor)}; }
+using Role = robot::Muscle::Role;
 
-control::MuscleConfig muscle_config(const robot::Robot& robot, int muscle,
-                                    double counts_per_metre) {
-  const robot::Muscle& m = robot.muscles[static_cast<std::size_t>(muscle)];
-  const double assumed = robot.low_level.assumed_mount_length;
-  const double length = assumed > 0 ? assumed : m.mount_length;
-  return {.tension = channel(robot::tension_sensor_of(robot, muscle)),
-          .inlet = {static_cast<std::uint8_t>(2 * muscle)},
-          .exhaust = {static_cast<std::uint8_t>(2 * muscle + 1)},
-          .free_length = static_cast<std::int32_t>(length * counts_per_metre)};
+// The controller's unit of stiffness, lbf in/rad  [N m/rad].
+constexpr double stiffness_unit = units::pound_force * units::inch;
+
+signals::Channel channel(int sensor) {
+  return {static_cast<std::uint8_t>(sensor < 0 ? 0 : sensor)};
 }
 
-// The law runs when the last of the joint's sensors has been read.
-int law_tick(const robot::Robot& robot, int joint, int flexor, int extensor) {
-  int tick = robot.sensors[static_cast<std::size_t>(robot::angle_sensor_of(robot, joint))].tick;
-  for (int muscle : {flexor, extensor}) {
-    const int s = robot::tension_sensor_of(robot, muscle);
-    tick = std::max(tick, robot.sensors[static_cast<std::size_t>(s)].tick);
+const robot::Sensor& sensor(const robot::Robot& robot, int index) {
+  return robot.sensors[static_cast<std::size_t>(index)];
+}
+
+double period_of(const robot::Robot& robot) {
+  return robot.low_level.pwm_ticks * signals::tick_seconds;
+}
+
+// What a muscle's cord runs over at a joint that it pulls.
+struct Pull {
+  double arm = 0;   // the low level knows one, of a cam that is not round the one at rest [m]
+  double sign = 1;  // +1: raises the joint's angle
+};
+
+double radius_at_rest(const robot::Cam& cam, const robot::Joint& joint) {
+  if (cam.angle.empty()) return cam.radius > 0 ? cam.radius : joint.moment_arm;
+  const auto above = std::ranges::upper_bound(cam.angle, joint.rest_angle) - cam.angle.begin();
+  const auto i = static_cast<std::size_t>(above);
+  if (i == 0) return cam.radii.front();
+  if (i == cam.angle.size()) return cam.radii.back();
+  const double share = (joint.rest_angle - cam.angle[i - 1]) / (cam.angle[i] - cam.angle[i - 1]);
+  return cam.radii[i - 1] + share * (cam.radii[i] - cam.radii[i - 1]);
+}
+
+Pull pull(const robot::Muscle& m, const robot::Joint& joint) {
+  const bool first = m.joint == joint.name;
+  const Role role = first ? m.role : m.second.role;
+  const double sign = role == Role::flexor ? joint.sign() : -joint.sign();
+  return {radius_at_rest(first ? m.cam : m.second.cam, joint), sign};
+}
+
+// [N] of a count by the assumed scale; 0 without a transducer.
+double newtons_per_count(const robot::Robot& robot, int muscle) {
+  const int s = robot::tension_sensor_of(robot, muscle);
+  if (s < 0) return 0;
+  return 1.0 / (robot.converter.counts_per_volt() * sensor(robot, s).assumed_scale);
+}
+
+// A muscle as its joint's laws take it.
+class MuscleSide {
+ public:
+  MuscleSide(const Experiment& e, int joint, int muscle)
+      : e_(e),
+        joint_(e.robot.joints[static_cast<std::size_t>(joint)]),
+        index_(muscle),
+        muscle_(e.robot.muscles[static_cast<std::size_t>(muscle)]),
+        pull_(pull(muscle_, joint_)),
+        counts_per_rad_(sensor(e.robot, robot::angle_sensor_of(e.robot, joint)).assumed_scale),
+        counts_per_metre_(counts_per_rad_ / pull_.arm) {}
+
+  // Torque of a count of its tension  [N m].
+  double torque_per_count() const { return pull_.arm * newtons_per_count(e_.robot, index_); }
+
+  control::MuscleConfig config(double flexor_torque_per_count) const {
+    const robot::LowLevel& low = e_.robot.low_level;
+    const actuator::Actuator a = robot::actuator_of(muscle_, e_.actuators);
+    const double assumed = low.assumed_mount_length, thread = low.assumed_thread_length;
+
+    control::MuscleConfig c;
+    c.tension = channel(robot::tension_sensor_of(e_.robot, index_));
+    c.inlet = {static_cast<std::uint8_t>(2 * index_)};
+    c.exhaust = {static_cast<std::uint8_t>(2 * index_ + 1)};
+    c.free_length = counts(assumed > 0 ? assumed : muscle_.mount_length);
+    // b in counts, cut as in B.1: 3235^2 = 10465225.
+    const std::int32_t b = counts(thread > 0 ? thread : a.braid.thread_length);
+    c.thread_length_squared = b * b;
+    if (flexor_torque_per_count > 0)
+      c.tension_ratio = static_cast<float>(torque_per_count() / flexor_torque_per_count);
+    set_pressure(a, c);
+    set_second(c);
+    return c;
   }
-  return tick;
+
+ private:
+  std::int32_t counts(double length) const {
+    return static_cast<std::int32_t>(length * counts_per_metre_);
+  }
+
+  // [26] and [30] in counts of gauge pressure.
+  void set_pressure(const actuator::Actuator& a, control::MuscleConfig& c) const {
+    const int s = robot::pressure_sensor_of(e_.robot, index_);
+    if (s < 0) return;
+    const robot::Sensor& from = sensor(e_.robot, s);
+    const double pascals = 1.0 / (e_.robot.converter.counts_per_volt() * from.assumed_scale);
+    c.pressure = channel(s);
+    c.pressure_at_zero = static_cast<std::int32_t>(std::lround(from.assumed_at_rest));
+    c.pressure_factor =
+        static_cast<float>(6.0 * muscle_.count * actuator::braid_factor(a.braid) * pull_.arm *
+                           pull_.arm / counts_per_metre_ * pascals / stiffness_unit);
+    const actuator::Effectiveness& e = a.effectiveness;
+    // As a polynomial of gauge pressure, whichever it is fitted to.
+    const double zero = e.argument == actuator::Effectiveness::Argument::absolute
+                            ? e_.air.atmosphere
+                            : 0.0;
+    const double c0 = e.c0 + zero * (e.c1 + zero * e.c2), c1 = e.c1 + 2 * zero * e.c2;
+    c.effectiveness = {static_cast<float>(e.scale * c0), static_cast<float>(e.scale * c1 * pascals),
+                       static_cast<float>(e.scale * e.c2 * pascals * pascals)};
+    c.valid_from = static_cast<float>(e.valid_from / pascals);
+    c.valid_to = static_cast<float>(e.valid_to / pascals);
+  }
+
+  // A muscle over two joints: its share of the duty by moment arm, and how the other joint moves it.
+  void set_second(control::MuscleConfig& c) const {
+    if (muscle_.second.joint.empty()) return;
+    const bool first = muscle_.joint == joint_.name;
+    const int j = robot::find_joint(e_.robot, first ? muscle_.second.joint : muscle_.joint);
+    const robot::Joint& other = e_.robot.joints[static_cast<std::size_t>(j)];
+    const Pull there = pull(muscle_, other);
+    const double scale = sensor(e_.robot, robot::angle_sensor_of(e_.robot, j)).assumed_scale;
+    c.share = static_cast<float>(pull_.arm / (pull_.arm + there.arm));
+    c.other_travel = static_cast<float>(-there.sign * there.arm / scale * counts_per_metre_);
+  }
+
+  const Experiment& e_;
+  const robot::Joint& joint_;
+  int index_;
+  const robot::Muscle& muscle_;
+  Pull pull_;
+  double counts_per_rad_, counts_per_metre_;
+};
+
+control::JointKind kind_of(const Experiment& e, const std::vector<int>& muscles) {
+  for (const int m : muscles)
+    for (const gas::Valve& v : e.valves) {
+      if (v.name != e.robot.muscles[static_cast<std::size_t>(m)].inlet) continue;
+      if (v.kind == gas::Valve::Kind::three_way) return control::JointKind::three_way;
+    }
+  return control::JointKind::antagonist;
+}
+
+control::StiffnessSource source(robot::StiffnessSource from) {
+  using From = robot::StiffnessSource;
+  using To = control::StiffnessSource;
+  if (from == From::flexor_force) return To::flexor_force;
+  if (from == From::extensor_force) return To::extensor_force;
+  if (from == From::pressures) return To::pressure;
+  return from == From::none ? To::none : To::force;
 }
 
 // 767/(819.2 x 0.17) = 5.5075 by the assumed scales; B.1 rounds to 5.5, for its 1 in cam.
-void set_stiffness_factor(const robot::Robot& robot, const robot::Joint& joint,
-                          double counts_per_rad, int flexor, control::JointConfig& out) {
-  const double arm_inches = joint.moment_arm / units::inch;
-  out.moment_arm_factor = static_cast<float>(arm_inches);
+void set_stiffness_factor(const robot::Robot& robot, double arm, double counts_per_rad, int muscle,
+                          control::JointConfig& out) {
+  out.moment_arm_factor = static_cast<float>(arm / units::inch);
   if (robot.low_level.stiffness_factor > 0) {
     out.stiffness_factor = static_cast<float>(robot.low_level.stiffness_factor);
     return;
   }
-  const int s = robot::tension_sensor_of(robot, flexor);
-  const double volts_per_pound =
-      robot.sensors[static_cast<std::size_t>(s)].assumed_scale * units::pound_force;
+  const int s = robot::tension_sensor_of(robot, muscle);
+  if (s < 0) return;
+  const double volts_per_pound = sensor(robot, s).assumed_scale * units::pound_force;
   out.stiffness_factor =
       static_cast<float>(counts_per_rad / (robot.converter.counts_per_volt() * volts_per_pound));
+}
+
+// Integral gains per law, in percent and the controller's unit of stiffness.
+void set_pressure_law(const robot::PressureLaw& law, double period, control::JointConfig& c) {
+  c.bias = static_cast<std::int32_t>(std::lround(law.bias * 100.0));
+  c.regulator.angle_integral = static_cast<float>(law.angle_integral * period * 100.0);
+  c.regulator.stiffness_integral =
+      static_cast<float>(law.stiffness_integral * period * 100.0 * stiffness_unit);
+}
+
+void set_muscles(const Experiment& e, int index, control::JointConfig& c) {
+  const robot::Robot& robot = e.robot;
+  const int flexor = robot::muscle_of(robot, index, Role::flexor);
+  const int extensor = robot::muscle_of(robot, index, Role::extensor);
+  const int leading = flexor >= 0 ? flexor : extensor;
+  const MuscleSide lead(e, index, leading);
+  const double torque = lead.torque_per_count();
+  const auto config = [&](int muscle) {
+    control::MuscleConfig none;
+    none.present = false;
+    return muscle < 0 ? none : MuscleSide(e, index, muscle).config(torque);
+  };
+  c.flexor = config(flexor);
+  c.extensor = config(extensor);
+
+  std::vector<int> muscles;
+  for (const int m : {flexor, extensor})
+    if (m >= 0) muscles.push_back(m);
+  c.kind = kind_of(e, muscles);
+  const robot::Joint& joint = robot.joints[static_cast<std::size_t>(index)];
+  const robot::Muscle& m = robot.muscles[static_cast<std::size_t>(leading)];
+  const int angle = robot::angle_sensor_of(robot, index);
+  set_stiffness_factor(robot, pull(m, joint).arm, sensor(robot, angle).assumed_scale, leading, c);
+  c.velocity = velocity_config(robot, index, torque, 1.0 / period_of(robot));
+}
+
+// The law runs when the last of the readings that it needs is there.
+std::uint16_t law_tick(const robot::Robot& robot, const control::JointConfig& c) {
+  int tick = 0;
+  for (const signals::Channel needed : control::readings_of(c))
+    tick = std::max(tick, sensor(robot, needed.index).tick);
+  return static_cast<std::uint16_t>(tick);
 }
 
 control::JointConfig joint_config(const Experiment& e, int index) {
   const robot::Robot& robot = e.robot;
   const robot::Joint& joint = robot.joints[static_cast<std::size_t>(index)];
-  const int flexor = robot::muscle_of(robot, index, robot::Muscle::Role::flexor);
-  const int extensor = robot::muscle_of(robot, index, robot::Muscle::Role::extensor);
-  const int angle = robot::angle_sensor_of(robot, index);
-  const robot::Sensor& sensor = robot.sensors[static_cast<std::size_t>(angle)];
-  const double counts_per_metre = sensor.assumed_scale / joint.moment_arm;
-
   control::JointConfig c;
+  if (joint.kind == robot::Joint::Kind::passive) {
+    c.kind = control::JointKind::passive;
+    c.flexor.present = c.extensor.present = false;
+    return c;
+  }
+  const int angle = robot::angle_sensor_of(robot, index);
   c.enabled = joint.enabled;
   c.angle = channel(angle);
-  c.flexor = muscle_config(robot, flexor, counts_per_metre);
-  c.extensor = muscle_config(robot, extensor, counts_per_metre);
-  c.law_tick = static_cast<std::uint16_t>(law_tick(robot, index, flexor, extensor));
-  c.angle_at_rest = static_cast<std::int32_t>(std::lround(sensor.assumed_at_rest));
+  c.angle_at_rest = static_cast<std::int32_t>(std::lround(sensor(robot, angle).assumed_at_rest));
   c.flexion = joint.sign() > 0 ? std::int8_t{1} : std::int8_t{-1};
   c.lengths_swapped = robot.thesis.knee_lengths_swapped && joint.sign() < 0;
-
-  // b in counts, cut as in B.1: 3235^2 = 10465225.
-  double thread = robot.low_level.assumed_thread_length;
-  if (thread <= 0)
-    thread = robot::actuator_of(robot.muscles[static_cast<std::size_t>(flexor)], e.actuators)
-                 .braid.thread_length;
-  const auto counts = static_cast<std::int32_t>(thread * counts_per_metre);
-  c.flexor.thread_length_squared = c.extensor.thread_length_squared = counts * counts;
-  set_stiffness_factor(robot, joint, sensor.assumed_scale, flexor, c);
+  c.stiffness_source = source(joint.stiffness_source);
   c.pole_clamp = static_cast<std::int32_t>(
-      std::lround(robot.low_level.stiffness_pole_clamp * sensor.assumed_scale));
+      std::lround(robot.low_level.stiffness_pole_clamp * sensor(robot, angle).assumed_scale));
+  set_pressure_law(joint.pressure_law, period_of(robot), c);
+  set_muscles(e, index, c);
+  c.law_tick = law_tick(robot, c);
+  return c;
+}
+
+// Joint 0 of B.1 is the last one here: up is its flexor, down its extensor; the valves come after
+// the muscles'.
+control::JointConfig cylinder_config(const robot::Robot& robot) {
+  const robot::Cylinder& from = robot.cylinder;
+  const int travel = robot::cylinder_sensor(robot);
+  const auto valve = [&](std::size_t i) {
+    return signals::Valve{static_cast<std::uint8_t>(2 * robot.muscles.size() + i)};
+  };
+  const auto percent = [](double share) {
+    return static_cast<std::int32_t>(std::lround(share * 100.0));
+  };
+  control::JointConfig c;
+  c.kind = control::JointKind::cylinder;
+  c.angle = channel(travel);
+  c.angle_at_rest = static_cast<std::int32_t>(std::lround(sensor(robot, travel).assumed_at_rest));
+  c.flexion = sensor(robot, travel).assumed_scale > 0 ? std::int8_t{1} : std::int8_t{-1};
+  c.flexor.inlet = valve(0), c.flexor.exhaust = valve(1);
+  c.extensor.inlet = valve(2), c.extensor.exhaust = valve(3);
+  c.gains.angle = static_cast<float>(from.position_gain * 100.0);
+  c.feedforward = {percent(from.up_feedforward), percent(from.up_feedforward),
+                   percent(from.down_feedforward), percent(from.down_feedforward)};
+  c.law_tick = law_tick(robot, c);
   return c;
 }
 
@@ -88,31 +273,46 @@ control::Truncation truncation(robot::LowLevel::Rounding rounding) {
   return control::Truncation::each_law;
 }
 
-}  // namespace
-
-control::SpineConfig spine_config(const Experiment& e) {
-  const robot::Robot& robot = e.robot;
-  const auto ticks = [](double seconds) {
-    return static_cast<std::uint32_t>(std::lround(seconds / signals::tick_seconds));
-  };
-
-  control::SpineConfig c;
-  c.joints = robot.joints.size();
-  for (std::size_t j = 0; j < c.joints; ++j) c.joint[j] = joint_config(e, static_cast<int>(j));
-
+void set_scan(const robot::Robot& robot, control::SpineConfig& c) {
   if (robot.sensors.size() > c.conversion.size())
-    throw std::invalid_argument("the low level scans at most 16 sensors");
+    throw std::invalid_argument("the low level scans at most " +
+                                std::to_string(c.conversion.size()) + " sensors");
   for (std::size_t s = 0; s < robot.sensors.size(); ++s) {
     const auto tick = static_cast<std::uint16_t>(robot.sensors[s].tick);
     c.conversion[c.conversions++] = {channel(static_cast<int>(s)),
                                      static_cast<std::uint16_t>(tick - 1), tick};
   }
-  c.period = static_cast<std::uint16_t>(robot.low_level.pwm_ticks);
-  c.output_delay = static_cast<std::uint16_t>(robot.low_level.output_delay);
-  c.truncation = truncation(robot.low_level.rounding);
+}
+
+}  // namespace
+
+// The thesis's interrupt comes a hundred times in a period, whatever the period (5.2).
+bool laws_overrun(const robot::Robot& robot) {
+  return robot.low_level.interrupt_time > period_of(robot) / 100.0 * (1.0 + 1e-9);
+}
+
+control::SpineConfig spine_config(const Experiment& e) {
+  const robot::Robot& robot = e.robot;
+  const robot::LowLevel& low = robot.low_level;
+  const auto ticks = [](double seconds) {
+    return static_cast<std::uint32_t>(std::lround(seconds / signals::tick_seconds));
+  };
+
+  control::SpineConfig c;
+  for (std::size_t j = 0; j < robot.joints.size(); ++j)
+    c.joint[c.joints++] = joint_config(e, static_cast<int>(j));
+  if (has_cylinder_joint(robot)) c.joint[c.joints++] = cylinder_config(robot);
+
+  set_scan(robot, c);
+  c.period = static_cast<std::uint16_t>(low.pwm_ticks);
+  c.output_delay = static_cast<std::uint16_t>(low.output_delay);
+  c.truncation = truncation(low.rounding);
   c.timing = e.timing;
+  c.dead_band = static_cast<std::int32_t>(std::lround(low.dead_band * 100.0));
   c.startup_vent = ticks(e.start.settle);
-  c.shutdown_vent = ticks(robot.low_level.vent_time);
+  c.shutdown_vent = ticks(low.vent_time);
+  c.hold_limit = static_cast<std::uint32_t>(low.hold_limit);
+  c.laws_overrun = laws_overrun(robot);
   if (const char* wrong = control::problem(c)) throw std::invalid_argument(wrong);
   return c;
 }

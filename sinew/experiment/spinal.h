@@ -6,6 +6,14 @@
 
 namespace sinew::experiment {
 
+// Is there an air cylinder in a loop? It is then the low level's last joint, behind the robot's.
+inline bool has_cylinder_joint(const robot::Robot& robot) {
+  return robot.cylinder.present && robot.cylinder.mode == robot::Cylinder::Mode::valves;
+}
+
+// Does an interrupt that runs a law take longer than the thesis's program has for it (5.2)?
+bool laws_overrun(const robot::Robot& robot);
+
 // Throws std::invalid_argument where the low level cannot be built so (control::problem).
 control::SpineConfig spine_config(const Experiment& experiment);
 

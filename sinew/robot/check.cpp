@@ -170,23 +170,55 @@ void check_scan(const Robot& robot, List& out) {
   }
 }
 
+// Every quantity that a law needs has one sensor, none has two.
 void check_coverage(const Robot& robot, List& out) {
-  const auto count = [&](Sensor::Kind kind, const std::string& of) {
-    return std::count_if(robot.sensors.begin(), robot.sensors.end(),
-                         [&](const Sensor& s) { return s.kind == kind && s.of == of; });
-  };
-  const auto need_one = [&](Sensor::Kind kind, const std::string& of, const std::string& key,
-                            const std::string& word) {
-    const auto n = count(kind, of);
-    if (n == 1) return;
+  const auto check = [&](Sensor::Kind kind, const std::string& of, const std::string& key,
+                         const std::string& word, bool needed) {
+    const auto n = std::count_if(robot.sensors.begin(), robot.sensors.end(), [&](const Sensor& s) {
+      return s.kind == kind && s.of == of;
+    });
+    if (n == 1 || (n == 0 && !needed)) return;
     out.push_back({key, std::to_string(n) + " sensors of its " + word, "one",
                    "[sensor.…] with kind = \"" + word + "\", of = \"" + of + "\""});
   };
-  for (const Joint& joint : robot.joints)
-    if (joint.kind == Joint::Kind::driven)
-      need_one(Sensor::Kind::angle, joint.name, "joint." + joint.name, "angle");
-  for (const Muscle& muscle : robot.muscles)
-    need_one(Sensor::Kind::tension, muscle.name, "muscle." + muscle.name, "tension");
+  for (const Joint& joint : robot.joints) {
+    const std::string key = "joint." + joint.name;
+    const bool driven = joint.kind == Joint::Kind::driven;
+    const bool spindle = joint.velocity.estimator == Velocity::Estimator::sensor;
+    check(Sensor::Kind::angle, joint.name, key, "angle", driven);
+    check(Sensor::Kind::velocity, joint.name, key, "velocity", driven && spindle);
+  }
+  for (int m = 0; m < static_cast<int>(robot.muscles.size()); ++m) {
+    const Muscle& muscle = robot.muscles[static_cast<std::size_t>(m)];
+    const std::string key = "muscle." + muscle.name;
+    check(Sensor::Kind::tension, muscle.name, key, "tension", needs_tension(robot, m));
+    const int j = find_joint(robot, muscle.joint);
+    check(Sensor::Kind::pressure, muscle.name, key, "pressure",
+          j >= 0 && robot.joints[static_cast<std::size_t>(j)].stiffness_source ==
+                        StiffnessSource::pressures);
+  }
+}
+
+// What the joints' own controllers are told.
+void check_controllers(const Robot& robot, List& out) {
+  for (const Joint& joint : robot.joints) {
+    const std::string key = "joint." + joint.name + ".velocity.weights";
+    const std::vector<double>& weights = joint.velocity.weights;
+    if (weights.empty()) continue;
+    double sum = 0, size = 0;
+    for (const double w : weights) sum += w, size += std::abs(w);
+    if (weights.size() != static_cast<std::size_t>(joint.velocity.samples))
+      out.push_back({key, std::to_string(weights.size()) + " weights",
+                     "one per sample, " + std::to_string(joint.velocity.samples),
+                     "samples = " + std::to_string(weights.size())});
+    if (std::abs(sum) > 1e-9 * size)
+      out.push_back({key, "a sum of " + std::to_string(sum) + " 1/s",
+                     "0: a joint at rest has no speed", "the first weight as what is left to 0"});
+  }
+  const double percents = 100 * robot.low_level.dead_band;
+  if (std::abs(percents - std::round(percents)) > 1e-9)
+    out.push_back({"low_level.dead_band", std::to_string(percents) + " %", "whole percents",
+                   "duties have no parts of one"});
 }
 
 void check_cylinder(const Robot& robot, List& out) {
@@ -246,6 +278,7 @@ std::vector<Contradiction> contradictions(const Robot& robot) {
   check_bits(robot, out);
   check_scan(robot, out);
   check_coverage(robot, out);
+  check_controllers(robot, out);
   check_masses(robot, out);
   check_cylinder(robot, out);
   check_rollers(robot, out);

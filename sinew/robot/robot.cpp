@@ -56,6 +56,19 @@ int cylinder_sensor(const Robot& robot) {
   return position(robot.sensors, [](const Sensor& s) { return s.kind == Sensor::Kind::cylinder; });
 }
 
+bool needs_tension(const Robot& robot, int muscle) {
+  using enum StiffnessSource;
+  for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
+    const Joint& joint = robot.joints[static_cast<std::size_t>(j)];
+    const bool flexor = muscle_of(robot, j, Muscle::Role::flexor) == muscle;
+    const bool extensor = muscle_of(robot, j, Muscle::Role::extensor) == muscle;
+    const StiffnessSource from = joint.stiffness_source;
+    if ((flexor || extensor) && (from == forces || joint.velocity.tensions)) return true;
+    if ((flexor && from == flexor_force) || (extensor && from == extensor_force)) return true;
+  }
+  return false;
+}
+
 bool is_plain(const Robot& robot) {
   const auto round = [](const Cam& cam) { return cam.angle.empty() && !(cam.radius > 0); };
   for (const Joint& j : robot.joints)

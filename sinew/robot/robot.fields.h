@@ -4,6 +4,7 @@
 // put beside these tables by config/compose.h.
 #pragma once
 
+#include "sinew/robot/control.fields.h"
 #include "sinew/robot/robot.h"
 #include "sinew/units/field.h"
 
@@ -183,6 +184,7 @@ void driven_fields(Visitor& v, Joint& joint) {
   v.number(
       {.name = "velocity_gain", .unit = "s/count", .min = 0, .optional = true, .doc = "G_v, 6.5"},
       joint.gains.velocity);
+  controller_fields(v, joint.velocity, joint.stiffness_source, joint.pressure_law);
   v.flag(
       {.name = "enabled", .optional = true, .doc = "false: the low level leaves the joint alone"},
       joint.enabled);
@@ -426,6 +428,26 @@ void fields(Visitor& v, LowLevel& low) {
             .optional = true,
             .doc = "exhausts open at the end, then shut"},
            low.vent_time);
+  v.number({.name = "dead_band",
+            .unit = "1",
+            .min = 0,
+            .max = 1,
+            .optional = true,
+            .doc = "duties below it are 0, B.1's \"some value\"; in whole percents"},
+           low.dead_band);
+  v.integer({.name = "hold_limit",
+             .min = 0,
+             .max = 1'000'000,
+             .optional = true,
+             .doc = "bad readings of a sensor in a row that end the run; 0: any number"},
+            low.hold_limit);
+  v.number({.name = "interrupt_time",
+            .unit = "s",
+            .min = 0,
+            .optional = true,
+            .doc = "of an interrupt with a law in it, 5.2; longer than a hundredth of the period: "
+                   "an overrun. 0: not counted"},
+           low.interrupt_time);
 }
 
 template <class Visitor>

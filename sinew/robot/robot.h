@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/robot/control.h"
+
 namespace sinew::robot {
 
 inline constexpr int max_joints = 4;                // what the loop's fixed arrays hold
@@ -48,6 +50,9 @@ struct Joint {
   double spring = 0;        // [N m/rad]
   double spring_angle = 0;  // where the spring pulls nothing [rad]
   Gains gains;
+  Velocity velocity;
+  StiffnessSource stiffness_source = StiffnessSource::forces;
+  PressureLaw pressure_law;
   bool enabled = true;  // the low level may leave a joint alone
 
   double sign() const { return flexion == Flexion::raises_angle ? 1.0 : -1.0; }
@@ -200,6 +205,9 @@ struct LowLevel {
   double stiffness_factor = 0;       // 5.5 in B.1; 0: from the assumed scales
   std::string valve_timing;          // path of predict.dat; empty: the identity table
   double vent_time = 0;              // exhausts open at start-up and shut-down [s]
+  double dead_band = 0;       // duties of sealing valves below it are 0; whole percents [-]
+  int hold_limit = 0;         // bad readings of a channel in a row that end the run; 0: any
+  double interrupt_time = 0;  // longest interrupt of the thesis's program, 5.2; 0: not known [s]
 };
 
 // The thesis's own quirks, on or off (docs/departures.md).
@@ -234,6 +242,9 @@ int tension_sensor_of(const Robot&, int muscle);
 int pressure_sensor_of(const Robot&, int muscle);
 int velocity_sensor_of(const Robot&, int joint);
 int cylinder_sensor(const Robot&);
+
+// Does a law need what this muscle's transducer says?
+bool needs_tension(const Robot&, int muscle);
 
 // What the fast planar world leaves out: anything but driven joints with round cams and their own
 // pairs, a disc for a foot, a locked cylinder.

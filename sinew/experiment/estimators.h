@@ -1,0 +1,45 @@
+// experiment/estimators.h - the constants of a joint's velocity estimator, from what the robot's
+// file says of the joint. Worked out once, before the run, in double; the low level gets floats.
+//
+//   J theta'' = tau - D theta' + J w     over a period T in which tau and w are constant:
+//
+//   theta' = theta + g v + d (tau/J + w)       k = D/J,  a = exp(-k T)
+//   v'     = a v + g (tau/J + w)               g = (1 - a)/k,  d = (T - g)/k;  k = 0: T, T^2/2
+//
+//   tau  r F c_F, of the measured tensions [N m]      J, D  inertia [kg m^2], damping [N m s/rad]
+//   w    what the model does not know [rad/s^2]
+//
+// Kalman's shares are those of the steady state: the covariance P of the Riccati equation
+// P- = A P A^T + Q,  K = P- H^T/(H P- H^T + R),  P = (I - K H) P-  run until it stands still, with
+// Q of w's deviation and R = noise^2 + 1/12, rounding to whole counts.
+#pragma once
+
+#include <array>
+
+#include "sinew/control/joint/velocity.h"
+#include "sinew/robot/robot.h"
+
+namespace sinew::experiment {
+
+// A joint over one period: a, g, d above.
+struct JointMotion {
+  double decay = 1;        // [-]
+  double travel = 0;       // g [s]
+  double travel_gain = 0;  // d [s^2]
+};
+JointMotion joint_motion(double inertia, double damping, double period);
+
+struct SteadyState {
+  double angle_share = 0;  // K_1 [-]
+  double speed_share = 0;  // K_2 [1/s]
+  std::array<double, 3> covariance{};  // after a reading: angle, both, speed [count^2], /s, /s^2
+};
+
+// `acceleration`: deviation of w [count/s^2]; `noise`: of a reading, with its rounding [count].
+SteadyState steady_state(const JointMotion& motion, double acceleration, double noise);
+
+// `torque_per_count`: of one count of the flexor's tension [N m]; `rate`: laws per second.
+control::VelocityConfig velocity_config(const robot::Robot& robot, int joint,
+                                        double torque_per_count, double rate);
+
+}  // namespace sinew::experiment
