@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sinew/experiment/spinal.h"
+
 namespace sinew::experiment {
 namespace {
 
@@ -34,12 +36,15 @@ void joint_columns(const robot::Robot& robot, Columns& out) {
     out.scalar("/sensor/" + robot.sensors[s].name + "/count", "count", "as converted",
                [s](const Moment& m) { return m.seen.reading[s].counts; });
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    if (robot::angle_sensor_of(robot, static_cast<int>(j)) < 0) continue;
     const std::string& name = robot.joints[j].name;
     const std::string at = "/joint/" + name, want = "/desired/joint/" + name;
     out.scalar(at + "/angle", "rad", "measured, by the controller's scale",
                [j](const Moment& m) { return m.measured.angle[j]; });
     out.scalar(at + "/stiffness", "N m/rad", "as the controller believes it, [27], [60]",
                [j](const Moment& m) { return m.measured.stiffness[j]; });
+    out.scalar(at + "/velocity_estimate", "rad/s", "what the velocity gain works on, 6.5",
+               [j](const Moment& m) { return m.measured.velocity[j]; });
     out.scalar(want + "/angle", "rad", "desired by the brain",
                [j](const Moment& m) { return m.desired.joint[j].angle; });
     out.scalar(want + "/stiffness", "N m/rad", "desired by the brain",
@@ -47,34 +52,58 @@ void joint_columns(const robot::Robot& robot, Columns& out) {
   }
 }
 
-// A gauge's counts by its own scale; a duty counts only while its joint is enabled and laws run.
+// A gauge's counts by its own scale.
+void tension_column(const robot::Robot& robot, std::size_t muscle, Columns& out) {
+  const int s = robot::tension_sensor_of(robot, static_cast<int>(muscle));
+  if (s < 0) return;
+  const robot::Sensor& sensor = robot.sensors[static_cast<std::size_t>(s)];
+  const double per_volt = robot.converter.counts_per_volt();
+  const double believed = 1.0 / (sensor.assumed_scale * per_volt);
+  const double own = 1.0 / (sensor.scale * per_volt);
+  out.scalar("/muscle/" + robot.muscles[muscle].name + "/tension", "N",
+             "measured, by its own transducer's scale; clips",
+             [=](const Moment& m) { return m.measured.tension[muscle] / believed * own; });
+}
+
+// What a valve is told counts only while its joint is enabled and laws run.
+bool active(const Moment& m, std::size_t joint) {
+  return m.seen.joint[joint].enabled && m.seen.phase == control::Phase::running;
+}
+
 void muscle_columns(const robot::Robot& robot, Columns& out) {
   for (std::size_t i = 0; i < robot.muscles.size(); ++i) {
     const robot::Muscle& muscle = robot.muscles[i];
     const std::string at = "/muscle/" + muscle.name;
-    const int s = robot::tension_sensor_of(robot, static_cast<int>(i));
-    const robot::Sensor& sensor = robot.sensors[static_cast<std::size_t>(s)];
-    const double per_volt = robot.converter.counts_per_volt();
-    const double believed = 1.0 / (sensor.assumed_scale * per_volt);
-    const double own = 1.0 / (sensor.scale * per_volt);
-    out.scalar(at + "/tension", "N", "measured, by its own transducer's scale; clips",
-               [=](const Moment& m) { return m.measured.tension[i] / believed * own; });
-
+    tension_column(robot, i, out);
     const auto j = static_cast<std::size_t>(robot::find_joint(robot, muscle.joint));
     const bool flexor = muscle.role == robot::Muscle::Role::flexor;
-    const auto duty = [j](const Moment& m, std::int32_t percent) {
-      const bool active = m.seen.joint[j].enabled && m.seen.phase == control::Phase::running;
-      return active ? 0.01 * percent : 0.0;
-    };
     out.scalar(at + "/inlet_duty", "1", "commanded share of the period", [=](const Moment& m) {
       const control::Duties& d = m.seen.joint[j].duties;
-      return duty(m, flexor ? d.flexor_inlet : d.extensor_inlet);
+      return active(m, j) ? 0.01 * (flexor ? d.flexor_inlet : d.extensor_inlet) : 0.0;
     });
     out.scalar(at + "/exhaust_duty", "1", "commanded share of the period", [=](const Moment& m) {
       const control::Duties& d = m.seen.joint[j].duties;
-      return duty(m, flexor ? d.flexor_exhaust : d.extensor_exhaust);
+      return active(m, j) ? 0.01 * (flexor ? d.flexor_exhaust : d.extensor_exhaust) : 0.0;
     });
   }
+}
+
+// Up is the low level's flexor of the joint behind the robot's own.
+void cylinder_columns(const robot::Robot& robot, Columns& out) {
+  if (!has_cylinder_joint(robot)) return;
+  const std::size_t j = robot.joints.size();
+  out.scalar("/cylinder/position", "m", "measured travel, up from the extended stop",
+             [](const Moment& m) { return m.measured.cylinder; });
+  const auto duty = [&](const char* name, std::int32_t control::Duties::*which) {
+    out.scalar(std::string("/cylinder/") + name, "1", "commanded share of the period",
+               [j, which](const Moment& m) {
+                 return active(m, j) ? 0.01 * (m.seen.joint[j].duties.*which) : 0.0;
+               });
+  };
+  duty("up/inlet_duty", &control::Duties::flexor_inlet);
+  duty("up/exhaust_duty", &control::Duties::flexor_exhaust);
+  duty("down/inlet_duty", &control::Duties::extensor_inlet);
+  duty("down/exhaust_duty", &control::Duties::extensor_exhaust);
 }
 
 void plan_columns(Columns& out) {
@@ -173,6 +202,7 @@ std::vector<Column> columns(const Experiment& e) {
   Columns out;
   joint_columns(e.robot, out);
   muscle_columns(e.robot, out);
+  cylinder_columns(e.robot, out);
   plan_columns(out);
   true_joint_columns(e.robot, out);
   true_muscle_columns(e.robot, out);

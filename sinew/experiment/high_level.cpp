@@ -65,6 +65,8 @@ void HighLevel::believe(const control::Seen& seen) noexcept {
     if (scale_.angle_channel[k] < 0) continue;
     measured_.angle[k] = scale_.rest[k] + (counts(scale_.angle_channel[k]) -
                                            scale_.counts_at_rest[k]) / scale_.counts_per_rad[k];
+    measured_.velocity[k] =
+        static_cast<double>(seen.joint[k].velocity) / scale_.counts_per_rad[k];
     measured_.stiffness[k] = static_cast<double>(seen.joint[k].stiffness) * stiffness_unit;
   }
   for (int m = 0; m < muscles_; ++m) {
@@ -73,17 +75,9 @@ void HighLevel::believe(const control::Seen& seen) noexcept {
     measured_.tension[k] = (counts(scale_.tension_channel[k]) - scale_.counts_at_zero[k]) *
                            scale_.newtons_per_count[k];
   }
-}
-
-double HighLevel::velocity(const control::Seen& seen, std::size_t joint) const noexcept {
-  if (scale_.angle_channel[joint] < 0) return 0;
-  return static_cast<double>(seen.joint[joint].velocity) / scale_.counts_per_rad[joint];
-}
-
-double HighLevel::cylinder_travel(const control::Seen& seen) const noexcept {
-  if (scale_.cylinder_channel < 0) return 0;
-  const double counts = seen.reading[static_cast<std::size_t>(scale_.cylinder_channel)].counts;
-  return (counts - scale_.cylinder_at_rest) / scale_.cylinder_counts_per_metre;
+  if (scale_.cylinder_channel >= 0)
+    measured_.cylinder = (counts(scale_.cylinder_channel) - scale_.cylinder_at_rest) /
+                         scale_.cylinder_counts_per_metre;
 }
 
 const control::Command& HighLevel::update(const control::Seen& seen, signals::Tick t) noexcept {

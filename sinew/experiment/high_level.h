@@ -34,12 +34,6 @@ class HighLevel {
     return scale_.newtons_per_count[muscle];
   }
 
-  // Speed of a joint as the low level estimates it  [rad/s].
-  double velocity(const control::Seen& seen, std::size_t joint) const noexcept;
-
-  // Travel of the cylinder, by the controller's scale  [m]; 0 without its sensor.
-  double cylinder_travel(const control::Seen& seen) const noexcept;
-
   // Readings as the brain gets them.
   void believe(const control::Seen& seen) noexcept;
 

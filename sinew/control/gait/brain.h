@@ -22,8 +22,10 @@ namespace sinew::gait {
 // What the low level believes, in the robot's order of joints and muscles.
 struct Measured {
   std::array<double, robot::max_joints> angle{};      // [rad]
+  std::array<double, robot::max_joints> velocity{};   // as the low level estimates it [rad/s]
   std::array<double, robot::max_joints> stiffness{};  // [N m/rad]
   std::array<double, robot::max_muscles> tension{};   // [N]
+  double cylinder = 0;                                // travel, by its sensor [m]
 };
 
 struct DesiredJoint {
