@@ -94,6 +94,9 @@ void warn_of(const experiment::Experiment& e, const experiment::Outcome& outcome
   tell(seen.invalid, "readings were invalid");
   tell(seen.missed,
        "ticks came late by more than a tick: this machine cannot keep the pace that finely");
+  tell(seen.overruns,
+       "laws took longer than a hundredth of the period, low_level.interrupt_time: the thesis's "
+       "computer locked up so (5.2)");
   tell(outcome.unreachable_periods,
        "periods with a foot out of reach: the nearest point was aimed at");
   if (!outcome.table.complete)

@@ -21,6 +21,34 @@ void need(const std::string& key, const std::string& name, const Items& items, L
                  config::closest_in_quotes(name, names)});
 }
 
+const gas::Valve* valve_of(const Experiment& e, const std::string& name) {
+  for (const gas::Valve& v : e.valves)
+    if (v.name == name) return &v;
+  return nullptr;
+}
+
+// A valve that seals needs another to let the air out; one that does not has no use for it. The
+// laws of a joint follow from its valves, so both muscles have the same.
+void check_valves(const Experiment& e, List& out) {
+  using Kind = gas::Valve::Kind;
+  for (const robot::Muscle& m : e.robot.muscles) {
+    const gas::Valve* inlet = valve_of(e, m.inlet);
+    if (!inlet) continue;
+    const bool seals = inlet->kind == Kind::two_way;
+    if (seals == m.exhaust.empty())
+      out.push_back({"muscle." + m.name + ".exhaust", seals ? "none" : config::in_quotes(m.exhaust),
+                     seals ? "a valve, as the inlet seals" : "none, as the inlet also vents",
+                     seals ? "exhaust = { valve = …, bit = … }" : "leave it out"});
+    for (const robot::Muscle& other : e.robot.muscles) {
+      const gas::Valve* theirs = valve_of(e, other.inlet);
+      if (other.joint == m.joint && theirs && theirs->kind != inlet->kind && &other < &m)
+        out.push_back({"muscle." + m.name + ".inlet.valve", config::in_quotes(m.inlet),
+                       "a valve of the same kind as muscle " + other.name + "'s",
+                       config::in_quotes(other.inlet)});
+    }
+  }
+}
+
 void check_muscles(const Experiment& e, List& out) {
   for (const robot::Muscle& m : e.robot.muscles) {
     const std::string key = "muscle." + m.name;
@@ -130,6 +158,7 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
   if (!runs && kind != "robot") return;
   List wrong;
   check_muscles(e, wrong);
+  check_valves(e, wrong);
   if (runs) check_start(e, wrong);
   check_pulses(e, wrong);
   if (runs) {

@@ -57,8 +57,10 @@ void set_model(const robot::Velocity& from, double counts_per_rad, double torque
 
 JointMotion joint_motion(double inertia, double damping, double period) {
   const double k = inertia > 0 ? damping / inertia : 0.0;
-  if (k * period < 1e-6) return {1 - k * period, period, 0.5 * period * period};
-  const double decay = units::exp(-k * period), travel = (1 - decay) / k;
+  const double x = k * period;
+  if (x < 1e-4)  // by the series, where the differences below lose their digits
+    return {1 - x * (1 - 0.5 * x), period * (1 - 0.5 * x), period * period * (0.5 - x / 6)};
+  const double decay = units::exp(-x), travel = (1 - decay) / k;
   return {decay, travel, (period - travel) / k};
 }
 
@@ -100,8 +102,8 @@ control::VelocityConfig velocity_config(const robot::Robot& robot, int joint,
     const robot::Sensor& s = sensor(index);
     out.channel = {static_cast<std::uint8_t>(index)};
     out.at_rest = static_cast<std::int32_t>(std::lround(s.assumed_at_rest));
-    out.scale = static_cast<float>(counts_per_rad /
-                                   (robot.converter.counts_per_volt() * s.assumed_scale));
+    out.scale =
+        static_cast<float>(counts_per_rad / (robot.converter.counts_per_volt() * s.assumed_scale));
   }
   return out;
 }

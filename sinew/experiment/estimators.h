@@ -30,8 +30,8 @@ struct JointMotion {
 JointMotion joint_motion(double inertia, double damping, double period);
 
 struct SteadyState {
-  double angle_share = 0;  // K_1 [-]
-  double speed_share = 0;  // K_2 [1/s]
+  double angle_share = 0;              // K_1 [-]
+  double speed_share = 0;              // K_2 [1/s]
   std::array<double, 3> covariance{};  // after a reading: angle, both, speed [count^2], /s, /s^2
 };
 

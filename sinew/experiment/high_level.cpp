@@ -63,10 +63,10 @@ void HighLevel::believe(const control::Seen& seen) noexcept {
     const auto k = static_cast<std::size_t>(j);
     measured_.angle[k] = scale_.rest[k];
     if (scale_.angle_channel[k] < 0) continue;
-    measured_.angle[k] = scale_.rest[k] + (counts(scale_.angle_channel[k]) -
-                                           scale_.counts_at_rest[k]) / scale_.counts_per_rad[k];
-    measured_.velocity[k] =
-        static_cast<double>(seen.joint[k].velocity) / scale_.counts_per_rad[k];
+    measured_.angle[k] =
+        scale_.rest[k] +
+        (counts(scale_.angle_channel[k]) - scale_.counts_at_rest[k]) / scale_.counts_per_rad[k];
+    measured_.velocity[k] = static_cast<double>(seen.joint[k].velocity) / scale_.counts_per_rad[k];
     measured_.stiffness[k] = static_cast<double>(seen.joint[k].stiffness) * stiffness_unit;
   }
   for (int m = 0; m < muscles_; ++m) {

@@ -112,9 +112,8 @@ class MuscleSide {
                            pull_.arm / counts_per_metre_ * pascals / stiffness_unit);
     const actuator::Effectiveness& e = a.effectiveness;
     // As a polynomial of gauge pressure, whichever it is fitted to.
-    const double zero = e.argument == actuator::Effectiveness::Argument::absolute
-                            ? e_.air.atmosphere
-                            : 0.0;
+    const double zero =
+        e.argument == actuator::Effectiveness::Argument::absolute ? e_.air.atmosphere : 0.0;
     const double c0 = e.c0 + zero * (e.c1 + zero * e.c2), c1 = e.c1 + 2 * zero * e.c2;
     c.effectiveness = {static_cast<float>(e.scale * c0), static_cast<float>(e.scale * c1 * pascals),
                        static_cast<float>(e.scale * e.c2 * pascals * pascals)};
@@ -122,7 +121,8 @@ class MuscleSide {
     c.valid_to = static_cast<float>(e.valid_to / pascals);
   }
 
-  // A muscle over two joints: its share of the duty by moment arm, and how the other joint moves it.
+  // A muscle over two joints: its share of the duty by moment arm, and how the other joint moves
+  // it.
   void set_second(control::MuscleConfig& c) const {
     if (muscle_.second.joint.empty()) return;
     const bool first = muscle_.joint == joint_.name;

@@ -174,9 +174,8 @@ void check_scan(const Robot& robot, List& out) {
 void check_coverage(const Robot& robot, List& out) {
   const auto check = [&](Sensor::Kind kind, const std::string& of, const std::string& key,
                          const std::string& word, bool needed) {
-    const auto n = std::count_if(robot.sensors.begin(), robot.sensors.end(), [&](const Sensor& s) {
-      return s.kind == kind && s.of == of;
-    });
+    const auto n = std::count_if(robot.sensors.begin(), robot.sensors.end(),
+                                 [&](const Sensor& s) { return s.kind == kind && s.of == of; });
     if (n == 1 || (n == 0 && !needed)) return;
     out.push_back({key, std::to_string(n) + " sensors of its " + word, "one",
                    "[sensor.…] with kind = \"" + word + "\", of = \"" + of + "\""});

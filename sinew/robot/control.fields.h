@@ -11,8 +11,8 @@ namespace sinew::robot {
 template <class Visitor>
 void observer_fields(Visitor& v, Velocity& velocity) {
   using Estimator = Velocity::Estimator;
-  const bool observer = velocity.estimator == Estimator::bounded_observer ||
-                        velocity.estimator == Estimator::kalman;
+  const bool observer =
+      velocity.estimator == Estimator::bounded_observer || velocity.estimator == Estimator::kalman;
   v.number({.name = "inertia",
             .unit = "kg m2",
             .min = 0,

@@ -205,8 +205,8 @@ struct LowLevel {
   double stiffness_factor = 0;       // 5.5 in B.1; 0: from the assumed scales
   std::string valve_timing;          // path of predict.dat; empty: the identity table
   double vent_time = 0;              // exhausts open at start-up and shut-down [s]
-  double dead_band = 0;       // duties of sealing valves below it are 0; whole percents [-]
-  int hold_limit = 0;         // bad readings of a channel in a row that end the run; 0: any
+  double dead_band = 0;              // duties of sealing valves below it are 0; whole percents [-]
+  int hold_limit = 0;                // bad readings of a channel in a row that end the run; 0: any
   double interrupt_time = 0;  // longest interrupt of the thesis's program, 5.2; 0: not known [s]
 };
 

@@ -1,0 +1,204 @@
+// The estimators' constants by their laws: the joint's motion, the Riccati equation, and the speed
+// of simulated joints.
+#include "sinew/experiment/estimators.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/experiment/experiment.h"
+#include "sinew/experiment/spinal.h"
+
+namespace sinew::experiment {
+namespace {
+
+constexpr double period = 0.01;
+
+// J theta'' = 1 - D theta', from rest and from speed 1, by many small steps.
+struct Small {
+  double angle = 0, speed = 0;
+  Small(double inertia, double damping, double push, double start) : speed(start) {
+    constexpr int n = 200'000;
+    const double h = period / n;
+    for (int i = 0; i < n; ++i) {
+      const double a = (push - damping * speed) / inertia;
+      angle += h * (speed + 0.5 * h * a);
+      speed += h * a * (1 - 0.5 * h * damping / inertia);
+    }
+  }
+};
+
+TEST(JointMotion, IsTheEquationOfMotionOverAPeriod) {
+  for (const double damping : {0.0, 1e-6, 0.2, 3.0}) {
+    constexpr double inertia = 0.02;
+    const JointMotion m = joint_motion(inertia, damping, period);
+    const Small coasting(inertia, damping, 0, 1), pushed(inertia, damping, 1, 0);
+    EXPECT_NEAR(coasting.speed, m.decay, 1e-8);
+    EXPECT_NEAR(coasting.angle, m.travel, 1e-10);
+    EXPECT_NEAR(pushed.speed, m.travel / inertia, 1e-6);
+    EXPECT_NEAR(pushed.angle, m.travel_gain / inertia, 1e-8);
+  }
+}
+
+// One more period of the Riccati equation changes nothing, and the covariance is one.
+TEST(Kalman, SharesAreThoseOfTheSteadyState) {
+  for (const double damping : {0.0, 0.1, 1.0})
+    for (const double acceleration : {1e2, 1e4, 1e6}) {
+      const JointMotion m = joint_motion(0.02, damping, period);
+      const double r = 0.6 * 0.6, q = acceleration * acceleration;
+      const SteadyState s = steady_state(m, acceleration, 0.6);
+      const auto [p11, p12, p22] = s.covariance;
+      const double a11 =
+          p11 + 2 * m.travel * p12 + m.travel * m.travel * p22 + m.travel_gain * m.travel_gain * q;
+      const double a12 = m.decay * (p12 + m.travel * p22) + m.travel_gain * m.travel * q;
+      const double a22 = m.decay * m.decay * p22 + m.travel * m.travel * q;
+      EXPECT_NEAR(s.angle_share, a11 / (a11 + r), 1e-9);
+      EXPECT_NEAR(s.speed_share, a12 / (a11 + r), 1e-9 * s.speed_share);
+      EXPECT_NEAR(p22, a22 - s.speed_share * a12, 1e-9 * p22);
+      EXPECT_GT(p11 * p22 - p12 * p12, 0);
+      EXPECT_LT(p11, r);
+    }
+}
+
+// A joint with a constant known torque and a random one that changes every period, read in counts.
+struct Simulated {
+  double mean = 0, variance = 0;  // of the estimated less the true speed
+  double difference_variance = 0;
+};
+
+Simulated simulate(double damping, double unknown, int periods) {
+  constexpr double inertia = 0.02, counts_per_rad = 767, torque_per_count = 0.002;
+  const JointMotion m = joint_motion(inertia, damping, period);
+  const double gain = torque_per_count * counts_per_rad / inertia;
+  const SteadyState s = steady_state(m, unknown, std::sqrt(0.25 + 1.0 / 12));
+  control::VelocityConfig config{.estimator = control::Estimator::kalman,
+                                 .decay = static_cast<float>(m.decay),
+                                 .speed_gain = static_cast<float>(m.travel * gain),
+                                 .travel = static_cast<float>(m.travel),
+                                 .travel_gain = static_cast<float>(m.travel_gain * gain),
+                                 .angle_share = static_cast<float>(s.angle_share),
+                                 .speed_share = static_cast<float>(s.speed_share)};
+  std::mt19937 random(7);
+  std::normal_distribution<double> unit(0, 1);
+  control::VelocityState kalman, difference;
+  Simulated out;
+  double angle = 0, speed = 0, squares = 0, difference_squares = 0;
+  constexpr int settle = 500;
+  for (int i = 0; i < periods; ++i) {
+    const double push = 30 * std::sin(0.02 * i), next_push = 30 * std::sin(0.02 * (i + 1));
+    const double a = 0.5 * (push + next_push) * gain + unknown * unit(random);
+    angle += m.travel * speed + m.travel_gain * a;
+    speed = m.decay * speed + m.travel * a;
+    const auto counts = static_cast<std::int32_t>(std::lround(angle + 0.5 * unit(random)));
+    const control::Motion now{.angle = counts, .push = static_cast<float>(next_push), .rate = 100};
+    const double e = static_cast<double>(estimate(config, kalman, now)) - speed;
+    const double d = static_cast<double>(estimate({}, difference, now)) - speed;
+    if (i < settle) continue;
+    out.mean += e, squares += e * e, difference_squares += d * d;
+  }
+  const double n = periods - settle;
+  out.mean /= n;
+  out.variance = squares / n;
+  out.difference_variance = difference_squares / n;
+  return out;
+}
+
+TEST(Kalman, FindsTheSpeedOfASimulatedJointAsTheRiccatiEquationSays) {
+  for (const double unknown : {2e3, 2e4}) {
+    const double damping = 0.4;  // keeps the angle within what a float's count can tell
+    const Simulated s = simulate(damping, unknown, 200'000);
+    const double expected =
+        steady_state(joint_motion(0.02, damping, period), unknown, std::sqrt(0.25 + 1.0 / 12))
+            .covariance[2];
+    EXPECT_NEAR(s.variance, expected, 0.04 * expected) << unknown;
+    EXPECT_LT(std::abs(s.mean), 0.02 * std::sqrt(expected));
+    EXPECT_LT(s.variance, s.difference_variance);
+  }
+}
+
+// --- from the robot's file ----------------------------------------------------------------------
+
+const std::string walk = std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml";
+
+control::JointConfig hip_of(const std::vector<std::string>& sets) {
+  return spine_config(load(walk, sets)).joint[0];
+}
+
+std::string refusal(const std::vector<std::string>& sets) {
+  try {
+    spine_config(load(walk, sets));
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+// The hip's, from "<estimator>", ...
+std::string velocity(const std::string& keys) {
+  return "joint.hip.velocity={ estimator = " + keys + " }";
+}
+
+TEST(VelocityKeys, BecomeTheLowLevelsConstants) {
+  EXPECT_EQ(hip_of({}).velocity.estimator, control::Estimator::difference);
+  const control::VelocityConfig line =
+      hip_of({velocity(R"("weighted average", samples = 6)")}).velocity;
+  EXPECT_EQ(line.samples, 6);
+  EXPECT_EQ(line.weight, control::line_weights(6, 100));
+
+  const control::VelocityConfig bounded =
+      hip_of({velocity(R"("bounded observer", acceleration = "100 rad/s2",)"
+                       R"( speed_limit = "5 rad/s")")})
+          .velocity;
+  EXPECT_NEAR(bounded.margin, 767, 1e-3);
+  EXPECT_NEAR(bounded.limit, 5 * 767, 1e-3);
+  EXPECT_EQ(bounded.speed_gain, 0);
+  EXPECT_EQ(bounded.decay, 1);
+
+  const control::VelocityConfig kalman =
+      hip_of({velocity(R"("kalman", acceleration = "100 rad/s2", inertia = "0.02 kg m2",)"
+                       R"( tensions = true)")})
+          .velocity;
+  // 1 in of arm, 0.17 V/lbf, 819.2 counts/V
+  const double torque = 0.0254 * 4.4482216152605 / (0.17 * 819.2);
+  EXPECT_NEAR(kalman.speed_gain, 0.01 * torque * 767 / 0.02, 1e-5);
+  EXPECT_GT(kalman.speed_share, 0);
+}
+
+TEST(VelocityKeys, RefuseWhatCannotBe) {
+  EXPECT_NE(refusal({velocity(R"("kalman")")}).find("acceleration"), std::string::npos);
+  EXPECT_NE(refusal({velocity(R"("kalman", acceleration = "9 rad/s2", tensions = true)")})
+                .find("inertia: found none"),
+            std::string::npos);
+  EXPECT_NE(refusal({velocity(R"("sensor")")}).find("0 sensors of its velocity; expected one"),
+            std::string::npos);
+  EXPECT_NE(refusal({velocity(R"("weighted average", samples = 3,)"
+                              R"( weights = ["50 1/s", "0 1/s", "-40 1/s"])")})
+                .find("a joint at rest has no speed"),
+            std::string::npos);
+}
+
+TEST(StiffnessSourceKey, SaysWhichSensorsTheLawWaitsFor) {
+  EXPECT_EQ(hip_of({}).law_tick, 9);
+  EXPECT_EQ(hip_of({"joint.hip.stiffness_source=flexor force"}).law_tick, 7);
+  EXPECT_EQ(hip_of({"joint.hip.stiffness_source=none"}).law_tick, 3);
+  EXPECT_NE(refusal({"joint.hip.stiffness_source=pressures"})
+                .find("muscle.hip_flexor: found 0 sensors of its pressure"),
+            std::string::npos);
+}
+
+TEST(LowLevelKeys, ReachTheLowLevel) {
+  const control::SpineConfig c =
+      spine_config(load(walk, {"low_level.dead_band=3 %", "low_level.hold_limit=7",
+                               "low_level.interrupt_time=101 us"}));
+  EXPECT_EQ(c.dead_band, 3);
+  EXPECT_EQ(c.hold_limit, 7u);
+  EXPECT_TRUE(c.laws_overrun);
+  EXPECT_FALSE(spine_config(load(walk, {"low_level.interrupt_time=100 us"})).laws_overrun);
+  EXPECT_NE(refusal({"low_level.dead_band=2.5 %"}).find("whole percents"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sinew::experiment
