@@ -12,6 +12,7 @@
 #include "cli/text_table.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/gas/delay.h"
 #include "sinew/gas/fill.h"
 #include "sinew/gas/orifice.h"
 #include "sinew/signals/pulse.h"
@@ -76,11 +77,10 @@ std::vector<Transfer> transfers(const gas::Flow& flow, const gas::Air& air, doub
 std::vector<Delivered> deliveries(const gas::Valve& valve, const Options& options) {
   std::vector<Delivered> out;
   if (options.duty.empty()) return out;
-  const bool ideal = valve.profile == gas::Valve::Profile::ideal;
+  const gas::Delays delays = gas::delays(valve);
   const double period = 1.0 / argument("--frequency", options.frequency, "1/s", units::atmosphere);
   for (const double duty : arguments("--duty", options.duty, "1", units::atmosphere).si)
-    out.push_back({duty, signals::delivered_duty(duty, period, ideal ? 0 : valve.opening_delay,
-                                                 ideal ? 0 : valve.closing_delay)});
+    out.push_back({duty, signals::delivered_duty(duty, period, delays.opening, delays.closing)});
   return out;
 }
 
@@ -96,8 +96,8 @@ Json to_json(const gas::Valve& valve, const FlowResult& f, const std::vector<Tra
            {"choked", f.choked()},
            {"effective_area_m2", f.area},
            {"sonic_conductance_m3_per_s_Pa", f.sonic_conductance},
-           {"opening_delay_s", valve.opening_delay},
-           {"closing_delay_s", valve.closing_delay}};
+           {"opening_delay_s", gas::delays(valve).opening},
+           {"closing_delay_s", gas::delays(valve).closing}};
   for (const Transfer& t : times)
     out["transfers"].push_back(
         {{"share", t.share}, {"fill_time_s", t.fill}, {"vent_time_s", t.vent}});
@@ -117,8 +117,8 @@ void print_flow(const gas::Valve& valve, const FlowResult& f) {
              fmt::format("ratio {:.4f}, critical {:.4f}", f.ratio, f.critical_ratio)});
   table.add({"effective area", show(f.area, "m2", "mm2"), show(f.area, "m2", "in2")});
   table.add({"sonic conductance C", show(f.sonic_conductance, "m3/(s Pa)", "L/(s bar)"), ""});
-  table.add({"delays", "opens after " + show(valve.opening_delay, "s", "ms"),
-             "shuts after " + show(valve.closing_delay, "s", "ms")});
+  table.add({"delays", "opens after " + show(gas::delays(valve).opening, "s", "ms"),
+             "shuts after " + show(gas::delays(valve).closing, "s", "ms")});
   fmt::print("{}", table.text().substr(1));
 }
 

@@ -24,10 +24,13 @@ struct Named {
 // What of a valve's table says when it opens.
 struct ValveTable {
   enum class Profile { ideal, dead_time, ramp };
+  enum class Drive { standard, speed_up };
 
   std::string name;
   Profile profile = Profile::dead_time;
+  Drive drive = Drive::standard;
   double opening_delay = 0, closing_delay = 0, opening_ramp = 0, closing_ramp = 0;
+  double quick_opening = 0, quick_closing = 0;  // with Drive::speed_up
 };
 
 template <class Visitor>
@@ -36,20 +39,28 @@ void fields(Visitor& v, ValveTable& valve) {
            {{"ideal", ValveTable::Profile::ideal},
             {"dead time", ValveTable::Profile::dead_time},
             {"ramp", ValveTable::Profile::ramp}});
-  const auto seconds = [&](std::string_view name, double& value) {
-    v.number({.name = name, .unit = "s", .min = 0, .optional = true}, value);
+  v.choice({.name = "drive", .optional = true, .doc = "of the coil"}, valve.drive,
+           {{"standard", ValveTable::Drive::standard}, {"speed-up", ValveTable::Drive::speed_up}});
+  const auto seconds = [](auto& g, std::string_view name, double& value) {
+    g.number({.name = name, .unit = "s", .min = 0, .optional = true}, value);
   };
-  seconds("opening_delay", valve.opening_delay);
-  seconds("closing_delay", valve.closing_delay);
-  seconds("opening_ramp", valve.opening_ramp);
-  seconds("closing_ramp", valve.closing_ramp);
+  seconds(v, "opening_delay", valve.opening_delay);
+  seconds(v, "closing_delay", valve.closing_delay);
+  seconds(v, "opening_ramp", valve.opening_ramp);
+  seconds(v, "closing_ramp", valve.closing_ramp);
+  v.group({.name = "speed_up", .optional = true}, [&](auto& g) {
+    seconds(g, "opening_delay", valve.quick_opening);
+    seconds(g, "closing_delay", valve.quick_closing);
+  });
 }
 
 ValveDelays delays(const ValveTable& valve) {
   if (valve.profile == ValveTable::Profile::ideal) return {.name = valve.name};
-  return {.name = valve.name,
-          .opening = valve.opening_delay + 0.5 * valve.opening_ramp,
-          .closing = valve.closing_delay + 0.5 * valve.closing_ramp};
+  const bool quick = valve.drive == ValveTable::Drive::speed_up;
+  return {
+      .name = valve.name,
+      .opening = (quick ? valve.quick_opening : valve.opening_delay) + 0.5 * valve.opening_ramp,
+      .closing = (quick ? valve.quick_closing : valve.closing_delay) + 0.5 * valve.closing_ramp};
 }
 
 void read_parts(config::Reader& reader, Machine& m) {

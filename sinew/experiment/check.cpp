@@ -5,6 +5,8 @@
 
 #include "sinew/config/quantity.h"
 #include "sinew/config/valve_timing.h"
+#include "sinew/experiment/run.h"
+#include "sinew/muscle/plumbing.h"
 #include "sinew/signals/tick.h"
 
 namespace sinew::experiment {
@@ -35,6 +37,10 @@ void check_valves(const Experiment& e, List& out) {
     const gas::Valve* inlet = valve_of(e, m.inlet);
     if (!inlet) continue;
     const bool seals = inlet->kind == Kind::two_way;
+    const gas::Valve* exhaust = valve_of(e, m.exhaust);
+    if (seals && exhaust && exhaust->kind != Kind::two_way)
+      out.push_back({"muscle." + m.name + ".exhaust.valve", config::in_quotes(m.exhaust),
+                     "a 2-way valve", "a 3-way valve or a regulator stands at the inlet"});
     if (seals == m.exhaust.empty())
       out.push_back({"muscle." + m.name + ".exhaust", seals ? "none" : config::in_quotes(m.exhaust),
                      seals ? "a valve, as the inlet seals" : "none, as the inlet also vents",
@@ -56,6 +62,38 @@ void check_muscles(const Experiment& e, List& out) {
     need(key + ".inlet.valve", m.inlet, e.valves, out);
     if (!m.exhaust.empty()) need(key + ".exhaust.valve", m.exhaust, e.valves, out);
   }
+}
+
+// A cylinder's chamber has two plain valves, and air left in it at the stop.
+void check_cylinder(const Experiment& e, List& out) {
+  const robot::Cylinder& c = e.robot.cylinder;
+  if (!c.present || c.mode != robot::Cylinder::Mode::valves) return;
+  for (const auto& [word, chamber] : {std::pair{"up", &c.up}, std::pair{"down", &c.down}}) {
+    const std::string key = std::string("cylinder.") + word;
+    for (const auto& [port, name] : {std::pair{".inlet.valve", chamber->inlet},
+                                     std::pair{".exhaust.valve", chamber->exhaust}}) {
+      need(key + port, name, e.valves, out);
+      const gas::Valve* v = valve_of(e, name);
+      if (v && v->kind != gas::Valve::Kind::two_way)
+        out.push_back({key + port, config::in_quotes(name), "a 2-way valve", ""});
+    }
+    if (!(chamber->dead_volume > 0))
+      out.push_back({key + ".dead_volume", "0", "above 0, as the chamber has valves",
+                     "what is left at the end of the stroke, with the hoses"});
+  }
+}
+
+// Air that moves so quickly that a run would take for ever.
+void check_air(const Experiment& e, List& out) {
+  constexpr double shortest = 2e-6;  // step [s]
+  const plant::Setup s = planar_setup(e);
+  if (!muscle::needs_plumbing(s.muscles, s.air, s.supply, s.cylinder)) return;
+  const double step = muscle::Plumbing(s.muscles, s.air, s.supply, s.cylinder).longest_step();
+  if (step >= shortest) return;
+  out.push_back({"air",
+                 "a hose or a cylinder's chamber that fills within " +
+                     config::format_number(1e6 * step) + " us",
+                 "at least 2 us", "a larger volume, or a hose without one"});
 }
 
 void check_start(const Experiment& e, List& out) {
@@ -159,6 +197,7 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
   List wrong;
   check_muscles(e, wrong);
   check_valves(e, wrong);
+  check_cylinder(e, wrong);
   if (runs) check_start(e, wrong);
   check_pulses(e, wrong);
   if (runs) {
@@ -167,6 +206,7 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
     check_size(e, wrong);
   }
   std::ranges::move(robot::contradictions(e.robot), std::back_inserter(wrong));
+  if (runs && wrong.empty()) check_air(e, wrong);
   if (runs && wrong.empty()) wrong = gait::contradictions(e.robot, e.plan);
   refuse(wrong, e);
 }

@@ -146,7 +146,19 @@ void true_muscle_columns(const robot::Robot& robot, Columns& out) {
                [i](const Moment& m) { return m.truth.air_in[i]; });
     out.scalar(at + "/air_out", "kg", "to the atmosphere since the start",
                [i](const Moment& m) { return m.truth.air_out[i]; });
+    const robot::Leak& leak = robot.muscles[i].leak;
+    if (leak.area > 0 || leak.conductance > 0)
+      out.scalar(at + "/air_leaked", "kg", "to the atmosphere, past the valves, since the start",
+                 [i](const Moment& m) { return m.truth.air_leaked[i]; });
   }
+}
+
+void true_supply_columns(const gas::Supply& supply, Columns& out) {
+  if (supply.kind != gas::Supply::Kind::tank) return;
+  out.scalar("/true/supply/pressure", "Pa", "of the line to the inlets, absolute",
+             [](const Moment& m) { return m.truth.supply_pressure; });
+  out.scalar("/true/supply/tank_pressure", "Pa", "before the regulator, absolute",
+             [](const Moment& m) { return m.truth.tank_pressure; });
 }
 
 void true_body_columns(const robot::Robot& robot, Columns& out) {
@@ -208,6 +220,7 @@ std::vector<Column> columns(const Experiment& e) {
   true_muscle_columns(e.robot, out);
   true_body_columns(e.robot, out);
   true_cylinder_columns(e.robot, out);
+  true_supply_columns(e.supply, out);
   return std::move(out.list);
 }
 

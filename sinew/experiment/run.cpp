@@ -102,6 +102,18 @@ const gas::Valve* find_valve(const Experiment& e, const std::string& name) {
   return nullptr;
 }
 
+gas::Hose hose_of(const robot::Hose& h) {
+  using Law = robot::Hose::Law;
+  gas::Hose out{.sonic_conductance = h.sonic_conductance,
+                .critical_pressure_ratio = h.critical_pressure_ratio,
+                .length = h.length,
+                .inner_diameter = h.inner_diameter,
+                .volume = h.volume};
+  if (h.law == Law::iso6358) out.law = gas::Hose::Law::iso6358;
+  if (h.law == Law::pipe) out.law = gas::Hose::Law::pipe;
+  return out;
+}
+
 // The robot's cylinder with its valves, if it moves.
 std::optional<muscle::Cylinder> cylinder_of(const Experiment& e) {
   using Mode = robot::Cylinder::Mode;
@@ -134,6 +146,8 @@ plant::Setup planar_setup(const Experiment& e) {
     out.actuator = robot::actuator_of(m, e.actuators);
     if (const gas::Valve* v = find_valve(e, m.inlet)) out.inlet = *v;
     if (const gas::Valve* v = find_valve(e, m.exhaust)) out.exhaust = *v;
+    out.hose = hose_of(m.hose);
+    out.leak = {.area = m.leak.area, .conductance = m.leak.conductance};
     s.muscles.push_back(std::move(out));
   }
   for (const robot::Joint& j : e.robot.joints) {

@@ -147,6 +147,7 @@ control::JointKind kind_of(const Experiment& e, const std::vector<int>& muscles)
     for (const gas::Valve& v : e.valves) {
       if (v.name != e.robot.muscles[static_cast<std::size_t>(m)].inlet) continue;
       if (v.kind == gas::Valve::Kind::three_way) return control::JointKind::three_way;
+      if (v.kind == gas::Valve::Kind::regulator) return control::JointKind::regulated;
     }
   return control::JointKind::antagonist;
 }

@@ -3,6 +3,7 @@
 
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
+#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
 
 namespace sinew::gas {
@@ -31,15 +32,42 @@ void fields(Visitor& v, Air& air) {
             .optional = true,
             .doc = "R of air [44]"},
            air.gas_constant);
+  v.number({.name = "wall_time",
+            .unit = "s",
+            .min = 0,
+            .max = 1e6,
+            .optional = true,
+            .doc = "time constant of heat exchange with the walls, in place of n; 0: none"},
+           air.wall_time);
+  if (air.wall_time > 0 && air.wall_time < 1e-4)
+    units::complain(v, "wall_time", "less than 0.1 ms", "at least that, or 0",
+                    "polytropic_exponent = 1 for isothermal air");
 }
 
 template <class Visitor>
 void fields(Visitor& v, Supply& supply) {
-  v.choice({.name = "kind", .doc = "constant: a regulator that never gives way"}, supply.kind,
-           {{"constant", Supply::Kind::constant}});
+  v.choice({.name = "kind", .doc = "constant: it never gives way; tank: it empties"}, supply.kind,
+           {{"constant", Supply::Kind::constant}, {"tank", Supply::Kind::tank}});
   v.number(
       {.name = "pressure", .unit = "Pa abs", .min = 1e4, .max = 2e6, .doc = "upstream of inlets"},
       supply.pressure);
+  const bool tank = supply.kind == Supply::Kind::tank;
+  v.number({.name = "volume",
+            .unit = "m3",
+            .min = tank ? 1e-9 : 0.0,
+            .optional = !tank,
+            .doc = "tank: of the air before the regulator"},
+           supply.volume);
+  v.number({.name = "initial_pressure",
+            .unit = "Pa abs",
+            .min = 0,
+            .max = 1e8,
+            .optional = !tank,
+            .doc = "tank: before the run"},
+           supply.initial_pressure);
+  if (!tank && (supply.volume > 0 || supply.initial_pressure > 0))
+    units::complain(v, supply.volume > 0 ? "volume" : "initial_pressure",
+                    "a key of kind = \"tank\"", "pressure alone");
 }
 
 // The whole table: air, and where it comes from.

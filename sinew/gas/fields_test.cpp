@@ -100,6 +100,101 @@ TEST(ValveFields, complain_about_what_does_not_go_together) {
   EXPECT_EQ(v.complaints, Strings{"valve.x.profile"});
 }
 
+FieldVisitor driven_valve() {
+  FieldVisitor v = orifice_valve();
+  v.words_given["valve.x.drive"] = "speed-up";
+  for (const auto& [key, value] :
+       {std::pair{"speed_up.opening_delay", 5e-4}, std::pair{"speed_up.closing_delay", 6e-4},
+        std::pair{"coil.power", 1.0}, std::pair{"coil.boost_power", 9.0},
+        std::pair{"coil.boost_time", 1e-3}, std::pair{"opening_delay_slope", 1e-9},
+        std::pair{"closing_delay_slope", -2e-9}, std::pair{"max_frequency", 350.0},
+        std::pair{"fails_above", 2.4e5}})
+    v.numbers_given[std::string("valve.x.") + key] = {value};
+  return v;
+}
+
+TEST(ValveFields, fill_drive_coil_and_limits) {
+  FieldVisitor v = driven_valve();
+  const Valve valve = read(v);
+  EXPECT_TRUE(v.complaints.empty());
+  expect_each_key_once_with_a_line(v);
+  EXPECT_EQ(valve.drive, Valve::Drive::speed_up);
+  EXPECT_EQ(valve.speed_up.opening, 5e-4);
+  EXPECT_EQ(valve.speed_up.closing, 6e-4);
+  EXPECT_EQ(valve.coil.power, 1.0);
+  EXPECT_EQ(valve.coil.boost_power, 9.0);
+  EXPECT_EQ(valve.coil.boost_time, 1e-3);
+  EXPECT_EQ(valve.opening_delay_slope, 1e-9);
+  EXPECT_EQ(valve.closing_delay_slope, -2e-9);
+  EXPECT_EQ(valve.max_frequency, 350);
+  EXPECT_EQ(valve.fails_above, 2.4e5);
+  EXPECT_EQ(v.find("valve.x.fails_above")->unit, "Pa diff");
+
+  // Everything new may be left out.
+  for (const char* key : {"drive", "speed_up", "coil", "regulator", "max_frequency", "fails_above"})
+    EXPECT_TRUE(v.find(std::string("valve.x.") + key)->optional) << key;
+}
+
+TEST(ValveFields, a_regulator_has_a_range_and_nothing_else_has) {
+  FieldVisitor v = iso_valve();
+  v.words_given["valve.x.kind"] = "regulator";
+  v.numbers_given["valve.x.regulator.range"] = {6e5};
+  v.numbers_given["valve.x.regulator.time_constant"] = {0.02};
+  const Valve valve = read(v);
+  EXPECT_TRUE(v.complaints.empty());
+  EXPECT_EQ(valve.kind, Valve::Kind::regulator);
+  EXPECT_EQ(valve.regulator.range, 6e5);
+  EXPECT_EQ(valve.regulator.time_constant, 0.02);
+  EXPECT_TRUE(v.find("valve.x.profile")->optional);
+
+  v.words_given["valve.x.kind"] = "2-way";
+  v.complaints.clear();
+  read(v);
+  EXPECT_EQ(v.complaints, Strings{"valve.x.regulator"});
+
+  v = iso_valve();
+  v.words_given["valve.x.kind"] = "regulator";
+  read(v);
+  EXPECT_EQ(v.complaints, Strings{"valve.x.regulator"});
+}
+
+TEST(ValveFields, a_boost_wants_its_drive) {
+  FieldVisitor v = iso_valve();
+  v.numbers_given["valve.x.coil.boost_time"] = {1e-3};
+  read(v);
+  EXPECT_EQ(v.complaints, Strings{"valve.x.coil"});
+}
+
+TEST(AirFields, a_tank_has_a_volume_and_nothing_else_has) {
+  FieldVisitor v;
+  v.words_given = {{"kind", "tank"}};
+  v.numbers_given = {{"pressure", {7e5}}, {"volume", {0.3785}}, {"initial_pressure", {9e5}}};
+  Supply supply;
+  fields(v, supply);
+  EXPECT_TRUE(v.complaints.empty());
+  expect_each_key_once_with_a_line(v);
+  EXPECT_EQ(supply.kind, Supply::Kind::tank);
+  EXPECT_EQ(supply.volume, 0.3785);
+  EXPECT_EQ(supply.initial_pressure, 9e5);
+  EXPECT_FALSE(v.find("volume")->optional);
+
+  EXPECT_GT(v.find("volume")->min, 0);
+
+  v.words_given["kind"] = "constant";
+  v.numbers_given["volume"] = {0.1};
+  fields(v, supply);
+  EXPECT_EQ(v.complaints, Strings{"volume"});
+}
+
+TEST(AirFields, walls_that_are_quicker_than_a_run_can_be_are_isothermal) {
+  FieldVisitor v;
+  v.numbers_given = {{"wall_time", {1e-5}}};
+  Air air;
+  fields(v, air);
+  EXPECT_EQ(v.complaints, Strings{"wall_time"});
+  EXPECT_TRUE(v.find("wall_time")->optional);
+}
+
 TEST(AirFields, fill_every_member) {
   FieldVisitor v;
   v.numbers_given = {{"atmosphere", {1e5}},

@@ -57,7 +57,9 @@ void fields(Visitor& v, Flow& flow) {
 // When it opens: delay.h.
 template <class Visitor>
 void shutter_fields(Visitor& v, Valve& valve) {
-  v.choice({.name = "profile", .doc = "how the shutter moves after the electrical edge"},
+  v.choice({.name = "profile",
+            .optional = valve.kind == Valve::Kind::regulator,
+            .doc = "how the shutter moves after the electrical edge"},
            valve.profile,
            {{"ideal", Valve::Profile::ideal},
             {"dead time", Valve::Profile::dead_time},
@@ -95,10 +97,91 @@ void shutter_fields(Visitor& v, Valve& valve) {
   }
 }
 
+// What bounds it, and what its coil takes: delay.h, coil.h.
+template <class Visitor>
+void drive_fields(Visitor& v, Valve& valve) {
+  const auto seconds = [](auto& g, std::string_view name, std::string_view doc, double& value) {
+    g.number({.name = name, .unit = "s", .min = 0, .max = 1, .optional = true, .doc = doc}, value);
+  };
+  const auto watts = [](auto& g, std::string_view name, std::string_view doc, double& value) {
+    g.number({.name = name, .unit = "W", .min = 0, .optional = true, .doc = doc}, value);
+  };
+  v.choice({.name = "drive", .optional = true, .doc = "current of the coil, 4.3"}, valve.drive,
+           {{"standard", Valve::Drive::standard}, {"speed-up", Valve::Drive::speed_up}});
+  v.group({.name = "speed_up", .optional = true, .doc = "delays with drive speed-up"},
+          [&](auto& g) {
+            seconds(g, "opening_delay", "in place of the standard one", valve.speed_up.opening);
+            seconds(g, "closing_delay", "in place of the standard one", valve.speed_up.closing);
+          });
+  v.group({.name = "coil", .optional = true, .doc = "electrical power"}, [&](auto& g) {
+    watts(g, "power", "while it is on, or held", valve.coil.power);
+    watts(g, "boost_power", "speed-up: at the start of a pulse", valve.coil.boost_power);
+    seconds(g, "boost_time", "speed-up: how long at most", valve.coil.boost_time);
+  });
+  if (valve.drive == Valve::Drive::standard && valve.coil.boost_time > 0 &&
+      !(valve.speed_up.opening > 0 || valve.speed_up.closing > 0))
+    units::complain(v, "coil", "a boost without the drive or the delays of speed-up",
+                    "drive = \"speed-up\"");
+}
+
+template <class Visitor>
+void limit_fields(Visitor& v, Valve& valve) {
+  const auto slope = [&](std::string_view name, std::string_view doc, double& value) {
+    v.number({.name = name, .unit = "s/Pa", .optional = true, .doc = doc}, value);
+  };
+  slope("opening_delay_slope", "opening delay per pressure difference over the valve",
+        valve.opening_delay_slope);
+  slope("closing_delay_slope", "closing delay per pressure difference over the valve",
+        valve.closing_delay_slope);
+  v.number({.name = "max_frequency",
+            .unit = "Hz",
+            .min = 0,
+            .optional = true,
+            .doc = "of a square wave that the shutter follows; 0: any, 4.3"},
+           valve.max_frequency);
+  v.number({.name = "fails_above",
+            .unit = "Pa diff",
+            .min = 0,
+            .optional = true,
+            .doc = "pressure difference against which it does not open; 0: none, 4.3"},
+           valve.fails_above);
+}
+
+template <class Visitor>
+void regulator_fields(Visitor& v, Valve& valve) {
+  Regulator& r = valve.regulator;
+  v.group({.name = "regulator", .optional = true, .doc = "of kind regulator"}, [&](auto& g) {
+    g.number({.name = "range",
+              .unit = "Pa diff",
+              .min = 0,
+              .max = 2e6,
+              .optional = true,
+              .doc = "gauge pressure at the full set point"},
+             r.range);
+    g.number({.name = "time_constant",
+              .unit = "s",
+              .min = 0,
+              .max = 10,
+              .optional = true,
+              .doc = "of the outlet's pressure; 0: at once"},
+             r.time_constant);
+  });
+  const bool regulates = valve.kind == Valve::Kind::regulator;
+  if (regulates && !(r.range > 0))
+    units::complain(v, "regulator", "no range", "the gauge pressure at its full set point",
+                    "regulator = { range = \"100 psi diff\" }");
+  if (!regulates && (r.range > 0 || r.time_constant > 0))
+    units::complain(v, "regulator", "another kind of valve", "kind = \"regulator\"");
+}
+
 template <class Visitor>
 void fields(Visitor& v, Valve& valve) {
-  v.choice({.name = "kind", .doc = "2-way: open or shut; 3-way: supply or atmosphere"}, valve.kind,
-           {{"2-way", Valve::Kind::two_way}, {"3-way", Valve::Kind::three_way}});
+  v.choice({.name = "kind",
+            .doc = "2-way: open or shut; 3-way: supply or atmosphere; regulator: a set pressure"},
+           valve.kind,
+           {{"2-way", Valve::Kind::two_way},
+            {"3-way", Valve::Kind::three_way},
+            {"regulator", Valve::Kind::regulator}});
   v.group({.name = "flow", .doc = "mass flow through the open valve"},
           [&](auto& g) { fields(g, valve.flow); });
   v.number({.name = "linear_below",
@@ -109,6 +192,9 @@ void fields(Visitor& v, Valve& valve) {
             .doc = "pressure difference / upstream pressure below which the flow is linear in it"},
            valve.flow.linear_below);
   shutter_fields(v, valve);
+  drive_fields(v, valve);
+  limit_fields(v, valve);
+  regulator_fields(v, valve);
 }
 
 // All of a file's valves.

@@ -329,6 +329,7 @@ Status WholeWorld::drive(signals::Edge edge) noexcept {
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
   while (next_node() < t) commit();  // later edges act at t or after: these nodes are final
   plumbing_.electrical(edge.valve.index, t, edge.open, first_.pull);
+  plumbing_.level(edge.valve.index, t, static_cast<double>(edge.level) / signals::max_level);
   return Status::ok;
 }
 
