@@ -107,6 +107,21 @@ void check_start(const Experiment& e, List& out) {
 
 std::string inches(double metres) { return config::format_quantity(metres, "m", "in"); }
 
+// A phase ends on what is measured.
+void check_measures(const Experiment& e, List& out) {
+  using Kind = gait::Measure::Kind;
+  const auto has = [&](int muscle) { return robot::tension_sensor_of(e.robot, muscle) >= 0; };
+  for (const gait::Phase& phase : e.plan.phases) {
+    const gait::Measure m = gait::find_measure(e.robot, phase.until.measure);
+    bool known = m.kind != Kind::tension || has(m.index);
+    if (m.kind == Kind::normal_force || m.kind == Kind::friction_force)
+      for (std::size_t i = 0; i < e.robot.muscles.size(); ++i) known &= has(static_cast<int>(i));
+    if (!known)
+      out.push_back({"phase." + phase.name + ".until", config::in_quotes(phase.until.measure),
+                     "a measure that has its sensors", "a [sensor.…] of kind = \"tension\""});
+  }
+}
+
 // Where the machine starts must be a place where it can be.
 void check_place(const Experiment& e, List& out) {
   const robot::Trolley& trolley = e.robot.trolley;
@@ -203,6 +218,7 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
   if (runs) {
     check_numbers(e, wrong);
     check_place(e, wrong);
+    check_measures(e, wrong);
     check_size(e, wrong);
   }
   std::ranges::move(robot::contradictions(e.robot), std::back_inserter(wrong));

@@ -70,21 +70,36 @@ bool active(const Moment& m, std::size_t joint) {
   return m.seen.joint[joint].enabled && m.seen.phase == control::Phase::running;
 }
 
-void muscle_columns(const robot::Robot& robot, Columns& out) {
-  for (std::size_t i = 0; i < robot.muscles.size(); ++i) {
-    const robot::Muscle& muscle = robot.muscles[i];
-    const std::string at = "/muscle/" + muscle.name;
-    tension_column(robot, i, out);
-    const auto j = static_cast<std::size_t>(robot::find_joint(robot, muscle.joint));
-    const bool flexor = muscle.role == robot::Muscle::Role::flexor;
-    out.scalar(at + "/inlet_duty", "1", "commanded share of the period", [=](const Moment& m) {
-      const control::Duties& d = m.seen.joint[j].duties;
-      return active(m, j) ? 0.01 * (flexor ? d.flexor_inlet : d.extensor_inlet) : 0.0;
-    });
-    out.scalar(at + "/exhaust_duty", "1", "commanded share of the period", [=](const Moment& m) {
-      const control::Duties& d = m.seen.joint[j].duties;
-      return active(m, j) ? 0.01 * (flexor ? d.flexor_exhaust : d.extensor_exhaust) : 0.0;
-    });
+// A regulator has no duty; its set points are in the log of its edges.
+bool has_duty(const Experiment& e, const robot::Muscle& muscle) {
+  for (const gas::Valve& v : e.valves)
+    if (v.name == muscle.inlet) return v.kind != gas::Valve::Kind::regulator;
+  return true;
+}
+
+void duty_columns(const robot::Robot& robot, const robot::Muscle& muscle, Columns& out) {
+  const std::string at = "/muscle/" + muscle.name;
+  const auto j = static_cast<std::size_t>(robot::find_joint(robot, muscle.joint));
+  const int second = robot::find_joint(robot, muscle.second.joint);
+  const auto other = second < 0 ? j : static_cast<std::size_t>(second);
+  const bool flexor = muscle.role == robot::Muscle::Role::flexor;
+  const auto share = [j, other](const Moment& m, std::int32_t percent) {
+    return active(m, j) || active(m, other) ? 0.01 * percent : 0.0;
+  };
+  out.scalar(at + "/inlet_duty", "1", "commanded share of the period", [=](const Moment& m) {
+    const control::Duties& d = m.seen.joint[j].duties;
+    return share(m, flexor ? d.flexor_inlet : d.extensor_inlet);
+  });
+  out.scalar(at + "/exhaust_duty", "1", "commanded share of the period", [=](const Moment& m) {
+    const control::Duties& d = m.seen.joint[j].duties;
+    return share(m, flexor ? d.flexor_exhaust : d.extensor_exhaust);
+  });
+}
+
+void muscle_columns(const Experiment& e, Columns& out) {
+  for (std::size_t i = 0; i < e.robot.muscles.size(); ++i) {
+    tension_column(e.robot, i, out);
+    if (has_duty(e, e.robot.muscles[i])) duty_columns(e.robot, e.robot.muscles[i], out);
   }
 }
 
@@ -213,7 +228,7 @@ void true_cylinder_columns(const robot::Robot& robot, Columns& out) {
 std::vector<Column> columns(const Experiment& e) {
   Columns out;
   joint_columns(e.robot, out);
-  muscle_columns(e.robot, out);
+  muscle_columns(e, out);
   cylinder_columns(e.robot, out);
   plan_columns(out);
   true_joint_columns(e.robot, out);
@@ -232,8 +247,14 @@ std::vector<Topic> topics(const Experiment& e) {
                    "electrical edges: 1 opens, 0 shuts",
                    {{"value", "1"}}});
   };
-  for (const robot::Muscle& m : e.robot.muscles)
-    for (const char* which : {"inlet", "exhaust"}) valve(m.name, which);
+  for (const robot::Muscle& m : e.robot.muscles) {
+    valve(m.name, "inlet");
+    if (!has_duty(e, m))
+      out.back() = {"/valve/" + m.name + "/inlet/set_point",
+                    "of the regulator, as a share of its range",
+                    {{"value", "1"}}};
+    valve(m.name, "exhaust");
+  }
   if (e.robot.cylinder.present && e.robot.cylinder.mode == robot::Cylinder::Mode::valves)
     for (const char* chamber : {"cylinder_up", "cylinder_down"})
       for (const char* which : {"inlet", "exhaust"}) valve(chamber, which);

@@ -7,6 +7,16 @@ namespace sinew::experiment {
 
 using signals::Tick;
 
+namespace {
+
+// 1 or 0 of an on/off valve, a share of its range of a regulator.
+double logged(const signals::Edge& edge) noexcept {
+  if (edge.level > 0) return static_cast<double>(edge.level) / signals::max_level;
+  return edge.open ? 1.0 : 0.0;
+}
+
+}  // namespace
+
 Recorder::Recorder(const Experiment& e, const control::Spine& spine, HighLevel& high_level,
                    TruthAt truth, Tick end)
     : spine_(spine), high_(high_level), truth_(std::move(truth)) {
@@ -48,9 +58,9 @@ void Recorder::edge(const signals::Edge& edge) noexcept {
   }
   edges_.push_back(edge);
   const std::size_t topic = first_edge_ + edge.valve.index;
-  const double open = edge.open ? 1.0 : 0.0;
+  const double value = logged(edge);
   if (tap_.push && tapped_[topic] != not_tapped)
-    tap_.push(tap_.object, tapped_[topic], edge.at * signals::tick_nanoseconds, {&open, 1});
+    tap_.push(tap_.object, tapped_[topic], edge.at * signals::tick_nanoseconds, {&value, 1});
 }
 
 signals::Table Recorder::take() {
@@ -73,7 +83,7 @@ signals::Table Recorder::take() {
   for (const signals::Edge& edge : edges_) {
     signals::Series& s = table.series[first_edge_ + edge.valve.index];
     s.time_ns.push_back(edge.at * signals::tick_nanoseconds);
-    s.columns[0].push_back(edge.open ? 1.0 : 0.0);
+    s.columns[0].push_back(logged(edge));
   }
   return table;
 }

@@ -75,7 +75,26 @@ void check_passive(const Robot& robot, const Joint& joint, List& out) {
                      "no muscle at a passive joint", "kind = \"driven\""});
 }
 
-// Each driven joint has its pair, each muscle a joint and an inlet.
+// At most one muscle each way, one at least; the other way may be a spring's or gravity's.
+void check_driven(const Robot& robot, const Joint& joint, List& out) {
+  int muscles = 0;
+  for (const auto role : {Muscle::Role::flexor, Muscle::Role::extensor}) {
+    const auto count = std::ranges::count_if(robot.muscles, [&](const Muscle& m) {
+      return (m.joint == joint.name && m.role == role) ||
+             (m.second.joint == joint.name && m.second.role == role);
+    });
+    const std::string word = role == Muscle::Role::flexor ? "flexor" : "extensor";
+    if (count > 1)
+      out.push_back({"joint." + joint.name, std::to_string(count) + " muscles as " + word,
+                     "at most one", "actuators in parallel are one muscle with a larger count"});
+    muscles += static_cast<int>(count);
+  }
+  if (muscles == 0)
+    out.push_back({"joint." + joint.name, "no muscle", "a flexor, an extensor or both",
+                   "kind = \"passive\""});
+}
+
+// Each driven joint has its muscles, each muscle a joint and an inlet.
 void check_pairs(const Robot& robot, List& out) {
   for (const Muscle& muscle : robot.muscles) {
     const std::string key = "muscle." + muscle.name;
@@ -91,15 +110,7 @@ void check_pairs(const Robot& robot, List& out) {
       check_passive(robot, joint, out);
       continue;
     }
-    for (const auto role : {Muscle::Role::flexor, Muscle::Role::extensor}) {
-      const auto count =
-          std::count_if(robot.muscles.begin(), robot.muscles.end(),
-                        [&](const Muscle& m) { return m.joint == joint.name && m.role == role; });
-      const std::string word = role == Muscle::Role::flexor ? "flexor" : "extensor";
-      if (count != 1)
-        out.push_back({"joint." + joint.name, std::to_string(count) + " muscles as " + word, "one",
-                       "actuators in parallel are one muscle with a larger count"});
-    }
+    check_driven(robot, joint, out);
   }
 }
 

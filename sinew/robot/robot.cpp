@@ -71,8 +71,12 @@ bool needs_tension(const Robot& robot, int muscle) {
 
 bool is_plain(const Robot& robot) {
   const auto round = [](const Cam& cam) { return cam.angle.empty() && !(cam.radius > 0); };
-  for (const Joint& j : robot.joints)
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    const Joint& j = robot.joints[i];
     if (j.kind == Joint::Kind::passive || j.damper != 0 || j.spring != 0) return false;
+    for (const auto role : {Muscle::Role::flexor, Muscle::Role::extensor})
+      if (muscle_of(robot, static_cast<int>(i), role) < 0) return false;
+  }
   for (const Muscle& m : robot.muscles)
     if (!m.second.joint.empty() || !round(m.cam)) return false;
   for (const Sensor& s : robot.sensors)

@@ -29,17 +29,61 @@ TEST(Contradictions, NamesThatLeadNowhere) {
   EXPECT_EQ(keys_after([](Robot& r) { r.sensors[0].of = "ankle"; }),
             (Keys{"sensor.hip_sensor.of", "joint.hip"}));
   EXPECT_EQ(keys_after([](Robot& r) { r.muscles[0].joint = "ankle"; }),
-            (Keys{"muscle.hip_flexor.joint", "joint.hip"}));
+            (Keys{"muscle.hip_flexor.joint"}));
   EXPECT_EQ(keys_after([](Robot& r) { r.muscles[0].inlet = ""; }),
             (Keys{"muscle.hip_flexor.inlet"}));
 }
 
 TEST(Contradictions, PairsAndTheirSensors) {
   EXPECT_EQ(keys_after([](Robot& r) { r.muscles[1].role = Muscle::Role::flexor; }),
-            (Keys{"joint.hip", "joint.hip"}));
+            (Keys{"joint.hip"}));
   EXPECT_EQ(keys_after([](Robot& r) { r.sensors.pop_back(); }), (Keys{"muscle.knee_extensor"}));
   EXPECT_EQ(keys_after([](Robot& r) { r.muscles[2].exhaust_bit = r.muscles[0].inlet_bit; }),
             (Keys{"muscle.knee_flexor.exhaust.bit"}));
+}
+
+// One muscle is enough, none is not; nor are two on one side, a muscle over two joints counted at
+// both.
+TEST(Contradictions, AJointHasOneMuscleEachWayAtMost) {
+  const auto without = [](Robot& r, std::size_t muscle) {
+    const std::string name = r.muscles[muscle].name;
+    r.muscles.erase(r.muscles.begin() + static_cast<std::ptrdiff_t>(muscle));
+    std::erase_if(r.sensors, [&](const Sensor& s) { return s.of == name; });
+  };
+  EXPECT_EQ(keys_after([&](Robot& r) { without(r, 1); }), Keys{});
+  EXPECT_EQ(keys_after([&](Robot& r) { without(r, 1), without(r, 0); }), (Keys{"joint.hip"}));
+  const auto over_both = [](Robot& r) {
+    r.muscles[0].second = {.joint = "knee", .role = Muscle::Role::flexor};
+  };
+  EXPECT_EQ(keys_after([&](Robot& r) { over_both(r); }), (Keys{"joint.knee"}));
+  EXPECT_EQ(keys_after([&](Robot& r) { over_both(r), without(r, 2); }), Keys{});
+}
+
+// A law that does not look at a tension needs no transducer of it.
+TEST(Contradictions, SensorsFollowFromTheLaws) {
+  const auto without_tensions = [](Robot& r) {
+    std::erase_if(r.sensors, [](const Sensor& s) { return s.kind == Sensor::Kind::tension; });
+  };
+  const auto source = [](Robot& r, StiffnessSource s) {
+    for (Joint& j : r.joints) j.stiffness_source = s;
+  };
+  const Keys all = {"muscle.hip_flexor", "muscle.hip_extensor", "muscle.knee_flexor",
+                    "muscle.knee_extensor"};
+  EXPECT_EQ(keys_after(without_tensions), all);
+  EXPECT_EQ(keys_after([&](Robot& r) { without_tensions(r), source(r, StiffnessSource::none); }),
+            Keys{});
+  EXPECT_EQ(keys_after(
+                [&](Robot& r) { without_tensions(r), source(r, StiffnessSource::extensor_force); }),
+            (Keys{"muscle.hip_extensor", "muscle.knee_extensor"}));
+  EXPECT_EQ(keys_after([&](Robot& r) { source(r, StiffnessSource::pressures); }), all);
+  EXPECT_EQ(keys_after([&](Robot& r) {
+              without_tensions(r), source(r, StiffnessSource::none);
+              r.joints[0].velocity.tensions = true;
+            }),
+            (Keys{"muscle.hip_flexor", "muscle.hip_extensor"}));
+  EXPECT_EQ(
+      keys_after([](Robot& r) { r.joints[1].velocity.estimator = Velocity::Estimator::sensor; }),
+      (Keys{"joint.knee"}));
 }
 
 TEST(Contradictions, AThreeWayMuscleHasNoExhaust) {

@@ -1,0 +1,160 @@
+// What the low level is told of robots other than the leg.
+#include "sinew/experiment/spinal.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/experiment/check.h"
+#include "sinew/experiment/run.h"
+
+namespace sinew::experiment {
+namespace {
+
+using Kind = control::JointKind;
+
+const std::string walk = std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml";
+
+Experiment one_step(std::vector<std::string> sets = {}) {
+  sets.push_back("sequence.repeat=1");
+  return load(walk, sets);
+}
+
+std::string refusal(const Experiment& e) {
+  try {
+    refuse_contradictions("experiment", e);
+  } catch (const config::Error& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+gas::Valve three_way(const Experiment& e) {
+  for (const gas::Valve& v : e.valves)
+    if (v.kind == gas::Valve::Kind::three_way) return v;
+  return {};
+}
+
+void use_three_way(Experiment& e, const std::string& joint) {
+  for (robot::Muscle& m : e.robot.muscles)
+    if (m.joint == joint) m.inlet = three_way(e).name, m.exhaust = "";
+}
+
+// --- valves make the law ------------------------------------------------------------------------
+
+TEST(Spinal, ThreeWayValvesMakeAThreeWayJoint) {
+  Experiment e = one_step();
+  use_three_way(e, "knee");
+  e.robot.joints[1].pressure_law.bias = 0.35;
+  const control::SpineConfig c = spine_config(e);
+  EXPECT_EQ(c.joint[0].kind, Kind::antagonist);
+  EXPECT_EQ(c.joint[1].kind, Kind::three_way);
+  EXPECT_EQ(c.joint[1].bias, 35);
+  EXPECT_EQ(refusal(e), "nothing");
+}
+
+// Robot III's way, 5.1: it moves, its valves are never shut, and it takes more air.
+TEST(Spinal, AThreeWayLegMovesAndSpendsMoreAir) {
+  const Experiment sealed = one_step();
+  Experiment e = one_step();
+  use_three_way(e, "hip"), use_three_way(e, "knee");
+  const auto air = [](const Outcome& out) {
+    double sum = 0;
+    for (const char* m : {"hip_flexor", "hip_extensor", "knee_flexor", "knee_extensor"})
+      sum += out.table.column("/true/muscle/" + std::string(m) + "/air_in")->back();
+    return sum;
+  };
+  const Outcome two = run(sealed), three = run(e);
+  EXPECT_EQ(three.status, signals::Status::ok);
+  const std::vector<double>& angle = *three.table.column("/true/joint/hip/angle");
+  EXPECT_GT(*std::ranges::max_element(angle) - *std::ranges::min_element(angle), 0.3);
+  EXPECT_GT(air(three), 2 * air(two));
+  EXPECT_TRUE(three.table.find("/valve/hip_flexor/exhaust/open")->time_ns.empty());
+}
+
+TEST(Spinal, RefusesValvesThatDoNotGoTogether) {
+  Experiment e = one_step();
+  e.robot.muscles[0].exhaust = "";
+  EXPECT_NE(refusal(e).find("muscle.hip_flexor.exhaust: found none; expected a valve, as the inlet "
+                            "seals"),
+            std::string::npos);
+  e = one_step();
+  use_three_way(e, "hip");
+  e.robot.muscles[0].exhaust = "exhaust";
+  EXPECT_NE(refusal(e).find("none, as the inlet also vents"), std::string::npos);
+  e = one_step();
+  e.robot.muscles[1].inlet = three_way(e).name, e.robot.muscles[1].exhaust = "";
+  EXPECT_NE(refusal(e).find("a valve of the same kind as muscle hip_flexor's"), std::string::npos);
+}
+
+// --- muscles ------------------------------------------------------------------------------------
+
+// Another scale, another arm: the torque of a count, over that of the flexor's.
+TEST(Spinal, TensionRatioIsOfTorquePerCount) {
+  Experiment e = one_step();
+  EXPECT_EQ(spine_config(e).joint[0].extensor.tension_ratio, 1.0f);
+  const int s = robot::tension_sensor_of(e.robot, 1);
+  e.robot.sensors[static_cast<std::size_t>(s)].assumed_scale /= 2;
+  EXPECT_NEAR(spine_config(e).joint[0].extensor.tension_ratio, 2, 1e-6);
+  e.robot.muscles[1].cam.radius = 1.5 * e.robot.joints[0].moment_arm;
+  const control::JointConfig hip = spine_config(e).joint[0];
+  EXPECT_NEAR(hip.extensor.tension_ratio, 3, 1e-6);
+  EXPECT_NEAR(hip.extensor.free_length, hip.flexor.free_length / 1.5, 1);
+}
+
+TEST(Spinal, AJointWithOneMuscle) {
+  for (const std::size_t gone : {0u, 1u}) {
+    Experiment e = one_step();
+    const std::string name = e.robot.muscles[gone].name;
+    e.robot.muscles.erase(e.robot.muscles.begin() + static_cast<std::ptrdiff_t>(gone));
+    std::erase_if(e.robot.sensors, [&](const robot::Sensor& s) { return s.of == name; });
+    const control::JointConfig hip = spine_config(e).joint[0];
+    EXPECT_EQ(hip.flexor.present, gone == 1);
+    EXPECT_EQ(hip.extensor.present, gone == 0);
+    EXPECT_FALSE(robot::is_plain(e.robot));
+  }
+}
+
+// The knee's flexor is the hip's as well, on a cam half as large.
+TEST(Spinal, AMuscleOverTwoJoints) {
+  Experiment e = one_step();
+  e.robot.muscles[0].second = {.joint = "knee", .role = robot::Muscle::Role::flexor};
+  e.robot.muscles[0].second.cam.radius = 0.5 * e.robot.joints[1].moment_arm;
+  std::erase_if(e.robot.sensors, [](const robot::Sensor& s) { return s.of == "knee_flexor"; });
+  e.robot.muscles.erase(e.robot.muscles.begin() + 2);
+  const control::SpineConfig c = spine_config(e);
+  const control::MuscleConfig &hip = c.joint[0].flexor, &knee = c.joint[1].flexor;
+  EXPECT_EQ(hip.inlet.index, knee.inlet.index);
+  EXPECT_EQ(hip.tension.index, knee.tension.index);
+  EXPECT_NEAR(hip.share, 2.0 / 3, 1e-6);
+  EXPECT_NEAR(knee.share, 1.0 / 3, 1e-6);
+  // Flexion lowers the knee's angle: a knee angle that rises lengthens the muscle, by half as much.
+  EXPECT_NEAR(hip.other_travel, 0.5, 1e-6);
+  EXPECT_NEAR(knee.other_travel, -2, 1e-6);
+}
+
+// --- period and interrupts ----------------------------------------------------------------------
+
+// 5.2: the interrupt comes a hundred times in a period. In ticks of 100 us 90 and 151 Hz are 111
+// and 66 of them.
+TEST(Spinal, InterruptsOverrunAbove100Hz) {
+  for (const int ticks : {50, 66, 100, 111, 125, 200}) {
+    Experiment e = one_step({"low_level.interrupt_time=100 us"});
+    e.robot.low_level.pwm_ticks = ticks;
+    EXPECT_EQ(laws_overrun(e.robot), ticks < 100) << ticks;
+  }
+}
+
+TEST(Spinal, OverrunsAreCounted) {
+  const Outcome out = run(one_step({"low_level.interrupt_time=101 us"}));
+  const auto* hip = out.table.column("/joint/hip/angle");
+  ASSERT_NE(hip, nullptr);
+  EXPECT_GT(out.seen.overruns, 2 * 250u);  // two laws per period of 10 ms, more than 2.5 s
+  EXPECT_EQ(run(one_step()).seen.overruns, 0u);
+}
+
+}  // namespace
+}  // namespace sinew::experiment
