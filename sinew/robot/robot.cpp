@@ -80,9 +80,7 @@ bool is_plain(const Robot& robot) {
   for (const Muscle& m : robot.muscles)
     if (!m.second.joint.empty() || !round(m.cam)) return false;
   for (const Sensor& s : robot.sensors)
-    if (s.kind == Sensor::Kind::pressure || s.kind == Sensor::Kind::velocity ||
-        s.kind == Sensor::Kind::cylinder)
-      return false;
+    if (s.kind == Sensor::Kind::pressure || s.kind == Sensor::Kind::velocity) return false;
   return robot.joints.size() <= 2 && robot.foot.points.empty() &&
          (!robot.cylinder.present || robot.cylinder.mode == Cylinder::Mode::locked);
 }

@@ -316,10 +316,10 @@ signals::Reading World<N>::read(signals::Channel channel, signals::Tick now) noe
   const signals::Tick sampled = now - lag_[channel.index];
   const double t = static_cast<double>(sampled) * signals::tick_seconds;
   double quantity = 0;
-  if (sensor.kind != robot::Sensor::Kind::fixed) {
+  const int of = source_[channel.index];
+  if (of >= 0) {  // else it is of something that stands still
     advance(t);
     const Glance& g = glance();
-    const int of = source_[channel.index];
     if (sensor.kind == robot::Sensor::Kind::angle) {
       const Pose<N> pose = peek_pose(g, t);
       const auto j = static_cast<std::size_t>(of);
