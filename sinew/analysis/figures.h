@@ -41,6 +41,9 @@ void add_rates(Figures&, double amount, const std::string& per_step, const std::
 double passiveness(const Figures&, const robot::Muscle&);
 double delivered_passiveness(const Figures&, const robot::Muscle&);
 
+// That went into a cylinder between two rows  [kg]; 0 where there is none.
+double cylinder_air(const Figures&, std::size_t first, std::size_t last);
+
 void add_run(Figures&);
 void add_trolley(Figures&);
 void add_joints(Figures&);
@@ -50,6 +53,7 @@ void add_foot(Figures&);
 void add_ground_reaction(Figures&);
 void add_air(Figures&);
 void add_valves(Figures&);
+void add_machine(Figures&);
 void add_phases(Figures&);
 
 }  // namespace sinew::analysis

@@ -90,6 +90,13 @@ double mean_duration(const Record& record, int phase) {
   return sum / n;
 }
 
+// What a topic says at that row.
+void add_end_of(Figures& f, const std::string& key, std::string_view topic, std::string_view field,
+                std::size_t row) {
+  const Column column = f.record.column(topic, field);
+  if (!column.empty()) f.summary.add(key, column[row]);
+}
+
 }  // namespace
 
 void add_joints(Figures& f) {
@@ -116,6 +123,9 @@ void add_phases(Figures& f) {
     const std::string key = "phases." + f.machine.phases[i] + ".";
     f.summary.add(key + "mean_duration_s", mean_duration(f.record, static_cast<int>(i)));
     add_end(f, key, stretch->last - 1);
+    add_end_of(f, key + "foot.end_force_true_N", "/true/foot/force", "y", stretch->last - 1);
+    add_end_of(f, key + "cylinder.end_position_true_m", "/true/cylinder/position", "value",
+               stretch->last - 1);
   }
 }
 

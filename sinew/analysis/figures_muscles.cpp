@@ -148,6 +148,9 @@ void add_air(Figures& f) {
       in_sequence +=
           gained(f, "/true" + topic(m, "air_in"), f.record.first_row(), f.record.end_row());
   }
+  all += cylinder_air(f, 0, f.record.rows() - 1);
+  if (f.record.has_sequence())
+    in_sequence += cylinder_air(f, f.record.first_row(), f.record.end_row());
   f.summary.add("air_used_kg", all);
   add_rates(f, in_sequence, "air_used_per_step_kg", "air_used_kg_per_m");
 }

@@ -66,6 +66,7 @@ Summary summarize(const signals::Table& table, const Machine& machine) {
   add_ground_reaction(figures);
   add_air(figures);
   add_valves(figures);
+  add_machine(figures);
   add_phases(figures);
   return summary;
 }

@@ -174,11 +174,6 @@ void check_numbers(const Experiment& e, List& out) {
     out.push_back({"low_level.pwm_ticks", std::to_string(e.robot.low_level.pwm_ticks),
                    "100: predict.dat counts the ticks of such a period", "leave out its file"});
   if (e.plant != "planar") out.push_back({"plant", config::in_quotes(e.plant), "planar", ""});
-  if (!robot::is_plain(e.robot))
-    out.push_back({"robot_name", config::in_quotes(e.robot.name) + " with parts of a whole machine",
-                   "one or two driven joints with round cams and pairs of muscles, a disc for a "
-                   "foot, a locked cylinder",
-                   "what the planar plant holds"});
 }
 
 // Where the key stands, or the first one of the table that it names; on a line, if one does.

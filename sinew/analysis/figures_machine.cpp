@@ -1,0 +1,64 @@
+// rollers.*, cylinder.*, supply.*: the parts of a whole machine beside its joints and muscles.
+#include <string>
+
+#include "sinew/analysis/figures.h"
+#include "sinew/analysis/statistics.h"
+
+namespace sinew::analysis {
+namespace {
+
+// Share of the time in which a load is below zero.
+double lifted_share(const Column& load, const std::vector<double>& seconds) {
+  Column lifted(load.size());
+  for (std::size_t i = 0; i < load.size(); ++i) lifted[i] = load[i] < 0 ? 1.0 : 0.0;
+  return mean(lifted, seconds);
+}
+
+void add_rollers(Figures& f) {
+  for (const std::string roller : {"front", "rear"}) {
+    const Column load = f.record.column("/true/roller/" + roller + "/load");
+    f.add("rollers." + roller + ".min_load_N", smallest, load, f.record.sequence());
+    f.add("rollers." + roller + ".max_load_N", largest, load, f.record.sequence());
+    f.add("rollers." + roller + ".lifted_share", lifted_share, load, f.record.sequence());
+  }
+}
+
+void add_cylinder(Figures& f) {
+  const Column travel = f.record.column("/true/cylinder/position");
+  if (travel.empty()) return;
+  f.add("cylinder.min_position_true_m", smallest, travel, f.record.sequence());
+  f.add("cylinder.max_position_true_m", largest, travel, f.record.sequence());
+  f.add("cylinder.mean_position_true_m", mean, travel, f.record.sequence());
+  const Column wanted = f.record.column("/desired/cylinder/position");
+  if (!wanted.empty()) {
+    Column error(travel.size());
+    for (std::size_t i = 0; i < error.size(); ++i) error[i] = travel[i] - wanted[i];
+    f.add("cylinder.tracking_rms_m", rms, error, f.record.sequence());
+  }
+  f.summary.add("cylinder.air_used_kg", cylinder_air(f, 0, f.record.rows() - 1));
+}
+
+}  // namespace
+
+double cylinder_air(const Figures& f, std::size_t first, std::size_t last) {
+  double all = 0;
+  for (const char* chamber : {"up", "down"}) {
+    const Column in = f.record.column(std::string("/true/cylinder/") + chamber + "/air_in");
+    if (!in.empty()) all += in[last] - in[first];
+  }
+  return all;
+}
+
+void add_machine(Figures& f) {
+  add_rollers(f);
+  add_cylinder(f);
+  f.add("supply.min_pressure_Pa", smallest, f.record.column("/true/supply/pressure"),
+        f.record.sequence());
+  const Column tank = f.record.column("/true/supply/tank_pressure");
+  if (!tank.empty()) f.summary.add("supply.end_tank_pressure_Pa", tank.back());
+  for (const robot::Foot::Point& p : f.machine.robot.foot.points)
+    f.add("foot." + p.name + ".peak_load_true_N", largest,
+          f.record.column("/true/foot/" + p.name + "/load"), f.record.sequence());
+}
+
+}  // namespace sinew::analysis
