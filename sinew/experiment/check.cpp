@@ -62,6 +62,12 @@ void check_muscles(const Experiment& e, List& out) {
     need(key + ".inlet.valve", m.inlet, e.valves, out);
     if (!m.exhaust.empty()) need(key + ".exhaust.valve", m.exhaust, e.valves, out);
   }
+  const robot::Cylinder& c = e.robot.cylinder;
+  if (!c.present) return;
+  for (const auto& [key, chamber] : {std::pair{"cylinder.up", &c.up}, {"cylinder.down", &c.down}})
+    for (const auto& [which, valve] :
+         {std::pair{".inlet.valve", &chamber->inlet}, {".exhaust.valve", &chamber->exhaust}})
+      if (!valve->empty()) need(std::string(key) + which, *valve, e.valves, out);
 }
 
 // A cylinder's chamber has two plain valves, and air left in it at the stop.
@@ -128,6 +134,10 @@ void check_place(const Experiment& e, List& out) {
   if (trolley.present && (e.start.trolley < 0 || e.start.trolley > trolley.track_length))
     out.push_back({"start.trolley", inches(e.start.trolley),
                    "0 to the track's end, " + inches(trolley.track_length), ""});
+  const robot::Cylinder& cylinder = e.robot.cylinder;
+  const double top = cylinder.present ? cylinder.stroke : 0.0;
+  if (e.start.lift > top)
+    out.push_back({"start.lift", inches(e.start.lift), "0 to the stroke, " + inches(top), ""});
   for (const robot::Link& link : e.robot.links)
     if (link.center_of_mass > link.length)
       out.push_back({"link." + link.name + ".center_of_mass", inches(link.center_of_mass),
