@@ -49,10 +49,10 @@ struct Branch {
 };
 
 robot::TwoLinks need_two_links(const robot::Robot& robot) {
-  if (robot.links.size() != 2)
-    throw std::invalid_argument(fmt::format("{}: has {} link{}; --foot needs two; try --angles",
-                                            robot.name, robot.links.size(),
-                                            robot.links.size() == 1 ? "" : "s"));
+  if (!robot::is_leg(robot))
+    throw std::invalid_argument(fmt::format(
+        "{}: has {} link{}; --foot needs a leg, two links at driven joints; try --angles",
+        robot.name, robot.links.size(), robot.links.size() == 1 ? "" : "s"));
   return robot::two_links(robot);
 }
 
@@ -73,7 +73,7 @@ Branch stand(const experiment::Experiment& e, const std::vector<double>& angles)
     at.longest = a.long_end.length;
     out.muscles.push_back(at);
   }
-  if (e.robot.links.size() == 2)
+  if (robot::is_leg(e.robot))
     out.jacobian = robot::jacobian(robot::two_links(e.robot), angles[0], angles[1]);
   return out;
 }

@@ -53,43 +53,63 @@ Column rowwise(const Record& record, Of of, const Columns&... columns) {
   return out;
 }
 
-const robot::Muscle* muscle_of(const Machine& m, std::size_t joint, Role role) {
-  const int i = robot::muscle_of(m.robot, static_cast<int>(joint), role);
-  return i < 0 ? nullptr : &m.robot.muscles[static_cast<std::size_t>(i)];
+bool runs_across(const robot::Muscle& muscle, const robot::Joint& joint) {
+  return muscle.joint == joint.name || muscle.second.joint == joint.name;
 }
 
-// Of the pair that pulls a joint: flexor first. Empty where one is missing.
-std::array<Column, 2> of_pair(const Record& record, const Machine& m, std::size_t joint,
-                              const std::string& prefix, const std::string& what) {
-  std::array<Column, 2> out;
-  for (const Role role : {Role::flexor, Role::extensor})
-    if (const robot::Muscle* muscle = muscle_of(m, joint, role))
-      out[role == Role::flexor ? 0 : 1] = record.column(prefix + muscle->name + what);
-  return out;
+// Of every muscle that runs across the joint, by its position; false where a topic is missing.
+bool of_muscles(const Record& record, const Machine& m, const robot::Joint& joint,
+                const std::string& prefix, const std::string& what, std::vector<Column>& out) {
+  out.assign(m.robot.muscles.size(), {});
+  bool any = false;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    if (!runs_across(m.robot.muscles[k], joint)) continue;
+    out[k] = record.column(prefix + m.robot.muscles[k].name + what);
+    if (out[k].empty()) return false;
+    any = true;
+  }
+  return any;
+}
+
+// For a cam that is not round; where the angle is not logged, at rest.
+double angle_in(const Column& angle, const robot::Joint& joint, std::size_t row) {
+  return angle.empty() ? joint.rest_angle : angle[row];
 }
 
 Column measured_torque(const Record& record, const Machine& m, std::size_t joint) {
-  const auto [flexor, extensor] = of_pair(record, m, joint, "/muscle/", "/tension");
-  return rowwise(
-      record,
-      [&](std::size_t i) { return robot::torque(m.robot.joints[joint], flexor[i], extensor[i]); },
-      flexor, extensor);
+  const robot::Joint& at = m.robot.joints[joint];
+  const Column angle = record.column("/joint/" + at.name + "/angle");
+  std::vector<Column> tension;
+  if (!of_muscles(record, m, at, "/muscle/", "/tension", tension)) return {};
+  std::vector<double> now(tension.size(), 0.0);
+  Column out(record.rows());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    for (std::size_t k = 0; k < now.size(); ++k)
+      if (!tension[k].empty()) now[k] = tension[k][i];
+    out[i] =
+        robot::torque_of_muscles(m.robot, static_cast<int>(joint), angle_in(angle, at, i), now);
+  }
+  return out;
 }
 
+// Sum of r^2 dF/dL; what a cam that is not round adds by its slope is left out.
 Column true_joint_stiffness(const Record& record, const Machine& m, std::size_t joint) {
-  const double arm = m.robot.joints[joint].moment_arm;
+  const robot::Joint& at = m.robot.joints[joint];
+  const Column angle = record.column("/true/joint/" + at.name + "/angle");
+  std::vector<Column> length, pressure, tension;
+  if (!of_muscles(record, m, at, "/true/muscle/", "/length", length) ||
+      !of_muscles(record, m, at, "/true/muscle/", "/pressure", pressure) ||
+      !of_muscles(record, m, at, "/true/muscle/", "/tension", tension))
+    return {};
   Column sum(record.rows(), 0.0);
-  for (const Role role : {Role::flexor, Role::extensor}) {
-    const robot::Muscle* muscle = muscle_of(m, joint, role);
-    if (!muscle) return {};
-    const actuator::Actuator a = robot::actuator_of(*muscle, m.actuators);
-    const std::string at = "/true/muscle/" + muscle->name;
-    const Column length = record.column(at + "/length"), pressure = record.column(at + "/pressure"),
-                 tension = record.column(at + "/tension");
-    if (length.empty() || pressure.empty() || tension.empty()) return {};
+  for (std::size_t k = 0; k < length.size(); ++k) {
+    if (length[k].empty()) continue;
+    const robot::Muscle& muscle = m.robot.muscles[k];
+    const actuator::Actuator a = robot::actuator_of(muscle, m.actuators);
     for (std::size_t i = 0; i < sum.size(); ++i)
       sum[i] += joint_stiffness(
-          arm, muscle->count, true_stiffness(a, length[i], pressure[i], m.atmosphere, tension[i]));
+          robot::pull_at(muscle, at, angle_in(angle, at, i)), muscle.count,
+          true_stiffness(a, length[k][i], pressure[k][i], m.atmosphere, tension[k][i]));
   }
   return sum;
 }

@@ -6,6 +6,7 @@
 #include "sinew/actuator/actuator.fields.h"
 #include "sinew/analysis/reported.fields.h"
 #include "sinew/config/reader.h"
+#include "sinew/robot/kinematics.h"
 #include "sinew/robot/robot.fields.h"
 
 namespace sinew::analysis {
@@ -119,9 +120,7 @@ int find_phase(const Machine& m, std::string_view name) {
   return -1;
 }
 
-bool has_leg(const Machine& m) {
-  return m.robot.foot.present && m.robot.links.size() == 2 && m.robot.joints.size() == 2;
-}
+bool has_leg(const Machine& m) { return m.robot.foot.present && robot::is_leg(m.robot); }
 
 ValveDelays delays_of(const Machine& m, std::string_view valve) {
   for (const ValveDelays& v : m.valves)

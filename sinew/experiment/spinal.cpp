@@ -7,6 +7,7 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/experiment/estimators.h"
 #include "sinew/robot/actuator_of.h"
+#include "sinew/robot/kinematics.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::experiment {
@@ -35,21 +36,11 @@ struct Pull {
   double sign = 1;  // +1: raises the joint's angle
 };
 
-double radius_at_rest(const robot::Cam& cam, const robot::Joint& joint) {
-  if (cam.angle.empty()) return cam.radius > 0 ? cam.radius : joint.moment_arm;
-  const auto above = std::ranges::upper_bound(cam.angle, joint.rest_angle) - cam.angle.begin();
-  const auto i = static_cast<std::size_t>(above);
-  if (i == 0) return cam.radii.front();
-  if (i == cam.angle.size()) return cam.radii.back();
-  const double share = (joint.rest_angle - cam.angle[i - 1]) / (cam.angle[i] - cam.angle[i - 1]);
-  return cam.radii[i - 1] + share * (cam.radii[i] - cam.radii[i - 1]);
-}
-
 Pull pull(const robot::Muscle& m, const robot::Joint& joint) {
   const bool first = m.joint == joint.name;
   const Role role = first ? m.role : m.second.role;
   const double sign = role == Role::flexor ? joint.sign() : -joint.sign();
-  return {radius_at_rest(first ? m.cam : m.second.cam, joint), sign};
+  return {robot::cam_radius(first ? m.cam : m.second.cam, joint, joint.rest_angle), sign};
 }
 
 // [N] of a count by the assumed scale; 0 without a transducer.

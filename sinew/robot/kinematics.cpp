@@ -37,6 +37,14 @@ std::array<double, 2> solve(const TwoLinks& leg, Point p, Knee knee) {
 
 }  // namespace
 
+bool is_leg(const Robot& robot) {
+  const std::size_t n = robot.joints.size();
+  if (robot.links.size() < 2 || n != robot.links.size()) return false;
+  for (std::size_t j = 0; j < n; ++j)
+    if ((robot.joints[j].kind == Joint::Kind::passive) != (j >= 2)) return false;
+  return true;
+}
+
 TwoLinks two_links(const Robot& robot) {
   return {robot.links.at(0).length, robot.links.at(1).length};
 }
@@ -126,6 +134,39 @@ GroundReaction ground_reaction(const TwoLinks& leg, double theta1, double theta2
   const Point by_foot = {(j.y2 * torque[0] - j.y1 * torque[1]) / det,
                          (j.x1 * torque[1] - j.x2 * torque[0]) / det};
   return {.force = {-by_foot.x, -by_foot.y}, .singular = false};
+}
+
+double cam_radius(const Cam& cam, const Joint& joint, double angle) {
+  if (cam.angle.empty()) return std::isfinite(cam.radius) ? cam.radius : joint.moment_arm;
+  if (angle <= cam.angle.front()) return cam.radii.front();
+  for (std::size_t k = 1; k < cam.angle.size(); ++k) {
+    if (angle > cam.angle[k]) continue;
+    const double share = (angle - cam.angle[k - 1]) / (cam.angle[k] - cam.angle[k - 1]);
+    return cam.radii[k - 1] + share * (cam.radii[k] - cam.radii[k - 1]);
+  }
+  return cam.radii.back();
+}
+
+double pull_at(const Muscle& muscle, const Joint& joint, double angle) {
+  const bool first = muscle.joint == joint.name, second = muscle.second.joint == joint.name;
+  if (!first && !second) return 0;
+  const Cam& cam = first ? muscle.cam : muscle.second.cam;
+  return pull(first ? muscle.role : muscle.second.role) * joint.sign() *
+         cam_radius(cam, joint, angle);
+}
+
+double torque_of_muscles(const Robot& robot, int joint, double angle,
+                         std::span<const double> tensions) {
+  const Joint& at = robot.joints[static_cast<std::size_t>(joint)];
+  const int flexor = muscle_of(robot, joint, Muscle::Role::flexor);
+  const int extensor = muscle_of(robot, joint, Muscle::Role::extensor);
+  if (is_plain(robot) && flexor >= 0 && extensor >= 0)
+    return torque(at, tensions[static_cast<std::size_t>(flexor)],
+                  tensions[static_cast<std::size_t>(extensor)]);
+  double sum = 0;
+  for (std::size_t m = 0; m < robot.muscles.size() && m < tensions.size(); ++m)
+    sum += pull_at(robot.muscles[m], at, angle) * tensions[m];
+  return sum;
 }
 
 double torque(const Joint& joint, double flexor_tension, double extensor_tension) {

@@ -18,7 +18,9 @@ struct Point {
 struct TwoLinks {
   double l1 = 0, l2 = 0;  // [m]
 };
-TwoLinks two_links(const Robot&);  // of one that has two
+// A leg: two links at driven joints, and beyond them passive ones only, as an ankle's.
+bool is_leg(const Robot&);
+TwoLinks two_links(const Robot&);  // of a leg
 
 // The joints of a chain and its end, from the first joint outwards  [m].
 struct Pose {
@@ -83,6 +85,16 @@ struct GroundReaction {
 inline constexpr double singular_sine = 0.02;  // 1.1 deg from straight or folded
 GroundReaction ground_reaction(const TwoLinks&, double theta1, double theta2,
                                std::array<double, 2> torque);
+
+// Radius of a muscle's cam at that angle of the joint  [m].
+double cam_radius(const Cam&, const Joint&, double angle);
+
+// What one newton in the muscle does to a joint at that angle, > 0 raises it; 0 at a joint that the
+// muscle does not run across  [m].
+double pull_at(const Muscle&, const Joint&, double angle);
+
+// Torque of all muscles that run across a joint, from their tensions in the robot's order  [N m].
+double torque_of_muscles(const Robot&, int joint, double angle, std::span<const double> tensions);
 
 // Torque of a joint from its muscles, > 0 raises the angle  [N m]: [71]'s T with the sign of each.
 double torque(const Joint&, double flexor_tension, double extensor_tension);

@@ -25,19 +25,15 @@ DesiredJoint at_rest(const robot::Joint& joint, const JointPlan& plan) {
 
 Brain::Brain(const robot::Robot& robot, const Plan& plan)
     : plan_(plan),
-      joints_(robot.joints),
-      two_links_(robot.links.size() == 2),
+      robot_(robot),
+      leg_(robot::is_leg(robot)),
       settle_periods_(std::llround(plan.settle / plan.brain_period)) {
-  using Role = robot::Muscle::Role;
-  if (two_links_) links_ = robot::two_links(robot);
+  if (leg_) links_ = robot::two_links(robot);
 
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    const int joint = static_cast<int>(i);
-    pairs_.push_back({static_cast<std::size_t>(muscle_of(robot, joint, Role::flexor)),
-                      static_cast<std::size_t>(muscle_of(robot, joint, Role::extensor))});
-    desired_.joint[i] = at_rest(joints_[i], plan_.joints[i]);
+  for (std::size_t i = 0; i < robot_.joints.size(); ++i) {
+    desired_.joint[i] = at_rest(robot_.joints[i], plan_.joints[i]);
   }
-  for (Phase& phase : plan_.phases) phase.joints.resize(joints_.size());
+  for (Phase& phase : plan_.phases) phase.joints.resize(robot_.joints.size());
 
   for (const std::string& name : plan_.sequence) {
     Slot slot;
@@ -46,8 +42,8 @@ Brain::Brain(const robot::Robot& robot, const Plan& plan)
     slot.periods = periods(plan_, phase);
     slot.steps = steps_of_s(plan_, phase);
     slot.measure = find_measure(robot, phase.until.measure);
-    for (std::size_t i = 0; i < joints_.size(); ++i)
-      slot.enabled[i] = plan_.joints[i].enabled && !listed(phase.disabled, joints_[i].name);
+    for (std::size_t i = 0; i < robot_.joints.size(); ++i)
+      slot.enabled[i] = plan_.joints[i].enabled && !listed(phase.disabled, robot_.joints[i].name);
     sequence_.push_back(slot);
   }
 }
@@ -90,7 +86,7 @@ void Brain::enter(std::size_t position) noexcept {
   position_ = position;
   k_ = 0;
   desired_.phase = sequence_[position].phase;
-  for (std::size_t i = 0; i < joints_.size(); ++i)
+  for (std::size_t i = 0; i < robot_.joints.size(); ++i)
     desired_.joint[i].enabled = sequence_[position].enabled[i];
 }
 
@@ -142,10 +138,11 @@ double Brain::value(const Measure& measure, const Measured& measured) const noex
 void Brain::describe(double s) noexcept {
   const Phase& phase = plan_.phases[static_cast<std::size_t>(desired_.phase)];
   desired_.progress = s;
-  desired_.has_foot = phase.has_path() && two_links_;
+  desired_.has_foot = phase.has_path() && leg_;
   desired_.unreachable = false;
   if (desired_.has_foot) follow_path(phase, s);
-  for (std::size_t i = 0; i < joints_.size(); ++i) set_joint(phase.joints[i], desired_.joint[i], s);
+  for (std::size_t i = 0; i < robot_.joints.size(); ++i)
+    set_joint(phase.joints[i], desired_.joint[i], s);
 }
 
 void Brain::follow_path(const Phase& phase, double s) noexcept {
@@ -171,11 +168,11 @@ void Brain::set_joint(const JointPhase& phase, DesiredJoint& joint, double s) co
 }
 
 robot::Point Brain::ground_reaction(const Measured& measured) const noexcept {
-  if (!two_links_) return {};
+  if (!leg_) return {};
   std::array<double, 2> torque{};
   for (std::size_t i = 0; i < torque.size(); ++i)
-    torque[i] = robot::torque(joints_[i], measured.tension[pairs_[i].flexor],
-                              measured.tension[pairs_[i].extensor]);
+    torque[i] =
+        robot::torque_of_muscles(robot_, static_cast<int>(i), measured.angle[i], measured.tension);
   return robot::ground_reaction(links_, measured.angle[0], measured.angle[1], torque).force;
 }
 

@@ -81,10 +81,6 @@ class Brain {
     Measure measure;
     std::array<bool, robot::max_joints> enabled{};
   };
-  struct Pair {
-    std::size_t flexor = 0, extensor = 0;  // positions in Measured::tension
-  };
-
   void advance(const Measured&) noexcept;
   void enter(std::size_t position) noexcept;
   void leave(bool early) noexcept;
@@ -97,10 +93,9 @@ class Brain {
   void set_joint(const JointPhase&, DesiredJoint&, double s) const noexcept;
 
   Plan plan_;
-  std::vector<robot::Joint> joints_;
-  std::vector<Pair> pairs_;
+  robot::Robot robot_;
   robot::TwoLinks links_;
-  bool two_links_ = false;
+  bool leg_ = false;
   std::vector<Slot> sequence_;
   std::int64_t settle_periods_ = 0;
 

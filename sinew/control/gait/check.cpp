@@ -32,9 +32,9 @@ void check_path(const robot::Robot& robot, const Phase& phase, List& out) {
   const std::string key = "phase." + phase.name;
   if (!phase.has_path()) return;
 
-  if (robot.links.size() != 2)
+  if (!robot::is_leg(robot))
     out.push_back({key, "a foot path for " + std::to_string(robot.links.size()) + " links",
-                   "a leg with two links", "joint_angles"});
+                   "a leg: two links at driven joints, beyond them passive ones", "joint_angles"});
   if (phase.points.x.size() != phase.points.y.size())
     out.push_back({key + ".points",
                    std::to_string(phase.points.x.size()) + " x and " +
@@ -46,7 +46,7 @@ void check_path(const robot::Robot& robot, const Phase& phase, List& out) {
     out.push_back({key, phase.x.given() ? "x without y" : "y without x", "both coordinates",
                    "{ from = …, to = … } or { polynomial = […] }"});
   for (const auto& [name, c] : {std::pair{".x", &phase.x}, std::pair{".y", &phase.y}})
-    if (!c->polynomial.empty() && (c->from != 0 || c->to != 0))
+    if (!c->polynomial.empty() && c->straight())
       out.push_back({key + name, "a polynomial and from or to", "one of them", "leave one out"});
 }
 
@@ -75,7 +75,7 @@ void check_until(const robot::Robot& robot, const Phase& phase, List& out) {
                    "foot.normal_force, joint.<name>.angle or muscle.<name>.tension"});
   const bool foot =
       measure.kind == Measure::Kind::normal_force || measure.kind == Measure::Kind::friction_force;
-  if (foot && robot.links.size() != 2)
+  if (foot && !robot::is_leg(robot))
     out.push_back(
         {key, quoted(phase.until.measure), "a leg with two links [75]", "an angle or a tension"});
 }
@@ -159,7 +159,7 @@ List contradictions(const robot::Robot& robot, const Plan& plan) {
 
 List unreachable(const robot::Robot& robot, const Plan& plan) {
   List out;
-  if (robot.links.size() != 2 || !(plan.brain_period > 0)) return out;
+  if (!robot::is_leg(robot) || !(plan.brain_period > 0)) return out;
   const robot::TwoLinks leg = robot::two_links(robot);
   for (const Phase& phase : plan.phases)
     if (phase.has_path()) check_reach(leg, plan, phase, out);

@@ -85,6 +85,7 @@ void joint_fields(Visitor& v, const Plan& plan, Phase& phase) {
   const auto profiles = [&](units::Field table, units::Field value, auto of) {
     v.group(table, [&](auto& g) {
       for (std::size_t i = 0; i < phase.joints.size(); ++i) {
+        if (!plan.joints[i].driven) continue;
         value.name = plan.joints[i].name;
         g.numbers(value, of(phase.joints[i]));
       }
@@ -93,8 +94,9 @@ void joint_fields(Visitor& v, const Plan& plan, Phase& phase) {
   const auto groups = [&](units::Field table, auto of) {
     v.group(table, [&](auto& g) {
       for (std::size_t i = 0; i < phase.joints.size(); ++i)
-        g.group({.name = plan.joints[i].name, .optional = true},
-                [&](auto& joint) { fields(joint, of(phase.joints[i])); });
+        if (plan.joints[i].driven)
+          g.group({.name = plan.joints[i].name, .optional = true},
+                  [&](auto& joint) { fields(joint, of(phase.joints[i])); });
     });
   };
 
@@ -150,25 +152,33 @@ void control_fields(Visitor& v, Plan& plan) {
            plan.brain_period);
   v.group({.name = "stiffness", .doc = "K_des [58], until a phase says otherwise"}, [&](auto& g) {
     for (JointPlan& joint : plan.joints)
-      g.number({.name = joint.name, .unit = "N m/rad", .min = 0, .doc = "desired"},
-               joint.stiffness);
+      if (joint.driven)
+        g.number({.name = joint.name, .unit = "N m/rad", .min = 0, .doc = "desired"},
+                 joint.stiffness);
   });
   v.group({.name = "gains", .optional = true, .doc = "in place of the robot's"}, [&](auto& g) {
     for (JointPlan& joint : plan.joints)
-      g.group({.name = joint.name, .optional = true}, [&](auto& gains) {
-        gains.number(
-            {.name = "angle", .unit = "1/count", .min = 0, .optional = true, .doc = "G_theta [59]"},
-            joint.gains.angle);
-        gains.number({.name = "stiffness",
-                      .unit = "1/(N m/rad)",
-                      .min = 0,
-                      .optional = true,
-                      .doc = "G_k [58]"},
-                     joint.gains.stiffness);
-        gains.number(
-            {.name = "velocity", .unit = "s/count", .min = 0, .optional = true, .doc = "G_v, 6.5"},
-            joint.gains.velocity);
-      });
+      if (joint.driven)
+        g.group({.name = joint.name, .optional = true}, [&](auto& gains) {
+          gains.number({.name = "angle",
+                        .unit = "1/count",
+                        .min = 0,
+                        .optional = true,
+                        .doc = "G_theta [59]"},
+                       joint.gains.angle);
+          gains.number({.name = "stiffness",
+                        .unit = "1/(N m/rad)",
+                        .min = 0,
+                        .optional = true,
+                        .doc = "G_k [58]"},
+                       joint.gains.stiffness);
+          gains.number({.name = "velocity",
+                        .unit = "s/count",
+                        .min = 0,
+                        .optional = true,
+                        .doc = "G_v, 6.5"},
+                       joint.gains.velocity);
+        });
   });
 }
 

@@ -9,6 +9,7 @@
 // equal steps of s, straight in between; what was reached last holds from there on.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -24,11 +25,12 @@ using Profile = std::vector<double>;
 struct Coordinate {
   enum class Of { s, x };
 
-  double from = 0, to = 0;  // straight in s, where there is no polynomial
-  Profile polynomial;       // c0 + c1 u + c2 u^2 + ..., u = s or x
+  double from = robot::not_set, to = robot::not_set;  // straight in s, in place of a polynomial
+  Profile polynomial;                                 // c0 + c1 u + c2 u^2 + ..., u = s or x
   Of of = Of::s;
 
-  bool given() const { return from != 0 || to != 0 || !polynomial.empty(); }
+  bool straight() const { return std::isfinite(from) || std::isfinite(to); }
+  bool given() const { return straight() || !polynomial.empty(); }
 };
 
 // A polyline, run through at constant speed: s is the share of its length.
@@ -92,6 +94,7 @@ struct JointPlan {
   double stiffness = 0;  // K_des [N m/rad]
   robot::Gains gains;    // the robot's, or the experiment's
   bool enabled = true;
+  bool driven = true;  // false: a passive joint, of which no file says anything
 };
 
 struct Plan {
