@@ -17,6 +17,7 @@
 #include "sinew/experiment/clock.h"
 #include "sinew/experiment/loop.h"
 #include "sinew/experiment/spinal.h"
+#include "sinew/plant/planar/whole.h"
 #include "sinew/plant/planar/world.h"
 
 namespace {
@@ -136,13 +137,13 @@ TEST(Run, ALogWithoutASensorCannotBeReplayed) {
   }
 }
 
-TEST(Run, NoHeapInTheLoop) {
-  const Experiment e = walk();
-  plant::World<2> world(planar_setup(e));
+template <class World>
+void expect_no_heap(const Experiment& e) {
+  World world(planar_setup(e));
   control::Spine spine(spine_config(e));
   HighLevel high(e.robot, e.plan);
   const signals::Tick end = last_tick(e);
-  plant::World<2>* body = &world;
+  World* body = &world;
   Recorder recorder(
       e, spine, high, [body](signals::Tick t) { return body->truth(t * 1e-4); }, end);
   SimulatedClock clock;
@@ -154,6 +155,16 @@ TEST(Run, NoHeapInTheLoop) {
   EXPECT_EQ(status, signals::Status::ok);
   EXPECT_EQ(allocations, 0);
   EXPECT_GT(recorder.take().find("/plan/phase")->time_ns.size(), 300u);
+}
+
+TEST(Run, NoHeapInTheLoop) {
+  expect_no_heap<plant::World<2>>(walk());
+  expect_no_heap<plant::WholeWorld>(
+      walk({"air.supply.kind=tank", "air.supply.volume=1 L",
+            "air.supply.initial_pressure=100 psi gauge", "air.wall_time=0.3 s",
+            "muscle.hip_flexor.hose.law=pipe", "muscle.hip_flexor.hose.length=1 m",
+            "muscle.hip_flexor.hose.inner_diameter=2.5 mm", "muscle.hip_flexor.hose.volume=5 mL",
+            "muscle.knee_flexor.leak.area=0.01 mm2", "valve.exhaust.fails_above=90 psi diff"}));
 }
 
 TEST(Run, EveryShippedExperimentRuns) {

@@ -359,6 +359,32 @@ TEST(Plumbing, ARegulatorCannotGiveMoreThanTheLine) {
   EXPECT_NEAR(hand.now.pressure[0], 4 * bar, 10);
 }
 
+// 4.3: the delay follows the pressure difference at the edge, and the coil has its limit.
+TEST(Plumbing, EdgesFeelThePressureOverTheirValve) {
+  Muscle m = bundle(0);
+  m.inlet.opening_delay_slope = 1e-9;
+  m.exhaust.opening_delay_slope = 2e-9;
+  m.exhaust.fails_above = 4 * bar;
+  const gas::Air air;
+  const gas::Supply supply;
+  for (const double p : {2 * bar, 4.9 * bar, 5.2 * bar}) {
+    Plumbing plumbing(std::vector{m}, air, supply);
+    const Hand hand(plumbing, at_rest, p);
+    const double over = hand.now.pressure[0] - air.atmosphere;
+    plumbing.electrical(1, 0.1, true, hand.now);
+    if (over > 4 * bar) {
+      EXPECT_EQ(plumbing.next_change(), std::numeric_limits<double>::infinity());
+      plumbing.electrical(1, 0.2, false, hand.now);  // no edge either
+      EXPECT_EQ(plumbing.next_change(), std::numeric_limits<double>::infinity());
+    } else {
+      EXPECT_NEAR(plumbing.next_change(), 0.1 + 0.3e-3 + 2e-9 * over, 1e-15);
+    }
+    plumbing.electrical(0, 0.05, true, hand.now);
+    const double below = supply.pressure - hand.now.pressure[0];
+    EXPECT_NEAR(plumbing.next_change(), 0.05 + 0.3e-3 + 1e-9 * below, 1e-15);
+  }
+}
+
 TEST(Plumbing, QuietMeansThatNothingMoves) {
   const std::vector<Muscle> muscles{bundle(0), bundle(0.2)};
   Plumbing plumbing(muscles, {}, {}, thesis_cylinder());
