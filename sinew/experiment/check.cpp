@@ -78,7 +78,6 @@ void check_cylinder(const Experiment& e, List& out) {
     const std::string key = std::string("cylinder.") + word;
     for (const auto& [port, name] : {std::pair{".inlet.valve", chamber->inlet},
                                      std::pair{".exhaust.valve", chamber->exhaust}}) {
-      need(key + port, name, e.valves, out);
       const gas::Valve* v = valve_of(e, name);
       if (v && v->kind != gas::Valve::Kind::two_way)
         out.push_back({key + port, config::in_quotes(name), "a 2-way valve", ""});
