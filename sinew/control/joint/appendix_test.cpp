@@ -7,6 +7,7 @@
 // saturate at +-16000, the first law sees no speed, and a length of 0 keeps the last stiffness.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -33,6 +34,8 @@ struct Interrupt {
     std::array<short, 4> duty{};
     std::array<int, 4> state{off, off, off, off};
     short cycle_time = 0, enabled = 0, desired_angle = 0;
+    bool open_loop = false;         // the lines that the listing has as comments:
+    std::array<short, 4> forward{};  // fiducyc = ffiducyc, ...
     int pot = 0, previous_pot = -1;
     float desired_stiffness = 0, stiffness = 0, angle_gain = 0, stiffness_gain = 0,
           velocity_gain = 0;
@@ -109,7 +112,8 @@ struct Interrupt {
   }
 
   static void set_duties(Joint& j, int fi, int fe, int ei, int ee) {
-    const int duty[] = {fi, fe, ei, ee};
+    int duty[] = {fi, fe, ei, ee};
+    if (j.open_loop) std::copy(j.forward.begin(), j.forward.end(), duty);
     for (int v = 0; v < 4; ++v)
       j.duty[v] = static_cast<short>(duty[v] > 100 ? 100 : duty[v] < 0 ? 0 : duty[v]);
   }
@@ -154,7 +158,8 @@ constexpr std::array<int, 3> thesis_joint = {1, 2, 0};  // of the test leg's hip
 
 class Duel {
  public:
-  Duel(const SpineConfig& config, std::uint32_t seed) : spine_(config), random_(seed) {
+  Duel(const SpineConfig& config, std::uint32_t seed, bool open_loop = false)
+      : spine_(config), random_(seed), open_loop_(open_loop) {
     isr_.timing = config.timing;
     isr_.forward_flexor = static_cast<short>(config.joint[cylinder].feedforward.flexor_inlet);
     isr_.forward_extensor = static_cast<short>(config.joint[cylinder].feedforward.extensor_inlet);
@@ -236,8 +241,17 @@ class Duel {
       if (below(5) == 0)
         c.gains = {angle_gains[below(6)], stiffness_gains[below(4)], velocity_gains[below(5)]};
       if (below(20) == 0) c.gains.angle = static_cast<float>(below(1'000'000)) * 1e-6f;
+      if (open_loop_) new_duties(c);
     }
     hand_down();
+  }
+
+  // Now and then; of a muscle's two valves one at most, which the code leaves to its user.
+  void new_duties(JointCommand& c) {
+    if (below(4) == 0) c.open_loop = !c.open_loop;
+    const auto duty = [&] { return below(121) - 10; };
+    if (below(2) == 0) c.duties = {duty(), 0, 0, duty()};
+    if (below(2) == 0) c.duties = {0, duty(), duty(), 0};
   }
 
   void hand_down() {
@@ -246,6 +260,10 @@ class Duel {
       const JointCommand& c = command_.joint[j];
       Interrupt::Joint& theirs = isr_.joint[thesis_joint[j]];
       theirs.enabled = c.enabled;
+      theirs.open_loop = c.open_loop;
+      const auto short_of = [](std::int32_t duty) { return static_cast<short>(duty); };
+      theirs.forward = {short_of(c.duties.flexor_inlet), short_of(c.duties.flexor_exhaust),
+                        short_of(c.duties.extensor_inlet), short_of(c.duties.extensor_exhaust)};
       theirs.desired_angle = static_cast<short>(c.angle);
       theirs.desired_stiffness = c.stiffness;
       theirs.angle_gain = c.gains.angle;
@@ -259,6 +277,7 @@ class Duel {
   Command command_;
   std::array<int, 7> reading_{};
   std::mt19937 random_;
+  bool open_loop_;
 };
 
 // --- the tests ----------------------------------------------------------------------------------
@@ -269,8 +288,9 @@ SpineConfig as_printed() {
   return config;
 }
 
-void expect_same(const SpineConfig& config, std::uint32_t seed, int periods = 3000) {
-  Duel duel(config, seed);
+void expect_same(const SpineConfig& config, std::uint32_t seed, bool open_loop = false) {
+  constexpr int periods = 3000;
+  Duel duel(config, seed, open_loop);
   duel.run(periods);
   EXPECT_EQ(duel.laws, 3 * periods);
   EXPECT_GT(duel.edges, periods);
@@ -306,6 +326,13 @@ TEST(Appendix, CylinderWithFeedforward) {
   SpineConfig config = as_printed();
   config.joint[cylinder].feedforward = {55, 55, 45, 45};
   expect_same(config, 31);
+}
+
+// The blocks that appendix B keeps as comments: duties from outside, of the cylinder as well.
+TEST(Appendix, OpenLoopDutiesOfAllJoints) {
+  SpineConfig config = as_printed();
+  config.joint[cylinder].feedforward = {55, 55, 45, 45};
+  for (std::uint32_t seed = 41; seed <= 43; ++seed) expect_same(config, seed, true);
 }
 
 }  // namespace
