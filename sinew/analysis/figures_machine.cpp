@@ -56,6 +56,8 @@ void add_machine(Figures& f) {
         f.record.sequence());
   const Column tank = f.record.column("/true/supply/tank_pressure");
   if (!tank.empty()) f.summary.add("supply.end_tank_pressure_Pa", tank.back());
+  const Column overruns = f.record.column("/low_level/overruns");
+  if (!overruns.empty()) f.summary.add("low_level.overruns", overruns.back());
   for (const robot::Foot::Point& p : f.machine.robot.foot.points)
     f.add("foot." + p.name + ".peak_load_true_N", largest,
           f.record.column("/true/foot/" + p.name + "/load"), f.record.sequence());

@@ -121,6 +121,12 @@ void cylinder_columns(const robot::Robot& robot, Columns& out) {
   duty("down/exhaust_duty", &control::Duties::extensor_exhaust);
 }
 
+void low_level_columns(const robot::Robot& robot, Columns& out) {
+  if (!laws_overrun(robot)) return;
+  out.scalar("/low_level/overruns", "1", "laws so far that took longer than their interrupt may",
+             [](const Moment& m) { return m.seen.overruns; });
+}
+
 void plan_columns(Columns& out) {
   out.scalar("/plan/phase", "1", "position in the experiment's phases; -1 outside",
              [](const Moment& m) { return m.desired.phase; });
@@ -230,6 +236,7 @@ std::vector<Column> columns(const Experiment& e) {
   joint_columns(e.robot, out);
   muscle_columns(e, out);
   cylinder_columns(e.robot, out);
+  low_level_columns(e.robot, out);
   plan_columns(out);
   true_joint_columns(e.robot, out);
   true_muscle_columns(e.robot, out);
