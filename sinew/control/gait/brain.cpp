@@ -29,10 +29,8 @@ Brain::Brain(const robot::Robot& robot, const Plan& plan)
       leg_(robot::is_leg(robot)),
       settle_periods_(std::llround(plan.settle / plan.brain_period)) {
   if (leg_) links_ = robot::two_links(robot);
-
-  for (std::size_t i = 0; i < robot_.joints.size(); ++i) {
+  for (std::size_t i = 0; i < robot_.joints.size(); ++i)
     desired_.joint[i] = at_rest(robot_.joints[i], plan_.joints[i]);
-  }
   for (Phase& phase : plan_.phases) phase.joints.resize(robot_.joints.size());
 
   for (const std::string& name : plan_.sequence) {
@@ -42,8 +40,10 @@ Brain::Brain(const robot::Robot& robot, const Plan& plan)
     slot.periods = periods(plan_, phase);
     slot.steps = steps_of_s(plan_, phase);
     slot.measure = find_measure(robot, phase.until.measure);
-    for (std::size_t i = 0; i < robot_.joints.size(); ++i)
-      slot.enabled[i] = plan_.joints[i].enabled && !listed(phase.disabled, robot_.joints[i].name);
+    for (std::size_t i = 0; i < plan_.joints.size(); ++i) {
+      const JointPlan& joint = plan_.joints[i];
+      slot.enabled[i] = joint.enabled && !listed(phase.disabled, joint.name);
+    }
     sequence_.push_back(slot);
   }
 }
@@ -67,7 +67,7 @@ void Brain::advance(const Measured& measured) noexcept {
     const bool over = k_ >= sequence_[position_].periods;
     const bool early = !over && ended(measured);
     if (over || early) {
-      leave(early);
+      leave(early, measured);
       if (position_ + 1 < sequence_.size()) {
         enter(position_ + 1);
       } else if (desired_.step + 1 < plan_.repeat) {
@@ -78,7 +78,7 @@ void Brain::advance(const Measured& measured) noexcept {
       }
     }
   }
-  describe(static_cast<double>(k_) / sequence_[position_].steps);
+  describe(static_cast<double>(k_) / sequence_[position_].steps, measured);
   if (desired_.unreachable) ++unreachable_periods_;
 }
 
@@ -91,8 +91,8 @@ void Brain::enter(std::size_t position) noexcept {
 }
 
 // A phase that took its time has reached s = 1, also where no period showed it.
-void Brain::leave(bool early) noexcept {
-  if (!early) describe(1.0);
+void Brain::leave(bool early, const Measured& measured) noexcept {
+  if (!early) describe(1.0, measured);
 }
 
 void Brain::finish() noexcept {
@@ -135,22 +135,40 @@ double Brain::value(const Measure& measure, const Measured& measured) const noex
 }
 
 // Everything that is desired at progress s of the present phase.
-void Brain::describe(double s) noexcept {
+void Brain::describe(double s, const Measured& measured) noexcept {
   const Phase& phase = plan_.phases[static_cast<std::size_t>(desired_.phase)];
   desired_.progress = s;
   desired_.has_foot = phase.has_path() && leg_;
   desired_.unreachable = false;
-  if (desired_.has_foot) follow_path(phase, s);
-  for (std::size_t i = 0; i < robot_.joints.size(); ++i)
-    set_joint(phase.joints[i], desired_.joint[i], s);
+  if (desired_.has_foot) follow_path(phase, s, measured);
+  for (std::size_t i = 0; i < robot_.joints.size(); ++i) {
+    DesiredJoint& joint = desired_.joint[i];
+    set_joint(phase.joints[i], joint, s);
+    joint.angle = within(plan_.joints[i].range, joint.angle);
+  }
+  set_cylinder(phase.cylinder, s);
 }
 
-void Brain::follow_path(const Phase& phase, double s) noexcept {
+void Brain::follow_path(const Phase& phase, double s, const Measured& measured) noexcept {
   desired_.foot = foot_at(phase, s);
+  if (phase.ground_force.given())
+    desired_.foot.y += correction(phase.ground_force, ground_reaction(measured).y);
   const robot::Inverse inverse = robot::inverse(links_, desired_.foot);
   desired_.unreachable = !inverse.reached();
   if (inverse.status == robot::Inverse::Status::not_a_number) return;
   for (std::size_t i = 0; i < inverse.angle.size(); ++i) desired_.joint[i].angle = inverse.angle[i];
+}
+
+// What has been reached last holds where a phase asks for nothing.
+void Brain::set_cylinder(const CylinderPhase& phase, double s) noexcept {
+  if (!phase.given()) return;
+  desired_.cylinder.given = true;
+  if (phase.polynomial.empty()) {
+    desired_.cylinder.position = value_at(phase.position, s, desired_.cylinder.position);
+  } else {
+    const double u = phase.of == CylinderPhase::Of::foot_y ? desired_.foot.y : s;
+    desired_.cylinder.position = polynomial_at(phase.polynomial, u);
+  }
 }
 
 void Brain::set_joint(const JointPhase& phase, DesiredJoint& joint, double s) const noexcept {

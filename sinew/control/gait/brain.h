@@ -1,8 +1,11 @@
 // control/gait/brain.h - the high-level controller, the "brain" of 5.1.
 //
 // Once per brain period it reads what the low level believes and says what it wants: joint angles
-// from the foot path by [63], [64], stiffnesses, gains, or open-loop duties. It may end a phase on
-// any measured quantity, also on the ground reaction that [75] makes of the tensions.
+// from the foot path by [63], [64], stiffnesses, gains, or open-loop duties, and the cylinder's
+// place. It may end a phase on any measured quantity, also on the ground reaction that [75] makes
+// of the tensions, and may let that reaction set the path's height.
+//
+// A foot path moves the first two joints; what follows them is passive, or has its own angles.
 //
 //   settling (plan.settle) -> sequence, plan.repeat times -> finished (vent or hold)
 //
@@ -38,10 +41,17 @@ struct DesiredJoint {
   double extensor_inlet = 0, extensor_exhaust = 0;  // [-]
 };
 
+// Of the air cylinder, joint 0 of B.1.
+struct DesiredCylinder {
+  bool given = false;   // false: no phase has asked for a place yet, it stays at its extended stop
+  double position = 0;  // travel, up from that stop [m]
+};
+
 enum class Stage : std::uint8_t { settling, walking, finished };
 
 struct Desired {
   std::array<DesiredJoint, robot::max_joints> joint;
+  DesiredCylinder cylinder;
 
   Stage stage = Stage::settling;
   bool vent = false;    // finished: every exhaust open, every inlet shut
@@ -50,7 +60,7 @@ struct Desired {
   double progress = 0;  // s of the phase
 
   bool has_foot = false;     // the phase has a foot path
-  robot::Point foot;         // where it is now [m]
+  robot::Point foot;         // where it is now, height corrected by the measured force [m]
   bool unreachable = false;  // the angles are those of the nearest point that can be reached
 };
 
@@ -83,14 +93,15 @@ class Brain {
   };
   void advance(const Measured&) noexcept;
   void enter(std::size_t position) noexcept;
-  void leave(bool early) noexcept;
+  void leave(bool early, const Measured&) noexcept;
   void finish() noexcept;
   bool ended(const Measured&) const noexcept;
   double value(const Measure&, const Measured&) const noexcept;
 
-  void describe(double s) noexcept;
-  void follow_path(const Phase&, double s) noexcept;
+  void describe(double s, const Measured&) noexcept;
+  void follow_path(const Phase&, double s, const Measured&) noexcept;
   void set_joint(const JointPhase&, DesiredJoint&, double s) const noexcept;
+  void set_cylinder(const CylinderPhase&, double s) noexcept;
 
   Plan plan_;
   robot::Robot robot_;

@@ -4,6 +4,7 @@
 
 #include "sinew/control/gait/path.h"
 #include "sinew/control/gait/plan.h"
+#include "sinew/robot/kinematics.h"
 
 namespace sinew::gait {
 namespace {
@@ -76,8 +77,48 @@ void check_until(const robot::Robot& robot, const Phase& phase, List& out) {
   const bool foot =
       measure.kind == Measure::Kind::normal_force || measure.kind == Measure::Kind::friction_force;
   if (foot && !robot::is_leg(robot))
-    out.push_back(
-        {key, quoted(phase.until.measure), "a leg with two links [75]", "an angle or a tension"});
+    out.push_back({key, quoted(phase.until.measure), "a leg with two links [75]",
+                   "an angle or a tension"});
+}
+
+// The force that sets the height belongs to a foot path, and needs room to do so.
+void check_ground_force(const Phase& phase, List& out) {
+  const GroundForce& g = phase.ground_force;
+  const std::string key = "phase." + phase.name + ".ground_force";
+  if (!g.given()) return;
+  if (!phase.has_path())
+    out.push_back({key, "no foot path", "a phase with x and y, or points", "leave it out"});
+  if (!(g.limit > 0))
+    out.push_back({key + ".limit", "0", "how far the path may move", "limit = \"0.5 in\""});
+}
+
+void check_cylinder(const robot::Robot& robot, const Phase& phase, List& out) {
+  using Mode = robot::Cylinder::Mode;
+  const CylinderPhase& c = phase.cylinder;
+  const std::string key = "phase." + phase.name + ".cylinder";
+  if (!c.given()) return;
+  if (!robot.cylinder.present || robot.cylinder.mode != Mode::valves)
+    out.push_back({key, "a robot whose cylinder does not move by valves",
+                   "[cylinder] with mode = \"valves\"", "leave it out"});
+  if (!c.position.empty() && !c.polynomial.empty())
+    out.push_back({key, "position and polynomial", "one of them", "leave one out"});
+  if (c.of == CylinderPhase::Of::foot_y && !phase.has_path())
+    out.push_back({key + ".of", "\"foot_y\" in a phase without a foot path", "x and y, or points",
+                   "position"});
+}
+
+// Ends of a range, counter-clockwise from the first to the second.
+void check_ranges(const Plan& plan, List& out) {
+  for (const JointPlan& joint : plan.joints) {
+    const std::string key = "control.joint_range." + joint.name;
+    if (joint.range.empty()) continue;
+    if (joint.range.size() != 2)
+      out.push_back({key, std::to_string(joint.range.size()) + " angles",
+                     "two: the lowest and the highest", ""});
+    else if (!(joint.range[0] < joint.range[1]))
+      out.push_back({key, "angles that do not rise", "the lowest first",
+                     "add 360 deg to the second where the range holds 0"});
+  }
 }
 
 void check_times(const Plan& plan, List& out) {
@@ -153,7 +194,10 @@ List contradictions(const robot::Robot& robot, const Plan& plan) {
     check_path(robot, phase, out);
     check_joints(plan, phase, out);
     check_until(robot, phase, out);
+    check_ground_force(phase, out);
+    check_cylinder(robot, phase, out);
   }
+  check_ranges(plan, out);
   return out;
 }
 

@@ -6,15 +6,9 @@
 namespace sinew::gait {
 namespace {
 
-double polynomial(const Profile& c, double u) noexcept {
-  double sum = 0;
-  for (auto k = c.rbegin(); k != c.rend(); ++k) sum = *k + u * sum;
-  return sum;
-}
-
 double coordinate(const Coordinate& c, double s, double x) noexcept {
   if (c.polynomial.empty()) return c.from + (c.to - c.from) * s;
-  return polynomial(c.polynomial, c.of == Coordinate::Of::x ? x : s);
+  return polynomial_at(c.polynomial, c.of == Coordinate::Of::x ? x : s);
 }
 
 double side(const Points& p, std::size_t i) noexcept {
@@ -51,6 +45,17 @@ double value_at(const Profile& profile, double s, double otherwise) noexcept {
   const std::size_t i = std::min(static_cast<std::size_t>(at), last);
   if (i == last) return profile[last];
   return profile[i] + (profile[i + 1] - profile[i]) * (at - static_cast<double>(i));
+}
+
+double polynomial_at(const Profile& c, double u) noexcept {
+  double sum = 0;
+  for (auto k = c.rbegin(); k != c.rend(); ++k) sum = *k + u * sum;
+  return sum;
+}
+
+double correction(const GroundForce& g, double normal_force) noexcept {
+  const double wanted = g.gain * (normal_force - g.desired);
+  return std::isfinite(wanted) ? std::clamp(wanted, -g.limit, g.limit) : 0.0;
 }
 
 robot::Point foot_at(const Phase& phase, double s) noexcept {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "sinew/robot/kinematics.h"
 
 namespace sinew::gait {
 namespace {
@@ -26,12 +29,23 @@ int whole_periods(double seconds, double period) {
 Plan plan_for(const robot::Robot& robot) {
   Plan plan;
   for (const robot::Joint& joint : robot.joints)
-    plan.joints.push_back({.name = joint.name,
-                           .stiffness = 0,
-                           .gains = joint.gains,
-                           .enabled = joint.enabled && joint.kind == robot::Joint::Kind::driven,
-                           .driven = joint.kind == robot::Joint::Kind::driven});
+    plan.joints.push_back(
+        {.name = joint.name,
+         .stiffness = 0,
+         .gains = joint.gains,
+         .enabled = joint.enabled && joint.kind == robot::Joint::Kind::driven,
+         .driven = joint.kind == robot::Joint::Kind::driven,
+         .range = {}});
   return plan;
+}
+
+double within(const std::vector<double>& range, double angle) noexcept {
+  if (range.size() != 2) return angle;
+  const double half = 0.5 * (range[1] - range[0]);
+  const double middle = range[0] + half;
+  const double from_middle = std::remainder(angle - middle, 2.0 * std::numbers::pi);
+  if (std::abs(from_middle) <= half) return angle;
+  return robot::normalised(range[from_middle > 0 ? 1 : 0]);
 }
 
 Measure find_measure(const robot::Robot& robot, std::string_view name) {
@@ -49,10 +63,11 @@ Measure find_measure(const robot::Robot& robot, std::string_view name) {
 }
 
 std::string_view unit_of(std::string_view measure) {
-  if (measure.ends_with("force") || measure.ends_with(".tension")) return "N";
-  if (measure.ends_with(".angle")) return "rad";
-  if (measure.ends_with(".stiffness")) return "N m/rad";
-  return "1";
+  if (measure == "foot.normal_force" || measure == "foot.friction_force") return "N";
+  if (!middle(measure, "muscle.", ".tension").empty()) return "N";
+  if (!middle(measure, "joint.", ".angle").empty()) return "rad";
+  if (!middle(measure, "joint.", ".stiffness").empty()) return "N m/rad";
+  return "";
 }
 
 int steps_of_s(const Plan& plan, const Phase& phase) {

@@ -3,7 +3,10 @@
 // Tables with one key per joint need the robot's joints: start from plan_for(robot).
 #pragma once
 
+#include <string>
+
 #include "sinew/control/gait/plan.h"
+#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
 
 namespace sinew::gait {
@@ -62,22 +65,54 @@ void fields(Visitor& v, DutyProfiles& d) {
 }
 
 template <class Visitor>
+void fields(Visitor& v, GroundForce& g) {
+  v.number({.name = "desired", .unit = "N", .doc = "normal force on the foot, [75]"}, g.desired);
+  v.number({.name = "gain", .unit = "m/N", .min = 0, .doc = "of the path's height"}, g.gain);
+  v.number({.name = "limit", .unit = "m", .min = 0, .doc = "of the correction"}, g.limit);
+}
+
+template <class Visitor>
+void fields(Visitor& v, CylinderPhase& c) {
+  v.choice({.name = "of", .optional = true, .doc = "what the polynomial is a function of"}, c.of,
+           {{"s", CylinderPhase::Of::s}, {"foot_y", CylinderPhase::Of::foot_y}});
+  v.polynomial({.name = "polynomial",
+                .unit = "m",
+                .optional = true,
+                .doc = "travel, lowest order first, in s (0 to 1) or in the foot's height"},
+               c.polynomial, c.of == CylinderPhase::Of::foot_y ? "m" : "1");
+  v.numbers({.name = "position",
+             .unit = "m",
+             .optional = true,
+             .doc = "travel up from the extended stop, over the phase"},
+            c.position);
+}
+
+template <class Visitor>
 void fields(Visitor& v, Until& until) {
-  v.text({.name = "measure",
-          .optional = true,
-          .doc = "foot.normal_force, foot.friction_force, joint.<name>.angle, "
-                 "joint.<name>.stiffness or muscle.<name>.tension"},
-         until.measure);
+  constexpr std::string_view measures =
+      "foot.normal_force, foot.friction_force, joint.<name>.angle, joint.<name>.stiffness or "
+      "muscle.<name>.tension";
+  v.text({.name = "measure", .optional = true, .doc = measures}, until.measure);
   v.choice({.name = "is", .optional = true, .doc = "on which side of the level"}, until.is,
            {{"above", Until::Is::above}, {"below", Until::Is::below}});
+
+  // Without a measure a level has no unit: one complaint is enough.
+  const std::string_view unit = unit_of(until.measure);
+  if (unit.empty() && !until.measure.empty()) {
+    units::complain(v, "measure", "\"" + until.measure + "\"", "a measured quantity",
+                    std::string(measures));
+    std::string level;
+    v.text({.name = "level", .optional = true, .doc = "that ends the phase"}, level);
+    return;
+  }
   v.number({.name = "level",
-            .unit = unit_of(until.measure),
+            .unit = unit.empty() ? "1" : unit,
             .optional = until.measure.empty(),
             .doc = "that ends the phase"},
            until.level);
 }
 
-// Tables whose keys are the joints.
+// Tables whose keys are the driven joints.
 template <class Visitor>
 void joint_fields(Visitor& v, const Plan& plan, Phase& phase) {
   phase.joints.resize(plan.joints.size());
@@ -132,12 +167,29 @@ void fields(Visitor& v, const Plan& plan, Phase& phase) {
            .optional = true,
            .doc = "a polyline in place of x and y, at constant speed"},
           [&](auto& g) { fields(g, phase.points); });
+  v.group({.name = "ground_force",
+           .optional = true,
+           .doc = "the measured normal force sets the path's height"},
+          [&](auto& g) { fields(g, phase.ground_force); });
+  v.group({.name = "cylinder", .optional = true, .doc = "of the body, if it moves"},
+          [&](auto& g) { fields(g, phase.cylinder); });
 
   joint_fields(v, plan, phase);
   v.texts({.name = "disabled", .optional = true, .doc = "joints that the low level leaves alone"},
           phase.disabled);
   v.group({.name = "until", .optional = true, .doc = "ends the phase early"},
           [&](auto& g) { fields(g, phase.until); });
+}
+
+template <class Visitor>
+void fields(Visitor& v, robot::Gains& g) {
+  v.number({.name = "angle", .unit = "1/count", .min = 0, .optional = true, .doc = "G_theta [59]"},
+           g.angle);
+  v.number(
+      {.name = "stiffness", .unit = "1/(N m/rad)", .min = 0, .optional = true, .doc = "G_k [58]"},
+      g.stiffness);
+  v.number({.name = "velocity", .unit = "s/count", .min = 0, .optional = true, .doc = "G_v, 6.5"},
+           g.velocity);
 }
 
 // [control]
@@ -156,29 +208,23 @@ void control_fields(Visitor& v, Plan& plan) {
         g.number({.name = joint.name, .unit = "N m/rad", .min = 0, .doc = "desired"},
                  joint.stiffness);
   });
+  v.group({.name = "joint_range",
+           .optional = true,
+           .doc = "desired angles stay within it, whatever a phase asks for"},
+          [&](auto& g) {
+            for (JointPlan& joint : plan.joints)
+              if (joint.driven)
+                g.numbers({.name = joint.name,
+                           .unit = "rad",
+                           .optional = true,
+                           .doc = "lowest and highest"},
+                          joint.range);
+          });
   v.group({.name = "gains", .optional = true, .doc = "in place of the robot's"}, [&](auto& g) {
     for (JointPlan& joint : plan.joints)
       if (joint.driven)
-        g.group({.name = joint.name, .optional = true}, [&](auto& gains) {
-          gains.number({.name = "angle",
-                        .unit = "1/count",
-                        .min = 0,
-                        .optional = true,
-                        .doc = "G_theta [59]"},
-                       joint.gains.angle);
-          gains.number({.name = "stiffness",
-                        .unit = "1/(N m/rad)",
-                        .min = 0,
-                        .optional = true,
-                        .doc = "G_k [58]"},
-                       joint.gains.stiffness);
-          gains.number({.name = "velocity",
-                        .unit = "s/count",
-                        .min = 0,
-                        .optional = true,
-                        .doc = "G_v, 6.5"},
-                       joint.gains.velocity);
-        });
+        g.group({.name = joint.name, .optional = true},
+                [&](auto& gains) { fields(gains, joint.gains); });
   });
 }
 

@@ -64,6 +64,30 @@ struct JointPhase {
   DutyProfiles feedforward;
 };
 
+// Of the air cylinder that carries the body, B.1's joint 0: its desired travel, up from the extended
+// stop. None: stays where it was; before the first one, at the stop.
+struct CylinderPhase {
+  enum class Of { s, foot_y };
+
+  Profile position;    // over the phase [m]
+  Profile polynomial;  // in its place: c0 + c1 u + ..., u = s or the foot path's height [m]
+  Of of = Of::s;
+
+  bool given() const { return !position.empty() || !polynomial.empty(); }
+};
+
+// The normal force of [75] sets the height of a foot path, 6.3: where the foot carries less than
+// `desired` the path goes down, where it carries more it goes up.
+//
+//   y = y_path + clamp(gain (F_y - desired), -limit, +limit)
+struct GroundForce {
+  double desired = 0;  // [N]
+  double gain = 0;     // [m/N]; 0: the path stays as it is
+  double limit = 0;    // of the correction, either way [m]
+
+  bool given() const { return gain != 0; }
+};
+
 // Ends the phase early: at the first period, its own first one excepted, at which the measure
 // stands beyond the level. The phase's duration is the latest end.
 struct Until {
@@ -81,6 +105,8 @@ struct Phase {
 
   Coordinate x, y;
   Points points;
+  GroundForce ground_force;
+  CylinderPhase cylinder;
   std::vector<JointPhase> joints;     // of Plan::joints
   std::vector<std::string> disabled;  // joints that the low level leaves alone in this phase
   Until until;
@@ -94,7 +120,9 @@ struct JointPlan {
   double stiffness = 0;  // K_des [N m/rad]
   robot::Gains gains;    // the robot's, or the experiment's
   bool enabled = true;
-  bool driven = true;  // false: a passive joint, of which no file says anything
+  bool driven = true;         // false: a passive joint, of which no file says anything
+  std::vector<double> range;  // lowest and highest desired angle, the way round that raises the
+                              // angle; empty: any [rad]
 };
 
 struct Plan {
@@ -114,6 +142,9 @@ struct Plan {
 // A plan that knows the robot's joints and gains; `fields` fills in the rest.
 Plan plan_for(const robot::Robot&);
 
+// The angle itself where it lies within the joint's range, else the nearer end  [rad].
+double within(const std::vector<double>& range, double angle) noexcept;
+
 // What ends a phase, and what it is measured in.
 struct Measure {
   enum class Kind { none, normal_force, friction_force, angle, stiffness, tension, unknown };
@@ -122,7 +153,7 @@ struct Measure {
   int index = -1;  // joint or muscle
 };
 Measure find_measure(const robot::Robot&, std::string_view name);
-std::string_view unit_of(std::string_view measure);  // SI; by the name alone
+std::string_view unit_of(std::string_view measure);  // SI; by the name alone, "" where it is none
 
 // What the robot or the plan itself does not allow: names that lead nowhere, lists of unequal
 // length.
