@@ -48,6 +48,7 @@ Believed believed(const robot::Robot& robot) {
 HighLevel::HighLevel(const robot::Robot& robot, const gait::Plan& plan)
     : joints_(static_cast<int>(robot.joints.size())),
       muscles_(static_cast<int>(robot.muscles.size())),
+      vents_(plan.finish == gait::Plan::Finish::vent && robot.low_level.vent_time > 0),
       has_cylinder_(has_cylinder_joint(robot)),
       cylinder_gain_(static_cast<float>(robot.cylinder.position_gain * 100.0)),
       brain_ticks_(std::llround(plan.brain_period / signals::tick_seconds)),
@@ -106,13 +107,15 @@ void HighLevel::translate(const gait::Desired& desired) noexcept {
                     .extensor_inlet = percent(want.extensor_inlet),
                     .extensor_exhaust = percent(want.extensor_exhaust)};
   }
-  if (has_cylinder_) hold_cylinder(desired);
+  if (has_cylinder_) move_cylinder(desired);
 }
 
-// At its extended stop, as the thesis's runs have it.
-void HighLevel::hold_cylinder(const gait::Desired& desired) noexcept {
+// At its extended stop until the plan asks for another place, as the thesis's runs have it.
+void HighLevel::move_cylinder(const gait::Desired& desired) noexcept {
   control::JointCommand& joint = command_.joint[static_cast<std::size_t>(joints_)];
-  joint.angle = static_cast<std::int32_t>(std::lround(scale_.cylinder_at_rest));
+  const double travel = desired.cylinder.given ? desired.cylinder.position : 0.0;
+  joint.angle = static_cast<std::int32_t>(
+      std::lround(scale_.cylinder_at_rest + travel * scale_.cylinder_counts_per_metre));
   joint.gains.angle = cylinder_gain_;
   joint.enabled = desired.stage != gait::Stage::settling && !desired.vent;
 }

@@ -26,7 +26,8 @@ class HighLevel {
 
   // At every low-level period; the brain itself thinks once per brain period.
   const control::Command& update(const control::Seen& seen, signals::Tick t) noexcept;
-  bool finished() const noexcept { return brain_.finished(); }
+  // Is the body to be vented now? A plan that ends without goes on to the run's end as it is.
+  bool finished() const noexcept { return vents_ && brain_.finished(); }
 
   const gait::Brain& brain() const noexcept { return brain_; }
   const gait::Measured& measured() const noexcept { return measured_; }
@@ -39,9 +40,10 @@ class HighLevel {
 
  private:
   void translate(const gait::Desired& desired) noexcept;
-  void hold_cylinder(const gait::Desired& desired) noexcept;
+  void move_cylinder(const gait::Desired& desired) noexcept;
 
   int joints_, muscles_;
+  bool vents_;
   bool has_cylinder_;
   float cylinder_gain_;  // [%/count]
   signals::Tick brain_ticks_;

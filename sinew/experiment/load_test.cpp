@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/experiment/experiment.h"
 #include "sinew/experiment/machine_file.h"
 
 namespace sinew::experiment {
@@ -55,6 +56,26 @@ TEST(MachineFile, ARobotAloneIsHeldToItsNames) {
   EXPECT_EQ(load_with("muscle.hip_flexor.actuator=bqa"),
             "--set: muscle.hip_flexor.actuator: found \"bqa\"; expected bpa; try \"bpa\"");
   EXPECT_NE(load_with("muscle.hip_flexor.role=extensor").find("robot.toml:"), std::string::npos);
+}
+
+// The level's unit follows from the measure: one mistake, one message.
+TEST(Load, AMisspeltMeasureIsOneProblem) {
+  for (const char* name : {"foot.normal_forc", "foot.normalforce", "joint.hip.angel"}) {
+    const std::string told = refusal([&] {
+      load(source + "experiments/touchdown.toml",
+           {std::string("phase.foot_plant.until.measure=") + name});
+    });
+    EXPECT_EQ(told, std::string("--set: phase.foot_plant.until.measure: found \"") + name +
+                        "\"; expected a measured quantity; try foot.normal_force, "
+                        "foot.friction_force, joint.<name>.angle, joint.<name>.stiffness or "
+                        "muscle.<name>.tension");
+  }
+  const std::string nobody = refusal([&] {
+    load(source + "experiments/touchdown.toml", {"phase.foot_plant.until.measure=joint.ankle.angle",
+                                                 "phase.foot_plant.until.level=1 rad"});
+  });
+  EXPECT_NE(nobody.find("\"joint.ankle.angle\"; expected a measured quantity"), std::string::npos)
+      << nobody;
 }
 
 TEST(Load, TellsOfNumbersWithoutASourceOutsideRobots) {

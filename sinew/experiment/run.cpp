@@ -89,9 +89,9 @@ Tick last_tick(const Experiment& e) {
   const double vent = e.plan.finish == gait::Plan::Finish::vent ? e.robot.low_level.vent_time : 0.0;
   const auto brain_ticks = std::llround(e.plan.brain_period / signals::tick_seconds);
   const Tick plan = gait::periods(e.plan) * brain_ticks;
-  // One period for the last valves to shut.
-  const Tick shut = vent > 0 ? e.robot.low_level.pwm_ticks : 0;
-  return plan + std::llround(vent / signals::tick_seconds) + shut;
+  // One period for the last valves to shut, and for a sample of where the plan has led to.
+  const Tick last = e.robot.low_level.pwm_ticks;
+  return plan + std::llround(vent / signals::tick_seconds) + last;
 }
 
 namespace {

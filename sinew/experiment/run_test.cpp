@@ -137,6 +137,31 @@ TEST(Run, ALogWithoutASensorCannotBeReplayed) {
   }
 }
 
+// However a plan ends, one row stands after its sequence: where it has led to.
+TEST(Run, TheLastRowStandsAfterTheSequence) {
+  const Outcome vents = run(walk());
+  const auto& end = vents.table.find("/plan/phase")->columns[0];
+  const auto after =
+      static_cast<std::size_t>(std::find(end.rbegin(), end.rend(), 2.0).base() - end.begin());
+  ASSERT_LT(after, end.size());
+
+  for (const char* set : {"sequence.finish=hold", "low_level.vent_time=0 s"}) {
+    const Outcome o = run(walk({set}));
+    const auto& phase = o.table.find("/plan/phase")->columns[0];
+    ASSERT_EQ(phase.size(), after + 1) << set;
+    EXPECT_EQ(phase.back(), -1) << set;
+    const auto& x = o.table.find("/true/trolley/position")->columns[0];
+    // The exhausts of the run that vents have been open for 1.2 ms there.
+    EXPECT_NEAR(x.back(), vents.table.find("/true/trolley/position")->columns[0][after], 1e-5)
+        << set;
+  }
+  // Who holds goes on with the laws, who has nothing to vent leaves its valves shut.
+  const auto last = [](const Outcome& o, const char* topic) {
+    return o.table.find(topic)->columns[0].back();
+  };
+  EXPECT_EQ(last(run(walk({"low_level.vent_time=0 s"})), "/muscle/knee_flexor/inlet_duty"), 0);
+}
+
 template <class World>
 void expect_no_heap(const Experiment& e) {
   World world(planar_setup(e));

@@ -225,6 +225,49 @@ TEST(GroundReaction, SaysWhereItCannotKnow) {
   EXPECT_EQ(ground_reaction(leg, 1, 0, {1, 1}).force.x, 0);
 }
 
+// A pair over round cams: the law for any muscles is the law of the pair, bit for bit.
+TEST(Torque, OfAPairIsThatOfAnyMuscles) {
+  const Robot robot = test::leg();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> pull(0, 200), any(0, 2 * pi);
+  for (int i = 0; i < 200; ++i) {
+    std::array<double, 4> tension{};
+    for (double& t : tension) t = pull(random);
+    for (int j = 0; j < 2; ++j) {
+      const auto k = static_cast<std::size_t>(j);
+      EXPECT_EQ(torque_of_muscles(robot, j, any(random), tension),
+                torque(robot.joints[k], tension[2 * k], tension[2 * k + 1]));
+    }
+  }
+}
+
+TEST(Torque, ACamsLeverIsStraightBetweenItsPoints) {
+  Robot robot = test::leg();
+  robot.muscles[3].cam = {.radius = not_set, .angle = {4, 5, 6}, .radii = {0.02, 0.04, 0.03}};
+  const Joint& knee = robot.joints[1];
+  EXPECT_DOUBLE_EQ(cam_radius(robot.muscles[3].cam, knee, 3), 0.02);
+  EXPECT_DOUBLE_EQ(cam_radius(robot.muscles[3].cam, knee, 4.25), 0.025);
+  EXPECT_DOUBLE_EQ(cam_radius(robot.muscles[3].cam, knee, 5.5), 0.035);
+  EXPECT_DOUBLE_EQ(cam_radius(robot.muscles[3].cam, knee, 7), 0.03);
+  EXPECT_DOUBLE_EQ(pull_at(robot.muscles[3], knee, 4.25),
+                   0.025);  // the knee's extensor raises its angle
+  EXPECT_EQ(pull_at(robot.muscles[3], robot.joints[0], 4.25), 0);  // and does nothing at the hip
+  const std::array<double, 4> tension{0, 0, 0, 100};
+  EXPECT_DOUBLE_EQ(torque_of_muscles(robot, 1, 4.25, tension), 2.5);
+}
+
+TEST(IsLeg, TwoDrivenJointsAndBeyondThemPassiveOnes) {
+  Robot robot = test::leg();
+  EXPECT_TRUE(is_leg(robot));
+  robot.links.push_back(robot.links[1]);
+  robot.joints.push_back(robot.joints[1]);
+  EXPECT_FALSE(is_leg(robot));
+  robot.joints[2].kind = Joint::Kind::passive;
+  EXPECT_TRUE(is_leg(robot));
+  robot.joints[1].kind = Joint::Kind::passive;
+  EXPECT_FALSE(is_leg(robot));
+}
+
 TEST(MuscleLength, FlexorShortensWhereTheJointFlexes) {
   const Robot robot = test::leg();
   const double mount = 3.15 * inch, by = 10 * degree;

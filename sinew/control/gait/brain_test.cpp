@@ -250,6 +250,9 @@ TEST(Brain, NoHeapInUpdate) {
   plan.phases[1].until = {.measure = "foot.normal_force", .is = Until::Is::above, .level = 4};
   plan.phases[0].points = {{0, 0.1, 0.1}, {-0.3, -0.3, -0.32}};
   plan.phases[2].joints[0].stiffness = {4, 2, 4};
+  plan.phases[2].ground_force = {.desired = 20, .gain = 1e-3, .limit = 0.01};
+  plan.phases[2].cylinder = {{}, {0.3, 1}, CylinderPhase::Of::foot_y};
+  plan.joints[1].range = {5, 6};
   Brain brain(robot, plan);
   const Measured measured = standing(robot, {0, 0});
   const long before = allocations;

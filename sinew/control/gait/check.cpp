@@ -77,8 +77,8 @@ void check_until(const robot::Robot& robot, const Phase& phase, List& out) {
   const bool foot =
       measure.kind == Measure::Kind::normal_force || measure.kind == Measure::Kind::friction_force;
   if (foot && !robot::is_leg(robot))
-    out.push_back({key, quoted(phase.until.measure), "a leg with two links [75]",
-                   "an angle or a tension"});
+    out.push_back(
+        {key, quoted(phase.until.measure), "a leg with two links [75]", "an angle or a tension"});
 }
 
 // The force that sets the height belongs to a foot path, and needs room to do so.

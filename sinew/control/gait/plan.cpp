@@ -29,13 +29,12 @@ int whole_periods(double seconds, double period) {
 Plan plan_for(const robot::Robot& robot) {
   Plan plan;
   for (const robot::Joint& joint : robot.joints)
-    plan.joints.push_back(
-        {.name = joint.name,
-         .stiffness = 0,
-         .gains = joint.gains,
-         .enabled = joint.enabled && joint.kind == robot::Joint::Kind::driven,
-         .driven = joint.kind == robot::Joint::Kind::driven,
-         .range = {}});
+    plan.joints.push_back({.name = joint.name,
+                           .stiffness = 0,
+                           .gains = joint.gains,
+                           .enabled = joint.enabled && joint.kind == robot::Joint::Kind::driven,
+                           .driven = joint.kind == robot::Joint::Kind::driven,
+                           .range = {}});
   return plan;
 }
 

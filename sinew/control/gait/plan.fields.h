@@ -208,18 +208,17 @@ void control_fields(Visitor& v, Plan& plan) {
         g.number({.name = joint.name, .unit = "N m/rad", .min = 0, .doc = "desired"},
                  joint.stiffness);
   });
-  v.group({.name = "joint_range",
-           .optional = true,
-           .doc = "desired angles stay within it, whatever a phase asks for"},
-          [&](auto& g) {
-            for (JointPlan& joint : plan.joints)
-              if (joint.driven)
-                g.numbers({.name = joint.name,
-                           .unit = "rad",
-                           .optional = true,
-                           .doc = "lowest and highest"},
-                          joint.range);
-          });
+  v.group(
+      {.name = "joint_range",
+       .optional = true,
+       .doc = "desired angles stay within it, whatever a phase asks for"},
+      [&](auto& g) {
+        for (JointPlan& joint : plan.joints)
+          if (joint.driven)
+            g.numbers(
+                {.name = joint.name, .unit = "rad", .optional = true, .doc = "lowest and highest"},
+                joint.range);
+      });
   v.group({.name = "gains", .optional = true, .doc = "in place of the robot's"}, [&](auto& g) {
     for (JointPlan& joint : plan.joints)
       if (joint.driven)

@@ -64,8 +64,8 @@ struct JointPhase {
   DutyProfiles feedforward;
 };
 
-// Of the air cylinder that carries the body, B.1's joint 0: its desired travel, up from the extended
-// stop. None: stays where it was; before the first one, at the stop.
+// Of the air cylinder that carries the body, B.1's joint 0: its desired travel, up from the
+// extended stop. None: stays where it was; before the first one, at the stop.
 struct CylinderPhase {
   enum class Of { s, foot_y };
 
