@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -88,6 +89,52 @@ TEST(Spinal, RefusesValvesThatDoNotGoTogether) {
   e = one_step();
   e.robot.muscles[1].inlet = three_way(e).name, e.robot.muscles[1].exhaust = "";
   EXPECT_NE(refusal(e).find("a valve of the same kind as muscle hip_flexor's"), std::string::npos);
+}
+
+// Both muscles of the hip behind regulators: the angle follows, the set points are logged.
+Experiment regulated_hip(double angle_integral) {
+  Experiment e = one_step();
+  gas::Valve v = e.valves.front();
+  v.name = "regulator", v.kind = gas::Valve::Kind::regulator;
+  v.regulator = {.range = 6.5e5, .time_constant = 0.01};
+  e.valves.push_back(v);
+  for (robot::Muscle& m : e.robot.muscles)
+    if (m.joint == "hip") m.inlet = v.name, m.exhaust = "";
+  e.robot.joints[0].stiffness_source = robot::StiffnessSource::none;
+  e.robot.joints[0].pressure_law = {.bias = 0.4, .angle_integral = angle_integral};
+  e.robot.foot.present = e.robot.ground.present = false;
+  return e;
+}
+
+// Mean of |desired - actual| of the hip over the second half of the swing  [rad].
+double error_in_swing(const Outcome& out) {
+  const std::vector<double>&is = *out.table.column("/joint/hip/angle"),
+        &want = *out.table.column("/desired/joint/hip/angle"),
+        &phase = *out.table.column("/plan/phase");
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < is.size(); ++i)
+    if (phase[i] == 0) errors.push_back(std::abs(want[i] - is[i]));
+  double sum = 0;
+  for (std::size_t i = errors.size() / 2; i < errors.size(); ++i) sum += errors[i];
+  return sum / static_cast<double>(errors.size() - errors.size() / 2);
+}
+
+TEST(Spinal, RegulatorsFollowTheirSetPoints) {
+  const Experiment e = regulated_hip(0.006);
+  EXPECT_EQ(refusal(e), "nothing");
+  EXPECT_EQ(spine_config(e).joint[0].kind, Kind::regulated);
+  EXPECT_NEAR(spine_config(e).joint[0].regulator.angle_integral, 0.006, 1e-9);  // % in 10 ms
+  const Outcome out = run(e), plain = run(regulated_hip(0));
+  EXPECT_LT(error_in_swing(out), 0.5 * error_in_swing(plain));
+
+  const signals::Series* set = out.table.find("/valve/hip_flexor/inlet/set_point");
+  ASSERT_NE(set, nullptr);
+  const std::vector<double>& share = set->columns[0];
+  EXPECT_GT(share.size(), 300u);  // one per period
+  EXPECT_GT(*std::ranges::max_element(share), 0.4);
+  EXPECT_LE(*std::ranges::max_element(share), 1.0);
+  EXPECT_EQ(share.back(), 0.0);  // shut down
+  EXPECT_EQ(out.table.find("/muscle/hip_flexor/inlet_duty"), nullptr);
 }
 
 // --- muscles ------------------------------------------------------------------------------------

@@ -34,7 +34,7 @@ struct Interrupt {
     std::array<short, 4> duty{};
     std::array<int, 4> state{off, off, off, off};
     short cycle_time = 0, enabled = 0, desired_angle = 0;
-    bool open_loop = false;         // the lines that the listing has as comments:
+    bool open_loop = false;          // the lines that the listing has as comments:
     std::array<short, 4> forward{};  // fiducyc = ffiducyc, ...
     int pot = 0, previous_pot = -1;
     float desired_stiffness = 0, stiffness = 0, angle_gain = 0, stiffness_gain = 0,
