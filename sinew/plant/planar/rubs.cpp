@@ -1,5 +1,8 @@
 #include "sinew/plant/planar/rubs.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace sinew::plant {
 namespace {
 
@@ -22,6 +25,22 @@ Rubs::Rubs(const BodyConstants& body, const robot::Robot& robot)
   disc_count_ = 0;
   for (const robot::Foot::Point& p : robot.foot.points)
     if (disc_count_ < most_discs) disc_[static_cast<std::size_t>(disc_count_++)] = p;
+}
+
+double Rubs::stiffest_rate(const Body& body, const Motion& motion,
+                           const robot::Robot& robot) const {
+  double fastest = 0;
+  const auto consider = [&](const Coordinates& row, double damping, double stiffness) {
+    const double w = dot(row, body.response(row));
+    fastest = std::max({fastest, damping * w, std::sqrt(stiffness * w)});
+  };
+  for (std::size_t j = 0; j < k_.links; ++j) {
+    const robot::Joint& joint = robot.joints[j];
+    consider(row(static_cast<int>(j), {}), joint.damping + joint.damper, joint.spring);
+  }
+  for (int i = 0; i < disc_count_ && ground_.present; ++i)
+    consider(disc(body, motion, i).rise, ground_.normal_damping, ground_.normal_stiffness);
+  return fastest;
 }
 
 DiscAt Rubs::disc(const Body& body, const Motion& motion, int i) const {

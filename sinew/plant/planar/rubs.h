@@ -41,6 +41,10 @@ class Rubs {
   Rubs(const BodyConstants& body, const robot::Robot& robot);
 
   int discs() const { return disc_count_; }
+
+  // The fastest rate at which springs, dampers and the ground bring the machine to rest  [1/s], by
+  // joint: c w and sqrt(k w) with w, the joint's or disc's acceleration per force.
+  double stiffest_rate(const Body& body, const Motion& motion, const robot::Robot& robot) const;
   DiscAt disc(const Body& body, const Motion& motion, int i) const;
 
   // Compliant force of the ground on a disc, never pulling  [N].

@@ -10,6 +10,10 @@ namespace {
 
 constexpr double blocked_bound = 1e9;  // of a joint that is held [N m]
 
+// Of the fastest rate in the machine times the step: RK4 is stable up to 2.8, and the rate changes
+// with the pose.
+constexpr double longest_rate = 1.5;
+
 // Of the longest step at which the air is stable, what a piece of a step takes.
 constexpr double piece_share = 0.5;
 
@@ -46,6 +50,9 @@ WholeWorld::WholeWorld(const Setup& setup)
   std::array<double, most_links> angle{}, still{};
   for (std::size_t j = 0; j < constants_.links; ++j) angle[j] = setup.start.joint_angle[j];
   cords_.at(angle.data(), still.data(), look.length, look.rate, look.pulls);
+  const double rate =
+      rubs_.stiffest_rate(Body(constants_, state_.motion), state_.motion, setup.robot);
+  if (rate * step_ > longest_rate) step_ /= std::ceil(rate * step_ / longest_rate);
   state_.air = plumbing_.initial(setup.start.pressure, look.length, setup.start.lift);
   prepare();
 }

@@ -2,6 +2,9 @@
 // body that a cylinder lifts, cams of any shape, muscles across two joints, a foot of several
 // discs, and air that knows tanks, hoses, walls and leaks.
 //
+// A machine with light links, stiff springs or strong dampers takes a whole part of the body step
+// that suits its fastest rate, at its start.
+//
 // world.h is the same for the leg that walks, and faster; where both hold a robot they agree. The
 // rules are the same: one RK4 over body and air, nodes at multiples of the body step and where a
 // valve really moves, dry friction per step, readings that peek and change nothing.

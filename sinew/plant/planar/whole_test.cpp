@@ -210,6 +210,54 @@ TEST(Whole, ShoeStandsOnHeelAndToe) {
   EXPECT_NEAR(balance, link.mass * 9.80665 * link.center_of_mass, 1e-3 * weight * heel);
 }
 
+// A foot link at an ankle that is held is the leg's fixed foot, on its ground and in its friction:
+// to what the shorter steps of the light link change.
+TEST(Whole, HeldAnkleIsAFixedFoot) {
+  plant::Setup fixed = leg_with_muscles(4.95, 5.40);
+  fixed.robot.ground.present = true;
+  fixed.robot.trolley.drag = 4;
+  for (robot::Joint& j : fixed.robot.joints) j.dry_friction = 0.1;
+  plant::Setup ankle = fixed;
+  ankle.robot.links.push_back({"foot", 0.05, fixed.robot.foot.mass, 0, 1e-6});
+  robot::Joint joint;
+  joint.name = "ankle";
+  joint.kind = robot::Joint::Kind::passive;
+  ankle.robot.joints.push_back(joint);
+  ankle.start.joint_angle.push_back(1.5);
+  ankle.start.blocked.push_back(true);
+  ankle.robot.foot.mass = 0;
+  ankle.robot.foot.points = {{"sole", 0, 0, fixed.robot.foot.radius}};
+
+  WholeWorld a(fixed), b(ankle);
+  bool touched = false;
+  for (signals::Tick t = 100; t <= 6000; t += 100) {
+    const auto valve = static_cast<std::uint8_t>((t / 100 * 5) % 8);
+    a.drive({t, {valve}, t % 300 == 0});
+    b.drive({t, {valve}, t % 300 == 0});
+    const Truth p = a.truth(t * 1e-4), q = b.truth(t * 1e-4);
+    touched = touched || p.force_y > 0;
+    EXPECT_NEAR(p.angle[0], q.angle[0], 1e-3) << t;
+    EXPECT_NEAR(p.angle[1], q.angle[1], 1e-3) << t;
+    EXPECT_NEAR(p.x, q.x, 1e-4) << t;
+  }
+  EXPECT_TRUE(touched);
+}
+
+// A damper far too strong for the body step: still exponential decay, v = v0 exp(-c t/I).
+TEST(Whole, StrongDamperIsStable) {
+  plant::Setup s = chain_setup(1);
+  s.robot.trolley.present = false;
+  s.robot.foot.present = false;
+  s.robot.gravity = 0;
+  const robot::Link& link = s.robot.links[0];
+  const double inertia = link.inertia + link.mass * link.center_of_mass * link.center_of_mass;
+  s.robot.joints[0].damper = 8000 * inertia;  // decays in 0.125 ms
+  WholeWorld world(s);
+  world.set_rates({1.0}, 0, 0);
+  world.advance(0.01);
+  EXPECT_NEAR(world.motion().at[first_link] - 0.6, 1.0 / 8000, 1e-6);
+}
+
 // Virtual work: what the cord pulls with is what its length gives per angle, for any cam and for
 // muscles across two joints.
 TEST(Cords, TorqueIsTheSlopeOfLength) {
