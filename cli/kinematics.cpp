@@ -50,9 +50,9 @@ struct Branch {
 
 robot::TwoLinks need_two_links(const robot::Robot& robot) {
   if (!robot::is_leg(robot))
-    throw std::invalid_argument(fmt::format(
-        "{}: has {} link{}; --foot needs a leg, two links at driven joints; try --angles",
-        robot.name, robot.links.size(), robot.links.size() == 1 ? "" : "s"));
+    throw std::invalid_argument(
+        fmt::format("{}: has {} link{}; --foot needs two, at driven joints; try --angles",
+                    robot.name, robot.links.size(), robot.links.size() == 1 ? "" : "s"));
   return robot::two_links(robot);
 }
 

@@ -56,15 +56,18 @@ std::string place(const config::Origin& o) {
   return o.where.line > 0 ? fmt::format("{}:{}", o.where.file, o.where.line) : o.where.file;
 }
 
-// Those below the keys that were asked for; all, where none was.
+// Those that were asked for by their key or by how they begin; all, where none was.
 config::Origins chosen(const config::Origins& all, const std::vector<std::string>& keys) {
   if (keys.empty()) return all;
   config::Origins out;
-  std::vector<bool> found(keys.size(), false);
+  std::vector<bool> found(keys.size(), false), whole(keys.size(), false);
+  for (const config::Origin& origin : all)
+    for (std::size_t k = 0; k < keys.size(); ++k) whole[k] = whole[k] || origin.path == keys[k];
   for (const config::Origin& origin : all) {
     bool wanted = false;
     for (std::size_t k = 0; k < keys.size(); ++k)
-      if (origin.path.starts_with(keys[k])) found[k] = wanted = true;
+      if (whole[k] ? origin.path == keys[k] : origin.path.starts_with(keys[k]))
+        found[k] = wanted = true;
     if (wanted) out.push_back(origin);
   }
   for (std::size_t k = 0; k < keys.size(); ++k) {

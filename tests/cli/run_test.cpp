@@ -241,9 +241,10 @@ TEST(Export, HeadsEveryColumnWithNameAndUnit) {
   std::getline(csv, header);
   EXPECT_EQ(header,
             "time [s],/joint/lever/angle [rad],/joint/lever/stiffness [N m/rad],"
+            "/joint/lever/velocity_estimate [rad/s],"
             "/true/muscle/flexor/pressure [Pa],/true/muscle/extensor/pressure [Pa]");
   std::getline(csv, row);
-  EXPECT_EQ(std::count(row.begin(), row.end(), ','), 4);
+  EXPECT_EQ(std::count(row.begin(), row.end(), ','), 5);
 
   const Result again = w.sinew({"export", "run", "--csv", "-o", "lever.csv"});
   EXPECT_EQ(again.code, 1);

@@ -46,9 +46,13 @@ void check_path(const robot::Robot& robot, const Phase& phase, List& out) {
   if (!phase.points.given() && phase.x.given() != phase.y.given())
     out.push_back({key, phase.x.given() ? "x without y" : "y without x", "both coordinates",
                    "{ from = …, to = … } or { polynomial = […] }"});
-  for (const auto& [name, c] : {std::pair{".x", &phase.x}, std::pair{".y", &phase.y}})
+  for (const auto& [name, c] : {std::pair{".x", &phase.x}, std::pair{".y", &phase.y}}) {
+    if (std::isfinite(c->from) != std::isfinite(c->to))
+      out.push_back({key + name, std::isfinite(c->from) ? "from without to" : "to without from",
+                     "both", "{ from = …, to = … }"});
     if (!c->polynomial.empty() && c->straight())
       out.push_back({key + name, "a polynomial and from or to", "one of them", "leave one out"});
+  }
 }
 
 // A joint follows its laws or the given duties, not both; inlet and exhaust not together.

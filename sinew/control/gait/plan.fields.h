@@ -22,12 +22,13 @@ void fields(Visitor& v, Coordinate& c, bool of_x) {
                 .doc = "lowest order first, in s (0 to 1) or in x"},
                c.polynomial, c.of == Coordinate::Of::x ? "m" : "1");
 
-  const bool straight = c.polynomial.empty();
-  v.number({.name = "from", .unit = "m", .optional = !straight, .doc = "at the phase's start"},
+  v.number({.name = "from",
+            .unit = "m",
+            .optional = true,
+            .doc = "at the phase's start, where there is no polynomial"},
            c.from);
-  v.number(
-      {.name = "to", .unit = "m", .optional = !straight, .doc = "at its end, straight in time"},
-      c.to);
+  v.number({.name = "to", .unit = "m", .optional = true, .doc = "at its end, straight in time"},
+           c.to);
 }
 
 template <class Visitor>
