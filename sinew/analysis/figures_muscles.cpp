@@ -1,6 +1,8 @@
 // muscles.<m>.*, passiveness, air, valves: what the muscles do and what they cost.
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "sinew/analysis/figures.h"
 #include "sinew/analysis/laws.h"
@@ -22,15 +24,39 @@ double mean_duty(const Figures& f, const robot::Muscle& m, const char* what) {
 struct Switching {
   bool logged = false;
   Edges electrical, delivered;
+  Coil coil;
 };
 
-Switching switching(const Figures& f, const robot::Muscle& m, const char* which) {
-  const signals::Series* s = f.record.table().find("/valve/" + m.name + "/" + which + "/open");
+// `of` is what the valve belongs to, "hip_flexor".
+Switching switching(const Figures& f, const std::string& of, const char* which,
+                    const std::string& valve) {
+  const signals::Series* s = f.record.table().find("/valve/" + of + "/" + which + "/open");
   if (!s || s->columns.empty()) return {};
+  const MachineValve its = valve_of(f.machine, valve);
+  Switching out{.logged = true,
+                .electrical = edges_of(s->time_ns, s->columns[0]),
+                .delivered = {},
+                .coil = its.coil};
+  out.delivered = delivered(out.electrical, its.opening, its.closing);
+  return out;
+}
+
+Switching switching(const Figures& f, const robot::Muscle& m, const char* which) {
   const bool inlet = std::string_view(which) == "inlet";
-  const ValveDelays delays = delays_of(f.machine, inlet ? m.inlet : m.exhaust);
-  Switching out{.logged = true, .electrical = edges_of(s->time_ns, s->columns[0]), .delivered = {}};
-  out.delivered = delivered(out.electrical, delays.opening, delays.closing);
+  return switching(f, m.name, which, inlet ? m.inlet : m.exhaust);
+}
+
+// Of all valves, those of the cylinder last.
+std::vector<Switching> all_switching(const Figures& f) {
+  std::vector<Switching> out;
+  for (const robot::Muscle& m : f.machine.robot.muscles)
+    for (const char* which : {"inlet", "exhaust"}) out.push_back(switching(f, m, which));
+  const robot::Cylinder& c = f.machine.robot.cylinder;
+  for (const auto& [of, chamber] : {std::pair{"cylinder_up", &c.up}, {"cylinder_down", &c.down}}) {
+    out.push_back(switching(f, of, "inlet", chamber->inlet));
+    out.push_back(switching(f, of, "exhaust", chamber->exhaust));
+  }
+  std::erase_if(out, [](const Switching& s) { return !s.logged; });
   return out;
 }
 
@@ -83,20 +109,22 @@ double believed_peak(const Figures& f, const Reading& r) {
 
 // All valves together, electrical, within [from, to).
 struct Use {
-  double openings = 0, time = 0;  // [s]
-  bool logged = false;
+  double openings = 0, time = 0, energy = 0;  // [-], [s], [J]
 };
 
-Use use_of_valves(const Figures& f, double from, double to) {
+Use use_of(const std::vector<Switching>& valves, double from, double to) {
   Use use;
-  for (const robot::Muscle& m : f.machine.robot.muscles)
-    for (const char* which : {"inlet", "exhaust"}) {
-      const Switching s = switching(f, m, which);
-      use.logged = use.logged || s.logged;
-      use.openings += openings(s.electrical, from, to);
-      use.time += open_time(s.electrical, from, to);
-    }
+  for (const Switching& s : valves) {
+    use.openings += openings(s.electrical, from, to);
+    use.time += open_time(s.electrical, from, to);
+    use.energy += coil_energy(s.electrical, s.coil, from, to);
+  }
   return use;
+}
+
+// One valve whose power nobody knows, and the sum says nothing.
+bool power_is_known(const std::vector<Switching>& valves) {
+  return std::ranges::all_of(valves, [](const Switching& s) { return s.coil.power > 0; });
 }
 
 }  // namespace
@@ -157,16 +185,20 @@ void add_air(Figures& f) {
 
 void add_valves(Figures& f) {
   const std::size_t last = f.record.rows() - 1;
-  const Use run = use_of_valves(f, f.record.time(0), f.record.end_of(last));
-  if (!run.logged) return;
+  const std::vector<Switching> valves = all_switching(f);
+  if (valves.empty()) return;
+  const Use run = use_of(valves, f.record.time(0), f.record.end_of(last));
   Use walk;
   if (f.record.has_sequence())
-    walk = use_of_valves(f, f.record.sequence_start(), f.record.sequence_end());
+    walk = use_of(valves, f.record.sequence_start(), f.record.sequence_end());
 
   f.summary.add("valves.switchings", run.openings);
   add_rates(f, walk.openings, "valves.switchings_per_step", "valves.switchings_per_m");
   f.summary.add("valves.coil_time_s", run.time);
   add_rates(f, walk.time, "valves.coil_time_per_step_s", "valves.coil_time_s_per_m");
+  if (!power_is_known(valves)) return;
+  f.summary.add("valves.coil_energy_J", run.energy);
+  add_rates(f, walk.energy, "valves.coil_energy_per_step_J", "valves.coil_energy_J_per_m");
 }
 
 }  // namespace sinew::analysis

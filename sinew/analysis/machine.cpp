@@ -22,7 +22,7 @@ struct Named {
   std::string name;
 };
 
-// What of a valve's table says when it opens.
+// What of a valve's table says when it opens, and what its coil takes.
 struct ValveTable {
   enum class Profile { ideal, dead_time, ramp };
   enum class Drive { standard, speed_up };
@@ -31,37 +31,49 @@ struct ValveTable {
   Profile profile = Profile::dead_time;
   Drive drive = Drive::standard;
   double opening_delay = 0, closing_delay = 0, opening_ramp = 0, closing_ramp = 0;
-  double quick_opening = 0, quick_closing = 0;  // with Drive::speed_up
+  double fast_opening = 0, fast_closing = 0;  // delays with speed-up
+  Coil coil;
 };
 
 template <class Visitor>
+void seconds(Visitor& v, std::string_view name, double& value) {
+  v.number({.name = name, .unit = "s", .min = 0, .optional = true}, value);
+}
+
+template <class Visitor>
+void coil_fields(Visitor& v, Coil& coil) {
+  v.number({.name = "power", .unit = "W", .min = 0, .optional = true}, coil.power);
+  v.number({.name = "boost_power", .unit = "W", .min = 0, .optional = true}, coil.boost_power);
+  seconds(v, "boost_time", coil.boost_time);
+}
+
+template <class Visitor>
 void fields(Visitor& v, ValveTable& valve) {
-  v.choice({.name = "profile", .doc = "of the shutter"}, valve.profile,
+  v.choice({.name = "profile", .optional = true, .doc = "of the shutter"}, valve.profile,
            {{"ideal", ValveTable::Profile::ideal},
             {"dead time", ValveTable::Profile::dead_time},
             {"ramp", ValveTable::Profile::ramp}});
-  v.choice({.name = "drive", .optional = true, .doc = "of the coil"}, valve.drive,
-           {{"standard", ValveTable::Drive::standard}, {"speed-up", ValveTable::Drive::speed_up}});
-  const auto seconds = [](auto& g, std::string_view name, double& value) {
-    g.number({.name = name, .unit = "s", .min = 0, .optional = true}, value);
-  };
   seconds(v, "opening_delay", valve.opening_delay);
   seconds(v, "closing_delay", valve.closing_delay);
   seconds(v, "opening_ramp", valve.opening_ramp);
   seconds(v, "closing_ramp", valve.closing_ramp);
+  v.choice({.name = "drive", .optional = true, .doc = "of the coil"}, valve.drive,
+           {{"standard", ValveTable::Drive::standard}, {"speed-up", ValveTable::Drive::speed_up}});
   v.group({.name = "speed_up", .optional = true}, [&](auto& g) {
-    seconds(g, "opening_delay", valve.quick_opening);
-    seconds(g, "closing_delay", valve.quick_closing);
+    seconds(g, "opening_delay", valve.fast_opening);
+    seconds(g, "closing_delay", valve.fast_closing);
   });
+  v.group({.name = "coil", .optional = true}, [&](auto& g) { coil_fields(g, valve.coil); });
 }
 
-ValveDelays delays(const ValveTable& valve) {
-  if (valve.profile == ValveTable::Profile::ideal) return {.name = valve.name};
-  const bool quick = valve.drive == ValveTable::Drive::speed_up;
-  return {
-      .name = valve.name,
-      .opening = (quick ? valve.quick_opening : valve.opening_delay) + 0.5 * valve.opening_ramp,
-      .closing = (quick ? valve.quick_closing : valve.closing_delay) + 0.5 * valve.closing_ramp};
+MachineValve what_matters(const ValveTable& valve) {
+  MachineValve out{.name = valve.name, .coil = valve.coil};
+  const bool fast = valve.drive == ValveTable::Drive::speed_up;
+  if (!fast) out.coil.boost_power = out.coil.boost_time = 0;
+  if (valve.profile == ValveTable::Profile::ideal) return out;
+  out.opening = (fast ? valve.fast_opening : valve.opening_delay) + 0.5 * valve.opening_ramp;
+  out.closing = (fast ? valve.fast_closing : valve.closing_delay) + 0.5 * valve.closing_ramp;
+  return out;
 }
 
 void read_parts(config::Reader& reader, Machine& m) {
@@ -70,7 +82,7 @@ void read_parts(config::Reader& reader, Machine& m) {
   std::vector<ValveTable> valves;
   reader.each({.name = "valve", .optional = true}, valves,
               [](auto& g, ValveTable& valve) { fields(g, valve); });
-  for (const ValveTable& valve : valves) m.valves.push_back(delays(valve));
+  for (const ValveTable& valve : valves) m.valves.push_back(what_matters(valve));
 }
 
 void read_run(config::Reader& reader, Machine& m) {
@@ -122,8 +134,8 @@ int find_phase(const Machine& m, std::string_view name) {
 
 bool has_leg(const Machine& m) { return m.robot.foot.present && robot::is_leg(m.robot); }
 
-ValveDelays delays_of(const Machine& m, std::string_view valve) {
-  for (const ValveDelays& v : m.valves)
+MachineValve valve_of(const Machine& m, std::string_view valve) {
+  for (const MachineValve& v : m.valves)
     if (v.name == valve) return v;
   return {};
 }

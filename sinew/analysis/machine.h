@@ -10,16 +10,18 @@
 
 #include "sinew/actuator/actuator.h"
 #include "sinew/analysis/reported.h"
+#include "sinew/analysis/valves.h"
 #include "sinew/config/node.h"
 #include "sinew/robot/robot.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::analysis {
 
-// When a valve follows its coil: [valve.<name>]. Zero where the profile is ideal.
-struct ValveDelays {
+// What of a valve's table matters here: when it follows its coil, and what that takes.
+struct MachineValve {
   std::string name;
-  double opening = 0, closing = 0;  // from the edge until half of the way is done [s]
+  double opening = 0, closing = 0;  // from the edge until half of the way is done; ideal: 0 [s]
+  Coil coil;
 };
 
 struct Machine {
@@ -28,7 +30,7 @@ struct Machine {
 
   robot::Robot robot;
   std::vector<actuator::Actuator> actuators;
-  std::vector<ValveDelays> valves;
+  std::vector<MachineValve> valves;
   double atmosphere = units::atmosphere;  // [Pa]
 
   std::vector<std::string> phases;    // in the file's order: the position is /plan/phase
@@ -50,7 +52,7 @@ int find_phase(const Machine&, std::string_view name);   // -1: no such phase
 // A foot at the end of two links: where the thesis's kinematics and [75] apply.
 bool has_leg(const Machine&);
 
-// The delays of a valve by its name; none for an unknown one.
-ValveDelays delays_of(const Machine&, std::string_view valve);
+// A valve by its name; one without delays and power for an unknown one.
+MachineValve valve_of(const Machine&, std::string_view valve);
 
 }  // namespace sinew::analysis

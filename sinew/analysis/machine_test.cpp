@@ -41,15 +41,15 @@ TEST(Machine, ActuatorsCarryTheirMusclesBladder) {
 
 TEST(Machine, ValvesHaveTheDelaysOfTheirProfile) {
   const auto delays = [](const std::string& profile) {
-    return delays_of(read("walk-test-1.toml",
-                          {"valve.inlet.opening_delay=2 ms", "valve.inlet.closing_delay=1 ms",
-                           "valve.inlet.profile=" + profile}),
-                     "inlet");
+    return valve_of(read("walk-test-1.toml",
+                         {"valve.inlet.opening_delay=2 ms", "valve.inlet.closing_delay=1 ms",
+                          "valve.inlet.profile=" + profile}),
+                    "inlet");
   };
   EXPECT_DOUBLE_EQ(delays("dead time").opening, 2e-3);
   EXPECT_DOUBLE_EQ(delays("dead time").closing, 1e-3);
   EXPECT_DOUBLE_EQ(delays("ideal").opening, 0);
-  EXPECT_DOUBLE_EQ(delays_of(Machine{}, "inlet").opening, 0);
+  EXPECT_DOUBLE_EQ(valve_of(Machine{}, "inlet").opening, 0);
 }
 
 TEST(Machine, ARobotWithoutAFootHasNoLeg) { EXPECT_FALSE(has_leg(read("one-joint.toml"))); }

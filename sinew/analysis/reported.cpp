@@ -13,11 +13,12 @@ namespace sinew::analysis {
 namespace {
 
 // Longest first: "_m_per_s" ends with "_s" too.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 13> endings = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 14> endings = {{
     {"_Nm_per_rad", "N m/rad"},
     {"_m_per_s", "m/s"},
     {"_kg_per_m", "kg/m"},
     {"_s_per_m", "s/m"},
+    {"_J_per_m", "J/m"},
     {"_per_m", "1/m"},
     {"_rad", "rad"},
     {"_Nm", "N m"},

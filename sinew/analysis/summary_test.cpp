@@ -97,6 +97,23 @@ TEST(Summary, DeliveredDutiesCarryTheDeadTimes) {
   EXPECT_EQ(s.find("valves.switchings_per_m"), nullptr);  // no trolley in this log
 }
 
+// 400 pulses of 1 ms at 2 W, half of them with a boost to 10 W for 0.25 ms; nothing where the power
+// of one valve is not given.
+TEST(Summary, CoilsTakeTheirPowerByTheirTime) {
+  Machine m = walking_leg();
+  m.valves = {{"inlet", 0, 0, {.power = 2, .boost_power = 10, .boost_time = 0.25e-3}},
+              {"exhaust", 0, 0, {.power = 2}}};
+  test::Log log = walk(2);
+  log.pulses("/valve/hip_flexor/inlet/open", 1e-3, 2.0);
+  log.pulses("/valve/hip_flexor/exhaust/open", 1e-3, 2.0);
+  const Summary s = summarize(log.table, m);
+  EXPECT_NEAR(value(s, "valves.coil_energy_J"), 400 * 2e-3 + 200 * 8 * 0.25e-3, 1e-9);
+  EXPECT_NEAR(value(s, "valves.coil_energy_per_step_J"), value(s, "valves.coil_energy_J") / 2,
+              1e-9);
+  m.valves[1].coil = {};
+  EXPECT_EQ(summarize(log.table, m).find("valves.coil_energy_J"), nullptr);
+}
+
 TEST(Summary, AirIsCountedPerStepAndPerMetre) {
   test::Log log = walk(2, 0.5, 0.5);
   for (const robot::Muscle& m : walking_leg().robot.muscles)

@@ -5,6 +5,8 @@
 
 namespace sinew::analysis {
 
+constexpr double never = std::numeric_limits<double>::infinity();
+
 Edges edges_of(std::span<const std::int64_t> time_ns, std::span<const double> open) {
   Edges out;
   for (std::size_t i = 0; i < time_ns.size() && i < open.size(); ++i) {
@@ -29,15 +31,29 @@ Edges delivered(const Edges& electrical, double opening_delay, double closing_de
   return out;
 }
 
-double open_time(const Edges& edges, double from, double to) {
+namespace {
+
+// How long each pulse, at most `longest` of it, lies within [from, to), summed up  [s].
+double time_in_pulses(const Edges& edges, double from, double to, double longest) {
   double sum = 0;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (!edges[i].open) continue;
-    const double shut =
-        i + 1 < edges.size() ? edges[i + 1].time : std::numeric_limits<double>::infinity();
-    sum += std::max(0.0, std::min(shut, to) - std::max(edges[i].time, from));
+    const double shut = i + 1 < edges.size() ? edges[i + 1].time : never;
+    const double end = std::min({shut, edges[i].time + longest, to});
+    sum += std::max(0.0, end - std::max(edges[i].time, from));
   }
   return sum;
+}
+
+}  // namespace
+
+double open_time(const Edges& edges, double from, double to) {
+  return time_in_pulses(edges, from, to, never);
+}
+
+double coil_energy(const Edges& electrical, const Coil& coil, double from, double to) {
+  const double boosted = time_in_pulses(electrical, from, to, coil.boost_time);
+  return coil.power * open_time(electrical, from, to) + (coil.boost_power - coil.power) * boosted;
 }
 
 int openings(const Edges& edges, double from, double to) {

@@ -19,6 +19,13 @@ struct Edge {
 
 using Edges = std::vector<Edge>;
 
+// Electrical power of a valve's coil while it is on; with a boost, for the first boost_time of
+// every pulse, boost_power instead.
+struct Coil {
+  double power = 0, boost_power = 0;  // [W]
+  double boost_time = 0;              // [s]
+};
+
 // Shut before the first one; an edge to where the valve stands already is none.
 Edges edges_of(std::span<const std::int64_t> time_ns, std::span<const double> open);
 
@@ -26,6 +33,10 @@ Edges delivered(const Edges& electrical, double opening_delay, double closing_de
 
 // Within [from, to), as the last edge before `to` leaves it  [s].
 double open_time(const Edges&, double from, double to);
+
+// What the coil takes of the battery within [from, to), of electrical edges:
+//   E = P t_on + (P_boost - P) min(t_on, t_boost) for each pulse  [J]
+double coil_energy(const Edges& electrical, const Coil& coil, double from, double to);
 
 // Times that it opens within [from, to).
 int openings(const Edges&, double from, double to);

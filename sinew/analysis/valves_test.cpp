@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace sinew::analysis {
 namespace {
 
@@ -46,6 +48,32 @@ TEST(Valves, OpenTimeIsCutAtTheWindow) {
   EXPECT_DOUBLE_EQ(open_time(edges, 2.0, 3.0), 0);
   EXPECT_EQ(openings(edges, 1.0, 3.0), 1);
   EXPECT_EQ(openings({}, 0, 1), 0);
+}
+
+// Without a boost it is power by time; with one, every pulse has a part of its own.
+TEST(Valves, CoilEnergyIsPowerByTimeAndTheBoostOfEveryPulse) {
+  Edges edges;
+  for (const double length : {0.5e-3, 2e-3, 6e-3})
+    for (const Edge& e : pulse(edges.empty() ? 0.1 : edges.back().time + 1e-3, length))
+      edges.push_back(e);
+  EXPECT_NEAR(coil_energy(edges, {.power = 3}, 0, 1), 3 * 8.5e-3, 1e-15);
+  const Coil boosted{.power = 1, .boost_power = 9, .boost_time = 1e-3};
+  EXPECT_NEAR(coil_energy(edges, boosted, 0, 1), 8.5e-3 + 8 * (0.5e-3 + 1e-3 + 1e-3), 1e-15);
+}
+
+// Parts of a run add up to it, wherever it is cut: also within a boost.
+TEST(Valves, CoilEnergyOfPartsAddsUp) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> length(1e-4, 8e-3), anywhere(0.0, 1.0);
+  Edges edges;
+  for (int i = 0; i < 100; ++i)
+    for (const Edge& e : pulse(0.01 * i, length(random))) edges.push_back(e);
+  const Coil coil{.power = 1.5, .boost_power = 12, .boost_time = 2e-3};
+  const double all = coil_energy(edges, coil, 0, 1);
+  for (int i = 0; i < 100; ++i) {
+    const double cut = anywhere(random);
+    EXPECT_NEAR(coil_energy(edges, coil, 0, cut) + coil_energy(edges, coil, cut, 1), all, 1e-12);
+  }
 }
 
 // 6 ms of 10 ms through 4 ms and 1 ms, 3.4: the law of the delivered duty.
