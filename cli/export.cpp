@@ -47,8 +47,19 @@ experiment::Experiment experiment_of(const RecordedRun& run, const Options& opti
   return experiment::load(machine_of(run, options.machine).string());
 }
 
+// What B.1 writes to its two ports, and when.
+std::string ports_text(const signals::Table& table, const experiment::Experiment& e) {
+  std::string out = "time [s],port 0 [1],port 1 [1]\n";
+  const auto bits = robot::bits_of(e.robot, e.wiring);
+  for (const robot::PortBytes& b : robot::port_bytes(table, bits, e.wiring.polarity))
+    out +=
+        fmt::format("{:.4f},{},{}\n", 1e-9 * static_cast<double>(b.time_ns), b.port[0], b.port[1]);
+  return out;
+}
+
 std::string text_of(const RecordedRun& run, const Options& options, signals::Table table) {
   if (options.format == "out.dat") return write_out_dat(table, experiment_of(run, options));
+  if (options.format == "ports") return ports_text(table, experiment_of(run, options));
 
   if (options.derived) {
     const config::Node root = config::compose(machine_of(run, options.machine).string());
@@ -84,13 +95,16 @@ ExitCode export_run(const Options& options) {
 
 void add_export(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(app, "export", "a run's log as CSV, or as the thesis's out.dat",
-                             "sinew export runs/walk-test-1/1 --csv -o walk.csv");
+  CLI::App& sub = subcommand(
+      app, "export", "a run's log as CSV, as the thesis's out.dat, or as bytes of its ports",
+      "sinew export runs/walk-test-1/1 --csv -o walk.csv");
   sub.add_option("DIR", options->run, "a run's folder, or a log file")->required();
   CLI::App& how = *sub.add_option_group("format");
   how.add_option("--format", options->format,
-                 "csv: time [s], then a column per channel; out.dat: the log of B.1")
-      ->check(CLI::IsMember({"csv", "out.dat"}));
+                 "csv: time [s], then a column per channel; out.dat: the log of B.1; ports: bytes "
+                 "of the valves' "
+                 "ports")
+      ->check(CLI::IsMember({"csv", "out.dat", "ports"}));
   how.add_flag("--csv", options->csv, "the same as --format csv");
   how.require_option(1);
   sub.add_option("-o,--output", options->out, "the file to write; else stdout");

@@ -18,7 +18,7 @@ constexpr int newest_format = 1;
 const char* const set_origin = "--set";
 
 std::vector<std::string_view> kinds() {
-  return {"robot", "actuator", "valves", "experiment", "rig", "plan"};
+  return {"robot", "actuator", "valves", "wiring", "experiment", "rig", "plan"};
 }
 
 // --- format = "sinew.robot/1" ---
@@ -151,10 +151,11 @@ void put_actuator(Node& root, Node actuator) {
   all.put(std::move(actuator));
 }
 
-void put_valves(Node& root, Node valves) {
-  valves.erase("format");
-  valves.erase("name");
-  merge(root, valves);
+// Valves and wiring have the tables that the namespace has.
+void put_tables(Node& root, Node tables) {
+  tables.erase("format");
+  tables.erase("name");
+  merge(root, tables);
 }
 
 void add_actuators(Node& root, const Node& entry) {
@@ -189,13 +190,16 @@ void resolve_files(Node& root) {
     if (entry.key == "actuator") {
       add_actuators(root, entry);
     } else if (entry.key == "valves") {
-      put_valves(root, load_named(entry, "files.valves", "valves"));
+      put_tables(root, load_named(entry, "files.valves", "valves"));
+    } else if (entry.key == "wiring") {
+      put_tables(root, load_named(entry, "files.wiring", "wiring"));
     } else if (entry.key == "valve_timing") {
       add_valve_timing(root, entry);
     } else if (entry.key == "gains") {
       add_gains(root, entry);
     } else {
-      const std::vector<std::string_view> known = {"actuator", "valves", "valve_timing", "gains"};
+      const std::vector<std::string_view> known = {"actuator", "valves", "valve_timing", "gains",
+                                                   "wiring"};
       fail(entry.where, "files." + entry.key, "an unknown key", either(known),
            std::string(closest(entry.key, known)));
     }

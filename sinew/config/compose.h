@@ -4,6 +4,7 @@
 //              ── robot = "robot.toml"     its tables appear beside the experiment's own
 //                   ── files.actuator      actuator.<name>
 //                   ── files.valves        valve.<name>
+//                   ── files.wiring        wiring.…
 //                   ── files.valve_timing  low_level.valve_timing, an absolute path
 //                   ── files.gains         joint.<name>.angle_gain … (gains.h); an experiment's too
 //              ── --set key=value          last word

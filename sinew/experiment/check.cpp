@@ -226,6 +226,7 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
     check_size(e, wrong);
   }
   std::ranges::move(robot::contradictions(e.robot), std::back_inserter(wrong));
+  std::ranges::move(robot::contradictions(e.wiring, e.robot), std::back_inserter(wrong));
   if (runs && wrong.empty()) check_air(e, wrong);
   if (runs && wrong.empty()) wrong = gait::contradictions(e.robot, e.plan);
   refuse(wrong, e);

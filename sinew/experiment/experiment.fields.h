@@ -10,6 +10,7 @@
 #include "sinew/gas/air.fields.h"
 #include "sinew/gas/valve.fields.h"
 #include "sinew/robot/robot.fields.h"
+#include "sinew/robot/wiring.fields.h"
 #include "sinew/units/field.h"
 
 namespace sinew::experiment {
@@ -75,6 +76,7 @@ void machine_fields(Visitor& v, Experiment& e) {
   robot::fields(v, e.robot);
   actuator::fields(v, e.actuators);
   gas::fields(v, e.valves);
+  robot::fields(v, e.wiring);
   v.group({.name = "air", .doc = "atmosphere and supply"},
           [&](auto& g) { gas::fields(g, e.air, e.supply); });
   v.group({.name = "pulses",
@@ -89,6 +91,7 @@ void machine_fields(Visitor& v, std::string_view kind, Experiment& e) {
   if (kind == "robot" || kind == "experiment") machine_fields(v, e);
   if (kind == "actuator") actuator::fields(v, e.actuators);
   if (kind == "valves") gas::fields(v, e.valves);
+  if (kind == "wiring") robot::fields(v, e.wiring);
 }
 
 template <class Visitor>

@@ -14,6 +14,7 @@
 #include "sinew/gas/supply.h"
 #include "sinew/gas/valve.h"
 #include "sinew/robot/robot.h"
+#include "sinew/robot/wiring.h"
 #include "sinew/signals/timing.h"
 
 namespace sinew::experiment {
@@ -57,6 +58,7 @@ struct Experiment {
   double body_step = 1e-3;  // between committed nodes [s]
 
   robot::Robot robot;
+  robot::Wiring wiring;
   std::vector<actuator::Actuator> actuators;
   std::vector<gas::Valve> valves;
   gas::Air air;

@@ -94,9 +94,10 @@ Experiment load(const config::Node& root, const std::string& path) {
 MachineFile load_machine_file(const std::string& path, const std::vector<std::string>& sets) {
   const config::Node root = config::compose(path, sets);
   const std::string kind(config::format_kind(root));
-  if (kind != "experiment" && kind != "robot" && kind != "actuator" && kind != "valves")
+  if (kind != "experiment" && kind != "robot" && kind != "actuator" && kind != "valves" &&
+      kind != "wiring")
     config::fail({path, 0, 0}, "format", config::in_quotes(kind),
-                 "an experiment, robot, actuator or valves file");
+                 "an experiment, robot, actuator, valves or wiring file");
   return {kind, read(root, kind, path)};
 }
 

@@ -1,5 +1,5 @@
 // experiment/machine_file.h - any of the TOML files read alone: an experiment whole; a robot,
-// actuator or valves file as the part of an experiment that it is.
+// actuator, valves or wiring file as the part of an experiment that it is.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace sinew::experiment {
 
 struct MachineFile {
-  std::string kind;       // "experiment", "robot", "actuator" or "valves"
+  std::string kind;       // "experiment", "robot", "actuator", "valves" or "wiring"
   Experiment experiment;  // what the file does not say keeps its default
 };
 

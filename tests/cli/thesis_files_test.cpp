@@ -62,6 +62,21 @@ TEST(OutDat, ThatIsDamagedIsRefusedAndLeavesNothing) {
   EXPECT_THAT(w.sinew({"import", "no.dat", "--experiment", walk}).err, HasSubstr("no.dat"));
 }
 
+// Settling opens the four exhausts, by B.1's masks 8 to 11 or by table C-1's 10 to 13.
+TEST(Ports, HaveTheBitsOfTheCodeOrOfTheTable) {
+  const Workspace w;
+  ASSERT_EQ(w.sinew({"run", walk, "-o", "ran"}).code, 0);
+  const Result code = w.sinew({"export", "ran", "--format", "ports"});
+  EXPECT_THAT(code.out,
+              StartsWith("time [s],port 0 [1],port 1 [1]\n0.0000,255,240\n0.6000,255,255\n"));
+  ASSERT_EQ(w.sinew({"run", walk, "-o", "table", "--set", "wiring.bits=table"}).code, 0);
+  EXPECT_THAT(w.sinew({"export", "table", "--format", "ports"}).out,
+              HasSubstr("\n0.0000,255,195\n0.6000,255,255\n"));
+  const Result twice = w.sinew({"run", walk, "--set", "muscle.hip_extensor.inlet.bit=0"});
+  EXPECT_EQ(twice.code, 1);
+  EXPECT_THAT(twice.err, HasSubstr("bit 0, which muscle.hip_flexor.inlet.bit has"));
+}
+
 // The two gain files of B.5 are the robot's gains and those of 6.5.
 TEST(GainFile, OfTheThesisIsTheLegs) {
   const Workspace w;
