@@ -127,6 +127,20 @@ TEST(MaxFrequency, AShortPulseLastsHalfAPeriodOrNotAtAll) {
   EXPECT_EQ(shutter.next(), std::numeric_limits<double>::infinity());
 }
 
+// A change that is undone at its very moment was no change: the stay goes back to the one before.
+TEST(MaxFrequency, AnUndoneChangeStartsNoStay) {
+  const Valve v = {.opening_delay = 0.6e-3, .closing_delay = 0.4e-3, .max_frequency = 250};
+  Shutter shutter(v);
+  shutter.electrical(0, true);
+  shutter.advance(0.6e-3);
+  shutter.electrical(5e-3, false);
+  shutter.advance(5.4e-3);
+  shutter.electrical(5.4e-3, true);
+  EXPECT_EQ(shutter.fraction(5.4e-3), 1);
+  shutter.electrical(6e-3, false);
+  EXPECT_NEAR(shutter.next(), 6.4e-3, 1e-15);
+}
+
 TEST(Regulator, OutletGoesExponentiallyToItsSetPoint) {
   const Regulator r{.range = 6e5, .time_constant = 0.05};
   const double set = set_point(r, 0.5, 1e5);

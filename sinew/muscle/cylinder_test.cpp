@@ -61,6 +61,21 @@ TEST(Cylinder, SealedItIsAGasSpring) {
   }
 }
 
+// Moved without heat it is on the adiabat, whatever exponent the air is given.
+TEST(Cylinder, MovedWithoutHeatItDoesItsWork) {
+  const Cylinder c = thesis_cylinder();
+  Plumbing plumbing({}, {.polytropic_exponent = 1, .wall_time = 1e7}, {}, c);
+  EXPECT_EQ(plumbing.states(), 4);
+  Hand hand(
+      plumbing, [](double t) { return at(0.01 + 0.2 * t, 0.2); }, 1e5);
+  hand.go(0.15, 1e-4);
+  for (const Side side : {up, down}) {
+    const double ratio = volume(c, side, 0.01) / volume(c, side, 0.04);
+    EXPECT_NEAR(hand.now.cylinder_pressure[side] / c.initial_pressure[side], std::pow(ratio, 1.4),
+                1e-6);
+  }
+}
+
 // A weight on it swings at sqrt(k/m), k = n sum P A^2/V.
 TEST(Cylinder, AWeightSwingsOnItAtItsFrequency) {
   const Cylinder c = thesis_cylinder();
