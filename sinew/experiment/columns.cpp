@@ -109,6 +109,8 @@ void cylinder_columns(const robot::Robot& robot, Columns& out) {
   const std::size_t j = robot.joints.size();
   out.scalar("/cylinder/position", "m", "measured travel, up from the extended stop",
              [](const Moment& m) { return m.measured.cylinder; });
+  out.scalar("/desired/cylinder/position", "m", "by the plan, up from the extended stop",
+             [](const Moment& m) { return m.desired.cylinder.position; });
   const auto duty = [&](const char* name, std::int32_t control::Duties::*which) {
     out.scalar(std::string("/cylinder/") + name, "1", "commanded share of the period",
                [j, which](const Moment& m) {

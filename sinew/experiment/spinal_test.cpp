@@ -137,6 +137,36 @@ TEST(Spinal, RegulatorsFollowTheirSetPoints) {
   EXPECT_EQ(out.table.find("/muscle/hip_flexor/inlet_duty"), nullptr);
 }
 
+// The leg's cylinder in its loop: last joint, valves behind the muscles', duties of B.1. With B.1's
+// gain it swings; damped, and with a ninth of the gain, it goes where the plan wants it.
+TEST(Spinal, TheCylinderGoesWhereThePlanWantsIt) {
+  const std::string air = std::string(SINEW_SOURCE_DIR) + "/experiments/leg-in-air.toml";
+  const Experiment e = load(
+      air, {"sequence.repeat=1", "cylinder.mode=valves", "cylinder.position_gain=0.1 %/count",
+            "cylinder.damping=3 lbf s/in", R"(phase.swing.cylinder={ position = ["0.7 in"] })"});
+  const control::SpineConfig c = spine_config(e);
+  ASSERT_EQ(c.joints, 3u);
+  EXPECT_EQ(c.joint[2].kind, Kind::cylinder);
+  EXPECT_EQ(c.joint[2].flexor.inlet.index, 8);
+  EXPECT_EQ(c.joint[2].extensor.exhaust.index, 11);
+  EXPECT_EQ(c.joint[2].feedforward, (control::Duties{55, 55, 45, 45}));
+  EXPECT_EQ(c.joint[2].law_tick, 1);
+
+  const Outcome out = run(e);
+  const std::vector<double>&is = *out.table.column("/cylinder/position"),
+        &want = *out.table.column("/desired/cylinder/position"),
+        &phase = *out.table.column("/plan/phase");
+  double last_error = 1, lowest = 1;
+  for (std::size_t i = 0; i < is.size(); ++i) {
+    if (phase[i] >= 0) last_error = want[i] - is[i];
+    lowest = std::min(lowest, is[i]);
+  }
+  EXPECT_NEAR(want.back(), 0.7 * 0.0254, 1e-12);
+  EXPECT_NEAR(last_error, 0, 0.003);  // a proportional law keeps an error
+  EXPECT_GT(lowest, -0.002);          // the stop
+  EXPECT_GT(out.table.find("/valve/cylinder_up/inlet/open")->time_ns.size(), 200u);
+}
+
 // --- muscles ------------------------------------------------------------------------------------
 
 // Another scale, another arm: the torque of a count, over that of the flexor's.
