@@ -1,71 +1,18 @@
-// Joints other than the leg's: sources of stiffness, one muscle, two joints on a muscle, 3-way
-// valves, regulators, dead band.
+// Joints other than the leg's: sources of stiffness, 3-way valves, regulators, dead band.
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
-#include <functional>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "sinew/control/joint/laws.h"
-#include "sinew/control/joint/spine.h"
-#include "sinew/control/joint/test_leg.h"
+#include "sinew/control/joint/test_bench.h"
 
 namespace sinew::control {
 namespace {
 
 using signals::Edge;
-using signals::Status;
 using signals::Tick;
-
-// Readings by channel, held; commands of all joints alike.
-struct Bench {
-  explicit Bench(const SpineConfig& config) : spine(config) {
-    EXPECT_EQ(problem(config), nullptr);
-    command = rest_command(config);
-    for (JointCommand& c : command.joint) c.enabled = true;
-    reading.fill(1000);
-  }
-
-  void run(int periods) {
-    const Tick end = now + periods * spine.config().period;
-    for (; now < end; now = spine.next_event(now)) {
-      if (spine.starts_period(now)) spine.command(command);
-      for (const Edge& e : spine.edges(now)) edges.push_back(e);
-      if (const signals::Conversion* c = spine.due(now))
-        spine.take(*c, {reading[c->channel.index], Status::ok}, now);
-    }
-  }
-
-  // The share of a period for which a valve is open, over the last periods.
-  double open_share(int valve, int periods) const {
-    const Tick from = now - periods * spine.config().period;
-    double open = 0;
-    Tick since = from;
-    bool on = false;
-    for (const Edge& e : edges) {
-      if (e.valve.index != valve) continue;
-      if (e.at > from && on) open += static_cast<double>(e.at - since);
-      on = e.open, since = std::max(e.at, from);
-    }
-    if (on) open += static_cast<double>(now - since);
-    return open / static_cast<double>(now - from);
-  }
-
-  Spine spine;
-  Command command;
-  std::array<std::uint16_t, max_channels> reading{};
-  std::vector<Edge> edges;
-  Tick now = 0;
-};
-
-SpineConfig leg_with(const std::function<void(SpineConfig&)>& change) {
-  SpineConfig config = test_leg();
-  change(config);
-  return config;
-}
 
 // --- where the stiffness comes from -------------------------------------------------------------
 
@@ -317,133 +264,6 @@ TEST(Regulated, DisabledOrShutDownIsNoPressure) {
   bench.run(1);
   EXPECT_EQ(bench.edges.back().level, 0);
   EXPECT_FALSE(bench.edges.back().open);
-}
-
-// --- one muscle, and one for two joints ---------------------------------------------------------
-
-TEST(SingleMuscle, LeavesTheOtherSideAlone) {
-  Bench bench(leg_with([](SpineConfig& c) {
-    c.joints = 1;
-    c.joint[hip].extensor = {.present = false};
-  }));
-  bench.command.joint[hip].stiffness = 30;
-  bench.reading[1] = 1895 - 400;
-  bench.reading[3] = 700;
-  bench.run(10);
-  const JointSeen& seen = bench.spine.seen().joint[hip];
-  EXPECT_EQ(seen.duties.extensor_inlet, 0);
-  EXPECT_EQ(seen.duties.extensor_exhaust, 0);
-  EXPECT_GT(seen.duties.flexor_inlet, 0);
-  // [27] of one muscle
-  const int length = 2416 + 400;
-  EXPECT_NEAR(seen.stiffness, 33.0 * 700 / (3 * length - 10465225 / length), 1e-3);
-  for (const Edge& e : bench.edges) EXPECT_LT(e.valve.index, 2);
-}
-
-// Hip flexor and knee flexor are one muscle.
-SpineConfig biarticular(float hip_share, float travel = 0) {
-  return leg_with([&](SpineConfig& c) {
-    c.joints = 2;
-    MuscleConfig &at_hip = c.joint[hip].flexor, &at_knee = c.joint[knee].flexor;
-    at_knee.inlet = at_hip.inlet, at_knee.exhaust = at_hip.exhaust,
-    at_knee.tension = at_hip.tension;
-    at_hip.share = hip_share, at_knee.share = 1 - hip_share;
-    at_hip.other_travel = travel;
-    for (JointConfig& j : c.joint) j.stiffness_source = StiffnessSource::none;
-  });
-}
-
-TEST(SharedMuscle, DutyIsTheWeightedSum) {
-  for (const float share : {0.0f, 0.25f, 0.5f, 1.0f}) {
-    Bench bench(biarticular(share));
-    bench.reading[1] = 1895 - 1000;  // hip asks 35 %
-    bench.reading[2] = 1175 - 505;   // knee asks -60 %
-    bench.run(20);
-    const int expected = static_cast<int>(share * 35 - (1 - share) * 60);
-    for (const std::size_t j : {hip, knee}) {
-      const Duties& d = bench.spine.seen().joint[j].duties;
-      EXPECT_EQ(d.flexor_inlet - d.flexor_exhaust, expected) << share;
-    }
-    EXPECT_NEAR(bench.open_share(0, 10), std::max(0.0, 0.01 * expected), 1e-9);
-    EXPECT_NEAR(bench.open_share(1, 10), std::max(0.0, -0.01 * expected), 1e-9);
-  }
-}
-
-TEST(SharedMuscle, BothAskingTheSameIsDone) {
-  for (int duty = -100; duty <= 100; duty += 7)
-    for (const float share : {0.0f, 0.25f, 0.5f, 0.75f, 1.0f})
-      EXPECT_EQ(shared_duty(share, duty, 1 - share, duty, Truncation::each_law), duty);
-}
-
-// Each valve has one pulse train: no edge twice, none that changes nothing, never both open.
-TEST(SharedMuscle, IsDrivenOnce) {
-  Bench bench(biarticular(0.4f));
-  std::mt19937 random(1);
-  for (int i = 0; i < 500; ++i) {
-    for (std::uint16_t& r : bench.reading) r = static_cast<std::uint16_t>(random() % 4096);
-    bench.command.joint[random() % 2].enabled ^= random() % 8 == 0;
-    bench.run(1);
-  }
-  bench.spine.shut_down(bench.now - 1);
-  bench.run(150);
-  std::array<bool, 12> open{};
-  for (const Edge& e : bench.edges) {
-    ASSERT_NE(open[e.valve.index], e.open);
-    open[e.valve.index] = e.open;
-    ASSERT_FALSE(open[e.valve.index & ~1] && open[e.valve.index | 1]);
-  }
-  EXPECT_EQ(open, (std::array<bool, 12>{}));
-}
-
-TEST(SharedMuscle, ItsLengthFollowsBothJoints) {
-  SpineConfig config = biarticular(0.5f, -0.5f);
-  config.joint[hip].stiffness_source = StiffnessSource::force;
-  Bench bench(config);
-  bench.reading[1] = 1895;
-  bench.reading[2] = 1175 + 200;  // shortens it by 100 counts at the hip
-  bench.reading[3] = bench.reading[4] = 900;
-  bench.run(3);
-  JointConfig alone = config.joint[hip];
-  const float expected =
-      joint_stiffness(alone, Truncation::each_law, Pair{2416 - 100, 2416}, Pair{900, 900}).value;
-  EXPECT_EQ(bench.spine.seen().joint[hip].stiffness, expected);
-}
-
-// --- configurations that cannot be --------------------------------------------------------------
-
-TEST(SpineConfig, ProblemsOfTheKinds) {
-  const auto of = [](const std::function<void(SpineConfig&)>& change) {
-    const SpineConfig config = leg_with(change);
-    const char* p = problem(config);
-    return std::string(p ? p : "");
-  };
-  EXPECT_NE(of([](SpineConfig& c) {
-              c.joint[hip].velocity.estimator = Estimator::sensor,
-              c.joint[hip].velocity.channel = {20};
-            }).find("not converted"),
-            std::string::npos);
-  EXPECT_NE(of([](SpineConfig& c) {
-              c.joint[hip].velocity = {.estimator = Estimator::weighted_average, .samples = 17};
-            }).find("2 to 16 samples"),
-            std::string::npos);
-  EXPECT_NE(of([](SpineConfig& c) {
-              c.joint[hip].stiffness_source = StiffnessSource::extensor_force;
-              c.joint[hip].extensor.present = false;
-            }).find("not there"),
-            std::string::npos);
-  EXPECT_NE(of([](SpineConfig& c) { c.dead_band = 101; }).find("dead_band"), std::string::npos);
-  EXPECT_NE(of([](SpineConfig& c) { c.joint[hip].kind = JointKind::passive; }).find("passive"),
-            std::string::npos);
-  // The inlet alone is not a shared muscle; nor can both sides of a joint be one.
-  EXPECT_NE(of([](SpineConfig& c) {
-              c.joint[knee].flexor.inlet = c.joint[hip].flexor.inlet;
-            }).find("same valve"),
-            std::string::npos);
-  EXPECT_NE(of([](SpineConfig& c) {
-              c.joint[hip].extensor.inlet = c.joint[hip].flexor.inlet;
-              c.joint[hip].extensor.exhaust = c.joint[hip].flexor.exhaust;
-            }).find("same valve"),
-            std::string::npos);
 }
 
 }  // namespace

@@ -1,0 +1,63 @@
+// control/joint/test_bench.h - a spinal cord with readings that are held, for tests.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "sinew/control/joint/spine.h"
+#include "sinew/control/joint/test_leg.h"
+
+namespace sinew::control {
+
+// Readings by channel, held; commands of all joints alike.
+struct Bench {
+  explicit Bench(const SpineConfig& config) : spine(config) {
+    EXPECT_EQ(problem(config), nullptr);
+    command = rest_command(config);
+    for (JointCommand& c : command.joint) c.enabled = true;
+    reading.fill(1000);
+  }
+
+  void run(int periods) {
+    const signals::Tick end = now + periods * spine.config().period;
+    for (; now < end; now = spine.next_event(now)) {
+      if (spine.starts_period(now)) spine.command(command);
+      for (const signals::Edge& e : spine.edges(now)) edges.push_back(e);
+      if (const signals::Conversion* c = spine.due(now))
+        spine.take(*c, {reading[c->channel.index], signals::Status::ok}, now);
+    }
+  }
+
+  // The share of a period for which a valve is open, over the last periods.
+  double open_share(int valve, int periods) const {
+    const signals::Tick from = now - periods * spine.config().period;
+    double open = 0;
+    signals::Tick since = from;
+    bool on = false;
+    for (const signals::Edge& e : edges) {
+      if (e.valve.index != valve) continue;
+      if (e.at > from && on) open += static_cast<double>(e.at - since);
+      on = e.open, since = std::max(e.at, from);
+    }
+    if (on) open += static_cast<double>(now - since);
+    return open / static_cast<double>(now - from);
+  }
+
+  Spine spine;
+  Command command;
+  std::array<std::uint16_t, max_channels> reading{};
+  std::vector<signals::Edge> edges;
+  signals::Tick now = 0;
+};
+
+inline SpineConfig leg_with(const std::function<void(SpineConfig&)>& change) {
+  SpineConfig config = test_leg();
+  change(config);
+  return config;
+}
+
+}  // namespace sinew::control
