@@ -91,5 +91,23 @@ TEST(Sweep, RunsAPlan) {
   EXPECT_EQ(w.sinew({"check", "plan.toml"}).code, 0);
 }
 
+// The plans can run, and the quickest one's published table is what today's leg gives.
+TEST(Studies, AreInOrderAndOfToday) {
+  const Workspace w;
+  const fs::path source = SINEW_SOURCE_DIR;
+  int plans = 0;
+  for (const auto& entry : fs::directory_iterator(source / "studies")) {
+    if (entry.path().extension() != ".toml") continue;
+    EXPECT_EQ(w.sinew({"check", entry.path().string()}).code, 0) << entry.path();
+    const fs::path table = source / "docs/studies" / entry.path().stem().concat(".csv");
+    EXPECT_TRUE(fs::exists(table)) << table;
+    ++plans;
+  }
+  EXPECT_EQ(plans, 6);
+  const std::string range = "range-stiffness";
+  EXPECT_EQ(w.sinew({"sweep", (source / "studies" / (range + ".toml")).string()}).out,
+            read_text(source / "docs/studies" / (range + ".csv")));
+}
+
 }  // namespace
 }  // namespace sinew::test

@@ -1,0 +1,8 @@
+#!/usr/bin/env bash
+# run.sh [SINEW]   makes the tables of docs/studies again; about a minute.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+sinew=${1:-build/release/bin/sinew}
+for plan in studies/*.toml; do
+  "$sinew" sweep "$plan" -o "docs/studies/$(basename "$plan" .toml).csv" --force
+done
