@@ -192,6 +192,11 @@ TEST(Spinal, AJointWithOneMuscle) {
     EXPECT_EQ(hip.flexor.present, gone == 1);
     EXPECT_EQ(hip.extensor.present, gone == 0);
     EXPECT_FALSE(robot::is_plain(e.robot));
+    EXPECT_TRUE(robot::contradictions(e.robot).empty());
+    const Outcome out = run(e);  // its weight is the other muscle, as far as it goes
+    EXPECT_EQ(out.status, signals::Status::ok);
+    for (const double angle : *out.table.column("/true/joint/hip/angle"))
+      ASSERT_TRUE(std::isfinite(angle));
   }
 }
 
@@ -211,6 +216,17 @@ TEST(Spinal, AMuscleOverTwoJoints) {
   // Flexion lowers the knee's angle: a knee angle that rises lengthens the muscle, by half as much.
   EXPECT_NEAR(hip.other_travel, 0.5, 1e-6);
   EXPECT_NEAR(knee.other_travel, -2, 1e-6);
+
+  EXPECT_TRUE(robot::contradictions(e.robot).empty());
+  const Outcome out = run(e);
+  EXPECT_EQ(out.status, signals::Status::ok);
+  // One pulse train: every edge changes its valve.
+  const signals::Series *inlet = out.table.find("/valve/hip_flexor/inlet/open"),
+                        *exhaust = out.table.find("/valve/hip_flexor/exhaust/open");
+  EXPECT_GT(inlet->time_ns.size(), 50u);
+  for (const signals::Series* s : {inlet, exhaust})
+    for (std::size_t i = 1; i < s->columns[0].size(); ++i)
+      ASSERT_NE(s->columns[0][i], s->columns[0][i - 1]);
 }
 
 // --- period and interrupts ----------------------------------------------------------------------
