@@ -61,6 +61,10 @@ Values arguments(std::string_view option, std::string_view text, std::string_vie
 
   const std::string_view step_unit = config::difference_unit(unit);
   std::string step_text(parts[2]);
+  for (const std::string_view point : {" gauge", " abs"})
+    if (step_unit == "Pa diff" && step_text.ends_with(point))
+      refuse(option, parts[2], "a step, which is a difference of two pressures",
+             config::in_quotes(step_text.substr(0, step_text.size() - point.size())));
   if (step_unit == "Pa diff" && !step_text.ends_with("diff")) step_text += " diff";
   const double first = out.si[0];
   const double last = argument(option, parts[1], unit, atmosphere);

@@ -63,13 +63,15 @@ bool ended_early(const experiment::Outcome& outcome) {
   return outcome.status != signals::Status::ok || outcome.seen.fault != signals::Status::ok;
 }
 
-// CLI11's own words for it name the largest double there is.
-std::string not_negative(const std::string& text) {
+// CLI11's own words for it name the largest double there is. Slower than that no clock can wait.
+std::string a_pace(const std::string& text) {
+  constexpr double slowest = 1e-3;
   double value = -1;
   const char* last = text.data() + text.size();
   const auto [end, error] = std::from_chars(text.data(), last, value);
-  const bool good = error == std::errc{} && end == last && value >= 0 && std::isfinite(value);
-  return good ? "" : fmt::format("found \"{}\"; expected a number, 0 or more", text);
+  const bool number = error == std::errc{} && end == last && std::isfinite(value);
+  if (number && (value == 0 || value >= slowest)) return "";
+  return fmt::format("found \"{}\"; expected 0, or a number from {} on", text, slowest);
 }
 
 ExitCode run_experiment(const Options& options) {
@@ -102,7 +104,8 @@ ExitCode run_experiment(const Options& options) {
     return ok;
   }
   print_verdicts(summary, machine);
-  fmt::print("{:.2f} s in {:.3f} s, kept in {}\n", outcome.duration, outcome.wall, folder.string());
+  messages.note(fmt::format("{:.2f} s in {:.3f} s, kept in {}", outcome.duration, outcome.wall,
+                            folder.string()));
   return ok;
 }
 
@@ -117,7 +120,7 @@ void add_run(CLI::App& app, Action& action) {
   sub.add_flag("--force", options->force, "replace the run that is in the folder");
   add_sets(sub, options->sets);
   sub.add_option("--pace", options->pace, "simulated seconds per second of wall time; 0: no limit")
-      ->check(not_negative, "");
+      ->check(a_pace, "");
   sub.add_flag("--allow-unreachable", options->allow_unreachable,
                "aim at the nearest point where the foot path is out of reach");
   sub.add_flag("--json", options->json, "print summary.json");

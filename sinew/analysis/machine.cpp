@@ -99,7 +99,7 @@ void read_run(config::Reader& reader, Machine& m) {
     g.number({.name = "period", .unit = "s", .min = 1e-4, .optional = true}, m.period);
   });
   reader.list({.name = "reported", .optional = true}, m.reported,
-              [&](auto& g, Reported& r) { fields(g, r, m.atmosphere); });
+              [&](auto& g, Reported& r) { analysis::fields(g, r, m.atmosphere); });
 }
 
 }  // namespace

@@ -16,18 +16,14 @@
 #include <vector>
 
 #include "sinew/config/quantity.h"
+#include "sinew/config/reported.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::analysis {
 
 class Summary;
 
-struct Reported {
-  std::string key;                  // of the summary
-  std::string value;                // as reported, free text that ends with the unit
-  std::vector<std::string> accept;  // lowest and highest that agrees; empty: not judged
-  std::string source;
-};
+using config::Reported;
 
 // The SI unit that a key's ending stands for, as config/quantity.h wants it: _m, _m_per_s, _rad,
 // _N, _Nm, _Nm_per_rad, _kg, _kg_per_m, _per_m, _Pa (absolute), _s. "1" for every other ending.

@@ -62,14 +62,6 @@ void fields(Visitor& v, PulseTable& p) {
             p.opening);
 }
 
-template <class Visitor>
-void fields(Visitor& v, Reported& r) {
-  v.text({.name = "key", .doc = "of summary.json"}, r.key);
-  v.text({.name = "value", .doc = "as reported"}, r.value);
-  v.texts({.name = "accept", .optional = true, .doc = "lowest and highest that agrees"}, r.accept);
-  v.text({.name = "source", .doc = "where it is reported"}, r.source);
-}
-
 // Machine first: the plan's tables are named after its joints.
 template <class Visitor>
 void machine_fields(Visitor& v, Experiment& e) {
@@ -115,7 +107,7 @@ void run_fields(Visitor& v, Experiment& e) {
   v.group({.name = "log", .optional = true, .doc = "what is recorded"},
           [&](auto& g) { fields(g, e.log); });
   v.list({.name = "reported", .optional = true, .doc = "printed beside our figures"}, e.reported,
-         [](auto& g, Reported& r) { fields(g, r); });
+         [](auto& g, config::Reported& r) { config::fields(g, r); });
 }
 
 }  // namespace sinew::experiment

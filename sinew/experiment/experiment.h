@@ -9,6 +9,7 @@
 #include "sinew/config/node.h"
 #include "sinew/config/origin.h"
 #include "sinew/config/reader.h"
+#include "sinew/config/reported.h"
 #include "sinew/control/gait/plan.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
@@ -39,15 +40,6 @@ struct PulseTable {
   std::vector<double> closing, opening;
 };
 
-// A figure that the source reports, for the table at the end of a run. Text: its unit follows from
-// the summary's key, see analysis/reported.h.
-struct Reported {
-  std::string key;                  // of summary.json, "trolley.distance_m"
-  std::string value;                // as reported, "55 to 60 in"
-  std::vector<std::string> accept;  // lowest and highest that agrees, ["53 in", "60 in"]
-  std::string source;
-};
-
 struct Experiment {
   std::string path;  // of the file
   std::string name;  // of the file, without its ending
@@ -69,7 +61,7 @@ struct Experiment {
   Start start;
   gait::Plan plan;
   Log log;
-  std::vector<Reported> reported;
+  std::vector<config::Reported> reported;
 
   config::Origins origins;  // where every value came from
   std::vector<config::Problem> warnings;

@@ -39,8 +39,11 @@ void read_timing(Experiment& e) {
   }
 }
 
-// Numbers in robots/ must say where they come from.
-bool in_robots(const std::string& file) { return file.find("robots/") != std::string::npos; }
+// Numbers of robots/<name>/ must say where they come from, wherever that folder is.
+bool in_robots(const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  return folder.filename() == "robots" || folder.parent_path().filename() == "robots";
+}
 
 void read_run(config::Reader& reader, Experiment& e) {
   e.plan = gait::plan_for(e.robot);

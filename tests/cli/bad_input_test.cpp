@@ -26,6 +26,9 @@ struct Case {
   std::vector<const char*> says;
 };
 
+// For the test's name.
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
 class BadValue : public ::testing::TestWithParam<Case> {};
 
 TEST_P(BadValue, IsNamedWithItsPlaceAndNothingRuns) {
@@ -237,6 +240,48 @@ TEST(Usage, EverySubcommandHasAnExampleAtTheEndOfItsHelp) {
     EXPECT_THAT(result.out, HasSubstr(std::string("\nExample:\n  sinew ") + command + " "));
   }
   EXPECT_THAT(w.sinew({"--version"}).out, StartsWith("sinew 0."));
+}
+
+// --- what is nearly right ---
+
+TEST(Usage, AFolderIsNoExperiment) {
+  const Workspace w;
+  const Result r = w.sinew({"run", "robots"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_THAT(r.err, StartsWith("robots: found a folder; expected a TOML file"));
+}
+
+TEST(Usage, AStepOfPressureIsADifference) {
+  const Workspace w;
+  const Result r = w.sinew({"actuator", "robots/leg/actuator.toml", "--length", "3 in",
+                            "--pressure", "20 psi gauge:100 psi gauge:25 psi gauge"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_EQ(r.err,
+            "--pressure: found \"25 psi gauge\"; expected a step, which is a difference of two "
+            "pressures; try \"25 psi\"\n");
+}
+
+TEST(Usage, APaceMustBeOneThatAClockCanKeep) {
+  const Workspace w;
+  for (const char* pace : {"1e-300", "-1", "inf", "x"}) {
+    const Result r = w.sinew({"run", walk, "--pace", pace});
+    EXPECT_EQ(r.code, 2) << pace;
+    EXPECT_THAT(r.err + r.out, HasSubstr("expected 0, or a number from 0.001 on"));
+  }
+}
+
+// Beside robots/, and in a folder whose name only ends so, numbers need no source.
+TEST(Check, AsksForSourcesInRobotsAlone) {
+  const Workspace w;
+  for (const char* folder : {"myrobots/lever", "robots/lever"}) {
+    std::filesystem::create_directories(w / folder);
+    for (const auto& entry : std::filesystem::directory_iterator(w / "robots/leg"))
+      std::filesystem::copy(entry.path(), w / folder / entry.path().filename());
+    write_text(w / folder / "more.toml",
+               "format = \"sinew.robot/1\"\nbase = \"robot.toml\"\n[trolley]\ndrag = \"1 lbf\"\n");
+  }
+  EXPECT_EQ(w.sinew({"check", "myrobots/lever/more.toml"}).code, 0);
+  EXPECT_EQ(w.sinew({"check", "robots/lever/more.toml"}).code, 1);
 }
 
 }  // namespace

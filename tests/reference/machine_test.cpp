@@ -302,8 +302,8 @@ TEST(Reference, kick) {
 
 // --- tables -------------------------------------------------------------------------------------
 
-const experiment::Reported& reported(const experiment::Experiment& e, const std::string& key) {
-  for (const experiment::Reported& r : e.reported)
+const config::Reported& reported(const experiment::Experiment& e, const std::string& key) {
+  for (const config::Reported& r : e.reported)
     if (r.key == key) return r;
   throw std::out_of_range(key);
 }
