@@ -72,6 +72,32 @@ std::string record_text(const signals::Series& s, std::size_t i) {
 
 }  // namespace
 
+namespace {
+
+// Of a run of which nothing is reported.
+void print_main_figures(const analysis::Summary& summary, const analysis::Machine& machine) {
+  std::vector<std::pair<std::string, std::string_view>> keys = {
+      {"sequence_duration_s", "s"},
+      {"trolley.distance_m", "in"},
+      {"trolley.mean_speed_m_per_s", "in/s"},
+  };
+  for (const robot::Joint& joint : machine.robot.joints) {
+    const std::string at = "joints." + joint.name;
+    keys.push_back({at + ".excursion_rad", "deg"});
+    keys.push_back({at + ".tracking_rms_rad", "deg"});
+    keys.push_back({at + ".passiveness", "%"});
+  }
+  keys.push_back({"air_used_kg", "g"});
+
+  TextTable table({"", "Sinew"});
+  for (const auto& [key, unit] : keys)
+    if (const double* value = summary.find(key))
+      table.add({key, analysis::show(*value, key, unit, machine.atmosphere)});
+  if (!table.empty()) fmt::print("{}", table.text());
+}
+
+}  // namespace
+
 void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine) {
   fmt::print("{}", summary.title);
   if (!summary.reproduces.empty()) fmt::print(" ({})", summary.reproduces);
@@ -81,7 +107,8 @@ void print_verdicts(const analysis::Summary& summary, const analysis::Machine& m
   for (const analysis::Verdict& v : compare(summary, machine.reported, machine.atmosphere))
     table.add({v.key, v.reported, v.ours.empty() ? "-" : v.ours, v.accept,
                std::string(to_text(v.is)), v.source});
-  if (!table.empty()) fmt::print("{}", table.text());
+  if (table.empty()) return print_main_figures(summary, machine);
+  fmt::print("{}", table.text());
 }
 
 void warn_of(const experiment::Experiment& e, const experiment::Outcome& outcome,

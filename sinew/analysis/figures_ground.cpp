@@ -109,13 +109,22 @@ void add_stick(Figures& f) {
   if (steps > 0) f.summary.add("foot.slip_per_step_m", sum / steps);
 }
 
-// The kick of 6.4: from the retracted hold to the first peak of x.
+// The row after the hold that follows a phase's last time, or after the phase at the sequence's
+// end.
+std::size_t end_of_hold(const Record& record, const Stretch& kick) {
+  for (const Stretch& s : record.stretches())
+    if (s.first == kick.last) return s.last;
+  return kick.last;
+}
+
+// The kick of 6.4: from the retracted hold to the first peak of x, which may come in the next hold.
 void add_kick(Figures& f) {
   const int kick = find_phase(f.machine, "kick");
   const Stretch* s = kick >= 0 ? f.record.last_of(kick) : nullptr;
   const Column x = f.record.column("/foot/position", "x");
   if (!s || x.empty()) return;
-  const Rise r = rise(Values(x).subspan(s->first, s->last - s->first), f.record.period());
+  const std::size_t end = end_of_hold(f.record, *s);
+  const Rise r = rise(Values(x).subspan(s->first, end - s->first), f.record.period());
   if (!r.found) return;
   f.summary.add("foot.extension_time_s", r.partial);
   f.summary.add("foot.extension_whole_time_s", r.whole);

@@ -27,6 +27,8 @@ void add_angles(Figures& f, const std::string& joint, const std::string& key) {
   const Column real = f.record.column("/true/joint/" + joint + "/angle");
   f.add(key + "min_angle_rad", smallest, angle, sequence);
   f.add(key + "max_angle_rad", largest, angle, sequence);
+  if (!angle.empty())
+    f.summary.add(key + "excursion_rad", largest(angle, sequence) - smallest(angle, sequence));
   f.add(key + "min_angle_true_rad", smallest, real, sequence);
   f.add(key + "max_angle_true_rad", largest, real, sequence);
 
@@ -44,6 +46,17 @@ std::vector<double> later_swings(const Figures& f) {
       std::fill(out.begin() + static_cast<std::ptrdiff_t>(s.first),
                 out.begin() + static_cast<std::ptrdiff_t>(s.last), 0.0);
   return out;
+}
+
+// How the estimated speed jumps from row to row: what a velocity gain makes valves of, 6.5.
+void add_velocity_jumps(Figures& f, const std::string& joint, const std::string& key) {
+  const Column velocity = f.record.column("/joint/" + joint + "/velocity_estimate");
+  if (velocity.empty()) return;
+  Column jump(velocity.size(), no_figure);
+  for (std::size_t i = 1; i < jump.size(); ++i) jump[i] = velocity[i] - velocity[i - 1];
+  const std::vector<double>& sequence = f.record.sequence();
+  f.add(key + "velocity_jump_rms_rad_per_s", rms, jump, sequence);
+  f.add(key + "velocity_jump_largest_rad_per_s", largest_magnitude, jump, sequence);
 }
 
 void add_control(Figures& f, const std::string& joint, const std::string& key) {
@@ -104,6 +117,7 @@ void add_joints(Figures& f) {
     const std::string key = "joints." + joint.name + ".";
     add_angles(f, joint.name, key);
     add_control(f, joint.name, key);
+    add_velocity_jumps(f, joint.name, key);
     // Its passiveness is that of its muscles.
     double commanded = no_figure, delivered = no_figure;
     for (const robot::Muscle& m : f.machine.robot.muscles) {

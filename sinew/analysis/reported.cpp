@@ -15,6 +15,7 @@ namespace {
 // Longest first: "_m_per_s" ends with "_s" too.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 14> endings = {{
     {"_Nm_per_rad", "N m/rad"},
+    {"_rad_per_s", "rad/s"},
     {"_m_per_s", "m/s"},
     {"_kg_per_m", "kg/m"},
     {"_s_per_m", "s/m"},

@@ -38,6 +38,41 @@ TEST(Summary, TimesAndStepsAreThoseOfTheSequence) {
   EXPECT_NEAR(value(s, "phases.propulsion.mean_duration_s"), 0.5, 1e-12);
 }
 
+// A foot that goes on moving in the hold after the kick: x rises by 1 m in 0.2 s from 0.05 s on.
+TEST(Summary, TheKickEndsAtThePeakThoughThePhaseIsOver) {
+  Machine m = walking_leg();
+  m.phases = m.sequence = {"retracted", "kick", "extended"};
+  test::Log log(100);
+  log.scalar("/plan/phase", [](double t) { return t < 0.295 ? 0.0 : t < 0.395 ? 1.0 : 2.0; });
+  log.scalar("/plan/step", constant(0));
+  const double start = 0.35;
+  // Of a straight leg that swings the hip only: x = l cos(theta).
+  const double l = m.robot.links[0].length + m.robot.links[1].length;
+  const auto x = [=](double t) {
+    const double s = (t - start) / 0.2;
+    return s < 0 ? -0.1 : s < 1 ? -0.1 + 0.2 * s : s < 1.5 ? 0.1 - 0.1 * (s - 1) : 0.05;
+  };
+  log.scalar("/joint/hip/angle", [=](double t) { return -std::acos(x(t) / l); });
+  log.scalar("/joint/knee/angle", constant(0));
+  const Summary s = summarize(log.table, m);
+  EXPECT_NEAR(value(s, "foot.extension_time_s"), 0.8 * 0.2, 1e-9);
+  EXPECT_NEAR(value(s, "foot.extension_whole_time_s"), start + 0.2 - 0.3, 1e-9);
+}
+
+// A reading that is one of two counts by turns: the speed jumps by twice count / period.
+TEST(Summary, VelocityJumpsOfAReadingThatFlickers) {
+  const double count = 1.0 / 767;
+  test::Log log = walk(2);
+  log.scalar("/joint/hip/angle", constant(4));
+  log.scalar("/joint/hip/velocity_estimate", [=](double t) {
+    return std::llround(t / test::dt) % 2 == 0 ? count / test::dt : -count / test::dt;
+  });
+  const Summary s = summarize(log.table, walking_leg());
+  EXPECT_NEAR(value(s, "joints.hip.velocity_jump_rms_rad_per_s"), 200.0 / 767, 1e-12);
+  EXPECT_NEAR(value(s, "joints.hip.velocity_jump_largest_rad_per_s"), 200.0 / 767, 1e-12);
+  EXPECT_EQ(value(s, "joints.hip.excursion_rad"), 0);
+}
+
 TEST(Summary, TrackingOfASineThatLags) {
   const double w = 2 * std::numbers::pi, lag = 0.03, amplitude = 0.2;
   test::Log log = walk(2, 0.5, 0.5);

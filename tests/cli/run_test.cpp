@@ -90,6 +90,17 @@ TEST(Run, PrintsWhatIsReportedBesideOurs) {
   EXPECT_THAT(result.err, ::testing::Not(HasSubstr("\r"))) << "a bar where there is no terminal";
 }
 
+TEST(Run, PrintsItsMainFiguresWhereNothingIsReported) {
+  const Workspace w;
+  const Result run = w.sinew({"run", bench, "-o", "bench"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_THAT(run.out, AllOf(HasSubstr("joints.lever.excursion_rad "),
+                             HasSubstr("joints.lever.tracking_rms_rad "), HasSubstr(" deg\n"),
+                             HasSubstr("joints.lever.passiveness "), HasSubstr(" %\n"),
+                             HasSubstr("air_used_kg ")));
+  EXPECT_THAT(w.sinew({"analyze", "bench"}).out, HasSubstr("joints.lever.excursion_rad "));
+}
+
 TEST(Run, PrintsItsSummaryAsJson) {
   const Workspace w;
   const Result result = w.sinew({"run", bench, "-o", "run", "--json", "--quiet"});
