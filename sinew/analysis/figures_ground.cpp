@@ -16,22 +16,38 @@ struct Travel {
   double time = no_figure;      // [s]
 };
 
-// Over the sequence, or up to the first row at which the track has ended.
+// The first row at which the track has ended; the sequence's end where it does not.
+std::size_t stop_row(const Figures& f, const Column& x) {
+  const std::size_t end = f.record.end_row();
+  for (std::size_t i = f.record.first_row(); i < end && i < x.size(); ++i)
+    if (x[i] >= f.machine.robot.trolley.track_length) return i;
+  return end;
+}
+
+// Over the sequence, or up to the track's end.
 Travel travel(const Figures& f) {
   const Column x = f.record.column("/true/trolley/position");
   if (x.empty() || !f.record.has_sequence()) return {};
-  const std::size_t first = f.record.first_row();
-  std::size_t end = f.record.end_row();
-  for (std::size_t i = first; i < end; ++i)
-    if (x[i] >= f.machine.robot.trolley.track_length) end = i;
+  const std::size_t first = f.record.first_row(), end = stop_row(f, x);
   return {.distance = x[end] - x[first], .time = f.record.time(end) - f.record.time(first)};
 }
 
+// Complete steps but the first, up to the track's end.
+std::vector<int> repeated_steps(const Figures& f) {
+  std::vector<int> steps = f.record.complete_steps();
+  if (!steps.empty()) steps.erase(steps.begin());
+  if (!f.machine.robot.trolley.present || !f.record.has_sequence()) return steps;
+  const std::size_t stop = stop_row(f, f.record.column("/true/trolley/position"));
+  for (const Stretch& s : f.record.stretches())
+    if (s.last > stop) std::erase(steps, s.step);
+  return steps;
+}
+
 // Steps by their place in the sequence; every phase of a step by its share of the time.
-std::vector<Path> step_paths(const Record& record, const Column& x, const Column& y) {
-  const std::vector<int> steps = record.complete_steps();
+std::vector<Path> step_paths(const Record& record, const std::vector<int>& steps, const Column& x,
+                             const Column& y) {
   std::map<int, Path> paths;
-  for (std::size_t i = 1; i < steps.size(); ++i) paths[steps[i]];
+  for (const int step : steps) paths[step];
   for (const Stretch& s : record.stretches()) {
     const auto path = paths.find(s.step);
     if (path == paths.end()) continue;
@@ -45,20 +61,19 @@ std::vector<Path> step_paths(const Record& record, const Column& x, const Column
 }
 
 // The time that each point of a path stands for, of the first step that is compared.
-std::vector<double> point_weights(const Record& record) {
-  const std::vector<int> steps = record.complete_steps();
+std::vector<double> point_weights(const Record& record, const std::vector<int>& steps) {
   std::vector<double> out;
-  if (steps.size() < 2) return out;
   for (const Stretch& s : record.stretches())
-    if (s.step == steps[1]) out.insert(out.end(), points_per_phase, record.lasting(s));
+    if (!steps.empty() && s.step == steps.front())
+      out.insert(out.end(), points_per_phase, record.lasting(s));
   return out;
 }
 
-double step_repeat(const Record& record, const std::string& topic) {
-  const Column x = record.column(topic, "x"), y = record.column(topic, "y");
+double step_repeat(const Figures& f, const std::string& topic) {
+  const Column x = f.record.column(topic, "x"), y = f.record.column(topic, "y");
   if (x.empty() || y.empty()) return no_figure;
-  const std::vector<Path> paths = step_paths(record, x, y);
-  return repeat_rms(paths, point_weights(record));
+  const std::vector<int> steps = repeated_steps(f);
+  return repeat_rms(step_paths(f.record, steps, x, y), point_weights(f.record, steps));
 }
 
 // Distance of the foot from where it should be, row by row.
@@ -196,8 +211,8 @@ void add_trolley(Figures& f) {
 void add_foot(Figures& f) {
   if (!has_leg(f.machine)) return;
   f.add("foot.tracking_rms_m", rms, foot_error(f.record), f.record.sequence());
-  f.summary.add("foot.step_repeat_rms_m", step_repeat(f.record, "/foot/position"));
-  f.summary.add("foot.step_repeat_true_rms_m", step_repeat(f.record, "/true/foot/position"));
+  f.summary.add("foot.step_repeat_rms_m", step_repeat(f, "/foot/position"));
+  f.summary.add("foot.step_repeat_true_rms_m", step_repeat(f, "/true/foot/position"));
   if (f.machine.robot.ground.present) add_stick(f);
   add_kick(f);
 }

@@ -1,4 +1,5 @@
-// rollers.*, cylinder.*, supply.*: the parts of a whole machine beside its joints and muscles.
+// rollers.*, cylinder.*, supply.*, sensors.*: the parts of a whole machine beside its joints and
+// muscles.
 #include <string>
 
 #include "sinew/analysis/figures.h"
@@ -38,6 +39,16 @@ void add_cylinder(Figures& f) {
   f.summary.add("cylinder.air_used_kg", cylinder_air(f, 0, f.record.rows() - 1));
 }
 
+// What the program of the thesis prints of its sensors, B.1.
+void add_sensors(Figures& f) {
+  for (const robot::Sensor& sensor : f.machine.robot.sensors) {
+    const Column counts = f.record.column("/sensor/" + sensor.name + "/count");
+    const std::string key = "sensors." + sensor.name + ".";
+    f.add(key + "mean_count", mean, counts, f.record.sequence());
+    f.add(key + "std_count", deviation, counts, f.record.sequence());
+  }
+}
+
 }  // namespace
 
 double cylinder_air(const Figures& f, std::size_t first, std::size_t last) {
@@ -52,6 +63,7 @@ double cylinder_air(const Figures& f, std::size_t first, std::size_t last) {
 void add_machine(Figures& f) {
   add_rollers(f);
   add_cylinder(f);
+  add_sensors(f);
   f.add("supply.min_pressure_Pa", smallest, f.record.column("/true/supply/pressure"),
         f.record.sequence());
   const Column tank = f.record.column("/true/supply/tank_pressure");

@@ -13,7 +13,7 @@ namespace sinew::analysis {
 namespace {
 
 // Longest first: "_m_per_s" ends with "_s" too.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 14> endings = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 16> endings = {{
     {"_Nm_per_rad", "N m/rad"},
     {"_rad_per_s", "rad/s"},
     {"_m_per_s", "m/s"},
@@ -24,6 +24,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 14> endings 
     {"_rad", "rad"},
     {"_Nm", "N m"},
     {"_kg", "kg"},
+    {"_count", "count"},
     {"_Pa", "Pa abs"},
     {"_N", "N"},
     {"_J", "J"},

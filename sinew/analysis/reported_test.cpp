@@ -38,6 +38,7 @@ TEST(Reported, UnitFollowsFromTheEndOfTheKey) {
   EXPECT_EQ(unit_of_key("air_used_kg_per_m"), "kg/m");
   EXPECT_EQ(unit_of_key("valves.switchings_per_m"), "1/m");
   EXPECT_EQ(unit_of_key("foot.extension_time_s"), "s");
+  EXPECT_EQ(unit_of_key("sensors.hip_angle.mean_count"), "count");
   EXPECT_EQ(unit_of_key("joints.hip.velocity_jump_rms_rad_per_s"), "rad/s");
   EXPECT_EQ(unit_of_key("phases.hold.muscles.knee_flexor.end_pressure_Pa"), "Pa abs");
   EXPECT_EQ(unit_of_key("passiveness"), "1");

@@ -224,6 +224,34 @@ TEST(Summary, StepRepeatLeavesOutTheFirstStep) {
   EXPECT_NEAR(value(s, "foot.step_repeat_true_rms_m"), 0.002 * std::sqrt(2.0 / 3.0), 2e-4);
 }
 
+// A trolley that runs into the track's end in step 3: what the leg does there is no step.
+TEST(Summary, StepRepeatEndsWithTheTrack) {
+  test::Log log = walk(4, 0, 0.1);
+  log.scalar("/true/trolley/position", [](double t) { return 0.1 * t; });
+  log.vector(
+      "/true/foot/position", [](double t) { return t + 1e-9 < 3 ? 0.0 : 5.0; }, constant(-0.3));
+  Machine m = walking_leg();
+  m.robot.trolley.track_length = 0.35;
+  EXPECT_NEAR(value(summarize(log.table, m), "foot.step_repeat_true_rms_m"), 0, 1e-12);
+  m.robot.trolley.track_length = 10;
+  EXPECT_GT(value(summarize(log.table, m), "foot.step_repeat_true_rms_m"), 1);
+  m.robot.trolley.track_length = 0.25;  // one step is left: nothing to compare
+  EXPECT_EQ(summarize(log.table, m).find("foot.step_repeat_true_rms_m"), nullptr);
+}
+
+TEST(Summary, MeanAndSpreadOfASensor) {
+  Machine m = walking_leg();
+  test::Log log = walk(2, 0.5, 0.5);
+  const std::string name = m.robot.sensors[0].name;
+  log.scalar("/sensor/" + name + "/count", [](double t) {
+    if (t < 0.5 - 1e-9 || t > 2.5 - 1e-9) return 0.0;  // outside the sequence
+    return std::llround(t / test::dt) % 2 == 0 ? 1897.0 : 1893.0;
+  });
+  const Summary s = summarize(log.table, m);
+  EXPECT_NEAR(value(s, "sensors." + name + ".mean_count"), 1895, 1e-9);
+  EXPECT_NEAR(value(s, "sensors." + name + ".std_count"), 2, 1e-9);
+}
+
 TEST(Summary, PhasesEndWhereTheirLastRowStands) {
   test::Log log = walk(2, 0.3, 0.3);
   log.scalar("/true/joint/hip/angle", [](double t) { return t; });
