@@ -229,7 +229,7 @@ TEST(Summary, StepRepeatEndsWithTheTrack) {
   test::Log log = walk(4, 0, 0.1);
   log.scalar("/true/trolley/position", [](double t) { return 0.1 * t; });
   log.vector(
-      "/true/foot/position", [](double t) { return t + 1e-9 < 3 ? 0.0 : 5.0; }, constant(-0.3));
+      "/true/foot/position", [](double t) { return t < 3.1 ? 0.0 : 5.0; }, constant(-0.3));
   Machine m = walking_leg();
   m.robot.trolley.track_length = 0.35;
   EXPECT_NEAR(value(summarize(log.table, m), "foot.step_repeat_true_rms_m"), 0, 1e-12);
