@@ -21,6 +21,12 @@ void fields(Visitor& v, Trolley& trolley) {
             .doc = "everything that moves along the track, links and foot included"},
            trolley.total_mass);
   v.number({.name = "drag", .unit = "N", .min = 0, .doc = "dry, against the motion"}, trolley.drag);
+  v.number({.name = "breakaway",
+            .unit = "N",
+            .min = 0,
+            .optional = true,
+            .doc = "dry friction at rest, where it is above the drag"},
+           trolley.breakaway);
   v.number({.name = "track_length", .unit = "m", .min = 0, .doc = "from the start to the stop"},
            trolley.track_length);
   v.number({.name = "stop_stiffness", .unit = "N/m", .min = 0, .doc = "of the track's end"},

@@ -137,13 +137,22 @@ struct Ground {
 struct Trolley {
   bool present = false;
   double total_mass = 0;      // everything that moves along the track, the legs included [kg]
-  double drag = 0;            // dry [N]
+  double drag = 0;            // dry, while it rolls [N]
+  double breakaway = 0;       // that sets it rolling; below the drag: the drag [N]
   double track_length = 0;    // from the start to the stop [m]
   double stop_stiffness = 0;  // [N/m]
   double stop_damping = 0;    // [N s/m]
   double payload = 0;         // rides on it, beside the total mass [kg]
 
   double moving_mass() const { return total_mass + payload; }
+
+  // Bound of its dry friction, from what the last step held and could have held  [N]: less than
+  // the bound is rest.
+  double friction(double held, double bound) const {
+    if (!present) return 0;
+    const bool rests = (held < bound && held > -bound) || bound == 0;
+    return rests && breakaway > drag ? breakaway : drag;
+  }
 };
 
 // Where the trolley's weight rests, 7.2: two rollers on the track. Along from the first joint,

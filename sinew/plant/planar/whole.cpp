@@ -176,7 +176,9 @@ void WholeWorld::prepare() noexcept {
         bound[static_cast<std::size_t>(j)] +=
             std::abs(first_.pulls[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)]) *
             first_.pull.mesh[i];
-  bound[Rubs::trolley] = constants_.held[along_track] ? 0.0 : robot_.trolley.drag;
+  if (!constants_.held[along_track])
+    bound[Rubs::trolley] =
+        robot_.trolley.friction(held_[Rubs::trolley], rubs_.bound(Rubs::trolley));
   bound[Rubs::lift] = constants_.held[up] ? 0.0 : robot_.cylinder.friction;
   for (std::size_t i = 0; i < most_discs; ++i)
     bound[Rubs::first_disc + i] = robot_.foot.friction * first_.normal[i];

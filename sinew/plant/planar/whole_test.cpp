@@ -306,6 +306,27 @@ TEST(Whole, SpringAtAJointIsAPendulumInNoGravity) {
               1e-5);
 }
 
+// A trolley that breaks away at 3 N and rolls on against 1: it rests as long as 3 N hold it, and
+// then moves as in a world that starts there; both worlds agree.
+TEST(Whole, TrolleyBreaksAway) {
+  plant::Setup s = leg_without_muscles(5.6, -0.4);
+  s.robot.trolley.drag = 1;
+  s.robot.trolley.breakaway = 3;
+  plant::Setup loose = s;
+  loose.robot.trolley.breakaway = 0;
+  World<2> fast(s);
+  WholeWorld whole(s), rolls(loose);
+  double rested = 0, rolled = 0;
+  for (int k = 1; k <= 900; ++k) {
+    const Truth a = fast.truth(k * 1e-3), b = whole.truth(k * 1e-3), c = rolls.truth(k * 1e-3);
+    EXPECT_NEAR(a.x, b.x, 1e-7) << k;
+    if (std::abs(b.x) < 1e-5) rested = k * 1e-3;
+    if (std::abs(c.x) < 1e-5) rolled = k * 1e-3;
+  }
+  EXPECT_GT(rested, rolled + 0.03);
+  EXPECT_GT(std::abs(whole.motion().at[along_track]), 1e-3);
+}
+
 // Standing still, the rollers carry the weight, and the counterweight loads the one it hangs on.
 TEST(Whole, RollersCarryTheWeight) {
   plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0);

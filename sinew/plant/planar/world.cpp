@@ -158,7 +158,7 @@ void World<N>::prepare() noexcept {
   for (int j = 0; j < N; ++j) bound[j] = dry_[j];
   for (int i = 0; i < strings_.count; ++i)
     bound[strings_.joint[i]] += std::abs(strings_.pull[i]) * first_.pull.mesh[i];
-  bound[Contacts<N>::trolley] = robot_.trolley.present ? robot_.trolley.drag : 0.0;
+  bound[N] = robot_.trolley.friction(held_[N], contacts_.bound(N));  // Contacts<N>::trolley
   bound[Contacts<N>::foot] = robot_.foot.friction * first_.normal;
   contacts_.prepare(chain, state_.pose, first_.acceleration, bound, first_.normal);
 }
