@@ -134,10 +134,10 @@ void add_passive(Series& out, const Record& record, const Machine& m) {
     const std::string at = "/muscle/" + muscle.name;
     const Column inlet = record.column(at + "/inlet_duty");
     const Column exhaust = record.column(at + "/exhaust_duty");
-    out.scalar(
-        at + "/passive", "1", "share of the period with both valves shut, as commanded",
-        rowwise(
-            record, [&](std::size_t i) { return passive(inlet[i], exhaust[i]); }, inlet, exhaust));
+    out.scalar(at + "/passive", "1", "share of the period with both valves shut, as commanded",
+               rowwise(
+                   record, [&](std::size_t i) { return passive(m, muscle, inlet[i], exhaust[i]); },
+                   inlet, exhaust));
   }
 }
 

@@ -121,7 +121,7 @@ void add_joints(Figures& f) {
     // Its passiveness is that of its muscles.
     double commanded = no_figure, delivered = no_figure;
     for (const robot::Muscle& m : f.machine.robot.muscles) {
-      if (m.joint != joint.name) continue;
+      if (m.joint != joint.name && m.second.joint != joint.name) continue;
       commanded = std::fmin(commanded, passiveness(f, m));
       delivered = std::fmin(delivered, delivered_passiveness(f, m));
     }

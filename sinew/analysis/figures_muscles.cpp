@@ -20,7 +20,8 @@ double mean_duty(const Figures& f, const robot::Muscle& m, const char* what) {
   return mean(f.record.column(topic(m, what)), f.record.sequence());
 }
 
-// The valve's edges; nothing where the log has none. A valve that never opens has an empty series.
+// The valve's edges; nothing where the log or the machine has none. A valve that never opens has an
+// empty series.
 struct Switching {
   bool logged = false;
   Edges electrical, delivered;
@@ -31,7 +32,7 @@ struct Switching {
 Switching switching(const Figures& f, const std::string& of, const char* which,
                     const std::string& valve) {
   const signals::Series* s = f.record.table().find("/valve/" + of + "/" + which + "/open");
-  if (!s || s->columns.empty()) return {};
+  if (!s || s->columns.empty() || valve.empty()) return {};
   const MachineValve its = valve_of(f.machine, valve);
   Switching out{.logged = true,
                 .electrical = edges_of(s->time_ns, s->columns[0]),
@@ -130,11 +131,13 @@ bool power_is_known(const std::vector<Switching>& valves) {
 }  // namespace
 
 double passiveness(const Figures& f, const robot::Muscle& m) {
-  return passive(mean_duty(f, m, "inlet_duty"), mean_duty(f, m, "exhaust_duty"));
+  return passive(f.machine, m, mean_duty(f, m, "inlet_duty"), mean_duty(f, m, "exhaust_duty"));
 }
 
 double delivered_passiveness(const Figures& f, const robot::Muscle& m) {
-  return passive(delivered_duty(f, m, "inlet"), delivered_duty(f, m, "exhaust"));
+  const bool seals = valve_of(f.machine, m.inlet).seals;
+  return passive(f.machine, m, delivered_duty(f, m, "inlet"),
+                 seals ? delivered_duty(f, m, "exhaust") : 0.0);
 }
 
 void add_muscles(Figures& f) {

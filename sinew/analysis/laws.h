@@ -22,11 +22,6 @@ inline double turn_between(double a, double b) {
   return std::remainder(b - a, 2.0 * std::numbers::pi);
 }
 
-// Of a muscle: the share of the period with neither valve open  [-], 6.3.
-constexpr double passive(double inlet_duty, double exhaust_duty) {
-  return 1.0 - (inlet_duty + exhaust_duty);
-}
-
 // Of one actuator at constant pressure [26], with the effectiveness, and of what pulls without air
 // [N/m]. A slack cord has none.
 inline double true_stiffness(const actuator::Actuator& a, double length, double pressure,

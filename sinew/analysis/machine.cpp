@@ -24,10 +24,12 @@ struct Named {
 
 // What of a valve's table says when it opens, and what its coil takes.
 struct ValveTable {
+  enum class Kind { two_way, three_way, regulator };
   enum class Profile { ideal, dead_time, ramp };
   enum class Drive { standard, speed_up };
 
   std::string name;
+  Kind kind = Kind::two_way;
   Profile profile = Profile::dead_time;
   Drive drive = Drive::standard;
   double opening_delay = 0, closing_delay = 0, opening_ramp = 0, closing_ramp = 0;
@@ -49,6 +51,10 @@ void coil_fields(Visitor& v, Coil& coil) {
 
 template <class Visitor>
 void fields(Visitor& v, ValveTable& valve) {
+  v.choice({.name = "kind", .optional = true, .doc = "what it joins"}, valve.kind,
+           {{"2-way", ValveTable::Kind::two_way},
+            {"3-way", ValveTable::Kind::three_way},
+            {"regulator", ValveTable::Kind::regulator}});
   v.choice({.name = "profile", .optional = true, .doc = "of the shutter"}, valve.profile,
            {{"ideal", ValveTable::Profile::ideal},
             {"dead time", ValveTable::Profile::dead_time},
@@ -68,6 +74,7 @@ void fields(Visitor& v, ValveTable& valve) {
 
 MachineValve what_matters(const ValveTable& valve) {
   MachineValve out{.name = valve.name, .coil = valve.coil};
+  out.seals = valve.kind != ValveTable::Kind::three_way;
   const bool fast = valve.drive == ValveTable::Drive::speed_up;
   if (!fast) out.coil.boost_power = out.coil.boost_time = 0;
   if (valve.profile == ValveTable::Profile::ideal) return out;
@@ -138,6 +145,12 @@ MachineValve valve_of(const Machine& m, std::string_view valve) {
   for (const MachineValve& v : m.valves)
     if (v.name == valve) return v;
   return {};
+}
+
+double passive(const Machine& m, const robot::Muscle& muscle, double inlet_duty,
+               double exhaust_duty) {
+  const double open = inlet_duty + exhaust_duty;
+  return valve_of(m, muscle.inlet).seals ? 1.0 - open : 0.0 * open;
 }
 
 }  // namespace sinew::analysis

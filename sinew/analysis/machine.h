@@ -22,6 +22,7 @@ struct MachineValve {
   std::string name;
   double opening = 0, closing = 0;  // from the edge until half of the way is done; ideal: 0 [s]
   Coil coil;
+  bool seals = true;  // false: a 3-way valve, which joins its muscle to the supply or to the room
 };
 
 struct Machine {
@@ -54,5 +55,9 @@ bool has_leg(const Machine&);
 
 // A valve by its name; one without delays and power for an unknown one.
 MachineValve valve_of(const Machine&, std::string_view valve);
+
+// Share of a time with a muscle's valves shut, of their duties in it  [-], 6.3: 1 - (inlet +
+// exhaust); 0 with a valve that never seals.
+double passive(const Machine&, const robot::Muscle&, double inlet_duty, double exhaust_duty);
 
 }  // namespace sinew::analysis

@@ -115,6 +115,20 @@ TEST(Summary, PassivenessIsOfTheBusiestMuscleOfTheBusiestJoint) {
   EXPECT_NEAR(value(s, "muscles.knee_flexor.mean_exhaust_duty"), 0.23, 1e-14);
 }
 
+// Nothing is shut in where the valve joins its muscle to the supply or to the room.
+TEST(Summary, A3WayValveIsNeverPassive) {
+  Machine m = walking_leg();
+  m.valves = {{.name = "inlet", .seals = false}};
+  test::Log log = walk(2);
+  duties(log, "hip_flexor", 0.3, 0);
+  log.pulses("/valve/hip_flexor/inlet/open", 1e-3, 2.0);
+  const Summary s = summarize(log.table, m);
+  EXPECT_EQ(value(s, "muscles.hip_flexor.passiveness"), 0);
+  EXPECT_EQ(value(s, "muscles.hip_flexor.passiveness_delivered"), 0);
+  m.valves = {{.name = "inlet"}};
+  EXPECT_NEAR(value(summarize(log.table, m), "muscles.hip_flexor.passiveness"), 0.7, 1e-14);
+}
+
 // Pulses of 1 ms through dead times of 0.4 and 0.9 ms: 15 % of the time, not 10.
 TEST(Summary, DeliveredDutiesCarryTheDeadTimes) {
   Machine m = walking_leg();

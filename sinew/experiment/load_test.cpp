@@ -81,7 +81,7 @@ TEST(Load, AMisspeltMeasureIsOneProblem) {
 TEST(Load, TellsOfNumbersWithoutASourceOutsideRobots) {
   const Experiment e = load(walk);
   for (const config::Problem& p : e.unsourced)
-    EXPECT_EQ(p.where.file.find("robots/"), std::string::npos) << config::to_text(p);
+    EXPECT_EQ(p.where.file.find("/robots/"), std::string::npos) << config::to_text(p);
   EXPECT_TRUE(load_machine_file(robot).experiment.unsourced.empty());
 }
 

@@ -1,0 +1,43 @@
+// What another plumbing of the leg does to its walk.
+#include <gtest/gtest.h>
+
+#include "runs.h"
+#include "sinew/units/constants.h"
+
+namespace sinew {
+namespace {
+
+using test::figure, test::seed, test::summary_of;
+constexpr double inch = units::inch;
+
+// 5.1: the same path, supply and muscles, the same way within an inch and a half, as little spread;
+// and ten times the air at least, because no valve ever seals.
+TEST(Plumbing, ThreeWayValvesWalkAsFarOnTenTimesTheAir) {
+  for (int n = 1; n <= 5; ++n) {
+    const analysis::Summary two = summary_of("walk-test-1", {seed(n)}),
+                            three = summary_of("walk-3-way", {seed(n)});
+    EXPECT_NEAR(figure(three, "trolley.distance_m") / inch,
+                figure(two, "trolley.distance_m") / inch, 1.5);
+    EXPECT_GT(figure(three, "air_used_kg_per_m"), 10 * figure(two, "air_used_kg_per_m"));
+    EXPECT_GT(figure(three, "valves.coil_energy_J_per_m"),
+              figure(two, "valves.coil_energy_J_per_m"));
+    EXPECT_EQ(figure(three, "passiveness"), 0);
+    EXPECT_GT(figure(two, "passiveness"), 0.6);
+  }
+}
+
+// Whatever the valve's size within the leg's two, and for Robot III's own valve.
+TEST(Plumbing, TheValvesSizeDoesNotExcuseTheAir) {
+  const double two = figure(summary_of("walk-test-1"), "air_used_per_step_kg");
+  for (const char* area : {"9.774e-6 ft2", "2.142e-5 ft2"}) {
+    const std::string set = std::string("valve.three_way.flow.area=") + area;
+    EXPECT_GT(figure(summary_of("walk-3-way", {set}), "air_used_per_step_kg"), 8 * two) << area;
+  }
+  std::vector<std::string> sets;
+  for (const char* m : {"hip_flexor", "hip_extensor", "knee_flexor", "knee_extensor"})
+    sets.push_back(std::string("muscle.") + m + ".inlet.valve=\"758\"");
+  EXPECT_GT(figure(summary_of("walk-3-way", sets), "air_used_per_step_kg"), 8 * two);
+}
+
+}  // namespace
+}  // namespace sinew
