@@ -132,11 +132,49 @@ TEST(Bands, WithoutStiffnessControlDampingAloneKeepsTheStepsTogether) {
                                  "joint.knee.damping=" + damping});
     return *s.find("foot.step_repeat_rms_m") / inch;
   };
-  EXPECT_LT(repeat_at("2.07 lbf in s/rad"), 0.1);
+  EXPECT_LT(repeat_at("2.07 lbf in s/rad"), 0.2);
   EXPECT_GT(repeat_at("0.4 lbf in s/rad"), 0.9);
   const char* key = "ground_reaction.mean_normal_stance_N";
   EXPECT_GT(*summary_of("no-stiffness-control").find(key),
             1.5 * *summary_of("walk-test-1").find(key));
+}
+
+// 7.2 over seeds: the lightly damped leg walks test 1 as the calibrated one does, and without
+// stiffness control does not repeat and lifts its front roller in most runs.
+TEST(Bands, TheLightlyDampedLegNeedsItsStiffnessControl) {
+  const std::string robot =
+      "robot=" + std::string(SINEW_SOURCE_DIR) + "/robots/leg-lightly-damped/robot.toml";
+  double repeat[2] = {}, force[2] = {};
+  int lifted = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const std::string noise = "seed=" + std::to_string(seed);
+    const analysis::Summary with = summary_of("walk-test-1", {robot, noise}),
+                            without = summary_of("no-stiffness-control", {noise});
+    EXPECT_GT(*with.find("trolley.distance_m"), 53 * inch) << seed;
+    EXPECT_GT(*with.find("rollers.front.min_load_N"), 0) << seed;
+    lifted += *without.find("rollers.front.min_load_N") < 0;
+    int i = 0;
+    for (const analysis::Summary* s : {&with, &without}) {
+      repeat[i] += *s->find("foot.step_repeat_rms_m") / seeds;
+      force[i++] += *s->find("ground_reaction.mean_normal_stance_true_N") / seeds;
+    }
+  }
+  EXPECT_GT(repeat[1], 5 * repeat[0]);
+  EXPECT_GT(force[1], 1.5 * force[0]);
+  EXPECT_GE(lifted, seeds / 2);
+}
+
+// 6.3: a roller that sticks until 3 lbf push tells a table half an inch above the path from one
+// on it.
+TEST(Bands, AStickingRollerNeedsTheGap) {
+  for (int seed = 1; seed <= 5; ++seed) {
+    const std::string noise = "seed=" + std::to_string(seed);
+    const double with = *summary_of("walk-test-1", {"trolley.breakaway=3 lbf", noise})
+                             .find("trolley.distance_m"),
+                 without = *summary_of("zero-gap", {noise}).find("trolley.distance_m");
+    EXPECT_GT(with, 50 * inch) << seed;
+    EXPECT_LT(without, 6 * inch) << seed;
+  }
 }
 
 // 6.5: useless, then quasi-stable, then unstable.
@@ -159,7 +197,9 @@ TEST(Bands, DerivativeControlHasThreeRegimes) {
 // normal force as feedback finds the table an inch lower.
 TEST(Bands, TheLowerTheTableTheShorterTheWalkUnlessTheFootFeelsIt) {
   const auto distance = [](const char* name, const std::string& height) {
-    return *summary_of(name, {"ground.height=" + height}).find("trolley.distance_m") / inch;
+    return *summary_of(name, {"ground.height=" + height, "trolley.breakaway=0 lbf"})
+                .find("trolley.distance_m") /
+           inch;
   };
   double before = 60;
   for (const char* height : {"-13 in", "-13.5 in", "-13.75 in", "-14 in", "-14.5 in"}) {
@@ -177,10 +217,7 @@ TEST(Bands, TheLowerTheTableTheShorterTheWalkUnlessTheFootFeelsIt) {
 const std::set<std::pair<std::string, std::string>> known_differences = {
     {"derivative-control", "joints.hip.swing_oscillation_later_steps_rms_rad"},
     {"derivative-control", "joints.knee.swing_oscillation_later_steps_rms_rad"},
-    {"no-stiffness-control", "foot.step_repeat_rms_m"},
-    {"no-stiffness-control", "rollers.front.min_load_N"},
     {"walk-reachable", "passiveness"},
-    {"zero-gap", "trolley.distance_m"},
 };
 
 // Every shipped experiment agrees with what it says of itself, but for what is known.
