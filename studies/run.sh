@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# run.sh [SINEW]   makes the tables of docs/studies again; about a minute.
+# run.sh [SINEW]   makes the tables of docs/studies again; some minutes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 sinew=${1:-build/release/bin/sinew}
