@@ -103,7 +103,7 @@ TEST(Studies, AreInOrderAndOfToday) {
     EXPECT_TRUE(fs::exists(table)) << table;
     ++plans;
   }
-  EXPECT_EQ(plans, 10);
+  EXPECT_GE(plans, 10);
   const std::string range = "range-stiffness";
   EXPECT_EQ(w.sinew({"sweep", (source / "studies" / (range + ".toml")).string()}).out,
             read_text(source / "docs/studies" / (range + ".csv")));

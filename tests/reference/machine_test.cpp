@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/laws.h"
+#include "sinew/analysis/machine.h"
 #include "sinew/config/quantity.h"
 #include "sinew/control/gait/path.h"
 #include "sinew/experiment/experiment.h"
@@ -337,12 +337,19 @@ TEST(Reference, table_6_1) {
 // A joint is as passive as the busier of its muscles, the robot as its busiest joint.
 TEST(Reference, table_6_4) {
   const json& table = reference()["tables"]["t6_4_pct"];
+  analysis::Machine machine;
+  machine.robot = leg().robot;
   double total = 100;
   for (const char* joint : {"hip", "knee"}) {
     const json& row = table[joint];
     const auto duty = [&](const char* key) { return row[key].get<double>() / 100; };
-    const double passive = 100 * std::min(analysis::passive(duty("fi"), duty("fe")),
-                                          analysis::passive(duty("ei"), duty("ee")));
+    const auto passive_of = [&](const char* role, const char* in, const char* out) {
+      const int muscle = robot::find_muscle(machine.robot, joint + std::string(role));
+      return analysis::passive(machine, machine.robot.muscles.at(static_cast<std::size_t>(muscle)),
+                               duty(in), duty(out));
+    };
+    const double passive = 100 * std::min(passive_of("_flexor", "fi", "fe"),  //
+                                          passive_of("_extensor", "ei", "ee"));
     EXPECT_NEAR(passive, row["passive"].get<double>(), 1e-12) << joint;
     total = std::min(total, passive);
     const std::string key = "joints." + std::string(joint) + ".passiveness";
