@@ -45,6 +45,19 @@ void warn_of_clipping(const experiment::Experiment& e, const signals::Table& tab
   }
 }
 
+// Rollers that the leg lifted off the track (7.2): from there on the trolley would have tipped.
+void warn_of_lifting(const signals::Table& table, const Messages& messages) {
+  for (const char* roller : {"front", "rear"}) {
+    const std::string topic = fmt::format("/true/roller/{}/load", roller);
+    const auto* load = table.column(topic);
+    if (!load) continue;
+    const auto lifted = std::ranges::count_if(*load, [](double n) { return n < 0; });
+    if (lifted > 0)
+      messages.warning(fmt::format("the {} roller lifts off the track in {} of {} samples", roller,
+                                   lifted, load->size()));
+  }
+}
+
 bool finite(const signals::Series& s, std::size_t i) {
   return std::ranges::all_of(s.columns, [i](const auto& c) { return std::isfinite(c[i]); });
 }
@@ -129,6 +142,7 @@ void warn_of(const experiment::Experiment& e, const experiment::Outcome& outcome
   if (!outcome.table.complete)
     messages.warning("more valve edges than there was room for; the table lacks the last ones");
   warn_of_clipping(e, outcome.table, messages);
+  warn_of_lifting(outcome.table, messages);
 }
 
 std::string black_box(const experiment::Experiment& e, const experiment::Outcome& outcome) {

@@ -14,6 +14,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using ::testing::StartsWith;
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
@@ -141,6 +142,16 @@ TEST(Run, OverridesSayThatTheyAre) {
   const Json drag = Json::parse(shown.out)[0];
   EXPECT_EQ(drag["written"], "4.4482216152605 N");
   EXPECT_EQ(drag["source"], "--set");
+}
+
+// 7.2: what the thesis saw without stiffness control is told; test 1 keeps its rollers down.
+TEST(Run, WarnsOfRollersThatLiftOff) {
+  const Workspace w;
+  const Result lifted = w.sinew({"run", "experiments/no-stiffness-control.toml", "-o", "lifted"});
+  EXPECT_EQ(lifted.code, 0);
+  EXPECT_THAT(lifted.err, HasSubstr("the front roller lifts off the track in "));
+  const Result down = w.sinew({"run", "experiments/walk-test-1.toml", "-o", "down"});
+  EXPECT_THAT(down.err, Not(HasSubstr("lifts off")));
 }
 
 TEST(Run, LogsOnlyTheChannelsThatAreAskedFor) {
