@@ -1,0 +1,185 @@
+// robot/muscle.fields.h - the keys of joints and of what pulls them: cams, hoses, leaks, muscles.
+#pragma once
+
+#include "sinew/robot/control.fields.h"
+#include "sinew/robot/robot.h"
+#include "sinew/units/complain.h"
+#include "sinew/units/field.h"
+
+namespace sinew::robot {
+
+// What only a joint with muscles has.
+template <class Visitor>
+void driven_fields(Visitor& v, Joint& joint) {
+  v.choice({.name = "flexion", .doc = "what a shorter flexor does to the angle"}, joint.flexion,
+           {{"raises angle", Joint::Flexion::raises_angle},
+            {"lowers angle", Joint::Flexion::lowers_angle}});
+  v.number({.name = "moment_arm", .unit = "m", .min = 1e-4, .doc = "radius of the cam"},
+           joint.moment_arm);
+  v.number({.name = "angle_gain", .unit = "1/count", .min = 0, .doc = "G_theta [59]"},
+           joint.gains.angle);
+  v.number({.name = "stiffness_gain", .unit = "1/(N m/rad)", .min = 0, .doc = "G_k [58]"},
+           joint.gains.stiffness);
+  v.number(
+      {.name = "velocity_gain", .unit = "s/count", .min = 0, .optional = true, .doc = "G_v, 6.5"},
+      joint.gains.velocity);
+  controller_fields(v, joint.velocity, joint.stiffness_source, joint.pressure_law);
+  v.flag(
+      {.name = "enabled", .optional = true, .doc = "false: the low level leaves the joint alone"},
+      joint.enabled);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Joint& joint) {
+  constexpr double turn = 6.283185307179586;
+
+  v.choice({.name = "kind", .optional = true, .doc = "passive: no muscles, no sensors, an ankle"},
+           joint.kind, {{"driven", Joint::Kind::driven}, {"passive", Joint::Kind::passive}});
+
+  v.number({.name = "rest_angle",
+            .unit = "rad",
+            .min = 0,
+            .max = turn,
+            .doc = "where both muscles have their mount_length"},
+           joint.rest_angle);
+  v.number({.name = "dry_friction", .unit = "N m", .min = 0, .doc = "largest"}, joint.dry_friction);
+  v.number({.name = "damping", .unit = "N m s/rad", .min = 0, .doc = "viscous"}, joint.damping);
+  v.number({.name = "damper",
+            .unit = "N m s/rad",
+            .min = 0,
+            .optional = true,
+            .doc = "of a rotary damper beside it, 7.3"},
+           joint.damper);
+  v.number({.name = "spring", .unit = "N m/rad", .min = 0, .optional = true, .doc = "about it"},
+           joint.spring);
+  v.number({.name = "spring_angle",
+            .unit = "rad",
+            .min = 0,
+            .max = turn,
+            .optional = true,
+            .doc = "where the spring pulls nothing"},
+           joint.spring_angle);
+  if (joint.kind == Joint::Kind::driven) driven_fields(v, joint);
+}
+
+// Keys of a cam; `moment_arm` and `cam` in the table that the cord belongs to.
+template <class Visitor>
+void fields(Visitor& v, Cam& cam) {
+  v.number({.name = "moment_arm",
+            .unit = "m",
+            .min = 1e-4,
+            .optional = true,
+            .doc = "of a round cam; absent: the joint's"},
+           cam.radius);
+  v.group({.name = "cam", .optional = true, .doc = "one that is not round"}, [&](auto& g) {
+    g.numbers({.name = "angle", .unit = "rad", .doc = "of the joint, ascending"}, cam.angle);
+    g.numbers({.name = "radius", .unit = "m", .min = 0, .doc = "there; straight in between"},
+              cam.radii);
+  });
+}
+
+template <class Visitor>
+void fields(Visitor& v, Hose& hose) {
+  v.choice({.name = "law", .optional = true, .doc = "by conductance, or a pipe with friction"},
+           hose.law,
+           {{"none", Hose::Law::none}, {"iso6358", Hose::Law::iso6358}, {"pipe", Hose::Law::pipe}});
+  const auto number = [&](std::string_view name, std::string_view unit, Hose::Law law, double min,
+                          double max, std::string_view doc, double& value) {
+    const bool needed = hose.law == law;
+    v.number({.name = name,
+              .unit = unit,
+              .min = needed ? min : 0.0,
+              .max = max,
+              .optional = !needed,
+              .doc = doc},
+             value);
+    if (!needed && value > 0)
+      units::complain(v, name, "a key of another law",
+                      law == Hose::Law::pipe ? "law = \"pipe\"" : "law = \"iso6358\"");
+  };
+  using Law = Hose::Law;
+  number("sonic_conductance", "m3/(s Pa)", Law::iso6358, 1e-15, 1, "iso6358: C, with its fittings",
+         hose.sonic_conductance);
+  number("critical_pressure_ratio", "1", Law::iso6358, 0, 0.999, "iso6358: b",
+         hose.critical_pressure_ratio);
+  number("length", "m", Law::pipe, 1e-6, 1000, "pipe", hose.length);
+  number("inner_diameter", "m", Law::pipe, 1e-6, 1, "pipe", hose.inner_diameter);
+  v.number({.name = "volume",
+            .unit = "m3",
+            .min = 0,
+            .optional = true,
+            .doc = "of its air, as a chamber between valves and muscle; 0: none"},
+           hose.volume);
+  if (hose.law == Law::none && hose.volume > 0)
+    units::complain(v, "volume", "a hose that resists nothing", "a law",
+                    "external_volume for air that is one with the muscle's");
+}
+
+template <class Visitor>
+void fields(Visitor& v, Leak& leak) {
+  v.number(
+      {.name = "area", .unit = "m2", .min = 0, .optional = true, .doc = "of a hole, effective"},
+      leak.area);
+  v.number({.name = "conductance",
+            .unit = "kg/(s Pa)",
+            .min = 0,
+            .optional = true,
+            .doc = "mass flow per gauge pressure, of a porous wall"},
+           leak.conductance);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Muscle& muscle) {
+  v.text({.name = "joint", .doc = "the joint it pulls"}, muscle.joint);
+  v.choice({.name = "role", .doc = "which way"}, muscle.role,
+           {{"flexor", Muscle::Role::flexor}, {"extensor", Muscle::Role::extensor}});
+  v.text({.name = "actuator", .doc = "name in the actuator file"}, muscle.actuator);
+  v.integer({.name = "count", .min = 1, .max = 100, .doc = "actuators in parallel"}, muscle.count);
+  v.number({.name = "mount_length", .unit = "m", .min = 1e-3, .doc = "at the joint's rest angle"},
+           muscle.mount_length);
+  fields(v, muscle.cam);
+  v.group({.name = "second", .optional = true, .doc = "another joint that it runs across"},
+          [&](auto& g) {
+            g.text({.name = "joint", .doc = "its name"}, muscle.second.joint);
+            g.choice({.name = "role", .doc = "which way it pulls there"}, muscle.second.role,
+                     {{"flexor", Muscle::Role::flexor}, {"extensor", Muscle::Role::extensor}});
+            fields(g, muscle.second.cam);
+          });
+  v.number({.name = "external_volume",
+            .unit = "m3",
+            .min = 0,
+            .doc = "of the whole bundle, downstream of the valves"},
+           muscle.external_volume);
+  v.number({.name = "bladder_stiffness",
+            .unit = "N/m",
+            .min = 0,
+            .optional = true,
+            .doc = "of one actuator; absent: as in the actuator's file"},
+           muscle.bladder_stiffness);
+  v.number({.name = "bladder_rest_length",
+            .unit = "m",
+            .min = 0,
+            .optional = true,
+            .doc = "where the bladder pulls nothing; absent: as in the actuator's file"},
+           muscle.bladder_rest_length);
+
+  const auto bit = units::Field{.name = "bit", .min = 0, .max = 15, .doc = "of the output port"};
+  v.group({.name = "inlet", .doc = "the valve that fills"}, [&](auto& g) {
+    g.text({.name = "valve", .doc = "name in the valves file"}, muscle.inlet);
+    g.integer(bit, muscle.inlet_bit);
+  });
+  v.group({.name = "exhaust",
+           .optional = true,
+           .doc = "the valve that empties; none with a 3-way inlet"},
+          [&](auto& g) {
+            g.text({.name = "valve", .optional = true, .doc = "name in the valves file"},
+                   muscle.exhaust);
+            g.integer(bit, muscle.exhaust_bit);
+          });
+  v.group({.name = "hose", .optional = true, .doc = "between its valves and it"},
+          [&](auto& g) { fields(g, muscle.hose); });
+  v.group({.name = "leak", .optional = true, .doc = "to the room"},
+          [&](auto& g) { fields(g, muscle.leak); });
+}
+
+}  // namespace sinew::robot

@@ -1,0 +1,91 @@
+// robot/sensor.fields.h - the keys of the converter and of the sensors before it.
+#pragma once
+
+#include "sinew/robot/robot.h"
+#include "sinew/units/field.h"
+
+namespace sinew::robot {
+
+template <class Visitor>
+void fields(Visitor& v, Converter& converter) {
+  v.integer({.name = "bits", .min = 1, .max = 12, .doc = "of a conversion"}, converter.bits);
+  v.number({.name = "full_scale", .unit = "V", .min = 1e-3, .doc = "voltage of the top count"},
+           converter.full_scale);
+}
+
+// What a sensor really does. The unit of `scale` follows its kind.
+template <class Visitor>
+void real_fields(Visitor& v, Sensor& sensor) {
+  if (sensor.kind == Sensor::Kind::angle)
+    v.number({.name = "scale", .unit = "rad/V", .doc = "of the potentiometer"}, sensor.scale);
+  if (sensor.kind == Sensor::Kind::tension)
+    v.number({.name = "scale", .unit = "V/N", .doc = "of the transducer"}, sensor.scale);
+  if (sensor.kind == Sensor::Kind::pressure)
+    v.number({.name = "scale", .unit = "V/Pa", .doc = "of the transducer"}, sensor.scale);
+  if (sensor.kind == Sensor::Kind::velocity)
+    v.number({.name = "scale", .unit = "V s/rad", .doc = "of the spindle"}, sensor.scale);
+  if (sensor.kind == Sensor::Kind::cylinder)
+    v.number({.name = "scale", .unit = "m/V", .doc = "of the potentiometer"}, sensor.scale);
+  v.number({.name = "at_rest",
+            .unit = "count",
+            .min = 0,
+            .max = 65535,
+            .doc = "at the rest angle, at no tension, or always"},
+           sensor.at_rest);
+  v.number(
+      {.name = "noise", .unit = "count", .min = 0, .optional = true, .doc = "standard deviation"},
+      sensor.noise);
+}
+
+// What the controller takes it for.
+template <class Visitor>
+void assumed_fields(Visitor& v, Sensor& sensor) {
+  if (sensor.kind == Sensor::Kind::angle)
+    v.number({.name = "scale", .unit = "count/rad", .doc = "767 in B.1, 714 by 4.5"},
+             sensor.assumed_scale);
+  if (sensor.kind == Sensor::Kind::tension)
+    v.number({.name = "scale", .unit = "V/N", .doc = "one for all transducers in B.1"},
+             sensor.assumed_scale);
+  if (sensor.kind == Sensor::Kind::pressure)
+    v.number({.name = "scale", .unit = "V/Pa", .doc = "of the transducer"}, sensor.assumed_scale);
+  if (sensor.kind == Sensor::Kind::velocity)
+    v.number({.name = "scale", .unit = "V s/rad", .doc = "of the spindle"}, sensor.assumed_scale);
+  if (sensor.kind == Sensor::Kind::cylinder)
+    v.number({.name = "scale", .unit = "count/m", .doc = "of its travel"}, sensor.assumed_scale);
+  v.number({.name = "at_rest",
+            .unit = "count",
+            .min = 0,
+            .max = 65535,
+            .optional = true,
+            .doc = "at the rest angle, at no tension, or always"},
+           sensor.assumed_at_rest);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Sensor& sensor) {
+  v.choice({.name = "kind", .doc = "what it measures; fixed: something that does not move"},
+           sensor.kind,
+           {{"angle", Sensor::Kind::angle},
+            {"tension", Sensor::Kind::tension},
+            {"fixed", Sensor::Kind::fixed},
+            {"pressure", Sensor::Kind::pressure},
+            {"velocity", Sensor::Kind::velocity},
+            {"cylinder", Sensor::Kind::cylinder}});
+  v.text({.name = "of",
+          .optional = true,
+          .doc = "joint of an angle or velocity, muscle of a tension or pressure"},
+         sensor.of);
+  v.integer({.name = "channel", .min = 0, .max = 255, .doc = "of the converter board"},
+            sensor.channel);
+  v.integer({.name = "tick",
+             .min = 1,
+             .max = 65535,
+             .doc = "of the period, when it is read; the conversion starts a tick earlier"},
+            sensor.tick);
+  v.group({.name = "real", .doc = "what the hardware does"},
+          [&](auto& g) { real_fields(g, sensor); });
+  v.group({.name = "assumed", .optional = true, .doc = "what the controller believes"},
+          [&](auto& g) { assumed_fields(g, sensor); });
+}
+
+}  // namespace sinew::robot
