@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -16,6 +17,7 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/plant/planar/cords.h"
 #include "sinew/robot/actuator_of.h"
 
 namespace sinew::cli {
@@ -63,15 +65,18 @@ double next_to_rest(const robot::Joint& joint, double angle) {
 
 Branch stand(const experiment::Experiment& e, const std::vector<double>& angles) {
   Branch out{.angles = angles, .foot = robot::forward(e.robot, angles).foot()};
-  for (const robot::Muscle& m : e.robot.muscles) {
-    const auto j = static_cast<std::size_t>(robot::find_joint(e.robot, m.joint));
-    const robot::Joint& joint = e.robot.joints[j];
-    MuscleAt at{.name = m.name};
-    at.length = robot::muscle_length(joint, m.role, m.mount_length, next_to_rest(joint, angles[j]));
-    const actuator::Actuator a = robot::actuator_of(m, e.actuators);
-    at.shortest = actuator::shortest_length(a.braid);
-    at.longest = a.long_end.length;
-    out.muscles.push_back(at);
+  std::array<double, robot::max_joints> turned{}, still{};
+  for (std::size_t j = 0; j < angles.size(); ++j)
+    turned[j] = next_to_rest(e.robot.joints[j], angles[j]);
+  muscle::Lanes length, rate;
+  plant::Cords::Pulls pulls;
+  plant::Cords(e.robot).at(turned.data(), still.data(), length, rate, pulls);
+  for (std::size_t i = 0; i < e.robot.muscles.size(); ++i) {
+    const actuator::Actuator a = robot::actuator_of(e.robot.muscles[i], e.actuators);
+    out.muscles.push_back({.name = e.robot.muscles[i].name,
+                           .length = length[i],
+                           .shortest = actuator::shortest_length(a.braid),
+                           .longest = a.long_end.length});
   }
   if (robot::is_leg(e.robot))
     out.jacobian = robot::jacobian(robot::two_links(e.robot), angles[0], angles[1]);

@@ -205,5 +205,18 @@ TEST(Kinematics, KnowsOtherRobotsThanTheLeg) {
   EXPECT_THAT(foot.err, HasSubstr("--foot needs two"));
 }
 
+// A knee that bends by 10 deg gives the hamstring its arm there, 0.4 in, times that.
+TEST(Kinematics, AMuscleOverTwoJointsFeelsBoth) {
+  const Workspace w;
+  const auto hamstring = [&](const char* angles) {
+    const Json at =
+        json(w, {"kinematics", "robots/three-muscle-leg/robot.toml", "--angles", angles});
+    return at["branches"][0]["muscles"]["hamstring"]["length_m"].get<double>();
+  };
+  EXPECT_NEAR(hamstring("290 deg, 310 deg"), 3.15_in, 1e-12);
+  EXPECT_NEAR(hamstring("290 deg, 300 deg"), 3.15_in - 0.4_in * 0.174532925199, 1e-12);
+  EXPECT_NEAR(hamstring("300 deg, 300 deg"), 3.15_in + 0.6_in * 0.174532925199, 1e-12);
+}
+
 }  // namespace
 }  // namespace sinew::test

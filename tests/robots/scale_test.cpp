@@ -126,6 +126,8 @@ const std::vector<std::string> no_trolley = {"trolley.drag=0 lbf"},
                                                 "joint.knee.dry_friction=0 lbf in",
                                                 "actuator.bpa.loss.coulomb_length=0 in"};
 
+const std::vector<std::string> smooth_ankle = {"joint.ankle.dry_friction=0 lbf in"};
+
 std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
@@ -144,6 +146,8 @@ TEST(Scale, AnEighthOfAWholeMachineToo) {
   for (unsigned seed = 1; seed <= 2; ++seed) {
     compare<plant::WholeWorld>(load("leg-in-air", no_trolley + everything), 8, seed, 2, 0);
     compare<plant::WholeWorld>(load("walk-test-1", smooth_joints + everything), 8, seed, 2, 0);
+    compare<plant::WholeWorld>(load("walk-with-ankle", smooth_joints + smooth_ankle + everything),
+                               8, seed, 2, 0);
     compare<plant::WholeWorld>(load("known-load", smooth_joints), 8, seed, 2, 0);
   }
 }
