@@ -14,9 +14,6 @@ constexpr double blocked_bound = 1e9;  // of a joint that is held [N m]
 // with the pose.
 constexpr double longest_rate = 1.5;
 
-// Of the longest step at which the air is stable, what a piece of a step takes.
-constexpr double piece_share = 0.5;
-
 }  // namespace
 
 WholeWorld::WholeWorld(const Setup& setup)
@@ -217,13 +214,18 @@ void WholeWorld::shift(State& out, const State& from, double h, const State& at,
 void WholeWorld::step(double h) noexcept {
   held_ = rubs_.hold(h, held_);
   first_.acceleration = rubs_.accelerations(first_.acceleration, held_);
-  const double longest = piece_share * plumbing_.longest_step();
-  const double pieces = h > longest ? std::ceil(h / longest) : 1.0;
+  const double pieces = pieces_of(h);
   inner_ = time_;
   for (double k = 0; k < pieces; ++k) {
     if (k > 0) look_at(inner_, state_, held_, first_);
     piece(h / pieces);
   }
+}
+
+// While nothing flows there is nothing to be quick.
+double WholeWorld::pieces_of(double h) const noexcept {
+  const double longest = plumbing_.longest_step();
+  return h > longest && !plumbing_.quiet() ? std::ceil(h / longest) : 1.0;
 }
 
 void WholeWorld::piece(double h) noexcept {
@@ -292,8 +294,7 @@ auto WholeWorld::peek(const Glance& g, double t) const noexcept -> Peek {
   Peek p{.state = state_, .look = first_};
   const double dt = t - time_;
   if (dt <= 0) return p;
-  const double longest = piece_share * plumbing_.longest_step();
-  const double pieces = dt > longest ? std::ceil(dt / longest) : 1.0;
+  const double pieces = pieces_of(dt);
   const double h = dt / pieces;
   for (double k = 1; k <= pieces; ++k) {
     const double to = time_ + k * h;

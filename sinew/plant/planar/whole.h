@@ -95,6 +95,7 @@ class WholeWorld final : public signals::Port {
 
   void prepare() noexcept;  // the look at a new node
   void step(double h) noexcept;
+  double pieces_of(double h) const noexcept;  // of a step
   void piece(double h) noexcept;
   double next_node() const noexcept;
   void commit() noexcept;
