@@ -25,5 +25,49 @@ TEST(ThreeMuscles, WalkBecauseOfTheHamstring) {
   EXPECT_LT(figure(lame, "trolley.distance_m") / inch, 1);
 }
 
+// --- 7.2: fewer sensors -------------------------------------------------------------------------
+
+analysis::Summary walk_with(const std::string& source, int n) {
+  return summary_of("walk-with-pressures", {"joint.hip.stiffness_source=\"" + source + "\"",
+                                            "joint.knee.stiffness_source=\"" + source + "\"",
+                                            "trolley.track_length=10 ft", seed(n)});
+}
+
+// Pressures do what forces do, and are steadier; position alone walks and repeats its steps as
+// well, but the stiffness is no longer what was asked for.
+TEST(FewerSensors, PressuresReplaceForcesAndPositionAloneWalks) {
+  for (int n = 1; n <= 3; ++n) {
+    const analysis::Summary forces = walk_with("forces", n), pressures = walk_with("pressures", n),
+                            none = walk_with("none", n);
+    const char *distance = "trolley.distance_m", *repeat = "foot.step_repeat_true_rms_m",
+               *stiffness = "joints.knee.stiffness_mean_true_Nm_per_rad";
+    EXPECT_NEAR(figure(pressures, distance), figure(forces, distance),
+                0.1 * figure(forces, distance));
+    EXPECT_LT(figure(pressures, repeat), figure(forces, repeat));
+    EXPECT_NEAR(figure(pressures, stiffness), figure(forces, stiffness),
+                0.15 * figure(forces, stiffness));
+    EXPECT_GT(figure(none, distance), figure(forces, distance));
+    EXPECT_LT(figure(none, repeat), 2e-3);
+    EXPECT_GT(figure(none, stiffness), 1.4 * figure(forces, stiffness));
+  }
+}
+
+// One force per joint: the flexor's will do, the extensor's carries the body and misleads.
+TEST(FewerSensors, OneForceIsEnoughIfItIsTheFlexors) {
+  EXPECT_GT(figure(walk_with("flexor force", 1), "trolley.distance_m") / inch, 53);
+  EXPECT_LT(figure(walk_with("extensor force", 1), "trolley.distance_m") / inch, 2);
+}
+
+// The transducers of table C-1 change nothing by being there, but the noise of their sensors'
+// places.
+TEST(FewerSensors, TransducersThatNoLawReadsChangeLittle) {
+  const analysis::Summary plain = summary_of("walk-test-1"),
+                          more = summary_of("walk-with-pressures",
+                                            {"joint.hip.stiffness_source=forces",
+                                             "joint.knee.stiffness_source=forces"});
+  EXPECT_NEAR(figure(more, "trolley.distance_m") / inch, figure(plain, "trolley.distance_m") / inch,
+              0.5);
+}
+
 }  // namespace
 }  // namespace sinew
