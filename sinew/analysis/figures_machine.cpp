@@ -49,6 +49,26 @@ void add_sensors(Figures& f) {
   }
 }
 
+// How long, how many complete steps and how far the line holds its first pressure, to a hundredth.
+void add_endurance(Figures& f) {
+  const Column line = f.record.column("/true/supply/pressure");
+  if (line.empty() || !f.record.has_sequence()) return;
+  std::size_t row = f.record.first_row();
+  while (row < f.record.end_row() && line[row] > 0.99 * line.front()) ++row;
+  f.summary.add("supply.full_time_s", f.record.time(row) - f.record.sequence_start());
+
+  double steps = 0;
+  for (const int step : f.record.complete_steps()) {
+    std::size_t last = 0;
+    for (const Stretch& s : f.record.stretches())
+      if (s.step == step) last = s.last;
+    if (last <= row) ++steps;
+  }
+  f.summary.add("supply.full_steps", steps);
+  const Column x = f.record.column("/true/trolley/position");
+  if (!x.empty()) f.summary.add("supply.full_distance_m", x[row] - x[f.record.first_row()]);
+}
+
 }  // namespace
 
 double cylinder_air(const Figures& f, std::size_t first, std::size_t last) {
@@ -66,6 +86,7 @@ void add_machine(Figures& f) {
   add_sensors(f);
   f.add("supply.min_pressure_Pa", smallest, f.record.column("/true/supply/pressure"),
         f.record.sequence());
+  add_endurance(f);
   const Column tank = f.record.column("/true/supply/tank_pressure");
   if (!tank.empty()) f.summary.add("supply.end_tank_pressure_Pa", tank.back());
   const Column overruns = f.record.column("/low_level/overruns");
