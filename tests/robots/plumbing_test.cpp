@@ -39,5 +39,28 @@ TEST(Plumbing, TheValvesSizeDoesNotExcuseTheAir) {
   EXPECT_GT(figure(summary_of("walk-3-way", sets), "air_used_per_step_kg"), 8 * two);
 }
 
+// Between the two: what a regulator lets in it lets out again, but it shuts in between.
+TEST(Plumbing, RegulatorsWalkOnAirBetweenTheTwo) {
+  for (int n = 1; n <= 3; ++n) {
+    const analysis::Summary two = summary_of("walk-test-1", {seed(n)}),
+                            three = summary_of("walk-3-way", {seed(n)}),
+                            regulated = summary_of("walk-with-regulators", {seed(n)});
+    EXPECT_NEAR(figure(regulated, "trolley.distance_m") / inch, 55, 3);
+    EXPECT_GT(figure(regulated, "air_used_per_step_kg"), 2 * figure(two, "air_used_per_step_kg"));
+    EXPECT_LT(figure(regulated, "air_used_per_step_kg"),
+              0.3 * figure(three, "air_used_per_step_kg"));
+  }
+}
+
+// A slow one walks less far: half the way at 200 ms.
+TEST(Plumbing, SlowRegulatorsSlowTheWalk) {
+  const auto distance = [](const char* time) {
+    const std::string set = std::string("valve.regulator.regulator.time_constant=") + time;
+    return figure(summary_of("walk-with-regulators", {set}), "trolley.distance_m");
+  };
+  EXPECT_GT(distance("10 ms"), distance("100 ms"));
+  EXPECT_LT(distance("200 ms"), 0.5 * distance("10 ms"));
+}
+
 }  // namespace
 }  // namespace sinew
