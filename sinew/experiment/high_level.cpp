@@ -118,6 +118,11 @@ void HighLevel::move_cylinder(const gait::Desired& desired) noexcept {
       std::lround(scale_.cylinder_at_rest + travel * scale_.cylinder_counts_per_metre));
   joint.gains.angle = cylinder_gain_;
   joint.enabled = desired.stage != gait::Stage::settling && !desired.vent;
+  joint.open_loop = desired.cylinder.open_loop;
+  joint.duties = {.flexor_inlet = percent(desired.cylinder.up_inlet),
+                  .flexor_exhaust = percent(desired.cylinder.up_exhaust),
+                  .extensor_inlet = percent(desired.cylinder.down_inlet),
+                  .extensor_exhaust = percent(desired.cylinder.down_exhaust)};
 }
 
 }  // namespace sinew::experiment

@@ -25,13 +25,14 @@ std::string status_of(const experiment::Outcome& outcome) {
 }  // namespace
 
 // The log's files are not written: the summary is of the table in memory.
-Ran run_once(const Sweep& s, const std::vector<std::string>& sets) {
+Ran run_once(const std::string& file, const std::vector<std::string>& sets,
+             bool allow_unreachable) {
   Ran out;
   try {
-    const config::Node root = config::compose(s.experiment, sets);
+    const config::Node root = config::compose(file, sets);
     const analysis::Machine machine = analysis::read_machine(root);
-    const experiment::Experiment e = experiment::load(root, s.experiment);
-    if (!s.allow_unreachable) experiment::refuse_unreachable(e);
+    const experiment::Experiment e = experiment::load(root, file);
+    if (!allow_unreachable) experiment::refuse_unreachable(e);
     const experiment::Outcome outcome = experiment::run(e);
     out.status = status_of(outcome);
     out.atmosphere = machine.atmosphere;

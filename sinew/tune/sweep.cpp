@@ -1,6 +1,7 @@
 #include "sinew/tune/sweep.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <mutex>
 #include <thread>
 
@@ -14,6 +15,11 @@ namespace sinew::tune {
 namespace {
 
 // --- what an axis asks of the experiment ---
+
+// Another experiment's file: beside the sweep's own, as a robot's is.
+std::string beside(const Sweep& s, const std::string& file) {
+  return (std::filesystem::path(s.experiment).parent_path() / file).lexically_normal().string();
+}
 
 const std::string& first_text(const Axis& axis) { return axis.values.front().text; }
 
@@ -36,6 +42,10 @@ void check_values(const Axis& axis, const std::string& unit, double atmosphere) 
 void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins,
                 double atmosphere) {
   if (axis.key == "robot") return;
+  if (axis.key == "experiment") {
+    for (const Value& value : axis.values) experiment::load(beside(s, value.text), s.sets);
+    return;
+  }
   if (const config::Origin* origin = config::find_origin(origins, axis.key))
     return check_values(axis, origin->unit, atmosphere);
 
@@ -66,14 +76,18 @@ void check_keys(const Sweep& s, const analysis::Summary& summary) {
 // --- one point ---
 
 struct Point {
+  std::string experiment;
   std::vector<std::string> sets, cells;
 };
 
 Point point_of(const Sweep& s, std::size_t index) {
-  Point out{.sets = s.sets, .cells = {}};
+  Point out{.experiment = s.experiment, .sets = s.sets, .cells = {}};
   const std::vector<const Value*> values = Grid(s.axes).point(index);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    out.sets.push_back(s.axes[i].set(*values[i]));
+    if (s.axes[i].key == "experiment")
+      out.experiment = beside(s, values[i]->text);
+    else
+      out.sets.push_back(s.axes[i].set(*values[i]));
     out.cells.push_back(values[i]->cell);
   }
   return out;
@@ -86,7 +100,7 @@ void add_report(const Sweep& s, const Ran& ran, std::vector<std::string>& cells)
 
 Row single(const Sweep& s, std::size_t index) {
   Point point = point_of(s, index);
-  const Ran ran = run_once(s, point.sets);
+  const Ran ran = run_once(point.experiment, point.sets, s.allow_unreachable);
   if (index == 0 && ran.ok()) check_keys(s, ran.summary);
   add_report(s, ran, point.cells);
   point.cells.push_back(ran.status);
@@ -102,7 +116,7 @@ Row searched(const Sweep& s, std::size_t index) {
   const auto holds = [&](double number) {
     std::vector<std::string> sets = point.sets;
     sets.push_back(search.axis.set(search.axis.at(number)));
-    last = run_once(s, sets);
+    last = run_once(point.experiment, sets, s.allow_unreachable);
     if (++runs == 1 && index == 0 && last.ok()) check_keys(s, last.summary);
     const bool all = last.ok() && std::ranges::all_of(search.where, [&](const Condition& c) {
                        return c.holds(last.summary);

@@ -5,6 +5,7 @@
 //           .report = parse_figures("joints.hip.tracking_rms_rad [deg]")};
 //   sweep(s, {.threads = 2, .row = [](const Row& r) {...}});
 //
+// The axis `experiment` takes files beside the experiment's own, `robot` takes robots.
 // Each point of the grid is a run of its own. Rows come in the grid's order and are the same for
 // any number of threads. A run that cannot be, or that ends early, is a row that says so.
 #pragma once
@@ -72,6 +73,7 @@ struct Ran {
 
   bool ok() const { return status == "ok"; }
 };
-Ran run_once(const Sweep&, const std::vector<std::string>& sets);
+Ran run_once(const std::string& file, const std::vector<std::string>& sets,
+             bool allow_unreachable = false);
 
 }  // namespace sinew::tune

@@ -69,6 +69,23 @@ TEST(Sweep, ARowIsWhatTheSingleRunSays) {
   EXPECT_EQ(std::stod(row.cells[2]), *run.find("joints.hip.tracking_rms_rad")) << "bit for bit";
 }
 
+// What differs in many keys differs by its file.
+TEST(Sweep, AnAxisOfExperiments) {
+  const Sweep s{.experiment = leg,
+                .axes = {parse_axis("experiment=leg-in-air.toml,one-joint.toml"), seeds(2)},
+                .report = parse_figures("air_used_kg")};
+  check(s);
+  const std::vector<Row> rows = sweep(s, {.threads = 2});
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[2].cells[0], "one-joint.toml");
+  const Ran other = run_once(lever, {"seed=2"});
+  EXPECT_EQ(std::stod(rows[3].cells[2]), *other.summary.find("air_used_kg"));
+
+  Sweep missing = s;
+  missing.axes[0] = parse_axis("experiment=leg-in-air.toml,no-such-leg.toml");
+  EXPECT_NE(message([&] { check(missing); }).find("no-such-leg.toml"), std::string::npos);
+}
+
 // A run that cannot be is a row, and so is one that blows up.
 TEST(Sweep, FailuresAreRows) {
   Sweep s{.experiment = root + "/experiments/walk-test-1.toml",

@@ -104,6 +104,7 @@ void Brain::finish() noexcept {
     joint.enabled = false;
     joint.open_loop = false;
   }
+  desired_.cylinder.open_loop = false;
 }
 
 bool Brain::ended(const Measured& measured) const noexcept {
@@ -161,13 +162,20 @@ void Brain::follow_path(const Phase& phase, double s, const Measured& measured) 
 
 // What has been reached last holds where a phase asks for nothing.
 void Brain::set_cylinder(const CylinderPhase& phase, double s) noexcept {
-  if (!phase.given()) return;
-  desired_.cylinder.given = true;
+  DesiredCylinder& cylinder = desired_.cylinder;
+  cylinder.open_loop = phase.feedforward.given();
+  cylinder.up_inlet = value_at(phase.feedforward.flexor_inlet, s, 0);
+  cylinder.up_exhaust = value_at(phase.feedforward.flexor_exhaust, s, 0);
+  cylinder.down_inlet = value_at(phase.feedforward.extensor_inlet, s, 0);
+  cylinder.down_exhaust = value_at(phase.feedforward.extensor_exhaust, s, 0);
+
+  if (!phase.placed()) return;
+  cylinder.given = true;
   if (phase.polynomial.empty()) {
-    desired_.cylinder.position = value_at(phase.position, s, desired_.cylinder.position);
+    cylinder.position = value_at(phase.position, s, cylinder.position);
   } else {
     const double u = phase.of == CylinderPhase::Of::foot_y ? desired_.foot.y : s;
-    desired_.cylinder.position = polynomial_at(phase.polynomial, u);
+    cylinder.position = polynomial_at(phase.polynomial, u);
   }
 }
 

@@ -45,6 +45,9 @@ struct DesiredJoint {
 struct DesiredCylinder {
   bool given = false;   // false: no phase has asked for a place yet, it stays at its extended stop
   double position = 0;  // travel, up from that stop [m]
+  bool open_loop = false;                   // the duties in place of the law
+  double up_inlet = 0, up_exhaust = 0;      // [-] 0 .. 1
+  double down_inlet = 0, down_exhaust = 0;  // [-]
 };
 
 enum class Stage : std::uint8_t { settling, walking, finished };

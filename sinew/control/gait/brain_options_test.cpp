@@ -130,6 +130,21 @@ TEST(Brain, TheCylinderGoesThroughAProfile) {
   EXPECT_NEAR(brain.update({}, 153 + 75).cylinder.position, 0.025, 1e-15);
 }
 
+// Open loop lasts as long as its phase; inlet and exhaust of a chamber may be open together.
+TEST(Brain, TheCylinderOpenLoop) {
+  const robot::Robot robot = robot::test::leg();
+  Plan plan = test::walk(robot);
+  plan.phases[0].cylinder.feedforward = {.flexor_inlet = {0.2, 0.6}, .flexor_exhaust = {0.5}};
+  Brain brain(robot, plan);
+  const DesiredCylinder& c = brain.update({}, 75).cylinder;
+  EXPECT_TRUE(c.open_loop);
+  EXPECT_FALSE(c.given);
+  EXPECT_NEAR(c.up_inlet, 0.4, 1e-15);
+  EXPECT_EQ(c.up_exhaust, 0.5);
+  EXPECT_EQ(c.down_inlet + c.down_exhaust, 0);
+  EXPECT_FALSE(brain.update({}, 150).cylinder.open_loop);
+}
+
 // An ankle without muscles behind the knee, a muscle across hip and knee, a knee without extensor.
 robot::Robot odd_machine() {
   robot::Robot robot = robot::test::leg();
@@ -208,6 +223,11 @@ TEST(Contradictions, OfTheNewOptions) {
   EXPECT_EQ(after(follow), Keys{});
   EXPECT_EQ(after([](Plan& p) {
               p.phases[0].cylinder = {{0.01}, {0.01}, CylinderPhase::Of::s};
+            }),
+            Keys{"phase.swing.cylinder"});
+  EXPECT_EQ(after([](Plan& p) {
+              p.phases[0].cylinder.position = {0.01};
+              p.phases[0].cylinder.feedforward.flexor_inlet = {0.5};
             }),
             Keys{"phase.swing.cylinder"});
 }

@@ -106,6 +106,8 @@ void check_cylinder(const robot::Robot& robot, const Phase& phase, List& out) {
                    "[cylinder] with mode = \"valves\"", "leave it out"});
   if (!c.position.empty() && !c.polynomial.empty())
     out.push_back({key, "position and polynomial", "one of them", "leave one out"});
+  if (c.placed() && c.feedforward.given())
+    out.push_back({key, "duties and a place", "one of them", "leave one out"});
   if (c.of == CylinderPhase::Of::foot_y && !phase.has_path())
     out.push_back({key + ".of", "\"foot_y\" in a phase without a foot path", "x and y, or points",
                    "position"});

@@ -48,8 +48,9 @@ void fields(Visitor& v, GainProfiles& g) {
             g.velocity);
 }
 
+// A cylinder's chambers are up and down, as flexor and extensor.
 template <class Visitor>
-void fields(Visitor& v, DutyProfiles& d) {
+void fields(Visitor& v, DutyProfiles& d, bool cylinder = false) {
   const auto duty = [&](std::string_view name, Profile& profile) {
     v.numbers({.name = name,
                .unit = "1",
@@ -59,10 +60,10 @@ void fields(Visitor& v, DutyProfiles& d) {
                .doc = "share of the period it is open"},
               profile);
   };
-  duty("flexor_inlet", d.flexor_inlet);
-  duty("flexor_exhaust", d.flexor_exhaust);
-  duty("extensor_inlet", d.extensor_inlet);
-  duty("extensor_exhaust", d.extensor_exhaust);
+  duty(cylinder ? "up_inlet" : "flexor_inlet", d.flexor_inlet);
+  duty(cylinder ? "up_exhaust" : "flexor_exhaust", d.flexor_exhaust);
+  duty(cylinder ? "down_inlet" : "extensor_inlet", d.extensor_inlet);
+  duty(cylinder ? "down_exhaust" : "extensor_exhaust", d.extensor_exhaust);
 }
 
 template <class Visitor>
@@ -86,6 +87,10 @@ void fields(Visitor& v, CylinderPhase& c) {
              .optional = true,
              .doc = "travel up from the extended stop, over the phase"},
             c.position);
+  v.group({.name = "feedforward",
+           .optional = true,
+           .doc = "open loop in place of the law, in this phase"},
+          [&](auto& g) { fields(g, c.feedforward, true); });
 }
 
 template <class Visitor>

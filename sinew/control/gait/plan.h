@@ -65,15 +65,18 @@ struct JointPhase {
 };
 
 // Of the air cylinder that carries the body, B.1's joint 0: its desired travel, up from the
-// extended stop. None: stays where it was; before the first one, at the stop.
+// extended stop. None: stays where it was; before the first one, at the stop. Or open loop; the
+// chamber `up` then is the flexor, and inlet and exhaust of a chamber may be open together.
 struct CylinderPhase {
   enum class Of { s, foot_y };
 
   Profile position;    // over the phase [m]
   Profile polynomial;  // in its place: c0 + c1 u + ..., u = s or the foot path's height [m]
   Of of = Of::s;
+  DutyProfiles feedforward;
 
-  bool given() const { return !position.empty() || !polynomial.empty(); }
+  bool placed() const { return !position.empty() || !polynomial.empty(); }
+  bool given() const { return placed() || feedforward.given(); }
 };
 
 // The normal force of [75] sets the height of a foot path, 6.3: where the foot carries less than
