@@ -9,27 +9,18 @@
 #include <utility>
 #include <vector>
 
-#include "sinew/analysis/machine.h"
 #include "sinew/analysis/reported.h"
-#include "sinew/analysis/summary.h"
 #include "sinew/config/compose.h"
-#include "sinew/experiment/run.h"
 #include "sinew/units/constants.h"
+#include "tests/bands/shipped.h"
 
 namespace sinew {
 namespace {
 
 constexpr double inch = units::inch, degree = 3.14159265358979312 / 180;
 constexpr int seeds = 20;
-const std::string experiments = std::string(SINEW_SOURCE_DIR) + "/experiments";
-
-analysis::Summary summary_of(const std::string& name, std::vector<std::string> sets = {}) {
-  const std::string path = experiments + "/" + name + ".toml";
-  const config::Node root = config::compose(path, sets);
-  const experiment::Outcome out = experiment::run(experiment::load(root, path));
-  EXPECT_EQ(out.status, signals::Status::ok) << name;
-  return analysis::summarize(out.table, analysis::read_machine(root));
-}
+using test::experiments;
+using test::summary_of;
 
 std::vector<analysis::Summary> over_seeds(const std::string& name) {
   std::vector<analysis::Summary> all;

@@ -1,0 +1,29 @@
+// tests/bands/shipped.h - runs of the experiments that ship.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "sinew/analysis/machine.h"
+#include "sinew/analysis/summary.h"
+#include "sinew/config/compose.h"
+#include "sinew/experiment/run.h"
+
+namespace sinew::test {
+
+inline const std::string experiments = std::string(SINEW_SOURCE_DIR) + "/experiments";
+
+using Sets = std::vector<std::string>;  // key=value
+
+inline std::string file_of(const std::string& name) { return experiments + "/" + name + ".toml"; }
+
+inline analysis::Summary summary_of(const std::string& name, const Sets& sets = {}) {
+  const config::Node root = config::compose(file_of(name), sets);
+  const experiment::Outcome out = experiment::run(experiment::load(root, file_of(name)));
+  EXPECT_EQ(out.status, signals::Status::ok) << name;
+  return analysis::summarize(out.table, analysis::read_machine(root));
+}
+
+}  // namespace sinew::test
