@@ -180,6 +180,7 @@ TEST(Appendix, OnlyDampingOrAStandingFlowKeepTheCylinderFromSwinging) {
   EXPECT_GT(hold(cylinder("0.01", "0.02") + no_feedforward).swing, 0.5 * inch);
   EXPECT_LT(hold(cylinder("0.1", "3")).swing, 0.01 * inch);
   EXPECT_GT(hold(cylinder("0.1", "3") + no_feedforward).swing, 0.1 * inch);
+  EXPECT_LT(hold(cylinder("0.05", "3") + no_feedforward).swing, 0.01 * inch);
 }
 
 // Of what it uses, nearly all goes straight through.
