@@ -69,5 +69,48 @@ TEST(FewerSensors, TransducersThatNoLawReadsChangeLittle) {
               0.5);
 }
 
+// --- 7.3: dampers
+// ---------------------------------------------------------------------------------
+
+std::vector<std::string> dampers(const std::string& size) {
+  return {"joint.hip.damper=" + size, "joint.knee.damper=" + size};
+}
+
+TEST(Dampers, CalmTheHipAndTheSteps) {
+  for (int n = 1; n <= 3; ++n) {
+    std::vector<std::string> none = dampers("0 lbf in s/rad");
+    none.push_back(seed(n));
+    const analysis::Summary without = summary_of("damper", none),
+                            with = summary_of("damper", {seed(n)});
+    for (const char* key : {"joints.hip.swing_oscillation_rms_rad", "foot.step_repeat_true_rms_m"})
+      EXPECT_LT(figure(with, key), 0.7 * figure(without, key)) << key;
+    EXPECT_NEAR(figure(with, "trolley.distance_m"), figure(without, "trolley.distance_m"),
+                0.15 * figure(without, "trolley.distance_m"));
+  }
+}
+
+TEST(Dampers, CostQuickness) {
+  double last = 0;
+  for (const char* size :
+       {"0 lbf in s/rad", "2 lbf in s/rad", "4 lbf in s/rad", "8 lbf in s/rad"}) {
+    const double time = figure(summary_of("kick", dampers(size)), "foot.extension_time_s");
+    EXPECT_GT(time, last) << size;
+    last = time;
+  }
+  EXPECT_GT(last, 0.3);
+}
+
+// A joint's law may take its speed from a sensor; the hip then shakes less, as with an estimate.
+TEST(Spindles, DampTheHipOfTest2) {
+  const auto shakes = [](const char* gain) {
+    const std::string robot =
+                          std::string(SINEW_SOURCE_DIR) + "/robots/leg-with-spindles/robot.toml",
+                      velocity = std::string("joint.hip.velocity_gain=") + gain;
+    return figure(summary_of("walk-test-2", {"robot=" + robot, velocity}),
+                  "joints.hip.swing_oscillation_rms_rad");
+  };
+  EXPECT_LT(shakes("0.008 % s/count"), 0.9 * shakes("0 % s/count"));
+}
+
 }  // namespace
 }  // namespace sinew
