@@ -8,7 +8,7 @@ namespace sinew {
 namespace {
 
 using test::figure, test::seed, test::summary_of;
-constexpr double inch = units::inch, degree = 3.14159265358979312 / 180;
+using units::degree, units::inch;
 
 // The hamstring alone bends the knee and stretches the hip: slack, it leaves both where they hang.
 TEST(ThreeMuscles, WalkBecauseOfTheHamstring) {

@@ -8,7 +8,7 @@ namespace sinew {
 namespace {
 
 using test::figure, test::seed, test::summary_of;
-constexpr double inch = units::inch;
+using units::inch;
 
 // 5.1: the same path, supply and muscles, the same way within an inch and a half, as little spread;
 // and ten times the air at least, because no valve ever seals.
@@ -60,6 +60,59 @@ TEST(Plumbing, SlowRegulatorsSlowTheWalk) {
   };
   EXPECT_GT(distance("10 ms"), distance("100 ms"));
   EXPECT_LT(distance("200 ms"), 0.5 * distance("10 ms"));
+}
+
+// --- what the air costs a robot that carries it -------------------------------------------------
+
+// What has left the tank is what went into the muscles: m = dP V/(R T).
+TEST(Endurance, TheTankLosesWhatTheMusclesTake) {
+  const analysis::Summary s = summary_of("endurance", {"sequence.repeat=25"});
+  const double lost = units::absolute(300 * units::psi) - figure(s, "supply.end_tank_pressure_Pa");
+  const double volume = 0.5e-3, gas_constant = 286.98629312304, temperature = 528 * units::rankine;
+  const double air = lost * volume / (gas_constant * temperature);
+  EXPECT_NEAR(figure(s, "air_used_kg"), air, 1e-6 * air);
+}
+
+TEST(Endurance, PlumbingDecidesHowFarATankLasts) {
+  const auto steps = [](const char* name) {
+    const std::string robot = std::string(SINEW_SOURCE_DIR) + "/robots/" + name + "/robot.toml";
+    return figure(summary_of("endurance", {"sequence.repeat=25", "robot=" + robot}),
+                  "supply.full_steps");
+  };
+  const double two = steps("leg"), regulated = steps("leg-with-regulators"),
+               three = steps("leg-3-way");
+  EXPECT_GE(two, 17);
+  EXPECT_GT(two, 2 * regulated);
+  EXPECT_GT(regulated, 3 * three);
+}
+
+// 4.2's tank of 100 gallons, at its own 100 psi: a walk is a drop in it.
+TEST(Endurance, TheThesissTankHardlyMoves) {
+  const analysis::Summary s = summary_of(
+      "walk-test-1", {"air.supply={ kind = \"tank\", volume = \"378.5 L\", initial_pressure = "
+                      "\"100 psi gauge\", pressure = \"100 psi gauge\" }"});
+  const double end = figure(s, "supply.end_tank_pressure_Pa");
+  EXPECT_NEAR((units::absolute(100 * units::psi) - end) / units::psi, 0.05, 0.02);
+}
+
+// --- hoses
+// ----------------------------------------------------------------------------------------
+
+// 3.4: what a hose takes away is flow, so the walk gets shorter with it; it hardly damps.
+TEST(Hoses, TakeWayAndHardlyDamp) {
+  double last = figure(summary_of("walk-test-1"), "trolley.distance_m");
+  const char* shakes = "joints.hip.swing_oscillation_rms_rad";
+  const double plain = figure(summary_of("walk-test-1"), shakes);
+  for (const char* length : {"0.5 m", "1 m", "2 m", "4 m"}) {
+    std::vector<std::string> sets;
+    for (const char* m : {"hip_flexor", "hip_extensor", "knee_flexor", "knee_extensor"})
+      sets.push_back(std::string("muscle.") + m + ".hose={ law = \"pipe\", length = \"" + length +
+                     "\", inner_diameter = \"2.5 mm\" }");
+    const analysis::Summary s = summary_of("walk-test-1", sets);
+    EXPECT_LT(figure(s, "trolley.distance_m"), last) << length;
+    EXPECT_GT(figure(s, shakes), 0.85 * plain) << length;
+    last = figure(s, "trolley.distance_m");
+  }
 }
 
 }  // namespace
