@@ -109,6 +109,9 @@ Verdict judge(const Summary& summary, const Reported& r, double atmosphere) {
   if (!band) return v;
   const bool inside = *ours >= band->lowest && *ours <= band->highest;
   v.is = inside ? Verdict::Is::agrees : Verdict::Is::differs;
+  if (r.because.empty()) return v;
+  v.is = inside ? Verdict::Is::agrees_after_all : Verdict::Is::differs_as_known;
+  v.source += ". Why: " + r.because;
   return v;
 }
 
@@ -137,6 +140,10 @@ std::string_view to_text(Verdict::Is is) {
       return "agrees";
     case Verdict::Is::differs:
       return "differs";
+    case Verdict::Is::differs_as_known:
+      return "differs, as known";
+    case Verdict::Is::agrees_after_all:
+      return "agrees after all";
     case Verdict::Is::not_applicable:
       break;
   }

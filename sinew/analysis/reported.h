@@ -5,6 +5,7 @@
 //   value  = "55 to 60 in"             as reported
 //   accept = ["53 in", "60 in"]        lowest and highest that agrees
 //   source = "6.3"
+//   because = "…"                      why ours is known to differ, where it does
 //
 // The quantity's unit follows from the last part of the key, so "53 lb" for a distance is an error.
 // Our own figure is shown in the unit in which the source speaks.
@@ -36,17 +37,18 @@ std::optional<config::Mistake> mistake_in_accept(const Reported&,
                                                  double atmosphere = units::atmosphere);
 
 struct Verdict {
-  enum class Is { agrees, differs, not_applicable };
+  // differs_as_known: with the reason; agrees_after_all: the reason is no more.
+  enum class Is { agrees, differs, not_applicable, differs_as_known, agrees_after_all };
 
   std::string key;
-  std::string reported;  // as reported
-  std::string ours;      // "57.7 in", "93.1 %"; empty where the summary has no such key
-  std::string accept;    // "53 in to 60 in"; empty where nothing is judged
-  std::string source;
+  std::string reported;        // as reported
+  std::string ours;            // "57.7 in", "93.1 %"; empty where the summary has no such key
+  std::string accept;          // "53 in to 60 in"; empty where nothing is judged
+  std::string source;          // and the reason of what is known to differ
   Is is = Is::not_applicable;  // no such key in the summary, or nothing to judge by
 };
 
-std::string_view to_text(Verdict::Is is);  // "agrees", "differs", "not applicable"
+std::string_view to_text(Verdict::Is is);  // "agrees", "differs", "not applicable", …
 
 // One verdict each, in the order of the file. Throws config::Error for an `accept` that cannot be
 // read.

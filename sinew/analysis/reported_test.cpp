@@ -68,6 +68,7 @@ TEST(Reported, TheBandDecides) {
   EXPECT_EQ(verdict("d_m", 57 * inch, "55 in", band).accept, "53 in to 60 in");
   EXPECT_EQ(to_text(Is::agrees), "agrees");
   EXPECT_EQ(to_text(Is::differs), "differs");
+  EXPECT_EQ(to_text(Is::differs_as_known), "differs, as known");
 }
 
 TEST(Reported, NoKeyOrNoBandIsNotJudged) {
@@ -97,6 +98,19 @@ TEST(Reported, GaugePressuresKnowTheAtmosphere) {
   const Reported r{"a_Pa", "0 Pa gauge", {"-1 Pa gauge", "1 Pa gauge"}, ""};
   EXPECT_EQ(compare(s, {r}, 100000).at(0).is, Verdict::Is::agrees);
   EXPECT_EQ(compare(s, {r}, 101325).at(0).is, Verdict::Is::differs);
+}
+
+// A reason makes a difference a known one; when it is gone, so is the reason.
+TEST(Reported, AKnownDifferenceSaysWhy) {
+  Summary s;
+  s.add("d_m", 1.0);
+  Reported r{.key = "d_m", .value = "2 m", .accept = {"1.9 m", "2.1 m"}, .source = "6.3"};
+  r.because = "the foot slips";
+  const Verdict known = compare(s, {r}).at(0);
+  EXPECT_EQ(known.is, Verdict::Is::differs_as_known);
+  EXPECT_EQ(known.source, "6.3. Why: the foot slips");
+  r.accept = {"0.9 m", "1.1 m"};
+  EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::agrees_after_all);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ struct Reported {
   std::string value;                // as reported, free text that ends with the unit
   std::vector<std::string> accept;  // lowest and highest that agrees; empty: not judged
   std::string source;
+  std::string because;  // why ours is known to differ; empty: it should agree
 };
 
 template <class Visitor>
@@ -22,6 +23,7 @@ void fields(Visitor& v, Reported& r) {
   v.text({.name = "value", .doc = "as reported"}, r.value);
   v.texts({.name = "accept", .optional = true, .doc = "lowest and highest that agrees"}, r.accept);
   v.text({.name = "source", .doc = "where it is reported"}, r.source);
+  v.text({.name = "because", .optional = true, .doc = "why ours is known to differ"}, r.because);
 }
 
 }  // namespace sinew::config
