@@ -7,6 +7,7 @@
 #include "sinew/config/valve_timing.h"
 #include "sinew/experiment/run.h"
 #include "sinew/muscle/plumbing.h"
+#include "sinew/plant/planar/whole.h"
 #include "sinew/signals/tick.h"
 
 namespace sinew::experiment {
@@ -41,6 +42,10 @@ void check_valves(const Experiment& e, List& out) {
     if (seals && exhaust && exhaust->kind != Kind::two_way)
       out.push_back({"muscle." + m.name + ".exhaust.valve", config::in_quotes(m.exhaust),
                      "a 2-way valve", "a 3-way valve or a regulator stands at the inlet"});
+    if (!seals && !m.second.joint.empty())
+      out.push_back({"muscle." + m.name + ".inlet.valve", config::in_quotes(m.inlet),
+                     "a 2-way valve, as the muscle runs over two joints",
+                     "the laws of both joints share its duties only where its valves seal"});
     if (seals == m.exhaust.empty())
       out.push_back({"muscle." + m.name + ".exhaust", seals ? "none" : config::in_quotes(m.exhaust),
                      seals ? "a valve, as the inlet seals" : "none, as the inlet also vents",
@@ -53,6 +58,41 @@ void check_valves(const Experiment& e, List& out) {
                        config::in_quotes(other.inlet)});
     }
   }
+}
+
+// Keys of a joint's laws that its valves have no use for.
+void check_pressure_law(const Experiment& e, List& out) {
+  using Kind = gas::Valve::Kind;
+  for (const robot::Joint& j : e.robot.joints) {
+    Kind kind = Kind::two_way;
+    for (const robot::Muscle& m : e.robot.muscles)
+      if (const gas::Valve* v = valve_of(e, m.inlet); v && m.joint == j.name) kind = v->kind;
+    const robot::PressureLaw& law = j.pressure_law;
+    const std::string key = "joint." + j.name + ".pressure_law.";
+    if (kind == Kind::two_way && law.bias != robot::PressureLaw{}.bias)
+      out.push_back({key + "bias", "a joint with 2-way valves", "3-way valves or regulators",
+                     "leave it out"});
+    if (kind != Kind::regulator && law.angle_integral > 0)
+      out.push_back(
+          {key + "angle_integral", "a joint without regulators", "regulators", "leave it out"});
+    if (kind != Kind::regulator && law.stiffness_integral > 0)
+      out.push_back(
+          {key + "stiffness_integral", "a joint without regulators", "regulators", "leave it out"});
+  }
+}
+
+void check_supply(const Experiment& e, List& out) {
+  using config::format_quantity;
+  if (e.supply.kind == gas::Supply::Kind::tank && !(e.supply.initial_pressure > e.air.atmosphere))
+    out.push_back({"air.supply.initial_pressure",
+                   format_quantity(e.supply.initial_pressure, "Pa abs", "psi abs"),
+                   "above the atmosphere", "initial_pressure = \"150 psi gauge\""});
+  const robot::Cylinder& c = e.robot.cylinder;
+  if (c.present && c.mode == robot::Cylinder::Mode::regulator && c.pressure > e.supply.pressure)
+    out.push_back(
+        {"cylinder.pressure", format_quantity(c.pressure, "Pa abs", "psi abs"),
+         "at most the supply's, " + format_quantity(e.supply.pressure, "Pa abs", "psi abs"),
+         "pressure = \"20 psi gauge\""});
 }
 
 void check_muscles(const Experiment& e, List& out) {
@@ -88,17 +128,22 @@ void check_cylinder(const Experiment& e, List& out) {
   }
 }
 
-// Air that moves so quickly that a run would take for ever.
-void check_air(const Experiment& e, List& out) {
+// Air or joints that move so quickly that a run would take for ever.
+void check_steps(const Experiment& e, List& out) {
   constexpr double shortest = 2e-6;  // step [s]
   const plant::Setup s = planar_setup(e);
-  if (!muscle::needs_plumbing(s.muscles, s.air, s.supply, s.cylinder)) return;
-  const double step = muscle::Plumbing(s.muscles, s.air, s.supply, s.cylinder).longest_step();
-  if (step >= shortest) return;
-  out.push_back({"air",
-                 "a hose or a cylinder's chamber that fills within " +
-                     config::format_number(1e6 * step) + " us",
-                 "at least 2 us", "a larger volume, or a hose without one"});
+  if (!needs_whole_world(e, s)) return;
+  const double air = muscle::Plumbing(s.muscles, s.air, s.supply, s.cylinder).longest_step();
+  const auto micro = [](double step) { return config::format_number(1e6 * step) + " us"; };
+  if (air < shortest) {
+    out.push_back({"air", "a hose or a cylinder's chamber that fills within " + micro(air),
+                   "at least 2 us", "a larger volume, or a hose without one"});
+    return;
+  }
+  const double step = plant::WholeWorld(s).shortest_step();
+  if (step < shortest && step < s.steps.body)
+    out.push_back({"plant_steps.body", "a machine that needs steps of " + micro(step),
+                   "at least 2 us", "less damping or stiffness, a smaller leak, heavier links"});
 }
 
 void check_start(const Experiment& e, List& out) {
@@ -134,8 +179,12 @@ void check_place(const Experiment& e, List& out) {
     out.push_back({"start.trolley", inches(e.start.trolley),
                    "0 to the track's end, " + inches(trolley.track_length), ""});
   const robot::Cylinder& cylinder = e.robot.cylinder;
-  const double top = cylinder.present ? cylinder.stroke : 0.0;
-  if (e.start.lift > top)
+  const bool lifts = cylinder.present && cylinder.mode != robot::Cylinder::Mode::locked;
+  const double top = lifts ? cylinder.stroke : 0.0;
+  if (!lifts && e.start.lift > 0)
+    out.push_back({"start.lift", inches(e.start.lift), "0: no cylinder lifts the body",
+                   "cylinder.mode = \"regulator\" or \"valves\""});
+  else if (e.start.lift > top)
     out.push_back({"start.lift", inches(e.start.lift), "0 to the stroke, " + inches(top), ""});
   for (const robot::Link& link : e.robot.links)
     if (link.center_of_mass > link.length)
@@ -181,7 +230,8 @@ void check_numbers(const Experiment& e, List& out) {
   whole("control.brain_period", e.plan.brain_period, period, "the low level's period");
   if (!e.robot.low_level.valve_timing.empty() && e.robot.low_level.pwm_ticks != 100)
     out.push_back({"low_level.pwm_ticks", std::to_string(e.robot.low_level.pwm_ticks),
-                   "100: predict.dat counts the ticks of such a period", "leave out its file"});
+                   "100: predict.dat counts the ticks of such a period",
+                   "low_level.valve_timing = \"\""});
   if (e.plant != "planar") out.push_back({"plant", config::in_quotes(e.plant), "planar", ""});
 }
 
@@ -216,6 +266,8 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
   List wrong;
   check_muscles(e, wrong);
   check_valves(e, wrong);
+  check_pressure_law(e, wrong);
+  check_supply(e, wrong);
   check_cylinder(e, wrong);
   if (runs) check_start(e, wrong);
   check_pulses(e, wrong);
@@ -227,7 +279,7 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
   }
   std::ranges::move(robot::contradictions(e.robot), std::back_inserter(wrong));
   std::ranges::move(robot::contradictions(e.wiring, e.robot), std::back_inserter(wrong));
-  if (runs && wrong.empty()) check_air(e, wrong);
+  if (runs && wrong.empty()) check_steps(e, wrong);
   if (runs && wrong.empty()) wrong = gait::contradictions(e.robot, e.plan);
   refuse(wrong, e);
 }

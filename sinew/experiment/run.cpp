@@ -165,10 +165,14 @@ plant::Setup planar_setup(const Experiment& e) {
   return s;
 }
 
+bool needs_whole_world(const Experiment& e, const plant::Setup& setup) {
+  return !robot::is_plain(e.robot) ||
+         muscle::needs_plumbing(setup.muscles, setup.air, setup.supply, setup.cylinder);
+}
+
 Outcome run(const Experiment& e, const RunOptions& options) {
   const plant::Setup setup = planar_setup(e);
-  if (robot::is_plain(e.robot) &&
-      !muscle::needs_plumbing(setup.muscles, setup.air, setup.supply, setup.cylinder)) {
+  if (!needs_whole_world(e, setup)) {
     if (e.robot.joints.size() == 1) return run_world<plant::World<1>>(e, setup, options);
     return run_world<plant::World<2>>(e, setup, options);
   }

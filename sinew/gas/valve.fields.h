@@ -118,6 +118,10 @@ void drive_fields(Visitor& v, Valve& valve) {
     watts(g, "boost_power", "speed-up: at the start of a pulse", valve.coil.boost_power);
     seconds(g, "boost_time", "speed-up: how long at most", valve.coil.boost_time);
   });
+  if (valve.drive == Valve::Drive::speed_up && valve.profile != Valve::Profile::ideal &&
+      !(valve.speed_up.opening > 0 && valve.speed_up.closing > 0))
+    units::complain(v, "speed_up", "not both delays of the drive", "what this valve has with it",
+                    "speed_up = { opening_delay = \"0.5 ms\", closing_delay = \"0.5 ms\" }");
   if (valve.drive == Valve::Drive::standard && valve.coil.boost_time > 0 &&
       !(valve.speed_up.opening > 0 || valve.speed_up.closing > 0))
     units::complain(v, "coil", "a boost without the drive or the delays of speed-up",

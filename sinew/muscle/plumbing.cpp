@@ -87,6 +87,12 @@ double Plumbing::open_share(int valve, double t) const noexcept {
   return tap.shutter.fraction(t);
 }
 
+// Of the air in muscle i  [m^3].
+double Plumbing::volume(int i, double length) const noexcept {
+  const Muscle& m = muscles_[static_cast<std::size_t>(i)];
+  return m.count * actuator::volume(m.actuator.braid, length) + m.external_volume;
+}
+
 bool Plumbing::shut(int inlet, double t) const noexcept {
   return !(open_share(inlet, t) > 0) && !(open_share(inlet + 1, t) > 0);
 }
@@ -228,7 +234,7 @@ void Plumbing::cylinder(double t, double y_supply, double travel, double travel_
     const double room = air_.temperature;
     for (const Side side : {up, down}) {
       const Slot& slot = sides_[side];
-      const Chamber air = chamber(slot, volume(c, side, travel), state);
+      const Chamber air = chamber(slot, muscle::volume(c, side, travel), state);
       const Flows f = through(2 * (size_ + side), t, y_supply, air.y, state);
       out.cylinder_pressure[side] = air.pressure;
       out.cylinder_inflow[side] = f.in;
@@ -257,8 +263,8 @@ void Plumbing::evaluate(double t, const Lanes& length, const Lanes& rate, double
   for (int i = 0; i < size_; ++i) {
     const Muscle& m = muscles_[static_cast<std::size_t>(i)];
     const actuator::Braid& braid = m.actuator.braid;
-    const double volume = m.count * actuator::volume(braid, length[i]) + m.external_volume;
-    const Chamber c = chamber(lines_[static_cast<std::size_t>(i)].chamber, volume, state);
+    const Chamber c =
+        chamber(lines_[static_cast<std::size_t>(i)].chamber, volume(i, length[i]), state);
     pull(i, length[i], rate[i], c.pressure, out);
     line(i, t, y_supply, m.count * actuator::volume_slope(braid, length[i]) * rate[i], c, state,
          out, derivative);

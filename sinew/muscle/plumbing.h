@@ -102,8 +102,10 @@ class Plumbing {
   double open_share(int valve, double t) const noexcept;
 
   // RK4 is stable up to this step: the fastest chamber, lag or wall that an option adds, or
-  // infinity [s]. The muscles' own chambers are not in it.
+  // infinity [s]. With lengths, muscles that never seal are in it too: behind a regulator or a
+  // hose's chamber, or with a leak. Muscles behind shutters are not.
   double longest_step() const noexcept { return longest_step_; }
+  double longest_step(const Lanes& length) const noexcept;
 
  private:
   static constexpr int none = -1;
@@ -129,6 +131,7 @@ class Plumbing {
     bool resists = false;
     gas::HoseConstants hose_flow;
     gas::LeakConstants leak;
+    double settling = 0;  // n R T times the slope of what never shuts; 0: all of it does [m^3/s]
   };
   struct Chamber {
     double pressure = 0, y = 0, temperature = 0;
@@ -143,6 +146,8 @@ class Plumbing {
   Slot add_chamber();
   void limit_step();
   double fastest_slope(int inlet) const;
+  double hose_slope(const Line& line) const;
+  double volume(int i, double length) const noexcept;
 
   void fill(const Slot& slot, double mass, AirState& state) const;
   Chamber chamber(const Slot& slot, double volume, const AirState& state) const noexcept;
@@ -181,6 +186,7 @@ class Plumbing {
   double next_change_ = 0;
   bool ramping_ = false, restless_ = false;
   double longest_step_ = 0;
+  bool settles_ = false;  // a line has `settling`
 };
 
 }  // namespace sinew::muscle

@@ -107,6 +107,12 @@ double Plumbing::fastest_slope(int inlet) const {
   return (taps_[v].flow.linear_gain + taps_[v + 1].flow.linear_gain) / air_.atmosphere;
 }
 
+// The same through a hose  [kg/(s Pa)].
+double Plumbing::hose_slope(const Line& line) const {
+  const double p = supply_.pressure, y = gas::y_of(air_, p), y_less = gas::y_of(air_, 0.999 * p);
+  return gas::hose_flow_y(line.hose_flow, y, y_less) / (1e-3 * p);
+}
+
 // A chamber of volume V whose flow has the slope G decays at n R T G/V.
 void Plumbing::limit_step() {
   double rate = air_.wall_time > 0 ? 1.0 / air_.wall_time : 0.0;
@@ -116,17 +122,33 @@ void Plumbing::limit_step() {
   const double exponent = air_.wall_time > 0 ? gas::heat_capacity_ratio : air_.polytropic_exponent;
   const double spring = exponent * air_.gas_constant * air_.temperature;
   for (int i = 0; i < size_; ++i) {
-    const Line& l = lines_[static_cast<std::size_t>(i)];
+    Line& l = lines_[static_cast<std::size_t>(i)];
+    double slope = (l.leak.hole.linear_gain + l.leak.slope) / air_.atmosphere;
+    if (l.hose.mass != none)
+      slope += hose_slope(l);
+    else if (regulates(taps_[static_cast<std::size_t>(2 * i)].valve))
+      slope += fastest_slope(2 * i);
+    l.settling = spring * slope;
+    settles_ = settles_ || l.settling > 0;
     if (l.hose.mass == none) continue;
-    const double p = supply_.pressure, y = gas::y_of(air_, p), y_less = gas::y_of(air_, 0.999 * p);
-    const double hose = gas::hose_flow_y(l.hose_flow, y, y_less) / (1e-3 * p);
-    faster(spring * (fastest_slope(2 * i) + hose) /
+    faster(spring * (fastest_slope(2 * i) + hose_slope(l)) /
            muscles_[static_cast<std::size_t>(i)].hose.volume);
   }
   for (const Side side : {up, down})
     if (sides_[side].mass != none)
       faster(spring * fastest_slope(2 * (size_ + side)) / cylinder_->dead_volume[side]);
   longest_step_ = rate > 0 ? stable / rate : never;
+}
+
+// Rates of a hose's chamber and of the muscle behind it add up, at most.
+double Plumbing::longest_step(const Lanes& length) const noexcept {
+  if (!settles_) return longest_step_;
+  double fastest = 0;
+  for (int i = 0; i < size_; ++i) {
+    const double rate = lines_[static_cast<std::size_t>(i)].settling / volume(i, length[i]);
+    fastest = rate > fastest ? rate : fastest;
+  }
+  return stable / (fastest + stable / longest_step_);
 }
 
 void Plumbing::fill(const Slot& slot, double mass, AirState& state) const {
@@ -142,16 +164,15 @@ AirState Plumbing::initial(double pressure, const Lanes& length, double travel) 
   for (int i = 0; i < size_; ++i) {
     const Line& l = lines_[static_cast<std::size_t>(i)];
     const Muscle& m = muscles_[static_cast<std::size_t>(i)];
-    const double volume =
-        m.count * actuator::volume(m.actuator.braid, length[i]) + m.external_volume;
-    fill(l.chamber, density(pressure) * volume, state);
+    fill(l.chamber, density(pressure) * volume(i, length[i]), state);
     if (l.hose.mass != none) fill(l.hose, density(pressure) * m.hose.volume, state);
   }
   for (const Side side : {up, down}) {
     if (sides_[side].mass == none) continue;
     const double given = cylinder_->initial_pressure[side];
     fill(sides_[side],
-         density(given > 0 ? given : air_.atmosphere) * volume(*cylinder_, side, travel), state);
+         density(given > 0 ? given : air_.atmosphere) * muscle::volume(*cylinder_, side, travel),
+         state);
   }
   for (const Tap& tap : taps_)
     if (tap.outlet != none) state[tap.outlet] = air_.atmosphere;
@@ -168,7 +189,7 @@ double Plumbing::total_mass(const AirState& state, double travel) const {
   for (const Slot& side : sides_)
     if (side.mass != none) sum += state[side.mass];
   if (cylinder_ && cylinder_->mode == Cylinder::Mode::regulator)
-    sum += gas::density(air_, cylinder_->pressure) * volume(*cylinder_, down, travel);
+    sum += gas::density(air_, cylinder_->pressure) * muscle::volume(*cylinder_, down, travel);
   return sum;
 }
 

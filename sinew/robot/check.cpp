@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "sinew/robot/kinematics.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::robot {
@@ -43,7 +44,11 @@ void check_sizes(const Robot& robot, List& out) {
   check_names(robot.sensors, "sensor", out);
 }
 
-void check_cam(const Cam& cam, const std::string& key, List& out) {
+// Laws and controller divide by the radius at rest.
+void check_cam(const Robot& robot, const std::string& joint, const Cam& cam, const std::string& key,
+               List& out) {
+  if (!cam.angle.empty() && std::isfinite(cam.radius))
+    out.push_back({key + ".moment_arm", "a round cam and a table", "one of both", "cam alone"});
   if (cam.angle.size() != cam.radii.size())
     out.push_back({key + ".cam",
                    std::to_string(cam.angle.size()) + " angles and " +
@@ -53,14 +58,20 @@ void check_cam(const Cam& cam, const std::string& key, List& out) {
       cam.angle.end())
     out.push_back({key + ".cam.angle", "angles that do not ascend", "each above the one before",
                    "the joint's angle, counter-clockwise"});
+  const int j = find_joint(robot, joint);
+  if (j < 0 || cam.angle.empty() || cam.angle.size() != cam.radii.size()) return;
+  const Joint& at = robot.joints[static_cast<std::size_t>(j)];
+  if (!(cam_radius(cam, at, at.rest_angle) > 0))
+    out.push_back({key + ".cam.radius", "0 at the joint's rest angle", "above 0 there",
+                   "angles about the joint's rest_angle"});
 }
 
 void check_second(const Robot& robot, const Muscle& muscle, List& out) {
   const std::string key = "muscle." + muscle.name;
-  check_cam(muscle.cam, key, out);
+  check_cam(robot, muscle.joint, muscle.cam, key, out);
   const Muscle::Second& second = muscle.second;
   if (second.joint.empty()) return;
-  check_cam(second.cam, key + ".second", out);
+  check_cam(robot, second.joint, second.cam, key + ".second", out);
   const int other = find_joint(robot, second.joint);
   if (other < 0 || second.joint == muscle.joint)
     out.push_back({key + ".second.joint", "\"" + second.joint + "\"",

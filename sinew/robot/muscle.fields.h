@@ -56,7 +56,7 @@ void fields(Visitor& v, Joint& joint) {
             .unit = "rad",
             .min = 0,
             .max = turn,
-            .optional = true,
+            .optional = !(joint.spring > 0),
             .doc = "where the spring pulls nothing"},
            joint.spring_angle);
   if (joint.kind == Joint::Kind::driven) driven_fields(v, joint);

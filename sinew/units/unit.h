@@ -44,6 +44,7 @@ inline constexpr std::array known_units = {
     Unit{"ft", dimension::length, foot},
     Unit{"L", dimension::volume, 1, 1000},
     Unit{"mL", dimension::volume, 1, 1'000'000},
+    Unit{"gal", dimension::volume, 231 * inch* inch* inch},
     Unit{"s", dimension::time},
     Unit{"ms", dimension::time, 1, 1000},
     Unit{"us", dimension::time, 1, 1'000'000},

@@ -1,5 +1,6 @@
 #include "sinew/plant/planar/whole.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sinew::plant {
@@ -214,7 +215,7 @@ void WholeWorld::shift(State& out, const State& from, double h, const State& at,
 void WholeWorld::step(double h) noexcept {
   held_ = rubs_.hold(h, held_);
   first_.acceleration = rubs_.accelerations(first_.acceleration, held_);
-  const double pieces = pieces_of(h);
+  const double pieces = pieces_of(h, first_);
   inner_ = time_;
   for (double k = 0; k < pieces; ++k) {
     if (k > 0) look_at(inner_, state_, held_, first_);
@@ -223,9 +224,13 @@ void WholeWorld::step(double h) noexcept {
 }
 
 // While nothing flows there is nothing to be quick.
-double WholeWorld::pieces_of(double h) const noexcept {
-  const double longest = plumbing_.longest_step();
+double WholeWorld::pieces_of(double h, const Look& look) const noexcept {
+  const double longest = plumbing_.longest_step(look.length);
   return h > longest && !plumbing_.quiet() ? std::ceil(h / longest) : 1.0;
+}
+
+double WholeWorld::shortest_step() const noexcept {
+  return std::min(step_, plumbing_.longest_step(first_.length));
 }
 
 void WholeWorld::piece(double h) noexcept {
@@ -294,7 +299,7 @@ auto WholeWorld::peek(const Glance& g, double t) const noexcept -> Peek {
   Peek p{.state = state_, .look = first_};
   const double dt = t - time_;
   if (dt <= 0) return p;
-  const double pieces = pieces_of(dt);
+  const double pieces = pieces_of(dt, first_);
   const double h = dt / pieces;
   for (double k = 1; k <= pieces; ++k) {
     const double to = time_ + k * h;

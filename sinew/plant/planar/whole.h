@@ -43,6 +43,7 @@ class WholeWorld final : public signals::Port {
   const BodyConstants& constants() const noexcept { return constants_; }
   double air_mass() const noexcept;  // in chambers, hoses and tank [kg]
   double time() const noexcept { return time_; }
+  double shortest_step() const noexcept;  // of body and air, where it starts [s]
   std::int64_t nodes() const noexcept { return nodes_; }
   void set_rates(const std::array<double, most_links>& joint_rates, double x_rate,
                  double y_rate) noexcept;
@@ -95,7 +96,7 @@ class WholeWorld final : public signals::Port {
 
   void prepare() noexcept;  // the look at a new node
   void step(double h) noexcept;
-  double pieces_of(double h) const noexcept;  // of a step
+  double pieces_of(double h, const Look& look) const noexcept;  // of a step
   void piece(double h) noexcept;
   double next_node() const noexcept;
   void commit() noexcept;
