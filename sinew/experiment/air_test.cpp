@@ -149,6 +149,25 @@ TEST(AirOfAFile, WhatDoesNotGoTogetherIsSaid) {
        "muscle.hip_flexor.hose.volume: found a hose that resists nothing");
   says({"valve.exhaust.fails_above=35 psi"}, "psi");
   says({"air.wall_time=1 us"}, "air.wall_time: found less than 0.1 ms");
+  says({"air.supply.kind=tank", "air.supply.volume=1 L", "air.supply.initial_pressure=5 psi abs"},
+       "air.supply.initial_pressure: found 5 psi abs; expected above the atmosphere");
+  says({"cylinder.mode=regulator", "cylinder.pressure=200 psi gauge"},
+       "cylinder.pressure: found 214.7 psi abs; expected at most the supply's, 114.7 psi abs");
+  says({"start.lift=1 in"}, "start.lift: found 1 in; expected 0: no cylinder lifts the body");
+  says({"valve.inlet.drive=speed-up"}, "valve.inlet.speed_up: found not both delays of the drive");
+  says({"joint.hip.pressure_law.bias=30 %"},
+       "joint.hip.pressure_law.bias: found a joint with 2-way valves");
+  says({"joint.hip.pressure_law.angle_integral=1 %/(count s)"},
+       "joint.hip.pressure_law.angle_integral: found a joint without regulators");
+  says({"joint.hip.spring=1 lbf in/rad"}, "joint.hip.spring_angle: found nothing");
+  says({"muscle.hip_flexor.leak.conductance=1e-3 kg/(s Pa)"},
+       "plant_steps.body: found a machine that needs steps of 0.4");
+  says({"joint.hip.damper=1e6 lbf in s/rad"}, "plant_steps.body: found a machine that needs steps");
+  says({R"(muscle.hip_flexor.cam={angle=["240 deg","320 deg"],radius=["0 in","0 in"]})"},
+       "muscle.hip_flexor.cam.radius: found 0 at the joint's rest angle");
+  says({R"(muscle.hip_flexor.cam={angle=["240 deg","320 deg"],radius=["1 in","1 in"]})",
+        "muscle.hip_flexor.moment_arm=1 in"},
+       "muscle.hip_flexor.moment_arm: found a round cam and a table");
   Sets thin = pipe;
   thin.push_back("muscle.hip_flexor.hose.volume=0.0001 mL");
   says(thin, "a hose or a cylinder's chamber that fills within");

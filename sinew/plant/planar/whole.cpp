@@ -361,7 +361,8 @@ double WholeWorld::quantity(std::size_t index, double t) noexcept {
   if (kind == Kind::velocity) return joint_rate(peek_motion(g, t), j);
   if (kind == Kind::cylinder) return peek_motion(g, t).at[up];
   const Peek p = peek(g, t);
-  if (kind == Kind::pressure) return p.look.pull.pressure[of] - plumbing_.atmosphere();
+  const double gauged = p.look.pull.pressure[of] - plumbing_.atmosphere();
+  if (kind == Kind::pressure || !std::isfinite(gauged)) return gauged;  // air that ran away too
   return gauge(g, p, of);
 }
 
