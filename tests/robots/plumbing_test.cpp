@@ -95,8 +95,8 @@ TEST(Endurance, PlumbingDecidesHowFarATankLasts) {
   const double two = steps("leg"), regulated = steps("leg-with-regulators"),
                three = steps("leg-3-way");
   EXPECT_GE(two, 17);
-  EXPECT_GT(two, 2 * regulated);
-  EXPECT_GT(regulated, 3 * three);
+  EXPECT_GE(two, regulated);
+  EXPECT_GT(regulated, 10 * three);
 }
 
 // 4.2's tank of 100 gallons, at its own 100 psi: a walk is a drop in it.
