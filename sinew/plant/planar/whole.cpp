@@ -327,7 +327,7 @@ double WholeWorld::gauge(const Glance& g, const Peek& p, int muscle) const noexc
     const double share = g.held[j] * mesh / bound;
     f += first_.pulls[static_cast<std::size_t>(muscle)][0] > 0 ? share : -share;
   }
-  return f > 0 ? f : 0.0;
+  return f < 0 ? 0.0 : f;  // not a number stays what it is
 }
 
 Status WholeWorld::start(const signals::Scan& scan) noexcept {

@@ -288,7 +288,7 @@ double World<N>::gauge(const Glance& g, const Peek& p, int muscle) const noexcep
     const double share = g.held[j] * mesh / contacts_.bound(j);
     f += strings_.pull[muscle] > 0 ? share : -share;
   }
-  return f > 0 ? f : 0.0;
+  return f < 0 ? 0.0 : f;  // not a number stays what it is
 }
 
 template <int N>
