@@ -386,8 +386,7 @@ TEST(Plumbing, EdgesFeelThePressureOverTheirValve) {
 }
 
 TEST(Plumbing, QuietMeansThatNothingMoves) {
-  const std::vector<Muscle> muscles{bundle(0), bundle(0.2)};
-  Plumbing plumbing(muscles, {}, {}, thesis_cylinder());
+  Plumbing plumbing(std::vector{bundle(0), bundle(0.2)}, {}, {}, thesis_cylinder());
   EXPECT_TRUE(plumbing.quiet());
   Hand hand(plumbing, at_rest, 3 * bar);
   const AirState derivative = hand.look(0, hand.state, hand.now);
