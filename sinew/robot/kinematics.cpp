@@ -136,15 +136,19 @@ GroundReaction ground_reaction(const TwoLinks& leg, double theta1, double theta2
   return {.force = {-by_foot.x, -by_foot.y}, .singular = false};
 }
 
+double cam_radius(std::span<const double> angle, std::span<const double> radii, double at) {
+  if (at <= angle.front()) return radii.front();
+  for (std::size_t k = 1; k < angle.size(); ++k) {
+    if (at > angle[k]) continue;
+    const double share = (at - angle[k - 1]) / (angle[k] - angle[k - 1]);
+    return radii[k - 1] + share * (radii[k] - radii[k - 1]);
+  }
+  return radii.back();
+}
+
 double cam_radius(const Cam& cam, const Joint& joint, double angle) {
   if (cam.angle.empty()) return std::isfinite(cam.radius) ? cam.radius : joint.moment_arm;
-  if (angle <= cam.angle.front()) return cam.radii.front();
-  for (std::size_t k = 1; k < cam.angle.size(); ++k) {
-    if (angle > cam.angle[k]) continue;
-    const double share = (angle - cam.angle[k - 1]) / (cam.angle[k] - cam.angle[k - 1]);
-    return cam.radii[k - 1] + share * (cam.radii[k] - cam.radii[k - 1]);
-  }
-  return cam.radii.back();
+  return cam_radius(cam.angle, cam.radii, angle);
 }
 
 double pull_at(const Muscle& muscle, const Joint& joint, double angle) {

@@ -86,6 +86,9 @@ inline constexpr double singular_sine = 0.02;  // 1.1 deg from straight or folde
 GroundReaction ground_reaction(const TwoLinks&, double theta1, double theta2,
                                std::array<double, 2> torque);
 
+// Radius of a cam by its table, at least one point long: straight in between, constant beyond  [m].
+double cam_radius(std::span<const double> angle, std::span<const double> radii, double at);
+
 // Radius of a muscle's cam at that angle of the joint  [m].
 double cam_radius(const Cam&, const Joint&, double angle);
 

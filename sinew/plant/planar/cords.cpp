@@ -1,6 +1,6 @@
 #include "sinew/plant/planar/cords.h"
 
-#include <cmath>
+#include "sinew/robot/kinematics.h"
 
 namespace sinew::plant {
 
@@ -8,7 +8,7 @@ CamLaw::CamLaw(const robot::Cam& cam, const robot::Joint& joint)
     : angle_(cam.angle), radius_(cam.radii), rest_(joint.rest_angle) {
   if (angle_.empty()) {
     angle_ = {joint.rest_angle};
-    radius_ = {std::isfinite(cam.radius) ? cam.radius : joint.moment_arm};
+    radius_ = {robot::cam_radius(cam, joint, joint.rest_angle)};
   }
   area_ = {0.0};
   for (std::size_t k = 1; k < angle_.size(); ++k)
@@ -18,13 +18,7 @@ CamLaw::CamLaw(const robot::Cam& cam, const robot::Joint& joint)
 }
 
 double CamLaw::radius(double angle) const noexcept {
-  if (angle <= angle_.front()) return radius_.front();
-  for (std::size_t k = 1; k < angle_.size(); ++k) {
-    if (angle > angle_[k]) continue;
-    const double share = (angle - angle_[k - 1]) / (angle_[k] - angle_[k - 1]);
-    return radius_[k - 1] + share * (radius_[k] - radius_[k - 1]);
-  }
-  return radius_.back();
+  return robot::cam_radius(angle_, radius_, angle);
 }
 
 double CamLaw::area(double angle) const noexcept {
