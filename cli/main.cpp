@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   cli::add_actuator(app, action);
   cli::add_valve(app, action);
   cli::add_kinematics(app, action);
+  cli::add_identify(app, action);
 
   try {
     app.parse(argc, argv);

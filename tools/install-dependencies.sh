@@ -21,6 +21,7 @@ list='
     demo   -                   nlohmann-json3-dev               writes logs and summaries
     demo   -                   libfmt-dev                       formats numbers and messages
     demo   -                   zlib1g-dev                       checksums of logs
+    demo   -                   libceres-dev                     least squares of identification
     quick  -                   libgtest-dev                     tests
     quick  -                   libgmock-dev                     tests
     quick  clang-format-14     clang-format-14                  one layout of code; versions differ

@@ -42,6 +42,8 @@ libraries='
     mcap/           sinew/log
     mujoco/         sinew/plant/mujoco
     CLI/            cli
+    ceres/          sinew/identify
+    Eigen/          sinew/identify
 '
 
 # A file is one thought: at most this many lines, tables (*.fields.h) and tests apart.

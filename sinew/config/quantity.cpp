@@ -56,8 +56,8 @@ FullUnit field_unit(std::string_view text) {
 
 std::string base_units(Dimension d) {
   const std::pair<int, std::string_view> bases[] = {
-      {d.mass, "kg"},   {d.length, "m"},    {d.time, "s"},   {d.temperature, "K"},
-      {d.angle, "rad"}, {d.count, "count"}, {d.voltage, "V"}};
+      {d.mass, "kg"},   {d.length, "m"},    {d.time, "s"},    {d.temperature, "K"},
+      {d.angle, "rad"}, {d.count, "count"}, {d.voltage, "V"}, {d.current, "A"}};
   std::string above, below;
   for (auto [power, name] : bases) {
     if (power == 0) continue;

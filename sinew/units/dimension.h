@@ -1,4 +1,4 @@
-// units/dimension.h - what a unit measures, as exponents of seven base dimensions.
+// units/dimension.h - what a unit measures, as exponents of eight base dimensions.
 //
 // An angle and a count are dimensions here although SI has them as plain numbers: "0.9 %/count"
 // and "35 lbf in/rad" are gains and stiffnesses whose denominator must not get lost.
@@ -18,6 +18,7 @@ struct Dimension {
   std::int8_t angle = 0;        // rad
   std::int8_t count = 0;        // count
   std::int8_t voltage = 0;      // V
+  std::int8_t current = 0;      // A
 
   constexpr bool operator==(const Dimension&) const = default;
 };
@@ -27,10 +28,10 @@ constexpr Dimension combine(Dimension a, Dimension b, int n = 1) {
   const auto sum = [n](std::int8_t x, std::int8_t y) {
     return static_cast<std::int8_t>(x + n * y);
   };
-  return {sum(a.mass, b.mass),      sum(a.length, b.length),
-          sum(a.time, b.time),      sum(a.temperature, b.temperature),
-          sum(a.angle, b.angle),    sum(a.count, b.count),
-          sum(a.voltage, b.voltage)};
+  return {sum(a.mass, b.mass),       sum(a.length, b.length),
+          sum(a.time, b.time),       sum(a.temperature, b.temperature),
+          sum(a.angle, b.angle),     sum(a.count, b.count),
+          sum(a.voltage, b.voltage), sum(a.current, b.current)};
 }
 
 namespace dimension {
@@ -42,6 +43,9 @@ inline constexpr Dimension temperature{.temperature = 1};
 inline constexpr Dimension angle{.angle = 1};
 inline constexpr Dimension count{.count = 1};
 inline constexpr Dimension voltage{.voltage = 1};
+inline constexpr Dimension current{.current = 1};
+inline constexpr Dimension resistance{.voltage = 1, .current = -1};
+inline constexpr Dimension inductance{.time = 1, .voltage = 1, .current = -1};
 inline constexpr Dimension area{.length = 2};
 inline constexpr Dimension volume{.length = 3};
 inline constexpr Dimension frequency{.time = -1};
@@ -68,6 +72,9 @@ inline constexpr std::array dimension_names = {
     DimensionName{dimension::angle, "rad", "angle"},
     DimensionName{dimension::count, "count", "count"},
     DimensionName{dimension::voltage, "V", "voltage"},
+    DimensionName{dimension::current, "A", "current"},
+    DimensionName{dimension::resistance, "ohm", "resistance"},
+    DimensionName{dimension::inductance, "H", "inductance"},
     DimensionName{dimension::area, "m2", "area"},
     DimensionName{dimension::volume, "m3", "volume"},
     DimensionName{dimension::frequency, "1/s", "frequency"},

@@ -74,6 +74,11 @@ inline constexpr std::array known_units = {
     Unit{"count", dimension::count},
     Unit{"V", dimension::voltage},
     Unit{"mV", dimension::voltage, 1, 1000},
+    Unit{"A", dimension::current},
+    Unit{"mA", dimension::current, 1, 1000},
+    Unit{"ohm", dimension::resistance},
+    Unit{"H", dimension::inductance},
+    Unit{"mH", dimension::inductance, 1, 1000},
     Unit{"J", dimension::energy},
     Unit{"W", dimension::power},
 };

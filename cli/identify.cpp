@@ -1,0 +1,219 @@
+// cli/identify.cpp - `sinew identify`: from measurements to parameter files.
+#include "cli/identify.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/arguments.h"
+#include "cli/run_folder.h"
+#include "cli/terminal.h"
+#include "cli/text_table.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+
+namespace sinew::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// "force=F_N"
+void add_pair(std::string_view option, const std::string& text,
+              std::map<std::string, std::string>& pairs) {
+  const std::size_t equals = text.find('=');
+  if (equals == text.npos || equals == 0 || equals + 1 == text.size())
+    config::fail({std::string(option), 0, 0}, "", config::in_quotes(text), "name=value");
+  pairs[text.substr(0, equals)] = text.substr(equals + 1);
+}
+
+std::vector<std::string> at_commas(const std::string& text) {
+  std::vector<std::string> out;
+  std::size_t from = 0;
+  while (from <= text.size() && !text.empty()) {
+    const std::size_t to = std::min(text.find(',', from), text.size());
+    const std::string piece = text.substr(from, to - from);
+    const std::size_t first = piece.find_first_not_of(' ');
+    out.push_back(first == piece.npos ? "" : piece.substr(first));
+    from = to + 1;
+  }
+  return out;
+}
+
+Json to_json(const identify::Score& score) {
+  return {{"points", score.points},
+          {"rmse", score.rmse},
+          {"max", score.max},
+          {"rmse_percent", score.rmse_percent},
+          {"max_percent", score.max_percent}};
+}
+
+// JSON has no infinity: what is not known is null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json to_json(const identify::Estimate& e) {
+  Json out{{"name", e.name}, {"unit", e.unit}, {"value", e.value}};
+  out["low"] = e.at_bound ? Json() : number(e.low);
+  out["high"] = e.at_bound ? Json() : number(e.high);
+  out["identifiable"] = e.identifiable;
+  if (e.at_bound) out["at_bound"] = true;
+  return out;
+}
+
+Json to_json(const identify::Fit& fit) {
+  Json out{{"model", fit.model}, {"law", fit.law}, {"source", fit.source}};
+  if (!fit.refused.empty()) {
+    out["refused"] = fit.refused;
+    return out;
+  }
+  out["parameters"] = Json::array();
+  for (const identify::Estimate& e : fit.parameters) out["parameters"].push_back(to_json(e));
+  out["fit"] = to_json(fit.fit);
+  if (fit.held_out) out["held_out"] = to_json(*fit.held_out);
+  if (!fit.notes.empty()) out["notes"] = fit.notes;
+  return out;
+}
+
+void print_models(const identify::Report& report) {
+  using enum TextTable::Align;
+  TextTable table({"model", "parameters", "fit rmse", "max", "held out rmse", "max", ""},
+                  {left, right, right, right, right, right, left});
+  const auto percent = [](double x) { return fmt::format("{:.2f} %", x); };
+  for (std::size_t i = 0; i < report.fits.size(); ++i) {
+    const identify::Fit& f = report.fits[i];
+    if (!f.refused.empty()) {
+      table.add({f.model, "-", "-", "-", "-", "-", f.refused});
+      continue;
+    }
+    table.add({f.model, std::to_string(f.parameters.size()), percent(f.fit.rmse_percent),
+               percent(f.fit.max_percent), f.held_out ? percent(f.held_out->rmse_percent) : "-",
+               f.held_out ? percent(f.held_out->max_percent) : "-",
+               i == report.chosen ? "<- chosen" : ""});
+  }
+  fmt::print("{}", table.text());
+}
+
+// The value and half its interval to the digits that mean something.
+std::string interval(const identify::Estimate& e) {
+  if (e.at_bound) return "at the bound of its range";
+  if (!std::isfinite(e.high)) return "not identifiable";
+  return fmt::format("+- {:.2g}{}", 0.5 * (e.high - e.low),
+                     e.identifiable ? "" : ", not identifiable");
+}
+
+void print_parameters(const identify::Fit& fit) {
+  TextTable table({"parameter", "value", "unit", "95 %"},
+                  {TextTable::Align::left, TextTable::Align::right});
+  for (const identify::Estimate& e : fit.parameters)
+    table.add({e.name, fmt::format("{:.6g}", e.value), e.unit == "1" ? "" : e.unit, interval(e)});
+  fmt::print("{}", table.text());
+}
+
+void print(const identify::Report& report) {
+  fmt::print("{}\n", report.subject);
+  fmt::print("errors of the {} in % of {}, {}\n\n", report.quantity, report.full_scale_is,
+             config::format_quantity(report.full_scale, report.unit, report.unit, 5));
+  print_models(report);
+  if (!report.held_out_is.empty()) fmt::print("\nheld out: {}\n", report.held_out_is);
+  if (report.fits.size() > 1) fmt::print("chosen: {}\n", report.rule);
+  fmt::print("\n{}: {}  {}\n", report.best().model, report.best().law, report.best().source);
+  print_parameters(report.best());
+  for (const std::string& note : report.best().notes) fmt::print("note: {}\n", note);
+}
+
+}  // namespace
+
+void add_data_options(CLI::App& sub, DataOptions& options) {
+  sub.add_option("data", options.files, "measurements as CSV")->required();
+  sub.add_option("--map", options.maps, "name=NAME: the file's name for a column; may be repeated")
+      ->allow_extra_args(false)
+      ->delimiter(',');
+  sub.add_option("--unit", options.units,
+                 "NAME=UNIT: unit of a column of the file, as it calls it; may be repeated")
+      ->allow_extra_args(false);
+  sub.add_option("--columns", options.columns,
+                 "\"force [N],time [s]\": the header of a file without one");
+  sub.add_option("--atmosphere", options.atmosphere, "that gauges read against")
+      ->capture_default_str();
+  sub.add_flag("--drop-incomplete", options.drop_incomplete,
+               "leave out rows with cells that are empty or no numbers");
+}
+
+std::vector<identify::Source> sources_of(const DataOptions& options) {
+  identify::Source source;
+  for (const std::string& map : options.maps) add_pair("--map", map, source.names);
+  for (const std::string& unit : options.units) add_pair("--unit", unit, source.units);
+  source.columns = at_commas(options.columns);
+  source.drop_incomplete = options.drop_incomplete;
+  source.atmosphere =
+      argument("--atmosphere", options.atmosphere + " abs", "Pa abs", units::atmosphere);
+  std::vector<identify::Source> out;
+  for (const std::string& file : options.files) {
+    out.push_back(source);
+    out.back().path = file;
+  }
+  return out;
+}
+
+void add_result_options(CLI::App& sub, ResultOptions& options) {
+  sub.add_option("-o,--out", options.out, "the parameter file to write");
+  sub.add_flag("--force", options.force, "replace the parameter file");
+  sub.add_flag("--json", options.json, "print the report as JSON");
+  sub.add_flag("--quiet", options.quiet, "only the report and errors");
+}
+
+void check_result_options(const ResultOptions& options) {
+  if (!options.out.empty()) refuse_to_overwrite(options.out, options.force);
+}
+
+void write_parameter_file(const std::string& text, const ResultOptions& options) {
+  if (options.out.empty()) return;
+  write_file(options.out, text);
+  Messages(options.quiet).note(fmt::format("{}: written", options.out));
+}
+
+Json to_json(const identify::Report& report) {
+  Json out{{"format", "sinew.identification/1"}, {"subject", report.subject}};
+  out["quantity"] = report.quantity;
+  out["unit"] = report.unit;
+  out["full_scale"] = report.full_scale;
+  out["full_scale_is"] = report.full_scale_is;
+  if (!report.held_out_is.empty()) out["held_out_is"] = report.held_out_is;
+  out["chosen"] = report.best().model;
+  out["rule"] = report.rule;
+  out["models"] = Json::array();
+  for (const identify::Fit& fit : report.fits) out["models"].push_back(to_json(fit));
+  out["notes"] = report.notes;
+  out["warnings"] = report.warnings;
+
+  // The chosen one once more, where a program looks first.
+  const Json best = to_json(report.best());
+  for (const char* key : {"model", "parameters", "fit", "held_out"})
+    if (best.contains(key)) out[key] = best[key];
+  return out;
+}
+
+void tell(const identify::Report& report, const std::string& parameter_file,
+          const ResultOptions& options, const Json& extra) {
+  const Messages messages(options.quiet);
+  for (const std::string& note : report.notes) messages.note(note);
+  for (const std::string& warning : report.warnings) messages.warning(warning);
+  if (options.json) {
+    Json out = to_json(report);
+    if (extra.is_object()) out.update(extra);
+    fmt::print("{}\n", out.dump(2));
+  } else {
+    print(report);
+  }
+  write_parameter_file(parameter_file, options);
+}
+
+void add_identify(CLI::App& app, Action& action) {
+  CLI::App& sub = subcommand(app, "identify", "from measurements to parameter files",
+                             "sinew identify geometry mesh.csv -o my-actuator.toml");
+  sub.require_subcommand(1);
+  add_identify_geometry(sub, action);
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,55 @@
+// cli/identify.h - what the methods of `sinew identify` share: how data are read, how a report is
+// shown, where the parameter file goes.
+//
+// A method has one file, cli/identify_<method>.cpp, with add_identify_<method>; what it knows about
+// its method stands in sinew/identify.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "sinew/identify/fit.h"
+#include "sinew/identify/measured.h"
+
+namespace sinew::cli {
+
+void add_identify_geometry(CLI::App& identify, Action& action);
+
+// How files of measurements are read.
+struct DataOptions {
+  std::vector<std::string> files;
+  std::vector<std::string> maps, units;  // "force=F_N"
+  std::string columns;                   // "force [N],pressure [kPa gauge]"
+  std::string atmosphere = "14.7 psi";
+  bool drop_incomplete = false;
+};
+void add_data_options(CLI::App& sub, DataOptions& options);
+
+// One source per file. Throws config::Error for what is no name=value.
+std::vector<identify::Source> sources_of(const DataOptions& options);
+
+// What is done with a result.
+struct ResultOptions {
+  std::string out;  // the parameter file
+  bool json = false, force = false, quiet = false;
+};
+void add_result_options(CLI::App& sub, ResultOptions& options);
+
+// Refuses a parameter file that is there already, before the work begins.
+void check_result_options(const ResultOptions& options);
+
+// Writes the parameter file where one is wanted, and says so.
+void write_parameter_file(const std::string& text, const ResultOptions& options);
+
+nlohmann::ordered_json to_json(const identify::Report& report);
+
+// Prints the report, as words or JSON (`extra` is added to it), and writes the parameter file where
+// one is wanted. Notes and warnings go to stderr.
+void tell(const identify::Report& report, const std::string& parameter_file,
+          const ResultOptions& options, const nlohmann::ordered_json& extra = {});
+
+}  // namespace sinew::cli

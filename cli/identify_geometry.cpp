@@ -1,0 +1,134 @@
+// cli/identify_geometry.cpp - `sinew identify geometry`: thread length and turns of a braid.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/arguments.h"
+#include "cli/identify.h"
+#include "sinew/actuator/braid.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+#include "sinew/identify/geometry.h"
+#include "sinew/identify/provenance.h"
+
+namespace sinew::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  DataOptions data;
+  ResultOptions result;
+  std::string name = "bpa", trapezoids, side, thread = "0 mm";
+};
+
+// What a braid leaves open, so that the file can be read: the mesh ends where its threads lie
+// straight, and nothing is lost yet.
+actuator::Actuator actuator_of(const actuator::Braid& braid, const std::string& name,
+                               const std::string& source, const identify::Report* report,
+                               identify::Provenance& provenance) {
+  actuator::Actuator a;
+  a.name = name;
+  a.braid = braid;
+  a.long_end = {.length = 0.93 * braid.thread_length, .stiffness = 87563.4, .damping = 122.6};
+  a.short_end.stiffness = a.long_end.stiffness;
+  a.short_end.damping = a.long_end.damping;
+
+  const std::string path = "actuator." + name + ".";
+  for (const char* key : {"thread_length", "turns"}) {
+    const identify::Estimate* found = nullptr;
+    if (report)
+      for (const identify::Estimate& e : report->best().parameters)
+        if (e.name == key) found = &e;
+    if (found)
+      provenance.fitted(path + "braid." + key, *found, source);
+    else
+      provenance.given(path + "braid." + key, source);
+  }
+  provenance.guessed(path + "long_end.length", "as the thesis's share of the thread's length");
+  for (const char* end : {"long_end", "short_end"})
+    for (const char* key : {"stiffness", "damping"})
+      provenance.guessed(path + end + "." + key, "the thesis's actuator, appendix A");
+  return a;
+}
+
+Json describe(const actuator::Braid& braid) {
+  return {{"thread_length_m", braid.thread_length},
+          {"turns", braid.turns},
+          {"shortest_length_m", actuator::shortest_length(braid)}};
+}
+
+ExitCode from_pairs(const Options& options) {
+  const std::vector<identify::Source> sources = sources_of(options.data);
+  if (sources.size() != 1)
+    config::fail({"data", 0, 0}, "", fmt::format("{} files", sources.size()), "one");
+  const double thread = argument("--thread-thickness", options.thread, "m", units::atmosphere);
+  const identify::GeometryResult found = identify::identify_geometry(
+      identify::read_measured(sources[0], identify::geometry_columns()), thread);
+
+  identify::Provenance provenance;
+  const actuator::Actuator a =
+      actuator_of(found.braid, options.name, "sinew identify geometry " + sources[0].path,
+                  &found.report, provenance);
+  tell(found.report, identify::actuator_file(a, provenance), options.result, describe(found.braid));
+  return ok;
+}
+
+ExitCode from_trapezoids(const Options& options) {
+  const std::vector<double> counts = argument_list("--trapezoids", options.trapezoids, "1");
+  if (counts.size() != 2 || !(counts[0] > 0) || !(counts[1] > 0))
+    config::fail({"--trapezoids", 0, 0}, "", config::in_quotes(options.trapezoids),
+                 "two counts, lengthwise and around: 37,16");
+  const double side = argument("--side", options.side, "m", units::atmosphere);
+  if (!(side > 0))
+    config::fail({"--side", 0, 0}, "", config::in_quotes(options.side), "a length above zero");
+  const actuator::Braid braid = actuator::braid_from_trapezoids(counts[0], counts[1], side);
+
+  if (options.result.json) {
+    fmt::print("{}\n", describe(braid).dump(2));
+  } else {
+    fmt::print("thread_length  {}  [17]\nturns          {}  [18]\nshortest       {}  [5], [6]\n",
+               config::format_quantity(braid.thread_length, "m", "mm"),
+               config::format_number(braid.turns),
+               config::format_quantity(actuator::shortest_length(braid), "m", "mm"));
+  }
+  identify::Provenance provenance;
+  const std::string source =
+      fmt::format("{} x {} trapezoids of {}, [17], [18]", counts[0], counts[1], options.side);
+  const actuator::Actuator a = actuator_of(braid, options.name, source, nullptr, provenance);
+  write_parameter_file(identify::actuator_file(a, provenance), options.result);
+  return ok;
+}
+
+}  // namespace
+
+void add_identify_geometry(CLI::App& identify, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App& sub =
+      subcommand(identify, "geometry",
+                 "thread length and turns, from counted trapezoids or from lengths and diameters",
+                 "sinew identify geometry --trapezoids 37,16 --side \"0.057 in\"");
+  add_data_options(sub, options->data);
+  sub.get_option("data")->required(false);
+  sub.add_option("--trapezoids", options->trapezoids,
+                 "LENGTHWISE,AROUND counted on the opened mesh, instead of data");
+  sub.add_option("--side", options->side, "of one trapezoid");
+  sub.add_option("--thread-thickness", options->thread,
+                 "taken off diameters that were measured outside the threads")
+      ->capture_default_str();
+  sub.add_option("--name", options->name, "of the actuator")->capture_default_str();
+  add_result_options(sub, options->result);
+  sub.callback([options, &action] {
+    if (options->data.files.empty() == options->trapezoids.empty())
+      throw CLI::ValidationError("data", "either a file of lengths and diameters, or --trapezoids");
+    if (!options->trapezoids.empty() && options->side.empty())
+      throw CLI::ValidationError("--side", "is needed with --trapezoids");
+    action = [options] {
+      check_result_options(options->result);
+      return options->trapezoids.empty() ? from_pairs(*options) : from_trapezoids(*options);
+    };
+  });
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,70 @@
+#include "sinew/identify/fit.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sinew/identify/refusal.h"
+
+namespace sinew::identify {
+
+Score score(std::span<const double> residuals, double full_scale) {
+  Score out{.points = residuals.size()};
+  double sum = 0;
+  for (const double r : residuals) {
+    sum += r * r;
+    out.max = std::max(out.max, std::abs(r));
+  }
+  if (!residuals.empty()) out.rmse = std::sqrt(sum / static_cast<double>(residuals.size()));
+  if (full_scale > 0) {
+    out.rmse_percent = 100 * out.rmse / full_scale;
+    out.max_percent = 100 * out.max / full_scale;
+  }
+  return out;
+}
+
+namespace {
+
+bool usable(const Fit& fit) { return fit.refused.empty(); }
+
+double error_of(const Fit& fit, bool held_out) {
+  return held_out ? fit.held_out->rmse_percent : fit.fit.rmse_percent;
+}
+
+[[noreturn]] void refuse_all(const Report& report) {
+  std::string reasons;
+  for (const Fit& fit : report.fits)
+    reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", fit.model, fit.refused);
+  throw Refusal(report.subject, "no model that the data support (" + reasons + ")",
+                "data that determine the simplest of them", "");
+}
+
+}  // namespace
+
+void choose(Report& report, double tolerance) {
+  bool held_out = true;
+  for (const Fit& fit : report.fits)
+    if (usable(fit)) held_out &= fit.held_out.has_value();
+
+  const Fit* smallest = nullptr;
+  for (const Fit& fit : report.fits)
+    if (usable(fit) && (!smallest || error_of(fit, held_out) < error_of(*smallest, held_out)))
+      smallest = &fit;
+  if (!smallest) refuse_all(report);
+
+  const double limit = (1 + tolerance) * error_of(*smallest, held_out);
+  const Fit* chosen = smallest;
+  for (const Fit& fit : report.fits)
+    if (usable(fit) && error_of(fit, held_out) <= limit &&
+        fit.parameters.size() < chosen->parameters.size())
+      chosen = &fit;
+
+  report.chosen = static_cast<std::size_t>(chosen - report.fits.data());
+  report.rule = fmt::format(
+      "fewest parameters among those whose {} error is within {:.0f} % of the smallest: {} has {} "
+      "and {:.3g} %, the smallest is {:.3g} % ({})",
+      held_out ? "held-out" : "fit", 100 * tolerance, chosen->model, chosen->parameters.size(),
+      error_of(*chosen, held_out), error_of(*smallest, held_out), smallest->model);
+}
+
+}  // namespace sinew::identify
