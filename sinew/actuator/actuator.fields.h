@@ -156,6 +156,67 @@ void fields(Visitor& v, Bladder& bladder) {
            bladder.rest_length);
 }
 
+template <class Visitor>
+void fields(Visitor& v, Hysteresis& h) {
+  v.number({.name = "half_width",
+            .unit = "Pa diff",
+            .min = 0,
+            .doc = "a, half the gap of pressure between filling and venting at one length"},
+           h.half_width);
+  v.number({.name = "width_per_pressure",
+            .unit = "1",
+            .min = 0,
+            .max = 0.9,
+            .optional = true,
+            .doc = "b, what half_width grows by per gauge pressure"},
+           h.width_per_pressure);
+  v.number({.name = "width_per_contraction",
+            .unit = "Pa diff",
+            .min = 0,
+            .optional = true,
+            .doc = "d, what half_width grows by per contraction, counted from long_end.length"},
+           h.width_per_contraction);
+  v.number({.name = "volume_pressure",
+            .unit = "Pa diff",
+            .min = 0,
+            .optional = true,
+            .doc = "K, pressure that turns the friction as the greatest volume does; 0: length "
+                   "does not turn it"},
+           h.volume_pressure);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Creep& creep) {
+  // Only the elements that are there.
+  std::vector<double> share, time;
+  for (std::size_t i = 0; i < creep.share.size(); ++i) {
+    if (creep.share[i] == 0) continue;
+    share.push_back(creep.share[i]);
+    time.push_back(creep.time[i]);
+  }
+  v.numbers({.name = "share",
+             .unit = "1",
+             .min = 0,
+             .max = 1,
+             .doc = "c, of the tension, that comes late; one or two elements"},
+            share);
+  v.numbers({.name = "time", .unit = "s", .min = 0, .doc = "tau of each element"}, time);
+  bool slow = true;
+  for (const double tau : time) slow = slow && tau > 0;
+  if (share.size() != time.size() || share.size() > creep.share.size() || !slow) {
+    units::complain(
+        v, "share",
+        std::to_string(share.size()) + " shares and " + std::to_string(time.size()) + " times",
+        "as many times above zero as shares, one or two", R"(share = ["3 %"], time = ["10 s"])");
+  }
+  share.resize(creep.share.size());
+  time.resize(creep.time.size());
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    creep.share[i] = share[i];
+    creep.time[i] = time[i];
+  }
+}
+
 // The name is the key of the table that holds this one.
 template <class Visitor>
 void fields(Visitor& v, Actuator& a) {
@@ -173,6 +234,10 @@ void fields(Visitor& v, Actuator& a) {
   v.group({.name = "loss", .doc = "what is lost in motion"}, [&](auto& g) { fields(g, a.loss); });
   v.group({.name = "bladder", .optional = true, .doc = "the tube inside, as a spring"},
           [&](auto& g) { fields(g, a.bladder); });
+  v.group({.name = "hysteresis", .optional = true, .doc = "friction that turns with the pressure"},
+          [&](auto& g) { fields(g, a.hysteresis); });
+  v.group({.name = "creep", .optional = true, .doc = "tension that comes late"},
+          [&](auto& g) { fields(g, a.creep); });
 }
 
 // All of a file's actuators.

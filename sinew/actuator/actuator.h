@@ -1,10 +1,11 @@
 // actuator/actuator.h - one braided pneumatic actuator (McKibben muscle): its parameters.
 //
-// The laws stand in braid.h (geometry), tension.h, loss.h and stiffness.h. Everything is SI;
-// pressure is absolute unless a name says gauge. Sources: Colbrunn (2000), equation numbers in
-// brackets.
+// The laws stand in braid.h (geometry), tension.h, loss.h, hysteresis.h, creep.h and stiffness.h.
+// Everything is SI; pressure is absolute unless a name says gauge. Sources: Colbrunn (2000),
+// equation numbers in brackets.
 #pragma once
 
+#include <array>
 #include <string>
 
 namespace sinew::actuator {
@@ -57,6 +58,22 @@ struct Bladder {
   double rest_length = 0;  // [m]
 };
 
+// Friction of the mesh as a pressure that is missing while it rises; not in the thesis, see
+// hysteresis.h.
+struct Hysteresis {
+  double half_width = 0;             // a [Pa]
+  double width_per_pressure = 0;     // b [-], below 1
+  double width_per_contraction = 0;  // d [Pa], contraction counted from L_max
+  double volume_pressure = 0;        // K [Pa]: pressure that turns it as the greatest volume does
+};
+
+// Tension that comes late; not in the thesis, see creep.h.
+struct Creep {
+  static constexpr int most = 2;     // elements
+  std::array<double, most> share{};  // c_i [-]; 0: no such element
+  std::array<double, most> time{};   // tau_i [s]
+};
+
 struct Actuator {
   std::string name;
   Braid braid;
@@ -65,6 +82,8 @@ struct Actuator {
   ShortEnd short_end;
   Loss loss;
   Bladder bladder;
+  Hysteresis hysteresis;
+  Creep creep;
 };
 
 }  // namespace sinew::actuator

@@ -32,6 +32,12 @@ FieldVisitor leg() {
       {"loss.stick", {0}},
       {"bladder.stiffness", {364}},
       {"bladder.rest_length", {0.08}},
+      {"hysteresis.half_width", {2500}},
+      {"hysteresis.width_per_pressure", {0.004}},
+      {"hysteresis.width_per_contraction", {4e4}},
+      {"hysteresis.volume_pressure", {1e6}},
+      {"creep.share", {0.03, 0.02}},
+      {"creep.time", {0.5, 10}},
   };
   v.words_given = {{"effectiveness.argument", "absolute"},
                    {"short_end.law", "zero"},
@@ -66,6 +72,12 @@ TEST(ActuatorFields, fill_every_member) {
   EXPECT_FALSE(a.loss.stick);
   EXPECT_EQ(a.bladder.stiffness, 364);
   EXPECT_EQ(a.bladder.rest_length, 0.08);
+  EXPECT_EQ(a.hysteresis.half_width, 2500);
+  EXPECT_EQ(a.hysteresis.width_per_pressure, 0.004);
+  EXPECT_EQ(a.hysteresis.width_per_contraction, 4e4);
+  EXPECT_EQ(a.hysteresis.volume_pressure, 1e6);
+  EXPECT_EQ(a.creep.share, (std::array{0.03, 0.02}));
+  EXPECT_EQ(a.creep.time, (std::array{0.5, 10.0}));
 }
 
 TEST(ActuatorFields, ask_for_what_was_given_and_a_few_more) {
@@ -140,6 +152,13 @@ TEST(ActuatorFields, complain_about_what_does_not_go_together) {
   v = leg();
   v.words_given["loss.coulomb_scale"] = "constant";
   EXPECT_EQ(complaints(v), Strings{"loss.coulomb_scale"});
+
+  for (const std::vector<double>& times :
+       {std::vector<double>{0.5}, {0.5, 0}, {0.5, 10, 20}, std::vector<double>{}}) {
+    v = leg();
+    v.numbers_given["creep.time"] = times;
+    EXPECT_EQ(complaints(v), Strings{"creep.share"});
+  }
 }
 
 TEST(ActuatorFields, a_shorter_polynomial_ends_in_zeros) {

@@ -3,6 +3,8 @@
 #include <limits>
 
 #include "sinew/actuator/braid.h"
+#include "sinew/actuator/creep.h"
+#include "sinew/actuator/hysteresis.h"
 #include "sinew/actuator/loss.h"
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
@@ -127,13 +129,36 @@ Plumbing::Flows Plumbing::through(int inlet, double t, double y_supply, double y
   return flows;
 }
 
+// All of [31]-[35] but the dry friction, by the pressure that the mesh feels, and what comes late.
+double Plumbing::smooth_tension(int i, double length, double rate, double gauge,
+                                const AirState& state, AirPull& out,
+                                AirState& derivative) const noexcept {
+  const Muscle& m = muscles_[static_cast<std::size_t>(i)];
+  const Line& l = lines_[static_cast<std::size_t>(i)];
+  double feels = gauge;
+  if (l.play != none) {
+    const actuator::Felt felt = actuator::felt(m.actuator, length, gauge, state[l.play]);
+    feels = felt.gauge_pressure;
+    out.play[i] = felt.play;
+  }
+  double one = actuator::tension(m.actuator, length, rate, feels, air_.atmosphere);
+  for (std::size_t k = 0; k < l.late.size(); ++k) {
+    const int late = l.late[k];
+    if (late == none) continue;
+    const actuator::Creep& creep = m.actuator.creep;
+    one +=
+        actuator::creep_tension(m.actuator, creep.share[k], length, state[late], air_.atmosphere);
+    derivative[late] = actuator::creep_rate(creep.time[k], feels, state[late]);
+  }
+  return m.count * one;
+}
+
 // [31]-[35] of the bundle.
-void Plumbing::pull(int i, double length, double rate, double pressure,
-                    AirPull& out) const noexcept {
+void Plumbing::pull(int i, double length, double rate, double pressure, const AirState& state,
+                    AirPull& out, AirState& derivative) const noexcept {
   const Muscle& m = muscles_[static_cast<std::size_t>(i)];
   const double gauge = pressure - air_.atmosphere;
-  const double smooth =
-      m.count * actuator::tension(m.actuator, length, rate, gauge, air_.atmosphere);
+  const double smooth = smooth_tension(i, length, rate, gauge, state, out, derivative);
   const double exponent = air_.wall_time > 0 ? gas::heat_capacity_ratio : air_.polytropic_exponent;
   const double sealed = actuator::stiffness_sealed(m.actuator, length, pressure, air_.atmosphere,
                                                    m.external_volume / m.count, exponent);
@@ -265,7 +290,7 @@ void Plumbing::evaluate(double t, const Lanes& length, const Lanes& rate, double
     const actuator::Braid& braid = m.actuator.braid;
     const Chamber c =
         chamber(lines_[static_cast<std::size_t>(i)].chamber, volume(i, length[i]), state);
-    pull(i, length[i], rate[i], c.pressure, out);
+    pull(i, length[i], rate[i], c.pressure, state, out, derivative);
     line(i, t, y_supply, m.count * actuator::volume_slope(braid, length[i]) * rate[i], c, state,
          out, derivative);
     taken += out.inflow[i];

@@ -1,5 +1,6 @@
 // muscle/plumbing.h - the air half of a machine whose air does more than a bank's: a tank that
-// empties, hoses that resist, walls that warm, leaks, regulators, an air cylinder.
+// empties, hoses that resist, walls that warm, leaks, regulators, an air cylinder. And for meshes
+// that remember: hysteresis and creep.
 //
 // Like a bank it owns the valves and is asked in every stage; whoever integrates owns the state:
 //
@@ -7,10 +8,12 @@
 //
 // What the state holds depends on what is switched on: the muscles' masses come first. Scalar and
 // exact (one power per chamber); with nothing switched on it says what the bank says. The laws:
-// gas/orifice.h, series.h, hose.h, leak.h, heat.h, supply.h, regulator.h, cylinder.h.
+// gas/orifice.h, series.h, hose.h, leak.h, heat.h, supply.h, regulator.h, cylinder.h,
+// actuator/hysteresis.h, creep.h.
 //
 //   order   electrical, level ... at t, from the look at the last node
-//           node(t) at next_change() and wherever the integrator wants one, then evaluate
+//           node(t) at next_change() and wherever the integrator wants one, then evaluate, and
+//           remember what the look at the node says
 #pragma once
 
 #include <array>
@@ -28,7 +31,7 @@
 
 namespace sinew::muscle {
 
-inline constexpr int max_air_states = 64;
+inline constexpr int max_air_states = 72;
 
 // Only the first states() are used. Not set when made: `AirState x{}` is zero.
 struct AirState {
@@ -42,6 +45,7 @@ struct AirState {
 struct AirPull : Pull {
   Lanes leak;      // out of the muscle to the atmosphere [kg/s]
   Lanes manifold;  // pressure between valves and hose; the muscle's own without a hose [Pa]
+  Lanes play;      // state of the hysteresis, where there is one [Pa]
 
   double cylinder_force = 0;  // on the body, up > 0 [N]
   std::array<double, 2> cylinder_pressure{}, cylinder_inflow{}, cylinder_outflow{};  // [Pa] [kg/s]
@@ -95,7 +99,15 @@ class Plumbing {
   void evaluate(double t, const Lanes& length, const Lanes& rate, double travel, double travel_rate,
                 const AirState& state, AirPull& out, AirState& derivative) const noexcept;
 
-  // Nothing flows or warms: the derivative is all zero until the next change.
+  // At a node, with the look at it: the plays of the hysteresis move on. Looks between two nodes go
+  // by the last one, exactly as long as a pressure does not turn between them.
+  void remember(const AirPull& at_node, AirState& state) const noexcept {
+    for (int i = 0; i < size_ && plays_; ++i)
+      if (const int play = lines_[static_cast<std::size_t>(i)].play; play != none)
+        state[play] = at_node.play[i];
+  }
+
+  // Nothing flows, warms or creeps: the derivative is all zero until the next change.
   bool quiet() const noexcept { return !restless_ && !ramping_ && open_count_ == 0; }
 
   // Share of the valve's area that is open at t  [-].
@@ -131,6 +143,8 @@ class Plumbing {
     bool resists = false;
     gas::HoseConstants hose_flow;
     gas::LeakConstants leak;
+    int play = none;                                             // of the hysteresis
+    std::array<int, actuator::Creep::most> late = {none, none};  // of the creep
     double settling = 0;  // n R T times the slope of what never shuts; 0: all of it does [m^3/s]
   };
   struct Chamber {
@@ -141,6 +155,7 @@ class Plumbing {
   };
 
   void add_muscle(const Muscle& muscle);
+  void add_memory(int i);
   void add_cylinder();
   void add_tap(const gas::Valve& valve);
   Slot add_chamber();
@@ -149,9 +164,13 @@ class Plumbing {
   double hose_slope(const Line& line) const;
   double volume(int i, double length) const noexcept;
 
+  void rest(int i, double gauge, double length, AirState& state) const;
   void fill(const Slot& slot, double mass, AirState& state) const;
   Chamber chamber(const Slot& slot, double volume, const AirState& state) const noexcept;
-  void pull(int i, double length, double rate, double pressure, AirPull& out) const noexcept;
+  double smooth_tension(int i, double length, double rate, double gauge, const AirState& state,
+                        AirPull& out, AirState& derivative) const noexcept;
+  void pull(int i, double length, double rate, double pressure, const AirState& state, AirPull& out,
+            AirState& derivative) const noexcept;
   Flows through(int inlet, double t, double y_supply, double y,
                 const AirState& state) const noexcept;
   bool shut(int inlet, double t) const noexcept;
@@ -187,6 +206,7 @@ class Plumbing {
   bool ramping_ = false, restless_ = false;
   double longest_step_ = 0;
   bool settles_ = false;  // a line has `settling`
+  bool plays_ = false;    // a line has a `play`
 };
 
 }  // namespace sinew::muscle

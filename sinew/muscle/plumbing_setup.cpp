@@ -3,6 +3,8 @@
 #include <stdexcept>
 
 #include "sinew/actuator/braid.h"
+#include "sinew/actuator/creep.h"
+#include "sinew/actuator/hysteresis.h"
 #include "sinew/gas/heat.h"
 #include "sinew/muscle/plumbing.h"
 
@@ -28,6 +30,8 @@ bool needs_plumbing(std::span<const Muscle> muscles, const gas::Air& air, const 
       cylinder.has_value() || air.wall_time > 0 || supply.kind != gas::Supply::Kind::constant;
   for (const Muscle& m : muscles) {
     any = any || m.hose.law != gas::Hose::Law::none || m.leak.area > 0 || m.leak.conductance > 0;
+    any = any || actuator::has_hysteresis(m.actuator.hysteresis) ||
+          actuator::has_creep(m.actuator.creep);
     for (const gas::Valve* v : {&m.inlet, &m.exhaust})
       any = any || regulates(*v) || needs_pressures(*v);
   }
@@ -53,11 +57,13 @@ Plumbing::Plumbing(std::span<const Muscle> muscles, const gas::Air& air, const g
   for (Tap& tap : taps_)
     if (regulates(tap.valve) && tap.valve.regulator.time_constant > 0) tap.outlet = states_++;
   if (supply_.kind == gas::Supply::Kind::tank) tank_ = states_++;
+  for (int i = 0; i < size_; ++i) add_memory(i);
 
-  // What flows or warms although every valve is shut.
+  // What flows, warms or creeps although every valve is shut.
   restless_ = air_.wall_time > 0 || (cylinder_ && cylinder_->mode == Cylinder::Mode::regulator);
   for (const Line& l : lines_) restless_ = restless_ || !l.leak.tight() || l.hose.mass != none;
   for (const Tap& tap : taps_) restless_ = restless_ || regulates(tap.valve);
+  for (const Muscle& m : muscles_) restless_ = restless_ || actuator::has_creep(m.actuator.creep);
   limit_step();
   refresh(0.0);
 }
@@ -90,6 +96,16 @@ void Plumbing::add_muscle(const Muscle& m) {
   lines_.push_back(line);
 }
 
+// What the mesh of muscle i remembers.
+void Plumbing::add_memory(int i) {
+  const actuator::Actuator& a = muscles_[static_cast<std::size_t>(i)].actuator;
+  Line& l = lines_[static_cast<std::size_t>(i)];
+  if (actuator::has_hysteresis(a.hysteresis)) l.play = states_++;
+  plays_ = plays_ || l.play != none;
+  for (std::size_t k = 0; k < l.late.size(); ++k)
+    if (a.creep.share[k] != 0) l.late[k] = states_++;
+}
+
 void Plumbing::add_cylinder() {
   for (const Side side : {up, down}) {
     add_tap(cylinder_->inlet[side]);
@@ -119,6 +135,11 @@ void Plumbing::limit_step() {
   const auto faster = [&](double one) { rate = one > rate ? one : rate; };
   for (const Tap& tap : taps_)
     if (tap.outlet != none) faster(1.0 / tap.valve.regulator.time_constant);
+  for (int i = 0; i < size_; ++i) {
+    const auto m = static_cast<std::size_t>(i);
+    for (std::size_t k = 0; k < lines_[m].late.size(); ++k)
+      if (lines_[m].late[k] != none) faster(1.0 / muscles_[m].actuator.creep.time[k]);
+  }
   const double exponent = air_.wall_time > 0 ? gas::heat_capacity_ratio : air_.polytropic_exponent;
   const double spring = exponent * air_.gas_constant * air_.temperature;
   for (int i = 0; i < size_; ++i) {
@@ -151,6 +172,15 @@ double Plumbing::longest_step(const Lanes& length) const noexcept {
   return stable / (fastest + stable / longest_step_);
 }
 
+// A mesh that has stood at this pressure and length for long.
+void Plumbing::rest(int i, double gauge, double length, AirState& state) const {
+  const Line& l = lines_[static_cast<std::size_t>(i)];
+  const actuator::Actuator& a = muscles_[static_cast<std::size_t>(i)].actuator;
+  if (l.play != none) state[l.play] = actuator::play_at_rest(a, length, gauge);
+  for (const int late : l.late)
+    if (late != none) state[late] = gauge;
+}
+
 void Plumbing::fill(const Slot& slot, double mass, AirState& state) const {
   state[slot.mass] = mass;
   if (slot.energy != none) state[slot.energy] = gas::energy_at_rest(air_, mass);
@@ -166,6 +196,7 @@ AirState Plumbing::initial(double pressure, const Lanes& length, double travel) 
     const Muscle& m = muscles_[static_cast<std::size_t>(i)];
     fill(l.chamber, density(pressure) * volume(i, length[i]), state);
     if (l.hose.mass != none) fill(l.hose, density(pressure) * m.hose.volume, state);
+    rest(i, pressure - air_.atmosphere, length[i], state);
   }
   for (const Side side : {up, down}) {
     if (sides_[side].mass == none) continue;

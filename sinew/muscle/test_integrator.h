@@ -61,6 +61,8 @@ struct Hand {
     }
     state = sum_of;
     t += h;
+    look(t, state, now);
+    plumbing.remember(now, state);
   }
 
   // Nodes at multiples of h and where a valve changes, as a world does it.

@@ -161,6 +161,7 @@ void WholeWorld::prepare() noexcept {
   glanced_ = false;
   plumbing_.node(time_);
   air(time_, state_, first_);
+  plumbing_.remember(first_.pull, state_.air);
   const Body body(constants_, state_.motion);
   forces(body, state_, first_);
   first_.acceleration = body.accelerations(first_.force);
@@ -218,7 +219,10 @@ void WholeWorld::step(double h) noexcept {
   const double pieces = pieces_of(h, first_);
   inner_ = time_;
   for (double k = 0; k < pieces; ++k) {
-    if (k > 0) look_at(inner_, state_, held_, first_);
+    if (k > 0) {
+      look_at(inner_, state_, held_, first_);
+      plumbing_.remember(first_.pull, state_.air);
+    }
     piece(h / pieces);
   }
 }

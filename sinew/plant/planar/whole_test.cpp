@@ -344,5 +344,33 @@ TEST(Whole, RollersCarryTheWeight) {
   EXPECT_NEAR(fast.roller_front, whole.roller_front, 1e-6);
 }
 
+// Muscles that creep: in the end the leg hangs where stronger ones would hold it, and the cords
+// pull 1 + c times as much as they would. The hysteresis of a hair's width changes nothing.
+TEST(Whole, CreepEndsWhereStrongerMusclesHoldTheLeg) {
+  const auto settled = [](double creep, double scale, double half_width) {
+    plant::Setup s = leg_with_muscles(4.85, 5.48);
+    s.start.pressure = 2e5;
+    for (muscle::Muscle& m : s.muscles) {
+      m.actuator.loss = {.viscous = 60};
+      m.actuator.effectiveness.scale = scale;
+      m.actuator.creep = {.share = {creep, 0}, .time = {0.2, 0}};
+      m.actuator.hysteresis.half_width = half_width;
+    }
+    WholeWorld world(s);
+    world.drive({0, {0}, true});
+    world.drive({60, {0}, false});
+    return world.truth(5);
+  };
+  const Truth late = settled(0.1, 1, 0), strong = settled(0, 1.1, 0), quick = settled(0, 1, 0),
+              hair = settled(0, 1, 0.01), wide = settled(0, 1, 2e4);
+  EXPECT_GT(std::abs(quick.angle[0] - strong.angle[0]), 1e-3);
+  EXPECT_GT(std::abs(quick.angle[0] - wide.angle[0]), 1e-3);
+  for (std::size_t j = 0; j < 2; ++j) {
+    EXPECT_NEAR(late.angle[j], strong.angle[j], 1e-5);
+    EXPECT_NEAR(hair.angle[j], quick.angle[j], 1e-6);
+  }
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(late.tension[i] / strong.tension[i], 1, 1e-4);
+}
+
 }  // namespace
 }  // namespace sinew::plant
