@@ -165,6 +165,30 @@ TEST(ValveFields, a_boost_wants_its_drive) {
   EXPECT_EQ(v.complaints, Strings{"valve.x.coil"});
 }
 
+TEST(ValveFields, a_circuit_has_both_resistance_and_inductance) {
+  FieldVisitor v = driven_valve();
+  for (const auto& [key, value] :
+       {std::pair{"resistance", 12.0}, std::pair{"inductance", 6e-3},
+        std::pair{"hold_voltage", 5.0}, std::pair{"boost_voltage", 24.0},
+        std::pair{"release_voltage", 3.0}, std::pair{"motion_voltage", 20.0},
+        std::pair{"motion_time", 1.5e-4}})
+    v.numbers_given[std::string("valve.x.circuit.") + key] = {value};
+  const Circuit c = read(v).circuit;
+  EXPECT_TRUE(v.complaints.empty());
+  expect_each_key_once_with_a_line(v);
+  EXPECT_EQ(c.resistance, 12);
+  EXPECT_EQ(c.inductance, 6e-3);
+  EXPECT_EQ(c.hold_voltage, 5);
+  EXPECT_EQ(c.boost_voltage, 24);
+  EXPECT_EQ(c.release_voltage, 3);
+  EXPECT_EQ(c.motion_voltage, 20);
+  EXPECT_EQ(c.motion_time, 1.5e-4);
+
+  v.numbers_given["valve.x.circuit.inductance"] = {0};
+  read(v);
+  EXPECT_EQ(v.complaints, Strings{"valve.x.circuit.resistance"});
+}
+
 TEST(AirFields, a_tank_has_a_volume_and_nothing_else_has) {
   FieldVisitor v;
   v.words_given = {{"kind", "tank"}};

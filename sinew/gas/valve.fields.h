@@ -97,6 +97,26 @@ void shutter_fields(Visitor& v, Valve& valve) {
   }
 }
 
+template <class Visitor>
+void fields(Visitor& v, Circuit& c) {
+  const auto number = [&](std::string_view name, std::string_view unit, bool optional,
+                          std::string_view doc, double& value) {
+    v.number({.name = name, .unit = unit, .min = 0, .optional = optional, .doc = doc}, value);
+  };
+  number("resistance", "ohm", false, "R, with what is in series", c.resistance);
+  number("inductance", "H", false, "L", c.inductance);
+  number("hold_voltage", "V", false, "while it is on", c.hold_voltage);
+  number("boost_voltage", "V", true, "speed-up: in its place for the boost", c.boost_voltage);
+  number("release_voltage", "V", true, "against the current when it is switched off",
+         c.release_voltage);
+  number("motion_voltage", "V", true, "back-EMF of the opening shutter", c.motion_voltage);
+  number("motion_time", "s", true, "how long the shutter moves, until the valve is open",
+         c.motion_time);
+  if ((c.resistance > 0) != (c.inductance > 0))
+    units::complain(v, "resistance", "a resistance or an inductance without the other",
+                    "both above zero", R"(resistance = "12 ohm", inductance = "6 mH")");
+}
+
 // What bounds it, and what its coil takes: delay.h, coil.h.
 template <class Visitor>
 void drive_fields(Visitor& v, Valve& valve) {
@@ -118,6 +138,8 @@ void drive_fields(Visitor& v, Valve& valve) {
     watts(g, "boost_power", "speed-up: at the start of a pulse", valve.coil.boost_power);
     seconds(g, "boost_time", "speed-up: how long at most", valve.coil.boost_time);
   });
+  v.group({.name = "circuit", .optional = true, .doc = "what the coil's current follows from"},
+          [&](auto& g) { fields(g, valve.circuit); });
   if (valve.drive == Valve::Drive::speed_up && valve.profile != Valve::Profile::ideal &&
       !(valve.speed_up.opening > 0 && valve.speed_up.closing > 0))
     units::complain(v, "speed_up", "not both delays of the drive", "what this valve has with it",

@@ -1,7 +1,8 @@
 // gas/valve.h - a solenoid valve: its flow law, when it really opens, what its coil takes; or a
 // pressure regulator in its place.
 //
-// Laws of flow stand in orifice.h, the delays in delay.h, the coil in coil.h, the regulator in
+// Laws of flow stand in orifice.h, the delays in delay.h, the coil in coil.h and coil_current.h,
+// the regulator in
 // regulator.h.
 #pragma once
 
@@ -39,6 +40,17 @@ struct Coil {
   double boost_time = 0;   // speed-up: [s]
 };
 
+// What the coil's current follows from, coil_current.h.
+struct Circuit {
+  double resistance = 0;       // R, with what is in series; 0: not known [ohm]
+  double inductance = 0;       // L [H]
+  double hold_voltage = 0;     // while it is on [V]
+  double boost_voltage = 0;    // speed-up: in its place for boost_time [V]
+  double release_voltage = 0;  // against the current when it is switched off [V]
+  double motion_voltage = 0;   // back-EMF of the opening shutter [V]
+  double motion_time = 0;      // how long that moves, until the valve is open [s]
+};
+
 struct Valve {
   // three_way: supply or atmosphere, never sealed; regulator: a set point instead of pulses
   enum class Kind { two_way, three_way, regulator };
@@ -61,6 +73,7 @@ struct Valve {
   double max_frequency = 0;        // of a square wave that the shutter follows; 0: any [Hz]
   double fails_above = 0;          // pressure difference that the coil cannot lift; 0: none [Pa]
   Coil coil;
+  Circuit circuit;
   Regulator regulator;
 };
 

@@ -1,0 +1,96 @@
+// gas/coil_current.h - the current that an oscilloscope sees through a valve's coil, figures 4-8
+// and 4-9.
+//
+//   L di/dt + R i = U - E      within a piece   i(t) = i_end + (i_0 - i_end) exp(-(t - t_0) R/L)
+//                                               i_end = (U - E)/R
+//
+//   U   boost for the first boost_time of a pulse with the speed-up drive, then hold; after the
+//       pulse -release, against the current, which ends at zero
+//   E   back-EMF of the shutter while it opens: motion_voltage for motion_time, which ends when the
+//       valve is open, opening_delay after the edge. It makes the dip by which 4.3 tells that the
+//       shutter has moved. A shutter that closes makes none: its current has gone (4.3).
+//
+//   R, L  resistance [ohm] and inductance [H]   i  current [A]   U, E  [V]
+//
+// Exact, piece by piece; no steps. Pieces end where U or E jumps, or where the current ends.
+// Departures: L does not grow with the closing gap, E does not follow the shutter's speed or the
+// current; both show in the dip's shape, not in its place.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "sinew/gas/delay.h"
+#include "sinew/gas/valve.h"
+
+namespace sinew::gas {
+
+// From `from` on, until the next piece.
+struct CurrentPiece {
+  double from = 0;            // [s]
+  double start = 0, end = 0;  // current at `from`, and what it tends to [A]
+  double rate = 0;            // R/L [1/s]
+
+  double at(double t) const { return end + (start - end) * std::exp(-(t - from) * rate); }
+};
+
+// Current at t of pieces in their order; none before the first  [A].
+inline double current(const std::vector<CurrentPiece>& pieces, double t) {
+  const CurrentPiece* piece = nullptr;
+  for (const CurrentPiece& p : pieces)
+    if (p.from <= t) piece = &p;
+  return piece ? piece->at(t) : 0.0;
+}
+
+namespace detail {
+
+inline void go_on(std::vector<CurrentPiece>& pieces, const Circuit& c, double t, double voltage) {
+  const double start = current(pieces, t);
+  pieces.push_back({t, start, voltage / c.resistance, c.resistance / c.inductance});
+}
+
+// While the coil is on: [on, off).
+inline void pulse(std::vector<CurrentPiece>& pieces, const Valve& v, double delay, double on,
+                  double off) {
+  const Circuit& c = v.circuit;
+  const double boosted = v.drive == Valve::Drive::speed_up ? on + v.coil.boost_time : on;
+  const double open = on + delay, begins = delay > c.motion_time ? open - c.motion_time : on;
+  double t = on;
+  while (t < off) {
+    const double u = t < boosted ? c.boost_voltage : c.hold_voltage;
+    const double e = t >= begins && t < open ? c.motion_voltage : 0.0;
+    go_on(pieces, c, t, u - e);
+    double next = off;
+    for (const double corner : {boosted, begins, open})
+      if (corner > t && corner < next) next = corner;
+    t = next;
+  }
+}
+
+// After it, until the next: a current that has ended stays zero.
+inline void release(std::vector<CurrentPiece>& pieces, const Circuit& c, double off, double next) {
+  go_on(pieces, c, off, -c.release_voltage);
+  if (!(c.release_voltage > 0)) return;
+  const CurrentPiece& p = pieces.back();
+  const double gone = off + std::log(1.0 - p.start / p.end) / p.rate;
+  if (gone < next) pieces.push_back({gone, 0, 0, p.rate});
+}
+
+}  // namespace detail
+
+// A square wave of the coil from t = 0 on, at one pressure difference over the valve [Pa]. Needs a
+// circuit: resistance and inductance above zero.
+inline std::vector<CurrentPiece> coil_current(const Valve& valve, double pressure_difference,
+                                              double period, double duty, int periods) {
+  const double delay = delay_at(valve, true, pressure_difference);
+  std::vector<CurrentPiece> pieces;
+  for (int k = 0; k < periods; ++k) {
+    const double on = k * period, off = on + duty * period, next = (k + 1) * period;
+    if (off > on) detail::pulse(pieces, valve, delay, on, off);
+    if (next > off) detail::release(pieces, valve.circuit, off, next);
+  }
+  return pieces;
+}
+
+}  // namespace sinew::gas
