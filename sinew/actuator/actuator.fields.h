@@ -106,8 +106,13 @@ void fields(Visitor& v, LongEnd& end) {
 
 template <class Visitor>
 void fields(Visitor& v, ShortEnd& end) {
-  v.choice({.name = "law", .doc = "below b/sqrt 3: an end stop, or no tension as printed in [31]"},
-           end.law, {{"stop", ShortEnd::Law::stop}, {"zero", ShortEnd::Law::zero}});
+  v.choice({.name = "law",
+            .doc = "below b/sqrt 3: an end stop, no tension as printed in [31], or the 5 F + 10 "
+                   "F_damping that appendix A has commented out"},
+           end.law,
+           {{"stop", ShortEnd::Law::stop},
+            {"zero", ShortEnd::Law::zero},
+            {"empirical", ShortEnd::Law::empirical}});
   v.number({.name = "stiffness",
             .unit = "N/m",
             .min = 0,

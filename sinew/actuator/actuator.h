@@ -33,9 +33,10 @@ struct LongEnd {
 };
 
 // [31] below the shortest length b/sqrt 3. As printed the tension is zero there, so that nothing
-// holds a load that has gone past it; `stop` is an end stop that pushes back.
+// holds a load that has gone past it; `stop` is an end stop that pushes back, `empirical` the line
+// that appendix A has commented out, "empirical guesses that match data".
 struct ShortEnd {
-  enum class Law { stop, zero };
+  enum class Law { stop, zero, empirical };
   Law law = Law::stop;
   double stiffness = 0;  // [N/m]
   double damping = 0;    // [N s/m]

@@ -24,11 +24,13 @@ inline double secant_stiffness(const Actuator& a, double length, double gauge_pr
 // Largest dry friction  [N], never negative. `sealed_stiffness` is used by Scale::sealed only.
 inline double coulomb_bound(const Actuator& a, double length, double gauge_pressure,
                             double atmosphere, double sealed_stiffness) {
-  if (a.short_end.law == ShortEnd::Law::zero && length < shortest_length(a.braid)) return 0.0;
+  const bool short_of = length < shortest_length(a.braid);
+  if (a.short_end.law == ShortEnd::Law::zero && short_of) return 0.0;
   double k = a.loss.coulomb_stiffness;
   if (a.loss.coulomb_scale == Loss::Scale::secant)
     k = secant_stiffness(a, length, gauge_pressure, atmosphere);
   if (a.loss.coulomb_scale == Loss::Scale::sealed) k = sealed_stiffness;
+  if (a.short_end.law == ShortEnd::Law::empirical && short_of) k *= empirical_loss;
   const double bound = a.loss.coulomb_length * k;
   return bound > 0 ? bound : 0.0;
 }

@@ -6,7 +6,9 @@
 //
 // The dry friction of [33] is not in here: it is a force of the step, see loss.h.
 // Departures: P - P_atm keeps its sign (appendix A takes |P - 14.7|, so that vacuum would pull);
-// below the shortest length an end stop, or zero as printed.
+// below the shortest length an end stop, or zero as printed, or appendix A's other line:
+//
+//   F <- 5 F + 10 F_damping,  F with the damping in it: 5 of the pull, 15 of what is lost
 #pragma once
 
 #include "sinew/actuator/actuator.h"
@@ -21,6 +23,9 @@ constexpr double effectiveness(const Effectiveness& e, double gauge_pressure, do
   const double p = e.argument == Effectiveness::Argument::absolute ? inside + atmosphere : inside;
   return e.scale * (e.c0 + p * (e.c1 + p * e.c2));
 }
+
+// ShortEnd::Law::empirical: times the pull, and times viscous and dry friction  [-].
+inline constexpr double empirical_pull = 5, empirical_loss = 15;
 
 // [22]: the ideal tension  [N].
 constexpr double ideal_tension(const Braid& braid, double length, double gauge_pressure) {
@@ -50,6 +55,8 @@ inline double tension(const Actuator& a, double length, double velocity, double 
   const double shortest = shortest_length(a.braid);
   if (length >= shortest) return inside;
   if (a.short_end.law == ShortEnd::Law::zero) return 0.0;
+  if (a.short_end.law == ShortEnd::Law::empirical)
+    return inside + (empirical_pull - 1) * pull + (empirical_loss - 1) * a.loss.viscous * velocity;
   return inside + a.short_end.stiffness * (length - shortest) + a.short_end.damping * velocity;
 }
 

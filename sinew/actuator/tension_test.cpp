@@ -77,6 +77,24 @@ TEST(Tension, short_end_stops_or_lets_go) {
   EXPECT_EQ(tension(a, below, 0.3, 3e5, atmosphere), 0);
 }
 
+// Appendix A's commented line: 5 F + 10 F_damping, F with the damping in it.
+TEST(Tension, empirical_short_end_is_appendix_As_other_line) {
+  Actuator a = thesis_actuator();
+  Actuator open = a;  // as if there were no end
+  a.short_end = {.law = ShortEnd::Law::empirical};
+  open.short_end = {};
+  const double p = 4e5, shortest = shortest_length(a.braid);
+  for (const double l : {0.5 * shortest, 0.9 * shortest, shortest, 1.2 * shortest}) {
+    for (const double v : {-0.3, 0.0, 0.2}) {
+      const double pull = tension(open, l, 0, p, atmosphere), lost = a.loss.viscous * v;
+      const double expected = l < shortest ? 5 * (pull + lost) + 10 * lost : pull + lost;
+      EXPECT_NEAR(tension(a, l, v, p, atmosphere), expected, 1e-12);
+    }
+    EXPECT_DOUBLE_EQ(coulomb_bound(a, l, p, atmosphere, 0),
+                     coulomb_bound(open, l, p, atmosphere, 0) * (l < shortest ? 15 : 1));
+  }
+}
+
 TEST(Tension, losses_take_power_away) {
   Actuator a = thesis_actuator();
   a.bladder = {.stiffness = 300, .rest_length = 0.08};

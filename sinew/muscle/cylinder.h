@@ -22,9 +22,10 @@ namespace sinew::muscle {
 enum Side : int { up = 0, down = 1 };
 
 struct Cylinder {
-  // regulator: `down` is held at `pressure`, `up` is open to the room.
-  // valves:    four valves; inlet and exhaust of a chamber may be open together.
-  enum class Mode { regulator, valves };
+  // regulator:     `down` is held at `pressure`, `up` is open to the room.
+  // valves:        four valves; inlet and exhaust of a chamber may be open together.
+  // single_acting: `up` has its two valves, `down` is open to the room.
+  enum class Mode { regulator, valves, single_acting };
 
   Mode mode = Mode::valves;
   double bore = 0;                           // diameter of the piston [m]
@@ -32,7 +33,7 @@ struct Cylinder {
   double stroke = 0;                         // S [m]
   std::array<double, 2> dead_volume{};       // up, down; with hoses, above 0 [m^3]
   double pressure = 0;                       // regulator: held in `down`, absolute [Pa]
-  std::array<double, 2> initial_pressure{};  // valves: absolute; 0: the atmosphere [Pa]
+  std::array<double, 2> initial_pressure{};  // of chambers with valves; 0: the atmosphere [Pa]
   std::array<gas::Valve, 2> inlet, exhaust;  // valves: up, down
 };
 

@@ -169,6 +169,7 @@ void Plumbing::pull(int i, double length, double rate, double pressure, const Ai
   const bool stick = m.actuator.loss.stick;
   const double cord = greater(smooth, 0.0);
   out.tension[i] = stick ? cord : greater(cord + (rate >= 0 ? bound : -bound), 0.0);
+  out.clamped[i] = stick ? smooth : smooth + (rate >= 0 ? bound : -bound);
   out.mesh[i] = stick ? bound : 0.0;
   out.pressure[i] = out.manifold[i] = pressure;
 }
@@ -259,6 +260,10 @@ void Plumbing::cylinder(double t, double y_supply, double travel, double travel_
     const double room = air_.temperature;
     for (const Side side : {up, down}) {
       const Slot& slot = sides_[side];
+      if (slot.mass == none) {  // single-acting: open to the room
+        out.cylinder_pressure[side] = air_.atmosphere;
+        continue;
+      }
       const Chamber air = chamber(slot, muscle::volume(c, side, travel), state);
       const Flows f = through(2 * (size_ + side), t, y_supply, air.y, state);
       out.cylinder_pressure[side] = air.pressure;

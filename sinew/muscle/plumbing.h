@@ -46,6 +46,7 @@ struct AirPull : Pull {
   Lanes leak;      // out of the muscle to the atmosphere [kg/s]
   Lanes manifold;  // pressure between valves and hose; the muscle's own without a hose [Pa]
   Lanes play;      // state of the hysteresis, where there is one [Pa]
+  Lanes clamped;   // tension of a muscle that is held at both ends: it may push [N]
 
   double cylinder_force = 0;  // on the body, up > 0 [N]
   std::array<double, 2> cylinder_pressure{}, cylinder_inflow{}, cylinder_outflow{};  // [Pa] [kg/s]
@@ -75,6 +76,13 @@ class Plumbing {
 
   // All muscles at one absolute pressure and at rest, air at the wall's temperature.
   AirState initial(double pressure, const Lanes& length, double travel) const;
+
+  // Chambers and hoses of the muscles, and of a single-acting cylinder, filled to one absolute
+  // pressure, air at the wall's temperature: what an ideal regulator does.
+  void hold(double pressure, const Lanes& length, double travel, AirState& state) const noexcept;
+
+  // The first of the states: what hold() sets is among these.
+  int held_states() const { return held_states_; }
 
   // Air in the machine: chambers, hoses and tank  [kg]. What it loses has left through an exhaust
   // or a leak.
@@ -163,9 +171,10 @@ class Plumbing {
   double fastest_slope(int inlet) const;
   double hose_slope(const Line& line) const;
   double volume(int i, double length) const noexcept;
+  double density(double pressure) const noexcept;
 
   void rest(int i, double gauge, double length, AirState& state) const;
-  void fill(const Slot& slot, double mass, AirState& state) const;
+  void fill(const Slot& slot, double mass, AirState& state) const noexcept;
   Chamber chamber(const Slot& slot, double volume, const AirState& state) const noexcept;
   double smooth_tension(int i, double length, double rate, double gauge, const AirState& state,
                         AirPull& out, AirState& derivative) const noexcept;
@@ -191,7 +200,7 @@ class Plumbing {
   void move_valves(double t) noexcept;
   void refresh(double t) noexcept;
 
-  int size_ = 0, states_ = 0;
+  int size_ = 0, states_ = 0, held_states_ = 0;
   gas::Air air_;
   gas::Supply supply_;
   std::vector<Muscle> muscles_;

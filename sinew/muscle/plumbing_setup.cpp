@@ -29,6 +29,7 @@ bool needs_plumbing(std::span<const Muscle> muscles, const gas::Air& air, const 
   bool any =
       cylinder.has_value() || air.wall_time > 0 || supply.kind != gas::Supply::Kind::constant;
   for (const Muscle& m : muscles) {
+    any = any || m.actuator.short_end.law == actuator::ShortEnd::Law::empirical;
     any = any || m.hose.law != gas::Hose::Law::none || m.leak.area > 0 || m.leak.conductance > 0;
     any = any || actuator::has_hysteresis(m.actuator.hysteresis) ||
           actuator::has_creep(m.actuator.creep);
@@ -54,6 +55,7 @@ Plumbing::Plumbing(std::span<const Muscle> muscles, const gas::Air& air, const g
     if (l.resists && muscles_[static_cast<std::size_t>(&l - lines_.data())].hose.volume > 0)
       l.hose = add_chamber();
   if (cylinder_) add_cylinder();
+  held_states_ = states_;
   for (Tap& tap : taps_)
     if (regulates(tap.valve) && tap.valve.regulator.time_constant > 0) tap.outlet = states_++;
   if (supply_.kind == gas::Supply::Kind::tank) tank_ = states_++;
@@ -110,7 +112,8 @@ void Plumbing::add_cylinder() {
   for (const Side side : {up, down}) {
     add_tap(cylinder_->inlet[side]);
     add_tap(cylinder_->exhaust[side]);
-    if (cylinder_->mode != Cylinder::Mode::valves) continue;
+    const bool open = cylinder_->mode == Cylinder::Mode::single_acting && side == down;
+    if (cylinder_->mode == Cylinder::Mode::regulator || open) continue;
     if (!(cylinder_->dead_volume[side] > 0))
       throw std::invalid_argument("a cylinder's chambers need a dead volume");
     sides_[side] = add_chamber();
@@ -181,23 +184,34 @@ void Plumbing::rest(int i, double gauge, double length, AirState& state) const {
     if (late != none) state[late] = gauge;
 }
 
-void Plumbing::fill(const Slot& slot, double mass, AirState& state) const {
+void Plumbing::fill(const Slot& slot, double mass, AirState& state) const noexcept {
   state[slot.mass] = mass;
   if (slot.energy != none) state[slot.energy] = gas::energy_at_rest(air_, mass);
 }
 
-AirState Plumbing::initial(double pressure, const Lanes& length, double travel) const {
-  const auto density = [&](double p) {
-    return air_.wall_time > 0 ? p / (air_.gas_constant * air_.temperature) : gas::density(air_, p);
-  };
-  AirState state{};
+// Density of air at rest, by the chamber's law  [kg/m^3].
+double Plumbing::density(double pressure) const noexcept {
+  return air_.wall_time > 0 ? pressure / (air_.gas_constant * air_.temperature)
+                            : gas::density(air_, pressure);
+}
+
+void Plumbing::hold(double pressure, const Lanes& length, double travel,
+                    AirState& state) const noexcept {
+  const double rho = density(pressure);
   for (int i = 0; i < size_; ++i) {
     const Line& l = lines_[static_cast<std::size_t>(i)];
     const Muscle& m = muscles_[static_cast<std::size_t>(i)];
-    fill(l.chamber, density(pressure) * volume(i, length[i]), state);
-    if (l.hose.mass != none) fill(l.hose, density(pressure) * m.hose.volume, state);
-    rest(i, pressure - air_.atmosphere, length[i], state);
+    fill(l.chamber, rho * volume(i, length[i]), state);
+    if (l.hose.mass != none) fill(l.hose, rho * m.hose.volume, state);
   }
+  if (cylinder_ && cylinder_->mode == Cylinder::Mode::single_acting)
+    fill(sides_[up], rho * muscle::volume(*cylinder_, up, travel), state);
+}
+
+AirState Plumbing::initial(double pressure, const Lanes& length, double travel) const {
+  AirState state{};
+  hold(pressure, length, travel, state);
+  for (int i = 0; i < size_; ++i) rest(i, pressure - air_.atmosphere, length[i], state);
   for (const Side side : {up, down}) {
     if (sides_[side].mass == none) continue;
     const double given = cylinder_->initial_pressure[side];

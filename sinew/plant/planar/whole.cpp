@@ -377,7 +377,7 @@ signals::Reading WholeWorld::read(signals::Channel channel, signals::Tick now) n
       quantity(channel.index, static_cast<double>(sampled) * signals::tick_seconds);
   // A state that ran away never comes back: every later reading says so too.
   if (!std::isfinite(value)) return {0, Status::fault};
-  const double hiss = sensor.noise > 0 ? noise(seed_, channel.index, sampled) : 0.0;
+  const double hiss = sensor.noise > 0 ? robot::noise(seed_, channel.index, sampled) : 0.0;
   return {counts(sensor, robot_.converter, value, hiss), ended_ ? Status::ended : Status::ok};
 }
 

@@ -17,8 +17,8 @@
 #include "sinew/plant/planar/body.h"
 #include "sinew/plant/planar/cords.h"
 #include "sinew/plant/planar/rubs.h"
-#include "sinew/plant/planar/sensing.h"
 #include "sinew/plant/planar/setup.h"
+#include "sinew/robot/sensing.h"
 #include "sinew/signals/port.h"
 
 namespace sinew::plant {

@@ -330,7 +330,7 @@ signals::Reading World<N>::read(signals::Channel channel, signals::Tick now) noe
   }
   // A state that ran away never comes back: every later reading says so too.
   if (!std::isfinite(quantity)) return {0, Status::fault};
-  const double hiss = sensor.noise > 0 ? noise(seed_, channel.index, sampled) : 0.0;
+  const double hiss = sensor.noise > 0 ? robot::noise(seed_, channel.index, sampled) : 0.0;
   return {counts(sensor, robot_.converter, quantity, hiss), ended_ ? Status::ended : Status::ok};
 }
 

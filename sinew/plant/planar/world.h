@@ -16,8 +16,8 @@
 #include "sinew/plant/planar/chain.h"
 #include "sinew/plant/planar/contacts.h"
 #include "sinew/plant/planar/layout.h"
-#include "sinew/plant/planar/sensing.h"
 #include "sinew/plant/planar/setup.h"
+#include "sinew/robot/sensing.h"
 #include "sinew/signals/port.h"
 
 namespace sinew::plant {

@@ -1,6 +1,6 @@
-#include "sinew/plant/planar/sensing.h"
+#include "sinew/robot/sensing.h"
 
-namespace sinew::plant {
+namespace sinew::robot {
 namespace {
 
 // A mixer with full avalanche: every input bit flips half of the output's.
@@ -26,11 +26,11 @@ double noise(std::uint64_t seed, int sensor, signals::Tick tick) {
   return static_cast<double>(sum) / 65536.0 + 12.0 * 0.5 / 65536.0 - 6.0;
 }
 
-std::uint16_t counts(const robot::Sensor& sensor, const robot::Converter& converter,
-                     double quantity, double noise) {
+std::uint16_t counts(const Sensor& sensor, const Converter& converter, double quantity,
+                     double noise) {
   const double per_volt = converter.counts_per_volt();
   double value = sensor.at_rest + sensor.noise * noise;
-  using Kind = robot::Sensor::Kind;
+  using Kind = Sensor::Kind;
   // A potentiometer's scale is given per volt, a transducer's in volts.
   if (sensor.kind == Kind::angle || sensor.kind == Kind::cylinder)
     value += quantity / sensor.scale * per_volt;
@@ -41,4 +41,4 @@ std::uint16_t counts(const robot::Sensor& sensor, const robot::Converter& conver
   return static_cast<std::uint16_t>(bounded + 0.5);
 }
 
-}  // namespace sinew::plant
+}  // namespace sinew::robot

@@ -1,10 +1,10 @@
-#include "sinew/plant/planar/sensing.h"
+#include "sinew/robot/sensing.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace sinew::plant {
+namespace sinew::robot {
 namespace {
 
 TEST(Noise, IsUnitAndWhiteOverTicksAndSensors) {
@@ -30,8 +30,8 @@ TEST(Noise, IsUnitAndWhiteOverTicksAndSensors) {
 TEST(Counts, TensionClipsAtTheTopOfTheConverter) {
   // 4.4: 0.17 V/lb x 30 lb = 5.1 V is beyond 5 V; the reading ends at 29.4 lb.
   constexpr double pound_force = 4.4482216152605;
-  const robot::Sensor s{.kind = robot::Sensor::Kind::tension, .scale = 0.17 / pound_force};
-  const robot::Converter converter;
+  const Sensor s{.kind = robot::Sensor::Kind::tension, .scale = 0.17 / pound_force};
+  const Converter converter;
   EXPECT_EQ(counts(s, converter, 10 * pound_force, 0), 1393);  // 139.264 counts/lb
   EXPECT_EQ(counts(s, converter, 30 * pound_force, 0), 4095);
   EXPECT_NEAR(4095 / 139.264, 29.4, 0.01);
@@ -40,13 +40,12 @@ TEST(Counts, TensionClipsAtTheTopOfTheConverter) {
 
 TEST(Counts, APotentiometerCountsFromItsRestAngle) {
   // 4.5: 1.147 rad/V is 714 counts/rad.
-  const robot::Sensor s{
-      .kind = robot::Sensor::Kind::angle, .scale = 1.147, .at_rest = 1895, .noise = 0.5};
-  const robot::Converter converter;
+  const Sensor s{.kind = Sensor::Kind::angle, .scale = 1.147, .at_rest = 1895, .noise = 0.5};
+  const Converter converter;
   EXPECT_EQ(counts(s, converter, 0, 0), 1895);
   EXPECT_EQ(counts(s, converter, 1.0, 0), 1895 + 714);
   EXPECT_EQ(counts(s, converter, 0, 2.0), 1896);
 }
 
 }  // namespace
-}  // namespace sinew::plant
+}  // namespace sinew::robot

@@ -1,0 +1,123 @@
+// plant/rig/stand_setup.cpp - how a stand is put together, and where its load hangs.
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "sinew/actuator/braid.h"
+#include "sinew/plant/rig/stand.h"
+
+namespace sinew::plant {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+using Charge = plant::Charge;
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("test stand: " + what);
+}
+
+void refuse_schedule(const Schedule& s, const char* name, double least) {
+  for (std::size_t i = 0; i < s.points.size(); ++i) {
+    if (!(s.points[i].value > least) || !std::isfinite(s.points[i].value))
+      refuse(std::string(name) + " must be above " + std::to_string(least));
+    if (i > 0 && s.points[i].at < s.points[i - 1].at)
+      refuse(std::string(name) + " goes back in time");
+  }
+}
+
+void refuse_contradictions(const StandSetup& s) {
+  const bool driven = s.load.mode == Load::Mode::driven;
+  if (!(s.step > 0)) refuse("its step must be above 0");
+  if (driven && s.load.length.empty()) refuse("a driven load has a length over time");
+  if (!driven && s.load.mass.empty()) refuse("a hanging load has a mass");
+  refuse_schedule(s.load.mass, "the mass", 0);
+  refuse_schedule(s.load.length, "the length", 0);
+  refuse_schedule(s.load.force, "the force", -infinite);
+  refuse_schedule(s.charge.pressure, "the regulated pressure", 0);
+  if (s.charge.mode == Charge::Mode::regulated && s.charge.pressure.empty())
+    refuse("a regulated stand has a pressure over time");
+  if (!(s.start.pressure > 0)) refuse("the pressure at the start must be above 0");
+  if (driven && (s.start.displacement != 0 || s.start.length != 0))
+    refuse("a driven load starts where its length says");
+  if (s.cylinder && s.cylinder->mode != muscle::Cylinder::Mode::single_acting)
+    refuse("its cylinder is single-acting");
+  if (!s.cylinder && !(s.muscle.actuator.braid.turns > 0)) refuse("its muscle has no braid");
+  for (const Transducer& t : s.transducers)
+    if (!(t.high > t.low)) refuse("transducer " + t.name + " has no range");
+}
+
+// Shut or regulated valves are no valves of the muscle's: a 3-way one would let the air out.
+StandSetup with_valves(StandSetup s) {
+  refuse_contradictions(s);
+  if (s.charge.mode == Charge::Mode::valves) return s;
+  s.muscle.inlet = s.muscle.exhaust = gas::Valve{};
+  if (s.cylinder) s.cylinder->inlet[muscle::up] = s.cylinder->exhaust[muscle::up] = gas::Valve{};
+  return s;
+}
+
+muscle::Plumbing plumbing_of(const StandSetup& s) {
+  if (s.cylinder) return {{}, s.air, s.supply, s.cylinder};
+  return {std::span(&s.muscle, 1), s.air, s.supply};
+}
+
+}  // namespace
+
+double hanging_length(const StandSetup& setup) {
+  if (setup.cylinder) refuse("an air cylinder at one pressure hangs nowhere: give start.length");
+  StandSetup s = setup;
+  s.muscle.actuator.loss.stick = true;  // the sign of no speed would be a force
+  const muscle::Plumbing plumbing = plumbing_of(s);
+  const double weight = s.load.mass.at(0) * s.load.gravity + s.load.force.at(0);
+  const auto surplus = [&](double length) {
+    muscle::Lanes lengths{}, rates{};
+    lengths[0] = length;
+    muscle::AirState air = plumbing.initial(s.start.pressure, lengths, 0), flow{};
+    muscle::AirPull pull{};
+    plumbing.evaluate(0, lengths, rates, 0, 0, air, pull, flow);
+    return pull.clamped[0] - weight;
+  };
+  const actuator::Braid& braid = s.muscle.actuator.braid;
+  double low = 0.5 * actuator::shortest_length(braid), high = 1.5 * braid.thread_length;
+  if (!(surplus(low) < 0 && surplus(high) > 0))
+    refuse("its load hangs nowhere between half the shortest length and 1.5 threads");
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (surplus(middle) < 0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+Stand::Stand(const StandSetup& setup)
+    : setup_(with_valves(setup)),
+      plumbing_(plumbing_of(setup_)),
+      driven_(setup.load.mode == Load::Mode::driven),
+      regulated_(setup.charge.mode == Charge::Mode::regulated) {
+  const actuator::Actuator& a = setup_.muscle.actuator;
+  ends_ = {-infinite, infinite};
+  if (!setup_.cylinder) {
+    const int count = setup_.muscle.count;
+    rubs_ = a.loss.stick && a.loss.coulomb_length > 0;
+    ends_ = {actuator::shortest_length(a.braid), a.long_end.length};
+    end_stiffness_ = count * std::fmax(a.long_end.stiffness, a.short_end.stiffness);
+    end_damping_ = count * std::fmax(a.long_end.damping, a.short_end.damping);
+  }
+  StandStart& start = setup_.start;
+  if (regulated_) start.pressure = setup_.charge.pressure.at(0);
+  if (driven_)
+    start.length = setup_.load.length.at(0);
+  else if (!(start.length > 0))
+    start.length = hanging_length(setup_);
+
+  muscle::Lanes length{};
+  length[0] = start.length;
+  if (setup_.cylinder) setup_.cylinder->initial_pressure[muscle::up] = start.pressure;
+  plumbing_ = plumbing_of(setup_);
+  state_.length = start.length;
+  state_.air = plumbing_.initial(start.pressure, length, travel(start.length));
+  state_.length += start.displacement;
+  prepare();
+}
+
+}  // namespace sinew::plant
