@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
   cli::add_valve(app, action);
   cli::add_kinematics(app, action);
   cli::add_identify(app, action);
+  cli::add_figures(app, action);
 
   try {
     app.parse(argc, argv);

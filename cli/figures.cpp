@@ -1,0 +1,149 @@
+// cli/figures.cpp - `sinew figures`: the curves of the thesis's figures as CSV, with an index that
+// says of each what it is.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/named.h"
+#include "cli/run_folder.h"
+#include "cli/terminal.h"
+#include "cli/text_table.h"
+#include "cli/thesis_figures.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+#include "sinew/experiment/machine_file.h"
+
+namespace sinew::cli {
+
+void FigureSet::add(const Figure& figure, Curve::Kind kind, const std::string& source,
+                    Sheet sheet) {
+  if (figures.empty() || figures.back().number != figure.number) figures.push_back(figure);
+  const std::string x = sheet.headings[0];
+  for (std::size_t c = 1; c < sheet.headings.size(); ++c) {
+    const std::string& y = sheet.headings[c];
+    curves.push_back({figure.number, y.substr(0, y.rfind(" [")), kind, source, sheet.name, x, y});
+  }
+  sheets.push_back(std::move(sheet));
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::string folder, root = ".";
+  bool thesis = false, force = false, json = false;
+};
+
+std::string_view word(Curve::Kind kind) {
+  if (kind == Curve::Kind::computed) return "computed";
+  return kind == Curve::Kind::synthetic ? "synthetic" : "unavailable";
+}
+
+FigureSources sources(const std::string& root) {
+  const auto path = [&](std::string_view file) { return (fs::path(root) / file).string(); };
+  if (!fs::exists(path("robots/leg/valves.toml")))
+    config::fail({path("robots/leg/valves.toml"), 0, 0}, "", "no such file",
+                 "the project's folder, with robots/ and experiments/", "--root DIR");
+  FigureSources out{.root = root};
+  out.actuator = experiment::load_machine_file(path("robots/leg-as-printed/actuator.toml"))
+                     .experiment.actuators.at(0);
+  out.actuator.effectiveness.argument = actuator::Effectiveness::Argument::gauge;
+  out.actuator.effectiveness.scale = 1;
+  const auto valve = [&](const std::string& file, const std::string& name) {
+    return named(experiment::load_machine_file(path(file)).experiment.valves, name, "--root",
+                 "valve");
+  };
+  out.chapter3 = valve("robots/leg/valves.toml", "758");
+  out.inlet = valve("robots/leg/valves-at-the-bench.toml", "inlet");
+  out.exhaust = valve("robots/leg/valves-at-the-bench.toml", "exhaust");
+  return out;
+}
+
+std::string csv(const Sheet& sheet) {
+  std::string out = fmt::format("{}\n", fmt::join(sheet.headings, ","));
+  for (const std::vector<double>& row : sheet.rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      if (c > 0) out += ',';
+      if (!std::isnan(row[c])) out += config::format_number(row[c]);
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+Json index_of(const FigureSet& set) {
+  Json out{{"format", "sinew.figures/1"}, {"figures", Json::array()}};
+  for (const Figure& figure : set.figures) {
+    Json f{{"figure", figure.number}, {"caption", figure.caption}, {"curves", Json::array()}};
+    for (const Curve& c : set.curves) {
+      if (c.figure != figure.number) continue;
+      Json curve{{"curve", c.what}, {"kind", word(c.kind)}, {"source", c.source}};
+      if (!c.sheet.empty()) {
+        curve["file"] = c.sheet + ".csv";
+        curve["x"] = c.x;
+        curve["y"] = c.y;
+      }
+      f["curves"].push_back(std::move(curve));
+    }
+    out["figures"].push_back(std::move(f));
+  }
+  return out;
+}
+
+void print(const FigureSet& set) {
+  using enum TextTable::Align;
+  TextTable table({"figure", "", "computed", "synthetic", "unavailable"},
+                  {left, left, right, right, right});
+  for (const Figure& figure : set.figures) {
+    int count[3] = {};
+    for (const Curve& c : set.curves)
+      if (c.figure == figure.number) ++count[static_cast<int>(c.kind)];
+    const auto shown = [](int n) { return n > 0 ? std::to_string(n) : std::string(); };
+    table.add({figure.number, figure.caption, shown(count[0]), shown(count[1]), shown(count[2])});
+  }
+  fmt::print("{}", table.text());
+}
+
+ExitCode run_figures(const Options& options) {
+  FigureSet set;
+  const FigureSources from = sources(options.root);
+  add_actuator_figures(set, from);
+  add_valve_figures(set, from);
+
+  const fs::path folder(options.folder);
+  const std::string index = index_of(set).dump(2) + "\n";
+  fs::create_directories(folder);
+  refuse_to_overwrite(folder / "index.json", options.force);
+  for (const Sheet& sheet : set.sheets) {
+    const fs::path file = folder / (sheet.name + ".csv");
+    refuse_to_overwrite(file, options.force);
+    write_file(file, csv(sheet));
+  }
+  write_file(folder / "index.json", index);
+  if (options.json)
+    fmt::print("{}", index);
+  else
+    print(set);
+  return ok;
+}
+
+}  // namespace
+
+void add_figures(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App& sub = subcommand(app, "figures", "curves of the thesis's figures, as CSV",
+                             "sinew figures --thesis -o figures");
+  sub.add_flag("--thesis", options->thesis, "those of Colbrunn (2000)")->required();
+  sub.add_option("-o,--output", options->folder, "folder for the CSV files and index.json")
+      ->required();
+  sub.add_option("--root", options->root, "the project's folder, with robots/ and experiments/; .");
+  sub.add_flag("--force", options->force, "replace the files that are there");
+  sub.add_flag("--json", options->json, "print index.json");
+  sub.callback([=, &action] { action = [=] { return run_figures(*options); }; });
+}
+
+}  // namespace sinew::cli
