@@ -7,7 +7,6 @@
 #include "sinew/actuator/loss.h"
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
-#include "sinew/units/math.h"
 
 namespace sinew::identify {
 
@@ -23,12 +22,12 @@ class Motion {
  public:
   Motion(const Hanging& h, double rest) : h_(h) {
     const double volume = actuator::volume(h.actuator.braid, rest) + h.external_volume;
-    air_ = h.pressure * units::power(volume, h.polytropic_exponent);
+    air_ = h.pressure * std::pow(volume, h.polytropic_exponent);
   }
 
   double pressure(double length) const {
     const double volume = actuator::volume(h_.actuator.braid, length) + h_.external_volume;
-    return air_ / units::power(volume, h_.polytropic_exponent);
+    return air_ / std::pow(volume, h_.polytropic_exponent);
   }
 
   // What moves the mass if nothing rubs  [N].

@@ -40,6 +40,6 @@ double sealed_frequency(const Hanging& h, double length);
 // Lengths at `times` [s], which ascend, of a mass that has `length` and `velocity` at the first.
 // False where the trajectory leaves the braid. `steps_per_period` bounds the step.
 bool free_decay(const Hanging& h, double length, double velocity, std::span<const double> times,
-                std::span<double> lengths, int steps_per_period = 60);
+                std::span<double> lengths, int steps_per_period = 36);
 
 }  // namespace sinew::identify

@@ -250,6 +250,8 @@ Oscillation find_turns(std::span<const double> time, std::span<const double> val
   while (std::abs(smooth[out.falls] - smooth[found[1].at]) > 0.85 * swing) ++out.falls;
 
   const Record record{time, value, clean, 6 * out.noise + 1e-3 * swing, out.noise};
+  for (std::size_t i = 0; i < value.size(); ++i)
+    out.spike.push_back(std::abs(value[i] - clean[i]) > record.outlier);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto turn = i == 0 ? first_turn(record, found[0], out, swing)
                              : refined(record, found[i], out.period * fit_within);
@@ -257,6 +259,11 @@ Oscillation find_turns(std::span<const double> time, std::span<const double> val
     if (!turn && i > 0) break;
   }
   if (out.turns.size() < 5) refuse_still(subject, out.turns.size());
+  // Of the large swings: dry friction bends the small ones where they turn.
+  Values periods;
+  for (std::size_t i = 3; i < std::min<std::size_t>(out.turns.size(), 8); ++i)
+    periods.push_back(out.turns[i].time - out.turns[i - 2].time);
+  out.period = median(periods);
 
   // What is left after the last turn, if it is long enough to be rest and not a slow turn.
   Values after;

@@ -20,10 +20,11 @@ struct Turn {
 
 struct Oscillation {
   std::vector<Turn> turns;  // alternately upper and lower, five at least
-  double period = 0;        // median over the turns [s]
+  double period = 0;        // median over the first turns [s]
   double noise = 0;         // standard deviation of one sample
   double rest = 0;          // where it comes to rest; NaN: the record ends before
   std::size_t falls = 0;    // sample at which it is well on its way from the first turn
+  std::vector<bool> spike;  // per sample: stands alone, and does not count
 };
 
 // `subject` begins messages. Throws Refusal for what does not swing twice to and fro, is clipped,
