@@ -61,6 +61,7 @@ int main(int argc, char** argv) {
   cli::add_kinematics(app, action);
   cli::add_identify(app, action);
   cli::add_figures(app, action);
+  cli::add_force_beam(app, action);
 
   try {
     app.parse(argc, argv);
