@@ -97,7 +97,7 @@ void print_models(const identify::Report& report) {
 // The value and half its interval to the digits that mean something.
 std::string interval(const identify::Estimate& e) {
   if (e.at_bound) return "at the bound of its range";
-  if (!std::isfinite(e.high)) return "not identifiable";
+  if (!std::isfinite(e.high)) return e.identifiable ? "no interval" : "not identifiable";
   return fmt::format("+- {:.2g}{}", 0.5 * (e.high - e.low),
                      e.identifiable ? "" : ", not identifiable");
 }
@@ -214,6 +214,7 @@ void add_identify(CLI::App& app, Action& action) {
                              "sinew identify geometry mesh.csv -o my-actuator.toml");
   sub.require_subcommand(1);
   add_identify_geometry(sub, action);
+  add_identify_sensor(sub, action);
 }
 
 }  // namespace sinew::cli

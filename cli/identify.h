@@ -18,6 +18,7 @@
 namespace sinew::cli {
 
 void add_identify_geometry(CLI::App& identify, Action& action);
+void add_identify_sensor(CLI::App& identify, Action& action);
 
 // How files of measurements are read.
 struct DataOptions {

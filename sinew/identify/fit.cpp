@@ -41,7 +41,7 @@ double error_of(const Fit& fit, bool held_out) {
 
 }  // namespace
 
-void choose(Report& report, double tolerance) {
+void choose(Report& report, double tolerance, double negligible) {
   bool held_out = true;
   for (const Fit& fit : report.fits)
     if (usable(fit)) held_out &= fit.held_out.has_value();
@@ -52,7 +52,8 @@ void choose(Report& report, double tolerance) {
       smallest = &fit;
   if (!smallest) refuse_all(report);
 
-  const double limit = (1 + tolerance) * error_of(*smallest, held_out);
+  const double near = (1 + tolerance) * error_of(*smallest, held_out);
+  const double limit = std::max(near, negligible);
   const Fit* chosen = smallest;
   for (const Fit& fit : report.fits)
     if (usable(fit) && error_of(fit, held_out) <= limit &&
@@ -61,10 +62,13 @@ void choose(Report& report, double tolerance) {
 
   report.chosen = static_cast<std::size_t>(chosen - report.fits.data());
   report.rule = fmt::format(
-      "fewest parameters among those whose {} error is within {:.0f} % of the smallest: {} has {} "
-      "and {:.3g} %, the smallest is {:.3g} % ({})",
-      held_out ? "held-out" : "fit", 100 * tolerance, chosen->model, chosen->parameters.size(),
-      error_of(*chosen, held_out), error_of(*smallest, held_out), smallest->model);
+      "fewest parameters among those whose {} error is {}: {} has {} and {:.3g} %, the smallest is "
+      "{:.3g} % ({})",
+      held_out ? "held-out" : "fit",
+      near < negligible ? fmt::format("below {:.2g} %, where it says nothing", negligible)
+                        : fmt::format("within {:.0f} % of the smallest", 100 * tolerance),
+      chosen->model, chosen->parameters.size(), error_of(*chosen, held_out),
+      error_of(*smallest, held_out), smallest->model);
 }
 
 }  // namespace sinew::identify

@@ -47,8 +47,9 @@ struct Report {
 };
 
 // The simplest model (fewest parameters) whose held-out error - without one, its fit - is within
-// `tolerance` (relative) of the smallest; refused models do not count. Writes `chosen` and `rule`.
+// `tolerance` (relative) of the smallest, or within `negligible` [%]: errors below it say nothing,
+// for instance the converter's steps. Refused models do not count. Writes `chosen` and `rule`.
 // Throws Refusal where every model was refused.
-void choose(Report& report, double tolerance = 0.1);
+void choose(Report& report, double tolerance = 0.1, double negligible = 0);
 
 }  // namespace sinew::identify

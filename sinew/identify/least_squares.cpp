@@ -235,6 +235,7 @@ class Uncertainty {
       e.standard_error = e.at_bound ? 0 : std::sqrt(out.covariance[i * n + i]);
       e.low = e.value - t * e.standard_error;
       e.high = e.value + t * e.standard_error;
+      if (out.freedom < 1 && !e.at_bound) e.low = -unbounded, e.high = unbounded;
       const double size = std::max(std::abs(e.value), p.scale);
       e.identifiable = !e.at_bound && t * e.standard_error <= options_.widest_interval * size;
       out.estimates.push_back(e);

@@ -8,8 +8,9 @@
 //                                     out and every parameter in them counts as not identifiable
 //
 // The intervals are value +- t(0.975, n - k) standard errors: 95 %, if the model is right and the
-// residuals are independent. Samples of a time series are not; with `correlated` the variance grows
-// by 1 + 2 sum of the residuals' autocorrelation.
+// residuals are independent. Where there are no more residuals than parameters no error can be
+// seen, and the interval is infinite. Samples of a time series are not; with `correlated` the
+// variance grows by 1 + 2 sum of the residuals' autocorrelation.
 #pragma once
 
 #include <functional>
