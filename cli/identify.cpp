@@ -28,19 +28,6 @@ void add_pair(std::string_view option, const std::string& text,
   pairs[text.substr(0, equals)] = text.substr(equals + 1);
 }
 
-std::vector<std::string> at_commas(const std::string& text) {
-  std::vector<std::string> out;
-  std::size_t from = 0;
-  while (from <= text.size() && !text.empty()) {
-    const std::size_t to = std::min(text.find(',', from), text.size());
-    const std::string piece = text.substr(from, to - from);
-    const std::size_t first = piece.find_first_not_of(' ');
-    out.push_back(first == piece.npos ? "" : piece.substr(first));
-    from = to + 1;
-  }
-  return out;
-}
-
 Json to_json(const identify::Score& score) {
   return {{"points", score.points},
           {"rmse", score.rmse},
@@ -123,6 +110,19 @@ void print(const identify::Report& report) {
 }
 
 }  // namespace
+
+std::vector<std::string> at_commas(const std::string& text) {
+  std::vector<std::string> out;
+  std::size_t from = 0;
+  while (from <= text.size() && !text.empty()) {
+    const std::size_t to = std::min(text.find(',', from), text.size());
+    const std::string piece = text.substr(from, to - from);
+    const std::size_t first = piece.find_first_not_of(' ');
+    out.push_back(first == piece.npos ? "" : piece.substr(first));
+    from = to + 1;
+  }
+  return out;
+}
 
 void add_data_options(CLI::App& sub, DataOptions& options) {
   sub.add_option("data", options.files, "measurements as CSV")->required();
@@ -215,6 +215,7 @@ void add_identify(CLI::App& app, Action& action) {
   sub.require_subcommand(1);
   add_identify_geometry(sub, action);
   add_identify_sensor(sub, action);
+  add_identify_dynamic(sub, action);
 }
 
 }  // namespace sinew::cli

@@ -19,6 +19,7 @@ namespace sinew::cli {
 
 void add_identify_geometry(CLI::App& identify, Action& action);
 void add_identify_sensor(CLI::App& identify, Action& action);
+void add_identify_dynamic(CLI::App& identify, Action& action);
 
 // How files of measurements are read.
 struct DataOptions {
@@ -29,6 +30,9 @@ struct DataOptions {
   bool drop_incomplete = false;
 };
 void add_data_options(CLI::App& sub, DataOptions& options);
+
+// "6 lb, 11 lb": the pieces between commas, without blanks before them.
+std::vector<std::string> at_commas(const std::string& text);
 
 // One source per file. Throws config::Error for what is no name=value.
 std::vector<identify::Source> sources_of(const DataOptions& options);

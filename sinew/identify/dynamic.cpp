@@ -27,7 +27,7 @@ struct Law {
 };
 
 constexpr std::array laws{
-    Law{"viscous", "F = c v", "[33] without its dry part", true, false, Scale::constant},
+    Law{"viscous", "F = c v", "[33] without its dry part", true, false, Scale::secant},
     Law{"dry_constant", "F = Q k sign v, k constant", "Coulomb", false, true, Scale::constant},
     Law{"dry_secant", "F = Q k sign v, k the secant [34]", "[33], [34]", false, true,
         Scale::secant},
@@ -321,6 +321,8 @@ DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string
   for (const Law* law : tried) report.fits.push_back(dynamic.fit(*law, report.full_scale));
   choose(report);
   out.loss = dynamic.loss(*tried[report.chosen], report.best());
+  for (std::size_t i = 0; i < swings.size(); ++i)
+    out.records[i].friction = swings[i].friction(out.loss);
   for (const Estimate& e : report.best().parameters)
     if (e.name.starts_with("tension") && std::abs(e.value - 1) > 0.05)
       report.warnings.push_back(

@@ -34,6 +34,7 @@ struct DecaySummary {
   std::string file;
   double period = 0, noise = 0, rest = 0, amplitude = 0;  // [s] [m] [m] [m]
   double stiffness = 0;                                   // of the sealed muscle at rest [N/m]
+  double friction = 0;  // at rest, by the chosen law [N]; by the others Q times `stiffness`
   std::size_t turns = 0;
   std::optional<Damping> printed, exact;  // two points, [45]-[53]; none: see `why_not`
   std::string why_not;

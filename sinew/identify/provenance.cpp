@@ -10,6 +10,15 @@
 
 namespace sinew::identify {
 
+Provenance::Provenance(config::Origins start, std::string_view file)
+    : origins_(std::move(start)), elsewhere_(fmt::format("where none stands: as in {}", file)) {}
+
+// A new origin, in place of one that the path has already.
+config::Origin& Provenance::put(std::string_view path) {
+  std::erase_if(origins_, [path](const config::Origin& o) { return o.path == path; });
+  return origins_.emplace_back(config::Origin{.path = std::string(path)});
+}
+
 void Provenance::fitted(std::string_view path, const Estimate& estimate, std::string_view source) {
   std::string text(source);
   if (estimate.at_bound) text += "; at the bound of its range";
@@ -20,19 +29,17 @@ void Provenance::fitted(std::string_view path, const Estimate& estimate, std::st
 
 void Provenance::fitted(std::string_view path, std::string_view unit, double uncertainty,
                         std::string_view source) {
-  config::Origin origin{.path = std::string(path), .unit = std::string(unit)};
+  config::Origin& origin = put(path);
+  origin.unit = unit;
   origin.source = source;
   origin.fit = true;
   if (std::isfinite(uncertainty))
     origin.uncertainty = config::format_quantity(uncertainty, config::difference_unit(unit),
                                                  config::difference_unit(unit), 3);
-  origins_.push_back(std::move(origin));
 }
 
 void Provenance::given(std::string_view path, std::string_view source) {
-  config::Origin origin{.path = std::string(path)};
-  origin.source = source;
-  origins_.push_back(std::move(origin));
+  put(path).source = source;
 }
 
 void Provenance::guessed(std::string_view path, std::string_view source) {
@@ -53,7 +60,7 @@ std::string actuator_file(actuator::Actuator actuator, const Provenance& provena
   for (config::Node child : writer.root().find("actuator")->find(name)->children) {
     child.erase("trapezoids");  // thread_length and turns say it all
     if (child.is_table())
-      child.put(config::make_text("source", "where none stands: not identified, does nothing"));
+      child.put(config::make_text("source", provenance.elsewhere()));
     root.put(std::move(child));
   }
   return config::to_toml(root);

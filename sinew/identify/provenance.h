@@ -13,6 +13,10 @@ namespace sinew::identify {
 
 class Provenance {
  public:
+  Provenance() = default;
+  // What is not identified keeps the origin that it has in `file`.
+  Provenance(config::Origins start, std::string_view file);
+
   // The value at `path` was fitted. Its uncertainty is half the 95 % interval, in its own unit; one
   // that is not identifiable says so in its source.
   void fitted(std::string_view path, const Estimate& estimate, std::string_view source);
@@ -24,9 +28,14 @@ class Provenance {
   void guessed(std::string_view path, std::string_view source);
 
   const config::Origins& origins() const { return origins_; }
+  // Of keys that no origin names.
+  const std::string& elsewhere() const { return elsewhere_; }
 
  private:
+  config::Origin& put(std::string_view path);
+
   config::Origins origins_;
+  std::string elsewhere_ = "where none stands: not identified, does nothing";
 };
 
 // A file of format sinew.actuator/1; paths begin with "actuator.<name>.".

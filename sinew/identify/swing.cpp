@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "sinew/actuator/braid.h"
+#include "sinew/actuator/loss.h"
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/identify/decay.h"
@@ -133,6 +134,13 @@ Hanging Swing::scaled(double tension) const {
 double Swing::stiffness() const {
   return actuator::stiffness_sealed(stand.actuator, rest, stand.pressure, stand.atmosphere,
                                     stand.external_volume, stand.polytropic_exponent);
+}
+
+double Swing::friction(const actuator::Loss& loss) const {
+  actuator::Actuator a = stand.actuator;
+  a.loss = loss;
+  return actuator::coulomb_bound(a, rest, stand.pressure - stand.atmosphere, stand.atmosphere,
+                                 stiffness());
 }
 
 bool Swing::simulate(const actuator::Loss& loss, std::span<const double> nuisance,

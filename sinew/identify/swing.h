@@ -53,6 +53,8 @@ class Swing {
 
   // Of the sealed muscle at rest  [N/m].
   double stiffness() const;
+  // Largest dry friction at rest under these losses  [N].
+  double friction(const actuator::Loss& loss) const;
 
   std::string file;
   Hanging stand;
