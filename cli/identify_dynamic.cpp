@@ -110,9 +110,9 @@ Json describe(const identify::DynamicResult& found) {
 
 // Methods that know no muscle beside the trajectories.
 void print_methods(const identify::DynamicResult& found) {
-  TextTable table({"file", "method", "Q [mm]", "friction at rest [N]", "c [N s/m]", "zeta [53]"},
-                  {Align::left, Align::left, Align::right, Align::right, Align::right,
-                   Align::right});
+  TextTable table(
+      {"file", "method", "Q [mm]", "friction at rest [N]", "c [N s/m]", "zeta [53]"},
+      {Align::left, Align::left, Align::right, Align::right, Align::right, Align::right});
   const auto row = [&](const identify::DecaySummary& s, const char* method,
                        const identify::Damping& d) {
     table.add({s.file, method, fmt::format("{:.5f}", 1e3 * d.coulomb_length),
@@ -160,8 +160,8 @@ ExitCode run_dynamic(const Options& options) {
   const experiment::MachineFile start = experiment::load_machine_file(options.actuator);
   const actuator::Actuator& a =
       named(start.experiment.actuators, options.name, "--name", "actuator");
-  const identify::DynamicResult found = identify::identify_dynamic(
-      records_of(options, a, units::standard_gravity), options.model);
+  const identify::DynamicResult found =
+      identify::identify_dynamic(records_of(options, a, units::standard_gravity), options.model);
   tell(found.report, file_with(start.experiment, a, found, options), options.result,
        describe(found));
   if (!options.result.json) print_methods(found);

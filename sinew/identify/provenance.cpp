@@ -59,8 +59,7 @@ std::string actuator_file(actuator::Actuator actuator, const Provenance& provena
   root.put(config::make_text("name", name));
   for (config::Node child : writer.root().find("actuator")->find(name)->children) {
     child.erase("trapezoids");  // thread_length and turns say it all
-    if (child.is_table())
-      child.put(config::make_text("source", provenance.elsewhere()));
+    if (child.is_table()) child.put(config::make_text("source", provenance.elsewhere()));
     root.put(std::move(child));
   }
   return config::to_toml(root);
