@@ -50,6 +50,37 @@ TEST(Geometry, intervals_cover_the_truth) {
   EXPECT_LT(std::abs(bias), 0.01);
 }
 
+TEST(Geometry, one_wrong_diameter_is_told_and_hardly_heard) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    Measured m = pairs(seed, 3e-5, 10);
+    m.columns[1].values[seed % 10] *= seed % 2 == 0 ? 1.3 : 0.6;
+    const GeometryResult g = identify_geometry(m);
+    EXPECT_NEAR(g.braid.thread_length, truth.thread_length, 0.02 * truth.thread_length) << seed;
+    EXPECT_NEAR(g.braid.turns, truth.turns, 0.05 * truth.turns) << seed;
+    ASSERT_EQ(g.report.warnings.size(), 1u) << seed;
+    EXPECT_TRUE(g.report.warnings[0].starts_with("mesh.csv:" + std::to_string(seed % 10 + 2)));
+    EXPECT_TRUE(identify_geometry(pairs(seed, 3e-5, 10)).report.warnings.empty());
+  }
+}
+
+// The outside of the threads, a caliper's, is wider than the circle they lie on. Untold it makes a
+// braid of fewer turns.
+TEST(Geometry, the_outside_taken_for_the_mesh_loses_turns) {
+  const Measured outside = pairs(1, 0, 8, 5e-4);
+  EXPECT_LT(identify_geometry(outside).braid.turns, 0.98 * truth.turns);
+  EXPECT_NEAR(identify_geometry(outside, 5e-4).braid.turns, truth.turns, 1e-6);
+  EXPECT_THROW(identify_geometry(outside, 0.02), Refusal);
+  EXPECT_THROW(identify_geometry(outside, -1e-4), Refusal);
+}
+
+TEST(Geometry, two_pairs_are_enough_and_one_is_not) {
+  const GeometryResult g = identify_geometry(pairs(1, 0, 2));
+  EXPECT_NEAR(g.braid.turns, truth.turns, 1e-7);
+  EXPECT_TRUE(std::isinf(g.report.best().parameters[0].high)) << "no error can be seen";
+  const std::size_t first[] = {0};
+  EXPECT_THROW(identify_geometry(pairs(1, 0, 2).subset(first)), Refusal);
+}
+
 TEST(Geometry, one_length_and_swapped_columns_are_refused) {
   Measured one = pairs(1, 0, 5);
   for (double& x : one.columns[0].values) x = 0.08;

@@ -134,6 +134,20 @@ TEST(Quality, a_sensor_at_its_end_repeats_itself_and_noise_does_not) {
   EXPECT_FALSE(clipping(steps).clipped);
 }
 
+TEST(Quality, an_outlier_is_one_among_many_and_noise_has_none) {
+  std::vector<double> r;
+  unsigned state = 7;
+  for (int i = 0; i < 200; ++i) {
+    state = state * 1664525u + 1013904223u;
+    r.push_back(static_cast<double>(state >> 16) / 65536.0 - 0.5);
+  }
+  EXPECT_TRUE(outliers(r, 0).empty());
+  r[31] = 9;
+  EXPECT_EQ(outliers(r, 0), (std::vector<std::size_t>{31}));
+  EXPECT_TRUE(outliers(r, 10).empty());
+  EXPECT_TRUE(outliers(std::vector<double>{0, 0, 0, 9}, 0).empty()) << "too few to tell";
+}
+
 TEST(Quality, constants_are_refused_with_the_reason) {
   const Measured m = read("pressure [kPa gauge],force [N]\n100,10\n100.1,20\n");
   EXPECT_NO_THROW(refuse_constant(m, "force", 1, "", ""));

@@ -69,6 +69,15 @@ double spread(std::span<const double> values) {
   return 1.4826 * median_of(std::move(distances));
 }
 
+std::vector<std::size_t> outliers(std::span<const double> residuals, double at_least) {
+  std::vector<std::size_t> out;
+  if (residuals.size() < 5) return out;
+  const double center = median(residuals), limit = std::max(8 * spread(residuals), at_least);
+  for (std::size_t i = 0; i < residuals.size(); ++i)
+    if (std::abs(residuals[i] - center) > limit) out.push_back(i);
+  return out;
+}
+
 Clipping clipping(std::span<const double> values, std::size_t shortest) {
   Clipping out{.top = largest(values), .bottom = smallest(values)};
   if (values.size() < 2 * shortest || out.top == out.bottom) return out;

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sinew/identify/measured.h"
 
@@ -29,6 +30,10 @@ double median(std::span<const double> values);
 // Scale of the spread that outliers do not move: 1.4826 times the median distance from the median,
 // the standard deviation of normal noise.
 double spread(std::span<const double> values);
+
+// Residuals that stand apart from the others: farther from their median than eight times their
+// spread and than `at_least`. Slips of the pen do; fewer than five residuals tell nothing.
+std::vector<std::size_t> outliers(std::span<const double> residuals, double at_least);
 
 // Throws Refusal if all values of the column lie within `tolerance` of each other.
 void refuse_constant(const Measured& data, std::string_view column, double tolerance,

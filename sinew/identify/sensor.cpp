@@ -184,22 +184,20 @@ void refuse_unrelated(const SensorData& data, const SensorReadings& s, const Fit
          "the columns: they may be swapped, or the sensor not connected");
 }
 
-// A slip of the pen stands far from the others.
 void warn_of_outliers(const SensorData& data, const SensorReadings& s, const Usable& u,
                       const Law& law, const Solution& solution, double rest,
                       std::vector<std::string>& warnings) {
-  if (u.points.size() < 5) return;
   std::vector<double> off;
   for (std::size_t i = 0; i < u.known.size(); ++i)
     off.push_back(u.output[i] - value_of(law, solution.values, u.known[i] - rest));
-  const double typical = spread(off), finest = std::isfinite(u.step) ? u.step : 0;
+  const double finest = std::isfinite(u.step) ? u.step : 0;
   const double span = largest(u.output) - smallest(u.output);
-  for (std::size_t i = 0; i < off.size(); ++i)
-    if (std::abs(off[i]) > std::max({8 * typical, 4 * finest, 0.02 * span}))
-      warnings.push_back(fmt::format(
-          "{}:{}: {}: {:.4g} V is {:+.3g} V from the fit, the others "
-          "within {:.2g} V: a slip of the pen?",
-          data.file, u.lines[i], s.name, u.output[i], off[i], std::max(3 * typical, finest)));
+  if (u.points.size() < 5) return;  // the fit follows any of them
+  for (const std::size_t i : outliers(off, std::max(4 * finest, 0.02 * span)))
+    warnings.push_back(
+        fmt::format("{}:{}: {}: {:.4g} V is {:+.3g} V from the fit, far from the "
+                    "others: a slip of the pen?",
+                    data.file, u.lines[i], s.name, u.output[i], off[i]));
 }
 
 Fit fit_of(const Law& law, const SensorResult& r, const Usable& u, double rest,
