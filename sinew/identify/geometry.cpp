@@ -45,6 +45,11 @@ void refuse_poor(const Measured& data) {
     throw Refusal(data.file, fmt::format("{} pair of length and diameter", data.rows()),
                   "at least two at different lengths",
                   "the mesh pulled long and pushed short, or counted trapezoids");
+  bool wide = true;
+  for (std::size_t i = 0; i < data.rows(); ++i) wide &= data["diameter"][i] > data["length"][i];
+  if (wide)
+    throw Refusal(data.file, "a mesh that is wider than long in every row",
+                  "lengths above the diameters", "the columns, they may be swapped");
   const std::vector<double>& length = data["length"];
   refuse_constant(data, "length", 0.05 * largest(length),
                   "lengths that differ by more than 5 %: one length does not tell b from n",

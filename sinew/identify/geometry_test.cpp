@@ -89,6 +89,11 @@ TEST(Geometry, one_length_and_swapped_columns_are_refused) {
   Measured rising = pairs(1, 0, 5);
   std::reverse(rising.columns[1].values.begin(), rising.columns[1].values.end());
   EXPECT_THROW(identify_geometry(rising), Refusal);
+
+  // An ellipse of lengths and diameters is one the other way round too, of hardly any turns.
+  Measured swapped = pairs(1, 0, 5);
+  std::swap(swapped.columns[0].values, swapped.columns[1].values);
+  EXPECT_THROW(identify_geometry(swapped), Refusal);
 }
 
 }  // namespace
