@@ -5,6 +5,7 @@
 #include "cli/report.h"
 #include "cli/run_folder.h"
 #include "cli/terminal.h"
+#include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
 #include "sinew/log/reader.h"
 
@@ -17,16 +18,9 @@ struct Options {
   bool json = false, force = false, quiet = false;
 };
 
-ExitCode analyze_run(const Options& options) {
-  const Messages messages(options.quiet);
-  const RecordedRun run = recorded_run(options.run);
-  const auto machine =
-      analysis::read_machine(config::compose(machine_of(run, options.machine).string()));
-  const signals::Table table = log::read(run.log);
-  if (!table.complete)
-    messages.warning(run.log.string() +
-                     " was cut off or is damaged; the figures are of what stands before");
-
+// The machine is a whole one or a stand.
+template <class Machine>
+ExitCode tell(const Options& options, const signals::Table& table, const Machine& machine) {
   const analysis::Summary summary = analysis::summarize(table, machine);
   const std::string json = to_json(summary);
   if (!options.out.empty()) {
@@ -39,6 +33,19 @@ ExitCode analyze_run(const Options& options) {
     print_verdicts(summary, machine);
   }
   return ok;
+}
+
+ExitCode analyze_run(const Options& options) {
+  const Messages messages(options.quiet);
+  const RecordedRun run = recorded_run(options.run);
+  const config::Node file = config::compose(machine_of(run, options.machine).string());
+  const signals::Table table = log::read(run.log);
+  if (!table.complete)
+    messages.warning(run.log.string() +
+                     " was cut off or is damaged; the figures are of what stands before");
+
+  if (config::format_kind(file) == "rig") return tell(options, table, analysis::read_stand(file));
+  return tell(options, table, analysis::read_machine(file));
 }
 
 }  // namespace

@@ -8,10 +8,13 @@
 
 #include "cli/command.h"
 #include "cli/run_folder.h"
+#include "cli/run_rig.h"
+#include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/gains.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/experiment/rig/rig.h"
 #include "sinew/log/reader.h"
 #include "sinew/signals/timing.h"
 #include "sinew/tune/study.h"
@@ -57,6 +60,10 @@ void check_timing(const std::string& path, Finding& out) {
 void check_run(const std::filesystem::path& folder, Finding& out) {
   const RecordedRun run = recorded_run(folder);
   check_log(run.log, out);
+  if (const auto file = machine_of(run, ""); is_rig(file)) {
+    out.add(rig::load(file).warnings, out.warnings);
+    return;
+  }
   out.add(experiment::load_machine_file(machine_of(run, "")).experiment.warnings, out.warnings);
 }
 
@@ -69,6 +76,13 @@ void tell_of_sources(const Problems& unsourced, Finding& out) {
     out.warnings.push_back(fmt::format("{}: {} value{} without a source (line): {}", file,
                                        list.size(), list.size() == 1 ? "" : "s",
                                        fmt::join(list, ", ")));
+}
+
+void check_rig(const std::string& path, Finding& out) {
+  const rig::Experiment e = rig::load(path);
+  analysis::read_stand(config::compose(path));  // what is reported of it
+  out.add(e.warnings, out.warnings);
+  tell_of_sources(e.unsourced, out);
 }
 
 void check_machine(const std::string& path, Finding& out) {
@@ -92,6 +106,8 @@ Finding check(const std::string& path) {
       check_timing(path, out);
     } else if (config::format_kind(config::parse_file(path)) == "plan") {
       tune::check(tune::sweep_of(tune::load_study(path)));
+    } else if (is_rig(path)) {
+      check_rig(path, out);
     } else {
       check_machine(path, out);
     }
@@ -135,10 +151,10 @@ void add_check(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App& sub = subcommand(app, "check", "what is wrong with files, all of it at once",
                              "sinew check robots/leg/*.toml robots/leg/predict.dat");
-  sub.add_option(
-         "FILE", options->files,
-         "experiment, plan, robot, actuator, valves, wiring file, predict.dat, gain*.dat, or a "
-         "run's folder or log")
+  sub.add_option("FILE", options->files,
+                 "experiment, rig, plan, robot, actuator, valves, wiring file, predict.dat, "
+                 "gain*.dat, or a "
+                 "run's folder or log")
       ->required();
   sub.add_flag("--json", options->json, "as JSON");
   sub.callback([=, &action] { action = [=] { return check_all(*options); }; });

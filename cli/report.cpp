@@ -111,17 +111,34 @@ void print_main_figures(const analysis::Summary& summary, const analysis::Machin
 
 }  // namespace
 
-void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine) {
+bool print_reported(const analysis::Summary& summary,
+                    const std::vector<analysis::Reported>& reported, double atmosphere) {
   fmt::print("{}", summary.title);
   if (!summary.reproduces.empty()) fmt::print(" ({})", summary.reproduces);
   fmt::print("\n");
 
   TextTable table({"", "reported", "Sinew", "accepted", "", "source"});
-  for (const analysis::Verdict& v : compare(summary, machine.reported, machine.atmosphere))
+  for (const analysis::Verdict& v : compare(summary, reported, atmosphere))
     table.add({v.key, v.reported, v.ours.empty() ? "-" : v.ours, v.accept,
                std::string(to_text(v.is)), v.source});
-  if (table.empty()) return print_main_figures(summary, machine);
+  if (table.empty()) return false;
   fmt::print("{}", table.text());
+  return true;
+}
+
+void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine) {
+  if (!print_reported(summary, machine.reported, machine.atmosphere))
+    print_main_figures(summary, machine);
+}
+
+void print_verdicts(const analysis::Summary& summary, const analysis::StandFile& stand) {
+  if (print_reported(summary, stand.reported, stand.atmosphere)) return;
+  TextTable table({"", "Sinew"});
+  for (const analysis::Entry& e : summary.entries()) {
+    const std::string unit = analysis::unit_of_key(e.key);
+    table.add({e.key, analysis::show(e.value, e.key, unit == "m" ? "in" : unit, stand.atmosphere)});
+  }
+  if (!table.empty()) fmt::print("{}", table.text());
 }
 
 void warn_of(const experiment::Experiment& e, const experiment::Outcome& outcome,

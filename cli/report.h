@@ -5,6 +5,7 @@
 
 #include "cli/terminal.h"
 #include "sinew/analysis/machine.h"
+#include "sinew/analysis/stand.h"
 #include "sinew/analysis/summary.h"
 #include "sinew/experiment/run.h"
 
@@ -12,6 +13,7 @@ namespace sinew::cli {
 
 // Title, and what the source reports beside what came out.
 void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine);
+void print_verdicts(const analysis::Summary& summary, const analysis::StandFile& stand);
 
 // What went on in the run that its figures do not show.
 void warn_of(const experiment::Experiment& experiment, const experiment::Outcome& outcome,

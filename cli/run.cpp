@@ -11,6 +11,7 @@
 #include "cli/report.h"
 #include "cli/run_folder.h"
 #include "cli/run_log.h"
+#include "cli/run_rig.h"
 #include "cli/terminal.h"
 #include "sinew/config/node.h"
 
@@ -74,7 +75,16 @@ std::string a_pace(const std::string& text) {
   return fmt::format("found \"{}\"; expected 0, or a number from {} on", text, slowest);
 }
 
+// What a stand has no use for.
+ExitCode run_on_stand(const Options& o) {
+  if (o.pace > 0)
+    config::fail({o.experiment, 0, 0}, "--pace", fmt::format("{}", o.pace),
+                 "a run as fast as it goes: a stand has no live log");
+  return run_rig({o.experiment, o.folder, o.sets, o.force, o.json, o.quiet});
+}
+
 ExitCode run_experiment(const Options& options) {
+  if (is_rig(options.experiment)) return run_on_stand(options);
   const Messages messages(options.quiet);
   const experiment::Experiment e = load(options, messages);
   const std::string resolved = experiment::resolved(e, SINEW_VERSION);
@@ -88,7 +98,7 @@ ExitCode run_experiment(const Options& options) {
   std::optional<RunLog> log;
   if (e.log.enabled) {
     write_file(folder / resolved_name, resolved);
-    log.emplace(folder / log_name, e, resolved, std::move(logged));
+    log.emplace(folder / log_name, e.name, e.seed, resolved, std::move(logged));
   }
   const experiment::Outcome outcome = run_logged(options, e, log ? &*log : nullptr);
   warn_of(e, outcome, messages);

@@ -16,13 +16,16 @@ void push(void* writer, std::uint16_t topic, std::int64_t time_ns,
 
 }  // namespace
 
-LoggedTopics logged_topics(const experiment::Experiment& e) {
-  const std::vector<signals::Topic> all = experiment::topics(e);
-  const config::Origin* origin = config::find_origin(e.origins, "log.channels");
+namespace {
+
+LoggedTopics chosen(const std::vector<signals::Topic>& all,
+                    const std::vector<std::string>& channels, const config::Origins& origins,
+                    const std::string& path) {
+  const config::Origin* origin = config::find_origin(origins, "log.channels");
   const bool written = origin && !origin->is_default;
   const std::vector<bool> wanted =
-      select(e.log.channels, config::names_of(all),
-             written ? origin->where : config::Location{e.path, 0, 0}, "log.channels");
+      select(channels, config::names_of(all),
+             written ? origin->where : config::Location{path, 0, 0}, "log.channels");
   LoggedTopics out;
   for (std::size_t i = 0; i < all.size(); ++i) {
     out.of_series.push_back(wanted[i] ? static_cast<std::uint16_t>(out.topics.size())
@@ -30,6 +33,16 @@ LoggedTopics logged_topics(const experiment::Experiment& e) {
     if (wanted[i]) out.topics.push_back(all[i]);
   }
   return out;
+}
+
+}  // namespace
+
+LoggedTopics logged_topics(const experiment::Experiment& e) {
+  return chosen(experiment::topics(e), e.log.channels, e.origins, e.path);
+}
+
+LoggedTopics logged_topics(const rig::Experiment& e) {
+  return chosen(rig::topics(e), e.log.channels, e.origins, e.path);
 }
 
 LoggedTopics logged_topics(const signals::Table& table) {
@@ -41,12 +54,12 @@ LoggedTopics logged_topics(const signals::Table& table) {
   return out;
 }
 
-RunLog::RunLog(const std::filesystem::path& file, const experiment::Experiment& e,
+RunLog::RunLog(const std::filesystem::path& file, const std::string& name, int seed,
                const std::string& resolved, LoggedTopics logged)
     : of_series_(std::move(logged.of_series)),
       writer_(file, std::move(logged.topics),
-              {{"experiment", e.name},
-               {"seed", std::to_string(e.seed)},
+              {{"experiment", name},
+               {"seed", std::to_string(seed)},
                {"version", SINEW_VERSION},
                {"resolved", resolved}},
               {.version = SINEW_VERSION}) {}
@@ -59,7 +72,8 @@ void RunLog::write(const signals::Table& table) {
   };
   std::vector<At> all;
   for (std::size_t s = 0; s < table.series.size(); ++s)
-    for (std::size_t i = 0; i < table.series[s].time_ns.size(); ++i)
+    for (std::size_t i = 0;
+         of_series_[s] != experiment::not_tapped && i < table.series[s].time_ns.size(); ++i)
       all.push_back({table.series[s].time_ns[i], of_series_[s], i});
   std::ranges::stable_sort(all, {}, &At::time_ns);
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "sinew/experiment/rig/run.h"
 #include "sinew/experiment/run.h"
 #include "sinew/log/writer.h"
 
@@ -20,11 +21,12 @@ LoggedTopics logged_topics(const signals::Table& table);
 
 // By log.channels. Throws config::Error where a pattern means no topic.
 LoggedTopics logged_topics(const experiment::Experiment& experiment);
+LoggedTopics logged_topics(const rig::Experiment& experiment);
 
 class RunLog {
  public:
-  // Throws log::Error where the file cannot be made.
-  RunLog(const std::filesystem::path& file, const experiment::Experiment& experiment,
+  // Throws log::Error where the file cannot be made. `name` and `seed` are the experiment's.
+  RunLog(const std::filesystem::path& file, const std::string& name, int seed,
          const std::string& resolved, LoggedTopics logged);
 
   // A table that is there already, in the order of its times.

@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/run_rig.h"
 #include "cli/text_table.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/experiment/rig/rig.h"
 
 namespace sinew::cli {
 
@@ -98,10 +100,19 @@ Json to_json(const config::Origin& o, const config::Node& values) {
   return out;
 }
 
-ExitCode show(const Options& options) {
+// Every value in SI, and its origin.
+std::pair<config::Node, config::Origins> read(const Options& options) {
+  if (is_rig(options.file)) {
+    const rig::Experiment e = rig::load(options.file, options.sets);
+    return {rig::values_in_si(e), e.origins};
+  }
   const auto file = experiment::load_machine_file(options.file, options.sets);
-  const config::Node values = experiment::values_in_si(file);
-  const config::Origins origins = chosen(file.experiment.origins, options.keys);
+  return {experiment::values_in_si(file), file.experiment.origins};
+}
+
+ExitCode show(const Options& options) {
+  const auto [values, all] = read(options);
+  const config::Origins origins = chosen(all, options.keys);
 
   if (options.json) {
     Json out = Json::array();
@@ -125,7 +136,7 @@ void add_show(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App& sub = subcommand(app, "show", "values of a file, and where each one came from",
                              "sinew show robots/leg/robot.toml joint.knee muscle.hip");
-  sub.add_option("FILE", options->file, "experiment, robot, actuator, valves or wiring file")
+  sub.add_option("FILE", options->file, "experiment, rig, robot, actuator, valves or wiring file")
       ->required();
   sub.add_option("KEY", options->keys, "keys, or how they begin");
   add_sets(sub, options->sets);

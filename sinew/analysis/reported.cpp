@@ -13,8 +13,9 @@ namespace sinew::analysis {
 namespace {
 
 // Longest first: "_m_per_s" ends with "_s" too.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 16> endings = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 19> endings = {{
     {"_Nm_per_rad", "N m/rad"},
+    {"_N_s_per_m", "N s/m"},
     {"_rad_per_s", "rad/s"},
     {"_m_per_s", "m/s"},
     {"_kg_per_m", "kg/m"},
@@ -25,7 +26,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 16> endings 
     {"_Nm", "N m"},
     {"_kg", "kg"},
     {"_count", "count"},
+    {"_diff_Pa", "Pa diff"},
     {"_Pa", "Pa abs"},
+    {"_Hz", "Hz"},
     {"_N", "N"},
     {"_J", "J"},
     {"_m", "m"},

@@ -27,8 +27,8 @@ class Summary;
 using config::Reported;
 
 // The SI unit that a key's ending stands for, as config/quantity.h wants it: _m, _m_per_s, _rad,
-// _rad_per_s, _N, _Nm, _Nm_per_rad, _kg, _kg_per_m, _per_m, _count, _Pa (absolute), _s. "1" for
-// every other ending.
+// _rad_per_s, _N, _Nm, _Nm_per_rad, _N_s_per_m, _kg, _kg_per_m, _per_m, _count, _Pa (absolute),
+// _diff_Pa, _Hz, _s. "1" for every other ending.
 std::string unit_of_key(std::string_view key);
 std::string_view without_unit(std::string_view key);  // "trolley.distance" of "trolley.distance_m"
 

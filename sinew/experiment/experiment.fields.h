@@ -7,6 +7,7 @@
 #include "sinew/actuator/actuator.fields.h"
 #include "sinew/control/gait/plan.fields.h"
 #include "sinew/experiment/experiment.h"
+#include "sinew/experiment/log_table.fields.h"
 #include "sinew/gas/air.fields.h"
 #include "sinew/gas/valve.fields.h"
 #include "sinew/robot/robot.fields.h"
@@ -37,20 +38,6 @@ void fields(Visitor& v, Start& start) {
             .optional = true,
             .doc = "exhausts open, before the first phase"},
            start.settle);
-}
-
-template <class Visitor>
-void fields(Visitor& v, Log& log) {
-  v.flag({.name = "enabled", .optional = true, .doc = "false: only summary.json is left"},
-         log.enabled);
-  v.texts({.name = "channels", .optional = true, .doc = "topics; * stands for anything"},
-          log.channels);
-  v.number({.name = "period",
-            .unit = "s",
-            .min = 1e-4,
-            .optional = true,
-            .doc = "between samples, a multiple of 0.1 ms; edges are logged one by one"},
-           log.period);
 }
 
 template <class Visitor>

@@ -11,6 +11,7 @@
 #include "sinew/config/reader.h"
 #include "sinew/config/reported.h"
 #include "sinew/control/gait/plan.h"
+#include "sinew/experiment/log_table.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
 #include "sinew/gas/valve.h"
@@ -27,12 +28,6 @@ struct Start {
   double trolley = 0;                          // [m]
   double lift = 0;                             // of the body on its cylinder [m]
   double settle = 0;                           // exhausts open, before the first phase [s]
-};
-
-struct Log {
-  bool enabled = true;
-  std::vector<std::string> channels = {"*"};  // topics, * for any run of characters
-  double period = 0.01;                       // [s]
 };
 
 // predict.dat as numbers, so that a resolved file needs no other  [ticks], by duty 0 ... 100 %.

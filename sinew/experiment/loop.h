@@ -2,19 +2,21 @@
 // cord never sees a port, and the port never sees the brain.
 #pragma once
 
-#include "sinew/control/joint/spine.h"
+#include "sinew/control/joint/seen.h"
 #include "sinew/signals/port.h"
 
 namespace sinew::experiment {
 
+// Spine   scan(), seen().phase, command(command), edges(t), due(t), take(conversion, reading, t),
+//         next_event(t), missed(t), shut_down(t): control::Spine, or a stand's drive
 // Brain   update(seen, t) -> Command, finished()
 // Clock   wait_until(t) -> false when late
 // Watch   command(t), edge(e), sample(t), next(t): whoever records; it changes nothing
 //
 // Ends at `end`, when the body ends or fails, or when the spinal cord has shut down.
-template <class Brain, class Clock, class Watch>
-signals::Status loop(control::Spine& spine, Brain& brain, signals::Port& port, Clock& clock,
-                     Watch& watch, signals::Tick end) noexcept {
+template <class Spine, class Brain, class Clock, class Watch>
+signals::Status loop(Spine& spine, Brain& brain, signals::Port& port, Clock& clock, Watch& watch,
+                     signals::Tick end) noexcept {
   using signals::Status;
   using signals::Tick;
 

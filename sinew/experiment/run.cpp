@@ -6,6 +6,7 @@
 
 #include "sinew/experiment/clock.h"
 #include "sinew/experiment/high_level.h"
+#include "sinew/experiment/hose_of.h"
 #include "sinew/experiment/loop.h"
 #include "sinew/experiment/spinal.h"
 #include "sinew/plant/planar/whole.h"
@@ -100,18 +101,6 @@ const gas::Valve* find_valve(const Experiment& e, const std::string& name) {
   for (const gas::Valve& v : e.valves)
     if (v.name == name) return &v;
   return nullptr;
-}
-
-gas::Hose hose_of(const robot::Hose& h) {
-  using Law = robot::Hose::Law;
-  gas::Hose out{.sonic_conductance = h.sonic_conductance,
-                .critical_pressure_ratio = h.critical_pressure_ratio,
-                .length = h.length,
-                .inner_diameter = h.inner_diameter,
-                .volume = h.volume};
-  if (h.law == Law::iso6358) out.law = gas::Hose::Law::iso6358;
-  if (h.law == Law::pipe) out.law = gas::Hose::Law::pipe;
-  return out;
 }
 
 // The robot's cylinder with its valves, if it moves.

@@ -1,0 +1,223 @@
+#include "sinew/analysis/stand.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "sinew/analysis/reported.fields.h"
+#include "sinew/config/reader.h"
+
+namespace sinew::analysis {
+namespace {
+
+using Column = std::vector<double>;
+
+constexpr double seconds_per_ns = 1e-9;
+
+struct Log {
+  const signals::Table& table;
+  const StandFile& file;
+  Summary& summary;
+  std::vector<double> time;  // [s]
+
+  const Column* find(const std::string& topic) const { return table.column(topic); }
+  const Column* muscle(const std::string& what) const {
+    return find("/true/muscle/" + file.element + "/" + what);
+  }
+};
+
+void add_extremes(Log& log, const Column* values, const std::string& key) {
+  if (!values || values->empty()) return;
+  const auto [least, most] = std::ranges::minmax(*values);
+  log.summary.add("stand.least_" + key, least);
+  log.summary.add("stand.greatest_" + key, most);
+}
+
+void add_stand(Log& log) {
+  log.summary.add("duration_s", log.time.back());
+  const Column* length = log.find("/true/stand/length");
+  if (length && !length->empty()) {
+    log.summary.add("stand.start_length_m", length->front());
+    log.summary.add("stand.final_length_m", length->back());
+  }
+  add_extremes(log, length, "length_m");
+  add_extremes(log, log.find("/true/stand/force"), "force_N");
+  add_extremes(log, log.muscle("pressure"), "pressure_Pa");
+  if (const Column* in = log.muscle("air_in"); in && !in->empty())
+    log.summary.add("stand.air_used_kg", in->back());
+  std::size_t edges = 0;
+  for (const signals::Series& s : log.table.series)
+    if (s.topic.name.starts_with("/valve/")) edges += s.time_ns.size();
+  if (edges > 0) log.summary.add("stand.switchings", static_cast<double>(edges));
+}
+
+// Where a sampled curve turns downwards: the top of the parabola through three samples.
+struct Turn {
+  double at = 0, value = 0;
+};
+std::vector<Turn> tops(const std::vector<double>& time, const Column& x) {
+  std::vector<Turn> out;
+  for (std::size_t i = 1; i + 1 < x.size(); ++i) {
+    if (!(x[i] >= x[i - 1] && x[i] > x[i + 1])) continue;
+    const double bend = x[i - 1] - 2 * x[i] + x[i + 1], tilt = 0.5 * (x[i + 1] - x[i - 1]);
+    const double step = time[i + 1] - time[i];
+    out.push_back({time[i] - step * tilt / bend, x[i] - 0.5 * tilt * tilt / bend});
+  }
+  return out;
+}
+
+// [45]-[53] with the first and the third swing; the mass is what hangs.
+void add_damping(Log& log, const std::vector<Turn>& turns, double rest, double period) {
+  const double x1 = turns[0].value - rest, dx1 = turns[0].value - turns[1].value;
+  const double x3 = turns[2].value - rest, dx3 = turns[2].value - turns[3].value;
+  log.summary.add("swing.first_amplitude_m", x1);
+  log.summary.add("swing.first_loss_m", dx1);
+  log.summary.add("swing.damping_ratio", std::log(x1 / (x1 - dx1)) / (2 * std::numbers::pi));
+  const double b = 1 - (dx1 - dx3) / (x1 - x3);
+  log.summary.add("swing.coulomb_length_m", (dx1 - x1 * (1 - b)) / 4);
+  const Column* mass = log.find("/true/stand/mass");
+  if (mass && !mass->empty())
+    log.summary.add("swing.viscous_N_s_per_m", 2 * mass->front() / period * std::log(1 / b));
+}
+
+// A load that was let go at rest and swings down to rest.
+void add_swing(Log& log) {
+  const Column* length = log.find("/true/stand/length");
+  const Column* speed = log.find("/true/stand/velocity");
+  const Column* mass = log.find("/true/stand/mass");
+  if (log.file.drive != "none" || !mass || !length || !speed || length->empty()) return;
+  if (mass->front() != mass->back() || speed->front() != 0) return;
+  std::vector<Turn> turns{{0, length->front()}};
+  for (const Turn& t : tops(log.time, *length)) turns.push_back(t);
+  const double rest = length->back();
+  if (turns.size() < 6 || !(turns[0].value - rest > 1e-5)) return;
+
+  const double period = (turns[4].at - turns[0].at) / 4;
+  log.summary.add("swing.first_period_s", turns[1].at);
+  log.summary.add("swing.period_s", period);
+  log.summary.add("swing.frequency_Hz", 1 / period);
+  for (std::size_t k = 1; k < 6; ++k)
+    log.summary.add(fmt::format("swing.peak_{}_m", k), turns[k].value);
+  add_damping(log, turns, rest, period);
+  const double near = 0.02 * (turns[0].value - rest);
+  double settled = 0;
+  for (std::size_t i = 0; i < length->size(); ++i)
+    if (std::fabs((*length)[i] - rest) > near) settled = log.time[i];
+  log.summary.add("swing.settling_time_s", settled);
+}
+
+struct Window {
+  std::size_t begin = 0, end = 0;
+};
+
+// The samples of the last five whole periods.
+Window last_periods(const Log& log) {
+  const double last = log.time.back(), period = log.file.period;
+  const double whole = std::floor(last / period + 1e-6) * period;
+  Window w;
+  const auto sample = [&](double t) {
+    return static_cast<std::size_t>(
+        std::ranges::lower_bound(log.time, t - 0.25 * (log.time[1] - log.time[0])) -
+        log.time.begin());
+  };
+  w.begin = sample(whole - 5 * period);
+  w.end = sample(whole);
+  return w;
+}
+
+void add_ripple(Log& log, const Window& w, const Column* values, const std::string& mean_key,
+                const std::string& ripple_key) {
+  if (!values || w.end <= w.begin) return;
+  const std::span<const double> last(values->data() + w.begin, w.end - w.begin);
+  double sum = 0;
+  for (const double x : last) sum += x;
+  const auto [least, most] = std::ranges::minmax(last);
+  log.summary.add("pulsed." + mean_key, sum / static_cast<double>(last.size()));
+  log.summary.add("pulsed." + ripple_key, most - least);
+}
+
+bool pulses(const std::string& drive) {
+  return drive == "pwm" || drive == "feed-forward" || drive == "feedback";
+}
+
+void add_pulsed(Log& log) {
+  if (!pulses(log.file.drive) || log.time.back() < 5 * log.file.period || log.time.size() < 2)
+    return;
+  const Window w = last_periods(log);
+  add_ripple(log, w, log.find("/true/stand/length"), "length_m", "length_ripple_m");
+  add_ripple(log, w, log.muscle("pressure"), "pressure_Pa", "pressure_ripple_diff_Pa");
+  add_ripple(log, w, log.find("/true/stand/force"), "force_N", "force_ripple_N");
+}
+
+void add_track(Log& log) {
+  const Column* length = log.find("/true/stand/length");
+  const Column* desired = log.find("/desired/length");
+  if (!length || !desired || length->empty() || desired->size() != length->size()) return;
+  double square = 0;
+  for (std::size_t i = 0; i < length->size(); ++i) {
+    const double error = (*length)[i] - (*desired)[i];
+    square += error * error;
+  }
+  log.summary.add("track.rms_m", std::sqrt(square / static_cast<double>(length->size())));
+  if (const double* settled = log.summary.find("pulsed.length_m"))
+    log.summary.add("track.final_error_m", *settled - desired->back());
+}
+
+void add_sweep(const signals::Table& table, Summary& summary) {
+  const Column* duty = table.column("/sweep/duty");
+  if (!duty) return;
+  for (std::size_t i = 0; i < duty->size(); ++i) {
+    std::string percent = fmt::format("{:.6g}", 100 * (*duty)[i]);
+    std::ranges::replace(percent, '.', '_');
+    const auto add = [&](const char* topic, const char* key) {
+      if (const Column* c = table.column(topic))
+        summary.add(fmt::format("sweep.{}.{}", percent, key), (*c)[i]);
+    };
+    add("/true/sweep/length", "length_m");
+    add("/true/sweep/ripple", "length_ripple_m");
+    add("/true/sweep/pressure", "pressure_Pa");
+    add("/true/sweep/force", "force_N");
+  }
+}
+
+}  // namespace
+
+StandFile read_stand(const config::Node& root) {
+  StandFile f;
+  f.atmosphere = config::atmosphere_of(root);
+  config::Reader reader(root, {.atmosphere = f.atmosphere});
+  reader.text({.name = "title", .optional = true}, f.title);
+  reader.text({.name = "reproduces", .optional = true}, f.reproduces);
+  reader.group({.name = "element", .optional = true},
+               [&](auto& g) { g.text({.name = "name", .optional = true}, f.element); });
+  reader.group({.name = "drive", .optional = true}, [&](auto& g) {
+    g.text({.name = "kind", .optional = true}, f.drive);
+    g.number({.name = "period", .unit = "s", .min = 1e-4, .optional = true}, f.period);
+  });
+  reader.list({.name = "reported", .optional = true}, f.reported,
+              [&](auto& g, Reported& r) { analysis::fields(g, r, f.atmosphere); });
+  reader.finish_part();
+  return f;
+}
+
+Summary summarize(const signals::Table& table, const StandFile& file) {
+  Summary summary;
+  summary.title = file.title;
+  summary.reproduces = file.reproduces;
+  add_sweep(table, summary);
+  const signals::Series* rows = table.find("/true/stand/length");
+  if (!rows || rows->time_ns.empty()) return summary;
+  Log log{table, file, summary, {}};
+  for (const std::int64_t ns : rows->time_ns)
+    log.time.push_back(seconds_per_ns * static_cast<double>(ns));
+  add_stand(log);
+  add_swing(log);
+  add_pulsed(log);
+  add_track(log);
+  return summary;
+}
+
+}  // namespace sinew::analysis
