@@ -24,6 +24,7 @@ list='
     demo   -                   libceres-dev                     least squares of identification
     quick  -                   libgtest-dev                     tests
     quick  -                   libgmock-dev                     tests
+    quick  -                   libsundials-dev                  a second integrator in tests
     quick  clang-format-14     clang-format-14                  one layout of code; versions differ
     quick  node                nodejs                           reads our logs with the MCAP library
     quick  npm                 npm                              installs that library

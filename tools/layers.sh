@@ -41,6 +41,7 @@ libraries='
     zlib[.]h        sinew/log
     mcap/           sinew/log
     mujoco/         sinew/plant/mujoco
+    cvode/          sinew/plant/rig
     CLI/            cli
     ceres/          sinew/identify
     Eigen/          sinew/identify
