@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "cli/arguments.h"
 #include "cli/run_folder.h"
@@ -167,6 +168,16 @@ void check_result_options(const ResultOptions& options) {
   if (!options.out.empty()) refuse_to_overwrite(options.out, options.force);
 }
 
+config::Node robot_over(const std::string& base, const std::string& out) {
+  namespace fs = std::filesystem;
+  config::Node root = config::make_table("");
+  root.put(config::make_text("format", "sinew.robot/1"));
+  if (base.empty()) return root;
+  const fs::path folder = fs::absolute(out).parent_path();
+  root.put(config::make_text("base", fs::absolute(base).lexically_relative(folder)));
+  return root;
+}
+
 void write_parameter_file(const std::string& text, const ResultOptions& options) {
   if (options.out.empty()) return;
   write_file(options.out, text);
@@ -216,6 +227,7 @@ void add_identify(CLI::App& app, Action& action) {
   add_identify_geometry(sub, action);
   add_identify_sensor(sub, action);
   add_identify_dynamic(sub, action);
+  add_identify_joint(sub, action);
 }
 
 }  // namespace sinew::cli

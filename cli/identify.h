@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "sinew/config/node.h"
 #include "sinew/identify/fit.h"
 #include "sinew/identify/measured.h"
 
@@ -20,6 +21,7 @@ namespace sinew::cli {
 void add_identify_geometry(CLI::App& identify, Action& action);
 void add_identify_sensor(CLI::App& identify, Action& action);
 void add_identify_dynamic(CLI::App& identify, Action& action);
+void add_identify_joint(CLI::App& identify, Action& action);
 
 // How files of measurements are read.
 struct DataOptions {
@@ -49,6 +51,9 @@ void check_result_options(const ResultOptions& options);
 
 // Writes the parameter file where one is wanted, and says so.
 void write_parameter_file(const std::string& text, const ResultOptions& options);
+
+// The beginning of a robot's file at `out` that adds to the one at `base`; empty: to none.
+config::Node robot_over(const std::string& base, const std::string& out);
 
 nlohmann::ordered_json to_json(const identify::Report& report);
 

@@ -127,13 +127,7 @@ std::string parameter_file(const Calibration& c, const identify::CountScale& con
     v.group({.name = "assumed"}, [&](auto& g) { robot::assumed_fields(g, s); });
   });
 
-  config::Node root = config::make_table("");
-  root.put(config::make_text("format", "sinew.robot/1"));
-  if (!options.base.empty()) {
-    namespace fs = std::filesystem;
-    const fs::path folder = fs::absolute(options.result.out).parent_path();
-    root.put(config::make_text("base", fs::absolute(options.base).lexically_relative(folder)));
-  }
+  config::Node root = robot_over(options.base, options.result.out);
   for (const config::Node& child : writer.root().children) root.put(child);
   return config::to_toml(root);
 }

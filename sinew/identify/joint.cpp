@@ -273,6 +273,45 @@ std::vector<double> residuals_of(const Law& law, const JointTorque& joint, const
   return r;
 }
 
+// One law, fitted to all rows and scored on what is held out.
+Fit tried_fit(const Law& law, const JointTorque& joint, const JointTorque& some,
+              const JointTorque& others, bool refit, const JointSetup& setup, double full_scale,
+              Solved& solved) {
+  Fit fit{.model = law.name, .law = law.law, .source = law.source};
+  try {
+    solved = solve(law, joint, setup);
+    fit.parameters = solved.solution.estimates;
+    fit.refused = inseparable(solved);
+    fit.fit = score(solved.solution.residuals, full_scale);
+    const Values values = refit ? solve(law, some, setup).values : solved.values;
+    fit.held_out = score(residuals_of(law, others, values), full_scale);
+  } catch (const Refusal& e) {
+    fit.refused = e.what();
+  }
+  return fit;
+}
+
+// Arms over the angles that were measured.
+void put_cam(const Measured& data, const JointTorque& joint, const Hinge& cord, double rest,
+             JointResult& out) {
+  const double low = smallest(data["angle"]), high = largest(data["angle"]);
+  constexpr int pieces = 8;
+  for (int i = 0; i <= pieces; ++i) {
+    const double angle = low + (high - low) * i / pieces;
+    const double q = joint.sign() * (angle - rest);
+    out.cam_angle.push_back(angle);
+    out.cam_flexor.push_back(cord.arm(q));
+    out.cam_extensor.push_back(cord.arm(-q));
+  }
+}
+
+void refuse_other_columns(const Measured& data, const Measured& held_out) {
+  for (const Column& c : data.columns)
+    if (!held_out.has(c.name))
+      throw Refusal(held_out.file, fmt::format("no column {}", c.name),
+                    fmt::format("the columns of {}", data.file), "");
+}
+
 }  // namespace
 
 std::span<const Wanted> joint_columns() { return columns; }
@@ -287,6 +326,7 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
                            const JointSetup& setup, std::string_view model) {
   const JointTorque joint(data, setup);
   refuse_unusable(data, joint, setup);
+  if (held_out) refuse_other_columns(data, *held_out);
   const auto [seen, unseen] = held_out ? std::pair(data, *held_out) : every_third(data);
   const JointTorque some(seen, setup), others(unseen, setup);
 
@@ -306,28 +346,17 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
   for (const Law& law : laws) {
     if (!model.empty() && model != law.name) continue;
     if (setup.keep_force && law.pressure) continue;  // the force is what it is
-    Fit fit{.model = law.name, .law = law.law, .source = law.source};
     tried.push_back(&law);
     solved.emplace_back();
-    try {
-      solved.back() = solve(law, joint, setup);
-      const Solution& s = solved.back().solution;
-      fit.parameters = s.estimates;
-      fit.refused = inseparable(solved.back());
-      fit.fit = score(s.residuals, report.full_scale);
-      const Values values = held_out ? solved.back().values : solve(law, some, setup).values;
-      fit.held_out = score(residuals_of(law, others, values), report.full_scale);
-    } catch (const Refusal& e) {
-      fit.refused = e.what();
-    }
-    report.fits.push_back(std::move(fit));
+    report.fits.push_back(
+        tried_fit(law, joint, some, others, !held_out, setup, report.full_scale, solved.back()));
   }
   if (tried.empty()) throw std::invalid_argument(fmt::format("no model {}", model));
   choose(report);
 
   const Law& law = *tried[report.chosen];
-  joint.warn_of_ends(law, solved[report.chosen].values, report.warnings);
   const Values& v = solved[report.chosen].values;
+  joint.warn_of_ends(law, v, report.warnings);
   out.combinations = combinations_of(solved[report.chosen].solution);
   out.moment_arm = v.moment_arm;
   out.flexor_length = joint.has_flexor() ? v.flexor_length : to_be_found;
@@ -338,14 +367,7 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
     report.fits[report.chosen].notes.push_back(
         fmt::format("the points are {:.4g} m and {:.4g} m from the joint, or the other way round",
                     cord.origin(), cord.insertion()));
-    const double low = smallest(data["angle"]), high = largest(data["angle"]);
-    for (int i = 0; i <= 8; ++i) {
-      const double angle = low + (high - low) * i / 8;
-      const double q = joint.sign() * (angle - setup.rest_angle);
-      out.cam_angle.push_back(angle);
-      out.cam_flexor.push_back(cord.arm(q));
-      out.cam_extensor.push_back(cord.arm(-q));
-    }
+    put_cam(data, joint, cord, setup.rest_angle, out);
   }
   return out;
 }

@@ -1,0 +1,255 @@
+// cli/identify_joint.cpp - `sinew identify joint`: force law and moment arm without a length rig.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cli/arguments.h"
+#include "cli/identify.h"
+#include "cli/named.h"
+#include "cli/text_table.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+#include "sinew/config/writer.h"
+#include "sinew/experiment/machine_file.h"
+#include "sinew/identify/joint.h"
+#include "sinew/identify/provenance.h"
+
+namespace sinew::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using identify::JointResult;
+using robot::Joint;
+using robot::Muscle;
+
+struct Options {
+  DataOptions data;
+  ResultOptions result;
+  std::string actuator, actuator_name, actuator_out, base, model, hold_out;
+  std::string joint = "joint", flexor, extensor, flexion = "raises angle", rest = "0 rad";
+  std::string load, lever = "0 m", down = "270 deg", limb = "0 kg", limb_lever = "0 m";
+  std::string moment_arm, flexor_length, extensor_length;
+  bool keep_force = false;
+  int count = 1;
+};
+
+identify::JointSetup setup_of(const Options& options, const actuator::Actuator& a,
+                              double atmosphere) {
+  const auto value = [&](std::string_view option, const std::string& text, std::string_view unit) {
+    return text.empty() ? identify::to_be_found : argument(option, text, unit, atmosphere);
+  };
+  identify::JointSetup s{.actuator = a, .count = options.count, .atmosphere = atmosphere};
+  s.gravity = units::standard_gravity;
+  s.flexion_raises = options.flexion == "raises angle";
+  s.rest_angle = value("--rest-angle", options.rest, "rad");
+  s.load = value("--load", options.load, "kg");
+  s.lever = value("--lever", options.lever, "m");
+  s.down = value("--down", options.down, "rad");
+  s.limb = value("--limb", options.limb, "kg");
+  s.limb_lever = value("--limb-lever", options.limb_lever, "m");
+  s.moment_arm = value("--moment-arm", options.moment_arm, "m");
+  s.flexor_length = value("--flexor-length", options.flexor_length, "m");
+  s.extensor_length = value("--extensor-length", options.extensor_length, "m");
+  s.keep_force = options.keep_force;
+  return s;
+}
+
+const identify::Estimate* parameter(const JointResult& found, std::string_view name) {
+  for (const identify::Estimate& e : found.report.best().parameters)
+    if (e.name == name) return &e;
+  return nullptr;
+}
+
+// --- files ---
+
+void note_origin(const JointResult& found, std::string_view parameter_name, const std::string& path,
+                 const std::string& source, identify::Provenance& provenance) {
+  if (const identify::Estimate* e = parameter(found, parameter_name))
+    provenance.fitted(path, *e, source);
+  else
+    provenance.given(path, "given to " + source);
+}
+
+// What the joint's and the muscles' tables in a robot's file say, to be laid over a whole robot.
+std::string robot_file(const JointResult& found, const identify::JointSetup& setup,
+                       const Options& options, const std::string& source) {
+  identify::Provenance provenance;
+  std::vector<Joint> joints(1);
+  joints[0].name = options.joint;
+  joints[0].rest_angle = setup.rest_angle;
+  joints[0].moment_arm = found.moment_arm;
+  const std::string path = "joint." + options.joint + ".";
+  provenance.given(path + "rest_angle", "given to " + source);
+  note_origin(found, "moment_arm", path + "moment_arm", source, provenance);
+
+  std::vector<Muscle> muscles;
+  const auto add = [&](const std::string& name, const char* what, double length,
+                       const std::vector<double>& radii) {
+    if (!std::isfinite(length)) return;
+    Muscle m{.name = name, .mount_length = length};
+    m.cam.angle = found.cam_angle;
+    m.cam.radii = radii;
+    muscles.push_back(std::move(m));
+    note_origin(found, what, "muscle." + name + ".mount_length", source, provenance);
+    for (const char* key : {"angle", "radius"})
+      provenance.given("muscle." + name + ".cam." + key, source + ", between two points");
+  };
+  add(options.flexor, "flexor_length", found.flexor_length, found.cam_flexor);
+  add(options.extensor, "extensor_length", found.extensor_length, found.cam_extensor);
+
+  config::Writer writer(&provenance.origins());
+  writer.each({.name = "joint"}, joints, [&](auto& v, Joint& j) {
+    v.number({.name = "rest_angle", .unit = "rad"}, j.rest_angle);
+    std::string flexion = options.flexion;
+    v.text({.name = "flexion"}, flexion);
+    v.number({.name = "moment_arm", .unit = "m"}, j.moment_arm);
+  });
+  writer.each({.name = "muscle"}, muscles, [](auto& v, Muscle& m) {
+    v.number({.name = "mount_length", .unit = "m"}, m.mount_length);
+    if (m.cam.angle.empty()) return;
+    v.group({.name = "cam"}, [&](auto& g) {
+      g.numbers({.name = "angle", .unit = "rad"}, m.cam.angle);
+      g.numbers({.name = "radius", .unit = "m"}, m.cam.radii);
+    });
+  });
+  config::Node root = robot_over(options.base, options.result.out);
+  for (const config::Node& child : writer.root().children) root.put(child);
+  return config::to_toml(root);
+}
+
+std::string actuator_file(const experiment::Experiment& start, actuator::Actuator a,
+                          const JointResult& found, const Options& options,
+                          const std::string& source) {
+  identify::Provenance provenance(start.origins, options.actuator);
+  const std::string path = "actuator." + a.name + ".effectiveness.";
+  if (!options.keep_force) {
+    std::string text = source;
+    for (const char* name : {"c0", "c1"})
+      if (const identify::Estimate* e = parameter(found, name))
+        text += fmt::format(", {} +- {:.2g}{}", name, 0.5 * (e->high - e->low),
+                            e->unit == "1" ? "" : " " + e->unit);
+    provenance.fitted(path + "polynomial", "1", std::nan(""), text);
+    provenance.given(path + "argument", source);
+    provenance.given(path + "scale", source + ": in the polynomial");
+    provenance.given(path + "valid", source + ": the highest pressure");
+    a.effectiveness = found.effectiveness;
+  }
+  return identify::actuator_file(a, provenance);
+}
+
+// --- the report ---
+
+Json describe(const JointResult& found) {
+  Json out{{"moment_arm_m", found.moment_arm}};
+  if (std::isfinite(found.flexor_length)) out["flexor_length_m"] = found.flexor_length;
+  if (std::isfinite(found.extensor_length)) out["extensor_length_m"] = found.extensor_length;
+  out["combinations"] = Json::array();
+  for (const identify::Combination& c : found.combinations)
+    out["combinations"].push_back(
+        {{"combination", c.text},
+         {"relative_error", std::isfinite(c.relative_error) ? Json(c.relative_error) : Json()}});
+  return out;
+}
+
+void print_combinations(const JointResult& found) {
+  TextTable table({"what the data tell apart, best first", "95 %"},
+                  {TextTable::Align::left, TextTable::Align::right});
+  for (const identify::Combination& c : found.combinations)
+    table.add({c.text, std::isfinite(c.relative_error)
+                           ? fmt::format("+- {:.2g} %", 100 * c.relative_error)
+                           : "not at all"});
+  fmt::print("\n{}", table.text());
+}
+
+ExitCode run_joint(const Options& options) {
+  check_result_options(options.result);
+  if (!options.base.empty() && options.result.out.empty())
+    config::fail({"--base", 0, 0}, "", "no --out", "a file in which to name the base");
+  ResultOptions actuator_result = options.result;
+  actuator_result.out = options.actuator_out;
+  check_result_options(actuator_result);
+
+  const std::vector<identify::Source> sources = sources_of(options.data);
+  if (sources.size() != 1)
+    config::fail({"data", 0, 0}, "", fmt::format("{} files", sources.size()), "one");
+  const experiment::MachineFile start = experiment::load_machine_file(options.actuator);
+  const actuator::Actuator& a =
+      named(start.experiment.actuators, options.actuator_name, "--name", "actuator");
+  const identify::JointSetup setup = setup_of(options, a, sources[0].atmosphere);
+
+  std::optional<identify::Measured> held_out;
+  if (!options.hold_out.empty()) {
+    identify::Source other = sources[0];
+    other.path = options.hold_out;
+    held_out = identify::read_measured(other, identify::joint_columns());
+  }
+  const JointResult found =
+      identify::identify_joint(identify::read_measured(sources[0], identify::joint_columns()),
+                               held_out, setup, options.model);
+  const std::string source =
+      fmt::format("sinew identify joint {}: {}", sources[0].path, found.report.best().model);
+  tell(found.report, robot_file(found, setup, options, source), options.result, describe(found));
+  if (!options.result.json) print_combinations(found);
+  write_parameter_file(actuator_file(start.experiment, a, found, options, source), actuator_result);
+  return ok;
+}
+
+void add_load_options(CLI::App& sub, Options& o) {
+  sub.add_option("--load", o.load, "mass at the lever, where no column torque or load has it");
+  sub.add_option("--lever", o.lever, "from the joint to the load")->capture_default_str();
+  sub.add_option("--down", o.down, "angle at which the lever points straight down")
+      ->capture_default_str();
+  sub.add_option("--limb", o.limb, "mass of the limb itself")->capture_default_str();
+  sub.add_option("--limb-lever", o.limb_lever, "from the joint to the limb's center of mass")
+      ->capture_default_str();
+}
+
+void add_known_options(CLI::App& sub, Options& o) {
+  sub.add_option("--moment-arm", o.moment_arm, "is known, at the rest angle");
+  sub.add_option("--flexor-length", o.flexor_length, "is known, at the rest angle");
+  sub.add_option("--extensor-length", o.extensor_length, "is known, at the rest angle");
+  sub.add_flag("--keep-force", o.keep_force, "the effectiveness of the actuator's file is right");
+}
+
+}  // namespace
+
+void add_identify_joint(CLI::App& identify, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App& sub = subcommand(
+      identify, "joint", "force law and moment arm from joint angle, pressures and a known load",
+      "sinew identify joint knee.csv --actuator robots/leg/actuator.toml --load \"5 lb\" --lever "
+      "\"6 in\" --rest-angle \"310 deg\" --joint knee --base robots/leg/robot.toml -o mine.toml");
+  add_data_options(sub, options->data);
+  sub.add_option("--actuator", options->actuator, "file with the braid; a start")->required();
+  sub.add_option("--name", options->actuator_name, "which actuator, where the file has several");
+  sub.add_option("--count", options->count, "actuators in parallel in a muscle")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  sub.add_option("--flexion", options->flexion, "what a shorter flexor does to the angle")
+      ->check(CLI::IsMember({"raises angle", "lowers angle"}))
+      ->capture_default_str();
+  sub.add_option("--rest-angle", options->rest, "at which the muscles' lengths are told")
+      ->capture_default_str();
+  add_load_options(sub, *options);
+  add_known_options(sub, *options);
+  sub.add_option("--hold-out", options->hold_out,
+                 "a file that scores the models and is not fitted; absent: every third row");
+  sub.add_option("--model", options->model, "only this one")
+      ->check(CLI::IsMember(identify::joint_models()));
+  sub.add_option("--joint", options->joint, "its name in the robot's file")->capture_default_str();
+  sub.add_option("--flexor", options->flexor, "the muscle's name; absent: <joint>_flexor");
+  sub.add_option("--extensor", options->extensor, "the muscle's name; absent: <joint>_extensor");
+  sub.add_option("--base", options->base, "robot whose joint it is, named in the file of --out");
+  sub.add_option("--actuator-out", options->actuator_out, "the actuator's file to write");
+  add_result_options(sub, options->result);
+  sub.callback([options, &action] {
+    if (options->flexor.empty()) options->flexor = options->joint + "_flexor";
+    if (options->extensor.empty()) options->extensor = options->joint + "_extensor";
+    if (options->keep_force && options->model.ends_with("pressure"))
+      throw CLI::ValidationError("--model", "with --keep-force round or hinge");
+    action = [options] { return run_joint(*options); };
+  });
+}
+
+}  // namespace sinew::cli
