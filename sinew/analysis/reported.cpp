@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -108,7 +109,13 @@ Verdict judge(const Summary& summary, const Reported& r, double atmosphere) {
 
   const double* ours = summary.find(r.key);
   if (!ours) return v;
-  v.ours = show(*ours, r.key, spoken_unit(r, atmosphere), atmosphere);
+  const std::string unit = spoken_unit(r, atmosphere);
+  // A narrow band asks for digits that lie in it.
+  const auto spoken = [&](double si) {
+    return config::convert(si, unit_of_key(r.key), unit, atmosphere);
+  };
+  const double width = band ? spoken(band->highest) - spoken(band->lowest) : 0;
+  v.ours = show(*ours, r.key, unit, atmosphere, width);
   if (!band) return v;
   const bool inside = *ours >= band->lowest && *ours <= band->highest;
   v.is = inside ? Verdict::Is::agrees : Verdict::Is::differs;
@@ -160,16 +167,19 @@ std::vector<Verdict> compare(const Summary& summary, const std::vector<Reported>
   return out;
 }
 
-std::string show(double si, std::string_view key, std::string_view unit, double atmosphere) {
+std::string show(double si, std::string_view key, std::string_view unit, double atmosphere,
+                 double resolution) {
   const double number = config::convert(si, unit_of_key(key), unit, atmosphere);
   const double size = std::abs(number);
+  const int wanted = resolution > 0 ? static_cast<int>(std::ceil(-std::log10(resolution))) : 0;
   std::string text;
   if (size < 1e-9) {
     text = "0";  // what conversion left over
   } else if (size < 0.95) {
-    text = fmt::format("{:.2g}", number);
+    const int digits = wanted + 1 + static_cast<int>(std::floor(std::log10(size)));
+    text = fmt::format("{:.{}g}", number, std::clamp(digits, 2, 9));
   } else {
-    text = fmt::format("{:.{}f}", number, size < 1000 ? 1 : 0);
+    text = fmt::format("{:.{}f}", number, std::clamp(wanted, size < 1000 ? 1 : 0, 9));
   }
   return unit == "1" ? text : fmt::format("{} {}", text, unit);
 }

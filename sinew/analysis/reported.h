@@ -55,8 +55,9 @@ std::string_view to_text(Verdict::Is is);  // "agrees", "differs", "not applicab
 std::vector<Verdict> compare(const Summary&, const std::vector<Reported>&,
                              double atmosphere = units::atmosphere);
 
-// For people, in another unit of the key's kind: one decimal from 1 on, two digits below.
+// For people, in another unit of the key's kind: one decimal from 1 on, two digits below; more
+// where a judgement hangs on them: `resolution` in that unit is a difference that must show.
 std::string show(double si, std::string_view key, std::string_view unit,
-                 double atmosphere = units::atmosphere);
+                 double atmosphere = units::atmosphere, double resolution = 0);
 
 }  // namespace sinew::analysis
