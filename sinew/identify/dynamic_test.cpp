@@ -98,11 +98,11 @@ TEST(Dynamic, the_law_is_told_from_the_others_by_what_it_did_not_see) {
                                                 {constant_loss, "constant"}};
   unsigned seed = 100;
   for (const auto& [loss, name] : cases) {
-    const DecayRecord records[] = {noisy(record(chapter_3[0], loss, 1.6), 1e-5, ++seed),
-                                   noisy(record(chapter_3[1], loss, 1.6), 1e-5, ++seed)};
+    const DecayRecord records[] = {noisy(record(chapter_3[0], loss, 1.6), noise, ++seed),
+                                   noisy(record(chapter_3[1], loss, 1.6), noise, ++seed)};
     const DynamicResult r = identify_dynamic(records);
     EXPECT_EQ(r.report.best().model, name) << r.report.rule;
-    EXPECT_NEAR(r.loss.viscous, loss.viscous, 0.02 * loss.viscous) << name;
+    EXPECT_NEAR(r.loss.viscous, loss.viscous, 0.05 * loss.viscous) << name;
   }
 }
 
