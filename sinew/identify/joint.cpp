@@ -193,7 +193,9 @@ std::vector<Combination> combinations_of(const Solution& s) {
   for (Eigen::Index k = 0; k < m; ++k) {
     Combination c;
     Eigen::VectorXd v = axes.eigenvectors().col(k);
-    if (v[0] < 0) v = -v;
+    Eigen::Index largest_power = 0;
+    v.cwiseAbs().maxCoeff(&largest_power);
+    if (v[largest_power] < 0) v = -v;
     for (Eigen::Index i = 0; i < m; ++i)
       if (std::abs(v[i]) > 0.05)
         c.text += fmt::format(
@@ -305,6 +307,17 @@ void put_cam(const Measured& data, const JointTorque& joint, const Hinge& cord, 
   }
 }
 
+void refuse_if_all_are(const Report& report, const std::string& file) {
+  std::string reasons;
+  for (const Fit& fit : report.fits) {
+    if (fit.refused.empty()) return;
+    reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", fit.model, fit.refused);
+  }
+  throw Refusal(file, "no model whose values the data determine (" + reasons + ")",
+                "poses that tell arm, length and force apart",
+                "larger excursions, --moment-arm, --flexor-length, or --keep-force");
+}
+
 void refuse_other_columns(const Measured& data, const Measured& held_out) {
   for (const Column& c : data.columns)
     if (!held_out.has(c.name))
@@ -352,6 +365,7 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
         tried_fit(law, joint, some, others, !held_out, setup, report.full_scale, solved.back()));
   }
   if (tried.empty()) throw std::invalid_argument(fmt::format("no model {}", model));
+  refuse_if_all_are(report, data.file);
   choose(report);
 
   const Law& law = *tried[report.chosen];

@@ -76,7 +76,8 @@ TEST(IdentifyJoint, SaysWhatItCannotTellApart) {
   write_text(w / "knee.csv", poses(0.06));
   Result result = identified(w, {});
   EXPECT_EQ(result.code, 1);
-  EXPECT_THAT(result.err, AllOf(HasSubstr("cannot be told apart"), HasSubstr("determined is")));
+  EXPECT_THAT(result.err, AllOf(HasSubstr("cannot be told apart"), HasSubstr("determined is"),
+                                HasSubstr("try larger excursions, --moment-arm")));
 
   result = identified(w, {"--moment-arm", "3 cm"});
   EXPECT_EQ(result.code, 0) << result.err;
