@@ -2,6 +2,7 @@
 // says of each what it is.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -19,7 +20,8 @@ namespace sinew::cli {
 
 void FigureSet::add(const Figure& figure, Curve::Kind kind, const std::string& source,
                     Sheet sheet) {
-  if (figures.empty() || figures.back().number != figure.number) figures.push_back(figure);
+  if (std::ranges::find(figures, figure.number, &Figure::number) == figures.end())
+    figures.push_back(figure);
   const std::string x = sheet.headings[0];
   for (std::size_t c = 1; c < sheet.headings.size(); ++c) {
     const std::string& y = sheet.headings[c];
@@ -75,6 +77,16 @@ std::string csv(const Sheet& sheet) {
   return out;
 }
 
+// Figures in the order of the thesis: 2-6, 2-8 … 4-9.
+void in_order(FigureSet& set) {
+  const auto place = [](const Figure& figure) {
+    const std::size_t dash = figure.number.find('-');
+    return std::pair(std::stoi(figure.number.substr(0, dash)),
+                     std::stoi(figure.number.substr(dash + 1)));
+  };
+  std::ranges::stable_sort(set.figures, {}, place);
+}
+
 Json index_of(const FigureSet& set) {
   Json out{{"format", "sinew.figures/1"}, {"figures", Json::array()}};
   for (const Figure& figure : set.figures) {
@@ -112,7 +124,10 @@ ExitCode run_figures(const Options& options) {
   FigureSet set;
   const FigureSources from = sources(options.root);
   add_actuator_figures(set, from);
+  add_static_figures(set, from);
+  add_dynamic_figures(set, from);
   add_valve_figures(set, from);
+  in_order(set);
 
   const fs::path folder(options.folder);
   const std::string index = index_of(set).dump(2) + "\n";

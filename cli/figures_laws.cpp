@@ -76,9 +76,6 @@ void add_2_11(FigureSet& set, const FigureSources& from) {
                           actuator::effectiveness(code, p * psi, from.air.atmosphere)});
   set.add({"2-11", "Effectiveness over pressure"}, Kind::computed,
           "[30] with gauge pressure as the text has it, with absolute as appendix A", sheet);
-  set.curves.push_back(
-      {"2-11", "measured effectiveness at four nominal pressures", Kind::unavailable,
-       "lost with the figure; the polynomial [30] is all that is left", "", "", ""});
 }
 
 void add_2_13(FigureSet& set, const FigureSources& from) {

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 namespace {
 
 // The only files that --force may remove.
-constexpr std::string_view known_files[] = {log_name, "log.mcap.tmp", resolved_name, summary_name,
-                                            "report.html"};
+constexpr std::string_view known_files[] = {log_name,     "log.mcap.tmp", resolved_name,
+                                            summary_name, measured_name,  "report.html"};
 
 [[noreturn]] void refuse(const fs::path& where, std::string found, std::string expected,
                          std::string try_this = "") {

@@ -1,4 +1,5 @@
-// cli/run_folder.h - where a run is kept: log.mcap, resolved.toml, summary.json, report.html.
+// cli/run_folder.h - where a run is kept: log.mcap, resolved.toml, summary.json, measured.csv,
+// report.html.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +10,7 @@ namespace sinew::cli {
 
 inline constexpr std::string_view log_name = "log.mcap";
 inline constexpr std::string_view resolved_name = "resolved.toml";
+inline constexpr std::string_view measured_name = "measured.csv";  // of a test stand
 inline constexpr std::string_view summary_name = "summary.json";
 
 // runs/<experiment>/<n>, n one above the highest there is: no number is ever used again while its

@@ -8,6 +8,7 @@
 #include "cli/terminal.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
+#include "sinew/experiment/rig/measured.h"
 #include "sinew/experiment/rig/run.h"
 
 namespace sinew::cli {
@@ -44,6 +45,8 @@ ExitCode run_rig(const RigOptions& options) {
     throw std::runtime_error(fmt::format(
         "{}: the run was ended by a state that is no number; try a smaller step", e.path));
 
+  const std::string measured = rig::measured_csv(e, outcome.table);
+  if (!measured.empty()) write_file(folder / measured_name, measured);
   const analysis::Summary summary = analysis::summarize(outcome.table, stand);
   const double factor = outcome.wall > 0 ? outcome.duration / outcome.wall : 0;
   const std::string json = to_json(summary, {{"real_time_factor", factor}, {"threads", 1}});

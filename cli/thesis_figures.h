@@ -55,8 +55,21 @@ struct FigureSources {
   gas::Valve inlet, exhaust;    // at the bench
 };
 
-// 2-6, 2-11, 2-13: tension, stiffness and effectiveness by their laws.
+// 2-6: tension and stiffness, 2-11, 2-13: effectiveness and long end and effectiveness by their
+// laws.
 void add_actuator_figures(FigureSet& set, const FigureSources& from);
+
+// 2-8 to 2-13: weights hung on the stand with its air shut in, beside the laws.
+void add_static_figures(FigureSet& set, const FigureSources& from);
+
+// 3-6 to 3-11, 3-14 to 3-23: length over time on the stand.
+void add_dynamic_figures(FigureSet& set, const FigureSources& from);
+
+// 2-8 to 2-13: weights hung on the stand with its air shut in, beside the laws.
+void add_static_figures(FigureSet& set, const FigureSources& from);
+
+// 3-6 to 3-11, 3-14 to 3-23: length over time on the stand.
+void add_dynamic_figures(FigureSet& set, const FigureSources& from);
 
 // 3-4, 3-13, 4-8, 4-9: flow, delivered duty and coil currents.
 void add_valve_figures(FigureSet& set, const FigureSources& from);

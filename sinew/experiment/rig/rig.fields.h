@@ -141,6 +141,10 @@ void fields(Visitor& v, plant::Transducer& t) {
   v.number({.name = "low", .unit = unit, .doc = "of the 12-bit converter, count 0"}, t.low);
   v.number({.name = "high", .unit = unit, .doc = "of the converter, count 4095"}, t.high);
   amount(v, "noise", unit, 0, "standard deviation", t.noise);
+  amount(v, "scale", "1", 0, "what it makes of the quantity; 1: calibrated well", t.scale);
+  amount(v, "offset", unit, -units::unbounded, "what it reads of nothing", t.offset);
+  amount(v, "resolution", unit, 0, "of a dial or display, in measured.csv; 0: the counts'",
+         t.resolution);
   if (!(t.high > t.low)) units::complain(v, "high", "no range", "more than low");
 }
 
@@ -164,6 +168,12 @@ void fields(Visitor& v, Sweep& s) {
   share("from", "first duty", s.from);
   share("to", "last duty", s.to);
   share("step", "between them", s.step);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Measured& m) {
+  amount(v, "period", "s", 0, "between rows of measured.csv; 0: that of the log", m.period);
+  amount(v, "from", "s", 0, "the first row", m.from);
 }
 
 template <class Visitor>
@@ -191,6 +201,8 @@ void fields(Visitor& v, Experiment& e) {
           [&](auto& g) { fields(g, e.sweep); });
   v.each({.name = "sensor", .optional = true, .doc = "transducers, by name"}, e.sensors,
          [](auto& g, plant::Transducer& t) { fields(g, t); });
+  v.group({.name = "measured", .optional = true, .doc = "what the sensors leave as CSV"},
+          [&](auto& g) { fields(g, e.measured); });
   v.group({.name = "log", .optional = true, .doc = "what is recorded"},
           [&](auto& g) { experiment::fields(g, e.log); });
   v.list({.name = "reported", .optional = true, .doc = "printed beside our figures"}, e.reported,

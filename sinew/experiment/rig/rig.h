@@ -80,6 +80,12 @@ struct Sweep {
   double from = 0, to = 0, step = 0;  // duties; step 0: no sweep [-]
 };
 
+// measured.csv: what somebody at the stand writes down.
+struct Measured {
+  double period = 0;  // between rows; 0: that of the log [s]
+  double from = 0;    // the first [s]
+};
+
 struct Experiment {
   std::string path, name;  // of the file; without its ending
   std::string title, reproduces;
@@ -96,6 +102,7 @@ struct Experiment {
   Drive drive;
   Sweep sweep;
   std::vector<plant::Transducer> sensors;
+  Measured measured;
   experiment::Log log{.period = 1e-3};
   std::vector<config::Reported> reported;
 
