@@ -121,6 +121,8 @@ void print(const FigureSet& set) {
 }
 
 ExitCode run_figures(const Options& options) {
+  const fs::path folder(options.folder);
+  refuse_to_overwrite(folder / "index.json", options.force);
   FigureSet set;
   const FigureSources from = sources(options.root);
   add_actuator_figures(set, from);
@@ -129,10 +131,8 @@ ExitCode run_figures(const Options& options) {
   add_valve_figures(set, from);
   in_order(set);
 
-  const fs::path folder(options.folder);
   const std::string index = index_of(set).dump(2) + "\n";
   fs::create_directories(folder);
-  refuse_to_overwrite(folder / "index.json", options.force);
   for (const Sheet& sheet : set.sheets) {
     const fs::path file = folder / (sheet.name + ".csv");
     refuse_to_overwrite(file, options.force);

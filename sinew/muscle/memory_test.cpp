@@ -79,6 +79,20 @@ TEST(Memory, FillAndVentLoop) {
   expect_off(w);
 }
 
+// Every state's rate is set, whatever stood there before.
+TEST(Memory, RatesAreAllSet) {
+  Muscle m = plain_bundle();
+  m.actuator.hysteresis = {.half_width = 0.05 * bar};
+  m.actuator.creep = {.share = {0.02, 0.03}, .time = {0.5, 5}};
+  Plumbing plumbing(std::vector{m}, {}, {});
+  const AirState state = plumbing.initial(4 * bar, still(3.2 * inch).length, 0);
+  AirState rate;
+  rate.of.fill(1e9);
+  AirPull out{};
+  plumbing.evaluate(0, still(3.2 * inch).length, Lanes{}, 0, 0, state, out, rate);
+  for (int i = 0; i < plumbing.states(); ++i) EXPECT_EQ(rate[i], 0) << i;
+}
+
 // Nodes do not matter: what is remembered depends on the turns of the pressure alone.
 TEST(Memory, TheStepDoesNotMatterToThePlay) {
   Muscle m = plain_bundle();

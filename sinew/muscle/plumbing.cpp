@@ -140,6 +140,7 @@ double Plumbing::smooth_tension(int i, double length, double rate, double gauge,
     const actuator::Felt felt = actuator::felt(m.actuator, length, gauge, state[l.play]);
     feels = felt.gauge_pressure;
     out.play[i] = felt.play;
+    derivative[l.play] = 0.0;  // moved by remember() alone
   }
   double one = actuator::tension(m.actuator, length, rate, feels, air_.atmosphere);
   for (std::size_t k = 0; k < l.late.size(); ++k) {

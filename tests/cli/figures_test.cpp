@@ -61,7 +61,7 @@ double at(const Columns& c, const std::string& x, const std::string& y, double w
   return c.at(y)[best];
 }
 
-TEST(Figures, EveryCurveOfTheIndexStandsInItsFile) {
+void every_curve_stands_in_its_file() {
   ASSERT_EQ(drawn().result.code, 0) << drawn().result.err;
   std::set<std::string> kinds;
   for (const Json& figure : drawn().index["figures"]) {
@@ -74,7 +74,7 @@ TEST(Figures, EveryCurveOfTheIndexStandsInItsFile) {
       const Columns c = read(drawn().w / ("figures/" + curve["file"].get<std::string>()));
       ASSERT_TRUE(c.contains(curve["x"])) << curve.dump();
       ASSERT_TRUE(c.contains(curve["y"])) << curve.dump();
-      EXPECT_GE(c.at(curve["y"]).size(), 10u) << curve.dump();
+      EXPECT_GE(c.at(curve["y"]).size(), 4u) << curve.dump();
       EXPECT_THAT(curve["y"].get<std::string>(), AllOf(HasSubstr(" ["), HasSubstr("]")));
     }
   }
@@ -82,7 +82,7 @@ TEST(Figures, EveryCurveOfTheIndexStandsInItsFile) {
 }
 
 // Figure 2-6 as reference.json has it, to its four decimals.
-TEST(Figures, Figure2_6) {
+void figure_2_6() {
   const Columns force = sheet("2-6-force"), stiffness = sheet("2-6-stiffness");
   std::ifstream file(std::string(SINEW_SOURCE_DIR) + "/data/reference.json");
   const Json rows = Json::parse(file)["fig_2_6"]["rows"];
@@ -101,7 +101,7 @@ TEST(Figures, Figure2_6) {
 }
 
 // 3.4: 50 % is 42.5 and 35 %.
-TEST(Figures, Figure3_13) {
+void figure_3_13() {
   const Columns c = sheet("3-13");
   EXPECT_NEAR(at(c, "commanded duty [%]", "actual duty at 25 Hz [%]", 50), 42.5, 1e-9);
   EXPECT_NEAR(at(c, "commanded duty [%]", "actual duty at 50 Hz [%]", 50), 35, 1e-9);
@@ -110,7 +110,7 @@ TEST(Figures, Figure3_13) {
 }
 
 // Choked above 13.1 psi: the flow is linear in the absolute pressure.
-TEST(Figures, Figure3_4) {
+void figure_3_4() {
   const Columns c = sheet("3-4");
   const std::string x = "supply pressure [psi gauge]", y = "mass flow to the atmosphere [g/s]";
   EXPECT_EQ(at(c, x, y, 0), 0);
@@ -123,7 +123,7 @@ TEST(Figures, Figure3_4) {
 
 // 4.3: the inlet opens in about 0.5 ms and its current is gone as long after the edge; the
 // exhaust's dip comes later the more pressure there is.
-TEST(Figures, Figures4_8And4_9) {
+void figures_4_8_and_4_9() {
   const Columns c = sheet("4-8");
   const std::string y = "current at 100 psi gauge [A]";
   EXPECT_LT(at(c, "time [ms]", y, 0.5), at(c, "time [ms]", y, 0.38));
@@ -140,6 +140,55 @@ TEST(Figures, Figures4_8And4_9) {
     EXPECT_GT(e.at("time [ms]")[turn], last);
     last = e.at("time [ms]")[turn];
   }
+}
+
+void every_figure_is_there() {
+  std::vector<std::string> wanted{"2-6"};
+  for (int i = 8; i <= 13; ++i) wanted.push_back("2-" + std::to_string(i));
+  for (int i = 4; i <= 23; ++i)
+    if (i != 5 && i != 12) wanted.push_back("3-" + std::to_string(i));
+  wanted.insert(wanted.end(), {"4-8", "4-9"});
+  std::vector<std::string> there;
+  for (const Json& figure : drawn().index["figures"]) there.push_back(figure["figure"]);
+  EXPECT_EQ(there, wanted);
+}
+
+// What a student would find on our stand is what the model was given: [30] at each mean pressure,
+// to 1.5 %, and falling with the pressure.
+void figure_2_11_finds_the_effectiveness() {
+  const Columns c = sheet("2-11-stand");
+  const std::vector<double>&p = c.at("mean pressure [psi gauge]"),
+        &eff = c.at("effectiveness found [-]");
+  ASSERT_EQ(p.size(), 4u);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    EXPECT_NEAR(eff[i], 0.9969 + 0.0005 * p[i] - 0.00002 * p[i] * p[i], 0.015);
+    if (i > 0) {
+      EXPECT_LT(eff[i], eff[i - 1]);
+    }
+  }
+}
+
+// The simulations of chapter 3 start 0.2 in below where the load hangs and end there.
+void figure_3_7() {
+  const Columns c = sheet("3-7-trapped-60-6");
+  EXPECT_NEAR(c.at("length [in]").front(), 3.09108, 1e-4);
+  EXPECT_NEAR(c.at("length [in]").back(), 2.8932, 1e-4);
+  const Columns measured = sheet("3-6-trapped-60-6");
+  EXPECT_EQ(measured.at("time [s]").size(), c.at("time [s]").size());
+  EXPECT_NE(measured.at("length [in]").back(), c.at("length [in]").back());
+}
+
+// Drawn once for all of them.
+TEST(Figures, AreWhatTheirLawsSay) {
+  ASSERT_EQ(drawn().result.code, 0) << drawn().result.err;
+  every_curve_stands_in_its_file();
+  figure_2_6();
+  figure_3_13();
+  figure_3_4();
+  figures_4_8_and_4_9();
+  every_figure_is_there();
+  figure_2_11_finds_the_effectiveness();
+  figure_3_7();
 }
 
 TEST(Figures, KeepsWhatIsThereAndNamesWhatIsMissing) {

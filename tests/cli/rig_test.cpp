@@ -39,6 +39,20 @@ TEST(Rig, ARunIsAFolderThatRunsAndIsAnalyzedAgain) {
   EXPECT_EQ(w.sinew({"check", "a", trapped}).code, 0);
 }
 
+// A stand with sensors leaves what they showed, as `sinew identify` reads it.
+TEST(Rig, SensorsLeaveMeasuredCsv) {
+  const Workspace w;
+  const Words run{"run", "experiments/rig/weights-60.toml", "-o", "a", "--set", "duration=5 s"};
+  ASSERT_EQ(w.sinew(run).code, 0);
+  EXPECT_THAT(names_in(w / "a"),
+              ElementsAre("log.mcap", "measured.csv", "resolved.toml", "summary.json"));
+  EXPECT_THAT(read_text(w / "a/measured.csv"),
+              StartsWith("time [s],length [m],force [N],pressure [Pa gauge]\n0.4,"));
+  Words again = run;
+  again.emplace_back("--force");
+  EXPECT_EQ(w.sinew(again).code, 0);
+}
+
 TEST(Rig, TheLogHasWhatTheRunHas) {
   const Workspace w;
   const std::string file = "experiments/rig/pwm-25hz-5lb.toml";
