@@ -228,6 +228,7 @@ void add_identify(CLI::App& app, Action& action) {
   add_identify_sensor(sub, action);
   add_identify_dynamic(sub, action);
   add_identify_joint(sub, action);
+  add_identify_valve(sub, action);
 }
 
 }  // namespace sinew::cli

@@ -22,6 +22,7 @@ void add_identify_geometry(CLI::App& identify, Action& action);
 void add_identify_sensor(CLI::App& identify, Action& action);
 void add_identify_dynamic(CLI::App& identify, Action& action);
 void add_identify_joint(CLI::App& identify, Action& action);
+void add_identify_valve(CLI::App& identify, Action& action);
 
 // How files of measurements are read.
 struct DataOptions {

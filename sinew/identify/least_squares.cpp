@@ -15,8 +15,6 @@ namespace sinew::identify {
 
 namespace {
 
-// Step of the differences, in the parameter's scale: the cube root of the roundoff.
-constexpr double difference = 6e-6;
 // A direction that moves the residuals less than this share of what the best seen one does.
 constexpr double unseen_below = 1e-8;
 
@@ -26,8 +24,13 @@ using Vector = Eigen::VectorXd;
 // The residuals over scaled parameters, for Ceres and for the covariance alike.
 class Scaled {
  public:
-  Scaled(const Residuals& residuals, std::size_t count, std::span<const Parameter> parameters)
-      : residuals_(residuals), count_(count), parameters_(parameters), p_(parameters.size()) {}
+  Scaled(const Residuals& residuals, std::size_t count, std::span<const Parameter> parameters,
+         double difference)
+      : residuals_(residuals),
+        count_(count),
+        parameters_(parameters),
+        difference_(difference),
+        p_(parameters.size()) {}
 
   std::size_t count() const { return count_; }
   std::size_t size() const { return parameters_.size(); }
@@ -44,7 +47,7 @@ class Scaled {
 
   // d r/d u_i: central, at a bound one-sided. False where the model has no answer.
   bool column(const std::vector<double>& u, std::size_t i, double* out) const {
-    const double step = difference * std::max(1.0, std::abs(u[i]));
+    const double step = difference_ * std::max(1.0, std::abs(u[i]));
     std::vector<double> at = u, above(count_), below(count_);
     at[i] = std::min(u[i] + step, high(i));
     const double to = at[i];
@@ -60,6 +63,7 @@ class Scaled {
   const Residuals& residuals_;
   std::size_t count_;
   std::span<const Parameter> parameters_;
+  double difference_;
   mutable std::vector<double> p_;
 };
 
@@ -280,8 +284,8 @@ Solution least_squares(const Residuals& residuals, std::size_t count,
                        std::span<const Parameter> parameters, const SolverOptions& options) {
   check_start(parameters, count);
   const Residuals lossy = with_loss(residuals, options.outlier);
-  const Scaled model(lossy, count, parameters);
-  const Scaled plain(residuals, count, parameters);
+  const Scaled model(lossy, count, parameters, options.difference);
+  const Scaled plain(residuals, count, parameters, options.difference);
 
   std::vector<double> u;
   for (const Parameter& p : parameters) u.push_back(p.start / p.scale);

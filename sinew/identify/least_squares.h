@@ -44,6 +44,9 @@ struct SolverOptions {
   // A parameter whose interval is wider than this share of the larger of its value and its scale is
   // not identifiable.
   double widest_interval = 1.0;
+  // Step of the derivatives, in the parameters' scales. By default the cube root of the roundoff; a
+  // model that integrates with steps of its own has kinks of that size and needs more.
+  double difference = 6e-6;
 };
 
 struct Estimate {

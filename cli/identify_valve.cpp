@@ -1,0 +1,173 @@
+// cli/identify_valve.cpp - `sinew identify valve`: flow and delays of a valve.
+#include <fmt/format.h>
+
+#include <array>
+
+#include "cli/arguments.h"
+#include "cli/identify.h"
+#include "cli/named.h"
+#include "cli/run_folder.h"
+#include "cli/terminal.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/experiment/machine_file.h"
+#include "sinew/identify/refusal.h"
+#include "sinew/identify/valve.h"
+#include "sinew/identify/valve_timing.h"
+
+namespace sinew::cli {
+
+namespace {
+
+using identify::ValveData;
+
+constexpr std::array<std::pair<const char*, ValveData>, 5> kinds{{{"chart", ValveData::chart},
+                                                                  {"fill", ValveData::fill},
+                                                                  {"pulses", ValveData::pulses},
+                                                                  {"coil", ValveData::coil},
+                                                                  {"duty", ValveData::duty}}};
+
+struct Options {
+  DataOptions data;
+  ResultOptions result;
+  std::string name = "valve", kind, volume, conductance, port, frequency, hold_out, base;
+  std::string temperature = "20 degC", predict;
+  bool per_volume = false;
+};
+
+identify::ValveOptions valve_options(const Options& o, double atmosphere) {
+  identify::ValveOptions out{.name = o.name};
+  out.valve.profile = gas::Valve::Profile::ideal;
+  if (!o.base.empty()) {
+    const auto file = experiment::load_machine_file(o.base);
+    out.valve = named(file.experiment.valves, o.name, "--name", "valve");
+    out.provenance = identify::Provenance(file.experiment.origins, o.base);
+  }
+  out.air.atmosphere = atmosphere;
+  out.air.temperature = argument("--temperature", o.temperature, "K", atmosphere);
+  const auto optional = [&](const char* option, const std::string& text, const char* unit) {
+    std::optional<double> value;
+    if (text.empty()) return value;
+    value = argument(option, text, unit, atmosphere);
+    if (!(*value > 0)) config::fail({option, 0, 0}, "", config::in_quotes(text), "more than zero");
+    return value;
+  };
+  out.volume = optional("--volume", o.volume, "m3");
+  out.conductance = optional("--conductance", o.conductance, "m3/(s Pa)");
+  out.port = optional("--supply", o.port, "Pa abs");
+  out.frequency = optional("--frequency", o.frequency, "Hz");
+  out.per_volume = o.per_volume;
+  return out;
+}
+
+ValveData kind_of(const Options& options, const identify::Measured& data) {
+  for (const auto& [word, kind] : kinds)
+    if (options.kind == word) return kind;
+  return identify::valve_data(data);
+}
+
+identify::ValveResult identified(const Options& options, const identify::Source& source) {
+  const identify::Measured data = identify::read_measured(source, identify::valve_columns());
+  const identify::ValveOptions how = valve_options(options, source.atmosphere);
+  switch (kind_of(options, data)) {
+    case ValveData::chart:
+      return identify::identify_chart(data, how);
+    case ValveData::pulses:
+      return identify::identify_pulses(data, how);
+    case ValveData::coil:
+      return identify::identify_coil(data, how);
+    case ValveData::duty:
+      return identify::identify_duty(data, how);
+    case ValveData::fill:
+      break;
+  }
+  if (options.hold_out.empty()) return identify::identify_fill(data, how);
+  identify::Source other = source;
+  other.path = options.hold_out;
+  const identify::Measured unseen = identify::read_measured(other, identify::valve_columns());
+  return identify::identify_fill(data, how, &unseen);
+}
+
+// A valve without a flow is none that a simulation could use.
+std::string file_of(const Options& options, const identify::ValveResult& found) {
+  if (options.result.out.empty()) return {};
+  const gas::Flow& flow = found.valve.flow;
+  if (!(flow.area > 0) && !(flow.sonic_conductance > 0))
+    throw identify::Refusal(options.result.out, "delays, but no flow of the valve",
+                            "both for a file",
+                            "--base VALVES.toml --name NAME, whose flow is kept");
+  return identify::valve_file(found.valve, found.provenance);
+}
+
+// The compensated table, where one is wanted and the delays are known.
+void write_timing(const Options& options, const identify::ValveResult& found) {
+  if (options.predict.empty()) return;
+  if (!found.opening_known || !found.closing_known)
+    throw identify::Refusal("--predict-dat", "no opening and closing delay", "both",
+                            "a map of duties, or pulses and their pressure");
+  const double frequency =
+      argument("--frequency", options.frequency.empty() ? "100 Hz" : options.frequency, "Hz",
+               units::atmosphere);
+  const identify::CompensatedTiming timing =
+      identify::compensated(found.valve.opening_delay, found.valve.closing_delay, frequency);
+  write_file(options.predict, identify::predict_dat(timing.timing));
+  Messages(options.result.quiet)
+      .note(
+          fmt::format("{}: written for {:g} Hz; the delivered duty differs from the commanded one "
+                      "by {:.1f} % at most",
+                      options.predict, frequency, 100 * timing.worst));
+}
+
+ExitCode run_identify_valve(const Options& options) {
+  const std::vector<identify::Source> sources = sources_of(options.data);
+  if (sources.size() != 1)
+    config::fail({"data", 0, 0}, "", fmt::format("{} files", sources.size()), "one");
+  const identify::ValveResult found = identified(options, sources[0]);
+  const ResultOptions& result = options.result;
+  if (found.refused.empty()) {
+    tell(found.report, file_of(options, found), result);
+    write_timing(options, found);
+    return ok;
+  }
+  tell(found.report, "", {.json = result.json, .quiet = result.quiet},
+       {{"refused", found.refused}});
+  error(found.refused);
+  return failed;
+}
+
+}  // namespace
+
+void add_identify_valve(CLI::App& identify, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App& sub = subcommand(identify, "valve",
+                             "flow and delays, from a chart, a filling, pulses, a coil's current "
+                             "or a map of duties",
+                             "sinew identify valve fill.csv --volume \"0.5 L\" -o my-valve.toml");
+  add_data_options(sub, options->data);
+  sub.add_option("--kind", options->kind, "chart, fill, pulses, coil or duty; by the columns");
+  sub.add_option("--volume", options->volume, "fill, pulses: of the chamber, hoses included");
+  sub.add_option("--conductance", options->conductance,
+                 "fill, pulses: of the valve, for the volume instead");
+  sub.add_flag("--per-volume", options->per_volume, "fill, pulses: C/V is enough");
+  sub.add_option("--supply,--port", options->port,
+                 "pressure on the valve's other side, the room's when venting; fitted without");
+  sub.add_option("--temperature", options->temperature, "of the air")->capture_default_str();
+  sub.add_option("--hold-out", options->hold_out, "OTHER.csv that scores the model of a filling");
+  sub.add_option("--name", options->name, "of the valve")->capture_default_str();
+  sub.add_option("--base", options->base,
+                 "VALVES.toml with --name in it: what is not identified is kept from there");
+  sub.add_option("--frequency", options->frequency,
+                 "of the pulses: of a map of duties without "
+                 "such a column, and of --predict-dat");
+  sub.add_option("--predict-dat", options->predict,
+                 "FILE for the duties' opening and closing ticks, compensated for the delays");
+  add_result_options(sub, options->result);
+  sub.callback([options, &action] {
+    action = [options] {
+      check_result_options(options->result);
+      if (!options->predict.empty()) refuse_to_overwrite(options->predict, options->result.force);
+      return run_identify_valve(*options);
+    };
+  });
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,120 @@
+// `sinew identify valve`: from CSV to a valve's file and to predict.dat.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sinew/signals/pulse.h"
+#include "tests/cli/program.h"
+
+namespace sinew::test {
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::ordered_json;
+
+// ISO 6358 with C = 3 L/(s bar), b = 0.3, from 7 bar abs.
+std::string chart() {
+  std::string text = "upstream [bar abs],downstream [bar abs],flow [L/min]\n";
+  for (const double down : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 6.5}) {
+    const double x = std::max(0.0, (down / 7 - 0.3) / 0.7);
+    text += "7," + std::to_string(down) + "," + std::to_string(60 * 3 * 7 * std::sqrt(1 - x * x)) +
+            "\n";
+  }
+  return text;
+}
+
+std::string duties() {
+  std::string text = "duty [%],delivered [%]\n";
+  for (double d = 0; d <= 100; d += 0.25)
+    text += std::to_string(d) + "," +
+            std::to_string(100 * signals::delivered_duty(d / 100, 0.04, 4e-3, 1.2e-3)) + "\n";
+  return text;
+}
+
+// dP/dt falls as the pressures meet: isothermal and linear, good enough for a message.
+std::string filling() {
+  std::string text = "time [s],pressure [kPa gauge]\n";
+  for (int i = 0; i < 200; ++i) {
+    const double t = 0.01 * i;
+    text += std::to_string(t) + "," +
+            std::to_string(t < 0.1 ? 0.0 : 500 * (1 - std::exp(-(t - 0.1) / 0.2))) + "\n";
+  }
+  return text;
+}
+
+TEST(IdentifyValve, a_chart_becomes_a_valve_that_sinew_valve_reads) {
+  const Workspace w;
+  write_text(w / "chart.csv", chart());
+  const Result found =
+      w.sinew({"identify", "valve", "chart.csv", "-o", "mine.toml", "--name", "mine", "--json"});
+  ASSERT_EQ(found.code, 0) << found.err;
+  const Json report = Json::parse(found.out);
+  EXPECT_EQ(report["model"], "iso6358");
+  EXPECT_NEAR(report["parameters"][0]["value"], 3e-8, 3e-11);
+  EXPECT_NEAR(report["parameters"][1]["value"], 0.3, 0.001);
+  EXPECT_TRUE(report.contains("held_out"));
+
+  const Result flow = w.sinew({"valve", "mine.toml", "mine", "--upstream", "7 bar abs",
+                               "--downstream", "1 bar abs", "--json"});
+  ASSERT_EQ(flow.code, 0) << flow.err;
+  EXPECT_NEAR(Json::parse(flow.out)["sonic_conductance_m3_per_s_Pa"], 3e-8, 3e-11);
+  EXPECT_EQ(w.sinew({"check", "mine.toml"}).code, 0);
+}
+
+TEST(IdentifyValve, a_map_of_duties_becomes_delays_and_predict_dat) {
+  const Workspace w;
+  write_text(w / "duty.csv", duties());
+  const Result found = w.sinew({"identify", "valve", "duty.csv", "--frequency", "25 Hz", "--base",
+                                "robots/leg/valves.toml", "--name", "758", "-o", "mine.toml",
+                                "--predict-dat", "predict.dat", "--json"});
+  ASSERT_EQ(found.code, 0) << found.err;
+  EXPECT_THAT(read_text(w / "predict.dat"), HasSubstr("\n50,47,90\n"));  // t_o 10 %, t_c 3 %
+
+  const Result valve = w.sinew({"valve", "mine.toml", "758", "--upstream", "100 psi gauge",
+                                "--downstream", "0 psi gauge", "--json"});
+  ASSERT_EQ(valve.code, 0) << valve.err;
+  const Json out = Json::parse(valve.out);
+  EXPECT_NEAR(out["opening_delay_s"], 4e-3, 0.1e-3);
+  EXPECT_NEAR(out["closing_delay_s"], 1.2e-3, 0.1e-3);
+  EXPECT_GT(out["effective_area_m2"], 1e-6);  // as before
+}
+
+TEST(IdentifyValve, a_filling_without_a_volume_fails_and_says_what_is_missing) {
+  const Workspace w;
+  write_text(w / "fill.csv", filling());
+  const Result without = w.sinew({"identify", "valve", "fill.csv"});
+  EXPECT_EQ(without.code, 1);
+  EXPECT_THAT(without.err, HasSubstr("expected the volume beside it"));
+  EXPECT_THAT(without.out, HasSubstr("conductance_per_volume"));
+  const Result file =
+      w.sinew({"identify", "valve", "fill.csv", "--volume", "0.5 L", "-o", "v.toml"});
+  EXPECT_EQ(file.code, 0) << file.err;
+  EXPECT_EQ(w.sinew({"check", "v.toml"}).code, 0);
+}
+
+TEST(IdentifyValve, wrong_units_and_times_that_run_backwards_are_told_with_their_line) {
+  const Workspace w;
+  std::string text = filling();
+  write_text(w / "unit.csv", "time [s],pressure [N]" + text.substr(text.find('\n')));
+  const Result unit = w.sinew({"identify", "valve", "unit.csv"});
+  EXPECT_EQ(unit.code, 1);
+  EXPECT_THAT(unit.err, HasSubstr("unit.csv:1:"));
+
+  write_text(w / "back.csv", text + "0.5,400\n");
+  const Result back = w.sinew({"identify", "valve", "back.csv"});
+  EXPECT_EQ(back.code, 1);
+  EXPECT_THAT(back.err, HasSubstr("back.csv:202:"));
+}
+
+TEST(IdentifyValve, delays_alone_make_no_file) {
+  const Workspace w;
+  write_text(w / "duty.csv", duties());
+  const Result found =
+      w.sinew({"identify", "valve", "duty.csv", "--frequency", "25 Hz", "-o", "mine.toml"});
+  EXPECT_EQ(found.code, 1);
+  EXPECT_THAT(found.err, HasSubstr("--base VALVES.toml"));
+}
+
+}  // namespace
+}  // namespace sinew::test
