@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "cli/arguments.h"
 #include "cli/run_folder.h"
@@ -27,6 +28,15 @@ void add_pair(std::string_view option, const std::string& text,
   if (equals == text.npos || equals == 0 || equals + 1 == text.size())
     config::fail({std::string(option), 0, 0}, "", config::in_quotes(text), "name=value");
   pairs[text.substr(0, equals)] = text.substr(equals + 1);
+}
+
+// What --force may replace: never somebody's measurements.
+bool is_parameter_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string line;
+  while (std::getline(in, line))
+    if (line.starts_with("format") && line.find("\"sinew.") != line.npos) return true;
+  return false;
 }
 
 Json to_json(const identify::Score& score) {
@@ -151,6 +161,9 @@ std::vector<identify::Source> sources_of(const DataOptions& options) {
       argument("--atmosphere", options.atmosphere + " abs", "Pa abs", units::atmosphere);
   std::vector<identify::Source> out;
   for (const std::string& file : options.files) {
+    // Twice the same rows would make every interval too narrow, and hold nothing out.
+    if (std::ranges::count(options.files, file) > 1)
+      config::fail({"data", 0, 0}, "", file + " twice", "each file once");
     out.push_back(source);
     out.back().path = file;
   }
@@ -165,7 +178,11 @@ void add_result_options(CLI::App& sub, ResultOptions& options) {
 }
 
 void check_result_options(const ResultOptions& options) {
-  if (!options.out.empty()) refuse_to_overwrite(options.out, options.force);
+  if (options.out.empty()) return;
+  refuse_to_overwrite(options.out, options.force);
+  if (std::filesystem::exists(options.out) && !is_parameter_file(options.out))
+    config::fail({options.out, 0, 0}, "", "something that is no parameter file",
+                 "a name that is free, or that of a parameter file", "another one");
 }
 
 config::Node robot_over(const std::string& base, const std::string& out) {
@@ -173,6 +190,9 @@ config::Node robot_over(const std::string& base, const std::string& out) {
   config::Node root = config::make_table("");
   root.put(config::make_text("format", "sinew.robot/1"));
   if (base.empty()) return root;
+  if (!out.empty() && fs::exists(out) && fs::equivalent(base, out))
+    config::fail({"--base", 0, 0}, "", "the file that is to be written", "another one",
+                 "another name for the parameter file");
   const fs::path folder = fs::absolute(out).parent_path();
   root.put(config::make_text("base", fs::absolute(base).lexically_relative(folder)));
   return root;

@@ -47,7 +47,8 @@ struct ResultOptions {
 };
 void add_result_options(CLI::App& sub, ResultOptions& options);
 
-// Refuses a parameter file that is there already, before the work begins.
+// Refuses a parameter file that is there already, before the work begins; with --force a file that
+// is no parameter file.
 void check_result_options(const ResultOptions& options);
 
 // Writes the parameter file where one is wanted, and says so.

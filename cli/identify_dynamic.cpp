@@ -63,10 +63,16 @@ std::vector<identify::DecayRecord> records_of(Options options, const actuator::A
   const bool given = !options.exponent.empty();
   const double exponent = given ? argument("--exponent", options.exponent, "1", atmosphere) : 1.4;
 
+  if (!(exponent >= 1 && exponent <= 5.0 / 3))
+    config::fail({"--exponent", 0, 0}, "", options.exponent, "1 (isothermal) to 1.6667");
+
   std::vector<identify::DecayRecord> out;
   for (std::size_t i = 0; i < n; ++i) {
     if (!(mass[i] > 0))
       config::fail({"--mass", 0, 0}, "", config::in_quotes(options.mass), "masses above zero");
+    if (!(external[i] >= 0))
+      config::fail({"--external-volume", 0, 0}, "", config::in_quotes(options.external),
+                   "volumes of at least zero");
     identify::DecayRecord r{.data = identify::read_measured(sources[i], identify::decay_columns())};
     r.stand = {.actuator = a,
                .mass = mass[i] / options.count,

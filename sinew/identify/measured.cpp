@@ -98,6 +98,7 @@ class Table {
       f.index = i;
       f.is_at = at;
       if (!at) f.conversion = conversion(h, w);
+      refuse_twice(name, i);
       found_.push_back(f);
       return;
     }
@@ -108,6 +109,16 @@ class Table {
                 fmt::format("`{} [{}]`, {}", w.name, w.unit, w.doc),
                 near.empty() ? fmt::format("--map {}=NAME with the file's name for it", w.name)
                              : fmt::format("--map {}={}", w.name, near));
+  }
+
+  // Two columns of one name: nobody knows which is meant. Those with an @ belong together.
+  void refuse_twice(const std::string& name, std::size_t first) {
+    for (std::size_t i = first + 1; i < grid_.headings.size(); ++i) {
+      const Heading& h = grid_.headings[i];
+      if (h.name == name && h.at_name.empty())
+        add_problem(grid_.header_line, h.column, name, "a second column of this name", "one",
+                    "another name for it in the header");
+    }
   }
 
   std::string all_names() const {

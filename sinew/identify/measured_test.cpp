@@ -114,6 +114,13 @@ TEST(Measured, what_is_wrong_is_told) {
                    "--unit: found \"x\""));
 }
 
+TEST(Measured, two_columns_of_one_name_are_refused_unless_an_at_tells_them_apart) {
+  const std::string said = problem("pressure [kPa gauge],force [N],force [lbf]\n100,20,30\n");
+  EXPECT_TRUE(says(said, "rig.csv:1:32: force: found a second column of this name")) << said;
+  const std::string unread = "n [mm],n [s],pressure [kPa gauge],force [N]\n1,2,100,20\n";
+  EXPECT_EQ(problem(unread), "none");  // nobody asked for it
+}
+
 TEST(Quality, a_sensor_at_its_end_repeats_itself_and_noise_does_not) {
   std::vector<double> noisy, clipped;
   unsigned state = 1;

@@ -116,6 +116,18 @@ TEST(IdentifyDynamic, RefusesWhatItCannotUse) {
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(result.err, HasSubstr("no measured pressure"));
 
+  result = with({"--mass", "6 lb", "--exponent", "0"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("--exponent: found 0; expected 1 (isothermal) to 1.6667"));
+
+  result = identified(w, {"a.csv", "a.csv"}, {"--mass", "6 lb", "--pressure", "60 psi gauge"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("data: found a.csv twice"));
+
+  result = with({"--mass", "6 lb", "-o", "a.csv", "--force"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("a.csv: found something that is no parameter file"));
+
   write_text(w / "slow.csv", decay(60, 6, 0.03));
   result = identified(w, {"slow.csv"}, {"--mass", "6 lb", "--pressure", "60 psi gauge"});
   EXPECT_EQ(result.code, 1);
