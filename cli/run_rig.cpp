@@ -17,6 +17,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// A length that no muscle can have is no result.
+void warn_beyond_the_muscle(const analysis::Summary& summary, const Messages& messages) {
+  const double* least = summary.find("stand.least_length_m");
+  if (least && *least <= 0)
+    messages.warning(fmt::format(
+        "the load was thrown to {:.3g} m: below the shortest length [31] has no force; try an "
+        "actuator whose short_end.law is not \"zero\"",
+        *least));
+}
+
 }  // namespace
 
 bool is_rig(const std::string& path) {
@@ -51,6 +61,7 @@ ExitCode run_rig(const RigOptions& options) {
   const double factor = outcome.wall > 0 ? outcome.duration / outcome.wall : 0;
   const std::string json = to_json(summary, {{"real_time_factor", factor}, {"threads", 1}});
   write_file(folder / summary_name, json);
+  warn_beyond_the_muscle(summary, messages);
   if (options.json) {
     fmt::print("{}", json);
     messages.note(folder.string());

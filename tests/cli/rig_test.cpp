@@ -89,6 +89,20 @@ TEST(Rig, MessagesNameWhatIsWrong) {
                                HasSubstr("element.external_volum"), HasSubstr("external_volume")));
 }
 
+TEST(Rig, ALengthThatNoMuscleHasIsTold) {
+  const Workspace w;
+  const Words pulsed{"run", "experiments/rig/pwm-25hz-1lb.toml", "--set"};
+  const auto warns = [&](const std::string& actuator) {
+    Words words = pulsed;
+    words.push_back("element.actuator=" + actuator);
+    const Result result = w.sinew(words);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.err.find("[31] has no force") != result.err.npos;
+  };
+  EXPECT_TRUE(warns("appendix-a"));
+  EXPECT_FALSE(warns("empirical"));
+}
+
 TEST(Rig, ShowTellsWhereAValueCameFrom) {
   const Workspace w;
   const Result show = w.sinew({"show", "experiments/rig/trapped-80-11.toml", "load.mass"});

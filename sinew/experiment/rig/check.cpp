@@ -146,6 +146,8 @@ void check_drive(const Experiment& e, Findings& out) {
   if (!whole_ticks(e.log.period)) out.add("log.period", "no whole ticks", "a multiple of 0.1 ms");
   if (e.charge.mode == plant::Charge::Mode::valves && d.kind == Kind::none)
     out.add("drive.kind", "none", "what opens the valves", "charge.mode = \"sealed\"");
+  if (e.measured.from >= e.duration)
+    out.add("measured.from", "no row before the end", "less than duration");
   out.unused(d.kind != Kind::pwm && (d.duty > 0 || !d.duties.empty()), "drive.duty",
              "kind = \"pwm\"");
   out.unused(d.kind != Kind::pulses && !d.pulses.empty(), "drive.pulses", "kind = \"pulses\"");

@@ -150,7 +150,12 @@ void fields(Visitor& v, plant::Transducer& t) {
 
 template <class Visitor>
 void start_fields(Visitor& v, Experiment& e) {
-  v.number({.name = "pressure", .unit = "Pa abs", .min = 0, .optional = true, .doc = "of the air"},
+  v.number({.name = "pressure",
+            .unit = "Pa abs",
+            .min = 0,
+            .max = 2e6,
+            .optional = true,
+            .doc = "of the air"},
            e.start_pressure);
   amount(v, "length", "m", 0, "0: where the load hangs", e.start_length);
   v.number({.name = "displacement",

@@ -21,7 +21,7 @@ using Charge = plant::Charge;
 void refuse_schedule(const Schedule& s, const char* name, double least) {
   for (std::size_t i = 0; i < s.points.size(); ++i) {
     if (!(s.points[i].value > least) || !std::isfinite(s.points[i].value))
-      refuse(std::string(name) + " must be above " + std::to_string(least));
+      refuse(std::string(name) + (least == 0 ? " must be above 0" : " must be finite"));
     if (i > 0 && s.points[i].at < s.points[i - 1].at)
       refuse(std::string(name) + " goes back in time");
   }
@@ -57,6 +57,15 @@ StandSetup with_valves(StandSetup s) {
   return s;
 }
 
+// Lengths at which a muscle may hang or be let go.
+struct Reach {
+  double low, high;  // [m]
+};
+Reach reach(const StandSetup& s) {
+  const actuator::Braid& braid = s.muscle.actuator.braid;
+  return {0.5 * actuator::shortest_length(braid), 1.5 * braid.thread_length};
+}
+
 muscle::Plumbing plumbing_of(const StandSetup& s) {
   if (s.cylinder) return {{}, s.air, s.supply, s.cylinder};
   return {std::span(&s.muscle, 1), s.air, s.supply};
@@ -78,8 +87,7 @@ double hanging_length(const StandSetup& setup) {
     plumbing.evaluate(0, lengths, rates, 0, 0, air, pull, flow);
     return pull.clamped[0] - weight;
   };
-  const actuator::Braid& braid = s.muscle.actuator.braid;
-  double low = 0.5 * actuator::shortest_length(braid), high = 1.5 * braid.thread_length;
+  auto [low, high] = reach(s);
   if (!(surplus(low) < 0 && surplus(high) > 0))
     refuse("its load hangs nowhere between half the shortest length and 1.5 threads");
   for (int i = 0; i < 60; ++i) {
@@ -117,6 +125,9 @@ Stand::Stand(const StandSetup& setup)
   state_.length = start.length;
   state_.air = plumbing_.initial(start.pressure, length, travel(start.length));
   state_.length += start.displacement;
+  if (const Reach r = reach(setup_);
+      !setup_.cylinder && !driven_ && !(state_.length >= r.low && state_.length <= r.high))
+    refuse("it starts beyond half the shortest length and 1.5 threads");
   prepare();
 }
 

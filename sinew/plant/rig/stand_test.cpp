@@ -313,7 +313,7 @@ TEST(Stand, RefusesWhatIsNoStand) {
   EXPECT_EQ(refusal([](StandSetup& s) { s.load.mode = Load::Mode::driven; }),
             "test stand: a driven load has a length over time");
   EXPECT_EQ(refusal([](StandSetup& s) { s.load.mass = -1.0; }),
-            "test stand: the mass must be above 0.000000");
+            "test stand: the mass must be above 0");
   EXPECT_EQ(refusal([](StandSetup& s) {
               s.load.force = Schedule({{1, 0}, {0, 0}});
             }),
@@ -327,6 +327,9 @@ TEST(Stand, RefusesWhatIsNoStand) {
               s.muscle.actuator.effectiveness.scale = 0;
             }),
             "test stand: its load hangs nowhere between half the shortest length and 1.5 threads");
+  for (const double length : {2.0, 0.01})
+    EXPECT_EQ(refusal([=](StandSetup& s) { s.start.length = length; }),
+              "test stand: it starts beyond half the shortest length and 1.5 threads");
 }
 
 TEST(Schedule, RunsStraightBetweenPointsAndJumpsWhereTwoMeet) {
