@@ -12,6 +12,7 @@
 #include "cli/named.h"
 #include "cli/terminal.h"
 #include "cli/text_table.h"
+#include "sinew/actuator/body.h"
 #include "sinew/actuator/braid.h"
 #include "sinew/actuator/loss.h"
 #include "sinew/actuator/stiffness.h"
@@ -41,12 +42,15 @@ struct Point {
 
 std::vector<std::string> beyond(const actuator::Actuator& a, double length, double gauge) {
   std::vector<std::string> out;
-  if (length >= a.braid.thread_length) out.emplace_back("longer than the thread: no braid angle");
+  if (length - a.caps.length >= a.braid.thread_length)
+    out.emplace_back("longer than the thread: no braid angle");
   if (length > a.long_end.length) out.emplace_back("beyond the long end: the threads stretch");
-  if (length < actuator::shortest_length(a.braid))
+  if (length < actuator::shortest_length(a))
     out.emplace_back("below the shortest length: the end stop pushes, or nothing pulls");
   if (gauge < a.effectiveness.valid_from || gauge > a.effectiveness.valid_to)
     out.emplace_back("outside the fitted pressures: the effectiveness is held");
+  if (length < a.bladder.valid_from || length > a.bladder.valid_to)
+    out.emplace_back("outside the fitted lengths: the bladder is held");
   return out;
 }
 
@@ -61,9 +65,9 @@ Point evaluate(const actuator::Actuator& a, const gas::Air& air, double length, 
                                         air.polytropic_exponent);
   p.passive_stiffness = passive_stiffness(a, length);
   p.coulomb_bound = coulomb_bound(a, length, gauge, atmosphere, p.stiffness_sealed);
-  p.volume = volume(a.braid, length);
-  p.diameter = diameter(a.braid, length);
-  p.braid_angle = braid_angle(a.braid, length);
+  p.volume = volume(a, length);
+  p.diameter = diameter(a.braid, length - a.caps.length);
+  p.braid_angle = braid_angle(a.braid, length - a.caps.length);
   p.beyond = beyond(a, length, gauge);
   return p;
 }
@@ -173,7 +177,7 @@ ExitCode run_actuator(const Options& options) {
              {"atmosphere_Pa", air.atmosphere},
              {"polytropic_exponent", air.polytropic_exponent},
              {"external_volume_m3", external},
-             {"shortest_length_m", actuator::shortest_length(a.braid)},
+             {"shortest_length_m", actuator::shortest_length(a)},
              {"greatest_length_m", a.long_end.length}};
     for (const Point& p : points) out["points"].push_back(to_json(p));
     fmt::print("{}\n", out.dump(2));

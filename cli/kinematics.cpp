@@ -14,7 +14,7 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/text_table.h"
-#include "sinew/actuator/braid.h"
+#include "sinew/actuator/body.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/plant/planar/cords.h"
@@ -75,7 +75,7 @@ Branch stand(const experiment::Experiment& e, const std::vector<double>& angles)
     const actuator::Actuator a = robot::actuator_of(e.robot.muscles[i], e.actuators);
     out.muscles.push_back({.name = e.robot.muscles[i].name,
                            .length = length[i],
-                           .shortest = actuator::shortest_length(a.braid),
+                           .shortest = actuator::shortest_length(a),
                            .longest = a.long_end.length});
   }
   if (robot::is_leg(e.robot))

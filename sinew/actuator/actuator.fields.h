@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sinew/actuator/actuator.h"
+#include "sinew/actuator/body.h"
 #include "sinew/actuator/braid.h"
 #include "sinew/units/complain.h"
 #include "sinew/units/field.h"
@@ -91,6 +92,12 @@ void fields(Visitor& v, Effectiveness& e) {
   valid.resize(2);
   e.valid_from = valid[0];
   e.valid_to = valid[1];
+  v.number({.name = "threshold",
+            .unit = "Pa gauge",
+            .min = 0,
+            .optional = true,
+            .doc = "that the bladder takes before it reaches the mesh; not in the thesis"},
+           e.threshold);
 }
 
 template <class Visitor>
@@ -159,6 +166,83 @@ void fields(Visitor& v, Bladder& bladder) {
            bladder.stiffness);
   v.number({.name = "rest_length", .unit = "m", .min = 0, .optional = true, .doc = "no tension"},
            bladder.rest_length);
+  v.number({.name = "quadratic",
+            .unit = "N/m2",
+            .optional = true,
+            .doc = "k2, tension by the square of the stretch"},
+           bladder.quadratic);
+  v.number({.name = "cubic", .unit = "N/m3", .optional = true, .doc = "k3, by its cube"},
+           bladder.cubic);
+  v.number({.name = "saturating_tension",
+            .unit = "N",
+            .min = 0,
+            .optional = true,
+            .doc = "S, what is lost over the first contraction"},
+           bladder.saturating_tension);
+  v.number({.name = "saturation_length",
+            .unit = "m",
+            .min = 0,
+            .optional = true,
+            .doc = "lambda, the way over which S is lost"},
+           bladder.saturation_length);
+
+  std::vector<double> valid{bladder.valid_from, bladder.valid_to};
+  v.numbers({.name = "valid",
+             .unit = "m",
+             .optional = true,
+             .doc = "shortest and longest length that were fitted; the bladder is held outside"},
+            valid);
+  if (valid.size() != 2 || !(valid[0] < valid[1])) {
+    units::complain(v, "valid", "no range of lengths", "the shortest and the longest",
+                    R"(["80 mm", "100 mm"])");
+  }
+  valid.resize(2);
+  bladder.valid_from = valid[0];
+  bladder.valid_to = valid[1];
+  if (bladder.saturating_tension != 0 && !(bladder.saturation_length > 0)) {
+    units::complain(v, "saturating_tension", "no way over which it is lost",
+                    "a saturation_length above zero beside it");
+  }
+}
+
+template <class Visitor>
+void fields(Visitor& v, Caps& caps) {
+  v.number({.name = "length", .unit = "m", .min = 0, .doc = "d, both ends; the braid has the rest"},
+           caps.length);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Taper& taper) {
+  v.number({.name = "gain", .unit = "1", .min = 0.1, .max = 10, .doc = "k, of the contraction"},
+           taper.gain);
+  v.number({.name = "extra_gain",
+            .unit = "1",
+            .min = 0,
+            .max = 10,
+            .optional = true,
+            .doc = "k_low, added without pressure"},
+           taper.extra_gain);
+  v.number({.name = "extra_pressure",
+            .unit = "Pa diff",
+            .min = 0,
+            .optional = true,
+            .doc = "P_low, over which k_low goes"},
+           taper.extra_pressure);
+  v.number({.name = "rest_length",
+            .unit = "m",
+            .min = 0,
+            .doc = "L_0, from which the contraction counts"},
+           taper.rest_length);
+  if (taper.extra_gain != 0 && !(taper.extra_pressure > 0)) {
+    units::complain(v, "extra_gain", "no pressure over which it goes",
+                    "an extra_pressure above zero beside it");
+  }
+}
+
+template <class Visitor>
+void fields(Visitor& v, Wall& wall) {
+  v.number({.name = "thickness", .unit = "m", .min = 0, .doc = "t, of tube and mesh together"},
+           wall.thickness);
 }
 
 template <class Visitor>
@@ -230,15 +314,23 @@ void fields(Visitor& v, Actuator& a) {
           [&](auto& g) { fields(g, a.effectiveness); });
   v.group({.name = "long_end", .doc = "the mesh pulled straight"},
           [&](auto& g) { fields(g, a.long_end); });
-  if (a.long_end.length < shortest_length(a.braid)) {
-    units::complain(v, "long_end", "a greatest length below the shortest, thread_length / sqrt 3",
-                    "a length between that and the thread's");
-  }
   v.group({.name = "short_end", .doc = "the mesh at its widest, b/sqrt 3"},
           [&](auto& g) { fields(g, a.short_end); });
   v.group({.name = "loss", .doc = "what is lost in motion"}, [&](auto& g) { fields(g, a.loss); });
   v.group({.name = "bladder", .optional = true, .doc = "the tube inside, as a spring"},
           [&](auto& g) { fields(g, a.bladder); });
+  v.group({.name = "caps", .optional = true, .doc = "what does not contract at the ends"},
+          [&](auto& g) { fields(g, a.caps); });
+  v.group({.name = "taper", .optional = true, .doc = "ends that taper, by Tondu and Lopez"},
+          [&](auto& g) { fields(g, a.taper); });
+  v.group({.name = "wall", .optional = true, .doc = "of the tube, by Chou and Hannaford"},
+          [&](auto& g) { fields(g, a.wall); });
+  if (tapers(a.taper) && !(a.taper.rest_length > a.caps.length)) {
+    units::complain(v, "taper", "no rest_length", "that of the muscle without pressure and load");
+  } else if (a.long_end.length < shortest_length(a)) {
+    units::complain(v, "long_end", "a greatest length below the shortest, thread_length / sqrt 3",
+                    "a length between that and the thread's");
+  }
   v.group({.name = "hysteresis", .optional = true, .doc = "friction that turns with the pressure"},
           [&](auto& g) { fields(g, a.hysteresis); });
   v.group({.name = "creep", .optional = true, .doc = "tension that comes late"},

@@ -1,8 +1,8 @@
 // actuator/actuator.h - one braided pneumatic actuator (McKibben muscle): its parameters.
 //
-// The laws stand in braid.h (geometry), tension.h, loss.h, hysteresis.h, creep.h and stiffness.h.
-// Everything is SI; pressure is absolute unless a name says gauge. Sources: Colbrunn (2000),
-// equation numbers in brackets.
+// The laws stand in braid.h (geometry), body.h, bladder.h, tension.h, loss.h, hysteresis.h, creep.h
+// and stiffness.h. Everything is SI; pressure is absolute unless a name says gauge. Sources:
+// Colbrunn (2000), equation numbers in brackets.
 #pragma once
 
 #include <array>
@@ -23,6 +23,7 @@ struct Effectiveness {
   double scale = 1;                         // times the polynomial [-]
   Argument argument = Argument::gauge;
   double valid_from = 0, valid_to = 7.6e5;  // gauge pressures that were fitted [Pa]
+  double threshold = 0;  // gauge pressure that the bladder needs to reach the mesh [Pa]
 };
 
 // [32], [35]: beyond `length` the threads themselves stretch.
@@ -53,10 +54,32 @@ struct Loss {
   bool stick = true;             // false: sign(v) as printed
 };
 
-// The bladder as a spring of its own; not in the thesis, see docs/calibration.md.
+// The bladder as a spring of its own; not in the thesis, see bladder.h.
 struct Bladder {
-  double stiffness = 0;    // [N/m]
-  double rest_length = 0;  // [m]
+  double stiffness = 0;                   // k [N/m]
+  double rest_length = 0;                 // L_r [m]
+  double quadratic = 0, cubic = 0;        // k2, k3 [N/m2] [N/m3]
+  double saturating_tension = 0;          // S [N]
+  double saturation_length = 0;           // lambda [m]
+  double valid_from = 0, valid_to = 1e3;  // lengths that were fitted [m]
+};
+
+// Of the length what does not contract, at both ends together; see body.h.
+struct Caps {
+  double length = 0;  // d [m]
+};
+
+// Ends that taper, as a larger contraction; see body.h.
+struct Taper {
+  double gain = 1;            // k [-]
+  double extra_gain = 0;      // k_low, without pressure [-]
+  double extra_pressure = 0;  // P_low, over which it goes [Pa]
+  double rest_length = 0;     // L_0 [m]
+};
+
+// Of the tube; see body.h.
+struct Wall {
+  double thickness = 0;  // t [m]
 };
 
 // Friction of the mesh as a pressure that is missing while it rises; not in the thesis, see
@@ -83,6 +106,9 @@ struct Actuator {
   ShortEnd short_end;
   Loss loss;
   Bladder bladder;
+  Caps caps;
+  Taper taper;
+  Wall wall;
   Hysteresis hysteresis;
   Creep creep;
 };

@@ -19,8 +19,8 @@ struct Bundle {
 };
 
 // Of the air  [m^3].
-constexpr double volume(const Bundle& bundle, double length) {
-  return bundle.count * volume(bundle.actuator.braid, length) + bundle.external_volume;
+inline double volume(const Bundle& bundle, double length) {
+  return bundle.count * volume(bundle.actuator, length) + bundle.external_volume;
 }
 
 // Static and viscous, both ends clamped  [N].
@@ -30,15 +30,15 @@ inline double tension(const Bundle& bundle, double length, double velocity, doub
 }
 
 // Of the braid, valves holding the pressure  [N/m].
-constexpr double stiffness_at_constant_pressure(const Bundle& bundle, double length,
-                                                double gauge_pressure, double atmosphere) {
+inline double stiffness_at_constant_pressure(const Bundle& bundle, double length,
+                                             double gauge_pressure, double atmosphere) {
   return bundle.count *
          stiffness_at_constant_pressure(bundle.actuator, length, gauge_pressure, atmosphere);
 }
 
 // Of the braid, valves shut; pressure absolute  [N/m].
-constexpr double stiffness_sealed(const Bundle& bundle, double length, double pressure,
-                                  double atmosphere, double polytropic_exponent) {
+inline double stiffness_sealed(const Bundle& bundle, double length, double pressure,
+                               double atmosphere, double polytropic_exponent) {
   return bundle.count * stiffness_sealed(bundle.actuator, length, pressure, atmosphere,
                                          bundle.external_volume / bundle.count,
                                          polytropic_exponent);

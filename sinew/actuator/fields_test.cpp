@@ -32,6 +32,18 @@ FieldVisitor leg() {
       {"loss.stick", {0}},
       {"bladder.stiffness", {364}},
       {"bladder.rest_length", {0.08}},
+      {"bladder.quadratic", {120}},
+      {"bladder.cubic", {-3e4}},
+      {"bladder.saturating_tension", {4}},
+      {"bladder.saturation_length", {0.003}},
+      {"bladder.valid", {0.06, 0.099}},
+      {"effectiveness.threshold", {2e4}},
+      {"caps.length", {0.004}},
+      {"taper.gain", {1.1}},
+      {"taper.extra_gain", {0.2}},
+      {"taper.extra_pressure", {1e5}},
+      {"taper.rest_length", {0.098}},
+      {"wall.thickness", {0.0008}},
       {"hysteresis.half_width", {2500}},
       {"hysteresis.width_per_pressure", {0.004}},
       {"hysteresis.width_per_contraction", {4e4}},
@@ -152,6 +164,22 @@ TEST(ActuatorFields, complain_about_what_does_not_go_together) {
   v = leg();
   v.words_given["loss.coulomb_scale"] = "constant";
   EXPECT_EQ(complaints(v), Strings{"loss.coulomb_scale"});
+
+  v = leg();
+  v.numbers_given["bladder.valid"] = {0.099, 0.06};
+  EXPECT_EQ(complaints(v), Strings{"bladder.valid"});
+
+  v = leg();
+  v.numbers_given.erase("bladder.saturation_length");
+  EXPECT_EQ(complaints(v), Strings{"bladder.saturating_tension"});
+
+  v = leg();
+  v.numbers_given.erase("taper.extra_pressure");
+  EXPECT_EQ(complaints(v), Strings{"taper.extra_gain"});
+
+  v = leg();
+  v.numbers_given.erase("taper.rest_length");
+  EXPECT_EQ(complaints(v), Strings{"taper"});
 
   for (const std::vector<double>& times :
        {std::vector<double>{0.5}, {0.5, 0}, {0.5, 10, 20}, std::vector<double>{}}) {

@@ -15,16 +15,19 @@ namespace sinew::actuator {
 
 // [34] as F/(L - L_min), written without its 0/0 at L_min:
 //   k = 3 P_g Eff (L + L_min)/(4 pi n^2)   [N/m]
+// of the braid alone, without a wall.
 inline double secant_stiffness(const Actuator& a, double length, double gauge_pressure,
                                double atmosphere) {
-  return 3.0 * gauge_pressure * effectiveness(a.effectiveness, gauge_pressure, atmosphere) *
-         (length + shortest_length(a.braid)) * braid_factor(a.braid);
+  return 3.0 * acting_pressure(a.effectiveness, gauge_pressure) *
+         effectiveness(a.effectiveness, gauge_pressure, atmosphere) *
+         (working_length(a, length, gauge_pressure) + shortest_length(a.braid)) *
+         braid_factor(a.braid);
 }
 
 // Largest dry friction  [N], never negative. `sealed_stiffness` is used by Scale::sealed only.
 inline double coulomb_bound(const Actuator& a, double length, double gauge_pressure,
                             double atmosphere, double sealed_stiffness) {
-  const bool short_of = length < shortest_length(a.braid);
+  const bool short_of = length < shortest_length(a);
   if (a.short_end.law == ShortEnd::Law::zero && short_of) return 0.0;
   double k = a.loss.coulomb_stiffness;
   if (a.loss.coulomb_scale == Loss::Scale::secant)

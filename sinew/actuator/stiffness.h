@@ -12,9 +12,9 @@
 // 1.23 to 1.85 of it at 60 psi gauge between 3.15 and 3.4 in (V_ext 0.495 and 0.114 in3, n_p
 // = 1.4).
 //
-// Of the braid alone, for one actuator, inside 0 < L < b. Ends and bladder: passive_stiffness.
-// n actuators in parallel: bundle.h. Eff is not in the thesis's [26]; it is in its [31], whose
-// derivative is wanted.
+// Of the braid and its body (body.h), for one actuator, inside 0 < L < b. Ends and bladder:
+// passive_stiffness. n actuators in parallel: bundle.h. Eff is not in the thesis's [26]; it is in
+// its [31], whose derivative is wanted.
 #pragma once
 
 #include "sinew/actuator/actuator.h"
@@ -32,9 +32,12 @@ constexpr double ideal_stiffness(const Braid& braid, double length, double gauge
 }
 
 // [26] of the effective tension [31]  [N/m].
-constexpr double stiffness_at_constant_pressure(const Actuator& a, double length,
-                                                double gauge_pressure, double atmosphere) {
-  return ideal_stiffness(a.braid, length, gauge_pressure) *
+inline double stiffness_at_constant_pressure(const Actuator& a, double length,
+                                             double gauge_pressure, double atmosphere) {
+  const double acting = acting_pressure(a.effectiveness, gauge_pressure);
+  const double x = working_length(a, length, gauge_pressure);
+  return (ideal_stiffness(a.braid, x, acting) + acting * wall_area_slope(a, x)) *
+         taper_gain(a.taper, gauge_pressure) *
          effectiveness(a.effectiveness, gauge_pressure, atmosphere);
 }
 
@@ -58,39 +61,60 @@ constexpr double effectiveness_slope(const Effectiveness& e, double gauge_pressu
   return e.scale * (e.c1 + 2.0 * e.c2 * p);
 }
 
-// dP/dL of air that can neither come nor go, [40] with m' = 0  [Pa/m].
-constexpr double pressure_slope_sealed(const Braid& braid, double length, double pressure,
-                                       double external_volume, double polytropic_exponent) {
-  return -polytropic_exponent * pressure * volume_slope(braid, length) /
-         (volume(braid, length) + external_volume);
-}
-
-// dF/dL at constant air mass, [24] with its first term  [N/m]. `external_volume` is one actuator's
-// share: that of the bundle divided by the actuators in it.
-constexpr double stiffness_sealed(const Actuator& a, double length, double pressure,
-                                  double atmosphere, double external_volume,
-                                  double polytropic_exponent,
-                                  EffectivenessSlope slope = EffectivenessSlope::included) {
-  const double gauge_pressure = pressure - atmosphere;
+// dF/dP of what the braid pulls with, at a given length  [m2]. Zero up to the threshold.
+inline double tension_per_pressure(const Actuator& a, double length, double gauge_pressure,
+                                   double atmosphere, EffectivenessSlope slope) {
+  const double x = working_length(a, length, gauge_pressure);
+  const double acting = acting_pressure(a.effectiveness, gauge_pressure);
   const double eff = effectiveness(a.effectiveness, gauge_pressure, atmosphere);
   const double eff_slope = slope == EffectivenessSlope::included
                                ? effectiveness_slope(a.effectiveness, gauge_pressure, atmosphere)
                                : 0.0;
 
-  // F = P_g g(L) Eff(P_g), so dF/dP_g = g (Eff + P_g Eff').
-  const double tension_per_pressure =
-      ideal_tension(a.braid, length, 1.0) * (eff + gauge_pressure * eff_slope);
-  return ideal_stiffness(a.braid, length, gauge_pressure) * eff +
-         tension_per_pressure *
-             pressure_slope_sealed(a.braid, length, pressure, external_volume, polytropic_exponent);
+  // F = P_act g(x) Eff(P_g), so dF/dP_g = g (Eff + P_act Eff'), and g moves where a taper gives
+  // way.
+  const double g = ideal_tension(a.braid, x, 1.0) + wall_area(a, x);
+  const double idle = gauge_pressure > 0 && acting == 0 ? 0.0 : 1.0;
+  const double held_length = g * (idle * eff + acting * eff_slope);
+  if (!(a.taper.extra_gain != 0) || gauge_pressure < 0) return held_length;
+  const double gain_slope =
+      -(taper_gain(a.taper, gauge_pressure) - a.taper.gain) / a.taper.extra_pressure;
+  const double g_slope = ideal_stiffness(a.braid, x, 1.0) + wall_area_slope(a, x);
+  return held_length + acting * eff * g_slope * gain_slope * (length - a.taper.rest_length);
+}
+
+// dP/dL of air that can neither come nor go, [40] with m' = 0  [Pa/m]; volume and its slope of one
+// actuator [m3] [m2].
+constexpr double pressure_slope_sealed(double volume, double volume_slope, double pressure,
+                                       double external_volume, double polytropic_exponent) {
+  return -polytropic_exponent * pressure * volume_slope / (volume + external_volume);
+}
+
+// Of a braid without a body.
+constexpr double pressure_slope_sealed(const Braid& braid, double length, double pressure,
+                                       double external_volume, double polytropic_exponent) {
+  return pressure_slope_sealed(volume(braid, length), volume_slope(braid, length), pressure,
+                               external_volume, polytropic_exponent);
+}
+
+// dF/dL at constant air mass, [24] with its first term  [N/m]. `external_volume` is one actuator's
+// share: that of the bundle divided by the actuators in it.
+inline double stiffness_sealed(const Actuator& a, double length, double pressure, double atmosphere,
+                               double external_volume, double polytropic_exponent,
+                               EffectivenessSlope slope = EffectivenessSlope::included) {
+  const double gauge_pressure = pressure - atmosphere;
+  return stiffness_at_constant_pressure(a, length, gauge_pressure, atmosphere) +
+         tension_per_pressure(a, length, gauge_pressure, atmosphere, slope) *
+             pressure_slope_sealed(volume(a, length), volume_slope(a, length), pressure,
+                                   external_volume, polytropic_exponent);
 }
 
 // dF/dL of what pulls without air: stretched threads, end stop, bladder  [N/m]. Together with one
 // of the above it is the slope of tension(), except below the short end with ShortEnd::Law::zero.
 inline double passive_stiffness(const Actuator& a, double length) {
-  double k = a.bladder.stiffness;
+  double k = bladder_stiffness(a.bladder, length);
   if (length > a.long_end.length) k += a.long_end.stiffness;
-  if (length < shortest_length(a.braid) && a.short_end.law == ShortEnd::Law::stop) {
+  if (length < shortest_length(a) && a.short_end.law == ShortEnd::Law::stop) {
     k += a.short_end.stiffness;
   }
   return k;

@@ -92,7 +92,7 @@ double Plumbing::open_share(int valve, double t) const noexcept {
 // Of the air in muscle i  [m^3].
 double Plumbing::volume(int i, double length) const noexcept {
   const Muscle& m = muscles_[static_cast<std::size_t>(i)];
-  return m.count * actuator::volume(m.actuator.braid, length) + m.external_volume;
+  return m.count * actuator::volume(m.actuator, length) + m.external_volume;
 }
 
 bool Plumbing::shut(int inlet, double t) const noexcept {
@@ -293,12 +293,11 @@ void Plumbing::evaluate(double t, const Lanes& length, const Lanes& rate, double
   double taken = 0;  // from the supply [kg/s]
   for (int i = 0; i < size_; ++i) {
     const Muscle& m = muscles_[static_cast<std::size_t>(i)];
-    const actuator::Braid& braid = m.actuator.braid;
     const Chamber c =
         chamber(lines_[static_cast<std::size_t>(i)].chamber, volume(i, length[i]), state);
     pull(i, length[i], rate[i], c.pressure, state, out, derivative);
-    line(i, t, y_supply, m.count * actuator::volume_slope(braid, length[i]) * rate[i], c, state,
-         out, derivative);
+    line(i, t, y_supply, m.count * actuator::volume_slope(m.actuator, length[i]) * rate[i], c,
+         state, out, derivative);
     taken += out.inflow[i];
   }
   if (cylinder_) cylinder(t, y_supply, travel, travel_rate, state, out, derivative);

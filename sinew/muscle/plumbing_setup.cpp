@@ -5,6 +5,7 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/actuator/creep.h"
 #include "sinew/actuator/hysteresis.h"
+#include "sinew/actuator/tension.h"
 #include "sinew/gas/heat.h"
 #include "sinew/muscle/plumbing.h"
 
@@ -31,6 +32,7 @@ bool needs_plumbing(std::span<const Muscle> muscles, const gas::Air& air, const 
   for (const Muscle& m : muscles) {
     any = any || m.actuator.short_end.law == actuator::ShortEnd::Law::empirical;
     any = any || m.hose.law != gas::Hose::Law::none || m.leak.area > 0 || m.leak.conductance > 0;
+    any = any || !actuator::is_plain(m.actuator);
     any = any || actuator::has_hysteresis(m.actuator.hysteresis) ||
           actuator::has_creep(m.actuator.creep);
     for (const gas::Valve* v : {&m.inlet, &m.exhaust})

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "sinew/actuator/body.h"
 #include "sinew/actuator/braid.h"
 #include "sinew/plant/rig/stand.h"
 
@@ -107,7 +108,7 @@ Stand::Stand(const StandSetup& setup)
   if (!setup_.cylinder) {
     const int count = setup_.muscle.count;
     rubs_ = a.loss.stick && a.loss.coulomb_length > 0;
-    ends_ = {actuator::shortest_length(a.braid), a.long_end.length};
+    ends_ = {actuator::shortest_length(a), a.long_end.length};
     end_stiffness_ = count * std::fmax(a.long_end.stiffness, a.short_end.stiffness);
     end_damping_ = count * std::fmax(a.long_end.damping, a.short_end.damping);
   }

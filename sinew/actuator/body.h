@@ -1,0 +1,95 @@
+// actuator/body.h - what a real tube has beside its braid: rigid ends within its length, a taper
+// towards them, a wall. The braid works at another length and holds less air.
+//
+//   x = L - d                          d  of L that does not contract: caps, clamps [m]
+//   x = L_0 - kappa (L_0 - L)          Tondu and Lopez (2000): tapering ends as a contraction that
+//                                      is kappa times as large
+//   kappa = k + k_low exp(-P_g/P_low)  less of it as pressure fills the ends; Kerscher et al.
+//   (2006) V = V_braid(x) - pi t x (D - t)    t  wall, the air stands within it; D of the braid at
+//   x [m] A_t = pi t (D_0 (2 s - 1/s) - t)   tension per pressure that the wall costs or gives: the
+//   virtual
+//                                      work of V, Chou and Hannaford (1996)
+//   D_0 = b/(n pi), s = sin(theta) = D/D_0
+//
+// For kappa there is no volume: it is no geometry, V is that of the braid at L - d. With nothing
+// set everything here is that of braid.h, to the bit.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "sinew/actuator/actuator.h"
+#include "sinew/actuator/braid.h"
+#include "sinew/units/math.h"
+
+namespace sinew::actuator {
+
+// kappa  [-].
+constexpr double taper_gain(const Taper& taper, double gauge_pressure) {
+  if (!(taper.extra_gain != 0)) return taper.gain;
+  const double x = gauge_pressure > 0 ? -gauge_pressure / taper.extra_pressure : 0.0;
+  return taper.gain + taper.extra_gain * units::exp(x > -700 ? x : -700);
+}
+
+constexpr bool tapers(const Taper& taper) { return taper.gain != 1 || taper.extra_gain != 0; }
+
+// x, at which the braid pulls  [m].
+constexpr double working_length(const Actuator& a, double length, double gauge_pressure) {
+  const double braid = length - a.caps.length;
+  if (!tapers(a.taper)) return braid;
+  const double rest = a.taper.rest_length - a.caps.length;
+  return rest - taper_gain(a.taper, gauge_pressure) * (rest - braid);
+}
+
+// The length at which the braid is at its shortest, b/sqrt 3; of a taper at high pressure  [m].
+inline double shortest_length(const Actuator& a) {
+  const double braid = shortest_length(a.braid);
+  if (!tapers(a.taper)) return braid + a.caps.length;
+  const double rest = a.taper.rest_length - a.caps.length;
+  return rest - (rest - braid) / a.taper.gain + a.caps.length;
+}
+
+// D_0, of threads across the axis  [m].
+constexpr double widest_diameter(const Braid& braid) {
+  return braid.thread_length / (braid.turns * std::numbers::pi);
+}
+
+// sin(theta) at x; kept off zero, where a wall would have no room  [-].
+inline double braid_sine(const Braid& braid, double x) {
+  const double cosine = x / braid.thread_length;
+  const double square = 1.0 - cosine * cosine;
+  return square > 0.01 ? std::sqrt(square) : 0.1;
+}
+
+// A_t  [m2].
+inline double wall_area(const Actuator& a, double x) {
+  const double t = a.wall.thickness;
+  if (!(t > 0)) return 0.0;
+  const double s = braid_sine(a.braid, x);
+  return std::numbers::pi * t * (widest_diameter(a.braid) * (2.0 * s - 1.0 / s) - t);
+}
+
+// dA_t/dx  [m].
+inline double wall_area_slope(const Actuator& a, double x) {
+  const double t = a.wall.thickness, b = a.braid.thread_length;
+  if (!(t > 0)) return 0.0;
+  const double s = braid_sine(a.braid, x);
+  if (!(s > 0.1)) return 0.0;
+  return -std::numbers::pi * t * widest_diameter(a.braid) * (2.0 + 1.0 / (s * s)) * x / (b * b * s);
+}
+
+// Of the air in one actuator  [m3].
+inline double volume(const Actuator& a, double length) {
+  const double x = length - a.caps.length, t = a.wall.thickness;
+  if (!(t > 0)) return volume(a.braid, x);
+  const double inside = widest_diameter(a.braid) * braid_sine(a.braid, x) - 2.0 * t;
+  return inside > 0 ? 0.25 * std::numbers::pi * x * inside * inside : 0.0;
+}
+
+// dV/dL  [m2].
+inline double volume_slope(const Actuator& a, double length) {
+  const double x = length - a.caps.length;
+  return volume_slope(a.braid, x) - wall_area(a, x);
+}
+
+}  // namespace sinew::actuator
