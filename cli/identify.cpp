@@ -69,24 +69,27 @@ Json to_json(const identify::Fit& fit) {
   for (const identify::Estimate& e : fit.parameters) out["parameters"].push_back(to_json(e));
   out["fit"] = to_json(fit.fit);
   if (fit.held_out) out["held_out"] = to_json(*fit.held_out);
+  if (fit.cross_validated) out["cross_validated"] = to_json(*fit.cross_validated);
   if (!fit.notes.empty()) out["notes"] = fit.notes;
   return out;
 }
 
 void print_models(const identify::Report& report) {
   using enum TextTable::Align;
-  TextTable table({"model", "parameters", "fit rmse", "max", "held out rmse", "max", ""},
-                  {left, right, right, right, right, right, left});
+  TextTable table(
+      {"model", "parameters", "fit rmse", "max", "held out rmse", "max", "cross-validated", ""},
+      {left, right, right, right, right, right, right, left});
   const auto percent = [](double x) { return fmt::format("{:.2f} %", x); };
   for (std::size_t i = 0; i < report.fits.size(); ++i) {
     const identify::Fit& f = report.fits[i];
     if (!f.refused.empty()) {
-      table.add({f.model, "-", "-", "-", "-", "-", f.refused});
+      table.add({f.model, "-", "-", "-", "-", "-", "-", f.refused});
       continue;
     }
     table.add({f.model, std::to_string(f.parameters.size()), percent(f.fit.rmse_percent),
                percent(f.fit.max_percent), f.held_out ? percent(f.held_out->rmse_percent) : "-",
                f.held_out ? percent(f.held_out->max_percent) : "-",
+               f.cross_validated ? percent(f.cross_validated->rmse_percent) : "-",
                i == report.chosen ? "<- chosen" : ""});
   }
   fmt::print("{}", table.text());
@@ -143,6 +146,10 @@ void add_data_options(CLI::App& sub, DataOptions& options) {
   sub.add_option("--unit", options.units,
                  "NAME=UNIT: unit of a column of the file, as it calls it; may be repeated")
       ->allow_extra_args(false);
+  sub.add_option("--where", options.where,
+                 "NAME=VALUE,...: only rows whose column NAME has one of these values; may be "
+                 "repeated")
+      ->allow_extra_args(false);
   sub.add_option("--columns", options.columns,
                  "\"force [N],time [s]\": the header of a file without one");
   sub.add_option("--atmosphere", options.atmosphere, "that gauges read against")
@@ -155,6 +162,7 @@ std::vector<identify::Source> sources_of(const DataOptions& options) {
   identify::Source source;
   for (const std::string& map : options.maps) add_pair("--map", map, source.names);
   for (const std::string& unit : options.units) add_pair("--unit", unit, source.units);
+  for (const std::string& where : options.where) add_pair("--where", where, source.where);
   source.columns = at_commas(options.columns);
   source.drop_incomplete = options.drop_incomplete;
   source.atmosphere =
@@ -220,7 +228,7 @@ Json to_json(const identify::Report& report) {
 
   // The chosen one once more, where a program looks first.
   const Json best = to_json(report.best());
-  for (const char* key : {"model", "parameters", "fit", "held_out"})
+  for (const char* key : {"model", "parameters", "fit", "held_out", "cross_validated"})
     if (best.contains(key)) out[key] = best[key];
   return out;
 }
@@ -249,6 +257,7 @@ void add_identify(CLI::App& app, Action& action) {
   add_identify_dynamic(sub, action);
   add_identify_joint(sub, action);
   add_identify_valve(sub, action);
+  add_identify_static(sub, action);
 }
 
 }  // namespace sinew::cli

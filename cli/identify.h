@@ -23,11 +23,13 @@ void add_identify_sensor(CLI::App& identify, Action& action);
 void add_identify_dynamic(CLI::App& identify, Action& action);
 void add_identify_joint(CLI::App& identify, Action& action);
 void add_identify_valve(CLI::App& identify, Action& action);
+void add_identify_static(CLI::App& identify, Action& action);
 
 // How files of measurements are read.
 struct DataOptions {
   std::vector<std::string> files;
   std::vector<std::string> maps, units;  // "force=F_N"
+  std::vector<std::string> where;        // "phase=fill"
   std::string columns;                   // "force [N],pressure [kPa gauge]"
   std::string atmosphere = "14.7 psi";
   bool drop_incomplete = false;

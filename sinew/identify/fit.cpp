@@ -27,8 +27,22 @@ namespace {
 
 bool usable(const Fit& fit) { return fit.refused.empty(); }
 
-double error_of(const Fit& fit, bool held_out) {
-  return held_out ? fit.held_out->rmse_percent : fit.fit.rmse_percent;
+enum class By { cross_validation, held_out, fit };
+
+double error_of(const Fit& fit, By by) {
+  if (by == By::cross_validation) return fit.cross_validated->rmse_percent;
+  return by == By::held_out ? fit.held_out->rmse_percent : fit.fit.rmse_percent;
+}
+
+// What all usable fits have.
+By measure(const Report& report) {
+  bool cross = true, held_out = true;
+  for (const Fit& fit : report.fits) {
+    if (!usable(fit)) continue;
+    cross &= fit.cross_validated.has_value();
+    held_out &= fit.held_out.has_value();
+  }
+  return cross ? By::cross_validation : held_out ? By::held_out : By::fit;
 }
 
 [[noreturn]] void refuse_all(const Report& report) {
@@ -42,21 +56,17 @@ double error_of(const Fit& fit, bool held_out) {
 }  // namespace
 
 void choose(Report& report, double tolerance, double negligible) {
-  bool held_out = true;
-  for (const Fit& fit : report.fits)
-    if (usable(fit)) held_out &= fit.held_out.has_value();
-
+  const By by = measure(report);
   const Fit* smallest = nullptr;
   for (const Fit& fit : report.fits)
-    if (usable(fit) && (!smallest || error_of(fit, held_out) < error_of(*smallest, held_out)))
-      smallest = &fit;
+    if (usable(fit) && (!smallest || error_of(fit, by) < error_of(*smallest, by))) smallest = &fit;
   if (!smallest) refuse_all(report);
 
-  const double near = (1 + tolerance) * error_of(*smallest, held_out);
+  const double near = (1 + tolerance) * error_of(*smallest, by);
   const double limit = std::max(near, negligible);
   const Fit* chosen = smallest;
   for (const Fit& fit : report.fits)
-    if (usable(fit) && error_of(fit, held_out) <= limit &&
+    if (usable(fit) && error_of(fit, by) <= limit &&
         fit.parameters.size() < chosen->parameters.size())
       chosen = &fit;
 
@@ -64,11 +74,13 @@ void choose(Report& report, double tolerance, double negligible) {
   report.rule = fmt::format(
       "fewest parameters among those whose {} error is {}: {} has {} and {:.3g} %, the smallest is "
       "{:.3g} % ({})",
-      held_out ? "held-out" : "fit",
+      by == By::cross_validation ? "cross-validated"
+      : by == By::held_out       ? "held-out"
+                                 : "fit",
       near < negligible ? fmt::format("below {:.2g} %, where it says nothing", negligible)
                         : fmt::format("within {:.0f} % of the smallest", 100 * tolerance),
-      chosen->model, chosen->parameters.size(), error_of(*chosen, held_out),
-      error_of(*smallest, held_out), smallest->model);
+      chosen->model, chosen->parameters.size(), error_of(*chosen, by), error_of(*smallest, by),
+      smallest->model);
 }
 
 }  // namespace sinew::identify

@@ -27,6 +27,8 @@ struct Fit {
   std::vector<Estimate> parameters;
   Score fit;
   std::optional<Score> held_out;
+  // Parts of what was fitted, predicted by the rest; a method's own way, told in `notes`.
+  std::optional<Score> cross_validated;
   std::vector<std::string> notes;  // what one should know about this fit
   std::string refused;             // why this model cannot be had from the data; empty: it can
 };
@@ -46,9 +48,10 @@ struct Report {
   const Fit& best() const { return fits[chosen]; }
 };
 
-// The simplest model (fewest parameters) whose held-out error - without one, its fit - is within
-// `tolerance` (relative) of the smallest, or within `negligible` [%]: errors below it say nothing,
-// for instance the converter's steps. Refused models do not count. Writes `chosen` and `rule`.
+// The simplest model (fewest parameters) whose cross-validated error - without one the held-out
+// error, without that its fit - is within `tolerance` (relative) of the smallest, or within
+// `negligible` [%]: errors below it say nothing, for instance the converter's steps. Refused models
+// do not count. Writes `chosen` and `rule`.
 // Throws Refusal where every model was refused.
 void choose(Report& report, double tolerance = 0.1, double negligible = 0);
 

@@ -42,11 +42,13 @@ class Table {
   Measured read(std::span<const Wanted> wanted) {
     for (const Wanted& w : wanted) find(w);
     check_names(wanted);
+    find_where();
     finish();
     Measured out{.file = grid_.file};
     for (const Found& f : found_)
       out.columns.push_back({std::string(f.wanted->name), std::string(f.wanted->unit), {}});
-    for (const Row& row : grid_.rows) add_rows(row, out);
+    for (const Row& row : grid_.rows)
+      if (wanted_row(row)) add_rows(row, out);
     report_dropped(out);
     finish();
     check_sizes(out);
@@ -146,7 +148,42 @@ class Table {
                     config::closest_in_quotes(column, columns));
   }
 
+  void find_where() {
+    for (const auto& [name, values] : source_.where) {
+      const auto at = std::find_if(grid_.headings.begin(), grid_.headings.end(),
+                                   [&](const Heading& h) { return h.name == name; });
+      if (at == grid_.headings.end()) {
+        add_problem(0, 0, "--where", config::in_quotes(name),
+                    "a column of the file: " + all_names(),
+                    config::closest_in_quotes(name, names()));
+        continue;
+      }
+      where_.push_back({static_cast<std::size_t>(at - grid_.headings.begin()), values});
+    }
+  }
+
+  static bool same(std::string_view cell, std::string_view value) {
+    if (!is_number(cell) || !is_number(value)) return cell == value;
+    return std::stod(std::string(cell)) == std::stod(std::string(value));
+  }
+
+  // Every condition of `where` holds.
+  bool wanted_row(const Row& row) const {
+    return std::all_of(where_.begin(), where_.end(), [&](const auto& condition) {
+      std::string_view rest = condition.second;
+      while (!rest.empty()) {
+        const std::size_t comma = std::min(rest.find(','), rest.size());
+        std::string_view value = rest.substr(0, comma);
+        while (value.starts_with(' ')) value.remove_prefix(1);
+        if (same(row.cells[condition.first].text, value)) return true;
+        rest.remove_prefix(std::min(comma + 1, rest.size()));
+      }
+      return false;
+    });
+  }
+
   Conversion conversion(const Heading& h, const Wanted& w) {
+    if (!w.words.empty()) return {};
     const auto override = source_.units.find(h.name);
     const std::string unit = override != source_.units.end() ? override->second : h.unit;
     const auto parse = [&](int number) {
@@ -212,6 +249,8 @@ class Table {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     const bool whole = error == std::errc{} && end == text.data() + text.size();
     if (whole && std::isfinite(number)) return f.conversion(number);
+    for (const auto& [word, meant] : f.wanted->words)
+      if (text == word) return meant;
     bad_cell(row, index, f);
     return std::nullopt;
   }
@@ -227,8 +266,11 @@ class Table {
       ++dropped_;
       return;
     }
+    std::string expected = "a finite number";
+    for (const auto& [word, meant] : f.wanted->words)
+      expected += fmt::format(" or {}", config::in_quotes(word));
     add_problem(row.line, row.cells[index].column, std::string(f.wanted->name),
-                text.empty() ? "an empty cell" : config::in_quotes(text), "a finite number",
+                text.empty() ? "an empty cell" : config::in_quotes(text), expected,
                 decimal_comma ? fmt::format("a decimal point: {}", with_point)
                 : missing     ? "--drop-incomplete to leave such rows out"
                               : "");
@@ -294,7 +336,8 @@ class Table {
   const Source& source_;
   std::vector<Found> found_;
   std::vector<config::Problem> problems_;
-  std::set<int> bad_conditions_;  // columns that were told
+  std::vector<std::pair<std::size_t, std::string>> where_;  // index of a column, its values
+  std::set<int> bad_conditions_;                            // columns that were told
   std::size_t count_ = 0, dropped_ = 0;
 };
 

@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sinew/units/constants.h"
@@ -28,6 +29,7 @@ struct Wanted {
   double least = 0, most = 0;
   bool optional = false;
   std::string_view doc;
+  std::span<const std::pair<std::string_view, double>> words = {};  // that stand for numbers
 };
 
 // A file and what its columns mean.
@@ -36,8 +38,10 @@ struct Source {
   std::vector<std::string> columns;          // "force [N]", ... for a file without a header
   std::map<std::string, std::string> names;  // wanted name -> the file's name for it
   std::map<std::string, std::string> units;  // the file's name -> its unit, for a header without
-  bool drop_incomplete = false;              // leave out rows with cells that are no numbers
-  double atmosphere = units::atmosphere;     // [Pa]
+  // The file's name -> "fill" or "100, 200": only rows with one of these values are read.
+  std::map<std::string, std::string> where;
+  bool drop_incomplete = false;           // leave out rows with cells that are no numbers
+  double atmosphere = units::atmosphere;  // [Pa]
 };
 
 struct Column {
