@@ -33,12 +33,13 @@ constexpr double taper_gain(const Taper& taper, double gauge_pressure) {
 
 constexpr bool tapers(const Taper& taper) { return taper.gain != 1 || taper.extra_gain != 0; }
 
-// x, at which the braid pulls  [m].
+// x, at which the braid pulls  [m]. A taper ends at 0, far below where it pushes.
 constexpr double working_length(const Actuator& a, double length, double gauge_pressure) {
   const double braid = length - a.caps.length;
   if (!tapers(a.taper)) return braid;
   const double rest = a.taper.rest_length - a.caps.length;
-  return rest - taper_gain(a.taper, gauge_pressure) * (rest - braid);
+  const double x = rest - taper_gain(a.taper, gauge_pressure) * (rest - braid);
+  return x > 0 ? x : 0.0;
 }
 
 // The length at which the braid is at its shortest, b/sqrt 3; of a taper at high pressure  [m].

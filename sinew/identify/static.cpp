@@ -226,7 +226,7 @@ struct Best {
 };
 
 Fit try_model(const StaticModel& model, const Split& s, const StaticScales& scales,
-              HoldOut hold_out, Best& found) {
+              HoldOut hold_out, double full_scale, Best& found) {
   Fit out{.model = std::string(model.name),
           .law = std::string(model.law),
           .source = std::string(model.source)};
@@ -238,9 +238,9 @@ Fit try_model(const StaticModel& model, const Split& s, const StaticScales& scal
     refuse_falling(fit, scales);
     describe(fit, out);
     const StaticScales own = tried.scales_of_fit(fit);
-    out.fit = score(misses(fit.setting, own, s.fitted), scales.full_scale);
-    out.held_out = held_out(tried, fit, s, hold_out, scales.full_scale);
-    out.cross_validated = cross_validate(tried, s.fitted, fit, scales.full_scale, out.notes);
+    out.fit = score(misses(fit.setting, own, s.fitted), full_scale);
+    out.held_out = held_out(tried, fit, s, hold_out, full_scale);
+    out.cross_validated = cross_validate(tried, s.fitted, fit, full_scale, out.notes);
     found = {fit, own};
   } catch (const Refusal& refusal) {
     out.refused = refusal.what();
@@ -339,18 +339,19 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   Points points = data.points;
   give_rest_length(points, report);
   sort_points(points);
-  out.scales = scales_of(points, options);
-  report.full_scale = out.scales.full_scale;
-  if (!(out.scales.full_scale > 0))
-    throw Refusal("force", "no force above zero", "a muscle that pulls", "the sign of the force");
+  report.full_scale = scales_of(points, options).full_scale;
   const Split s = split_by(points, options.hold_out, report);
-  if (s.fitted.empty()) throw Refusal("data", "no points to fit", "some", "");
+  out.scales = scales_of(s.fitted, options);
+  if (!(out.scales.full_scale > 0))
+    throw Refusal("force", "no force above zero among what is to be fitted", "a muscle that pulls",
+                  "the sign of the force");
 
   std::vector<Best> found;
   for (const StaticModel& model : static_models()) {
     if (!options.model.empty() && model.name != options.model) continue;
     found.emplace_back();
-    report.fits.push_back(try_model(model, s, out.scales, options.hold_out, found.back()));
+    report.fits.push_back(
+        try_model(model, s, out.scales, options.hold_out, report.full_scale, found.back()));
   }
   choose(report);
   out.fit = *found[report.chosen].fit;

@@ -18,7 +18,7 @@ namespace {
 constexpr double turn = 0.1;       // of the range of pressures: less is no turn of a branch
 constexpr int bins = 25;           // over the range of pressures
 constexpr std::size_t fewest = 3;  // samples in a bin
-constexpr double largest_zero_force = 0.1;      // of the largest force: more is no zero
+constexpr double largest_zero_force = 0.25;     // of the range of forces: more is no zero
 constexpr double largest_zero_pressure = 0.05;  // of the range of pressures
 
 constexpr std::pair<std::string_view, double> branch_words[] = {{"fill", 1.0}, {"vent", -1.0}};
@@ -83,23 +83,36 @@ void refuse_full(const Measured& m, std::string_view column, const std::vector<d
                 "readings within its range", "a sensor of a larger range, or less pressure");
 }
 
-void check(const Measured& m, const std::vector<double>& force) {
-  const double range = largest(m["pressure"]) - smallest(m["pressure"]);
+// Among rows of one length force rises with the pressure; columns that are swapped, or a sign, do
+// the opposite.
+void refuse_falling(const Measured& m, const std::vector<double>& force,
+                    const std::vector<double>& length) {
+  const std::vector<double>& p = m["pressure"];
+  const std::vector<int> group = groups_of(length, 0.005 * largest(length), 1e9);
+  double rise = 0;
+  for (int g = 0; g <= *std::max_element(group.begin(), group.end()); ++g) {
+    std::vector<double> ps, fs;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (group[i] != g) continue;
+      ps.push_back(p[i]);
+      fs.push_back(force[i]);
+    }
+    const double p0 = median(ps), f0 = median(fs);
+    for (std::size_t i = 0; i < ps.size(); ++i) rise += (ps[i] - p0) * (fs[i] - f0);
+  }
+  if (rise < 0)
+    throw Refusal(m.file, "force that falls while the pressure rises", "a muscle that pulls",
+                  "--map, if columns are swapped, or the sign of the force");
+}
+
+void check(const Measured& m, const std::vector<double>& force, const std::vector<double>& length) {
   refuse_constant(m, "pressure", 0.02 * largest(m["pressure"]),
                   "a static model needs force at several pressures",
                   "fill the muscle step by step");
   if (m.has("time")) refuse_full(m, "pressure", m["pressure"], "Pa gauge");
   if (m.has("time")) refuse_full(m, "force", force, "N");
 
-  // Among rows of one length force rises with the pressure; columns that are swapped, or a sign,
-  // do the opposite.
-  const double f0 = median(force), p0 = median(m["pressure"]);
-  double covariance = 0;
-  for (std::size_t i = 0; i < force.size(); ++i)
-    covariance += (force[i] - f0) * (m["pressure"][i] - p0) / range;
-  if (largest(force) - smallest(force) > 0 && covariance < 0)
-    throw Refusal(m.file, "force that falls while the pressure rises", "a muscle that pulls",
-                  "--map, if columns are swapped, or the sign of the force");
+  refuse_falling(m, force, length);
 }
 
 // Turning points of the pressure: rows at which a branch ends.
@@ -156,7 +169,7 @@ Zero vented_start(const std::vector<double>& p, const std::vector<double>& f, St
                     zero.pressure / 1e3));
     return {};
   }
-  if (std::abs(zero.force) > largest_zero_force * largest(f)) {
+  if (std::abs(zero.force) > largest_zero_force * (largest(f) - smallest(f))) {
     data.warnings.push_back(fmt::format(
         "{}: begins with {:.3g} N, which is no zero; force is taken as it is", file, zero.force));
     zero.force = 0;
@@ -238,7 +251,7 @@ Zero add_table(const Measured& m, const StaticInput& input, StaticData& data) {
   const std::vector<double> length = length_of(m, input);
   std::vector<double> force = force_of(m);
   Zero zero{.force = slack_force(length, m["pressure"], force)};
-  if (std::abs(zero.force) > largest_zero_force * largest(force)) {
+  if (std::abs(zero.force) > largest_zero_force * (largest(force) - smallest(force))) {
     data.warnings.push_back(
         fmt::format("{}: {:.3g} N where it is slack, which is no zero; force is taken as it is",
                     m.file, zero.force));
@@ -266,7 +279,7 @@ std::span<const Wanted> static_columns() { return columns; }
 
 Zero add_points(const Measured& m, const StaticInput& input, StaticData& data) {
   if (m.rows() == 0) throw Refusal(m.file, "no rows", "rows of numbers", "");
-  check(m, force_of(m));
+  check(m, force_of(m), length_of(m, input));
   for (const std::string& note : m.notes) data.notes.push_back(m.file + ": " + note);
   return m.has("time") ? add_recording(m, input, data) : add_table(m, input, data);
 }

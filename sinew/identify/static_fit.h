@@ -2,9 +2,10 @@
 //
 //   taut   r = F(L, p) - F_measured            slack   r = max(F(L, p), 0) - F_measured
 //
-// A slack point is censored: it says that the muscle does not pull, not how much it would push. Two
-// passes: the first finds how far the points scatter (s, by its median), the second takes what is
-// beyond 4 s for outliers and holds every parameter to its prior, (value - mean)/deviation x s.
+// A slack point is censored: it says that the muscle does not pull, not how much it would push. So
+// counts whatever is within the scatter of no force. Two passes: the first finds how far the points
+// scatter (s, by its median), the second takes what is beyond 4 s for outliers and holds every
+// parameter to its prior, (value - mean)/deviation x s.
 #pragma once
 
 #include <span>
