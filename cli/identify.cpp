@@ -258,6 +258,7 @@ void add_identify(CLI::App& app, Action& action) {
   add_identify_joint(sub, action);
   add_identify_valve(sub, action);
   add_identify_static(sub, action);
+  add_identify_creep(sub, action);
 }
 
 }  // namespace sinew::cli

@@ -24,6 +24,7 @@ void add_identify_dynamic(CLI::App& identify, Action& action);
 void add_identify_joint(CLI::App& identify, Action& action);
 void add_identify_valve(CLI::App& identify, Action& action);
 void add_identify_static(CLI::App& identify, Action& action);
+void add_identify_creep(CLI::App& identify, Action& action);
 
 // How files of measurements are read.
 struct DataOptions {
