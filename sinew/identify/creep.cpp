@@ -53,13 +53,17 @@ std::vector<Parameter> parameters(const Measured& m, int elements) {
        .low = 0,
        .high = 0.999 * top,
        .scale = 0.1 * top}};
-  const char* shares[] = {"share_1", "share_2"};
-  const char* times[] = {"time_1", "time_2"};
+  constexpr std::string_view shares[] = {"share_1", "share_2"};
+  constexpr std::string_view times[] = {"time_1", "time_2"};
   for (int k = 0; k < elements; ++k) {
     const double tau = span * (elements == 1 ? 0.1 : k == 0 ? 0.02 : 0.3);
-    out.push_back(
-        {.name = shares[k], .unit = "1", .start = 0.05, .low = 0, .high = 2, .scale = 0.1});
-    out.push_back({.name = times[k],
+    out.push_back({.name = std::string(shares[k]),
+                   .unit = "1",
+                   .start = 0.05,
+                   .low = 0,
+                   .high = 2,
+                   .scale = 0.1});
+    out.push_back({.name = std::string(times[k]),
                    .unit = "s",
                    .start = tau,
                    .low = 1e-3 * span,
@@ -94,8 +98,8 @@ Solution fit(const Measured& m, int elements, int part) {
 }
 
 Fit try_elements(const Measured& m, int elements) {
-  const char* names[] = {"none", "one", "two"};
-  Fit out{.model = names[elements],
+  constexpr std::string_view names[] = {"none", "one", "two"};
+  Fit out{.model = std::string(names[elements]),
           .law = "F = A (max(p - P0, 0) + sum c_i max(z_i - P0, 0)), z_i' = (p - z_i)/tau_i",
           .source = "actuator/creep.h"};
   const Solution whole = fit(m, elements, -1);
@@ -139,12 +143,12 @@ CreepResult identify_creep(const Measured& data) {
     throw Refusal(data.file, fmt::format("{} rows", data.rows()), "at least 12", "a longer hold");
   CreepResult out;
   Report& report = out.report;
-  report.subject = "creep from " + data.file;
-  report.quantity = "force";
-  report.unit = "N";
-  report.full_scale = largest(data["force"]);
-  report.full_scale_is = "the largest force";
-  report.notes = data.notes;
+  report = {.subject = "creep from " + data.file,
+            .quantity = "force",
+            .unit = "N",
+            .full_scale = largest(data["force"]),
+            .full_scale_is = "the largest force",
+            .notes = data.notes};
   for (int elements = 0; elements <= actuator::Creep::most; ++elements)
     report.fits.push_back(try_elements(data, elements));
   choose(report);
