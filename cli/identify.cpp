@@ -178,6 +178,15 @@ std::vector<identify::Source> sources_of(const DataOptions& options) {
   return out;
 }
 
+void refuse_data_file(std::string_view option, const std::string& file,
+                      const DataOptions& options) {
+  std::error_code none;  // files that are not there are told elsewhere
+  for (const std::string& data : options.files)
+    if (std::filesystem::equivalent(file, data, none))
+      config::fail({std::string(option), 0, 0}, "", config::in_quotes(file),
+                   "another file than those that are fitted");
+}
+
 void add_result_options(CLI::App& sub, ResultOptions& options) {
   sub.add_option("-o,--out", options.out, "the parameter file to write");
   sub.add_flag("--force", options.force, "replace the parameter file");

@@ -43,6 +43,9 @@ std::vector<std::string> at_commas(const std::string& text);
 // One source per file. Throws config::Error for what is no name=value.
 std::vector<identify::Source> sources_of(const DataOptions& options);
 
+// Throws config::Error where the option's file is one of those that are fitted.
+void refuse_data_file(std::string_view option, const std::string& file, const DataOptions& options);
+
 // What is done with a result.
 struct ResultOptions {
   std::string out;  // the parameter file

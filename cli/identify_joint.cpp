@@ -180,6 +180,7 @@ ExitCode run_joint(const Options& options) {
 
   std::optional<identify::Measured> held_out;
   if (!options.hold_out.empty()) {
+    refuse_data_file("--hold-out", options.hold_out, options.data);
     identify::Source other = sources[0];
     other.path = options.hold_out;
     held_out = identify::read_measured(other, identify::joint_columns());

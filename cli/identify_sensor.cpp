@@ -257,6 +257,7 @@ ExitCode run(const Options& options) {
   identify::SensorData other;
   const bool levels = options.hold_out == "level";
   if (!levels) {
+    refuse_data_file("--hold-out", options.hold_out, options.data);
     identify::Source source = sources[0];
     source.path = options.hold_out;
     other = read_sensor_data(source, converter, options.known, options.sensors);

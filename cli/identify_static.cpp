@@ -50,8 +50,12 @@ void read_file(const Options& options, const identify::Source& source, bool fitt
   const double atmosphere = source.atmosphere;
   identify::StaticInput input{.length = length_for(options.lengths, source.path, atmosphere),
                               .fitted = fitted};
-  if (!options.rest_length.empty())
+  if (!options.rest_length.empty()) {
     input.rest_length = argument("--rest-length", options.rest_length, "m", atmosphere);
+    if (!(input.rest_length > 0))
+      config::fail({"--rest-length", 0, 0}, "", config::in_quotes(options.rest_length),
+                   "more than zero");
+  }
   const identify::Measured all = read_measured(source, identify::static_columns());
   const std::size_t before = data.points.size();
   add_points(all, input, data);
@@ -106,6 +110,10 @@ ExitCode run_static(const Options& options) {
   identify::StaticData data;
   for (const identify::Source& source : sources) read_file(options, source, true, data);
   if (!options.hold_out.empty() && options.hold_out != "pressure" && options.hold_out != "length") {
+    refuse_data_file("--hold-out", options.hold_out, options.data);
+    if (!std::filesystem::exists(options.hold_out))
+      config::fail({"--hold-out", 0, 0}, "", config::in_quotes(options.hold_out),
+                   "pressure, length or a file that is there");
     identify::Source other = sources[0];
     other.path = options.hold_out;
     read_file(options, other, false, data);

@@ -44,6 +44,8 @@ identify::ValveOptions valve_options(const Options& o, double atmosphere) {
   }
   out.air.atmosphere = atmosphere;
   out.air.temperature = argument("--temperature", o.temperature, "K", atmosphere);
+  if (!(out.air.temperature >= 200 && out.air.temperature <= 400))
+    config::fail({"--temperature", 0, 0}, "", config::in_quotes(o.temperature), "200 K to 400 K");
   const auto optional = [&](const char* option, const std::string& text, const char* unit) {
     std::optional<double> value;
     if (text.empty()) return value;
@@ -61,7 +63,7 @@ identify::ValveOptions valve_options(const Options& o, double atmosphere) {
 
 ValveData kind_of(const Options& options, const identify::Measured& data) {
   for (const auto& [word, kind] : kinds)
-    if (options.kind == word) return kind;
+    if (options.kind == word) return identify::valve_data(data, kind);
   return identify::valve_data(data);
 }
 
@@ -81,6 +83,7 @@ identify::ValveResult identified(const Options& options, const identify::Source&
       break;
   }
   if (options.hold_out.empty()) return identify::identify_fill(data, how);
+  refuse_data_file("--hold-out", options.hold_out, options.data);
   identify::Source other = source;
   other.path = options.hold_out;
   const identify::Measured unseen = identify::read_measured(other, identify::valve_columns());
@@ -143,7 +146,8 @@ void add_identify_valve(CLI::App& identify, Action& action) {
                              "or a map of duties",
                              "sinew identify valve fill.csv --volume \"0.5 L\" -o my-valve.toml");
   add_data_options(sub, options->data);
-  sub.add_option("--kind", options->kind, "chart, fill, pulses, coil or duty; by the columns");
+  sub.add_option("--kind", options->kind, "what was measured; absent: by the columns")
+      ->check(CLI::IsMember({"chart", "fill", "pulses", "coil", "duty"}));
   sub.add_option("--volume", options->volume, "fill, pulses: of the chamber, hoses included");
   sub.add_option("--conductance", options->conductance,
                  "fill, pulses: of the valve, for the volume instead");
@@ -164,6 +168,7 @@ void add_identify_valve(CLI::App& identify, Action& action) {
   sub.callback([options, &action] {
     action = [options] {
       check_result_options(options->result);
+      refuse_data_file("--predict-dat", options->predict, options->data);
       if (!options->predict.empty()) refuse_to_overwrite(options->predict, options->result.force);
       return run_identify_valve(*options);
     };

@@ -73,14 +73,32 @@ constexpr std::array columns{
 
 std::span<const Wanted> valve_columns() { return columns; }
 
-ValveData valve_data(const Measured& data) {
+namespace {
+
+bool has_columns_of(ValveData kind, const Measured& data) {
   const auto has = [&](std::string_view name) { return data.has(name); };
   const bool flow = has("flow") || has("mass_flow");
-  if (has("duty") && (has("delivered") || flow)) return ValveData::duty;
-  if (has("upstream") && flow) return ValveData::chart;
-  if (has("time") && has("current")) return ValveData::coil;
-  if (has("time") && has("pressure") && has("command")) return ValveData::pulses;
-  if (has("time") && has("pressure")) return ValveData::fill;
+  switch (kind) {
+    case ValveData::duty:
+      return has("duty") && (has("delivered") || flow);
+    case ValveData::chart:
+      return has("upstream") && flow;
+    case ValveData::coil:
+      return has("time") && has("current");
+    case ValveData::pulses:
+      return has("time") && has("pressure") && has("command");
+    case ValveData::fill:
+      break;
+  }
+  return has("time") && has("pressure");
+}
+
+}  // namespace
+
+ValveData valve_data(const Measured& data, std::optional<ValveData> wanted) {
+  for (const ValveData kind :
+       {ValveData::duty, ValveData::chart, ValveData::coil, ValveData::pulses, ValveData::fill})
+    if (has_columns_of(kind, data) && kind == wanted.value_or(kind)) return kind;
   std::string found;
   for (const Column& c : data.columns) found += (found.empty() ? "" : ", ") + c.name;
   throw Refusal(data.file,

@@ -49,8 +49,8 @@ struct ValveResult {
 // All columns that any of the methods wants.
 std::span<const Wanted> valve_columns();
 
-// By the columns that are there. Throws Refusal where they fit no method.
-ValveData valve_data(const Measured& data);
+// `wanted`, or by the columns that are there. Throws Refusal where they fit no method, or not that.
+ValveData valve_data(const Measured& data, std::optional<ValveData> wanted = {});
 
 // The start of a result: the valve as it was known before.
 ValveResult before(const ValveOptions& options);

@@ -396,11 +396,17 @@ TEST(ValveTiming, without_delays_it_is_the_identity) {
 // --- the file's kind ---
 
 TEST(Valve, columns_decide_what_was_measured) {
-  const auto with = [](std::initializer_list<const char*> names) {
+  const auto with = [](std::initializer_list<const char*> names,
+                       std::optional<ValveData> wanted = {}) {
     std::vector<Column> columns;
     for (const char* name : names) columns.push_back({name, "1", {1}});
-    return valve_data(table(columns));
+    return valve_data(table(columns), wanted);
   };
+  EXPECT_EQ(with({"time", "pressure", "command"}, ValveData::fill), ValveData::fill);
+  expect_says(refusal_of([&] {
+                with({"time", "pressure"}, ValveData::coil);
+              }),
+              "the columns time, pressure alone; expected");
   EXPECT_EQ(with({"upstream", "flow"}), ValveData::chart);
   EXPECT_EQ(with({"time", "pressure"}), ValveData::fill);
   EXPECT_EQ(with({"time", "pressure", "command"}), ValveData::pulses);

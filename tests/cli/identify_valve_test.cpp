@@ -107,6 +107,23 @@ TEST(IdentifyValve, wrong_units_and_times_that_run_backwards_are_told_with_their
   EXPECT_THAT(back.err, HasSubstr("back.csv:202:"));
 }
 
+TEST(IdentifyValve, what_cannot_be_is_told_before_anything_is_fitted) {
+  const Workspace w;
+  write_text(w / "fill.csv", filling());
+  const auto refused = [&](const Words& more) {
+    Words words{"identify", "valve", "fill.csv", "--volume", "0.5 L"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Result result = w.sinew(words);
+    EXPECT_NE(result.code, 0) << result.out;
+    return result.err;
+  };
+  EXPECT_THAT(refused({"--kind", "nonsense"}), HasSubstr("--kind"));
+  EXPECT_THAT(refused({"--kind", "coil"}), HasSubstr("found the columns time, pressure alone"));
+  EXPECT_THAT(refused({"--temperature", "-300 degC"}), HasSubstr("expected 200 K to 400 K"));
+  EXPECT_THAT(refused({"--hold-out", "fill.csv"}), HasSubstr("expected another file"));
+  EXPECT_THAT(refused({"--predict-dat", "fill.csv", "--force"}), HasSubstr("another file"));
+}
+
 TEST(IdentifyValve, delays_alone_make_no_file) {
   const Workspace w;
   write_text(w / "duty.csv", duties());
