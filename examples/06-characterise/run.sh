@@ -52,6 +52,10 @@ lesson identify dynamic decay.csv --actuator static.toml --mass "6 lb" \
 lesson check my-actuator.toml
 lesson actuator my-actuator.toml --length "80 mm" --pressure "50 psi gauge:110 psi gauge:20 psi"
 
+# the stand's own, to compare
+sed "s#\"../leg#\"$root/robots/leg#" "$root/robots/stand/equations.toml" >equations.toml
+lesson actuator equations.toml --length "80 mm" --pressure "50 psi gauge:110 psi gauge:20 psi"
+
 cat >my-leg.toml <<END
 format = "sinew.robot/1"
 base   = "$root/robots/leg/robot.toml"

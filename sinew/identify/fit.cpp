@@ -45,11 +45,21 @@ By measure(const Report& report) {
   return cross ? By::cross_validation : held_out ? By::held_out : By::fit;
 }
 
+// Each reason once, with the models that it stands for.
 [[noreturn]] void refuse_all(const Report& report) {
-  std::string reasons;
-  for (const Fit& fit : report.fits)
-    reasons += fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", fit.model, fit.refused);
-  throw Refusal(report.subject, "no model that the data support (" + reasons + ")",
+  std::string all;
+  for (std::size_t i = 0; i < report.fits.size(); ++i) {
+    const std::string& reason = report.fits[i].refused;
+    std::string models;
+    bool told = false;
+    for (std::size_t k = 0; k < report.fits.size(); ++k) {
+      if (report.fits[k].refused != reason) continue;
+      told |= k < i;
+      models += (models.empty() ? "" : ", ") + report.fits[k].model;
+    }
+    if (!told) all += fmt::format("{}{} ({})", all.empty() ? "" : "; ", reason, models);
+  }
+  throw Refusal(report.subject, "no model that the data support: " + all,
                 "data that determine the simplest of them", "");
 }
 
@@ -81,6 +91,15 @@ void choose(Report& report, double tolerance, double negligible) {
                         : fmt::format("within {:.0f} % of the smallest", 100 * tolerance),
       chosen->model, chosen->parameters.size(), error_of(*chosen, by), error_of(*smallest, by),
       smallest->model);
+}
+
+void refuse_unexplained(const Report& report, double percent, const std::string& try_this) {
+  const Fit& best = report.best();
+  if (best.fit.rmse_percent <= percent) return;
+  throw Refusal(report.subject,
+                fmt::format("{:.0f} % of {} that the best model, {}, does not explain",
+                            best.fit.rmse_percent, report.full_scale_is, best.model),
+                fmt::format("at most {:.0f} %", percent), try_this);
 }
 
 }  // namespace sinew::identify

@@ -55,4 +55,8 @@ struct Report {
 // Throws Refusal where every model was refused.
 void choose(Report& report, double tolerance = 0.1, double negligible = 0);
 
+// Throws Refusal if the chosen model leaves a larger error than that where it was fitted: then the
+// data are of something else, or not what their columns say.
+void refuse_unexplained(const Report& report, double percent, const std::string& try_this);
+
 }  // namespace sinew::identify

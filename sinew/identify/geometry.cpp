@@ -127,6 +127,7 @@ GeometryResult identify_geometry(const Measured& data, double thread_thickness) 
                     "pen?",
                     data.file, data.lines[i], -solution.residuals[i]));
   choose(report);
+  refuse_unexplained(report, 20, "the columns and their units, or another mesh");
   return out;
 }
 

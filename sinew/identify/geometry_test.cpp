@@ -90,6 +90,10 @@ TEST(Geometry, one_length_and_swapped_columns_are_refused) {
   std::reverse(rising.columns[1].values.begin(), rising.columns[1].values.end());
   EXPECT_THROW(identify_geometry(rising), Refusal);
 
+  Measured wild = pairs(1, 0, 6);
+  for (std::size_t i = 0; i < 6; ++i) wild.columns[1].values[i] *= i % 2 == 0 ? 1.5 : 0.6;
+  EXPECT_THROW(identify_geometry(wild), Refusal);
+
   // An ellipse of lengths and diameters is one the other way round too, of hardly any turns.
   Measured swapped = pairs(1, 0, 5);
   std::swap(swapped.columns[0].values, swapped.columns[1].values);

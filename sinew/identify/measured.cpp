@@ -27,6 +27,12 @@ struct Conversion {
   double operator()(double number) const { return offset + slope * number; }
 };
 
+// What a quantity is told to try, for a unit alone: "0 kPa gauge" -> "kPa gauge".
+std::string without_number(std::string text) {
+  for (std::size_t at = 0; (at = text.find("\"0 ", at)) != text.npos;) text.erase(at + 1, 2);
+  return text;
+}
+
 // Where a wanted column stands in the file.
 struct Found {
   const Wanted* wanted = nullptr;
@@ -199,7 +205,7 @@ class Table {
     } else {
       add_problem(grid_.header_line, h.column, std::string(w.name),
                   fmt::format("the unit {}", config::in_quotes(unit)),
-                  config::describe_unit(w.unit), zero.mistake->try_this);
+                  config::describe_unit(w.unit), without_number(zero.mistake->try_this));
     }
     return {};
   }
@@ -311,13 +317,13 @@ class Table {
       const Conversion& c = found_[i].conversion;
       const std::string units =
           found_[i].is_at ? "" : possible_units(found_[i], (size - c.offset) / c.slope);
-      const std::string name = grid_.headings[found_[i].index].name;
-      add_problem(grid_.header_line, 1, std::string(w.name),
+      const Heading& heading = grid_.headings[found_[i].index];
+      add_problem(grid_.header_line, heading.column, std::string(w.name),
                   fmt::format("values up to {}", config::format_quantity(size, w.unit, w.unit, 4)),
                   fmt::format("between {} and {}: a wrong unit, or another column",
                               config::format_quantity(w.least, w.unit, w.unit, 4),
                               config::format_quantity(w.most, w.unit, w.unit, 4)),
-                  units.empty() ? "" : fmt::format("--unit {}={}", name, units));
+                  units.empty() ? "" : fmt::format("--unit {}={}", heading.name, units));
     }
   }
 

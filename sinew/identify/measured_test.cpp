@@ -94,7 +94,7 @@ TEST(Measured, what_is_wrong_is_told) {
   const Case cases[] = {
       {"1,2\n3,4\n", "rig.csv:1:1: header: found numbers in the first line"},
       {"pressure [kPa gauge],Force [N]\n1,2\n", "no column \"force\""},
-      {"pressure [kPa],force [N]\n1,2\n", "gauge"},
+      {"pressure [kPa],force [N]\n1,2\n", "try \"kPa gauge\" or \"kPa abs\""},
       {"pressure [kPa gauge],force\n1,2\n", "without a unit"},
       {"pressure [kPa gauge],force [lb]\n100,2\n", "lbf: lb is mass, lbf is force"},
       {"pressure [Pa gauge],force [N]\n100,20\n", "--unit pressure=kPa gauge"},
