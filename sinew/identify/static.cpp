@@ -354,6 +354,8 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
         try_model(model, s, out.scales, options.hold_out, report.full_scale, found.back()));
   }
   choose(report);
+  if (options.model.empty())
+    refuse_unexplained(report, 15, "--map and --unit: columns may be swapped or in other units");
   out.fit = *found[report.chosen].fit;
   out.scales = found[report.chosen].scales;
   out.muscles = muscles_of(out.fit, out.scales, s.fitted);

@@ -107,7 +107,7 @@ void refuse_falling(const Measured& m, const std::vector<double>& force,
 
 void check(const Measured& m, const std::vector<double>& force, const std::vector<double>& length) {
   refuse_constant(m, "pressure", 0.02 * largest(m["pressure"]),
-                  "a static model needs force at several pressures",
+                  "several pressures: a static law says how force grows with them",
                   "fill the muscle step by step");
   if (m.has("time")) refuse_full(m, "pressure", m["pressure"], "Pa gauge");
   if (m.has("time")) refuse_full(m, "force", force, "N");

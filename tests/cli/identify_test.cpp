@@ -42,6 +42,21 @@ void expect_refused(const Broken& b) {
 // A braid's length and diameter.
 const std::string mesh = "length [mm],diameter [mm]\n65,11.7\n75,10.5\n85,9.0\n95,6.8\n";
 
+// What an ideal braid pulls with at three lengths and four pressures from 100 kPa on.
+std::string map(double pressure_step = 100e3) {
+  std::string text = "length [mm],pressure [kPa gauge],force [N]\n";
+  for (const double length : {0.080, 0.090, 0.100})
+    for (int i = 0; i < 4; ++i) {
+      const double pressure = 100e3 + pressure_step * i;
+      const double force = pressure * (3 * length * length - 0.01148) / (4 * 3.14159 * 5.35);
+      for (const double value : {1e3 * length, 1e-3 * pressure, force}) {
+        text += std::to_string(value);
+        text += value == force ? '\n' : ',';
+      }
+    }
+  return text;
+}
+
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size())
     text.replace(at, from.size(), to);
@@ -65,6 +80,15 @@ TEST(BrokenInput, WrongUnit) {
        {"geometry"},
        replaced(mesh, "length [mm]", "length"),
        {"data.csv:1:1: length: found the column \"length\" without a unit", "--unit length="}});
+  expect_refused({"a pressure of nobody knows what",
+                  {"static"},
+                  replaced(map(), "kPa gauge", "kPa"),
+                  {"data.csv:1:13: pressure: found the unit \"kPa\"", "gauge"}});
+  expect_refused(
+      {"pascals that are kilopascals",
+       {"static"},
+       replaced(map(), "kPa gauge", "Pa gauge"),
+       {"data.csv:1:13: pressure: found values up to 400 Pa gauge", "--unit pressure=kPa gauge"}});
 }
 
 TEST(BrokenInput, SwappedColumns) {
@@ -76,6 +100,11 @@ TEST(BrokenInput, SwappedColumns) {
                   {"sensor"},
                   "gage [V],load [N]\n0,0\n10,0.4\n20,0.8\n60,2.4\n",
                   {"data.csv:3:1: gage: found 10 V", "at most 5 V", "they may be swapped"}});
+  expect_refused(
+      {"force and pressure",
+       {"static"},
+       replaced(map(), "pressure [kPa gauge],force [N]", "force [N],pressure [kPa gauge]"),
+       {"columns may be swapped"}});
 }
 
 TEST(BrokenInput, ClippedSensor) {
@@ -110,6 +139,11 @@ TEST(BrokenInput, OneLengthOnly) {
        {"geometry"},
        "length [mm],diameter [mm]\n80,9.8\n80,9.9\n80.5,9.7\n",
        {"data.csv: length: found 0.08 m throughout", "one length does not tell b from n"}});
+  expect_refused({"a muscle at one length, its mesh unknown",
+                  {"static"},
+                  "length [mm],pressure [kPa gauge],force [N]\n80,100,11\n80,200,22\n80,300,33\n"
+                  "80,400,44\n",
+                  {"one length only", "--actuator"}});
   expect_refused({"one load",
                   {"sensor"},
                   "load [N],gage [V]\n10,1\n10,1.1\n",
@@ -117,6 +151,10 @@ TEST(BrokenInput, OneLengthOnly) {
 }
 
 TEST(BrokenInput, ConstantPressure) {
+  expect_refused({"a muscle at one pressure",
+                  {"static"},
+                  map(0),
+                  {"data.csv: pressure: found 1e+05 Pa gauge throughout", "several pressures"}});
   expect_refused({"a dead sensor",
                   {"sensor"},
                   "load [N],gage [V]\n10,2\n20,2\n30,2\n40,2\n",
@@ -152,6 +190,10 @@ TEST(BrokenInput, NoHeader) {
 }
 
 TEST(BrokenInput, TimeRunningBackwards) {
+  expect_refused({"a swing that was recorded twice",
+                  {"dynamic", "--actuator", "robots/leg/actuator.toml", "--mass", "6 lb"},
+                  "time [s],length [mm]\n0,80\n0.1,81\n0.2,80\n0,80\n0.1,81\n",
+                  {"data.csv:5:1: time: found 0 s after 0.2 s"}});
   expect_refused({"two recordings in one file",
                   {"sensor"},
                   "time [s],load [N],gage [V]\n0,0,0\n1,10,0.4\n0,0,0\n1,20,0.8\n",
