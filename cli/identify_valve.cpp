@@ -30,7 +30,7 @@ struct Options {
   DataOptions data;
   ResultOptions result;
   std::string name = "valve", kind, volume, conductance, port, frequency, hold_out, base;
-  std::string temperature = "20 degC", predict;
+  std::string temperature = "20 degC", exponent, predict;
   bool per_volume = false;
 };
 
@@ -57,6 +57,9 @@ identify::ValveOptions valve_options(const Options& o, double atmosphere) {
   out.conductance = optional("--conductance", o.conductance, "m3/(s Pa)");
   out.port = optional("--supply", o.port, "Pa abs");
   out.frequency = optional("--frequency", o.frequency, "Hz");
+  out.exponent = optional("--exponent", o.exponent, "1");
+  if (out.exponent && !(*out.exponent >= 1 && *out.exponent <= 5.0 / 3.0))
+    config::fail({"--exponent", 0, 0}, "", config::in_quotes(o.exponent), "1 to 1.667");
   out.per_volume = o.per_volume;
   return out;
 }
@@ -154,6 +157,8 @@ void add_identify_valve(CLI::App& identify, Action& action) {
   sub.add_flag("--per-volume", options->per_volume, "fill, pulses: C/V is enough");
   sub.add_option("--supply,--port", options->port,
                  "pressure on the valve's other side, the room's when venting; fitted without");
+  sub.add_option("--exponent", options->exponent,
+                 "fill: polytropic, of the chamber: 1 isothermal, 1.4 adiabatic; tried without");
   sub.add_option("--temperature", options->temperature, "of the air")->capture_default_str();
   sub.add_option("--hold-out", options->hold_out, "OTHER.csv that scores the model of a filling");
   sub.add_option("--name", options->name, "of the valve")->capture_default_str();

@@ -33,6 +33,7 @@ struct ValveOptions {
   std::optional<double> volume;       // of the chamber, hoses included [m3]
   std::optional<double> conductance;  // of the valve, in place of the volume [m3/(s Pa)]
   std::optional<double> port;         // pressure on the valve's other side; fitted without [Pa abs]
+  std::optional<double> exponent;     // polytropic, of the chamber; tried and fitted without [-]
   std::optional<double> frequency;    // of the pulses of a duty map without such a column [Hz]
   bool per_volume = false;            // neither volume nor conductance: C/V is enough
   double worst_fit = 3;               // a fill that no model meets better is refused [% of range]

@@ -42,6 +42,35 @@ double conductance_at(const Curve& c, const gas::Air& air) {
   return std::abs(c.rate) / (air.gas_constant * air.temperature * flow);
 }
 
+// The intervals of a solution with values at their bounds, as if those were a little inside: from a
+// solver that takes no step.
+void widen(Solution& s, const Residuals& residuals, std::size_t rows,
+           std::span<const Parameter> parameters, SolverOptions options) {
+  if (std::none_of(s.estimates.begin(), s.estimates.end(),
+                   [](const Estimate& e) { return e.at_bound; }))
+    return;
+  std::vector<Parameter> inside(parameters.begin(), parameters.end());
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    Parameter& p = inside[i];
+    const double margin = std::min(2 * options.difference * p.scale, 0.25 * (p.high - p.low));
+    p.start = std::clamp(s.values[i], p.low + margin, p.high - margin);
+  }
+  options.most_steps = 0;
+  const Solution free = least_squares(residuals, rows, inside, options);
+  const double change = s.rms > 0 && free.rms > 0 ? s.rms / free.rms : 1;
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    Estimate& e = s.estimates[i];
+    if (e.at_bound) continue;
+    const double half = 0.5 * change * (free.estimates[i].high - free.estimates[i].low);
+    if (!(half > e.high - e.value)) continue;
+    e.standard_error = change * free.estimates[i].standard_error;
+    e.low = e.value - half;
+    e.high = e.value + half;
+    const double size = std::max(std::abs(e.value), parameters[i].scale);
+    e.identifiable = half <= options.widest_interval * size;
+  }
+}
+
 }  // namespace
 
 std::span<const FillModel> fill_models() { return models; }
@@ -57,7 +86,7 @@ std::vector<FreeValue> free_values(const FillModel& model, const Curve& c,
   add("conductance_per_volume", "1/(s Pa)", k, 1e-3 * k, 20 * k, k, &Chamber::conductance);
   if (model.flow == iso6358)
     add("critical_pressure_ratio", "1", 0.3, 0, 0.95, 1, &Chamber::critical_ratio);
-  if (model.exponent == 0)
+  if (model.exponent == 0 && !options.exponent)
     add("polytropic_exponent", "1", 1.05, 1, 5.0 / 3.0, 1, &Chamber::exponent);
   if (model.leak) add("leak_over_conductance", "1", 1e-3, 0, 0.5, 0.01, &Chamber::leak);
   if (model.shape == soft) {
@@ -90,6 +119,7 @@ FillCase fill_case(const FillModel& model, const Curve& c, const ValveOptions& o
                    std::span<const FreeValue> free, std::span<const double> values) {
   FillCase out;
   out.chamber = {.shape = model.shape, .law = model.flow};
+  if (options.exponent) out.chamber.exponent = *options.exponent;
   if (model.exponent > 0) out.chamber.exponent = model.exponent;
   if (options.port) out.chamber.port = *options.port;
   out.chamber.start = c.start;
@@ -119,12 +149,15 @@ Solution fit_fill(const FillModel& model, const Curve& c, const ValveOptions& op
   };
   const SolverOptions options_of_all{
       .correlated = true, .most_steps = 60, .widest_interval = 0.25, .difference = 1e-3};
-  if (starts.size() == 1)
-    return least_squares_from(residuals, keep.size(), parameters, starts, options_of_all);
-  SolverOptions rough = options_of_all;
-  rough.most_steps = 12;
-  const Solution best = least_squares_from(residuals, keep.size(), parameters, starts, rough);
-  return least_squares_from(residuals, keep.size(), parameters, {&best.values, 1}, options_of_all);
+  std::vector<std::vector<double>> from(starts.begin(), starts.end());
+  if (from.size() > 1) {
+    SolverOptions rough = options_of_all;
+    rough.most_steps = 12;
+    from = {least_squares_from(residuals, keep.size(), parameters, from, rough).values};
+  }
+  Solution s = least_squares_from(residuals, keep.size(), parameters, from, options_of_all);
+  widen(s, residuals, keep.size(), parameters, options_of_all);
+  return s;
 }
 
 }  // namespace sinew::identify

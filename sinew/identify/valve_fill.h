@@ -40,7 +40,8 @@ std::vector<FreeValue> free_values(const FillModel& model, const Curve& curve,
 FillCase fill_case(const FillModel& model, const Curve& curve, const ValveOptions& options,
                    std::span<const FreeValue> free, std::span<const double> values);
 
-// Fits the rows in `keep`.
+// Fits the rows in `keep`. A value that ends at a bound is true only if it is really there: the
+// intervals of the others count it as free.
 Solution fit_fill(const FillModel& model, const Curve& curve, const ValveOptions& options,
                   std::span<const std::size_t> keep, std::span<const std::vector<double>> starts);
 

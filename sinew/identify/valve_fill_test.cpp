@@ -184,7 +184,7 @@ const FillModel& model_called(std::string_view name) {
 
 void expect_honest(const Trials& t) {
   EXPECT_GE(t.covered, 180);
-  EXPECT_LE(t.covered, 199);
+  EXPECT_LE(t.covered, 198);
   EXPECT_LT(std::abs(t.bias), 0.01);
   EXPECT_EQ(t.identifiable, 200);
 }
@@ -214,6 +214,7 @@ ValveResult identified(const std::vector<double>& t, const std::vector<double>& 
 TEST(ValveFill, the_model_that_made_the_data_is_chosen) {
   ValveOptions options;
   options.volume = 5e-4;
+  options.exponent = 1;
   const std::vector<double> t = at_steps(0.01, 160);
   for (const auto& [law, name] :
        {std::pair{orifice, "orifice isothermal"}, {iso6358, "iso isothermal"}}) {
@@ -233,6 +234,7 @@ TEST(ValveFill, the_model_that_made_the_data_is_chosen) {
 TEST(ValveFill, with_the_conductance_the_volume_is_found) {
   ValveOptions options;
   options.conductance = 1e-8;
+  options.exponent = 1;
   const std::vector<double> t = at_steps(0.01, 160);
   std::vector<double> p = pressures(filling(iso6358, 1), options.air, 0.107, t);
   add_noise(p, 500, 5);
@@ -243,13 +245,28 @@ TEST(ValveFill, with_the_conductance_the_volume_is_found) {
 }
 
 TEST(ValveFill, without_either_C_is_refused_and_C_over_V_told) {
-  const ValveOptions options;
+  ValveOptions options;
+  options.exponent = 1;
   const std::vector<double> t = at_steps(0.01, 160);
   std::vector<double> p = pressures(filling(iso6358, 1), options.air, 0.107, t);
   add_noise(p, 500, 5);
   const ValveResult r = identified(t, p, options);
   EXPECT_NE(r.refused.find("expected the volume beside it"), std::string::npos) << r.refused;
   EXPECT_NEAR(r.report.best().parameters.front().value, conductance, 0.02 * conductance);
+}
+
+// An exponent that no named model has: what is said of C/V is true all the same.
+TEST(ValveFill, an_interval_covers_the_truth_whatever_the_chamber_is_taken_for) {
+  ValveOptions options;
+  const std::vector<double> t = at_steps(0.02, 80);
+  int covered = 0;
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    std::vector<double> p = pressures(filling(iso6358, 1.2), options.air, 0.107, t);
+    add_noise(p, 2e3, seed);
+    const Estimate k = identified(t, p, options).report.best().parameters.front();
+    covered += k.low <= conductance && conductance <= k.high;
+  }
+  EXPECT_EQ(covered, 4);
 }
 
 std::string refusal_of(const std::vector<double>& t, const std::vector<double>& p) {
@@ -307,8 +324,11 @@ TEST(ValveFill, each_of_eight_measured_fillings_is_met_within_3_percent) {
     const ValveResult r = identify_fill(m, ValveOptions());
     EXPECT_LT(r.report.best().fit.rmse_percent, 3) << i;
     EXPECT_NE(r.refused.find("try --volume"), std::string::npos) << i;
+    // Its interval is narrow, or it is said that it is not.
     const Estimate& k = r.report.best().parameters.front();
-    EXPECT_LE(k.high - k.low, 0.5 * k.value) << i;
+    if (k.high - k.low > 0.5 * k.value) {
+      EXPECT_NE(r.refused.find("--supply"), std::string::npos) << i;
+    }
   }
 }
 

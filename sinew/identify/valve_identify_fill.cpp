@@ -8,6 +8,7 @@
 #include "sinew/gas/orifice.h"
 #include "sinew/identify/refusal.h"
 #include "sinew/identify/valve_fill.h"
+#include "sinew/identify/valve_fill_trust.h"
 
 namespace sinew::identify {
 
@@ -156,39 +157,39 @@ void divide(const FillModel& model, const ValveOptions& options, Fit& fit) {
   }
 }
 
-// A model is asked for the conductance first of all.
-void refuse_undetermined(const Curve& c, const Solution& s) {
-  const Estimate& k = s["conductance_per_volume"];
-  const double half = 0.5 * (k.high - k.low);
-  if (!k.at_bound && half <= 0.25 * k.value) return;
-  throw Refusal("conductance_per_volume",
-                k.at_bound ? "a fit at the bound of its range"
-                           : fmt::format("an interval of +- {:.0f} %", 100 * half / k.value),
-                "at most +- 25 %", c.opening_seen ? "" : "a record from before the valve opens");
-}
-
-Fit try_model(const FillModel& model, const Curve& c, const ValveOptions& options,
-              const Curve* other) {
-  Fit fit{.model = std::string(model.name), .law = std::string(model.law)};
+Tried try_model(const FillModel& model, const Curve& c, const ValveOptions& options,
+                const Curve* other) {
+  Tried out;
+  Fit& fit = out.fit;
+  fit.model = model.name;
+  fit.law = model.law;
   fit.source = model.source;
   if (model.leak && !options.port) {
     fit.refused = "a leak and the port's pressure look the same; --supply tells them apart";
-    return fit;
+    return out;
+  }
+  const bool named = options.exponent == 1.0 || options.exponent == gas::heat_capacity_ratio;
+  if (options.exponent && (model.exponent > 0 ? model.exponent != *options.exponent : named)) {
+    fit.refused = fmt::format("--exponent is {:g}", *options.exponent);
+    return out;
   }
   const std::vector<FreeValue> free = free_values(model, c, options);
   try {
     const Solution s = fit_fill(model, c, options, all_rows(c), spread_starts(model, free));
-    refuse_undetermined(c, s);
+    refuse_undetermined(s);
+    for (const double r : s.residuals) out.squares += r * r;
+    const double t = t_quantile(s.freedom);
+    out.acceptable = out.squares * (1 + t * t * s.inflation / s.freedom);
     fit.parameters = s.estimates;
+    fit.parameters.front().identifiable &= half_of(fit.parameters.front()) <= well_known;
     fit.fit = score(s.residuals, c.range());
     tell_correlations(s, fit);
     fit.held_out =
         other ? score_other(model, *other, options, s) : score_tenths(model, c, options, s);
-    divide(model, options, fit);
   } catch (const Refusal& refusal) {
     fit.refused = refusal.what();
   }
-  return fit;
+  return out;
 }
 
 void refuse_unsettled(const Measured& data, const Curve& c, const ValveOptions& options) {
@@ -215,7 +216,7 @@ void refuse_poor_fit(const Measured& data, const Report& report, double worst) {
 void tell_exponent(Report& report) {
   const std::span<const FillModel> models = fill_models();
   const FillModel& chosen = models[report.chosen];
-  if (chosen.exponent == 0) return;
+  if (chosen.exponent == 0 || !report.fits[report.chosen].refused.empty()) return;
   for (std::size_t i = 0; i < models.size(); ++i) {
     const FillModel& m = models[i];
     if (m.shape != chosen.shape || m.flow != chosen.flow || m.exponent != 0 || m.leak) continue;
@@ -228,23 +229,6 @@ void tell_exponent(Report& report) {
                                  : fmt::format(" +- {:.2g}", 0.5 * (e.high - e.low))));
     }
   }
-}
-
-// What the chamber is taken for may matter more than the noise.
-void tell_spread(const ValveOptions& options, Report& report) {
-  double low = unbounded, high = 0;
-  for (const Fit& fit : report.fits) {
-    if (!fit.refused.empty() || fit.fit.rmse_percent > options.worst_fit) continue;
-    low = std::min(low, fit.parameters.front().value);
-    high = std::max(high, fit.parameters.front().value);
-  }
-  const Estimate& e = report.best().parameters.front();
-  if (options.volume && e.name == "area") return;  // of areas and conductances
-  if (high > 1.2 * low)
-    report.notes.push_back(fmt::format(
-        "{} is {:.3g} to {:.3g} {} by the models that fit within {:g} %: which one is true of the "
-        "chamber matters more than the interval",
-        e.name, low, high, e.unit, options.worst_fit));
 }
 
 void set_valve(const FillModel& model, const ValveOptions& options, const std::string& source,
@@ -273,14 +257,21 @@ void describe(const Curve& c, const ValveOptions& options, ValveResult& out) {
         "or an unknown zero of the sensor looks like another b or n",
         c.fills() ? "for a supply" : "for a room"));
   if (options.volume) r.notes.emplace_back("the volume is taken as exact");
-  if (options.volume || options.conductance || options.per_volume) return;
-  for (const Estimate& e : r.best().parameters)
-    if (e.name == "conductance_per_volume")
-      out.refused = fmt::format(
-          "sonic conductance: found C/V = {} alone; expected the volume beside it: one curve does "
-          "not tell C from V; try --volume \"0.5 L\", --conductance for the volume instead, or "
-          "--per-volume where C/V is enough",
-          config::format_quantity(e.value, "1/(s Pa)", "1/(s bar)", 4));
+  const Estimate& k = r.best().parameters.front();
+  if (!options.volume && !options.conductance && !options.per_volume)
+    out.refused = fmt::format(
+        "sonic conductance: found C/V = {} alone; expected the volume beside it: one curve does "
+        "not tell C from V; try --volume \"0.5 L\", --conductance for the volume instead, or "
+        "--per-volume where C/V is enough",
+        config::format_quantity(k.value, "1/(s Pa)", "1/(s bar)", 4));
+  if (half_of(k) <= well_known) return;
+  out.refused += fmt::format(
+      "{}{}: found an interval of +- {:.0f} %; expected at most +- {:.0f} %; try {}{}a rigid "
+      "chamber "
+      "near the valve, less noise",
+      out.refused.empty() ? "" : "\n", k.name, 100 * half_of(k), 100 * well_known,
+      options.port ? "" : "--supply with the pressure on the valve's other side, ",
+      options.exponent ? "" : "--exponent where it is known (1 in a chamber full of wire wool), ");
 }
 
 }  // namespace
@@ -302,12 +293,18 @@ ValveResult identify_fill(const Measured& data, const ValveOptions& options,
   report.full_scale_is = "the pressure's range";
   report.held_out_is = other ? other->file + ", with its own start and opening instant"
                              : "every second tenth of the way, 10 to 20 % up to 70 to 80 %";
+  std::vector<Tried> tried;
   for (const FillModel& model : fill_models())
-    report.fits.push_back(try_model(model, c, options, unseen ? &*unseen : nullptr));
+    tried.push_back(try_model(model, c, options, unseen ? &*unseen : nullptr));
+  reach_for_fixed(tried);
+  refuse_open(tried, options.worst_fit);
+  for (const Tried& t : tried) report.fits.push_back(t.fit);
   choose(report);
+  reach_over_models(tried, report);
+  for (std::size_t i = 0; i < report.fits.size(); ++i)
+    if (report.fits[i].refused.empty()) divide(fill_models()[i], options, report.fits[i]);
   refuse_poor_fit(data, report, options.worst_fit);
   tell_exponent(report);
-  tell_spread(options, report);
   set_valve(fill_models()[report.chosen], options, "sinew identify valve " + data.file, out);
   describe(c, options, out);
   return out;
