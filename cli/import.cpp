@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
+#include "cli/page.h"
 #include "cli/report.h"
 #include "cli/run_folder.h"
 #include "cli/run_log.h"
@@ -39,6 +40,7 @@ ExitCode import_log(const Options& options) {
   log.write(table);
   log.finish();
   write_file(folder / summary_name, json);
+  write_report(folder, table, resolved, e.name, messages);
 
   if (options.json) {
     fmt::print("{}", json);

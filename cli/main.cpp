@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
   cli::Action action;
   cli::add_run(app, action);
   cli::add_analyze(app, action);
+  cli::add_report(app, action);
   cli::add_export(app, action);
   cli::add_import(app, action);
   cli::add_replay(app, action);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cli/text_table.h"
+#include "sinew/analysis/warnings.h"
 #include "sinew/config/quantity.h"
 
 namespace sinew::cli {
@@ -26,36 +27,6 @@ std::string_view word(signals::Status status) {
       return "a fault";
   }
   return "";
-}
-
-// Readings that the converter cut off.
-void warn_of_clipping(const experiment::Experiment& e, const signals::Table& table,
-                      const Messages& messages) {
-  const double top = e.robot.converter.top();
-  for (const robot::Sensor& sensor : e.robot.sensors) {
-    const auto* counts = table.column("/sensor/" + sensor.name + "/count");
-    if (!counts || sensor.kind == robot::Sensor::Kind::fixed) continue;
-    // A slack muscle reads 0 and is right.
-    const bool angle = sensor.kind == robot::Sensor::Kind::angle;
-    const auto clipped =
-        std::ranges::count_if(*counts, [&](double c) { return c >= top || (angle && c <= 0); });
-    if (clipped > 0)
-      messages.warning(fmt::format("{}: {} of {} samples at the converter's end", sensor.name,
-                                   clipped, counts->size()));
-  }
-}
-
-// Rollers that the leg lifted off the track (7.2): from there on the trolley would have tipped.
-void warn_of_lifting(const signals::Table& table, const Messages& messages) {
-  for (const char* roller : {"front", "rear"}) {
-    const std::string topic = fmt::format("/true/roller/{}/load", roller);
-    const auto* load = table.column(topic);
-    if (!load) continue;
-    const auto lifted = std::ranges::count_if(*load, [](double n) { return n < 0; });
-    if (lifted > 0)
-      messages.warning(fmt::format("the {} roller lifts off the track in {} of {} samples", roller,
-                                   lifted, load->size()));
-  }
 }
 
 bool finite(const signals::Series& s, std::size_t i) {
@@ -158,8 +129,10 @@ void warn_of(const experiment::Experiment& e, const experiment::Outcome& outcome
        "periods with a foot out of reach: the nearest point was aimed at");
   if (!outcome.table.complete)
     messages.warning("more valve edges than there was room for; the table lacks the last ones");
-  warn_of_clipping(e, outcome.table, messages);
-  warn_of_lifting(outcome.table, messages);
+  for (const analysis::Warning& w : analysis::clipped_sensors(outcome.table, e.robot))
+    messages.warning(w.text);
+  for (const analysis::Warning& w : analysis::lifted_rollers(outcome.table))
+    messages.warning(w.text);
 }
 
 std::string black_box(const experiment::Experiment& e, const experiment::Outcome& outcome) {

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/page.h"
 #include "cli/report.h"
 #include "cli/run_folder.h"
 #include "cli/run_log.h"
@@ -25,7 +26,7 @@ struct Options {
   std::string experiment, folder;
   std::vector<std::string> sets;
   double pace = 0;
-  bool force = false, allow_unreachable = false, json = false, quiet = false;
+  bool force = false, allow_unreachable = false, report = true, json = false, quiet = false;
 };
 
 experiment::Experiment load(const Options& options, const Messages& messages) {
@@ -92,21 +93,23 @@ ExitCode run_experiment(const Options& options) {
   const analysis::Machine machine =
       analysis::read_machine(config::parse_text(resolved, std::string(resolved_name)));
 
-  LoggedTopics logged = logged_topics(e);
+  const LoggedTopics logged = logged_topics(e);
 
   const fs::path folder = folder_for(options, e);
   std::optional<RunLog> log;
   if (e.log.enabled) {
     write_file(folder / resolved_name, resolved);
-    log.emplace(folder / log_name, e.name, e.seed, resolved, std::move(logged));
+    log.emplace(folder / log_name, e.name, e.seed, resolved, logged);
   }
-  const experiment::Outcome outcome = run_logged(options, e, log ? &*log : nullptr);
+  experiment::Outcome outcome = run_logged(options, e, log ? &*log : nullptr);
   warn_of(e, outcome, messages);
   if (ended_early(outcome)) throw std::runtime_error(black_box(e, outcome));
 
   const analysis::Summary summary = analysis::summarize(outcome.table, machine);
   const std::string json = summary_json(summary, outcome);
   write_file(folder / summary_name, json);
+  if (log && options.report)
+    write_report(folder, logged_part(std::move(outcome.table), logged), resolved, e.name, messages);
 
   if (options.json) {
     fmt::print("{}", json);
@@ -133,6 +136,7 @@ void add_run(CLI::App& app, Action& action) {
       ->check(a_pace, "");
   sub.add_flag("--allow-unreachable", options->allow_unreachable,
                "aim at the nearest point where the foot path is out of reach");
+  sub.add_flag("!--no-report", options->report, "leave report.html out");
   sub.add_flag("--json", options->json, "print summary.json");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");
   sub.callback([=, &action] { action = [=] { return run_experiment(*options); }; });

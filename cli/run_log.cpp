@@ -54,6 +54,14 @@ LoggedTopics logged_topics(const signals::Table& table) {
   return out;
 }
 
+signals::Table logged_part(signals::Table&& table, const LoggedTopics& logged) {
+  signals::Table out;
+  for (std::size_t s = 0; s < table.series.size(); ++s)
+    if (logged.of_series[s] != experiment::not_tapped)
+      out.series.push_back(std::move(table.series[s]));
+  return out;
+}
+
 RunLog::RunLog(const std::filesystem::path& file, const std::string& name, int seed,
                const std::string& resolved, LoggedTopics logged)
     : of_series_(std::move(logged.of_series)),

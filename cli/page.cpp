@@ -1,0 +1,70 @@
+// cli/page.cpp - `sinew report`: a recorded run as one page that opens anywhere.
+#include "cli/page.h"
+
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/run_folder.h"
+#include "sinew/config/compose.h"
+#include "sinew/log/reader.h"
+#include "sinew/report/page.h"
+
+namespace sinew::cli {
+
+namespace {
+
+struct Options {
+  std::string run, machine, out;
+  bool force = false, quiet = false;
+};
+
+// What the log says that it is of; empty where it does not.
+std::string name_in(const std::filesystem::path& log) {
+  for (const auto& [key, value] : log::read_metadata(log))
+    if (key == "experiment") return value;
+  return "";
+}
+
+ExitCode report_run(const Options& options) {
+  const Messages messages(options.quiet);
+  const RecordedRun run = recorded_run(options.run);
+  const std::filesystem::path out = options.out.empty() ? run.log.parent_path() / report_name
+                                                        : std::filesystem::path(options.out);
+  refuse_to_overwrite(out, options.force);
+  const config::Node resolved = config::compose(machine_of(run, options.machine).string());
+  const signals::Table table = log::read(run.log);
+  if (!table.complete)
+    messages.warning(run.log.string() + " was cut off or is damaged; the page shows what stands "
+                                        "before");
+  const std::string page =
+      report::page({.table = table, .resolved = resolved, .name = name_in(run.log)});
+  write_file(out, page);
+  messages.note(fmt::format("{}, {:.1f} MB", out.string(), 1e-6 * static_cast<double>(page.size())));
+  return ok;
+}
+
+}  // namespace
+
+void write_report(const std::filesystem::path& folder, const signals::Table& logged,
+                  const std::string& resolved, const std::string& name, const Messages& messages) {
+  if (!report::has_page())
+    return messages.note("no report.html: this sinew was built without npm; docs/dependencies.md");
+  const config::Node values = config::parse_text(resolved, std::string(resolved_name));
+  write_file(folder / report_name,
+             report::page({.table = logged, .resolved = values, .name = name}));
+}
+
+void add_report(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App& sub = subcommand(app, "report", "a run as one page, which opens in any browser, offline",
+                             "sinew report runs/walk-test-1/1 -o walk.html");
+  sub.add_option("DIR", options->run, "a run's folder, or a log file")->required();
+  sub.add_option("-o,--output", options->out, "the file to write; else report.html beside the log");
+  sub.add_option("--machine", options->machine,
+                 "what was run, in place of the folder's resolved.toml");
+  sub.add_flag("--force", options->force, "replace the file");
+  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
+  sub.callback([=, &action] { action = [=] { return report_run(*options); }; });
+}
+
+}  // namespace sinew::cli

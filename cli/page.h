@@ -1,0 +1,19 @@
+// cli/page.h - report.html of a run's folder: `sinew report`, and what `run` and `import` leave.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cli/terminal.h"
+#include "sinew/signals/table.h"
+
+namespace sinew::cli {
+
+inline constexpr std::string_view report_name = "report.html";
+
+// Beside the log, of what it holds: the same bytes as `sinew report` makes of the folder. Without a
+// page in the program: a note and no file.
+void write_report(const std::filesystem::path& folder, const signals::Table& logged,
+                  const std::string& resolved, const std::string& name, const Messages& messages);
+
+}  // namespace sinew::cli

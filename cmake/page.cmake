@@ -1,0 +1,28 @@
+# The page of web/, bundled into one text by esbuild and compiled into sinew_report. Where its npm
+# packages are missing the program is built without it, and says so when it is asked for a report.
+# The glob is looked at in every build: after `npm ci` the next one has the page.
+
+set(web ${PROJECT_SOURCE_DIR}/web)
+file(GLOB web_packages CONFIGURE_DEPENDS ${web}/node_modules/.package-lock.json)
+file(GLOB web_sources CONFIGURE_DEPENDS ${web}/src/*)
+find_program(SINEW_NODE NAMES node nodejs)
+
+if(SINEW_NODE AND web_packages)
+  set(sinew_has_page ON)
+  set(page_template ${CMAKE_CURRENT_BINARY_DIR}/page_template.cpp)
+  add_custom_command(
+    OUTPUT ${page_template}
+    COMMAND ${SINEW_NODE} ${web}/build.mjs ${page_template}
+    DEPENDS ${web_sources} ${web_packages} ${web}/build.mjs
+    COMMENT "Bundling the page of web/"
+    VERBATIM)
+else()
+  set(sinew_has_page OFF)
+  set(page_template ${CMAKE_CURRENT_BINARY_DIR}/no_page_template.cpp)
+  file(CONFIGURE OUTPUT ${page_template} CONTENT
+"#include \"sinew/report/page_template.h\"
+std::string_view sinew::report::page_template() { return {}; }
+")
+  message(STATUS "web/: built without reports; npm ci in web/ brings them")
+endif()
+target_sources(sinew_report PRIVATE ${page_template})

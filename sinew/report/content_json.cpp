@@ -1,0 +1,172 @@
+#include <array>
+
+#include "sinew/report/content.h"
+
+namespace sinew::report {
+namespace {
+
+using robot::Point;
+
+Json point(Point p) { return Json::array({p.x, p.y}); }
+
+std::string_view word(Line::Style style) {
+  switch (style) {
+    case Line::Style::measured:
+      return "full";
+    case Line::Style::desired:
+      return "dashed";
+    case Line::Style::hidden:
+      return "hidden";
+  }
+  return "";
+}
+
+Json frames_of(const Scene& scene, Columns& columns) {
+  Json out = Json::array();
+  for (const Frame& f : scene.frames)
+    out.push_back({{"name", f.name},
+                   {"x", columns.of(f.x)},
+                   {"y", columns.of(f.y)},
+                   {"heading", columns.of(f.heading)}});
+  return out;
+}
+
+Json shapes_of(const Scene& scene) {
+  Json out;
+  out["links"] = Json::array();
+  for (const LinkShape& l : scene.links)
+    out["links"].push_back({{"frame", l.frame}, {"length", l.length}});
+  out["cams"] = Json::array();
+  for (const CamShape& c : scene.cams) {
+    Json outline = Json::array();
+    for (const Point p : c.outline) outline.push_back(point(p));
+    out["cams"].push_back({{"frame", c.frame}, {"outline", std::move(outline)}});
+  }
+  out["cords"] = Json::array();
+  for (const Cord& c : scene.cords)
+    out["cords"].push_back({{"frame", c.frame}, {"from", point(c.from)}, {"to", point(c.to)}});
+  out["discs"] = Json::array();
+  for (const Disc& d : scene.discs)
+    out["discs"].push_back(
+        {{"frame", d.frame}, {"center", point(d.center)}, {"radius", d.radius}});
+  return out;
+}
+
+Json muscles_of(const Scene& scene, Columns& columns) {
+  Json out = Json::array();
+  for (const MuscleShape& m : scene.muscles)
+    out.push_back({{"name", m.name},
+                   {"frame", m.frame},
+                   {"anchor", point(m.anchor)},
+                   {"direction", point(m.direction)},
+                   {"touch", point(m.touch)},
+                   {"count", m.count},
+                   {"longest", m.longest},
+                   {"length", columns.of(m.length)},
+                   {"diameter", columns.of(m.diameter)},
+                   {"pressure", columns.of(m.pressure)},
+                   {"inlet", columns.of(m.inlet)},
+                   {"exhaust", columns.of(m.exhaust)}});
+  return out;
+}
+
+Json cylinder_of(const CylinderShape& c, Columns& columns) {
+  Json out = {{"bore", c.bore},
+              {"stroke", c.stroke},
+              {"up", columns.of(c.up)},
+              {"down", columns.of(c.down)}};
+  for (const auto& [key, valves] :
+       {std::pair{"valves_up", &c.valves_up}, std::pair{"valves_down", &c.valves_down}}) {
+    out[key] = Json::array();
+    for (const Channel& v : *valves) out[key].push_back(columns.of(v));
+  }
+  return out;
+}
+
+// Both components; null where there are none.
+Json vector_of(const Channel& x, Columns& columns) {
+  if (x.none()) return {};
+  return Json::array({columns.of(x), columns.of({x.topic, "y"})});
+}
+
+}  // namespace
+
+Json to_json(const std::vector<Panel>& panels, Columns& columns) {
+  Json out = Json::array();
+  for (const Panel& p : panels) {
+    Json lines = Json::array();
+    for (const Line& l : p.lines)
+      lines.push_back({{"label", l.label},
+                       {"topic", l.channel.topic},
+                       {"column", columns.of(l.channel)},
+                       {"color", l.color},
+                       {"style", word(l.style)}});
+    out.push_back(
+        {{"group", p.group}, {"title", p.title}, {"unit", p.unit}, {"lines", std::move(lines)}});
+  }
+  return out;
+}
+
+Json to_json(const Scene& scene, Columns& columns) {
+  if (scene.empty()) return {};
+  Json out = shapes_of(scene);
+  out["frames"] = frames_of(scene, columns);
+  out["muscles"] = muscles_of(scene, columns);
+  out["drawn_from"] = scene.drawn_from;
+  if (scene.surface) out["surface"] = *scene.surface;
+  if (scene.track) {
+    const Track& t = *scene.track;
+    out["track"] = {{"height", t.height}, {"from", t.from},   {"to", t.to},
+                    {"rear", t.rear},     {"front", t.front}, {"rollers", t.rollers}};
+  }
+  if (scene.cylinder) out["cylinder"] = cylinder_of(*scene.cylinder, columns);
+  if (scene.foot)
+    out["foot"] = {{"path", vector_of(scene.foot_path, columns)},
+                   {"desired", vector_of(scene.desired_path, columns)},
+                   {"force", vector_of(scene.force, columns)},
+                   {"contact", columns.of(scene.contact)}};
+  return out;
+}
+
+Json to_json(const std::vector<Parameter>& parameters) {
+  Json out = Json::array();
+  for (const Parameter& p : parameters)
+    out.push_back(Json::array({p.key, p.value, p.mark, p.range, p.uncertainty, p.source}));
+  return out;
+}
+
+Json to_json(const std::vector<analysis::Warning>& warnings) {
+  Json out = Json::array();
+  for (const analysis::Warning& w : warnings) {
+    Json spans = Json::array();
+    for (const analysis::Span& s : w.spans) spans.push_back(Json::array({s.from, s.to}));
+    out.push_back({{"text", w.text}, {"spans", std::move(spans)}});
+  }
+  return out;
+}
+
+Json to_json(const std::vector<analysis::Verdict>& verdicts) {
+  Json out = Json::array();
+  for (const analysis::Verdict& v : verdicts)
+    out.push_back({{"key", v.key},
+                   {"reported", v.reported},
+                   {"ours", v.ours},
+                   {"accept", v.accept},
+                   {"source", v.source},
+                   {"is", analysis::to_text(v.is)}});
+  return out;
+}
+
+Json phases_of(const analysis::Record& record, const analysis::Machine& machine) {
+  Json stretches = Json::array();
+  for (const analysis::Stretch& s : record.stretches())
+    stretches.push_back(
+        {{"phase", s.phase},
+         {"step", s.step},
+         {"from", record.time(s.first)},
+         {"to", record.end_of(s.last - 1)},
+         {"stance", analysis::is_stance(machine, s.phase)}});
+  return {{"names", machine.phases}, {"stretches", std::move(stretches)}};
+}
+
+}  // namespace sinew::report

@@ -1,0 +1,84 @@
+#include "sinew/report/page.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "sinew/report/content.h"
+#include "sinew/report/page_template.h"
+
+namespace sinew::report {
+namespace {
+
+// For text between tags and in attributes.
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+// JSON that no parser of HTML can take for the end of its script element.
+std::string harmless(std::string_view json) {
+  std::string out;
+  for (const char c : json) {
+    if (c == '<')
+      out += "\\u003c";
+    else
+      out += c;
+  }
+  return out;
+}
+
+}  // namespace
+
+bool has_page() { return !page_template().empty(); }
+
+std::string page(const Run& run) {
+  if (!has_page())
+    throw std::runtime_error(
+        "report.html: this sinew was built without its page, which npm bundles; try: install npm, "
+        "then run npm ci in web/ and build again");
+  return fill(page_template(), content(run));
+}
+
+std::string fill(std::string_view page_template, const Content& content) {
+  struct Place {
+    std::string_view mark;
+    std::string text;
+    std::size_t at = 0;
+  };
+  std::vector<Place> places = {{"@title@", escaped(content.title)},
+                               {"@run@", harmless(content.json)},
+                               {"@samples@", content.samples}};
+  std::size_t size = page_template.size();
+  for (Place& p : places) {
+    p.at = page_template.find(p.mark);
+    if (p.at == page_template.npos)
+      throw std::invalid_argument("a page's template without " + std::string(p.mark));
+    size += p.text.size();
+  }
+  std::ranges::sort(places, {}, &Place::at);
+
+  std::string out;
+  out.reserve(size);
+  std::size_t from = 0;
+  for (const Place& p : places) {
+    out += page_template.substr(from, p.at - from);
+    out += p.text;
+    from = p.at + p.mark.size();
+  }
+  out += page_template.substr(from);
+  return out;
+}
+
+}  // namespace sinew::report

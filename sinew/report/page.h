@@ -1,0 +1,44 @@
+// report/page.h - a run as one self-contained page: report.html, which opens offline.
+//
+//   const std::string html = page({.table = table, .resolved = config::parse_file(...)});
+//
+// The look stands in web/ and is bundled into one template when the program is built; this folder
+// fills it. The page computes nothing: series, poses, figures and verdicts are all made here.
+// The same run gives the same bytes, whether from memory or from its log.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "sinew/config/node.h"
+#include "sinew/signals/table.h"
+
+namespace sinew::report {
+
+struct Run {
+  const signals::Table& table;     // what was logged
+  const config::Node& resolved;    // resolved.toml
+  std::string name;                // of the experiment; empty where nobody knows
+};
+
+// Was the program built with its page? Without npm there is none.
+bool has_page();
+
+// Throws config::Error for a resolved.toml that cannot be read, and std::runtime_error, with what
+// to do, where the program was built without its page.
+std::string page(const Run& run);
+
+// The run's part of the page: a JSON object and the samples (blob.h).
+struct Content {
+  std::string title;
+  std::string json;
+  std::string samples;
+};
+Content content(const Run& run);
+
+// A template has @title@, @run@ and @samples@ once each: in its <title>, in a script element of type
+// application/json and in one of another type. Whatever the texts hold cannot leave its element.
+// Throws std::invalid_argument for a template that lacks one.
+std::string fill(std::string_view page_template, const Content& content);
+
+}  // namespace sinew::report

@@ -1,0 +1,59 @@
+#include "sinew/report/parameters.h"
+
+namespace sinew::report {
+namespace {
+
+using config::Node;
+
+bool is_flag(const Node& table, std::string_view key) {
+  const Node* flag = table.find(key);
+  return flag && flag->kind == Node::Kind::flag && flag->flag;
+}
+
+std::string text_of(const Node& table, std::string_view key) {
+  const Node* node = table.find(key);
+  return node ? config::written(*node) : "";
+}
+
+std::string range_of(const Node& table) {
+  const Node* range = table.find("range");
+  if (!range || range->children.size() != 2) return "";
+  return config::written(range->children[0]) + " to " + config::written(range->children[1]);
+}
+
+Parameter parameter(const Node& node, std::string key) {
+  if (!node.is_value_table()) return {.key = std::move(key), .value = config::written(node)};
+  Parameter out{.key = std::move(key), .value = text_of(node, "value")};
+  out.source = text_of(node, "source");
+  out.mark = is_flag(node, "fit") ? "fit" : is_flag(node, "guess") ? "guess" : "";
+  if (out.source == "default") {
+    out.mark = "default";
+    out.source.clear();
+  }
+  out.range = range_of(node);
+  out.uncertainty = text_of(node, "uncertainty");
+  return out;
+}
+
+void collect(const Node& table, const std::string& path, std::vector<Parameter>& out) {
+  for (const Node& child : table.children) {
+    const std::string key = path.empty() ? child.key : path + "." + child.key;
+    if (key == "reported" || key == "format") continue;
+    if (child.is_table() && !child.is_value_table()) {
+      collect(child, key, out);
+      continue;
+    }
+    Parameter row = parameter(child, key);
+    if (!row.value.empty()) out.push_back(std::move(row));
+  }
+}
+
+}  // namespace
+
+std::vector<Parameter> parameters(const Node& resolved) {
+  std::vector<Parameter> out;
+  collect(resolved, "", out);
+  return out;
+}
+
+}  // namespace sinew::report

@@ -1,0 +1,24 @@
+// report/parameters.h - every value that a run used, as rows of a table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sinew/config/node.h"
+
+namespace sinew::report {
+
+struct Parameter {
+  std::string key;          // joint.hip.damping
+  std::string value;        // as resolved.toml has it: SI
+  std::string mark;         // "fit", "guess", "default" or empty
+  std::string range;        // "0.3 N m to 1.6 N m"; empty where none is given
+  std::string uncertainty;  // as written
+  std::string source;
+};
+
+// Of a resolved.toml, in its order. What is reported of the run is no parameter, nor is what is
+// empty.
+std::vector<Parameter> parameters(const config::Node& resolved);
+
+}  // namespace sinew::report

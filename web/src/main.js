@@ -1,0 +1,301 @@
+// The page of a run: reads what the program put into it, then joins replay, plots and tables.
+import { pressure_gradient } from './colors.js';
+import { by_id, element, set_icon } from './page.js';
+import { Player } from './player.js';
+import { Plots } from './plots.js';
+import { held, index_at, open_within, read_samples } from './samples.js';
+import { Scene } from './scene.js';
+import { count_verdicts, Figures, show_parameters, show_results, show_warnings } from './tables.js';
+import { number, Units } from './units.js';
+
+class Page {
+  constructor(run, columns) {
+    this.run = run;
+    this.columns = columns;
+    this.units = new Units(run.atmosphere);
+    this.head();
+    this.plots = new Plots(by_id('panels'), run, columns, this.units, (t) => this.seek(t));
+    this.plots.on_view = () => this.draw_phases();
+    this.replay();
+    this.player = new Player(run.duration, this.clock(), (t) => this.show(t));
+    this.tables();
+    this.controls();
+    this.groups();
+    this.seek(run.phases.stretches[0]?.from ?? 0);
+  }
+
+  // Times of the most samples: what a step of the player goes by.
+  clock() {
+    const clocks = this.run.panels.flatMap((p) => p.lines.map((l) => this.columns[l.column].time));
+    return clocks.reduce((most, c) => (c.length > most.length ? c : most), new Float64Array());
+  }
+
+  head() {
+    const { run } = this;
+    by_id('title').textContent = run.title || run.name || 'A run';
+    by_id('reproduces').textContent = run.reproduces;
+    const facts = [run.name, run.robot && `robot ${run.robot}`, `${run.duration.toFixed(2)} s`,
+                   run.seed && `seed ${run.seed}`, run.version && `Sinew ${run.version}`];
+    by_id('facts').textContent = facts.filter((f) => f && f !== run.title).join(' · ');
+  }
+
+  chips() {
+    const { run } = this;
+    const chip = (id, words, kind) => element('a', { href: `#${id}`, class: `chip ${kind}` }, words);
+    const out = [];
+    if (run.verdicts.length) {
+      const n = count_verdicts(run.verdicts);
+      out.push(chip('results', `${n.agree} of ${n.judged} results agree`, n.bad ? 'bad' : 'good'));
+    }
+    if (run.warnings.length)
+      out.push(chip('warnings', `${run.warnings.length} warning${run.warnings.length > 1 ? 's' : ''}`, 'warn'));
+    out.push(chip('figures', 'Figures', ''), chip('parameters', 'Parameters', ''));
+    by_id('chips').append(...out);
+  }
+
+  tables() {
+    this.chips();
+    show_results(this.run);
+    show_warnings(this.run, (t) => {
+      this.seek(t);
+      by_id('replay').scrollIntoView({ block: 'nearest' });
+    });
+    this.figures = new Figures(this.run, this.units);
+    show_parameters(this.run);
+  }
+
+  // --- the replay ---
+
+  replay() {
+    const { run } = this;
+    if (!run.scene) {
+      by_id('replay').classList.add('without-scene');
+      return;
+    }
+    this.scene = new Scene(by_id('scene'), run.scene, this.columns, this.units, run.duration);
+    by_id('follow').hidden = !run.scene.track;
+    this.muscles = run.scene.muscles.map((m) => this.muscle_card(m));
+    by_id('muscles').append(...this.muscles.map((m) => m.root));
+    this.legend();
+  }
+
+  muscle_card(m) {
+    const bar = element('span', { class: 'bar' });
+    const pressure = element('span', { class: 'value' });
+    const lights = ['inlet', 'exhaust'].map((which) =>
+      m[which] === null ? null : element('span', { class: `light ${which}`, title: which }));
+    const root = element('div', { class: 'muscle' },
+      element('span', { class: 'name' }, m.name.replaceAll('_', ' ')),
+      element('span', { class: 'lights' }, ...lights),
+      m.pressure === null ? null : element('span', { class: 'track' }, bar), pressure);
+    return { spec: m, root, bar, pressure, lights };
+  }
+
+  legend() {
+    const { scene, run } = this;
+    const item = (kind, words) => element('span', { class: 'key' }, element('i', { class: kind }), words);
+    const out = [];
+    if (scene.has_pressure()) {
+      const ramp = element('span', { class: 'ramp' });
+      ramp.style.background = pressure_gradient;
+      const [low, high] = scene.pressures.map((p) => number(Math.round(this.units.convert(p, 'Pa'))));
+      out.push(element('span', { class: 'key' }, `pressure ${low}`, ramp, `${high} ${this.units.of('Pa').label}`));
+    }
+    if (run.scene.muscles.some((m) => m.inlet !== null)) out.push(item('inlet', 'inlet open'));
+    if (run.scene.muscles.some((m) => m.exhaust !== null)) out.push(item('exhaust', 'exhaust open'));
+    if (run.scene.foot?.path) out.push(item('actual', 'foot'));
+    if (run.scene.foot?.desired) out.push(item('desired', 'foot desired'));
+    if (run.scene.foot?.force) out.push(item('force', 'ground reaction'));
+    out.push(element('span', { class: 'key quiet' }, `drawn from ${run.scene.drawn_from}; muscles where they fit`));
+    by_id('legend').replaceChildren(...out);
+  }
+
+  // Phases under the slider, warnings above them, what the plots show between two brackets.
+  draw_phases() {
+    const canvas = by_id('phases'), ratio = window.devicePixelRatio || 1;
+    const width = canvas.clientWidth, height = canvas.clientHeight;
+    canvas.width = width * ratio;
+    canvas.height = height * ratio;
+    const ctx = canvas.getContext('2d');
+    ctx.scale(ratio, ratio);
+    const css = getComputedStyle(document.documentElement);
+    const x = (t) => (t / this.run.duration) * width;
+    ctx.fillStyle = css.getPropertyValue('--rail');
+    ctx.beginPath();
+    ctx.roundRect(0, height / 2 - 5, width, 10, 3);
+    ctx.fill();
+    for (const s of this.run.phases.stretches) {
+      ctx.fillStyle = css.getPropertyValue(s.stance ? '--rail-stance' : '--rail-swing');
+      ctx.fillRect(x(s.from), height / 2 - 5, Math.max(0.5, x(s.to) - x(s.from) - 0.5), 10);
+    }
+    ctx.fillStyle = css.getPropertyValue('--warn');
+    for (const w of this.run.warnings)
+      for (const [from, to] of w.spans) ctx.fillRect(x(from), height / 2 + 7, Math.max(1.5, x(to) - x(from)), 2.5);
+    const [from, to] = this.plots.view;
+    if (to - from < this.run.duration) {
+      ctx.strokeStyle = css.getPropertyValue('--accent');
+      ctx.lineWidth = 1.5;
+      ctx.strokeRect(x(from), height / 2 - 8, Math.max(2, x(to) - x(from)), 16);
+    }
+  }
+
+  seek(t) {
+    this.player.seek(t);
+    this.plots.keep_in_view(this.player.time);
+  }
+
+  phase_at(t) {
+    const found = this.run.phases.stretches.find((s) => t >= s.from && t < s.to);
+    if (!found) return '';
+    const name = this.run.phases.names[found.phase] ?? '';
+    return `step ${found.step + 1}, ${name.replaceAll('_', ' ')}`;
+  }
+
+  show(t) {
+    this.scene?.draw(t);
+    this.plots.set_time(t);
+    if (this.player?.playing) this.plots.keep_in_view(t);
+    const phase = this.phase_at(t);
+    by_id('clock').textContent = `${t.toFixed(2)} s${phase ? '  ·  ' + phase : ''}`;
+    this.show_muscles(t);
+  }
+
+  show_muscles(t) {
+    if (!this.muscles) return;
+    const [low, high] = this.scene.pressures;
+    for (const m of this.muscles) {
+      if (m.spec.pressure !== null) {
+        const p = held(this.columns[m.spec.pressure], t);
+        m.bar.style.width = `${(100 * Math.max(0, p - low)) / (high - low)}%`;
+        m.pressure.textContent = `${Math.round(this.units.convert(p, 'Pa'))} ${this.units.of('Pa').label.split(' ')[0]}`;
+      }
+      ['inlet', 'exhaust'].forEach((which, i) =>
+        m.lights[i]?.classList.toggle('open', open_within(this.columns[m.spec[which]], t - 0.01, t)));
+    }
+  }
+
+  // --- controls ---
+
+  controls() {
+    by_id('units-si').addEventListener('click', () => this.set_units('si'));
+    by_id('units-thesis').addEventListener('click', () => this.set_units('thesis'));
+    by_id('theme').addEventListener('click', () => this.set_theme(this.is_dark() ? 'light' : 'dark'));
+    by_id('follow').addEventListener('click', () => this.toggle_follow());
+    by_id('zoom-in').addEventListener('click', () => this.plots.zoom_by(0.5));
+    by_id('zoom-out').addEventListener('click', () => this.plots.zoom_by(2));
+    by_id('zoom-all').addEventListener('click', () => this.plots.zoom_all());
+    document.addEventListener('keydown', (event) => this.key(event));
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.recolor());
+    addEventListener('beforeprint', () => this.print(true));
+    addEventListener('afterprint', () => this.print(false));
+    new ResizeObserver(() => this.draw_phases()).observe(by_id('phases'));
+    this.set_theme_icon();
+  }
+
+  key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const tag = event.target.tagName;
+    if (event.target.type === 'search' || tag === 'SELECT' || tag === 'TEXTAREA') return;
+    const big = event.shiftKey ? 10 : 1;
+    const does = {
+      ' ': () => this.player.toggle(),
+      ArrowLeft: () => this.step(-1, big),
+      ArrowRight: () => this.step(1, big),
+      Home: () => this.seek(0),
+      End: () => this.seek(this.run.duration),
+      f: () => this.toggle_follow(),
+      '+': () => this.plots.zoom_by(0.5),
+      '-': () => this.plots.zoom_by(2),
+      0: () => this.plots.zoom_all(),
+      '[': () => this.player.faster(-1),
+      ']': () => this.player.faster(1),
+    }[event.key];
+    if (!does) return;
+    event.preventDefault();
+    does();
+  }
+
+  step(by, times) {
+    for (let i = 0; i < times; ++i) this.player.step(by);
+    this.plots.keep_in_view(this.player.time);
+  }
+
+  toggle_follow() {
+    if (!this.scene) return;
+    this.scene.follow = !this.scene.follow;
+    by_id('follow').setAttribute('aria-pressed', String(this.scene.follow));
+    this.scene.draw(this.player.time);
+  }
+
+  set_units(system) {
+    this.units.system = system;
+    by_id('units-si').setAttribute('aria-pressed', String(system === 'si'));
+    by_id('units-thesis').setAttribute('aria-pressed', String(system === 'thesis'));
+    this.plots.rebuild();
+    this.figures.refresh();
+    if (this.scene) this.legend();
+    this.show(this.player.time);
+  }
+
+  is_dark() {
+    const chosen = document.documentElement.dataset.theme;
+    return chosen ? chosen === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
+  }
+
+  set_theme(theme) {
+    if (theme) document.documentElement.dataset.theme = theme;
+    else delete document.documentElement.dataset.theme;
+    this.recolor();
+  }
+
+  set_theme_icon() {
+    set_icon(by_id('theme'), this.is_dark() ? 'light' : 'dark');
+  }
+
+  recolor() {
+    this.set_theme_icon();
+    this.scene?.read_look();
+    this.plots.rebuild();
+    this.draw_phases();
+    this.show(this.player.time);
+  }
+
+  // On paper everything is light, and all plots are there.
+  print(begins) {
+    if (begins) this.theme_before = document.documentElement.dataset.theme;
+    this.player.set_playing(false);
+    for (const p of this.plots.panels) if (begins) p.visible = !p.root.hidden;
+    this.set_theme(begins ? 'light' : this.theme_before);
+  }
+
+  groups() {
+    const names = [...new Set(this.run.panels.map((p) => p.group))];
+    by_id('groups').append(...names.map((name) => {
+      const shown = name !== 'Other';
+      const button = element('button', { type: 'button', 'aria-pressed': String(shown) }, name);
+      const set = (on) => {
+        button.setAttribute('aria-pressed', String(on));
+        this.plots.show_group(name, on);
+      };
+      button.addEventListener('click', () => set(button.getAttribute('aria-pressed') !== 'true'));
+      set(shown);
+      return button;
+    }));
+  }
+}
+
+async function start() {
+  const run = JSON.parse(by_id('run-data').textContent);
+  const samples = by_id('run-samples');
+  const columns = await read_samples(run.samples, samples.textContent);
+  samples.remove();
+  const page = new Page(run, columns);
+  // For scripts that take pictures, and for tests.
+  window.sinew = { run, columns, page, index_at };
+  document.documentElement.dataset.ready = 'yes';
+}
+
+start().catch((error) => {
+  document.body.prepend(element('p', { class: 'failed', role: 'alert' }, `This page could not be read: ${error.message}`));
+  throw error;
+});

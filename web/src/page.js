@@ -1,0 +1,24 @@
+// Elements of the page.
+
+export function element(tag, attributes, ...children) {
+  const out = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes ?? {}))
+    if (value !== null && value !== undefined) out.setAttribute(name, value);
+  out.append(...children.filter((c) => c !== null && c !== undefined));
+  return out;
+}
+
+export const by_id = (id) => document.getElementById(id);
+
+const paths = {
+  play: 'M7 4.5v15l12-7.5z',
+  pause: 'M7 5h3.6v14H7zM13.4 5H17v14h-3.6z',
+  back: 'M18 5v14l-9-7zM6 5h2.4v14H6z',
+  forth: 'M6 5v14l9-7zM15.6 5H18v14h-2.4z',
+  light: 'M12 7a5 5 0 1 0 0 10 5 5 0 0 0 0-10zM11 1h2v3h-2zM11 20h2v3h-2zM1 11h3v2H1zM20 11h3v2h-3zM4 5.4 5.4 4l2.1 2.1-1.4 1.4zM16.5 17.9l1.4-1.4L20 18.6 18.6 20zM4 18.6l2.1-2.1 1.4 1.4L5.4 20zM16.5 6.1 18.6 4 20 5.4l-2.1 2.1z',
+  dark: 'M20 14.5A8.5 8.5 0 0 1 9.5 4a8.5 8.5 0 1 0 10.5 10.5z',
+};
+
+export function set_icon(button, name) {
+  button.innerHTML = `<svg viewBox="0 0 24 24" width="18" height="18" aria-hidden="true"><path fill="currentColor" d="${paths[name]}"/></svg>`;
+}

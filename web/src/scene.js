@@ -1,0 +1,211 @@
+// The machine from the side. Frames say where its parts are (sinew/report/scene.h); here they are
+// only drawn.
+import { between, index_at, open_within } from './samples.js';
+import { pressure_color } from './colors.js';
+import * as shapes from './shapes.js';
+
+const trail_seconds = 3;
+const window_seconds = 0.01;  // a valve is lit if it was open at any time in it
+
+export class Scene {
+  constructor(canvas, spec, columns, units, duration) {
+    Object.assign(this, { canvas, spec, columns, units, duration });
+    this.follow = true;
+    this.column = (index) => (index === null || index === undefined ? null : columns[index]);
+    this.reach = longest_reach(spec);
+    this.box = this.bounds();
+    this.pressures = this.pressure_range();
+    this.force_scale = this.find_force_scale();
+    this.read_look();
+    new ResizeObserver(() => this.draw(this.time ?? 0)).observe(canvas);
+  }
+
+  read_look() {
+    const css = getComputedStyle(document.documentElement);
+    this.look = Object.fromEntries(
+      ['ink', 'quiet', 'ground', 'ground-edge', 'metal', 'metal-edge', 'paper', 'actual', 'desired',
+       'force', 'inlet', 'exhaust', 'cord', 'unlit', 'sans'].map((n) => [n, css.getPropertyValue(`--${n}`).trim()]));
+  }
+
+  // --- what the drawing must hold ---
+
+  pose(frame, t) {
+    const f = this.spec.frames[frame];
+    const at = (index) => (index === null ? 0 : between(this.columns[index], t));
+    return { x: at(f.x), y: at(f.y), heading: at(f.heading) };
+  }
+
+  // Of everything that ever moves, about the body and in the plane.
+  bounds() {
+    const own = { x: [-0.3 * this.reach, 0.3 * this.reach], y: [-0.1 * this.reach, 0.15 * this.reach] };
+    const wide = { x: [0, 0] };
+    const widen = (range, v, room) => {
+      range[0] = Math.min(range[0], v - room);
+      range[1] = Math.max(range[1], v + room);
+    };
+    const room = 0.12 * this.reach;
+    for (let i = 0; i <= 400; ++i) {
+      const t = (this.duration * i) / 400, body = this.pose(0, t);
+      for (const link of this.spec.links) {
+        const p = this.pose(link.frame, t);
+        const x = p.x + link.length * Math.cos(p.heading), y = p.y + link.length * Math.sin(p.heading);
+        widen(own.x, x - body.x, room);
+        widen(wide.x, x, room);
+        widen(own.y, y, room);
+      }
+    }
+    for (const m of this.spec.muscles)
+      if (m.frame === 0) widen(own.y, m.anchor[1], 0.5 * room);
+    const { track, surface } = this.spec;
+    if (track) {
+      widen(own.x, track.rear, room), widen(own.x, track.front, room);
+      widen(own.y, track.height, room);
+      widen(wide.x, track.from + track.rear, room);
+      widen(wide.x, track.to + track.front, room);
+    } else {
+      wide.x = own.x;
+    }
+    if (surface !== undefined) own.y[0] = Math.min(own.y[0], surface - 0.14 * this.reach);
+    return { own, wide };
+  }
+
+  pressure_range() {
+    let most = this.units.atmosphere + 1e5;
+    for (const m of this.spec.muscles) {
+      const c = this.column(m.pressure);
+      if (c) for (const v of c.values) if (v > most) most = v;
+    }
+    return [this.units.atmosphere, most];
+  }
+
+  has_pressure() {
+    return this.spec.muscles.some((m) => m.pressure !== null);
+  }
+
+  // Meters per newton: the greatest force is as long as two thirds of the leg.
+  find_force_scale() {
+    const force = this.spec.foot?.force;
+    if (!force) return 0;
+    const [x, y] = force.map((i) => this.columns[i].values);
+    const all = Float32Array.from(x, (v, i) => Math.hypot(v, y[i])).filter(Number.isFinite).sort();
+    const most = all[Math.floor(0.995 * (all.length - 1))];
+    return most > 0 ? (0.5 * this.reach) / most : 0;
+  }
+
+  // --- drawing ---
+
+  draw(t) {
+    this.time = t;
+    const { canvas } = this;
+    const ratio = window.devicePixelRatio || 1;
+    const width = canvas.clientWidth, height = canvas.clientHeight;
+    if (!width || !height) return;
+    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+    }
+    const ctx = canvas.getContext('2d');
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    ctx.clearRect(0, 0, width, height);
+    const view = this.place(ctx, width, height, t);
+    this.draw_world(ctx, view);
+    this.draw_paths(ctx, view, t);
+    this.draw_machine(ctx, view, t);
+    this.draw_force(ctx, view, t);
+    if (this.spec.surface !== undefined) return;  // its ticks say how large everything is
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    shapes.scale_bar(ctx, view, this.units, this.look, width, height);
+  }
+
+  // Meters to pixels, y up.
+  place(ctx, width, height, t) {
+    const body = this.pose(0, t);
+    const x = this.follow ? this.box.own.x.map((v) => v + body.x) : this.box.wide.x;
+    const y = this.box.own.y;
+    const margin = 10;
+    const scale = Math.min((width - 2 * margin) / (x[1] - x[0]), (height - 2 * margin) / (y[1] - y[0]));
+    const left = width / 2 - (scale * (x[0] + x[1])) / 2;
+    const bottom = height / 2 + (scale * (y[0] + y[1])) / 2;
+    ctx.transform(scale, 0, 0, -scale, left, bottom);
+    return { scale, left: -left / scale, right: (width - left) / scale,
+             bottom: (bottom - height) / scale, top: bottom / scale, px: 1 / scale };
+  }
+
+  in_frame(ctx, frame, t, paint) {
+    const p = this.pose(frame, t);
+    ctx.save();
+    ctx.translate(p.x, p.y);
+    ctx.rotate(p.heading);
+    paint();
+    ctx.restore();
+  }
+
+  draw_world(ctx, view) {
+    const { surface, track } = this.spec;
+    if (surface !== undefined) shapes.table(ctx, view, surface, this.units, this.look);
+    if (track) shapes.track(ctx, view, track, this.look, this.reach);
+  }
+
+  draw_machine(ctx, view, t) {
+    const { spec, look, reach } = this;
+    this.in_frame(ctx, 0, t, () => shapes.body(ctx, view, spec, look, reach, this.pose(0, t)));
+    for (const cord of spec.cords)
+      this.in_frame(ctx, cord.frame, t, () => shapes.cord(ctx, view, cord.from, cord.to, look));
+    for (const link of spec.links)
+      this.in_frame(ctx, link.frame, t, () => shapes.link(ctx, view, link, look, reach));
+    for (const disc of spec.discs)
+      this.in_frame(ctx, disc.frame, t, () => shapes.disc(ctx, view, disc, look));
+    for (const cam of spec.cams)
+      this.in_frame(ctx, cam.frame, t, () => shapes.cam(ctx, view, cam, look));
+    for (const link of spec.links)
+      this.in_frame(ctx, link.frame, t, () => shapes.pin(ctx, view, look, reach));
+    for (const m of spec.muscles) this.in_frame(ctx, m.frame, t, () => this.draw_muscle(ctx, view, m, t));
+  }
+
+  draw_muscle(ctx, view, m, t) {
+    const length = between(this.column(m.length), t), diameter = between(this.column(m.diameter), t);
+    const pressure = m.pressure === null ? NaN : between(this.column(m.pressure), t);
+    const [low, high] = this.pressures;
+    const color = Number.isFinite(pressure) ? pressure_color((pressure - low) / (high - low)) : this.look.metal;
+    shapes.muscle(ctx, view, m, { length, diameter, color }, this.look);
+    for (const [which, at] of [['inlet', 0], ['exhaust', 1]])
+      if (m[which] !== null) shapes.valve(ctx, view, m, at, this.is_open(m[which], t), this.look, this.reach);
+  }
+
+  is_open(index, t) {
+    return open_within(this.column(index), t - window_seconds, t);
+  }
+
+  // Where the foot was and was to be. With the trolley held in the middle: about the body.
+  draw_paths(ctx, view, t) {
+    const foot = this.spec.foot;
+    if (!foot) return;
+    const base = this.pose(0, t);
+    for (const [path, color, dash] of [[foot.desired, this.look.desired, [5, 4]], [foot.path, this.look.actual, []]]) {
+      if (!path) continue;
+      const [x, y] = path.map((i) => this.columns[i]);
+      const first = Math.max(0, index_at(x.time, t - trail_seconds)), last = index_at(x.time, t);
+      const points = [];
+      for (let i = first; i <= last; ++i) {
+        const at = this.follow ? base : this.pose(0, x.time[i]);
+        points.push([at.x + x.values[i], at.y + y.values[i]]);
+      }
+      shapes.trail(ctx, view, points, color, dash);
+    }
+  }
+
+  draw_force(ctx, view, t) {
+    const foot = this.spec.foot;
+    if (!foot?.force || !this.force_scale || foot.contact === null) return;
+    const [x, y] = foot.force.map((i) => between(this.columns[i], t));
+    if (!(Math.hypot(x, y) * this.force_scale > 6 * view.px)) return;
+    const from = [between(this.columns[foot.contact], t), this.spec.surface ?? 0];
+    shapes.arrow(ctx, view, from, [x * this.force_scale, y * this.force_scale],
+                 this.units.text(Math.hypot(x, y), 'N'), this.look);
+  }
+}
+
+function longest_reach(spec) {
+  const sum = spec.links.reduce((total, link) => total + link.length, 0);
+  return sum > 0 ? sum : 0.3;
+}

@@ -1,0 +1,339 @@
+// Strokes of the drawing. All in meters, y up, in the frame that the caller has set; `view.px` is a
+// pixel's size.
+
+const turn = 2 * Math.PI;
+
+function stroke(ctx, view, color, pixels, dash = [], path = null) {
+  ctx.strokeStyle = color;
+  ctx.lineWidth = pixels * view.px;
+  ctx.setLineDash(dash.map((d) => d * view.px));
+  path ? ctx.stroke(path) : ctx.stroke();
+  ctx.setLineDash([]);
+}
+
+// Text stands upright whatever the frame.
+function text(ctx, view, words, x, y, color, { align = 'center', size = 11, sans = 'sans-serif' } = {}) {
+  ctx.save();
+  ctx.translate(x, y);
+  ctx.scale(view.px, -view.px);
+  ctx.font = `${size}px ${sans}`;
+  ctx.fillStyle = color;
+  ctx.textAlign = align;
+  ctx.fillText(words, 0, 0);
+  ctx.restore();
+}
+
+// 1, 2 or 5 times a power of ten, of about `size`.
+function round_step(size) {
+  const power = 10 ** Math.floor(Math.log10(size));
+  const rest = size / power;
+  return (rest < 1.5 ? 1 : rest < 3.5 ? 2 : rest < 7.5 ? 5 : 10) * power;
+}
+
+// --- the surroundings ---
+
+export function table(ctx, view, height, units, look) {
+  ctx.fillStyle = look.ground;
+  ctx.fillRect(view.left, view.bottom, view.right - view.left, height - view.bottom);
+  ctx.beginPath();
+  ctx.moveTo(view.left, height);
+  ctx.lineTo(view.right, height);
+  stroke(ctx, view, look['ground-edge'], 1.5);
+
+  const { scale, label } = units.of('m');
+  const step = round_step((110 * view.px) * scale) / scale;
+  ctx.beginPath();
+  const ticks = [];
+  for (let x = Math.ceil(view.left / step) * step; x <= view.right; x += step) {
+    ctx.moveTo(x, height);
+    ctx.lineTo(x, height - 5 * view.px);
+    ticks.push(x);
+  }
+  stroke(ctx, view, look['ground-edge'], 1);
+  for (const x of ticks)
+    text(ctx, view, `${+(x * scale).toFixed(3)} ${label}`.replace('-', '−'), x, height - 17 * view.px, look.quiet, look);
+}
+
+export function track(ctx, view, t, look, reach) {
+  const from = Math.max(view.left, t.from + t.rear - 0.1 * reach);
+  const to = Math.min(view.right, t.to + t.front);
+  if (to <= from) return;
+  const thick = 0.022 * reach;
+  ctx.fillStyle = look.ground;
+  ctx.fillRect(from, t.height - thick, to - from, thick);
+  ctx.beginPath();
+  ctx.moveTo(from, t.height);
+  ctx.lineTo(to, t.height);
+  ctx.moveTo(from, t.height - thick);
+  ctx.lineTo(to, t.height - thick);
+  stroke(ctx, view, look['ground-edge'], 1);
+  if (t.to + t.front <= view.right) {  // the stop
+    ctx.fillStyle = look['ground-edge'];
+    ctx.fillRect(t.to + t.front, t.height - 2 * thick, 0.02 * reach, 4.5 * thick);
+  }
+}
+
+// Trolley and what hangs from it down to the first joint. `pose` is the body's: it may be lifted.
+export function body(ctx, view, spec, look, reach, pose) {
+  const width = 0.11 * reach;
+  const top = Math.max(0.3 * reach, ...spec.muscles.filter((m) => m.frame === 0).map((m) => m.anchor[1]));
+  if (spec.track) trolley(ctx, view, spec.track, look, reach, pose);
+  else mount(ctx, view, look, reach, top);
+  if (spec.cylinder) cylinder(ctx, view, spec, look, reach, pose);
+  box(ctx, view, -width / 2, -0.04 * reach, width, top + 0.06 * reach, 0.02 * reach, look.metal, look['metal-edge']);
+}
+
+function box(ctx, view, x, y, width, height, radius, fill, edge) {
+  ctx.beginPath();
+  ctx.roundRect(x, y, width, height, radius);
+  ctx.fillStyle = fill;
+  ctx.fill();
+  stroke(ctx, view, edge, 1);
+}
+
+function trolley(ctx, view, t, look, reach, pose) {
+  const r = 0.028 * reach;
+  const y = t.height - pose.y;  // the track does not rise with the body
+  box(ctx, view, t.rear - 0.05 * reach, y + 1.1 * r, t.front - t.rear + 0.1 * reach, 0.06 * reach, 0.015 * reach,
+      look.metal, look['metal-edge']);
+  for (const x of [t.rear, t.front]) {
+    ctx.beginPath();
+    ctx.arc(x, y + r, r, 0, turn);
+    ctx.fillStyle = look.paper;
+    ctx.fill();
+    stroke(ctx, view, look['metal-edge'], 1.5);
+    const angle = -pose.x / r;
+    ctx.beginPath();
+    ctx.moveTo(x, y + r);
+    ctx.lineTo(x + r * Math.cos(angle), y + r + r * Math.sin(angle));
+    stroke(ctx, view, look['metal-edge'], 1);
+  }
+}
+
+function mount(ctx, view, look, reach, top) {
+  const y = top + 0.02 * reach, half = 0.25 * reach;
+  ctx.beginPath();
+  ctx.moveTo(-half, y);
+  ctx.lineTo(half, y);
+  stroke(ctx, view, look['metal-edge'], 2);
+  ctx.beginPath();
+  for (let x = -half; x < half; x += 0.05 * reach) {
+    ctx.moveTo(x, y);
+    ctx.lineTo(x + 0.04 * reach, y + 0.05 * reach);
+  }
+  stroke(ctx, view, look['ground-edge'], 1);
+}
+
+// Behind the body, on the trolley: its rod goes in as the body rises.
+function cylinder(ctx, view, spec, look, reach, pose) {
+  const { bore, stroke: way } = spec.cylinder;
+  const x = -0.13 * reach - bore / 2, wide = Math.max(bore, 0.03 * reach);
+  const foot = (spec.track?.height ?? 0.2 * reach) + 0.1 * reach - pose.y;
+  box(ctx, view, x - wide / 2, foot, wide, 1.4 * way, 0.2 * wide, look.paper, look['metal-edge']);
+  ctx.beginPath();
+  ctx.moveTo(x, foot + 0.2 * way + Math.min(way, pose.y));
+  ctx.lineTo(x, 0.1 * reach);
+  ctx.lineTo(0, 0.1 * reach);
+  stroke(ctx, view, look['metal-edge'], 2);
+  ctx.beginPath();
+  ctx.moveTo(x - wide / 2, foot + 0.2 * way + pose.y);
+  ctx.lineTo(x + wide / 2, foot + 0.2 * way + pose.y);
+  stroke(ctx, view, look['metal-edge'], 3);
+}
+
+// --- the leg ---
+
+export function link(ctx, view, l, look, reach) {
+  const half = 0.024 * reach;
+  box(ctx, view, -half, -half, l.length + 2 * half, 2 * half, half, look.metal, look['metal-edge']);
+}
+
+export function pin(ctx, view, look, reach) {
+  ctx.beginPath();
+  ctx.arc(0, 0, 0.014 * reach, 0, turn);
+  ctx.fillStyle = look.paper;
+  ctx.fill();
+  stroke(ctx, view, look['metal-edge'], 1.25);
+}
+
+export function cam(ctx, view, c, look) {
+  ctx.beginPath();
+  c.outline.forEach(([x, y], i) => (i ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
+  ctx.closePath();
+  ctx.save();
+  ctx.globalAlpha *= 0.75;
+  ctx.fillStyle = look.paper;
+  ctx.fill();
+  ctx.restore();
+  stroke(ctx, view, look['metal-edge'], 1.25);
+  ctx.beginPath();  // spokes, so that one sees it turn
+  for (let k = 0; k < 3; ++k) {
+    const [x, y] = c.outline[Math.round((k * c.outline.length) / 3)];
+    ctx.moveTo(0.35 * x, 0.35 * y);
+    ctx.lineTo(0.8 * x, 0.8 * y);
+  }
+  stroke(ctx, view, look['metal-edge'], 1);
+}
+
+export function disc(ctx, view, d, look) {
+  ctx.beginPath();
+  ctx.arc(d.center[0], d.center[1], d.radius, 0, turn);
+  ctx.fillStyle = look.metal;
+  ctx.fill();
+  stroke(ctx, view, look['metal-edge'], 1.25);
+}
+
+export function cord(ctx, view, from, to, look) {
+  ctx.beginPath();
+  ctx.moveTo(...from);
+  ctx.lineTo(...to);
+  stroke(ctx, view, look.cord, 1.25);
+}
+
+// --- a muscle ---
+
+// As thick as its braid is; its ends are crimped, and a cord goes on to the cam.
+export function muscle(ctx, view, m, { length, diameter, color }, look) {
+  const end = [m.anchor[0] + m.direction[0] * length, m.anchor[1] + m.direction[1] * length];
+  cord(ctx, view, end, m.touch, look);
+  ctx.save();
+  ctx.translate(...m.anchor);
+  ctx.rotate(Math.atan2(m.direction[1], m.direction[0]));
+  const half = diameter / 2, outline = tube(length, half);
+  ctx.fillStyle = color;
+  ctx.fill(outline);
+  braid(ctx, view, length, half, outline);
+  stroke(ctx, view, look.ink, 1.1, [], outline);
+  ctx.fillStyle = look.ink;
+  for (const x of [0, length]) ctx.fillRect(x - 0.02 * length, -0.45 * half, 0.04 * length, 0.9 * half);
+  ctx.restore();
+}
+
+// Along x from 0 to its length.
+function tube(length, half) {
+  const crimp = 0.08 * length, path = new Path2D();
+  path.moveTo(0, 0.35 * half);
+  path.bezierCurveTo(crimp, half, crimp, half, 2 * crimp, half);
+  path.lineTo(length - 2 * crimp, half);
+  path.bezierCurveTo(length - crimp, half, length - crimp, half, length, 0.35 * half);
+  path.lineTo(length, -0.35 * half);
+  path.bezierCurveTo(length - crimp, -half, length - crimp, -half, length - 2 * crimp, -half);
+  path.lineTo(2 * crimp, -half);
+  path.bezierCurveTo(crimp, -half, crimp, -half, 0, -0.35 * half);
+  path.closePath();
+  return path;
+}
+
+// A few of its threads: they lean as the muscle shortens.
+function braid(ctx, view, length, half, outline) {
+  const threads = 9, step = length / threads;
+  ctx.save();
+  ctx.clip(outline);
+  ctx.beginPath();
+  for (let k = -1; k <= threads; ++k)
+    for (const side of [1, -1]) {
+      ctx.moveTo(k * step, side * half);
+      ctx.lineTo((k + 1.6) * step, -side * half);
+    }
+  stroke(ctx, view, 'rgb(255 255 255 / .3)', 0.8);
+  ctx.restore();
+}
+
+// Beyond the muscle's anchor: a triangle towards it for the inlet, away from it for the exhaust.
+export function valve(ctx, view, m, place, open, look, reach) {
+  const s = 0.03 * reach;
+  const color = place === 0 ? look.inlet : look.exhaust;
+  ctx.save();
+  ctx.translate(...m.anchor);
+  ctx.rotate(Math.atan2(m.direction[1], m.direction[0]));
+  ctx.translate(-1.35 * s, (place === 0 ? 1 : -1) * 0.75 * s);
+  if (place === 1) ctx.rotate(Math.PI);
+  ctx.beginPath();
+  ctx.moveTo(0.55 * s, 0);
+  ctx.lineTo(-0.55 * s, 0.6 * s);
+  ctx.lineTo(-0.55 * s, -0.6 * s);
+  ctx.closePath();
+  if (open) {
+    ctx.save();
+    ctx.shadowColor = color;
+    ctx.shadowBlur = 12;
+    ctx.fillStyle = color;
+    ctx.fill();
+    ctx.restore();
+  } else {
+    ctx.fillStyle = look.paper;
+    ctx.fill();
+  }
+  stroke(ctx, view, open ? color : look.unlit, 1.25);
+  ctx.restore();
+}
+
+// --- over it ---
+
+export function trail(ctx, view, points, color, dash) {
+  if (points.length < 2) return;
+  const parts = dash.length ? 1 : 12;  // it fades, but dashes would start anew at every part
+  ctx.save();
+  ctx.lineCap = 'round';
+  ctx.lineJoin = 'round';
+  for (let k = 0; k < parts; ++k) {
+    const from = Math.floor((k * (points.length - 1)) / parts);
+    const to = Math.floor(((k + 1) * (points.length - 1)) / parts);
+    ctx.globalAlpha = parts === 1 ? 0.9 : 0.15 + (0.85 * (k + 1)) / parts;
+    ctx.beginPath();
+    let drawing = false;
+    for (let i = from; i <= to; ++i) {
+      const [x, y] = points[i];
+      if (!Number.isFinite(x) || !Number.isFinite(y)) { drawing = false; continue; }
+      drawing ? ctx.lineTo(x, y) : ctx.moveTo(x, y);
+      drawing = true;
+    }
+    stroke(ctx, view, color, 2, dash);
+  }
+  const [x, y] = points.at(-1);
+  if (Number.isFinite(x) && dash.length) {  // what is aimed at
+    ctx.globalAlpha = 1;
+    ctx.beginPath();
+    ctx.arc(x, y, 4 * view.px, 0, turn);
+    stroke(ctx, view, color, 2);
+  }
+  ctx.restore();
+}
+
+export function arrow(ctx, view, from, along, words, look) {
+  const length = Math.hypot(...along), u = [along[0] / length, along[1] / length];
+  const head = Math.min(11 * view.px, 0.5 * length);
+  const to = [from[0] + along[0], from[1] + along[1]];
+  const neck = [to[0] - head * u[0], to[1] - head * u[1]];
+  ctx.beginPath();
+  ctx.moveTo(...from);
+  ctx.lineTo(...neck);
+  stroke(ctx, view, look.force, 3);
+  ctx.beginPath();
+  ctx.moveTo(...to);
+  ctx.lineTo(neck[0] - 0.45 * head * u[1], neck[1] + 0.45 * head * u[0]);
+  ctx.lineTo(neck[0] + 0.45 * head * u[1], neck[1] - 0.45 * head * u[0]);
+  ctx.closePath();
+  ctx.fillStyle = look.force;
+  ctx.fill();
+  text(ctx, view, words, to[0] + 8 * view.px, to[1] + 2 * view.px, look.force, { align: 'left', size: 12, sans: look.sans });
+}
+
+// In pixels, at the lower right.
+export function scale_bar(ctx, view, units, look, width, height) {
+  const { scale, label } = units.of('m');
+  const meters = round_step((90 * view.px) * scale) / scale;
+  const length = meters / view.px, x = width - 16 - length, y = height - 14;
+  ctx.strokeStyle = look.quiet;
+  ctx.lineWidth = 1.5;
+  ctx.beginPath();
+  ctx.moveTo(x, y - 3);
+  ctx.lineTo(x, y);
+  ctx.lineTo(x + length, y);
+  ctx.lineTo(x + length, y - 3);
+  ctx.stroke();
+  ctx.fillStyle = look.quiet;
+  ctx.font = `11px ${look.sans}`;
+  ctx.textAlign = 'center';
+  ctx.fillText(`${+(meters * scale).toPrecision(3)} ${label}`, x + length / 2, y - 6);
+}

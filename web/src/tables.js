@@ -1,0 +1,125 @@
+// Results beside what is reported, all figures, warnings, and every value that was used.
+import { by_id, element } from './page.js';
+import { number, unit_of_key, words_of_key } from './units.js';
+
+function table(label, heads, rows) {
+  return element('div', { class: 'scroll' },
+    element('table', { 'aria-label': label },
+      element('thead', {}, element('tr', {}, ...heads.map((h) => element('th', { scope: 'col' }, h)))),
+      element('tbody', {}, ...rows)));
+}
+
+const cell = (words, kind) => element('td', kind ? { class: kind } : {}, words);
+const heading = (words, note) =>
+  element('h2', {}, words, note ? element('span', { class: 'note' }, note) : null);
+
+const verdict_class = (is) =>
+  is === 'agrees' ? 'good' : is === 'not applicable' ? 'none' : is === 'differs as known' ? 'known' : 'bad';
+
+export const count_verdicts = (verdicts) => ({
+  agree: verdicts.filter((v) => v.is === 'agrees').length,
+  judged: verdicts.filter((v) => v.is !== 'not applicable').length,
+  bad: verdicts.filter((v) => verdict_class(v.is) === 'bad').length,
+});
+
+// --- results ---
+
+export function show_results(run) {
+  const root = by_id('results');
+  if (!run.verdicts.length) return root.remove();
+  const rows = run.verdicts.map((v) =>
+    element('tr', { 'data-key': v.key },
+      element('th', { scope: 'row', title: v.key }, words_of_key(v.key)),
+      cell(v.reported, 'number'), cell(v.ours || '–', 'number ours'), cell(v.accept, 'number quiet'),
+      element('td', {}, element('span', { class: `verdict ${verdict_class(v.is)}` }, v.is)),
+      cell(v.source, 'source')));
+  const n = count_verdicts(run.verdicts);
+  root.append(heading('Results', `${n.agree} of ${n.judged} that are judged agree`),
+    table('Results', ['', 'reported', 'this run', 'accepted', '', 'source'], rows));
+}
+
+// --- warnings ---
+
+export function show_warnings(run, seek) {
+  const root = by_id('warnings');
+  if (!run.warnings.length) return root.remove();
+  const items = run.warnings.map((w) => {
+    const times = w.spans.slice(0, 8).map(([from, to]) => {
+      const words = to > from ? `${from.toFixed(2)}–${to.toFixed(2)} s` : `${from.toFixed(2)} s`;
+      const button = element('button', { type: 'button', class: 'time' }, words);
+      button.addEventListener('click', () => seek(from));
+      return button;
+    });
+    if (w.spans.length > 8) times.push(element('span', { class: 'quiet' }, `and ${w.spans.length - 8} more`));
+    return element('li', {}, element('p', {}, w.text), element('div', { class: 'times' }, ...times));
+  });
+  root.append(heading('Warnings', String(run.warnings.length)), element('ul', { class: 'warnings' }, ...items));
+}
+
+// --- all figures of the summary ---
+
+function* leaves(object, path = '') {
+  for (const [key, value] of Object.entries(object)) {
+    const at = path ? `${path}.${key}` : key;
+    if (typeof value === 'number') yield [at, value];
+    else if (value && typeof value === 'object') yield* leaves(value, at);
+  }
+}
+
+export class Figures {
+  constructor(run, units) {
+    this.units = units;
+    this.root = by_id('figures');
+    this.rows = [...leaves(run.summary)].map(([key, value]) => {
+      const shown = element('td', { class: 'number' });
+      const row = element('tr', { 'data-key': key, 'data-value': value, title: `${key}: ${value}` },
+        element('th', { scope: 'row' }, words_of_key(key)), shown, element('td', { class: 'unit' }));
+      return { key, value, shown, row, unit: row.lastChild };
+    });
+    const list = table('Figures of the run', ['', '', ''], this.rows.map((r) => r.row));
+    this.root.append(heading('Figures', 'summary.json'), searched(list, this.rows, 'Search figures'));
+    this.refresh();
+  }
+
+  refresh() {
+    for (const r of this.rows) {
+      const unit = /share|passiveness|duty/.test(r.key) ? 'share' : unit_of_key(r.key);
+      const u = this.units.of(unit);
+      r.shown.textContent = number(this.units.convert(r.value, unit));
+      r.unit.textContent = u.label;
+    }
+  }
+}
+
+// --- every value ---
+
+export function show_parameters(run) {
+  const rows = run.parameters.map(([key, value, mark, range, uncertainty, source]) => ({
+    row: element('tr', { 'data-key': key },
+      element('th', { scope: 'row', class: 'key' }, key), cell(value, 'number'),
+      element('td', {}, mark ? element('span', { class: `tag ${mark}` }, mark) : ''),
+      cell([range, uncertainty && `± ${uncertainty}`].filter(Boolean).join(', '), 'quiet'),
+      cell(source, 'source')),
+  }));
+  const list = table('Parameters', ['key', 'value, SI', '', 'range', 'source'], rows.map((r) => r.row));
+  by_id('parameters').append(heading('Parameters', `${rows.length} values, resolved.toml`),
+    searched(list, rows, 'Search keys, values and sources'));
+}
+
+// A field above the table that leaves the rows with all of its words.
+function searched(list, rows, label) {
+  const field = element('input', { type: 'search', placeholder: label, 'aria-label': label, class: 'no-print' });
+  const texts = rows.map((r) => `${r.row.dataset.key} ${r.row.textContent}`.toLowerCase());
+  const count = element('span', { class: 'quiet', 'aria-live': 'polite' });
+  field.addEventListener('input', () => {
+    const words = field.value.toLowerCase().split(/\s+/).filter(Boolean);
+    let found = 0;
+    rows.forEach((r, i) => {
+      const wanted = words.every((w) => texts[i].includes(w));
+      r.row.hidden = !wanted;
+      found += wanted;
+    });
+    count.textContent = words.length ? `${found} of ${rows.length}` : '';
+  });
+  return element('div', {}, element('div', { class: 'search no-print' }, field, count), list);
+}
