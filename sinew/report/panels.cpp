@@ -18,19 +18,23 @@ std::string words(std::string name) {
 class Panels {
  public:
   Panels(const Channels& channels, const robot::Robot& robot) : channels_(channels) {
-    for (const robot::Joint& j : robot.joints) joints_.push_back(j.name);
+    for (const robot::Joint& j : robot.joints) {
+      joints_.push_back(j.name);
+      if (j.kind == robot::Joint::Kind::passive) passive_.insert(joints_.size() - 1);
+    }
     for (const robot::Muscle& m : robot.muscles) muscles_.push_back(m.name);
   }
 
-  void open(std::string group, std::string title) {
-    list.push_back({std::move(group), std::move(title), {}, {}});
+  // `unit` in place of the channels' own: they do not tell a share from another number.
+  void open(std::string group, std::string title, std::string unit = "") {
+    list.push_back({std::move(group), std::move(title), std::move(unit), {}});
   }
   void line(std::string label, Channel channel, int color, Style style = Style::measured) {
     const Samples samples = channels_.find(channel);
     if (!samples) return;
     claimed_.insert(channel.topic);
     Panel& panel = list.back();
-    panel.unit = samples.unit;
+    if (panel.unit.empty()) panel.unit = samples.unit;
     // What would stand in for it is missing: nothing to hide behind.
     const bool alone = std::ranges::none_of(panel.lines, [&](const Line& l) {
       return l.color == color && l.style == Style::measured;
@@ -41,6 +45,12 @@ class Panels {
   void per_joint(const std::string& before, const std::string& after, const std::string& note = "",
                  Style style = Style::measured) {
     per(joints_, before, after, note, style);
+  }
+  // Of what a joint has from its muscles.
+  void per_driven(const std::string& before, const std::string& after, const std::string& note = "",
+                  Style style = Style::measured) {
+    for (std::size_t i = 0; i < joints_.size(); ++i)
+      if (!passive_.contains(i)) one_of(joints_, i, before, after, note, style);
   }
   void per_muscle(const std::string& before, const std::string& after, const std::string& note = "",
                   Style style = Style::measured) {
@@ -53,13 +63,17 @@ class Panels {
  private:
   void per(const std::vector<std::string>& names, const std::string& before,
            const std::string& after, const std::string& note, Style style) {
-    for (std::size_t i = 0; i < names.size(); ++i)
-      line(words(names[i]) + note, {before + names[i] + after}, static_cast<int>(i), style);
+    for (std::size_t i = 0; i < names.size(); ++i) one_of(names, i, before, after, note, style);
+  }
+  void one_of(const std::vector<std::string>& names, std::size_t i, const std::string& before,
+              const std::string& after, const std::string& note, Style style) {
+    line(words(names[i]) + note, {before + names[i] + after}, static_cast<int>(i), style);
   }
   bool shown_elsewhere(const std::string& topic) const;
 
   const Channels& channels_;
   std::vector<std::string> joints_, muscles_;
+  std::set<std::size_t> passive_;  // joints
   std::set<std::string> claimed_;
 };
 
@@ -71,10 +85,10 @@ void joints(Panels& p) {
   p.open("Joints", "Joint stiffness");
   p.per_joint("/joint/", "/stiffness");
   p.per_joint("/desired/joint/", "/stiffness", " desired", Style::desired);
-  p.per_joint("/true/joint/", "/stiffness", " true", Style::hidden);
+  p.per_driven("/true/joint/", "/stiffness", " true", Style::hidden);
   p.open("Joints", "Joint torque");
-  p.per_joint("/joint/", "/torque");
-  p.per_joint("/true/joint/", "/torque", " true", Style::hidden);
+  p.per_driven("/joint/", "/torque");
+  p.per_driven("/true/joint/", "/torque", " true", Style::hidden);
   p.open("Joints", "Angle error");
   p.per_joint("/joint/", "/error");
   p.per_joint("/joint/", "/oscillation", " oscillation", Style::hidden);
@@ -94,17 +108,17 @@ void muscles(Panels& p) {
 }
 
 void valves(Panels& p) {
-  p.open("Valves", "Inlet duty");
+  p.open("Valves", "Inlet duty", "share");
   p.per_muscle("/muscle/", "/inlet_duty");
   p.line("cylinder up", {"/cylinder/up/inlet_duty"}, 4);
   p.line("cylinder down", {"/cylinder/down/inlet_duty"}, 5);
-  p.open("Valves", "Exhaust duty");
+  p.open("Valves", "Exhaust duty", "share");
   p.per_muscle("/muscle/", "/exhaust_duty");
   p.line("cylinder up", {"/cylinder/up/exhaust_duty"}, 4);
   p.line("cylinder down", {"/cylinder/down/exhaust_duty"}, 5);
-  p.open("Valves", "Passive share");
+  p.open("Valves", "Passive share", "share");
   p.per_muscle("/muscle/", "/passive");
-  p.open("Valves", "Regulator set point");
+  p.open("Valves", "Regulator set point", "share");
   p.per_muscle("/valve/", "/inlet/set_point");
 }
 
@@ -164,7 +178,7 @@ void air(Panels& p) {
 bool Panels::shown_elsewhere(const std::string& topic) const {
   return claimed_.contains(topic) || topic.ends_with("/open") || topic.starts_with("/plan/") ||
          topic.starts_with("/draw/") || topic.starts_with("/trolley/by_plan/") ||
-         topic.ends_with("/air_out");
+         topic.ends_with("/air_out") || topic.starts_with("/true/joint/");
 }
 
 void Panels::others() {

@@ -21,7 +21,7 @@ struct Line {
 struct Panel {
   std::string group;  // "Joints"
   std::string title;  // "Joint angles"
-  std::string unit;   // SI; the page shows it in others
+  std::string unit;   // SI, or "share" of 1; the page shows it in others
   std::vector<Line> lines;
 };
 

@@ -221,9 +221,10 @@ void add_track(Maker& m) {
   m.out.track = track;
 }
 
+// One that is locked is a part of the body.
 void add_cylinder(Maker& m) {
   const robot::Cylinder& c = m.robot().cylinder;
-  if (!c.present) return;
+  if (!c.present || c.mode == robot::Cylinder::Mode::locked) return;
   CylinderShape shape{.bore = c.bore, .stroke = c.stroke};
   shape.up = m.logged("/true/cylinder/up/pressure");
   shape.down = m.logged("/true/cylinder/down/pressure");

@@ -6,7 +6,8 @@ import { Plots } from './plots.js';
 import { held, index_at, open_within, read_samples } from './samples.js';
 import { Scene } from './scene.js';
 import { count_verdicts, Figures, show_parameters, show_results, show_warnings } from './tables.js';
-import { number, Units } from './units.js';
+import { thicker } from './shapes.js';
+import { Units } from './units.js';
 
 class Page {
   constructor(run, columns) {
@@ -98,7 +99,7 @@ class Page {
     if (scene.has_pressure()) {
       const ramp = element('span', { class: 'ramp' });
       ramp.style.background = pressure_gradient;
-      const [low, high] = scene.pressures.map((p) => number(Math.round(this.units.convert(p, 'Pa'))));
+      const [low, high] = scene.pressures.map((p) => Math.round(this.units.convert(p, 'Pa')).toFixed(0));
       out.push(element('span', { class: 'key' }, `pressure ${low}`, ramp, `${high} ${this.units.of('Pa').label}`));
     }
     if (run.scene.muscles.some((m) => m.inlet !== null)) out.push(item('inlet', 'inlet open'));
@@ -106,7 +107,7 @@ class Page {
     if (run.scene.foot?.path) out.push(item('actual', 'foot'));
     if (run.scene.foot?.desired) out.push(item('desired', 'foot desired'));
     if (run.scene.foot?.force) out.push(item('force', 'ground reaction'));
-    out.push(element('span', { class: 'key quiet' }, `drawn from ${run.scene.drawn_from}; muscles where they fit`));
+    out.push(element('span', { class: 'key quiet' }, `${run.scene.drawn_from}; muscles placed to fit, ${thicker} × as thick`));
     by_id('legend').replaceChildren(...out);
   }
 
@@ -264,7 +265,7 @@ class Page {
   print(begins) {
     if (begins) this.theme_before = document.documentElement.dataset.theme;
     this.player.set_playing(false);
-    for (const p of this.plots.panels) if (begins) p.visible = !p.root.hidden;
+    this.plots.print(begins);
     this.set_theme(begins ? 'light' : this.theme_before);
   }
 

@@ -7,6 +7,7 @@ import { element } from './page.js';
 
 const axis_width = 58;
 const height = 132;
+const paper_width = 680;  // of A4 and of Letter, between their margins [px]
 
 // The lines' columns on one clock: their own, or where they have several, all times of all.
 function on_one_clock(columns) {
@@ -90,7 +91,7 @@ class Panel {
     const { ink, grid, font } = this.plots.look;
     const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { show: false }, font, gap: 4 };
     return {
-      width: this.box.clientWidth || 600,
+      width: this.plots.printing ? paper_width : this.box.clientWidth || 600,
       height,
       legend: { show: false },
       padding: [6, 8, 0, 0],
@@ -157,7 +158,7 @@ class Panel {
     const [from, to] = this.plots.view;
     const first = Math.max(0, index_at(time, from));
     const last = Math.min(time.length, index_at(time, to) + 2);
-    const pixels = Math.max(200, this.plot.over.clientWidth);
+    const pixels = Math.max(200, this.box.clientWidth - axis_width);
     const level = level_for(last - first, pixels, this.pyramid_of(0).length);
     return level < 0 ? this.all(time, values, first, last) : this.buckets(time, first, last, level);
   }
@@ -361,6 +362,12 @@ export class Plots {
       else if (p.plot) p.plot.destroy(), (p.plot = null);
     }
     this.show_values();
+  }
+
+  // The next rebuild() is for paper, or for the screen again.
+  print(begins) {
+    this.printing = begins;
+    for (const p of this.panels) if (begins) p.visible = !p.root.hidden;
   }
 
   show_group(group, shown) {

@@ -56,7 +56,8 @@ export class Scene {
     }
     for (const m of this.spec.muscles)
       if (m.frame === 0) widen(own.y, m.anchor[1], 0.5 * room);
-    const { track, surface } = this.spec;
+    const { track, surface, cylinder } = this.spec;
+    if (cylinder) widen(own.y, shapes.cylinder_top(this.spec, this.reach), 0.2 * room);
     if (track) {
       widen(own.x, track.rear, room), widen(own.x, track.front, room);
       widen(own.y, track.height, room);
@@ -65,7 +66,7 @@ export class Scene {
     } else {
       wide.x = own.x;
     }
-    if (surface !== undefined) own.y[0] = Math.min(own.y[0], surface - 0.14 * this.reach);
+    if (surface !== undefined) own.y[0] = Math.min(own.y[0], surface - 0.1 * this.reach);
     return { own, wide };
   }
 
@@ -122,10 +123,11 @@ export class Scene {
     const body = this.pose(0, t);
     const x = this.follow ? this.box.own.x.map((v) => v + body.x) : this.box.wide.x;
     const y = this.box.own.y;
-    const margin = 10;
-    const scale = Math.min((width - 2 * margin) / (x[1] - x[0]), (height - 2 * margin) / (y[1] - y[0]));
+    const above = 28, margin = 4;  // time and button stand above
+    const high = height - above - margin;
+    const scale = Math.min((width - 2 * margin) / (x[1] - x[0]), high / (y[1] - y[0]));
     const left = width / 2 - (scale * (x[0] + x[1])) / 2;
-    const bottom = height / 2 + (scale * (y[0] + y[1])) / 2;
+    const bottom = above + high / 2 + (scale * (y[0] + y[1])) / 2;
     ctx.transform(scale, 0, 0, -scale, left, bottom);
     return { scale, left: -left / scale, right: (width - left) / scale,
              bottom: (bottom - height) / scale, top: bottom / scale, px: 1 / scale };
@@ -153,6 +155,8 @@ export class Scene {
       this.in_frame(ctx, cord.frame, t, () => shapes.cord(ctx, view, cord.from, cord.to, look));
     for (const link of spec.links)
       this.in_frame(ctx, link.frame, t, () => shapes.link(ctx, view, link, look, reach));
+    if (spec.discs.length)
+      this.in_frame(ctx, spec.discs[0].frame, t, () => shapes.sole(ctx, view, spec.discs, look));
     for (const disc of spec.discs)
       this.in_frame(ctx, disc.frame, t, () => shapes.disc(ctx, view, disc, look));
     for (const cam of spec.cams)
@@ -194,6 +198,11 @@ export class Scene {
     }
   }
 
+  force_text(newtons) {
+    const value = this.units.convert(newtons, 'N');
+    return `${value.toPrecision(value < 10 ? 2 : 3).replace(/\.0$/, '')} ${this.units.of('N').label}`;
+  }
+
   draw_force(ctx, view, t) {
     const foot = this.spec.foot;
     if (!foot?.force || !this.force_scale || foot.contact === null) return;
@@ -201,7 +210,7 @@ export class Scene {
     if (!(Math.hypot(x, y) * this.force_scale > 6 * view.px)) return;
     const from = [between(this.columns[foot.contact], t), this.spec.surface ?? 0];
     shapes.arrow(ctx, view, from, [x * this.force_scale, y * this.force_scale],
-                 this.units.text(Math.hypot(x, y), 'N'), this.look);
+                 this.force_text(Math.hypot(x, y)), this.look);
   }
 }
 

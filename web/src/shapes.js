@@ -12,13 +12,19 @@ function stroke(ctx, view, color, pixels, dash = [], path = null) {
 }
 
 // Text stands upright whatever the frame.
-function text(ctx, view, words, x, y, color, { align = 'center', size = 11, sans = 'sans-serif' } = {}) {
+function text(ctx, view, words, x, y, color, { align = 'center', size = 11, sans = 'sans-serif', halo = null } = {}) {
   ctx.save();
   ctx.translate(x, y);
   ctx.scale(view.px, -view.px);
   ctx.font = `${size}px ${sans}`;
-  ctx.fillStyle = color;
   ctx.textAlign = align;
+  if (halo) {
+    ctx.strokeStyle = halo;
+    ctx.lineWidth = 4;
+    ctx.lineJoin = 'round';
+    ctx.strokeText(words, 0, 0);
+  }
+  ctx.fillStyle = color;
   ctx.fillText(words, 0, 0);
   ctx.restore();
 }
@@ -76,11 +82,11 @@ export function track(ctx, view, t, look, reach) {
 // Trolley and what hangs from it down to the first joint. `pose` is the body's: it may be lifted.
 export function body(ctx, view, spec, look, reach, pose) {
   const width = 0.11 * reach;
-  const top = Math.max(0.3 * reach, ...spec.muscles.filter((m) => m.frame === 0).map((m) => m.anchor[1]));
+  const top = body_top(spec, reach);
   if (spec.track) trolley(ctx, view, spec.track, look, reach, pose);
   else mount(ctx, view, look, reach, top);
   if (spec.cylinder) cylinder(ctx, view, spec, look, reach, pose);
-  box(ctx, view, -width / 2, -0.04 * reach, width, top + 0.06 * reach, 0.02 * reach, look.metal, look['metal-edge']);
+  box(ctx, view, -width / 2, -0.04 * reach, width, top + 0.04 * reach, 0.02 * reach, look.metal, look['metal-edge']);
 }
 
 function box(ctx, view, x, y, width, height, radius, fill, edge) {
@@ -111,7 +117,7 @@ function trolley(ctx, view, t, look, reach, pose) {
 }
 
 function mount(ctx, view, look, reach, top) {
-  const y = top + 0.02 * reach, half = 0.25 * reach;
+  const y = top, half = 0.25 * reach;
   ctx.beginPath();
   ctx.moveTo(-half, y);
   ctx.lineTo(half, y);
@@ -124,21 +130,36 @@ function mount(ctx, view, look, reach, top) {
   stroke(ctx, view, look['ground-edge'], 1);
 }
 
-// Behind the body, on the trolley: its rod goes in as the body rises.
+// The body's upper end, in its own frame.
+const body_top = (spec, reach) =>
+  Math.max(0.3 * reach, ...spec.muscles.filter((m) => m.frame === 0).map((m) => m.anchor[1])) + 0.02 * reach;
+
+// Of the cylinder above it, in the plane.
+export const cylinder_top = (spec, reach) => body_top(spec, reach) + 0.05 * reach + 2.3 * spec.cylinder.stroke;
+
+// Carried by the trolley above the body, which hangs on its rod: `pose` says how far it is lifted.
 function cylinder(ctx, view, spec, look, reach, pose) {
   const { bore, stroke: way } = spec.cylinder;
-  const x = -0.13 * reach - bore / 2, wide = Math.max(bore, 0.03 * reach);
-  const foot = (spec.track?.height ?? 0.2 * reach) + 0.1 * reach - pose.y;
-  box(ctx, view, x - wide / 2, foot, wide, 1.4 * way, 0.2 * wide, look.paper, look['metal-edge']);
+  const wide = Math.max(bore, 0.04 * reach), post = 0.17 * reach;
+  const top = cylinder_top(spec, reach) - pose.y, bottom = top - 1.25 * way;
+  const plate = (spec.track?.height ?? 0.2 * reach) + 0.06 * reach - pose.y;
   ctx.beginPath();
-  ctx.moveTo(x, foot + 0.2 * way + Math.min(way, pose.y));
-  ctx.lineTo(x, 0.1 * reach);
-  ctx.lineTo(0, 0.1 * reach);
-  stroke(ctx, view, look['metal-edge'], 2);
+  for (const side of [-1, 1]) {
+    ctx.moveTo(side * post, plate);
+    ctx.lineTo(side * post, bottom + 0.2 * way);
+    ctx.lineTo((side * wide) / 2, bottom + 0.2 * way);
+  }
+  stroke(ctx, view, look['metal-edge'], 1.5);
+  box(ctx, view, -wide / 2, bottom, wide, 1.25 * way, 0.12 * wide, look.paper, look['metal-edge']);
+  const piston = bottom + 0.12 * way + pose.y;
   ctx.beginPath();
-  ctx.moveTo(x - wide / 2, foot + 0.2 * way + pose.y);
-  ctx.lineTo(x + wide / 2, foot + 0.2 * way + pose.y);
-  stroke(ctx, view, look['metal-edge'], 3);
+  ctx.moveTo(-wide / 2, piston);
+  ctx.lineTo(wide / 2, piston);
+  stroke(ctx, view, look['metal-edge'], 3.5);
+  ctx.beginPath();
+  ctx.moveTo(0, piston);
+  ctx.lineTo(0, body_top(spec, reach));
+  stroke(ctx, view, look['metal-edge'], 2.5);
 }
 
 // --- the leg ---
@@ -175,6 +196,19 @@ export function cam(ctx, view, c, look) {
   stroke(ctx, view, look['metal-edge'], 1);
 }
 
+// What holds discs beside the link: from its joint to each of them.
+export function sole(ctx, view, discs, look) {
+  if (discs.length < 2) return;
+  ctx.beginPath();
+  ctx.moveTo(0, 0);
+  for (const d of discs) ctx.lineTo(...d.center);
+  ctx.closePath();
+  ctx.lineJoin = 'round';
+  ctx.fillStyle = look.metal;
+  ctx.fill();
+  stroke(ctx, view, look['metal-edge'], 1.25);
+}
+
 export function disc(ctx, view, d, look) {
   ctx.beginPath();
   ctx.arc(d.center[0], d.center[1], d.radius, 0, turn);
@@ -192,6 +226,9 @@ export function cord(ctx, view, from, to, look) {
 
 // --- a muscle ---
 
+// Muscles are drawn thicker than they are, so that one sees them swell.
+export const thicker = 1.5;
+
 // As thick as its braid is; its ends are crimped, and a cord goes on to the cam.
 export function muscle(ctx, view, m, { length, diameter, color }, look) {
   const end = [m.anchor[0] + m.direction[0] * length, m.anchor[1] + m.direction[1] * length];
@@ -199,7 +236,7 @@ export function muscle(ctx, view, m, { length, diameter, color }, look) {
   ctx.save();
   ctx.translate(...m.anchor);
   ctx.rotate(Math.atan2(m.direction[1], m.direction[0]));
-  const half = diameter / 2, outline = tube(length, half);
+  const half = (thicker * diameter) / 2, outline = tube(length, half);
   ctx.fillStyle = color;
   ctx.fill(outline);
   braid(ctx, view, length, half, outline);
@@ -241,7 +278,7 @@ function braid(ctx, view, length, half, outline) {
 
 // Beyond the muscle's anchor: a triangle towards it for the inlet, away from it for the exhaust.
 export function valve(ctx, view, m, place, open, look, reach) {
-  const s = 0.03 * reach;
+  const s = 0.025 * reach;
   const color = place === 0 ? look.inlet : look.exhaust;
   ctx.save();
   ctx.translate(...m.anchor);
@@ -316,7 +353,7 @@ export function arrow(ctx, view, from, along, words, look) {
   ctx.closePath();
   ctx.fillStyle = look.force;
   ctx.fill();
-  text(ctx, view, words, to[0] + 8 * view.px, to[1] + 2 * view.px, look.force, { align: 'left', size: 12, sans: look.sans });
+  text(ctx, view, words, to[0] + 8 * view.px, to[1] + 2 * view.px, look.force, { align: 'left', size: 12, sans: look.sans, halo: look.paper });
 }
 
 // In pixels, at the lower right.

@@ -85,7 +85,8 @@ export class Figures {
     for (const r of this.rows) {
       const unit = /share|passiveness|duty/.test(r.key) ? 'share' : unit_of_key(r.key);
       const u = this.units.of(unit);
-      r.shown.textContent = number(this.units.convert(r.value, unit));
+      const value = this.units.convert(r.value, unit);
+      r.shown.textContent = unit === '1' && Number.isInteger(value) ? String(value) : number(value);
       r.unit.textContent = u.label;
     }
   }
@@ -93,10 +94,17 @@ export class Figures {
 
 // --- every value ---
 
+// A list of a hundred numbers is there for who asks for it.
+function long_cell(words) {
+  const most = 120;
+  if (words.length <= most) return cell(words, 'long');
+  return element('td', { class: 'long', title: words }, `${words.slice(0, most)} …`);
+}
+
 export function show_parameters(run) {
   const rows = run.parameters.map(([key, value, mark, range, uncertainty, source]) => ({
     row: element('tr', { 'data-key': key },
-      element('th', { scope: 'row', class: 'key' }, key), cell(value, 'number'),
+      element('th', { scope: 'row', class: 'key' }, key), long_cell(value),
       element('td', {}, mark ? element('span', { class: `tag ${mark}` }, mark) : ''),
       cell([range, uncertainty && `± ${uncertainty}`].filter(Boolean).join(', '), 'quiet'),
       cell(source, 'source')),
