@@ -34,12 +34,14 @@ ExitCode report_run(const Options& options) {
   const config::Node resolved = config::compose(machine_of(run, options.machine).string());
   const signals::Table table = log::read(run.log);
   if (!table.complete)
-    messages.warning(run.log.string() + " was cut off or is damaged; the page shows what stands "
-                                        "before");
+    messages.warning(run.log.string() +
+                     " was cut off or is damaged; the page shows what stands "
+                     "before");
   const std::string page =
       report::page({.table = table, .resolved = resolved, .name = name_in(run.log)});
   write_file(out, page);
-  messages.note(fmt::format("{}, {:.1f} MB", out.string(), 1e-6 * static_cast<double>(page.size())));
+  messages.note(
+      fmt::format("{}, {:.1f} MB", out.string(), 1e-6 * static_cast<double>(page.size())));
   return ok;
 }
 
@@ -56,8 +58,9 @@ void write_report(const std::filesystem::path& folder, const signals::Table& log
 
 void add_report(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(app, "report", "a run as one page, which opens in any browser, offline",
-                             "sinew report runs/walk-test-1/1 -o walk.html");
+  CLI::App& sub =
+      subcommand(app, "report", "a run as one page, which opens in any browser, offline",
+                 "sinew report runs/walk-test-1/1 -o walk.html");
   sub.add_option("DIR", options->run, "a run's folder, or a log file")->required();
   sub.add_option("-o,--output", options->out, "the file to write; else report.html beside the log");
   sub.add_option("--machine", options->machine,

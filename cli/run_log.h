@@ -23,7 +23,8 @@ LoggedTopics logged_topics(const signals::Table& table);
 LoggedTopics logged_topics(const experiment::Experiment& experiment);
 LoggedTopics logged_topics(const rig::Experiment& experiment);
 
-// The part of a run's table that its log holds, as log::read() gives it back. Takes it out of there.
+// The part of a run's table that its log holds, as log::read() gives it back. Takes it out of
+// there.
 signals::Table logged_part(signals::Table&& table, const LoggedTopics& logged);
 
 class RunLog {

@@ -64,8 +64,7 @@ std::vector<Warning> clipped_sensors(const signals::Table& table, const robot::R
 std::vector<Warning> lifted_rollers(const signals::Table& table) {
   std::vector<Warning> out;
   for (const std::string roller : {"front", "rear"})
-    add(out,
-        times_when(table, "/true/roller/" + roller + "/load", [](double n) { return n < 0; }),
+    add(out, times_when(table, "/true/roller/" + roller + "/load", [](double n) { return n < 0; }),
         "the " + roller + " roller lifts off the track in", "samples");
   return out;
 }

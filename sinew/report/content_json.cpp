@@ -47,8 +47,7 @@ Json shapes_of(const Scene& scene) {
     out["cords"].push_back({{"frame", c.frame}, {"from", point(c.from)}, {"to", point(c.to)}});
   out["discs"] = Json::array();
   for (const Disc& d : scene.discs)
-    out["discs"].push_back(
-        {{"frame", d.frame}, {"center", point(d.center)}, {"radius", d.radius}});
+    out["discs"].push_back({{"frame", d.frame}, {"center", point(d.center)}, {"radius", d.radius}});
   return out;
 }
 
@@ -160,12 +159,11 @@ Json to_json(const std::vector<analysis::Verdict>& verdicts) {
 Json phases_of(const analysis::Record& record, const analysis::Machine& machine) {
   Json stretches = Json::array();
   for (const analysis::Stretch& s : record.stretches())
-    stretches.push_back(
-        {{"phase", s.phase},
-         {"step", s.step},
-         {"from", record.time(s.first)},
-         {"to", record.end_of(s.last - 1)},
-         {"stance", analysis::is_stance(machine, s.phase)}});
+    stretches.push_back({{"phase", s.phase},
+                         {"step", s.step},
+                         {"from", record.time(s.first)},
+                         {"to", record.end_of(s.last - 1)},
+                         {"stance", analysis::is_stance(machine, s.phase)}});
   return {{"names", machine.phases}, {"stretches", std::move(stretches)}};
 }
 

@@ -16,9 +16,9 @@
 namespace sinew::report {
 
 struct Run {
-  const signals::Table& table;     // what was logged
-  const config::Node& resolved;    // resolved.toml
-  std::string name;                // of the experiment; empty where nobody knows
+  const signals::Table& table;   // what was logged
+  const config::Node& resolved;  // resolved.toml
+  std::string name;              // of the experiment; empty where nobody knows
 };
 
 // Was the program built with its page? Without npm there is none.
@@ -36,9 +36,9 @@ struct Content {
 };
 Content content(const Run& run);
 
-// A template has @title@, @run@ and @samples@ once each: in its <title>, in a script element of type
-// application/json and in one of another type. Whatever the texts hold cannot leave its element.
-// Throws std::invalid_argument for a template that lacks one.
+// A template has @title@, @run@ and @samples@ once each: in its <title>, in a script element of
+// type application/json and in one of another type. Whatever the texts hold cannot leave its
+// element. Throws std::invalid_argument for a template that lacks one.
 std::string fill(std::string_view page_template, const Content& content);
 
 }  // namespace sinew::report

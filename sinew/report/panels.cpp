@@ -36,9 +36,8 @@ class Panels {
     Panel& panel = list.back();
     if (panel.unit.empty()) panel.unit = samples.unit;
     // What would stand in for it is missing: nothing to hide behind.
-    const bool alone = std::ranges::none_of(panel.lines, [&](const Line& l) {
-      return l.color == color && l.style == Style::measured;
-    });
+    const bool alone = std::ranges::none_of(
+        panel.lines, [&](const Line& l) { return l.color == color && l.style == Style::measured; });
     if (style == Style::hidden && alone) style = Style::measured;
     panel.lines.push_back({std::move(label), std::move(channel), color, style});
   }
@@ -126,8 +125,7 @@ void foot(Panels& p, const robot::Robot& robot) {
   p.open("Foot", "Foot position");
   for (const auto& [axis, color] : {std::pair{"x", 0}, std::pair{"y", 1}}) {
     p.line(std::string(axis) + " true", {"/true/foot/position", axis}, color);
-    p.line(std::string(axis) + " measured", {"/foot/position", axis}, color,
-           Style::hidden);
+    p.line(std::string(axis) + " measured", {"/foot/position", axis}, color, Style::hidden);
     p.line(std::string(axis) + " desired", {"/desired/foot/position", axis}, color, Style::desired);
   }
   p.open("Foot", "Ground reaction");

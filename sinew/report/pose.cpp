@@ -50,8 +50,7 @@ Poses poses(const analysis::Machine& machine, const Record& record) {
   }
   if (!any) return {};
   out.angle = std::move(angle);
-  out.trolley =
-      or_zeros(first_of(record, {"/true/trolley/position", "/trolley/position"}), record);
+  out.trolley = or_zeros(first_of(record, {"/true/trolley/position", "/trolley/position"}), record);
   out.lift = or_zeros(first_of(record, {"/true/cylinder/position", "/cylinder/position"}), record);
   return out;
 }

@@ -42,11 +42,14 @@ struct Maker {
   }
 };
 
-// --- what moves -----------------------------------------------------------------------------------
+// --- what moves
+// -----------------------------------------------------------------------------------
 
 void add_frames(Maker& m) {
-  m.out.frames.push_back({"body", m.series("body/x", "m", m.poses.trolley),
-                          m.series("body/y", "m", m.poses.lift), {}});
+  m.out.frames.push_back({"body",
+                          m.series("body/x", "m", m.poses.trolley),
+                          m.series("body/y", "m", m.poses.lift),
+                          {}});
   const std::size_t n = std::min(m.robot().links.size(), m.robot().joints.size());
   std::vector<Column> x(n), y(n), heading(n);
   for (std::size_t row = 0; row < m.record.rows(); ++row) {
@@ -70,7 +73,8 @@ void add_frames(Maker& m) {
   }
 }
 
-// --- muscles --------------------------------------------------------------------------------------
+// --- muscles
+// --------------------------------------------------------------------------------------
 
 // Outline of the largest cam at a joint, as it stands in the distal link at the joint's rest angle:
 // the cord leaves it where the proximal frame's muscle is.
@@ -194,7 +198,8 @@ void add_muscle(Maker& m, const robot::Muscle& muscle) {
   m.out.muscles.push_back(std::move(shape));
 }
 
-// --- what it stands and rolls on ------------------------------------------------------------------
+// --- what it stands and rolls on
+// ------------------------------------------------------------------
 
 void add_discs(Maker& m) {
   const robot::Foot& foot = m.robot().foot;
@@ -213,11 +218,14 @@ void add_track(Maker& m) {
   const robot::Robot& robot = m.robot();
   const double unit = robot.links.empty() ? 0.1 : robot.links.front().length;
   if (!robot.trolley.present) return;
-  Track track{.height = 0.34 * unit, .from = 0, .to = robot.trolley.track_length,
-              .rear = -0.45 * unit, .front = 0.45 * unit};
+  Track track{.height = 0.34 * unit,
+              .from = 0,
+              .to = robot.trolley.track_length,
+              .rear = -0.45 * unit,
+              .front = 0.45 * unit};
   if (robot.rollers.present)
-    track = {robot.rollers.height, 0, robot.trolley.track_length, robot.rollers.rear,
-             robot.rollers.front, true};
+    track = {robot.rollers.height, 0,   robot.trolley.track_length, robot.rollers.rear,
+             robot.rollers.front,  true};
   m.out.track = track;
 }
 

@@ -66,8 +66,8 @@ struct Track {
 
 // Between trolley and body.
 struct CylinderShape {
-  double bore = 0, stroke = 0;       // [m]
-  Channel up, down;                  // pressures
+  double bore = 0, stroke = 0;  // [m]
+  Channel up, down;             // pressures
   std::vector<Channel> valves_up, valves_down;
 };
 
