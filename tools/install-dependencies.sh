@@ -20,14 +20,15 @@ list='
     demo   -                   libcli11-dev                     parses the command line
     demo   -                   nlohmann-json3-dev               writes logs and summaries
     demo   -                   libfmt-dev                       formats numbers and messages
-    demo   -                   zlib1g-dev                       checksums of logs
+    demo   -                   zlib1g-dev                       checksums of logs, smaller pages
     demo   -                   libceres-dev                     least squares of identification
+    demo   node                nodejs                           bundles the page that shows a run
+    demo   npm                 npm                              installs what that needs
     quick  -                   libgtest-dev                     tests
     quick  -                   libgmock-dev                     tests
     quick  -                   libsundials-dev                  a second integrator in tests
     quick  clang-format-14     clang-format-14                  one layout of code; versions differ
-    quick  node                nodejs                           reads our logs with the MCAP library
-    quick  npm                 npm                              installs that library
+    check  chromium            chromium                         opens that page in tests
     check  arm-none-eabi-g++   gcc-arm-none-eabi                embedded core for Cortex-M4F
     check  -                   libstdc++-arm-none-eabi-newlib   its headers
     check  qemu-system-arm     qemu-system-arm                  runs it

@@ -33,8 +33,8 @@ Json summary(const std::string& text) {
 
 TEST(RunFolder, CountsUpAndHoldsLogResolvedAndSummary) {
   const Workspace w;
-  EXPECT_EQ(w.sinew({"run", bench}).code, 0);
-  EXPECT_EQ(w.sinew({"run", bench}).code, 0);
+  EXPECT_EQ(w.sinew({"run", bench, "--no-report"}).code, 0);
+  EXPECT_EQ(w.sinew({"run", bench, "--no-report"}).code, 0);
   EXPECT_THAT(names_in(w / "runs/one-joint"), ElementsAre("1", "2"));
   EXPECT_THAT(names_in(w / "runs/one-joint/2"),
               ElementsAre("log.mcap", "resolved.toml", "summary.json"));
@@ -57,7 +57,7 @@ TEST(RunFolder, ThatHoldsSomethingIsRefused) {
 
   write_text(w / "mine/report.html", "of an earlier run");
   write_text(w / "mine/summary.json", "of an earlier run");
-  EXPECT_EQ(w.sinew({"run", bench, "-o", "mine", "--force"}).code, 0);
+  EXPECT_EQ(w.sinew({"run", bench, "-o", "mine", "--force", "--no-report"}).code, 0);
   EXPECT_THAT(names_in(w / "mine"),
               ElementsAre("log.mcap", "notes.txt", "resolved.toml", "summary.json"));
   EXPECT_EQ(read_text(w / "mine/notes.txt"), "keep");

@@ -1,0 +1,36 @@
+// A browser without a window and without network: Debian's chromium, or what CHROMIUM names.
+import { accessSync, constants } from 'node:fs';
+import { join } from 'node:path';
+import { chromium } from 'playwright-core';
+
+function executable() {
+  if (process.env.CHROMIUM) return process.env.CHROMIUM;
+  for (const folder of process.env.PATH.split(':'))
+    for (const name of ['chromium', 'chromium-browser', 'google-chrome']) {
+      const file = join(folder, name);
+      try {
+        accessSync(file, constants.X_OK);
+        return file;
+      } catch {}
+    }
+  throw new Error('no chromium on the PATH; try: apt-get install chromium, or CHROMIUM=<its file>');
+}
+
+export async function open_browser() {
+  return chromium.launch({ executablePath: executable(), args: ['--no-sandbox', '--disable-dev-shm-usage'] });
+}
+
+// A page that remembers what went wrong: console messages, exceptions, anything it asked for.
+export async function open_page(browser, file, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, offline: true, ...options });
+  const page = await context.newPage();
+  page.wrong = [];
+  page.on('console', (m) => ['error', 'warning'].includes(m.type()) && page.wrong.push(`${m.type()}: ${m.text()}`));
+  page.on('pageerror', (e) => page.wrong.push(`exception: ${e.message}`));
+  page.on('request', (r) => r.url() !== `file://${file}` && page.wrong.push(`asked for ${r.url().slice(0, 100)}`));
+  page.started = Date.now();
+  await page.goto(`file://${file}`);
+  await page.waitForSelector('html[data-ready]', { timeout: 60000 });
+  page.took = Date.now() - page.started;
+  return page;
+}

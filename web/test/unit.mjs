@@ -1,0 +1,139 @@
+// unit.mjs   the parts of the page that need no browser, against plain ways to the same end.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { deflateSync } from 'node:zlib';
+import { bucket_size, level_for, pyramid } from '../src/pyramid.js';
+import { between, held, index_at, open_within, read_samples } from '../src/samples.js';
+import { number, unit_of_key, Units, words_of_key } from '../src/units.js';
+
+// Repeatable numbers in 0 … 1.
+function random_from(seed) {
+  let state = seed;
+  return () => (state = (1103515245 * state + 12345) % 2147483648) / 2147483648;
+}
+
+// --- samples ---
+
+function packed(clocks, columns) {
+  const planes = (words) => {
+    const bytes = new Uint8Array(4 * words.length);
+    for (let rank = 0; rank < 4; ++rank)
+      words.forEach((w, i) => (bytes[rank * words.length + i] = (w >>> (8 * rank)) & 255));
+    return bytes;
+  };
+  const steps = clocks.map((ticks) => Uint32Array.from(ticks, (t, i) => (t - (i ? ticks[i - 1] : 0)) >>> 0));
+  const bits = columns.map((c) => new Uint32Array(Float32Array.from(c).buffer));
+  return deflateSync(Buffer.concat([...steps, ...bits].map((w) => planes([...w])))).toString('base64');
+}
+
+test('samples come back as they were packed', async () => {
+  const random = random_from(1);
+  const clocks = [[0, 100, 250, 100000], [-3, 7]];
+  const columns = [[1.5, -2e-8, 3e30, 0], Array.from({ length: 4 }, () => random() - 0.5), [NaN, Infinity]];
+  const read = await read_samples({ clocks: [4, 2], columns: [0, 0, 1] }, packed(clocks, columns));
+  read.forEach((column, i) => assert.deepEqual(column.values, Float32Array.from(columns[i])));
+  assert.deepEqual([...read[0].time], [0, 0.01, 0.025, 10]);
+  assert.deepEqual([...read[2].time], [-0.0003, 0.0007]);
+  assert.equal(read[0].time, read[1].time, 'columns of one clock share their times');
+});
+
+test('index_at is the last time that is not after', () => {
+  const random = random_from(2);
+  const time = Float64Array.from({ length: 100 }, random).sort();
+  for (let i = 0; i < 1000; ++i) {
+    const t = i % 10 ? 1.2 * random() - 0.1 : time[i % 100];
+    assert.equal(index_at(time, t), time.filter((x) => x <= t).length - 1);
+  }
+  assert.equal(index_at(new Float64Array(), 1), -1);
+});
+
+test('held keeps a value, between goes straight to the next', () => {
+  const column = { time: Float64Array.of(1, 2, 4), values: Float32Array.of(10, 20, 0) };
+  assert.ok(Number.isNaN(held(column, 0.9)));
+  assert.equal(held(column, 1.999), 10);
+  assert.equal(held(column, 9), 0);
+  assert.equal(between(column, 0), 10);
+  assert.equal(between(column, 1.5), 15);
+  assert.equal(between(column, 3), 10);
+  assert.equal(between(column, 9), 0);
+});
+
+test('a valve was open within a time if any edge or the state before says so', () => {
+  const random = random_from(3);
+  const time = [], values = [];
+  for (let t = 0.01, open = 1; t < 5; t += 0.002 + 0.05 * random(), open = 1 - open) {
+    time.push(t);
+    values.push(open);
+  }
+  const column = { time: Float64Array.from(time), values: Float32Array.from(values) };
+  const open_at = (t) => held(column, t) > 0;
+  for (let i = 0; i < 2000; ++i) {
+    const from = 5 * random(), to = from + 0.03 * random();
+    let any = open_at(from) || open_at(to);
+    time.forEach((t, k) => (any ||= t >= from && t <= to && (values[k] > 0 || k > 0)));
+    assert.equal(open_within(column, from, to), any, `${from} to ${to}`);
+  }
+});
+
+// --- pyramid ---
+
+test('every level has the least and greatest of its samples', () => {
+  const random = random_from(4);
+  for (const length of [1, 15, 16, 17, 1000, 4096, 5003]) {
+    const values = Float32Array.from({ length }, () => (random() < 0.05 ? NaN : random() - 0.5));
+    pyramid(values).forEach((level, k) => {
+      const size = bucket_size(k);
+      assert.equal(level.count, Math.ceil(length / size));
+      for (let b = 0; b < level.count; ++b) {
+        const part = [...values.subarray(b * size, (b + 1) * size)].map((v, i) => [v, i]).filter(([v]) => v === v);
+        if (!part.length) {
+          assert.ok(Number.isNaN(level.low[b]) && Number.isNaN(level.high[b]));
+          continue;
+        }
+        const low = part.reduce((a, c) => (c[0] < a[0] ? c : a)), high = part.reduce((a, c) => (c[0] > a[0] ? c : a));
+        assert.equal(level.low[b], low[0]);
+        assert.equal(level.high[b], high[0]);
+        assert.equal(level.first_low[b] === 1, low[1] <= high[1], `order, level ${k}`);
+      }
+    });
+  }
+});
+
+test('a plot gets all samples where there is room, else at most two per pixel', () => {
+  for (const samples of [10, 1800, 1801, 60000, 6000000]) {
+    const level = level_for(samples, 600, 14);
+    if (samples <= 1800) assert.equal(level, -1);
+    else assert.ok(samples / bucket_size(level) <= 600, `${samples}`);
+  }
+});
+
+// --- units ---
+
+test("the thesis's units are those of the standards", () => {
+  const units = new Units(101325);
+  units.system = 'thesis';
+  const near = (value, expected) => assert.ok(Math.abs(value - expected) < 1e-9 * Math.max(1, Math.abs(expected)), `${value}`);
+  near(units.convert(0.0254, 'm'), 1);
+  near(units.convert(4.4482216152605, 'N'), 1);
+  near(units.convert(101325 + 6894.757293168361 * 62, 'Pa'), 62);
+  near(units.convert(4.4482216152605 * 0.0254, 'N m'), 1);
+  near(units.convert(Math.PI, 'rad'), 180);
+  near(units.convert(0.25, 'share'), 25);
+  units.system = 'si';
+  near(units.convert(0.0254, 'm'), 0.0254);
+  near(units.convert(101325, 'Pa'), 101.325);
+});
+
+test('numbers keep about four digits', () => {
+  for (const [value, text] of [[0, '0.000'], [1.23456, '1.235'], [-12.3456, '−12.35'], [123.456, '123.5'],
+                               [12345.6, '12346'], [-0.0004, '−4.00e-4'], [NaN, '–'], [-0, '0.000']])
+    assert.equal(number(value).replace('-4.00', '−4.00'), text);
+});
+
+test('keys tell their unit and read as words', () => {
+  assert.equal(unit_of_key('trolley.mean_speed_m_per_s'), 'm/s');
+  assert.equal(unit_of_key('joints.hip.stiffness_mean_Nm_per_rad'), 'N m/rad');
+  assert.equal(unit_of_key('steps'), '1');
+  assert.equal(words_of_key('joints.hip.min_angle_rad'), 'hip · min angle');
+  assert.equal(words_of_key('muscles.hip_extensor.peak_tension_N'), 'hip extensor · peak tension');
+});
