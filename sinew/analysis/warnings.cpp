@@ -27,7 +27,7 @@ Times times_when(const signals::Table& table, const std::string& topic,
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!is(values[i])) continue;
     ++out.count;
-    const double t = 1e-9 * static_cast<double>(series->time_ns[i]);
+    const double t = static_cast<double>(series->time_ns[i]) / 1e9;
     if (out.spans.empty() || t - out.spans.back().to >= apart) out.spans.push_back({t, t});
     out.spans.back().to = t;
   }

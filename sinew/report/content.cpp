@@ -19,7 +19,7 @@ double end_of(const Channels& channels) {
   for (const signals::Table* table : channels.tables())
     for (const signals::Series& s : table->series)
       if (!s.time_ns.empty()) end = std::max(end, s.time_ns.back());
-  return 1e-9 * static_cast<double>(end);
+  return static_cast<double>(end) / 1e9;
 }
 
 Json clocks_of(const Blob& blob) {

@@ -273,15 +273,19 @@ Column contact(const Maker& m) {
 
 void add_foot(Maker& m) {
   if (m.out.discs.empty()) return;
+  // With a number in it: a plan without a foot path desires none.
   const auto first_of = [&](std::initializer_list<std::string> topics) {
+    const auto is_number = [](double v) { return std::isfinite(v); };
     for (const std::string& topic : topics)
-      if (m.channels.has({topic, "x"})) return Channel{topic, "x"};
+      if (const Samples x = m.channels.find({topic, "x"});
+          x && std::ranges::any_of(*x.values, is_number))
+        return Channel{topic, "x"};
     return Channel{};
   };
   m.out.foot = true;
   m.out.foot_path = first_of({"/true/foot/position", "/foot/position"});
   m.out.desired_path = first_of({"/desired/foot/position"});
-  m.out.force = first_of({"/true/foot/force", "/foot/force"});
+  if (m.robot().ground.present) m.out.force = first_of({"/true/foot/force", "/foot/force"});
   m.out.contact = m.series("foot/contact", "m", contact(m));
 }
 

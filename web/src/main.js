@@ -76,6 +76,8 @@ class Page {
     this.scene = new Scene(by_id('scene'), run.scene, this.columns, this.units, run.duration);
     by_id('follow').hidden = !run.scene.track;
     this.muscles = run.scene.muscles.map((m) => this.muscle_card(m));
+    // A log of hardware says nothing of their air.
+    this.muscles = this.muscles.filter((m) => m.spec.pressure !== null || m.lights.some((l) => l));
     by_id('muscles').append(...this.muscles.map((m) => m.root));
     this.legend();
   }

@@ -72,8 +72,9 @@ export class Scene {
 
   pressure_range() {
     let most = this.units.atmosphere + 1e5;
-    for (const m of this.spec.muscles) {
-      const c = this.column(m.pressure);
+    const of_cylinder = this.spec.cylinder ? [this.spec.cylinder.up, this.spec.cylinder.down] : [];
+    for (const index of [...this.spec.muscles.map((m) => m.pressure), ...of_cylinder]) {
+      const c = this.column(index);
       if (c) for (const v of c.values) if (v > most) most = v;
     }
     return [this.units.atmosphere, most];
@@ -127,7 +128,8 @@ export class Scene {
     const high = height - above - margin;
     const scale = Math.min((width - 2 * margin) / (x[1] - x[0]), high / (y[1] - y[0]));
     const left = width / 2 - (scale * (x[0] + x[1])) / 2;
-    const bottom = above + high / 2 + (scale * (y[0] + y[1])) / 2;
+    // Of the whole track much room is left: above it.
+    const bottom = this.follow ? above + high / 2 + (scale * (y[0] + y[1])) / 2 : height - margin + scale * y[0];
     ctx.transform(scale, 0, 0, -scale, left, bottom);
     return { scale, left: -left / scale, right: (width - left) / scale,
              bottom: (bottom - height) / scale, top: bottom / scale, px: 1 / scale };
@@ -150,7 +152,11 @@ export class Scene {
 
   draw_machine(ctx, view, t) {
     const { spec, look, reach } = this;
-    this.in_frame(ctx, 0, t, () => shapes.body(ctx, view, spec, look, reach, this.pose(0, t)));
+    const pose = this.pose(0, t);
+    this.in_frame(ctx, 0, t, () => {
+      if (spec.cylinder) shapes.cylinder(ctx, view, spec, this.chambers(t), look, reach, pose);
+      shapes.body(ctx, view, spec, look, reach, pose);
+    });
     for (const cord of spec.cords)
       this.in_frame(ctx, cord.frame, t, () => shapes.cord(ctx, view, cord.from, cord.to, look));
     for (const link of spec.links)
@@ -166,11 +172,26 @@ export class Scene {
     for (const m of spec.muscles) this.in_frame(ctx, m.frame, t, () => this.draw_muscle(ctx, view, m, t));
   }
 
+  // Of air in a column's pressure; of metal where there is none.
+  color_of(index, t) {
+    const pressure = index === null ? NaN : between(this.column(index), t);
+    const [low, high] = this.pressures;
+    return Number.isFinite(pressure) ? pressure_color((pressure - low) / (high - low)) : this.look.metal;
+  }
+
+  // Of the cylinder: color of each, and which of its valves are open.
+  chambers(t) {
+    const c = this.spec.cylinder;
+    const chamber = (pressure, valves) => ({
+      color: this.color_of(pressure, t),
+      valves: valves.map((v) => (v === null ? null : this.is_open(v, t))),
+    });
+    return { up: chamber(c.up, c.valves_up), down: chamber(c.down, c.valves_down) };
+  }
+
   draw_muscle(ctx, view, m, t) {
     const length = between(this.column(m.length), t), diameter = between(this.column(m.diameter), t);
-    const pressure = m.pressure === null ? NaN : between(this.column(m.pressure), t);
-    const [low, high] = this.pressures;
-    const color = Number.isFinite(pressure) ? pressure_color((pressure - low) / (high - low)) : this.look.metal;
+    const color = this.color_of(m.pressure, t);
     shapes.muscle(ctx, view, m, { length, diameter, color }, this.look);
     for (const [which, at] of [['inlet', 0], ['exhaust', 1]])
       if (m[which] !== null) shapes.valve(ctx, view, m, at, this.is_open(m[which], t), this.look, this.reach);

@@ -85,7 +85,6 @@ export function body(ctx, view, spec, look, reach, pose) {
   const top = body_top(spec, reach);
   if (spec.track) trolley(ctx, view, spec.track, look, reach, pose);
   else mount(ctx, view, look, reach, top);
-  if (spec.cylinder) cylinder(ctx, view, spec, look, reach, pose);
   box(ctx, view, -width / 2, -0.04 * reach, width, top + 0.04 * reach, 0.02 * reach, look.metal, look['metal-edge']);
 }
 
@@ -138,7 +137,8 @@ const body_top = (spec, reach) =>
 export const cylinder_top = (spec, reach) => body_top(spec, reach) + 0.05 * reach + 2.3 * spec.cylinder.stroke;
 
 // Carried by the trolley above the body, which hangs on its rod: `pose` says how far it is lifted.
-function cylinder(ctx, view, spec, look, reach, pose) {
+// Its posts stand on the trolley's plate.
+export function cylinder(ctx, view, spec, chambers, look, reach, pose) {
   const { bore, stroke: way } = spec.cylinder;
   const wide = Math.max(bore, 0.04 * reach), post = 0.17 * reach;
   const top = cylinder_top(spec, reach) - pose.y, bottom = top - 1.25 * way;
@@ -150,8 +150,18 @@ function cylinder(ctx, view, spec, look, reach, pose) {
     ctx.lineTo((side * wide) / 2, bottom + 0.2 * way);
   }
   stroke(ctx, view, look['metal-edge'], 1.5);
-  box(ctx, view, -wide / 2, bottom, wide, 1.25 * way, 0.12 * wide, look.paper, look['metal-edge']);
   const piston = bottom + 0.12 * way + pose.y;
+  ctx.fillStyle = chambers.up.color;  // below the piston: it lifts the body
+  ctx.fillRect(-wide / 2, bottom, wide, piston - bottom);
+  ctx.fillStyle = chambers.down.color;
+  ctx.fillRect(-wide / 2, piston, wide, top - piston);
+  ctx.beginPath();
+  ctx.rect(-wide / 2, bottom, wide, top - bottom);
+  stroke(ctx, view, look['metal-edge'], 1.25);
+  for (const [chamber, y] of [[chambers.up, bottom + 0.15 * way], [chambers.down, top - 0.15 * way]]) {
+    const at = { anchor: [wide / 2, y], direction: [-1, 0] };
+    chamber.valves.forEach((open, place) => open !== null && valve(ctx, view, at, place, open, look, reach));
+  }
   ctx.beginPath();
   ctx.moveTo(-wide / 2, piston);
   ctx.lineTo(wide / 2, piston);

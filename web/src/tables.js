@@ -14,7 +14,7 @@ const heading = (words, note) =>
   element('h2', {}, words, note ? element('span', { class: 'note' }, note) : null);
 
 const verdict_class = (is) =>
-  is === 'agrees' ? 'good' : is === 'not applicable' ? 'none' : is === 'differs as known' ? 'known' : 'bad';
+  is === 'agrees' ? 'good' : is === 'not applicable' ? 'none' : is === 'differs, as known' ? 'known' : 'bad';
 
 export const count_verdicts = (verdicts) => ({
   agree: verdicts.filter((v) => v.is === 'agrees').length,

@@ -183,11 +183,14 @@ test('numbers are those of summary.json, in either unit', () => with_page('walk-
     typeof v === 'number' ? [v] : v && typeof v === 'object' ? leaves(v) : []);
   const found = await rows();
   assert.equal(found.length, leaves(summary).length);
-  const factor = { '%': 100, g: 1000, in: 1 / 0.0254, 'in/s': 1 / 0.0254, deg: 180 / Math.PI };
+  const atmosphere = await page.evaluate(() => window.sinew.run.atmosphere);
+  const inch = 0.0254, pound = 4.4482216152605, degree = Math.PI / 180;
+  const size = { '%': 0.01, g: 1e-3, in: inch, 'in/s': inch, deg: degree, 'deg/s': degree, lbf: pound, 'kPa abs': 1e3,
+                 'lbf in': pound * inch, 'lbf in/rad': pound * inch, 'psi gauge': pound / inch ** 2 };
   const agree = (r) => {
     assert.equal(r.exact, at(r.key), r.key);
-    const shown = Number(r.shown.replace('−', '-')), expected = r.exact * (factor[r.unit] ?? 1);
-    if (['lbf', 'lbf in', 'lbf in/rad', 'psi gauge', 'kPa abs', 'deg/s'].includes(r.unit)) return;
+    const zero = r.unit === 'psi gauge' ? atmosphere : 0;
+    const shown = Number(r.shown.replace('−', '-')), expected = (r.exact - zero) / (size[r.unit] ?? 1);
     assert.ok(Math.abs(shown - expected) <= 0.006 * Math.abs(expected) + 6e-4, `${r.key}: ${r.shown} for ${expected}`);
   };
   found.forEach(agree);
