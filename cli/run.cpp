@@ -81,7 +81,7 @@ ExitCode run_on_stand(const Options& o) {
   if (o.pace > 0)
     config::fail({o.experiment, 0, 0}, "--pace", fmt::format("{}", o.pace),
                  "a run as fast as it goes: a stand has no live log");
-  return run_rig({o.experiment, o.folder, o.sets, o.force, o.json, o.quiet});
+  return run_rig({o.experiment, o.folder, o.sets, o.force, o.report, o.json, o.quiet});
 }
 
 ExitCode run_experiment(const Options& options) {

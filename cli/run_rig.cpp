@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/page.h"
 #include "cli/report.h"
 #include "cli/run_folder.h"
 #include "cli/run_log.h"
@@ -41,13 +42,13 @@ ExitCode run_rig(const RigOptions& options) {
   // As `analyze` will read it: so both come to the same bits.
   const analysis::StandFile stand =
       analysis::read_stand(config::parse_text(resolved, std::string(resolved_name)));
-  LoggedTopics logged = logged_topics(e);
+  const LoggedTopics logged = logged_topics(e);
   const fs::path folder = options.folder.empty() ? next_run_folder(e.name)
                                                  : chosen_run_folder(options.folder, options.force);
-  const rig::Outcome outcome = rig::run(e);
+  rig::Outcome outcome = rig::run(e);
   if (e.log.enabled) {
     write_file(folder / resolved_name, resolved);
-    RunLog log(folder / log_name, e.name, e.seed, resolved, std::move(logged));
+    RunLog log(folder / log_name, e.name, e.seed, resolved, logged);
     log.write(outcome.table);
     log.finish();
   }
@@ -62,6 +63,8 @@ ExitCode run_rig(const RigOptions& options) {
   const std::string json = to_json(summary, {{"real_time_factor", factor}, {"threads", 1}});
   write_file(folder / summary_name, json);
   warn_beyond_the_muscle(summary, messages);
+  if (e.log.enabled && options.report)
+    write_report(folder, logged_part(std::move(outcome.table), logged), resolved, e.name, messages);
   if (options.json) {
     fmt::print("{}", json);
     messages.note(folder.string());

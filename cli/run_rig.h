@@ -11,7 +11,7 @@ namespace sinew::cli {
 struct RigOptions {
   std::string experiment, folder;
   std::vector<std::string> sets;
-  bool force = false, json = false, quiet = false;
+  bool force = false, report = true, json = false, quiet = false;
 };
 
 // Is the file's format sinew.rig?

@@ -102,10 +102,13 @@ std::vector<Warning> overruns(const signals::Table& table) {
            std::move(times.spans)}};
 }
 
+std::vector<Warning> cut_logs(const signals::Table& table) {
+  if (table.complete) return {};
+  return {{"the log was cut off or is damaged: this is what stands before", {}}};
+}
+
 std::vector<Warning> warnings(const signals::Table& table, const Machine& machine) {
-  std::vector<Warning> all;
-  if (!table.complete)
-    all.push_back({"the log was cut off or is damaged: this is what stands before", {}});
+  std::vector<Warning> all = cut_logs(table);
   append(all, unreachable_targets(table));
   append(all, overruns(table));
   append(all, saturated_duties(table, machine.robot));

@@ -33,7 +33,10 @@ std::vector<Warning> unreachable_targets(const signals::Table&);
 // Laws that took longer than their interrupt may, 5.2.
 std::vector<Warning> overruns(const signals::Table&);
 
-// All of these, and whether the log ends early.
+// A log that ends before its run did.
+std::vector<Warning> cut_logs(const signals::Table&);
+
+// All of these.
 std::vector<Warning> warnings(const signals::Table&, const Machine&);
 
 }  // namespace sinew::analysis

@@ -1,7 +1,10 @@
 #include "sinew/report/content.h"
 
 #include "sinew/analysis/derived.h"
+#include "sinew/analysis/stand.h"
 #include "sinew/analysis/summary.h"
+#include "sinew/config/compose.h"
+#include "sinew/config/quantity.h"
 #include "sinew/report/page.h"
 
 namespace sinew::report {
@@ -22,27 +25,48 @@ double end_of(const Channels& channels) {
   return static_cast<double>(end) / 1e9;
 }
 
-Json clocks_of(const Blob& blob) {
-  const Blob::Layout layout = blob.layout();
-  return {{"clocks", layout.clocks}, {"columns", layout.columns}};
-}
+struct About {
+  std::string title, reproduces, robot;
+  double atmosphere = 0;
+};
 
-Json about(const Run& run, const analysis::Machine& machine) {
-  Json out;
-  out["format"] = "sinew.report/1";
-  out["title"] = machine.title;
-  out["reproduces"] = machine.reproduces;
-  out["name"] = run.name;
-  out["robot"] = machine.robot.name;
-  out["seed"] = text_at(run.resolved, "seed");
-  out["version"] = text_at(run.resolved, "sinew_version");
-  out["atmosphere"] = machine.atmosphere;
+// A JSON object that grows; its members are JSON.
+class Object {
+ public:
+  void put(std::string_view key, std::string_view json) {
+    text_ += text_.empty() ? "{\"" : ",\"";
+    text_.append(key).append("\":").append(json);
+  }
+  std::string text() const { return text_ + "}"; }
+
+ private:
+  std::string text_;
+};
+
+Object head(const Run& run, const About& about) {
+  Object out;
+  out.put("format", to_json(std::string("sinew.report/1")));
+  out.put("title", to_json(about.title));
+  out.put("reproduces", to_json(about.reproduces));
+  out.put("name", to_json(run.name));
+  out.put("robot", to_json(about.robot));
+  out.put("seed", to_json(text_at(run.resolved, "seed")));
+  out.put("version", to_json(text_at(run.resolved, "sinew_version")));
+  out.put("atmosphere", config::format_number(about.atmosphere));
   return out;
 }
 
-}  // namespace
+// What pages of any run end with.
+Content finish(Object json, const Run& run, const analysis::Summary& summary,
+               const std::vector<analysis::Verdict>& verdicts, const Blob& blob) {
+  json.put("verdicts", to_json(verdicts));
+  json.put("summary", analysis::to_json(summary));
+  json.put("parameters", to_json(parameters(run.resolved)));
+  json.put("samples", to_json(blob.layout()));
+  return {summary.title.empty() ? run.name : summary.title, json.text(), blob.base64()};
+}
 
-Content content(const Run& run) {
+Content of_robot(const Run& run) {
   const analysis::Machine machine = analysis::read_machine(run.resolved);
   const signals::Table derived = analysis::derive(run.table, machine);
   const analysis::Record record(run.table, machine, &derived);
@@ -57,18 +81,40 @@ Content content(const Run& run) {
 
   Blob blob;
   Columns columns(channels, blob);
-  Json json = about(run, machine);
-  json["duration"] = end_of(channels);
-  json["phases"] = phases_of(record, machine);
-  json["panels"] = to_json(panels(channels, machine.robot), columns);
-  json["scene"] = to_json(scene_of_run, columns);
-  json["verdicts"] = to_json(compare(summary, machine.reported, machine.atmosphere));
-  json["summary"] = Json::parse(analysis::to_json(summary));
-  json["warnings"] = to_json(analysis::warnings(run.table, machine));
-  json["parameters"] = to_json(parameters(run.resolved));
-  json["samples"] = clocks_of(blob);
-  return {machine.title.empty() ? run.name : machine.title,
-          json.dump(-1, ' ', false, Json::error_handler_t::replace), blob.base64()};
+  Object json =
+      head(run, {machine.title, machine.reproduces, machine.robot.name, machine.atmosphere});
+  json.put("duration", config::format_number(end_of(channels)));
+  json.put("phases", phases_of(record, machine));
+  json.put("panels", to_json(panels(channels, machine.robot), columns));
+  json.put("scene", to_json(scene_of_run, columns));
+  json.put("warnings", to_json(analysis::warnings(run.table, machine)));
+  return finish(std::move(json), run, summary,
+                compare(summary, machine.reported, machine.atmosphere), blob);
+}
+
+// Of the test stand: its channels by their units, no drawing yet.
+Content of_stand(const Run& run) {
+  const analysis::StandFile stand = analysis::read_stand(run.resolved);
+  const analysis::Summary summary = analysis::summarize(run.table, stand);
+  Channels channels;
+  channels.add(run.table);
+
+  Blob blob;
+  Columns columns(channels, blob);
+  Object json = head(run, {stand.title, stand.reproduces, "", stand.atmosphere});
+  json.put("duration", config::format_number(end_of(channels)));
+  json.put("phases", R"({"names":[],"stretches":[]})");
+  json.put("panels", to_json(panels(channels, {}), columns));
+  json.put("scene", "null");
+  json.put("warnings", to_json(analysis::cut_logs(run.table)));
+  return finish(std::move(json), run, summary, compare(summary, stand.reported, stand.atmosphere),
+                blob);
+}
+
+}  // namespace
+
+Content content(const Run& run) {
+  return config::format_kind(run.resolved) == "rig" ? of_stand(run) : of_robot(run);
 }
 
 }  // namespace sinew::report

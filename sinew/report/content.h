@@ -1,11 +1,11 @@
 // report/content.h - the parts of a page's JSON, and the columns that they refer to.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "sinew/analysis/machine.h"
 #include "sinew/analysis/record.h"
-#include "sinew/analysis/summary.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/report/blob.h"
 #include "sinew/report/panels.h"
@@ -14,15 +14,15 @@
 
 namespace sinew::report {
 
-using Json = nlohmann::ordered_json;  // keys stay in the order in which they come
-
 // Numbers of columns in place of channels: each is added to the blob when it is first asked for.
 class Columns {
  public:
+  static constexpr int none = -1;
+
   Columns(const Channels& channels, Blob& blob) : channels_(channels), blob_(blob) {}
-  Json of(const Channel& channel) {  // null: none
+  int of(const Channel& channel) {
     const Samples samples = channels_.find(channel);
-    return samples ? Json(blob_.add(samples)) : Json();
+    return samples ? blob_.add(samples) : none;
   }
 
  private:
@@ -30,11 +30,14 @@ class Columns {
   Blob& blob_;
 };
 
-Json to_json(const std::vector<Panel>& panels, Columns& columns);
-Json to_json(const Scene& scene, Columns& columns);
-Json to_json(const std::vector<Parameter>& parameters);
-Json to_json(const std::vector<analysis::Warning>& warnings);
-Json to_json(const std::vector<analysis::Verdict>& verdicts);
-Json phases_of(const analysis::Record& record, const analysis::Machine& machine);
+// Each as JSON; a channel is the number of its column, or null.
+std::string to_json(const std::vector<Panel>& panels, Columns& columns);
+std::string to_json(const Scene& scene, Columns& columns);  // null: an empty one
+std::string to_json(const std::vector<Parameter>& parameters);
+std::string to_json(const std::vector<analysis::Warning>& warnings);
+std::string to_json(const std::vector<analysis::Verdict>& verdicts);
+std::string to_json(const Blob::Layout& layout);
+std::string to_json(const std::string& text);
+std::string phases_of(const analysis::Record& record, const analysis::Machine& machine);
 
 }  // namespace sinew::report

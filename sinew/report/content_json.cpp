@@ -1,4 +1,4 @@
-#include <array>
+#include <nlohmann/json.hpp>
 
 #include "sinew/report/content.h"
 
@@ -6,6 +6,16 @@ namespace sinew::report {
 namespace {
 
 using robot::Point;
+using Json = nlohmann::ordered_json;  // keys stay in the order in which they come
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json column_of(const Channel& channel, Columns& columns) {
+  const int column = columns.of(channel);
+  return column == Columns::none ? Json() : Json(column);
+}
 
 Json point(Point p) { return Json::array({p.x, p.y}); }
 
@@ -25,9 +35,9 @@ Json frames_of(const Scene& scene, Columns& columns) {
   Json out = Json::array();
   for (const Frame& f : scene.frames)
     out.push_back({{"name", f.name},
-                   {"x", columns.of(f.x)},
-                   {"y", columns.of(f.y)},
-                   {"heading", columns.of(f.heading)}});
+                   {"x", column_of(f.x, columns)},
+                   {"y", column_of(f.y, columns)},
+                   {"heading", column_of(f.heading, columns)}});
   return out;
 }
 
@@ -61,23 +71,23 @@ Json muscles_of(const Scene& scene, Columns& columns) {
                    {"touch", point(m.touch)},
                    {"count", m.count},
                    {"longest", m.longest},
-                   {"length", columns.of(m.length)},
-                   {"diameter", columns.of(m.diameter)},
-                   {"pressure", columns.of(m.pressure)},
-                   {"inlet", columns.of(m.inlet)},
-                   {"exhaust", columns.of(m.exhaust)}});
+                   {"length", column_of(m.length, columns)},
+                   {"diameter", column_of(m.diameter, columns)},
+                   {"pressure", column_of(m.pressure, columns)},
+                   {"inlet", column_of(m.inlet, columns)},
+                   {"exhaust", column_of(m.exhaust, columns)}});
   return out;
 }
 
 Json cylinder_of(const CylinderShape& c, Columns& columns) {
   Json out = {{"bore", c.bore},
               {"stroke", c.stroke},
-              {"up", columns.of(c.up)},
-              {"down", columns.of(c.down)}};
+              {"up", column_of(c.up, columns)},
+              {"down", column_of(c.down, columns)}};
   for (const auto& [key, valves] :
        {std::pair{"valves_up", &c.valves_up}, std::pair{"valves_down", &c.valves_down}}) {
     out[key] = Json::array();
-    for (const Channel& v : *valves) out[key].push_back(columns.of(v));
+    for (const Channel& v : *valves) out[key].push_back(column_of(v, columns));
   }
   return out;
 }
@@ -85,29 +95,29 @@ Json cylinder_of(const CylinderShape& c, Columns& columns) {
 // Both components; null where there are none.
 Json vector_of(const Channel& x, Columns& columns) {
   if (x.none()) return {};
-  return Json::array({columns.of(x), columns.of({x.topic, "y"})});
+  return Json::array({column_of(x, columns), column_of({x.topic, "y"}, columns)});
 }
 
 }  // namespace
 
-Json to_json(const std::vector<Panel>& panels, Columns& columns) {
+std::string to_json(const std::vector<Panel>& panels, Columns& columns) {
   Json out = Json::array();
   for (const Panel& p : panels) {
     Json lines = Json::array();
     for (const Line& l : p.lines)
       lines.push_back({{"label", l.label},
                        {"topic", l.channel.topic},
-                       {"column", columns.of(l.channel)},
+                       {"column", column_of(l.channel, columns)},
                        {"color", l.color},
                        {"style", word(l.style)}});
     out.push_back(
         {{"group", p.group}, {"title", p.title}, {"unit", p.unit}, {"lines", std::move(lines)}});
   }
-  return out;
+  return text_of(out);
 }
 
-Json to_json(const Scene& scene, Columns& columns) {
-  if (scene.empty()) return {};
+std::string to_json(const Scene& scene, Columns& columns) {
+  if (scene.empty()) return "null";
   Json out = shapes_of(scene);
   out["frames"] = frames_of(scene, columns);
   out["muscles"] = muscles_of(scene, columns);
@@ -123,28 +133,28 @@ Json to_json(const Scene& scene, Columns& columns) {
     out["foot"] = {{"path", vector_of(scene.foot_path, columns)},
                    {"desired", vector_of(scene.desired_path, columns)},
                    {"force", vector_of(scene.force, columns)},
-                   {"contact", columns.of(scene.contact)}};
-  return out;
+                   {"contact", column_of(scene.contact, columns)}};
+  return text_of(out);
 }
 
-Json to_json(const std::vector<Parameter>& parameters) {
+std::string to_json(const std::vector<Parameter>& parameters) {
   Json out = Json::array();
   for (const Parameter& p : parameters)
     out.push_back(Json::array({p.key, p.value, p.mark, p.range, p.uncertainty, p.source}));
-  return out;
+  return text_of(out);
 }
 
-Json to_json(const std::vector<analysis::Warning>& warnings) {
+std::string to_json(const std::vector<analysis::Warning>& warnings) {
   Json out = Json::array();
   for (const analysis::Warning& w : warnings) {
     Json spans = Json::array();
     for (const analysis::Span& s : w.spans) spans.push_back(Json::array({s.from, s.to}));
     out.push_back({{"text", w.text}, {"spans", std::move(spans)}});
   }
-  return out;
+  return text_of(out);
 }
 
-Json to_json(const std::vector<analysis::Verdict>& verdicts) {
+std::string to_json(const std::vector<analysis::Verdict>& verdicts) {
   Json out = Json::array();
   for (const analysis::Verdict& v : verdicts)
     out.push_back({{"key", v.key},
@@ -153,10 +163,16 @@ Json to_json(const std::vector<analysis::Verdict>& verdicts) {
                    {"accept", v.accept},
                    {"source", v.source},
                    {"is", analysis::to_text(v.is)}});
-  return out;
+  return text_of(out);
 }
 
-Json phases_of(const analysis::Record& record, const analysis::Machine& machine) {
+std::string to_json(const Blob::Layout& layout) {
+  return text_of({{"clocks", layout.clocks}, {"columns", layout.columns}});
+}
+
+std::string to_json(const std::string& text) { return text_of(text); }
+
+std::string phases_of(const analysis::Record& record, const analysis::Machine& machine) {
   Json stretches = Json::array();
   for (const analysis::Stretch& s : record.stretches())
     stretches.push_back({{"phase", s.phase},
@@ -164,7 +180,7 @@ Json phases_of(const analysis::Record& record, const analysis::Machine& machine)
                          {"from", record.time(s.first)},
                          {"to", record.end_of(s.last - 1)},
                          {"stance", analysis::is_stance(machine, s.phase)}});
-  return {{"names", machine.phases}, {"stretches", std::move(stretches)}};
+  return text_of({{"names", machine.phases}, {"stretches", std::move(stretches)}});
 }
 
 }  // namespace sinew::report

@@ -179,6 +179,15 @@ bool Panels::shown_elsewhere(const std::string& topic) const {
          topic.ends_with("/air_out") || topic.starts_with("/true/joint/");
 }
 
+std::string title_of(const std::string& unit) {
+  static constexpr std::pair<const char*, const char*> titles[] = {
+      {"count", "As converted"}, {"N", "Forces"}, {"m", "Lengths"},  {"Pa", "Pressures"},
+      {"m/s", "Velocities"},     {"kg", "Air"},   {"rad", "Angles"}, {"N/m", "Stiffness"}};
+  for (const auto& [of, title] : titles)
+    if (unit == of) return title;
+  return "Other channels";
+}
+
 void Panels::others() {
   std::map<std::string, Panel> by_unit;
   for (const signals::Table* table : channels_.tables())
@@ -195,7 +204,7 @@ void Panels::others() {
     }
   for (auto& [unit, panel] : by_unit) {
     panel.group = "Other";
-    panel.title = unit == "count" ? "As converted" : "Other channels";
+    panel.title = title_of(unit);
     panel.unit = unit;
     list.push_back(std::move(panel));
   }

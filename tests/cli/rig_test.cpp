@@ -26,7 +26,7 @@ Json summary(const std::string& text) {
 
 TEST(Rig, ARunIsAFolderThatRunsAndIsAnalyzedAgain) {
   const Workspace w;
-  const Result run = w.sinew({"run", trapped, "-o", "a"});
+  const Result run = w.sinew({"run", trapped, "-o", "a", "--no-report"});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_THAT(run.out, AllOf(StartsWith("Trapped air, 60 psi and 6 lb"), HasSubstr("  agrees  "),
                              Not(HasSubstr("  differs  "))));
@@ -42,7 +42,8 @@ TEST(Rig, ARunIsAFolderThatRunsAndIsAnalyzedAgain) {
 // A stand with sensors leaves what they showed, as `sinew identify` reads it.
 TEST(Rig, SensorsLeaveMeasuredCsv) {
   const Workspace w;
-  const Words run{"run", "experiments/rig/weights-60.toml", "-o", "a", "--set", "duration=5 s"};
+  const Words run{
+      "run", "experiments/rig/weights-60.toml", "-o", "a", "--set", "duration=5 s", "--no-report"};
   ASSERT_EQ(w.sinew(run).code, 0);
   EXPECT_THAT(names_in(w / "a"),
               ElementsAre("log.mcap", "measured.csv", "resolved.toml", "summary.json"));

@@ -69,8 +69,8 @@ class Page {
 
   replay() {
     const { run } = this;
-    if (!run.scene) {
-      by_id('replay').classList.add('without-scene');
+    if (!run.scene) {  // the plots take its place, the player stays
+      document.querySelector('.stage').classList.add('without-scene');
       return;
     }
     this.scene = new Scene(by_id('scene'), run.scene, this.columns, this.units, run.duration);
@@ -274,7 +274,7 @@ class Page {
   groups() {
     const names = [...new Set(this.run.panels.map((p) => p.group))];
     by_id('groups').append(...names.map((name) => {
-      const shown = name !== 'Other';
+      const shown = name !== 'Other' || names.length === 1;
       const button = element('button', { type: 'button', 'aria-pressed': String(shown) }, name);
       const set = (on) => {
         button.setAttribute('aria-pressed', String(on));
