@@ -104,7 +104,7 @@ Content of_stand(const Run& run) {
   Object json = head(run, {stand.title, stand.reproduces, "", stand.atmosphere});
   json.put("duration", config::format_number(end_of(channels)));
   json.put("phases", R"({"names":[],"stretches":[]})");
-  json.put("panels", to_json(panels(channels, {}), columns));
+  json.put("panels", to_json(panels_by_unit(channels), columns));
   json.put("scene", "null");
   json.put("warnings", to_json(analysis::cut_logs(run.table)));
   return finish(std::move(json), run, summary, compare(summary, stand.reported, stand.atmosphere),

@@ -45,17 +45,20 @@ class Panels {
                  Style style = Style::measured) {
     per(joints_, before, after, note, style);
   }
-  // Of what a joint has from its muscles.
+  // Of what a joint has from its muscles: of a passive one it says nothing.
   void per_driven(const std::string& before, const std::string& after, const std::string& note = "",
                   Style style = Style::measured) {
     for (std::size_t i = 0; i < joints_.size(); ++i)
-      if (!passive_.contains(i)) one_of(joints_, i, before, after, note, style);
+      if (passive_.contains(i))
+        claimed_.insert(before + joints_[i] + after);
+      else
+        one_of(joints_, i, before, after, note, style);
   }
   void per_muscle(const std::string& before, const std::string& after, const std::string& note = "",
                   Style style = Style::measured) {
     per(muscles_, before, after, note, style);
   }
-  void others();
+  void others(const std::string& group);
 
   std::vector<Panel> list;
 
@@ -176,7 +179,7 @@ void air(Panels& p) {
 bool Panels::shown_elsewhere(const std::string& topic) const {
   return claimed_.contains(topic) || topic.ends_with("/open") || topic.starts_with("/plan/") ||
          topic.starts_with("/draw/") || topic.starts_with("/trolley/by_plan/") ||
-         topic.ends_with("/air_out") || topic.starts_with("/true/joint/");
+         topic.ends_with("/air_out");
 }
 
 std::string title_of(const std::string& unit) {
@@ -188,7 +191,7 @@ std::string title_of(const std::string& unit) {
   return "Other channels";
 }
 
-void Panels::others() {
+void Panels::others(const std::string& group) {
   std::map<std::string, Panel> by_unit;
   for (const signals::Table* table : channels_.tables())
     for (const signals::Series& series : table->series) {
@@ -203,7 +206,7 @@ void Panels::others() {
       }
     }
   for (auto& [unit, panel] : by_unit) {
-    panel.group = "Other";
+    panel.group = group;
     panel.title = title_of(unit);
     panel.unit = unit;
     list.push_back(std::move(panel));
@@ -220,8 +223,14 @@ std::vector<Panel> panels(const Channels& channels, const robot::Robot& robot) {
   body(p);
   valves(p);
   air(p);
-  p.others();
+  p.others("Other");
   std::erase_if(p.list, [](const Panel& panel) { return panel.lines.empty(); });
+  return std::move(p.list);
+}
+
+std::vector<Panel> panels_by_unit(const Channels& channels) {
+  Panels p(channels, {});
+  p.others("Channels");
   return std::move(p.list);
 }
 

@@ -94,7 +94,7 @@ class Panel {
       width: this.plots.printing ? paper_width : this.box.clientWidth || 600,
       height,
       legend: { show: false },
-      padding: [6, 8, 0, 0],
+      padding: [6, 14, 0, 0],
       cursor: {
         sync: { key: 'run', setSeries: false, scales: ['x', null] },
         drag: { x: true, y: false, setScale: false, dist: 5 },

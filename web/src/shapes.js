@@ -165,7 +165,7 @@ export function cylinder(ctx, view, spec, chambers, look, reach, pose) {
   ctx.beginPath();
   ctx.moveTo(-wide / 2, piston);
   ctx.lineTo(wide / 2, piston);
-  stroke(ctx, view, look['metal-edge'], 3.5);
+  stroke(ctx, view, look.paper, 3);
   ctx.beginPath();
   ctx.moveTo(0, piston);
   ctx.lineTo(0, body_top(spec, reach));

@@ -3,6 +3,7 @@
 const si = {
   share: { label: '%', scale: 100 },
   Pa: { label: 'kPa abs', scale: 1e-3 },
+  'Pa diff': { label: 'kPa', scale: 1e-3 },
   kg: { label: 'g', scale: 1e3 },
 };
 
@@ -12,6 +13,7 @@ const thesis = {
   'm/s': { label: 'in/s', scale: 1 / 0.0254 },
   N: { label: 'lbf', scale: 1 / 4.4482216152605 },
   Pa: { label: 'psi gauge', scale: 1 / 6894.757293168361, gauge: true },
+  'Pa diff': { label: 'psi', scale: 1 / 6894.757293168361 },
   rad: { label: 'deg', scale: 180 / Math.PI },
   'rad/s': { label: 'deg/s', scale: 180 / Math.PI },
   'N m': { label: 'lbf in', scale: 1 / 0.1129848290276167 },
@@ -55,7 +57,8 @@ export function number(value) {
 const endings = [
   ['_Nm_per_rad', 'N m/rad'], ['_rad_per_s', 'rad/s'], ['_m_per_s', 'm/s'],
   ['_kg_per_m', 'kg/m'], ['_s_per_m', 's/m'], ['_J_per_m', 'J/m'], ['_per_m', '1/m'],
-  ['_rad', 'rad'], ['_Nm', 'N m'], ['_kg', 'kg'], ['_count', 'count'], ['_Pa', 'Pa'],
+  ['_rad', 'rad'], ['_Nm', 'N m'], ['_kg', 'kg'], ['_count', 'count'],
+  ['_diff_Pa', 'Pa diff'], ['_Pa', 'Pa'],
   ['_N', 'N'], ['_J', 'J'], ['_m', 'm'], ['_s', 's'],
 ];
 export function unit_of_key(key) {
