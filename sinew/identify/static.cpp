@@ -9,6 +9,7 @@
 
 #include "sinew/identify/quality.h"
 #include "sinew/identify/refusal.h"
+#include "sinew/identify/static_outliers.h"
 
 namespace sinew::identify {
 
@@ -269,6 +270,23 @@ Split split_by(const Points& points, HoldOut hold_out, Report& report) {
   return s;
 }
 
+// Points that no law explains have no say in which is chosen.
+void drop_gross_outliers(Points& points, const StaticOptions& options, Report& report) {
+  const std::vector<std::size_t> wild = gross_outliers(points, scales_of(points, options));
+  if (wild.empty()) return;
+  std::string list;
+  for (std::size_t k = 0; k < std::min<std::size_t>(wild.size(), 5); ++k) {
+    const StaticPoint& p = points[wild[k]];
+    list += fmt::format("{}{:.4g} N at {:.4g} mm, {:.4g} kPa", k ? "; " : "", p.force,
+                        1e3 * p.length, 1e-3 * p.pressure);
+  }
+  report.warnings.push_back(
+      fmt::format("{} of {} points left out, far from the law that the others lie on: {}{}",
+                  wild.size(), points.size(), list, wild.size() > 5 ? "; …" : ""));
+  for (auto i = wild.rbegin(); i != wild.rend(); ++i)
+    points.erase(points.begin() + static_cast<std::ptrdiff_t>(*i));
+}
+
 std::vector<StaticMuscle> muscles_of(const StaticFit& fit, const StaticScales& scales,
                                      const Points& points) {
   std::vector<StaticMuscle> out;
@@ -339,8 +357,12 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   Points points = data.points;
   give_rest_length(points, report);
   sort_points(points);
+  Split s = split_by(points, options.hold_out, report);
+  drop_gross_outliers(s.fitted, options, report);
+  points = s.fitted;
+  points.insert(points.end(), s.held_out.begin(), s.held_out.end());
+  sort_points(points);
   report.full_scale = scales_of(points, options).full_scale;
-  const Split s = split_by(points, options.hold_out, report);
   out.scales = scales_of(s.fitted, options);
   if (!(out.scales.full_scale > 0))
     throw Refusal("force", "no force above zero among what is to be fitted", "a muscle that pulls",

@@ -161,6 +161,21 @@ TEST(Static, outliers_count_little) {
   }
 }
 
+// A slipped decimal in few points must not decide for a law that is wrong for all others.
+TEST(Static, wild_points_do_not_change_the_choice) {
+  std::vector<StaticPoint> points = measured(truth(), 11, real_noise(), many);
+  const StaticResult clean = identify(points);
+  EXPECT_TRUE(clean.report.warnings.empty());
+  for (const std::size_t i : {20u, 33u, 47u}) points[i].force *= 3;
+  const StaticResult wild = identify(points);
+  EXPECT_EQ(wild.report.best().model, clean.report.best().model);
+  EXPECT_LT(wild.report.best().fit.rmse_percent, 1.1 * clean.report.best().fit.rmse_percent);
+  EXPECT_NEAR(wild.report.full_scale, clean.report.full_scale, 0.01 * clean.report.full_scale);
+  ASSERT_EQ(wild.report.warnings.size(), 1u);
+  EXPECT_NE(wild.report.warnings[0].find("3 of 104 points left out"), std::string::npos)
+      << wild.report.warnings[0];
+}
+
 TEST(Static, held_out_points_have_no_part_in_the_fit) {
   std::vector<StaticPoint> points = measured(truth(), 8, real_noise(), many);
   for (std::size_t i = 0; i < points.size(); i += 2) points[i].fitted = false;
