@@ -22,6 +22,10 @@ thread_local int taken = 0;
   if (void* p = std::malloc(size + 1)) return p;
   throw std::bad_alloc();
 }
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  taken += counting ? 1 : 0;
+  return std::malloc(size + 1);
+}
 [[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
 [[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
