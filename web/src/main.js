@@ -1,6 +1,7 @@
 // The page of a run: reads what the program put into it, then joins replay, plots and tables.
 import { pressure_gradient } from './colors.js';
-import { by_id, element, set_icon } from './page.js';
+import { Look } from './look.js';
+import { by_id, element } from './page.js';
 import { Player } from './player.js';
 import { Plots } from './plots.js';
 import { held, index_at, open_within, read_samples } from './samples.js';
@@ -180,19 +181,17 @@ class Page {
   // --- controls ---
 
   controls() {
-    by_id('units-si').addEventListener('click', () => this.set_units('si'));
-    by_id('units-thesis').addEventListener('click', () => this.set_units('thesis'));
-    by_id('theme').addEventListener('click', () => this.set_theme(this.is_dark() ? 'light' : 'dark'));
+    this.look = new Look(this.units, {
+      on_units: () => this.reword(),
+      on_colors: () => this.recolor(),
+      on_print: (begins) => this.print(begins),
+    });
     by_id('follow').addEventListener('click', () => this.toggle_follow());
     by_id('zoom-in').addEventListener('click', () => this.plots.zoom_by(0.5));
     by_id('zoom-out').addEventListener('click', () => this.plots.zoom_by(2));
     by_id('zoom-all').addEventListener('click', () => this.plots.zoom_all());
     document.addEventListener('keydown', (event) => this.key(event));
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.recolor());
-    addEventListener('beforeprint', () => this.print(true));
-    addEventListener('afterprint', () => this.print(false));
     new ResizeObserver(() => this.draw_phases()).observe(by_id('phases'));
-    this.set_theme_icon();
   }
 
   key(event) {
@@ -230,45 +229,25 @@ class Page {
     this.scene.draw(this.player.time);
   }
 
-  set_units(system) {
-    this.units.system = system;
-    by_id('units-si').setAttribute('aria-pressed', String(system === 'si'));
-    by_id('units-thesis').setAttribute('aria-pressed', String(system === 'thesis'));
+  // Other units.
+  reword() {
     this.plots.rebuild();
     this.figures.refresh();
     if (this.scene) this.legend();
     this.show(this.player.time);
   }
 
-  is_dark() {
-    const chosen = document.documentElement.dataset.theme;
-    return chosen ? chosen === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
-  }
-
-  set_theme(theme) {
-    if (theme) document.documentElement.dataset.theme = theme;
-    else delete document.documentElement.dataset.theme;
-    this.recolor();
-  }
-
-  set_theme_icon() {
-    set_icon(by_id('theme'), this.is_dark() ? 'light' : 'dark');
-  }
-
   recolor() {
-    this.set_theme_icon();
     this.scene?.read_look();
     this.plots.rebuild();
     this.draw_phases();
     this.show(this.player.time);
   }
 
-  // On paper everything is light, and all plots are there.
+  // On paper all plots are there.
   print(begins) {
-    if (begins) this.theme_before = document.documentElement.dataset.theme;
     this.player.set_playing(false);
     this.plots.print(begins);
-    this.set_theme(begins ? 'light' : this.theme_before);
   }
 
   groups() {

@@ -133,9 +133,9 @@ test('dragging zooms all plots, down to every sample; a double click shows the w
       const { plots } = window.sinew.page;
       return plots.panels.filter((p) => p.visible && p.plot).map((p) => {
         const [from, to] = plots.view, x = p.plot.data[0];
-        const column = p.data.values[0];
+        const { time, values: column } = p.columns[0];
         let low = Infinity, high = -Infinity, samples = 0;
-        p.data.time.forEach((t, i) => {
+        time.forEach((t, i) => {
           if (t < from || t > to) return;
           ++samples;
           low = Math.min(low, column[i] ?? NaN), high = Math.max(high, column[i]);

@@ -4,6 +4,7 @@ import { test } from 'node:test';
 import { deflateSync } from 'node:zlib';
 import { bucket_size, level_for, pyramid } from '../src/pyramid.js';
 import { between, held, index_at, open_within, read_samples } from '../src/samples.js';
+import { Slices } from '../src/slices.js';
 import { number, unit_of_key, Units, words_of_key } from '../src/units.js';
 
 // Repeatable numbers in 0 … 1.
@@ -136,4 +137,34 @@ test('keys tell their unit and read as words', () => {
   assert.equal(unit_of_key('steps'), '1');
   assert.equal(words_of_key('joints.hip.min_angle_rad'), 'hip · min angle');
   assert.equal(words_of_key('muscles.hip_extensor.peak_tension_N'), 'hip extensor · peak tension');
+});
+
+// --- slices ---
+
+const plain = { scale: 1, offset: 0 };
+
+test('a slice is every sample in view and one on either side, from afar every peak', () => {
+  const random = random_from(7);
+  const time = Float64Array.from({ length: 5000 }, (_, i) => 0.01 * i);
+  const values = Float32Array.from(time, random);
+  const slices = new Slices([{ time, values }]);
+  const [x, y] = slices.of([10, 12], 600, { scale: 2, offset: 1 });
+  assert.deepEqual([...x], [...time.filter((t) => t >= 10 && t <= 12.015)]);
+  assert.deepEqual(y, [...values.subarray(1000, 1000 + x.length)].map((v) => 2 * (v + 1)));
+
+  const [far, drawn] = slices.of([0, 50], 600, plain);
+  assert.ok(far.length <= 1200 && far.length > 300, `${far.length} points`);
+  assert.equal(Math.min(...drawn), Math.min(...values));
+  assert.equal(Math.max(...drawn), Math.max(...values));
+});
+
+test('columns of different clocks meet without a sample that is not theirs', () => {
+  const slow = { time: Float64Array.of(0, 0.2, 0.4), values: Float32Array.of(1, NaN, 3) };
+  const fast = { time: Float64Array.of(0.1, 0.2, 0.3), values: Float32Array.of(4, 5, 6) };
+  const also = { time: slow.time, values: Float32Array.of(7, 8, 9) };
+  const [x, a, b, c] = new Slices([slow, fast, also]).of([0, 1], 600, plain);
+  assert.deepEqual([...x], [0, 0.1, 0.2, 0.3, 0.4]);
+  assert.deepEqual([...a], [1, undefined, null, undefined, 3], 'no number is a gap, no sample is none');
+  assert.deepEqual([...b], [undefined, 4, 5, 6, undefined]);
+  assert.deepEqual([...c], [7, undefined, 8, undefined, 9]);
 });

@@ -1,0 +1,51 @@
+// How a page looks: units, light or dark, paper. The same buttons on every page.
+import { by_id, set_icon } from './page.js';
+
+export class Look {
+  // `on_units` and `on_colors` draw again; `on_print(begins)` prepares for paper, and for the screen
+  // again.
+  constructor(units, { on_units, on_colors, on_print }) {
+    Object.assign(this, { units, on_units, on_colors, on_print });
+    by_id('units-si').addEventListener('click', () => this.set_units('si'));
+    by_id('units-thesis').addEventListener('click', () => this.set_units('thesis'));
+    by_id('theme').addEventListener('click', () => this.set_theme(this.is_dark() ? 'light' : 'dark'));
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.recolor());
+    addEventListener('beforeprint', () => this.print(true));
+    addEventListener('afterprint', () => this.print(false));
+    this.set_icon();
+  }
+
+  set_units(system) {
+    this.units.system = system;
+    by_id('units-si').setAttribute('aria-pressed', String(system === 'si'));
+    by_id('units-thesis').setAttribute('aria-pressed', String(system === 'thesis'));
+    this.on_units();
+  }
+
+  is_dark() {
+    const chosen = document.documentElement.dataset.theme;
+    return chosen ? chosen === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
+  }
+
+  set_theme(theme) {
+    if (theme) document.documentElement.dataset.theme = theme;
+    else delete document.documentElement.dataset.theme;
+    this.recolor();
+  }
+
+  set_icon() {
+    set_icon(by_id('theme'), this.is_dark() ? 'light' : 'dark');
+  }
+
+  recolor() {
+    this.set_icon();
+    this.on_colors();
+  }
+
+  // On paper everything is light.
+  print(begins) {
+    if (begins) this.theme_before = document.documentElement.dataset.theme;
+    this.on_print(begins);
+    this.set_theme(begins ? 'light' : this.theme_before);
+  }
+}
