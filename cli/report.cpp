@@ -54,10 +54,6 @@ std::string record_text(const signals::Series& s, std::size_t i) {
   return text;
 }
 
-}  // namespace
-
-namespace {
-
 // Of a run of which nothing is reported.
 void print_main_figures(const analysis::Summary& summary, const analysis::Machine& machine) {
   std::vector<std::pair<std::string, std::string_view>> keys = {
@@ -80,7 +76,13 @@ void print_main_figures(const analysis::Summary& summary, const analysis::Machin
   if (!table.empty()) fmt::print("{}", table.text());
 }
 
-}  // namespace
+// Verdicts, colored on a terminal.
+std::string shown(analysis::Verdict::Is is) {
+  using enum analysis::Verdict::Is;
+  const std::string_view word = to_text(is);
+  if (is == agrees) return in_green(word);
+  return is == differs || is == agrees_after_all ? in_red(word) : std::string(word);
+}
 
 bool print_reported(const analysis::Summary& summary,
                     const std::vector<analysis::Reported>& reported, double atmosphere) {
@@ -90,12 +92,13 @@ bool print_reported(const analysis::Summary& summary,
 
   TextTable table({"", "reported", "Sinew", "accepted", "", "source"});
   for (const analysis::Verdict& v : compare(summary, reported, atmosphere))
-    table.add({v.key, v.reported, v.ours.empty() ? "-" : v.ours, v.accept,
-               std::string(to_text(v.is)), v.source});
+    table.add({v.key, v.reported, v.ours.empty() ? "-" : v.ours, v.accept, shown(v.is), v.source});
   if (table.empty()) return false;
-  fmt::print("{}", table.text());
+  fmt::print("{}", table.text_within(width_of_output()));
   return true;
 }
+
+}  // namespace
 
 void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine) {
   if (!print_reported(summary, machine.reported, machine.atmosphere))

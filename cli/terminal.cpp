@@ -1,6 +1,7 @@
 #include "cli/terminal.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -11,36 +12,46 @@ namespace sinew::cli {
 
 namespace {
 
+bool is_terminal(int stream) {
+  const char* term = std::getenv("TERM");
+  return isatty(stream) == 1 && !(term && std::string_view(term) == "dumb");
+}
+
 bool on_terminal() {
-  static const bool terminal = [] {
-    const char* term = std::getenv("TERM");
-    return isatty(STDERR_FILENO) == 1 && !(term && std::string_view(term) == "dumb");
-  }();
+  static const bool terminal = is_terminal(STDERR_FILENO);
   return terminal;
 }
 
-bool coloured() {
+std::string in_color(int stream, std::string_view text, std::string_view code) {
   const char* no_color = std::getenv("NO_COLOR");
-  return on_terminal() && !(no_color && *no_color);
-}
-
-std::string in_colour(std::string_view text, std::string_view code) {
-  if (!coloured()) return std::string(text);
+  if (!is_terminal(stream) || (no_color && *no_color)) return std::string(text);
   return fmt::format("\033[{}m{}\033[0m", code, text);
 }
 
 }  // namespace
 
 // Each line starts with its place, so that editors can jump there.
-void error(std::string_view text) { fmt::print(stderr, "{}\n", in_colour(text, "31")); }
+void error(std::string_view text) {
+  fmt::print(stderr, "{}\n", in_color(STDERR_FILENO, text, "31"));
+}
 
 void Messages::warning(std::string_view text) const {
-  if (!quiet_) fmt::print(stderr, "{} {}\n", in_colour("warning:", "33"), text);
+  if (!quiet_) fmt::print(stderr, "{} {}\n", in_color(STDERR_FILENO, "warning:", "33"), text);
 }
 
 void Messages::note(std::string_view text) const {
   if (!quiet_) fmt::print(stderr, "{}\n", text);
 }
+
+std::size_t width_of_output() {
+  winsize size{};
+  if (isatty(STDOUT_FILENO) != 1 || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) return 0;
+  return size.ws_col;
+}
+
+std::string in_green(std::string_view text) { return in_color(STDOUT_FILENO, text, "32"); }
+
+std::string in_red(std::string_view text) { return in_color(STDOUT_FILENO, text, "31"); }
 
 ProgressBar::ProgressBar(const std::atomic<std::int64_t>& now, std::int64_t end, Steps steps,
                          bool quiet)

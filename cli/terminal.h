@@ -1,6 +1,7 @@
-// cli/terminal.h - what goes to stderr: errors, warnings, notes and a progress bar.
+// cli/terminal.h - what goes to stderr: errors, warnings, notes and a progress bar; how wide and
+// colored stdout may be.
 //
-// Colour and the bar appear on a terminal only; NO_COLOR (no-color.org) and TERM=dumb are
+// Color and the bar appear on a terminal only; NO_COLOR (no-color.org) and TERM=dumb are
 // respected.
 #pragma once
 
@@ -26,6 +27,13 @@ class Messages {
  private:
   bool quiet_;
 };
+
+// Letters in a line of stdout; 0 where it is no terminal, and any number will do.
+std::size_t width_of_output();
+
+// Green for what is as it should be, red for what is not; plain where stdout takes no color.
+std::string in_green(std::string_view text);
+std::string in_red(std::string_view text);
 
 // What one step of a progress bar stands for, as people count.
 struct Steps {

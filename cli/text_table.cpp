@@ -4,9 +4,37 @@
 
 namespace sinew::cli {
 
+namespace {
+
+// Lines of at most `width` letters, broken between words; a longer word stands alone.
+std::vector<std::string> broken(std::string_view text, std::size_t width) {
+  std::vector<std::string> lines(1);
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    std::string& last = lines.back();
+    if (last.empty())
+      last = word;
+    else if (columns(last) + 1 + columns(word) <= width)
+      last += ' ' + std::string(word);
+    else
+      lines.emplace_back(word);
+  }
+  return lines;
+}
+
+}  // namespace
+
 std::size_t columns(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  std::size_t count = 0;
+  bool color = false;  // from ESC to its m
+  for (const char c : text) {
+    color = color || c == '\033';
+    if (!color && (static_cast<unsigned char>(c) & 0xC0) != 0x80) ++count;
+    color = color && c != 'm';
+  }
+  return count;
 }
 
 TextTable::TextTable(std::vector<std::string> titles, std::vector<Align> align)
@@ -15,21 +43,52 @@ TextTable::TextTable(std::vector<std::string> titles, std::vector<Align> align)
   rows_.push_back(std::move(titles));
 }
 
-std::string TextTable::text(std::string_view indent) const {
-  std::vector<std::size_t> width(align_.size(), 0);
+std::vector<std::size_t> TextTable::widths() const {
+  std::vector<std::size_t> out(align_.size(), 0);
   for (const auto& row : rows_)
-    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], columns(row[i]));
+    for (std::size_t i = 0; i < row.size(); ++i) out[i] = std::max(out[i], columns(row[i]));
+  return out;
+}
 
+std::string TextTable::line(const std::vector<std::string>& row, std::string_view indent) const {
+  const std::vector<std::size_t> width = widths();
+  std::string out(indent);
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const std::string padding(width[i] - columns(row[i]), ' ');
+    if (i > 0) out += "  ";
+    out += align_[i] == Align::right ? padding + row[i] : row[i] + padding;
+  }
+  out.erase(out.find_last_not_of(' ') + 1);
+  return out + '\n';
+}
+
+std::string TextTable::text(std::string_view indent) const {
   std::string out;
-  for (const auto& row : rows_) {
-    std::string line(indent);
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(width[i] - columns(row[i]), ' ');
-      if (i > 0) line += "  ";
-      line += align_[i] == Align::right ? padding + row[i] : row[i] + padding;
+  for (const auto& row : rows_) out += line(row, indent);
+  return out;
+}
+
+std::string TextTable::text_within(std::size_t width) const {
+  constexpr std::size_t least = 20, indent = 4;
+  const std::vector<std::size_t> all = widths();
+  std::size_t before = 0;  // of the last column
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) before += all[i] + 2;
+  if (width == 0 || before + all.back() <= width) return text();
+
+  const bool beside = before + least <= width;
+  const std::size_t from = beside ? before : indent;
+  const std::size_t room = std::max(least, width - std::min(width, from));
+  std::string out;
+  for (std::vector<std::string> row : rows_) {
+    std::vector<std::string> last = row.size() == all.size() && !row.back().empty()
+                                        ? broken(row.back(), room)
+                                        : std::vector<std::string>();
+    if (!last.empty()) {
+      row.back() = beside ? last.front() : "";
+      if (beside) last.erase(last.begin());
     }
-    line.erase(line.find_last_not_of(' ') + 1);
-    out += line + '\n';
+    out += line(row, "");
+    for (const std::string& rest : last) out += std::string(from, ' ') + rest + '\n';
   }
   return out;
 }

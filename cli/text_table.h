@@ -20,12 +20,19 @@ class TextTable {
   // The last column is never padded. `indent` stands before each line.
   std::string text(std::string_view indent = "") const;
 
+  // The same within `width` letters, 0 for any: the last column is broken between its words, or
+  // stands on lines of its own where little room is left for it.
+  std::string text_within(std::size_t width) const;
+
  private:
+  std::vector<std::size_t> widths() const;
+  std::string line(const std::vector<std::string>& row, std::string_view indent) const;
+
   std::vector<std::vector<std::string>> rows_;  // titles first
   std::vector<Align> align_;
 };
 
-// Letters of a UTF-8 text; none here is wider than one column.
+// Letters of a UTF-8 text without its colors; none here is wider than one column.
 std::size_t columns(std::string_view text);
 
 }  // namespace sinew::cli
