@@ -68,7 +68,8 @@ void make_equal(Axes& axes) {
   const double middle = (more.from + more.to) / 2, half = by * (more.to - more.from) / 2;
   more.from = middle - half;
   more.to = middle + half;
-  axes.x.step = axes.y.step = std::max(axes.x.step, axes.y.step);
+  axes.x.step = round_step((axes.x.to - axes.x.from) / 6);
+  axes.y.step = round_step((axes.y.to - axes.y.from) / std::min(6.0, axes.height / Print::tick));
 }
 
 Axes axes_of(const Plot& plot) {
@@ -150,10 +151,10 @@ FigureLayout layout(const Figure& figure) {
     y += add_legend(plot, p, y);
     p.top = y + Print::gap;
     p.bottom = y = p.top + axes.height;
-    y += Print::numbers + Print::line + 2 * Print::gap;
+    y += Print::numbers + 1.5 * Print::line + 2 * Print::gap;
     out.plots.push_back(std::move(p));
   }
-  out.height = y - Print::gap + Print::bottom - Print::gap;
+  out.height = y - 2 * Print::gap + Print::bottom;
   return out;
 }
 

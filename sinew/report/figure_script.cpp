@@ -92,7 +92,7 @@ std::string line_of(const Plot& plot, std::size_t c) {
 }
 
 std::string point_of(const Plot& plot, std::size_t c) {
-  return fmt::format("pointtype {} pointsize 0.3", plot.curves[c].kind == Kind::synthetic ? 6 : 7);
+  return fmt::format("pointtype {} pointsize mark", plot.curves[c].kind == Kind::synthetic ? 6 : 7);
 }
 
 std::string drawn_with(const Plot& plot, std::size_t c) {
@@ -133,11 +133,13 @@ void Script::begin(const std::vector<Picture>& pictures) {
   add("set terminal svg size {},{} noenhanced font 'Arial,{:.2f}' linewidth {:.3f} "
       "background '#ffffff'",
       pixels(96, Print::width), pixels(96, layout_.height), Print::font * 96 / 72, 96.0 / 72);
+  add("heading = ',{:.2f}'; mark = 0.5", (Print::font + 1) * 96 / 72);
   add("}} else {{");
   add("set terminal pngcairo size {},{} noenhanced font 'Arial,{}' fontscale {:.3f} "
       "linewidth {:.3f} pointscale {:.3f} background '#ffffff'",
       pixels(300, Print::width), pixels(300, layout_.height), Print::font, 300.0 / 72, 300.0 / 72,
       300.0 / 72);
+  add("heading = ',{}'; mark = 0.3", Print::font + 1);
   add("}}");
   add("set output '{}.'.picture", figure_.name);
   add("set multiplot");
@@ -154,8 +156,7 @@ void Script::axis(char name, const Axis& axis, const Scale& s) {
 
 void Script::titles(const Plot& plot, const PlotLayout& at) {
   if (!plot.title.empty())
-    add("set label {} at {} left font ',{:.2f}'", quoted(plot.title), place(Print::left, at.title),
-        Print::font + 1);
+    add("set label {} at {} left font heading", quoted(plot.title), place(Print::left, at.title));
   add("set label {} at screen {}, graph 0.5 center rotate by 90", quoted(plot.y.title()),
       across(0.75 * Print::line));
   add("set label {} at graph 0.5, screen {} center", quoted(plot.x.title()),
