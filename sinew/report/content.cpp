@@ -92,22 +92,26 @@ Content of_robot(const Run& run) {
                 compare(summary, machine.reported, machine.atmosphere), blob);
 }
 
-// Of the test stand: its channels by their units, no drawing yet.
 Content of_stand(const Run& run) {
-  const analysis::StandFile stand = analysis::read_stand(run.resolved);
-  const analysis::Summary summary = analysis::summarize(run.table, stand);
+  const analysis::StandFile file = analysis::read_stand(run.resolved);
+  const analysis::Summary summary = analysis::summarize(run.table, file);
   Channels channels;
   channels.add(run.table);
+  signals::Table drawn;
+  const Stand stand_of_run = stand(channels, run.resolved, file, drawn);
+  channels.add(drawn);
 
   Blob blob;
   Columns columns(channels, blob);
-  Object json = head(run, {stand.title, stand.reproduces, "", stand.atmosphere});
+  Object json = head(run, {file.title, file.reproduces, "", file.atmosphere});
   json.put("duration", config::format_number(end_of(channels)));
   json.put("phases", R"({"names":[],"stretches":[]})");
-  json.put("panels", to_json(panels_by_unit(channels), columns));
+  json.put("panels", to_json(panels_of_stand(channels, file.element), columns));
   json.put("scene", "null");
+  json.put("stand", to_json(stand_of_run, columns));
+  json.put("charts", to_json(stand_charts(channels, stand_of_run), columns));
   json.put("warnings", to_json(analysis::cut_logs(run.table)));
-  return finish(std::move(json), run, summary, compare(summary, stand.reported, stand.atmosphere),
+  return finish(std::move(json), run, summary, compare(summary, file.reported, file.atmosphere),
                 blob);
 }
 

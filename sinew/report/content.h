@@ -8,9 +8,11 @@
 #include "sinew/analysis/record.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/report/blob.h"
+#include "sinew/report/charts.h"
 #include "sinew/report/panels.h"
 #include "sinew/report/parameters.h"
 #include "sinew/report/scene.h"
+#include "sinew/report/stand.h"
 
 namespace sinew::report {
 
@@ -33,6 +35,8 @@ class Columns {
 // Each as JSON; a channel is the number of its column, or null.
 std::string to_json(const std::vector<Panel>& panels, Columns& columns);
 std::string to_json(const Scene& scene, Columns& columns);  // null: an empty one
+std::string to_json(const Stand& stand, Columns& columns);  // null: an empty one
+std::string to_json(const std::vector<Chart>& charts, Columns& columns);
 std::string to_json(const std::vector<Parameter>& parameters);
 std::string to_json(const std::vector<analysis::Warning>& warnings);
 std::string to_json(const std::vector<analysis::Verdict>& verdicts);

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "sinew/report/content.h"
@@ -29,6 +32,44 @@ std::string_view word(Line::Style style) {
       return "hidden";
   }
   return "";
+}
+
+std::string_view word(Curve::Style style) {
+  return style == Curve::Style::line     ? "line"
+         : style == Curve::Style::points ? "points"
+                                         : "held out";
+}
+
+std::string_view word(Stand::Load load) {
+  using enum Stand::Load;
+  return load == hanging ? "hanging" : load == driven ? "driven" : "clamped";
+}
+
+std::string_view word(Stand::Air air) {
+  using enum Stand::Air;
+  return air == sealed      ? "sealed"
+         : air == regulated ? "regulated"
+         : air == valves    ? "valves"
+                            : "3-way";
+}
+
+Json axis_of(const Axis& axis) { return {{"label", axis.label}, {"unit", axis.unit}}; }
+
+// Numbers, or the column where they stand. As many digits as a picture can show.
+Json numbers_of(const std::vector<double>& numbers, const Channel& channel, Columns& columns) {
+  if (!channel.none()) return column_of(channel, columns);
+  Json out = Json::array();
+  for (const double x : numbers)
+    out.push_back(std::isfinite(x) ? Json::parse(fmt::format("{:.7g}", x)) : Json());
+  return out;
+}
+
+Json curve_of(const Curve& c, Columns& columns) {
+  Json out = {{"label", c.label}, {"style", word(c.style)}, {"color", c.color}};
+  out["x"] = numbers_of(c.x, c.x_channel, columns);
+  out["y"] = numbers_of(c.y, c.y_channel, columns);
+  if (!c.spread.empty()) out["spread"] = numbers_of(c.spread, {}, columns);
+  return out;
 }
 
 Json frames_of(const Scene& scene, Columns& columns) {
@@ -134,6 +175,47 @@ std::string to_json(const Scene& scene, Columns& columns) {
                    {"desired", vector_of(scene.desired_path, columns)},
                    {"force", vector_of(scene.force, columns)},
                    {"contact", column_of(scene.contact, columns)}};
+  return text_of(out);
+}
+
+std::string to_json(const Stand& stand, Columns& columns) {
+  if (stand.empty()) return "null";
+  return text_of({{"element", stand.element},
+                  {"count", stand.count},
+                  {"turns", stand.turns},
+                  {"bore", stand.bore},
+                  {"rod", stand.rod},
+                  {"stroke", stand.stroke},
+                  {"load", word(stand.load)},
+                  {"air", word(stand.air)},
+                  {"shortest", stand.shortest},
+                  {"longest", stand.longest},
+                  {"least", stand.least},
+                  {"most", stand.most},
+                  {"heaviest", stand.heaviest},
+                  {"weight_step", stand.weight_step},
+                  {"length", column_of(stand.length, columns)},
+                  {"diameter", column_of(stand.diameter, columns)},
+                  {"pressure", column_of(stand.pressure, columns)},
+                  {"desired", column_of(stand.desired, columns)},
+                  {"tension", column_of(stand.tension, columns)},
+                  {"weight", column_of(stand.weight, columns)},
+                  {"inlet", column_of(stand.inlet, columns)},
+                  {"exhaust", column_of(stand.exhaust, columns)},
+                  {"drawn_from", stand.drawn_from}});
+}
+
+std::string to_json(const std::vector<Chart>& charts, Columns& columns) {
+  Json out = Json::array();
+  for (const Chart& c : charts) {
+    Json curves = Json::array();
+    for (const Curve& curve : c.curves) curves.push_back(curve_of(curve, columns));
+    out.push_back({{"title", c.title},
+                   {"x", axis_of(c.x)},
+                   {"y", axis_of(c.y)},
+                   {"curves", std::move(curves)},
+                   {"note", c.note}});
+  }
   return text_of(out);
 }
 

@@ -184,21 +184,6 @@ TEST(Panels, TakeWhatNobodyKnowsByItsUnit) {
   EXPECT_EQ(all[1].group, "Other");
 }
 
-TEST(Panels, OfAStandAreAllChannelsByUnit) {
-  const signals::Table t = test::walking(test::machine());
-  Channels channels;
-  channels.add(t);
-  std::size_t lines = 0, fields = 0;
-  for (const Panel& p : panels_by_unit(channels)) {
-    EXPECT_EQ(p.group, "Channels");
-    lines += p.lines.size();
-  }
-  for (const signals::Series& s : t.series)
-    if (!s.topic.name.starts_with("/plan/") && !s.topic.name.ends_with("/open"))
-      fields += s.topic.fields.size();
-  EXPECT_EQ(lines, fields);
-}
-
 // --- parameters ---
 
 TEST(Parameters, ComeWithTheirSources) {

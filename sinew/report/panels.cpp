@@ -58,6 +58,8 @@ class Panels {
                   Style style = Style::measured) {
     per(muscles_, before, after, note, style);
   }
+  // Transducers of the stand that read in `unit`; their truth waits behind them.
+  void per_sensor(const std::string& unit);
   void others(const std::string& group);
 
   std::vector<Panel> list;
@@ -175,10 +177,64 @@ void air(Panels& p) {
   p.line("tank", {"/true/supply/tank_pressure"}, 1);
 }
 
+void Panels::per_sensor(const std::string& unit) {
+  int color = 0;
+  for (const signals::Table* table : channels_.tables())
+    for (const signals::Series& series : table->series) {
+      const std::string& topic = series.topic.name;
+      if (!topic.starts_with("/sensor/") || !topic.ends_with("/value")) continue;
+      const Channel channel{topic};
+      if (channels_.find(channel).unit != unit) continue;
+      constexpr std::size_t before = 8, after = 6;  // of the name
+      line(words(topic.substr(before, topic.size() - before - after)) + " read", channel, color++);
+    }
+}
+
+void stand(Panels& p, const std::string& element) {
+  const std::string muscle = "/true/muscle/" + element;
+  p.open("Stand", "Length");
+  p.per_sensor("m");
+  p.line("desired", {"/desired/length"}, 0, Style::desired);
+  p.line("true", {"/true/stand/length"}, 0, Style::hidden);
+  p.open("Stand", "Tension");
+  p.per_sensor("N");
+  p.line("true", {"/true/stand/force"}, 0, Style::hidden);
+  p.line("load", {"/draw/stand/weight"}, 1, Style::desired);
+  p.line("dry friction", {"/true/stand/friction"}, 2);
+  p.open("Stand", "Pressure");
+  p.line("true", {muscle + "/pressure"}, 0);
+  p.open("Stand", "Pressure read, gauge", "Pa diff");
+  p.per_sensor("Pa");
+  p.open("Stand", "Velocity");
+  p.line("true", {"/true/stand/velocity"}, 0);
+  p.open("Stand", "Acceleration");
+  p.per_sensor("m/s^2");
+  p.line("true", {"/true/stand/acceleration"}, 0, Style::hidden);
+}
+
+void stand_valves(Panels& p, const std::string& element) {
+  const std::string muscle = "/muscle/" + element, valve = "/true/valve/" + element;
+  p.open("Valves", "Duty", "share");
+  p.line("inlet", {muscle + "/inlet_duty"}, 0);
+  p.line("exhaust", {muscle + "/exhaust_duty"}, 1);
+  p.open("Valves", "Open share of the area", "share");
+  p.line("inlet", {valve + "/inlet"}, 0);
+  p.line("exhaust", {valve + "/exhaust"}, 1);
+  p.open("Air", "Air");
+  p.line("in the element", {"/true" + muscle + "/mass"}, 0);
+  p.line("taken in", {"/true" + muscle + "/air_in"}, 1);
+  p.line("let out", {"/true" + muscle + "/air_out"}, 2);
+  p.line("leaked", {"/true" + muscle + "/air_leaked"}, 3);
+  p.open("Air", "Supply pressure");
+  p.line("line", {"/true/supply/pressure"}, 0);
+  p.line("tank", {"/true/supply/tank_pressure"}, 1);
+}
+
 // Edges are lights in the drawing, the plan's phase is the plots' background.
 bool Panels::shown_elsewhere(const std::string& topic) const {
   return claimed_.contains(topic) || topic.ends_with("/open") || topic.starts_with("/plan/") ||
          topic.starts_with("/draw/") || topic.starts_with("/trolley/by_plan/") ||
+         topic.starts_with("/sweep/") || topic.starts_with("/true/sweep/") ||
          topic.ends_with("/air_out");
 }
 
@@ -213,6 +269,11 @@ void Panels::others(const std::string& group) {
   }
 }
 
+std::vector<Panel> not_empty(std::vector<Panel> list) {
+  std::erase_if(list, [](const Panel& panel) { return panel.lines.empty(); });
+  return list;
+}
+
 }  // namespace
 
 std::vector<Panel> panels(const Channels& channels, const robot::Robot& robot) {
@@ -224,14 +285,15 @@ std::vector<Panel> panels(const Channels& channels, const robot::Robot& robot) {
   valves(p);
   air(p);
   p.others("Other");
-  std::erase_if(p.list, [](const Panel& panel) { return panel.lines.empty(); });
-  return std::move(p.list);
+  return not_empty(std::move(p.list));
 }
 
-std::vector<Panel> panels_by_unit(const Channels& channels) {
+std::vector<Panel> panels_of_stand(const Channels& channels, const std::string& element) {
   Panels p(channels, {});
-  p.others("Channels");
-  return std::move(p.list);
+  stand(p, element);
+  stand_valves(p, element);
+  p.others("Other");
+  return not_empty(std::move(p.list));
 }
 
 }  // namespace sinew::report

@@ -28,7 +28,7 @@ struct Panel {
 // Panels of what the channels hold, empty ones left out. What no panel knows comes last, by unit.
 std::vector<Panel> panels(const Channels& channels, const robot::Robot& robot);
 
-// All channels by their units, as of the test stand.
-std::vector<Panel> panels_by_unit(const Channels& channels);
+// Of a run on the test stand; `element` is its name in the topics.
+std::vector<Panel> panels_of_stand(const Channels& channels, const std::string& element);
 
 }  // namespace sinew::report

@@ -1,13 +1,14 @@
 // The page of a run: reads what the program put into it, then joins replay, plots and tables.
 import { pressure_gradient } from './colors.js';
+import { Charts } from './charts.js';
 import { Look } from './look.js';
 import { by_id, element } from './page.js';
 import { Player } from './player.js';
 import { Plots } from './plots.js';
 import { held, index_at, open_within, read_samples } from './samples.js';
 import { Scene } from './scene.js';
+import { as_scene, StandScene } from './stand.js';
 import { count_verdicts, Figures, show_parameters, show_results, show_warnings } from './tables.js';
-import { thicker } from './shapes.js';
 import { Units } from './units.js';
 
 class Page {
@@ -18,6 +19,7 @@ class Page {
     this.head();
     this.plots = new Plots(by_id('panels'), run, columns, this.units, (t) => this.seek(t));
     this.plots.on_view = () => this.draw_phases();
+    this.charts = run.charts?.length ? new Charts(by_id('charts'), run.charts, columns, this.units) : null;
     this.replay();
     this.player = new Player(run.duration, this.clock(), (t) => this.show(t));
     this.tables();
@@ -70,11 +72,14 @@ class Page {
 
   replay() {
     const { run } = this;
+    document.querySelector('.stage').hidden = !run.panels.length;  // a sweep has no time
+    if (run.stand) run.scene = as_scene(run.stand);
     if (!run.scene) {  // the plots take its place, the player stays
       document.querySelector('.stage').classList.add('without-scene');
       return;
     }
-    this.scene = new Scene(by_id('scene'), run.scene, this.columns, this.units, run.duration);
+    this.scene = run.stand ? new StandScene(by_id('scene'), run.stand, this.columns, this.units)
+      : new Scene(by_id('scene'), run.scene, this.columns, this.units, run.duration);
     by_id('follow').hidden = !run.scene.track;
     this.muscles = run.scene.muscles.map((m) => this.muscle_card(m));
     // A log of hardware says nothing of their air.
@@ -107,10 +112,8 @@ class Page {
     }
     if (run.scene.muscles.some((m) => m.inlet !== null)) out.push(item('inlet', 'inlet open'));
     if (run.scene.muscles.some((m) => m.exhaust !== null)) out.push(item('exhaust', 'exhaust open'));
-    if (run.scene.foot?.path) out.push(item('actual', 'foot'));
-    if (run.scene.foot?.desired) out.push(item('desired', 'foot desired'));
-    if (run.scene.foot?.force) out.push(item('force', 'ground reaction'));
-    out.push(element('span', { class: 'key quiet' }, `${run.scene.drawn_from}; muscles placed to fit, ${thicker} × as thick`));
+    out.push(...scene.legend().map(([kind, words]) => item(kind, words)));
+    out.push(element('span', { class: 'key quiet' }, scene.note()));
     by_id('legend').replaceChildren(...out);
   }
 
@@ -158,6 +161,7 @@ class Page {
   show(t) {
     this.scene?.draw(t);
     this.plots.set_time(t);
+    this.charts?.set_time(t);
     if (this.player?.playing) this.plots.keep_in_view(t);
     const phase = this.phase_at(t);
     by_id('clock').textContent = `${t.toFixed(2)} s${phase ? '  ·  ' + phase : ''}`;
@@ -232,6 +236,7 @@ class Page {
   // Other units.
   reword() {
     this.plots.rebuild();
+    this.charts?.rebuild();
     this.figures.refresh();
     if (this.scene) this.legend();
     this.show(this.player.time);
@@ -240,6 +245,7 @@ class Page {
   recolor() {
     this.scene?.read_look();
     this.plots.rebuild();
+    this.charts?.rebuild();
     this.draw_phases();
     this.show(this.player.time);
   }

@@ -3,7 +3,7 @@ import uPlot from 'uplot';
 import { element } from './page.js';
 import { held } from './samples.js';
 import { Slices } from './slices.js';
-import { number } from './units.js';
+import { number, tick_text } from './units.js';
 
 const axis_width = 58;
 const height = 132;
@@ -170,10 +170,4 @@ function padded(low, high) {
   if (low === null || !Number.isFinite(low)) return [0, 1];
   const room = high > low ? 0.06 * (high - low) : Math.max(1e-6, 0.1 * Math.abs(high));
   return [low - room, high + room];
-}
-
-function tick_text(v) {
-  const size = Math.abs(v);
-  if (size !== 0 && (size < 1e-3 || size >= 1e5)) return v.toExponential(1).replace('-', '−');
-  return String(+v.toPrecision(6)).replace('-', '−');
 }

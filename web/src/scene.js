@@ -84,6 +84,16 @@ export class Scene {
     return this.spec.muscles.some((m) => m.pressure !== null);
   }
 
+  note() {
+    return `${this.spec.drawn_from}; muscles placed to fit, ${shapes.thicker} × as thick`;
+  }
+
+  legend() {
+    const foot = this.spec.foot ?? {};
+    return [foot.path && ['actual', 'foot'], foot.desired && ['desired', 'foot desired'],
+            foot.force && ['force', 'ground reaction']].filter(Boolean);
+  }
+
   // Meters per newton: the greatest force is as long as two thirds of the leg.
   find_force_scale() {
     const force = this.spec.foot?.force;

@@ -53,6 +53,13 @@ export function number(value) {
   return value.toFixed(decimals).replace(/^-(0\.?0*)$/, '$1').replace('-', '−');
 }
 
+// Of an axis: as many digits as a tick has.
+export function tick_text(v) {
+  const size = Math.abs(v);
+  if (size !== 0 && (size < 1e-3 || size >= 1e5)) return v.toExponential(1).replace('-', '−');
+  return String(+v.toPrecision(6)).replace('-', '−');
+}
+
 // "trolley.mean_speed_m_per_s" -> its unit in SI, as in docs/analysis.md.
 const endings = [
   ['_Nm_per_rad', 'N m/rad'], ['_rad_per_s', 'rad/s'], ['_m_per_s', 'm/s'],

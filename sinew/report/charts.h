@@ -1,0 +1,38 @@
+// report/charts.h - one quantity against another: points, lines, and what lies between two bounds.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/report/channels.h"
+
+namespace sinew::report {
+
+struct Axis {
+  std::string label;  // "length"
+  std::string unit;   // SI, "share" of 1, or "Pa diff"; the page shows it in others
+};
+
+// Either numbers, or two channels of one clock. A number that is none breaks a line.
+struct Curve {
+  enum class Style { points, line, held_out };  // held_out: points that a fit did not see
+
+  std::string label;
+  Style style = Style::line;
+  int color = 0;  // place in the page's palette
+  std::vector<double> x, y;
+  std::vector<double> spread;    // half of the interval about each y; empty: none is known
+  Channel x_channel, y_channel;  // in place of numbers
+};
+
+struct Chart {
+  std::string title;
+  Axis x, y;
+  std::vector<Curve> curves;
+  std::string note;  // what one should know when looking at it
+
+  bool empty() const { return curves.empty(); }
+};
+
+}  // namespace sinew::report

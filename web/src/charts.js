@@ -1,0 +1,275 @@
+// One quantity against another: points, lines and bounds under axes of their own. uPlot draws the
+// axes; the curves, which need not go from left to right, are drawn here.
+import uPlot from 'uplot';
+import { between } from './samples.js';
+import { number, tick_text } from './units.js';
+import { element } from './page.js';
+
+const height = 270;
+const near = 24;  // a point that the cursor finds [px]
+
+// Numbers as the program has them, or those of a column.
+const numbers_of = (source, columns) =>
+  Array.isArray(source) ? Float64Array.from(source, (v) => v ?? NaN) : columns[source].values;
+
+function range_of(curves, which) {
+  let low = Infinity, high = -Infinity;
+  for (const c of curves)
+    for (let i = 0; i < c[which].length; ++i) {
+      const v = c[which][i], half = which === 'y' && c.spread ? c.spread[i] || 0 : 0;
+      if (v - half < low) low = v - half;
+      if (v + half > high) high = v + half;
+    }
+  if (!(low <= high)) return [0, 1];
+  const room = high > low ? 0.05 * (high - low) : Math.max(1e-9, 0.1 * Math.abs(high));
+  return [low - room, high + room];
+}
+
+class Chart {
+  constructor(spec, columns, charts) {
+    Object.assign(this, { spec, columns, charts });
+    this.shown = new Set(spec.curves.map((c) => c.label));
+    this.time = null;
+    this.title = element('h3', {});
+    this.value = element('span', { class: 'value', 'aria-live': 'off' });
+    this.lines = element('div', { class: 'lines' });
+    this.box = element('div', { class: 'box' });
+    this.box.style.height = `${height}px`;
+    this.root = element('article', { class: 'chart' },
+      element('header', {}, this.title, this.lines), this.box,
+      element('p', { class: 'hint' }, this.value, spec.note));
+    this.value.hidden = true;
+    this.keys();
+  }
+
+  keys() {
+    const named = [...new Map(this.spec.curves.map((c) => [c.label, c])).values()].filter((c) => c.label);
+    if (named.length < 2) return;
+    this.buttons = named.map((c) => {
+      const kind = c.style === 'line' ? 'full' : c.style === 'points' ? 'dots' : 'rings';
+      const button = element('button', { type: 'button', class: `line ${kind}`, 'aria-pressed': 'true' },
+        element('span', { class: 'mark' }), element('span', {}, c.label));
+      button.addEventListener('click', () => this.toggle(c.label, button));
+      return { button, color: c.color };
+    });
+    this.lines.append(...this.buttons.map((b) => b.button));
+  }
+
+  toggle(label, button) {
+    const on = !this.shown.delete(label);
+    if (on) this.shown.add(label);
+    button.setAttribute('aria-pressed', String(on));
+    this.plot?.redraw();
+  }
+
+  // In the page's units.
+  convert() {
+    const { units } = this.charts, { x, y } = this.spec;
+    const all = (values, unit) => Float64Array.from(values, (v) => units.convert(v, unit));
+    const scale = units.of(y.unit).scale;
+    this.curves = this.spec.curves.map((c) => ({
+      ...c,
+      x: all(numbers_of(c.x, this.columns), x.unit),
+      y: all(numbers_of(c.y, this.columns), y.unit),
+      spread: c.spread ? Float64Array.from(c.spread, (v) => (v ?? NaN) * scale) : null,
+    }));
+    this.whole = { x: range_of(this.curves, 'x'), y: range_of(this.curves, 'y') };
+    this.view = this.whole;
+  }
+
+  build(width = this.box.clientWidth || 480) {
+    this.plot?.destroy();
+    const { units, look, palette } = this.charts, { x, y } = this.spec;
+    this.convert();
+    const name = (axis) => {
+      const unit = units.of(axis.unit).label;
+      return unit ? `${axis.label} [${unit}]` : axis.label;
+    };
+    const axis = { stroke: look.ink, grid: { stroke: look.grid, width: 1 }, ticks: { show: false },
+                   font: look.font, labelFont: look.font, labelSize: 18, gap: 4,
+                   values: (u, ticks) => ticks.map(tick_text) };
+    this.title.textContent = this.spec.title;
+    this.buttons?.forEach((b) => b.button.style.setProperty('--line', palette[b.color % palette.length]));
+    this.plot = new uPlot({
+      width, height,
+      legend: { show: false },
+      padding: [8, 14, 0, 0],
+      cursor: { y: false, x: false, points: { show: false }, drag: { x: true, y: true, setScale: false, dist: 5 } },
+      scales: { x: { time: false, range: () => this.view.x }, y: { range: () => this.view.y } },
+      axes: [{ ...axis, label: name(x), size: 26 }, { ...axis, label: name(y), size: 52, space: 32 }],
+      series: [{}, { show: true, stroke: 'transparent', points: { show: false } }],
+      hooks: {
+        draw: [(u) => this.draw(u)],
+        setSelect: [(u) => this.zoom(u)],
+        setCursor: [(u) => this.hover(u)],
+      },
+    }, [this.whole.x, this.whole.y], this.box);
+    this.plot.over.addEventListener('dblclick', () => this.set_view(this.whole));
+    this.plot.over.addEventListener('mouseleave', () => this.point_out(null));
+    this.mark = element('div', { class: 'found', hidden: '' });
+    this.plot.over.append(this.mark);
+  }
+
+  zoom(u) {
+    const { left, top, width, height: tall } = u.select;
+    u.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+    if (width < 4 || tall < 4) return;
+    this.set_view({ x: [u.posToVal(left, 'x'), u.posToVal(left + width, 'x')],
+                    y: [u.posToVal(top + tall, 'y'), u.posToVal(top, 'y')] });
+  }
+
+  set_view(view) {
+    this.view = view;
+    this.plot.setData([view.x, view.y]);
+  }
+
+  // --- curves ---
+
+  draw(u) {
+    const { ctx, bbox } = u, ratio = devicePixelRatio || 1;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+    ctx.clip();
+    const at = { x: (v) => u.valToPos(v, 'x', true), y: (v) => u.valToPos(v, 'y', true) };
+    for (const kind of ['line', 'points', 'held out'])
+      for (const c of this.curves)
+        if (c.style === kind && this.shown.has(c.label)) this.draw_curve(ctx, c, at, ratio);
+    this.draw_now(ctx, at, ratio);
+    ctx.restore();
+  }
+
+  draw_curve(ctx, c, at, ratio) {
+    const { palette, look } = this.charts;
+    ctx.strokeStyle = ctx.fillStyle = palette[c.color % palette.length];
+    ctx.lineWidth = 1.5 * ratio;
+    ctx.lineJoin = 'round';
+    if (c.spread) this.draw_spread(ctx, c, at, ratio);
+    if (c.style === 'line') return stroke_line(ctx, c, at);
+    const many = c.x.length > 400, r = (many ? 1.7 : 2.9) * ratio;
+    ctx.lineWidth = 1.3 * ratio;
+    for (let i = 0; i < c.x.length; ++i) {
+      if (!Number.isFinite(c.y[i])) continue;
+      ctx.beginPath();
+      ctx.arc(at.x(c.x[i]), at.y(c.y[i]), c.style === 'points' ? r : 1.25 * r, 0, 2 * Math.PI);
+      if (c.style === 'points') ctx.fill();
+      else {
+        ctx.save();
+        ctx.fillStyle = look.paper;
+        ctx.fill();
+        ctx.restore();
+        ctx.stroke();
+      }
+    }
+  }
+
+  draw_spread(ctx, c, at, ratio) {
+    ctx.save();
+    ctx.globalAlpha = 0.55;
+    ctx.lineWidth = ratio;
+    ctx.beginPath();
+    for (let i = 0; i < c.x.length; ++i) {
+      if (!(c.spread[i] > 0)) continue;
+      const x = at.x(c.x[i]);
+      ctx.moveTo(x, at.y(c.y[i] - c.spread[i]));
+      ctx.lineTo(x, at.y(c.y[i] + c.spread[i]));
+    }
+    ctx.stroke();
+    ctx.restore();
+  }
+
+  // Where a run is at the time of its replay.
+  draw_now(ctx, at, ratio) {
+    if (this.time === null) return;
+    const { units } = this.charts, { x, y, curves } = this.spec;
+    for (const c of curves) {
+      if (Array.isArray(c.x)) continue;
+      const px = at.x(units.convert(between(this.columns[c.x], this.time), x.unit));
+      const py = at.y(units.convert(between(this.columns[c.y], this.time), y.unit));
+      ctx.beginPath();
+      ctx.arc(px, py, 5 * ratio, 0, 2 * Math.PI);
+      ctx.fillStyle = this.charts.look.strong;
+      ctx.fill();
+    }
+  }
+
+  set_time(t) {
+    if (!this.spec.curves.some((c) => !Array.isArray(c.x))) return;
+    this.time = t;
+    if (this.plot && this.visible !== false) this.plot.redraw(false);
+  }
+
+  // --- values ---
+
+  hover(u) {
+    const { left, top } = u.cursor;
+    if (left < 0) return this.point_out(null);
+    let best = null, least = near * near;
+    for (const c of this.curves) {
+      if (!this.shown.has(c.label)) continue;
+      for (let i = 0; i < c.x.length; ++i) {
+        const dx = u.valToPos(c.x[i], 'x') - left, dy = u.valToPos(c.y[i], 'y') - top;
+        const away = dx * dx + dy * dy;
+        if (away < least) least = away, best = { c, i };
+      }
+    }
+    this.point_out(best);
+  }
+
+  point_out(found) {
+    this.mark.hidden = this.value.hidden = !found;
+    if (!found) return;
+    const { c, i } = found, { units } = this.charts, { x, y } = this.spec;
+    const words = (v, unit) => `${number(v)} ${units.of(unit).label}`.trim();
+    const half = c.spread?.[i] > 0 ? ` ± ${number(c.spread[i])}` : '';
+    this.value.textContent = `${c.label ? c.label + ': ' : ''}${words(c.y[i], y.unit)}${half} at ${words(c.x[i], x.unit)}`;
+    this.mark.style.transform =
+      `translate(${this.plot.valToPos(c.x[i], 'x')}px, ${this.plot.valToPos(c.y[i], 'y')}px)`;
+  }
+}
+
+function stroke_line(ctx, c, at) {
+  ctx.beginPath();
+  let drawing = false;
+  for (let i = 0; i < c.x.length; ++i) {
+    const x = at.x(c.x[i]), y = at.y(c.y[i]);
+    if (!Number.isFinite(y)) { drawing = false; continue; }
+    drawing ? ctx.lineTo(x, y) : ctx.moveTo(x, y);
+    drawing = true;
+  }
+  ctx.stroke();
+}
+
+// All charts of a page, in a grid.
+export class Charts {
+  constructor(root, specs, columns, units) {
+    Object.assign(this, { root, units });
+    this.read_look();
+    this.list = specs.map((spec) => new Chart(spec, columns, this));
+    root.append(element('div', { class: 'charts' }, ...this.list.map((c) => c.root)));
+    for (const c of this.list) c.build();
+    new ResizeObserver(() => this.resize()).observe(root);
+  }
+
+  read_look() {
+    const css = getComputedStyle(document.documentElement);
+    const get = (name) => css.getPropertyValue(`--${name}`).trim();
+    this.palette = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => get(`line-${i}`));
+    this.look = { ink: get('quiet'), strong: get('ink'), grid: get('grid'), paper: get('paper'),
+                  font: `11px ${get('sans')}` };
+  }
+
+  resize() {
+    for (const c of this.list) c.plot.setSize({ width: c.box.clientWidth || 480, height });
+  }
+
+  // Other units or colors, or another width: that of paper.
+  rebuild(width) {
+    this.read_look();
+    for (const c of this.list) c.build(width);
+  }
+
+  set_time(t) {
+    for (const c of this.list) c.set_time(t);
+  }
+}

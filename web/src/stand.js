@@ -1,0 +1,144 @@
+// The test stand from the side: an element hangs from a beam, something pulls at its lower end.
+// Lengths are true to scale, and so are the braid's diameter and its threads' turns.
+import { between, open_within } from './samples.js';
+import { pressure_color } from './colors.js';
+import * as parts from './stand_parts.js';
+
+const window_seconds = 0.01;  // a valve is lit if it was open at any time in it
+
+// What the page asks of any machine: its name for a stand's element is a muscle's.
+export const as_scene = (stand) => ({
+  drawn_from: stand.drawn_from,
+  muscles: [{ name: stand.element, pressure: stand.pressure, inlet: stand.inlet, exhaust: stand.exhaust }],
+});
+
+export class StandScene {
+  constructor(canvas, spec, columns, units) {
+    Object.assign(this, { canvas, spec, columns, units });
+    this.reach = spec.bore > 0 ? 1.8 * spec.stroke : Math.max(spec.longest, spec.most, 1e-3);
+    this.start = this.at(spec.length, 0);
+    this.pressures = this.pressure_range();
+    this.read_look();
+    new ResizeObserver(() => this.draw(this.time ?? 0)).observe(canvas);
+  }
+
+  read_look() {
+    const css = getComputedStyle(document.documentElement);
+    this.look = Object.fromEntries(
+      ['ink', 'quiet', 'edge', 'ground', 'ground-edge', 'metal', 'metal-edge', 'paper', 'actual', 'desired', 'force',
+       'inlet', 'exhaust', 'cord', 'unlit', 'sans'].map((n) => [n, css.getPropertyValue(`--${n}`).trim()]));
+  }
+
+  at(column, t) {
+    return column === null ? NaN : between(this.columns[column], t);
+  }
+
+  pressure_range() {
+    let most = this.units.atmosphere + 1e5;
+    if (this.spec.pressure !== null)
+      for (const v of this.columns[this.spec.pressure].values) if (v > most) most = v;
+    return [this.units.atmosphere, most];
+  }
+
+  has_pressure() {
+    return this.spec.pressure !== null;
+  }
+
+  note() {
+    return `${this.spec.drawn_from}; true to scale`;
+  }
+
+  legend() {
+    return this.spec.desired === null ? [] : [['desired', 'length desired']];
+  }
+
+  // --- drawing ---
+
+  draw(t) {
+    this.time = t;
+    const { canvas } = this, ratio = window.devicePixelRatio || 1;
+    const width = canvas.clientWidth, height = canvas.clientHeight;
+    if (!width || !height) return;
+    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+    }
+    const ctx = canvas.getContext('2d');
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    ctx.clearRect(0, 0, width, height);
+    const v = this.place(width, height);
+    const state = this.state(t);
+    parts.beam(ctx, v, this.spec.load === 'hanging', this.look);
+    if (this.spec.load !== 'hanging') parts.columns(ctx, v, this.spec.most, this.look);
+    this.draw_ruler(ctx, v, state);
+    parts.feed(ctx, v, this.spec, state, this.look);
+    if (this.spec.bore > 0) parts.cylinder(ctx, v, this.spec, state, this.look);
+    else parts.actuators(ctx, v, this.spec, state, this.look);
+    this.draw_load(ctx, v, state);
+  }
+
+  // Everything that moves, at t.
+  state(t) {
+    const { spec } = this;
+    const [low, high] = this.pressures, pressure = this.at(spec.pressure, t);
+    const open = (valve) => valve !== null && open_within(this.columns[valve], t - window_seconds, t);
+    const inlet = open(spec.inlet);
+    return {
+      length: this.at(spec.length, t), desired: this.at(spec.desired, t), diameter: this.at(spec.diameter, t),
+      tension: this.at(spec.tension, t), weight: this.at(spec.weight, t), inlet,
+      // One valve for both joins to the room when it does not join to the supply.
+      exhaust: spec.air === '3-way' ? !inlet : open(spec.exhaust),
+      color: Number.isFinite(pressure) ? pressure_color((pressure - low) / (high - low)) : this.look.metal,
+    };
+  }
+
+  // Pixels from meters: x from the element's axis, y from where it hangs, downwards. The element's
+  // end is at `zero` plus its length.
+  place(width, height) {
+    const { spec, reach } = this;
+    const barrel = spec.bore > 0 ? 1.25 * spec.stroke : 0;
+    const deep = barrel + Math.max(spec.most + 0.46 * reach, spec.longest + 0.03 * reach), above = 0.16 * reach;
+    const room = 26;
+    const scale = Math.min((height - room - 6) / (deep + above), width / (2.1 * reach));
+    const middle = Math.max(0, (height - room - scale * (deep + above)) / 2);
+    const left = 0.52 * width, top = room + middle + scale * above;
+    return { width, height, unit: scale * reach, barrel, zero: barrel,
+             x: (m) => left + scale * m, y: (m) => top + scale * m, px: (m) => scale * m, reach };
+  }
+
+  length_text(meters, sign = false) {
+    const thesis = this.units.system === 'thesis';
+    const words = (thesis ? meters / 0.0254 : 1e3 * meters).toFixed(thesis ? 3 : 1);
+    return `${sign && meters >= 0 ? '+' : ''}${words} ${thesis ? 'in' : 'mm'}`.replace('-', '−');
+  }
+
+  force_text(newtons) {
+    const { label } = this.units.of('N'), value = this.units.convert(newtons, 'N');
+    return `${value.toFixed(Math.abs(value) < 10 ? 2 : 1)} ${label}`.replace('-', '−');
+  }
+
+  draw_ruler(ctx, v, state) {
+    const thesis = this.units.system === 'thesis';
+    const { spec, look } = this;
+    const x = v.x(-0.74 * this.reach);
+    parts.ruler(ctx, v, x, { to: Math.max(spec.most, spec.longest), shortest: spec.shortest, longest: spec.longest,
+                             unit: thesis ? 0.0254 : 1e-3, label: thesis ? 'in' : 'mm' }, look);
+    if (Number.isFinite(this.start) && spec.most > spec.least)
+      parts.pointer(ctx, v, x, this.start, look.quiet, [1, 3], '', look, -1);
+    if (Number.isFinite(state.desired))
+      parts.pointer(ctx, v, x, state.desired, look.desired, [5, 4], `desired ${this.length_text(state.desired)}`, look,
+                    state.desired < state.length ? -1 : 1);
+    const moved = spec.most > spec.least ? `  (${this.length_text(state.length - this.start, true)})` : '';
+    parts.pointer(ctx, v, x, state.length, look.actual, [], `${this.length_text(state.length)}${moved}`, look,
+                  state.desired < state.length ? 1 : -1);
+  }
+
+  draw_load(ctx, v, state) {
+    const { spec, look } = this;
+    const tension = Number.isFinite(state.tension) ? `tension ${this.force_text(state.tension)}` : '';
+    parts.load_cell(ctx, v, state.length, tension, look);
+    if (spec.load === 'hanging')
+      parts.weights(ctx, v, spec, state, `load ${this.force_text(state.weight)}`, look);
+    else parts.crosshead(ctx, v, spec, state.length, look);
+  }
+}
