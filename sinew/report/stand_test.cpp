@@ -138,7 +138,7 @@ TEST(StandPanels, ShowEveryChannelOnceButWhatIsDrawnOtherwise) {
   log.scalar("/desired/length", constant(0.08)).scalar("/sensor/odd/value", constant(1));
   log.pulses("/valve/bpa/inlet/open", 0.002, 3);
   for (signals::Series& s : log.table.series)
-    s.topic.fields[0].unit = s.topic.name.ends_with("length/value") ? "m" : "1";
+    s.topic.fields[0].unit.assign(1, s.topic.name.ends_with("length/value") ? 'm' : '1');
   Channels channels;
   channels.add(log.table);
   std::map<std::string, int> times;

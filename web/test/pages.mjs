@@ -1,0 +1,45 @@
+// What tests of pages share: a browser without network, a page that must do nothing wrong, and what
+// a person would see and touch. browser.mjs runs them.
+import assert from 'node:assert/strict';
+import { mkdirSync, readFileSync } from 'node:fs';
+import { join, resolve } from 'node:path';
+import { after, before } from 'node:test';
+import { open_browser, open_page } from './chromium.mjs';
+
+const [runs, pictures] = process.argv.slice(2).map((a) => resolve(a));
+if (!runs) throw new Error('usage: browser.mjs RUNS [PICTURES]');
+if (pictures) mkdirSync(pictures, { recursive: true });
+
+let browser;
+before(async () => (browser = await open_browser()));
+after(() => browser.close());
+
+export { runs, pictures };
+
+// The page of a run, or another page in its folder; closed afterwards; it must have done nothing
+// wrong.
+export async function with_page(name, does, options, file = 'report.html') {
+  const page = await open_page(browser, join(runs, name, file), options);
+  try {
+    await does(page);
+    assert.deepEqual(page.wrong, []);
+  } finally {
+    await page.context().close();
+  }
+}
+export const picture = async (page, name) => pictures && page.screenshot({ path: join(pictures, `${name}.png`) });
+export const summary_of = (name) => JSON.parse(readFileSync(join(runs, name, 'summary.json'), 'utf8'));
+
+export const time_of = (page) => page.evaluate(() => window.sinew.page.player.time);
+export const seek = (page, t) => page.locator('#seek').evaluate((slider, to) => {
+  slider.value = to;
+  slider.dispatchEvent(new Event('input', { bubbles: true }));
+}, t);
+// What is drawn, as a number that changes with it.
+export const drawing_of = (page) => page.locator('#scene').evaluate((canvas) => canvas.toDataURL());
+// Of every plot in sight: its line at the time of the replay, and where it should be.
+export const playheads = (page) => page.evaluate(() =>
+  window.sinew.page.plots.panels.filter((p) => p.visible && p.plot).map((p) => {
+    const box = p.plot.over.getBoundingClientRect(), head = p.head.getBoundingClientRect();
+    return { is: head.left + 1 - box.left, should: p.plot.valToPos(window.sinew.page.player.time, 'x') };
+  }));

@@ -1,0 +1,75 @@
+// The pages of experiments/rig: feedback (two valves, a desired length), weights-60, sealed-cylinder,
+// isometric and duty-sweep.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { drawing_of, picture, seek, summary_of, with_page } from './pages.mjs';
+
+for (const [name, at] of [['feedback', 7], ['weights-60', 20.2], ['sealed-cylinder', 12], ['isometric', 8.2]])
+  test(`${name}: the stand is drawn and moves`, () => with_page(name, async (page) => {
+    assert.equal(await page.locator('h1').textContent(), summary_of(name).title);
+    await seek(page, 0);
+    const start = await drawing_of(page);
+    await seek(page, at);
+    assert.notEqual(await drawing_of(page), start);
+    assert.ok((await page.locator('#charts .chart').count()) > 0);
+    await picture(page, name);
+  }));
+
+test('the drawing shows the length and the pressure of the log', () => with_page('weights-60', async (page) => {
+  // Where the ruler's pointer ends and how long the tube is: by the words that are drawn.
+  const drawn = await page.evaluate(() => {
+    const words = [], { fillText } = CanvasRenderingContext2D.prototype;
+    CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
+      words.push(text);
+      return fillText.call(this, text, ...rest);
+    };
+    const { page } = window.sinew;
+    page.seek(20.2);
+    CanvasRenderingContext2D.prototype.fillText = fillText;
+    const { stand } = window.sinew.run, { columns, index_at } = window.sinew;
+    const at = (c) => columns[c].values[index_at(columns[c].time, 20.2)];
+    return { words, length: at(stand.length), weight: at(stand.weight), pressure: at(stand.pressure) };
+  });
+  const number = (pattern) => {
+    const found = drawn.words.map((w) => w.match(pattern)).find(Boolean);
+    return Number(found[1].replace('−', '-'));
+  };
+  assert.ok(Math.abs(number(/^([\d.]+) mm /) - 1e3 * drawn.length) < 0.06, drawn.words.join('; '));
+  assert.ok(Math.abs(number(/^load ([\d.]+) N/) - drawn.weight) < 0.06);
+  const shown = await page.locator('.muscle .value').textContent();
+  assert.ok(Math.abs(parseFloat(shown) - 1e-3 * drawn.pressure) < 0.6, shown);
+}));
+
+test('a chart finds the point under the cursor, in either unit, and zooms', () => with_page('isometric', async (page) => {
+  const over = page.locator('#charts .u-over').first();
+  await over.scrollIntoViewIfNeeded();
+  const target = () => page.evaluate(() => {
+    const chart = window.sinew.page.charts.list[0], c = chart.curves[0], i = c.x.length >> 1;
+    return { left: chart.plot.valToPos(c.x[i], 'x'), top: chart.plot.valToPos(c.y[i], 'y'), x: c.x[i], y: c.y[i] };
+  });
+  for (const units of ['si', 'thesis']) {
+    await page.locator(`#units-${units}`).click();
+    const to = await target();
+    await over.hover({ position: { x: to.left, y: to.top } });
+    const words = await page.locator('#charts .value').first().textContent();
+    const [y, x] = [...words.matchAll(/[\d.]+/g)].map(Number);
+    assert.ok(Math.abs(y - to.y) < 0.02 * to.y && Math.abs(x - to.x) < 0.02 * to.x, words);
+  }
+  const before = await page.evaluate(() => window.sinew.page.charts.list[0].view.x);
+  const box = await over.boundingBox();
+  await page.mouse.move(box.x + 0.3 * box.width, box.y + 0.3 * box.height);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.6 * box.height, { steps: 4 });
+  await page.mouse.up();
+  const zoomed = await page.evaluate(() => window.sinew.page.charts.list[0].view.x);
+  assert.ok(zoomed[1] - zoomed[0] < 0.25 * (before[1] - before[0]), `${zoomed}`);
+  await over.dblclick();
+  assert.deepEqual(await page.evaluate(() => window.sinew.page.charts.list[0].view.x), before);
+}));
+
+test('a sweep is charts over its duties, without a replay', () => with_page('duty-sweep', async (page) => {
+  assert.equal(await page.locator('#play').isVisible(), false);
+  const charts = await page.evaluate(() => window.sinew.run.charts.map((c) => [c.title, c.curves[0].x.length, c.curves[0].y]));
+  assert.deepEqual(charts.map((c) => c[0]), ['Length', 'Ripple of the length', 'Pressure', 'Tension']);
+  assert.ok(Math.abs(charts[0][2][39] - summary_of('duty-sweep').sweep['40'].length_m) < 1e-6);
+}));
