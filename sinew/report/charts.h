@@ -9,13 +9,13 @@
 
 namespace sinew::report {
 
-struct Axis {
+struct ChartAxis {
   std::string label;  // "length"
   std::string unit;   // SI, "share" of 1, or "Pa diff"; the page shows it in others
 };
 
 // Either numbers, or two channels of one clock. A number that is none breaks a line.
-struct Curve {
+struct ChartCurve {
   enum class Style { points, line, held_out };  // held_out: points that a fit did not see
 
   std::string label;
@@ -28,8 +28,8 @@ struct Curve {
 
 struct Chart {
   std::string title;
-  Axis x, y;
-  std::vector<Curve> curves;
+  ChartAxis x, y;
+  std::vector<ChartCurve> curves;
   std::string note;  // what one should know when looking at it
 
   bool empty() const { return curves.empty(); }

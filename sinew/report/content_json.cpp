@@ -34,10 +34,10 @@ std::string_view word(Line::Style style) {
   return "";
 }
 
-std::string_view word(Curve::Style style) {
-  return style == Curve::Style::line     ? "line"
-         : style == Curve::Style::points ? "points"
-                                         : "held out";
+std::string_view word(ChartCurve::Style style) {
+  return style == ChartCurve::Style::line     ? "line"
+         : style == ChartCurve::Style::points ? "points"
+                                              : "held out";
 }
 
 std::string_view word(Stand::Load load) {
@@ -53,7 +53,7 @@ std::string_view word(Stand::Air air) {
                             : "3-way";
 }
 
-Json axis_of(const Axis& axis) { return {{"label", axis.label}, {"unit", axis.unit}}; }
+Json axis_of(const ChartAxis& axis) { return {{"label", axis.label}, {"unit", axis.unit}}; }
 
 // Numbers, or the column where they stand. As many digits as a picture can show.
 Json numbers_of(const std::vector<double>& numbers, const Channel& channel, Columns& columns) {
@@ -64,7 +64,7 @@ Json numbers_of(const std::vector<double>& numbers, const Channel& channel, Colu
   return out;
 }
 
-Json curve_of(const Curve& c, Columns& columns) {
+Json curve_of(const ChartCurve& c, Columns& columns) {
   Json out = {{"label", c.label}, {"style", word(c.style)}, {"color", c.color}};
   out["x"] = numbers_of(c.x, c.x_channel, columns);
   out["y"] = numbers_of(c.y, c.y_channel, columns);
@@ -209,7 +209,7 @@ std::string to_json(const std::vector<Chart>& charts, Columns& columns) {
   Json out = Json::array();
   for (const Chart& c : charts) {
     Json curves = Json::array();
-    for (const Curve& curve : c.curves) curves.push_back(curve_of(curve, columns));
+    for (const ChartCurve& curve : c.curves) curves.push_back(curve_of(curve, columns));
     out.push_back({{"title", c.title},
                    {"x", axis_of(c.x)},
                    {"y", axis_of(c.y)},

@@ -17,11 +17,11 @@ bool varies(const Samples& s) {
 }
 
 // One against another over the run, if both move on one clock.
-void add_loop(const Channels& channels, const std::string& title, const Axis& x, const Channel& xs,
-              const Axis& y, const Channel& ys, std::vector<Chart>& out) {
+void add_loop(const Channels& channels, const std::string& title, const ChartAxis& x,
+              const Channel& xs, const ChartAxis& y, const Channel& ys, std::vector<Chart>& out) {
   const Samples a = channels.find(xs), b = channels.find(ys);
   if (!varies(a) || !varies(b) || *a.time_ns != *b.time_ns) return;
-  Curve curve{.label = y.label, .x_channel = xs, .y_channel = ys};
+  ChartCurve curve{.label = y.label, .x_channel = xs, .y_channel = ys};
   out.push_back({title, x, y, {std::move(curve)}, "Over the whole run; the dot is its time."});
 }
 
@@ -29,8 +29,9 @@ void add_sweep(const Channels& channels, const std::string& title, const std::st
                const std::string& unit, std::vector<Chart>& out) {
   const Samples duty = channels.find({"/sweep/duty"}), values = channels.find({what});
   if (!duty || !values) return;
-  Curve line{.label = "settled", .x = *duty.values, .y = *values.values};
-  Curve points{.label = "", .style = Curve::Style::points, .x = *duty.values, .y = *values.values};
+  ChartCurve line{.label = "settled", .x = *duty.values, .y = *values.values};
+  ChartCurve points{
+      .label = "", .style = ChartCurve::Style::points, .x = *duty.values, .y = *values.values};
   out.push_back({title, {"delivered duty", "share"}, {title, unit}, {line, points}, ""});
 }
 
@@ -38,7 +39,7 @@ void add_sweep(const Channels& channels, const std::string& title, const std::st
 
 std::vector<Chart> stand_charts(const Channels& channels, const Stand& s) {
   std::vector<Chart> out;
-  const Axis length{"length", "m"}, tension{"tension", "N"}, pressure{"pressure", "Pa"};
+  const ChartAxis length{"length", "m"}, tension{"tension", "N"}, pressure{"pressure", "Pa"};
   if (!s.empty()) {
     add_loop(channels, "Tension against length", length, s.length, tension, s.tension, out);
     add_loop(channels, "Pressure against length", length, s.length, pressure, s.pressure, out);
