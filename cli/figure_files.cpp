@@ -97,7 +97,7 @@ std::vector<Picture> parse_formats(const std::vector<std::string>& words) {
     for (std::string word; std::getline(in, word, ',');) {
       if (word == "csv") continue;
       if (word != "svg" && word != "png")
-        config::fail({}, "--format", fmt::format("\"{}\"", word), "svg, png or csv",
+        config::fail({"--format", 0, 0}, "", fmt::format("\"{}\"", word), "svg, png or csv",
                      "--format svg,png");
       const Picture picture = word == "svg" ? Picture::svg : Picture::png;
       if (std::ranges::find(out, picture) == out.end()) out.push_back(picture);

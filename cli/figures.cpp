@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/figures_runs.h"
 #include "cli/named.h"
 #include "cli/run_folder.h"
 #include "cli/terminal.h"
@@ -36,6 +37,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 struct Options {
+  RunFiguresRequest runs;
   std::string folder, root = ".";
   bool thesis = false, force = false, json = false;
 };
@@ -150,15 +152,42 @@ ExitCode run_figures(const Options& options) {
 
 void add_figures(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(app, "figures", "curves of the thesis's figures, as CSV",
-                             "sinew figures --thesis -o figures");
-  sub.add_flag("--thesis", options->thesis, "those of Colbrunn (2000)")->required();
-  sub.add_option("-o,--output", options->folder, "folder for the CSV files and index.json")
-      ->required();
-  sub.add_option("--root", options->root, "the project's folder, with robots/ and experiments/; .");
-  sub.add_flag("--force", options->force, "replace the files that are there");
+  CLI::App& sub = subcommand(
+      app, "figures", "figures for print, with the CSV behind each: of runs, or the thesis's",
+      "sinew figures runs/walk-test-1/1 --units thesis\n  sinew figures --thesis -o figures");
+  CLI::Option* runs = sub.add_option("DIR", options->runs.runs, "folders of runs, or log files");
+  CLI::Option* thesis = sub.add_flag("--thesis", options->thesis, "those of Colbrunn (2000)");
+  runs->excludes(thesis);
+  sub.add_option("-o,--output", options->folder,
+                 "folder for the figures and index.json; of runs: else figures/ beside the log");
+  sub.add_option("--root", options->root,
+                 "--thesis: the project's folder, with robots/ and experiments/; .");
+  sub.add_option("--format", options->runs.formats, "svg, png or csv; svg,png");
+  sub.add_option("--only", options->runs.only, "of runs: these figures alone")->excludes(thesis);
+  sub.add_option("--units", options->runs.units, "of runs: si or thesis (in, lbf, psi, deg); si")
+      ->check(CLI::IsMember({"si", "thesis"}))
+      ->excludes(thesis);
+  sub.add_option("--from", options->runs.from, "of runs: \"2 s\"; what was before is left out")
+      ->excludes(thesis);
+  sub.add_option("--to", options->runs.to, "of runs: what was after is left out")->excludes(thesis);
+  sub.add_option("--machine", options->runs.machine,
+                 "of runs: what was run, in place of the folder's resolved.toml")
+      ->excludes(thesis);
+  sub.add_flag("--force", options->force, "replace the figures that are there");
   sub.add_flag("--json", options->json, "print index.json");
-  sub.callback([=, &action] { action = [=] { return run_figures(*options); }; });
+  sub.add_flag("--quiet", options->runs.quiet, "only errors on stderr");
+  sub.callback([=, &action] {
+    if (!options->thesis && options->runs.runs.empty())
+      throw CLI::RequiredError("DIR, the folder of a run, or --thesis");
+    if (options->thesis && options->folder.empty()) throw CLI::RequiredError("-o with --thesis");
+    action = [=] {
+      if (options->thesis) return run_figures(*options);
+      options->runs.out = options->folder;
+      options->runs.force = options->force;
+      options->runs.json = options->json;
+      return draw_runs(options->runs);
+    };
+  });
 }
 
 }  // namespace sinew::cli

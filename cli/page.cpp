@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/run_folder.h"
+#include "cli/run_log.h"
 #include "sinew/config/compose.h"
 #include "sinew/log/reader.h"
 #include "sinew/report/page.h"
@@ -17,13 +18,6 @@ struct Options {
   std::string run, machine, out;
   bool force = false, quiet = false;
 };
-
-// What the log says that it is of; empty where it does not.
-std::string name_in(const std::filesystem::path& log) {
-  for (const auto& [key, value] : log::read_metadata(log))
-    if (key == "experiment") return value;
-  return "";
-}
 
 ExitCode report_run(const Options& options) {
   const Messages messages(options.quiet);
@@ -38,7 +32,7 @@ ExitCode report_run(const Options& options) {
                      " was cut off or is damaged; the page shows what stands "
                      "before");
   const std::string page =
-      report::page({.table = table, .resolved = resolved, .name = name_in(run.log)});
+      report::page({.table = table, .resolved = resolved, .name = experiment_in(run.log)});
   write_file(out, page);
   messages.note(
       fmt::format("{}, {:.1f} MB", out.string(), 1e-6 * static_cast<double>(page.size())));

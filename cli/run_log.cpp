@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cli/globs.h"
+#include "sinew/log/reader.h"
 
 namespace sinew::cli {
 
@@ -60,6 +61,12 @@ signals::Table logged_part(signals::Table&& table, const LoggedTopics& logged) {
     if (logged.of_series[s] != experiment::not_tapped)
       out.series.push_back(std::move(table.series[s]));
   return out;
+}
+
+std::string experiment_in(const std::filesystem::path& log) {
+  for (const auto& [key, value] : log::read_metadata(log))
+    if (key == "experiment") return value;
+  return "";
 }
 
 RunLog::RunLog(const std::filesystem::path& file, const std::string& name, int seed,

@@ -27,6 +27,9 @@ LoggedTopics logged_topics(const rig::Experiment& experiment);
 // there.
 signals::Table logged_part(signals::Table&& table, const LoggedTopics& logged);
 
+// The experiment that a log says that it is of; empty where it does not.
+std::string experiment_in(const std::filesystem::path& log);
+
 class RunLog {
  public:
   // Throws log::Error where the file cannot be made. `name` and `seed` are the experiment's.

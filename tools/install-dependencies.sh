@@ -27,6 +27,7 @@ list='
     quick  -                   libgtest-dev                     tests
     quick  -                   libgmock-dev                     tests
     quick  -                   libsundials-dev                  a second integrator in tests
+    quick  gnuplot             gnuplot-nox                      draws figures
     quick  clang-format-14     clang-format-14                  one layout of code; versions differ
     check  chromium            chromium                         opens that page in tests
     check  arm-none-eabi-g++   gcc-arm-none-eabi                embedded core for Cortex-M4F

@@ -126,10 +126,13 @@ Scale scale(const Axis& axis, double least, double greatest, bool tight) {
     if (std::isnan(axis.to)) out.to += beside;
     tight = false;
   }
-  out.step = round_step((out.to - out.from) / 6);
-  if (tight) return out;
-  if (std::isnan(axis.from)) out.from = multiple(out.step, std::floor(out.from / out.step + 1e-9));
-  if (std::isnan(axis.to)) out.to = multiple(out.step, std::ceil(out.to / out.step - 1e-9));
+  out.step = round_step((out.to - out.from) / (tight ? 7 : 6));
+  const double first = multiple(out.step, std::floor(out.from / out.step + 1e-9));
+  const double last = multiple(out.step, std::ceil(out.to / out.step - 1e-9));
+  // A tight end that is almost at a tick is there: the first sample of a run may be at 10 ms.
+  const double near = tight ? 0.02 * (out.to - out.from) : INFINITY;
+  if (std::isnan(axis.from) && out.from - first <= near) out.from = first;
+  if (std::isnan(axis.to) && last - out.to <= near) out.to = last;
   return out;
 }
 

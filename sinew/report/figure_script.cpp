@@ -209,11 +209,13 @@ void Script::draw(std::size_t p) {
   add("set tmargin at screen {}; set bmargin at screen {}", up(at.top), up(at.bottom));
   axis('x', plot.x, at.x);
   axis('y', plot.y, at.y);
-  // As many numbers as there is room for, straight below the ticks.
   add("set format '%h'; set xtics offset 0,0.3; set ytics offset 0.4,0");
   titles(plot, at);
   legend(plot, at);
   spans(plot, at.x);
+  if (at.y.from < 0 && at.y.to > 0)
+    add("set arrow from graph 0, first 0 to graph 1, first 0 nohead back linewidth 0.4 "
+        "linecolor rgb '#9aa4b2'");
   curves(p);
 }
 
