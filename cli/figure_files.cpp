@@ -21,40 +21,10 @@ using Json = nlohmann::ordered_json;  // keys stay in the order in which they co
 using report::Picture;
 
 constexpr const char* index_name = "index.json";
+constexpr const char* page_name = "index.html";
 constexpr const char* format = "sinew.figures/1";
 
 std::string_view ending(Picture picture) { return picture == Picture::svg ? "svg" : "png"; }
-
-std::string text_of(const Json& json) {
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-Json curve_of(const report::Plot& plot, const report::Curve& curve, const report::Sheet& sheet,
-              std::size_t column) {
-  return {{"curve", curve.label.empty() ? plot.y.name : curve.label},
-          {"kind", report::to_text(curve.kind)},
-          {"source", curve.source},
-          {"file", sheet.name + ".csv"},
-          {"x", sheet.headings[0]},
-          {"y", sheet.headings[column]}};
-}
-
-Json figure_of(const report::Figure& figure, const std::vector<Picture>& pictures, bool scripts) {
-  const report::FigureData data = report::data(figure);
-  Json out{{"figure", figure.name}, {"title", figure.title}, {"caption", figure.caption}};
-  for (const Picture p : pictures) out[ending(p)] = fmt::format("{}.{}", figure.name, ending(p));
-  if (scripts) out["script"] = figure.name + ".gp";
-  out["curves"] = Json::array();
-  for (std::size_t p = 0; p < figure.plots.size(); ++p)
-    for (std::size_t c = 0; c < figure.plots[p].curves.size(); ++c) {
-      const report::Place at = data.places[p][c];
-      out["curves"].push_back(
-          curve_of(figure.plots[p], figure.plots[p].curves[c], data.sheets[at.sheet], at.column));
-    }
-  for (const report::Missing& m : figure.missing)
-    out["curves"].push_back({{"curve", m.what}, {"kind", "unavailable"}, {"source", m.why}});
-  return out;
-}
 
 // Names in an index, its own too: only of files that stand in its folder.
 std::set<std::string> files_of(const Json& index) {
@@ -69,6 +39,7 @@ std::set<std::string> files_of(const Json& index) {
     for (const char* key : {"svg", "png", "script"}) add(figure, key);
     for (const Json& curve : figure.value("curves", Json::array())) add(curve, "file");
   }
+  add(index, "page");
   return files;
 }
 
@@ -106,19 +77,14 @@ std::vector<Picture> parse_formats(const std::vector<std::string>& words) {
   return out;
 }
 
-std::string figure_index(const std::vector<report::Figure>& figures,
-                         const std::vector<Picture>& pictures, bool scripts) {
-  Json out{{"format", format}, {"figures", Json::array()}};
-  for (const report::Figure& figure : figures)
-    out["figures"].push_back(figure_of(figure, pictures, scripts));
-  return text_of(out);
-}
-
-std::string write_figures(const fs::path& folder, const std::vector<report::Figure>& figures,
+std::string write_figures(const fs::path& folder, report::Gallery gallery,
                           const FigureFiles& options, const Messages& messages) {
   const bool drawing = !options.pictures.empty() && has_gnuplot();
-  const std::vector<Picture> drawn = drawing ? options.pictures : std::vector<Picture>{};
-  const std::string index = figure_index(figures, drawn, !options.pictures.empty());
+  gallery.pictures.clear();
+  if (drawing)
+    for (const Picture p : options.pictures) gallery.pictures.emplace_back(ending(p));
+  gallery.scripts = !options.pictures.empty();
+  const std::string index = report::index_json(gallery);
   if (options.force) remove_earlier(folder);
   refuse_to_overwrite(folder / index_name, options.force);
   for (const std::string& name : files_of(Json::parse(index)))
@@ -126,7 +92,8 @@ std::string write_figures(const fs::path& folder, const std::vector<report::Figu
 
   fs::create_directories(folder);
   std::vector<std::string> scripts;
-  for (const report::Figure& figure : figures) {
+  for (const report::Exhibit& exhibit : gallery.exhibits) {
+    const report::Figure& figure = exhibit.figure;
     const report::FigureData data = report::data(figure);
     for (const report::Sheet& sheet : data.sheets)
       write_file(folder / (sheet.name + ".csv"), report::csv(sheet));
@@ -135,6 +102,7 @@ std::string write_figures(const fs::path& folder, const std::vector<report::Figu
     write_file(folder / scripts.back(), report::script(figure, data, options.pictures));
   }
   write_file(folder / index_name, index);
+  write_file(folder / page_name, report::index_html(gallery));
   if (drawing) {
     draw_all(folder, scripts);
   } else if (!options.pictures.empty()) {

@@ -1,5 +1,5 @@
-// cli/figure_files.h - a folder of figures: CSV, scripts and pictures, and index.json that tells
-// what each of them shows.
+// cli/figure_files.h - a folder of figures: CSV, scripts and pictures, and two indices that tell
+// what each of them shows, index.json and the page index.html.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cli/terminal.h"
-#include "sinew/report/figure.h"
 #include "sinew/report/figure_script.h"
+#include "sinew/report/gallery.h"
 
 namespace sinew::cli {
 
@@ -21,17 +21,12 @@ struct FigureFiles {
 // "svg,png,csv" -> pictures; throws config::Error for another word. "csv" alone draws nothing.
 std::vector<report::Picture> parse_formats(const std::vector<std::string>& words);
 
-// Writes <sheet>.csv, <figure>.gp and index.json, and draws the pictures with gnuplot. Refuses to
-// replace anything, unless `force`; then what an earlier index.json lists is removed first, and
-// nothing else. Where there is no gnuplot all but the pictures is written, with a warning, or, if
-// they must be drawn, a std::runtime_error. Returns the index.
-std::string write_figures(const std::filesystem::path& folder,
-                          const std::vector<report::Figure>& figures, const FigureFiles& options,
-                          const Messages& messages);
-
-// What index.json says: of each figure its files, with those pictures and perhaps scripts; of each
-// curve what it is and where its numbers are.
-std::string figure_index(const std::vector<report::Figure>& figures,
-                         const std::vector<report::Picture>& pictures, bool scripts);
+// Writes <sheet>.csv, <figure>.gp, index.json and index.html, and draws the pictures with gnuplot.
+// Refuses to replace anything, unless `force`; then what an earlier index.json lists is removed
+// first, and nothing else. Where there is no gnuplot all but the pictures is written, with a
+// warning, or, if they must be drawn, a std::runtime_error. Fills the gallery's pictures and
+// scripts; returns index.json.
+std::string write_figures(const std::filesystem::path& folder, report::Gallery gallery,
+                          const FigureFiles& options, const Messages& messages);
 
 }  // namespace sinew::cli

@@ -100,7 +100,9 @@ ExitCode draw_runs(const RunFiguresRequest& request) {
                    "a log with samples in the time that is asked for",
                    "it without --from and --to");
     choose(figures, request.only, named);
-    const std::string index = write_figures(folder, figures, files, messages);
+    report::Gallery gallery{.title = "Figures of " + experiment_in(run.log)};
+    for (report::Figure& f : figures) gallery.exhibits.push_back({std::move(f), {}});
+    const std::string index = write_figures(folder, std::move(gallery), files, messages);
     out["runs"].push_back(
         {{"folder", folder.string()}, {"figures", Json::parse(index)["figures"]}});
   }

@@ -24,6 +24,13 @@ struct Axis {
   double from = automatic, to = automatic;  // in that unit; automatic: as far as the data go
   bool logarithmic = false;
 
+  // In the place of numbers, and of the title: names of rows.
+  struct Tick {
+    double at = 0;
+    std::string text;
+  };
+  std::vector<Tick> ticks = {};
+
   std::string title() const;  // "joint angle [deg]"; a plain number has its name alone
 };
 
@@ -39,8 +46,9 @@ struct Curve {
   std::vector<double> xs, ys;  // in the axes' units; NaN in y: a gap
   Kind kind = Kind::computed;
   Style style = Style::line;
-  int color = next;    // place in the palette; a desired curve has its actual one's
-  std::string source;  // law, run or file that the numbers come from
+  int color = next;       // place in the palette; a desired curve has its actual one's
+  std::string source;     // law, run or file that the numbers come from
+  bool in_legend = true;  // or named where it ends
 };
 
 // Shaded from bottom to top: stance.
@@ -49,12 +57,16 @@ struct Span {
 };
 
 struct Plot {
+  // Of its curves: above the data, or each where it ends on the right.
+  enum class Names { legend, ends, none };
+
   std::string name;   // in file names, where a figure has several plots: "stiffness"
   std::string title;  // above it; empty: none
   Axis x, y;
   std::vector<Curve> curves;
   std::vector<Span> spans;
   bool equal_scale = false;  // a length is as long in x as in y
+  Names names = Names::legend;
 };
 
 // What belongs into a figure and is not there.

@@ -55,8 +55,17 @@ Scale logarithmic_scale(const Axis& axis, double least, double greatest) {
 
 struct Axes {
   Scale x, y;
-  double height = Print::plot;
+  double left = Print::left, right = Print::right, height = Print::plot;
 };
+
+// Room for names of rows.
+void make_room(const std::vector<Axis::Tick>& rows, Axes& axes) {
+  std::size_t longest = 0;
+  for (const Axis::Tick& row : rows) longest = std::max(longest, letters(row.text));
+  if (rows.empty()) return;
+  axes.left = std::max(Print::left, 5 * Print::gap + Print::letter * static_cast<double>(longest));
+  axes.height = std::max(Print::lowest, 1.1 * Print::line * static_cast<double>(rows.size()));
+}
 
 // As long in x as in y: first the height, then what has to be shown more of where it has an end.
 void make_equal(Axes& axes) {
@@ -83,6 +92,11 @@ Axes axes_of(const Plot& plot) {
                  !plot.equal_scale && !bars),
            scale(plot.y, nothing ? none : all.y.from, nothing ? 1 : all.y.to, false)};
   if (plot.equal_scale) make_equal(out);
+  make_room(plot.y.ticks, out);
+  if (plot.names == Plot::Names::ends)
+    for (const Curve& c : plot.curves)
+      out.right = std::max(out.right,
+                           3 * Print::gap + Print::letter * static_cast<double>(letters(c.label)));
   return out;
 }
 
@@ -93,8 +107,9 @@ std::string in_legend(const Curve& curve) {
 // Columns of equal width; returns the height of the legend.
 double add_legend(const Plot& plot, PlotLayout& out, double top) {
   std::size_t longest = 0;
+  if (plot.names != Plot::Names::legend) return 0;
   for (const std::size_t c : out.curves) {
-    if (plot.curves[c].label.empty()) continue;
+    if (plot.curves[c].label.empty() || !plot.curves[c].in_legend) continue;
     out.legend.push_back({c, in_legend(plot.curves[c])});
     longest = std::max(longest, letters(out.legend.back().text));
   }
@@ -149,6 +164,8 @@ FigureLayout layout(const Figure& figure) {
     const Axes axes = axes_of(plot);
     p.x = axes.x;
     p.y = axes.y;
+    p.left = axes.left;
+    p.right = axes.right;
     p.title = y + Print::line / 2;
     if (!plot.title.empty()) y += Print::line + Print::gap / 2;
     y += add_legend(plot, p, y);

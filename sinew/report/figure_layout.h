@@ -36,6 +36,7 @@ struct LegendEntry {
 
 struct PlotLayout {
   Scale x, y;
+  double left = 0, right = 0;  // of the data, from the picture's edges [pt]
   double title = 0;            // its middle, from the top [pt]
   double top = 0, bottom = 0;  // of the data, from the top [pt]
   std::vector<LegendEntry> legend;

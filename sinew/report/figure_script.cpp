@@ -62,6 +62,7 @@ class Script {
   void axis(char name, const Axis& axis, const Scale& scale);
   void titles(const Plot& plot, const PlotLayout& at);
   void legend(const Plot& plot, const PlotLayout& at);
+  void ends(const Plot& plot, const PlotLayout& at);
   void spans(const Plot& plot, const Scale& x);
   void curves(std::size_t p);
   std::string place(double x, double y) const {
@@ -145,11 +146,20 @@ void Script::begin(const std::vector<Picture>& pictures) {
   add("set multiplot");
 }
 
+std::string named(const std::vector<Axis::Tick>& ticks) {
+  std::string out;
+  for (const Axis::Tick& t : ticks)
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", quoted(t.text), format_number(t.at));
+  return out;
+}
+
 void Script::axis(char name, const Axis& axis, const Scale& s) {
   add("{} logscale {}", axis.logarithmic ? "set" : "unset", name);
   add("set {}range [{}:{}]", name, format_number(s.from), format_number(s.to));
   if (axis.logarithmic)
     add("set {}tics 10", name);
+  else if (!axis.ticks.empty())
+    add("set {}tics ({})", name, named(axis.ticks));
   else
     add("set {}tics {}", name, format_number(s.step));
 }
@@ -157,8 +167,9 @@ void Script::axis(char name, const Axis& axis, const Scale& s) {
 void Script::titles(const Plot& plot, const PlotLayout& at) {
   if (!plot.title.empty())
     add("set label {} at {} left font heading", quoted(plot.title), place(Print::left, at.title));
-  add("set label {} at screen {}, graph 0.5 center rotate by 90", quoted(plot.y.title()),
-      across(0.75 * Print::line));
+  if (!plot.y.name.empty())
+    add("set label {} at screen {}, graph 0.5 center rotate by 90", quoted(plot.y.title()),
+        across(0.75 * Print::line));
   add("set label {} at graph 0.5, screen {} center", quoted(plot.x.title()),
       up(at.bottom + Print::numbers + Print::line));
   if (at.curves.empty()) add("set label 'no data' at graph 0.5, graph 0.5 center");
@@ -174,6 +185,20 @@ void Script::legend(const Plot& plot, const PlotLayout& at) {
       add("set label '' at {} point {} linecolor rgb '{}'", place(e.x + Print::sample / 2, e.y),
           point_of(plot, e.curve), look_of(plot, e.curve).color);
     add("set label {} at {} left", quoted(e.text), place(e.x + Print::sample + Print::gap, e.y));
+  }
+}
+
+// Names where curves leave the plot.
+void Script::ends(const Plot& plot, const PlotLayout& at) {
+  for (const std::size_t c : at.curves) {
+    const Curve& curve = plot.curves[c];
+    if (!curve.in_legend) continue;
+    std::size_t last = curve.xs.size();
+    for (std::size_t i = 0; i < curve.xs.size(); ++i)
+      if (!(curve.xs[i] > at.x.to) && std::isfinite(curve.ys[i])) last = i;
+    if (last < curve.xs.size())
+      add("set label {} at first {}, first {} left offset 0.6,0", quoted(curve.label),
+          format_number(curve.xs[last]), format_number(curve.ys[last]));
   }
 }
 
@@ -204,14 +229,15 @@ void Script::draw(std::size_t p) {
   const PlotLayout& at = layout_.plots[p];
   add("");
   add("unset label; unset arrow; unset object");
-  add("set lmargin at screen {}; set rmargin at screen {}", across(Print::left),
-      across(Print::width - Print::right));
+  add("set lmargin at screen {}; set rmargin at screen {}", across(at.left),
+      across(Print::width - at.right));
   add("set tmargin at screen {}; set bmargin at screen {}", up(at.top), up(at.bottom));
   axis('x', plot.x, at.x);
   axis('y', plot.y, at.y);
   add("set format '%h'; set xtics offset 0,0.3; set ytics offset 0.4,0");
   titles(plot, at);
   legend(plot, at);
+  if (plot.names == Plot::Names::ends) ends(plot, at);
   spans(plot, at.x);
   if (at.y.from < 0 && at.y.to > 0)
     add("set arrow from graph 0, first 0 to graph 1, first 0 nohead back linewidth 0.4 "

@@ -4,28 +4,11 @@
 #include <stdexcept>
 
 #include "sinew/report/content.h"
+#include "sinew/report/html.h"
 #include "sinew/report/page_template.h"
 
 namespace sinew::report {
 namespace {
-
-// For text between tags and in attributes.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
 
 // JSON that no parser of HTML can take for the end of its script element.
 std::string harmless(std::string_view json) {

@@ -1,0 +1,40 @@
+#include <algorithm>
+#include <iterator>
+
+#include "cli/thesis/thesis.h"
+
+namespace sinew::cli::thesis {
+
+namespace {
+
+constexpr Exhibits (*makers[])(const Sources&) = {chapter_2,    valve_laws, trapped_air,
+                                                  pulsed_valve, chapter_4,  chapter_5};
+
+}  // namespace
+
+std::int64_t steps() { return std::ssize(makers); }
+
+report::Gallery gallery(const Sources& from, std::atomic<std::int64_t>& done) {
+  report::Gallery out{
+      .title = "The figures of Colbrunn (2000)",
+      .lead =
+          "Every plot of the thesis that can be computed, numbered as there, beside what its "
+          "text says of it. Curves are computed by the thesis's laws or by our simulation. "
+          "What was measured is lost: where a synthetic curve stands in its place, it is our "
+          "own stand's and says so. Each verdict is computed from the curves as they are "
+          "drawn, or from the run's summary.",
+      .prefix = "Figure "};
+  for (const auto make : makers) {
+    for (Exhibit& e : make(from)) out.exhibits.push_back(std::move(e));
+    ++done;
+  }
+  const auto place = [](const Exhibit& e) {
+    const std::size_t dash = e.figure.name.find('-');
+    return std::pair(std::stoi(e.figure.name.substr(0, dash)),
+                     std::stoi(e.figure.name.substr(dash + 1)));
+  };
+  std::ranges::stable_sort(out.exhibits, {}, place);
+  return out;
+}
+
+}  // namespace sinew::cli::thesis

@@ -1,0 +1,85 @@
+#include "sinew/report/claim.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace sinew::report {
+namespace {
+
+// Digits that show where in the band a number lies: three, more where the band is narrow.
+std::string number(double value, const Band& band) {
+  const double width = band.highest - band.lowest;
+  if (value == 0 || (std::isfinite(width) && std::fabs(value) < 1e-6 * width)) return "0";
+  const int size = static_cast<int>(std::floor(std::log10(std::fabs(value))));
+  int digits = 3;
+  if (std::isfinite(width) && width > 0)
+    digits = size - static_cast<int>(std::floor(std::log10(width))) + 2;
+  std::string text = fmt::format("{:.{}g}", value, std::clamp(digits, 3, 7));
+  return text.find('e') == text.npos ? text : fmt::format("{:.2g}", value);
+}
+
+std::string with_unit(std::string text, const std::string& unit) {
+  return unit.empty() ? text : text + " " + unit;
+}
+
+std::string band_text(const Band& b, const std::string& unit) {
+  const auto end = [](double x) { return fmt::format("{:.6g}", x); };
+  if (std::isinf(b.lowest) && std::isinf(b.highest)) return "";
+  if (std::isinf(b.lowest)) return with_unit("at most " + end(b.highest), unit);
+  if (std::isinf(b.highest)) return with_unit("at least " + end(b.lowest), unit);
+  return with_unit(fmt::format("{} to {}", end(b.lowest), end(b.highest)), unit);
+}
+
+}  // namespace
+
+Claim judge(const Measured& m) {
+  Claim c{.where = m.where, .says = m.says, .theirs = m.theirs, .quantity = m.quantity};
+  c.ours = std::isfinite(m.ours) ? with_unit(number(m.ours, m.accept), m.unit) : "none";
+  c.accept = band_text(m.accept, m.unit);
+  c.why = m.why;
+  const bool inside = m.ours >= m.accept.lowest && m.ours <= m.accept.highest;
+  c.verdict = inside ? Is::agrees : Is::differs;
+  if (m.because.empty()) return c;
+  c.verdict = inside ? Is::agrees_after_all : Is::differs_as_known;
+  c.why += fmt::format("{}Known to differ: {}", c.why.empty() ? "" : ". ", m.because);
+  return c;
+}
+
+Claim not_comparable(std::string where, std::string says, std::string theirs, std::string why) {
+  return {.where = std::move(where),
+          .says = std::move(says),
+          .theirs = std::move(theirs),
+          .quantity = {},
+          .ours = {},
+          .accept = {},
+          .why = std::move(why)};
+}
+
+Claim claim(const analysis::Verdict& v) {
+  return {.where = v.source,
+          .says = {},
+          .theirs = v.reported,
+          .quantity = v.key,
+          .ours = v.ours,
+          .accept = v.accept,
+          .why = {},
+          .verdict = v.is};
+}
+
+std::string_view word(Is verdict) {
+  return verdict == Is::not_applicable ? "not comparable" : to_text(verdict);
+}
+
+void count(Tally& tally, const std::vector<Claim>& claims) {
+  for (const Claim& c : claims) {
+    if (c.verdict == Is::agrees) ++tally.agree;
+    if (c.verdict == Is::differs || c.verdict == Is::agrees_after_all) ++tally.differ;
+    if (c.verdict == Is::differs_as_known) ++tally.differ_as_known;
+    if (c.verdict == Is::not_applicable) ++tally.not_comparable;
+  }
+}
+
+}  // namespace sinew::report
