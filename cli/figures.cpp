@@ -53,7 +53,8 @@ void add_figures(CLI::App& app, Action& action) {
   sub.callback([=, &action] {
     if (!options->of_thesis && options->runs.runs.empty())
       throw CLI::RequiredError("DIR, the folder of a run, or --thesis");
-    if (options->of_thesis && options->runs.out.empty()) throw CLI::RequiredError("-o with --thesis");
+    if (options->of_thesis && options->runs.out.empty())
+      throw CLI::RequiredError("-o with --thesis");
     action = [=] { return draw(*options); };
   });
 }

@@ -100,7 +100,8 @@ ExitCode draw_runs(const RunFiguresRequest& request) {
                    "a log with samples in the time that is asked for",
                    "it without --from and --to");
     choose(figures, request.only, named);
-    report::Gallery gallery{.title = "Figures of " + experiment_in(run.log)};
+    const std::string name = experiment_in(run.log);
+    report::Gallery gallery{.title = name.empty() ? "Figures" : "Figures of " + name};
     for (report::Figure& f : figures) gallery.exhibits.push_back({std::move(f), {}});
     const std::string index = write_figures(folder, std::move(gallery), files, messages);
     out["runs"].push_back(
