@@ -1,4 +1,4 @@
-# The page of web/, bundled into one text by esbuild and compiled into sinew_report. Where its npm
+# The pages of web/, each bundled into one text by esbuild and compiled into sinew_report. Where its npm
 # packages are missing the program is built without it, and says so when it is asked for a report.
 # The glob is looked at in every build: after `npm ci` the next one has the page.
 
@@ -22,6 +22,7 @@ else()
   file(CONFIGURE OUTPUT ${page_template} CONTENT
 "#include \"sinew/report/page_template.h\"
 std::string_view sinew::report::page_template() { return {}; }
+std::string_view sinew::report::comparison_template() { return {}; }
 ")
   message(STATUS "web/: built without reports; npm ci in web/ brings them")
 endif()

@@ -1,5 +1,5 @@
-// build.mjs [FILE]   bundles src/ into one page. FILE.cpp: as the source file that the program is
-// built with; FILE.html, or page.html without one: as it is.
+// build.mjs FILE.cpp        bundles src/ into pages, as the source file that the program is built with
+// build.mjs [FILE.html]     the page of a run alone, page.html without a name
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -22,24 +22,31 @@ function bundle(entry) {
   return result.outputFiles[0].text.trim();
 }
 
-let page = readFileSync(join(src, 'page.html'), 'utf8');
-page = page.replace('/*style*/', () => bundle('style.css'));
-page = page.replace('/*script*/', () => bundle('main.js'));
+function page_of(frame, style, script) {
+  let page = readFileSync(join(src, frame), 'utf8');
+  page = page.replace('/*style*/', () => bundle(style));
+  page = page.replace('/*script*/', () => bundle(script));
 
-// What the program fills in must have one place each.
-for (const mark of ['@title@', '@run@', '@samples@'])
-  if (page.split(mark).length !== 2) throw new Error(`${mark}: not once in the page`);
+  // What the program fills in must have one place each.
+  for (const mark of ['@title@', '@run@', '@samples@'])
+    if (page.split(mark).length !== 2) throw new Error(`${mark}: not once in ${frame}`);
+  return page;
+}
 
-function as_cpp(text) {
+function as_cpp(name, text) {
   if (text.includes(')page"')) throw new Error('the page ends its own literal');
-  return `// Made by web/build.mjs.
-#include "sinew/report/page_template.h"
-
-std::string_view sinew::report::page_template() {
+  return `
+std::string_view sinew::report::${name}() {
   static constexpr char text[] = R"page(${text})page";
   return {text, sizeof text - 1};
 }
 `;
 }
 
-writeFileSync(out, out.endsWith('.cpp') ? as_cpp(page) : page);
+const run = page_of('page.html', 'style.css', 'main.js');
+if (out.endsWith('.cpp'))
+  writeFileSync(out, '// Made by web/build.mjs.\n#include "sinew/report/page_template.h"\n' +
+    as_cpp('page_template', run) +
+    as_cpp('comparison_template', page_of('compare.html', 'compare.css', 'compare.js')));
+else
+  writeFileSync(out, run);

@@ -26,11 +26,16 @@ std::string harmless(std::string_view json) {
 
 bool has_page() { return !page_template().empty(); }
 
+void require_page(std::string_view file) {
+  if (has_page()) return;
+  throw std::runtime_error(
+      std::string(file) +
+      ": this sinew was built without its page, which npm bundles; try: install npm, then run npm "
+      "ci in web/ and build again");
+}
+
 std::string page(const Run& run) {
-  if (!has_page())
-    throw std::runtime_error(
-        "report.html: this sinew was built without its page, which npm bundles; try: install npm, "
-        "then run npm ci in web/ and build again");
+  require_page("report.html");
   return fill(page_template(), content(run));
 }
 

@@ -24,6 +24,9 @@ struct Run {
 // Was the program built with its page? Without npm there is none.
 bool has_page();
 
+// Throws std::runtime_error, with what to do, where there is none; `file` would have been it.
+void require_page(std::string_view file);
+
 // Throws config::Error for a resolved.toml that cannot be read, and std::runtime_error, with what
 // to do, where the program was built without its page.
 std::string page(const Run& run);

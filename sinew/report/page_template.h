@@ -1,11 +1,12 @@
-// report/page_template.h - the page that web/ is bundled into, by the build.
+// report/page_template.h - the pages that web/ is bundled into, by the build.
 #pragma once
 
 #include <string_view>
 
 namespace sinew::report {
 
-// Empty where the program was built without npm.
-std::string_view page_template();
+// Both are empty where the program was built without npm.
+std::string_view page_template();        // of one run
+std::string_view comparison_template();  // of several
 
 }  // namespace sinew::report

@@ -1,5 +1,8 @@
 #include "sinew/report/parameters.h"
 
+#include <algorithm>
+#include <map>
+
 namespace sinew::report {
 namespace {
 
@@ -54,6 +57,22 @@ std::vector<Parameter> parameters(const Node& resolved) {
   std::vector<Parameter> out;
   collect(resolved, "", out);
   return out;
+}
+
+std::vector<ParameterRow> differing(const std::vector<const std::vector<Parameter>*>& runs) {
+  std::vector<ParameterRow> rows;
+  std::map<std::string_view, std::size_t> row_of;
+  for (std::size_t run = 0; run < runs.size(); ++run)
+    for (const Parameter& p : *runs[run]) {
+      const auto [at, is_new] = row_of.try_emplace(p.key, rows.size());
+      if (is_new) rows.push_back({p.key, std::vector<std::optional<std::string>>(runs.size())});
+      rows[at->second].values[run] = p.value;
+    }
+  std::erase_if(rows, [](const ParameterRow& row) {
+    return row.key == "title" || row.key == "reproduces" ||
+           std::ranges::all_of(row.values, [&](const auto& v) { return v == row.values.front(); });
+  });
+  return rows;
 }
 
 }  // namespace sinew::report

@@ -1,6 +1,7 @@
 // report/parameters.h - every value that a run used, as rows of a table.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,5 +21,15 @@ struct Parameter {
 // Of a resolved.toml, in its order. What is reported of the run is no parameter, nor is what is
 // empty.
 std::vector<Parameter> parameters(const config::Node& resolved);
+
+// A key that has not the same value in all runs; nothing where a run has no such key.
+struct ParameterRow {
+  std::string key;
+  std::vector<std::optional<std::string>> values;  // one per run
+};
+
+// Of the runs' parameters: in the first one's order, then what only others have. Values count, not
+// where they come from; neither do a run's title and what it reproduces.
+std::vector<ParameterRow> differing(const std::vector<const std::vector<Parameter>*>& runs);
 
 }  // namespace sinew::report

@@ -3,7 +3,7 @@ import uPlot from 'uplot';
 import { element } from './page.js';
 import { held } from './samples.js';
 import { Slices } from './slices.js';
-import { number, tick_text } from './units.js';
+import { number, signed, tick_text } from './units.js';
 
 const axis_width = 58;
 const height = 132;
@@ -160,9 +160,17 @@ export class Panel {
   show_values(t) {
     if (!this.visible) return;
     this.readouts.forEach((r, i) => {
-      r.value.textContent = this.shown[i]
-        ? number(this.plots.units.convert(held(this.columns[i], t), this.spec.unit)) : '';
+      r.value.textContent = this.shown[i] ? this.value_text(i, t) : '';
     });
+  }
+
+  // And by how much it differs from another run, where the line knows that.
+  value_text(i, t) {
+    const { units } = this.plots, { unit, lines } = this.spec;
+    if (t > lines[i].ends) return number(NaN);  // of a run that is over
+    const value = number(units.convert(held(this.columns[i], t), unit));
+    const { difference } = lines[i];
+    return difference ? `${value} (${signed(held(difference, t) * units.of(unit).scale)})` : value;
   }
 }
 

@@ -5,7 +5,7 @@ export class Plots {
   // `run` as the program writes it; `on_seek` is told where a person wants to go.
   constructor(root, run, columns, units, on_seek) {
     Object.assign(this, { root, run, units, seek: on_seek });
-    this.view = this.whole = [0, run.duration || 1];
+    this.view = this.whole = [run.start ?? 0, run.duration || 1];
     this.time = 0;
     this.hovered = null;
     this.read_look();
@@ -86,7 +86,7 @@ export class Plots {
   // --- zoom ---
 
   zoom(from, to) {
-    const least = Math.min(2e-3, this.whole[1]);
+    const least = Math.min(2e-3, this.whole[1] - this.whole[0]);
     const middle = (from + to) / 2, half = Math.max(to - from, least) / 2;
     const view = [Math.max(this.whole[0], middle - half), Math.min(this.whole[1], middle + half)];
     if (!(view[1] > view[0])) return;

@@ -2,15 +2,15 @@
 import { by_id, element } from './page.js';
 import { number, unit_of_key, words_of_key } from './units.js';
 
-function table(label, heads, rows) {
+export function table(label, heads, rows) {
   return element('div', { class: 'scroll' },
     element('table', { 'aria-label': label },
       element('thead', {}, element('tr', {}, ...heads.map((h) => element('th', { scope: 'col' }, h)))),
       element('tbody', {}, ...rows)));
 }
 
-const cell = (words, kind) => element('td', kind ? { class: kind } : {}, words);
-const heading = (words, note) =>
+export const cell = (words, kind) => element('td', kind ? { class: kind } : {}, words);
+export const heading = (words, note) =>
   element('h2', {}, words, note ? element('span', { class: 'note' }, note) : null);
 
 const verdict_class = (is) =>
@@ -95,7 +95,7 @@ export class Figures {
 // --- every value ---
 
 // A list of a hundred numbers is there for who asks for it.
-function long_cell(words) {
+export function long_cell(words) {
   const most = 120;
   if (words.length <= most) return cell(words, 'long');
   return element('td', { class: 'long', title: words }, `${words.slice(0, most)} …`);
@@ -115,7 +115,7 @@ export function show_parameters(run) {
 }
 
 // A field above the table that leaves the rows with all of its words.
-function searched(list, rows, label) {
+export function searched(list, rows, label) {
   const field = element('input', { type: 'search', placeholder: label, 'aria-label': label, class: 'no-print' });
   const texts = rows.map((r) => `${r.row.dataset.key} ${r.row.textContent}`.toLowerCase());
   const count = element('span', { class: 'quiet', 'aria-live': 'polite' });

@@ -60,6 +60,12 @@ export function tick_text(v) {
   return String(+v.toPrecision(6)).replace('-', '−');
 }
 
+// A difference: "+1.2", "−1.2", "=" for none.
+export const signed = (value) => (value === 0 ? '=' : value > 0 ? `+${number(value)}` : number(value));
+
+// Of a difference between two values in that unit.
+export const difference_unit = (unit) => (unit === 'Pa' ? 'Pa diff' : unit);
+
 // "trolley.mean_speed_m_per_s" -> its unit in SI, as in docs/analysis.md.
 const endings = [
   ['_Nm_per_rad', 'N m/rad'], ['_rad_per_s', 'rad/s'], ['_m_per_s', 'm/s'],

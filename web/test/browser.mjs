@@ -2,3 +2,4 @@
 // and does what a person would. Pictures go where they are wanted. Every kind of page has its file.
 import './run_page.mjs';
 import './stand_page.mjs';
+import './compare_page.mjs';

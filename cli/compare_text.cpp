@@ -1,0 +1,282 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "cli/compare.h"
+#include "cli/terminal.h"
+#include "cli/text_table.h"
+#include "sinew/config/quantity.h"
+
+namespace sinew::cli {
+
+namespace {
+
+using Align = TextTable::Align;
+using report::Comparison;
+
+constexpr std::size_t most_figures = 12, most_parameters = 15, most_channels = 12;
+constexpr std::size_t most_letters = 32;  // of a parameter's value
+
+// In which unit people see a quantity of that SI unit.
+std::string_view shown_unit(std::string_view unit, ShownUnits units) {
+  struct Shown {
+    std::string_view unit, thesis, si;
+  };
+  static constexpr Shown all[] = {
+      {"m", "in", "m"},           {"m/s", "in/s", "m/s"},
+      {"rad", "deg", "rad"},      {"rad/s", "deg/s", "rad/s"},
+      {"N", "lbf", "N"},          {"N m", "lbf in", "N m"},
+      {"kg", "g", "g"},           {"N m/rad", "lbf in/rad", "N m/rad"},
+      {"N/m", "lbf/in", "N/m"},   {"Pa abs", "psi gauge", "kPa abs"},
+      {"Pa", "psi gauge", "kPa"}, {"Pa diff", "psi diff", "kPa diff"},
+  };
+  for (const Shown& s : all)
+    if (s.unit == unit) return units == ShownUnits::thesis ? s.thesis : s.si;
+  return unit;
+}
+
+bool is_share(std::string_view key) {
+  return key.find("share") != key.npos || key.find("passiveness") != key.npos ||
+         key.find("duty") != key.npos;
+}
+
+std::string signed_text(const std::string& text, double value) {
+  return value > 0 ? "+" + text : text;
+}
+
+// Three digits, and all of those before the point.
+int digits_of(double value) {
+  const double size = std::abs(value);
+  return size >= 1000 ? static_cast<int>(std::floor(std::log10(size))) + 1 : 3;
+}
+
+std::string percent(const std::optional<double>& relative) {
+  if (!relative) return "from 0";
+  if (*relative == 0) return "=";
+  const double p = 100 * *relative;
+  return std::abs(p) >= 9.95 ? fmt::format("{:+.0f} %", p) : fmt::format("{:+.2g} %", p);
+}
+
+// A figure's value and difference in the unit that is shown.
+class Figure {
+ public:
+  Figure(std::string_view key, ShownUnits units, double atmosphere)
+      : unit_(analysis::unit_of_key(key)),
+        shown_(is_share(key) && unit_ == "1" ? "%" : shown_unit(unit_, units)),
+        difference_(config::difference_unit(unit_)),
+        shown_difference_(difference_ == unit_ ? shown_ : shown_unit(difference_, units)),
+        atmosphere_(atmosphere) {}
+
+  std::string value(const std::optional<double>& si) const {
+    return si ? config::format_quantity(*si, unit_, shown_, 4, atmosphere_) : "-";
+  }
+  std::string difference(double first, double other) const {
+    if (other == first) return "=";
+    const double d = other - first;
+    if (shown_ == "%") return signed_text(fmt::format("{:.3g} points", 100 * d), d);
+    const int digits = digits_of(config::convert(d, difference_, shown_difference_));
+    return signed_text(config::format_quantity(d, difference_, shown_difference_, digits), d);
+  }
+  // Beside a gauge pressure, whose zero is the room's, a share of the absolute one would mislead.
+  std::string relative(double first, double other) const {
+    if (shown_.ends_with("gauge")) return other == first ? "=" : "";
+    return percent(analysis::relative_difference(first, other));
+  }
+
+ private:
+  std::string unit_;
+  std::string_view shown_, difference_, shown_difference_;
+  double atmosphere_;
+};
+
+void print_runs(const Comparison& c) {
+  TextTable table({"", "", "", "", ""}, {Align::left, Align::left, Align::left, Align::right});
+  for (std::size_t i = 0; i < c.runs.size(); ++i) {
+    const report::ComparedRun& run = c.runs[i];
+    table.add({letter_of(i), run.label, run.title, fmt::format("{:.2f} s", run.last - run.first),
+               run.shift != 0 ? fmt::format("moved by {:+.2f} s", -run.shift) : ""});
+  }
+  const std::string text = table.text();
+  fmt::print("{}", text.substr(text.find('\n') + 1));  // without titles
+}
+
+// --- figures ---
+
+// "agrees", or where it is not the same of all "agrees → differs"; empty where none is judged.
+std::string verdicts_of(const Comparison& c, const std::string& key) {
+  std::vector<std::string> words;
+  std::set<std::string> judged;
+  for (const report::ComparedRun& run : c.runs) {
+    words.push_back(run.verdict_of(key));
+    if (!words.back().empty()) judged.insert(words.back());
+    if (words.back().empty()) words.back() = "not judged";
+  }
+  if (judged.empty()) return "";
+  const bool alike = std::ranges::all_of(words, [&](const auto& w) { return w == words.front(); });
+  const std::string text = alike ? words.front() : fmt::format("{}", fmt::join(words, " → "));
+  return judged.size() > 1 ? in_red(text) : text;
+}
+
+bool differs(const analysis::FigureRow& row) {
+  return std::ranges::any_of(row.values, [&](const auto& v) { return v != row.values.front(); });
+}
+
+// What is judged first, then the largest relative differences; with `all`, the summary's order.
+std::vector<const analysis::FigureRow*> chosen_figures(const Comparison& c, bool all) {
+  std::vector<const analysis::FigureRow*> judged, rest;
+  for (const analysis::FigureRow& row : c.figures)
+    if (all || !verdicts_of(c, row.key).empty())
+      judged.push_back(&row);
+    else if (analysis::size_of_change(row) > 0)
+      rest.push_back(&row);
+  std::ranges::stable_sort(rest, std::ranges::greater{},
+                           [](const auto* row) { return analysis::size_of_change(*row); });
+  rest.resize(std::min(rest.size(), most_figures));
+  judged.insert(judged.end(), rest.begin(), rest.end());
+  return judged;
+}
+
+std::vector<std::string> figure_cells(const Comparison& c, const analysis::FigureRow& row,
+                                      ShownUnits units) {
+  const Figure figure(row.key, units, c.runs.front().atmosphere);
+  const std::optional<double>& first = row.values.front();
+  std::vector<std::string> cells = {row.key, figure.value(first)};
+  for (std::size_t i = 1; i < row.values.size(); ++i) {
+    const std::optional<double>& other = row.values[i];
+    const bool both = first && other;
+    cells.push_back(figure.value(other));
+    if (c.runs.size() == 2) cells.push_back(both ? figure.difference(*first, *other) : "");
+    cells.push_back(both ? figure.relative(*first, *other) : "");
+  }
+  cells.push_back(verdicts_of(c, row.key));
+  return cells;
+}
+
+void print_figures(const Comparison& c, ShownUnits units, bool all) {
+  const auto differing = std::ranges::count_if(c.figures, differs);
+  fmt::print("\nFigures: {} of {} differ\n", differing, c.figures.size());
+  std::vector<std::string> titles = {"", "A"};
+  for (std::size_t i = 1; i < c.runs.size(); ++i) {
+    titles.push_back(letter_of(i));
+    if (c.runs.size() == 2) titles.push_back("B − A");
+    titles.push_back("");
+  }
+  titles.push_back("");
+  std::vector<Align> align(titles.size(), Align::right);
+  align.front() = align.back() = Align::left;
+
+  TextTable table(titles, align);
+  std::ptrdiff_t shown = 0;
+  for (const analysis::FigureRow* row : chosen_figures(c, all)) {
+    table.add(figure_cells(c, *row, units));
+    shown += differs(*row);
+  }
+  if (!table.empty()) fmt::print("{}", table.text_within(width_of_output()));
+  if (shown < differing) fmt::print("and {} more that differ: --all\n", differing - shown);
+}
+
+// --- parameters ---
+
+std::string cut(const std::string& text) {
+  if (columns(text) <= most_letters) return text;
+  std::size_t end = most_letters - 2;
+  while ((static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a letter
+  return text.substr(0, end) + " …";
+}
+
+void print_parameters(const Comparison& c, bool all) {
+  fmt::print("\nParameters: {}\n",
+             c.parameters.empty() ? "all equal" : fmt::format("{} differ", c.parameters.size()));
+  std::vector<std::string> titles = {""};
+  for (std::size_t i = 0; i < c.runs.size(); ++i) titles.push_back(letter_of(i));
+  TextTable table(titles);
+  std::size_t shown = 0;
+  for (const report::ParameterRow& row : c.parameters) {
+    if (!all && shown++ == most_parameters) break;
+    std::vector<std::string> cells = {row.key};
+    for (const auto& value : row.values) cells.push_back(value ? cut(*value) : "-");
+    table.add(std::move(cells));
+  }
+  if (!table.empty()) fmt::print("{}", table.text_within(width_of_output()));
+  if (!all && c.parameters.size() > most_parameters)
+    fmt::print("and {} more: --all\n", c.parameters.size() - most_parameters);
+}
+
+// --- channels ---
+
+std::string name_of(const report::ChannelRow& row) {
+  return row.channel.topic + (row.channel.field == "value" ? "" : "." + row.channel.field);
+}
+
+std::string note_of(const analysis::Difference& d) {
+  std::string note;
+  if (d.how == analysis::Meeting::between) note = "between samples";
+  if (d.how == analysis::Meeting::held)
+    note = fmt::format("apart {:.2g} % of the time", 100 * d.rms * d.rms);
+  if (d.gaps > 0) note += fmt::format("{}{} gaps", note.empty() ? "" : ", ", d.gaps);
+  return note;
+}
+
+// A log may hold units that only its maker knows: they are shown as they are.
+std::string difference_text(double si, const std::string& of, ShownUnits units) {
+  const std::string unit = of == "Pa" ? "Pa diff" : of;
+  const std::string_view shown = shown_unit(unit, units);
+  const double value = shown == unit ? si : config::convert(si, unit, shown);
+  return fmt::format("{:.{}g}{}{}", value, digits_of(value), of == "1" ? "" : " ",
+                     of == "1" ? "" : shown);
+}
+
+std::vector<std::string> channel_cells(const report::ChannelRow& row, const analysis::Difference& d,
+                                       ShownUnits units) {
+  if (d.same) return {name_of(row), "same samples"};
+  if (d.equal()) return {name_of(row), "equal", "", "", note_of(d)};
+  if (d.samples == 0) return {name_of(row), "never meet"};
+  const auto text = [&](double si) { return difference_text(si, row.unit, units); };
+  const bool edges = d.how == analysis::Meeting::held;
+  return {name_of(row), edges ? "" : text(d.rms),
+          edges ? "" : signed_text(text(d.largest), d.largest), fmt::format("{:.4g} s", d.at),
+          note_of(d)};
+}
+
+// Of one run against the first.
+void print_channels(const Comparison& c, std::size_t run, ShownUnits units, bool all) {
+  std::vector<const report::ChannelRow*> rows;
+  std::size_t same = 0, compared = 0;
+  for (const report::ChannelRow& row : c.channels) {
+    const auto& d = row.differences[run];
+    if (!d) continue;
+    ++compared;
+    same += d->same;
+    if (all || !(d->same || d->equal())) rows.push_back(&row);
+  }
+  fmt::print("\nChannels, {} against A: {} compared, {} with the same samples\n", letter_of(run),
+             compared, same);
+  const std::size_t differing = rows.size();
+  if (!all) {
+    std::ranges::stable_sort(rows, std::ranges::greater{}, [&](const report::ChannelRow* row) {
+      return row->differences[run]->share();
+    });
+    rows.resize(std::min(rows.size(), most_channels));
+  }
+  TextTable table({"", "rms", letter_of(run) + " − A at most", "at", ""},
+                  {Align::left, Align::right, Align::right, Align::right, Align::left});
+  for (const report::ChannelRow* row : rows)
+    table.add(channel_cells(*row, *row->differences[run], units));
+  if (!table.empty()) fmt::print("{}", table.text_within(width_of_output()));
+  if (rows.size() < differing) fmt::print("and {} more: --all\n", differing - rows.size());
+}
+
+}  // namespace
+
+void print_comparison(const Comparison& comparison, ShownUnits units, bool all) {
+  print_runs(comparison);
+  print_figures(comparison, units, all);
+  print_parameters(comparison, all);
+  for (std::size_t i = 1; i < comparison.runs.size(); ++i)
+    print_channels(comparison, i, units, all);
+}
+
+}  // namespace sinew::cli

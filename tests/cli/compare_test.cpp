@@ -1,0 +1,162 @@
+// `compare`: tables, JSON and the page. What the page shows is tested in a browser: web/test.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+
+namespace sinew::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+const std::string walk = "experiments/walk-test-1.toml";
+const std::string bench = "experiments/one-joint.toml";
+
+void run(const Workspace& w, const std::string& experiment, const std::string& folder,
+         const Words& more = {}) {
+  Words words = {"run", experiment, "-o", folder, "--no-report", "--quiet"};
+  words.insert(words.end(), more.begin(), more.end());
+  ASSERT_EQ(w.sinew(words).code, 0) << folder;
+}
+
+Json compared(const Workspace& w, const Words& runs) {
+  Words words = {"compare", "--json"};
+  words.insert(words.end(), runs.begin(), runs.end());
+  const Result result = w.sinew(words);
+  EXPECT_EQ(result.code, 0) << result.err;
+  return Json::parse(result.out);
+}
+
+TEST(Compare, OfARunWithItselfSaysSo) {
+  const Workspace w;
+  run(w, walk, "a");
+  const Result result = w.sinew({"compare", "a", "a/log.mcap"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("Figures: 0 of"), HasSubstr("Parameters: all equal")));
+  for (const Json& channel : compared(w, {"a", "a"})["channels"])
+    EXPECT_TRUE(channel["differences"][1]["same"].get<bool>()) << channel["topic"];
+}
+
+TEST(Compare, TellsAGainsRunsApart) {
+  const Workspace w;
+  run(w, walk, "a");
+  run(w, walk, "b", {"--set", "control.gains.hip.velocity=0.0001 s/count"});
+  const Json c = compared(w, {"a", "b"});
+  ASSERT_EQ(c["parameters"].size(), 1u);
+  EXPECT_EQ(c["parameters"][0]["key"], "control.gains.hip.velocity");
+  const Json summary = Json::parse(read_text(w / "b/summary.json"));
+  for (const Json& figure : c["figures"])
+    if (figure["key"] == "trolley.distance_m") {
+      EXPECT_EQ(figure["values"][1], summary["trolley"]["distance_m"]);
+      const double a = figure["values"][0], b = figure["values"][1];
+      EXPECT_EQ(figure["differences"][1], b - a);
+      EXPECT_EQ(figure["relative"][1], (b - a) / a);
+    }
+  const Result text = w.sinew({"compare", "a", "b"});
+  EXPECT_THAT(text.out, AllOf(HasSubstr("control.gains.hip.velocity"), HasSubstr("B − A"),
+                              HasSubstr("trolley.distance_m"), HasSubstr(" in ")));
+  EXPECT_THAT(w.sinew({"compare", "a", "b", "--units", "si"}).out, HasSubstr(" m "));
+}
+
+TEST(Compare, TakesALogOfHardwareAndALogAlone) {
+  const Workspace w;
+  run(w, walk, "a");
+  ASSERT_EQ(w.sinew({"export", "a", "--format", "out.dat", "-o", "out.dat"}).code, 0);
+  ASSERT_EQ(w.sinew({"import", "out.dat", "--experiment", walk, "-o", "imported"}).code, 0);
+  const Json c = compared(w, {"a", "imported", "--align", "sequence"});
+  for (const Json& channel : c["channels"])
+    EXPECT_FALSE(channel["topic"].get<std::string>().starts_with("/true"));
+  for (const Json& channel : c["channels"])
+    if (channel["topic"] == "/sensor/hip_angle/count") {
+      EXPECT_EQ(channel["differences"][1]["largest"], 0.0) << "as it was read";
+    }
+
+  fs::copy_file(w / "a/log.mcap", w / "alone.mcap");
+  const Json alone = compared(w, {"a", "alone.mcap"});
+  EXPECT_TRUE(alone["parameters"].empty()) << "the log says what was run";
+}
+
+TEST(Compare, JoinsOtherPeriodsAndAlignsSequences) {
+  const Workspace w;
+  run(w, walk, "a");
+  run(w, walk, "dense", {"--set", "log.period=1 ms"});
+  run(w, walk, "late", {"--set", "start.settle=0.9 s"});
+  const auto hip = [](const Json& c) {
+    for (const Json& channel : c["channels"])
+      if (channel["topic"] == "/true/joint/hip/angle") return channel["differences"][1];
+    return Json();
+  };
+  const Json dense = hip(compared(w, {"a", "dense"}));
+  EXPECT_EQ(dense["meet"], "between");
+  EXPECT_LT(dense["rms"], 1e-3);
+  const Json start = hip(compared(w, {"a", "late"}));
+  const Json sequence = hip(compared(w, {"a", "late", "--align", "sequence"}));
+  EXPECT_LT(sequence["rms"], 0.5 * start["rms"].get<double>());
+}
+
+TEST(Compare, TakesTheTestStand) {
+  const Workspace w;
+  run(w, "experiments/rig/pwm-50hz-1lb.toml", "a");
+  run(w, "experiments/rig/pwm-50hz-5lb-guess.toml", "b");
+  const Result result = w.sinew({"compare", "a", "b"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("load.mass"), HasSubstr("/true/stand/length"),
+                                HasSubstr("pulsed.length_m")));
+}
+
+TEST(Compare, SaysWhatItCannotDo) {
+  const Workspace w;
+  run(w, bench, "a");
+  const auto fails = [&](const Words& more, int code) {
+    Words words = {"compare", "a"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Result result = w.sinew(words);
+    EXPECT_EQ(result.code, code) << result.err;
+    return result.err;
+  };
+  EXPECT_THAT(fails({"nowhere"}, 1), StartsWith("nowhere: found nothing"));
+  EXPECT_THAT(fails({"robots"}, 1), HasSubstr("found no log.mcap"));
+  EXPECT_THAT(fails({}, 2), HasSubstr("At least 2"));
+  EXPECT_THAT(fails({"a", "--channels", "/jonit/*"}, 1), HasSubstr("/joint/*"));
+  EXPECT_THAT(fails({"a", "--align", "end"}, 2), HasSubstr("sequence"));
+  run(w, "experiments/rig/pwm-50hz-1lb.toml", "stand");
+  EXPECT_THAT(fails({"stand"}, 1), HasSubstr("no channel that a has too"));
+  write_text(w / "kept.html", "mine");
+  EXPECT_EQ(fails({"a", "-o", "kept.html"}, 1).empty(), false);
+  EXPECT_EQ(read_text(w / "kept.html"), "mine");
+}
+
+#if SINEW_HAS_PAGE
+
+TEST(Compare, WritesAPageOfWhatIsChosen) {
+  const Workspace w;
+  run(w, bench, "a");
+  run(w, bench, "b", {"--set", "seed=2"});
+  ASSERT_EQ(w.sinew({"compare", "a", "b", "-o", "all.html"}).code, 0);
+  ASSERT_EQ(w.sinew({"compare", "a", "b", "-o", "again.html"}).code, 0);
+  EXPECT_TRUE(read_text(w / "all.html") == read_text(w / "again.html"));
+  ASSERT_EQ(w.sinew({"compare", "a", "b", "--channels", "/joint/*", "-o", "some.html"}).code, 0);
+  EXPECT_THAT(read_text(w / "some.html"),
+              AllOf(HasSubstr("/joint/lever/angle"), Not(HasSubstr("/true/joint"))));
+}
+
+#else
+
+TEST(Compare, WithoutNpmHasNoPageAndSaysSo) {
+  const Workspace w;
+  run(w, bench, "a");
+  const Result result = w.sinew({"compare", "a", "a", "-o", "page.html"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("npm ci in web/"));
+}
+
+#endif
+
+}  // namespace
+}  // namespace sinew::test

@@ -1,0 +1,255 @@
+// The page of several runs: the same channel of all in one plot, differences, tables.
+import { ComparisonTables, judged_differently } from './compare_tables.js';
+import { FootPaths } from './foot_path.js';
+import { Look } from './look.js';
+import { by_id, element } from './page.js';
+import { Plan } from './plan.js';
+import { Plots } from './plots.js';
+import { index_at, read_samples } from './samples.js';
+import { line_of, letter_of, RunLegend } from './runs.js';
+import { difference_unit, Units } from './units.js';
+
+// What the program left out because it is the first run's column and the difference.
+function sum(first, difference) {
+  return { time: first.time, values: first.values.map((v, i) => v + difference.values[i]) };
+}
+
+// A panel's columns: of each run, and of what it differs by from the first; null where there is none.
+function columns_of(panel, columns) {
+  const of = (i) => (i === null ? null : columns[i]);
+  const differences = panel.differences.map(of);
+  const values = panel.columns.map((i, run) =>
+    of(i) ?? (differences[run] ? sum(columns[panel.columns[0]], differences[run]) : null));
+  return { values, differences };
+}
+
+class ComparePage {
+  constructor(data, samples) {
+    this.data = data;
+    this.units = new Units(data.runs[0].atmosphere);
+    this.shown = data.runs.map(() => true);
+    this.whole = [Math.min(...data.runs.map((r) => r.first_s)), Math.max(...data.runs.map((r) => r.last_s))];
+    this.head();
+    this.legend = new RunLegend(by_id('runs'), data.runs, (run) => this.toggle_run(run));
+    this.make_plots(samples);
+    this.tables = new ComparisonTables(data, this.units, (channel, t) => this.visit(channel, t));
+    this.look = new Look(this.units, {
+      on_units: () => this.rebuild(),
+      on_colors: () => this.rebuild(),
+      on_print: (begins) => this.plots.print(begins),
+    });
+    this.controls();
+    this.seek(this.whole[0]);
+  }
+
+  head() {
+    const { runs, align, figures, parameters, channels } = this.data;
+    const titles = [...new Set(runs.map((r) => r.title || r.label))];
+    by_id('title').textContent = titles.length > 2 ? `${titles[0]} and ${titles.length - 1} others` : titles.join(' · ');
+    by_id('facts').textContent = `${runs.length} runs, each beside the first; times from the start of ` +
+      (align === 'sequence' ? 'the sequence, laid on that of the first' : 'each run');
+    const differing = figures.filter((f) => f.values.some((v) => v !== f.values[0])).length;
+    const changed = figures.filter((f) => judged_differently(f)).length;
+    const several = (count, word) => `${count} ${word}${count === 1 ? ' differs' : 's differ'}`;
+    const same = channels.filter((c) => c.differences.every((d) => !d || d.same)).length;
+    const chip = (id, words, kind = '') => element('a', { href: `#${id}`, class: `chip ${kind}` }, words);
+    by_id('chips').append(
+      chip('figures', `${differing} of ${figures.length} figures differ`),
+      ...(changed ? [chip('figures', `${changed} judged differently`, 'warn')] : []),
+      chip('parameters', parameters.length ? several(parameters.length, 'parameter') : 'the same parameters'),
+      chip('channels', same === channels.length ? 'the same samples in every channel'
+        : `${channels.length} channels, ${same} with the same samples`));
+  }
+
+  // --- plots ---
+
+  make_plots(samples) {
+    const { data } = this;
+    const columns = [], specs = [];
+    this.of_channel = new Map();
+    for (const panel of data.panels) {
+      const found = columns_of(panel, samples);
+      const { values, differences } = specs_of(panel, found, columns, data.runs);
+      this.of_channel.set(`${panel.topic} ${panel.field}`, { panel, ...found, at: specs.length });
+      specs.push(values);
+      if (differences.lines.length) specs.push(differences);
+    }
+    const run = { start: this.whole[0], duration: this.whole[1], phases: data.runs[0].phases, panels: specs };
+    this.plots = new Plots(by_id('panels'), run, columns, this.units, (t) => this.seek(t));
+    for (const p of this.plots.panels) if (p.spec.difference) p.root.classList.add('difference');
+    this.plan = new Plan(by_id('plan'), data.runs, this.plots, this.shown);
+    this.foot = this.make_foot();
+    this.plots.on_view = () => this.draw_view();
+    this.plots.on_values = (t) => this.show(t);
+    this.apart = false;
+    this.all = false;
+    this.groups_shown = new Map();
+    this.groups();
+    this.arrange();
+    new ResizeObserver(() => this.draw_view()).observe(by_id('plots'));
+  }
+
+  make_foot() {
+    const of = (field) => this.of_channel.get(`${this.data.foot} ${field}`);
+    if (!of('x') || !of('y')) {
+      document.querySelector('.stage').classList.add('without-foot');
+      by_id('foot').remove();
+      return null;
+    }
+    by_id('foot-note').textContent = this.data.foot.startsWith('/true')
+      ? 'About the first joint, in the time that the plots show.'
+      : 'Of measured angles, about the first joint, in the time that the plots show.';
+    return new FootPaths(by_id('path'), of('x').values, of('y').values, this.units, this.shown);
+  }
+
+  groups() {
+    const names = [...new Set(this.data.panels.map((p) => p.group))];
+    by_id('groups').append(...names.map((name) => {
+      const shown = name !== 'Other' || names.length === 1;
+      this.groups_shown.set(name, shown);
+      const button = element('button', { type: 'button', 'aria-pressed': String(shown) }, name);
+      button.addEventListener('click', () => {
+        this.groups_shown.set(name, !this.groups_shown.get(name));
+        button.setAttribute('aria-pressed', String(this.groups_shown.get(name)));
+        this.arrange();
+      });
+      return button;
+    }));
+  }
+
+  // Which plots are there.
+  arrange() {
+    for (const p of this.plots.panels)
+      p.root.hidden = !this.groups_shown.get(p.spec.group) || !(p.spec.main || this.all) ||
+                      (Boolean(p.spec.difference) && !this.apart);
+  }
+
+  switch_all() {
+    this.all = !this.all;
+    by_id('all-channels').setAttribute('aria-pressed', String(this.all));
+    this.arrange();
+  }
+
+  switch_differences() {
+    this.apart = !this.apart;
+    by_id('show-differences').setAttribute('aria-pressed', String(this.apart));
+    this.arrange();
+  }
+
+  toggle_run(run) {
+    this.shown[run] = !this.shown[run];
+    this.legend.set(run, this.shown[run]);
+    for (const p of this.plots.panels)
+      p.spec.lines.forEach((line, i) => line.run === run && p.show_line(i, this.shown[run]));
+    this.draw_view();
+  }
+
+  // A channel's plot at a time.
+  visit(channel, t) {
+    this.seek(t);
+    const found = this.of_channel.get(channel);
+    if (!found) return;
+    this.groups_shown.set(found.panel.group, true);
+    for (const b of by_id('groups').children)
+      if (b.textContent === found.panel.group) b.setAttribute('aria-pressed', 'true');
+    if (!found.panel.main && !this.all) this.switch_all();
+    this.arrange();
+    this.plots.panels[found.at].root.scrollIntoView({ block: 'center' });
+  }
+
+  // --- time ---
+
+  seek(t) {
+    const time = Math.min(this.whole[1], Math.max(this.whole[0], t));
+    this.plots.set_time(time);
+    this.plots.keep_in_view(time);
+    this.show(this.plots.shown_time());
+  }
+
+  show(t) {
+    if (!this.foot) return;
+    by_id('clock').textContent = `${t.toFixed(2)} s`;
+    this.foot.show(t);
+  }
+
+  step(by) {
+    const clock = this.plots.panels[0]?.columns[0].time ?? [];
+    const exact = 1e-9, t = this.plots.time;
+    const i = by > 0 ? index_at(clock, t + exact) + by : index_at(clock, t - exact) + 1 + by;
+    if (clock.length) this.seek(clock[Math.min(clock.length - 1, Math.max(0, i))]);
+  }
+
+  draw_view() {
+    this.plan.draw();
+    this.foot?.draw(this.plots.view);
+    this.show(this.plots.shown_time());
+  }
+
+  rebuild() {
+    this.plots.rebuild();
+    this.tables.refresh();
+    this.draw_view();
+  }
+
+  controls() {
+    by_id('all-channels').addEventListener('click', () => this.switch_all());
+    by_id('show-differences').addEventListener('click', () => this.switch_differences());
+    by_id('zoom-in').addEventListener('click', () => this.plots.zoom_by(0.5));
+    by_id('zoom-out').addEventListener('click', () => this.plots.zoom_by(2));
+    by_id('zoom-all').addEventListener('click', () => this.plots.zoom_all());
+    document.addEventListener('keydown', (event) => this.key(event));
+  }
+
+  key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.type === 'search') return;
+    const by = event.shiftKey ? 10 : 1;
+    const run = Number(event.key) - 1;
+    const does = {
+      ArrowLeft: () => this.step(-by),
+      ArrowRight: () => this.step(by),
+      Home: () => this.seek(this.whole[0]),
+      End: () => this.seek(this.whole[1]),
+      d: () => this.switch_differences(),
+      '+': () => this.plots.zoom_by(0.5),
+      '-': () => this.plots.zoom_by(2),
+      0: () => this.plots.zoom_all(),
+    }[event.key] ?? (run >= 0 && run < this.data.runs.length ? () => this.toggle_run(run) : null);
+    if (!does) return;
+    event.preventDefault();
+    does();
+  }
+}
+
+// A plot of the channel's values and one of what they differ by; their columns are added.
+function specs_of(panel, { values, differences }, columns, runs) {
+  const title = panel.label === panel.title ? panel.title : `${panel.title} · ${panel.label}`;
+  const common = { group: panel.group, main: panel.main };
+  const lines = (of, more) => of.flatMap((column, run) => (column ? [{
+    ...line_of(run), run, ends: runs[run].last_s, label: letter_of(run), topic: `${panel.topic} ${panel.field}`,
+    column: columns.push(column) - 1, ...more(run),
+  }] : []));
+  // What has the same samples differs by nothing: that is said, not drawn.
+  const none = { time: values[0].time, values: new Float32Array(values[0].time.length) };
+  return {
+    values: { ...common, title, unit: panel.unit,
+              lines: lines(values, (run) => ({ difference: run ? differences[run] ?? none : null })) },
+    differences: { ...common, title: 'difference', unit: difference_unit(panel.unit), height: 84, difference: true,
+                   lines: lines(differences, () => ({})) },
+  };
+}
+
+async function start() {
+  const data = JSON.parse(by_id('run-data').textContent);
+  const samples = by_id('run-samples');
+  const columns = await read_samples(data.samples, samples.textContent);
+  samples.remove();
+  const page = new ComparePage(data, columns);
+  // For scripts that take pictures, and for tests.
+  window.sinew = { data, columns, page };
+  document.documentElement.dataset.ready = 'yes';
+}
+
+start().catch((error) => {
+  document.body.prepend(element('p', { class: 'failed', role: 'alert' }, `This page could not be read: ${error.message}`));
+  throw error;
+});

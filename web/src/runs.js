@@ -1,0 +1,55 @@
+// How runs are told apart: a letter, a color and dashes for each.
+import { element } from './page.js';
+
+// In pixels of the screen; the first run's line is full and wide, so that one on it shows.
+const dashes = [[], [7, 4], [2, 3], [11, 3, 2, 3], [4, 2], [14, 5], [6, 2, 1, 2], [1, 2]];
+
+export const letter_of = (run) => String.fromCharCode(65 + run);
+
+// As a plot's line wants it.
+export function line_of(run) {
+  const dash = dashes[run % dashes.length];
+  return { color: run, style: run === 0 ? 'full' : 'dashed', width: run === 0 ? 2.5 : 1.8, dash: dash.length ? dash : undefined };
+}
+
+export function set_line(ctx, run, palette) {
+  const { color, width, dash } = line_of(run);
+  ctx.strokeStyle = palette[color % palette.length];
+  ctx.lineWidth = width;
+  ctx.setLineDash(dash ?? []);
+}
+
+export function palette_of_runs() {
+  const css = getComputedStyle(document.documentElement);
+  return [0, 1, 2, 3, 4, 5, 6, 7].map((i) => css.getPropertyValue(`--line-${i}`).trim());
+}
+
+function swatch(run) {
+  const { color, width, dash } = line_of(run);
+  const svg = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+  svg.setAttribute('width', '34');
+  svg.setAttribute('height', '8');
+  svg.setAttribute('aria-hidden', 'true');
+  svg.innerHTML = `<path d="M0 4h34" stroke="var(--line-${color})" stroke-width="${width}" stroke-dasharray="${dash ?? ''}"/>`;
+  return svg;
+}
+
+// A button per run, which shows and hides it everywhere.
+export class RunLegend {
+  constructor(root, runs, on_toggle) {
+    this.buttons = runs.map((run, i) => {
+      const moved = run.shift_s ? `, moved by ${(-run.shift_s).toFixed(2)} s` : '';
+      const button = element('button', { type: 'button', class: 'run', 'aria-pressed': 'true',
+                                         title: `${run.title}; show or hide (${i + 1})` },
+        swatch(i), element('b', {}, letter_of(i)), element('span', {}, run.label),
+        element('span', { class: 'quiet' }, `${(run.last_s - run.first_s).toFixed(2)} s${moved}`));
+      button.addEventListener('click', () => on_toggle(i));
+      return button;
+    });
+    root.append(...this.buttons);
+  }
+
+  set(run, shown) {
+    this.buttons[run].setAttribute('aria-pressed', String(shown));
+  }
+}

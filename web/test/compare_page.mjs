@@ -1,0 +1,174 @@
+// The page of several runs: RUNS/compare/{two,same,long}.html of walk-test-1 and walk-test-2, of a
+// run with itself, and of two runs of 10 min.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { picture, summary_of, with_page } from './pages.mjs';
+
+const opens_within = 5000, generous = 5;  // [ms]; times that, where others work too
+
+const compared = (file, does, options) => with_page('compare', does, options, `${file}.html`);
+const spec_of = (topic, difference = false) => `window.sinew.page.plots.panels.find((p) =>
+  p.spec.lines[0].topic === '${topic}' && Boolean(p.spec.difference) === ${difference})`;
+
+test('runs beside each other: a plot per channel, a line per run', () => compared('two', async (page) => {
+  assert.equal(await page.locator('.run').count(), 2);
+  const panels = await page.evaluate(() => window.sinew.page.plots.panels.filter((p) => !p.spec.difference)
+    .map((p) => p.spec.lines.map((l) => [l.label, l.run, l.color, String(l.dash ?? '')])));
+  assert.ok(panels.length > 60);
+  for (const lines of panels) {
+    assert.deepEqual(lines.map((l) => l[0]), ['A', 'B']);
+    assert.notEqual(lines[0][2], lines[1][2], 'colors differ');
+    assert.notEqual(lines[0][3], lines[1][3], 'dashes differ');
+  }
+  await picture(page, 'compare');
+}));
+
+test('the difference that is drawn is the one of the table, at its time', () => compared('two', async (page) => {
+  const found = await page.evaluate(() => {
+    const { data, page: { of_channel } } = window.sinew;
+    return data.channels.filter((c) => c.differences[1].meet === 'together' && c.differences[1].samples).flatMap((c) => {
+      const own = of_channel.get(`${c.topic} ${c.field}`), d = c.differences[1];
+      if (!own?.differences[1]) return [];
+      const { time, values } = own.differences[1];
+      const numbers = values.filter((v) => v === v);
+      const square = numbers.reduce((sum, v) => sum + v * v, 0);
+      const there = time.findIndex((t) => Math.abs(t - d.at_s) < 6e-5);
+      return [{ topic: c.topic, d, rms: Math.sqrt(square / numbers.length), there: values[there],
+                largest: numbers.reduce((most, v) => Math.max(most, Math.abs(v)), 0) }];
+    });
+  });
+  assert.ok(found.length > 50);
+  for (const { topic, d, rms, there, largest } of found) {
+    const exact = 1e-6 * Math.abs(d.largest);
+    assert.ok(Math.abs(largest - Math.abs(d.largest)) <= exact, `${topic}: ${largest} for ${d.largest}`);
+    assert.ok(Math.abs(there - d.largest) <= exact, `${topic}: ${there} at ${d.at_s} for ${d.largest}`);
+    assert.ok(Math.abs(rms - d.rms) <= 1e-5 * d.rms, `${topic}: rms ${rms} for ${d.rms}`);
+  }
+}));
+
+test('values and differences at the cursor are those of the samples', () => compared('two', async (page) => {
+  await page.locator('#show-differences').click();
+  const over = page.locator('.panel .u-over').first(), box = await over.boundingBox();
+  for (const share of [0.2, 0.45]) {
+    await page.mouse.move(box.x + share * box.width, box.y + 20);
+    const { shown, apart, values, time } = await page.evaluate(() => {
+      const { plots } = window.sinew.page;
+      const [own, other] = [plots.panels[0], plots.panels[1]];
+      const i = (c) => c.time.filter((t) => t <= plots.hovered).length - 1;
+      return { shown: own.readouts.map((r) => r.value.textContent), apart: other.readouts[0].value.textContent,
+               values: own.columns.map((c) => c.values[i(c)]), time: plots.hovered };
+    });
+    const [a, b, d] = [shown[0], ...shown[1].split(/ \(|\)/)].map((text) => Number(text.replace('−', '-').replace('=', '0')));
+    assert.ok(Math.abs(a - values[0]) < 6e-4 && Math.abs(b - values[1]) < 6e-4, `${shown} at ${time}`);
+    assert.ok(Math.abs(d - (values[1] - values[0])) < 6e-4, `${shown} at ${time}`);
+    assert.ok(Math.abs(Number(apart.replace('−', '-')) - d) < 1e-6, `${apart} for ${d}`);
+  }
+  await page.mouse.move(box.x + 0.9 * box.width, box.y + 20);
+  assert.equal(await page.locator('.panel .line .value').nth(1).textContent(), '–', 'that run is over');
+}));
+
+test('a run is hidden and shown everywhere', () => compared('two', async (page) => {
+  const foot = () => page.locator('#path').evaluate((c) => c.toDataURL());
+  const shown = () => page.evaluate(() => window.sinew.page.plots.panels.filter((p) => p.plot && !p.spec.difference)
+    .map((p) => p.plot.series.slice(1).map((s) => s.show)));
+  const both = await foot();
+  await page.keyboard.press('2');
+  assert.ok((await shown()).every(([a, b]) => a && !b));
+  assert.equal(await page.locator('.run').nth(1).getAttribute('aria-pressed'), 'false');
+  assert.notEqual(await foot(), both);
+  await page.locator('.run').nth(1).click();
+  assert.ok((await shown()).every(([a, b]) => a && b));
+  assert.equal(await foot(), both);
+}));
+
+test('zoom and cursor are one for plots, plan and foot', () => compared('two', async (page) => {
+  const foot = () => page.locator('#path').evaluate((c) => c.toDataURL());
+  const plan = () => page.locator('#plan').evaluate((c) => c.toDataURL());
+  const before = [await foot(), await plan()];
+  const box = await page.locator('.panel .u-over').first().boundingBox();
+  await page.mouse.move(box.x + 0.2 * box.width, box.y + 30);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.4 * box.width, box.y + 40, { steps: 4 });
+  await page.mouse.up();
+  const { view, scales } = await page.evaluate(() => {
+    const { plots } = window.sinew.page;
+    return { view: plots.view, scales: plots.panels.filter((p) => p.visible && p.plot)
+      .map((p) => [p.plot.scales.x.min, p.plot.scales.x.max]) };
+  });
+  for (const scale of scales) assert.deepEqual(scale, view);
+  assert.notEqual(await foot(), before[0]);
+  assert.notEqual(await plan(), before[1]);
+  await page.mouse.move(2, 2);
+  await page.keyboard.press('0');
+  await page.keyboard.press('Home');
+  const clock = await page.locator('#clock').textContent();
+  await page.keyboard.press('ArrowRight');
+  assert.notEqual(await page.locator('#clock').textContent(), clock);
+}));
+
+test('figures are those of both summaries, in either unit', () => compared('two', async (page) => {
+  const summaries = ['walk-test-1', 'walk-test-2'].map(summary_of);
+  const at = (key, i) => key.split('.').reduce((node, part) => node?.[part], summaries[i]);
+  const figures = await page.evaluate(() => window.sinew.data.figures);
+  assert.ok(figures.length > 150);
+  for (const f of figures) {
+    assert.deepEqual(f.values, [at(f.key, 0) ?? null, at(f.key, 1) ?? null], f.key);
+    if (f.values.includes(null)) continue;
+    assert.equal(f.differences[1], f.values[1] - f.values[0], f.key);
+  }
+  const row = page.locator('#figures tr[data-key="trolley.distance_m"]');
+  const cells = async () => (await row.locator('td').allTextContents()).slice(0, 5);
+  const [a, b] = summaries.map((s) => s.trolley.distance_m);
+  const near = (text, value) => Math.abs(parseFloat(text.replace('−', '-')) - value) < 6e-3 * Math.abs(value);
+  for (const [button, size, unit] of [['#units-si', 1, 'm'], ['#units-thesis', 0.0254, 'in']]) {
+    await page.locator(button).click();
+    const [first, other, apart, relative, label] = await cells();
+    assert.equal(label, unit);
+    assert.ok(near(first, a / size) && near(other, b / size) && near(apart, (b - a) / size), `${first} ${other} ${apart}`);
+    assert.ok(near(relative, (100 * (b - a)) / a) || Math.abs(parseFloat(relative.replace('−', '-')) - (100 * (b - a)) / a) < 0.5);
+  }
+  await page.locator('#figures input').fill('trolley distance');
+  assert.ok((await page.locator('#figures tbody tr:visible').count()) < 6);
+  assert.deepEqual(await page.locator('#parameters tbody th').allTextContents(),
+    ['phase.swing.duration', 'phase.propulsion.duration']);
+}));
+
+test('a channel of the table leads to its plot and time', () => compared('two', async (page) => {
+  const row = page.locator('#channels tr[data-key="/true/joint/hip/angle"]');
+  const at = await page.evaluate(() =>
+    window.sinew.data.channels.find((c) => c.topic === '/true/joint/hip/angle').differences[1].at_s);
+  await row.locator('button').click();
+  await page.waitForFunction((plot) => eval(plot).visible && eval(plot).plot, spec_of('/true/joint/hip/angle value'));
+  assert.ok(Math.abs((await page.evaluate(() => window.sinew.page.plots.time)) - at) < 1e-9);
+}));
+
+test('a run beside itself is said to be the same', () => compared('same', async (page) => {
+  const words = await page.locator('.chip').allTextContents();
+  assert.match(words.join(' | '), /0 of \d+ figures differ \| the same parameters \| the same samples in every channel/);
+  assert.match(await page.locator('.panel .line .value').nth(1).textContent(), /\(=\)$/);
+  assert.equal(await page.locator('#channels tbody tr:visible').count(), 0);
+  await page.locator('#channels button', { hasText: 'Equal ones too' }).click();
+  assert.ok((await page.locator('#channels tbody tr:visible').count()) > 90);
+}));
+
+test('dark, on paper and on a phone', async () => {
+  await compared('two', async (page) => {
+    await picture(page, 'compare-dark');
+    assert.ok((await page.pdf({ format: 'A4', printBackground: true })).length > 100000);
+  }, { colorScheme: 'dark' });
+  await compared('two', async (page) => {
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.ok(wide <= 0, `${wide} px too wide`);
+  }, { viewport: { width: 390, height: 844 } });
+});
+
+test('two logs of ten minutes open at once', () => compared('long', async (page) => {
+  assert.ok((await page.evaluate(() => Math.max(...window.sinew.data.samples.clocks))) >= 60000);
+  const zoom = await page.evaluate(() => {
+    const from = performance.now();
+    for (let i = 0; i < 10; ++i) window.sinew.page.plots.zoom(10 * i, 10 * i + 300);
+    return (performance.now() - from) / 10;
+  });
+  console.log(`# two of 10 min: open after ${page.took} ms, a zoom ${zoom.toFixed(1)} ms`);
+  assert.ok(page.took < generous * opens_within, `${page.took} ms`);
+}));
