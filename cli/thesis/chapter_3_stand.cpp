@@ -106,6 +106,21 @@ Exhibit drawn(const std::string& name, const std::string& title, const std::stri
           {}};
 }
 
+// The last two, which belong together, are drawn with the same lengths.
+void share_axis(Exhibits& out) {
+  double least = 1e300, most = -1e300;
+  for (std::size_t e = out.size() - 2; e < out.size(); ++e)
+    for (const Curve& c : out[e].figure.plots[0].curves) {
+      least = std::min(least, report::least(trace(c)));
+      most = std::max(most, report::greatest(trace(c)));
+    }
+  for (std::size_t e = out.size() - 2; e < out.size(); ++e) {
+    report::Axis& y = out[e].figure.plots[0].y;
+    y.from = std::floor(least * 10) / 10;
+    y.to = std::ceil(most * 10) / 10;
+  }
+}
+
 constexpr const char* lost =
     "The thesis's measurement is lost: our stand stands in its place, the model with other "
     "numbers where 3.4 names what it lacks, through a potentiometer.";
@@ -194,6 +209,7 @@ Exhibits trapped_air(const Sources& from) {
         not_comparable("3.4", "Frequency and shape of measurement and simulation are close", "",
                        "the measurement is lost; our stand is the same model with other losses")};
     out.push_back(drawn(pair.simulated, title + ", simulation", simulation, {model.length}));
+    share_axis(out);
     Exhibit& e = out.back();
     if (pair.measured != "3-6")
       e.claims.push_back(judge({.where = "3.4",
@@ -274,6 +290,7 @@ void add_guesses(Exhibits& out, const Sources& from) {
   out.push_back(drawn(pair.simulated,
                       "Length over time, pulsed valve, " + pair.what + ", simulation", simulation,
                       std::move(models)));
+  share_axis(out);
   const auto unknown = not_comparable(
       "3.4", "The caption has 1 lb, as that of 3-20 has", "1 lb",
       "a second figure of the same must have had another load: 5 and 15 lb are guesses");
@@ -297,6 +314,7 @@ Exhibits pulsed_valve(const Sources& from) {
     out.push_back(drawn(pair.simulated,
                         "Length over time, pulsed valve, " + pair.what + ", simulation", simulation,
                         {model.length}));
+    share_axis(out);
     add_reported(out.back(), model);
   }
   claim_of_mass(out, settlings[0], settlings[1], settlings[2]);

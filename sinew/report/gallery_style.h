@@ -12,7 +12,7 @@ inline constexpr std::string_view gallery_style = R"css(
   --ink: #e4e9f0; --quiet: #93a0b1; --edge: #2b333e; --accent: #5fb0f2; --good: #46c79c;
   --bad: #f08a5d; --known: #d6bd62; } }
 * { box-sizing: border-box; }
-html { scroll-padding-top: 60px; }
+html { scroll-padding-top: 84px; }
 body { margin: 0; background: var(--back); color: var(--ink); font: 15px/1.5 system-ui, -apple-system,
   'Segoe UI', Roboto, 'Helvetica Neue', 'DejaVu Sans', Arial, sans-serif;
   font-variant-numeric: tabular-nums; }
@@ -64,7 +64,8 @@ dl { margin: 0; }
 .curves b { font-weight: 600; }
 .curves .quiet { color: var(--quiet); }
 @media (max-width: 860px) { article { grid-template-columns: minmax(0, 1fr); } header, main { padding: 0 14px; }
-  header { padding-top: 22px; } .bar > div { padding: 8px 14px; } article { padding: 16px; } .says { flex-wrap: wrap; gap: 2px 12px; } }
+  header { padding-top: 22px; } .bar > div { padding: 8px 14px; } article { padding: 16px; }
+  .bar { position: static; } html { scroll-padding-top: 8px; } figure { margin-bottom: 14px; } .says { flex-wrap: wrap; gap: 2px 12px; } }
 @media print { :root { color-scheme: light; --paper: #fff; --back: #fff; --ink: #000; --quiet: #444;
   --edge: #bbb; --accent: #000; --good: #0a7a58; --bad: #b3401a; --known: #7a5c00; }
   body { font-size: 10pt; } .bar, .files { display: none; } article { break-inside: avoid; border-width: 1px 0 0;
