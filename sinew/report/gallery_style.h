@@ -80,6 +80,7 @@ choice.addEventListener('change', () => {
   for (const a of document.querySelectorAll('article'))
     a.hidden = choice.value !== '' && !a.dataset.is.split(',').includes(choice.value);
 });
+document.documentElement.dataset.ready = '';
 )js";
 
 }  // namespace sinew::report

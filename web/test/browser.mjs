@@ -3,3 +3,4 @@
 import './run_page.mjs';
 import './stand_page.mjs';
 import './compare_page.mjs';
+import './gallery_page.mjs';

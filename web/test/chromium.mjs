@@ -1,6 +1,6 @@
 // A browser without a window and without network: Debian's chromium, or what CHROMIUM names.
 import { accessSync, constants } from 'node:fs';
-import { join } from 'node:path';
+import { dirname, join } from 'node:path';
 import { chromium } from 'playwright-core';
 
 function executable() {
@@ -21,13 +21,15 @@ export async function open_browser() {
 }
 
 // A page that remembers what went wrong: console messages, exceptions, anything it asked for.
-export async function open_page(browser, file, options = {}) {
+// `beside`: the page may show pictures that stand in its folder.
+export async function open_page(browser, file, { beside = false, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, offline: true, ...options });
   const page = await context.newPage();
   page.wrong = [];
   page.on('console', (m) => ['error', 'warning'].includes(m.type()) && page.wrong.push(`${m.type()}: ${m.text()}`));
   page.on('pageerror', (e) => page.wrong.push(`exception: ${e.message}`));
-  page.on('request', (r) => r.url() !== `file://${file}` && page.wrong.push(`asked for ${r.url().slice(0, 100)}`));
+  const its_own = (url) => url === `file://${file}` || (beside && url.startsWith(`file://${dirname(file)}/`));
+  page.on('request', (r) => its_own(r.url()) || page.wrong.push(`asked for ${r.url().slice(0, 100)}`));
   page.started = Date.now();
   await page.goto(`file://${file}`);
   await page.waitForSelector('html[data-ready]', { timeout: 60000 });
