@@ -48,6 +48,9 @@ Exhibits trapped_air(const Sources&);   // 3-6 to 3-11: a load let go with the a
 Exhibits pulsed_valve(const Sources&);  // 3-14 to 3-23
 Exhibits chapter_4(const Sources&);
 Exhibits chapter_5(const Sources&);
+Exhibits chapter_6(const Sources&);         // 6-1, 6-3 to 6-11: test 1
+Exhibits chapter_6_limits(const Sources&);  // 6-12 to 6-16
+Exhibits chapter_7(const Sources&);
 
 // What one section says, a number at a time; `because`: ours is known to differ.
 class Section {

@@ -266,19 +266,6 @@ void add_chart(Maker& make, const Chart& chart) {
             {in_sentence(chart.y.label), y.name}, std::move(curves), false, "");
 }
 
-std::vector<Span> stance_of(const analysis::Record& record, const analysis::Machine& machine) {
-  std::vector<Span> out;
-  for (const analysis::Stretch& s : record.stretches()) {
-    if (!analysis::is_stance(machine, s.phase)) continue;
-    const double from = record.time(s.first), to = record.end_of(s.last - 1);
-    if (!out.empty() && from - out.back().to < 1e-9)
-      out.back().to = to;  // foot plant and propulsion
-    else
-      out.push_back({from, to});
-  }
-  return out;
-}
-
 std::vector<Figure> of_robot(const Run& run, const RunFigureOptions& options) {
   const analysis::Machine machine = analysis::read_machine(run.resolved);
   const signals::Table derived = analysis::derive(run.table, machine);
@@ -309,6 +296,19 @@ std::vector<Figure> of_stand(const Run& run, const RunFigureOptions& options) {
 }
 
 }  // namespace
+
+std::vector<Span> stance_of(const analysis::Record& record, const analysis::Machine& machine) {
+  std::vector<Span> out;
+  for (const analysis::Stretch& s : record.stretches()) {
+    if (!analysis::is_stance(machine, s.phase)) continue;
+    const double from = record.time(s.first), to = record.end_of(s.last - 1);
+    if (!out.empty() && from - out.back().to < 1e-9)
+      out.back().to = to;  // foot plant and propulsion
+    else
+      out.push_back({from, to});
+  }
+  return out;
+}
 
 std::vector<Figure> run_figures(const Run& run, const RunFigureOptions& options) {
   return config::format_kind(run.resolved) == "rig" ? of_stand(run, options)

@@ -10,6 +10,8 @@
 #include <limits>
 #include <vector>
 
+#include "sinew/analysis/machine.h"
+#include "sinew/analysis/record.h"
 #include "sinew/report/figure.h"
 #include "sinew/report/page.h"
 #include "sinew/report/shown_unit.h"
@@ -21,6 +23,9 @@ struct RunFigureOptions {
   double from = -std::numeric_limits<double>::infinity();  // samples that are shown [s]
   double to = std::numeric_limits<double>::infinity();
 };
+
+// Stance by plan, foot plant and propulsion as one  [s].
+std::vector<Span> stance_of(const analysis::Record& record, const analysis::Machine& machine);
 
 // Throws config::Error for a resolved.toml that cannot be read.
 std::vector<Figure> run_figures(const Run& run, const RunFigureOptions& options = {});

@@ -1,0 +1,366 @@
+// cli/thesis/chapter_6.cpp - walking, 6-1 and 6-3 to 6-11: test 1, which 6.3 plots.
+#include <algorithm>
+#include <cmath>
+
+#include "cli/thesis/leg_run.h"
+#include "sinew/analysis/statistics.h"
+#include "sinew/units/constants.h"
+
+namespace sinew::cli::thesis {
+namespace {
+
+using analysis::Column;
+using report::Claim, report::Curve, report::judge;
+using Weights = std::vector<double>;
+
+constexpr const char* foot = "/foot/position";
+constexpr const char* desired_foot = "/desired/foot/position";
+
+std::string spoken(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
+// Rows as they are, less others.
+Column difference(const Column& a, const Column& b) {
+  Column out(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) out[i] = a[i] - b[i];
+  return out;
+}
+
+Weights phase_of(const LegRun& run, std::string_view name) {
+  return run.record().part(analysis::find_phase(run.machine(), name), 0, 1);
+}
+
+// --- paths --------------------------------------------------------------------------------------
+
+// [66], [68], [70]: y of the desired foot over its x  [in].
+double planned_y(const std::string& phase, double x) {
+  if (phase == "swing") return -0.081 * x * x - 0.2571 * x - 11.75;
+  return phase == "foot_plant" ? 0.25 * x - 14 : -13.5;
+}
+
+Exhibit figure_6_1(const LegRun& run) {
+  report::Plot plot{.x = {"x, forward", "in"}, .y = {"y, up", "in"}, .equal_scale = true};
+  double off = 0;
+  int color = 0;
+  for (const char* phase : {"swing", "foot_plant", "propulsion"}) {
+    // To the next phase's first row, so that lines meet.
+    Curve c = run.path(spoken(phase), desired_foot, run.phase(phase));
+    c.color = color++;
+    for (std::size_t i = 0; i + 1 < c.xs.size(); ++i)
+      off = std::max(off, std::fabs(c.ys[i] - planned_y(phase, c.xs[i])));
+    plot.curves.push_back(std::move(c));
+  }
+  return {{.name = "6-1",
+           .title = "Desired foot position",
+           .caption = "One step of the desired path of the ankle about the hip, by the plan of "
+                      "experiments/walk-test-1.toml.",
+           .plots = {std::move(plot)}},
+          {judge({.where = "[66], [68], [70]",
+                  .says = "an arc of second order, then two straight lines",
+                  .quantity = "largest distance in y from the equations",
+                  .ours = off,
+                  .unit = "in",
+                  .accept = {0, 1e-9},
+                  .why = "rounding"})}};
+}
+
+Exhibit figure_6_3(const LegRun& run) {
+  const Weights propulsion = phase_of(run, "propulsion");
+  const Column y = run.rows({foot, "y"}), wanted = run.rows({desired_foot, "y"});
+  const double table = analysis::mean(y, propulsion);
+  return {foot_path(run, "6-3", "Desired and actual foot path",
+                    "Four steps over each other, of the measured angles by forward kinematics; the "
+                    "path from rest to the first step among them.",
+                    run.sequence()),
+          {judge({.where = "6.3",
+                  .says = "the table is at about -13 in",
+                  .theirs = "-13 in",
+                  .quantity = "mean y of the actual path in propulsion",
+                  .ours = table,
+                  .unit = "in",
+                  .accept = {-13.2, -12.8},
+                  .why = "\"about\""}),
+           judge({.where = "6.3",
+                  .says = "what is desired in propulsion lies 0.5 in lower than what is possible",
+                  .theirs = "0.5 in",
+                  .quantity = "mean y in propulsion, actual less desired",
+                  .ours = table - analysis::mean(wanted, propulsion),
+                  .unit = "in",
+                  .accept = {0.3, 0.7},
+                  .why = "as for the table"}),
+           judge({.where = "6.3",
+                  .says = "the actual path repeats itself very well",
+                  .quantity = "rms distance of steps from their mean",
+                  .ours = run.summary("foot.step_repeat_rms_m") / units::inch,
+                  .unit = "in",
+                  .accept = {0, 0.25},
+                  .why = "half of the gap to the table"})}};
+}
+
+// --- over time ----------------------------------------------------------------------------------
+
+// Swing with the foot in the air: the leg lags its plan, and still pushes when swing has begun.
+Weights in_the_air(const LegRun& run) {
+  const Column load = run.rows({"/true/foot/force", "y"});
+  Weights out = run.record().swing();
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (load[i] > 0) out[i] = 0;
+  return out;
+}
+
+// rms in the air over rms in stance.
+double air_by_stance(const LegRun& run, const Column& values) {
+  return analysis::rms(values, in_the_air(run)) / analysis::rms(values, run.record().stance());
+}
+
+Claim within(const LegRun& run, const std::string& says, const std::string& theirs,
+             const std::string& quantity, const char* key, report::Band band) {
+  return judge({.where = "6.3",
+                .says = says,
+                .theirs = theirs,
+                .quantity = quantity,
+                .ours = run.summary(key) * 180 / M_PI,
+                .unit = "deg",
+                .accept = band,
+                .why = "table 6-1"});
+}
+
+Exhibit figure_6_4(const LegRun& run) {
+  Exhibit out{joint_angles(run, "6-4", "Joint angles of test 1"), {}};
+  const Column error =
+      difference(run.rows({"/joint/hip/angle"}), run.rows({"/desired/joint/hip/angle"}));
+  const Column wanted = run.rows({"/desired/joint/knee/angle"});
+  Column beyond(wanted.size());
+  std::ranges::transform(wanted, beyond.begin(), [](double a) { return a < 289 ? 100.0 : 0.0; });
+  out.claims = {
+      within(run, "the joints do not come to their limits: the hip's flexion", "below 307 deg",
+             "largest angle of the hip", "joints.hip.max_angle_rad", {.highest = 307}),
+      within(run, "the hip's extension", "above 249 deg", "least angle of the hip",
+             "joints.hip.min_angle_rad", {.lowest = 249}),
+      within(run, "the knee's flexion", "above 289 deg", "least angle of the knee",
+             "joints.knee.min_angle_rad", {.lowest = 289}),
+      within(run, "the knee's extension", "below 343 deg", "largest angle of the knee",
+             "joints.knee.max_angle_rad", {.highest = 343}),
+      judge({.where = "6.3",
+             .says = "the knee is asked for more than it can do in a small part of swing",
+             .quantity = "share of swing with a desired knee below 289 deg",
+             .ours = analysis::mean(beyond, run.record().swing()),
+             .unit = "%",
+             .accept = {1, 50},
+             .why = "some of it, and less than half",
+             .because = "so do [65], [66] and table 6-1: nothing simulated is in this number"}),
+      judge({.where = "6.3",
+             .says = "the angle's error is larger in propulsion than usual",
+             .quantity = "rms error of the hip, propulsion by swing",
+             .ours = analysis::rms(error, phase_of(run, "propulsion")) /
+                     analysis::rms(error, run.record().swing()),
+             .accept = {.lowest = 1},
+             .why = "larger"})};
+  return out;
+}
+
+const char* const muscles[] = {"hip_flexor", "hip_extensor", "knee_flexor", "knee_extensor"};
+
+Exhibit figure_6_5(const LegRun& run) {
+  std::vector<Curve> curves;
+  double others = 0;
+  for (int i = 0; i < 4; ++i) {
+    const std::string muscle = muscles[i], topic = "/muscle/" + muscle + "/tension";
+    curves.push_back(run.curve(spoken(muscle), {topic}, run.sequence(), i));
+    if (muscle != "hip_extensor")
+      others = std::max(others, analysis::largest(run.rows({topic}), run.record().sequence()));
+  }
+  const Column apart = difference(run.rows({"/muscle/hip_flexor/tension"}),
+                                  run.rows({"/muscle/hip_extensor/tension"}));
+  Exhibit out{{.name = "6-5",
+               .title = "Actuator forces",
+               .caption = run.caption("Readings of the four force sensors, each by its own scale; the converter has a ceiling."),
+               .plots = {over_time(run, "tension", "lbf", std::move(curves))}},
+              run.verdicts({"muscles.hip_extensor.measured_peak"})};
+  out.claims.push_back(judge({.where = "6.3",
+                              .says = "only the hip's extensor is used to its capacity",
+                              .quantity = "largest reading of the three others",
+                              .ours = others,
+                              .unit = "lbf",
+                              .accept = {0, 25},
+                              .why = "clearly below the predicted 30 lbf"}));
+  out.claims.push_back(judge({.where = "6.3",
+                              .says = "antagonists pull alike in swing and apart in propulsion",
+                              .quantity = "rms difference at the hip, swing in the air by stance",
+                              .ours = air_by_stance(run, apart),
+                              .accept = {0, 0.5},
+                              .why = "\"quite close\""}));
+  return out;
+}
+
+Exhibit figure_6_6(const LegRun& run) {
+  report::Plot plot =
+      over_time(run, "joint stiffness", "lbf in/rad", of_joints(run, "/stiffness", true));
+  return {{.name = "6-6",
+           .title = "Desired and actual stiffness",
+           .caption = run.caption("As the controller believes it, [27] and [60]."),
+           .plots = {std::move(plot)}},
+          {judge({.where = "6.3",
+                  .says = "the hip's stiffness is controlled much more tightly than the knee's",
+                  .quantity = "standard deviation, hip by knee",
+                  .ours = run.summary("joints.hip.stiffness_std_Nm_per_rad") /
+                          run.summary("joints.knee.stiffness_std_Nm_per_rad"),
+                  .accept = {0, 0.67},
+                  .why = "\"much more\": less than two thirds"})}};
+}
+
+Exhibit figure_6_7(const LegRun& run) {
+  Exhibit out{
+      {.name = "6-7",
+       .title = "Joint torque",
+       .caption = run.caption("Of the four force readings; > 0 raises the angle."),
+       .plots = {over_time(run, "joint torque", "lbf in", of_joints(run, "/torque", false))}},
+      {}};
+  for (const std::string joint : {"hip", "knee"})
+    out.claims.push_back(
+        judge({.where = "6.3",
+               .says = "the torque is near zero in swing: the " + joint,
+               .quantity = "rms torque, swing in the air by stance",
+               .ours = air_by_stance(run, run.rows({"/joint/" + joint + "/torque"})),
+               .accept = {0, 0.5},
+               .why = "\"near\": less than half"}));
+  return out;
+}
+
+// --- ground and trolley -------------------------------------------------------------------------
+
+// First time in [from, to] at which the values reach that share of their largest one there  [s].
+double begins(const LegRun& run, const Column& values, const report::Span& in, double share) {
+  const double start = run.record().sequence_start();
+  const auto inside = [&](std::size_t i) {
+    const double t = run.record().time(i) - start;
+    return t >= in.from && t < in.to;
+  };
+  double largest = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (inside(i)) largest = std::fmax(largest, values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (inside(i) && values[i] >= share * largest) return run.record().time(i) - start;
+  return std::nan("");
+}
+
+Exhibit figure_6_8(const LegRun& run) {
+  const Column normal = run.rows({"/foot/force", "y"}), friction = run.rows({"/foot/force", "x"});
+  const report::Span step = run.stance().at(1);
+  std::vector<Curve> curves;
+  for (const auto& [field, label] : {std::pair("y", "normal force Fy, simulated"),
+                                     std::pair("x", "friction force Fx, simulated")})
+    curves.push_back(
+        run.curve(label, {"/foot/force", field}, run.sequence(), static_cast<int>(curves.size())));
+  return {
+      {.name = "6-8",
+       .title = "Ground reaction",
+       .caption = run.caption("By [75] from measured angles and torques, on the foot; inertia and "
+                              "gravity are ignored."),
+       .plots = {over_time(run, "ground reaction", "lbf", std::move(curves))}},
+      {judge({.where = "6.3",
+              .says = "false reactions in swing are minimal beside those in propulsion",
+              .quantity = "rms normal force, swing in the air by stance",
+              .ours = air_by_stance(run, normal),
+              .accept = {0, 0.33},
+              .why = "\"minimal\": less than a third"}),
+       judge({.where = "6.3",
+              .says = "friction does not begin as soon as the foot is on the ground",
+              .quantity = "from half of the largest normal force to half of the largest friction, "
+                          "second step",
+              .ours = begins(run, friction, step, 0.5) - begins(run, normal, step, 0.5),
+              .unit = "s",
+              .accept = {.lowest = 0.05},
+              .why = "later than a few periods"}),
+       judge({.where = "6.3",
+              .says = "a mass of 5 lb could have been carried",
+              .theirs = "5 lb",
+              .quantity = "largest normal force",
+              .ours = analysis::largest(normal, run.record().sequence()),
+              .unit = "lbf",
+              .accept = {5, 8},
+              .why = "6.3 does not say how it is read off; a peak of at least as much"})}};
+}
+
+Exhibit figure_6_9(const LegRun& run) {
+  std::vector<report::Plot> plots;
+  for (const auto& [what, unit] : {std::pair("position", "in"), std::pair("velocity", "in/s")}) {
+    const std::string topic = std::string("/trolley/") + what;
+    plots.push_back(
+        over_time(run, std::string("trolley ") + what, unit,
+                  {run.curve("from torques, simulated", {topic}, run.sequence(), 0),
+                   run.curve("of the simulated trolley", {"/true" + topic}, run.sequence(), 1)}));
+  }
+  return {{.name = "6-9",
+           .title = "Trolley position and velocity",
+           .caption = run.caption("The forces of 6-8 integrated twice, as 6.3 does, beside the "
+                                  "trolley itself, which the thesis did not measure."),
+           .plots = std::move(plots)},
+          run.verdicts({"trolley."})};
+}
+
+// --- valves -------------------------------------------------------------------------------------
+
+// Table 6-4  [%].
+struct Duty {
+  const char *muscle, *valve;
+  double reported;
+};
+
+Exhibit duties(const LegRun& run, const std::string& number, const std::string& joint,
+               const std::vector<Duty>& table) {
+  std::vector<Curve> curves;
+  std::vector<Claim> claims;
+  for (const Duty& d : table) {
+    const std::string topic = std::string("/muscle/") + d.muscle + "/" + d.valve + "_duty";
+    const bool flexor = std::string(d.muscle).ends_with("flexor");
+    Curve c = run.curve(std::string(flexor ? "flexor " : "extensor ") + d.valve, {topic},
+                        run.sequence(), static_cast<int>(curves.size()), flexor ? 1 : -1);
+    c.style = Curve::Style::steps;
+    curves.push_back(std::move(c));
+    claims.push_back(judge({.where = "table 6-4",
+                            .says = "mean duty cycle of the " + spoken(d.muscle) + "'s " + d.valve,
+                            .theirs = std::to_string(static_cast<int>(d.reported)) + " %",
+                            .quantity = "mean over the phases",
+                            .ours = analysis::mean(run.rows({topic}), run.record().sequence()),
+                            .unit = "%",
+                            .accept = {d.reported - 2, d.reported + 2},
+                            .why = "two hundredths of the period"}));
+  }
+  for (Claim& c : run.verdicts({"joints." + joint + ".passiveness"}))
+    claims.push_back(std::move(c));
+  return {{.name = number,
+           .title = "Commanded duty cycles of the " + joint,
+           .caption = run.caption("The flexor's valves upwards, the extensor's downwards: a duty "
+                                  "cycle is never negative."),
+           .plots = {over_time(run, "duty cycle", "%", std::move(curves))}},
+          std::move(claims)};
+}
+
+}  // namespace
+
+Exhibits chapter_6(const Sources& from) {
+  const LegRun run(from, "walk-test-1");
+  return {figure_6_1(run),
+          figure_6_3(run),
+          figure_6_4(run),
+          figure_6_5(run),
+          figure_6_6(run),
+          figure_6_7(run),
+          figure_6_8(run),
+          figure_6_9(run),
+          duties(run, "6-10", "hip",
+                 {{"hip_flexor", "inlet", 2},
+                  {"hip_flexor", "exhaust", 4},
+                  {"hip_extensor", "inlet", 3},
+                  {"hip_extensor", "exhaust", 3}}),
+          duties(run, "6-11", "knee",
+                 {{"knee_flexor", "inlet", 11},
+                  {"knee_flexor", "exhaust", 23},
+                  {"knee_extensor", "inlet", 2},
+                  {"knee_extensor", "exhaust", 3}})};
+}
+
+}  // namespace sinew::cli::thesis
