@@ -176,7 +176,8 @@ Exhibit figure_6_5(const LegRun& run) {
                                   run.rows({"/muscle/hip_extensor/tension"}));
   Exhibit out{{.name = "6-5",
                .title = "Actuator forces",
-               .caption = run.caption("Readings of the four force sensors, each by its own scale; the converter has a ceiling."),
+               .caption = run.caption("Readings of the four force sensors, each by its own scale; "
+                                      "the converter has a ceiling."),
                .plots = {over_time(run, "tension", "lbf", std::move(curves))}},
               run.verdicts({"muscles.hip_extensor.measured_peak"})};
   out.claims.push_back(judge({.where = "6.3",
@@ -298,7 +299,8 @@ Exhibit figure_6_9(const LegRun& run) {
            .caption = run.caption("The forces of 6-8 integrated twice, as 6.3 does, beside the "
                                   "trolley itself, which the thesis did not measure."),
            .plots = std::move(plots)},
-          run.verdicts({"trolley."})};
+          run.verdicts(
+              {"trolley.distance_m", "trolley.mean_speed", "trolley.distance_from_torques_m"})};
 }
 
 // --- valves -------------------------------------------------------------------------------------

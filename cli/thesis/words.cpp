@@ -7,8 +7,8 @@
 namespace sinew::cli::thesis {
 namespace {
 
-// Of keys that the experiments of chapters 3 and 6 have judged.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 10> words = {{
+// Of keys that the experiments of chapters 3, 6 and 7 have judged.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 26> words = {{
     {"swing.period_s", "Period of the swing"},
     {"swing.damping_ratio", "Damping ratio"},
     {"swing.coulomb_length_m", "Coulomb constant Q"},
@@ -19,6 +19,23 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 10> words = 
     {"pulsed.length_ripple_m", "Ripple of the length"},
     {"pulsed.pressure_Pa", "Settled pressure"},
     {"pulsed.pressure_ripple_diff_Pa", "Ripple of the pressure"},
+    {"trolley.distance_m", "Distance"},
+    {"trolley.mean_speed_m_per_s", "Mean speed"},
+    {"trolley.distance_from_torques_m", "Distance by integrating the forces of 6-8"},
+    {"trolley.distance_from_torques_by_plan_m",
+     "The same, with the forces of planned stance alone"},
+    {"joints.hip.passiveness", "Passiveness of the hip"},
+    {"joints.knee.passiveness", "Passiveness of the knee"},
+    {"joints.hip.excursion_rad", "Excursion of the hip"},
+    {"joints.knee.excursion_rad", "Excursion of the knee"},
+    {"joints.hip.swing_oscillation_later_steps_rms_rad", "Oscillation of the hip in swing"},
+    {"joints.knee.swing_oscillation_later_steps_rms_rad", "Oscillation of the knee in swing"},
+    {"joints.hip.velocity_jump_largest_rad_per_s", "Jump of the velocity from sample to sample"},
+    {"muscles.hip_extensor.measured_peak_tension_N", "Greatest force, of the hip's extensor"},
+    {"foot.extension_time_s", "Time from the retracted to the extended position"},
+    {"foot.step_repeat_rms_m", "The foot's path does not repeat itself"},
+    {"ground_reaction.mean_normal_stance_true_N", "Foot forces are greater than in test 1"},
+    {"rollers.front.min_load_N", "The leg lifts the front roller off the track"},
 }};
 
 }  // namespace

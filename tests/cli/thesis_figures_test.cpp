@@ -104,7 +104,9 @@ void every_figure_is_there() {
   for (int i = 8; i <= 13; ++i) wanted.push_back("2-" + std::to_string(i));
   for (int i = 4; i <= 23; ++i)
     if (i != 5 && i != 12) wanted.push_back("3-" + std::to_string(i));
-  wanted.insert(wanted.end(), {"4-8", "4-9", "4-14", "5-3"});
+  wanted.insert(wanted.end(), {"4-8", "4-9", "4-14", "5-3", "6-1"});
+  for (int i = 3; i <= 16; ++i) wanted.push_back("6-" + std::to_string(i));
+  wanted.push_back("7-1");
   std::vector<std::string> there;
   for (const Json& f : drawn().index["figures"]) there.push_back(f["figure"]);
   EXPECT_EQ(there, wanted);
@@ -293,6 +295,63 @@ void figure_5_3() {
     }
 }
 
+// [66] and [70] from what is drawn: the arc's ends and its top, the straight line.
+void figure_6_1() {
+  const Xy swing = curve("6-1", "swing"), propulsion = curve("6-1", "propulsion");
+  EXPECT_NEAR(swing.x.front(), -6.5, 1e-9);
+  EXPECT_NEAR(swing.x.back(), 3, 1e-9);
+  const double top = -11.75 + 0.2571 * 0.2571 / (4 * 0.081);
+  EXPECT_NEAR(*std::ranges::max_element(swing.y), top, 1e-3);
+  // The last point begins the next swing.
+  for (std::size_t i = 0; i + 1 < propulsion.y.size(); ++i)
+    EXPECT_NEAR(propulsion.y[i], -13.5, 1e-9);
+}
+
+// Positions are the integral of velocities, by both ways of 6-9.
+void figure_6_9() {
+  for (const char* which : {"from torques, simulated", "of the simulated trolley"}) {
+    const Xy position = curve("6-9", which), velocity = curve("6-9", which, 1);
+    ASSERT_EQ(position.x.size(), velocity.x.size());
+    double way = position.y.front();
+    for (std::size_t i = 1; i < position.x.size(); ++i) {
+      way += (velocity.y[i] + velocity.y[i - 1]) / 2 * (position.x[i] - position.x[i - 1]);
+      EXPECT_NEAR(position.y[i], way, 0.1);
+    }
+  }
+}
+
+// What the claim says of table 6-4 is the mean of what is drawn; extensors are drawn downwards.
+void figures_6_10_and_6_11() {
+  for (const std::string number : {"6-10", "6-11"}) {
+    std::vector<double> sums;
+    for (const Json& c : figure(number)["curves"]) {
+      const Xy duty = read(c);
+      const double sign = c["curve"].get<std::string>().starts_with("flexor") ? 1 : -1;
+      double sum = 0;
+      for (const double y : duty.y) {
+        EXPECT_GE(sign * y, 0);
+        sum += sign * y;
+      }
+      sums.push_back(sum / static_cast<double>(duty.y.size()));
+    }
+    ASSERT_EQ(sums.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double claimed = std::stod(figure(number)["claims"][i]["ours"].get<std::string>());
+      EXPECT_NEAR(sums[i], claimed, 0.02 + 0.01 * claimed) << number;
+    }
+  }
+}
+
+// A mark for each 10 ms, from the begin of the kick on; the fastest are most of an inch apart.
+void figure_6_13() {
+  const Xy actual = curve("6-13", "actual, simulated");
+  EXPECT_NEAR(static_cast<double>(actual.x.size()), 50, 1);
+  double fastest = 0;
+  for (std::size_t i = 1; i < actual.x.size(); ++i)
+    fastest = std::max(fastest, actual.x[i] - actual.x[i - 1]);
+  EXPECT_GT(fastest, 0.8);
+}
+
 // Drawn once for all of them.
 TEST(ThesisFigures, AreWhatTheirLawsSay) {
   ASSERT_EQ(drawn().result.code, 0) << drawn().result.err;
@@ -309,6 +368,10 @@ TEST(ThesisFigures, AreWhatTheirLawsSay) {
   figures_4_8_and_4_9();
   figure_4_14();
   figure_5_3();
+  figure_6_1();
+  figure_6_9();
+  figures_6_10_and_6_11();
+  figure_6_13();
   const std::string page = read_text(drawn().w / "figures/index.html");
   for (const Json& f : drawn().index["figures"])
     EXPECT_THAT(page, HasSubstr("id=\"" + f["figure"].get<std::string>() + "\""));
