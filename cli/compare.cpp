@@ -121,7 +121,8 @@ void add_compare(CLI::App& app, Action& action) {
                  "sinew compare runs/walk-test-1/1 runs/walk-test-2/1 -o compare.html");
   sub.add_option("RUN", options->runs, "folders of runs, or log files; the first is compared with")
       ->required()
-      ->expected(2, most_runs);
+      ->expected(2, most_runs)
+      ->option_text("2 to 8, REQUIRED");
   sub.add_option("-o,--output", options->out, "also write a page with overlaid plots");
   sub.add_option("--align", options->align,
                  "where times are counted from: start, or sequence: its first phase")

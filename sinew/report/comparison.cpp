@@ -6,6 +6,7 @@
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
 #include "sinew/report/content.h"
+#include "sinew/report/stand.h"
 
 namespace sinew::report {
 namespace {
@@ -24,7 +25,7 @@ std::optional<std::int64_t> sequence_start(const signals::Table& table,
 }
 
 // What follows from the samples at their new times.
-void describe(ComparedRun& run, const analysis::Machine& machine) {
+void describe(ComparedRun& run, const analysis::Machine& machine, const config::Node&) {
   run.derived = analysis::derive(run.logged, machine);
   const analysis::Record record(run.logged, machine, &run.derived);
   run.phases = phases_of(record, machine);
@@ -34,16 +35,20 @@ void describe(ComparedRun& run, const analysis::Machine& machine) {
   run.panels = panels(channels, machine.robot);
 }
 
-void describe(ComparedRun& run, const analysis::StandFile& stand) {
+void describe(ComparedRun& run, const analysis::StandFile& file, const config::Node& resolved) {
   run.phases = R"({"names":[],"stretches":[]})";
   Channels channels;
   channels.add(run.logged);
-  run.panels = panels_of_stand(channels, stand.element);
+  const Stand drawn = stand(channels, resolved, file, run.drawn);
+  channels.add(run.drawn);
+  run.charts = stand_charts(channels, drawn);
+  run.panels = panels_of_stand(channels, file.element);
 }
 
 // Of a machine or a stand; its times are moved back by `shift_ns`.
 template <class Machine>
-void open(ComparedRun& run, const Machine& machine, std::int64_t shift_ns) {
+void open(ComparedRun& run, const Machine& machine, const config::Node& resolved,
+          std::int64_t shift_ns) {
   run.title = machine.title;
   run.reproduces = machine.reproduces;
   run.atmosphere = machine.atmosphere;
@@ -51,7 +56,7 @@ void open(ComparedRun& run, const Machine& machine, std::int64_t shift_ns) {
   run.verdicts = compare(run.summary, machine.reported, machine.atmosphere);
   run.shift = static_cast<double>(shift_ns) / 1e9;
   analysis::shift(run.logged, shift_ns);
-  describe(run, machine);
+  describe(run, machine, resolved);
   if (const auto times = analysis::times_of(run.logged)) {
     run.first = static_cast<double>(times->first) / 1e9;
     run.last = static_cast<double>(times->last) / 1e9;
@@ -73,7 +78,7 @@ ComparedRun opened(RecordedRun&& recorded, Align align, std::optional<std::int64
   run.version = value_of(run.parameters, "sinew_version");
   if (config::format_kind(recorded.resolved) == "rig") {
     if (align == Align::sequence) no_sequence(run.label);
-    open(run, analysis::read_stand(recorded.resolved), 0);
+    open(run, analysis::read_stand(recorded.resolved), recorded.resolved, 0);
     return run;
   }
   const analysis::Machine machine = analysis::read_machine(recorded.resolved);
@@ -85,7 +90,7 @@ ComparedRun opened(RecordedRun&& recorded, Align align, std::optional<std::int64
     if (!sequence) sequence = start;
     shift_ns = *start - *sequence;
   }
-  open(run, machine, shift_ns);
+  open(run, machine, recorded.resolved, shift_ns);
   return run;
 }
 

@@ -16,6 +16,7 @@
 #include "sinew/analysis/compare.h"
 #include "sinew/analysis/reported.h"
 #include "sinew/config/node.h"
+#include "sinew/report/charts.h"
 #include "sinew/report/page.h"
 #include "sinew/report/panels.h"
 #include "sinew/report/parameters.h"
@@ -41,8 +42,10 @@ struct ComparedRun {
   double shift = 0;                // by which its times were moved back [s]
   double first = 0, last = 0;      // times, after that [s]
   signals::Table logged, derived;  // at those times
+  signals::Table drawn;            // what charts hold beside them
   std::vector<Panel> panels;
-  std::string phases;  // JSON, as content.h has it
+  std::vector<Chart> charts;  // of the test stand
+  std::string phases;         // JSON, as content.h has it
   analysis::Summary summary;
   std::vector<analysis::Verdict> verdicts;
   std::vector<Parameter> parameters;

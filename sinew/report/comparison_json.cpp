@@ -116,6 +116,7 @@ class RunSamples {
       channels_.emplace_back();
       channels_.back().add(run.logged);
       channels_.back().add(run.derived);
+      channels_.back().add(run.drawn);
     }
   }
 
@@ -133,6 +134,8 @@ class RunSamples {
     panel["differences"] = std::move(differences);
   }
 
+  // A run's own columns.
+  Columns columns(std::size_t run) { return {channels_[run], blob_}; }
   const Blob& blob() const { return blob_; }
 
  private:
@@ -179,6 +182,27 @@ Json panels_of(const Comparison& c, RunSamples& samples) {
   return out;
 }
 
+// The first run's charts, with the curves of all runs that have such a one.
+Json charts_of(const Comparison& c, RunSamples& samples) {
+  Json out = Json::array();
+  for (const Chart& first : c.runs.front().charts) {
+    Json chart, curves = Json::array();
+    for (std::size_t i = 0; i < c.runs.size(); ++i)
+      for (const Chart& own : c.runs[i].charts) {
+        if (own.title != first.title) continue;
+        Columns columns = samples.columns(i);
+        chart = Json::parse(to_json(std::vector{own}, columns))[0];
+        for (Json& curve : chart["curves"]) {
+          curve["run"] = i;
+          curves.push_back(std::move(curve));
+        }
+      }
+    chart["curves"] = std::move(curves);
+    out.push_back(std::move(chart));
+  }
+  return out;
+}
+
 std::string foot_of(const Comparison& c) {
   for (const std::string topic : {"/true/foot/position", "/foot/position"})
     for (const ChannelRow& row : c.channels)
@@ -203,6 +227,7 @@ Content content(const Comparison& comparison) {
   }
   RunSamples samples(comparison);
   out["panels"] = panels_of(comparison, samples);
+  out["charts"] = charts_of(comparison, samples);
   out["foot"] = foot_of(comparison);
   out["samples"] = Json::parse(to_json(samples.blob().layout()));
   return {title, text_of(out, -1), samples.blob().base64()};

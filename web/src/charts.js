@@ -229,6 +229,7 @@ class Chart {
 }
 
 function stroke_line(ctx, c, at) {
+  ctx.setLineDash((c.dash ?? []).map((d) => d * (devicePixelRatio || 1)));
   ctx.beginPath();
   let drawing = false;
   for (let i = 0; i < c.x.length; ++i) {
@@ -238,6 +239,7 @@ function stroke_line(ctx, c, at) {
     drawing = true;
   }
   ctx.stroke();
+  ctx.setLineDash([]);
 }
 
 // All charts of a page, in a grid.

@@ -1,4 +1,5 @@
 // The page of several runs: the same channel of all in one plot, differences, tables.
+import { Charts } from './charts.js';
 import { ComparisonTables, judged_differently } from './compare_tables.js';
 import { FootPaths } from './foot_path.js';
 import { Look } from './look.js';
@@ -79,8 +80,10 @@ class ComparePage {
     for (const p of this.plots.panels) if (p.spec.difference) p.root.classList.add('difference');
     this.plan = new Plan(by_id('plan'), data.runs, this.plots, this.shown);
     this.foot = this.make_foot();
+    this.charts = this.foot ? null : this.make_charts(samples);
     this.plots.on_view = () => this.draw_view();
     this.plots.on_values = (t) => this.show(t);
+    document.querySelector('.stage').classList.toggle('without-plots', !specs.length);
     this.apart = false;
     this.all = false;
     this.groups_shown = new Map();
@@ -91,15 +94,30 @@ class ComparePage {
 
   make_foot() {
     const of = (field) => this.of_channel.get(`${this.data.foot} ${field}`);
-    if (!of('x') || !of('y')) {
-      document.querySelector('.stage').classList.add('without-foot');
-      by_id('foot').remove();
-      return null;
-    }
+    if (!of('x') || !of('y')) return null;
     by_id('foot-note').textContent = this.data.foot.startsWith('/true')
       ? 'About the first joint, in the time that the plots show.'
       : 'Of measured angles, about the first joint, in the time that the plots show.';
     return new FootPaths(by_id('path'), of('x').values, of('y').values, this.units, this.shown);
+  }
+
+  // In the foot's place: what the test stand has of one quantity against another.
+  make_charts(columns) {
+    const { charts, runs } = this.data;
+    by_id('foot').replaceChildren();
+    if (!charts.length) {
+      document.querySelector('.stage').classList.add('without-foot');
+      by_id('foot').hidden = true;
+      return null;
+    }
+    const specs = charts.map((chart) => {
+      const names = new Set(chart.curves.map((c) => c.label).filter(Boolean));
+      const name = (c) => (names.size > 1 && c.label ? `${letter_of(c.run)} ${c.label}` : letter_of(c.run));
+      return { ...chart, note: runs.length > 2 ? '' : chart.note,
+               curves: chart.curves.map((c) => ({ ...c, ...line_of(c.run), style: c.style, label: name(c) })) };
+    });
+    by_id('foot').setAttribute('aria-label', 'Charts');
+    return new Charts(by_id('foot'), specs, columns, this.units);
   }
 
   groups() {
@@ -141,6 +159,10 @@ class ComparePage {
     this.legend.set(run, this.shown[run]);
     for (const p of this.plots.panels)
       p.spec.lines.forEach((line, i) => line.run === run && p.show_line(i, this.shown[run]));
+    for (const chart of this.charts?.list ?? [])
+      for (const label of new Set(chart.spec.curves.filter((c) => c.run === run).map((c) => c.label)))
+        if (chart.shown.has(label) !== this.shown[run])
+          chart.buttons?.find((b) => b.button.textContent === label)?.button.click();
     this.draw_view();
   }
 
@@ -167,6 +189,7 @@ class ComparePage {
   }
 
   show(t) {
+    this.charts?.set_time(t);
     if (!this.foot) return;
     by_id('clock').textContent = `${t.toFixed(2)} s`;
     this.foot.show(t);
@@ -187,6 +210,7 @@ class ComparePage {
 
   rebuild() {
     this.plots.rebuild();
+    this.charts?.rebuild();
     this.tables.refresh();
     this.draw_view();
   }

@@ -110,6 +110,7 @@ export class Panel {
         drawClear: [(u) => this.plots.draw_phases(u)],
         setSelect: [(u) => this.zoom_to(u)],
         setCursor: [(u) => this.plots.hover(u)],
+        setScale: [() => this.head && this.place(this.plots.time)],  // which comes after a zoom
       },
     };
   }

@@ -48,7 +48,7 @@ export class Units {
 export function number(value) {
   if (!Number.isFinite(value)) return '–';
   const size = Math.abs(value);
-  if (size !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(2);
+  if (size !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(2).replaceAll('-', '−');
   const decimals = size >= 1000 ? 0 : size >= 100 ? 1 : size >= 10 ? 2 : 3;
   return value.toFixed(decimals).replace(/^-(0\.?0*)$/, '$1').replace('-', '−');
 }
@@ -56,7 +56,7 @@ export function number(value) {
 // Of an axis: as many digits as a tick has.
 export function tick_text(v) {
   const size = Math.abs(v);
-  if (size !== 0 && (size < 1e-3 || size >= 1e5)) return v.toExponential(1).replace('-', '−');
+  if (size !== 0 && (size < 1e-3 || size >= 1e5)) return v.toExponential(1).replaceAll('-', '−');
   return String(+v.toPrecision(6)).replace('-', '−');
 }
 

@@ -1,5 +1,5 @@
-// The page of several runs: RUNS/compare/{two,same,long}.html of walk-test-1 and walk-test-2, of a
-// run with itself, and of two runs of 10 min.
+// The page of several runs: RUNS/compare/{two,same,stand,long}.html of walk-test-1 and walk-test-2, of
+// a run with itself, of weights-60 and weights-90, and of two runs of 10 min.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { picture, summary_of, with_page } from './pages.mjs';
@@ -98,6 +98,15 @@ test('zoom and cursor are one for plots, plan and foot', () => compared('two', a
   for (const scale of scales) assert.deepEqual(scale, view);
   assert.notEqual(await foot(), before[0]);
   assert.notEqual(await plan(), before[1]);
+  await page.evaluate(([from, to]) => window.sinew.page.seek(0.3 * from + 0.7 * to), view);
+  await page.keyboard.press('+');
+  await page.waitForTimeout(100);
+  for (const { is, should } of await page.evaluate(() => {
+    const { plots } = window.sinew.page;
+    return plots.panels.filter((p) => p.visible && p.plot).map((p) => ({
+      is: p.head.getBoundingClientRect().left + 1 - p.plot.over.getBoundingClientRect().left,
+      should: p.plot.valToPos(plots.time, 'x') }));
+  })) assert.ok(Math.abs(is - should) < 1, `${is} for ${should}`);
   await page.mouse.move(2, 2);
   await page.keyboard.press('0');
   await page.keyboard.press('Home');
@@ -149,6 +158,21 @@ test('a run beside itself is said to be the same', () => compared('same', async 
   assert.equal(await page.locator('#channels tbody tr:visible').count(), 0);
   await page.locator('#channels button', { hasText: 'Equal ones too' }).click();
   assert.ok((await page.locator('#channels tbody tr:visible').count()) > 90);
+}));
+
+test('the test stand has its charts, a curve per run', () => compared('stand', async (page) => {
+  const charts = await page.evaluate(() => window.sinew.page.charts.list.map((c) => c.curves.map((k) =>
+    [k.label, k.color, String(k.dash ?? ''), k.x.some(Number.isFinite), k.y.some(Number.isFinite)])));
+  assert.ok(charts.length >= 1);
+  for (const curves of charts) {
+    assert.deepEqual([...new Set(curves.map((c) => c[0]))], ['A', 'B']);
+    assert.ok(curves.every((c) => c[3] && c[4]));
+    assert.notEqual(curves[0][1], curves.at(-1)[1]);
+  }
+  await page.keyboard.press('2');
+  const shown = await page.evaluate(() => window.sinew.page.charts.list.map((c) => [...c.shown]));
+  for (const labels of shown) assert.deepEqual(labels, ['A']);
+  assert.deepEqual(await page.locator('#parameters tbody th').allTextContents(), ['start.pressure']);
 }));
 
 test('dark, on paper and on a phone', async () => {

@@ -127,8 +127,8 @@ test("the thesis's units are those of the standards", () => {
 
 test('numbers keep about four digits', () => {
   for (const [value, text] of [[0, '0.000'], [1.23456, '1.235'], [-12.3456, '−12.35'], [123.456, '123.5'],
-                               [12345.6, '12346'], [-0.0004, '−4.00e-4'], [NaN, '–'], [-0, '0.000']])
-    assert.equal(number(value).replace('-4.00', '−4.00'), text);
+                               [12345.6, '12346'], [-0.0004, '−4.00e−4'], [NaN, '–'], [-0, '0.000']])
+    assert.equal(number(value), text);
 });
 
 test('keys tell their unit and read as words', () => {
