@@ -106,6 +106,7 @@ Fit try_elements(const Measured& m, int elements) {
   out.parameters = whole.estimates;
   const double full = largest(m["force"]);
   out.fit = score(whole.residuals, full);
+  out.residuals = whole.residuals;
   std::vector<double> unseen;
   for (int part = 0; part < 2; ++part) {
     const std::vector<double> f = force(m, fit(m, elements, part).values);
@@ -151,6 +152,7 @@ CreepResult identify_creep(const Measured& data) {
             .notes = data.notes};
   for (int elements = 0; elements <= actuator::Creep::most; ++elements)
     report.fits.push_back(try_elements(data, elements));
+  report.rows = {.x = "time", .x_unit = "s", .at = data["time"], .measured = data["force"]};
   choose(report);
   const std::vector<Estimate>& best = report.best().parameters;
   for (std::size_t k = 2; k + 1 < best.size(); k += 2) {

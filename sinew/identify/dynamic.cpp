@@ -142,9 +142,26 @@ class Dynamic {
     const Solution s = solve(law, fitted_, start_);
     out.parameters = s.estimates;
     out.fit = score(s.residuals, full_scale);
+    out.residuals = s.residuals;
     if (law.scale == Scale::constant && law.dry)
       out.notes.push_back(fmt::format("k = {:.5g} N/m, of the sealed muscle at rest", stiffness_));
-    out.held_out = score(unseen(law, s), full_scale);
+    const std::vector<double> others = unseen(law, s);
+    out.held_out = score(others, full_scale);
+    if (!held_out_.empty()) out.residuals.insert(out.residuals.end(), others.begin(), others.end());
+    return out;
+  }
+
+  // Samples in the order of the residuals.
+  Rows rows() const {
+    Rows out{.x = "time", .x_unit = "s"};
+    for (const bool held_out : {false, true})
+      for (const std::size_t i : held_out ? held_out_ : fitted_) {
+        const Swing& s = swings_[i];
+        out.at.insert(out.at.end(), s.time.begin(), s.time.end());
+        out.measured.insert(out.measured.end(), s.length.begin(), s.length.end());
+        out.group.resize(out.size(), s.file);
+        out.held_out.resize(out.size(), held_out);
+      }
     return out;
   }
 
@@ -319,6 +336,7 @@ DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string
     if (model.empty() || model == law.name) tried.push_back(&law);
   if (tried.empty()) throw std::invalid_argument(fmt::format("no model {}", model));
   for (const Law* law : tried) report.fits.push_back(dynamic.fit(*law, report.full_scale));
+  report.rows = dynamic.rows();
   choose(report);
   out.loss = dynamic.loss(*tried[report.chosen], report.best());
   for (std::size_t i = 0; i < swings.size(); ++i)

@@ -29,8 +29,20 @@ struct Fit {
   std::optional<Score> held_out;
   // Parts of what was fitted, predicted by the rest; a method's own way, told in `notes`.
   std::optional<Score> cross_validated;
+  std::vector<double> residuals;   // predicted - measured, of Report::rows; none: not told
   std::vector<std::string> notes;  // what one should know about this fit
   std::string refused;             // why this model cannot be had from the data; empty: it can
+};
+
+// What was measured, for a picture of it: the report's quantity at another one.
+struct Rows {
+  std::string x, x_unit;             // "pressure", "Pa gauge"
+  std::string unit;                  // of what was measured; empty: Report::unit
+  std::vector<double> at, measured;  // [x_unit], [unit]
+  std::vector<std::string> group;    // of each row: "205 mm"; empty: all are one
+  std::vector<bool> held_out;        // of each row; empty: none is
+
+  std::size_t size() const { return at.size(); }
 };
 
 struct Report {
@@ -43,6 +55,7 @@ struct Report {
   std::vector<Fit> fits;
   std::size_t chosen = 0;
   std::string rule;  // by which it was chosen, with the numbers that decided
+  Rows rows;
   std::vector<std::string> notes, warnings;
 
   const Fit& best() const { return fits[chosen]; }

@@ -118,6 +118,8 @@ GeometryResult identify_geometry(const Measured& data, double thread_thickness) 
   Fit fit{.model = "braid", .law = "L^2 + (n pi D)^2 = b^2", .source = "[1]-[4]"};
   fit.parameters = solution.estimates;
   fit.fit = score(solution.residuals, report.full_scale);
+  fit.residuals = solution.residuals;
+  report.rows = {.x = "length", .x_unit = "m", .at = length, .measured = diameter};
   if (length.size() == 2) fit.notes.emplace_back("two pairs fix two values: no error can be seen");
   report.fits.push_back(std::move(fit));
   report.notes = data.notes;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "sinew/actuator/braid.h"
+#include "sinew/identify/joint_rows.h"
 #include "sinew/identify/joint_torque.h"
 #include "sinew/identify/quality.h"
 #include "sinew/identify/refusal.h"
@@ -285,8 +286,12 @@ Fit tried_fit(const Law& law, const JointTorque& joint, const JointTorque& some,
     fit.parameters = solved.solution.estimates;
     fit.refused = inseparable(solved);
     fit.fit = score(solved.solution.residuals, full_scale);
+    fit.residuals = told_from(solved.solution.residuals);
     const Values values = refit ? solve(law, some, setup).values : solved.values;
-    fit.held_out = score(residuals_of(law, others, values), full_scale);
+    const std::vector<double> unseen = residuals_of(law, others, values);
+    fit.held_out = score(unseen, full_scale);
+    const std::vector<double> told = told_from(unseen);
+    if (!refit) fit.residuals.insert(fit.residuals.end(), told.begin(), told.end());
   } catch (const Refusal& e) {
     fit.refused = e.what();
   }
@@ -366,6 +371,7 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
   }
   if (tried.empty()) throw std::invalid_argument(fmt::format("no model {}", model));
   refuse_if_all_are(report, data.file);
+  report.rows = rows_of(data, joint, held_out, others);
   choose(report);
 
   const Law& law = *tried[report.chosen];

@@ -211,6 +211,7 @@ Fit fit_of(const Law& law, const SensorResult& r, const Usable& u, double rest,
   solution = identify::fit(law, u.points, rest, facts);
   fit.parameters = solution.estimates;
   fit.fit = score(solution.residuals, r.span);
+  fit.residuals = solution.residuals;
   fit.held_out = other ? score(residuals_at(law, solution, other->points, rest), r.span)
                        : leave_out(law, u.points, rest, facts, r.span);
   if (solution.freedom < 1)
@@ -236,6 +237,17 @@ void describe(const Usable& u, const Fit& straight, SensorResult& r) {
     r.report.notes.push_back(fmt::format("{}: the hysteresis is no more than noise makes", r.name));
 }
 
+// The mean of the readings at every known value, each way by itself.
+Rows rows_of(std::span<const Point> points, const KindFacts& facts) {
+  Rows out{.x = std::string(facts.word), .x_unit = std::string(facts.unit)};
+  for (const Point& p : points) {
+    out.at.push_back(p.known);
+    out.measured.push_back(p.output);
+    out.group.emplace_back(p.direction < 0 ? "from above" : "from below");
+  }
+  return out;
+}
+
 SensorResult calibrate(const SensorData& data, const SensorReadings& s, const CountScale& converter,
                        double rest, const SensorData* other, Calibration& out) {
   const KindFacts& facts = facts_of(data.kind);
@@ -257,6 +269,7 @@ SensorResult calibrate(const SensorData& data, const SensorReadings& s, const Co
                    "the sensors of " + data.file);
     second = without_ends(*other, *same, converter);
   }
+  r.report.rows = rows_of(u.points, facts);
   Solution solution[std::size(laws)];
   for (std::size_t i = 0; i < std::size(laws); ++i)
     r.report.fits.push_back(

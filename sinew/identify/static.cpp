@@ -9,6 +9,7 @@
 
 #include "sinew/identify/quality.h"
 #include "sinew/identify/refusal.h"
+#include "sinew/identify/static_groups.h"
 #include "sinew/identify/static_outliers.h"
 
 namespace sinew::identify {
@@ -19,36 +20,12 @@ using Points = std::vector<StaticPoint>;
 
 constexpr int pressure_parts = 4;
 
-struct Split {
-  Points fitted, held_out;
-};
-
 template <class Keep>
-Split split(const Points& points, Keep keep) {
-  Split out;
+StaticSplit split(const Points& points, Keep keep) {
+  StaticSplit out;
   for (std::size_t i = 0; i < points.size(); ++i)
     (keep(i) ? out.fitted : out.held_out).push_back(points[i]);
   return out;
-}
-
-std::vector<int> pressure_groups(const Points& points) {
-  std::vector<double> p;
-  for (const StaticPoint& point : points) p.push_back(point.pressure);
-  const double range = largest(p) - smallest(p);
-  return groups_of(p, 0.015 * range, 0.1 * range);
-}
-
-// Lengths of different muscles are different lengths.
-std::vector<int> length_groups(const Points& points) {
-  std::vector<double> l;
-  double longest = 0;
-  for (const StaticPoint& point : points) longest = std::max(longest, point.length);
-  for (const StaticPoint& point : points) l.push_back(point.length + 10 * point.rest_length);
-  return groups_of(l, 0.004 * longest, 1e9);
-}
-
-int count_of(const std::vector<int>& groups) {
-  return static_cast<int>(std::set<int>(groups.begin(), groups.end()).size());
 }
 
 StaticScales scales_of(const Points& points, const StaticOptions& options) {
@@ -112,7 +89,7 @@ class Tried {
                             const StaticFit& whole) const {
     std::vector<double> out;
     for (int k = 0; k < parts; ++k) {
-      const Split s = split(points, [&](std::size_t i) { return part[i] != k; });
+      const StaticSplit s = split(points, [&](std::size_t i) { return part[i] != k; });
       if (s.held_out.empty()) continue;
       const StaticFit one = fit(s.fitted, &whole);
       const std::vector<double> r = misses(one.setting, scales_of_fit(one), s.held_out);
@@ -211,7 +188,7 @@ void describe(const StaticFit& fit, Fit& out) {
 }
 
 // Held out by the points themselves, or every second pressure, or each length once.
-std::optional<Score> held_out(const Tried& model, const StaticFit& fit, const Split& s,
+std::optional<Score> held_out(const Tried& model, const StaticFit& fit, const StaticSplit& s,
                               HoldOut which, double full_scale) {
   if (which == HoldOut::length) {
     const std::vector<int> group = length_groups(s.fitted);
@@ -226,7 +203,7 @@ struct Best {
   StaticScales scales;
 };
 
-Fit try_model(const StaticModel& model, const Split& s, const StaticScales& scales,
+Fit try_model(const StaticModel& model, const StaticSplit& s, const StaticScales& scales,
               HoldOut hold_out, double full_scale, Best& found) {
   Fit out{.model = std::string(model.name),
           .law = std::string(model.law),
@@ -239,7 +216,10 @@ Fit try_model(const StaticModel& model, const Split& s, const StaticScales& scal
     refuse_falling(fit, scales);
     describe(fit, out);
     const StaticScales own = tried.scales_of_fit(fit);
-    out.fit = score(misses(fit.setting, own, s.fitted), full_scale);
+    out.residuals = misses(fit.setting, own, s.fitted);
+    out.fit = score(out.residuals, full_scale);
+    const std::vector<double> unseen = misses(fit.setting, own, s.held_out);
+    out.residuals.insert(out.residuals.end(), unseen.begin(), unseen.end());
     out.held_out = held_out(tried, fit, s, hold_out, full_scale);
     out.cross_validated = cross_validate(tried, s.fitted, fit, full_scale, out.notes);
     found = {fit, own};
@@ -249,8 +229,8 @@ Fit try_model(const StaticModel& model, const Split& s, const StaticScales& scal
   return out;
 }
 
-Split split_by(const Points& points, HoldOut hold_out, Report& report) {
-  Split s = split(points, [&](std::size_t i) { return points[i].fitted; });
+StaticSplit split_by(const Points& points, HoldOut hold_out, Report& report) {
+  StaticSplit s = split(points, [&](std::size_t i) { return points[i].fitted; });
   if (!s.held_out.empty()) report.held_out_is = "rows that were not to be fitted";
   if (hold_out == HoldOut::length) {
     report.held_out_is = "each length once, all others fitted";
@@ -262,7 +242,7 @@ Split split_by(const Points& points, HoldOut hold_out, Report& report) {
     if (count_of(group) < 4)
       throw Refusal("--hold-out pressure", "fewer than four pressures", "at least four", "");
     const Points before = s.fitted;
-    Split more = split(before, [&](std::size_t i) { return group[i] % 2 == 0; });
+    StaticSplit more = split(before, [&](std::size_t i) { return group[i] % 2 == 0; });
     s.fitted = more.fitted;
     s.held_out.insert(s.held_out.end(), more.held_out.begin(), more.held_out.end());
     report.held_out_is = "every second pressure";
@@ -357,7 +337,7 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   Points points = data.points;
   give_rest_length(points, report);
   sort_points(points);
-  Split s = split_by(points, options.hold_out, report);
+  StaticSplit s = split_by(points, options.hold_out, report);
   drop_gross_outliers(s.fitted, options, report);
   points = s.fitted;
   points.insert(points.end(), s.held_out.begin(), s.held_out.end());
@@ -375,6 +355,7 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
     report.fits.push_back(
         try_model(model, s, out.scales, options.hold_out, report.full_scale, found.back()));
   }
+  report.rows = rows_of(s);
   choose(report);
   if (options.model.empty())
     refuse_unexplained(report, 15, "--map and --unit: columns may be swapped or in other units");

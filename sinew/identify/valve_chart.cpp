@@ -95,6 +95,7 @@ Fit try_law(bool iso, const Chart& c, const gas::Air& air) {
   const Solution s = fit_rows(iso, c, air, all);
   fit.parameters = s.estimates;
   fit.fit = score(s.residuals, largest(c.flow));
+  fit.residuals = s.residuals;
   fit.held_out = leave_one_out(iso, c, air);
   if (!iso) return fit;
   const Estimate& b = s["critical_pressure_ratio"];
@@ -103,6 +104,12 @@ Fit try_law(bool iso, const Chart& c, const gas::Air& air) {
                              : "b is not determined: points with downstream/upstream above it "
                                "are missing";
   return fit;
+}
+
+Rows rows_of(const Chart& c) {
+  Rows out{.x = "downstream pressure", .x_unit = "Pa abs", .at = c.down, .measured = c.flow};
+  for (const double up : c.up) out.group.push_back(fmt::format("{:.4g} kPa abs above", 1e-3 * up));
+  return out;
 }
 
 void tell_choking(const Chart& c, Report& report) {
@@ -130,6 +137,7 @@ ValveResult identify_chart(const Measured& data, const ValveOptions& options) {
   if (!data.has("mass_flow"))
     report.notes.emplace_back("volume flow is taken as of reference air, 20 degC and 1 bar (ANR)");
   for (const bool iso : {false, true}) report.fits.push_back(try_law(iso, c, options.air));
+  report.rows = rows_of(c);
   choose(report);
   tell_choking(c, report);
 

@@ -220,6 +220,7 @@ Fit try_model(const CoilModel& model, const Pulses& c) {
   const Solution s = fit_rows(model, c, all, starts_of(model, c, parameters_of(model, c)));
   fit.parameters = s.estimates;
   fit.fit = score(s.residuals, c.largest);
+  fit.residuals = s.residuals;
   const Solution part = fit_rows(model, c, even, {&s.values, 1});
   const std::vector<gas::CurrentPiece> pieces = pieces_of(model, part.values);
   std::vector<double> errors;
@@ -244,6 +245,7 @@ ValveResult identify_coil(const Measured& data, const ValveOptions& options) {
   report.held_out_is = "every second sample";
   report.notes.insert(report.notes.end(), data.notes.begin(), data.notes.end());
   for (const CoilModel& model : models) report.fits.push_back(try_model(model, c));
+  report.rows = {.x = "time", .x_unit = "s", .at = c.time, .measured = c.current};
   choose(report, 0.1, 0.01);
   if (!models[report.chosen].dip)
     throw Refusal(data.file + ": current", "no dip in its rise: a coil without a moving shutter",

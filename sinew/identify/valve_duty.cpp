@@ -107,6 +107,7 @@ Fit try_straight(const Map& m, std::span<const std::size_t> rows, bool delayed) 
   const Solution s = fit_straight(m, rows, delayed);
   fit.parameters = s.estimates;
   fit.fit = score(s.residuals, m.full);
+  fit.residuals = s.residuals;
   std::vector<double> errors;
   for (std::size_t out = 0; out < rows.size(); ++out) {
     std::vector<std::size_t> keep(rows.begin(), rows.end());
@@ -119,6 +120,17 @@ Fit try_straight(const Map& m, std::span<const std::size_t> rows, bool delayed) 
   }
   fit.held_out = score(errors, m.full);
   return fit;
+}
+
+// Of the straight part.
+Rows rows_of(const Map& m, std::span<const std::size_t> rows) {
+  Rows out{.x = "commanded duty", .x_unit = "1"};
+  for (const std::size_t i : rows) {
+    out.at.push_back(m.duty[i]);
+    out.measured.push_back(m.delivered[i]);
+    out.group.push_back(fmt::format("{:.4g} Hz", m.frequency[i]));
+  }
+  return out;
 }
 
 Estimate delay_in(const Bracket& b, std::string name) {
@@ -166,6 +178,7 @@ ValveResult identify_duty(const Measured& data, const ValveOptions& options) {
   report.notes = data.notes;
   for (const bool delayed : {false, true})
     report.fits.push_back(try_straight(m, straight, delayed));
+  report.rows = rows_of(m, straight);
   choose(report);
 
   Fit& fit = report.fits[report.chosen];

@@ -183,6 +183,7 @@ Tried try_model(const FillModel& model, const Curve& c, const ValveOptions& opti
     fit.parameters = s.estimates;
     fit.parameters.front().identifiable &= half_of(fit.parameters.front()) <= well_known;
     fit.fit = score(s.residuals, c.range());
+    fit.residuals = s.residuals;
     tell_correlations(s, fit);
     fit.held_out =
         other ? score_other(model, *other, options, s) : score_tenths(model, c, options, s);
@@ -299,6 +300,8 @@ ValveResult identify_fill(const Measured& data, const ValveOptions& options,
   reach_for_fixed(tried);
   refuse_open(tried, options.worst_fit);
   for (const Tried& t : tried) report.fits.push_back(t.fit);
+  report.rows = {
+      .x = "time", .x_unit = "s", .unit = "Pa abs", .at = c.time, .measured = c.pressure};
   choose(report);
   reach_over_models(tried, report);
   for (std::size_t i = 0; i < report.fits.size(); ++i)

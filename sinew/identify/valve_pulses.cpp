@@ -170,6 +170,7 @@ Fit try_model(const PulseModel& model, const Record& r, const ValveOptions& opti
     const Solution s = fit_pulses(model, r, options, r.time.size(), starts_of(u));
     fit.parameters = s.estimates;
     fit.fit = score(s.residuals, r.range());
+    fit.residuals = s.residuals;
     const std::size_t seen = r.time.size() * 2 / 3;
     const Solution part = fit_pulses(model, r, options, seen, {&s.values, 1});
     std::vector<double> all(r.time.size());
@@ -205,6 +206,8 @@ ValveResult identify_pulses(const Measured& data, const ValveOptions& options) {
   report.held_out_is = "the last third of the record";
   report.notes = data.notes;
   for (const PulseModel& model : models) report.fits.push_back(try_model(model, r, options));
+  report.rows = {
+      .x = "time", .x_unit = "s", .unit = "Pa abs", .at = r.time, .measured = r.pressure};
   choose(report);
   if (report.best().fit.rmse_percent > options.worst_fit)
     throw Refusal(
