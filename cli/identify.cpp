@@ -9,11 +9,13 @@
 #include <fstream>
 
 #include "cli/arguments.h"
+#include "cli/identify_page.h"
 #include "cli/run_folder.h"
 #include "cli/terminal.h"
 #include "cli/text_table.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
+#include "sinew/report/page.h"
 
 namespace sinew::cli {
 
@@ -31,6 +33,12 @@ void add_pair(std::string_view option, const std::string& text,
 }
 
 // What --force may replace: never somebody's measurements.
+bool is_page(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  return text.find("\"sinew.fit/") != text.npos;
+}
+
 bool is_parameter_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::string line;
@@ -189,12 +197,33 @@ void refuse_data_file(std::string_view option, const std::string& file,
 
 void add_result_options(CLI::App& sub, ResultOptions& options) {
   sub.add_option("-o,--out", options.out, "the parameter file to write");
-  sub.add_flag("--force", options.force, "replace the parameter file");
+  sub.add_flag("--force", options.force, "replace the parameter file and the page");
   sub.add_flag("--json", options.json, "print the report as JSON");
   sub.add_flag("--quiet", options.quiet, "only the report and errors");
+  add_report_options(sub, options);
+}
+
+void add_report_options(CLI::App& sub, ResultOptions& options) {
+  sub.add_option("--report", options.report,
+                 "FILE.html: a page with the data beside the models; absent: beside --out");
+  sub.add_flag("--no-report", options.no_report, "no page");
+}
+
+std::string page_of(const ResultOptions& options) {
+  if (options.no_report) return "";
+  if (!options.report.empty()) return options.report;
+  if (options.out.empty() || !report::has_page()) return "";
+  return std::filesystem::path(options.out).replace_extension(".html").string();
 }
 
 void check_result_options(const ResultOptions& options) {
+  if (const std::string page = page_of(options); !page.empty()) {
+    report::require_page(page);
+    refuse_to_overwrite(page, options.force);
+    if (std::filesystem::exists(page) && !is_page(page))
+      config::fail({page, 0, 0}, "", "something that is no page of `sinew identify`",
+                   "a name that is free, or that of such a page", "another one, or --no-report");
+  }
   if (options.out.empty()) return;
   refuse_to_overwrite(options.out, options.force);
   if (std::filesystem::exists(options.out) && !is_parameter_file(options.out))
@@ -243,7 +272,7 @@ Json to_json(const identify::Report& report) {
 }
 
 void tell(const identify::Report& report, const std::string& parameter_file,
-          const ResultOptions& options, const Json& extra) {
+          const DataOptions& data, const ResultOptions& options, const Json& extra) {
   const Messages messages(options.quiet);
   for (const std::string& note : report.notes) messages.note(note);
   for (const std::string& warning : report.warnings) messages.warning(warning);
@@ -255,6 +284,7 @@ void tell(const identify::Report& report, const std::string& parameter_file,
     print(report);
   }
   write_parameter_file(parameter_file, options);
+  leave_page(report.subject, {&report}, parameter_file, data, options);
 }
 
 void add_identify(CLI::App& app, Action& action) {

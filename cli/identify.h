@@ -48,13 +48,19 @@ void refuse_data_file(std::string_view option, const std::string& file, const Da
 
 // What is done with a result.
 struct ResultOptions {
-  std::string out;  // the parameter file
-  bool json = false, force = false, quiet = false;
+  std::string out;     // the parameter file
+  std::string report;  // the page; empty: beside `out`
+  bool json = false, force = false, quiet = false, no_report = false;
 };
 void add_result_options(CLI::App& sub, ResultOptions& options);
+void add_report_options(CLI::App& sub, ResultOptions& options);  // in it; of methods without a file
 
-// Refuses a parameter file that is there already, before the work begins; with --force a file that
-// is no parameter file.
+// The page that is to be written: the one that was asked for, or the parameter file's name with
+// .html; empty: none.
+std::string page_of(const ResultOptions& options);
+
+// Refuses a parameter file or a page that is there already, before the work begins; with --force a
+// file that is none.
 void check_result_options(const ResultOptions& options);
 
 // Writes the parameter file where one is wanted, and says so.
@@ -65,9 +71,10 @@ config::Node robot_over(const std::string& base, const std::string& out);
 
 nlohmann::ordered_json to_json(const identify::Report& report);
 
-// Prints the report, as words or JSON (`extra` is added to it), and writes the parameter file where
-// one is wanted. Notes and warnings go to stderr.
+// Prints the report, as words or JSON (`extra` is added to it), and writes the parameter file
+// and the page where they are wanted. Notes and warnings go to stderr.
 void tell(const identify::Report& report, const std::string& parameter_file,
-          const ResultOptions& options, const nlohmann::ordered_json& extra = {});
+          const DataOptions& data, const ResultOptions& options,
+          const nlohmann::ordered_json& extra = {});
 
 }  // namespace sinew::cli

@@ -168,7 +168,7 @@ ExitCode run_dynamic(const Options& options) {
       named(start.experiment.actuators, options.name, "--name", "actuator");
   const identify::DynamicResult found =
       identify::identify_dynamic(records_of(options, a, units::standard_gravity), options.model);
-  tell(found.report, file_with(start.experiment, a, found, options), options.result,
+  tell(found.report, file_with(start.experiment, a, found, options), options.data, options.result,
        describe(found));
   if (!options.result.json) print_methods(found);
   return ok;

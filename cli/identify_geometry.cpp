@@ -71,7 +71,8 @@ ExitCode from_pairs(const Options& options) {
   const actuator::Actuator a =
       actuator_of(found.braid, options.name, "sinew identify geometry " + sources[0].path,
                   &found.report, provenance);
-  tell(found.report, identify::actuator_file(a, provenance), options.result, describe(found.braid));
+  tell(found.report, identify::actuator_file(a, provenance), options.data, options.result,
+       describe(found.braid));
   return ok;
 }
 

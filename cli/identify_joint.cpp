@@ -168,6 +168,7 @@ ExitCode run_joint(const Options& options) {
     config::fail({"--base", 0, 0}, "", "no --out", "a file in which to name the base");
   ResultOptions actuator_result = options.result;
   actuator_result.out = options.actuator_out;
+  actuator_result.no_report = true;
   check_result_options(actuator_result);
 
   const std::vector<identify::Source> sources = sources_of(options.data);
@@ -190,7 +191,8 @@ ExitCode run_joint(const Options& options) {
                                held_out, setup, options.model);
   const std::string source =
       fmt::format("sinew identify joint {}: {}", sources[0].path, found.report.best().model);
-  tell(found.report, robot_file(found, setup, options, source), options.result, describe(found));
+  tell(found.report, robot_file(found, setup, options, source), options.data, options.result,
+       describe(found));
   if (!options.result.json) print_combinations(found);
   write_parameter_file(actuator_file(start.experiment, a, found, options, source), actuator_result);
   return ok;

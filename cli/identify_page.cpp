@@ -20,7 +20,7 @@ namespace {
 using identify::Fit;
 using identify::Rows;
 using report::Chart;
-using report::Curve;
+using Curve = report::ChartCurve;
 
 // More make a page slow and a picture no better.
 constexpr std::size_t most_rows = 20000;
@@ -28,12 +28,16 @@ constexpr std::size_t most_rows = 20000;
 // Rows of one curve, in ascending x.
 using Group = std::vector<std::size_t>;
 
-// In the order in which they first come; held-out rows apart.
+// By their places, else in the order in which they first come; held-out rows apart.
 std::vector<std::pair<std::string, Group>> groups_of(const Rows& rows, bool held_out) {
   std::vector<std::pair<std::string, Group>> out;
   std::map<std::string, std::size_t> place;
   const std::size_t stride = 1 + rows.size() / most_rows;
-  for (std::size_t i = 0; i < rows.size(); i += stride) {
+  std::vector<std::size_t> in_order;
+  for (std::size_t i = 0; i < rows.size(); i += stride) in_order.push_back(i);
+  if (!rows.order.empty())
+    std::ranges::stable_sort(in_order, {}, [&](std::size_t i) { return rows.order[i]; });
+  for (const std::size_t i : in_order) {
     if ((!rows.held_out.empty() && rows.held_out[i]) != held_out) continue;
     const std::string name = rows.group.empty() ? "" : rows.group[i];
     const auto [at, is_new] = place.try_emplace(name, out.size());
@@ -57,20 +61,26 @@ class Maker {
  public:
   explicit Maker(const identify::Report& report) : report_(report), rows_(report.rows) {
     const std::string unit = rows_.unit.empty() ? report.unit : rows_.unit;
-    const report::Axis x{rows_.x, rows_.x_unit};
+    const report::ChartAxis x{rows_.x, rows_.x_unit};
     fit_ = {.title = "Measured and by the model", .x = x, .y = {report.quantity, unit}, .note = ""};
-    left_ = {.title = "Model less measured", .x = x, .y = {report.quantity, report.unit}, .note = ""};
+    left_ = {
+        .title = "Model less measured", .x = x, .y = {report.quantity, report.unit}, .note = ""};
     if (unit == "Pa abs" || unit == "Pa gauge") left_.y.unit = "Pa diff";
   }
 
   std::vector<Chart> make() {
     for (const bool held_out : {false, true}) {
       const auto groups = groups_of(rows_, held_out);
-      for (std::size_t k = 0; k < groups.size(); ++k) add(groups[k].first, groups[k].second, held_out);
+      for (std::size_t k = 0; k < groups.size(); ++k)
+        add(groups[k].first, groups[k].second, held_out);
     }
     const std::size_t stride = 1 + rows_.size() / most_rows;
     if (stride > 1) fit_.note = fmt::format("One row of {} is shown.", stride);
-    if (colors_.size() == 1) add_other_models();
+    if (colors_.size() == 1) {
+      for (Curve& c : fit_.curves)
+        if (c.style == Curve::Style::line) c.color = 1;
+      add_other_models();
+    }
     return {fit_, left_};
   }
 
@@ -84,14 +94,20 @@ class Maker {
     const auto x = pick(group, [&](std::size_t i) { return rows_.at[i]; });
     const auto style = held_out ? Curve::Style::held_out : Curve::Style::points;
     const std::string label = held_out ? "held out" : name.empty() ? "measured" : name;
-    fit_.curves.push_back({.label = label, .style = style, .color = color, .x = x,
+    fit_.curves.push_back({.label = label,
+                           .style = style,
+                           .color = color,
+                           .x = x,
                            .y = pick(group, [&](std::size_t i) { return measured(i); })});
     if (!told(best)) return;
-    fit_.curves.push_back({.label = best.model, .color = name.empty() ? 1 : color, .x = x,
-                           .y = pick(group, [&](std::size_t i) {
-                             return measured(i) + best.residuals[i];
-                           })});
-    left_.curves.push_back({.label = label, .style = style, .color = color, .x = x,
+    fit_.curves.push_back(
+        {.label = best.model, .color = color, .x = x, .y = pick(group, [&](std::size_t i) {
+                                                        return measured(i) + best.residuals[i];
+                                                      })});
+    left_.curves.push_back({.label = label,
+                            .style = style,
+                            .color = color,
+                            .x = x,
                             .y = pick(group, [&](std::size_t i) { return best.residuals[i]; })});
   }
 

@@ -8,6 +8,7 @@
 
 #include "cli/arguments.h"
 #include "cli/identify.h"
+#include "cli/identify_page.h"
 #include "cli/named.h"
 #include "cli/terminal.h"
 #include "cli/text_table.h"
@@ -203,8 +204,9 @@ void print_table(const Calibration& c, const std::string& display) {
 void print(const Calibration& c, const std::string& display, const ResultOptions& options) {
   ResultOptions report_only = options;
   report_only.out.clear();
+  report_only.no_report = true;
   if (c.sensors.size() == 1) {
-    tell(c.sensors[0].report, "", report_only);
+    tell(c.sensors[0].report, "", {}, report_only);
     fmt::print("\n");
   }
   print_table(c, display);
@@ -273,7 +275,11 @@ ExitCode run(const Options& options) {
   else
     print(c, data.display, options.result);
   for (const std::string& warning : c.warnings) messages.warning(warning);
-  write_parameter_file(parameter_file(c, converter, options), options.result);
+  const std::string file = parameter_file(c, converter, options);
+  write_parameter_file(file, options.result);
+  std::vector<const identify::Report*> reports;
+  for (const SensorResult& r : c.sensors) reports.push_back(&r.report);
+  leave_page("calibration of sensors from " + c.file, reports, file, options.data, options.result);
   return ok;
 }
 

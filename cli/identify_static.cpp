@@ -126,11 +126,12 @@ ExitCode run_static(const Options& options) {
   const auto text = [&](std::size_t i) {
     return static_file(found, i, options.name, source, options.actuator);
   };
-  tell(found.report, text(0), options.result);
+  tell(found.report, text(0), options.data, options.result);
 
   // Others of its make, each in a file of its own.
   for (std::size_t i = 1; i < found.muscles.size() && !options.result.out.empty(); ++i) {
     ResultOptions other = options.result;
+    other.no_report = true;
     other.out = file_of_muscle(options.result.out, found.muscles[i]);
     check_result_options(other);
     write_parameter_file(text(i), other);

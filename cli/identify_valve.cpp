@@ -130,11 +130,12 @@ ExitCode run_identify_valve(const Options& options) {
   const identify::ValveResult found = identified(options, sources[0]);
   const ResultOptions& result = options.result;
   if (found.refused.empty()) {
-    tell(found.report, file_of(options, found), result);
+    tell(found.report, file_of(options, found), options.data, result);
     write_timing(options, found);
     return ok;
   }
-  tell(found.report, "", {.json = result.json, .quiet = result.quiet},
+  tell(found.report, "", options.data,
+       {.report = page_of(result), .json = result.json, .quiet = result.quiet},
        {{"refused", found.refused}});
   error(found.refused);
   return failed;

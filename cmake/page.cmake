@@ -23,6 +23,7 @@ else()
 "#include \"sinew/report/page_template.h\"
 std::string_view sinew::report::page_template() { return {}; }
 std::string_view sinew::report::comparison_template() { return {}; }
+std::string_view sinew::report::fit_template() { return {}; }
 ")
   message(STATUS "web/: built without reports; npm ci in web/ brings them")
 endif()

@@ -47,6 +47,7 @@ const run = page_of('page.html', 'style.css', 'main.js');
 if (out.endsWith('.cpp'))
   writeFileSync(out, '// Made by web/build.mjs.\n#include "sinew/report/page_template.h"\n' +
     as_cpp('page_template', run) +
-    as_cpp('comparison_template', page_of('compare.html', 'compare.css', 'compare.js')));
+    as_cpp('comparison_template', page_of('compare.html', 'compare.css', 'compare.js')) +
+    as_cpp('fit_template', page_of('fit.html', 'style.css', 'fit.js')));
 else
   writeFileSync(out, run);

@@ -40,6 +40,7 @@ struct Rows {
   std::string unit;                  // of what was measured; empty: Report::unit
   std::vector<double> at, measured;  // [x_unit], [unit]
   std::vector<std::string> group;    // of each row: "205 mm"; empty: all are one
+  std::vector<int> order;            // of each row its group's place; empty: as they come
   std::vector<bool> held_out;        // of each row; empty: none is
 
   std::size_t size() const { return at.size(); }

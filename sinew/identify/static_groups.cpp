@@ -13,10 +13,22 @@ namespace {
 
 using Points = std::vector<StaticPoint>;
 
-// The branch of a recording with its length and, of several muscles, its muscle.
-std::string branch_of(const StaticPoint& p, bool several) {
+// Of each group the mean of what its points have.
+std::vector<double> means(const Points& points, const std::vector<int>& group,
+                          double StaticPoint::*what) {
+  std::vector<double> sum(points.size() + 1), count(points.size() + 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sum[static_cast<std::size_t>(group[i])] += points[i].*what;
+    count[static_cast<std::size_t>(group[i])] += 1;
+  }
+  for (std::size_t g = 0; g < sum.size(); ++g) sum[g] /= std::max(1.0, count[g]);
+  return sum;
+}
+
+// A length and, of a recording, its branch; of several muscles the muscle.
+std::string branch_of(const StaticPoint& p, double length, bool several) {
   std::string out = several ? fmt::format("{:.0f} mm muscle, ", 1e3 * p.rest_length) : "";
-  out += fmt::format("{:.4g} mm", 1e3 * p.length);
+  out += fmt::format("{:.4g} mm", 1e3 * length);
   if (p.branch != Branch::unknown) out += p.branch == Branch::fill ? ", filling" : ", venting";
   return out;
 }
@@ -47,16 +59,20 @@ Rows rows_of(const StaticSplit& s) {
   points.insert(points.end(), s.held_out.begin(), s.held_out.end());
   std::set<double> muscles;
   for (const StaticPoint& p : points) muscles.insert(p.rest_length);
-  const std::vector<int> pressure = pressure_groups(points);
-  const bool by_length =
-      muscles.size() > 1 || count_of(length_groups(points)) <= count_of(pressure);
+  const std::vector<int> pressure = pressure_groups(points), length = length_groups(points);
+  const bool by_length = muscles.size() > 1 || count_of(length) <= count_of(pressure);
+  const std::vector<int>& group = by_length ? length : pressure;
+  const std::vector<double> mean =
+      means(points, group, by_length ? &StaticPoint::length : &StaticPoint::pressure);
   Rows out{.x = by_length ? "pressure" : "length", .x_unit = by_length ? "Pa gauge" : "m"};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const StaticPoint& p = points[i];
+    const double own = mean[static_cast<std::size_t>(group[i])];
     out.at.push_back(by_length ? p.pressure : p.length);
     out.measured.push_back(p.force);
-    out.group.push_back(by_length ? branch_of(p, muscles.size() > 1)
-                                  : fmt::format("{:.0f} kPa", 1e-3 * p.pressure));
+    out.group.push_back(by_length ? branch_of(p, own, muscles.size() > 1)
+                                  : fmt::format("{:.0f} kPa", 1e-3 * own));
+    out.order.push_back(group[i]);
     out.held_out.push_back(i >= s.fitted.size());
   }
   return out;

@@ -1,4 +1,4 @@
-// report/charts.h - one quantity against another: points, lines, and what lies between two bounds.
+// report/charts.h - one quantity against another: points, or lines.
 #pragma once
 
 #include <string>
@@ -22,8 +22,8 @@ struct ChartCurve {
   Style style = Style::line;
   int color = 0;  // place in the page's palette
   std::vector<double> x, y;
-  std::vector<double> spread;    // half of the interval about each y; empty: none is known
   Channel x_channel, y_channel;  // in place of numbers
+  bool hidden = false;           // until it is asked for
 };
 
 struct Chart {

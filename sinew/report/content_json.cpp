@@ -68,7 +68,7 @@ Json curve_of(const ChartCurve& c, Columns& columns) {
   Json out = {{"label", c.label}, {"style", word(c.style)}, {"color", c.color}};
   out["x"] = numbers_of(c.x, c.x_channel, columns);
   out["y"] = numbers_of(c.y, c.y_channel, columns);
-  if (!c.spread.empty()) out["spread"] = numbers_of(c.spread, {}, columns);
+  if (c.hidden) out["hidden"] = true;
   return out;
 }
 

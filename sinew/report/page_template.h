@@ -5,8 +5,9 @@
 
 namespace sinew::report {
 
-// Both are empty where the program was built without npm.
+// All are empty where the program was built without npm.
 std::string_view page_template();        // of one run
 std::string_view comparison_template();  // of several
+std::string_view fit_template();         // of an identification
 
 }  // namespace sinew::report

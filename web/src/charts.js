@@ -1,11 +1,13 @@
-// One quantity against another: points, lines and bounds under axes of their own. uPlot draws the
+// One quantity against another: points and lines under axes of their own. uPlot draws the
 // axes; the curves, which need not go from left to right, are drawn here.
 import uPlot from 'uplot';
+import { pressure_color } from './colors.js';
 import { between } from './samples.js';
 import { number, tick_text } from './units.js';
 import { element } from './page.js';
 
 const height = 270;
+const paper_width = 330;  // half of A4 and of Letter, between their margins [px]
 const near = 24;  // a point that the cursor finds [px]
 
 // Numbers as the program has them, or those of a column.
@@ -16,9 +18,9 @@ function range_of(curves, which) {
   let low = Infinity, high = -Infinity;
   for (const c of curves)
     for (let i = 0; i < c[which].length; ++i) {
-      const v = c[which][i], half = which === 'y' && c.spread ? c.spread[i] || 0 : 0;
-      if (v - half < low) low = v - half;
-      if (v + half > high) high = v + half;
+      const v = c[which][i];
+      if (v < low) low = v;
+      if (v > high) high = v;
     }
   if (!(low <= high)) return [0, 1];
   const room = high > low ? 0.05 * (high - low) : Math.max(1e-9, 0.1 * Math.abs(high));
@@ -28,8 +30,9 @@ function range_of(curves, which) {
 class Chart {
   constructor(spec, columns, charts) {
     Object.assign(this, { spec, columns, charts });
-    this.shown = new Set(spec.curves.map((c) => c.label));
+    this.shown = new Set(spec.curves.filter((c) => !c.hidden).map((c) => c.label));
     this.time = null;
+    this.most = Math.max(0, ...spec.curves.map((c) => c.color));
     this.title = element('h3', {});
     this.value = element('span', { class: 'value', 'aria-live': 'off' });
     this.lines = element('div', { class: 'lines' });
@@ -43,14 +46,17 @@ class Chart {
   }
 
   keys() {
-    const named = [...new Map(this.spec.curves.map((c) => [c.label, c])).values()].filter((c) => c.label);
+    const order = { points: 0, 'held out': 1, line: 2 };
+    const named = [...new Map(this.spec.curves.map((c) => [c.label, c])).values()].filter((c) => c.label)
+      .sort((a, b) => order[a.style] - order[b.style]);
     if (named.length < 2) return;
     this.buttons = named.map((c) => {
       const kind = c.style === 'line' ? 'full' : c.style === 'points' ? 'dots' : 'rings';
-      const button = element('button', { type: 'button', class: `line ${kind}`, 'aria-pressed': 'true' },
+      const pressed = String(this.shown.has(c.label));
+      const button = element('button', { type: 'button', class: `line ${kind}`, 'aria-pressed': pressed },
         element('span', { class: 'mark' }), element('span', {}, c.label));
       button.addEventListener('click', () => this.toggle(c.label, button));
-      return { button, color: c.color };
+      return { button, color: c.style === 'held out' ? null : c.color };
     });
     this.lines.append(...this.buttons.map((b) => b.button));
   }
@@ -62,16 +68,22 @@ class Chart {
     this.plot?.redraw();
   }
 
+  // Of the palette; of more curves than it has, in their order from one end of a scale to the other.
+  color(place) {
+    const { palette, dark } = this.charts;
+    if (this.most < palette.length) return palette[place];
+    const share = place / this.most;
+    return pressure_color(dark ? 0.3 + 0.7 * share : 0.9 * share);
+  }
+
   // In the page's units.
   convert() {
     const { units } = this.charts, { x, y } = this.spec;
     const all = (values, unit) => Float64Array.from(values, (v) => units.convert(v, unit));
-    const scale = units.of(y.unit).scale;
     this.curves = this.spec.curves.map((c) => ({
       ...c,
       x: all(numbers_of(c.x, this.columns), x.unit),
       y: all(numbers_of(c.y, this.columns), y.unit),
-      spread: c.spread ? Float64Array.from(c.spread, (v) => (v ?? NaN) * scale) : null,
     }));
     this.whole = { x: range_of(this.curves, 'x'), y: range_of(this.curves, 'y') };
     this.view = this.whole;
@@ -79,7 +91,7 @@ class Chart {
 
   build(width = this.box.clientWidth || 480) {
     this.plot?.destroy();
-    const { units, look, palette } = this.charts, { x, y } = this.spec;
+    const { units, look } = this.charts, { x, y } = this.spec;
     this.convert();
     const name = (axis) => {
       const unit = units.of(axis.unit).label;
@@ -89,7 +101,7 @@ class Chart {
                    font: look.font, labelFont: look.font, labelSize: 18, gap: 4,
                    values: (u, ticks) => ticks.map(tick_text) };
     this.title.textContent = this.spec.title;
-    this.buttons?.forEach((b) => b.button.style.setProperty('--line', palette[b.color % palette.length]));
+    this.buttons?.forEach((b) => b.button.style.setProperty('--line', b.color === null ? look.ink : this.color(b.color)));
     this.plot = new uPlot({
       width, height,
       legend: { show: false },
@@ -140,11 +152,10 @@ class Chart {
   }
 
   draw_curve(ctx, c, at, ratio) {
-    const { palette, look } = this.charts;
-    ctx.strokeStyle = ctx.fillStyle = palette[c.color % palette.length];
+    const { look } = this.charts;
+    ctx.strokeStyle = ctx.fillStyle = this.color(c.color);
     ctx.lineWidth = 1.5 * ratio;
     ctx.lineJoin = 'round';
-    if (c.spread) this.draw_spread(ctx, c, at, ratio);
     if (c.style === 'line') return stroke_line(ctx, c, at);
     const many = c.x.length > 400, r = (many ? 1.7 : 2.9) * ratio;
     ctx.lineWidth = 1.3 * ratio;
@@ -161,21 +172,6 @@ class Chart {
         ctx.stroke();
       }
     }
-  }
-
-  draw_spread(ctx, c, at, ratio) {
-    ctx.save();
-    ctx.globalAlpha = 0.55;
-    ctx.lineWidth = ratio;
-    ctx.beginPath();
-    for (let i = 0; i < c.x.length; ++i) {
-      if (!(c.spread[i] > 0)) continue;
-      const x = at.x(c.x[i]);
-      ctx.moveTo(x, at.y(c.y[i] - c.spread[i]));
-      ctx.lineTo(x, at.y(c.y[i] + c.spread[i]));
-    }
-    ctx.stroke();
-    ctx.restore();
   }
 
   // Where a run is at the time of its replay.
@@ -221,8 +217,7 @@ class Chart {
     if (!found) return;
     const { c, i } = found, { units } = this.charts, { x, y } = this.spec;
     const words = (v, unit) => `${number(v)} ${units.of(unit).label}`.trim();
-    const half = c.spread?.[i] > 0 ? ` ± ${number(c.spread[i])}` : '';
-    this.value.textContent = `${c.label ? c.label + ': ' : ''}${words(c.y[i], y.unit)}${half} at ${words(c.x[i], x.unit)}`;
+    this.value.textContent = `${c.label ? c.label + ': ' : ''}${words(c.y[i], y.unit)} at ${words(c.x[i], x.unit)}`;
     this.mark.style.transform =
       `translate(${this.plot.valToPos(c.x[i], 'x')}px, ${this.plot.valToPos(c.y[i], 'y')}px)`;
   }
@@ -257,6 +252,7 @@ export class Charts {
     const css = getComputedStyle(document.documentElement);
     const get = (name) => css.getPropertyValue(`--${name}`).trim();
     this.palette = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => get(`line-${i}`));
+    this.dark = css.colorScheme === 'dark';
     this.look = { ink: get('quiet'), strong: get('ink'), grid: get('grid'), paper: get('paper'),
                   font: `11px ${get('sans')}` };
   }
@@ -265,10 +261,15 @@ export class Charts {
     for (const c of this.list) c.plot.setSize({ width: c.box.clientWidth || 480, height });
   }
 
-  // Other units or colors, or another width: that of paper.
-  rebuild(width) {
+  // Other units or colors.
+  rebuild() {
     this.read_look();
-    for (const c of this.list) c.build(width);
+    for (const c of this.list) c.build(this.printing ? paper_width : undefined);
+  }
+
+  // The next rebuild() is for paper, or for the screen again.
+  print(begins) {
+    this.printing = begins;
   }
 
   set_time(t) {

@@ -101,7 +101,7 @@ export function long_cell(words) {
   return element('td', { class: 'long', title: words }, `${words.slice(0, most)} …`);
 }
 
-export function show_parameters(run) {
+export function show_parameters(run, file = 'resolved.toml') {
   const rows = run.parameters.map(([key, value, mark, range, uncertainty, source]) => ({
     row: element('tr', { 'data-key': key },
       element('th', { scope: 'row', class: 'key' }, key), long_cell(value),
@@ -110,7 +110,7 @@ export function show_parameters(run) {
       cell(source, 'source')),
   }));
   const list = table('Parameters', ['key', 'value, SI', '', 'range', 'source'], rows.map((r) => r.row));
-  by_id('parameters').append(heading('Parameters', `${rows.length} values, resolved.toml`),
+  by_id('parameters').append(heading('Parameters', `${rows.length} values, ${file}`),
     searched(list, rows, 'Search keys, values and sources'));
 }
 

@@ -4,6 +4,8 @@ const si = {
   share: { label: '%', scale: 100 },
   Pa: { label: 'kPa abs', scale: 1e-3 },
   'Pa diff': { label: 'kPa', scale: 1e-3 },
+  'Pa abs': { label: 'kPa abs', scale: 1e-3 },
+  'Pa gauge': { label: 'kPa gauge', scale: 1e-3 },
   kg: { label: 'g', scale: 1e3 },
 };
 
@@ -14,6 +16,8 @@ const thesis = {
   N: { label: 'lbf', scale: 1 / 4.4482216152605 },
   Pa: { label: 'psi gauge', scale: 1 / 6894.757293168361, gauge: true },
   'Pa diff': { label: 'psi', scale: 1 / 6894.757293168361 },
+  'Pa abs': { label: 'psi abs', scale: 1 / 6894.757293168361 },
+  'Pa gauge': { label: 'psi gauge', scale: 1 / 6894.757293168361 },
   rad: { label: 'deg', scale: 180 / Math.PI },
   'rad/s': { label: 'deg/s', scale: 180 / Math.PI },
   'N m': { label: 'lbf in', scale: 1 / 0.1129848290276167 },

@@ -1,0 +1,136 @@
+// The page of an identification: what was measured beside what every model says of it, why one was
+// chosen, and its values.
+import { Charts } from './charts.js';
+import { Look } from './look.js';
+import { by_id, element } from './page.js';
+import { cell, heading, show_parameters, table } from './tables.js';
+import { number, Units } from './units.js';
+
+const percent = (x) => (x === undefined ? '–' : `${x < 0.01 ? x.toPrecision(1) : x.toFixed(2)} %`);
+
+// To the digits that its interval leaves: two of them.
+function precise(value, half) {
+  if (!(half > 0) || !Number.isFinite(half)) return words(value.toPrecision(6));
+  const decimals = Math.max(0, 1 - Math.floor(Math.log10(half)));
+  return half >= 1e-3 && Math.abs(value) < 1e6
+    ? words(value.toFixed(decimals))
+    : words(value.toExponential(Math.max(0, Math.floor(Math.log10(Math.abs(value) || 1)) + decimals)));
+}
+const words = (text) => text.replace(/-/g, '−');
+const half_words = (half) => words(half < 1e-3 || half >= 1e5 ? half.toExponential(1) : String(+half.toPrecision(2)));
+
+class Part {
+  constructor(spec, page) {
+    const { report } = spec;
+    Object.assign(this, { report, page });
+    const head = element('h2', {}, page.run.parts.length > 1 ? report.subject : 'Result');
+    this.scale = element('span', { class: 'note' });
+    head.append(this.scale);
+    this.values = element('div', {});
+    const charts = element('div', {});
+    this.root = element('section', { class: 'block fit' }, head, this.verdict(), charts, this.values, this.models(),
+                        this.remarks());
+    this.show = () => (this.charts = spec.charts.length ? new Charts(charts, spec.charts, [], page.units) : null);
+    this.refresh();
+  }
+
+  // Which model, how well, and why this one.
+  verdict() {
+    const { report } = this, best = report.models.find((m) => m.model === report.chosen);
+    const figure = (name, score) => score && element('div', { class: 'figure' },
+      element('span', { class: 'quiet' }, name), element('b', {}, percent(score.rmse_percent)),
+      element('span', { class: 'quiet' }, `at most ${percent(score.max_percent)} · ${score.points} points`));
+    return element('div', { class: 'verdict-box' },
+      element('div', { class: 'chosen' }, element('span', { class: 'quiet' }, 'chosen'), element('b', {}, report.chosen),
+        element('code', {}, best.law), element('span', { class: 'quiet' }, best.source)),
+      figure('error of the fit, rms', best.fit), figure('held out', best.held_out),
+      figure('cross-validated', best.cross_validated));
+  }
+
+  models() {
+    const { report } = this;
+    const kinds = [['fit', 'fit, rms'], ['held_out', 'held out, rms'], ['cross_validated', 'cross-validated']]
+      .filter(([key]) => report.models.some((m) => m[key]));
+    const score = (s) => [cell(percent(s?.rmse_percent), 'number'), cell(percent(s?.max_percent), 'number quiet')];
+    const rows = report.models.map((m) => {
+      const head = element('th', { scope: 'row', title: m.law }, m.model);
+      if (m.refused)
+        return element('tr', { class: 'refused' }, head, element('td', { colspan: 1 + 2 * kinds.length, class: 'quiet' }, `cannot be had from these data: ${m.refused}`),
+          element('td', {}));
+      return element('tr', { class: m.model === report.chosen ? 'is-chosen' : null }, head, cell(String(m.parameters.length), 'number'),
+        ...kinds.flatMap(([key]) => score(m[key])),
+        element('td', {}, m.model === report.chosen ? element('span', { class: 'tag fit' }, 'chosen') : ''));
+    });
+    const why = [report.models.length > 1 && report.rule && `Chosen: ${report.rule}.`,
+                 report.held_out_is && `Held out: ${report.held_out_is}.`].filter(Boolean).join(' ');
+    return element('div', {}, element('h3', {}, 'Models that were tried'),
+      table('Models', ['', 'values', ...kinds.flatMap(([, name]) => [name, 'at most']), ''], rows),
+      element('p', { class: 'hint' }, why));
+  }
+
+  // Of the chosen model, with 95 % intervals.
+  refresh() {
+    const { report } = this, { units } = this.page;
+    this.scale.textContent = `errors of the ${report.quantity} in % of ${report.full_scale_is}, ${units.text(report.full_scale, report.unit)}`;
+    const rows = report.parameters.map((p) => {
+      const u = units.of(p.unit), half = p.high === null ? NaN : 0.5 * (p.high - p.low) * u.scale;
+      const value = units.convert(p.value, p.unit);
+      const note = p.at_bound ? 'at the bound of its range' : !p.identifiable ? 'these data do not tell it'
+        : !Number.isFinite(half) ? 'no interval' : '';
+      return element('tr', { 'data-name': p.name, 'data-value': p.value }, element('th', { scope: 'row', class: 'key' }, p.name),
+        cell(precise(value, half), 'number ours'), cell(Number.isFinite(half) ? `± ${half_words(half)}` : '', 'number'),
+        cell(u.label, 'unit'), element('td', {}, note ? element('span', { class: 'tag guess' }, note) : ''));
+    });
+    this.values.replaceChildren(element('h3', {}, `Values of ${report.chosen}`),
+      table('Values', ['', 'value', '95 %', '', ''], rows));
+  }
+
+  remarks() {
+    const { report } = this, best = report.models.find((m) => m.model === report.chosen);
+    const item = (kind) => (text) => element('li', { class: kind }, element('p', {}, text));
+    const all = [...report.warnings.map(item('')), ...[...(best.notes ?? []), ...report.notes].map(item('remark'))];
+    return all.length ? element('div', {}, element('h3', {}, 'To know'), element('ul', { class: 'warnings' }, ...all)) : '';
+  }
+}
+
+class FitPage {
+  constructor(run) {
+    this.run = run;
+    this.units = new Units(run.atmosphere);
+    by_id('title').textContent = run.title.charAt(0).toUpperCase() + run.title.slice(1);
+    by_id('data').textContent = run.data.join(' · ');
+    by_id('facts').textContent = `Sinew ${run.version}`;
+    this.parts = run.parts.map((part) => new Part(part, this));
+    by_id('parts').append(...this.parts.map((p) => p.root));
+    this.parts.forEach((p) => p.show());
+    if (run.parameters.length) show_parameters(run, 'as the parameter file has them');
+    else by_id('parameters').remove();
+    this.chips();
+    this.look = new Look(this.units, {
+      on_units: () => this.parts.forEach((p) => (p.refresh(), p.charts?.rebuild())),
+      on_colors: () => this.parts.forEach((p) => p.charts?.rebuild()),
+      on_print: (begins) => this.parts.forEach((p) => p.charts?.print(begins)),
+    });
+  }
+
+  chips() {
+    const chip = (id, text, kind) => element('a', { href: `#${id}`, class: `chip ${kind}` }, text);
+    if (this.parts.length > 1)
+      this.parts.forEach((p, i) => {
+        p.root.id = `part-${i}`;
+        by_id('chips').append(chip(p.root.id, p.report.subject, ''));
+      });
+    const warnings = this.parts.reduce((n, p) => n + p.report.warnings.length, 0);
+    if (warnings) by_id('chips').append(chip('parts', `${warnings} warning${warnings > 1 ? 's' : ''}`, 'warn'));
+    if (this.run.parameters.length) by_id('chips').append(chip('parameters', 'Parameters', ''));
+  }
+}
+
+try {
+  const run = JSON.parse(by_id('run-data').textContent);
+  window.sinew = { run, page: new FitPage(run), number };  // for scripts that take pictures, and for tests
+  document.documentElement.dataset.ready = 'yes';
+} catch (error) {
+  document.body.prepend(element('p', { class: 'failed', role: 'alert' }, `This page could not be read: ${error.message}`));
+  throw error;
+}
