@@ -69,6 +69,7 @@ class Maker {
   }
 
   std::vector<Chart> make() {
+    give_colors();
     for (const bool held_out : {false, true}) {
       const auto groups = groups_of(rows_, held_out);
       for (std::size_t k = 0; k < groups.size(); ++k)
@@ -85,12 +86,20 @@ class Maker {
   }
 
  private:
+  // A group has one color, whether its rows were fitted or held out; places make a scale of them.
+  void give_colors() {
+    Rows all = rows_;
+    all.held_out.clear();
+    for (const auto& [name, group] : groups_of(all, false))
+      colors_.try_emplace(name, static_cast<int>(colors_.size()));
+  }
+
   double measured(std::size_t i) const { return rows_.measured[i]; }
   bool told(const Fit& fit) const { return fit.residuals.size() == rows_.size(); }
 
   void add(const std::string& name, const Group& group, bool held_out) {
     const Fit& best = report_.best();
-    const int color = colors_.try_emplace(name, static_cast<int>(colors_.size())).first->second;
+    const int color = colors_.at(name);
     const auto x = pick(group, [&](std::size_t i) { return rows_.at[i]; });
     const auto style = held_out ? Curve::Style::held_out : Curve::Style::points;
     const std::string label = held_out ? "held out" : name.empty() ? "measured" : name;

@@ -38,15 +38,18 @@ Parameter parameter(const Node& node, std::string key) {
   return out;
 }
 
+// A table's own source is that of its values which have none.
 void collect(const Node& table, const std::string& path, std::vector<Parameter>& out) {
+  const std::string source = text_of(table, "source");
   for (const Node& child : table.children) {
     const std::string key = path.empty() ? child.key : path + "." + child.key;
-    if (key == "reported" || key == "format") continue;
+    if (key == "reported" || key == "format" || child.key == "source") continue;
     if (child.is_table() && !child.is_value_table()) {
       collect(child, key, out);
       continue;
     }
     Parameter row = parameter(child, key);
+    if (row.source.empty() && row.mark.empty()) row.source = source;
     if (!row.value.empty()) out.push_back(std::move(row));
   }
 }

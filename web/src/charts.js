@@ -65,7 +65,7 @@ class Chart {
     const on = !this.shown.delete(label);
     if (on) this.shown.add(label);
     button.setAttribute('aria-pressed', String(on));
-    this.plot?.redraw();
+    this.plot?.redraw(false);
   }
 
   // Of the palette; of more curves than it has, in their order from one end of a scale to the other.

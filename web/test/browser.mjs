@@ -4,3 +4,4 @@ import './run_page.mjs';
 import './stand_page.mjs';
 import './compare_page.mjs';
 import './gallery_page.mjs';
+import './fit_page.mjs';
