@@ -42,7 +42,7 @@ test('an identification in other units, in the dark, on a phone, on paper', () =
 test('a curve is shown and hidden by its name', () => with_page('static', async (page) => {
   const chart = () => page.locator('.chart canvas').first().evaluate((c) => c.toDataURL());
   const before = await chart();
-  const name = page.locator('.chart .line').last();
+  const name = page.locator('.chart').first().locator('.line').last();
   await name.click();
   assert.equal(await name.getAttribute('aria-pressed'), 'false');
   await page.waitForTimeout(100);
