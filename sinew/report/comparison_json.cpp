@@ -203,11 +203,17 @@ Json charts_of(const Comparison& c, RunSamples& samples) {
   return out;
 }
 
+// Where the foot truly was, if all runs know; else as it was measured.
 std::string foot_of(const Comparison& c) {
+  std::string found;
   for (const std::string topic : {"/true/foot/position", "/foot/position"})
-    for (const ChannelRow& row : c.channels)
-      if (row.channel.topic == topic) return topic;
-  return "";
+    for (const ChannelRow& row : c.channels) {
+      if (row.channel.topic != topic) continue;
+      const auto known = std::ranges::count_if(row.differences, [](const auto& d) { return !!d; });
+      if (known + 1 == std::ssize(c.runs)) return topic;
+      if (found.empty()) found = topic;
+    }
+  return found;
 }
 
 }  // namespace

@@ -168,6 +168,22 @@ TEST(Comparison, KeepsBothColumnsWhereASumWouldNotDo) {
   }
 }
 
+TEST(Comparison, ShowsTheFootAsAllRunsKnowIt) {
+  const auto foot = [](bool third_knows) {
+    std::vector<RecordedRun> runs;
+    for (int i = 0; i < 3; ++i) {
+      signals::Table t = table();
+      signals::Series truth = *t.find("/desired/foot/position");
+      truth.topic.name = "/true/foot/position";
+      if (i < 2 || third_knows) t.series.push_back(std::move(truth));
+      runs.push_back({std::to_string(i), std::move(t), resolved()});
+    }
+    return Json::parse(content(compare(std::move(runs), Align::start)).json)["foot"];
+  };
+  EXPECT_EQ(foot(true), "/true/foot/position");
+  EXPECT_EQ(foot(false), "/foot/position");
+}
+
 TEST(Comparison, IsTheSameForTheSameRuns) {
   const Content a = content(two(table(), table())), b = content(two(table(), table()));
   EXPECT_EQ(a.json, b.json);

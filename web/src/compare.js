@@ -47,8 +47,8 @@ class ComparePage {
     const { runs, align, figures, parameters, channels } = this.data;
     const titles = [...new Set(runs.map((r) => r.title || r.label))];
     by_id('title').textContent = titles.length > 2 ? `${titles[0]} and ${titles.length - 1} others` : titles.join(' · ');
-    by_id('facts').textContent = `${runs.length} runs, each beside the first; times from the start of ` +
-      (align === 'sequence' ? 'the sequence, laid on that of the first' : 'each run');
+    by_id('facts').textContent = `${runs.length} runs, each beside the first; ` +
+      (align === 'sequence' ? 'their sequences begin together, at the time of the first' : 'times from the start of each run');
     const differing = figures.filter((f) => f.values.some((v) => v !== f.values[0])).length;
     const changed = figures.filter((f) => judged_differently(f)).length;
     const several = (count, word) => `${count} ${word}${count === 1 ? ' differs' : 's differ'}`;

@@ -79,9 +79,9 @@ export class FootPaths {
   axes(ctx, width, height) {
     const css = getComputedStyle(document.documentElement);
     const unit = this.units.of('m');
-    const step = step_of(((width - margin.left - margin.right) / this.scale) * unit.scale, 6);
-    const pixels = (this.scale * step) / unit.scale;
     const right = width - margin.right, bottom = height - margin.bottom;
+    const of_screen = unit.scale / this.scale;  // a pixel, in that unit
+    const x_step = step_of((right - margin.left) * of_screen, 6), y_step = step_of((bottom - margin.top) * of_screen, 4);
     const [x0, y0] = this.at(0, 0);
     ctx.font = `11px ${css.getPropertyValue('--sans')}`;
     ctx.strokeStyle = css.getPropertyValue('--grid');
@@ -90,19 +90,20 @@ export class FootPaths {
     ctx.beginPath();
     ctx.textAlign = 'center';
     ctx.textBaseline = 'top';
-    for (let i = Math.ceil((margin.left - x0) / pixels); x0 + i * pixels <= right; ++i) {
-      const x = Math.round(x0 + i * pixels) + 0.5;
+    const across = x_step / of_screen, down = y_step / of_screen;
+    for (let i = Math.ceil((margin.left - x0) / across); x0 + i * across <= right; ++i) {
+      const x = Math.round(x0 + i * across) + 0.5;
       ctx.moveTo(x, margin.top);
       ctx.lineTo(x, bottom);
-      ctx.fillText(tick_text(+(i * step).toPrecision(9)), x, bottom + 5);
+      ctx.fillText(tick_text(+(i * x_step).toPrecision(9)), x, bottom + 5);
     }
     ctx.textAlign = 'right';
     ctx.textBaseline = 'middle';
-    for (let i = Math.ceil((y0 - bottom) / pixels); y0 - i * pixels >= margin.top; ++i) {
-      const y = Math.round(y0 - i * pixels) + 0.5;
+    for (let i = Math.ceil((y0 - bottom) / down); y0 - i * down >= margin.top; ++i) {
+      const y = Math.round(y0 - i * down) + 0.5;
       ctx.moveTo(margin.left, y);
       ctx.lineTo(right, y);
-      ctx.fillText(tick_text(+(i * step).toPrecision(9)), margin.left - 6, y);
+      ctx.fillText(tick_text(+(i * y_step).toPrecision(9)), margin.left - 6, y);
     }
     ctx.stroke();
     ctx.textAlign = 'center';

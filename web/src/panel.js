@@ -171,7 +171,7 @@ export class Panel {
     if (t > lines[i].ends) return number(NaN);  // of a run that is over
     const value = number(units.convert(held(this.columns[i], t), unit));
     const { difference } = lines[i];
-    return difference ? `${value} (${signed(held(difference, t) * units.of(unit).scale)})` : value;
+    return difference && value !== number(NaN) ? `${value} (${signed(held(difference, t) * units.of(unit).scale)})` : value;
   }
 }
 
