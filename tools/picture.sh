@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# picture.sh [FILE]   draws the walk of experiments/walk-test-1.toml from the side: docs/walk.svg.
+# picture.sh [FILE]   draws the walk of experiments/walk-test-1.toml from the side: docs/walk.svg. One
+# of pictures.sh, which makes them all.
 #
 # Runs the experiment, exports its log as CSV and has gnuplot draw it (Debian: gnuplot-nox).
 # SINEW_BUILD names the build folder whose program runs; build/release without it.

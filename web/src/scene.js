@@ -11,6 +11,7 @@ export class Scene {
   constructor(canvas, spec, columns, units, duration) {
     Object.assign(this, { canvas, spec, columns, units, duration });
     this.follow = true;
+    this.tick_step = null;  // of the ground, for an animation that loops
     this.column = (index) => (index === null || index === undefined ? null : columns[index]);
     this.reach = longest_reach(spec);
     this.box = this.bounds();
@@ -156,7 +157,7 @@ export class Scene {
 
   draw_world(ctx, view) {
     const { surface, track } = this.spec;
-    if (surface !== undefined) shapes.table(ctx, view, surface, this.units, this.look);
+    if (surface !== undefined) shapes.table(ctx, view, surface, this.units, this.look, this.tick_step);
     if (track) shapes.track(ctx, view, track, this.look, this.reach);
   }
 

@@ -38,7 +38,8 @@ function round_step(size) {
 
 // --- the surroundings ---
 
-export function table(ctx, view, height, units, look) {
+// `step`: between ticks without numbers, in place of round ones with them.
+export function table(ctx, view, height, units, look, step = null) {
   ctx.fillStyle = look.ground;
   ctx.fillRect(view.left, view.bottom, view.right - view.left, height - view.bottom);
   ctx.beginPath();
@@ -47,16 +48,16 @@ export function table(ctx, view, height, units, look) {
   stroke(ctx, view, look['ground-edge'], 1.5);
 
   const { scale, label } = units.of('m');
-  const step = round_step((110 * view.px) * scale) / scale;
+  const apart = step ?? round_step((110 * view.px) * scale) / scale;
   ctx.beginPath();
   const ticks = [];
-  for (let x = Math.ceil(view.left / step) * step; x <= view.right; x += step) {
+  for (let x = Math.ceil(view.left / apart) * apart; x <= view.right; x += apart) {
     ctx.moveTo(x, height);
     ctx.lineTo(x, height - 5 * view.px);
     ticks.push(x);
   }
   stroke(ctx, view, look['ground-edge'], 1);
-  for (const x of ticks)
+  for (const x of step ? [] : ticks)
     text(ctx, view, `${+(x * scale).toFixed(3)} ${label}`.replace('-', '−'), x, height - 17 * view.px, look.quiet, look);
 }
 

@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# pictures.sh   makes every picture of README and docs/ anew, from runs: docs/walk.gif, walk.svg,
+# report.png, stand.png, fit.png.
+#
+# Needs gnuplot, chromium and npm, as ./check does. SINEW_BUILD names the build folder whose program
+# runs; build/release without it. With one chromium the same runs give the same bytes.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+export LC_ALL=C.UTF-8
+
+program=$PWD/${SINEW_BUILD:-build/release}/bin/sinew
+tools/npm-ci.sh web
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+tools/picture.sh docs/walk.svg
+
+"$program" run experiments/walk-test-1.toml -o "$work/walk" --quiet >/dev/null
+node web/animation.mjs "$work/walk/report.html" docs/walk.gif 1000 530
+node web/picture.mjs "$work/walk/report.html" docs/report.png 7.4
+
+"$program" run experiments/rig/feedback.toml -o "$work/stand" --quiet >/dev/null
+node web/picture.mjs "$work/stand/report.html" docs/stand.png 7
+
+# As in examples/06-characterise.
+for psi in 10 20 30 40 50 60 70 80 90 100; do
+  "$program" run examples/06-characterise/pressures.toml --set "charge.pressure=$psi psi gauge" \
+    -o "$work/$psi" --quiet >/dev/null
+  [[ $psi != 10 ]] || head -1 "$work/10/measured.csv" | cut -d, -f2- >"$work/forces.csv"
+  tail -n +2 "$work/$psi/measured.csv" | cut -d, -f2- >>"$work/forces.csv"
+done
+cd "$work"
+"$program" identify geometry --trapezoids 37,16 --side "0.057 in" -o mesh.toml --quiet >/dev/null
+"$program" identify static forces.csv --actuator mesh.toml --hold-out pressure -o static.toml \
+  --quiet >/dev/null
+cd - >/dev/null
+node web/picture.mjs "$work/static.html" docs/fit.png
+ls -l docs/walk.gif docs/walk.svg docs/{report,stand,fit}.png
