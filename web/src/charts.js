@@ -174,17 +174,17 @@ class Chart {
     }
   }
 
-  // Where a run is at the time of its replay.
+  // Where a run is at the time of its replay; of several runs in its color.
   draw_now(ctx, at, ratio) {
     if (this.time === null) return;
     const { units } = this.charts, { x, y, curves } = this.spec;
     for (const c of curves) {
-      if (Array.isArray(c.x)) continue;
+      if (Array.isArray(c.x) || !this.shown.has(c.label)) continue;
       const px = at.x(units.convert(between(this.columns[c.x], this.time), x.unit));
       const py = at.y(units.convert(between(this.columns[c.y], this.time), y.unit));
       ctx.beginPath();
       ctx.arc(px, py, 5 * ratio, 0, 2 * Math.PI);
-      ctx.fillStyle = this.charts.look.strong;
+      ctx.fillStyle = c.run === undefined ? this.charts.look.strong : this.color(c.color);
       ctx.fill();
     }
   }
