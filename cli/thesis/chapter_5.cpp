@@ -87,12 +87,23 @@ Schedule schedule(const Sources& from) {
   return out;
 }
 
-// --- the picture: one row per signal, high where it is on
-// -----------------------------------------
+// Ticks within the period at which valves of a joint are opened, the earliest and the latest.
+std::pair<Tick, Tick> openings(const Schedule& s, std::size_t joint) {
+  std::pair<Tick, Tick> out{1'000'000, -1};
+  for (const Valve& v : s.valves)
+    for (const Edge& e : v.edges) {
+      if (v.joint != joint || !e.open || e.at < s.begin || e.at >= s.end) continue;
+      const Tick phase = e.at % s.spine.period;
+      out = {std::min(out.first, phase), std::max(out.second, phase)};
+    }
+  return out;
+}
+
+// --- the picture: one row per signal, high where it is on ---------------------------------------
 
 class Rows {
  public:
-  explicit Rows(double last) : last_(last) {}
+  Rows(double last, std::size_t rows) : last_(last), row_(static_cast<double>(rows) + 1) {}
 
   // On in [from, to) of each pair  [ms].
   void add(const std::string& name, const std::vector<std::pair<double, double>>& on,
@@ -120,7 +131,7 @@ class Rows {
     report::Plot out{.name = name,
                      .title = title,
                      .x = {"time", "ms", 0, last_},
-                     .y = {"", "-", row_ - 0.3, 0.2},
+                     .y = {"", "-", 0.7, static_cast<double>(curves_.size()) + 1.2},
                      .curves = curves_};
     out.y.ticks = ticks_;
     out.names = report::Plot::Names::none;
@@ -146,7 +157,7 @@ class Rows {
     }
   }
 
-  double last_, row_ = 0;
+  double last_, row_;
   std::vector<report::Axis::Tick> ticks_;
   std::vector<Curve> curves_;
 };
@@ -157,7 +168,7 @@ std::string spoken(std::string name) {
 }
 
 report::Plot scan(const Schedule& s) {
-  Rows rows(2.0);
+  Rows rows(2.0, 1 + s.spine.conversions + 2 * s.spine.joints);
   std::vector<std::pair<double, double>> interrupts;
   for (int k = 0; k < 20; ++k) interrupts.push_back({k * ms_per_tick, (k + 0.3) * ms_per_tick});
   rows.add("interrupt", interrupts, "every 100 us", 6);
@@ -171,15 +182,16 @@ report::Plot scan(const Schedule& s) {
     const double at = s.spine.joint[j].law_tick * ms_per_tick;
     const std::string name = s.experiment.robot.joints[j].name;
     rows.add(name + " law", {{at, at + ms_per_tick}}, source, 1);
-    const double out = at + s.spine.output_delay * ms_per_tick;
-    rows.add(name + " valves begin", {{out, out + ms_per_tick}}, source, 2);
+    const double open = static_cast<double>(openings(s, j).first) * ms_per_tick;
+    rows.add(name + " valves open", {{open, open + ms_per_tick}},
+             std::string(file) + ", the first recorded edge", 2);
   }
-  return rows.plot("scan", "Scan, laws, and where valves begin");
+  return rows.plot("scan", "Scan, laws, and when valves open");
 }
 
 report::Plot pulses(const Schedule& s) {
   const double last = 2 * s.spine.period * ms_per_tick;
-  Rows rows(last);
+  Rows rows(last, s.valves.size());
   for (const Valve& v : s.valves) {
     std::vector<std::pair<double, double>> on;
     double opened = -1;
@@ -198,18 +210,6 @@ report::Plot pulses(const Schedule& s) {
 }
 
 // --- what 5.2 says ------------------------------------------------------------------------------
-
-// Ticks within the period at which valves of a joint are opened, the earliest and the latest.
-std::pair<Tick, Tick> openings(const Schedule& s, std::size_t joint) {
-  std::pair<Tick, Tick> out{1'000'000, -1};
-  for (const Valve& v : s.valves)
-    for (const Edge& e : v.edges) {
-      if (v.joint != joint || !e.open || e.at < s.begin || e.at >= s.end) continue;
-      const Tick phase = e.at % s.spine.period;
-      out = {std::min(out.first, phase), std::max(out.second, phase)};
-    }
-  return out;
-}
 
 std::vector<report::Claim> claims_of(const Schedule& s) {
   const Section text("5.2");

@@ -57,7 +57,8 @@ struct Span {
 };
 
 struct Plot {
-  // Of its curves: above the data, or each where it ends on the right.
+  // Of its curves: above the data, or each where it ends on the right. None: rows have theirs, and
+  // lines need no dashes.
   enum class Names { legend, ends, none };
 
   std::string name;   // in file names, where a figure has several plots: "stiffness"

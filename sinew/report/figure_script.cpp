@@ -89,7 +89,10 @@ std::string line_of(const Plot& plot, std::size_t c) {
   const Curve& curve = plot.curves[c];
   const bool desired = curve.kind == Kind::desired;
   return fmt::format("linewidth {} dashtype {} linecolor rgb '{}'", desired ? "1.0" : "0.9",
-                     desired ? desired_dash : look.dash, look.color);
+                     plot.names == Plot::Names::none ? looks[0].dash
+                     : desired                       ? desired_dash
+                                                     : look.dash,
+                     look.color);
 }
 
 std::string point_of(const Plot& plot, std::size_t c) {

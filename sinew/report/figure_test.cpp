@@ -174,6 +174,22 @@ TEST(Layout, KeepsTheLegendAboveTheDataHoweverLongItIs) {
   }
 }
 
+TEST(Layout, MakesRoomForNamesOfRowsAndAtTheEnds) {
+  Figure figure = walk();
+  const PlotLayout usual = layout(figure).plots[0];
+  figure.plots[0].y.ticks = {{1, "knee extensor exhaust"}, {2, "hip"}};
+  figure.plots[0].names = Plot::Names::ends;
+  figure.plots[0].curves[0].label = "a name at the end";
+  const PlotLayout named = layout(figure).plots[0];
+  EXPECT_GE(named.left, usual.left + 21 * Print::letter / 2);
+  EXPECT_GE(named.right, usual.right + 17 * Print::letter / 2);
+  EXPECT_TRUE(named.legend.empty());
+  EXPECT_EQ(usual.legend.size(), 2u);
+  figure.plots[0].names = Plot::Names::legend;
+  figure.plots[0].curves[1].in_legend = false;
+  EXPECT_EQ(layout(figure).plots[0].legend.size(), 1u);
+}
+
 // --- through gnuplot ---
 
 bool has_gnuplot() { return std::system("gnuplot --version >/dev/null 2>&1") == 0; }
@@ -238,6 +254,22 @@ TEST(Gnuplot, ShowsAllTextAsItWasTyped) {
     EXPECT_THAT(svg, HasSubstr("<text>" + as_xml(text) + "</text>"));
   EXPECT_THAT(svg, HasSubstr("<text>line break\\</text>"));
   EXPECT_THAT(svg, HasSubstr("(synthetic)</text>"));
+}
+
+TEST(Gnuplot, NamesRowsAndEndsOfCurves) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is missing";
+  Figure figure = walk();
+  Plot& plot = figure.plots[0];
+  plot.y.ticks = {{1, nasty}, {2, "second row"}};
+  plot.names = Plot::Names::ends;
+  plot.curves[1].in_legend = false;
+  const Drawn drawn(figure);
+  ASSERT_EQ(drawn.code, 0) << drawn.messages;
+  EXPECT_EQ(drawn.messages, "");
+  const std::string svg = without_entity_of_greater(drawn.svg);
+  for (const std::string& text : {nasty, std::string("second row"), std::string("hip")})
+    EXPECT_THAT(svg, HasSubstr(as_xml(text) + "</text>"));
+  EXPECT_THAT(svg, Not(HasSubstr("hip desired</text>")));
 }
 
 TEST(Gnuplot, GivesTheSameBytesAgainWithoutADate) {
