@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/thesis/leg_run.h"
+#include "cli/thesis/chapter_6.h"
 #include "sinew/analysis/statistics.h"
 #include "sinew/units/constants.h"
 
@@ -58,7 +58,7 @@ Exhibit figure_6_1(const LegRun& run) {
                       "experiments/walk-test-1.toml.",
            .plots = {std::move(plot)}},
           {judge({.where = "[66], [68], [70]",
-                  .says = "an arc of second order, then two straight lines",
+                  .says = "An arc of second order, then two straight lines",
                   .quantity = "largest distance in y from the equations",
                   .ours = off,
                   .unit = "in",
@@ -75,7 +75,7 @@ Exhibit figure_6_3(const LegRun& run) {
                     "path from rest to the first step among them.",
                     run.sequence()),
           {judge({.where = "6.3",
-                  .says = "the table is at about -13 in",
+                  .says = "The table is at about -13 in",
                   .theirs = "-13 in",
                   .quantity = "mean y of the actual path in propulsion",
                   .ours = table,
@@ -83,7 +83,7 @@ Exhibit figure_6_3(const LegRun& run) {
                   .accept = {-13.2, -12.8},
                   .why = "\"about\""}),
            judge({.where = "6.3",
-                  .says = "what is desired in propulsion lies 0.5 in lower than what is possible",
+                  .says = "What is desired in propulsion lies 0.5 in lower than what is possible",
                   .theirs = "0.5 in",
                   .quantity = "mean y in propulsion, actual less desired",
                   .ours = table - analysis::mean(wanted, propulsion),
@@ -91,7 +91,7 @@ Exhibit figure_6_3(const LegRun& run) {
                   .accept = {0.3, 0.7},
                   .why = "as for the table"}),
            judge({.where = "6.3",
-                  .says = "the actual path repeats itself very well",
+                  .says = "The actual path repeats itself very well",
                   .quantity = "rms distance of steps from their mean",
                   .ours = run.summary("foot.step_repeat_rms_m") / units::inch,
                   .unit = "in",
@@ -135,16 +135,16 @@ Exhibit figure_6_4(const LegRun& run) {
   Column beyond(wanted.size());
   std::ranges::transform(wanted, beyond.begin(), [](double a) { return a < 289 ? 100.0 : 0.0; });
   out.claims = {
-      within(run, "the joints do not come to their limits: the hip's flexion", "below 307 deg",
+      within(run, "The joints do not come to their limits: the hip's flexion", "below 307 deg",
              "largest angle of the hip", "joints.hip.max_angle_rad", {.highest = 307}),
-      within(run, "the hip's extension", "above 249 deg", "least angle of the hip",
+      within(run, "The hip's extension", "above 249 deg", "least angle of the hip",
              "joints.hip.min_angle_rad", {.lowest = 249}),
-      within(run, "the knee's flexion", "above 289 deg", "least angle of the knee",
+      within(run, "The knee's flexion", "above 289 deg", "least angle of the knee",
              "joints.knee.min_angle_rad", {.lowest = 289}),
-      within(run, "the knee's extension", "below 343 deg", "largest angle of the knee",
+      within(run, "The knee's extension", "below 343 deg", "largest angle of the knee",
              "joints.knee.max_angle_rad", {.highest = 343}),
       judge({.where = "6.3",
-             .says = "the knee is asked for more than it can do in a small part of swing",
+             .says = "The knee is asked for more than it can do in a small part of swing",
              .quantity = "share of swing with a desired knee below 289 deg",
              .ours = analysis::mean(beyond, run.record().swing()),
              .unit = "%",
@@ -152,7 +152,7 @@ Exhibit figure_6_4(const LegRun& run) {
              .why = "some of it, and less than half",
              .because = "so do [65], [66] and table 6-1: nothing simulated is in this number"}),
       judge({.where = "6.3",
-             .says = "the angle's error is larger in propulsion than usual",
+             .says = "The angle's error is larger in propulsion than usual",
              .quantity = "rms error of the hip, propulsion by swing",
              .ours = analysis::rms(error, phase_of(run, "propulsion")) /
                      analysis::rms(error, run.record().swing()),
@@ -181,14 +181,14 @@ Exhibit figure_6_5(const LegRun& run) {
                .plots = {over_time(run, "tension", "lbf", std::move(curves))}},
               run.verdicts({"muscles.hip_extensor.measured_peak"})};
   out.claims.push_back(judge({.where = "6.3",
-                              .says = "only the hip's extensor is used to its capacity",
+                              .says = "Only the hip's extensor is used to its capacity",
                               .quantity = "largest reading of the three others",
                               .ours = others,
                               .unit = "lbf",
                               .accept = {0, 25},
                               .why = "clearly below the predicted 30 lbf"}));
   out.claims.push_back(judge({.where = "6.3",
-                              .says = "antagonists pull alike in swing and apart in propulsion",
+                              .says = "Antagonists pull alike in swing and apart in propulsion",
                               .quantity = "rms difference at the hip, swing in the air by stance",
                               .ours = air_by_stance(run, apart),
                               .accept = {0, 0.5},
@@ -204,7 +204,7 @@ Exhibit figure_6_6(const LegRun& run) {
            .caption = run.caption("As the controller believes it, [27] and [60]."),
            .plots = {std::move(plot)}},
           {judge({.where = "6.3",
-                  .says = "the hip's stiffness is controlled much more tightly than the knee's",
+                  .says = "The hip's stiffness is controlled much more tightly than the knee's",
                   .quantity = "standard deviation, hip by knee",
                   .ours = run.summary("joints.hip.stiffness_std_Nm_per_rad") /
                           run.summary("joints.knee.stiffness_std_Nm_per_rad"),
@@ -222,7 +222,7 @@ Exhibit figure_6_7(const LegRun& run) {
   for (const std::string joint : {"hip", "knee"})
     out.claims.push_back(
         judge({.where = "6.3",
-               .says = "the torque is near zero in swing: the " + joint,
+               .says = "The torque is near zero in swing: the " + joint,
                .quantity = "rms torque, swing in the air by stance",
                .ours = air_by_stance(run, run.rows({"/joint/" + joint + "/torque"})),
                .accept = {0, 0.5},
@@ -262,13 +262,13 @@ Exhibit figure_6_8(const LegRun& run) {
                               "gravity are ignored."),
        .plots = {over_time(run, "ground reaction", "lbf", std::move(curves))}},
       {judge({.where = "6.3",
-              .says = "false reactions in swing are minimal beside those in propulsion",
+              .says = "False reactions in swing are minimal beside those in propulsion",
               .quantity = "rms normal force, swing in the air by stance",
               .ours = air_by_stance(run, normal),
               .accept = {0, 0.33},
               .why = "\"minimal\": less than a third"}),
        judge({.where = "6.3",
-              .says = "friction does not begin as soon as the foot is on the ground",
+              .says = "Friction does not begin as soon as the foot is on the ground",
               .quantity = "from half of the largest normal force to half of the largest friction, "
                           "second step",
               .ours = begins(run, friction, step, 0.5) - begins(run, normal, step, 0.5),
@@ -276,7 +276,7 @@ Exhibit figure_6_8(const LegRun& run) {
               .accept = {.lowest = 0.05},
               .why = "later than a few periods"}),
        judge({.where = "6.3",
-              .says = "a mass of 5 lb could have been carried",
+              .says = "A mass of 5 lb could have been carried",
               .theirs = "5 lb",
               .quantity = "largest normal force",
               .ours = analysis::largest(normal, run.record().sequence()),
@@ -323,7 +323,7 @@ Exhibit duties(const LegRun& run, const std::string& number, const std::string& 
     c.style = Curve::Style::steps;
     curves.push_back(std::move(c));
     claims.push_back(judge({.where = "table 6-4",
-                            .says = "mean duty cycle of the " + spoken(d.muscle) + "'s " + d.valve,
+                            .says = "Mean duty cycle of the " + spoken(d.muscle) + "'s " + d.valve,
                             .theirs = std::to_string(static_cast<int>(d.reported)) + " %",
                             .quantity = "mean over the phases",
                             .ours = analysis::mean(run.rows({topic}), run.record().sequence()),
@@ -345,24 +345,26 @@ Exhibit duties(const LegRun& run, const std::string& number, const std::string& 
 
 Exhibits chapter_6(const Sources& from) {
   const LegRun run(from, "walk-test-1");
-  return {figure_6_1(run),
-          figure_6_3(run),
-          figure_6_4(run),
-          figure_6_5(run),
-          figure_6_6(run),
-          figure_6_7(run),
-          figure_6_8(run),
-          figure_6_9(run),
-          duties(run, "6-10", "hip",
-                 {{"hip_flexor", "inlet", 2},
-                  {"hip_flexor", "exhaust", 4},
-                  {"hip_extensor", "inlet", 3},
-                  {"hip_extensor", "exhaust", 3}}),
-          duties(run, "6-11", "knee",
-                 {{"knee_flexor", "inlet", 11},
-                  {"knee_flexor", "exhaust", 23},
-                  {"knee_extensor", "inlet", 2},
-                  {"knee_extensor", "exhaust", 3}})};
+  Exhibits out = {figure_6_1(run),
+                  figure_6_3(run),
+                  figure_6_4(run),
+                  figure_6_5(run),
+                  figure_6_6(run),
+                  figure_6_7(run),
+                  figure_6_8(run),
+                  figure_6_9(run),
+                  duties(run, "6-10", "hip",
+                         {{"hip_flexor", "inlet", 2},
+                          {"hip_flexor", "exhaust", 4},
+                          {"hip_extensor", "inlet", 3},
+                          {"hip_extensor", "exhaust", 3}}),
+                  duties(run, "6-11", "knee",
+                         {{"knee_flexor", "inlet", 11},
+                          {"knee_flexor", "exhaust", 23},
+                          {"knee_extensor", "inlet", 2},
+                          {"knee_extensor", "exhaust", 3}})};
+  add_text_of_test_1(run, from, out);
+  return out;
 }
 
 }  // namespace sinew::cli::thesis

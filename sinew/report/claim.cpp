@@ -12,7 +12,7 @@ namespace {
 // Digits that show where in the band a number lies: three, more where the band is narrow.
 std::string number(double value, const Band& band) {
   const double width = band.highest - band.lowest;
-  if (value == 0 || (std::isfinite(width) && std::fabs(value) < 1e-6 * width)) return "0";
+  if (value == 0 || (std::isfinite(width) && std::fabs(value) < 1e-5 * width)) return "0";
   const int size = static_cast<int>(std::floor(std::log10(std::fabs(value))));
   int digits = 3;
   if (std::isfinite(width) && width > 0)

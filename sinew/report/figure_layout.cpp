@@ -63,7 +63,8 @@ void make_room(const std::vector<Axis::Tick>& rows, Axes& axes) {
   std::size_t longest = 0;
   for (const Axis::Tick& row : rows) longest = std::max(longest, letters(row.text));
   if (rows.empty()) return;
-  axes.left = std::max(Print::left, 6 * Print::gap + Print::letter * static_cast<double>(longest));
+  const double wanted = 6 * Print::gap + Print::letter * static_cast<double>(longest);
+  axes.left = std::clamp(wanted, Print::left, 0.6 * Print::width);
   axes.height = std::max(Print::lowest, 1.1 * Print::line * static_cast<double>(rows.size()));
 }
 

@@ -149,10 +149,14 @@ void Script::begin(const std::vector<Picture>& pictures) {
   add("set multiplot");
 }
 
+// A tick's text is a format: a percent sign stands for itself when it is doubled.
 std::string named(const std::vector<Axis::Tick>& ticks) {
   std::string out;
-  for (const Axis::Tick& t : ticks)
-    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", quoted(t.text), format_number(t.at));
+  for (const Axis::Tick& t : ticks) {
+    std::string text;
+    for (const char c : t.text) text += c == '%' ? "%%" : std::string(1, c);
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", quoted(text), format_number(t.at));
+  }
   return out;
 }
 

@@ -260,14 +260,15 @@ TEST(Gnuplot, NamesRowsAndEndsOfCurves) {
   if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is missing";
   Figure figure = walk();
   Plot& plot = figure.plots[0];
-  plot.y.ticks = {{1, nasty}, {2, "second row"}};
+  const std::string row = "it's 5 % of {a_b}";
+  plot.y.ticks = {{1, row}, {2, "second row"}, {3, nasty + nasty}};
   plot.names = Plot::Names::ends;
   plot.curves[1].in_legend = false;
   const Drawn drawn(figure);
   ASSERT_EQ(drawn.code, 0) << drawn.messages;
   EXPECT_EQ(drawn.messages, "");
   const std::string svg = without_entity_of_greater(drawn.svg);
-  for (const std::string& text : {nasty, std::string("second row"), std::string("hip")})
+  for (const std::string& text : {row, std::string("second row"), std::string("hip")})
     EXPECT_THAT(svg, HasSubstr(as_xml(text) + "</text>"));
   EXPECT_THAT(svg, Not(HasSubstr("hip desired</text>")));
 }

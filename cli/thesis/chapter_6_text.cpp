@@ -1,0 +1,176 @@
+// cli/thesis/chapter_6_text.cpp - what else 6.3 says of the figures of test 1: when things happen,
+// and what other runs show of it.
+#include <algorithm>
+#include <cmath>
+
+#include "cli/thesis/chapter_6.h"
+#include "sinew/analysis/statistics.h"
+
+namespace sinew::cli::thesis {
+namespace {
+
+using analysis::Column, analysis::Stretch;
+
+// Each time that the phase went, the steps before `from_step` left out.
+std::vector<Stretch> stretches(const LegRun& run, std::string_view phase, int from_step = 0) {
+  std::vector<Stretch> out;
+  for (const Stretch& s : run.record().stretches())
+    if (run.machine().phases[static_cast<std::size_t>(s.phase)] == phase && s.step >= from_step)
+      out.push_back(s);
+  return out;
+}
+
+template <class Of>
+double mean_of(const std::vector<Stretch>& list, Of of) {
+  double sum = 0;
+  for (const Stretch& s : list) sum += of(s);
+  return sum / static_cast<double>(list.size());
+}
+
+// Rows by which y has passed the level for good.
+std::size_t passes(const Column& y, const Stretch& s, double level) {
+  std::size_t at = s.first;
+  for (std::size_t i = s.first; i < s.last; ++i)
+    if (y[i] < level) at = i + 1;
+  return at;
+}
+
+// How much later the hip passes 280 deg than it should, on its way forward  [s].
+double lag(const LegRun& run) {
+  const Column is = run.rows({"/joint/hip/angle"}), wanted = run.rows({"/desired/joint/hip/angle"});
+  return mean_of(stretches(run, "swing", 1), [&](const Stretch& s) {
+    const auto late =
+        static_cast<double>(passes(is, s, 280)) - static_cast<double>(passes(wanted, s, 280));
+    return late * run.record().period();
+  });
+}
+
+// Share of propulsion before the hip has moved by half a degree.
+double stands_for(const LegRun& run) {
+  const Column angle = run.rows({"/joint/hip/angle"});
+  return mean_of(stretches(run, "propulsion"), [&](const Stretch& s) {
+    std::size_t at = s.first;
+    while (at < s.last && std::fabs(angle[at] - angle[s.first]) < 0.5) ++at;
+    return static_cast<double>(at - s.first) / static_cast<double>(s.last - s.first);
+  });
+}
+
+// Slope of a torque over the second half of swing, the least of the steps  [lbf in/s].
+double slope(const LegRun& run, const std::string& topic) {
+  const Column torque = run.rows({topic});
+  double least = 1e300;
+  for (const Stretch& s : stretches(run, "swing")) {
+    Column time, part;
+    for (std::size_t i = (s.first + s.last) / 2; i < s.last; ++i) {
+      time.push_back(run.record().time(i));
+      part.push_back(torque[i]);
+    }
+    least = std::min(least, report::line_of({time, part}).slope);
+  }
+  return least;
+}
+
+// How far the normal force falls from its height at touch-down within the first half of stance, of
+// its largest  [%].
+double spike(const LegRun& run) {
+  const Column force = run.rows({"/foot/force", "y"});
+  const double largest = analysis::largest(force, run.record().stance());
+  return 100 / largest * mean_of(stretches(run, "propulsion"), [&](const Stretch& s) {
+           double top = force[s.first], fall = 0;
+           for (std::size_t i = s.first; i < (s.first + s.last) / 2; ++i) {
+             top = std::max(top, force[i]);
+             fall = std::max(fall, top - force[i]);
+           }
+           return fall;
+         });
+}
+
+// Share of propulsion in which a muscle is as good as empty  [%].
+double empty_for(const LegRun& run, const std::string& muscle) {
+  Column low = run.rows({"/true/muscle/" + muscle + "/pressure"});
+  for (double& p : low) p = p < 5 ? 100 : 0;
+  const int propulsion = analysis::find_phase(run.machine(), "propulsion");
+  return analysis::mean(low, run.record().part(propulsion, 0, 1));
+}
+
+double oscillation(const LegRun& run, double from, double to) {
+  const int swing = analysis::find_phase(run.machine(), "swing");
+  return analysis::rms(run.rows({"/joint/hip/oscillation"}), run.record().part(swing, from, to));
+}
+
+// From the first propulsion on: before, empty muscles are filled with all that the valves give.
+double largest_duty(const LegRun& run, const std::string& valve) {
+  std::vector<double> walking = run.record().sequence();
+  const std::size_t first = stretches(run, "propulsion").at(0).first;
+  std::fill_n(walking.begin(), first, 0.0);
+  return analysis::largest(run.rows({"/muscle/" + valve + "_duty"}), walking);
+}
+
+}  // namespace
+
+double swing_oscillation(const LegRun& run, int step) {
+  const Column all = run.rows({"/joint/hip/oscillation"});
+  for (const Stretch& s : stretches(run, "swing", step)) {
+    if (s.step != step) continue;
+    const Column part(all.begin() + static_cast<std::ptrdiff_t>(s.first),
+                      all.begin() + static_cast<std::ptrdiff_t>(s.last));
+    return analysis::rms(part, Column(part.size(), 1.0));
+  }
+  return std::nan("");
+}
+
+void add_text_of_test_1(const LegRun& run, const Sources& from, Exhibits& out) {
+  const Section text("6.3");
+  const auto add = [&](const char* figure, report::Claim claim) {
+    std::ranges::find_if(out, [&](const Exhibit& e) {
+      return e.figure.name == figure;
+    })->claims.push_back(std::move(claim));
+  };
+  // What another run's file has judged, in the text's words.
+  const auto add_run = [&](const char* figure, const char* experiment, const char* key,
+                           const char* says) {
+    for (report::Claim& c : LegRun(from, experiment).verdicts({key})) {
+      c.says = says;
+      c.quantity = std::string("experiments/") + experiment + ".toml, " + c.quantity;
+      add(figure, std::move(c));
+    }
+  };
+  add_run("6-3", "zero-gap", "trolley.distance_m",
+          "With no gap to the table the foot slides and carries nothing forward");
+  add("6-4",
+      text.number("The angles follow late, as proportional control does", "slight",
+                  "how much later the hip passes 280 deg in swing", lag(run), "s", {.lowest = 0.02},
+                  "more than two periods; how much is slight is not said"));
+  add("6-4", text.number("The hip oscillates a little, at the beginning of each swing", "",
+                         "rms oscillation, first by second half of swing",
+                         oscillation(run, 0, 0.5) / oscillation(run, 0.5, 1), "", {.lowest = 1.5},
+                         "clearly more at the beginning"));
+  add("6-4", text.number("The joints turn only from about the middle of propulsion on",
+                         "the middle", "share of propulsion until the hip has moved by 0.5 deg",
+                         stands_for(run), "", {0.33, 0.67}, "the middle third"));
+  add("6-7", text.number("In swing the torque has a slope, since gravity's part changes", "",
+                         "least slope at the hip over the second half of swing",
+                         slope(run, "/joint/hip/torque"), "lbf in/s", {.lowest = 1},
+                         "to be seen beside 30 lbf in of propulsion"));
+  add("6-8", text.number("A spike of the normal force when the foot is set down", "",
+                         "fall after it within half of propulsion, of the largest normal force",
+                         spike(run), "%", {.lowest = 5}, "to be seen in the plot",
+                         "our foot comes down softly: its force rises over a tenth of a second and "
+                         "stays"));
+  add_run("6-9", "no-drag", "trolley.mean_speed", "Without the roller's friction: mean speed");
+  double others = 0;
+  for (const char* valve : {"knee_flexor/inlet", "knee_extensor/inlet", "knee_extensor/exhaust"})
+    others = std::max(others, largest_duty(run, valve));
+  add("6-11",
+      text.number("The flexor's exhaust has the highest duty cycle", "",
+                  "its largest less the largest of the other three, from the first "
+                  "propulsion on",
+                  largest_duty(run, "knee_flexor/exhaust") - others, "%", {.lowest = 0}, "higher"));
+  add("6-11", text.number("For most of propulsion the flexor has no more than the room's air", "",
+                          "share of propulsion with less than 5 psi gauge in it",
+                          empty_for(run, "knee_flexor"), "%", {.lowest = 50}, "most of it"));
+  add_run("6-11", "walk-reachable", "passiveness",
+          "Passiveness, if what is desired could be reached");
+}
+
+}  // namespace sinew::cli::thesis
