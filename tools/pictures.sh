@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # pictures.sh   makes every picture of README and docs/ anew, from runs: docs/walk.gif, walk.svg,
-# report.png, stand.png, fit.png.
+# report.png, compare.png, stand.png, fit.png.
 #
 # Needs gnuplot, chromium and npm, as ./check does. SINEW_BUILD names the build folder whose program
 # runs; build/release without it. With one chromium the same runs give the same bytes.
@@ -19,6 +19,10 @@ tools/picture.sh docs/walk.svg
 node web/animation.mjs "$work/walk/report.html" docs/walk.gif 1000 530
 node web/picture.mjs "$work/walk/report.html" docs/report.png 7.4
 
+"$program" run experiments/walk-test-2.toml -o "$work/faster" --quiet >/dev/null
+"$program" compare "$work/walk" "$work/faster" -o "$work/compare.html" --quiet >/dev/null
+node web/picture.mjs "$work/compare.html" docs/compare.png 3.9
+
 "$program" run experiments/rig/feedback.toml -o "$work/stand" --quiet >/dev/null
 node web/picture.mjs "$work/stand/report.html" docs/stand.png 7
 
@@ -35,4 +39,4 @@ cd "$work"
   --quiet >/dev/null
 cd - >/dev/null
 node web/picture.mjs "$work/static.html" docs/fit.png
-ls -l docs/walk.gif docs/walk.svg docs/{report,stand,fit}.png
+ls -l docs/walk.gif docs/walk.svg docs/{report,compare,stand,fit}.png
