@@ -26,30 +26,24 @@ constexpr const char* format = "sinew.figures/1";
 
 std::string_view ending(Picture picture) { return picture == Picture::svg ? "svg" : "png"; }
 
-// Names in an index, its own too: only of files that stand in its folder.
+// Names that an index lists, if they are such as it lists: of files that stand in its folder.
 std::set<std::string> files_of(const Json& index) {
   std::set<std::string> files;
-  const auto add = [&](const Json& of, const char* key) {
-    if (!of.contains(key) || !of[key].is_string()) return;
+  const auto add = [&](const Json& of, const char* key, const char* ending) {
+    if (!of.is_object() || !of.contains(key) || !of[key].is_string()) return;
     const std::string name = of[key];
-    if (!name.empty() && fs::path(name).filename() == name && name != "." && name != "..")
+    if (fs::path(name).filename() == name && fs::path(name).extension() == ending)
       files.insert(name);
   };
   for (const Json& figure : index["figures"]) {
-    for (const char* key : {"svg", "png", "script"}) add(figure, key);
-    for (const Json& curve : figure.value("curves", Json::array())) add(curve, "file");
+    add(figure, "svg", ".svg");
+    add(figure, "png", ".png");
+    add(figure, "script", ".gp");
+    if (!figure.is_object() || !figure.contains("curves")) continue;
+    for (const Json& curve : figure["curves"]) add(curve, "file", ".csv");
   }
-  add(index, "page");
+  add(index, "page", ".html");
   return files;
-}
-
-void remove_earlier(const fs::path& folder) {
-  std::ifstream in(folder / index_name);
-  const Json index = Json::parse(in, nullptr, false);
-  if (!index.is_object() || index.value("format", "") != format || !index.contains("figures"))
-    return;
-  for (const std::string& name : files_of(index))
-    if (fs::is_regular_file(folder / name)) fs::remove(folder / name);
 }
 
 void draw_all(const fs::path& folder, const std::vector<std::string>& scripts) {
@@ -60,6 +54,18 @@ void draw_all(const fs::path& folder, const std::vector<std::string>& scripts) {
 }
 
 }  // namespace
+
+void remove_figures(const fs::path& folder) {
+  std::ifstream in(folder / index_name);
+  const Json index = Json::parse(in, nullptr, false);
+  if (!index.is_object() || !index.contains("format") || index["format"] != format ||
+      !index.contains("figures"))
+    return;
+  for (const std::string& name : files_of(index))
+    if (fs::is_regular_file(folder / name)) fs::remove(folder / name);
+  fs::remove(folder / index_name);
+  if (fs::is_empty(folder)) fs::remove(folder);
+}
 
 std::vector<Picture> parse_formats(const std::vector<std::string>& words) {
   std::vector<Picture> out;
@@ -85,12 +91,12 @@ std::string write_figures(const fs::path& folder, report::Gallery gallery,
     for (const Picture p : options.pictures) gallery.pictures.emplace_back(ending(p));
   gallery.scripts = !options.pictures.empty();
   const std::string index = report::index_json(gallery);
-  if (options.force) remove_earlier(folder);
+  if (options.force) remove_figures(folder);
   refuse_to_overwrite(folder / index_name, options.force);
   for (const std::string& name : files_of(Json::parse(index)))
     refuse_to_overwrite(folder / name, options.force);
 
-  fs::create_directories(folder);
+  make_folders(folder);
   std::vector<std::string> scripts;
   for (const report::Exhibit& exhibit : gallery.exhibits) {
     const report::Figure& figure = exhibit.figure;

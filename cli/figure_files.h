@@ -29,4 +29,8 @@ std::vector<report::Picture> parse_formats(const std::vector<std::string>& words
 std::string write_figures(const std::filesystem::path& folder, report::Gallery gallery,
                           const FigureFiles& options, const Messages& messages);
 
+// Removes the files that the folder's index.json lists, the index, and the folder if nothing else
+// is in it. Nothing where there is no index of figures.
+void remove_figures(const std::filesystem::path& folder);
+
 }  // namespace sinew::cli

@@ -63,7 +63,7 @@ void choose(std::vector<report::Figure>& figures, const std::vector<std::string>
 // A run's own folder, or one below --output where there are several runs.
 fs::path folder_of(const RunFiguresRequest& request, const std::string& named,
                    const RecordedRun& run) {
-  if (request.out.empty()) return run.log.parent_path() / "figures";
+  if (request.out.empty()) return run.log.parent_path() / figures_name;
   if (request.runs.size() == 1) return request.out;
   return fs::path(request.out) / report::file_name_of(named);
 }

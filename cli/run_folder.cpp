@@ -8,6 +8,7 @@
 #include <fstream>
 #include <vector>
 
+#include "cli/figure_files.h"
 #include "sinew/config/diagnostics.h"
 
 namespace sinew::cli {
@@ -24,12 +25,6 @@ constexpr std::string_view known_files[] = {log_name,     "log.mcap.tmp", resolv
                          std::string try_this = "") {
   config::fail({where.string(), 0, 0}, "", std::move(found), std::move(expected),
                std::move(try_this));
-}
-
-void make_folders(const fs::path& folder) {
-  std::error_code problem;
-  fs::create_directories(folder, problem);
-  if (problem) refuse(folder, problem.message(), "a folder that can be made", "-o elsewhere");
 }
 
 int highest_number(const fs::path& folder) {
@@ -53,6 +48,12 @@ std::vector<std::string> contents(const fs::path& folder) {
 }
 
 }  // namespace
+
+void make_folders(const fs::path& folder) {
+  std::error_code problem;
+  fs::create_directories(folder, problem);
+  if (problem) refuse(folder, problem.message(), "a folder that can be made", "-o elsewhere");
+}
 
 fs::path next_run_folder(const std::string& experiment) {
   const fs::path parent = fs::path("runs") / experiment;
@@ -78,6 +79,7 @@ fs::path chosen_run_folder(const fs::path& folder, bool force) {
            "another one, or --force to replace the run in it");
   }
   for (const std::string_view name : known_files) fs::remove(folder / name);
+  remove_figures(folder / figures_name);
   return folder;
 }
 

@@ -12,6 +12,10 @@ inline constexpr std::string_view log_name = "log.mcap";
 inline constexpr std::string_view resolved_name = "resolved.toml";
 inline constexpr std::string_view measured_name = "measured.csv";  // of a test stand
 inline constexpr std::string_view summary_name = "summary.json";
+inline constexpr std::string_view figures_name = "figures";  // a folder
+
+// With those above it; there already is fine. Throws config::Error where it cannot be made.
+void make_folders(const std::filesystem::path& folder);
 
 // runs/<experiment>/<n>, n one above the highest there is: no number is ever used again while its
 // folder stands, also when several runs start at once.

@@ -16,7 +16,7 @@ struct Print {
   static constexpr double left = 38, right = 8, top = 6, bottom = 4;
   static constexpr double font = 7, line = 9;  // from line to line
   static constexpr double letter = 3.75;       // mean width
-  static constexpr double numbers = 11;        // below the axis, at its ticks
+  static constexpr double numbers = 9;         // below the axis, at its ticks
   static constexpr double plot = 105, lowest = 60, tallest = 290;
   static constexpr double tick = 14;             // between two numbers above each other
   static constexpr double sample = 16, gap = 4;  // of a line in the legend; beside it

@@ -139,9 +139,10 @@ void Script::begin(const std::vector<Picture>& pictures) {
       pixels(96, Print::width), pixels(96, layout_.height), Print::font * 96 / 72, 96.0 / 72);
   add("heading = ',{:.2f}'; mark = 0.5", (Print::font + 1) * 96 / 72);
   add("}} else {{");
+  // Its points are of 96 to the inch.
   add("set terminal pngcairo size {},{} noenhanced font 'Arial,{}' fontscale {:.3f} "
       "linewidth {:.3f} pointscale {:.3f} background '#ffffff'",
-      pixels(300, Print::width), pixels(300, layout_.height), Print::font, 300.0 / 72, 300.0 / 72,
+      pixels(300, Print::width), pixels(300, layout_.height), Print::font, 300.0 / 96, 300.0 / 72,
       300.0 / 72);
   add("heading = ',{}'; mark = 0.3", Print::font + 1);
   add("}}");

@@ -11,9 +11,9 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::Contains;
-using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using ::testing::StartsWith;
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
@@ -114,11 +114,17 @@ TEST(FiguresOfRuns, ReplaceOnlyWhatTheyKnow) {
   EXPECT_THAT(endings(w, "run/figures", ".csv"), (Words{"tension.csv"}));
   EXPECT_EQ(read_text(w / "run/figures/mine.txt"), "mine");
 
+  // A run in the place of the old one has no figures yet.
+  ASSERT_EQ(w.sinew({"run", bench, "-o", "run", "--force", "--no-report"}).code, 0);
+  EXPECT_EQ(names_in(w / "run/figures"), (Words{"mine.txt"}));
+
   // An index that somebody wrote cannot send it elsewhere.
   write_text(w / "run/figures/index.json",
-             R"({"format":"sinew.figures/1","figures":[{"svg":"../log.mcap","script":"/etc/x"}]})");
+             R"({"format":"sinew.figures/1","page":7,"figures":[3,{"svg":"../log.mcap"},)"
+             R"({"script":"/etc/x.gp"},{"png":"mine.txt","curves":[1,{"file":".csv"}]}]})");
   ASSERT_EQ(w.sinew({"figures", "run", "--format", "csv", "--force"}).code, 0);
   EXPECT_TRUE(fs::exists(w / "run/log.mcap"));
+  EXPECT_TRUE(fs::exists(w / "run/figures/mine.txt"));
 }
 
 TEST(FiguresOfRuns, OfSeveralRunsStandInTheirOwnFolders) {
@@ -145,6 +151,8 @@ TEST(FiguresOfRuns, WrongWordsAreToldApart) {
   EXPECT_THAT(w.sinew({"figures", "run", "--from", "3 s", "--to", "2 s"}).err, HasSubstr("--to"));
   EXPECT_THAT(w.sinew({"figures", "run", "--from", "1 h"}).err, HasSubstr("found no samples"));
   EXPECT_EQ(w.sinew({"figures", "run", "--units", "cgs"}).code, 2);
+  write_text(w / "file", "");
+  EXPECT_THAT(w.sinew({"figures", "run", "-o", "file"}).err, StartsWith("file: found"));
   EXPECT_EQ(w.sinew({"figures"}).code, 2);
   EXPECT_EQ(w.sinew({"figures", "run", "--thesis", "-o", "x"}).code, 2);
   EXPECT_FALSE(fs::exists(w / "run/figures"));
