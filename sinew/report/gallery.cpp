@@ -101,8 +101,8 @@ void Page::files(const Figure& figure, const FigureData& data) {
 void Page::picture(const Exhibit& e) {
   add("<figure>");
   if (!gallery_.pictures.empty())
-    add("<a href=\"{0}.{1}\"><img src=\"{0}.{1}\" alt=\"{2}\" loading=\"lazy\"></a>",
-        escaped(e.figure.name), escaped(gallery_.pictures.front()), escaped(e.figure.title));
+    add("<a href=\"{0}.{1}\"><img src=\"{0}.{1}\" alt=\"{2}\"></a>", escaped(e.figure.name),
+        escaped(gallery_.pictures.front()), escaped(e.figure.title));
   add("<figcaption>{}</figcaption>", escaped(e.figure.caption));
   add("</figure>");
 }

@@ -44,7 +44,7 @@ article[hidden] { display: none; }
 .head { grid-column: 1 / -1; display: flex; flex-wrap: wrap; gap: 4px 18px; align-items: baseline;
   justify-content: space-between; margin-bottom: 12px; }
 .files { display: flex; flex-wrap: wrap; gap: 2px 12px; font-size: 13px; }
-figure { margin: 0; }
+figure { margin: 0; position: sticky; top: 78px; align-self: start; }
 figure img { display: block; width: 100%; height: auto; padding: 10px; border-radius: 8px; background: #fff; }
 figcaption { margin-top: 10px; color: var(--quiet); font-size: 14px; }
 dl { margin: 0; }
@@ -57,19 +57,21 @@ dl { margin: 0; }
 .known { color: var(--known); } .open { color: var(--quiet); font-weight: 500; }
 .numbers { display: flex; flex-wrap: wrap; gap: 0 22px; margin-top: 3px; font-size: 14px; }
 .numbers span { color: var(--quiet); } .numbers b { color: var(--ink); font-weight: 600; }
-.why { color: var(--quiet); }
-.why { font-size: 13px; }
+.why { color: var(--quiet); font-size: 13px; }
 .curves { margin: 0; padding: 0; list-style: none; font-size: 13px; }
 .curves li { padding: 2px 0; overflow-wrap: anywhere; }
 .curves b { font-weight: 600; }
 .curves .quiet { color: var(--quiet); }
-@media (max-width: 860px) { article { grid-template-columns: minmax(0, 1fr); } header, main { padding: 0 14px; }
-  header { padding-top: 22px; } .bar > div { padding: 8px 14px; } article { padding: 16px; }
-  .bar { position: static; } html { scroll-padding-top: 8px; } figure { margin-bottom: 14px; } .says { flex-wrap: wrap; gap: 2px 12px; } }
+@media screen and (max-width: 860px) { article { grid-template-columns: minmax(0, 1fr); padding: 16px; }
+  header, main { padding: 0 14px; } header { padding-top: 22px; } .bar > div { padding: 8px 14px; }
+  .bar, figure { position: static; } html { scroll-padding-top: 8px; } figure { margin-bottom: 14px; }
+  .says { flex-wrap: wrap; gap: 2px 12px; } }
 @media print { :root { color-scheme: light; --paper: #fff; --back: #fff; --ink: #000; --quiet: #444;
   --edge: #bbb; --accent: #000; --good: #0a7a58; --bad: #b3401a; --known: #7a5c00; }
-  body { font-size: 10pt; } .bar, .files { display: none; } article { break-inside: avoid; border-width: 1px 0 0;
-  border-radius: 0; padding: 10pt 0; margin: 0; gap: 2pt 18pt; } }
+  body, .numbers, .verdict { font-size: 9pt; } figcaption, .where, .why, .curves { font-size: 8pt; }
+  header, main { padding: 0; } figure { position: static; } .bar, .files { display: none; }
+  article { break-inside: avoid; border-width: 1px 0 0; border-radius: 0; padding: 10pt 0; margin: 0; gap: 2pt 18pt; }
+  .claim { padding: 5pt 0; } figure img { padding: 0; } }
 )css";
 
 // Shows the figures that were chosen.
