@@ -33,9 +33,14 @@ std::string properties(const Exhibit& e) {
   return fmt::format("{}", fmt::join(out, ","));
 }
 
+int claims_in(const Gallery& gallery) {
+  const Tally t = tally(gallery);
+  return t.agree + t.differ + t.differ_as_known + t.not_comparable;
+}
+
 class Page {
  public:
-  explicit Page(const Gallery& gallery) : gallery_(gallery) {}
+  explicit Page(const Gallery& gallery) : gallery_(gallery), claims_(claims_in(gallery) > 0) {}
   std::string text();
 
  private:
@@ -53,6 +58,7 @@ class Page {
   void curves(const Figure& figure);
 
   const Gallery& gallery_;
+  bool claims_;  // are there any? Else figures stand side by side
   std::string out_;
 };
 
@@ -64,7 +70,7 @@ void Page::head() {
   add("<header>\n<h1>{}</h1>", escaped(gallery_.title));
   if (!gallery_.lead.empty()) add("<p class=\"lead\">{}</p>", escaped(gallery_.lead));
   const Tally t = tally(gallery_);
-  if (t.agree + t.differ + t.differ_as_known + t.not_comparable > 0) {
+  if (claims_) {
     add("<ul class=\"tally\">");
     add("<li><b>{}</b><span>figures</span></li>", gallery_.exhibits.size());
     add("<li><b class=\"agrees\">{}</b><span>statements agree</span></li>", t.agree);
@@ -80,12 +86,16 @@ void Page::bar() {
   add("<div class=\"bar\"><div>\n<nav aria-label=\"figures\">");
   for (const Exhibit& e : gallery_.exhibits)
     add("<a href=\"#{0}\">{0}</a>", escaped(e.figure.name));
-  add("</nav>\n<label hidden>show <select id=\"choice\"><option value=\"\">all</option>"
-      "<option value=\"differs\">what differs</option><option value=\"agrees\">what agrees</option>"
-      "<option value=\"open\">what cannot be compared</option>"
-      "<option value=\"computed\">computed curves</option>"
-      "<option value=\"synthetic\">synthetic curves</option>"
-      "<option value=\"unavailable\">what is lost</option></select></label>\n</div></div>");
+  add("</nav>");
+  if (claims_)
+    add("<label hidden>show <select id=\"choice\"><option value=\"\">all</option>"
+        "<option value=\"differs\">what differs</option><option value=\"agrees\">what "
+        "agrees</option>"
+        "<option value=\"open\">what cannot be compared</option>"
+        "<option value=\"computed\">computed curves</option>"
+        "<option value=\"synthetic\">synthetic curves</option>"
+        "<option value=\"unavailable\">what is lost</option></select></label>");
+  add("</div></div>");
 }
 
 void Page::files(const Figure& figure, const FigureData& data) {
@@ -168,10 +178,11 @@ void Page::curves(const Figure& figure) {
 
 void Page::exhibit(const Exhibit& e) {
   const Figure& figure = e.figure;
-  add("<article id=\"{}\" data-is=\"{}\">\n<div class=\"head\"><h2><span class=\"number\">{}{}"
-      "</span>{}</h2>",
-      escaped(figure.name), properties(e), escaped(gallery_.prefix), escaped(figure.name),
-      escaped(figure.title));
+  add("<article id=\"{}\" data-is=\"{}\">\n<div class=\"head\"><h2>", escaped(figure.name),
+      properties(e));
+  if (!gallery_.prefix.empty())
+    add("<span class=\"number\">{}{}</span>", escaped(gallery_.prefix), escaped(figure.name));
+  add("{}</h2>", escaped(figure.title));
   files(figure, data(figure));
   add("</div>");
   picture(e);
@@ -184,7 +195,7 @@ void Page::exhibit(const Exhibit& e) {
 std::string Page::text() {
   head();
   bar();
-  add("<main>");
+  add("<main{}>", claims_ ? "" : " class=\"sheet\"");
   for (const Exhibit& e : gallery_.exhibits) exhibit(e);
   add("</main>\n<script>{}</script>\n</body>\n</html>", gallery_script);
   return out_;
@@ -238,7 +249,7 @@ std::string index_html(const Gallery& gallery) { return Page(gallery).text(); }
 std::string index_json(const Gallery& gallery) {
   Json out{{"format", "sinew.figures/1"}, {"title", gallery.title}, {"page", "index.html"}};
   const Tally t = tally(gallery);
-  if (t.agree + t.differ + t.differ_as_known + t.not_comparable > 0)
+  if (claims_in(gallery) > 0)
     out["verdicts"] = {{"agrees", t.agree},
                        {"differs", t.differ},
                        {"differs, as known", t.differ_as_known},

@@ -62,6 +62,9 @@ dl { margin: 0; }
 .curves li { padding: 2px 0; overflow-wrap: anywhere; }
 .curves b { font-weight: 600; }
 .curves .quiet { color: var(--quiet); }
+.sheet { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 400px), 1fr)); gap: 18px; padding-top: 18px; }
+.sheet article { display: block; margin: 0; }
+.sheet figure { position: static; }
 @media screen and (max-width: 860px) { article { grid-template-columns: minmax(0, 1fr); padding: 16px; }
   header, main { padding: 0 14px; } header { padding-top: 22px; } .bar > div { padding: 8px 14px; }
   .bar, figure { position: static; } html { scroll-padding-top: 8px; } figure { margin-bottom: 14px; }
@@ -77,11 +80,13 @@ dl { margin: 0; }
 // Shows the figures that were chosen.
 inline constexpr std::string_view gallery_script = R"js(
 const choice = document.getElementById('choice');
-choice.parentElement.hidden = false;
-choice.addEventListener('change', () => {
-  for (const a of document.querySelectorAll('article'))
-    a.hidden = choice.value !== '' && !a.dataset.is.split(',').includes(choice.value);
-});
+if (choice) {
+  choice.parentElement.hidden = false;
+  choice.addEventListener('change', () => {
+    for (const a of document.querySelectorAll('article'))
+      a.hidden = choice.value !== '' && !a.dataset.is.split(',').includes(choice.value);
+  });
+}
 document.documentElement.dataset.ready = '';
 )js";
 

@@ -8,6 +8,7 @@
 namespace sinew::report {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
@@ -83,6 +84,15 @@ TEST(Gallery, WithoutPicturesTheDataAreThere) {
   EXPECT_THAT(page, Not(HasSubstr("<img")));
   EXPECT_THAT(page, HasSubstr("href=\"2-6.csv\""));
   EXPECT_FALSE(Json::parse(index_json(g))["figures"][0].contains("svg"));
+}
+
+TEST(Gallery, FiguresOfWhichNothingIsSaidStandSideBySide) {
+  Gallery g = gallery();
+  EXPECT_THAT(index_html(g), AllOf(HasSubstr("<main>"), HasSubstr("id=\"choice\"")));
+  g.exhibits[0].claims.clear();
+  EXPECT_THAT(index_html(g), AllOf(HasSubstr("<main class=\"sheet\">"),
+                                   Not(HasSubstr("id=\"choice\"")), Not(HasSubstr("tally\">"))));
+  EXPECT_FALSE(Json::parse(index_json(g)).contains("verdicts"));
 }
 
 TEST(Gallery, TextStaysText) {
