@@ -1,6 +1,7 @@
 #include "cli/text_table.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace sinew::cli {
 
@@ -41,6 +42,11 @@ TextTable::TextTable(std::vector<std::string> titles, std::vector<Align> align)
     : align_(std::move(align)) {
   align_.resize(titles.size(), Align::left);
   rows_.push_back(std::move(titles));
+}
+
+void TextTable::add(std::vector<std::string> row) {
+  if (row.size() > align_.size()) throw std::logic_error("a row has more cells than its table");
+  rows_.push_back(std::move(row));
 }
 
 std::vector<std::size_t> TextTable::widths() const {

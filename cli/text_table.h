@@ -14,7 +14,8 @@ class TextTable {
   // Titles of the columns; `align` is that of the values, left where it says nothing.
   explicit TextTable(std::vector<std::string> titles, std::vector<Align> align = {});
 
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  // Throws std::logic_error for more cells than there are titles.
+  void add(std::vector<std::string> row);
   bool empty() const { return rows_.size() == 1; }
 
   // The last column is never padded. `indent` stands before each line.
