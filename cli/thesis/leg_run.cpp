@@ -153,7 +153,7 @@ report::Figure joint_angles(const LegRun& run, const std::string& number,
 report::Figure foot_path(const LegRun& run, const std::string& number, const std::string& title,
                          const std::string& caption, const Window& window) {
   report::Curve actual = run.path("actual, simulated", "/foot/position", window);
-  report::Curve desired = run.path("desired", "/desired/foot/position", window);
+  report::Curve desired = once(run.path("desired", "/desired/foot/position", window));
   desired.kind = report::Curve::Kind::desired;
   return {.name = number,
           .title = title,

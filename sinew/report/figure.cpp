@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include "sinew/config/quantity.h"
@@ -141,6 +142,33 @@ std::string_view to_text(Curve::Kind kind) {
       return "synthetic";
   }
   return "";
+}
+
+Curve once(const Curve& path) {
+  Curve out = path;
+  out.xs.clear();
+  out.ys.clear();
+  const auto add = [&](double x, double y) {
+    out.xs.push_back(x);
+    out.ys.push_back(y);
+  };
+  std::set<std::pair<double, double>> been;
+  bool left_out = false;
+  for (std::size_t i = 0; i < path.xs.size(); ++i) {
+    const double x = path.xs[i], y = path.ys[i];
+    const bool number = !std::isnan(x) && !std::isnan(y);
+    if (number && !been.insert({x, y}).second) {
+      left_out = true;
+      continue;
+    }
+    if (left_out && number) {
+      add(x, std::nan(""));
+      add(path.xs[i - 1], path.ys[i - 1]);  // where the new part leaves the old one
+    }
+    left_out = false;
+    add(x, y);
+  }
+  return out;
 }
 
 std::string file_name_of(std::string_view text) {

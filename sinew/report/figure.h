@@ -111,6 +111,10 @@ std::string csv(const Sheet& sheet);
 
 std::string_view to_text(Curve::Kind kind);
 
+// A path without the points at which it was before: dashes that run over each other would look like
+// a full line. A gap stands where points are left out.
+Curve once(const Curve& path);
+
 // "Hip flexor: at 45 psi" -> "hip-flexor-at-45-psi": a name for a file.
 std::string file_name_of(std::string_view text);
 

@@ -114,6 +114,19 @@ TEST(FigureData, RefusesUnlikeNumbersAndNamesThatAreNoFiles) {
   EXPECT_THROW(data(figure), std::invalid_argument);
 }
 
+TEST(Once, LeavesOutWhereAPathWasBefore) {
+  // A square twice, then a way off from its third corner.
+  const Curve path{
+      .label = "path", .xs = {0, 1, 1, 0, 0, 1, 1, 2, 3}, .ys = {0, 0, 1, 1, 0, 0, 1, 2, 2}};
+  const Curve drawn = once(path);
+  EXPECT_THAT(drawn.xs, ElementsAre(0, 1, 1, 0, 2, 1, 2, 3));
+  EXPECT_THAT(drawn.ys, ElementsAre(0, 0, 1, 1, ::testing::IsNan(), 1, 2, 2));
+  EXPECT_EQ(drawn.label, "path");
+
+  const Curve new_ways{.xs = {0, nan, 1, 2}, .ys = {0, 5, nan, 3}};
+  EXPECT_EQ(once(new_ways).xs.size(), 4u) << "gaps stay";
+}
+
 TEST(FileName, IsOneThatEverySystemTakes) {
   EXPECT_EQ(file_name_of("Hip flexor: at 45 psi!"), "hip-flexor-at-45-psi");
   EXPECT_EQ(file_name_of("6-4"), "6-4");

@@ -200,7 +200,8 @@ void Maker::panel(const Panel& all) {
   if (!stance_.empty()) figure.caption += " Shaded: stance by plan.";
   figure.caption += meanings(panel);
   for (auto& [part, plot] : plots) {
-    if (plot.curves.size() == 1) plot.curves[0].label.clear();  // its axis says it
+    if (plots.size() == 1 && plot.curves.size() == 1)
+      plot.curves[0].label.clear();  // its axis says it
     figure.plots.push_back(std::move(plot));
   }
   finish(std::move(figure));
@@ -227,9 +228,11 @@ void add_foot_path(Maker& make, const Channels& channels) {
     return make.pair(label, {topic, "x"}, {topic, "y"}, unit, unit, kind);
   };
   make.over("foot-path", "Foot path", {"x, forward", unit.name}, {"y, up", unit.name},
-            {path("actual", which, make.kind()), path("desired", desired, Kind::desired)}, true,
-            which == "/foot/position" ? " Of the ankle about the first joint, from measured angles."
-                                      : " Of the ankle about the first joint, as simulated.");
+            {path("actual", which, make.kind()), once(path("desired", desired, Kind::desired))},
+            true,
+            which == "/foot/position"
+                ? " Of the ankle about the first joint, from measured angles; the desired one once."
+                : " Of the ankle about the first joint, as simulated; the desired one once.");
 }
 
 // The numbers of a chart, in its axes' units.
