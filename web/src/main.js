@@ -11,6 +11,8 @@ import { as_scene, StandScene } from './stand.js';
 import { count_verdicts, Figures, show_parameters, show_results, show_warnings } from './tables.js';
 import { Units } from './units.js';
 
+const paper_scene = 'width: 640px; height: 330px;';  // of the drawing, whatever the screen's is
+
 class Page {
   constructor(run, columns) {
     this.run = run;
@@ -254,6 +256,8 @@ class Page {
   print(begins) {
     this.player.set_playing(false);
     this.plots.print(begins);
+    this.charts?.print(begins);
+    if (this.scene) by_id('scene').style.cssText = begins ? paper_scene : '';
   }
 
   groups() {

@@ -125,11 +125,15 @@ export class StandScene {
                              unit: thesis ? 0.0254 : 1e-3, label: thesis ? 'in' : 'mm' }, look);
     if (Number.isFinite(this.start) && spec.most > spec.least)
       parts.pointer(ctx, v, x, this.start, look.quiet, [1, 3], '', look, -1);
+    // As much as there is room for beside the element.
+    const room = v.x(-0.08 * this.reach) - x - 14;
+    const longest = (...texts) => texts.find((text) => parts.width(ctx, text, look) < room) ?? texts.at(-1);
+    const now = this.length_text(state.length), wish = this.length_text(state.desired);
     if (Number.isFinite(state.desired))
-      parts.pointer(ctx, v, x, state.desired, look.desired, [5, 4], `desired ${this.length_text(state.desired)}`, look,
+      parts.pointer(ctx, v, x, state.desired, look.desired, [5, 4], longest(`desired ${wish}`, wish), look,
                     state.desired < state.length ? -1 : 1);
-    const moved = spec.most > spec.least ? `  (${this.length_text(state.length - this.start, true)})` : '';
-    parts.pointer(ctx, v, x, state.length, look.actual, [], `${this.length_text(state.length)}${moved}`, look,
+    const moved = spec.most > spec.least ? `${now}  (${this.length_text(state.length - this.start, true)})` : now;
+    parts.pointer(ctx, v, x, state.length, look.actual, [], longest(moved, now), look,
                   state.desired < state.length ? 1 : -1);
   }
 

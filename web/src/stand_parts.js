@@ -32,6 +32,12 @@ function words(ctx, text, x, y, color, look, { align = 'left', size = 12, weight
   ctx.fillText(text, x, y);
 }
 
+// Of a pointer's words.
+export function width(ctx, text, look) {
+  ctx.font = `600 12px ${look.sans}`;
+  return ctx.measureText(text).width;
+}
+
 function hatch(ctx, x, y, width, tall, color) {
   ctx.save();
   ctx.beginPath();
