@@ -22,9 +22,16 @@ function bundle(entry) {
   return result.outputFiles[0].text.trim();
 }
 
+// The dark colors stand in the source once: chosen by the button, here also by the system.
+function dark_by_system(css) {
+  const rule = css.match(/:root\[data-theme=["']?dark["']?\]\{([^}]*)\}/);
+  if (!rule) throw new Error('style.css: no dark colors');
+  return css.replace(rule[0], `${rule[0]}@media (prefers-color-scheme:dark){:root:not([data-theme]){${rule[1]}}}`);
+}
+
 function page_of(frame, style, script) {
   let page = readFileSync(join(src, frame), 'utf8');
-  page = page.replace('/*style*/', () => bundle(style));
+  page = page.replace('/*style*/', () => dark_by_system(bundle(style)));
   page = page.replace('/*script*/', () => bundle(script));
 
   // What the program fills in must have one place each.
