@@ -59,14 +59,21 @@ Claim not_comparable(std::string where, std::string says, std::string theirs, st
 }
 
 Claim claim(const analysis::Verdict& v) {
-  return {.where = v.source,
-          .says = {},
-          .theirs = v.reported,
-          .quantity = v.key,
-          .ours = v.ours,
-          .accept = v.accept,
-          .why = {},
-          .verdict = v.is};
+  Claim out{.where = v.source,
+            .says = {},
+            .theirs = v.reported,
+            .quantity = v.key,
+            .ours = v.ours,
+            .accept = v.accept,
+            .why = {},
+            .verdict = v.is};
+  // A verdict's source ends with the reason of what is known to differ.
+  constexpr std::string_view mark = ". Why: ";
+  if (const std::size_t at = out.where.find(mark); at != out.where.npos) {
+    out.why = "Known to differ: " + out.where.substr(at + mark.size());
+    out.where.resize(at);
+  }
+  return out;
 }
 
 std::string_view word(Is verdict) {

@@ -57,6 +57,24 @@ TEST(Claim, TellsNumbersWithTheirUnits) {
   EXPECT_EQ(judge(m).ours, "none");
 }
 
+// Of a verdict that the experiment's file has: its reason stands apart from its source.
+TEST(Claim, TakesAVerdictWithItsReason) {
+  analysis::Verdict v{.key = "trolley.distance_m",
+                      .reported = "5 ft",
+                      .ours = "57.7 in",
+                      .accept = "53 in to 60 in",
+                      .source = "6.3",
+                      .is = Is::agrees};
+  EXPECT_EQ(claim(v).where, "6.3");
+  EXPECT_EQ(claim(v).why, "");
+  EXPECT_EQ(claim(v).ours, "57.7 in");
+  v.source += ". Why: the track ends";
+  v.is = Is::differs_as_known;
+  EXPECT_EQ(claim(v).where, "6.3");
+  EXPECT_EQ(claim(v).why, "Known to differ: the track ends");
+  EXPECT_EQ(claim(v).verdict, Is::differs_as_known);
+}
+
 // A narrow band shows the digits that lie in it.
 TEST(Claim, ShowsWhyANumberIsOutside) {
   Measured m = half_a_millisecond(2.8934);
