@@ -12,15 +12,18 @@ using Kind = Curve::Kind;
 using Style = Curve::Style;
 using config::format_number;
 
-// The page's colors; dashes tell them apart in grey.
+// The page's colors; dashes tell them apart in grey, dots what was desired.
 struct Look {
-  const char *color, *dash;
+  const char *color, *dash, *dots;
 };
-constexpr Look looks[] = {{"#0072b2", "1"},           {"#d55e00", "(7,2)"},
-                          {"#009e73", "(7,2,1.5,2)"}, {"#a8478a", "(3.5,1.5)"},
-                          {"#c28a00", "(10,2,3,2)"},  {"#3fa1d9", "(5,1.5,1,1.5,1,1.5)"},
-                          {"#6b6f76", "(5,4)"},       {"#7a4b12", "(2,1)"}};
-constexpr const char* desired_dash = "(1,1.5)";
+constexpr Look looks[] = {{"#0072b2", "1", "(1,1.5)"},
+                          {"#d55e00", "(7,2)", "(1,3)"},
+                          {"#009e73", "(7,2,1.5,2)", "(1,1.5,1,4)"},
+                          {"#a8478a", "(3.5,1.5)", "(1,5)"},
+                          {"#c28a00", "(10,2,3,2)", "(1,1.5,1,1.5,1,4)"},
+                          {"#3fa1d9", "(5,1.5,1,1.5,1,1.5)", "(2,3)"},
+                          {"#6b6f76", "(5,4)", "(1,2.2)"},
+                          {"#7a4b12", "(2,1)", "(1,7)"}};
 
 // In single quotes a quote alone means something to gnuplot.
 std::string quoted(std::string_view typed) {
@@ -90,7 +93,7 @@ std::string line_of(const Plot& plot, std::size_t c) {
   const bool desired = curve.kind == Kind::desired;
   return fmt::format("linewidth {} dashtype {} linecolor rgb '{}'", desired ? "1.0" : "0.9",
                      plot.names == Plot::Names::none ? looks[0].dash
-                     : desired                       ? desired_dash
+                     : desired                       ? look.dots
                                                      : look.dash,
                      look.color);
 }

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -201,6 +202,23 @@ TEST(Layout, MakesRoomForNamesOfRowsAndAtTheEnds) {
   figure.plots[0].names = Plot::Names::legend;
   figure.plots[0].curves[1].in_legend = false;
   EXPECT_EQ(layout(figure).plots[0].legend.size(), 1u);
+}
+
+// --- script ---
+
+TEST(Script, DrawsEveryCurveOfAPlotWithADashOfItsOwn) {
+  Figure figure{.name = "dashes", .plots = {{.x = {.name = "x"}, .y = {.name = "y"}}}};
+  for (const Curve::Kind kind : {Curve::Kind::computed, Curve::Kind::desired})
+    for (int color = 0; color < 8; ++color)
+      figure.plots[0].curves.push_back(
+          {.label = "c", .xs = {0, 1}, .ys = {0, 1}, .kind = kind, .color = color});
+  const std::string text = script(figure, data(figure), {Picture::svg});
+  std::set<std::string> dashes;
+  std::istringstream lines(text);
+  for (std::string l; std::getline(lines, l);)
+    if (const auto at = l.find(" dashtype "); at != l.npos && l.find("using") != l.npos)
+      dashes.insert(l.substr(at, l.find(" linecolor") - at));
+  EXPECT_EQ(dashes.size(), 16u);
 }
 
 // --- through gnuplot ---
