@@ -36,7 +36,8 @@ void add_figures(CLI::App& app, Action& action) {
                  "folder for the figures and index.json; of runs: else figures/ beside the log");
   sub.add_option("--root", options->thesis.root,
                  "--thesis: the project's folder, with robots/ and experiments/; .");
-  sub.add_option("--format", options->runs.formats, "svg, png or csv; svg,png");
+  sub.add_option("--format", options->runs.formats, "svg, png or csv; svg,png")
+      ->allow_extra_args(false);
   sub.add_option("--only", options->runs.only, "of runs: these figures alone")->excludes(thesis);
   sub.add_option("--units", options->runs.units, "of runs: si or thesis (in, lbf, psi, deg); si")
       ->check(CLI::IsMember({"si", "thesis"}))

@@ -131,7 +131,7 @@ TEST(FiguresOfRuns, OfSeveralRunsStandInTheirOwnFolders) {
   const Workspace w;
   run(w, bench, "a");
   run(w, stand, "b");
-  ASSERT_EQ(w.sinew({"figures", "a", "b", "--format", "csv"}).code, 0);
+  ASSERT_EQ(w.sinew({"figures", "--format", "csv", "a", "b"}).code, 0);
   EXPECT_TRUE(fs::exists(w / "a/figures/index.json"));
   EXPECT_TRUE(fs::exists(w / "b/figures/index.json"));
   ASSERT_EQ(w.sinew({"figures", "a", "b", "--format", "csv", "-o", "all"}).code, 0);
