@@ -389,8 +389,7 @@ void add_length_sweep(const Sources& from, Exhibit& figure_2_13) {
        .kind = Kind::synthetic,
        .style = Style::points,
        .color = 1,
-       .source = "experiments/rig/length-sweep.toml: our stand, the thesis's own actuator",
-       .in_legend = false});
+       .source = "experiments/rig/length-sweep.toml: our stand, the thesis's own actuator"});
 }
 
 }  // namespace sinew::cli::thesis

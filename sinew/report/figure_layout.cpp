@@ -96,8 +96,9 @@ Axes axes_of(const Plot& plot) {
   make_room(plot.y.ticks, out);
   if (plot.names == Plot::Names::ends)
     for (const Curve& c : plot.curves)
-      out.right = std::max(out.right,
-                           3 * Print::gap + Print::letter * static_cast<double>(letters(c.label)));
+      if (naming(plot, c) == Plot::Names::ends)
+        out.right = std::max(
+            out.right, 3 * Print::gap + Print::letter * static_cast<double>(letters(c.label)));
   return out;
 }
 
@@ -108,9 +109,8 @@ std::string in_legend(const Curve& curve) {
 // Columns of equal width; returns the height of the legend.
 double add_legend(const Plot& plot, PlotLayout& out, double top) {
   std::size_t longest = 0;
-  if (plot.names != Plot::Names::legend) return 0;
   for (const std::size_t c : out.curves) {
-    if (plot.curves[c].label.empty() || !plot.curves[c].in_legend) continue;
+    if (naming(plot, plot.curves[c]) != Plot::Names::legend) continue;
     out.legend.push_back({c, in_legend(plot.curves[c])});
     longest = std::max(longest, letters(out.legend.back().text));
   }
@@ -129,6 +129,12 @@ double add_legend(const Plot& plot, PlotLayout& out, double top) {
 }
 
 }  // namespace
+
+Plot::Names naming(const Plot& plot, const Curve& curve) {
+  if (curve.label.empty() || !curve.in_legend) return Plot::Names::none;
+  const bool points = curve.style == Curve::Style::points;
+  return plot.names == Plot::Names::ends && points ? Plot::Names::legend : plot.names;
+}
 
 Scale scale(const Axis& axis, double least, double greatest, bool tight) {
   if (axis.logarithmic) return logarithmic_scale(axis, least, greatest);

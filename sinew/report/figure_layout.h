@@ -50,6 +50,9 @@ struct FigureLayout {
 
 FigureLayout layout(const Figure& figure);
 
+// Where that curve has its name: points have no end, so theirs stands above the data.
+Plot::Names naming(const Plot& plot, const Curve& curve);
+
 // Ends at round numbers with at most seven ticks; what the axis prescribes stays. `tight`: ends
 // where the data do.
 Scale scale(const Axis& axis, double least, double greatest, bool tight);

@@ -203,7 +203,7 @@ void Script::legend(const Plot& plot, const PlotLayout& at) {
 void Script::ends(const Plot& plot, const PlotLayout& at) {
   for (const std::size_t c : at.curves) {
     const Curve& curve = plot.curves[c];
-    if (!curve.in_legend) continue;
+    if (naming(plot, curve) != Plot::Names::ends) continue;
     std::size_t last = curve.xs.size();
     for (std::size_t i = 0; i < curve.xs.size(); ++i)
       if (!(curve.xs[i] > at.x.to) && std::isfinite(curve.ys[i])) last = i;

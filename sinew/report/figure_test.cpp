@@ -199,6 +199,8 @@ TEST(Layout, MakesRoomForNamesOfRowsAndAtTheEnds) {
   EXPECT_GE(named.right, usual.right + 17 * Print::letter / 2);
   EXPECT_TRUE(named.legend.empty());
   EXPECT_EQ(usual.legend.size(), 2u);
+  figure.plots[0].curves[1].style = Curve::Style::points;  // these have no end
+  EXPECT_EQ(layout(figure).plots[0].legend.size(), 1u);
   figure.plots[0].names = Plot::Names::legend;
   figure.plots[0].curves[1].in_legend = false;
   EXPECT_EQ(layout(figure).plots[0].legend.size(), 1u);

@@ -7,6 +7,7 @@ import { picture, runs, with_page } from './pages.mjs';
 
 const with_gallery = (does, options) => with_page('thesis-figures', does, { beside: true, ...options }, 'index.html');
 const index = () => JSON.parse(readFileSync(join(runs, 'thesis-figures', 'index.json'), 'utf8'));
+const svg_of = (figure) => readFileSync(join(runs, 'thesis-figures', figure.svg), 'utf8');
 const visible = (page) => page.locator('article:visible').evaluateAll((all) => all.map((a) => a.id));
 
 test('the page of figures has every figure, its picture and its claims', () => with_gallery(async (page) => {
@@ -27,6 +28,12 @@ test('the page of figures has every figure, its picture and its claims', () => w
   await page.evaluate(() => scrollTo(0, 0));
   await picture(page, 'thesis-figures');
 }));
+
+test('a picture with a synthetic curve says so', () => {
+  const synthetic = index().figures.filter((f) => f.curves.some((c) => c.kind === 'synthetic'));
+  assert.ok(synthetic.length > 10);
+  for (const figure of synthetic) assert.match(svg_of(figure), /\(synthetic\)/, figure.figure);
+});
 
 test('what differs is shown alone', () => with_gallery(async (page) => {
   await page.selectOption('#choice', 'differs');
