@@ -41,7 +41,7 @@ double planned_y(const std::string& phase, double x) {
 }
 
 Exhibit figure_6_1(const LegRun& run) {
-  report::Plot plot{.x = {"x, forward", "in"}, .y = {"y, up", "in"}, .equal_scale = true};
+  report::Plot plot{.x = {"x forward", "in"}, .y = {"y up", "in"}, .equal_scale = true};
   double off = 0;
   int color = 0;
   for (const char* phase : {"swing", "foot_plant", "propulsion"}) {
@@ -251,8 +251,8 @@ Exhibit figure_6_8(const LegRun& run) {
   const Column normal = run.rows({"/foot/force", "y"}), friction = run.rows({"/foot/force", "x"});
   const report::Span step = run.stance().at(1);
   std::vector<Curve> curves;
-  for (const auto& [field, label] : {std::pair("y", "normal force Fy, simulated"),
-                                     std::pair("x", "friction force Fx, simulated")})
+  for (const auto& [field, label] : {std::pair("y", "normal force Fy (simulated)"),
+                                     std::pair("x", "friction force Fx (simulated)")})
     curves.push_back(
         run.curve(label, {"/foot/force", field}, run.sequence(), static_cast<int>(curves.size())));
   return {
@@ -291,7 +291,7 @@ Exhibit figure_6_9(const LegRun& run) {
     const std::string topic = std::string("/trolley/") + what;
     plots.push_back(
         over_time(run, std::string("trolley ") + what, unit,
-                  {run.curve("from torques, simulated", {topic}, run.sequence(), 0),
+                  {run.curve("from torques (simulated)", {topic}, run.sequence(), 0),
                    run.curve("of the simulated trolley", {"/true" + topic}, run.sequence(), 1)}));
   }
   return {{.name = "6-9",

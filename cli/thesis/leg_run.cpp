@@ -133,9 +133,9 @@ std::vector<report::Curve> of_joints(const LegRun& run, const std::string& what,
   int color = 0;
   for (const char* joint : {"hip", "knee"}) {
     const std::string topic = fmt::format("/joint/{}{}", joint, what);
-    out.push_back(run.curve(fmt::format("{}, simulated", joint), {topic}, run.sequence(), color));
+    out.push_back(run.curve(fmt::format("{} (simulated)", joint), {topic}, run.sequence(), color));
     if (desired)
-      out.push_back(run.desired(fmt::format("{}, desired", joint), {"/desired" + topic},
+      out.push_back(run.desired(fmt::format("{} desired", joint), {"/desired" + topic},
                                 run.sequence(), color));
     ++color;
   }
@@ -152,14 +152,14 @@ report::Figure joint_angles(const LegRun& run, const std::string& number,
 
 report::Figure foot_path(const LegRun& run, const std::string& number, const std::string& title,
                          const std::string& caption, const Window& window) {
-  report::Curve actual = run.path("actual, simulated", "/foot/position", window);
+  report::Curve actual = run.path("actual (simulated)", "/foot/position", window);
   report::Curve desired = once(run.path("desired", "/desired/foot/position", window));
   desired.kind = report::Curve::Kind::desired;
   return {.name = number,
           .title = title,
           .caption = run.caption(caption),
-          .plots = {{.x = {"x, forward", "in"},
-                     .y = {"y, up", "in"},
+          .plots = {{.x = {"x forward", "in"},
+                     .y = {"y up", "in"},
                      .curves = {std::move(actual), std::move(desired)},
                      .equal_scale = true}}};
 }

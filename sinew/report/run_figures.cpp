@@ -210,6 +210,7 @@ void Maker::panel(const Panel& all) {
 void Maker::over(const std::string& name, const std::string& title, const Axis& x, const Axis& y,
                  std::vector<Curve> curves, bool equal_scale, const std::string& caption) {
   std::erase_if(curves, [](const Curve& c) { return c.xs.empty(); });
+  if (curves.size() == 1) curves[0].label.clear();
   Figure figure{.name = name, .title = title};
   figure.caption = fmt::format("{} of {}, {}.{}", title, about_.run, about_.source, caption);
   figure.plots.push_back({.x = x, .y = y, .curves = std::move(curves), .equal_scale = equal_scale});
@@ -227,7 +228,7 @@ void add_foot_path(Maker& make, const Channels& channels) {
   const auto path = [&](const char* label, const std::string& topic, Kind kind) {
     return make.pair(label, {topic, "x"}, {topic, "y"}, unit, unit, kind);
   };
-  make.over("foot-path", "Foot path", {"x, forward", unit.name}, {"y, up", unit.name},
+  make.over("foot-path", "Foot path", {"x forward", unit.name}, {"y up", unit.name},
             {path("actual", which, make.kind()), once(path("desired", desired, Kind::desired))},
             true,
             which == "/foot/position"
@@ -264,7 +265,6 @@ void add_chart(Maker& make, const Chart& chart) {
     else
       curves.push_back(std::move(curve));
   }
-  if (curves.size() == 1) curves[0].label.clear();
   make.over(file_name_of(chart.title), chart.title, {in_sentence(chart.x.label), x.name},
             {in_sentence(chart.y.label), y.name}, std::move(curves), false, "");
 }

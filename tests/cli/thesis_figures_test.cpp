@@ -309,7 +309,7 @@ void figure_6_1() {
 
 // Positions are the integral of velocities, by both ways of 6-9.
 void figure_6_9() {
-  for (const char* which : {"from torques, simulated", "of the simulated trolley"}) {
+  for (const char* which : {"from torques (simulated)", "of the simulated trolley"}) {
     const Xy position = curve("6-9", which), velocity = curve("6-9", which, 1);
     ASSERT_EQ(position.x.size(), velocity.x.size());
     double way = position.y.front();
@@ -344,7 +344,7 @@ void figures_6_10_and_6_11() {
 
 // A mark for each 10 ms, from the begin of the kick on; the fastest are most of an inch apart.
 void figure_6_13() {
-  const Xy actual = curve("6-13", "actual, simulated");
+  const Xy actual = curve("6-13", "actual (simulated)");
   EXPECT_NEAR(static_cast<double>(actual.x.size()), 50, 1);
   double fastest = 0;
   for (std::size_t i = 1; i < actual.x.size(); ++i)
