@@ -49,7 +49,7 @@ void add_figures(CLI::App& app, Action& action) {
                  "of runs: what was run, in place of the folder's resolved.toml")
       ->excludes(thesis);
   sub.add_flag("--force", options->runs.force, "replace the figures that are there");
-  sub.add_flag("--json", options->runs.json, "print index.json");
+  sub.add_flag("--json", options->runs.json, "print index.json; of runs all of them");
   sub.add_flag("--quiet", options->runs.quiet, "only errors on stderr");
   sub.callback([=, &action] {
     if (!options->of_thesis && options->runs.runs.empty())
