@@ -75,6 +75,7 @@ class Maker {
       for (std::size_t k = 0; k < groups.size(); ++k)
         add(groups[k].first, groups[k].second, held_out);
     }
+    if (rows_.scattered) return {against_measured(), left_};
     const std::size_t stride = 1 + rows_.size() / most_rows;
     if (stride > 1) fit_.note = fmt::format("One row of {} is shown.", stride);
     if (colors_.size() == 1) {
@@ -118,6 +119,28 @@ class Maker {
                             .color = color,
                             .x = x,
                             .y = pick(group, [&](std::size_t i) { return best.residuals[i]; })});
+  }
+
+  // What the chosen model says against what was measured; right is the diagonal.
+  Chart against_measured() const {
+    Chart out = fit_;
+    out.title = "By the model against measured";
+    out.x = {report_.quantity + ", measured", out.y.unit};
+    out.y.label += ", by the model";
+    std::erase_if(out.curves, [](const Curve& c) { return c.style != Curve::Style::line; });
+    for (std::size_t k = 0; k < out.curves.size(); ++k) {  // each line follows its points
+      Curve& c = out.curves[k];
+      const Curve& points = fit_.curves[2 * k];
+      c = {.label = points.label,
+           .style = points.style,
+           .color = points.color,
+           .x = points.y,
+           .y = c.y};
+    }
+    const auto [least, most] = std::ranges::minmax(rows_.measured);
+    out.curves.push_back(
+        {.label = "as measured", .color = 6, .x = {least, most}, .y = {least, most}});
+    return out;
   }
 
   // Of one curve the eye can follow the others too; they wait until they are asked for.

@@ -43,6 +43,9 @@ struct Rows {
   std::vector<int> order;            // of each row its group's place; empty: as they come
   std::vector<bool> held_out;        // of each row; empty: none is
 
+  // More than x and the group changes from row to row: no curve leads through them.
+  bool scattered = false;
+
   std::size_t size() const { return at.size(); }
 };
 

@@ -20,6 +20,7 @@ inline std::vector<double> told_from(std::vector<double> sums) {
 inline Rows rows_of(const Measured& data, const JointTorque& joint,
                     const std::optional<Measured>& held_out, const JointTorque& others) {
   Rows out{.x = "angle", .x_unit = "rad", .at = data["angle"], .measured = joint.torque()};
+  out.scattered = true;  // so are pressures
   if (!held_out) return out;
   const std::vector<double>& angle = (*held_out)["angle"];
   out.held_out.assign(out.size(), false);

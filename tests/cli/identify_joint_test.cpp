@@ -99,5 +99,27 @@ TEST(IdentifyJoint, RefusesWithoutAKnownLoad) {
   EXPECT_EQ(result.code, 2);
 }
 
+// Pressures change from pose to pose, so no curve leads through them: the page shows what the model
+// says against what was measured.
+TEST(IdentifyJoint, LeavesAPageOfItsPoses) {
+  if (!SINEW_HAS_PAGE) GTEST_SKIP() << "built without npm";
+  const Workspace w;
+  write_text(w / "knee.csv", poses(0.45));
+  const Result result = identified(w, {"--json", "--report", "knee.html"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  const std::string html = read_text(w / "knee.html"), opening = "id=\"run-data\">";
+  const std::size_t from = html.find(opening) + opening.size();
+  const Json part = Json::parse(html.substr(from, html.find("</script>", from) - from))["parts"][0];
+  const Json &points = part["charts"][0]["curves"][0], &left = part["charts"][1]["curves"][0];
+  ASSERT_EQ(points["x"].size(), 60u);
+  double square = 0;
+  for (std::size_t i = 0; i < 60; ++i) {
+    const double measured = points["x"][i], model = points["y"][i], off = left["y"][i];
+    EXPECT_NEAR(model - measured, off, 2e-6 * std::abs(measured));
+    square += off * off / 60;
+  }
+  EXPECT_NEAR(std::sqrt(square), part["report"]["fit"]["rmse"], 1e-4 * std::sqrt(square));
+}
+
 }  // namespace
 }  // namespace sinew::test

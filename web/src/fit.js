@@ -6,18 +6,19 @@ import { by_id, element } from './page.js';
 import { cell, heading, show_parameters, table } from './tables.js';
 import { number, Units } from './units.js';
 
-const percent = (x) => (x === undefined ? '–' : `${x < 0.01 ? x.toPrecision(1) : x.toFixed(2)} %`);
-
-// To the digits that its interval leaves: two of them.
-function precise(value, half) {
-  if (!(half > 0) || !Number.isFinite(half)) return words(value.toPrecision(6));
-  const decimals = Math.max(0, 1 - Math.floor(Math.log10(half)));
-  return half >= 1e-3 && Math.abs(value) < 1e6
-    ? words(value.toFixed(decimals))
-    : words(value.toExponential(Math.max(0, Math.floor(Math.log10(Math.abs(value) || 1)) + decimals)));
-}
+const percent = (x) => (x === undefined ? '–' : x < 0.005 ? '< 0.01 %' : `${x.toFixed(2)} %`);
 const words = (text) => text.replace(/-/g, '−');
-const half_words = (half) => words(half < 1e-3 || half >= 1e5 ? half.toExponential(1) : String(+half.toPrecision(2)));
+const rank = (x) => Math.floor(Math.log10(Math.abs(x)));
+
+// A value to the digits that half its interval leaves, two of them, and that half.
+function precise(value, half) {
+  if (!(half > 0) || !Number.isFinite(half)) return [words(String(+value.toPrecision(6))), ''];
+  const size = rank(Math.max(Math.abs(value), half)), digits = Math.min(6, Math.max(0, size - rank(half) + 1));
+  if (size < -3 || size >= 6) return [words(value.toExponential(digits)), `± ${words(half.toExponential(1))}`];
+  const decimals = Math.max(0, digits - size);
+  const small = half < 0.5 * 10 ** -decimals;
+  return [words(value.toFixed(decimals)), `± ${small ? words(half.toExponential(1)) : half.toFixed(decimals)}`];
+}
 
 class Part {
   constructor(spec, page) {
@@ -77,8 +78,9 @@ class Part {
       const value = units.convert(p.value, p.unit);
       const note = p.at_bound ? 'at the bound of its range' : !p.identifiable ? 'these data do not tell it'
         : !Number.isFinite(half) ? 'no interval' : '';
+      const [shown, interval] = precise(value, half);
       return element('tr', { 'data-name': p.name, 'data-value': p.value }, element('th', { scope: 'row', class: 'key' }, p.name),
-        cell(precise(value, half), 'number ours'), cell(Number.isFinite(half) ? `± ${half_words(half)}` : '', 'number'),
+        cell(shown, 'number ours'), cell(interval, 'number'),
         cell(u.label, 'unit'), element('td', {}, note ? element('span', { class: 'tag guess' }, note) : ''));
     });
     this.values.replaceChildren(element('h3', {}, `Values of ${report.chosen}`),
