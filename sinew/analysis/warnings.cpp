@@ -61,6 +61,28 @@ std::vector<Warning> clipped_sensors(const signals::Table& table, const robot::R
   return out;
 }
 
+std::vector<Warning> clipped_transducers(const signals::Table& table) {
+  constexpr double top = 4095;
+  std::vector<Warning> out;
+  for (const signals::Series& s : table.series) {
+    const std::string& topic = s.topic.name;
+    if (!topic.starts_with("/sensor/") || !topic.ends_with("/count") || s.columns.empty()) continue;
+    const std::string sensor = topic.substr(0, topic.rfind('/'));
+    const std::string name = sensor.substr(sensor.rfind('/') + 1);
+    const signals::Series* value = table.find(sensor + "/value");
+    const bool rests = value && value->topic.fields.front().unit == "Pa";
+    bool begun = std::ranges::none_of(s.columns.front(), [](double c) { return c > 0; });
+    add(out,
+        times_when(table, topic,
+                   [&](double count) {
+                     begun = begun || count > 0;
+                     return count >= top || (begun && !rests && count <= 0);
+                   }),
+        name + ":", "samples at the converter's end");
+  }
+  return out;
+}
+
 std::vector<Warning> lifted_rollers(const signals::Table& table) {
   std::vector<Warning> out;
   for (const std::string roller : {"front", "rear"})

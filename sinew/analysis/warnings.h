@@ -21,6 +21,11 @@ struct Warning {
 // Readings that the converter cut off. A slack muscle's 0 is none.
 std::vector<Warning> clipped_sensors(const signals::Table&, const robot::Robot&);
 
+// The same of the test stand, by the counts alone: its transducers have 12 bits. Zeros before the
+// first other reading are none, unless there is no other: nothing was converted yet. A pressure's
+// zero is the room's.
+std::vector<Warning> clipped_transducers(const signals::Table&);
+
 // Rollers that the leg lifted off the track, 7.2: from there on the trolley would have tipped.
 std::vector<Warning> lifted_rollers(const signals::Table&);
 

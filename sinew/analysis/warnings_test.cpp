@@ -26,6 +26,22 @@ TEST(Warnings, OfAnUneventfulLogAreNone) {
   EXPECT_TRUE(warnings({}, machine()).empty());
 }
 
+TEST(Warnings, OfTheStandKnowThatNothingIsConvertedAtFirst) {
+  Log log(100);
+  log.scalar("/sensor/length/count", [](double t) { return t < 0.205 ? 0.0 : 1200.0; });
+  EXPECT_TRUE(clipped_transducers(log.table).empty());
+  log.scalar("/sensor/force/count", [](double t) { return t < 0.205 ? 0.0 : t < 0.5 ? 9.0 : 0.0; });
+  log.scalar("/sensor/pressure/count", [](double t) { return t < 0.5 ? 4095.0 : 100.0; });
+  log.scalar("/sensor/dead/count", constant(0));
+  log.scalar("/sensor/vented/count", constant(0)).scalar("/sensor/vented/value", constant(0));
+  log.table.series.back().topic.fields[0].unit = "Pa";
+  const auto found = clipped_transducers(log.table);
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(found[0].text, "force: 50 of 100 samples at the converter's end");
+  EXPECT_EQ(found[1].text, "pressure: 50 of 100 samples at the converter's end");
+  EXPECT_EQ(found[2].text, "dead: 100 of 100 samples at the converter's end");
+}
+
 TEST(Warnings, OfClippingKnowThatASlackMuscleReadsZero) {
   Log log(100);
   const auto low_then_high = [](double t) {

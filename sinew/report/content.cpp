@@ -1,5 +1,8 @@
 #include "sinew/report/content.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "sinew/analysis/derived.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/analysis/summary.h"
@@ -110,7 +113,9 @@ Content of_stand(const Run& run) {
   json.put("scene", "null");
   json.put("stand", to_json(stand_of_run, columns));
   json.put("charts", to_json(stand_charts(channels, stand_of_run), columns));
-  json.put("warnings", to_json(analysis::cut_logs(run.table)));
+  std::vector<analysis::Warning> warnings = analysis::cut_logs(run.table);
+  std::ranges::move(analysis::clipped_transducers(run.table), std::back_inserter(warnings));
+  json.put("warnings", to_json(warnings));
   return finish(std::move(json), run, summary, compare(summary, file.reported, file.atmosphere),
                 blob);
 }
