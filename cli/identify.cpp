@@ -204,9 +204,10 @@ void add_result_options(CLI::App& sub, ResultOptions& options) {
 }
 
 void add_report_options(CLI::App& sub, ResultOptions& options) {
-  sub.add_option("--report", options.report,
-                 "FILE.html: a page with the data beside the models; absent: beside --out");
-  sub.add_flag("--no-report", options.no_report, "no page");
+  CLI::Option* page =
+      sub.add_option("--report", options.report,
+                     "FILE.html: a page with the data beside the models; absent: beside --out");
+  sub.add_flag("--no-report", options.no_report, "no page")->excludes(page);
 }
 
 std::string page_of(const ResultOptions& options) {
@@ -219,6 +220,9 @@ std::string page_of(const ResultOptions& options) {
 void check_result_options(const ResultOptions& options) {
   if (const std::string page = page_of(options); !page.empty()) {
     report::require_page(page);
+    if (page == options.out)
+      config::fail({"--out", 0, 0}, "", config::in_quotes(options.out) + ", the page's name too",
+                   "a parameter file, such as mine.toml", "another name, or --no-report");
     refuse_to_overwrite(page, options.force);
     if (std::filesystem::exists(page) && !is_page(page))
       config::fail({page, 0, 0}, "", "something that is no page of `sinew identify`",

@@ -123,6 +123,8 @@ void add_identify_geometry(CLI::App& identify, Action& action) {
   sub.callback([options, &action] {
     if (options->data.files.empty() == options->trapezoids.empty())
       throw CLI::ValidationError("data", "either a file of lengths and diameters, or --trapezoids");
+    if (!options->trapezoids.empty() && !options->result.report.empty())
+      throw CLI::ValidationError("--report", "needs a file of lengths and diameters to show");
     if (!options->trapezoids.empty() && options->side.empty())
       throw CLI::ValidationError("--side", "is needed with --trapezoids");
     action = [options] {

@@ -158,6 +158,15 @@ TEST(IdentifyPages, TakeNobodysFileAway) {
   EXPECT_EQ(read_text(w / "mine.html"), "<p>mine</p>");
   EXPECT_FALSE(std::filesystem::exists(w / "mine.toml"));
   EXPECT_EQ(geometry({"-o", "mine.toml", "--no-report"}).code, 0);
+
+  const Result same = geometry({"-o", "both.html"});
+  EXPECT_EQ(same.code, 1);
+  EXPECT_THAT(same.err, AllOf(HasSubstr("the page's name too"), HasSubstr("--no-report")));
+  EXPECT_EQ(geometry({"--report", "c.html", "--no-report"}).code, 2);
+  const Result counted = w.sinew({"identify", "geometry", "--trapezoids", "37,16", "--side",
+                                  "0.057 in", "--report", "d.html"});
+  EXPECT_EQ(counted.code, 2);
+  EXPECT_THAT(counted.err, HasSubstr("needs a file of lengths"));
 }
 
 }  // namespace
