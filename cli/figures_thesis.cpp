@@ -13,12 +13,12 @@ namespace {
 // A row per figure with the number of statements that agree, differ, …
 void print(const report::Gallery& gallery) {
   using enum TextTable::Align;
-  TextTable table({"figure", "", "agrees", "differs", "as known", "not comparable"},
-                  {left, left, right, right, right, right});
+  TextTable table({"figure", "", "agrees", "as put in", "differs", "as known", "not comparable"},
+                  {left, left, right, right, right, right, right});
   const auto shown = [](int n) { return n > 0 ? std::to_string(n) : std::string(); };
   const auto row = [&](const std::string& name, const std::string& title, const report::Tally& t) {
-    table.add({name, title, shown(t.agree), shown(t.differ), shown(t.differ_as_known),
-               shown(t.not_comparable)});
+    table.add({name, title, shown(t.agree), shown(t.as_put_in), shown(t.differ),
+               shown(t.differ_as_known), shown(t.not_comparable)});
   };
   for (const report::Exhibit& e : gallery.exhibits) {
     report::Tally t;

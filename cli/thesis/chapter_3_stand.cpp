@@ -156,7 +156,8 @@ void add_averages(Exhibit& e, const std::vector<Run>& stands) {
                             .unit = "in",
                             .accept = {0.0037, 0.0046},
                             .why = why,
-                            .because = {}}));
+                            .because = {},
+                            .put_in = true}));
   e.claims.push_back(judge({.where = "after [53]",
                             .says = "Viscous constant c, mean of the measurements",
                             .theirs = "0.02 lb s/in",
@@ -165,7 +166,8 @@ void add_averages(Exhibit& e, const std::vector<Run>& stands) {
                             .unit = "lbf s/in",
                             .accept = {0.016, 0.022},
                             .why = why,
-                            .because = {}}));
+                            .because = {},
+                            .put_in = true}));
   e.claims.push_back(judge({.where = "after [53]",
                             .says = "Damping ratio, mean of the measurements",
                             .theirs = "0.035",
@@ -174,7 +176,8 @@ void add_averages(Exhibit& e, const std::vector<Run>& stands) {
                             .unit = {},
                             .accept = {0.028, 0.042},
                             .why = why,
-                            .because = {}}));
+                            .because = {},
+                            .put_in = true}));
 }
 
 // Mean of the last five periods of a pulsed run  [in].
@@ -253,8 +256,12 @@ void claim_of_mass(Exhibits& out, const Settling& five, const Settling& one,
   const char* light =
       "by [22] the length follows the pressure with dL/dP ~ F/(P^2 L): whatever is "
       "wrong with the flow moves a light load least, hoses and efficiency too";
-  add("3-19", "With much mass measurement and simulation settle close together",
-      "distance of the settled lengths, 15 lb", fifteen.apart, "in", {0, 0.06}, in_its_place, "");
+  std::ranges::find_if(out, [](const Exhibit& e) { return e.figure.name == "3-19"; })
+      ->claims.push_back(not_comparable(
+          "3.4", "With much mass measurement and simulation settle close together", "",
+          fmt::format("the measurement is lost; our stand, with a guessed hose, settles {:.2f} in "
+                      "from the simulation",
+                      fifteen.apart)));
   add("3-15", "With less mass the error grows", "distance of the settled lengths, 5 lb less 15 lb",
       five.apart - fifteen.apart, "in", {.lowest = 0}, in_its_place, light);
   add("3-17", "With less mass the error grows", "distance of the settled lengths, 1 lb less 5 lb",

@@ -24,7 +24,8 @@ constexpr double millisecond = 1e-3;
 constexpr const char* bench =
     "an R-L circuit with speed-up drive and back-EMF (gas/coil_current.h); its values are guesses "
     "in robots/leg/valves-at-the-bench.toml";
-constexpr const char* put_in =
+constexpr bool put_in = true;
+constexpr const char* as_chosen =
     "the circuit's values were chosen to show this: the claim is met, not found";
 
 // --- 4-8, 4-9: current through a coil
@@ -96,13 +97,14 @@ Exhibit figure_4_8(const Sources& from) {
   return {
       coil("4-8", "Coil current of the inlet valve", 125, {at_supply}),
       {text.number("The shutter opens after about", "0.5 ms", "dip of the current", dip(at_supply),
-                   "ms", {0.4, 0.6}, put_in),
+                   "ms", {0.4, 0.6}, as_chosen, "", put_in),
        text.number("When it opens does not depend on the pressure", "", "dip at 100 psi less at 0",
-                   later, "ms", {-0.02, 0.02}, "a sample; put in as well"),
+                   later, "ms", {-0.02, 0.02}, "a sample", "", put_in),
        text.number("The current has gone after the edge by about", "0.5 ms", "first zero", gone,
-                   "ms", {0.4, 0.6}, put_in),
+                   "ms", {0.4, 0.6}, as_chosen, "", put_in),
        text.number("Nothing in the current tells when it shuts", "no kick",
-                   "largest rise after the edge", rise, "A", {0, 0}, "our coil knows none"),
+                   "largest rise after the edge", rise, "A", {0, 0}, "our coil knows none", "",
+                   put_in),
        text.number("Its largest audible frequency exceeds", "400 Hz",
                    "half a period lasts as long as the slower delay",
                    largest_frequency(from.inlet, 100), "Hz", {.lowest = 400},
@@ -121,13 +123,14 @@ Exhibit figure_4_9(const Sources& from) {
   return {
       coil("4-9", "Coil current of the exhaust valve", 100, currents),
       {text.number("It answers more slowly than the inlet", "", "dip at 0 psi less the inlet's",
-                   slower, "ms", {.lowest = 0}, put_in),
+                   slower, "ms", {.lowest = 0}, as_chosen, "", put_in),
        text.number("It opens later the more pressure there is", "",
                    "least shift of the dip from curve to curve", least_step, "ms", {.lowest = 0.02},
-                   "more than a sample; put in as well"),
+                   "more than a sample", "", put_in),
        text.number("Its largest audible frequency rises with pressure", "",
                    "at 90 psi less at 0 psi", at_90 - largest_frequency(from.exhaust, 0), "Hz",
-                   {.lowest = 0}, "computed from both delays"),
+                   {.lowest = 0},
+                   "computed from both delays, whose slopes were chosen to show this", "", put_in),
        text.number(
            "That frequency at 90 psi", "350 Hz", "half a period lasts as long as the slower delay",
            at_90, "Hz", {315, 385}, "\"about\": a tenth",
@@ -175,7 +178,8 @@ std::vector<report::Claim> claims_of(const identify::Calibration& found) {
                          .accept = {printed_scale[t] - 0.0005, printed_scale[t] + 0.0005},
                          .why = "counts of 1.2 mV and one count of noise; the scale was put in, so "
                                 "the way back is what is tested",
-                         .because = {}}));
+                         .because = {},
+                         .put_in = true}));
     out.push_back(judge({.where = "table 4-1",
                          .says = "Its error from the average",
                          .theirs = fmt::format("{:.1f} %", printed_error[t]),
@@ -184,7 +188,8 @@ std::vector<report::Claim> claims_of(const identify::Calibration& found) {
                          .unit = "%",
                          .accept = {printed_error[t] - 0.3, printed_error[t] + 0.3},
                          .why = "of two such slopes",
-                         .because = {}}));
+                         .because = {},
+                         .put_in = true}));
   }
   out.push_back(judge({.where = "4.4",
                        .says = "Transducers 1 and 3 are alike, 2 and 4 less so",
@@ -194,7 +199,8 @@ std::vector<report::Claim> claims_of(const identify::Calibration& found) {
                        .unit = {},
                        .accept = {.lowest = 5},
                        .why = "table 4-1 has 40",
-                       .because = {}}));
+                       .because = {},
+                       .put_in = true}));
   out.push_back(report::not_comparable("4.4", "The calibration's own points", "",
                                        "lost with the figure; the weights between 0 and 16 lb are "
                                        "not given"));

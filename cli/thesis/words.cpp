@@ -43,7 +43,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 26> words = 
 
 report::Claim Section::number(const char* says, const char* theirs, const char* quantity,
                               double ours, const char* unit, report::Band accept, const char* why,
-                              const char* because) const {
+                              const char* because, bool put_in) const {
   return report::judge({.where = where_,
                         .says = says,
                         .theirs = theirs,
@@ -52,7 +52,8 @@ report::Claim Section::number(const char* says, const char* theirs, const char* 
                         .unit = unit,
                         .accept = accept,
                         .why = why,
-                        .because = because});
+                        .because = because,
+                        .put_in = put_in});
 }
 
 report::Claim in_words(const analysis::Verdict& verdict) {

@@ -17,6 +17,8 @@ std::string number(double value, const Band& band) {
   int digits = 3;
   if (std::isfinite(width) && width > 0)
     digits = size - static_cast<int>(std::floor(std::log10(width))) + 2;
+  if (size < 7) digits = std::max(digits, size + 1);  // 1000, no 1e+03
+  if (size < 7) digits = std::max(digits, size + 1);  // 1000, no 1e+03
   std::string text = fmt::format("{:.{}g}", value, std::clamp(digits, 3, 7));
   return text.find('e') == text.npos ? text : fmt::format("{:.2g}", value);
 }
@@ -40,6 +42,7 @@ Claim judge(const Measured& m) {
   c.ours = std::isfinite(m.ours) ? with_unit(number(m.ours, m.accept), m.unit) : "none";
   c.accept = band_text(m.accept, m.unit);
   c.why = m.why;
+  c.put_in = m.put_in;
   const bool inside = m.ours >= m.accept.lowest && m.ours <= m.accept.highest;
   c.verdict = inside ? Is::agrees : Is::differs;
   if (m.because.empty()) return c;
@@ -76,17 +79,22 @@ Claim claim(const analysis::Verdict& v) {
   return out;
 }
 
-std::string_view word(Is verdict) {
-  return verdict == Is::not_applicable ? "not comparable" : to_text(verdict);
+std::string_view word(const Claim& c) {
+  if (c.verdict == Is::not_applicable) return "not comparable";
+  return c.put_in && c.verdict == Is::agrees ? "as put in" : to_text(c.verdict);
 }
 
 void count(Tally& tally, const std::vector<Claim>& claims) {
   for (const Claim& c : claims) {
-    if (c.verdict == Is::agrees) ++tally.agree;
+    if (c.verdict == Is::agrees) ++(c.put_in ? tally.as_put_in : tally.agree);
     if (c.verdict == Is::differs || c.verdict == Is::agrees_after_all) ++tally.differ;
     if (c.verdict == Is::differs_as_known) ++tally.differ_as_known;
     if (c.verdict == Is::not_applicable) ++tally.not_comparable;
   }
+}
+
+int total(const Tally& t) {
+  return t.agree + t.as_put_in + t.differ + t.differ_as_known + t.not_comparable;
 }
 
 }  // namespace sinew::report

@@ -5,7 +5,8 @@
 //          .accept = {0.4, 0.6}, .why = "read from an oscilloscope, \"about\""})
 //
 // A verdict is always computed, from the curves as they are drawn or from a run's summary. What no
-// number can settle says so and why.
+// number can settle says so and why. What ours was made with is met, and no evidence: such a claim
+// is counted apart.
 #pragma once
 
 #include <limits>
@@ -36,6 +37,7 @@ struct Measured {
   Band accept;
   std::string why;      // the band is as it is
   std::string because;  // ours is known to differ; empty: it should agree
+  bool put_in = false;  // ours was made with it, or fitted to it
 };
 
 // For people, and as it stands in the index.
@@ -45,6 +47,7 @@ struct Claim {
   std::string accept;  // "0.4 to 0.6 ms", "at most 2 %"
   std::string why;     // the band, a difference that is known, or why nothing is compared
   Is verdict = Is::not_applicable;
+  bool put_in = false;
 };
 
 // NaN differs.
@@ -56,12 +59,13 @@ Claim not_comparable(std::string where, std::string says, std::string theirs, st
 // A key of a summary that its experiment has judged (analysis/reported.h).
 Claim claim(const analysis::Verdict& verdict);
 
-// "agrees", "differs", "differs, as known", "agrees after all", "not comparable".
-std::string_view word(Is verdict);
+// "agrees", "as put in", "differs", "differs, as known", "agrees after all", "not comparable".
+std::string_view word(const Claim& claim);
 
 struct Tally {
-  int agree = 0, differ = 0, differ_as_known = 0, not_comparable = 0;
+  int agree = 0, as_put_in = 0, differ = 0, differ_as_known = 0, not_comparable = 0;
 };
+int total(const Tally& tally);
 void count(Tally& tally, const std::vector<Claim>& claims);
 
 }  // namespace sinew::report

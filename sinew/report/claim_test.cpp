@@ -27,6 +27,22 @@ TEST(Claim, AgreesInsideOfItsBandAndAtItsEnds) {
     EXPECT_EQ(judge(half_a_millisecond(ours)).verdict, Is::differs) << ours;
 }
 
+// Met, but no evidence; missed, it differs as any other.
+TEST(Claim, WhatWasPutInIsCountedApart) {
+  Measured m = half_a_millisecond(0.5);
+  m.put_in = true;
+  EXPECT_EQ(word(judge(m)), "as put in");
+  Tally tally;
+  count(tally, {judge(m)});
+  EXPECT_EQ(tally.agree, 0);
+  EXPECT_EQ(tally.as_put_in, 1);
+  m.ours = 0.7;
+  EXPECT_EQ(word(judge(m)), "differs");
+  count(tally, {judge(m)});
+  EXPECT_EQ(tally.differ, 1);
+  EXPECT_EQ(total(tally), 2);
+}
+
 TEST(Claim, AKnownDifferenceThatIsNoMoreIsToldToo) {
   Measured m = half_a_millisecond(0.7);
   m.because = "our coil is larger";
@@ -90,8 +106,9 @@ TEST(Claim, CountsEachVerdictOnce) {
   EXPECT_EQ(tally.differ, 1);
   EXPECT_EQ(tally.not_comparable, 1);
   EXPECT_EQ(tally.differ_as_known, 0);
-  EXPECT_EQ(word(Is::not_applicable), "not comparable");
-  EXPECT_EQ(word(Is::differs_as_known), "differs, as known");
+  EXPECT_EQ(word(not_comparable("2.3", "", "", "no size")), "not comparable");
+  EXPECT_EQ(word({.verdict = Is::differs_as_known}), "differs, as known");
+  EXPECT_EQ(judge({.ours = 1000, .unit = "Hz", .accept = {.lowest = 400}}).ours, "1000 Hz");
 }
 
 }  // namespace

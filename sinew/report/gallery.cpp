@@ -25,6 +25,7 @@ std::string properties(const Exhibit& e) {
   count(t, e.claims);
   std::vector<std::string_view> out;
   if (t.agree > 0) out.push_back("agrees");
+  if (t.as_put_in > 0) out.push_back("put_in");
   if (t.differ + t.differ_as_known > 0) out.push_back("differs");
   if (t.not_comparable > 0) out.push_back("open");
   if (holds_kind(e.figure, Curve::Kind::computed)) out.push_back("computed");
@@ -33,14 +34,9 @@ std::string properties(const Exhibit& e) {
   return fmt::format("{}", fmt::join(out, ","));
 }
 
-int claims_in(const Gallery& gallery) {
-  const Tally t = tally(gallery);
-  return t.agree + t.differ + t.differ_as_known + t.not_comparable;
-}
-
 class Page {
  public:
-  explicit Page(const Gallery& gallery) : gallery_(gallery), claims_(claims_in(gallery) > 0) {}
+  explicit Page(const Gallery& gallery) : gallery_(gallery), claims_(total(tally(gallery)) > 0) {}
   std::string text();
 
  private:
@@ -74,6 +70,7 @@ void Page::head() {
     add("<ul class=\"tally\">");
     add("<li><b>{}</b><span>figures</span></li>", gallery_.exhibits.size());
     add("<li><b class=\"agrees\">{}</b><span>statements agree</span></li>", t.agree);
+    add("<li><b>{}</b><span>are as put in</span></li>", t.as_put_in);
     add("<li><b class=\"differs\">{}</b><span>differ</span></li>", t.differ);
     add("<li><b class=\"known\">{}</b><span>differ, as known</span></li>", t.differ_as_known);
     add("<li><b>{}</b><span>cannot be compared</span></li>", t.not_comparable);
@@ -90,7 +87,7 @@ void Page::bar() {
   if (claims_)
     add("<label hidden>show <select id=\"choice\"><option value=\"\">all</option>"
         "<option value=\"differs\">what differs</option><option value=\"agrees\">what "
-        "agrees</option>"
+        "agrees</option><option value=\"put_in\">what is as put in</option>"
         "<option value=\"open\">what cannot be compared</option>"
         "<option value=\"computed\">computed curves</option>"
         "<option value=\"synthetic\">synthetic curves</option>"
@@ -117,10 +114,10 @@ void Page::picture(const Exhibit& e) {
   add("</figure>");
 }
 
-std::string_view class_of(Is verdict) {
-  if (verdict == Is::agrees) return "agrees";
-  if (verdict == Is::not_applicable) return "open";
-  return verdict == Is::differs_as_known ? "known" : "differs";
+std::string_view class_of(const Claim& c) {
+  if (c.verdict == Is::agrees) return c.put_in ? "open" : "agrees";
+  if (c.verdict == Is::not_applicable) return "open";
+  return c.verdict == Is::differs_as_known ? "known" : "differs";
 }
 
 // "4.3" is a section, "table 4-1" says what it is.
@@ -131,8 +128,8 @@ std::string in_words(const std::string& where) {
 void Page::claim(const Claim& c) {
   add("<div class=\"claim\">\n<div class=\"says\"><div>{} <span class=\"where\">{}</span></div>"
       "<span class=\"verdict {}\">{}</span></div>",
-      escaped(c.says.empty() ? c.quantity : c.says), escaped(in_words(c.where)),
-      class_of(c.verdict), word(c.verdict));
+      escaped(c.says.empty() ? c.quantity : c.says), escaped(in_words(c.where)), class_of(c),
+      word(c));
   std::string numbers;
   const auto number = [&](std::string_view what, const std::string& value) {
     if (!value.empty()) numbers += fmt::format("<span>{} <b>{}</b></span>", what, escaped(value));
@@ -202,7 +199,7 @@ std::string Page::text() {
 }
 
 Json json_of(const Claim& c) {
-  Json out{{"verdict", word(c.verdict)}, {"where", c.where}};
+  Json out{{"verdict", word(c)}, {"where", c.where}};
   const auto add = [&](const char* key, const std::string& value) {
     if (!value.empty()) out[key] = value;
   };
@@ -249,8 +246,9 @@ std::string index_html(const Gallery& gallery) { return Page(gallery).text(); }
 std::string index_json(const Gallery& gallery) {
   Json out{{"format", "sinew.figures/1"}, {"title", gallery.title}, {"page", "index.html"}};
   const Tally t = tally(gallery);
-  if (claims_in(gallery) > 0)
+  if (total(t) > 0)
     out["verdicts"] = {{"agrees", t.agree},
+                       {"as put in", t.as_put_in},
                        {"differs", t.differ},
                        {"differs, as known", t.differ_as_known},
                        {"not comparable", t.not_comparable}};

@@ -47,6 +47,7 @@ TEST(Gallery, JsonHasCurvesFilesAndVerdicts) {
   const Json index = Json::parse(index_json(gallery()));
   EXPECT_EQ(index["format"], "sinew.figures/1");
   EXPECT_EQ(index["verdicts"]["agrees"], 1);
+  EXPECT_EQ(index["verdicts"]["as put in"], 0);
   EXPECT_EQ(index["verdicts"]["differs"], 1);
   EXPECT_EQ(index["verdicts"]["not comparable"], 1);
   const Json& figure = index["figures"][0];

@@ -23,7 +23,7 @@ test('the page of figures has every figure, its picture and its claims', () => w
     assert.deepEqual(await article.locator('.verdict').allTextContents(), figure.claims.map((c) => c.verdict));
   }
   const tally = await page.locator('.tally b').allTextContents();
-  assert.deepEqual(tally.map(Number), [figures.length, verdicts.agrees, verdicts.differs,
+  assert.deepEqual(tally.map(Number), [figures.length, verdicts.agrees, verdicts['as put in'], verdicts.differs,
     verdicts['differs, as known'], verdicts['not comparable']]);
   await page.evaluate(() => scrollTo(0, 0));
   await picture(page, 'thesis-figures');
