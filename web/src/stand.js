@@ -126,7 +126,8 @@ export class StandScene {
     if (Number.isFinite(this.start) && spec.most > spec.least)
       parts.pointer(ctx, v, x, this.start, look.quiet, [1, 3], '', look, -1);
     // As much as there is room for beside the element.
-    const room = v.x(-0.08 * this.reach) - x - 14;
+    const half = Math.max(0.08 * this.reach, 0.6 * spec.count * (state.diameter || 0), 0.6 * spec.bore);
+    const room = v.x(-half) - x - 14;
     const longest = (...texts) => texts.find((text) => parts.width(ctx, text, look) < room) ?? texts.at(-1);
     const now = this.length_text(state.length), wish = this.length_text(state.desired);
     if (Number.isFinite(state.desired))
