@@ -1,9 +1,11 @@
 // experiment/clock.h - who owns time: the simulation, or the wall.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
+#include "sinew/experiment/steering.h"
 #include "sinew/signals/tick.h"
 
 namespace sinew::experiment {
@@ -31,6 +33,46 @@ class PacedClock {
  private:
   double speed_;
   std::chrono::steady_clock::time_point start_;
+};
+
+// A person's clock: stands while the run is paused, goes at the speed that was asked for last. What
+// falls behind by more than a moment, as on a computer that slept, goes on from there.
+class SteeredClock {
+ public:
+  explicit SteeredClock(const Steering& steering) : steering_(steering), pace_(steering.pace()) {}
+
+  bool wait_until(signals::Tick t) noexcept {
+    const double target = static_cast<double>(t) * signals::tick_seconds;
+    for (;;) {
+      move_on();
+      if (!steering_.paused() && (pace_ == 0 || at_ >= target)) break;
+      const double left = pace_ > 0 ? (target - at_) / pace_ : doze;
+      std::this_thread::sleep_for(
+          std::chrono::duration<double>(steering_.paused() ? doze : std::min(left, doze)));
+    }
+    if (pace_ == 0 || at_ - target > moment * pace_) at_ = target;
+    return true;
+  }
+
+ private:
+  static constexpr double doze = 5e-3;    // between two looks at what is wanted [s]
+  static constexpr double moment = 0.25;  // [s]
+
+  // Up to now at the pace of the last look.
+  void move_on() noexcept {
+    const auto now = std::chrono::steady_clock::now();
+    const std::chrono::duration<double> passed = now - last_;
+    if (!stood_) at_ += passed.count() * pace_;
+    last_ = now;
+    pace_ = steering_.pace();
+    stood_ = steering_.paused();
+  }
+
+  const Steering& steering_;
+  double pace_;
+  bool stood_ = false;  // paused at the last look
+  double at_ = 0;       // simulated time by the wall [s]
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace sinew::experiment

@@ -1,5 +1,6 @@
 #include "sinew/experiment/columns.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sinew/experiment/spinal.h"
@@ -142,6 +143,19 @@ void plan_columns(Columns& out) {
              });
 }
 
+// As phases, profiles and changes have made them.
+void gain_columns(const Experiment& e, Columns& out) {
+  if (!e.log.gains) return;
+  for (const gait::Setting& s : gait::settings(e.plan)) {
+    constexpr std::string_view before = "control.gains.";
+    if (!s.key.starts_with(before)) continue;  // desired stiffnesses are always there
+    std::string name = "/desired/gain/" + s.key.substr(before.size());
+    std::ranges::replace(name, '.', '/');
+    out.scalar(std::move(name), std::string(s.unit), "in effect",
+               [s](const Moment& m) { return gait::value_of(s, m.desired); });
+  }
+}
+
 void true_joint_columns(const robot::Robot& robot, Columns& out) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const std::string at = "/true/joint/" + robot.joints[j].name;
@@ -240,6 +254,7 @@ std::vector<Column> columns(const Experiment& e) {
   cylinder_columns(e.robot, out);
   low_level_columns(e.robot, out);
   plan_columns(out);
+  gain_columns(e, out);
   true_joint_columns(e.robot, out);
   true_muscle_columns(e.robot, out);
   true_body_columns(e.robot, out);

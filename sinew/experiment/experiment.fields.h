@@ -91,8 +91,10 @@ void run_fields(Visitor& v, Experiment& e) {
   v.group({.name = "start", .doc = "where the machine is at time 0"},
           [&](auto& g) { fields(g, e.start); });
   gait::fields(v, e.plan);
-  v.group({.name = "log", .optional = true, .doc = "what is recorded"},
-          [&](auto& g) { fields(g, e.log); });
+  v.group({.name = "log", .optional = true, .doc = "what is recorded"}, [&](auto& g) {
+    fields(g, e.log);
+    g.flag({.name = "gains", .optional = true, .doc = "those in effect, too"}, e.log.gains);
+  });
   v.list({.name = "reported", .optional = true, .doc = "printed beside our figures"}, e.reported,
          [](auto& g, config::Reported& r) { config::fields(g, r); });
 }

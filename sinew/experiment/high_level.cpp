@@ -45,7 +45,7 @@ Believed believed(const robot::Robot& robot) {
   return b;
 }
 
-HighLevel::HighLevel(const robot::Robot& robot, const gait::Plan& plan)
+HighLevel::HighLevel(const robot::Robot& robot, const gait::Plan& plan, Steering* steering)
     : joints_(static_cast<int>(robot.joints.size())),
       muscles_(static_cast<int>(robot.muscles.size())),
       vents_(plan.finish == gait::Plan::Finish::vent && robot.low_level.vent_time > 0),
@@ -53,7 +53,9 @@ HighLevel::HighLevel(const robot::Robot& robot, const gait::Plan& plan)
       cylinder_gain_(static_cast<float>(robot.cylinder.position_gain * 100.0)),
       brain_ticks_(std::llround(plan.brain_period / signals::tick_seconds)),
       scale_(believed(robot)),
-      brain_(robot, plan) {}
+      brain_(robot, plan),
+      changes_(plan, steering),
+      desired_(brain_.desired()) {}
 
 // What has no sensor is believed to rest.
 void HighLevel::believe(const control::Seen& seen) noexcept {
@@ -83,7 +85,9 @@ void HighLevel::believe(const control::Seen& seen) noexcept {
 
 const control::Command& HighLevel::update(const control::Seen& seen, signals::Tick t) noexcept {
   believe(seen);
-  translate(brain_.update(measured_, t / brain_ticks_));
+  desired_ = brain_.update(measured_, t / brain_ticks_);
+  changes_.apply(t, desired_);
+  translate(desired_);
   return command_;
 }
 

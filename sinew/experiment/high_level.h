@@ -3,6 +3,7 @@
 
 #include "sinew/control/gait/brain.h"
 #include "sinew/control/joint/spine.h"
+#include "sinew/experiment/changes.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::experiment {
@@ -22,7 +23,8 @@ Believed believed(const robot::Robot& robot);
 
 class HighLevel {
  public:
-  HighLevel(const robot::Robot& robot, const gait::Plan& plan);
+  // `steering` may be null.
+  HighLevel(const robot::Robot& robot, const gait::Plan& plan, Steering* steering = nullptr);
 
   // At every low-level period; the brain itself thinks once per brain period.
   const control::Command& update(const control::Seen& seen, signals::Tick t) noexcept;
@@ -30,6 +32,9 @@ class HighLevel {
   bool finished() const noexcept { return vents_ && brain_.finished(); }
 
   const gait::Brain& brain() const noexcept { return brain_; }
+  // The brain's word with what stands in place of it, as it was passed on.
+  const gait::Desired& desired() const noexcept { return desired_; }
+  const Changes& changes() const noexcept { return changes_; }
   const gait::Measured& measured() const noexcept { return measured_; }
   double newtons_per_count(std::size_t muscle) const noexcept {
     return scale_.newtons_per_count[muscle];
@@ -49,6 +54,8 @@ class HighLevel {
   signals::Tick brain_ticks_;
   Believed scale_;
   gait::Brain brain_;
+  Changes changes_;
+  gait::Desired desired_;
   gait::Measured measured_;
   control::Command command_;
 };

@@ -10,6 +10,7 @@ struct Log {
   bool enabled = true;
   std::vector<std::string> channels = {"*"};  // topics, * for any run of characters
   double period = 0.01;                       // [s]
+  bool gains = false;                         // those in effect too; a stand has none
 };
 
 }  // namespace sinew::experiment

@@ -101,7 +101,7 @@ void Recorder::sample(Tick t) noexcept {
   high_.believe(spine_.seen());
   plant::Truth truth;
   if (truth_) truth = truth_(t);
-  const Moment now{spine_.seen(), high_.measured(), high_.brain().desired(), truth};
+  const Moment now{spine_.seen(), high_.measured(), high_.desired(), truth};
   for (const Column& c : columns_) {
     if (!truth_ && c.of_truth()) break;  // they come last
     std::array<double, 2> values{};

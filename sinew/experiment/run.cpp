@@ -42,7 +42,7 @@ template <class World, class Clock>
 Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& port, World* world,
               Clock& clock) {
   control::Spine spine(spine_config(e));
-  HighLevel high_level(e.robot, e.plan);
+  HighLevel high_level(e.robot, e.plan, options.steering);
   const Tick end = last_tick(e);
 
   Recorder::TruthAt truth;
@@ -63,6 +63,7 @@ Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& por
   out.wall = wall.count();
   out.table = recorder.take();
   out.seen = spine.seen();
+  out.changes = high_level.changes().all();
   out.unreachable_periods = high_level.brain().unreachable_periods();
   out.duration = static_cast<double>(end) * signals::tick_seconds;
   for (const signals::Series& s : out.table.series)
@@ -74,6 +75,10 @@ Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& por
 template <class World>
 Outcome run_world(const Experiment& e, const plant::Setup& setup, const RunOptions& options) {
   World world(setup);
+  if (options.steering) {
+    SteeredClock clock(*options.steering);
+    return drive(e, options, world, &world, clock);
+  }
   if (options.pace > 0) {
     PacedClock clock(options.pace);
     return drive(e, options, world, &world, clock);

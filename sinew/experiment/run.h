@@ -8,13 +8,15 @@
 #include "sinew/control/joint/seen.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/experiment/recorder.h"
+#include "sinew/experiment/steering.h"
 #include "sinew/plant/planar/setup.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::experiment {
 
 struct RunOptions {
-  double pace = 0;  // simulated per wall second; 0: as fast as it goes
+  double pace = 0;               // simulated per wall second; 0: as fast as it goes
+  Steering* steering = nullptr;  // in place of pace; outlives the run
   Tap tap;
   std::vector<std::uint16_t> tapped;  // topic in the log of each of topics(), or not_tapped
   std::atomic<std::int64_t>* progress = nullptr;  // the tick that the run has reached
@@ -25,7 +27,8 @@ struct RunOptions {
 struct Outcome {
   signals::Status status = signals::Status::ok;
   signals::Table table;
-  control::Seen seen;  // the low level's last word
+  control::Seen seen;                 // the low level's last word
+  std::vector<gait::Change> changes;  // the plan's, and behind them what was steered
   std::int64_t unreachable_periods = 0;
   std::int64_t nodes = 0;  // steps of the integrator
   double duration = 0;     // simulated [s]

@@ -17,6 +17,7 @@
 #include "sinew/experiment/clock.h"
 #include "sinew/experiment/loop.h"
 #include "sinew/experiment/spinal.h"
+#include "sinew/experiment/test_same.h"
 #include "sinew/plant/planar/whole.h"
 #include "sinew/plant/planar/world.h"
 
@@ -55,21 +56,6 @@ const std::string source = SINEW_SOURCE_DIR;
 Experiment walk(std::vector<std::string> sets = {}) {
   sets.push_back("sequence.repeat=1");  // one step is enough for these
   return load(source + "/experiments/walk-test-1.toml", sets);
-}
-
-// Bit for bit: same topics, times and numbers; NaN equals NaN.
-void expect_same(const signals::Table& a, const signals::Table& b) {
-  ASSERT_EQ(a.series.size(), b.series.size());
-  for (std::size_t s = 0; s < a.series.size(); ++s) {
-    const std::string& name = a.series[s].topic.name;
-    ASSERT_EQ(name, b.series[s].topic.name);
-    ASSERT_EQ(a.series[s].time_ns, b.series[s].time_ns) << name;
-    for (std::size_t c = 0; c < a.series[s].columns.size(); ++c)
-      for (std::size_t i = 0; i < a.series[s].columns[c].size(); ++i) {
-        const double x = a.series[s].columns[c][i], y = b.series[s].columns[c][i];
-        ASSERT_TRUE(x == y || (std::isnan(x) && std::isnan(y))) << name << " sample " << i;
-      }
-  }
 }
 
 TEST(Run, TwiceTheSameBits) {
@@ -163,10 +149,10 @@ TEST(Run, TheLastRowStandsAfterTheSequence) {
 }
 
 template <class World>
-void expect_no_heap(const Experiment& e) {
+void expect_no_heap(const Experiment& e, Steering* steering = nullptr) {
   World world(planar_setup(e));
   control::Spine spine(spine_config(e));
-  HighLevel high(e.robot, e.plan);
+  HighLevel high(e.robot, e.plan, steering);
   const signals::Tick end = last_tick(e);
   World* body = &world;
   Recorder recorder(
@@ -190,6 +176,22 @@ TEST(Run, NoHeapInTheLoop) {
             "muscle.hip_flexor.hose.law=pipe", "muscle.hip_flexor.hose.length=1 m",
             "muscle.hip_flexor.hose.inner_diameter=2.5 mm", "muscle.hip_flexor.hose.volume=5 mL",
             "muscle.knee_flexor.leak.area=0.01 mm2", "valve.exhaust.fails_above=90 psi diff"}));
+}
+
+TEST(Run, NoHeapInTheLoopWhileChangesArrive) {
+  const Experiment e = walk();
+  Steering steering;
+  std::atomic<bool> over{false};
+  std::thread person([&] {
+    for (int i = 0; !over; ++i) {
+      steering.change(static_cast<std::size_t>(i % 8), 1e-4 * (i % 11));
+      if (i % 5 == 0) steering.release(static_cast<std::size_t>(i % 8));
+      std::this_thread::yield();
+    }
+  });
+  expect_no_heap<plant::World<2>>(e, &steering);
+  over = true;
+  person.join();
 }
 
 TEST(Run, EveryShippedExperimentRuns) {

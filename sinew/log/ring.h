@@ -1,12 +1,10 @@
-// log/ring.h - the pipe between the loop and the log's thread: one puts, one takes, neither locks.
+// log/ring.h - what passes between the loop and the log's thread.
 #pragma once
 
 #include <array>
-#include <atomic>
-#include <bit>
-#include <cstddef>
 #include <cstdint>
-#include <vector>
+
+#include "sinew/signals/ring.h"
 
 namespace sinew::log {
 
@@ -18,47 +16,6 @@ struct Sample {
   std::array<double, kMaxFields> values{};
 };
 
-class Ring {
- public:
-  // All memory is taken here; the size is rounded up to a power of two.
-  explicit Ring(std::size_t samples) : slots_(std::bit_ceil(samples < 2 ? 2 : samples)) {}
-
-  std::size_t capacity() const { return slots_.size(); }
-
-  // The putting thread. False: full.
-  bool put(const Sample& sample) noexcept {
-    const std::size_t head = head_.load(std::memory_order_relaxed);
-    if (head - tail_seen_ == capacity()) {
-      tail_seen_ = tail_.load(std::memory_order_acquire);
-      if (head - tail_seen_ == capacity()) return false;
-    }
-    slots_[head & (capacity() - 1)] = sample;
-    head_.store(head + 1, std::memory_order_release);
-    return true;
-  }
-
-  // The taking thread: hands to `use` what is there now, in order, and frees slots as it goes.
-  template <typename Use>
-  void take_all(Use&& use) {
-    std::size_t tail = tail_.load(std::memory_order_relaxed);
-    for (const std::size_t head = head_.load(std::memory_order_acquire); tail != head;) {
-      use(slots_[tail & (capacity() - 1)]);
-      tail_.store(++tail, std::memory_order_release);
-    }
-  }
-
-  // The taking thread: how many wait.
-  std::size_t waiting() const noexcept {
-    return head_.load(std::memory_order_acquire) - tail_.load(std::memory_order_relaxed);
-  }
-
- private:
-  // The two ends count up for ever; each stands on a cache line of its own.
-  static constexpr std::size_t kLine = 64;
-  std::vector<Sample> slots_;
-  alignas(kLine) std::atomic<std::size_t> head_{0};
-  std::size_t tail_seen_ = 0;  // what the putting thread last knew of the other end
-  alignas(kLine) std::atomic<std::size_t> tail_{0};
-};
+using Ring = signals::Ring<Sample>;
 
 }  // namespace sinew::log

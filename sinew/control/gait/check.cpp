@@ -136,6 +136,25 @@ void check_times(const Plan& plan, List& out) {
     out.push_back({"control.brain_period", "no time", "more than 0 s", "10 ms"});
 }
 
+// Of driven joints, with a value or a release.
+void check_changes(const Plan& plan, List& out) {
+  const std::vector<Setting> known = settings(plan);
+  std::string joints;
+  for (const JointPlan& joint : plan.joints)
+    if (joint.driven) joints += (joints.empty() ? "" : ", ") + joint.name;
+  for (std::size_t i = 0; i < plan.changes.size(); ++i) {
+    const Change& change = plan.changes[i];
+    const std::string key = "change[" + std::to_string(i) + "]";
+    if (find_setting(known, change.key) < 0)
+      out.push_back({key + ".key", quoted(change.key), "the key of a driven joint", joints});
+    const bool valued = std::isfinite(change.value);
+    if (valued && change.release)
+      out.push_back({key, "a value and a release", "one of them", "leave one out"});
+    if (!valued && !change.release)
+      out.push_back({key, "no value", "value, or release = true", "value = \"…\""});
+  }
+}
+
 std::string point(robot::Point p) {
   char text[64];
   std::snprintf(text, sizeof text, "(%.1f, %.1f) mm", 1e3 * p.x, 1e3 * p.y);
@@ -204,6 +223,7 @@ List contradictions(const robot::Robot& robot, const Plan& plan) {
     check_cylinder(robot, phase, out);
   }
   check_ranges(plan, out);
+  check_changes(plan, out);
   return out;
 }
 

@@ -1,4 +1,4 @@
-// control/gait/plan.fields.h - the keys of [control], [sequence] and [phase.<name>].
+// control/gait/plan.fields.h - the keys of [control], [sequence], [phase.<name>] and [[change]].
 //
 // Tables with one key per joint need the robot's joints: start from plan_for(robot).
 #pragma once
@@ -234,6 +234,31 @@ void control_fields(Visitor& v, Plan& plan) {
 }
 
 template <class Visitor>
+void fields(Visitor& v, Change& c) {
+  constexpr std::string_view keys =
+      "control.stiffness.<joint>, or control.gains.<joint>.angle, .stiffness or .velocity";
+  v.number({.name = "time", .unit = "s", .min = 0, .doc = "takes effect at the next period start"},
+           c.time);
+  v.text({.name = "key", .doc = keys}, c.key);
+  v.flag({.name = "release", .optional = true, .doc = "the plan's own value again"}, c.release);
+
+  // Without a key the value has no unit: one complaint is enough.
+  const std::string_view unit = unit_of_setting(c.key);
+  if (unit.empty() && !c.key.empty()) {
+    units::complain(v, "key", "\"" + c.key + "\"", std::string(keys));
+    std::string value;
+    v.text({.name = "value", .optional = true, .doc = "in place of the plan's"}, value);
+    return;
+  }
+  v.number({.name = "value",
+            .unit = unit.empty() ? "1" : unit,
+            .min = 0,
+            .optional = true,
+            .doc = "in place of the plan's, until the end or its release"},
+           c.value);
+}
+
+template <class Visitor>
 void fields(Visitor& v, Plan& plan) {
   v.group({.name = "control", .doc = "what holds until a phase says otherwise"},
           [&](auto& g) { control_fields(g, plan); });
@@ -252,6 +277,8 @@ void fields(Visitor& v, Plan& plan) {
   });
   v.each({.name = "phase", .doc = "by name"}, plan.phases,
          [&](auto& g, Phase& phase) { fields(g, plan, phase); });
+  v.list({.name = "change", .optional = true, .doc = "what is set while it runs"}, plan.changes,
+         [](auto& g, Change& c) { fields(g, c); });
 }
 
 }  // namespace sinew::gait

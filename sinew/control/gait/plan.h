@@ -3,6 +3,7 @@
 //   [control]        what holds until a phase says otherwise
 //   [sequence]       the phases of a step, repeated
 //   [phase.<name>]   a foot path or joint angles, and what else changes in that phase
+//   [[change]]       what stands in place of all that from a time on (change.h)
 //
 // Within a phase the progress s runs from 0 to 1. What may change over a phase is a *profile*: a
 // list of values. None: stays as it was. One: holds from this phase on. Several: passed through at
@@ -15,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/control/gait/change.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::gait {
@@ -140,6 +142,7 @@ struct Plan {
   int repeat = 1;                     // steps
   Finish finish = Finish::vent;
   std::vector<Phase> phases;
+  std::vector<Change> changes;  // in any order; of one time, the later ones come later
 };
 
 // A plan that knows the robot's joints and gains; `fields` fills in the rest.

@@ -146,10 +146,15 @@ struct Census {
     note(f);
     for (T& item : items) visit(*this, item);
   }
+  template <class T>
+  void list(const units::Field& f, std::vector<T>& items, const auto& visit) {
+    each(f, items, visit);
+  }
 };
 
 TEST(PlanFields, EveryKeyHasANameAndEveryQuantityAUnit) {
   Plan plan = test::walk(robot::test::leg());
+  plan.changes = {{.time = 1, .key = "control.gains.hip.angle", .value = 1}};
   Census census;
   fields(census, plan);
   EXPECT_GT(census.count, 100);
