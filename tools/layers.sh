@@ -26,6 +26,7 @@ layers='
     analysis        signals robot actuator config
     report          analysis log robot
     tune            experiment analysis
+    live            experiment report
 '
 
 # What only the tests of a folder may include besides (*_test.cpp, *_test.h, test_*.h, testing.h).
@@ -43,6 +44,7 @@ libraries='
     mujoco/         sinew/plant/mujoco
     cvode/          sinew/plant/rig
     CLI/            cli
+    boost/          cli
     ceres/          sinew/identify
     Eigen/          sinew/identify
 '

@@ -24,12 +24,18 @@ class Columns {
   Columns(const Channels& channels, Blob& blob) : channels_(channels), blob_(blob) {}
   int of(const Channel& channel) {
     const Samples samples = channels_.find(channel);
-    return samples ? blob_.add(samples) : none;
+    if (!samples) return none;
+    const int column = blob_.add(samples);
+    if (column == static_cast<int>(list_.size())) list_.push_back(channel);
+    return column;
   }
+  // Of each column, by its number.
+  const std::vector<Channel>& list() const { return list_; }
 
  private:
   const Channels& channels_;
   Blob& blob_;
+  std::vector<Channel> list_;
 };
 
 // Each as JSON; a channel is the number of its column, or null.

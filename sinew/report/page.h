@@ -36,12 +36,14 @@ struct Content {
   std::string title;
   std::string json;
   std::string samples;
+  std::string connect{};  // ends the page's security policy: "; connect-src ws://127.0.0.1:8080"
 };
 Content content(const Run& run);
 
 // A template has @title@, @run@ and @samples@ once each: in its <title>, in a script element of
 // type application/json and in one of another type. Whatever the texts hold cannot leave its
-// element. Throws std::invalid_argument for a template that lacks one.
+// element. Throws std::invalid_argument for a template that lacks one. A page that is to connect to
+// somewhere has @connect@, too, at the end of its policy.
 std::string fill(std::string_view page_template, const Content& content);
 
 }  // namespace sinew::report

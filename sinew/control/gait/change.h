@@ -30,6 +30,7 @@ struct Change {
 // What can be changed, one for each key; its place in settings() is its number.
 struct Setting {
   enum class What { stiffness, angle_gain, stiffness_gain, velocity_gain };
+  static constexpr double most = 1e6;  // that is taken, in the key's SI unit
 
   std::string key;
   std::string_view unit;  // SI

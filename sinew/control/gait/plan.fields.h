@@ -253,6 +253,7 @@ void fields(Visitor& v, Change& c) {
   v.number({.name = "value",
             .unit = unit.empty() ? "1" : unit,
             .min = 0,
+            .max = Setting::most,
             .optional = true,
             .doc = "in place of the plan's, until the end or its release"},
            c.value);

@@ -1,0 +1,168 @@
+#include "sinew/live/show.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "sinew/experiment/columns.h"
+#include "sinew/experiment/run.h"
+#include "sinew/live/request.h"
+#include "sinew/report/page_template.h"
+#include "sinew/signals/tick.h"
+
+namespace sinew::live {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using What = gait::Setting::What;
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string_view word(What what) {
+  switch (what) {
+    case What::stiffness:
+      return "stiffness";
+    case What::angle_gain:
+      return "angle gain";
+    case What::stiffness_gain:
+      return "stiffness gain";
+    case What::velocity_gain:
+      return "velocity gain";
+  }
+  return "";
+}
+
+// How far a slider goes where the plan has nothing but zeros: about the largest of the thesis.
+double usual(What what) {
+  switch (what) {
+    case What::stiffness:
+      return 4;  // [N m/rad]
+    case What::angle_gain:
+      return 0.01;  // [1/count]
+    case What::stiffness_gain:
+      return 0.05;  // [1/(N m/rad)]
+    case What::velocity_gain:
+      return 5e-4;  // [s/count]
+  }
+  return 1;
+}
+
+const gait::Profile& profile_of(const gait::JointPhase& phase, What what) {
+  if (what == What::angle_gain) return phase.gains.angle;
+  if (what == What::stiffness_gain) return phase.gains.stiffness;
+  return what == What::velocity_gain ? phase.gains.velocity : phase.stiffness;
+}
+
+double from_start(const gait::JointPlan& joint, What what) {
+  if (what == What::angle_gain) return joint.gains.angle;
+  if (what == What::stiffness_gain) return joint.gains.stiffness;
+  return what == What::velocity_gain ? joint.gains.velocity : joint.stiffness;
+}
+
+bool has_foot_path(const gait::Plan& plan) {
+  return std::ranges::any_of(plan.phases, [](const gait::Phase& p) { return p.has_path(); });
+}
+
+double end_of(const experiment::Experiment& e) {
+  return static_cast<double>(experiment::last_tick(e)) * signals::tick_seconds;
+}
+
+}  // namespace
+
+double largest(const gait::Plan& plan, const gait::Setting& s) {
+  double out = from_start(plan.joints[s.joint], s.what);
+  for (const gait::Phase& phase : plan.phases)
+    if (s.joint < phase.joints.size())
+      for (const double v : profile_of(phase.joints[s.joint], s.what)) out = std::max(out, v);
+  return out;
+}
+
+Show::Show(const experiment::Experiment& e, const config::Node& resolved,
+           experiment::Steering& steering, Feed& feed, const std::atomic<std::int64_t>& tick)
+    : experiment_(e),
+      steering_(steering),
+      feed_(feed),
+      tick_(tick),
+      settings_(gait::settings(e.plan)),
+      growing_(experiment::topics(e), {.resolved = resolved,
+                                       .name = e.name,
+                                       .duration = end_of(e),
+                                       .foot_path = has_foot_path(e.plan)}) {}
+
+std::string Show::controls() const {
+  Json out = Json::array();
+  for (const gait::Setting& s : settings_) {
+    const double most = largest(experiment_.plan, s);
+    out.push_back({{"key", s.key},
+                   {"joint", experiment_.plan.joints[s.joint].name},
+                   {"what", word(s.what)},
+                   {"unit", s.unit},
+                   {"most", most > 0 ? 3 * most : usual(s.what)}});
+  }
+  return text_of({{"controls", std::move(out)}});
+}
+
+std::string Show::page(std::string_view server) const {
+  report::Content content = growing_.content(controls());
+  content.connect = "; connect-src ws://" + std::string(server);
+  return report::fill(report::page_template(), content);
+}
+
+std::string Show::state() const {
+  Json values = Json::array(), overridden = Json::array();
+  for (std::size_t i = 0; i < settings_.size(); ++i) {
+    values.push_back(steering_.value(i));
+    overridden.push_back(steering_.overridden(i));
+  }
+  return text_of(
+      {{"time", static_cast<double>(tick_.load(std::memory_order_relaxed)) * signals::tick_seconds},
+       {"paused", steering_.paused()},
+       {"pace", steering_.pace()},
+       {"values", std::move(values)},
+       {"overridden", std::move(overridden)},
+       {"refused", steering_.refused()}});
+}
+
+std::string Show::frame(Position& position) {
+  feed_.collect();
+  if (feed_.rows() == 0) return "";
+  std::string out = "{\"state\":" + state();
+  if (feed_.rows() > position.rows) out += ",\"piece\":" + growing_.piece(feed_.since(position));
+  return out + "}";
+}
+
+std::string Show::answer(std::string_view text) {
+  using Kind = Request::Kind;
+  const auto error = [](std::string_view what) { return text_of({{"error", what}}); };
+  Request r;
+  try {
+    r = read_request(text, settings_);
+  } catch (const std::invalid_argument& wrong) {
+    return error(wrong.what());
+  }
+  bool taken = true;
+  switch (r.kind) {
+    case Kind::pause:
+    case Kind::resume:
+      steering_.pause(r.kind == Kind::pause);
+      break;
+    case Kind::pace:
+      steering_.pace(r.value);
+      break;
+    case Kind::set:
+      taken = steering_.change(r.setting, r.value);
+      break;
+    case Kind::release:
+      taken = steering_.release(r.setting);
+      break;
+    case Kind::release_all:
+      for (std::size_t i = 0; i < settings_.size(); ++i)
+        if (steering_.overridden(i)) taken = steering_.release(i) && taken;
+      break;
+  }
+  return taken ? "" : error("found more changes than fit into a period; try again when it goes on");
+}
+
+}  // namespace sinew::live

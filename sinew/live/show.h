@@ -1,0 +1,53 @@
+// live/show.h - a run while it goes, for pages: their first text, what they are sent, and what they
+// may ask. All of it belongs to one thread, the watchers'; the loop knows only feed and steering.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/experiment/experiment.h"
+#include "sinew/experiment/steering.h"
+#include "sinew/live/feed.h"
+#include "sinew/report/growing.h"
+
+namespace sinew::live {
+
+class Show {
+ public:
+  // Where a page has got; each has its own.
+  using Position = Feed::Position;
+
+  // All of them outlive this; `resolved` is what runs.
+  Show(const experiment::Experiment& experiment, const config::Node& resolved,
+       experiment::Steering& steering, Feed& feed, const std::atomic<std::int64_t>& tick);
+
+  // The page without samples. `server`: where it may connect to, "127.0.0.1:8080".
+  std::string page(std::string_view server) const;
+
+  // What is new to a page: JSON with `piece` (report/growing.h), where there is any, and `state`.
+  // "" before the first row.
+  std::string frame(Position& position);
+
+  // Does what a page asks. JSON for it alone: {"error": …} where it was nothing to be done, else
+  // "".
+  std::string answer(std::string_view request);
+
+ private:
+  std::string state() const;
+  std::string controls() const;
+
+  const experiment::Experiment& experiment_;
+  experiment::Steering& steering_;
+  Feed& feed_;
+  const std::atomic<std::int64_t>& tick_;
+  std::vector<gait::Setting> settings_;
+  report::Growing growing_;
+};
+
+// The largest value that the plan ever has for the setting  [its SI unit].
+double largest(const gait::Plan& plan, const gait::Setting& setting);
+
+}  // namespace sinew::live
