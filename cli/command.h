@@ -27,6 +27,7 @@ void add_valve(CLI::App& app, Action& action);
 void add_kinematics(CLI::App& app, Action& action);
 void add_identify(CLI::App& app, Action& action);
 void add_figures(CLI::App& app, Action& action);
+void add_view(CLI::App& app, Action& action);
 void add_force_beam(CLI::App& app, Action& action);
 
 // A subcommand with its one line of description and the example that ends its help.

@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
   cli::add_run(app, action);
   cli::add_analyze(app, action);
   cli::add_report(app, action);
+  cli::add_view(app, action);
   cli::add_compare(app, action);
   cli::add_export(app, action);
   cli::add_import(app, action);

@@ -25,14 +25,12 @@ ExitCode report_run(const Options& options) {
   const std::filesystem::path out = options.out.empty() ? run.log.parent_path() / report_name
                                                         : std::filesystem::path(options.out);
   refuse_to_overwrite(out, options.force);
-  const config::Node resolved = config::compose(machine_of(run, options.machine).string());
-  const signals::Table table = log::read(run.log);
-  if (!table.complete)
+  bool cut = false;
+  const std::string page = page_of(run, options.machine, &cut);
+  if (cut)
     messages.warning(run.log.string() +
                      " was cut off or is damaged; the page shows what stands "
                      "before");
-  const std::string page =
-      report::page({.table = table, .resolved = resolved, .name = experiment_in(run.log)});
   write_file(out, page);
   messages.note(
       fmt::format("{}, {:.1f} MB", out.string(), 1e-6 * static_cast<double>(page.size())));
@@ -40,6 +38,13 @@ ExitCode report_run(const Options& options) {
 }
 
 }  // namespace
+
+std::string page_of(const RecordedRun& run, const std::string& machine, bool* cut) {
+  const config::Node resolved = config::compose(machine_of(run, machine).string());
+  const signals::Table table = log::read(run.log);
+  if (cut) *cut = !table.complete;
+  return report::page({.table = table, .resolved = resolved, .name = experiment_in(run.log)});
+}
 
 void write_report(const std::filesystem::path& folder, const signals::Table& logged,
                   const std::string& resolved, const std::string& name, const Messages& messages) {

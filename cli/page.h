@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "cli/run_folder.h"
 #include "cli/terminal.h"
 #include "sinew/signals/table.h"
 
@@ -15,5 +16,9 @@ inline constexpr std::string_view report_name = "report.html";
 // page in the program: a note and no file.
 void write_report(const std::filesystem::path& folder, const signals::Table& logged,
                   const std::string& resolved, const std::string& name, const Messages& messages);
+
+// The page of a recorded run, by `machine` where it is not empty, else by its resolved.toml. Throws
+// where there is no such run, or no page in the program; `cut` says whether the log was.
+std::string page_of(const RecordedRun& run, const std::string& machine, bool* cut = nullptr);
 
 }  // namespace sinew::cli

@@ -71,13 +71,18 @@ std::string experiment_in(const std::filesystem::path& log) {
 
 RunLog::RunLog(const std::filesystem::path& file, const std::string& name, int seed,
                const std::string& resolved, LoggedTopics logged)
-    : of_series_(std::move(logged.of_series)),
-      writer_(file, std::move(logged.topics),
-              {{"experiment", name},
-               {"seed", std::to_string(seed)},
-               {"version", SINEW_VERSION},
-               {"resolved", resolved}},
-              {.version = SINEW_VERSION}) {}
+    : name_(name),
+      seed_(seed),
+      of_series_(std::move(logged.of_series)),
+      writer_(file, std::move(logged.topics), metadata(resolved), {.version = SINEW_VERSION}) {}
+
+std::vector<std::pair<std::string, std::string>> RunLog::metadata(
+    const std::string& resolved) const {
+  return {{"experiment", name_},
+          {"seed", std::to_string(seed_)},
+          {"version", SINEW_VERSION},
+          {"resolved", resolved}};
+}
 
 void RunLog::write(const signals::Table& table) {
   struct At {

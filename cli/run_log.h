@@ -42,10 +42,16 @@ class RunLog {
   // The log must outlive the run.
   void tap(experiment::RunOptions& options);
 
-  // Indexes the file. Without it, the file is one that was cut off.
+  // Indexes the file. Without it, the file is one that was cut off. `resolved`: what was run after
+  // all, in place of the constructor's.
   void finish() { writer_.finish(); }
+  void finish(const std::string& resolved) { writer_.finish(metadata(resolved)); }
 
  private:
+  std::vector<std::pair<std::string, std::string>> metadata(const std::string& resolved) const;
+
+  std::string name_;
+  int seed_;
   std::vector<std::uint16_t> of_series_;
   log::Writer writer_;
 };

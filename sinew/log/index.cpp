@@ -7,6 +7,7 @@
 #include "sinew/log/error.h"
 #include "sinew/log/file.h"
 #include "sinew/log/mcap.h"
+#include "sinew/log/names.h"
 
 namespace sinew::log {
 namespace {
@@ -26,12 +27,13 @@ struct Span {  // of time; as the format wants it, zero to zero without messages
 // Copies the records of one file into another, the messages in chunks, and adds the summary.
 class Indexer {
  public:
-  explicit Indexer(Output& output) : output_(output) {}
+  Indexer(Output& output, const Pairs& metadata) : output_(output), run_(metadata) {}
 
   bool copy(std::string_view source);
 
  private:
   void copy(const Record& record);
+  void copy_metadata(const Record& record);
   void add_message(const Record& record);
   void end_chunk();
   void put_message_indexes(Bytes& out);
@@ -39,6 +41,7 @@ class Indexer {
   void put_summary();
 
   Output& output_;
+  const Pairs& run_;  // what was run, in place of what the file says; empty: that
 
   // The chunk being filled: its records, and per channel (time, offset) of each message.
   Bytes chunk_;
@@ -82,19 +85,28 @@ void Indexer::copy(const Record& record) {
       channels_.raw(record.whole);
       ++channel_count_;
       break;
-    case Op::metadata: {
-      const std::size_t index = metadata_indexes_.open(Op::metadata_index);
-      metadata_indexes_.u64(output_.position());
-      metadata_indexes_.u64(record.whole.size());
-      metadata_indexes_.text(Fields(record.content).text());
-      metadata_indexes_.close(index);
-      ++metadata_count_;
-      break;
-    }
+    case Op::metadata:
+      return copy_metadata(record);
     default:
       break;
   }
   output_.write(record.whole);  // only messages stand in chunks
+}
+
+void Indexer::copy_metadata(const Record& record) {
+  const std::string name(Fields(record.content).text());
+  Bytes out;
+  if (name == kRunMetadata && !run_.empty())
+    put_metadata(out, name, run_);
+  else
+    out.raw(record.whole);
+  const std::size_t index = metadata_indexes_.open(Op::metadata_index);
+  metadata_indexes_.u64(output_.position());
+  metadata_indexes_.u64(out.size());
+  metadata_indexes_.text(name);
+  metadata_indexes_.close(index);
+  ++metadata_count_;
+  output_.write(out.view());
 }
 
 void Indexer::add_message(const Record& record) {
@@ -213,14 +225,14 @@ void Indexer::put_summary() {
 
 }  // namespace
 
-void make_indexed(const std::filesystem::path& file) {
+void make_indexed(const std::filesystem::path& file, const Metadata& run) {
   const std::filesystem::path beside = file.string() + ".tmp";
   const char* const advice = "the log is whole and can be read, only its index is missing";
   std::error_code error;
   {
     const Mapping source(file);
     Output output(beside);
-    if (!Indexer(output).copy(source.bytes())) {
+    if (!Indexer(output, run).copy(source.bytes())) {
       std::filesystem::remove(beside, error);
       const std::string why = output.error() ? system_words(output.error()) : "the file is damaged";
       throw Error(file, "cannot index the log: " + why, advice);

@@ -2,11 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace sinew::log {
 
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
 // Writes an indexed copy beside the file and renames it over the file, so that at any instant one
-// of the two stands there whole. Throws Error; the file then is as it was.
-void make_indexed(const std::filesystem::path& file);
+// of the two stands there whole. Throws Error; the file then is as it was. `run`: what
+// was run, in place of what the file says of it; empty: that.
+void make_indexed(const std::filesystem::path& file, const Metadata& run = {});
 
 }  // namespace sinew::log

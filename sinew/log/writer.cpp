@@ -73,7 +73,7 @@ struct Writer::Impl {
 
   bool push(std::uint16_t topic, std::int64_t time_ns, std::span<const double> values) noexcept;
   void stop() noexcept;
-  void finish();
+  void finish(const Pairs& metadata);
 
  private:
   void run() noexcept;
@@ -186,7 +186,7 @@ void Writer::Impl::stop() noexcept {
   thread_.join();
 }
 
-void Writer::Impl::finish() {
+void Writer::Impl::finish(const Pairs& metadata) {
   if (!thread_.joinable()) return;
   stop();
   fail_unless_written();
@@ -200,7 +200,7 @@ void Writer::Impl::finish() {
   output_.write(end.view());
   output_.close();
   fail_unless_written();
-  make_indexed(file_);
+  make_indexed(file_, metadata);
 }
 
 void Writer::Impl::fail_unless_written() const {
@@ -228,6 +228,6 @@ std::uint64_t Writer::waits() const noexcept {
   return impl_->waits.load(std::memory_order_relaxed);
 }
 
-void Writer::finish() { impl_->finish(); }
+void Writer::finish(const Pairs& metadata) { impl_->finish(metadata); }
 
 }  // namespace sinew::log

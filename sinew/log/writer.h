@@ -49,9 +49,11 @@ class Writer {
   // How often push() had to wait.
   std::uint64_t waits() const noexcept;
 
-  // Writes the rest, closes the file and indexes it. Throws Error where anything could not be
-  // written; the file then still holds everything up to there. A second call does nothing.
-  void finish();
+  // Writes the rest, closes the file and indexes it. `metadata`, where it is given, takes the place
+  // of the constructor's: a run may have been changed while it went. Throws Error where anything
+  // could not be written; the file then still holds everything up to there. A second call does
+  // nothing.
+  void finish(const std::vector<std::pair<std::string, std::string>>& metadata = {});
 
  private:
   struct Impl;

@@ -1,6 +1,7 @@
 // The page of a run: reads what the program put into it, then joins replay, plots and tables.
 import { pressure_gradient } from './colors.js';
 import { Charts } from './charts.js';
+import { Live } from './live.js';
 import { Look } from './look.js';
 import { by_id, element } from './page.js';
 import { Player } from './player.js';
@@ -203,7 +204,7 @@ class Page {
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const tag = event.target.tagName;
-    if (event.target.type === 'search' || tag === 'SELECT' || tag === 'TEXTAREA') return;
+    if (event.target.type === 'search' || event.target.closest?.('.control') || tag === 'SELECT' || tag === 'TEXTAREA') return;
     const big = event.shiftKey ? 10 : 1;
     const does = {
       ' ': () => this.player.toggle(),
@@ -279,11 +280,13 @@ class Page {
 async function start() {
   const run = JSON.parse(by_id('run-data').textContent);
   const samples = by_id('run-samples');
-  const columns = await read_samples(run.samples, samples.textContent);
+  const live = run.live ? new Live(run) : null;
+  const columns = live ? await live.connect() : await read_samples(run.samples, samples.textContent);
   samples.remove();
   const page = new Page(run, columns);
+  live?.attach(page);
   // For scripts that take pictures, and for tests.
-  window.sinew = { run, columns, page, index_at };
+  window.sinew = { run, columns, page, index_at, live };
   document.documentElement.dataset.ready = 'yes';
 }
 

@@ -6,6 +6,7 @@ export class Player {
   // `clock`: the times that a step goes by; `show` draws a time.
   constructor(duration, clock, show) {
     Object.assign(this, { duration, clock, show, time: 0, playing: false, speed: 1 });
+    this.limit = duration;  // how far there is something to show; a run that goes moves it
     this.slider = by_id('seek');
     this.slider.max = duration;
     this.slider.addEventListener('input', () => this.seek(Number(this.slider.value)));
@@ -20,7 +21,12 @@ export class Player {
   }
 
   seek(t) {
-    this.time = Math.min(this.duration, Math.max(0, t));
+    this.on_seek?.();
+    this.place(t);
+  }
+
+  place(t) {
+    this.time = Math.min(this.limit, Math.max(0, t));
     this.slider.value = this.time;
     this.slider.setAttribute('aria-valuetext', `${this.time.toFixed(3)} s`);
     this.show(this.time);
@@ -36,7 +42,7 @@ export class Player {
   }
 
   toggle() {
-    if (!this.playing && this.time >= this.duration) this.seek(0);
+    if (!this.playing && this.time >= this.limit) this.seek(0);
     this.set_playing(!this.playing);
   }
 
@@ -57,7 +63,7 @@ export class Player {
     const passed = this.before === null ? 0 : Math.min(0.1, (now - this.before) / 1000);
     this.before = now;
     this.seek(this.time + passed * this.speed);
-    if (this.time >= this.duration) return this.set_playing(false);
+    if (this.time >= this.limit) return this.set_playing(false);
     requestAnimationFrame((next) => this.frame(next));
   }
 

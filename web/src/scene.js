@@ -14,11 +14,16 @@ export class Scene {
     this.tick_step = null;  // of the ground, for an animation that loops
     this.column = (index) => (index === null || index === undefined ? null : columns[index]);
     this.reach = longest_reach(spec);
+    this.refit();
+    this.read_look();
+    new ResizeObserver(() => this.draw(this.time ?? 0)).observe(canvas);
+  }
+
+  // To what the columns hold, which may have grown.
+  refit() {
     this.box = this.bounds();
     this.pressures = this.pressure_range();
     this.force_scale = this.find_force_scale();
-    this.read_look();
-    new ResizeObserver(() => this.draw(this.time ?? 0)).observe(canvas);
   }
 
   read_look() {

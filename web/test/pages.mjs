@@ -16,6 +16,9 @@ after(() => browser.close());
 
 export { runs, pictures };
 
+// For pages that have a server.
+export const new_context = (options = {}) => browser.newContext({ viewport: { width: 1440, height: 900 }, ...options });
+
 // The page of a run, or another page in its folder; closed afterwards; it must have done nothing
 // wrong.
 export async function with_page(name, does, options, file = 'report.html') {

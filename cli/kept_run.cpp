@@ -1,0 +1,122 @@
+#include "cli/kept_run.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "cli/page.h"
+#include "cli/report.h"
+#include "cli/run_folder.h"
+#include "sinew/config/node.h"
+
+namespace sinew::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+experiment::Experiment load(const RunRequest& request, const Messages& messages) {
+  experiment::Experiment e = experiment::load(request.experiment, request.sets);
+  if (!request.allow_unreachable) refuse_unreachable(e);
+  for (const config::Problem& warning : e.warnings) messages.warning(config::to_text(warning));
+  return e;
+}
+
+// As `analyze` will read it: so both come to the same bits.
+analysis::Machine machine_in(const std::string& resolved) {
+  return analysis::read_machine(config::parse_text(resolved, std::string(resolved_name)));
+}
+
+std::string summary_json(const analysis::Summary& summary, const experiment::Outcome& outcome) {
+  const double factor = outcome.wall > 0 ? outcome.duration / outcome.wall : 0;
+  return to_json(summary, {{"real_time_factor", factor}, {"threads", 1}});
+}
+
+bool ended_early(const experiment::Outcome& outcome) {
+  return outcome.status != signals::Status::ok || outcome.seen.fault != signals::Status::ok;
+}
+
+}  // namespace
+
+// CLI11's own words for it name the largest double there is. Slower than that no clock can wait.
+std::string a_pace(const std::string& text) {
+  constexpr double slowest = 1e-3;
+  double value = -1;
+  const char* last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  const bool number = error == std::errc{} && end == last && std::isfinite(value);
+  if (number && (value == 0 || value >= slowest)) return "";
+  return fmt::format("found \"{}\"; expected 0, or a number from {} on", text, slowest);
+}
+
+void add_run_options(CLI::App& sub, RunRequest& request) {
+  sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
+  sub.add_flag("--force", request.force, "replace the run that is in the folder");
+  add_sets(sub, request.sets);
+  sub.add_flag("--allow-unreachable", request.allow_unreachable,
+               "aim at the nearest point where the foot path is out of reach");
+  sub.add_flag("!--no-report", request.report, "leave report.html out");
+  sub.add_flag("--json", request.json, "print summary.json");
+  sub.add_flag("--quiet", request.quiet, "only errors on stderr");
+}
+
+KeptRun::KeptRun(RunRequest request, const Messages& messages)
+    : request_(std::move(request)),
+      messages_(messages),
+      experiment_(load(request_, messages)),
+      resolved_(experiment::resolved(experiment_, SINEW_VERSION)),
+      logged_(logged_topics(experiment_)) {
+  (void)machine_in(resolved_);  // what cannot be summed up is not run
+  folder_ = request_.folder.empty() ? next_run_folder(experiment_.name)
+                                    : chosen_run_folder(request_.folder, request_.force);
+  if (!experiment_.log.enabled) return;
+  write_file(folder_ / resolved_name, resolved_);
+  log_.emplace(folder_ / log_name, experiment_.name, experiment_.seed, resolved_, logged_);
+}
+
+// What was steered is a part of what was run, with where it comes from.
+void KeptRun::finish_log(const experiment::Outcome& outcome) {
+  const std::size_t written = experiment_.plan.changes.size();
+  if (outcome.changes.size() == written) {
+    if (log_) log_->finish();
+    return;
+  }
+  experiment_.plan.changes = outcome.changes;
+  for (std::size_t i = written; i < outcome.changes.size(); ++i)
+    for (const char* key : {"time", "value"})
+      experiment_.origins.push_back(
+          {.path = fmt::format("change[{}].{}", i, key), .source = "set while it ran"});
+  resolved_ = experiment::resolved(experiment_, SINEW_VERSION);
+  if (!log_) return;
+  write_file(folder_ / resolved_name, resolved_);
+  log_->finish(resolved_);
+}
+
+ExitCode KeptRun::keep(experiment::Outcome outcome) {
+  finish_log(outcome);
+  warn_of(experiment_, outcome, messages_);
+  if (ended_early(outcome)) throw std::runtime_error(black_box(experiment_, outcome));
+
+  const analysis::Machine machine = machine_in(resolved_);
+  const analysis::Summary summary = analysis::summarize(outcome.table, machine);
+  const std::string json = summary_json(summary, outcome);
+  write_file(folder_ / summary_name, json);
+  const std::string note =
+      fmt::format("{:.2f} s in {:.3f} s, kept in {}", outcome.duration, outcome.wall,
+                  folder_.string());
+  if (log_ && request_.report)
+    write_report(folder_, logged_part(std::move(outcome.table), logged_), resolved_,
+                 experiment_.name, messages_);
+
+  if (request_.json) {
+    fmt::print("{}", json);
+    messages_.note(folder_.string());
+    return ok;
+  }
+  print_verdicts(summary, machine);
+  messages_.note(note);
+  return ok;
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,183 @@
+// cli/view_live.cpp - `sinew view --live`: a run on a thread of its own, those who watch on this
+// one. Between them stand feed and steering alone, so that the loop waits for nobody.
+#include <fmt/format.h>
+
+#include <csignal>
+#include <exception>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <thread>
+
+#include "cli/page.h"
+#include "cli/run_rig.h"
+#include "cli/server.h"
+#include "cli/view.h"
+#include "sinew/config/compose.h"
+#include "sinew/experiment/columns.h"
+#include "sinew/live/show.h"
+#include "sinew/report/page.h"
+
+namespace sinew::cli {
+
+namespace {
+
+// Into the log what belongs there, everything to the watchers.
+struct Tee {
+  experiment::Tap log;
+  std::vector<std::uint16_t> logged;  // topic in the log of each, or not_tapped
+  live::Feed& feed;
+
+  static void push(void* self, std::uint16_t topic, std::int64_t time_ns,
+                   std::span<const double> values) noexcept {
+    const Tee& tee = *static_cast<Tee*>(self);
+    tee.feed.push(topic, time_ns, values);
+    if (tee.log.push && tee.logged[topic] != experiment::not_tapped)
+      tee.log.push(tee.log.object, tee.logged[topic], time_ns, values);
+  }
+};
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+class LiveRun {
+ public:
+  LiveRun(const ViewOptions& options, const Messages& messages)
+      : options_(options),
+        messages_(messages),
+        kept_(options.live, messages),
+        values_(config::parse_text(kept_.resolved(), "resolved.toml")),
+        feed_(experiment::topics(kept_.experiment())),
+        show_(kept_.experiment(), values_, steering_, feed_, tick_),
+        server_(static_cast<std::uint16_t>(options.port),
+                {.get = [this](std::string_view path) { return get(path); },
+                 .frame = [this](Server::Watcher w) { return frame(w); },
+                 .message = [this](Server::Watcher, std::string_view text) {
+                   return over() ? "" : show_.answer(text);
+                 },
+                 .left = [this](Server::Watcher w) { positions_.erase(w); },
+                 .interrupted = [this] { interrupted(); }}) {
+    steering_.pace(options.live.pace);
+    steering_.pause(options.paused);
+  }
+
+  ExitCode go() {
+    if (options_.live.json)
+      messages_.note(server_.url());
+    else
+      fmt::print("{}\n", server_.url());
+    std::fflush(stdout);
+    if (options_.open) open_browser(server_.url());
+    std::thread runner([this] { run(); });
+    server_.run();
+    runner.join();
+    if (failure_) std::rethrow_exception(failure_);
+    return code_;
+  }
+
+ private:
+  bool over() const { return over_.load(std::memory_order_acquire); }
+
+  // On the runner's thread, which alone touches what `over` publishes.
+  void run() {
+    try {
+      Tee tee{{}, {}, feed_};
+      experiment::RunOptions o{.steering = &steering_, .progress = &tick_};
+      if (kept_.log()) kept_.log()->tap(o);
+      tee.log = o.tap;
+      tee.logged = std::move(o.tapped);
+      o.tap = {&tee, &Tee::push};
+      o.tapped.clear();
+      for (std::size_t i = 0; i < experiment::topics(kept_.experiment()).size(); ++i)
+        o.tapped.push_back(static_cast<std::uint16_t>(i));
+      code_ = kept_.keep(experiment::run(kept_.experiment(), o));
+      std::fflush(stdout);
+      page_ = text_of(kept_.folder() / report_name);
+    } catch (const std::exception& e) {
+      failure_ = std::current_exception();
+      words_ = e.what();
+    }
+    if (feed_.left_out() > 0)
+      messages_.note(fmt::format("{} samples came too fast for those who watched; the log has them",
+                                 feed_.left_out()));
+    over_.store(true, std::memory_order_release);
+    if (options_.once || ending_.load())
+      server_.finish();
+    else
+      messages_.note("its page stays at " + server_.url() + " until Ctrl-C");
+  }
+
+  Reply get(std::string_view path) {
+    if (path != "/") return {404, "Nothing is here; the run is at /.\n", "text/plain"};
+    if (!over())
+      return {200, show_.page(fmt::format("127.0.0.1:{0} ws://localhost:{0}", server_.port()))};
+    if (!page_.empty()) return {200, page_};
+    return {200, failure_ ? words_ : "The run is over; it was to leave no page.\n",
+            "text/plain; charset=utf-8"};
+  }
+
+  std::string frame(Server::Watcher watcher) {
+    Watching& w = positions_[watcher];
+    if (!over()) return show_.frame(w.position);
+    if (w.told) return "";
+    w.told = true;
+    return "{\"over\":true}";
+  }
+
+  // The run is brought to its end, so that what it leaves is whole.
+  void interrupted() {
+    if (over()) return server_.stop();
+    if (ending_.exchange(true)) {
+      std::signal(SIGINT, SIG_DFL);
+      std::raise(SIGINT);
+    }
+    messages_.note("the run goes to its end at full speed; Ctrl-C again breaks it off");
+    steering_.pace(0);
+    steering_.pause(false);
+  }
+
+  struct Watching {
+    live::Show::Position position;
+    bool told = false;
+  };
+
+  const ViewOptions& options_;
+  const Messages& messages_;
+  KeptRun kept_;
+  const config::Node values_;
+  experiment::Steering steering_;
+  live::Feed feed_;
+  std::atomic<std::int64_t> tick_{0};
+  live::Show show_;
+  std::map<Server::Watcher, Watching> positions_;
+  std::atomic<bool> over_{false}, ending_{false};
+
+  // The runner's, until `over`.
+  ExitCode code_ = failed;
+  std::exception_ptr failure_;
+  std::string page_, words_;
+
+  Server server_;  // last: its end calls those above
+};
+
+}  // namespace
+
+ExitCode view_live(const ViewOptions& options) {
+  const std::string& file = options.live.experiment;
+  if (is_rig(file))
+    config::fail({file, 0, 0}, "--live", "an experiment on the stand",
+                 "one of a robot: a stand's run is over in a moment and is not steered",
+                 "sinew run, then sinew view");
+  if (!report::has_page())
+    throw std::runtime_error(
+        "sinew view: this sinew was built without its page, which npm bundles; try: install npm, "
+        "then run npm ci in web/ and build again");
+  const Messages messages(options.live.quiet);
+  return LiveRun(options, messages).go();
+}
+
+}  // namespace sinew::cli

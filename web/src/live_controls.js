@@ -1,0 +1,164 @@
+// What a person can do to a run that goes: pause, speed, gains and desired stiffnesses.
+import { element, set_icon } from './page.js';
+import { number } from './units.js';
+
+const send_every = 100;  // while a slider is dragged [ms]
+
+// Gains as the thesis has them, in percent of duty.
+const per_stiffness = 0.1129848290276167;  // [N m/rad] in a lbf in/rad
+const gain_units = {
+  '1/count': { si: ['%/count', 100], thesis: ['%/count', 100] },
+  's/count': { si: ['% s/count', 100], thesis: ['% s/count', 100] },
+  '1/(N m/rad)': { si: ['% rad/(N m)', 100], thesis: ['% rad/(lbf in)', 100 * per_stiffness] },
+};
+
+const paces = [['0.1', '0.1×'], ['0.25', '0.25×'], ['0.5', '0.5×'], ['1', '1×'], ['2', '2×'], ['4', '4×'], ['0', 'full speed']];
+
+// One gain or desired stiffness: a slider, a field, and the way back to the plan's own.
+class Control {
+  constructor(spec, index, panel) {
+    Object.assign(this, { spec, index, panel, most: spec.most, held: false, sent: 0 });
+    const name = `${spec.joint} ${spec.what}`;
+    this.slider = element('input', { type: 'range', min: 0, max: 1000, step: 1, 'aria-label': name });
+    this.field = element('input', { type: 'number', min: 0, step: 'any', 'aria-label': `${name}, exactly` });
+    this.unit = element('span', { class: 'unit' });
+    this.back = element('button', { type: 'button', class: 'icon release', title: `The plan's own ${spec.what} again`,
+                                    'aria-label': `Release ${name}` }, '↺');
+    this.root = element('div', { class: 'control', 'data-key': spec.key },
+      element('span', { class: 'what' }, spec.what), this.slider, this.field, this.unit, this.back);
+    this.listen();
+  }
+
+  listen() {
+    const { slider, field } = this;
+    slider.addEventListener('input', () => {
+      this.held = true;
+      this.value = (Number(slider.value) / 1000) * this.most;
+      this.show_number();
+      if (performance.now() - this.sent > send_every) this.send();
+    });
+    slider.addEventListener('change', () => this.send());
+    field.addEventListener('focus', () => (this.held = true));
+    field.addEventListener('blur', () => (this.held = false));
+    field.addEventListener('change', () => {
+      const typed = Number(field.value) / this.in_unit()[1];
+      if (field.value === '' || !(typed >= 0)) return this.panel.complain(`found "${field.value}"; expected a number from 0 on`);
+      this.value = typed;
+      this.send();
+    });
+    this.back.addEventListener('click', () => this.panel.live.ask({ do: 'release', key: this.spec.key }));
+  }
+
+  send() {
+    this.sent = performance.now();
+    this.until = this.sent + 300;  // the run's answer is on its way
+    if (document.activeElement !== this.field) this.held = false;
+    this.panel.live.ask({ do: 'set', key: this.spec.key, value: this.value });
+  }
+
+  in_unit() {
+    const { units } = this.panel;
+    const own = gain_units[this.spec.unit];
+    if (own) return own[units.system];
+    const u = units.of(this.spec.unit);
+    return [u.label, u.scale];
+  }
+
+  show_number() {
+    const [label, scale] = this.in_unit();
+    this.unit.textContent = label;
+    this.field.value = Number((this.value * scale).toPrecision(4));
+  }
+
+  show(value, overridden) {
+    this.root.classList.toggle('by-hand', overridden);
+    this.back.disabled = !overridden;
+    if (this.held || performance.now() < (this.until ?? 0)) return;
+    this.value = value;
+    if (value > this.most) this.most = 1.5 * value;
+    this.slider.value = Math.round((1000 * value) / this.most);
+    this.show_number();
+  }
+}
+
+export class LiveControls {
+  constructor(live, page) {
+    Object.assign(this, { live, page, units: page.units });
+    this.controls = live.run.live.controls.map((spec, i) => new Control(spec, i, this));
+    this.strip = this.make_strip();
+    this.panel = this.make_panel();
+    document.querySelector('main').prepend(this.strip);
+    document.getElementById('replay').append(this.panel);
+    document.documentElement.classList.add('live');
+  }
+
+  make_strip() {
+    const button = (id, words, does, title) => {
+      const out = element('button', { type: 'button', id, title }, words);
+      out.addEventListener('click', does);
+      return out;
+    };
+    this.pause = button('run-pause', '', () => this.live.ask({ do: this.paused ? 'resume' : 'pause' }), 'Pause or resume the run itself');
+    this.pace = element('select', { id: 'run-pace', 'aria-label': 'Speed of the run' },
+      ...paces.map(([value, words]) => element('option', { value }, words)));
+    this.pace.addEventListener('change', () => this.live.ask({ do: 'pace', value: Number(this.pace.value) }));
+    this.tail = button('follow-run', 'Follow the run', () => this.live.follow(true), 'Show what happens now');
+    this.release = button('release-all', 'Release all', () => this.live.ask({ do: 'release all' }), 'The plan\'s own values again');
+    this.lamp = element('span', { class: 'lamp' });
+    this.word = element('strong', {});
+    this.clock = element('span', { class: 'run-clock' });
+    this.note = element('span', { class: 'run-note', role: 'status' });
+    return element('section', { class: 'live-strip no-print', id: 'live', 'aria-label': 'The run' },
+      this.lamp, this.word, this.clock, this.pause,
+      element('label', {}, element('span', { class: 'quiet' }, 'Speed of the run '), this.pace),
+      this.tail, this.release, this.note);
+  }
+
+  make_panel() {
+    const joints = [...new Set(this.controls.map((c) => c.spec.joint))];
+    return element('section', { class: 'live-controls no-print', 'aria-label': 'Gains and desired stiffnesses' },
+      ...joints.map((joint) => element('fieldset', {},
+        element('legend', {}, joint.replaceAll('_', ' ')),
+        ...this.controls.filter((c) => c.spec.joint === joint).map((c) => c.root))));
+  }
+
+  show(state) {
+    this.paused = state.paused;
+    this.lamp.className = `lamp ${state.paused ? 'paused' : 'on'}`;
+    this.word.textContent = state.paused ? 'Paused' : 'Live';
+    this.clock.textContent = `${state.time.toFixed(1)} s of ${this.live.run.duration.toFixed(1)} s at most`;
+    if (this.pause.dataset.shows !== String(state.paused)) {
+      this.pause.dataset.shows = String(state.paused);
+      set_icon(this.pause, state.paused ? 'play' : 'pause');
+      this.pause.append(state.paused ? ' Resume the run' : ' Pause the run');
+    }
+    this.show_pace(String(state.pace));
+    this.controls.forEach((c, i) => c.show(state.values[i], state.overridden[i]));
+    const by_hand = state.overridden.filter(Boolean).length;
+    this.release.disabled = !by_hand;
+    if (state.refused) this.complain(`${state.refused} changes were not followed: the run keeps no more`);
+  }
+
+  show_pace(pace) {
+    if (document.activeElement === this.pace && this.pace.matches(':active')) return;
+    if (![...this.pace.options].some((o) => o.value === pace))
+      this.pace.append(element('option', { value: pace }, `${number(Number(pace))}×`));
+    this.pace.value = pace;
+  }
+
+  show_following(on) {
+    this.tail.disabled = on;
+  }
+
+  complain(words) {
+    this.note.textContent = words;
+    clearTimeout(this.forget);
+    this.forget = setTimeout(() => (this.note.textContent = ''), 6000);
+  }
+
+  lost() {
+    this.lamp.className = 'lamp';
+    this.word.textContent = 'No connection';
+    this.note.textContent = 'the run goes on without this page, or the program has ended';
+  }
+}

@@ -1,0 +1,224 @@
+// The page of a run that goes: `sinew view --live`, watched, paused, steered, repeated. The program
+// is what SINEW names.
+import assert from 'node:assert/strict';
+import { execFileSync, spawn } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import http from 'node:http';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { drawing_of, new_context, picture, playheads } from './pages.mjs';
+
+const program = process.env.SINEW;
+if (!program) throw new Error('SINEW must name the program, as build/dev/bin/sinew');
+const experiment = fileURLToPath(new URL('../../experiments/tune-in-air.toml', import.meta.url));
+const folder = mkdtempSync(join(tmpdir(), 'sinew-live-'));
+after(() => rmSync(folder, { recursive: true, force: true }));
+
+const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+
+// A run with its server; `url`, and what it came to at the end.
+async function start(name, options = []) {
+  const out = join(folder, name);
+  const child = spawn(program, ['view', '--live', experiment, '--no-open', '-o', out, ...options]);
+  let words = '', errors = '';
+  child.stderr.on('data', (text) => (errors += text));
+  const ended = new Promise((done) => child.on('close', (code) => done({ code, errors })));
+  const url = await new Promise((found, wrong) => {
+    child.stdout.on('data', (text) => {
+      words += text;
+      if (words.includes('\n')) found(words.split('\n')[0]);
+    });
+    ended.then(({ errors: why }) => wrong(new Error(why)));
+  });
+  return { url, out, child, ended };
+}
+
+async function watch(run, does, options = {}) {
+  const context = await new_context(options);
+  const page = await context.newPage(), wrong = [];
+  page.on('console', (m) => ['error', 'warning'].includes(m.type()) && wrong.push(m.text()));
+  page.on('pageerror', (e) => wrong.push(e.message));
+  page.on('request', (r) => !r.url().startsWith(run.url) && !r.url().startsWith('data:') && wrong.push(r.url()));
+  try {
+    await page.goto(run.url);
+    await page.waitForSelector('html[data-ready]');
+    await does(page);
+    assert.deepEqual(wrong, []);
+  } finally {
+    await context.close();
+  }
+}
+
+const live = (page) => page.evaluate(() => ({ ...window.sinew.live.state, shown: window.sinew.page.player.time,
+  known: window.sinew.live.time, frames: window.sinew.live.frames }));
+const until = (page, what, argument) => page.waitForFunction(what, argument, { timeout: 30000 });
+
+// All samples of a log, as text.
+function samples(run) {
+  const file = `${run}.csv`;
+  execFileSync(program, ['export', run, '--csv', '-o', file, '--quiet']);
+  return readFileSync(file, 'utf8');
+}
+
+test('a run is watched, paused, steered; its file repeats it', async () => {
+  const run = await start('steered', ['--set', 'sequence.repeat=3', '--pace', '2']);
+  await watch(run, async (page) => {
+    await until(page, () => window.sinew.live.time > 1);
+    const before = await live(page);
+    const still = await drawing_of(page);
+    await wait(400);
+    const later = await live(page);
+    assert.ok(later.frames > before.frames + 2, `${later.frames - before.frames} frames`);
+    assert.ok(later.shown > before.shown);
+    assert.ok(later.shown <= later.known && later.known - later.shown < 2);
+    assert.notEqual(await drawing_of(page), still);
+    const heads = await playheads(page);
+    assert.ok(heads.length > 2);
+    const drawn = await page.evaluate(() => {
+      const panel = window.sinew.page.plots.panels[0];
+      return panel.plot.data[0].at(-1);
+    });
+    assert.ok(drawn > 0.5 && drawn <= later.known + 1, `plots have grown to ${drawn} s`);
+    await picture(page, 'live');
+
+    // Paused, it stands.
+    await page.locator('#run-pause').click();
+    await until(page, () => window.sinew.live.state.paused);
+    await wait(300);
+    const stood = await live(page);
+    await wait(400);
+    assert.equal((await live(page)).known, stood.known);
+    assert.equal(await page.locator('#live strong').textContent(), 'Paused');
+    await page.locator('#run-pause').click();
+    await until(page, (t) => window.sinew.live.time > t + 0.2, stood.known);
+
+    // A slider, an exact value, a release.
+    const hip = page.locator('.control[data-key="control.gains.hip.angle"]');
+    assert.equal(await hip.locator('.release').isDisabled(), true);
+    await hip.locator('input[type=range]').focus();
+    for (let i = 0; i < 5; ++i) await page.keyboard.press('PageDown');
+    await until(page, () => window.sinew.live.state.overridden.some(Boolean));
+    const knee = page.locator('.control[data-key="control.stiffness.knee"]');
+    await knee.locator('input[type=number]').fill('1.25');
+    await page.keyboard.press('Enter');
+    await until(page, () => window.sinew.live.state.values.includes(1.25));
+    assert.match(await knee.getAttribute('class'), /by-hand/);
+    await picture(page, 'live-by-hand');
+    await hip.locator('.release').click();
+    await until(page, () => window.sinew.live.state.overridden.filter(Boolean).length === 1);
+
+    // A page that comes late has what was so far.
+    await watch(run, async (late) => {
+      const first = await late.evaluate(() => window.sinew.live.growing.clocks[0].room[0]);
+      assert.ok(first < 0.02, `from ${first} s on`);
+    });
+
+    // At the end it is the finished run's.
+    await page.locator('#run-pace').selectOption('0');
+    await until(page, () => !window.sinew?.live && document.documentElement.dataset.ready);
+    assert.ok((await page.locator('#figures tr[data-key]').count()) > 20);
+    assert.ok((await page.locator('#parameters tr[data-key^="change["]').count()) >= 6);
+  });
+  run.child.kill('SIGINT');
+  const { code, errors } = await run.ended;
+  assert.equal(code, 0, errors);
+  assert.match(errors, /kept in/);
+
+  const again = join(folder, 'again');
+  execFileSync(program, ['run', join(run.out, 'resolved.toml'), '-o', again, '--quiet', '--no-report']);
+  assert.equal(samples(again), samples(run.out));
+});
+
+test('watched by several, some of them slow, the log keeps its bytes', async () => {
+  const run = await start('watched', ['--set', 'sequence.repeat=2', '--pace', '8', '--once']);
+  // One that never reads what it is sent.
+  const deaf = http.request(`${run.url}live`, { headers: { connection: 'Upgrade', upgrade: 'websocket',
+    origin: run.url.slice(0, -1), 'sec-websocket-key': 'c2luZXcgaXMgd2F0Y2hlZA==', 'sec-websocket-version': 13 } });
+  deaf.on('upgrade', (response, socket) => socket.pause());
+  deaf.on('error', () => {});
+  deaf.end();
+  await watch(run, (page) => watch(run, () => until(page, () => window.sinew.live.time > 0.5)));
+  const { code, errors } = await run.ended;
+  deaf.destroy();
+  assert.equal(code, 0, errors);
+  const alone = join(folder, 'alone');
+  execFileSync(program, ['run', experiment, '--set', 'sequence.repeat=2', '-o', alone, '--quiet', '--no-report']);
+  const log = (of) => readFileSync(join(of, 'log.mcap'));
+  assert.ok(log(alone).equals(log(run.out)));
+});
+
+test('Ctrl-C brings the run to its end, whole', async () => {
+  const run = await start('stopped', ['--paused']);
+  await wait(300);
+  run.child.kill('SIGINT');
+  const { code, errors } = await run.ended;
+  assert.equal(code, 0, errors);
+  const summary = JSON.parse(readFileSync(join(run.out, 'summary.json'), 'utf8'));
+  assert.ok(summary.sequence_duration_s > 50);
+});
+
+// --- who may ask what ---
+
+function ask(url, path, headers = {}, method = 'GET') {
+  return new Promise((done) => {
+    const request = http.request(new URL(path, url), { method, headers }, (response) => {
+      let body = '';
+      response.on('data', (text) => (body += text));
+      response.on('end', () => done({ status: response.statusCode, body, headers: response.headers }));
+    });
+    request.on('upgrade', (response, socket) => (socket.destroy(), done({ status: 101 })));
+    request.on('error', (e) => done({ status: 0, body: e.message }));
+    request.end();
+  });
+}
+const upgrade = (url, origin, more = {}) => ask(url, '/live', { connection: 'Upgrade', upgrade: 'websocket',
+  ...(origin && { origin }), 'sec-websocket-key': 'c2luZXcgaXMgd2F0Y2hlZA==', 'sec-websocket-version': 13, ...more });
+
+test('only its own page may watch; there are no files', async () => {
+  const run = await start('guarded', ['--paused', '--set', 'sequence.repeat=1']);
+  const { url } = run, own = url.slice(0, -1), { port } = new URL(url);
+  assert.match(url, /^http:\/\/127\.0\.0\.1:\d+\/$/);
+  const page = await ask(url, '/');
+  assert.equal(page.status, 200);
+  assert.equal(page.headers['cache-control'], 'no-store');
+  assert.equal(page.headers['x-frame-options'], 'DENY');
+  assert.equal((await ask(url, '/', { host: `localhost:${port}` })).status, 200);
+  for (const host of ['evil.example', `evil.example:${port}`, '127.0.0.1', '', `127.0.0.1:${port}.evil.example`])
+    assert.notEqual((await ask(url, '/', { host })).status, 200, host);
+  for (const path of ['/../../etc/passwd', '//etc/passwd', '/report.html', '/live', '/%2e%2e/', '/run/0', `/${'a'.repeat(5000)}`])
+    assert.equal((await ask(url, path)).status, 404, path);
+  assert.equal((await ask(url, `/${'a'.repeat(20000)}`)).status === 200, false);
+  assert.equal((await ask(url, '/', {}, 'POST')).status, 405);
+  assert.equal((await upgrade(url, own)).status, 101);
+  for (const origin of [null, 'http://evil.example', 'null', `https://127.0.0.1:${port}`, `${own}.evil.example`])
+    assert.equal((await upgrade(url, origin)).status, 403, String(origin));
+  assert.equal((await upgrade(url, own, { host: 'evil.example' })).status, 403);
+
+  // Nonsense is answered, and the run goes on.
+  await new Promise((done) => setTimeout(done, 0));
+  await watch_messages(url, own);
+  run.child.kill('SIGINT');
+  assert.equal((await run.ended).code, 0);
+});
+
+async function watch_messages(url) {
+  const context = await new_context();
+  const page = await context.newPage();
+  await page.goto(`${url}nothing-here`);  // of the same origin, without a policy
+  const answers = await page.evaluate(async (where) => {
+    const socket = new WebSocket(where), got = [];
+    await new Promise((open) => (socket.onopen = open));
+    socket.onmessage = (m) => { const a = JSON.parse(m.data); if (a.error) got.push(a.error); };
+    for (const text of ['', '[]', '{"do":"explode"}', '{"do":"set","key":"seed","value":3}', '\u0000', '['.repeat(1000)]) socket.send(text);
+    for (let i = 0; i < 100 && got.length < 6; ++i) await new Promise((next) => setTimeout(next, 50));
+    const closed = new Promise((done) => (socket.onclose = () => done(true)));
+    socket.send('x'.repeat(100000));
+    return { got, closed: await closed };
+  }, `${url.replace('http', 'ws')}live`);
+  assert.equal(answers.got.length, 6);
+  assert.ok(answers.got.every((a) => /found .*; expected/.test(a)), answers.got.join('\n'));
+  assert.equal(answers.closed, true);
+  await context.close();
+}
