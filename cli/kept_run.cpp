@@ -102,9 +102,8 @@ ExitCode KeptRun::keep(experiment::Outcome outcome) {
   const analysis::Summary summary = analysis::summarize(outcome.table, machine);
   const std::string json = summary_json(summary, outcome);
   write_file(folder_ / summary_name, json);
-  const std::string note =
-      fmt::format("{:.2f} s in {:.3f} s, kept in {}", outcome.duration, outcome.wall,
-                  folder_.string());
+  const std::string note = fmt::format("{:.2f} s in {:.3f} s, kept in {}", outcome.duration,
+                                       outcome.wall, folder_.string());
   if (log_ && request_.report)
     write_report(folder_, logged_part(std::move(outcome.table), logged_), resolved_,
                  experiment_.name, messages_);

@@ -30,6 +30,7 @@ constexpr auto between_frames = std::chrono::milliseconds(40);
 constexpr auto patience = std::chrono::seconds(10);  // with a request that does not come
 constexpr auto last_moment = std::chrono::seconds(1);
 constexpr std::size_t longest_head = 8 << 10, longest_message = 4 << 10;  // [bytes]
+constexpr std::string_view ready = "ready";
 constexpr std::size_t most_connections = 64, most_answers = 32;
 
 using Request = http::request<http::string_body>;
@@ -46,10 +47,6 @@ struct Server::Impl : std::enable_shared_from_this<Server::Impl> {
   void accept();
   void tick();
   bool is_ours(const Request& request, http::field field, std::string_view before) const;
-  std::string own_name(std::string_view host) const {
-    return fmt::format("{}:{}", host, acceptor.local_endpoint().port());
-  }
-
   asio::io_context io{1};
   tcp::acceptor acceptor{io};
   asio::steady_timer timer{io}, end{io};
@@ -91,6 +88,10 @@ struct Server::Impl::Socket : std::enable_shared_from_this<Socket> {
       if (error) return self->leave();
       const std::string text = beast::buffers_to_string(self->in.data());
       self->in.consume(self->in.size());
+      if (text == ready) {
+        self->waits = true;
+        return self->read();
+      }
       if (std::string answer = self->server->handlers.message(self->id, text); !answer.empty()) {
         if (self->answers.size() == most_answers) return self->leave();
         self->answers.push_back(std::move(answer));
@@ -100,15 +101,17 @@ struct Server::Impl::Socket : std::enable_shared_from_this<Socket> {
     });
   }
 
-  // Answers first, then a frame of what there is now. One at a time: while the last one is on its
-  // way there are no frames.
+  // Answers first, then a frame of what there is now, if the last one is done with.
   void send() {
     if (!open || sending) return;
     if (!answers.empty()) {
       out = std::move(answers.front());
       answers.pop_front();
-    } else {
+    } else if (waits) {
       out = server->handlers.frame(id);
+      waits = out.empty();
+    } else {
+      return;
     }
     if (out.empty()) return;
     sending = true;
@@ -132,6 +135,7 @@ struct Server::Impl::Socket : std::enable_shared_from_this<Socket> {
   std::string out;
   std::deque<std::string> answers;
   bool open = false, sending = false;
+  bool waits = true;  // for a frame
 };
 
 // --- HTTP ---
@@ -148,9 +152,10 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
     parser->header_limit(longest_head);
     parser->body_limit(longest_message);
     stream.expires_after(patience);
-    http::async_read(stream, buffer, *parser, [self = shared_from_this()](Error error, std::size_t) {
-      if (!error) self->handle(self->parser->release());
-    });
+    http::async_read(stream, buffer, *parser,
+                     [self = shared_from_this()](Error error, std::size_t) {
+                       if (!error) self->handle(self->parser->release());
+                     });
   }
 
   void handle(Request request) {
@@ -165,8 +170,8 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
     const bool head = request.method() == http::verb::head;
     if (request.method() != http::verb::get && !head)
       return write(request, {405, "GET only.\n", "text/plain"});
-    Reply reply = server->handlers.get(std::string_view(request.target().data(),
-                                                        request.target().size()));
+    Reply reply =
+        server->handlers.get(std::string_view(request.target().data(), request.target().size()));
     write(request, std::move(reply), head);
   }
 
@@ -220,8 +225,8 @@ void Server::Impl::listen(std::uint16_t wanted) {
   if (!error) acceptor.bind(here, error);
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
   if (error)
-    throw std::runtime_error(fmt::format(
-        "--port: found {}: {}; expected a free port; try --port 0", wanted, error.message()));
+    throw std::runtime_error(fmt::format("--port: found {}: {}; expected a free port; try --port 0",
+                                         wanted, error.message()));
   port = acceptor.local_endpoint().port();
   accept();
 }
@@ -239,6 +244,7 @@ void Server::Impl::tick() {
   timer.expires_after(between_frames);
   timer.async_wait([self = shared_from_this()](Error error) {
     if (error) return;
+    if (self->handlers.tick) self->handlers.tick();
     const auto all = self->sockets;  // a frame may be the last of its socket
     for (const auto& [id, socket] : all)
       if (const auto s = socket.lock()) s->send();

@@ -2,8 +2,9 @@
 //
 // Listens on 127.0.0.1. A request whose Host is not this server's own name, as of a foreign page
 // whose name was pointed here, is refused, and so is a WebSocket that another page opens. GET only;
-// what is served is what `get` answers: there are no files. Messages are bounded. One thread; a
-// browser that is slow gets fewer frames and holds nobody up.
+// what is served is what `get` answers: there are no files. Messages are bounded. One thread. A
+// browser says "ready" when it has dealt with a frame, and gets the next one then: one that is slow
+// gets fewer and holds nobody up.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +27,9 @@ class Server {
 
   struct Handlers {
     std::function<Reply(std::string_view path)> get;
+    std::function<void()> tick = {};  // every 40 ms, whether anybody watches or not
     // Of WebSockets; without `frame` there are none. "": nothing to send.
-    std::function<std::string(Watcher)> frame = {};  // asked for every 40 ms
+    std::function<std::string(Watcher)> frame = {};  // asked for after each tick
     std::function<std::string(Watcher, std::string_view message)> message = {};
     std::function<void(Watcher)> left = {};
     std::function<void()> interrupted = {};  // by Ctrl-C; without it the server stops

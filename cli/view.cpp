@@ -80,7 +80,8 @@ Reply answer(std::string_view path, const std::vector<fs::path>& runs, const std
   constexpr std::string_view before = "/run/";
   if (!path.starts_with(before)) return not_found();
   std::size_t i = runs.size();
-  const auto [end, error] = std::from_chars(path.data() + before.size(), path.data() + path.size(), i);
+  const auto [end, error] =
+      std::from_chars(path.data() + before.size(), path.data() + path.size(), i);
   if (error != std::errc{} || end != path.data() + path.size() || i >= runs.size())
     return not_found();
   return page_of_run(runs[i], machine);
@@ -93,15 +94,13 @@ ExitCode view_recorded(const ViewOptions& o) {
     config::fail({"runs", 0, 0}, "", "no run", "folders with a log.mcap",
                  "sinew run experiments/walk-test-1.toml, or the folder of a run");
   if (!o.run.empty()) (void)page_of(recorded_run(o.run), o.machine);  // its errors belong here
-  Server server(static_cast<std::uint16_t>(o.port), {.get = [&](std::string_view path) {
-                  return answer(path, runs, o.machine);
-                }});
+  Server server(static_cast<std::uint16_t>(o.port),
+                {.get = [&](std::string_view path) { return answer(path, runs, o.machine); }});
   fmt::print("{}\n", server.url());
   std::fflush(stdout);
-  messages.note(fmt::format("{}; Ctrl-C ends{}", runs.front().string(),
-                            runs.size() > 1 ? fmt::format("; {} runs at {}runs", runs.size(),
-                                                          server.url())
-                                            : ""));
+  messages.note(fmt::format(
+      "{}; Ctrl-C ends{}", runs.front().string(),
+      runs.size() > 1 ? fmt::format("; {} runs at {}runs", runs.size(), server.url()) : ""));
   if (o.open) open_browser(server.url());
   server.run();
   return ok;
@@ -130,7 +129,8 @@ void add_view(CLI::App& app, Action& action) {
                              "a run's folder, or a log file; else the newest below runs/");
   sub.add_option("--machine", options->machine,
                  "what was run, in place of the folder's resolved.toml");
-  auto* live = sub.add_option("--live", options->live.experiment, "run this experiment and watch it");
+  auto* live =
+      sub.add_option("--live", options->live.experiment, "run this experiment and watch it");
   live->excludes(dir);
   sub.add_option("--port", options->port, "on 127.0.0.1; 0: a free one")
       ->check(CLI::Range(0, 65535));
@@ -143,8 +143,8 @@ void add_view(CLI::App& app, Action& action) {
   sub.add_flag("--paused", options->paused, "the run waits for the page's button")->needs(live);
   sub.add_flag("--once", options->once, "end with the run")->needs(live);
   add_run_options(sub, options->live);
-  for (const char* of_a_run : {"--output", "--force", "--set", "--allow-unreachable",
-                               "--no-report", "--json"})
+  for (const char* of_a_run :
+       {"--output", "--force", "--set", "--allow-unreachable", "--no-report", "--json"})
     sub.get_option(of_a_run)->needs(live);
   sub.callback([=, &action] {
     action = [=] {

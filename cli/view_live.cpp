@@ -53,14 +53,15 @@ class LiveRun {
         values_(config::parse_text(kept_.resolved(), "resolved.toml")),
         feed_(experiment::topics(kept_.experiment())),
         show_(kept_.experiment(), values_, steering_, feed_, tick_),
-        server_(static_cast<std::uint16_t>(options.port),
-                {.get = [this](std::string_view path) { return get(path); },
-                 .frame = [this](Server::Watcher w) { return frame(w); },
-                 .message = [this](Server::Watcher, std::string_view text) {
-                   return over() ? "" : show_.answer(text);
-                 },
-                 .left = [this](Server::Watcher w) { positions_.erase(w); },
-                 .interrupted = [this] { interrupted(); }}) {
+        server_(
+            static_cast<std::uint16_t>(options.port),
+            {.get = [this](std::string_view path) { return get(path); },
+             .tick = [this] { feed_.collect(); },
+             .frame = [this](Server::Watcher w) { return frame(w); },
+             .message = [this](Server::Watcher,
+                               std::string_view text) { return over() ? "" : show_.answer(text); },
+             .left = [this](Server::Watcher w) { positions_.erase(w); },
+             .interrupted = [this] { interrupted(); }}) {
     steering_.pace(options.live.pace);
     steering_.pause(options.paused);
   }
@@ -101,9 +102,6 @@ class LiveRun {
       failure_ = std::current_exception();
       words_ = e.what();
     }
-    if (feed_.left_out() > 0)
-      messages_.note(fmt::format("{} samples came too fast for those who watched; the log has them",
-                                 feed_.left_out()));
     over_.store(true, std::memory_order_release);
     if (options_.once || ending_.load())
       server_.finish();

@@ -45,7 +45,8 @@ void Changes::apply(Tick t, gait::Desired& desired) noexcept {
 std::vector<gait::Change> Changes::all() const {
   std::vector<gait::Change> out = planned_;
   for (const Due& d : steered_) {
-    gait::Change c{.time = static_cast<double>(d.at) * signals::tick_seconds,
+    // Divided, so that 5.81 s reads as that.
+    gait::Change c{.time = static_cast<double>(d.at * signals::tick_nanoseconds) / 1e9,
                    .key = overrides_.settings()[d.wish.setting].key,
                    .release = d.wish.release};
     if (!c.release) c.value = d.wish.value;

@@ -92,7 +92,8 @@ TEST(Feed, ASlowWatcherChangesNothingAndSeesWholeRows) {
 }
 
 TEST(Feed, ARowThatLacksASampleIsLeftOut) {
-  Feed feed({{"/a", "", {{"value", "1"}}}, {"/b", "", {{"value", "1"}}},
+  Feed feed({{"/a", "", {{"value", "1"}}},
+             {"/b", "", {{"value", "1"}}},
              {"/valve/x/inlet/open", "", {{"value", "1"}}}});
   const auto push = [&](std::size_t topic, std::int64_t t) {
     const double value = static_cast<double>(t);
@@ -140,13 +141,23 @@ TEST(Request, SaysWhatIsToBeDone) {
 TEST(Request, AnythingElseIsRefusedInWords) {
   const std::string key = R"("key":"control.stiffness.knee")";
   for (const std::string& bad : {
-           std::string(), std::string("pause"), std::string("[]"), std::string("{"),
-           std::string("{}"), std::string(R"({"do":1})"), std::string(R"({"do":"stop"})"),
-           std::string(R"({"do":"pause","value":1})"), std::string(R"({"do":"pause","more":1})"),
-           std::string(R"({"do":"pace"})"), std::string(R"({"do":"pace","value":"1"})"),
-           std::string(R"({"do":"pace","value":-1})"), std::string(R"({"do":"pace","value":1e9})"),
-           std::string(R"({"do":"pace","value":1e-9})"), std::string(R"({"do":"set"})"),
-           R"({"do":"set",)" + key + "}", R"({"do":"set",)" + key + R"(,"value":-1})",
+           std::string(),
+           std::string("pause"),
+           std::string("[]"),
+           std::string("{"),
+           std::string("{}"),
+           std::string(R"({"do":1})"),
+           std::string(R"({"do":"stop"})"),
+           std::string(R"({"do":"pause","value":1})"),
+           std::string(R"({"do":"pause","more":1})"),
+           std::string(R"({"do":"pace"})"),
+           std::string(R"({"do":"pace","value":"1"})"),
+           std::string(R"({"do":"pace","value":-1})"),
+           std::string(R"({"do":"pace","value":1e9})"),
+           std::string(R"({"do":"pace","value":1e-9})"),
+           std::string(R"({"do":"set"})"),
+           R"({"do":"set",)" + key + "}",
+           R"({"do":"set",)" + key + R"(,"value":-1})",
            R"({"do":"set",)" + key + R"(,"value":1e7})",
            R"({"do":"set",)" + key + R"(,"value":1e999})",
            R"({"do":"set",)" + key + R"(,"value":null})",
@@ -154,7 +165,8 @@ TEST(Request, AnythingElseIsRefusedInWords) {
            std::string(R"({"do":"set","key":"seed","value":1})"),
            std::string(R"({"do":"set","key":["control.stiffness.knee"],"value":1})"),
            std::string(R"({"do":"release","key":"control.stiffness.elbow"})"),
-           std::string("\xff\xfe{}"), std::string(100000, '['),
+           std::string("\xff\xfe{}"),
+           std::string(100000, '['),
        })
     EXPECT_NE(wrong(bad), "") << bad.substr(0, 80);
   EXPECT_NE(wrong(R"({"do":"stop"})").find("found \"stop\"; expected pause, resume"),

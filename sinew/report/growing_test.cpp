@@ -43,8 +43,7 @@ Table part(const Table& all, std::int64_t from, std::int64_t to) {
     for (std::size_t i = 0; i < s.time_ns.size(); ++i) {
       if (s.time_ns[i] < from || s.time_ns[i] >= to) continue;
       cut.time_ns.push_back(s.time_ns[i]);
-      for (std::size_t c = 0; c < s.columns.size(); ++c)
-        cut.columns[c].push_back(s.columns[c][i]);
+      for (std::size_t c = 0; c < s.columns.size(); ++c) cut.columns[c].push_back(s.columns[c][i]);
     }
     out.series.push_back(std::move(cut));
   }

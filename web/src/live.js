@@ -8,6 +8,7 @@ import { Slices } from './slices.js';
 const plots_every = 100;   // [ms]
 const refit_every = 500;   // [ms]
 const again_after = 1000;  // without a connection [ms]
+const window_seconds = 15; // of a long run in the plots, which turn their page
 
 export class Live {
   constructor(run) {
@@ -31,7 +32,7 @@ export class Live {
     this.socket = new WebSocket(`ws://${location.host}/live`);
     this.socket.addEventListener('message', (event) => {
       const message = JSON.parse(event.data);
-      this.queue = this.queue.then(() => this.take(message));
+      this.queue = this.queue.then(() => this.take(message)).then(() => message.state && this.socket.send('ready'));
     });
     this.socket.addEventListener('close', () => this.lost());
   }
@@ -69,6 +70,7 @@ export class Live {
     page.player.on_seek = () => this.follow(false);
     this.grow();
     if (this.state) this.controls.show(this.state);
+    if (this.run.duration > 1.5 * window_seconds) page.plots.zoom(0, window_seconds);
     this.follow(true);
   }
 

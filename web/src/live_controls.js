@@ -136,6 +136,7 @@ export class LiveControls {
     this.controls.forEach((c, i) => c.show(state.values[i], state.overridden[i]));
     const by_hand = state.overridden.filter(Boolean).length;
     this.release.disabled = !by_hand;
+    if (state.left_out) this.complain('some samples came too fast to be shown; the log has them');
     if (state.refused) this.complain(`${state.refused} changes were not followed: the run keeps no more`);
   }
 

@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { deflateSync } from 'node:zlib';
+import { append_stretches, GrowingColumns } from '../src/growing.js';
 import { bucket_size, level_for, pyramid } from '../src/pyramid.js';
 import { between, held, index_at, open_within, read_samples } from '../src/samples.js';
 import { Slices } from '../src/slices.js';
@@ -167,4 +168,35 @@ test('columns of different clocks meet without a sample that is not theirs', () 
   assert.deepEqual([...a], [1, undefined, null, undefined, 3], 'no number is a gap, no sample is none');
   assert.deepEqual([...b], [undefined, 4, 5, 6, undefined]);
   assert.deepEqual([...c], [7, undefined, 8, undefined, 9]);
+});
+
+// --- columns that grow ---
+
+test('pieces that are appended are the whole, and columns of one clock share its times', () => {
+  const random = random_from(3);
+  const rows = Float64Array.from({ length: 20000 }, (_, i) => 0.01 * i);
+  const edges = Float64Array.of(0.5, 1.5, 90);
+  const whole = [rows, rows, edges].map((time) => ({ time, values: Float32Array.from(time, random) }));
+  const growing = new GrowingColumns({ clocks: [0, 0], columns: [0, 0, 1] });
+  for (let from = 0; from < 200;) {
+    const to = from + 5 * random();
+    growing.append(whole.map(({ time, values }) => {
+      const inside = [...time.keys()].filter((i) => time[i] >= from && time[i] < to);
+      return { time: Float64Array.from(inside, (i) => time[i]), values: Float32Array.from(inside, (i) => values[i]) };
+    }));
+    assert.equal(growing.columns[0].time, growing.columns[1].time);
+    from = to;
+  }
+  growing.columns.forEach((c, i) => {
+    assert.deepEqual([...c.time], [...whole[i].time]);
+    assert.deepEqual([...c.values], [...whole[i].values]);
+  });
+});
+
+test('a phase that goes on in the next piece stays one', () => {
+  const all = [];
+  append_stretches(all, [{ phase: 0, step: 0, from: 0, to: 0.1 }]);
+  append_stretches(all, [{ phase: 0, step: 0, from: 0.1, to: 0.2 }, { phase: 1, step: 0, from: 0.2, to: 0.3 }]);
+  append_stretches(all, [{ phase: 1, step: 1, from: 0.3, to: 0.4 }]);
+  assert.deepEqual(all.map((s) => [s.phase, s.step, s.from, s.to]), [[0, 0, 0, 0.2], [1, 0, 0.2, 0.3], [1, 1, 0.3, 0.4]]);
 });
