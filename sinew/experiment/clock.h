@@ -36,21 +36,29 @@ class PacedClock {
 };
 
 // A person's clock: stands while the run is paused, goes at the speed that was asked for last. What
-// falls behind by more than a moment, as on a computer that slept, goes on from there.
+// falls behind by more than a moment, as on a computer that slept, goes on from there. The first
+// `at_once` seconds pass at once, so that a run that starts paused has something to show.
 class SteeredClock {
  public:
-  explicit SteeredClock(const Steering& steering) : steering_(steering), pace_(steering.pace()) {}
+  explicit SteeredClock(const Steering& steering, double at_once = 0)
+      : steering_(steering),
+        pace_(steering.pace()),
+        stood_(steering.paused()),
+        at_once_(at_once),
+        at_(at_once) {}
 
   bool wait_until(signals::Tick t) noexcept {
     const double target = static_cast<double>(t) * signals::tick_seconds;
     for (;;) {
       move_on();
-      if (!steering_.paused() && (pace_ == 0 || at_ >= target)) break;
+      if (at_ >= target || (pace_ == 0 && !stood_)) break;
       const double left = pace_ > 0 ? (target - at_) / pace_ : doze;
       std::this_thread::sleep_for(
-          std::chrono::duration<double>(steering_.paused() ? doze : std::min(left, doze)));
+          std::chrono::duration<double>(stood_ ? doze : std::min(left, doze)));
     }
-    if (pace_ == 0 || at_ - target > moment * pace_) at_ = target;
+    const bool far_behind = !stood_ && at_ - target > std::max(at_once_, moment * pace_);
+    if (pace_ == 0) at_ = std::max(at_, target);
+    if (pace_ > 0 && far_behind) at_ = target;
     return true;
   }
 
@@ -70,8 +78,9 @@ class SteeredClock {
 
   const Steering& steering_;
   double pace_;
-  bool stood_ = false;  // paused at the last look
-  double at_ = 0;       // simulated time by the wall [s]
+  bool stood_;      // paused at the last look
+  double at_once_;  // [s]
+  double at_;       // simulated time by the wall [s]
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 

@@ -76,7 +76,7 @@ template <class World>
 Outcome run_world(const Experiment& e, const plant::Setup& setup, const RunOptions& options) {
   World world(setup);
   if (options.steering) {
-    SteeredClock clock(*options.steering);
+    SteeredClock clock(*options.steering, 0.01 + e.log.period);
     return drive(e, options, world, &world, clock);
   }
   if (options.pace > 0) {

@@ -200,6 +200,30 @@ TEST(Steering, APausedRunStandsStillAndGoesOn) {
 }
 
 // While it goes, from another thread; then again from the list that it leaves.
+// One sample, so that there is something to see.
+TEST(Steering, ARunThatStartsPausedHasOneSample) {
+  const Experiment e = in_air();
+  for (const double pace : {0.0, 1.0}) {
+    Steering steering;
+    steering.pace(pace);
+    steering.pause(true);
+    std::atomic<std::int64_t> tick{-1};
+    std::atomic<int> samples{0};
+    RunOptions o{.steering = &steering, .progress = &tick};
+    o.tap = {&samples, [](void* n, std::uint16_t, std::int64_t, std::span<const double>) noexcept {
+               ++*static_cast<std::atomic<int>*>(n);
+             }};
+    o.tapped.assign(1000, 0);
+    std::thread runner([&] { run(e, o); });
+    while (samples == 0) std::this_thread::sleep_for(milliseconds(1));
+    std::this_thread::sleep_for(milliseconds(50));
+    EXPECT_LE(tick, 400);
+    steering.pace(0);
+    steering.pause(false);
+    runner.join();
+  }
+}
+
 TEST(Steering, ARunThatWasChangedCanBeRepeated) {
   const Experiment e = in_air();
   Steering steering;

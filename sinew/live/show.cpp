@@ -23,7 +23,7 @@ std::string text_of(const Json& json) {
 std::string_view word(What what) {
   switch (what) {
     case What::stiffness:
-      return "stiffness";
+      return "desired stiffness";
     case What::angle_gain:
       return "angle gain";
     case What::stiffness_gain:
@@ -122,7 +122,8 @@ std::string Show::state() const {
        {"pace", steering_.pace()},
        {"values", std::move(values)},
        {"overridden", std::move(overridden)},
-       {"refused", steering_.refused()}});
+       {"refused", steering_.refused()},
+       {"left_out", feed_.left_out()}});
 }
 
 std::string Show::frame(Position& position) {

@@ -38,6 +38,11 @@ Parameter parameter(const Node& node, std::string key) {
   return out;
 }
 
+bool is_list_of_tables(const Node& node) {
+  return node.kind == Node::Kind::array && !node.children.empty() &&
+         node.children.front().is_table();
+}
+
 // A table's own source is that of its values which have none.
 void collect(const Node& table, const std::string& path, std::vector<Parameter>& out) {
   const std::string source = text_of(table, "source");
@@ -46,6 +51,11 @@ void collect(const Node& table, const std::string& path, std::vector<Parameter>&
     if (key == "reported" || key == "format" || child.key == "source") continue;
     if (child.is_table() && !child.is_value_table()) {
       collect(child, key, out);
+      continue;
+    }
+    if (is_list_of_tables(child)) {
+      for (std::size_t i = 0; i < child.children.size(); ++i)
+        collect(child.children[i], key + "[" + std::to_string(i) + "]", out);
       continue;
     }
     Parameter row = parameter(child, key);

@@ -18,7 +18,7 @@ const paces = [['0.1', '0.1×'], ['0.25', '0.25×'], ['0.5', '0.5×'], ['1', '1�
 class Control {
   constructor(spec, index, panel) {
     Object.assign(this, { spec, index, panel, most: spec.most, held: false, sent: 0 });
-    const name = `${spec.joint} ${spec.what}`;
+    const name = `${spec.joint.replaceAll('_', ' ')} ${spec.what}`;
     this.slider = element('input', { type: 'range', min: 0, max: 1000, step: 1, 'aria-label': name });
     this.field = element('input', { type: 'number', min: 0, step: 'any', 'aria-label': `${name}, exactly` });
     this.unit = element('span', { class: 'unit' });
@@ -44,6 +44,7 @@ class Control {
       const typed = Number(field.value) / this.in_unit()[1];
       if (field.value === '' || !(typed >= 0)) return this.panel.complain(`found "${field.value}"; expected a number from 0 on`);
       this.value = typed;
+      this.show_slider();
       this.send();
     });
     this.back.addEventListener('click', () => this.panel.live.ask({ do: 'release', key: this.spec.key }));
@@ -64,6 +65,11 @@ class Control {
     return [u.label, u.scale];
   }
 
+  show_slider() {
+    if (this.value > this.most) this.most = 1.5 * this.value;
+    this.slider.value = Math.round((1000 * this.value) / this.most);
+  }
+
   show_number() {
     const [label, scale] = this.in_unit();
     this.unit.textContent = label;
@@ -75,8 +81,7 @@ class Control {
     this.back.disabled = !overridden;
     if (this.held || performance.now() < (this.until ?? 0)) return;
     this.value = value;
-    if (value > this.most) this.most = 1.5 * value;
-    this.slider.value = Math.round((1000 * value) / this.most);
+    this.show_slider();
     this.show_number();
   }
 }

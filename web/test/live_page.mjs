@@ -14,7 +14,11 @@ const program = process.env.SINEW;
 if (!program) throw new Error('SINEW must name the program, as build/dev/bin/sinew');
 const experiment = fileURLToPath(new URL('../../experiments/tune-in-air.toml', import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'sinew-live-'));
-after(() => rmSync(folder, { recursive: true, force: true }));
+const children = [];
+after(() => {
+  for (const child of children) child.kill('SIGKILL');
+  rmSync(folder, { recursive: true, force: true });
+});
 
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 
@@ -22,6 +26,7 @@ const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 async function start(name, options = []) {
   const out = join(folder, name);
   const child = spawn(program, ['view', '--live', experiment, '--no-open', '-o', out, ...options]);
+  children.push(child);
   let words = '', errors = '';
   child.stderr.on('data', (text) => (errors += text));
   const ended = new Promise((done) => child.on('close', (code) => done({ code, errors })));
@@ -63,7 +68,7 @@ function samples(run) {
 }
 
 test('a run is watched, paused, steered; its file repeats it', async () => {
-  const run = await start('steered', ['--set', 'sequence.repeat=3', '--pace', '2']);
+  const run = await start('steered');
   await watch(run, async (page) => {
     await until(page, () => window.sinew.live.time > 1);
     const before = await live(page);
@@ -132,14 +137,17 @@ test('a run is watched, paused, steered; its file repeats it', async () => {
 });
 
 test('watched by several, some of them slow, the log keeps its bytes', async () => {
-  const run = await start('watched', ['--set', 'sequence.repeat=2', '--pace', '8', '--once']);
+  const run = await start('watched', ['--set', 'sequence.repeat=2', '--paused', '--pace', '4', '--once']);
   // One that never reads what it is sent.
   const deaf = http.request(`${run.url}live`, { headers: { connection: 'Upgrade', upgrade: 'websocket',
     origin: run.url.slice(0, -1), 'sec-websocket-key': 'c2luZXcgaXMgd2F0Y2hlZA==', 'sec-websocket-version': 13 } });
   deaf.on('upgrade', (response, socket) => socket.pause());
   deaf.on('error', () => {});
   deaf.end();
-  await watch(run, (page) => watch(run, () => until(page, () => window.sinew.live.time > 0.5)));
+  await watch(run, (page) => watch(run, async () => {
+    await page.locator('#run-pause').click();
+    await until(page, () => window.sinew.live.time > 0.5);
+  }));
   const { code, errors } = await run.ended;
   deaf.destroy();
   assert.equal(code, 0, errors);
@@ -163,7 +171,8 @@ test('Ctrl-C brings the run to its end, whole', async () => {
 
 function ask(url, path, headers = {}, method = 'GET') {
   return new Promise((done) => {
-    const request = http.request(new URL(path, url), { method, headers }, (response) => {
+    const { hostname, port } = new URL(url);
+    const request = http.request({ hostname, port, path, method, headers }, (response) => {
       let body = '';
       response.on('data', (text) => (body += text));
       response.on('end', () => done({ status: response.statusCode, body, headers: response.headers }));
@@ -185,7 +194,7 @@ test('only its own page may watch; there are no files', async () => {
   assert.equal(page.headers['cache-control'], 'no-store');
   assert.equal(page.headers['x-frame-options'], 'DENY');
   assert.equal((await ask(url, '/', { host: `localhost:${port}` })).status, 200);
-  for (const host of ['evil.example', `evil.example:${port}`, '127.0.0.1', '', `127.0.0.1:${port}.evil.example`])
+  for (const host of ['evil.example', `evil.example:${port}`, '127.0.0.1', `127.0.0.1:${port}.evil.example`])
     assert.notEqual((await ask(url, '/', { host })).status, 200, host);
   for (const path of ['/../../etc/passwd', '//etc/passwd', '/report.html', '/live', '/%2e%2e/', '/run/0', `/${'a'.repeat(5000)}`])
     assert.equal((await ask(url, path)).status, 404, path);
@@ -197,13 +206,12 @@ test('only its own page may watch; there are no files', async () => {
   assert.equal((await upgrade(url, own, { host: 'evil.example' })).status, 403);
 
   // Nonsense is answered, and the run goes on.
-  await new Promise((done) => setTimeout(done, 0));
-  await watch_messages(url, own);
+  await talk_nonsense(url);
   run.child.kill('SIGINT');
   assert.equal((await run.ended).code, 0);
 });
 
-async function watch_messages(url) {
+async function talk_nonsense(url) {
   const context = await new_context();
   const page = await context.newPage();
   await page.goto(`${url}nothing-here`);  // of the same origin, without a policy
