@@ -124,7 +124,7 @@ void open_browser(const std::string& url) {
 void add_view(CLI::App& app, Action& action) {
   auto options = std::make_shared<ViewOptions>();
   CLI::App& sub = subcommand(app, "view", "a run in the browser, recorded or while it goes",
-                             "sinew view --live experiments/leg-in-air.toml");
+                             "sinew view --live experiments/tune-in-air.toml");
   auto* dir = sub.add_option("DIR", options->run,
                              "a run's folder, or a log file; else the newest below runs/");
   sub.add_option("--machine", options->machine,

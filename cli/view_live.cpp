@@ -174,6 +174,8 @@ ExitCode view_live(const ViewOptions& options) {
     throw std::runtime_error(
         "sinew view: this sinew was built without its page, which npm bundles; try: install npm, "
         "then run npm ci in web/ and build again");
+  // A port that is taken is told of before there is a folder.
+  if (options.port > 0) Server(static_cast<std::uint16_t>(options.port), {});
   const Messages messages(options.live.quiet);
   return LiveRun(options, messages).go();
 }
