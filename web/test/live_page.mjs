@@ -5,13 +5,13 @@ import { execFileSync, spawn } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import http from 'node:http';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { join, resolve } from 'node:path';
 import { after, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { drawing_of, new_context, picture, playheads } from './pages.mjs';
 
-const program = process.env.SINEW;
-if (!program) throw new Error('SINEW must name the program, as build/dev/bin/sinew');
+if (!process.env.SINEW) throw new Error('SINEW must name the program, as build/dev/bin/sinew');
+const program = resolve(process.env.SINEW);
 const experiment = fileURLToPath(new URL('../../experiments/tune-in-air.toml', import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'sinew-live-'));
 const children = [];
@@ -25,7 +25,11 @@ const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 // A run with its server; `url`, and what it came to at the end.
 async function start(name, options = []) {
   const out = join(folder, name);
-  const child = spawn(program, ['view', '--live', experiment, '--no-open', '-o', out, ...options]);
+  return { out, ...(await serve(['view', '--live', experiment, '--no-open', '-o', out, ...options])) };
+}
+
+async function serve(words_of_line, cwd = folder) {
+  const child = spawn(program, words_of_line, { cwd });
   children.push(child);
   let words = '', errors = '';
   child.stderr.on('data', (text) => (errors += text));
@@ -37,17 +41,17 @@ async function start(name, options = []) {
     });
     ended.then(({ errors: why }) => wrong(new Error(why)));
   });
-  return { url, out, child, ended };
+  return { url, child, ended };
 }
 
-async function watch(run, does, options = {}) {
+async function watch(run, does, options = {}, path = '') {
   const context = await new_context(options);
   const page = await context.newPage(), wrong = [];
   page.on('console', (m) => ['error', 'warning'].includes(m.type()) && wrong.push(m.text()));
   page.on('pageerror', (e) => wrong.push(e.message));
   page.on('request', (r) => !r.url().startsWith(run.url) && !r.url().startsWith('data:') && wrong.push(r.url()));
   try {
-    await page.goto(run.url);
+    await page.goto(run.url + path);
     await page.waitForSelector('html[data-ready]');
     await does(page);
     assert.deepEqual(wrong, []);
@@ -165,6 +169,24 @@ test('Ctrl-C brings the run to its end, whole', async () => {
   assert.equal(code, 0, errors);
   const summary = JSON.parse(readFileSync(join(run.out, 'summary.json'), 'utf8'));
   assert.ok(summary.sequence_duration_s > 50);
+});
+
+test('a recorded run is served, of what kind it ever is, and nothing besides', async () => {
+  const here = join(folder, 'here');
+  for (const [name, file] of [['kick', 'kick.toml'], ['stand', 'rig/feedback.toml']])
+    execFileSync(program, ['run', fileURLToPath(new URL(`../../experiments/${file}`, import.meta.url)), '-o',
+      join(here, 'runs', name, '1'), '--quiet', '--no-report']);
+  const run = await serve(['view', '--no-open'], here);  // the newest
+  const { url } = run;
+  for (const path of ['', 'run/0', 'run/1'])
+    await watch({ url }, async (page) => assert.ok((await page.locator('.panel').count()) > 0, path), {}, path);
+  const list = await ask(url, '/runs');
+  assert.match(list.body, /runs\/stand\/1[^]*runs\/kick\/1/);
+  for (const path of ['/run/2', '/run/-1', '/run/', '/run/0x', '/runs/kick/1/log.mcap', '/live'])
+    assert.equal((await ask(url, path)).status, 404, path);
+  assert.equal((await upgrade(url, url.slice(0, -1))).status, 403);
+  run.child.kill('SIGINT');
+  assert.equal((await run.ended).code, 0);
 });
 
 // --- who may ask what ---
