@@ -88,6 +88,25 @@ TEST(Writer, SameSamplesGiveTheSameFile) {
   EXPECT_EQ(bytes_of(folder / "a.mcap"), bytes_of(folder / "b.mcap"));
 }
 
+// A run that was changed while it went says so; the file is that of one which knew it before.
+TEST(Writer, WhatWasRunMayBeKnownAtTheEnd) {
+  using Pairs = std::vector<std::pair<std::string, std::string>>;
+  const Folder folder;
+  const Pairs before = {{"resolved", "a"}}, after = {{"resolved", "another, longer one"}};
+  const auto write = [&](const char* name, const Pairs& first, const Pairs& last) {
+    Writer writer(folder / name, kForce, first);
+    for (int i = 0; i < 100; ++i) writer.push(0, i, std::array{1.0 * i, 2.0});
+    writer.finish(last);
+  };
+  write("changed", before, after);
+  write("known", after, {});
+  write("kept", before, {});
+  EXPECT_EQ(read_metadata(folder / "changed"), after);
+  EXPECT_EQ(read_metadata(folder / "kept"), before);
+  EXPECT_EQ(bytes_of(folder / "changed"), bytes_of(folder / "known"));
+  EXPECT_TRUE(read(folder / "changed").complete);
+}
+
 TEST(Writer, ManyChunks) {
   const Folder folder;
   signals::Table table = random_table(9, 0);

@@ -212,5 +212,23 @@ key = "a"
   EXPECT_EQ(rows[3].value, "1 rad, 2 rad");
 }
 
+TEST(Parameters, AreAlsoThoseOfListsOfTables) {
+  const config::Node node = config::parse_text(R"(
+[[change]]
+time = "1 s"
+value = { value = "2 N m/rad", source = "set while it ran" }
+[[change]]
+release = true
+)",
+                                               "resolved.toml");
+  const std::vector<Parameter> rows = parameters(node);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].key, "change[0].time");
+  EXPECT_EQ(rows[1].key, "change[0].value");
+  EXPECT_EQ(rows[1].value, "2 N m/rad");
+  EXPECT_EQ(rows[1].source, "set while it ran");
+  EXPECT_EQ(rows[2].key, "change[1].release");
+}
+
 }  // namespace
 }  // namespace sinew::report
