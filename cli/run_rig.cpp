@@ -8,6 +8,7 @@
 #include "cli/run_log.h"
 #include "cli/terminal.h"
 #include "sinew/analysis/stand.h"
+#include "sinew/analysis/warnings.h"
 #include "sinew/config/compose.h"
 #include "sinew/experiment/rig/measured.h"
 #include "sinew/experiment/rig/run.h"
@@ -63,6 +64,8 @@ ExitCode run_rig(const RigOptions& options) {
   const std::string json = to_json(summary, {{"real_time_factor", factor}, {"threads", 1}});
   write_file(folder / summary_name, json);
   warn_beyond_the_muscle(summary, messages);
+  for (const analysis::Warning& w : analysis::clipped_transducers(outcome.table))
+    messages.warning(w.text);
   if (e.log.enabled && options.report)
     write_report(folder, logged_part(std::move(outcome.table), logged), resolved, e.name, messages);
   if (options.json) {

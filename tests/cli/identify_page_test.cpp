@@ -112,7 +112,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, IdentifyPage,
                          ::testing::Values(Case{{"geometry"}, mesh, 4, 0.065, 0.01},
                                            Case{{"valve"}, chart(), 7, 1e5, 0.02},
                                            Case{{"creep"}, hold(), 60, 0, 50},
-                                           Case{{"sensor"}, weights(), 9, 0, 2}));
+                                           Case{{"sensor"}, weights(), 9, 0, 2}),
+                         [](const auto& each) { return each.param.method[0]; });
 
 TEST(IdentifyPages, StandBesideTheParameterFileUnlessNobodyWantsThem) {
   if (!SINEW_HAS_PAGE) GTEST_SKIP() << "built without npm";
