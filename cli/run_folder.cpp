@@ -101,6 +101,7 @@ fs::path machine_of(const RecordedRun& run, const std::string& instead) {
 }
 
 void refuse_to_overwrite(const fs::path& file, bool force) {
+  if (fs::is_directory(file)) refuse(file, "a folder", "the name of a file", "a name inside of it");
   if (force || !fs::exists(file)) return;
   refuse(file, "a file", "a name that is free", "another one, or --force to replace it");
 }
@@ -109,7 +110,11 @@ void write_file(const fs::path& file, std::string_view text) {
   std::ofstream out(file, std::ios::binary | std::ios::trunc);
   out << text;
   out.close();
-  if (!out) refuse(file, "an error while writing", "room for the file", "another folder");
+  if (out) return;
+  const fs::path folder = file.parent_path();
+  if (!folder.empty() && !fs::is_directory(folder))
+    refuse(file, "no folder " + folder.string(), "one that exists", "mkdir -p " + folder.string());
+  refuse(file, "an error while writing", "room for the file", "another folder");
 }
 
 }  // namespace sinew::cli

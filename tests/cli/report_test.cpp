@@ -57,6 +57,10 @@ TEST(Report, OfARunThatIsNotThereNamesWhatIsMissing) {
   const Result again = w.sinew({"report", "run"});
   EXPECT_EQ(again.code, 1);
   EXPECT_THAT(again.err, AllOf(StartsWith("run/report.html: found a file"), HasSubstr("--force")));
+  EXPECT_THAT(w.sinew({"report", "run", "-o", "run", "--force"}).err,
+              StartsWith("run: found a folder; expected the name of a file"));
+  EXPECT_THAT(w.sinew({"report", "run", "-o", "away/run.html"}).err,
+              HasSubstr("found no folder away"));
   fs::remove(w / "run/resolved.toml");
   EXPECT_THAT(w.sinew({"report", "run", "--force"}).err, HasSubstr("--machine"));
   EXPECT_EQ(w.sinew({"report", "run", "--force", "--machine", bench}).code, 0);
