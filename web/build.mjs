@@ -29,14 +29,18 @@ function dark_by_system(css) {
   return css.replace(rule[0], `${rule[0]}@media (prefers-color-scheme:dark){:root:not([data-theme]){${rule[1]}}}`);
 }
 
-function page_of(frame, style, script) {
-  let page = readFileSync(join(src, frame), 'utf8');
+const text_of = (name) => readFileSync(join(src, name), 'utf8');
+
+// `connect`: the page may be served, and be told where it may connect to.
+function page_of(main, style, script, connect = '') {
+  let page = text_of('frame.html').replace('/*connect*/', connect);
+  page = page.replace('<!-- main -->\n', () => text_of(main));
   page = page.replace('/*style*/', () => dark_by_system(bundle(style)));
   page = page.replace('/*script*/', () => bundle(script));
 
   // What the program fills in must have one place each.
   for (const mark of ['@title@', '@run@', '@samples@'])
-    if (page.split(mark).length !== 2) throw new Error(`${mark}: not once in ${frame}`);
+    if (page.split(mark).length !== 2) throw new Error(`${mark}: not once in frame.html and ${main}`);
   return page;
 }
 
@@ -50,7 +54,7 @@ std::string_view sinew::report::${name}() {
 `;
 }
 
-const run = page_of('page.html', 'style.css', 'main.js');
+const run = page_of('page.html', 'style.css', 'main.js', '@connect@');
 if (out.endsWith('.cpp'))
   writeFileSync(out, '// Made by web/build.mjs.\n#include "sinew/report/page_template.h"\n' +
     as_cpp('page_template', run) +

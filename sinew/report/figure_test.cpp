@@ -231,8 +231,8 @@ bool has_gnuplot() { return std::system("gnuplot --version >/dev/null 2>&1") == 
 class Drawn {
  public:
   explicit Drawn(const Figure& figure) {
-    char name[] = "/tmp/sinew-figure-XXXXXX";
-    folder_ = mkdtemp(name);
+    std::string name = fs::temp_directory_path() / "sinew-figure-XXXXXX";
+    folder_ = mkdtemp(name.data());
     const FigureData d = data(figure);
     for (const Sheet& s : d.sheets) std::ofstream(folder_ / (s.name + ".csv")) << csv(s);
     std::ofstream(folder_ / "a.gp") << script(figure, d, {Picture::svg, Picture::png});

@@ -100,7 +100,7 @@ class FitPage {
     this.run = run;
     this.units = new Units(run.atmosphere);
     by_id('title').textContent = run.title.charAt(0).toUpperCase() + run.title.slice(1);
-    by_id('data').textContent = run.data.join(' · ');
+    by_id('about').textContent = run.data.join(' · ');
     by_id('facts').textContent = `Sinew ${run.version}`;
     this.parts = run.parts.map((part) => new Part(part, this));
     by_id('parts').append(...this.parts.map((p) => p.root));

@@ -40,7 +40,7 @@ class Page {
   head() {
     const { run } = this;
     by_id('title').textContent = run.title || run.name || 'A run';
-    by_id('reproduces').textContent = run.reproduces;
+    by_id('about').textContent = run.reproduces;
     const facts = [run.name, run.robot && `robot ${run.robot}`, `${run.duration.toFixed(2)} s`,
                    run.seed && `seed ${run.seed}`, run.version && `Sinew ${run.version}`];
     by_id('facts').textContent = facts.filter((f) => f && f !== run.title).join(' · ');
