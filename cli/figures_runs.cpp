@@ -6,15 +6,16 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/arguments.h"
 #include "cli/figure_files.h"
 #include "cli/run_folder.h"
 #include "cli/run_log.h"
 #include "cli/text_table.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
 #include "sinew/log/reader.h"
 #include "sinew/report/run_figures.h"
+#include "sinew/units/constants.h"
 
 namespace sinew::cli {
 namespace {
@@ -25,8 +26,8 @@ using Json = nlohmann::ordered_json;
 report::RunFigureOptions options_of(const RunFiguresRequest& request) {
   report::RunFigureOptions out;
   if (request.units == "thesis") out.units = report::UnitSystem::thesis;
-  if (!request.from.empty()) out.from = config::quantity(request.from, "s", "--from");
-  if (!request.to.empty()) out.to = config::quantity(request.to, "s", "--to");
+  if (!request.from.empty()) out.from = argument("--from", request.from, "s", units::atmosphere);
+  if (!request.to.empty()) out.to = argument("--to", request.to, "s", units::atmosphere);
   if (out.from >= out.to)
     config::fail({"--from", 0, 0}, "", request.from,
                  fmt::format("a time before --to, {}", request.to));
