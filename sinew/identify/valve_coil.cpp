@@ -60,7 +60,13 @@ Pulses pulses_of(const Measured& data, Report& report) {
   for (std::size_t k = 0; k < edges.edges.size(); ++k) {
     const Opening& on = edges.edges[k];
     if (!on.open || on.time < t.front()) continue;
-    const double off = k + 1 < edges.edges.size() ? edges.edges[k + 1].time : t.back();
+    const bool ends = k + 1 < edges.edges.size();
+    const double off = ends ? edges.edges[k + 1].time : t.back();
+    const bool enough = off - on.time >= static_cast<double>(fewest) * p.sample;
+    if (!ends && !enough && p.count > 0) {
+      report.notes.emplace_back("the last pulse is left out: the file ends soon after its edge");
+      continue;
+    }
     p.length = std::min(p.length, off - on.time);
     ++p.count;
     double last = p.largest;  // when it is switched off
@@ -69,7 +75,7 @@ Pulses pulses_of(const Measured& data, Report& report) {
         points.emplace_back(t[i] - on.time, current[i]);
         last = current[i];
       }
-      const bool released = t[i] > off && k + 1 < edges.edges.size();
+      const bool released = t[i] > off && ends;
       if (released && current[i] < 0.05 * last) {
         p.gone = std::min(p.gone, t[i] - off);
         break;
@@ -237,7 +243,8 @@ ValveResult identify_coil(const Measured& data, const ValveOptions& options) {
   refuse_constant(data, "current", 0.0, "a current that is switched", "the columns");
   refuse_clipped(data, "current", "a larger range of the converter");
   const Pulses c = pulses_of(data, report);
-  report.subject = fmt::format("opening delay of a valve by the current of {} pulses", c.count);
+  report.subject = fmt::format("opening delay of a valve by the current of {} pulse{}", c.count,
+                               c.count == 1 ? "" : "s");
   report.quantity = "current";
   report.unit = "A";
   report.full_scale = c.largest;

@@ -215,6 +215,19 @@ TEST(ValveCoil, the_dip_tells_the_opening_delay_and_the_closing_one_is_not_claim
     }
 }
 
+// The second pulse begins 0.1 ms before the file ends.
+TEST(ValveCoil, a_pulse_that_the_file_cuts_off_is_left_out) {
+  Measured m = trace(coil_valve(true, 0.5e-3), 5e-3, 3, true);
+  const std::size_t rows = 455;
+  for (Column& c : m.columns) c.values.resize(rows);
+  m.lines.resize(rows);
+  ASSERT_EQ(m["command"].back(), 1);
+  const ValveResult r = identify_coil(m, ValveOptions());
+  EXPECT_NEAR(r.valve.opening_delay, 0.5e-3, 0.02e-3);
+  expect_says(r.report.subject, "the current of 1 pulse");
+  expect_says(r.report.notes.front(), "the last pulse is left out");
+}
+
 TEST(ValveCoil, intervals_cover_the_truth) {
   int covered = 0;
   double bias = 0;
