@@ -12,14 +12,6 @@ function(sinew_optimize_little target)
   target_compile_options(${target} PRIVATE $<IF:$<BOOL:${SINEW_SANITIZE}>,-O0,-O1>)
 endfunction()
 
-# Headers that nearly every file of a target reads, read once. A compiler cache knows them already,
-# and keeps showing who forgot to include one.
-function(sinew_reads_often target)
-  if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    target_precompile_headers(${target} PRIVATE ${ARGN})
-  endif()
-endfunction()
-
 function(sinew_folder path)
   sinew_target(${path} target)
   set(dir ${PROJECT_SOURCE_DIR}/sinew/${path})
