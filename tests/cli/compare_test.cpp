@@ -39,7 +39,8 @@ TEST(Compare, OfARunWithItselfSaysSo) {
   const Result result = w.sinew({"compare", "a", "a/log.mcap"});
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_THAT(result.out, AllOf(HasSubstr("Figures: 0 of"), HasSubstr("Parameters: all equal")));
-  for (const Json& channel : compared(w, {"a", "a"})["channels"])
+  const Json both = compared(w, {"a", "a"});
+  for (const Json& channel : both["channels"])
     EXPECT_TRUE(channel["differences"][1]["same"].get<bool>()) << channel["topic"];
 }
 
