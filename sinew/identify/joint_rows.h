@@ -19,7 +19,11 @@ inline std::vector<double> told_from(std::vector<double> sums) {
 // The load's torque at every pose; what `others` has was not fitted, if it is a file of its own.
 inline Rows rows_of(const Measured& data, const JointTorque& joint,
                     const std::optional<Measured>& held_out, const JointTorque& others) {
-  Rows out{.x = "angle", .x_unit = "rad", .at = data["angle"], .measured = joint.torque()};
+  Rows out;
+  out.x = "angle";
+  out.x_unit = "rad";
+  out.at = data["angle"];
+  out.measured = joint.torque();
   out.scattered = true;  // so are pressures
   if (!held_out) return out;
   const std::vector<double>& angle = (*held_out)["angle"];
