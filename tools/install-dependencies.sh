@@ -31,6 +31,7 @@ list='
     quick  gnuplot             gnuplot-nox                      draws figures
     quick  clang-format-14     clang-format-14                  one layout of code; versions differ
     check  chromium            chromium                         opens that page in tests
+    check  -                   fonts-dejavu-core                what its reference pictures are set in
     check  arm-none-eabi-g++   gcc-arm-none-eabi                embedded core for Cortex-M4F
     check  -                   libstdc++-arm-none-eabi-newlib   its headers
     check  qemu-system-arm     qemu-system-arm                  runs it
