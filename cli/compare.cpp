@@ -6,9 +6,9 @@
 #include <set>
 
 #include "cli/command.h"
-#include "cli/globs.h"
 #include "cli/run_folder.h"
 #include "cli/terminal.h"
+#include "sinew/experiment/globs.h"
 #include "sinew/log/reader.h"
 
 namespace sinew::cli {
@@ -77,7 +77,7 @@ void keep_chosen(report::Comparison& comparison, const std::vector<std::string>&
   if (patterns.empty()) return;
   std::vector<std::string_view> names;
   for (const report::ChannelRow& row : comparison.channels) names.push_back(row.channel.topic);
-  const std::vector<bool> chosen = select(patterns, names, {"--channels", 0, 0});
+  const std::vector<bool> chosen = experiment::select(patterns, names, {"--channels", 0, 0});
   std::set<std::string> topics;
   for (std::size_t i = 0; i < names.size(); ++i)
     if (chosen[i]) topics.emplace(names[i]);

@@ -5,12 +5,12 @@
 #include <sstream>
 
 #include "cli/command.h"
-#include "cli/globs.h"
 #include "cli/run_folder.h"
 #include "cli/terminal.h"
 #include "sinew/analysis/derived.h"
 #include "sinew/analysis/machine.h"
 #include "sinew/config/compose.h"
+#include "sinew/experiment/globs.h"
 #include "sinew/experiment/out_dat.h"
 #include "sinew/log/csv.h"
 #include "sinew/log/reader.h"
@@ -28,8 +28,9 @@ struct Options {
 
 std::vector<std::string> chosen_topics(const Options& options, const signals::Table& table) {
   if (options.channels.empty()) return {};
-  const std::vector<std::string_view> names = names_of(table);
-  const std::vector<bool> chosen = select(options.channels, names, {"--channels", 0, 0});
+  const std::vector<std::string_view> names = experiment::names_of(table);
+  const std::vector<bool> chosen =
+      experiment::select(options.channels, names, {"--channels", 0, 0});
   std::vector<std::string> topics;
   for (std::size_t i = 0; i < names.size(); ++i)
     if (chosen[i]) topics.emplace_back(names[i]);

@@ -36,7 +36,7 @@ ExitCode import_log(const Options& options) {
                                            ? next_run_folder(e.name)
                                            : chosen_run_folder(options.folder, options.force);
   write_file(folder / resolved_name, resolved);
-  RunLog log(folder / log_name, e.name, e.seed, resolved, logged_topics(table));
+  RunLog log(folder / log_name, e.name, e.seed, resolved, experiment::logged_topics(table));
   log.write(table);
   log.finish();
   write_file(folder / summary_name, json);

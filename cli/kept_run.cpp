@@ -66,7 +66,7 @@ KeptRun::KeptRun(RunRequest request, const Messages& messages)
       messages_(messages),
       experiment_(load(request_, messages)),
       resolved_(experiment::resolved(experiment_, SINEW_VERSION)),
-      logged_(logged_topics(experiment_)) {
+      logged_(experiment::logged_topics(experiment_)) {
   (void)machine_in(resolved_);  // what cannot be summed up is not run
   folder_ = request_.folder.empty() ? next_run_folder(experiment_.name)
                                     : chosen_run_folder(request_.folder, request_.force);
@@ -105,7 +105,7 @@ ExitCode KeptRun::keep(experiment::Outcome outcome) {
   const std::string note = fmt::format("{:.2f} s in {:.3f} s, kept in {}", outcome.duration,
                                        outcome.wall, folder_.string());
   if (log_ && request_.report)
-    write_report(folder_, logged_part(std::move(outcome.table), logged_), resolved_,
+    write_report(folder_, experiment::logged_part(std::move(outcome.table), logged_), resolved_,
                  experiment_.name, messages_);
 
   if (request_.json) {

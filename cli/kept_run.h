@@ -51,7 +51,7 @@ class KeptRun {
   const Messages& messages_;
   experiment::Experiment experiment_;
   std::string resolved_;
-  LoggedTopics logged_;
+  experiment::LoggedTopics logged_;
   std::filesystem::path folder_;
   std::optional<RunLog> log_;
 };

@@ -4,28 +4,11 @@
 #include <filesystem>
 #include <string>
 
-#include "sinew/experiment/rig/run.h"
+#include "sinew/experiment/logged.h"
 #include "sinew/experiment/run.h"
 #include "sinew/log/writer.h"
 
 namespace sinew::cli {
-
-// What of a run is logged.
-struct LoggedTopics {
-  std::vector<signals::Topic> topics;
-  std::vector<std::uint16_t> of_series;  // their places, by the recorder's order
-};
-
-// All of a table's.
-LoggedTopics logged_topics(const signals::Table& table);
-
-// By log.channels. Throws config::Error where a pattern means no topic.
-LoggedTopics logged_topics(const experiment::Experiment& experiment);
-LoggedTopics logged_topics(const rig::Experiment& experiment);
-
-// The part of a run's table that its log holds, as log::read() gives it back. Takes it out of
-// there.
-signals::Table logged_part(signals::Table&& table, const LoggedTopics& logged);
 
 // The experiment that a log says that it is of; empty where it does not.
 std::string experiment_in(const std::filesystem::path& log);
@@ -34,7 +17,7 @@ class RunLog {
  public:
   // Throws log::Error where the file cannot be made. `name` and `seed` are the experiment's.
   RunLog(const std::filesystem::path& file, const std::string& name, int seed,
-         const std::string& resolved, LoggedTopics logged);
+         const std::string& resolved, experiment::LoggedTopics logged);
 
   // A table that is there already, in the order of its times.
   void write(const signals::Table& table);
@@ -52,7 +35,7 @@ class RunLog {
 
   std::string name_;
   int seed_;
-  std::vector<std::uint16_t> of_series_;
+  experiment::LoggedTopics logged_;
   log::Writer writer_;
 };
 

@@ -43,7 +43,7 @@ ExitCode run_rig(const RigOptions& options) {
   // As `analyze` will read it: so both come to the same bits.
   const analysis::StandFile stand =
       analysis::read_stand(config::parse_text(resolved, std::string(resolved_name)));
-  const LoggedTopics logged = logged_topics(e);
+  const experiment::LoggedTopics logged = rig::logged_topics(e);
   const fs::path folder = options.folder.empty() ? next_run_folder(e.name)
                                                  : chosen_run_folder(options.folder, options.force);
   rig::Outcome outcome = rig::run(e);
@@ -67,7 +67,8 @@ ExitCode run_rig(const RigOptions& options) {
   for (const analysis::Warning& w : analysis::clipped_transducers(outcome.table))
     messages.warning(w.text);
   if (e.log.enabled && options.report)
-    write_report(folder, logged_part(std::move(outcome.table), logged), resolved, e.name, messages);
+    write_report(folder, experiment::logged_part(std::move(outcome.table), logged), resolved,
+                 e.name, messages);
   if (options.json) {
     fmt::print("{}", json);
     messages.note(folder.string());

@@ -67,6 +67,20 @@ TEST(Rig, TheLogHasWhatTheRunHas) {
   EXPECT_EQ(log.find("/true/muscle/bpa/pressure"), nullptr);
 }
 
+// One channel alone, of a place of its own in what is recorded: the length that is desired.
+TEST(Rig, ALogOfOneChannelHoldsThatChannel) {
+  const Workspace w;
+  ASSERT_EQ(w.sinew({"run", "experiments/rig/feedback.toml", "-o", "a", "--no-report", "--set",
+                     "duration=0.2 s", "--set", "log.channels=[\"/desired/length\"]"})
+                .code,
+            0);
+  const signals::Table log = log::read(w / "a/log.mcap");
+  ASSERT_EQ(log.series.size(), 1u);
+  EXPECT_NEAR(log.column("/desired/length")->front(), 0.08128, 1e-12);
+  EXPECT_THAT(w.sinew({"export", "a", "--csv"}).out,
+              StartsWith("time [s],/desired/length [m]\n0,0.08128\n"));
+}
+
 TEST(Rig, BothSetsOfConstantsAreOneSetApart) {
   const Workspace w;
   const auto length = [&](const Words& sets) {

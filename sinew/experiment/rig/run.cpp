@@ -97,6 +97,10 @@ std::vector<signals::Topic> topics(const Experiment& e) {
   return out;
 }
 
+experiment::LoggedTopics logged_topics(const Experiment& e) {
+  return experiment::logged_topics(topics(e), e.log.channels, e.origins, e.path);
+}
+
 std::vector<Settled> sweep(const Experiment& e, int threads) {
   const auto count =
       static_cast<std::size_t>(std::floor((e.sweep.to - e.sweep.from) / e.sweep.step + 1e-9)) + 1;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "sinew/experiment/logged.h"
 #include "sinew/experiment/rig/rig.h"
 #include "sinew/plant/rig/setup.h"
 #include "sinew/signals/port.h"
@@ -25,6 +26,9 @@ struct RunOptions {
 
 // What a run records, in the order of its table.
 std::vector<signals::Topic> topics(const Experiment& experiment);
+
+// Of those, what its log holds. Throws config::Error where a pattern of log.channels means none.
+experiment::LoggedTopics logged_topics(const Experiment& experiment);
 
 // A run, or the runs of a sweep, of which the table has one row per duty.
 Outcome run(const Experiment& experiment, const RunOptions& options = {});

@@ -1,4 +1,4 @@
-// cli/globs.h - which topics "/joint/*/angle" means.
+// experiment/globs.h - which topics "/joint/*/angle" means.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/signals/table.h"
 
-namespace sinew::cli {
+namespace sinew::experiment {
 
 // * stands for any run of characters, "/" included.
 bool matches(std::string_view pattern, std::string_view text);
@@ -21,4 +21,4 @@ std::vector<bool> select(const std::vector<std::string>& patterns,
 
 std::vector<std::string_view> names_of(const signals::Table& table);
 
-}  // namespace sinew::cli
+}  // namespace sinew::experiment

@@ -1,6 +1,6 @@
-#include "cli/globs.h"
+#include "sinew/experiment/globs.h"
 
-namespace sinew::cli {
+namespace sinew::experiment {
 
 bool matches(std::string_view pattern, std::string_view text) {
   // Where the last star stood, and how much it has swallowed so far.
@@ -47,4 +47,4 @@ std::vector<std::string_view> names_of(const signals::Table& table) {
   return names;
 }
 
-}  // namespace sinew::cli
+}  // namespace sinew::experiment
