@@ -12,9 +12,12 @@
 #include <chrono>
 #include <csignal>
 #include <deque>
+#include <list>
 #include <map>
 #include <optional>
 #include <stdexcept>
+
+#include "cli/token.h"
 
 namespace sinew::cli {
 namespace {
@@ -46,13 +49,18 @@ struct Server::Impl : std::enable_shared_from_this<Server::Impl> {
   void listen(std::uint16_t port);
   void accept();
   void tick();
+  bool make_room();
   bool is_ours(const Request& request, http::field field, std::string_view before) const;
+  bool has_token(std::string_view target) const;
+
   asio::io_context io{1};
   tcp::acceptor acceptor{io};
-  asio::steady_timer timer{io}, end{io};
+  asio::steady_timer timer{io}, end{io}, pause{io};
   asio::signal_set signals{io};
   Handlers handlers;
   std::map<Watcher, std::weak_ptr<Socket>> sockets;
+  std::list<Connection*> strangers;  // have not shown the token; the oldest first
+  const std::string token = random_token();
   Watcher last = 0;
   std::size_t connections = 0;
   std::uint16_t port = 0;
@@ -144,8 +152,18 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
   Connection(std::shared_ptr<Impl> s, tcp::socket&& socket)
       : server(std::move(s)), stream(std::move(socket)) {
     ++server->connections;
+    place = server->strangers.insert(server->strangers.end(), this);
   }
-  ~Connection() { --server->connections; }
+  ~Connection() {
+    --server->connections;
+    is_known();
+  }
+
+  // No stranger any more.
+  void is_known() {
+    if (place) server->strangers.erase(*place);
+    place.reset();
+  }
 
   void read() {
     parser.emplace();
@@ -161,8 +179,16 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
   void handle(Request request) {
     if (!server->is_ours(request, http::field::host, ""))
       return write(request, {403, "This server answers to its own name only.\n", "text/plain"});
+    const std::string_view target(request.target().data(), request.target().size());
+    if (!server->has_token(target))
+      return write(request, {403,
+                             "This address lacks its token; open the whole one that sinew view "
+                             "printed.\n",
+                             "text/plain"});
+    is_known();
+    const std::string_view path = target.substr(1 + server->token.size());
     if (websocket::is_upgrade(request)) {
-      if (!server->handlers.frame || request.target() != "/live" ||
+      if (!server->handlers.frame || path != "/live" ||
           !server->is_ours(request, http::field::origin, "http://"))
         return write(request, {403, "Only this server's own page may watch.\n", "text/plain"});
       return std::make_shared<Socket>(server, std::move(stream))->start(request);
@@ -170,9 +196,9 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
     const bool head = request.method() == http::verb::head;
     if (request.method() != http::verb::get && !head)
       return write(request, {405, "GET only.\n", "text/plain"});
-    Reply reply =
-        server->handlers.get(std::string_view(request.target().data(), request.target().size()));
-    write(request, std::move(reply), head);
+    if (path.empty())
+      return write(request, {404, "The address ends in a slash.\n", "text/plain"}, head);
+    write(request, server->handlers.get(path), head);
   }
 
   void write(const Request& request, Reply reply, bool head = false) {
@@ -199,6 +225,7 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
   }
 
   std::shared_ptr<Impl> server;
+  std::optional<std::list<Connection*>::iterator> place;  // among the strangers
   beast::tcp_stream stream;
   beast::flat_buffer buffer;
   std::optional<http::request_parser<http::string_body>> parser;
@@ -215,6 +242,14 @@ bool Server::Impl::is_ours(const Request& request, http::field field,
   for (const std::string_view host : {"127.0.0.1", "localhost"})
     if (value == fmt::format("{}{}:{}", before, host, port)) return true;
   return false;
+}
+
+// The target begins with the token's folder.
+bool Server::Impl::has_token(std::string_view target) const {
+  if (target.empty() || target[0] != '/') return false;
+  const std::string_view shown = target.substr(1, token.size());
+  const std::string_view rest = target.substr(1 + shown.size());
+  return same_token(shown, token) && (rest.empty() || rest[0] == '/');
 }
 
 void Server::Impl::listen(std::uint16_t wanted) {
@@ -234,10 +269,27 @@ void Server::Impl::listen(std::uint16_t wanted) {
 void Server::Impl::accept() {
   acceptor.async_accept([self = shared_from_this()](Error error, tcp::socket socket) {
     if (error == asio::error::operation_aborted) return;
-    if (!error && self->connections < most_connections)
-      std::make_shared<Connection>(self, std::move(socket))->read();
-    self->accept();
+    if (!error) {
+      if (self->make_room()) std::make_shared<Connection>(self, std::move(socket))->read();
+      return self->accept();
+    }
+    // As of no more descriptors: they do not come by asking at once.
+    self->pause.expires_after(between_frames);
+    self->pause.async_wait([self](Error stopped) {
+      if (!stopped) self->accept();
+    });
   });
+}
+
+// Whether there may be one more connection: the oldest stranger makes way, one with the token never
+// does.
+bool Server::Impl::make_room() {
+  if (connections < most_connections) return true;
+  if (strangers.empty()) return false;
+  Connection& oldest = *strangers.front();
+  oldest.is_known();  // it counts until it is gone
+  oldest.stream.close();
+  return true;
 }
 
 void Server::Impl::tick() {
@@ -266,6 +318,7 @@ Server::~Server() {
   impl_->acceptor.close(ignored);
   impl_->timer.cancel();
   impl_->end.cancel();
+  impl_->pause.cancel();
   impl_->signals.cancel(ignored);
   for (const auto& [id, socket] : std::map(impl_->sockets))
     if (const auto s = socket.lock()) s->leave();
@@ -275,7 +328,9 @@ Server::~Server() {
 
 std::uint16_t Server::port() const { return impl_->port; }
 
-std::string Server::url() const { return fmt::format("http://127.0.0.1:{}/", port()); }
+std::string Server::url() const {
+  return fmt::format("http://127.0.0.1:{}/{}/", port(), impl_->token);
+}
 
 void Server::run() {
   const auto wait = [this](auto&& again) -> void {

@@ -1,10 +1,15 @@
 // cli/server.h - pages over HTTP and WebSocket, for browsers on this machine alone.
 //
-// Listens on 127.0.0.1. A request whose Host is not this server's own name, as of a foreign page
-// whose name was pointed here, is refused, and so is a WebSocket that another page opens. GET only;
-// what is served is what `get` answers: there are no files. Messages are bounded. One thread. A
-// browser says "ready" when it has dealt with a frame, and gets the next one then: one that is slow
-// gets fewer and holds nobody up.
+// Listens on 127.0.0.1. The address has a token, drawn anew by each server: whoever else uses this
+// machine can reach the port, but is told nothing and steers nothing. A request whose Host is not
+// this server's own name, as of a foreign page whose name was pointed here, is refused, and so is a
+// WebSocket that another page opens. GET only; what is served is what `get` answers: there are no
+// files. Messages are bounded. One thread. A browser says "ready" when it has dealt with a frame,
+// and gets the next one then: one that is slow gets fewer and holds nobody up.
+//
+// A request that does not come whole within `patience`, or an answer that is not read within it,
+// ends its connection. Where there are `most_connections`, the oldest of those that have not shown
+// the token makes way for the next one.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +31,8 @@ class Server {
   using Watcher = std::uint64_t;  // a WebSocket; never used again
 
   struct Handlers {
-    std::function<Reply(std::string_view path)> get;
-    std::function<void()> tick = {};  // every 40 ms, whether anybody watches or not
+    std::function<Reply(std::string_view path)> get;  // what stands behind the token: "/", "/runs"
+    std::function<void()> tick = {};                  // every 40 ms, whether anybody watches or not
     // Of WebSockets; without `frame` there are none. "": nothing to send.
     std::function<std::string(Watcher)> frame = {};  // asked for after each tick
     std::function<std::string(Watcher, std::string_view message)> message = {};
@@ -42,7 +47,7 @@ class Server {
   Server& operator=(const Server&) = delete;
 
   std::uint16_t port() const;
-  std::string url() const;  // "http://127.0.0.1:8080/"
+  std::string url() const;  // "http://127.0.0.1:8080/0f…32 digits…/"
 
   void run();   // until stop(): calls all handlers
   void stop();  // from any thread

@@ -1,22 +1,17 @@
 // cli/view.cpp - `sinew view`: the page of a run in the browser, recorded or while it goes.
 #include "cli/view.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
-#include <cstdlib>
 
+#include "cli/browser.h"
 #include "cli/page.h"
 #include "cli/run_folder.h"
 #include "cli/server.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/report/page.h"
-
-extern char** environ;
 
 namespace sinew::cli {
 
@@ -51,7 +46,7 @@ std::string escaped(std::string_view text) {
 std::string list_of(const std::vector<fs::path>& runs) {
   std::string items;
   for (std::size_t i = 0; i < runs.size(); ++i)
-    items += fmt::format("<li><a href=\"/run/{}\">{}</a></li>\n", i, escaped(runs[i].string()));
+    items += fmt::format("<li><a href=\"run/{}\">{}</a></li>\n", i, escaped(runs[i].string()));
   return fmt::format(
       "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Runs</title>"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
@@ -63,7 +58,7 @@ std::string list_of(const std::vector<fs::path>& runs) {
       items);
 }
 
-Reply not_found() { return {404, "Nothing is here; the runs are at /runs.\n", "text/plain"}; }
+Reply not_found() { return {404, "Nothing is here; the runs are at runs.\n", "text/plain"}; }
 
 Reply page_of_run(const fs::path& run, const std::string& machine) {
   try {
@@ -101,25 +96,12 @@ ExitCode view_recorded(const ViewOptions& o) {
   messages.note(fmt::format(
       "{}; Ctrl-C ends{}", runs.front().string(),
       runs.size() > 1 ? fmt::format("; {} runs at {}runs", runs.size(), server.url()) : ""));
-  if (o.open) open_browser(server.url());
+  const Browser browser(o.open ? server.url() : "");
   server.run();
   return ok;
 }
 
 }  // namespace
-
-void open_browser(const std::string& url) {
-  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
-  posix_spawn_file_actions_t quiet;
-  posix_spawn_file_actions_init(&quiet);
-  for (const int out : {STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&quiet, out, "/dev/null", O_WRONLY, 0);
-  std::string program = "xdg-open", address = url;
-  char* const arguments[] = {program.data(), address.data(), nullptr};
-  pid_t pid = 0;
-  posix_spawnp(&pid, program.c_str(), &quiet, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&quiet);
-}
 
 void add_view(CLI::App& app, Action& action) {
   auto options = std::make_shared<ViewOptions>();

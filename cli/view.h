@@ -19,7 +19,4 @@ struct ViewOptions {
 // A run while it goes. Ends with it, or stays with its page until Ctrl-C.
 ExitCode view_live(const ViewOptions& options);
 
-// In the browser of whoever sits here, if somebody does.
-void open_browser(const std::string& url);
-
 }  // namespace sinew::cli

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <thread>
 
+#include "cli/browser.h"
 #include "cli/page.h"
 #include "cli/run_rig.h"
 #include "cli/server.h"
@@ -72,7 +73,7 @@ class LiveRun {
     else
       fmt::print("{}\n", server_.url());
     std::fflush(stdout);
-    if (options_.open) open_browser(server_.url());
+    const Browser browser(options_.open ? server_.url() : "");
     std::thread runner([this] { run(); });
     server_.run();
     runner.join();
@@ -110,7 +111,8 @@ class LiveRun {
   }
 
   Reply get(std::string_view path) {
-    if (path != "/") return {404, "Nothing is here; the run is at /.\n", "text/plain"};
+    if (path != "/")
+      return {404, "Nothing is here; the run is at the address that was printed.\n", "text/plain"};
     if (!over())
       return {200, show_.page(fmt::format("127.0.0.1:{0} ws://localhost:{0}", server_.port()))};
     if (!page_.empty()) return {200, page_};

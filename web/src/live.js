@@ -10,6 +10,9 @@ const refit_every = 500;   // [ms]
 const again_after = 1000;  // without a connection [ms]
 const window_seconds = 15; // of a long run in the plots, which turn their page
 
+// The program's WebSocket: beside this page, behind the token of its address.
+const where = () => new URL('live', location.href).href.replace(/^http/, 'ws');
+
 export class Live {
   constructor(run) {
     this.run = run;
@@ -29,7 +32,7 @@ export class Live {
   }
 
   open() {
-    this.socket = new WebSocket(`ws://${location.host}/live`);
+    this.socket = new WebSocket(where());
     this.socket.addEventListener('message', (event) => {
       const message = JSON.parse(event.data);
       this.queue = this.queue.then(() => this.take(message)).then(() => message.state && this.socket.send('ready'));
@@ -127,7 +130,7 @@ export class Live {
     if (this.is_over) return;
     this.controls?.lost();
     setTimeout(() => {
-      const probe = new WebSocket(`ws://${location.host}/live`);
+      const probe = new WebSocket(where());
       probe.addEventListener('open', () => location.reload());
       probe.addEventListener('close', () => this.lost());
     }, again_after);

@@ -144,7 +144,7 @@ test('watched by several, some of them slow, the log keeps its bytes', async () 
   const run = await start('watched', ['--set', 'sequence.repeat=2', '--paused', '--pace', '4', '--once']);
   // One that never reads what it is sent.
   const deaf = http.request(`${run.url}live`, { headers: { connection: 'Upgrade', upgrade: 'websocket',
-    origin: run.url.slice(0, -1), 'sec-websocket-key': 'c2luZXcgaXMgd2F0Y2hlZA==', 'sec-websocket-version': 13 } });
+    origin: new URL(run.url).origin, 'sec-websocket-key': 'c2luZXcgaXMgd2F0Y2hlZA==', 'sec-websocket-version': 13 } });
   deaf.on('upgrade', (response, socket) => socket.pause());
   deaf.on('error', () => {});
   deaf.end();
@@ -182,19 +182,22 @@ test('a recorded run is served, of what kind it ever is, and nothing besides', a
     await watch({ url }, async (page) => assert.ok((await page.locator('.panel').count()) > 0, path), {}, path);
   const list = await ask(url, '/runs');
   assert.match(list.body, /runs\/stand\/1[^]*runs\/kick\/1/);
+  assert.match(list.body, /href="run\/0"/);  // below the token
   for (const path of ['/run/2', '/run/-1', '/run/', '/run/0x', '/runs/kick/1/log.mcap', '/live'])
     assert.equal((await ask(url, path)).status, 404, path);
-  assert.equal((await upgrade(url, url.slice(0, -1))).status, 403);
+  assert.equal((await upgrade(url, new URL(url).origin)).status, 403);
   run.child.kill('SIGINT');
   assert.equal((await run.ended).code, 0);
 });
 
 // --- who may ask what ---
 
-function ask(url, path, headers = {}, method = 'GET') {
+// `path` is below the address, token and all; `bare` is below the host.
+function ask(url, path, headers = {}, method = 'GET', bare = false) {
   return new Promise((done) => {
-    const { hostname, port } = new URL(url);
-    const request = http.request({ hostname, port, path, method, headers }, (response) => {
+    const { hostname, port, pathname } = new URL(url);
+    const whole = bare ? path : pathname.slice(0, -1) + path;
+    const request = http.request({ hostname, port, path: whole, method, headers }, (response) => {
       let body = '';
       response.on('data', (text) => (body += text));
       response.on('end', () => done({ status: response.statusCode, body, headers: response.headers }));
@@ -209,8 +212,8 @@ const upgrade = (url, origin, more = {}) => ask(url, '/live', { connection: 'Upg
 
 test('only its own page may watch; there are no files', async () => {
   const run = await start('guarded', ['--paused', '--set', 'sequence.repeat=1']);
-  const { url } = run, own = url.slice(0, -1), { port } = new URL(url);
-  assert.match(url, /^http:\/\/127\.0\.0\.1:\d+\/$/);
+  const { url } = run, { port, origin: own } = new URL(url);
+  assert.match(url, /^http:\/\/127\.0\.0\.1:\d+\/[0-9a-f]{32}\/$/);
   const page = await ask(url, '/');
   assert.equal(page.status, 200);
   assert.equal(page.headers['cache-control'], 'no-store');
@@ -221,6 +224,11 @@ test('only its own page may watch; there are no files', async () => {
   for (const path of ['/../../etc/passwd', '//etc/passwd', '/report.html', '/live', '/%2e%2e/', '/run/0', `/${'a'.repeat(5000)}`])
     assert.equal((await ask(url, path)).status, 404, path);
   assert.equal((await ask(url, `/${'a'.repeat(20000)}`)).status === 200, false);
+  for (const path of ['/', '/live', '/runs', `/${'0'.repeat(32)}/`]) {
+    const refused = await ask(url, path, {}, 'GET', true);
+    assert.equal(refused.status, 403, path);
+    assert.match(refused.body, /lacks its token; open the whole one/);
+  }
   assert.equal((await ask(url, '/', {}, 'POST')).status, 405);
   assert.equal((await upgrade(url, own)).status, 101);
   for (const origin of [null, 'http://evil.example', 'null', `https://127.0.0.1:${port}`, `${own}.evil.example`])
