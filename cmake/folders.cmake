@@ -9,7 +9,11 @@ endfunction()
 # The program's words and the tests take twice as long to build as they could ever save: headers
 # such as CLI11's and nlohmann's are code in every file. What computes stands in the folders.
 function(sinew_optimize_little target)
-  target_compile_options(${target} PRIVATE $<IF:$<BOOL:${SINEW_SANITIZE}>,-O0,-O1>)
+  if(SINEW_SANITIZE)
+    target_compile_options(${target} PRIVATE -O0)
+  else()
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
 endfunction()
 
 function(sinew_folder path)

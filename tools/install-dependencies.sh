@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# install-dependencies.sh [demo|quick|check]   installs with apt what is missing, and nothing else.
+# install-dependencies.sh [demo|quick|check|long]   installs with apt what is missing, and nothing else.
 #
 #   demo    to build and run Sinew
 #   quick   and to test it: ./check --quick
 #   check   and for everything ./check does
+#   long    and for ./check long
 #
 # Can be run again. Needs Debian 12 or a system with the same packages; docs/dependencies.md tells
 # more about each. Where you have the tools from elsewhere, SINEW_DEPENDENCIES=present skips this.
@@ -35,13 +36,17 @@ list='
     check  arm-none-eabi-g++   gcc-arm-none-eabi                embedded core for Cortex-M4F
     check  -                   libstdc++-arm-none-eabi-newlib   its headers
     check  qemu-system-arm     qemu-system-arm                  runs it
+    long   clang++-14          clang-14                         the other compiler
+    long   -                   libclang-rt-14-dev               fuzzers and sanitizers for it
+    long   llvm-symbolizer-14  llvm-14                          names lines in what they find
 '
 
 case ${1:-demo} in
   demo) sets=' demo ' ;;
   quick) sets=' demo quick ' ;;
   check) sets=' demo quick check ' ;;
-  *) echo "usage: $0 [demo|quick|check]" >&2; exit 2 ;;
+  long) sets=' demo quick check long ' ;;
+  *) echo "usage: $0 [demo|quick|check|long]" >&2; exit 2 ;;
 esac
 
 if [[ ${SINEW_DEPENDENCIES:-} == present ]]; then

@@ -47,6 +47,13 @@ class TableReader {
 
 int whole(double value) { return static_cast<int>(std::lround(value)); }
 
+// As the high level hands desired counts down: cut to an integer. A whole count that was an angle
+// in between is not cut by its last bit.
+int cut(double counts) {
+  const double nearest = std::round(counts);
+  return static_cast<int>(std::abs(counts - nearest) < 1e-6 ? nearest : counts);
+}
+
 std::string duties(const OutDatJoint& j, const TableReader& read, std::int64_t t) {
   const auto percent = [&](const std::string& muscle, const char* which) {
     return whole(100.0 * read.at("/muscle/" + muscle + "/" + which + "_duty", t));
@@ -60,8 +67,7 @@ std::string joint_cells(const OutDatJoint& j, const TableReader& read, std::int6
     return whole(read.at("/sensor/" + sensor + "/count", t));
   };
   const double desired = read.at("/desired/joint/" + j.name + "/angle", t);
-  // As the high level hands it down: cut to an integer.
-  const int thetades = static_cast<int>((desired - j.rest) * j.counts_per_rad + j.counts_at_rest);
+  const int thetades = cut((desired - j.rest) * j.counts_per_rad + j.counts_at_rest);
   return fmt::format(" {} {} {} {} {:f} {:f} ", thetades, count(j.angle), count(j.flexor_tension),
                      count(j.extensor_tension),
                      read.at("/desired/joint/" + j.name + "/stiffness", t) / stiffness_unit,

@@ -1,0 +1,65 @@
+// A table of measurements that is read has a finite number for every row, within what such a
+// measurement can be, and written in SI it reads as the same bits.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sinew/identify/measured.h"
+#include "tests/fuzz/law.h"
+
+namespace sinew::fuzz {
+namespace {
+
+using identify::Measured;
+using identify::Wanted;
+
+constexpr std::pair<std::string_view, double> words[] = {{"fill", 1}, {"vent", -1}};
+constexpr Wanted wanted[] = {
+    {.name = "time", .unit = "s", .optional = true, .doc = "since the start"},
+    {.name = "length", .unit = "m", .least = 5e-3, .most = 5, .optional = true, .doc = "of it"},
+    {.name = "phase", .unit = "1", .optional = true, .doc = "what it does", .words = words},
+    {.name = "pressure", .unit = "Pa gauge", .least = 1e3, .most = 2e6, .doc = "inside"},
+    {.name = "force", .unit = "N", .least = 1, .most = 1e5, .doc = "it pulls with"}};
+
+Measured read(std::string_view text, const std::string& name) {
+  return identify::parse_measured(text, {.path = name}, wanted);
+}
+
+std::string written(const Measured& m) {
+  std::string text;
+  for (const identify::Column& c : m.columns)
+    text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", c.name, c.unit);
+  text += '\n';
+  for (std::size_t row = 0; row < m.rows(); ++row) {
+    for (std::size_t c = 0; c < m.columns.size(); ++c)
+      text += fmt::format("{}{}", c == 0 ? "" : ",", m.columns[c].values[row]);
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+void csv(std::string_view input) {
+  Measured m;
+  try {
+    m = read(input, "a.csv");
+  } catch (const config::Error& error) {
+    return law_of_refusal(error, "a.csv");
+  }
+  for (const identify::Column& c : m.columns) {
+    law(c.values.size() == m.rows(), "a value for each row: " + c.name);
+    for (const double v : c.values) law(std::isfinite(v), "a number: " + c.name);
+  }
+  const std::string text = written(m);
+  try {
+    const Measured again = read(text, "written.csv");
+    law(again.columns.size() == m.columns.size(), "columns are kept:\n" + text);
+    for (std::size_t c = 0; c < m.columns.size(); ++c)
+      law(again[m.columns[c].name] == m.columns[c].values, "values are kept:\n" + text);
+  } catch (const config::Error& error) {
+    law(false, std::string("what is written can be read: ") + error.what() + "\n" + text);
+  }
+}
+
+}  // namespace sinew::fuzz
