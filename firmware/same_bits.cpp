@@ -1,12 +1,13 @@
-// firmware/same_bits.cpp - runs the spinal cord over seeded random periods and prints a hash of all
-// it did: duties, edges, stiffnesses bit for bit. firmware/same-bits.sh compares controller and
-// host.
+// firmware/same_bits.cpp - runs the spinal cord over seeded random periods, alone and supervised,
+// and prints a hash of all it did: duties, edges, stiffnesses, counters bit for bit.
+// firmware/same-bits.sh compares controller and host.
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 
 #include "sinew/control/joint/spine.h"
 #include "sinew/control/joint/test_leg.h"
+#include "sinew/control/supervise/supervisor.h"
 #include "sinew/signals/timing.h"
 
 namespace sinew::firmware {
@@ -97,6 +98,39 @@ void run(const SpineConfig& config, std::uint32_t seed, Hash& hash) {
   }
 }
 
+// A supervised one among skipped ticks, impossible commands and readings that lie.
+void run_supervised(std::uint32_t seed, Hash& hash) {
+  control::SuperviseConfig limits;
+  limits.vent_commands = 1000;  // or the run would soon be over
+  limits.bad_readings = seed % 2 ? 3 : 1000;
+  limits.gap_vent = seed % 2 ? 100 : 1'000'000;
+  for (std::size_t i = 0; i < 7; ++i)
+    limits.sensor[i] = {.low = 100, .high = 4000, .max_step = 2500, .joint = 0};
+  control::Supervisor spine(control::test_leg(), limits);
+  Random random(seed);
+  Command command = control::rest_command(spine.config());
+  for (Tick t = 0; t < periods * spine.config().period;) {
+    if (spine.starts_period(t)) {
+      random_command(random, command);
+      if (random.below(4) == 0)
+        command.joint[1].stiffness = random.below(2) ? 2e6f : std::bit_cast<float>(0x7fc00000u);
+      spine.command(command);
+    }
+    for (const signals::Edge& e : spine.edges(t)) {
+      hash.add(static_cast<std::uint32_t>(e.at));
+      hash.add(2u * e.valve.index + e.open);
+    }
+    if (const signals::Conversion* c = spine.due(t))
+      spine.take(*c, {static_cast<std::uint16_t>(random.below(4096)), signals::Status::ok}, t);
+    const control::Supervised& s = spine.supervised();
+    for (const std::uint32_t n : {s.rejected, s.rejected_commands, s.gaps, s.worst_gap, s.holds,
+                                  static_cast<std::uint32_t>(s.trip.at)})
+      hash.add(n);
+    t = spine.next_event(t);
+    if (random.below(64) == 0) t += 1 + random.below(random.below(64) == 0 ? 200 : 20);
+  }
+}
+
 void print_hex(std::uint64_t x) {
   char text[18];
   for (int i = 0; i < 16; ++i) text[i] = "0123456789abcdef"[x >> (60 - 4 * i) & 15];
@@ -170,6 +204,7 @@ void same_bits() {
     run(config, 2, hash);
   }
   other_machines(hash);
+  for (std::uint32_t seed = 1; seed <= 6; ++seed) run_supervised(seed, hash);
   print_hex(hash.value());
 }
 

@@ -13,6 +13,7 @@ layers='
     muscle          gas actuator signals
     robot           actuator signals
     control/joint   signals
+    control/supervise  control/joint signals
     control/gait    robot signals
     config          units
     log             signals
@@ -212,6 +213,8 @@ self_test() {
   expect sinew/muscle/a.h         '#include "sinew/units/unit.h"'              ''  # through gas
   expect sinew/control/joint/a.h  '#include "sinew/units/unit.h"'              'control/joint may not include units'
   expect sinew/control/joint/a.h  '#include "sinew/control/gait/a.h"'          'may not include control/gait'
+  expect sinew/control/supervise/a.h '#include "sinew/control/joint/a.h"'      ''
+  expect sinew/control/joint/a.h  '#include "sinew/control/supervise/a.h"'     'may not include control/supervise'
   expect sinew/plant/planar/a.cpp '#include "sinew/log/writer.h"'              'plant/planar may not include log'
   expect sinew/plant/recorded/a.h '#include "sinew/log/reader.h"'              ''
   expect sinew/experiment/a.h     '#include "sinew/plant/planar/world.h"'      ''  # plant stands for it

@@ -14,6 +14,11 @@ namespace {
 
 enum ValveOfJoint : std::size_t { flexor_inlet, flexor_exhaust, extensor_inlet, extensor_exhaust };
 
+// Do valves that are off hold the air? (A joint without muscles has none to shut.)
+bool seals(JointKind kind) noexcept {
+  return kind == JointKind::antagonist || kind == JointKind::cylinder;
+}
+
 }  // namespace
 
 Spine::Spine(const SpineConfig& config) noexcept : config_(config), command_(rest_command(config)) {
@@ -162,6 +167,44 @@ void Spine::schedule_level(std::size_t j, Side side, Tick t) noexcept {
 void Spine::shut_down(Tick t) noexcept {
   if (seen_.phase == Phase::venting || seen_.phase == Phase::off) return;
   vent(t + config_.output_delay, config_.shutdown_vent, Phase::venting, Phase::off);
+}
+
+// A law's edges are given up, a vent that has not begun is not.
+void Spine::skip_to(Tick t) noexcept {
+  for (std::size_t j = 0; j < config_.joints; ++j)
+    for (PulseTrain& train : valves_[j]) {
+      if (train.next() >= t) continue;
+      if (seen_.phase == Phase::running || !train.next_opens()) {
+        train.shut(t);
+        continue;
+      }
+      const bool startup = seen_.phase == Phase::startup;
+      phase_end_ = t + (startup ? config_.startup_vent : config_.shutdown_vent);
+      train.pulse(t, phase_end_);
+    }
+  find_next_edge();
+}
+
+void Spine::shut_inlets(Tick t) noexcept {
+  for (std::size_t j = 0; j < config_.joints; ++j) {
+    if (!seals(config_.joint[j].kind)) continue;
+    valves_[j][flexor_inlet].shut(t);
+    valves_[j][extensor_inlet].shut(t);
+  }
+  find_next_edge();
+}
+
+void Spine::shut_valves(std::size_t j, Tick t) noexcept {
+  if (!seals(config_.joint[j].kind)) return;
+  for (PulseTrain& train : valves_[j]) train.shut(t);
+  find_next_edge();
+}
+
+void Spine::trip(Status status, Channel channel, Tick t) noexcept {
+  if (seen_.phase == Phase::venting || seen_.phase == Phase::off) return;
+  seen_.fault = status;
+  seen_.fault_channel = channel;
+  vent(t, config_.shutdown_vent, Phase::venting, Phase::off);
 }
 
 // Also the muscles of disabled joints, as in the thesis's hardware_start_up. A 3-way valve that is

@@ -71,6 +71,22 @@ class Spine {
   // Vent, then shut; the loop goes on until seen().phase is `off`.
   void shut_down(signals::Tick t) noexcept;
 
+  // --- for who supervises it (control/supervise); before edges(t), which hands out what follows
+  // ---
+
+  // Ticks were skipped before t: a valve that should have been switched in them is shut at t, and
+  // stays shut until its joint's next law.
+  void skip_to(signals::Tick t) noexcept;
+
+  // Shut from t on, until the joint's next law decides again. Valves that do not seal stay: off,
+  // they would vent.
+  void shut_inlets(signals::Tick t) noexcept;
+  void shut_valves(std::size_t joint, signals::Tick t) noexcept;
+
+  // Ends the run as a fault of that channel: inlets shut and exhausts open from t on, without the
+  // delay of a law.
+  void trip(signals::Status, signals::Channel, signals::Tick t) noexcept;
+
  private:
   static constexpr std::size_t valves_per_joint = 4;  // in the order of Duties
   using JointValves = std::array<PulseTrain, valves_per_joint>;

@@ -1,0 +1,276 @@
+#include "sinew/control/supervise/supervisor.h"
+
+namespace sinew::control {
+
+using signals::Channel;
+using signals::Conversion;
+using signals::Edge;
+using signals::Reading;
+using signals::Status;
+using signals::Tick;
+
+namespace {
+
+// What can be said of a limit that may be as large as a counter.
+std::int32_t shown(std::uint32_t limit) noexcept {
+  constexpr std::uint32_t most = 0x7fffffffu;
+  return static_cast<std::int32_t>(limit < most ? limit : most);
+}
+
+std::int32_t distance(std::int32_t a, std::int32_t b) noexcept { return a < b ? b - a : a - b; }
+
+// False for what is not a number, too.
+bool within(float x, float limit) noexcept { return x >= -limit && x <= limit; }
+
+bool within(std::int32_t x, std::int32_t low, std::int32_t high) noexcept {
+  return x >= low && x <= high;
+}
+
+bool possible(const Duties& d) noexcept {
+  for (const std::int32_t duty :
+       {d.flexor_inlet, d.flexor_exhaust, d.extensor_inlet, d.extensor_exhaust})
+    if (!within(duty, 0, signals::max_duty)) return false;
+  return true;
+}
+
+}  // namespace
+
+const char* problem(const SuperviseConfig& config) noexcept {
+  for (const SensorLimits& s : config.sensor) {
+    if (s.low > s.high) return "a sensor's plausible range ends before it begins";
+    if (s.max_step == 0) return "a sensor's max_step must not be 0";
+    if (s.joint >= static_cast<std::int8_t>(max_joints)) return "a sensor's joint is not there";
+  }
+  for (const CommandLimits& c : config.command) {
+    if (c.low > c.high || c.low < -angle_limit || c.high > angle_limit)
+      return "the range of a commanded angle must lie within the laws'";
+    if (c.max_step <= 0) return "a command's max_step must be above 0";
+    if (!(c.max_stiffness >= 0 && c.max_stiffness <= stiffness_limit) ||
+        !(c.max_gain >= 0 && c.max_gain <= gain_limit))
+      return "limits of stiffness and gains must not be beyond the laws'";
+  }
+  if (config.bad_readings == 0 || config.hold_commands == 0 || config.frozen_scans == 0)
+    return "counts in a row must not be 0";
+  if (config.vent_commands < config.hold_commands) return "hold comes before vent";
+  if (config.gap_shut == 0 || config.gap_vent < config.gap_shut)
+    return "gap_shut must be at least 1 and not above gap_vent";
+  return nullptr;
+}
+
+Supervisor::Supervisor(const SpineConfig& spine, const SuperviseConfig& limits) noexcept
+    : spine_(spine), limits_(limits), good_(rest_command(spine)) {}
+
+// While something can still be ended.
+bool Supervisor::active() const noexcept {
+  return seen().phase == Phase::startup || seen().phase == Phase::running;
+}
+
+void Supervisor::trip(const Trip& trip, Tick vent_at) noexcept {
+  if (!active()) return;
+  supervised_.trip = trip;
+  spine_.trip(Status::fault, trip.channel, vent_at);
+}
+
+// --- the clock ----------------------------------------------------------------------------------
+
+// The first call of a new tick: is it the one that was announced?
+void Supervisor::enter(Tick t) noexcept {
+  if (t <= now_) return;
+  const Tick announced = now_ < 0 ? t : spine_.next_event(now_);
+  now_ = t;
+  if (t > announced) gap(announced, t);
+}
+
+void Supervisor::gap(Tick announced, Tick t) noexcept {
+  constexpr Tick most = 0x7fffffff;
+  const auto late = static_cast<std::uint32_t>(t - announced < most ? t - announced : most);
+  ++supervised_.gaps;
+  if (late > supervised_.worst_gap) supervised_.worst_gap = late;
+
+  spine_.skip_to(t);
+  if (late >= limits_.gap_vent) {
+    trip({.cause = Trip::Cause::gap, .at = t, .high = shown(limits_.gap_vent)}, t);
+    return;
+  }
+  if (!active()) return;
+  if (late >= limits_.gap_shut) spine_.shut_inlets(t);
+  for (Tick skipped = announced; skipped < t; ++skipped)
+    if (const Conversion* c = spine_.due(skipped)) skip(*c, t);
+}
+
+// A reading that nobody fetched. A joint whose law it should have set off has valves that nobody
+// would shut for a period.
+void Supervisor::skip(const Conversion& conversion, Tick t) noexcept {
+  count_scan(conversion.channel);
+  if (seen().phase != Phase::running) return;
+  for (std::size_t j = 0; j < config().joints; ++j)
+    if (config().joint[j].law_tick == conversion.read) spine_.shut_valves(j, t);
+}
+
+Tick Supervisor::next_event(Tick t) noexcept {
+  enter(t);
+  return spine_.next_event(t);
+}
+
+bool Supervisor::starts_period(Tick t) noexcept {
+  enter(t);
+  return spine_.starts_period(t);
+}
+
+std::span<const Edge> Supervisor::edges(Tick t) noexcept {
+  enter(t);
+  if (bad_commands_ == limits_.vent_commands) {
+    trip({.cause = Trip::Cause::command,
+          .at = t,
+          .high = shown(limits_.vent_commands),
+          .joint = bad_joint_},
+         t);
+  } else if (supervised_.holding && seen().phase == Phase::running) {
+    for (std::size_t j = 0; j < config().joints; ++j) spine_.shut_valves(j, t);
+  }
+  return spine_.edges(t);
+}
+
+const Conversion* Supervisor::due(Tick t) noexcept {
+  enter(t);
+  return spine_.due(t);
+}
+
+// --- readings -----------------------------------------------------------------------------------
+
+// A reading that is not believed is handed on as one that did not come.
+void Supervisor::take(const Conversion& conversion, Reading reading, Tick t) noexcept {
+  enter(t);
+  const std::size_t i = conversion.channel.index;
+  if (i < max_channels && reading.status == Status::ok) {
+    supervised_.sensor[i].counts = reading.counts;
+    const Trip::Cause wrong = judge(i, reading.counts);
+    if (wrong == Trip::Cause::none) {
+      watch_frozen(conversion.channel, reading.counts, t);
+      believe(i, reading.counts);
+    } else {
+      reject(conversion.channel, reading.counts, wrong, t);
+      reading.status = Status::invalid;
+    }
+  }
+  if (reading.status != Status::ok) count_scan(conversion.channel);
+  spine_.take(conversion, reading, t);
+}
+
+// One more without a good reading.
+void Supervisor::count_scan(Channel channel) noexcept {
+  if (channel.index >= max_channels) return;
+  std::uint16_t& scans = watch_[channel.index].scans;
+  if (scans < signals::max_counts) ++scans;
+}
+
+Trip::Cause Supervisor::judge(std::size_t i, std::uint16_t counts) const noexcept {
+  const SensorLimits& limit = limits_.sensor[i];
+  const Watch& watch = watch_[i];
+  if (counts < limit.low || counts > limit.high) return Trip::Cause::range;
+  if (watch.agreed == 0) return Trip::Cause::none;
+  return distance(counts, watch.good) > limit.max_step * watch.scans ? Trip::Cause::rate
+                                                                     : Trip::Cause::none;
+}
+
+void Supervisor::believe(std::size_t i, std::uint16_t counts) noexcept {
+  Watch& watch = watch_[i];
+  if (watch.agreed < limits_.bad_readings) ++watch.agreed;
+  watch.good = counts;
+  watch.scans = 1;
+  watch.bad = 0;
+}
+
+void Supervisor::reject(Channel channel, std::uint16_t counts, Trip::Cause cause, Tick t) noexcept {
+  const SensorLimits& limit = limits_.sensor[channel.index];
+  Watch& watch = watch_[channel.index];
+  ++supervised_.sensor[channel.index].rejected;
+  ++supervised_.rejected;
+  watch.equal = 0;
+  // Of the first readings nobody knows which one lies.
+  if (cause == Trip::Cause::rate && watch.agreed < limits_.bad_readings) watch.agreed = 0;
+  if (++watch.bad != limits_.bad_readings) return;
+  Trip wrong{.cause = cause, .at = t, .channel = channel, .counts = counts, .before = watch.good};
+  if (cause == Trip::Cause::range) {
+    wrong.low = limit.low;
+    wrong.high = limit.high;
+  } else {
+    wrong.high = limit.max_step;
+  }
+  trip(wrong, t + 1);
+}
+
+// Has a valve of what moves it been told to open by the last law?
+bool Supervisor::driven(const SensorLimits& limit) const noexcept {
+  if (limit.joint < 0 || seen().phase != Phase::running) return false;
+  const JointSeen& joint = seen().joint[static_cast<std::size_t>(limit.joint)];
+  if (!joint.enabled) return false;
+  const Duties& d = joint.duties;
+  return (limit.of_flexor && d.flexor_inlet + d.flexor_exhaust > 0) ||
+         (limit.of_extensor && d.extensor_inlet + d.extensor_exhaust > 0);
+}
+
+void Supervisor::watch_frozen(Channel channel, std::uint16_t counts, Tick t) noexcept {
+  const SensorLimits& limit = limits_.sensor[channel.index];
+  Watch& watch = watch_[channel.index];
+  const bool at_end = counts <= limit.low || counts >= limit.high;
+  if (watch.agreed == 0 || counts != watch.good || !driven(limit) ||
+      (limit.rests_at_ends && at_end)) {
+    watch.equal = 0;
+    return;
+  }
+  ++watch.equal;
+  SensorSeen& seen = supervised_.sensor[channel.index];
+  if (watch.equal >= limits_.frozen_scans) {
+    seen.frozen += watch.equal == limits_.frozen_scans ? watch.equal : 1;
+    if (watch.equal > seen.longest) seen.longest = watch.equal;
+  }
+  if (limit.frozen_limit > 0 && watch.equal == limit.frozen_limit)
+    trip({.cause = Trip::Cause::frozen,
+          .at = t,
+          .channel = channel,
+          .counts = counts,
+          .before = counts,
+          .high = shown(limit.frozen_limit)},
+         t + 1);
+}
+
+// --- commands -----------------------------------------------------------------------------------
+
+bool Supervisor::possible(std::size_t j, const JointCommand& command) const noexcept {
+  const CommandLimits& limit = limits_.command[j];
+  if (!within(command.angle, limit.low, limit.high)) return false;
+  if (commanded_ && distance(command.angle, good_.joint[j].angle) > limit.max_step) return false;
+  if (!within(command.stiffness, limit.max_stiffness)) return false;
+  for (const float gain : {command.gains.angle, command.gains.stiffness, command.gains.velocity})
+    if (!within(gain, limit.max_gain)) return false;
+  return !command.open_loop || control::possible(command.duties);
+}
+
+// Of joints that have laws; what the others are told nobody reads.
+void Supervisor::command(const Command& command) noexcept {
+  for (std::size_t j = 0; j < config().joints; ++j) {
+    if (config().joint[j].kind == JointKind::passive || possible(j, command.joint[j])) continue;
+    return reject_command(static_cast<std::uint8_t>(j));
+  }
+  bad_commands_ = 0;
+  supervised_.holding = false;
+  good_ = command;
+  commanded_ = true;
+  spine_.command(command);
+}
+
+// The last good one holds; from the third on nothing is let in or out.
+void Supervisor::reject_command(std::uint8_t joint) noexcept {
+  ++supervised_.rejected_commands;
+  bad_joint_ = joint;
+  if (bad_commands_ < limits_.vent_commands) ++bad_commands_;
+  if (bad_commands_ != limits_.hold_commands) return;
+  supervised_.holding = true;
+  ++supervised_.holds;
+  Command shut = good_;
+  for (JointCommand& j : shut.joint) j.enabled = false;
+  spine_.command(shut);
+}
+
+}  // namespace sinew::control

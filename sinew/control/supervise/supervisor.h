@@ -1,0 +1,97 @@
+// control/supervise/supervisor.h - a spinal cord that does not believe everything.
+//
+// Stands before control::Spine with the same functions, so that the loop cannot tell. It looks at
+// what comes in, readings, commands and the clock, and changes what goes on to the spinal cord only
+// where something is wrong; where nothing is, the edges are the spinal cord's, bit for bit.
+//
+//   what is wrong                   at once                         going on
+//   a reading outside its range,    the last good one is kept       the third in a row: vent
+//   or faster than it can move
+//   a reading that repeats itself   counted from the 50th on        vent, where its limit is set
+//   while driven
+//   a command: not a number, out    the last good one is kept       the third in a row: hold, all
+//   of range, faster than allowed                                   valves shut; the sixth: vent
+//   a tick later than announced     a valve or a law that it        2 ticks: all inlets are shut;
+//                                   skipped: shut until the         10 ms: vent
+//                                   joint's next law
+//
+// Vent is the spinal cord's shut-down without its delay: inlets shut and exhausts open from the
+// next tick on, then all is shut. There is no way back.
+//
+// Embedded core: no heap, no exceptions, no clock, single precision.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "sinew/control/joint/spine.h"
+#include "sinew/control/supervise/limits.h"
+#include "sinew/control/supervise/supervised.h"
+
+namespace sinew::control {
+
+class Supervisor {
+ public:
+  // problem() of both must be nullptr.
+  Supervisor(const SpineConfig& spine, const SuperviseConfig& limits) noexcept;
+
+  // As of Spine; a tick that is later than announced is noticed by the first of its calls.
+  signals::Scan scan() const noexcept { return spine_.scan(); }
+  signals::Tick next_event(signals::Tick t) noexcept;
+  bool starts_period(signals::Tick t) noexcept;
+  void command(const Command& command) noexcept;
+  std::span<const signals::Edge> edges(signals::Tick t) noexcept;
+  const signals::Conversion* due(signals::Tick t) noexcept;
+  void take(const signals::Conversion&, signals::Reading, signals::Tick t) noexcept;
+  const Seen& seen() const noexcept { return spine_.seen(); }
+  const SpineConfig& config() const noexcept { return spine_.config(); }
+  void missed(signals::Tick t) noexcept { spine_.missed(t); }
+  void shut_down(signals::Tick t) noexcept { spine_.shut_down(t); }
+
+  const Supervised& supervised() const noexcept { return supervised_; }
+  const SuperviseConfig& limits() const noexcept { return limits_; }
+
+ private:
+  // What it remembers of a channel.
+  struct Watch {
+    std::uint16_t good = 0;    // the last good reading [count]
+    std::uint16_t scans = 1;   // since then, the next one included
+    std::uint32_t agreed = 0;  // good readings so far, counted up to bad_readings
+    std::uint32_t bad = 0;     // in a row
+    std::uint32_t equal = 0;   // in a row, that repeated themselves while driven
+  };
+
+  bool active() const noexcept;
+  void trip(const Trip& trip, signals::Tick vent_at) noexcept;
+
+  // Clock
+  void enter(signals::Tick t) noexcept;
+  void gap(signals::Tick announced, signals::Tick t) noexcept;
+  void skip(const signals::Conversion&, signals::Tick t) noexcept;
+
+  // Readings
+  void count_scan(signals::Channel) noexcept;
+  Trip::Cause judge(std::size_t channel, std::uint16_t counts) const noexcept;
+  void believe(std::size_t channel, std::uint16_t counts) noexcept;
+  void reject(signals::Channel, std::uint16_t counts, Trip::Cause, signals::Tick t) noexcept;
+  bool driven(const SensorLimits&) const noexcept;
+  void watch_frozen(signals::Channel, std::uint16_t counts, signals::Tick t) noexcept;
+
+  // Commands
+  bool possible(std::size_t joint, const JointCommand&) const noexcept;
+  void reject_command(std::uint8_t joint) noexcept;
+
+  Spine spine_;
+  SuperviseConfig limits_;
+  Supervised supervised_;
+
+  signals::Tick now_ = -1;  // the last visited tick
+  std::array<Watch, max_channels> watch_;
+  Command good_;                    // the last good command
+  bool commanded_ = false;          // there was one
+  std::uint32_t bad_commands_ = 0;  // in a row
+  std::uint8_t bad_joint_ = 0;      // of the last one
+};
+
+}  // namespace sinew::control

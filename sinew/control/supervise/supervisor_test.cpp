@@ -1,0 +1,487 @@
+// What is wrong with readings, commands and the clock, and what the supervisor makes of it.
+#include "sinew/control/supervise/supervisor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sinew/control/supervise/test_fuzz.h"
+
+namespace sinew::control {
+namespace {
+
+using signals::Status;
+using signals::Tick;
+
+constexpr std::uint8_t hip_angle = 1, hip_tension = 3;
+
+// A leg whose potentiometers stand between 100 and 4000 and turn by at most 50 counts in a scan.
+SuperviseConfig limits() {
+  SuperviseConfig out;
+  for (const std::uint8_t channel : {0, 1, 2}) {
+    out.sensor[channel] = {.low = 100, .high = 4000, .max_step = 50};
+    out.sensor[channel].joint = channel == 0 ? cylinder : channel == 1 ? hip : knee;
+  }
+  for (const std::uint8_t channel : {3, 4, 5, 6}) {
+    out.sensor[channel].joint = channel < 5 ? hip : knee;
+    out.sensor[channel].rests_at_ends = true;
+    out.sensor[channel].of_flexor = channel % 2 == 1;
+    out.sensor[channel].of_extensor = channel % 2 == 0;
+  }
+  return out;
+}
+
+// A supervised leg at its rest angles. Its ears lie as a test wants.
+struct Stand {
+  explicit Stand(const SuperviseConfig& config = limits(), const SpineConfig& leg = test_leg())
+      : spine(leg, config), valves(leg) {
+    EXPECT_EQ(problem(config), nullptr);
+    command = rest_command(leg);
+    for (JointCommand& c : command.joint) {
+      c.enabled = c.open_loop = true;  // valves work, whatever the readings are
+      c.duties = {30, 0, 0, 30};
+    }
+  }
+
+  // One tick, and where the loop goes from there.
+  Tick visit(Tick t) {
+    if (spine.starts_period(t)) spine.command(command);
+    for (const signals::Edge& e : spine.edges(t)) {
+      valves.drive(e);
+      EXPECT_FALSE(valves.both_open()) << t;
+    }
+    if (const signals::Conversion* c = spine.due(t)) {
+      const int scan = static_cast<int>(t / 100);
+      signals::Reading r{rest(c->channel.index), Status::ok};
+      if (lie) r = lie(c->channel.index, scan, r);
+      spine.take(*c, r, t);
+    }
+    if (!vented && spine.seen().phase == Phase::venting && valves.all_exhausts_open() &&
+        !valves.an_inlet_open())
+      vented = t;
+    return spine.next_event(t);
+  }
+  void run(int periods) {
+    for (const Tick end = now + 100 * periods; now < end;) now = visit(now);
+  }
+
+  static std::uint16_t rest(std::uint8_t channel) {
+    constexpr std::uint16_t counts[] = {404, 1895, 1175, 800, 800, 800, 800};
+    return counts[channel];
+  }
+  // The hip's and knee's flexors are filled all the time.
+  void fill() {
+    for (JointCommand& c : command.joint) c.duties = {100, 0, 0, 100};
+  }
+  const Supervised& supervised() const { return spine.supervised(); }
+  const Trip& trip() const { return supervised().trip; }
+
+  Supervisor spine;
+  ValveWatch valves;
+  Command command;
+  std::function<signals::Reading(std::uint8_t channel, int scan, signals::Reading)> lie;
+  Tick now = 0;
+  std::optional<Tick> vented;  // the first tick with all exhausts open after a trip
+};
+
+// A lie of one channel from a scan on, for so many scans.
+auto lying(std::uint8_t channel, std::uint16_t counts, int from, int scans = 1'000'000) {
+  return [=](std::uint8_t c, int scan, signals::Reading r) {
+    if (c == channel && scan >= from && scan < from + scans) r.counts = counts;
+    return r;
+  };
+}
+
+// --- readings -----------------------------------------------------------------------------------
+
+TEST(Supervisor, ThreeReadingsOutOfRangeVentWithinHalfAMillisecond) {
+  for (const std::uint16_t counts : {0, 99, 4001, 4095, 65535}) {
+    Stand stand;
+    stand.lie = lying(hip_angle, counts, 20);
+    stand.run(60);
+    EXPECT_EQ(stand.trip().cause, Trip::Cause::range);
+    EXPECT_EQ(stand.trip().channel.index, hip_angle);
+    EXPECT_EQ(stand.trip().counts, counts);
+    EXPECT_EQ(stand.trip().before, 1895);
+    EXPECT_EQ(stand.trip().low, 100);
+    EXPECT_EQ(stand.trip().high, 4000);
+    const Tick third = 2200 + 3;  // the hip's conversion is read at tick 3
+    EXPECT_EQ(stand.trip().at, third);
+    ASSERT_TRUE(stand.vented.has_value());
+    EXPECT_LE(*stand.vented - third, 5);
+    EXPECT_EQ(stand.spine.seen().fault, Status::fault);
+  }
+}
+
+TEST(Supervisor, EvenWhereALawsOutputTakesAPeriod) {
+  SpineConfig leg = test_leg();
+  leg.output_delay = 100;
+  Stand stand(limits(), leg);
+  stand.lie = lying(hip_angle, 4095, 20);
+  stand.run(60);
+  ASSERT_TRUE(stand.vented.has_value());
+  EXPECT_LE(*stand.vented - 2203, 5);
+}
+
+// The laws go on with the last good counts: the edges are those of a leg that stood still.
+TEST(Supervisor, SingleBadSamplesNeverEndARun) {
+  Stand honest, stand;
+  stand.lie = [](std::uint8_t c, int scan, signals::Reading r) {
+    if (c == hip_angle && scan > 3 && scan % 2) r.counts = scan % 4 == 1 ? 4095 : 1895 + 120;
+    return r;
+  };
+  honest.run(500);
+  stand.run(500);
+  EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
+  EXPECT_EQ(stand.supervised().sensor[hip_angle].rejected, 248u);
+  EXPECT_EQ(stand.supervised().rejected, 248u);
+  EXPECT_EQ(stand.spine.seen().reading[hip_angle].counts, 1895);
+  EXPECT_EQ(stand.spine.seen().joint[hip].angle_output,
+            honest.spine.seen().joint[hip].angle_output);
+}
+
+TEST(Supervisor, TwoInARowDoNotEndARunEither) {
+  Stand stand;
+  stand.lie = [](std::uint8_t c, int scan, signals::Reading r) {
+    if (c == hip_angle && scan % 3) r.counts = 0;
+    return r;
+  };
+  stand.run(300);
+  EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
+  EXPECT_EQ(stand.supervised().rejected, 200u);
+}
+
+TEST(Supervisor, FasterThanItCanMoveThreeTimesVents) {
+  Stand stand;
+  stand.lie = lying(hip_angle, 1895 + 151, 20);  // 50, 100, 150 would have been possible
+  stand.run(40);
+  EXPECT_EQ(stand.trip().cause, Trip::Cause::rate);
+  EXPECT_EQ(stand.trip().at, 2203);
+  EXPECT_EQ(stand.trip().high, 50);
+  EXPECT_LE(stand.vented.value_or(1'000'000) - 2203, 5);
+
+  Stand possible;
+  possible.lie = lying(hip_angle, 1895 + 150, 20);
+  possible.run(40);
+  EXPECT_EQ(possible.trip().cause, Trip::Cause::none);
+  EXPECT_EQ(possible.supervised().rejected, 2u);
+}
+
+// As fast as the limit, for as long as there is room: nothing is rejected.
+TEST(Supervisor, AsFastAsItCanIsFine) {
+  Stand stand;
+  stand.lie = [](std::uint8_t c, int scan, signals::Reading r) {
+    const int phase = scan % 80;  // 0 .. 2000 and back
+    if (c == hip_angle) r.counts = static_cast<std::uint16_t>(200 + 50 * std::abs(phase - 40));
+    return r;
+  };
+  stand.run(400);
+  EXPECT_EQ(stand.supervised().rejected, 0u);
+}
+
+// A lie in the very first scan is no yardstick for the truth.
+TEST(Supervisor, TheFirstReadingMayLie) {
+  Stand stand;
+  stand.lie = lying(hip_angle, 3900, 0, 1);
+  stand.run(50);
+  EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
+  EXPECT_EQ(stand.spine.seen().reading[hip_angle].counts, 1895);
+}
+
+TEST(Supervisor, AGaugeMayStandAtEitherEnd) {
+  for (const std::uint16_t counts : {0, 4095}) {
+    Stand stand;
+    stand.lie = lying(hip_tension, counts, 0);
+    stand.run(300);
+    EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
+    EXPECT_EQ(stand.supervised().rejected, 0u);
+    EXPECT_EQ(stand.supervised().sensor[hip_tension].frozen, 0u);
+  }
+}
+
+TEST(Supervisor, AFrozenReadingIsCountedAndNamed) {
+  Stand stand;
+  stand.run(200);
+  EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
+  // All but the first: a law has run before the second.
+  EXPECT_EQ(stand.supervised().sensor[hip_angle].frozen, 199u);
+  EXPECT_EQ(stand.supervised().sensor[hip_angle].longest, 199u);
+  EXPECT_EQ(stand.supervised().sensor[hip_tension].frozen, 199u);
+
+  Stand moves;
+  moves.lie = [](std::uint8_t c, int scan, signals::Reading r) {
+    if (c == hip_angle) r.counts = static_cast<std::uint16_t>(r.counts + scan / 40 % 2);
+    return r;
+  };
+  moves.run(400);
+  EXPECT_EQ(moves.supervised().sensor[hip_angle].frozen, 0u);  // never 50 in a row
+
+  Stand idle;
+  for (JointCommand& c : idle.command.joint) c.duties = {};
+  idle.run(400);
+  EXPECT_EQ(idle.supervised().sensor[hip_angle].frozen, 0u);  // nobody drives it
+}
+
+TEST(Supervisor, AFrozenReadingEndsARunOnlyByItsLimit) {
+  SuperviseConfig config = limits();
+  config.sensor[hip_angle].frozen_limit = 70;
+  Stand stand(config);
+  stand.run(120);
+  EXPECT_EQ(stand.trip().cause, Trip::Cause::frozen);
+  EXPECT_EQ(stand.trip().channel.index, hip_angle);
+  EXPECT_EQ(stand.trip().at, 7003);
+  EXPECT_TRUE(stand.vented.has_value());
+}
+
+// --- commands -----------------------------------------------------------------------------------
+
+TEST(Supervisor, ImpossibleCommandsAreRejected) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::function<void(JointCommand&)> wrong[] = {
+      [](JointCommand& c) { c.stiffness = nan; },
+      [](JointCommand& c) { c.stiffness = -2e6f; },
+      [](JointCommand& c) { c.gains.angle = nan; },
+      [](JointCommand& c) { c.gains.stiffness = 1001; },
+      [](JointCommand& c) { c.gains.velocity = -std::numeric_limits<float>::infinity(); },
+      [](JointCommand& c) { c.angle = std::numeric_limits<std::int32_t>::min(); },
+      [](JointCommand& c) { c.angle = 40'000; },
+      [](JointCommand& c) { c.duties.flexor_inlet = 101; },
+      [](JointCommand& c) { c.duties.extensor_exhaust = -1; },
+  };
+  for (const auto& spoil : wrong) {
+    Stand stand;
+    stand.run(10);
+    const Command good = stand.command;
+    spoil(stand.command.joint[knee]);
+    stand.run(2);
+    EXPECT_EQ(stand.supervised().rejected_commands, 2u);
+    EXPECT_FALSE(stand.supervised().holding);
+    stand.command = good;
+    stand.run(2);
+    EXPECT_EQ(stand.supervised().rejected_commands, 2u);
+    EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
+  }
+}
+
+TEST(Supervisor, ACommandFasterThanItsLimitIsRejected) {
+  SuperviseConfig config = limits();
+  config.command[hip].max_step = 20;
+  Stand stand(config);
+  stand.command.joint[hip].angle += 500;  // where it begins is free
+  stand.run(3);
+  EXPECT_EQ(stand.supervised().rejected_commands, 0u);
+  stand.command.joint[hip].angle += 20;
+  stand.run(1);
+  EXPECT_EQ(stand.supervised().rejected_commands, 0u);
+  stand.command.joint[hip].angle += 21;
+  stand.run(1);
+  EXPECT_EQ(stand.supervised().rejected_commands, 1u);
+}
+
+TEST(Supervisor, ThreeBadCommandsHoldAndSixVent) {
+  Stand stand;
+  stand.fill();
+  stand.run(10);
+  EXPECT_TRUE(stand.valves.is_open(4 * hip));
+  stand.command.joint[hip].stiffness = std::numeric_limits<float>::quiet_NaN();
+  stand.run(2);
+  EXPECT_TRUE(stand.valves.is_open(4 * hip));
+  stand.now = stand.visit(stand.now);  // the third
+  EXPECT_TRUE(stand.supervised().holding);
+  EXPECT_FALSE(stand.valves.an_inlet_open());
+  EXPECT_FALSE(stand.valves.an_exhaust_open());
+  EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
+  while (stand.now < 1500) {
+    stand.now = stand.visit(stand.now);
+    EXPECT_FALSE(stand.valves.an_inlet_open());
+    EXPECT_FALSE(stand.valves.an_exhaust_open());
+  }
+  EXPECT_EQ(stand.supervised().rejected_commands, 5u);
+  stand.visit(stand.now);
+  EXPECT_EQ(stand.trip().cause, Trip::Cause::command);
+  EXPECT_EQ(stand.trip().joint, hip);
+  EXPECT_EQ(stand.trip().at, 1500);
+  EXPECT_TRUE(stand.valves.all_exhausts_open());
+}
+
+TEST(Supervisor, AGoodCommandEndsTheHold) {
+  Stand stand;
+  stand.fill();
+  const Command good = stand.command;
+  stand.run(10);
+  stand.command.joint[hip].stiffness = 1e30f;
+  stand.run(5);
+  EXPECT_TRUE(stand.supervised().holding);
+  stand.command = good;
+  stand.run(3);
+  EXPECT_FALSE(stand.supervised().holding);
+  EXPECT_TRUE(stand.valves.is_open(4 * hip));
+  EXPECT_EQ(stand.supervised().holds, 1u);
+}
+
+// --- the clock ----------------------------------------------------------------------------------
+
+TEST(Supervisor, JumpingToTheNextEventIsNoGap) {
+  Stand stand;
+  stand.run(100);
+  EXPECT_EQ(stand.supervised().gaps, 0u);
+}
+
+TEST(Supervisor, AGapOfTwoTicksShutsInlets) {
+  Stand stand;
+  stand.run(10);  // inlets open at count 100 of a period, for 30 ticks
+  while (stand.now < 1013) stand.now = stand.visit(stand.now);
+  ASSERT_TRUE(stand.valves.is_open(4 * hip));
+  const Tick next = stand.now;
+  stand.visit(next + 2);
+  EXPECT_FALSE(stand.valves.an_inlet_open());
+  EXPECT_EQ(stand.supervised().gaps, 1u);
+  EXPECT_EQ(stand.supervised().worst_gap, 2u);
+  EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
+}
+
+TEST(Supervisor, AGapOfTenMillisecondsVents) {
+  for (const Tick gap : {99, 100, 5000}) {
+    Stand stand;
+    stand.run(10);
+    const Tick first = stand.now + gap;
+    stand.visit(first);
+    EXPECT_FALSE(stand.valves.an_inlet_open());
+    EXPECT_EQ(stand.trip().cause, gap < 100 ? Trip::Cause::none : Trip::Cause::gap);
+    if (gap >= 100) {
+      EXPECT_EQ(stand.vented, first);
+    }
+  }
+}
+
+// A law that fell into the gap would have shut the valve.
+TEST(Supervisor, AJointWhoseLawWasSkippedIsShut) {
+  Stand stand;
+  stand.fill();
+  while (stand.now < 1009) stand.now = stand.visit(stand.now);
+  EXPECT_TRUE(stand.valves.is_open(4 * hip));
+  stand.now = stand.visit(1010);
+  EXPECT_EQ(stand.supervised().worst_gap, 1u);
+  EXPECT_FALSE(stand.valves.is_open(4 * hip));
+  EXPECT_FALSE(stand.valves.is_open(4 * hip + 3));
+  EXPECT_TRUE(stand.valves.is_open(4 * knee));  // its law comes later
+  stand.run(2);
+  EXPECT_TRUE(stand.valves.is_open(4 * hip));  // and the hip's again
+}
+
+// --- laws over whatever comes -------------------------------------------------------------------
+
+// Without limits and without gaps the edges are the spinal cord's.
+TEST(Supervisor, WhereNothingIsWrongTheEdgesAreTheSpines) {
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 30; ++trial) {
+    const SpineConfig leg = any_leg(random);
+    const auto seed = static_cast<unsigned>(random());
+    const bool every_tick = random() % 2;
+    const auto edges = [&](auto&& controller) {
+      std::mt19937 inputs(seed);
+      std::vector<std::array<Tick, 3>> out;
+      Tick t = 0;
+      while (t < 20'000) {
+        if (controller.starts_period(t)) controller.command(any_command(inputs, leg, false));
+        for (const signals::Edge& e : controller.edges(t))
+          out.push_back({e.at, e.valve.index, e.open});
+        if (const signals::Conversion* c = controller.due(t))
+          controller.take(*c, {static_cast<std::uint16_t>(inputs() % 4096), Status::ok}, t);
+        t = every_tick ? t + 1 : controller.next_event(t);
+      }
+      return out;
+    };
+    const auto alone = edges(Spine(leg)), supervised = edges(Supervisor(leg, {}));
+    EXPECT_GT(alone.size(), 500u);
+    EXPECT_EQ(alone, supervised);
+  }
+}
+
+// Among skipped ticks the spinal cord alone opens inlet and exhaust of a muscle together; that is
+// what it is supervised for.
+TEST(Supervisor, NeverBothOpenAmongSkippedTicks) {
+  std::mt19937 random(7);
+  FuzzCount alone, supervised;
+  const FuzzOptions options{.gap_every = 40, .late_every = 50};
+  for (int trial = 0; trial < 60; ++trial) {
+    const SpineConfig leg = any_leg(random);
+    Spine spine(leg);
+    fuzz(spine, 300, options, random, alone);
+    SuperviseConfig config;
+    config.gap_vent = 1'000'000;
+    Supervisor supervisor(leg, config);
+    fuzz(supervisor, 300, options, random, supervised);
+  }
+  EXPECT_GT(alone.both_open, 0);
+  EXPECT_EQ(supervised.both_open, 0);
+  EXPECT_EQ(supervised.not_finite, 0);
+  EXPECT_GT(supervised.gaps, 4000);
+  RecordProperty("both_open_alone", static_cast<int>(alone.both_open));
+}
+
+// Pulses of 30 ticks: after the edges of a visited tick no valve is open that should be shut by
+// then, whatever was skipped before, also the law that would have shut it.
+TEST(Supervisor, WhatShouldHaveShutInAGapShutsAtTheFirstTickAfterIt) {
+  constexpr Tick pulse = 30;
+  std::mt19937 random(11);
+  SuperviseConfig config;
+  config.gap_vent = 1'000'000;
+  const SpineConfig leg = test_leg();
+  Command command = rest_command(leg);
+  for (JointCommand& c : command.joint) {
+    c.enabled = c.open_loop = true;
+    c.duties = {pulse, 0, 0, pulse};
+  }
+  int gaps = 0, edges = 0;
+  Supervisor spine(leg, config);
+  ValveWatch valves(leg);
+  std::array<Tick, 12> opened{};
+  for (Tick t = 0; t < 2'000'000;) {
+    if (spine.starts_period(t)) spine.command(command);
+    for (const signals::Edge& e : spine.edges(t)) {
+      valves.drive(e);
+      if (e.open) opened[e.valve.index] = t;
+      ++edges;
+    }
+    if (const signals::Conversion* c = spine.due(t)) spine.take(*c, {1000, Status::ok}, t);
+    for (int v = 0; v < 12; ++v)
+      ASSERT_FALSE(valves.is_open(v) && t >= opened[static_cast<std::size_t>(v)] + pulse)
+          << "valve " << v << " at " << t;
+    t = spine.next_event(t);
+    if (random() % 20 != 0) continue;
+    t += any_gap(random);
+    ++gaps;
+  }
+  EXPECT_GT(gaps, 9000);
+  EXPECT_GT(edges, 30'000);
+}
+
+TEST(Supervisor, RefusesLimitsThatCannotBe) {
+  const auto with = [](const std::function<void(SuperviseConfig&)>& change) {
+    SuperviseConfig config = limits();
+    change(config);
+    const char* text = problem(config);
+    return std::string(text ? text : "");
+  };
+  EXPECT_EQ(with([](SuperviseConfig&) {}), "");
+  EXPECT_EQ(with([](SuperviseConfig& c) { c.sensor[2].low = 4001; }),
+            "a sensor's plausible range ends before it begins");
+  EXPECT_EQ(with([](SuperviseConfig& c) { c.sensor[2].max_step = 0; }),
+            "a sensor's max_step must not be 0");
+  EXPECT_EQ(with([](SuperviseConfig& c) { c.command[0].max_gain = NAN; }),
+            "limits of stiffness and gains must not be beyond the laws'");
+  EXPECT_EQ(with([](SuperviseConfig& c) { c.command[0].high = 40'000; }),
+            "the range of a commanded angle must lie within the laws'");
+  EXPECT_EQ(with([](SuperviseConfig& c) { c.vent_commands = 2; }), "hold comes before vent");
+  EXPECT_EQ(with([](SuperviseConfig& c) { c.gap_vent = 1; }),
+            "gap_shut must be at least 1 and not above gap_vent");
+}
+
+}  // namespace
+}  // namespace sinew::control
