@@ -8,6 +8,7 @@
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
 #include "sinew/log/reader.h"
+#include "sinew/report/content.h"
 
 namespace sinew::cli {
 
@@ -15,7 +16,7 @@ namespace {
 
 struct Options {
   std::string run, machine, out;
-  bool json = false, force = false, quiet = false;
+  bool json = false, verdicts = false, force = false, quiet = false;
 };
 
 // The machine is a whole one or a stand.
@@ -27,7 +28,9 @@ ExitCode tell(const Options& options, const signals::Table& table, const Machine
     refuse_to_overwrite(options.out, options.force);
     write_file(options.out, json);
   }
-  if (options.json) {
+  if (options.verdicts) {
+    fmt::print("{}\n", report::to_json(compare(summary, machine.reported, machine.atmosphere)));
+  } else if (options.json) {
     fmt::print("{}", json);
   } else {
     print_verdicts(summary, machine);
@@ -60,7 +63,9 @@ void add_analyze(CLI::App& app, Action& action) {
                  "what was run, in place of the folder's resolved.toml");
   sub.add_option("-o,--output", options->out, "also write the summary to this file");
   sub.add_flag("--force", options->force, "replace that file");
-  sub.add_flag("--json", options->json, "print the summary as JSON");
+  CLI::Option* json = sub.add_flag("--json", options->json, "print the summary as JSON");
+  sub.add_flag("--verdicts", options->verdicts, "print what is reported, with verdicts, as JSON")
+      ->excludes(json);
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");
   sub.callback([=, &action] { action = [=] { return analyze_run(*options); }; });
 }

@@ -10,15 +10,20 @@
 namespace sinew::cli {
 namespace {
 
-// A row per figure with the number of statements that agree, differ, …
-void print(const report::Gallery& gallery) {
+using Is = report::Is;
+
+std::string shown(int n) { return n > 0 ? std::to_string(n) : std::string(); }
+
+// A row per figure with the number of statements of each verdict.
+void print_figures(const report::Gallery& gallery) {
   using enum TextTable::Align;
-  TextTable table({"figure", "", "agrees", "as put in", "differs", "as known", "not comparable"},
-                  {left, left, right, right, right, right, right});
-  const auto shown = [](int n) { return n > 0 ? std::to_string(n) : std::string(); };
+  std::vector<std::string> titles{"figure", ""};
+  for (const Is v : report::all_verdicts) titles.emplace_back(to_text(v));
+  TextTable table(titles, {left, left, right, right, right, right, right});
   const auto row = [&](const std::string& name, const std::string& title, const report::Tally& t) {
-    table.add({name, title, shown(t.agree), shown(t.as_put_in), shown(t.differ),
-               shown(t.differ_as_known), shown(t.not_comparable)});
+    std::vector<std::string> cells{name, title};
+    for (const Is v : report::all_verdicts) cells.push_back(shown(t.of(v)));
+    table.add(std::move(cells));
   };
   for (const report::Exhibit& e : gallery.exhibits) {
     report::Tally t;
@@ -27,6 +32,28 @@ void print(const report::Gallery& gallery) {
   }
   row("", fmt::format("{} figures", gallery.exhibits.size()), tally(gallery));
   fmt::print("{}", table.text());
+}
+
+// A row per class.
+void print_classes(const report::Gallery& gallery) {
+  using enum TextTable::Align;
+  const report::Tally all = tally(gallery);
+  std::vector<std::string> titles{"class"};
+  for (const Is v : report::all_verdicts) titles.emplace_back(to_text(v));
+  TextTable table(titles, {left, right, right, right, right, right});
+  for (const report::StatementClass c : report::all_classes) {
+    if (all.of(c) == 0) continue;
+    std::vector<std::string> cells{
+        std::string(c == report::StatementClass::none ? "not compared" : to_text(c))};
+    for (const Is v : report::all_verdicts) cells.push_back(shown(all.of(c, v)));
+    table.add(std::move(cells));
+  }
+  fmt::print("\n{}", table.text());
+}
+
+void print(const report::Gallery& gallery) {
+  print_figures(gallery);
+  print_classes(gallery);
 }
 
 report::Gallery made(const std::string& root, bool quiet) {

@@ -72,7 +72,8 @@ void print_main_figures(const analysis::Summary& summary, const analysis::Machin
   TextTable table({"", "Sinew"});
   for (const auto& [key, unit] : keys)
     if (const double* value = summary.find(key))
-      table.add({key, analysis::show(*value, key, unit, machine.atmosphere)});
+      table.add({std::string(analysis::without_unit(key)),
+                 analysis::show(*value, key, unit, machine.atmosphere)});
   if (!table.empty()) fmt::print("{}", table.text());
 }
 
@@ -90,9 +91,11 @@ bool print_reported(const analysis::Summary& summary,
   if (!summary.reproduces.empty()) fmt::print(" ({})", summary.reproduces);
   fmt::print("\n");
 
-  TextTable table({"", "reported", "Sinew", "accepted", "", "source"});
+  TextTable table({"", "reported", "Sinew", "accepted", "class", "", "source"});
   for (const analysis::Verdict& v : compare(summary, reported, atmosphere))
-    table.add({v.key, v.reported, v.ours.empty() ? "-" : v.ours, v.accept, shown(v.is), v.source});
+    table.add({std::string(analysis::without_unit(v.key)), v.reported,
+               v.ours.empty() ? "-" : v.ours, v.accept, std::string(to_text(v.statement_class)),
+               shown(v.is), v.source});
   if (table.empty()) return false;
   fmt::print("{}", table.text_within(width_of_output()));
   return true;
@@ -110,7 +113,8 @@ void print_verdicts(const analysis::Summary& summary, const analysis::StandFile&
   TextTable table({"", "Sinew"});
   for (const analysis::Entry& e : summary.entries()) {
     const std::string unit = analysis::unit_of_key(e.key);
-    table.add({e.key, analysis::show(e.value, e.key, unit == "m" ? "in" : unit, stand.atmosphere)});
+    table.add({std::string(analysis::without_unit(e.key)),
+               analysis::show(e.value, e.key, unit == "m" ? "in" : unit, stand.atmosphere)});
   }
   if (!table.empty()) fmt::print("{}", table.text());
 }

@@ -14,6 +14,8 @@
 namespace sinew::cli::thesis {
 namespace {
 
+using enum config::StatementClass;
+
 using report::Curve, report::judge;
 using units::inch, units::psi, units::pound_force;
 
@@ -87,40 +89,43 @@ Exhibit figure_2_6(const Sources& from) {
   double at_shortest = 0;
   for (const Curve& c : force) at_shortest = std::max(at_shortest, std::fabs(c.ys.front()));
   e.claims = {
-      judge({.where = "2.2",
+      judge(by_construction,
+            {.where = "2.2",
              .says = "Force is no straight line over length",
              .theirs = {},
              .quantity = "least distance of a curve from a straight line, of its range",
              .ours = 100 * straightest,
              .unit = "%",
-             .accept = {.lowest = 100 * line_width},
+             .accept = analysis::at_least(100 * line_width),
              .why = "more than a drawn line hides",
              .because = {}}),
-      judge({.where = "2.2",
-             .says = "Force goes to zero at the greatest contraction",
-             .theirs = "0",
-             .quantity = "largest force at b/sqrt(3)",
-             .ours = at_shortest,
-             .unit = "lbf",
-             .accept = {0, 1e-6},
-             .why = "rounding",
-             .because = {}}),
-      judge({.where = "2.2",
+      judge(by_construction, {.where = "2.2",
+                              .says = "Force goes to zero at the greatest contraction",
+                              .theirs = "0",
+                              .quantity = "largest force at b/sqrt(3)",
+                              .ours = at_shortest,
+                              .unit = "lbf",
+                              .accept = analysis::another(0, 1e-6),
+                              .why = "rounding",
+                              .because = {}}),
+      judge(by_construction,
+            {.where = "2.2",
              .says = "Stiffness rises linearly with length",
              .theirs = {},
              .quantity = "largest distance of a curve from a straight line, of its range",
              .ours = 100 * bent,
              .unit = "%",
-             .accept = {0, 100 * line_width},
+             .accept = analysis::another(0, 100 * line_width),
              .why = "less than a drawn line hides",
              .because = {}}),
-      judge({.where = "2.2",
+      judge(by_construction,
+            {.where = "2.2",
              .says = "Stiffness rises linearly with pressure",
              .theirs = {},
              .quantity = "distance from a straight line over pressure at the longest length",
              .ours = 100 * uneven,
              .unit = "%",
-             .accept = {0, 100 * line_width},
+             .accept = analysis::another(0, 100 * line_width),
              .why = "less than a drawn line hides",
              .because = {}})};
   return e;
@@ -152,18 +157,19 @@ Exhibit figure_2_13(const Sources& from) {
     const double beyond = report::line_of(report::part(trace(c), end, end + 0.1)).slope;
     least_ratio = std::min(least_ratio, beyond / before);
   }
-  e.claims = {judge({.where = "2.3, [32]",
+  e.claims = {judge(by_construction,
+                    {.where = "2.3, [32]",
                      .says = "Beyond the greatest length the threads stretch: a spring that is "
                              "very stiff beside the actuator",
                      .theirs = {},
                      .quantity = "least ratio of the slopes beyond and before L_max",
                      .ours = least_ratio,
                      .unit = {},
-                     .accept = {.lowest = 5},
+                     .accept = analysis::at_least(5),
                      .why = "\"very\" is no number: five times; the stiffness itself, 500 lbf/in, "
                             "is appendix A's",
                      .because = {}}),
-              report::not_comparable("2.3", "Data of Shadow Robot Company show the effect", "",
+              report::not_applicable("2.3", "Data of Shadow Robot Company show the effect", "",
                                      "they are of a larger actuator whose size is not given; the "
                                      "thesis's actuator is drawn in its place")};
   return e;

@@ -16,6 +16,8 @@
 namespace sinew::cli::thesis {
 namespace {
 
+using enum config::StatementClass;
+
 using report::Curve, report::judge, report::Trace;
 using Kind = Curve::Kind;
 using Style = Curve::Style;
@@ -156,32 +158,31 @@ Exhibit figure_2_8(const std::vector<Loop>& loops) {
                   "measurements are lost: our stand stands in their place. 45 and 75 psi are "
                   "guesses, 60 and 90 psi are named in 2.3.",
        .plots = {{.x = {"length", "in"}, .y = {"force", "lbf"}, .curves = curves}}},
-      {judge(
-           {.where = "2.3",
-            .says = "Force is no straight line over length",
-            .quantity = "least distance of a way up from a straight line, of its range",
-            .ours = 100 *
-                    least_of(loops, [](const Loop& l) { return report::bend(way_up(l, l.force)); }),
-            .unit = "%",
-            .accept = {.lowest = 2},
-            .why = "more than a drawn line hides",
-            .put_in = true}),
-       judge({.where = "2.3",
+      {judge(put_in, {.where = "2.3",
+                      .says = "Force is no straight line over length",
+                      .quantity = "least distance of a way up from a straight line, of its range",
+                      .ours = 100 * least_of(loops,
+                                             [](const Loop& l) {
+                                               return report::bend(way_up(l, l.force));
+                                             }),
+                      .unit = "%",
+                      .accept = analysis::at_least(2),
+                      .why = "more than a drawn line hides"}),
+       judge(put_in,
+             {.where = "2.3",
               .says = "The curves close and show hysteresis, by dry friction of bladder and mesh",
               .quantity = "least mean opening of a loop, in length",
               .ours = least_of(loops, opening),
               .unit = "in",
-              .accept = {.lowest = 0.002},
-              .why = "more than one reading's noise",
-              .put_in = true}),
-       judge({.where = "6.3",
-              .says = "The more they contract, the less they pull",
-              .quantity = "largest fall of force while the length grows",
-              .ours = fall,
-              .unit = "lbf",
-              .accept = {0, 0.1},
-              .why = "the scale's noise",
-              .put_in = true})}};
+              .accept = analysis::at_least(0.002),
+              .why = "more than one reading's noise"}),
+       judge(put_in, {.where = "6.3",
+                      .says = "The more they contract, the less they pull",
+                      .quantity = "largest fall of force while the length grows",
+                      .ours = fall,
+                      .unit = "lbf",
+                      .accept = analysis::another(0, 0.1),
+                      .why = "the scale's noise"})}};
 }
 
 Exhibit figure_2_9(const std::vector<Loop>& loops) {
@@ -198,21 +199,21 @@ Exhibit figure_2_9(const std::vector<Loop>& loops) {
     for (std::size_t i = 0; i < l.pressure.size(); ++i)
       largest = std::max(largest, std::fabs(l.pressure[i] - l.predicted_pressure[i]));
   }
-  return {{.name = "2-9",
-           .title = "Internal pressure over length",
-           .caption = "Points: pressure that the dial of our stand showed. Lines: [29], a shut-in "
-                      "mass of air at one temperature.",
-           .plots = {{.x = {"length", "in"}, .y = {"pressure", "psi gauge"}, .curves = curves}}},
-          {judge({.where = "2.3",
-                  .says = "The predicted rise of pressure holds; what is left comes from the "
-                          "coarse gauge",
-                  .quantity = "largest distance of a reading from [29]",
-                  .ours = largest,
-                  .unit = "psi",
-                  .accept = {0, 2},
-                  .why = "a division of our dial, 1 psi, in the first reading and in the one "
-                         "compared; the thesis's gauge is not described",
-                  .put_in = true})}};
+  return {
+      {.name = "2-9",
+       .title = "Internal pressure over length",
+       .caption = "Points: pressure that the dial of our stand showed. Lines: [29], a shut-in "
+                  "mass of air at one temperature.",
+       .plots = {{.x = {"length", "in"}, .y = {"pressure", "psi gauge"}, .curves = curves}}},
+      {judge(put_in, {.where = "2.3",
+                      .says = "The predicted rise of pressure holds; what is left comes from the "
+                              "coarse gauge",
+                      .quantity = "largest distance of a reading from [29]",
+                      .ours = largest,
+                      .unit = "psi",
+                      .accept = analysis::another(0, 2),
+                      .why = "a division of our dial, 1 psi, in the first reading and in the one "
+                             "compared; the thesis's gauge is not described"})}};
 }
 
 // 2-10 and 2-12 have the pressures that 2.3 names.
@@ -254,30 +255,29 @@ Exhibit figure_2_10(const std::vector<Loop>& loops) {
        .plots = {{.x = {"length", "in"},
                   .y = {"force", "lbf"},
                   .curves = beside_law(loops, false)}}},
-      {judge({.where = "2.3",
-              .says = "The model predicts more force than was measured",
-              .quantity = "least mean of predicted less measured force",
-              .ours = least_of(loops,
-                               [](const Loop& l) { return mean(l.ideal_force) - mean(l.force); }),
-              .unit = "lbf",
-              .accept = {.lowest = 0.1},
-              .why = "above the scale's noise",
-              .put_in = true}),
-       judge({.where = "2.3",
-              .says = "The model has no hysteresis",
-              .quantity = "largest distance of its two ways",
-              .ours = apart,
-              .unit = "lbf",
-              .accept = {0, 0.1},
-              .why = "straight lines between readings",
-              .because = {}}),
-       judge({.where = "2.3",
+      {judge(put_in, {.where = "2.3",
+                      .says = "The model predicts more force than was measured",
+                      .quantity = "least mean of predicted less measured force",
+                      .ours = least_of(
+                          loops, [](const Loop& l) { return mean(l.ideal_force) - mean(l.force); }),
+                      .unit = "lbf",
+                      .accept = analysis::at_least(0.1),
+                      .why = "above the scale's noise"}),
+       judge(put_in, {.where = "2.3",
+                      .says = "The model has no hysteresis",
+                      .quantity = "largest distance of its two ways",
+                      .ours = apart,
+                      .unit = "lbf",
+                      .accept = analysis::another(0, 0.1),
+                      .why = "straight lines between readings",
+                      .because = {}}),
+       judge(put_in,
+             {.where = "2.3",
               .says = "What is missing depends on the pressure",
               .quantity = "measured by predicted force, at 60 psi less at 90 psi",
               .ours = at(60) - at(90),
-              .accept = {.lowest = 0.02},
-              .why = "more than such a fit is uncertain by; [30] has 0.075 between them",
-              .put_in = true})}};
+              .accept = analysis::at_least(0.02),
+              .why = "more than such a fit is uncertain by; [30] has 0.075 between them"})}};
 }
 
 Exhibit figure_2_11(const Sources& from, const std::vector<Loop>& loops) {
@@ -313,22 +313,21 @@ Exhibit figure_2_11(const Sources& from, const std::vector<Loop>& loops) {
        .plots = {{.x = {"gauge pressure", "psi"},
                   .y = {"effectiveness", "-"},
                   .curves = {by_text, by_code, found}}}},
-      {judge({.where = "2.3, [30]",
+      {judge(put_in,
+             {.where = "2.3, [30]",
               .says = "Found for each nominal pressure, then drawn as one function of pressure",
               .quantity = "largest distance of what our stand finds from [30]",
               .ours = farthest,
-              .accept = {0, 0.005},
-              .why = "what the dial and the hysteresis do to such a fit",
-              .put_in = true}),
-       judge({.where = "2.3",
-              .says = "The actual force is less than the predicted one",
-              .theirs = "below 1",
-              .quantity = "largest effectiveness found",
-              .ours = highest,
-              .accept = {0, 1},
-              .why = {},
-              .put_in = true}),
-       report::not_comparable("[30] and appendix A", "Which pressure the function takes", "",
+              .accept = analysis::another(0, 0.005),
+              .why = "what the dial and the hysteresis do to such a fit"}),
+       judge(put_in, {.where = "2.3",
+                      .says = "The actual force is less than the predicted one",
+                      .theirs = "below 1",
+                      .quantity = "largest effectiveness found",
+                      .ours = highest,
+                      .accept = analysis::another(0, 1),
+                      .why = {}}),
+       report::not_applicable("[30] and appendix A", "Which pressure the function takes", "",
                               "text and code contradict each other; both are drawn "
                               "(docs/departures.md)")}};
 }
@@ -351,14 +350,14 @@ Exhibit figure_2_12(const std::vector<Loop>& loops) {
        .plots = {{.x = {"length", "in"},
                   .y = {"force", "lbf"},
                   .curves = beside_law(loops, true)}}},
-      {judge({.where = "2.3",
+      {judge(put_in,
+             {.where = "2.3",
               .says = "With effectiveness the static model describes the force adequately",
               .quantity = "largest mean distance of a loop from the model, of its largest force",
               .ours = 100 * largest,
               .unit = "%",
-              .accept = {0, 5},
-              .why = "\"adequate\" is no number; the loop's own opening is in it",
-              .put_in = true})}};
+              .accept = analysis::another(0, 5),
+              .why = "\"adequate\" is no number; the loop's own opening is in it"})}};
 }
 
 }  // namespace

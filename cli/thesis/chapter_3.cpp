@@ -11,6 +11,8 @@
 namespace sinew::cli::thesis {
 namespace {
 
+using enum config::StatementClass;
+
 using report::Curve, report::judge;
 using units::psi;
 
@@ -42,18 +44,18 @@ Exhibit figure_3_4(const Sources& from) {
                       .curves = {volume}}},
            .missing = {{"the maker's chart",
                         "lost with the figure; what was read from it is A_p C_q"}}},
-          {judge({.where = "3.3",
+          {judge(put_in,
+                 {.where = "3.3",
                   .says = "A_p C_q, taken back from the chart",
                   .theirs = "1.8e-5 ft2",
                   .quantity = "the same by [42] from our curve at 100 psi",
                   .ours = area * 1e5,
                   .unit = "1e-5 ft2",
-                  .accept = {1.79, 1.81},
+                  .accept = analysis::another(1.79, 1.81),
                   .why = "rounding; the flow was drawn from this number, so only the way back is "
                          "tested",
-                  .because = {},
-                  .put_in = true}),
-           report::not_comparable("3.3", "The chart itself", "", "lost with the figure")}};
+                  .because = {}}),
+           report::not_applicable("3.3", "The chart itself", "", "lost with the figure")}};
 }
 
 Exhibit figure_3_13(const Sources& from) {
@@ -77,26 +79,32 @@ Exhibit figure_3_13(const Sources& from) {
   const Section text("3.4");
   const char* drawn = "drawn in steps of 0.5 %";
   const char* rounded = "printed in whole percents; 42.5 % is 17 of 40 ms";
-  return {{.name = "3-13",
-           .title = "Actual over commanded duty cycle",
-           .caption = "A valve that opens 4 ms late and shuts 1 ms late.",
-           .plots = {{.x = {"commanded duty cycle", "%", 0, 100},
-                      .y = {"actual duty cycle", "%", 0, 100},
-                      .curves = curves}}},
-          {text.number("A command of 50 % at 25 Hz opens the valve for", "43 %", "actual duty",
-                       report::value_at(trace(curves[0]), 50), "%", {42, 43.5}, rounded),
-           text.number("A command of 50 % at 50 Hz opens the valve for", "35 %", "actual duty",
-                       report::value_at(trace(curves[1]), 50), "%", {34.5, 35.5},
-                       "printed in whole percents"),
-           text.number("Commands of less than 4 ms do not open it, at 25 Hz", "10 %",
-                       "largest command with no flow", shut_to(curves[0]), "%", {9.5, 10}, drawn),
-           text.number("The same at 50 Hz", "20 %", "largest command with no flow",
-                       shut_to(curves[1]), "%", {19.5, 20}, drawn),
-           text.number("With less than 1 ms to shut it stays open, at 25 Hz", "97.5 %",
-                       "least command that never shuts it",
-                       report::first_at_least(trace(curves[0]), 100), "%", {97, 98}, drawn),
-           text.number("The same at 50 Hz", "95 %", "least command that never shuts it",
-                       report::first_at_least(trace(curves[1]), 100), "%", {94.5, 95.5}, drawn)}};
+  return {
+      {.name = "3-13",
+       .title = "Actual over commanded duty cycle",
+       .caption = "A valve that opens 4 ms late and shuts 1 ms late.",
+       .plots = {{.x = {"commanded duty cycle", "%", 0, 100},
+                  .y = {"actual duty cycle", "%", 0, 100},
+                  .curves = curves}}},
+      {text.number(code_against_code, "A command of 50 % at 25 Hz opens the valve for", "43 %",
+                   "actual duty", report::value_at(trace(curves[0]), 50), "%",
+                   analysis::another(42, 43.5), rounded),
+       text.number(code_against_code, "A command of 50 % at 50 Hz opens the valve for", "35 %",
+                   "actual duty", report::value_at(trace(curves[1]), 50), "%",
+                   analysis::another(34.5, 35.5), "printed in whole percents"),
+       text.number(code_against_code, "Commands of less than 4 ms do not open it, at 25 Hz", "10 %",
+                   "largest command with no flow", shut_to(curves[0]), "%",
+                   analysis::another(9.5, 10), drawn),
+       text.number(code_against_code, "The same at 50 Hz", "20 %", "largest command with no flow",
+                   shut_to(curves[1]), "%", analysis::another(19.5, 20), drawn),
+       text.number(code_against_code, "With less than 1 ms to shut it stays open, at 25 Hz",
+                   "97.5 %", "least command that never shuts it",
+                   report::first_at_least(trace(curves[0]), 100), "%", analysis::another(97, 98),
+                   drawn),
+       text.number(code_against_code, "The same at 50 Hz", "95 %",
+                   "least command that never shuts it",
+                   report::first_at_least(trace(curves[1]), 100), "%",
+                   analysis::another(94.5, 95.5), drawn)}};
 }
 
 }  // namespace

@@ -15,7 +15,9 @@
 namespace sinew::cli::thesis {
 namespace {
 
-using report::Curve, report::judge, report::not_comparable;
+using enum config::StatementClass;
+
+using report::Curve, report::judge, report::not_applicable;
 using units::inch;
 
 // A pair of figures and the file that they come from.
@@ -148,36 +150,33 @@ void add_averages(Exhibit& e, const std::vector<Run>& stands) {
   const char* why =
       "our stand was given Q and c, so the way back by [45]-[53] is what is tested; [49] is known "
       "to give less than was put in";
-  e.claims.push_back(judge({.where = "after [53]",
-                            .says = "Coulomb constant Q, mean of the measurements",
-                            .theirs = "0.0044 in",
-                            .quantity = "mean of 3-6, 3-8, 3-10 by [49]",
-                            .ours = mean("swing.coulomb_length_m") / inch,
-                            .unit = "in",
-                            .accept = {0.0037, 0.0046},
-                            .why = why,
-                            .because = {},
-                            .put_in = true}));
-  e.claims.push_back(judge({.where = "after [53]",
-                            .says = "Viscous constant c, mean of the measurements",
-                            .theirs = "0.02 lb s/in",
-                            .quantity = "mean of 3-6, 3-8, 3-10 by [52]",
-                            .ours = mean("swing.viscous_N_s_per_m") / damping,
-                            .unit = "lbf s/in",
-                            .accept = {0.016, 0.022},
-                            .why = why,
-                            .because = {},
-                            .put_in = true}));
-  e.claims.push_back(judge({.where = "after [53]",
-                            .says = "Damping ratio, mean of the measurements",
-                            .theirs = "0.035",
-                            .quantity = "mean of 3-6, 3-8, 3-10 by [53]",
-                            .ours = mean("swing.damping_ratio"),
-                            .unit = {},
-                            .accept = {0.028, 0.042},
-                            .why = why,
-                            .because = {},
-                            .put_in = true}));
+  e.claims.push_back(judge(put_in, {.where = "after [53]",
+                                    .says = "Coulomb constant Q, mean of the measurements",
+                                    .theirs = "0.0044 in",
+                                    .quantity = "mean of 3-6, 3-8, 3-10 by [49]",
+                                    .ours = mean("swing.coulomb_length_m") / inch,
+                                    .unit = "in",
+                                    .accept = analysis::another(0.0037, 0.0046),
+                                    .why = why,
+                                    .because = {}}));
+  e.claims.push_back(judge(put_in, {.where = "after [53]",
+                                    .says = "Viscous constant c, mean of the measurements",
+                                    .theirs = "0.02 lb s/in",
+                                    .quantity = "mean of 3-6, 3-8, 3-10 by [52]",
+                                    .ours = mean("swing.viscous_N_s_per_m") / damping,
+                                    .unit = "lbf s/in",
+                                    .accept = analysis::another(0.016, 0.022),
+                                    .why = why,
+                                    .because = {}}));
+  e.claims.push_back(judge(put_in, {.where = "after [53]",
+                                    .says = "Damping ratio, mean of the measurements",
+                                    .theirs = "0.035",
+                                    .quantity = "mean of 3-6, 3-8, 3-10 by [53]",
+                                    .ours = mean("swing.damping_ratio"),
+                                    .unit = {},
+                                    .accept = analysis::another(0.028, 0.042),
+                                    .why = why,
+                                    .because = {}}));
 }
 
 // Mean of the last five periods of a pulsed run  [in].
@@ -209,21 +208,22 @@ Exhibits trapped_air(const Sources& from) {
     const std::string title = "Length over time, trapped air, " + pair.what;
     out.push_back(drawn(pair.measured, title + ", measured", lost, {stands.back().length}));
     out.back().claims = {
-        not_comparable("3.4", "Frequency and shape of measurement and simulation are close", "",
+        not_applicable("3.4", "Frequency and shape of measurement and simulation are close", "",
                        "the measurement is lost; our stand is the same model with other losses")};
     out.push_back(drawn(pair.simulated, title + ", simulation", simulation, {model.length}));
     share_axis(out);
     Exhibit& e = out.back();
     if (pair.measured != "3-6")
-      e.claims.push_back(judge({.where = "3.4",
-                                .says = "With 11 lb the model is under-damped",
-                                .theirs = "below 0.035, measured",
-                                .quantity = "damping ratio by [53]",
-                                .ours = of(model, "swing.damping_ratio"),
-                                .unit = {},
-                                .accept = {.highest = 0.034},
-                                .why = "below the mean of the measurements, to its last digit",
-                                .because = {}}));
+      e.claims.push_back(
+          judge(predicted, {.where = "3.4",
+                            .says = "With 11 lb the model is under-damped",
+                            .theirs = "below 0.035, measured",
+                            .quantity = "damping ratio by [53]",
+                            .ours = of(model, "swing.damping_ratio"),
+                            .unit = {},
+                            .accept = analysis::at_most(0.034),
+                            .why = "below the mean of the measurements, to its last digit",
+                            .because = {}}));
     add_reported(e, model);
   }
   add_averages(out.front(), stands);
@@ -250,14 +250,14 @@ void claim_of_mass(Exhibits& out, const Settling& five, const Settling& one,
                        const char* unit, report::Band band, const char* why, const char* because) {
     std::ranges::find_if(out, [&](const Exhibit& e) { return e.figure.name == figure; })
         ->claims.push_back(
-            Section("3.4").number(says, "", quantity, value, unit, band, why, because));
+            Section("3.4").number(predicted, says, "", quantity, value, unit, band, why, because));
   };
   const char* in_its_place = "our stand, with a guessed hose, in the place of the measurement";
   const char* light =
       "by [22] the length follows the pressure with dL/dP ~ F/(P^2 L): whatever is "
       "wrong with the flow moves a light load least, hoses and efficiency too";
   std::ranges::find_if(out, [](const Exhibit& e) { return e.figure.name == "3-19"; })
-      ->claims.push_back(not_comparable(
+      ->claims.push_back(not_applicable(
           "3.4", "With much mass measurement and simulation settle close together", "",
           fmt::format("the measurement is lost; our stand, with a guessed hose, settles {:.2f} in "
                       "from the simulation",
@@ -276,7 +276,7 @@ void claim_of_mass(Exhibits& out, const Settling& five, const Settling& one,
 Exhibit measured_pulsed(const Pair& pair, std::vector<Curve> curves) {
   Exhibit e = drawn(pair.measured, "Length over time, pulsed valve, " + pair.what + ", measured",
                     lost, std::move(curves));
-  e.claims = {not_comparable("3.4", "The plots show that the valve model is adequate", "",
+  e.claims = {not_applicable("3.4", "The plots show that the valve model is adequate", "",
                              "the measurement is lost")};
   return e;
 }
@@ -298,7 +298,7 @@ void add_guesses(Exhibits& out, const Sources& from) {
                       "Length over time, pulsed valve, " + pair.what + ", simulation", simulation,
                       std::move(models)));
   share_axis(out);
-  const auto unknown = not_comparable(
+  const auto unknown = not_applicable(
       "3.4", "The caption has 1 lb, as that of 3-20 has", "1 lb",
       "a second figure of the same must have had another load: 5 and 15 lb are guesses");
   out.end()[-2].claims.push_back(unknown);

@@ -9,6 +9,8 @@
 namespace sinew::cli::thesis {
 namespace {
 
+using enum config::StatementClass;
+
 using analysis::Column;
 using report::Claim, report::Curve, report::judge;
 using Weights = std::vector<double>;
@@ -57,13 +59,13 @@ Exhibit figure_6_1(const LegRun& run) {
            .caption = "One step of the desired path of the ankle about the hip, by the plan of "
                       "experiments/walk-test-1.toml.",
            .plots = {std::move(plot)}},
-          {judge({.where = "[66], [68], [70]",
-                  .says = "An arc of second order, then two straight lines",
-                  .quantity = "largest distance in y from the equations",
-                  .ours = off,
-                  .unit = "in",
-                  .accept = {0, 1e-9},
-                  .why = "rounding"})}};
+          {judge(code_against_code, {.where = "[66], [68], [70]",
+                                     .says = "An arc of second order, then two straight lines",
+                                     .quantity = "largest distance in y from the equations",
+                                     .ours = off,
+                                     .unit = "in",
+                                     .accept = analysis::another(0, 1e-9),
+                                     .why = "rounding"})}};
 }
 
 Exhibit figure_6_3(const LegRun& run) {
@@ -74,29 +76,30 @@ Exhibit figure_6_3(const LegRun& run) {
                     "Four steps over each other, of the measured angles by forward kinematics; the "
                     "path from rest to the first step among them.",
                     run.sequence()),
-          {judge({.where = "6.3",
-                  .says = "The table is at about -13 in",
-                  .theirs = "-13 in",
-                  .quantity = "mean y of the actual path in propulsion",
-                  .ours = table,
-                  .unit = "in",
-                  .accept = {-13.2, -12.8},
-                  .why = "\"about\""}),
-           judge({.where = "6.3",
+          {judge(put_in, {.where = "6.3",
+                          .says = "The table is at about -13 in",
+                          .theirs = "-13 in",
+                          .quantity = "mean y of the actual path in propulsion",
+                          .ours = table,
+                          .unit = "in",
+                          .accept = analysis::another(-13.2, -12.8),
+                          .why = "\"about\""}),
+           judge(put_in,
+                 {.where = "6.3",
                   .says = "What is desired in propulsion lies 0.5 in lower than what is possible",
                   .theirs = "0.5 in",
                   .quantity = "mean y in propulsion, actual less desired",
                   .ours = table - analysis::mean(wanted, propulsion),
                   .unit = "in",
-                  .accept = {0.3, 0.7},
+                  .accept = analysis::another(0.3, 0.7),
                   .why = "as for the table"}),
-           judge({.where = "6.3",
-                  .says = "The actual path repeats itself very well",
-                  .quantity = "rms distance of steps from their mean",
-                  .ours = run.summary("foot.step_repeat_rms_m") / units::inch,
-                  .unit = "in",
-                  .accept = {0, 0.25},
-                  .why = "half of the gap to the table"})}};
+           judge(predicted, {.where = "6.3",
+                             .says = "The actual path repeats itself very well",
+                             .quantity = "rms distance of steps from their mean",
+                             .ours = run.summary("foot.step_repeat_rms_m") / units::inch,
+                             .unit = "in",
+                             .accept = analysis::another(0, 0.25),
+                             .why = "half of the gap to the table"})}};
 }
 
 // --- over time ----------------------------------------------------------------------------------
@@ -121,14 +124,14 @@ double air_by_stance(const LegRun& run, const Column& values) {
 
 Claim within(const LegRun& run, const std::string& says, const std::string& theirs,
              const std::string& quantity, const char* key, report::Band band) {
-  return judge({.where = "6.3",
-                .says = says,
-                .theirs = theirs,
-                .quantity = quantity,
-                .ours = run.summary(key) * 180 / M_PI,
-                .unit = "deg",
-                .accept = band,
-                .why = "table 6-1"});
+  return judge(fitted, {.where = "6.3",
+                        .says = says,
+                        .theirs = theirs,
+                        .quantity = quantity,
+                        .ours = run.summary(key) * 180 / M_PI,
+                        .unit = "deg",
+                        .accept = band,
+                        .why = "table 6-1"});
 }
 
 Exhibit figure_6_4(const LegRun& run) {
@@ -147,21 +150,22 @@ Exhibit figure_6_4(const LegRun& run) {
              "joints.knee.min_angle_rad", {.lowest = 289}),
       within(run, "The knee's extension", "below 343 deg", "largest angle of the knee",
              "joints.knee.max_angle_rad", {.highest = 343}),
-      judge({.where = "6.3",
+      judge(code_against_code,
+            {.where = "6.3",
              .says = "The knee is asked for more than it can do in a small part of swing",
              .quantity = "share of swing with a desired knee below 289 deg",
              .ours = analysis::mean(beyond, run.record().swing()),
              .unit = "%",
-             .accept = {1, 50},
+             .accept = analysis::another(1, 50),
              .why = "some of it, and less than half",
              .because = "so do [65], [66] and table 6-1: nothing simulated is in this number"}),
-      judge({.where = "6.3",
-             .says = "The angle's error is larger in propulsion than usual",
-             .quantity = "rms error of the hip, propulsion by swing",
-             .ours = analysis::rms(error, phase_of(run, "propulsion")) /
-                     analysis::rms(error, run.record().swing()),
-             .accept = {.lowest = 1},
-             .why = "larger"})};
+      judge(predicted, {.where = "6.3",
+                        .says = "The angle's error is larger in propulsion than usual",
+                        .quantity = "rms error of the hip, propulsion by swing",
+                        .ours = analysis::rms(error, phase_of(run, "propulsion")) /
+                                analysis::rms(error, run.record().swing()),
+                        .accept = analysis::at_least(1),
+                        .why = "larger"})};
   return out;
 }
 
@@ -184,19 +188,20 @@ Exhibit figure_6_5(const LegRun& run) {
                                       "the converter has a ceiling."),
                .plots = {over_time(run, "tension", "lbf", std::move(curves))}},
               run.verdicts({"muscles.hip_extensor.measured_peak"})};
-  out.claims.push_back(judge({.where = "6.3",
-                              .says = "Only the hip's extensor is used to its capacity",
-                              .quantity = "largest reading of the three others",
-                              .ours = others,
-                              .unit = "lbf",
-                              .accept = {0, 25},
-                              .why = "clearly below the predicted 30 lbf"}));
-  out.claims.push_back(judge({.where = "6.3",
-                              .says = "Antagonists pull alike in swing and apart in propulsion",
-                              .quantity = "rms difference at the hip, swing in the air by stance",
-                              .ours = air_by_stance(run, apart),
-                              .accept = small,
-                              .why = how_small}));
+  out.claims.push_back(judge(predicted, {.where = "6.3",
+                                         .says = "Only the hip's extensor is used to its capacity",
+                                         .quantity = "largest reading of the three others",
+                                         .ours = others,
+                                         .unit = "lbf",
+                                         .accept = analysis::another(0, 25),
+                                         .why = "clearly below the predicted 30 lbf"}));
+  out.claims.push_back(
+      judge(predicted, {.where = "6.3",
+                        .says = "Antagonists pull alike in swing and apart in propulsion",
+                        .quantity = "rms difference at the hip, swing in the air by stance",
+                        .ours = air_by_stance(run, apart),
+                        .accept = small,
+                        .why = how_small}));
   return out;
 }
 
@@ -207,12 +212,13 @@ Exhibit figure_6_6(const LegRun& run) {
            .title = "Desired and actual stiffness",
            .caption = run.caption("As the controller believes it, [27] and [60]."),
            .plots = {std::move(plot)}},
-          {judge({.where = "6.3",
+          {judge(predicted,
+                 {.where = "6.3",
                   .says = "The hip's stiffness is controlled much more tightly than the knee's",
                   .quantity = "standard deviation, hip by knee",
                   .ours = run.summary("joints.hip.stiffness_std_Nm_per_rad") /
                           run.summary("joints.knee.stiffness_std_Nm_per_rad"),
-                  .accept = {0, 0.67},
+                  .accept = analysis::another(0, 0.67),
                   .why = "\"much more\": less than two thirds"})}};
 }
 
@@ -225,6 +231,7 @@ Exhibit figure_6_7(const LegRun& run) {
       {}};
   for (const std::string joint : {"hip", "knee"})
     out.claims.push_back(judge(
+        predicted,
         {.where = "6.3",
          .says = "The torque is near zero in swing: the " + joint,
          .quantity = "rms torque, swing in the air by stance",
@@ -269,30 +276,32 @@ Exhibit figure_6_8(const LegRun& run) {
        .caption = run.caption("By [75] from measured angles and torques, on the foot; inertia and "
                               "gravity are ignored."),
        .plots = {over_time(run, "ground reaction", "lbf", std::move(curves))}},
-      {judge({.where = "6.3",
-              .says = "False reactions in swing are minimal beside those in propulsion",
-              .quantity = "rms normal force, swing in the air by stance",
-              .ours = air_by_stance(run, normal),
-              .accept = small,
-              .why = how_small,
-              .because = "what our fitted joints damp is in the forces too; 0.20 with "
-                         "robots/leg-lightly-damped, "
-                         "where the hip's torque is not near zero: 0.44"}),
-       judge({.where = "6.3",
+      {judge(predicted, {.where = "6.3",
+                         .says = "False reactions in swing are minimal beside those in propulsion",
+                         .quantity = "rms normal force, swing in the air by stance",
+                         .ours = air_by_stance(run, normal),
+                         .accept = small,
+                         .why = how_small,
+                         .because = "what our fitted joints damp is in the forces too; 0.20 with "
+                                    "robots/leg-lightly-damped, "
+                                    "where the hip's torque is not near zero: 0.44"}),
+       judge(predicted,
+             {.where = "6.3",
               .says = "Friction does not begin as soon as the foot is on the ground",
               .quantity = "from half of the largest normal force to half of the largest friction, "
                           "second step",
               .ours = begins(run, friction, step, 0.5) - begins(run, normal, step, 0.5),
               .unit = "s",
-              .accept = {.lowest = 0.05},
+              .accept = analysis::at_least(0.05),
               .why = "later than a few periods"}),
-       judge({.where = "6.3",
+       judge(predicted,
+             {.where = "6.3",
               .says = "A mass of 5 lb could have been carried",
               .theirs = "5 lb",
               .quantity = "largest normal force",
               .ours = analysis::largest(normal, run.record().sequence()),
               .unit = "lbf",
-              .accept = {5, 8},
+              .accept = analysis::another(5, 8),
               .why = "6.3 does not say how it is read off; a peak of at least as much"})}};
 }
 
@@ -333,14 +342,15 @@ Exhibit duties(const LegRun& run, const std::string& number, const std::string& 
                         run.sequence(), static_cast<int>(curves.size()), flexor ? 1 : -1);
     c.style = Curve::Style::steps;
     curves.push_back(std::move(c));
-    claims.push_back(judge({.where = "table 6-4",
-                            .says = "Mean duty cycle of the " + spoken(d.muscle) + "'s " + d.valve,
-                            .theirs = std::to_string(static_cast<int>(d.reported)) + " %",
-                            .quantity = "mean over the phases",
-                            .ours = analysis::mean(run.rows({topic}), run.record().sequence()),
-                            .unit = "%",
-                            .accept = {d.reported - 2, d.reported + 2},
-                            .why = "two hundredths of the period"}));
+    claims.push_back(
+        judge(fitted, {.where = "table 6-4",
+                       .says = "Mean duty cycle of the " + spoken(d.muscle) + "'s " + d.valve,
+                       .theirs = std::to_string(static_cast<int>(d.reported)) + " %",
+                       .quantity = "mean over the phases",
+                       .ours = analysis::mean(run.rows({topic}), run.record().sequence()),
+                       .unit = "%",
+                       .accept = analysis::another(d.reported - 2, d.reported + 2),
+                       .why = "two hundredths of the period"}));
   }
   for (Claim& c : run.verdicts({"joints." + joint + ".passiveness"}))
     claims.push_back(std::move(c));

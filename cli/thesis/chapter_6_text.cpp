@@ -10,6 +10,8 @@
 namespace sinew::cli::thesis {
 namespace {
 
+using enum config::StatementClass;
+
 using analysis::Column, analysis::Stretch;
 
 // Each time that the phase went, the steps before `from_step` left out.
@@ -127,61 +129,59 @@ void add_text_of_test_1(const LegRun& run, const Sources& from, Exhibits& out) {
       return e.figure.name == figure;
     })->claims.push_back(std::move(claim));
   };
-  // What another run's file has judged, in the text's words, and why it is as put in, if so.
+  // What another run's file has judged, in the text's words.
   const auto add_run = [&](const char* figure, const char* experiment, const char* key,
-                           const char* says, const char* put_in = "") {
+                           const char* says) {
     for (report::Claim& c : LegRun(from, experiment).verdicts({key})) {
       c.says = says;
       c.quantity = std::string("experiments/") + experiment + ".toml, " + c.quantity;
-      c.put_in = *put_in != '\0';
-      if (c.put_in) c.why = put_in;
       add(figure, std::move(c));
     }
   };
   add_run("6-3", "zero-gap", "trolley.distance_m",
-          "With no gap to the table the foot slides and carries nothing forward",
-          "the roller's foam was made to stick up to 3 lbf for this; else our leg walks 52 in");
+          "With no gap to the table the foot slides and carries nothing forward");
   add("6-4",
-      text.number("The angles follow late, as proportional control does", "slight",
-                  "how much later the hip passes 280 deg in swing", lag(run), "s", {0.02, 0.15},
-                  "more than two periods, at most a tenth of swing",
+      text.number(predicted, "The angles follow late, as proportional control does", "slight",
+                  "how much later the hip passes 280 deg in swing", lag(run), "s",
+                  analysis::another(0.02, 0.15), "more than two periods, at most a tenth of swing",
                   "twice the hip's gain of table 6-3 makes it 0.20 s, four times 0.19 s; what "
                   "else holds the hip back is not known"));
-  add("6-4", text.number("The hip oscillates a little, at the beginning of each swing", "",
-                         "rms oscillation, first by second half of swing",
-                         oscillation(run, 0, 0.5) / oscillation(run, 0.5, 1), "", {.lowest = 1.5},
-                         "clearly more at the beginning"));
-  add("6-4", text.number("The joints turn only from about the middle of propulsion on",
+  add("6-4", text.number(predicted, "The hip oscillates a little, at the beginning of each swing",
+                         "", "rms oscillation, first by second half of swing",
+                         oscillation(run, 0, 0.5) / oscillation(run, 0.5, 1), "",
+                         analysis::at_least(1.5), "clearly more at the beginning"));
+  add("6-4", text.number(predicted, "The joints turn only from about the middle of propulsion on",
                          "the middle", "share of propulsion until the hip has moved by 0.5 deg",
-                         stands_for(run), "", {0.33, 0.67}, "the middle third"));
+                         stands_for(run), "", analysis::another(0.33, 0.67), "the middle third"));
   add("6-5",
-      text.number("The greatest force is near the predicted one", "30 lbf",
+      text.number(predicted, "The greatest force is near the predicted one", "30 lbf",
                   "largest reading of the hip's extensor as drawn, by its own scale",
                   run.summary("muscles.hip_extensor.own_scale_peak_tension_N") / units::pound_force,
-                  "lbf", {27, 33},
+                  "lbf", analysis::another(27, 33),
                   "a tenth; this is where the converter ends: the thesis's peak may be its "
                   "ceiling too"));
-  add("6-7", text.number("In swing the torque has a slope, since gravity's part changes", "",
-                         "least slope at the hip over the second half of swing",
-                         slope(run, "/joint/hip/torque"), "lbf in/s", {.lowest = 1},
+  add("6-7", text.number(predicted, "In swing the torque has a slope, since gravity's part changes",
+                         "", "least slope at the hip over the second half of swing",
+                         slope(run, "/joint/hip/torque"), "lbf in/s", analysis::at_least(1),
                          "to be seen beside 30 lbf in of propulsion"));
-  add("6-8", text.number("A spike of the normal force when the foot is set down", "",
+  add("6-8", text.number(predicted, "A spike of the normal force when the foot is set down", "",
                          "fall after it within half of propulsion, of the largest normal force",
-                         spike(run), "%", {.lowest = 5}, "to be seen in the plot",
+                         spike(run), "%", analysis::at_least(5), "to be seen in the plot",
                          "our foot comes down softly: its force rises over a tenth of a second and "
                          "stays"));
   add_run("6-9", "no-drag", "trolley.mean_speed", "Without the roller's friction: mean speed");
   double others = 0;
   for (const char* valve : {"knee_flexor/inlet", "knee_extensor/inlet", "knee_extensor/exhaust"})
     others = std::max(others, largest_duty(run, valve));
+  add("6-11", text.number(predicted, "The flexor's exhaust has the highest duty cycle", "",
+                          "its largest less the largest of the other three, from the first "
+                          "propulsion on",
+                          largest_duty(run, "knee_flexor/exhaust") - others, "%",
+                          analysis::at_least(0), "higher"));
   add("6-11",
-      text.number("The flexor's exhaust has the highest duty cycle", "",
-                  "its largest less the largest of the other three, from the first "
-                  "propulsion on",
-                  largest_duty(run, "knee_flexor/exhaust") - others, "%", {.lowest = 0}, "higher"));
-  add("6-11", text.number("For most of propulsion the flexor has no more than the room's air", "",
-                          "share of propulsion with less than 5 psi gauge in it",
-                          empty_for(run, "knee_flexor"), "%", {.lowest = 50}, "most of it"));
+      text.number(predicted, "For most of propulsion the flexor has no more than the room's air",
+                  "", "share of propulsion with less than 5 psi gauge in it",
+                  empty_for(run, "knee_flexor"), "%", analysis::at_least(50), "most of it"));
   add_run("6-11", "walk-reachable", "passiveness",
           "Passiveness, if what is desired could be reached");
 }

@@ -9,6 +9,8 @@
 namespace sinew::cli::thesis {
 namespace {
 
+using enum config::StatementClass;
+
 using report::Curve, report::judge;
 
 Exhibit figure_6_12(const Sources& from) {
@@ -18,17 +20,17 @@ Exhibit figure_6_12(const Sources& from) {
       joint_angles(fast, "6-12", "Joint angles of test 2"),
       fast.verdicts({"trolley.distance_m", "trolley.mean_speed", "joints.hip.passiveness"})};
   out.claims.push_back(
-      judge({.where = "6.4",
-             .says = "Less stable than test 1: substantial oscillations at the hip",
-             .quantity = "rms oscillation of the hip in swing, test 2 by test 1",
-             .ours = fast.summary(key) / slow.summary(key),
-             .accept = {.lowest = 1.5},
-             .why = "\"substantial\": half as much again"}));
+      judge(predicted, {.where = "6.4",
+                        .says = "Less stable than test 1: substantial oscillations at the hip",
+                        .quantity = "rms oscillation of the hip in swing, test 2 by test 1",
+                        .ours = fast.summary(key) / slow.summary(key),
+                        .accept = analysis::at_least(1.5),
+                        .why = "\"substantial\": half as much again"}));
   out.claims.push_back(
-      Section("6.4").number("The trolley goes less than half as far as in test 1", "below 0.5",
-                            "distance, test 2 by test 1",
+      Section("6.4").number(predicted, "The trolley goes less than half as far as in test 1",
+                            "below 0.5", "distance, test 2 by test 1",
                             fast.summary("trolley.distance_m") / slow.summary("trolley.distance_m"),
-                            "", {0, 0.5}, "half"));
+                            "", analysis::another(0, 0.5), "half"));
   return out;
 }
 
@@ -43,15 +45,16 @@ Exhibits kick(const Sources& from) {
   path.plots[0].curves[0].style = Curve::Style::marked;
   const Curve hip = run.curve("", {"/joint/hip/oscillation"}, run.phase("extended"), 0);
   const std::vector<double> seconds(hip.ys.size(), 1.0);
-  return {{std::move(path), run.verdicts({"foot.extension_time"})},
-          {joint_angles(run, "6-14", "Joint angles of the kick"),
-           {judge({.where = "6.4",
-                   .says = "The leg oscillates after the kick: there is not enough damping",
-                   .quantity = "rms oscillation of the hip in the extended position",
-                   .ours = analysis::rms(hip.ys, seconds),
-                   .unit = "deg",
-                   .accept = {.lowest = 0.5},
-                   .why = "to be seen in the plot"})}}};
+  return {
+      {std::move(path), run.verdicts({"foot.extension_time"})},
+      {joint_angles(run, "6-14", "Joint angles of the kick"),
+       {judge(predicted, {.where = "6.4",
+                          .says = "The leg oscillates after the kick: there is not enough damping",
+                          .quantity = "rms oscillation of the hip in the extended position",
+                          .ours = analysis::rms(hip.ys, seconds),
+                          .unit = "deg",
+                          .accept = analysis::at_least(0.5),
+                          .why = "to be seen in the plot"})}}};
 }
 
 // Counts for which the controller takes a radian of the hip.
@@ -82,10 +85,10 @@ Exhibits derivative_control(const Sources& from) {
                  run.verdicts({"joints.hip.excursion", "joints.knee.excursion",
                                "joints.hip.swing_oscillation", "joints.knee.swing_oscillation"})};
   angles.claims.push_back(Section("6.5").number(
-      "The fourth swing seems to head for instability", "",
+      predicted, "The fourth swing seems to head for instability", "",
       "rms oscillation of the hip, fourth swing by the mean of the second and third",
       2 * swing_oscillation(run, 3) / (swing_oscillation(run, 1) + swing_oscillation(run, 2)), "",
-      {.lowest = 1.5}, "half as much again", "as above: the fitted joints damp too much"));
+      analysis::at_least(1.5), "half as much again", "as above: the fitted joints damp too much"));
   return {{std::move(velocity), run.verdicts({"joints.hip.velocity_jump"})}, std::move(angles)};
 }
 
@@ -98,10 +101,11 @@ Exhibit figure_7_1(const Sources& from) {
                 run.sequence()),
       run.verdicts({"foot.", "ground_reaction.", "rollers."})};
   out.claims.push_back(Section("7.2").number(
-      "It is stable all the same", "", "rms oscillation of the hip, second half of propulsion",
+      predicted, "It is stable all the same", "",
+      "rms oscillation of the hip, second half of propulsion",
       analysis::rms(run.rows({"/joint/hip/oscillation"}),
                     run.record().part(analysis::find_phase(run.machine(), "propulsion"), 0.5, 1)),
-      "deg", {.highest = 1},
+      "deg", analysis::at_most(1),
       "an unstable leg would not calm down on the ground; its swings are wild, and each another"));
   return out;
 }

@@ -52,14 +52,15 @@ Exhibits chapter_6(const Sources&);         // 6-1, 6-3 to 6-11: test 1
 Exhibits chapter_6_limits(const Sources&);  // 6-12 to 6-16
 Exhibits chapter_7(const Sources&);
 
-// What one section says, a number at a time; `because`: ours is known to differ; `put_in`: it was
-// made with what the section says.
+using report::StatementClass;
+
+// What one section says, a number at a time; `because`: ours is known to differ.
 class Section {
  public:
   explicit Section(std::string where) : where_(std::move(where)) {}
-  report::Claim number(const char* says, const char* theirs, const char* quantity, double ours,
-                       const char* unit, report::Band accept, const char* why = "",
-                       const char* because = "", bool put_in = false) const;
+  report::Claim number(StatementClass statement_class, const char* says, const char* theirs,
+                       const char* quantity, double ours, const char* unit, report::Band accept,
+                       const char* why = "", const char* because = "") const;
 
  private:
   std::string where_;

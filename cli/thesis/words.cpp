@@ -41,19 +41,18 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 26> words = 
 
 }  // namespace
 
-report::Claim Section::number(const char* says, const char* theirs, const char* quantity,
-                              double ours, const char* unit, report::Band accept, const char* why,
-                              const char* because, bool put_in) const {
-  return report::judge({.where = where_,
-                        .says = says,
-                        .theirs = theirs,
-                        .quantity = quantity,
-                        .ours = ours,
-                        .unit = unit,
-                        .accept = accept,
-                        .why = why,
-                        .because = because,
-                        .put_in = put_in});
+report::Claim Section::number(StatementClass statement_class, const char* says, const char* theirs,
+                              const char* quantity, double ours, const char* unit,
+                              report::Band accept, const char* why, const char* because) const {
+  return report::judge(statement_class, {.where = where_,
+                                         .says = says,
+                                         .theirs = theirs,
+                                         .quantity = quantity,
+                                         .ours = ours,
+                                         .unit = unit,
+                                         .accept = accept,
+                                         .why = why,
+                                         .because = because});
 }
 
 report::Claim in_words(const analysis::Verdict& verdict) {

@@ -36,17 +36,13 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 19> endings 
     {"_s", "s"},
 }};
 
-struct Band {
-  double lowest = 0, highest = 0;
-};
-
 struct BandOrMistake {
   Band band;
   std::optional<config::Mistake> mistake;
 };
 
 // Of an `accept` that is not empty.
-BandOrMistake read_band(const Reported& r, double atmosphere) {
+BandOrMistake read_accept(const Reported& r, double atmosphere) {
   if (r.accept.size() != 2)
     return {{},
             config::Mistake{fmt::format("{} values", r.accept.size()),
@@ -62,7 +58,78 @@ BandOrMistake read_band(const Reported& r, double atmosphere) {
     return {{},
             config::Mistake{fmt::format("\"{}\" before \"{}\"", r.accept[0], r.accept[1]),
                             "the lowest first", ""}};
-  return {{si[0], si[1]}, std::nullopt};
+  return {another(si[0], si[1]), std::nullopt};
+}
+
+// What the wording's rule makes of the number, and of what it is a share of.
+Band band_of(Wording wording, const Spoken& value, double of, double error) {
+  switch (wording) {
+    case Wording::measured:
+      return measured(value.highest, value.last_digit, error);
+    case Wording::percentage:
+      return percentage(value.highest, error);
+    case Wording::about:
+      return about(value.highest, error);
+    case Wording::computed:
+      return computed(value.highest, value.last_digit);
+    case Wording::negligible:
+      return negligible(of);
+    case Wording::noticeable:
+      return noticeable(of);
+    case Wording::substantial:
+      return substantial(of);
+    case Wording::much_less:
+      return much_less(of);
+    case Wording::much_more:
+      return much_more(of);
+    case Wording::range:
+    case Wording::another:
+      break;
+  }
+  return range(value.lowest - error, value.highest + error);
+}
+
+bool is_share(Wording wording) {
+  using enum Wording;
+  return wording == negligible || wording == noticeable || wording == substantial ||
+         wording == much_less || wording == much_more;
+}
+
+// Of a wording: in the unit of its own words, then in SI.
+BandOrMistake read_wording(const Reported& r, double atmosphere) {
+  const auto mistake = [](std::string found, std::string expected) {
+    return BandOrMistake{{}, config::Mistake{std::move(found), std::move(expected), ""}};
+  };
+  const bool share = is_share(r.wording);
+  const Spoken value = spoken(share ? r.of : r.value);
+  if (!value.found)
+    return mistake(fmt::format("\"{}\"", share ? r.of : r.value),
+                   share ? "of = a quantity: what it is a share of" : "a number in `value`");
+  double error = 0;
+  if (!r.reading_error.empty()) {
+    const Spoken read = spoken(r.reading_error);
+    if (!read.found || read.unit != value.unit || read.highest < 0)
+      return mistake(fmt::format("reading_error \"{}\"", r.reading_error),
+                     fmt::format("a quantity in the unit of the value, \"{}\"", value.unit));
+    error = read.highest;
+  }
+  if (r.wording == Wording::percentage && value.unit != "%")
+    return mistake(fmt::format("\"{}\"", r.value), "a value in %");
+  Band band = band_of(r.wording, value, value.highest, error);
+  for (double* end : {&band.lowest, &band.highest}) {
+    if (std::isinf(*end)) continue;
+    const std::string text = value.unit.empty()
+                                 ? config::format_number(*end)
+                                 : fmt::format("{} {}", config::format_number(*end), value.unit);
+    const config::Parsed parsed = config::parse_quantity(text, unit_of_key(r.key), atmosphere);
+    if (parsed.mistake) return {{}, parsed.mistake};
+    *end = parsed.si;
+  }
+  return {band, std::nullopt};
+}
+
+BandOrMistake read_band(const Reported& r, double atmosphere) {
+  return r.accept.empty() ? read_wording(r, atmosphere) : read_accept(r, atmosphere);
 }
 
 bool is_unit(std::string_view text, const std::string& unit, double atmosphere) {
@@ -87,37 +154,54 @@ std::string spoken_unit(const Reported& r, double atmosphere) {
   const std::string unit = unit_of_key(r.key);
   std::string_view text = after_last_number(r.value);
   if (!text.empty() && is_unit(text, unit, atmosphere)) return std::string(text);
-  if (!r.accept.empty()) {
-    text = after_last_number(r.accept.back());
+  for (const std::string& other : {r.of, r.accept.empty() ? std::string() : r.accept.back()}) {
+    text = after_last_number(other);
     if (!text.empty() && is_unit(text, unit, atmosphere)) return std::string(text);
   }
   return unit;
 }
 
+// "53 in to 60 in", "at most 6 in"; as the file has it where it has it.
+std::string accept_text(const Reported& r, const Band& band, const std::string& unit,
+                        double atmosphere) {
+  if (!r.accept.empty()) return fmt::format("{} to {}", r.accept[0], r.accept[1]);
+  const auto end = [&](double si) {
+    const double number = config::convert(si, unit_of_key(r.key), unit, atmosphere);
+    return fmt::format("{:.4g}{}{}", number, unit == "1" ? "" : " ", unit == "1" ? "" : unit);
+  };
+  if (std::isinf(band.lowest)) return "at most " + end(band.highest);
+  if (std::isinf(band.highest)) return "at least " + end(band.lowest);
+  return fmt::format("{} to {}", end(band.lowest), end(band.highest));
+}
+
 Verdict judge(const Summary& summary, const Reported& r, double atmosphere) {
   Verdict v{.key = r.key, .reported = r.value, .ours = {}, .accept = {}, .source = r.source};
+  v.statement_class = r.statement_class;
+  const std::string unit = spoken_unit(r, atmosphere);
   std::optional<Band> band;
-  if (!r.accept.empty()) {
+  if (config::is_judged(r)) {
     const BandOrMistake read = read_band(r, atmosphere);
     if (read.mistake) {
       const config::Mistake& m = *read.mistake;
-      config::fail({"reported", 0, 0}, r.key + ": accept", m.found, m.expected, m.try_this);
+      const char* key = r.accept.empty() ? ": wording" : ": accept";
+      config::fail({"reported", 0, 0}, r.key + key, m.found, m.expected, m.try_this);
     }
     band = read.band;
-    v.accept = fmt::format("{} to {}", r.accept[0], r.accept[1]);
+    v.accept = accept_text(r, *band, unit, atmosphere);
+    v.wording = band->wording;
+    v.band_reason = r.band_reason;
   }
 
   const double* ours = summary.find(r.key);
   if (!ours) return v;
-  const std::string unit = spoken_unit(r, atmosphere);
   // A narrow band asks for digits that lie in it.
-  const auto spoken = [&](double si) {
+  const auto spoken_in = [&](double si) {
     return config::convert(si, unit_of_key(r.key), unit, atmosphere);
   };
-  const double width = band ? spoken(band->highest) - spoken(band->lowest) : 0;
-  v.ours = show(*ours, r.key, unit, atmosphere, width);
+  const double width = band ? spoken_in(band->highest) - spoken_in(band->lowest) : 0;
+  v.ours = show(*ours, r.key, unit, atmosphere, std::isfinite(width) ? width : 0);
   if (!band) return v;
-  const bool inside = *ours >= band->lowest && *ours <= band->highest;
+  const bool inside = band->holds(*ours);
   v.is = inside ? Verdict::Is::agrees : Verdict::Is::differs;
   if (r.because.empty()) return v;
   v.is = inside ? Verdict::Is::agrees_after_all : Verdict::Is::differs_as_known;
@@ -139,8 +223,8 @@ std::string_view without_unit(std::string_view key) {
   return key;
 }
 
-std::optional<config::Mistake> mistake_in_accept(const Reported& r, double atmosphere) {
-  if (r.accept.empty()) return std::nullopt;
+std::optional<config::Mistake> mistake_in_band(const Reported& r, double atmosphere) {
+  if (!config::is_judged(r)) return std::nullopt;
   return read_band(r, atmosphere).mistake;
 }
 
@@ -151,7 +235,7 @@ std::string_view to_text(Verdict::Is is) {
     case Verdict::Is::differs:
       return "differs";
     case Verdict::Is::differs_as_known:
-      return "differs, as known";
+      return "differs as known";
     case Verdict::Is::agrees_after_all:
       return "agrees after all";
     case Verdict::Is::not_applicable:

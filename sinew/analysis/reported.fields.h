@@ -9,8 +9,8 @@ namespace sinew::analysis {
 template <class Visitor>
 void fields(Visitor& v, Reported& r, double atmosphere) {
   config::fields(v, r);
-  if (const auto m = mistake_in_accept(r, atmosphere))
-    units::complain(v, "accept", m->found, m->expected, m->try_this);
+  if (const auto m = mistake_in_band(r, atmosphere))
+    units::complain(v, r.accept.empty() ? "wording" : "accept", m->found, m->expected, m->try_this);
 }
 
 }  // namespace sinew::analysis

@@ -3,7 +3,10 @@
 //   [[reported]]
 //   key    = "trolley.distance_m"      of the summary
 //   value  = "55 to 60 in"             as reported
-//   accept = ["53 in", "60 in"]        lowest and highest that agrees
+//   class  = "predicted"               what agreement is worth (config/reported.h)
+//   wording = "range"                  how it is said: the band follows from it (band.h)
+//   accept = ["53 in", "60 in"]        or another band, lowest and highest that agrees,
+//   band_reason = "…"                  and why
 //   source = "6.3"
 //   because = "…"                      why ours is known to differ, where it does
 //
@@ -16,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/analysis/band.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/reported.h"
 #include "sinew/units/constants.h"
@@ -32,23 +36,26 @@ using config::Reported;
 std::string unit_of_key(std::string_view key);
 std::string_view without_unit(std::string_view key);  // "trolley.distance" of "trolley.distance_m"
 
-// What is wrong with `accept`; nothing for an empty one.
-std::optional<config::Mistake> mistake_in_accept(const Reported&,
-                                                 double atmosphere = units::atmosphere);
+// What is wrong with `accept`, or with what a wording needs; nothing where nothing is judged.
+std::optional<config::Mistake> mistake_in_band(const Reported&,
+                                               double atmosphere = units::atmosphere);
 
 struct Verdict {
   // differs_as_known: with the reason; agrees_after_all: the reason is no more.
   enum class Is { agrees, differs, not_applicable, differs_as_known, agrees_after_all };
 
   std::string key;
-  std::string reported;        // as reported
-  std::string ours;            // "57.7 in", "93.1 %"; empty where the summary has no such key
-  std::string accept;          // "53 in to 60 in"; empty where nothing is judged
-  std::string source;          // and the reason of what is known to differ
-  Is is = Is::not_applicable;  // no such key in the summary, or nothing to judge by
+  std::string reported;  // as reported
+  std::string ours;      // "57.7 in", "93.1 %"; empty where the summary has no such key
+  std::string accept;    // "53 in to 60 in"; empty where nothing is judged
+  std::string source;    // and the reason of what is known to differ
+  config::StatementClass statement_class = config::StatementClass::none;
+  Wording wording = Wording::another;  // which rule `accept` follows
+  std::string band_reason;             // of another band
+  Is is = Is::not_applicable;          // no such key in the summary, or nothing to judge by
 };
 
-std::string_view to_text(Verdict::Is is);  // "agrees", "differs", "not applicable", …
+std::string_view to_text(Verdict::Is is);  // "agrees", "differs as known", …
 
 // One verdict each, in the order of the file. Throws config::Error for an `accept` that cannot be
 // read.

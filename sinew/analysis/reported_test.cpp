@@ -1,5 +1,6 @@
 #include "sinew/analysis/reported.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -68,7 +69,7 @@ TEST(Reported, TheBandDecides) {
   EXPECT_EQ(verdict("d_m", 57 * inch, "55 in", band).accept, "53 in to 60 in");
   EXPECT_EQ(to_text(Is::agrees), "agrees");
   EXPECT_EQ(to_text(Is::differs), "differs");
-  EXPECT_EQ(to_text(Is::differs_as_known), "differs, as known");
+  EXPECT_EQ(to_text(Is::differs_as_known), "differs as known");
 }
 
 TEST(Reported, NoKeyOrNoBandIsNotJudged) {
@@ -111,6 +112,56 @@ TEST(Reported, AKnownDifferenceSaysWhy) {
   EXPECT_EQ(known.source, "6.3. Why: the foot slips");
   r.accept = {"0.9 m", "1.1 m"};
   EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::agrees_after_all);
+}
+
+// The wording decides on the band, in the unit in which the source speaks.
+TEST(Reported, ABandFollowsFromTheWording) {
+  using config::StatementClass, config::Wording;
+  Summary s;
+  s.add("d_m", 1.43);
+  s.add("share", 0.955);
+  s.add("p_Pa", 101325 + 6894.757 * 57);
+  Reported r{.key = "d_m", .value = "55 to 60 in", .source = "6.3"};
+  r.statement_class = StatementClass::fitted;
+  r.wording = Wording::range;
+  Verdict v = compare(s, {r}).at(0);
+  EXPECT_EQ(v.is, Verdict::Is::agrees);
+  EXPECT_EQ(v.accept, "55 in to 60 in");
+  EXPECT_EQ(v.statement_class, StatementClass::fitted);
+  r.value = "60 in";
+  r.wording = Wording::measured;
+  EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::differs);  // 57 in is the least
+  r.reading_error = "1 in";
+  EXPECT_EQ(compare(s, {r}).at(0).accept, "56 in to 64 in");
+  EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::agrees);
+  r = {.key = "share", .value = "94 %", .source = "6.3"};
+  r.wording = Wording::percentage;
+  EXPECT_EQ(compare(s, {r}).at(0).accept, "92 % to 96 %");
+  EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::agrees);
+  r = {.key = "p_Pa", .value = "60 psi gauge", .source = "3.4"};
+  r.wording = Wording::measured;  // 5 % of the gauge pressure, which is the one that was read
+  EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::agrees);
+  r = {.key = "d_m", .value = "much smaller", .source = "6.5"};
+  r.wording = Wording::much_less;
+  r.of = "1.8 m";
+  EXPECT_EQ(compare(s, {r}).at(0).accept, "at most 1.44 m");
+  EXPECT_EQ(compare(s, {r}).at(0).is, Verdict::Is::agrees);
+}
+
+TEST(Reported, AWordingNeedsItsNumber) {
+  using config::Wording;
+  const auto with = [](const char* key, const char* value, Wording wording, const char* of = "") {
+    Reported r{.key = key, .value = value};
+    r.wording = wording;
+    r.of = of;
+    return message(r);
+  };
+  using ::testing::HasSubstr;
+  EXPECT_THAT(with("d_m", "as far as the wall", Wording::measured),
+              HasSubstr("a number in `value`"));
+  EXPECT_THAT(with("d_m", "much", Wording::much_more), HasSubstr("of = a quantity"));
+  EXPECT_THAT(with("d_m", "60 lb", Wording::measured), HasSubstr("d_m: wording"));
+  EXPECT_THAT(with("share", "0.94", Wording::percentage), HasSubstr("a value in %"));
 }
 
 }  // namespace

@@ -1,29 +1,122 @@
 // config/reported.h - a figure that a source reports, as an experiment's [[reported]] says it.
-// Experiments carry it, the analysis judges by it (analysis/reported.h).
+// Experiments carry it, the analysis judges by it (analysis/reported.h). docs/evidence.md defines
+// classes, wordings and verdicts.
 #pragma once
 
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
 
 namespace sinew::config {
 
+// What agreement with a statement is worth.
+enum class StatementClass {
+  none,               // not given: nothing is judged, or the file is older than classes
+  predicted,          // nothing of it was fitted or put in
+  fitted,             // a parameter of ours was chosen so that it agrees
+  put_in,             // ours was made with what it says
+  by_construction,    // true of any numbers: an identity, a definition, a bound of the range
+  code_against_code,  // the same equations computed twice
+};
+
+inline const std::initializer_list<units::Choice<StatementClass>> statement_classes = {
+    {"predicted", StatementClass::predicted},
+    {"fitted", StatementClass::fitted},
+    {"put in", StatementClass::put_in},
+    {"by construction", StatementClass::by_construction},
+    {"code against code", StatementClass::code_against_code}};
+
+// How the source speaks of a figure: its band follows from that alone (analysis/band.h).
+enum class Wording {
+  another,  // a band of our own, with its reason
+  measured,
+  percentage,
+  about,
+  negligible,
+  noticeable,
+  substantial,
+  much_less,
+  much_more,
+  range,
+  computed,
+};
+
+inline const std::initializer_list<units::Choice<Wording>> wordings = {
+    {"measured", Wording::measured},     {"percentage", Wording::percentage},
+    {"about", Wording::about},           {"negligible", Wording::negligible},
+    {"noticeable", Wording::noticeable}, {"substantial", Wording::substantial},
+    {"much less", Wording::much_less},   {"much more", Wording::much_more},
+    {"range", Wording::range},           {"computed", Wording::computed}};
+
+// "another band" and "-" where no word stands for it.
+template <class Enum>
+std::string_view word_of(Enum value, std::initializer_list<units::Choice<Enum>> words,
+                         std::string_view otherwise) {
+  for (const units::Choice<Enum>& choice : words)
+    if (choice.value == value) return choice.word;
+  return otherwise;
+}
+inline std::string_view to_text(StatementClass c) { return word_of(c, statement_classes, "-"); }
+inline std::string_view to_text(Wording w) { return word_of(w, wordings, "another band"); }
+
 struct Reported {
   std::string key;                  // of summary.json, "trolley.distance_m"
   std::string value;                // as reported, free text that ends with the unit
-  std::vector<std::string> accept;  // lowest and highest that agrees; empty: not judged
+  std::vector<std::string> accept;  // lowest and highest that agrees; empty: see `wording`
   std::string source;
   std::string because;  // why ours is known to differ; empty: it should agree
+  StatementClass statement_class = StatementClass::none;
+  Wording wording = Wording::another;  // without an `accept`: not judged
+  std::string of;                      // what a negligible, a substantial, … figure is a share of
+  std::string reading_error;           // of the source's figure; empty: none
+  std::string band_reason;             // why `accept` is as it is
 };
+
+inline bool is_judged(const Reported& r) {
+  return !r.accept.empty() || r.wording != Wording::another;
+}
 
 template <class Visitor>
 void fields(Visitor& v, Reported& r) {
   v.text({.name = "key", .doc = "of summary.json"}, r.key);
   v.text({.name = "value", .doc = "as reported"}, r.value);
-  v.texts({.name = "accept", .optional = true, .doc = "lowest and highest that agrees"}, r.accept);
+  v.choice({.name = "class", .optional = true, .doc = "what agreement is worth; needed to judge"},
+           r.statement_class, statement_classes);
+  v.choice({.name = "wording", .optional = true, .doc = "how it is reported: the band follows"},
+           r.wording, wordings);
+  v.text({.name = "of", .optional = true, .doc = "what a share by wording is a share of"}, r.of);
+  v.text({.name = "reading_error", .optional = true, .doc = "of the reported value"},
+         r.reading_error);
+  v.texts(
+      {.name = "accept", .optional = true, .doc = "another band: lowest and highest that agrees"},
+      r.accept);
+  v.text({.name = "band_reason", .optional = true, .doc = "why `accept` is as it is"},
+         r.band_reason);
   v.text({.name = "source", .doc = "where it is reported"}, r.source);
   v.text({.name = "because", .optional = true, .doc = "why ours is known to differ"}, r.because);
+}
+
+// What a file of today must say of what it judges. Logs of before have experiments without it.
+template <class Visitor>
+void check_class(Visitor& v, const Reported& r) {
+  if (!is_judged(r)) return;
+  if (r.statement_class == StatementClass::none) {
+    std::string words;
+    for (const auto& choice : statement_classes)
+      words += (words.empty() ? "\"" : ", \"") + std::string(choice.word) + '"';
+    units::complain(v, "class", "nothing", "what agreement with " + r.key + " is worth: " + words,
+                    "docs/evidence.md");
+  }
+  if (!r.accept.empty() && r.wording != Wording::another)
+    units::complain(v, "accept", "a band beside a wording, from which another follows",
+                    "one of the two");
+  if (!r.accept.empty() && r.band_reason.empty())
+    units::complain(v, "band_reason", "nothing", "why the band of " + r.key + " is as it is",
+                    "a wording in place of accept");
 }
 
 }  // namespace sinew::config

@@ -96,7 +96,10 @@ void run_fields(Visitor& v, Experiment& e) {
     g.flag({.name = "gains", .optional = true, .doc = "those in effect, too"}, e.log.gains);
   });
   v.list({.name = "reported", .optional = true, .doc = "printed beside our figures"}, e.reported,
-         [](auto& g, config::Reported& r) { config::fields(g, r); });
+         [](auto& g, config::Reported& r) {
+           config::fields(g, r);
+           config::check_class(g, r);
+         });
 }
 
 }  // namespace sinew::experiment

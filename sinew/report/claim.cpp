@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace sinew::report {
@@ -17,7 +18,6 @@ std::string number(double value, const Band& band) {
   int digits = 3;
   if (std::isfinite(width) && width > 0)
     digits = size - static_cast<int>(std::floor(std::log10(width))) + 2;
-  if (size < 7) digits = std::max(digits, size + 1);  // 1000, no 1e+03
   if (size < 7) digits = std::max(digits, size + 1);  // 1000, no 1e+03
   std::string text = fmt::format("{:.{}g}", value, std::clamp(digits, 3, 7));
   return text.find('e') == text.npos ? text : fmt::format("{:.2g}", value);
@@ -37,13 +37,16 @@ std::string band_text(const Band& b, const std::string& unit) {
 
 }  // namespace
 
-Claim judge(const Measured& m) {
+Claim judge(StatementClass statement_class, const Measured& m) {
+  if (m.accept.wording == analysis::Wording::another && m.why.empty())
+    throw std::logic_error("a band of our own without its reason: " + m.says);
   Claim c{.where = m.where, .says = m.says, .theirs = m.theirs, .quantity = m.quantity};
   c.ours = std::isfinite(m.ours) ? with_unit(number(m.ours, m.accept), m.unit) : "none";
   c.accept = band_text(m.accept, m.unit);
   c.why = m.why;
-  c.put_in = m.put_in;
-  const bool inside = m.ours >= m.accept.lowest && m.ours <= m.accept.highest;
+  c.statement_class = statement_class;
+  c.wording = m.accept.wording;
+  const bool inside = m.accept.holds(m.ours);
   c.verdict = inside ? Is::agrees : Is::differs;
   if (m.because.empty()) return c;
   c.verdict = inside ? Is::agrees_after_all : Is::differs_as_known;
@@ -51,7 +54,7 @@ Claim judge(const Measured& m) {
   return c;
 }
 
-Claim not_comparable(std::string where, std::string says, std::string theirs, std::string why) {
+Claim not_applicable(std::string where, std::string says, std::string theirs, std::string why) {
   return {.where = std::move(where),
           .says = std::move(says),
           .theirs = std::move(theirs),
@@ -68,33 +71,40 @@ Claim claim(const analysis::Verdict& v) {
             .quantity = v.key,
             .ours = v.ours,
             .accept = v.accept,
-            .why = {},
-            .verdict = v.is};
+            .why = v.band_reason,
+            .verdict = v.is,
+            .statement_class = v.statement_class,
+            .wording = v.wording};
   // A verdict's source ends with the reason of what is known to differ.
   constexpr std::string_view mark = ". Why: ";
   if (const std::size_t at = out.where.find(mark); at != out.where.npos) {
-    out.why = "Known to differ: " + out.where.substr(at + mark.size());
+    out.why +=
+        (out.why.empty() ? "" : ". ") + ("Known to differ: " + out.where.substr(at + mark.size()));
     out.where.resize(at);
   }
   return out;
 }
 
-std::string_view word(const Claim& c) {
-  if (c.verdict == Is::not_applicable) return "not comparable";
-  return c.put_in && c.verdict == Is::agrees ? "as put in" : to_text(c.verdict);
-}
-
 void count(Tally& tally, const std::vector<Claim>& claims) {
-  for (const Claim& c : claims) {
-    if (c.verdict == Is::agrees) ++(c.put_in ? tally.as_put_in : tally.agree);
-    if (c.verdict == Is::differs || c.verdict == Is::agrees_after_all) ++tally.differ;
-    if (c.verdict == Is::differs_as_known) ++tally.differ_as_known;
-    if (c.verdict == Is::not_applicable) ++tally.not_comparable;
-  }
+  for (const Claim& c : claims) tally.add(c.statement_class, c.verdict);
 }
 
-int total(const Tally& t) {
-  return t.agree + t.as_put_in + t.differ + t.differ_as_known + t.not_comparable;
+int Tally::of(Is verdict) const {
+  int sum = 0;
+  for (const StatementClass c : all_classes) sum += of(c, verdict);
+  return sum;
+}
+
+int Tally::of(StatementClass statement_class) const {
+  int sum = 0;
+  for (const Is v : all_verdicts) sum += of(statement_class, v);
+  return sum;
+}
+
+int Tally::total() const {
+  int sum = 0;
+  for (const Is v : all_verdicts) sum += of(v);
+  return sum;
 }
 
 }  // namespace sinew::report

@@ -1,5 +1,7 @@
 #include "sinew/report/comparison.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "sinew/analysis/derived.h"
@@ -117,7 +119,11 @@ std::string ComparedRun::verdict_of(const std::string& key) const {
   const auto at = std::ranges::find_if(verdicts, [&](const analysis::Verdict& v) {
     return v.key == key && v.is != analysis::Verdict::Is::not_applicable;
   });
-  return at == verdicts.end() ? "" : std::string(to_text(at->is));
+  if (at == verdicts.end()) return "";
+  std::string out(to_text(at->is));
+  if (at->statement_class != config::StatementClass::none)
+    out += fmt::format(" ({})", to_text(at->statement_class));
+  return out;
 }
 
 Comparison compare(std::vector<RecordedRun> runs, Align align) {

@@ -50,7 +50,7 @@ struct ComparedRun {
   std::vector<analysis::Verdict> verdicts;
   std::vector<Parameter> parameters;
 
-  // Empty where nothing is reported of the key, or nothing that could be judged.
+  // "agrees (fitted)". Empty where nothing is reported of the key, or nothing that could be judged.
   std::string verdict_of(const std::string& key) const;
 };
 

@@ -244,6 +244,8 @@ std::string to_json(const std::vector<analysis::Verdict>& verdicts) {
                    {"ours", v.ours},
                    {"accept", v.accept},
                    {"source", v.source},
+                   {"class", to_text(v.statement_class)},
+                   {"wording", to_text(v.wording)},
                    {"is", analysis::to_text(v.is)}});
   return text_of(out);
 }

@@ -19,15 +19,42 @@ bool holds_kind(const Figure& figure, Curve::Kind kind) {
   return false;
 }
 
+// A class as a name in the page.
+std::string_view name_of(StatementClass c) {
+  switch (c) {
+    case StatementClass::predicted:
+      return "predicted";
+    case StatementClass::fitted:
+      return "fitted";
+    case StatementClass::put_in:
+      return "put_in";
+    case StatementClass::by_construction:
+      return "by_construction";
+    case StatementClass::code_against_code:
+      return "code_against_code";
+    case StatementClass::none:
+      break;
+  }
+  return "none";
+}
+
+std::string_view class_of(Is verdict) {
+  if (verdict == Is::agrees) return "agrees";
+  if (verdict == Is::not_applicable) return "open";
+  return verdict == Is::differs_as_known ? "known" : "differs";
+}
+
 // What the page's choice looks for.
 std::string properties(const Exhibit& e) {
   Tally t;
   count(t, e.claims);
   std::vector<std::string_view> out;
-  if (t.agree > 0) out.push_back("agrees");
-  if (t.as_put_in > 0) out.push_back("put_in");
-  if (t.differ + t.differ_as_known > 0) out.push_back("differs");
-  if (t.not_comparable > 0) out.push_back("open");
+  if (t.of(Is::agrees) > 0) out.push_back("agrees");
+  if (t.of(Is::differs) + t.of(Is::differs_as_known) + t.of(Is::agrees_after_all) > 0)
+    out.push_back("differs");
+  if (t.of(Is::not_applicable) > 0) out.push_back("open");
+  for (const StatementClass c : all_classes)
+    if (c != StatementClass::none && t.of(c) > 0) out.push_back(name_of(c));
   if (holds_kind(e.figure, Curve::Kind::computed)) out.push_back("computed");
   if (holds_kind(e.figure, Curve::Kind::synthetic)) out.push_back("synthetic");
   if (!e.figure.missing.empty()) out.push_back("unavailable");
@@ -36,7 +63,7 @@ std::string properties(const Exhibit& e) {
 
 class Page {
  public:
-  explicit Page(const Gallery& gallery) : gallery_(gallery), claims_(total(tally(gallery)) > 0) {}
+  explicit Page(const Gallery& gallery) : gallery_(gallery), claims_(tally(gallery).total() > 0) {}
   std::string text();
 
  private:
@@ -45,6 +72,7 @@ class Page {
     out_ += fmt::format(format, std::forward<Parts>(parts)...) + '\n';
   }
   void head();
+  void tally_table();
   void bar();
   void exhibit(const Exhibit& e);
   void files(const Figure& figure, const FigureData& data);
@@ -65,18 +93,35 @@ void Page::head() {
       gallery_style);
   add("<header>\n<h1>{}</h1>", escaped(gallery_.title));
   if (!gallery_.lead.empty()) add("<p class=\"lead\">{}</p>", escaped(gallery_.lead));
-  const Tally t = tally(gallery_);
-  if (claims_) {
-    add("<ul class=\"tally\">");
-    add("<li><b>{}</b><span>figures</span></li>", gallery_.exhibits.size());
-    add("<li><b class=\"agrees\">{}</b><span>statements agree</span></li>", t.agree);
-    add("<li><b>{}</b><span>are as put in</span></li>", t.as_put_in);
-    add("<li><b class=\"differs\">{}</b><span>differ</span></li>", t.differ);
-    add("<li><b class=\"known\">{}</b><span>differ, as known</span></li>", t.differ_as_known);
-    add("<li><b>{}</b><span>cannot be compared</span></li>", t.not_comparable);
-    add("</ul>");
-  }
+  if (claims_) tally_table();
   add("</header>");
+}
+
+// Verdicts by class. What is worth most stands first.
+void Page::tally_table() {
+  const Tally t = tally(gallery_);
+  add("<table class=\"tally\">\n<caption>{} statements about {} "
+      "figures</caption>\n<thead><tr><td></td>",
+      t.total(), gallery_.exhibits.size());
+  for (const Is v : all_verdicts)
+    add("<th scope=\"col\" class=\"{}\">{}</th>", class_of(v), to_text(v));
+  add("<th scope=\"col\">all</th></tr></thead>\n<tbody>");
+  const auto row = [&](std::string_view name, auto of, int all) {
+    add("<tr><th scope=\"row\">{}</th>", name);
+    for (const Is v : all_verdicts) {
+      const int n = of(v);
+      add("<td>{}</td>", n > 0 ? std::to_string(n) : std::string());
+    }
+    add("<td>{}</td></tr>", all);
+  };
+  for (const StatementClass c : all_classes)
+    if (t.of(c) > 0)
+      row(
+          c == StatementClass::none ? "not compared" : to_text(c), [&](Is v) { return t.of(c, v); },
+          t.of(c));
+  row(
+      "all", [&](Is v) { return t.of(v); }, t.total());
+  add("</tbody>\n</table>");
 }
 
 void Page::bar() {
@@ -87,8 +132,12 @@ void Page::bar() {
   if (claims_)
     add("<label hidden>show <select id=\"choice\"><option value=\"\">all</option>"
         "<option value=\"differs\">what differs</option><option value=\"agrees\">what "
-        "agrees</option><option value=\"put_in\">what is as put in</option>"
-        "<option value=\"open\">what cannot be compared</option>"
+        "agrees</option><option value=\"open\">what cannot be compared</option>"
+        "<option value=\"predicted\">what is predicted</option>"
+        "<option value=\"fitted\">what was fitted</option>"
+        "<option value=\"put_in\">what was put in</option>"
+        "<option value=\"by_construction\">what is true by construction</option>"
+        "<option value=\"code_against_code\">code against code</option>"
         "<option value=\"computed\">computed curves</option>"
         "<option value=\"synthetic\">synthetic curves</option>"
         "<option value=\"unavailable\">what is lost</option></select></label>");
@@ -114,12 +163,6 @@ void Page::picture(const Exhibit& e) {
   add("</figure>");
 }
 
-std::string_view class_of(const Claim& c) {
-  if (c.verdict == Is::agrees) return c.put_in ? "open" : "agrees";
-  if (c.verdict == Is::not_applicable) return "open";
-  return c.verdict == Is::differs_as_known ? "known" : "differs";
-}
-
 // "4.3" is a section, "table 4-1" says what it is.
 std::string in_words(const std::string& where) {
   return where.empty() || where[0] < '0' || where[0] > '9' ? where : "section " + where;
@@ -127,9 +170,11 @@ std::string in_words(const std::string& where) {
 
 void Page::claim(const Claim& c) {
   add("<div class=\"claim\">\n<div class=\"says\"><div>{} <span class=\"where\">{}</span></div>"
-      "<span class=\"verdict {}\">{}</span></div>",
-      escaped(c.says.empty() ? c.quantity : c.says), escaped(in_words(c.where)), class_of(c),
-      word(c));
+      "<span class=\"judged\"><span class=\"class\">{}</span> <span class=\"verdict {}\">{}</span>"
+      "</span></div>",
+      escaped(c.says.empty() ? c.quantity : c.says), escaped(in_words(c.where)),
+      c.statement_class == StatementClass::none ? "" : to_text(c.statement_class),
+      class_of(c.verdict), to_text(c.verdict));
   std::string numbers;
   const auto number = [&](std::string_view what, const std::string& value) {
     if (!value.empty()) numbers += fmt::format("<span>{} <b>{}</b></span>", what, escaped(value));
@@ -138,7 +183,10 @@ void Page::claim(const Claim& c) {
   number("ours", c.ours);
   if (!numbers.empty()) add("<div class=\"numbers\">{}</div>", numbers);
   std::string rest = c.says.empty() ? "" : c.quantity;
-  if (!c.accept.empty()) rest += (rest.empty() ? "accepted " : "; accepted ") + c.accept;
+  if (!c.accept.empty()) {
+    rest += (rest.empty() ? "accepted " : "; accepted ") + c.accept;
+    rest += fmt::format(" ({})", analysis::rule_of(c.wording));
+  }
   if (!c.why.empty()) rest += (rest.empty() ? "" : ": ") + c.why;
   if (!rest.empty()) add("<p class=\"why\">{}</p>", escaped(rest));
   add("</div>");
@@ -199,7 +247,8 @@ std::string Page::text() {
 }
 
 Json json_of(const Claim& c) {
-  Json out{{"verdict", word(c)}, {"where", c.where}};
+  Json out{{"verdict", to_text(c.verdict)}, {"where", c.where}};
+  if (c.statement_class != StatementClass::none) out["class"] = to_text(c.statement_class);
   const auto add = [&](const char* key, const std::string& value) {
     if (!value.empty()) out[key] = value;
   };
@@ -208,6 +257,7 @@ Json json_of(const Claim& c) {
   add("quantity", c.quantity);
   add("ours", c.ours);
   add("accepted", c.accept);
+  if (!c.accept.empty()) out["wording"] = to_text(c.wording);
   add("why", c.why);
   return out;
 }
@@ -246,12 +296,12 @@ std::string index_html(const Gallery& gallery) { return Page(gallery).text(); }
 std::string index_json(const Gallery& gallery) {
   Json out{{"format", "sinew.figures/1"}, {"title", gallery.title}, {"page", "index.html"}};
   const Tally t = tally(gallery);
-  if (total(t) > 0)
-    out["verdicts"] = {{"agrees", t.agree},
-                       {"as put in", t.as_put_in},
-                       {"differs", t.differ},
-                       {"differs, as known", t.differ_as_known},
-                       {"not comparable", t.not_comparable}};
+  if (t.total() > 0) {
+    for (const Is v : all_verdicts) out["verdicts"][to_text(v)] = t.of(v);
+    for (const StatementClass c : all_classes)
+      for (const Is v : all_verdicts)
+        if (c != StatementClass::none) out["classes"][to_text(c)][to_text(v)] = t.of(c, v);
+  }
   out["figures"] = Json::array();
   for (const Exhibit& e : gallery.exhibits) out["figures"].push_back(json_of(e, gallery));
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -32,7 +32,7 @@ struct Gallery {
 std::string index_html(const Gallery& gallery);
 
 // "sinew.figures/1": figures with their curves, the files that hold them, what is missing, claims
-// and verdicts.
+// with class and verdict, and how many there are of each.
 std::string index_json(const Gallery& gallery);
 
 Tally tally(const Gallery& gallery);

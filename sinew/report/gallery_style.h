@@ -27,9 +27,13 @@ h2 .number { margin-right: .6em; color: var(--quiet); font-weight: 500; }
 h3 { margin: 20px 0 4px; font-size: 12px; font-weight: 600; color: var(--quiet); }
 p { margin: 0; }
 .lead { max-width: 74ch; color: var(--quiet); }
-.tally { display: flex; flex-wrap: wrap; gap: 10px 34px; margin: 22px 0 4px; padding: 0; list-style: none; }
-.tally b { display: block; font-size: 26px; line-height: 1.15; font-weight: 650; }
-.tally span { color: var(--quiet); font-size: 13px; }
+.tally { margin: 20px 0 12px; border-collapse: collapse; font-size: 14px; }
+.tally caption { padding-bottom: 6px; text-align: left; color: var(--quiet); font-size: 13px; }
+.tally th, .tally td { padding: 3px 0 3px 26px; text-align: right; }
+.tally tbody th { padding-left: 0; text-align: left; font-weight: 500; }
+.tally thead th { font-size: 13px; font-weight: 600; }
+.tally tbody tr { border-top: 1px solid var(--edge); }
+.tally tbody tr:last-child, .tally td:last-child { font-weight: 650; }
 .bar { position: sticky; top: 0; z-index: 1; background: var(--back); border-bottom: 1px solid var(--edge); }
 .bar > div { display: flex; flex-wrap: wrap; gap: 6px 14px; align-items: center; max-width: 1240px;
   margin: 0 auto; padding: 9px 28px; font-size: 13px; }
@@ -52,7 +56,9 @@ dl { margin: 0; }
 .claim:first-of-type { padding-top: 0; border-top: 0; }
 .says { display: flex; gap: 14px; justify-content: space-between; align-items: baseline; }
 .where { color: var(--quiet); font-size: 13px; }
-.verdict { flex: none; font-size: 13px; font-weight: 650; white-space: nowrap; }
+.judged { flex: none; font-size: 13px; white-space: nowrap; }
+.verdict { margin-left: 10px; font-weight: 650; }
+.class { color: var(--quiet); }
 .agrees { color: var(--good); } .differs { color: var(--bad); }
 .known { color: var(--known); } .open { color: var(--quiet); font-weight: 500; }
 .numbers { display: flex; flex-wrap: wrap; gap: 0 22px; margin-top: 3px; font-size: 14px; }

@@ -14,7 +14,7 @@ export const heading = (words, note) =>
   element('h2', {}, words, note ? element('span', { class: 'note' }, note) : null);
 
 const verdict_class = (is) =>
-  is === 'agrees' ? 'good' : is === 'not applicable' ? 'none' : is === 'differs, as known' ? 'known' : 'bad';
+  is === 'agrees' ? 'good' : is === 'not applicable' ? 'none' : is === 'differs as known' ? 'known' : 'bad';
 
 export const count_verdicts = (verdicts) => ({
   agree: verdicts.filter((v) => v.is === 'agrees').length,
@@ -31,11 +31,12 @@ export function show_results(run) {
     element('tr', { 'data-key': v.key },
       element('th', { scope: 'row', title: v.key }, words_of_key(v.key)),
       cell(v.reported, 'number'), cell(v.ours || '–', 'number ours'), cell(v.accept, 'number quiet'),
+      element('td', { class: 'quiet', title: v.wording }, v.class ?? ''),
       element('td', {}, element('span', { class: `verdict ${verdict_class(v.is)}` }, v.is)),
       cell(v.source, 'source')));
   const n = count_verdicts(run.verdicts);
   root.append(heading('Results', `${n.agree} of ${n.judged} that are judged agree`),
-    table('Results', ['', 'reported', 'this run', 'accepted', '', 'source'], rows));
+    table('Results', ['', 'reported', 'this run', 'accepted', 'class', '', 'source'], rows));
 }
 
 // --- warnings ---

@@ -11,7 +11,7 @@ const svg_of = (figure) => readFileSync(join(runs, 'thesis-figures', figure.svg)
 const visible = (page) => page.locator('article:visible').evaluateAll((all) => all.map((a) => a.id));
 
 test('the page of figures has every figure, its picture and its claims', () => with_gallery(async (page) => {
-  const { figures, verdicts } = index();
+  const { figures, verdicts, classes } = index();
   assert.deepEqual(await visible(page), figures.map((f) => f.figure));
   for (const figure of figures) {
     const article = page.locator(`[id="${figure.figure}"]`);
@@ -21,10 +21,17 @@ test('the page of figures has every figure, its picture and its claims', () => w
     assert.ok((await image.evaluate((i) => i.naturalWidth)) > 100, `${figure.figure}: no picture`);
     assert.equal(await article.locator('.claim').count(), figure.claims.length);
     assert.deepEqual(await article.locator('.verdict').allTextContents(), figure.claims.map((c) => c.verdict));
+    assert.deepEqual(await article.locator('.class').allTextContents(), figure.claims.map((c) => c.class ?? ''));
   }
-  const tally = await page.locator('.tally b').allTextContents();
-  assert.deepEqual(tally.map(Number), [figures.length, verdicts.agrees, verdicts['as put in'], verdicts.differs,
-    verdicts['differs, as known'], verdicts['not comparable']]);
+  // The table: verdicts by class, the last row is all of them.
+  const tally = await page.locator('.tally tbody tr').evaluateAll((rows) => rows.map((r) =>
+    [r.firstElementChild.textContent, ...[...r.querySelectorAll('td')].map((c) => Number(c.textContent))]));
+  for (const [name, counts] of Object.entries(classes)) {
+    const sum = Object.values(counts).reduce((a, b) => a + b, 0);
+    assert.deepEqual(tally.find(([row]) => row === name) ?? null, sum ? [name, ...Object.values(counts), sum] : null);
+  }
+  const all = Object.values(verdicts);
+  assert.deepEqual(tally.at(-1), ['all', ...all, all.reduce((a, b) => a + b, 0)]);
   await page.evaluate(() => scrollTo(0, 0));
   await picture(page, 'thesis-figures');
 }));

@@ -211,7 +211,10 @@ void fields(Visitor& v, Experiment& e) {
   v.group({.name = "log", .optional = true, .doc = "what is recorded"},
           [&](auto& g) { experiment::fields(g, e.log); });
   v.list({.name = "reported", .optional = true, .doc = "printed beside our figures"}, e.reported,
-         [](auto& g, config::Reported& r) { config::fields(g, r); });
+         [](auto& g, config::Reported& r) {
+           config::fields(g, r);
+           config::check_class(g, r);
+         });
 }
 
 template <class Visitor>

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# statements.sh [--write] [PART]...   what is stated of figures and experiments, with class and verdict
+#
+#   statements.sh                 all of it against tests/claims/statements.txt; exit 1 if a line changed
+#   statements.sh experiments     only those of experiments/ and experiments/rig/; or: figures
+#   statements.sh --write         makes the list anew: look at what changed before you keep it
+#   statements.sh --count         the list's numbers by class and verdict
+#
+# SINEW: the program, build/dev/bin/sinew. RUNS: a folder with a run per experiment, named as the
+# files are; FIGURES: a page of figures. What is not given is made.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+export LC_ALL=C.UTF-8
+
+list=tests/claims/statements.txt
+sinew=${SINEW:-build/dev/bin/sinew}
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+of_experiments() {
+  local file name run
+  for file in experiments/*.toml experiments/rig/*.toml; do
+    name=${file%.toml}
+    run=${RUNS:-$scratch/runs}/$name
+    [[ -d $run ]] || "$sinew" run "$file" -o "$run" --quiet --no-report >/dev/null
+    "$sinew" analyze "$run" --quiet --verdicts | node tools/statements.mjs run "$name"
+  done
+}
+
+of_figures() {
+  local page=${FIGURES:-$scratch/figures}
+  [[ -d $page ]] || "$sinew" figures --thesis -o "$page" --format csv --quiet >/dev/null
+  node tools/statements.mjs figures "$page/index.json"
+}
+
+write='' parts=()
+for word in "$@"; do
+  case $word in
+    --write) write=yes ;;
+    --count) exec node tools/statements.mjs count "$list" ;;
+    experiments | figures) parts+=("$word") ;;
+    -h | --help) awk 'NR > 1 && /^#/ { print substr($0, 3); next } NR > 1 { exit }' "$0"; exit 0 ;;
+    *) echo "statements: no part \"$word\": experiments, figures" >&2; exit 2 ;;
+  esac
+done
+((${#parts[@]})) || parts=(experiments figures)
+
+for part in "${parts[@]}"; do
+  "of_$part" | sort >"$scratch/$part"
+  # The list's own lines of that part, and the other ones.
+  [[ $part == figures ]] && mine='^figure ' || mine='^experiments/'
+  touch "$list"
+  if [[ $write ]]; then
+    { grep -v "$mine" "$list" || true; cat "$scratch/$part"; } | sort >"$scratch/list"
+    cp "$scratch/list" "$list"
+  elif ! diff -u --label "$list" <(grep "$mine" "$list") --label "now" "$scratch/$part"; then
+    echo "statements: $part are not as $list has them; if they are right: tools/statements.sh --write $part"
+    exit 1
+  fi
+  echo "statements: $(wc -l <"$scratch/$part") of $part, as $list has them"
+done
