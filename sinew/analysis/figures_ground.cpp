@@ -132,16 +132,23 @@ std::size_t end_of_hold(const Record& record, const Stretch& kick) {
   return kick.last;
 }
 
-// The kick of 6.4: from the retracted hold to the first peak of x, which may come in the next hold.
+// The kick of 6.4, from the retracted hold on: to the extended position, where the foot is wanted
+// at the end of the next hold, and to the first peak of x, which may come in that hold and lie
+// beyond.
 void add_kick(Figures& f) {
   const int kick = find_phase(f.machine, "kick");
   const Stretch* s = kick >= 0 ? f.record.last_of(kick) : nullptr;
   const Column x = f.record.column("/foot/position", "x");
   if (!s || x.empty()) return;
   const std::size_t end = end_of_hold(f.record, *s);
-  const Rise r = rise(Values(x).subspan(s->first, end - s->first), f.record.period());
+  const Values moves = Values(x).subspan(s->first, end - s->first);
+  const Column wanted = f.record.column("/desired/foot/position", "x");
+  if (!wanted.empty())
+    f.summary.add("foot.extension_time_s",
+                  ten_to_ninety(moves, wanted[end - 1], f.record.period()));
+  const Rise r = rise(moves, f.record.period());
   if (!r.found) return;
-  f.summary.add("foot.extension_time_s", r.partial);
+  f.summary.add("foot.extension_time_to_peak_s", r.partial);
   f.summary.add("foot.extension_whole_time_s", r.whole);
 }
 

@@ -3,6 +3,8 @@
 #include <string>
 
 #include "sinew/analysis/figures.h"
+#include "sinew/analysis/laws.h"
+#include "sinew/analysis/oscillation.h"
 #include "sinew/analysis/statistics.h"
 
 namespace sinew::analysis {
@@ -103,6 +105,46 @@ double mean_duration(const Record& record, int phase) {
   return sum / n;
 }
 
+// How a joint turned round on its way, of all the times that a phase was gone through.
+struct Turns {
+  int times = 0, sum = 0, fewest = 0, most = 0;         // turning points
+  double half_swings = 0, amplitudes = 0, largest = 0;  // their number, sum and largest [rad]
+};
+
+Turns turns_of(const Record& record, int phase, const Column& error) {
+  Turns out;
+  for (const Stretch& s : record.stretches()) {
+    if (s.phase != phase) continue;
+    const auto points = turning_points(Values(error).subspan(s.first, s.last - s.first), turn_back);
+    const int n = static_cast<int>(points.size());
+    out.sum += n;
+    out.fewest = out.times > 0 ? std::min(out.fewest, n) : n;
+    out.most = std::max(out.most, n);
+    ++out.times;
+    for (const double a : amplitudes(points)) {
+      ++out.half_swings;
+      out.amplitudes += a;
+      out.largest = std::max(out.largest, a);
+    }
+  }
+  return out;
+}
+
+void add_turns(Figures& f, const std::string& phase_key, int phase, const std::string& joint) {
+  const Column error = f.record.column("/joint/" + joint + "/error");
+  if (error.empty()) return;
+  const std::string key = phase_key + "joints." + joint + ".";
+  const Turns turns = turns_of(f.record, phase, error);
+  f.summary.add(key + "turning_points", turns.sum);
+  if (turns.times > 1) {
+    f.summary.add(key + "fewest_turning_points", turns.fewest);
+    f.summary.add(key + "most_turning_points", turns.most);
+  }
+  f.summary.add(key + "oscillation_amplitude_rad",
+                turns.half_swings > 0 ? turns.amplitudes / turns.half_swings : 0);
+  f.summary.add(key + "largest_oscillation_amplitude_rad", turns.largest);
+}
+
 // What a topic says at that row.
 void add_end_of(Figures& f, const std::string& key, std::string_view topic, std::string_view field,
                 std::size_t row) {
@@ -137,6 +179,8 @@ void add_phases(Figures& f) {
     const std::string key = "phases." + f.machine.phases[i] + ".";
     f.summary.add(key + "mean_duration_s", mean_duration(f.record, static_cast<int>(i)));
     add_end(f, key, stretch->last - 1);
+    for (const robot::Joint& j : f.machine.robot.joints)
+      add_turns(f, key, static_cast<int>(i), j.name);
     add_end_of(f, key + "foot.end_force_true_N", "/true/foot/force", "y", stretch->last - 1);
     add_end_of(f, key + "cylinder.end_position_true_m", "/true/cylinder/position", "value",
                stretch->last - 1);

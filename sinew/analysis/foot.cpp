@@ -68,6 +68,14 @@ std::vector<double> at_progress(std::span<const double> values, std::size_t firs
   return out;
 }
 
+double ten_to_ninety(std::span<const double> values, double target, double period) {
+  if (values.empty()) return none;
+  const double start = values.front(), way = target - start, direction = way > 0 ? 1 : -1;
+  const double ten = crossing(values, start + 0.1 * way, direction);
+  const double ninety = crossing(values, start + 0.9 * way, direction);
+  return (ninety - ten) * period;
+}
+
 Rise rise(std::span<const double> values, double period) {
   if (values.size() < 3) return {};
   const double start = values.front();
@@ -87,12 +95,10 @@ Rise rise(std::span<const double> values, double period) {
     const double back = direction * (values[peak] - values[i]);
     if (way > 0.5 * std::abs(farthest) && back > come_back * way) break;
   }
-  const double way = values[peak] - start;
-  const double ten = crossing(values.first(peak + 1), start + 0.1 * way, direction);
-  const double ninety = crossing(values.first(peak + 1), start + 0.9 * way, direction);
-  return {.partial = (ninety - ten) * period,
+  const double partial = ten_to_ninety(values.first(peak + 1), values[peak], period);
+  return {.partial = partial,
           .whole = static_cast<double>(peak) * period,
-          .found = std::isfinite(ninety - ten)};
+          .found = std::isfinite(partial)};
 }
 
 }  // namespace sinew::analysis

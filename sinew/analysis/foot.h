@@ -32,10 +32,14 @@ double repeat_rms(std::span<const Path> paths, std::span<const double> weights);
 std::vector<double> at_progress(std::span<const double> values, std::size_t first, std::size_t last,
                                 int points);
 
+// From 10 to 90 % of the way from the first value to `target`, straight between rows  [s]. Not a
+// number where 90 % are never reached.
+double ten_to_ninety(std::span<const double> values, double target, double period);
+
 // A motion away from where it starts, up to its first peak: the first row after which it comes
 // back by more than a tenth of the way it has made.
 struct Rise {
-  double partial = 0;  // from 10 to 90 % of the way [s]
+  double partial = 0;  // from 10 to 90 % of the way to the peak [s]
   double whole = 0;    // from the start to the peak [s]
   bool found = false;
 };

@@ -11,6 +11,11 @@ namespace sinew::analysis {
 // What is faster than this shows as oscillation  [s]: 21 samples every 10 ms.
 inline constexpr double oscillation_window = 0.21;
 
+// By how much a joint's error must come back from where it turned  [rad]: twice the smallest
+// amplitude that counts as an oscillation, 0.5 deg. A plot of 60 deg just shows it, and a converter
+// of 0.08 deg per count with a count or two of noise does not reach it.
+inline constexpr double turn_back = std::numbers::pi / 180;
+
 // Below this the foot counts as sticking  [m/s].
 inline constexpr double sticking = 2e-3;
 

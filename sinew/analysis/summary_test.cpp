@@ -36,8 +36,9 @@ TEST(Summary, TimesAndStepsAreThoseOfTheSequence) {
   EXPECT_NEAR(value(s, "phases.propulsion.mean_duration_s"), 0.5, 1e-12);
 }
 
-// A foot that goes on moving in the hold after the kick: x rises by 1 m in 0.2 s from 0.05 s on.
-TEST(Summary, TheKickEndsAtThePeakThoughThePhaseIsOver) {
+// A foot that goes on moving in the hold after the kick: x rises by 0.2 m in 0.2 s from 0.05 s on,
+// beyond the extended position at half of that way.
+TEST(Summary, TheKickHasATimeToTheExtendedPositionAndOneToThePeak) {
   Machine m = walking_leg();
   m.phases = m.sequence = {"retracted", "kick", "extended"};
   test::Log log(100);
@@ -53,8 +54,21 @@ TEST(Summary, TheKickEndsAtThePeakThoughThePhaseIsOver) {
   log.scalar("/joint/hip/angle", [=](double t) { return -std::acos(x(t) / l); });
   log.scalar("/joint/knee/angle", constant(0));
   const Summary s = summarize(log.table, m);
-  EXPECT_NEAR(value(s, "foot.extension_time_s"), 0.8 * 0.2, 1e-9);
+  EXPECT_NEAR(value(s, "foot.extension_time_to_peak_s"), 0.8 * 0.2, 1e-9);
   EXPECT_NEAR(value(s, "foot.extension_whole_time_s"), start + 0.2 - 0.3, 1e-9);
+  EXPECT_EQ(s.find("foot.extension_time_s"), nullptr) << "nobody said where to";
+
+  const auto to = [&](double extended) {
+    test::Log wanted = log;
+    wanted.vector(
+        "/desired/foot/position", [=](double t) { return t < 0.895 ? 0.7 : extended; },
+        constant(0));
+    return summarize(wanted.table, m);
+  };
+  EXPECT_NEAR(value(to(0.0), "foot.extension_time_s"), 0.8 * 0.1, 1e-9);
+  EXPECT_NEAR(value(to(0.1), "foot.extension_time_s"), 0.8 * 0.2, 1e-9);
+  EXPECT_EQ(to(0.2).find("foot.extension_time_s"), nullptr) << "it never gets there";
+  EXPECT_NEAR(value(to(0.2), "foot.extension_time_to_peak_s"), 0.8 * 0.2, 1e-9);
 }
 
 // A reading that is one of two counts by turns: the speed jumps by twice count / period.
@@ -69,6 +83,29 @@ TEST(Summary, VelocityJumpsOfAReadingThatFlickers) {
   EXPECT_NEAR(value(s, "joints.hip.velocity_jump_rms_rad_per_s"), 200.0 / 767, 1e-12);
   EXPECT_NEAR(value(s, "joints.hip.velocity_jump_largest_rad_per_s"), 200.0 / 767, 1e-12);
   EXPECT_EQ(value(s, "joints.hip.excursion_rad"), 0);
+}
+
+// An error that turns round in one swing as often as it is told, and hardly in the others.
+TEST(Summary, TurningPointsAreCountedPerPhaseAndTime) {
+  const double deg = std::numbers::pi / 180;
+  const auto error = [=](double t) {
+    const double in_swing = (t - 2) / 0.4;  // of the third step: two periods of 3 deg
+    if (in_swing >= 0 && in_swing < 1) return 3 * deg * std::sin(4 * std::numbers::pi * in_swing);
+    return 0.3 * deg * std::sin(40 * t);  // too small
+  };
+  test::Log log = walk(3);
+  log.scalar("/desired/joint/hip/angle", [](double t) { return 5 + 0.1 * t; });
+  log.scalar("/joint/hip/angle", [=](double t) { return 5 + 0.1 * t + error(t); });
+  const Summary s = summarize(log.table, walking_leg());
+  const std::string swing = "phases.swing.joints.hip.", push = "phases.propulsion.joints.hip.";
+  EXPECT_EQ(value(s, swing + "turning_points"), 4);
+  EXPECT_EQ(value(s, swing + "fewest_turning_points"), 0);
+  EXPECT_EQ(value(s, swing + "most_turning_points"), 4);
+  EXPECT_NEAR(value(s, swing + "oscillation_amplitude_rad"), 3 * deg, 1e-9);
+  EXPECT_NEAR(value(s, swing + "largest_oscillation_amplitude_rad"), 3 * deg, 1e-9);
+  EXPECT_EQ(value(s, push + "turning_points"), 0);
+  EXPECT_EQ(value(s, push + "oscillation_amplitude_rad"), 0);
+  EXPECT_EQ(s.find("phases.swing.joints.knee.turning_points"), nullptr);
 }
 
 TEST(Summary, TrackingOfASineThatLags) {
