@@ -4,7 +4,7 @@
 //   m' = orifice(area, P, P_atm) + G (P - P_atm)
 //
 // Choked and isothermal the first empties a rigid chamber by P = P_0 exp(-t K R T/V), m' = K P; the
-// second brings P - P_atm down by exp(-t G R T/V). 6.2: three bladders burst in 200 steps; nobody
+// second brings P - P_atm down by exp(-t G R T/V). 6.4: three bladders burst in 200 steps; nobody
 // measured the leaks before.
 #pragma once
 
