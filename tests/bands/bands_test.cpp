@@ -66,13 +66,40 @@ TEST(Bands, Test2IsFasterPlannedAndWorse) {
     };
     less("trolley.distance_m", 0.5);
     less("trolley.mean_speed_m_per_s", 1.0);
-    EXPECT_GT(*fast[i].find("joints.hip.swing_oscillation_rms_rad"),
-              1.2 * *slow[i].find("joints.hip.swing_oscillation_rms_rad"));
   }
 }
 
-TEST(Bands, WithoutDragItIsTwiceAsFast) {
-  expect_band(over_seeds("no-drag"), "trolley.mean_speed_m_per_s", 8, 10, inch);
+const std::string lightly_damped =
+    "robot=" + std::string(SINEW_SOURCE_DIR) + "/robots/leg-lightly-damped/robot.toml";
+
+// 6.3: about 9 in/s without the foam. What drag the umbilicals leave, up to the printed 0.8 lb of
+// both, is not published. The calibrated leg comes near only with none at all; the lightly damped
+// one is there with a quarter to three quarters of it.
+TEST(Bands, WithoutTheRollersFoamTheLightlyDampedLegIsAsFastAsReported) {
+  const auto speed = [](const test::Sets& sets) {
+    return *summary_of("no-drag", sets).find("trolley.mean_speed_m_per_s") / inch;
+  };
+  for (int seed = 1; seed <= 5; ++seed) {
+    const std::string noise = "seed=" + std::to_string(seed);
+    EXPECT_NEAR(speed({noise, "trolley.drag=0 lbf"}), 9, 0.9) << seed;
+    for (const char* drag : {"0.2 lbf", "0.4 lbf", "0.6 lbf"}) {
+      const std::string left = std::string("trolley.drag=") + drag;
+      EXPECT_LT(speed({noise, left}), 8.1) << seed << drag;
+      EXPECT_NEAR(speed({noise, left, lightly_damped}), 9, 0.9) << seed << drag;
+    }
+  }
+}
+
+// 6.4: in about 90 ms to the extended position. Damping of the joints decides.
+TEST(Bands, TheKickTakesAsLongAsTheJointsAreDamped) {
+  const auto time = [](const test::Sets& sets) {
+    return *summary_of("kick", sets).find("foot.extension_time_s");
+  };
+  for (int seed = 1; seed <= 5; ++seed) {
+    const std::string noise = "seed=" + std::to_string(seed);
+    EXPECT_NEAR(time({noise}), 0.113, 0.003) << seed;
+    EXPECT_NEAR(time({noise, lightly_damped}), 0.09, 0.003) << seed;
+  }
 }
 
 // Table 6-1, within 2 deg.
@@ -131,14 +158,12 @@ TEST(Bands, WithoutStiffnessControlDampingAloneKeepsTheStepsTogether) {
 // 7.2 over seeds: the lightly damped leg walks test 1 as the calibrated one does, and without
 // stiffness control does not repeat and lifts its front roller in most runs.
 TEST(Bands, TheLightlyDampedLegNeedsItsStiffnessControl) {
-  const std::string robot =
-      "robot=" + std::string(SINEW_SOURCE_DIR) + "/robots/leg-lightly-damped/robot.toml";
   double repeat[2] = {}, force[2] = {};
   int lifted = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
     const std::string noise = "seed=" + std::to_string(seed);
-    const analysis::Summary with = summary_of("walk-test-1", {robot, noise}),
-                            without = summary_of("no-stiffness-control", {noise});
+    const analysis::Summary with = summary_of("walk-test-1", {lightly_damped, noise}),
+                            without = summary_of("no-stiffness-control", {lightly_damped, noise});
     EXPECT_GT(*with.find("trolley.distance_m"), 53 * inch) << seed;
     EXPECT_GT(*with.find("rollers.front.min_load_N"), 0) << seed;
     lifted += *without.find("rollers.front.min_load_N") < 0;
@@ -172,14 +197,25 @@ TEST(Bands, DerivativeControlHasThreeRegimes) {
     return summary_of("derivative-control", {"control.gains.hip.velocity=" + gain});
   };
   const char *excursion = "joints.hip.excursion_rad", *passive = "joints.hip.passiveness",
-             *shakes = "joints.hip.swing_oscillation_later_steps_rms_rad";
+             *turns = "phases.swing.joints.hip.turning_points";
   const analysis::Summary none = at("0 % s/count"), useless = at("0.001 % s/count"),
                           used = at("0.02 % s/count"), unstable = at("0.3 % s/count");
   EXPECT_NEAR(*useless.find(excursion), *none.find(excursion), 1 * degree);
   EXPECT_LT(*used.find(excursion), 0.75 * *none.find(excursion));
   EXPECT_GT(*used.find(passive), 0.9);
-  EXPECT_GT(*unstable.find(shakes), 1.5 * *none.find(shakes));
+  EXPECT_GT(*unstable.find(turns), 1.5 * *none.find(turns));
   EXPECT_LT(*unstable.find(passive), 0.5);
+}
+
+// 6.5: oscillations in every swing. The calibrated leg, whose joints damp four times as much, has
+// none in some of them; the lightly damped one has more than a whole one in each.
+TEST(Bands, DerivativeControlShakesALightlyDampedHipInEverySwing) {
+  const char* fewest = "phases.swing.joints.hip.fewest_turning_points";
+  for (int seed = 1; seed <= 10; ++seed) {
+    const std::string noise = "seed=" + std::to_string(seed);
+    EXPECT_GE(*summary_of("derivative-control", {lightly_damped, noise}).find(fewest), 3) << seed;
+    EXPECT_LT(*summary_of("derivative-control", {noise}).find(fewest), 2) << seed;
+  }
 }
 
 // The leg walks as far as its foot, which lags in the air, still reaches below the table; the

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "sinew/experiment/run.h"
 
@@ -60,12 +61,19 @@ std::uint64_t hash_of(const signals::Table& table) {
   return hash.value();
 }
 
+// What an experiment has changed since, put back.
+std::vector<std::string> of_the_first_day(const std::string& experiment) {
+  if (experiment == "no-drag") return {"trolley.drag=0 lbf"};
+  return {};
+}
+
 TEST(Bits, OfFirstLightAreKept) {
   std::ifstream golden(std::string(SINEW_SOURCE_DIR) + "/tests/bits/golden.txt");
   std::string name, wanted;
   int experiments = 0;
   for (; golden >> name >> wanted; ++experiments) {
-    const auto e = experiment::load(SINEW_SOURCE_DIR "/experiments/" + name + ".toml");
+    const auto e =
+        experiment::load(SINEW_SOURCE_DIR "/experiments/" + name + ".toml", of_the_first_day(name));
     char found[17];
     std::snprintf(found, sizeof found, "%016llx",
                   static_cast<unsigned long long>(hash_of(experiment::run(e).table)));

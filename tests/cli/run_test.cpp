@@ -144,10 +144,12 @@ TEST(Run, OverridesSayThatTheyAre) {
   EXPECT_EQ(drag["source"], "--set");
 }
 
-// 7.2: what the thesis saw without stiffness control is told; test 1 keeps its rollers down.
+// 7.2: what the thesis saw without stiffness control, and our lightly damped leg does, is told;
+// test 1 keeps its rollers down.
 TEST(Run, WarnsOfRollersThatLiftOff) {
   const Workspace w;
-  const Result lifted = w.sinew({"run", "experiments/no-stiffness-control.toml", "-o", "lifted"});
+  const Result lifted = w.sinew({"run", "experiments/no-stiffness-control.toml", "-o", "lifted",
+                                 "--set", "robot=robots/leg-lightly-damped/robot.toml"});
   EXPECT_EQ(lifted.code, 0);
   EXPECT_THAT(lifted.err, HasSubstr("the front roller lifts off the track in "));
   const Result down = w.sinew({"run", "experiments/walk-test-1.toml", "-o", "down"});
