@@ -143,7 +143,8 @@ std::vector<std::string> figure_cells(const Comparison& c, const analysis::Figur
                                       ShownUnits units) {
   const Figure figure(row.key, units, c.runs.front().atmosphere);
   const std::optional<double>& first = row.values.front();
-  std::vector<std::string> cells = {row.key, figure.value(first)};
+  std::vector<std::string> cells = {std::string(analysis::without_unit(row.key)),
+                                    figure.value(first)};
   for (std::size_t i = 1; i < row.values.size(); ++i) {
     const std::optional<double>& other = row.values[i];
     const bool both = first && other;

@@ -36,26 +36,25 @@ Exhibit figure_3_4(const Sources& from) {
                         (from.air.atmosphere + 100 * psi) / std::sqrt(from.air.temperature);
   const double area =
       report::value_at(trace(volume), 100) / 6e4 * gas::iso_density / choked / square_foot;
-  return {{.name = "3-4",
-           .title = "Flow of the 758 valve over supply pressure",
-           .caption = "Into the room, through one open channel.",
-           .plots = {{.x = {"supply pressure", "psi gauge"},
-                      .y = {"flow", "L/min", 0},
-                      .curves = {volume}}},
-           .missing = {{"the maker's chart",
-                        "lost with the figure; what was read from it is A_p C_q"}}},
-          {judge(put_in,
-                 {.where = "3.3",
-                  .says = "A_p C_q, taken back from the chart",
-                  .theirs = "1.8e-5 ft2",
-                  .quantity = "the same by [42] from our curve at 100 psi",
-                  .ours = area * 1e5,
-                  .unit = "1e-5 ft2",
-                  .accept = analysis::another(1.79, 1.81),
-                  .why = "rounding; the flow was drawn from this number, so only the way back is "
-                         "tested",
-                  .because = {}}),
-           report::not_applicable("3.3", "The chart itself", "", "lost with the figure")}};
+  return {
+      {.name = "3-4",
+       .title = "Flow of the 758 valve over supply pressure",
+       .caption = "Into the room, through one open channel.",
+       .plots = {{.x = {"supply pressure", "psi gauge"},
+                  .y = {"flow", "L/min", 0},
+                  .curves = {volume}}},
+       .missing = {{"the maker's chart",
+                    "lost with the figure; what was read from it is A_p C_q"}}},
+      {judge(put_in, {.where = "3.3",
+                      .says = "A_p C_q, taken back from the chart",
+                      .theirs = "1.8e-5 ft2",
+                      .quantity = "the same by [42] from our curve at 100 psi",
+                      .ours = area * 1e5,
+                      .unit = "1e-5 ft2",
+                      .accept = analysis::measured(1.8, 0.1),
+                      .why = "the flow was drawn from this number, so only the way back is tested",
+                      .because = {}}),
+       report::not_applicable("3.3", "The chart itself", "", "lost with the figure")}};
 }
 
 Exhibit figure_3_13(const Sources& from) {
@@ -88,23 +87,22 @@ Exhibit figure_3_13(const Sources& from) {
                   .curves = curves}}},
       {text.number(code_against_code, "A command of 50 % at 25 Hz opens the valve for", "43 %",
                    "actual duty", report::value_at(trace(curves[0]), 50), "%",
-                   analysis::another(42, 43.5), rounded),
+                   analysis::percentage(43), rounded),
        text.number(code_against_code, "A command of 50 % at 50 Hz opens the valve for", "35 %",
                    "actual duty", report::value_at(trace(curves[1]), 50), "%",
-                   analysis::another(34.5, 35.5), "printed in whole percents"),
+                   analysis::percentage(35), "printed in whole percents"),
        text.number(code_against_code, "Commands of less than 4 ms do not open it, at 25 Hz", "10 %",
                    "largest command with no flow", shut_to(curves[0]), "%",
-                   analysis::another(9.5, 10), drawn),
+                   analysis::percentage(10), drawn),
        text.number(code_against_code, "The same at 50 Hz", "20 %", "largest command with no flow",
-                   shut_to(curves[1]), "%", analysis::another(19.5, 20), drawn),
+                   shut_to(curves[1]), "%", analysis::percentage(20), drawn),
        text.number(code_against_code, "With less than 1 ms to shut it stays open, at 25 Hz",
                    "97.5 %", "least command that never shuts it",
-                   report::first_at_least(trace(curves[0]), 100), "%", analysis::another(97, 98),
+                   report::first_at_least(trace(curves[0]), 100), "%", analysis::percentage(97.5),
                    drawn),
-       text.number(code_against_code, "The same at 50 Hz", "95 %",
-                   "least command that never shuts it",
-                   report::first_at_least(trace(curves[1]), 100), "%",
-                   analysis::another(94.5, 95.5), drawn)}};
+       text.number(
+           code_against_code, "The same at 50 Hz", "95 %", "least command that never shuts it",
+           report::first_at_least(trace(curves[1]), 100), "%", analysis::percentage(95), drawn)}};
 }
 
 }  // namespace

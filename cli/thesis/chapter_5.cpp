@@ -235,24 +235,25 @@ std::vector<report::Claim> claims_of(const Schedule& s) {
   const double period = s.spine.period * ms_per_tick;
   return {
       text.number(put_in, "A whole period lasts", "10 ms", "ticks of the low level", period, "ms",
-                  analysis::another(10, 10)),
-      text.number(put_in, "Each hundredth of it is an interrupt", "100 us", "period by 100",
-                  1e3 * period / 100, "us", analysis::another(100, 100)),
+                  analysis::computed(10, 1)),
+      text.number(by_construction, "Each hundredth of it is an interrupt", "100 us",
+                  "period by 100", 1e3 * period / 100, "us", analysis::computed(100, 1),
+                  "a tick is 100 us here"),
       text.number(put_in, "A new channel in every other interrupt, not sooner", "200 us",
                   "least time between readings", 1e3 * least_step * ms_per_tick, "us",
-                  analysis::another(200, 200)),
+                  analysis::computed(200, 1)),
       text.number(put_in, "The same, not later", "200 us", "longest time between readings",
-                  1e3 * most_step * ms_per_tick, "us", analysis::another(200, 200)),
+                  1e3 * most_step * ms_per_tick, "us", analysis::computed(200, 1)),
       text.number(put_in, "The multiplexer needs to settle before a conversion", "25 us",
                   "least time from choosing a channel to its reading",
                   1e3 * least_settling * ms_per_tick, "us", analysis::at_least(25)),
       text.number(put_in, "The valves' period begins with the interrupt of their law", "at once",
                   "longest time from a law to the opening of its valves, over the run",
-                  1e3 * latest * ms_per_tick, "us", analysis::another(0, 100),
+                  1e3 * latest * ms_per_tick, "us", analysis::negligible(1e3 * period),
                   "an interrupt sets the valves first and runs the law afterwards"),
       text.number(put_in, "Periods of different valves begin at different times", "",
                   "first opening at the knee less at the hip", 1e3 * apart, "us",
-                  analysis::at_least(100), "an interrupt or more")};
+                  analysis::noticeable(1e3 * period))};
 }
 
 }  // namespace

@@ -165,9 +165,18 @@ std::string spoken_unit(const Reported& r, double atmosphere) {
 std::string accept_text(const Reported& r, const Band& band, const std::string& unit,
                         double atmosphere) {
   if (!r.accept.empty()) return fmt::format("{} to {}", r.accept[0], r.accept[1]);
+  const auto number = [&](double si) {
+    return config::convert(si, unit_of_key(r.key), unit, atmosphere);
+  };
+  // Digits that tell the ends apart.
+  const double width = number(band.highest) - number(band.lowest);
+  const double size = std::max(std::abs(number(band.lowest)), std::abs(number(band.highest)));
+  int digits = 4;
+  if (std::isfinite(width) && width > 0)
+    digits = std::clamp(2 + static_cast<int>(std::ceil(std::log10(size / width))), 4, 9);
   const auto end = [&](double si) {
-    const double number = config::convert(si, unit_of_key(r.key), unit, atmosphere);
-    return fmt::format("{:.4g}{}{}", number, unit == "1" ? "" : " ", unit == "1" ? "" : unit);
+    return fmt::format("{:.{}g}{}{}", number(si), digits, unit == "1" ? "" : " ",
+                       unit == "1" ? "" : unit);
   };
   if (std::isinf(band.lowest)) return "at most " + end(band.highest);
   if (std::isinf(band.highest)) return "at least " + end(band.lowest);

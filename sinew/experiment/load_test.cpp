@@ -93,5 +93,30 @@ TEST(Load, LeavesWhatIsOutOfReachToWhoWantsToRefuseIt) {
   EXPECT_NE(words.find("phase.propulsion: found a path out of reach"), std::string::npos) << words;
 }
 
+// What is to be judged says what agreement is worth, and a band of its own says why.
+TEST(Load, AJudgedFigureNeedsItsClassAndItsBandAReason) {
+  const auto with = [](const std::string& more) {
+    return refusal([&] {
+      load(walk,
+           {"reported=[{ key = \"trolley.distance_m\", value = \"55 to 60 in\", source = \"6.3\"" +
+            more + " }]"});
+    });
+  };
+  EXPECT_EQ(with(""), "nothing") << "it is not judged";
+  EXPECT_EQ(with(R"(, class = "predicted", wording = "range")"), "nothing");
+  const std::string none = with(R"(, wording = "range")");
+  for (const char* word : {"predicted", "fitted", "put in", "by construction", "code against code"})
+    EXPECT_NE(none.find(std::string("\"") + word + "\""), std::string::npos) << none;
+  EXPECT_NE(with(R"(, class = "proven", wording = "range")").find("found \"proven\""),
+            std::string::npos);
+  const std::string band = R"(, class = "fitted", accept = ["53 in", "60 in"])";
+  EXPECT_NE(with(band).find("band_reason: found nothing; expected why the band of"),
+            std::string::npos)
+      << with(band);
+  EXPECT_EQ(with(band + R"(, band_reason = "read from a plot")"), "nothing");
+  EXPECT_NE(with(band + R"(, wording = "range", band_reason = "x")").find("one of the two"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace sinew::experiment

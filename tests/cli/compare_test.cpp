@@ -61,7 +61,7 @@ TEST(Compare, TellsAGainsRunsApart) {
     }
   const Result text = w.sinew({"compare", "a", "b"});
   EXPECT_THAT(text.out, AllOf(HasSubstr("control.gains.hip.velocity"), HasSubstr("B − A"),
-                              HasSubstr("trolley.distance_m"), HasSubstr(" in ")));
+                              HasSubstr("trolley.distance  "), HasSubstr(" in ")));
   EXPECT_THAT(w.sinew({"compare", "a", "b", "--units", "si"}).out, HasSubstr(" m "));
 }
 

@@ -85,7 +85,7 @@ TEST(Run, PrintsWhatIsReportedBesideOurs) {
   const Workspace w;
   const Result result = w.sinew({"run", walk});
   EXPECT_EQ(result.code, 0) << "a result that differs is no failure";
-  EXPECT_THAT(result.out, AllOf(HasSubstr("trolley.distance_m"), HasSubstr("55 to 60 in")));
+  EXPECT_THAT(result.out, AllOf(HasSubstr("trolley.distance  "), HasSubstr("55 to 60 in")));
   EXPECT_THAT(result.err, HasSubstr("kept in runs/walk-test-1/1"));
   EXPECT_THAT(result.err, HasSubstr("warning: hip_extensor_tension: "));
   EXPECT_THAT(result.err, ::testing::Not(HasSubstr("\r"))) << "a bar where there is no terminal";

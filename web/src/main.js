@@ -9,7 +9,7 @@ import { Plots } from './plots.js';
 import { held, index_at, open_within, read_samples } from './samples.js';
 import { Scene } from './scene.js';
 import { as_scene, StandScene } from './stand.js';
-import { count_verdicts, Figures, show_parameters, show_results, show_warnings } from './tables.js';
+import { count_verdicts, counts_in_words, Figures, show_parameters, show_results, show_warnings } from './tables.js';
 import { Units } from './units.js';
 
 const paper_scene = 'width: 640px; height: 330px;';  // of the drawing, whatever the screen's is
@@ -52,7 +52,7 @@ class Page {
     const out = [];
     if (run.verdicts.length) {
       const n = count_verdicts(run.verdicts);
-      out.push(chip('results', `${n.agree} of ${n.judged} results agree`, n.bad ? 'bad' : 'good'));
+      out.push(chip('results', `Results that ${counts_in_words(run.verdicts)}`, n.bad ? 'bad' : 'good'));
     }
     if (run.warnings.length)
       out.push(chip('warnings', `${run.warnings.length} warning${run.warnings.length > 1 ? 's' : ''}`, 'warn'));

@@ -22,6 +22,14 @@ export const count_verdicts = (verdicts) => ({
   bad: verdicts.filter((v) => verdict_class(v.is) === 'bad').length,
 });
 
+// By class, what is worth most first: "agree: 0 of 1 predicted, 5 of 5 fitted".
+const classes = ['predicted', 'fitted', 'put in', 'by construction', 'code against code', '-'];
+export function counts_in_words(verdicts) {
+  const parts = classes.map((of) => [of, count_verdicts(verdicts.filter((v) => (v.class ?? '-') === of))])
+    .filter(([, n]) => n.judged).map(([of, n]) => `${n.agree} of ${n.judged} ${of === '-' ? 'without a class' : of}`);
+  return parts.length ? `agree: ${parts.join(', ')}` : 'none is judged';
+}
+
 // --- results ---
 
 export function show_results(run) {
@@ -34,8 +42,7 @@ export function show_results(run) {
       element('td', { class: 'quiet', title: v.wording }, v.class ?? ''),
       element('td', {}, element('span', { class: `verdict ${verdict_class(v.is)}` }, v.is)),
       cell(v.source, 'source')));
-  const n = count_verdicts(run.verdicts);
-  root.append(heading('Results', `${n.agree} of ${n.judged} that are judged agree`),
+  root.append(heading('Results', counts_in_words(run.verdicts)),
     table('Results', ['', 'reported', 'this run', 'accepted', 'class', '', 'source'], rows));
 }
 
