@@ -1,7 +1,7 @@
 #!/usr/bin/env node
 // statements.mjs figures INDEX.json            the statements of a page of figures, a line each
 // statements.mjs run NAME < VERDICTS.json      those of an experiment, from `sinew analyze --verdicts`
-// statements.mjs count LIST                    how many there are of each class and verdict
+// statements.mjs count LIST                    how many there are of each class and verdict, as a table
 //
 // A line: where · statement · class · verdict, between bars. ./check holds the lines against
 // tests/claims/statements.txt: whatever changes has to be changed there too, by somebody who looked.
@@ -35,11 +35,13 @@ function count(path) {
     add(part, 'all', verdict);
   }
   const classes = ['predicted', 'fitted', 'put in', 'by construction', 'code against code', '-', 'all'];
-  const out = [['', 'class', ...verdicts, 'all'].join('\t')];
+  const row = (...cells) => `| ${cells.join(' | ')} |`;
+  const out = [row('', 'class', ...verdicts, 'all'), row('---', '---', ...verdicts.map(() => '---:'), '---:')];
   for (const part of ['figures', 'experiments'])
     for (const of of classes) {
-      const row = numbers.get(`${part}|${of}`);
-      if (row) out.push([part, of, ...verdicts.map((v) => row[v]), verdicts.reduce((n, v) => n + row[v], 0)].join('\t'));
+      const n = numbers.get(`${part}|${of}`);
+      if (n) out.push(row(part, of === '-' ? 'not compared' : of, ...verdicts.map((v) => n[v] || ''),
+        verdicts.reduce((sum, v) => sum + n[v], 0)));
     }
   return out;
 }

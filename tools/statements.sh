@@ -4,7 +4,7 @@
 #   statements.sh                 all of it against tests/claims/statements.txt; exit 1 if a line changed
 #   statements.sh experiments     only those of experiments/ and experiments/rig/; or: figures
 #   statements.sh --write         makes the list anew: look at what changed before you keep it
-#   statements.sh --count         the list's numbers by class and verdict
+#   statements.sh --count         the list's numbers by class and verdict, as docs/evidence.md has them
 #
 # SINEW: the program, build/dev/bin/sinew. RUNS: a folder with a run per experiment, named as the
 # files are; FIGURES: a page of figures. What is not given is made.
@@ -13,6 +13,7 @@ cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8
 
 list=tests/claims/statements.txt
+page=docs/evidence.md  # has the table of --count
 sinew=${SINEW:-build/dev/bin/sinew}
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
@@ -28,9 +29,17 @@ of_experiments() {
 }
 
 of_figures() {
-  local page=${FIGURES:-$scratch/figures}
-  [[ -d $page ]] || "$sinew" figures --thesis -o "$page" --format csv --quiet >/dev/null
-  node tools/statements.mjs figures "$page/index.json"
+  local made=${FIGURES:-$scratch/figures}
+  [[ -d $made ]] || "$sinew" figures --thesis -o "$made" --format csv --quiet >/dev/null
+  node tools/statements.mjs figures "$made/index.json"
+}
+
+# The page with the list's table in the place of the one that it has.
+page_now() {
+  awk -v table="$(node tools/statements.mjs count "$list")" '
+    /^<!-- end of statements -->/ { within = 0 }
+    !within
+    /^<!-- statements:/ { within = 1; print table }' "$page"
 }
 
 write='' parts=()
@@ -59,3 +68,10 @@ for part in "${parts[@]}"; do
   fi
   echo "statements: $(wc -l <"$scratch/$part") of $part, as $list has them"
 done
+
+if [[ $write ]]; then
+  page_now >"$scratch/page" && cp "$scratch/page" "$page"
+elif ! diff -u "$page" <(page_now); then
+  echo "statements: the table of $page is not that of $list; tools/statements.sh --write makes both"
+  exit 1
+fi

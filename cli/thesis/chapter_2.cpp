@@ -96,8 +96,9 @@ Exhibit figure_2_6(const Sources& from) {
              .quantity = "least distance of a curve from a straight line, of its range",
              .ours = 100 * straightest,
              .unit = "%",
-             .accept = analysis::noticeable(100),
-             .why = "[22] is of second order in the length, for any numbers",
+             .accept = analysis::at_least(analysis::identity(100).highest),
+             .why = "[22] is of second order in the length, for any numbers; no more than rounding "
+                    "would be a line",
              .because = {}}),
       judge(by_construction, {.where = "2.2",
                               .says = "Force goes to zero at the greatest contraction",

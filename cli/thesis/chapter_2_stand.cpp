@@ -106,8 +106,7 @@ Trace way_up(const Loop& loop, const std::vector<double>& y) {
   return {std::span(loop.length).first(n), std::span(y).first(n)};
 }
 
-// Mean over the weights of how much longer the actuator is on the way down, of the loop's range of
-// lengths.
+// How much longer it is on the way down, mean over the weights, of the loop's range of lengths.
 double opening(const Loop& loop) {
   double sum = 0;
   const std::size_t top = heaviest(loop);
@@ -168,6 +167,7 @@ Exhibit figure_2_8(const std::vector<Loop>& loops) {
                                              }),
                       .unit = "%",
                       .accept = analysis::noticeable(100),
+                      .because = "over these lengths [22] bends by less; 2-8 is lost",
                       .why = "our stand was made with [22]"}),
        judge(put_in,
              {.where = "2.3",
@@ -177,8 +177,7 @@ Exhibit figure_2_8(const std::vector<Loop>& loops) {
               .unit = "%",
               .accept = analysis::noticeable(100),
               .why = "our stand was given the friction of 3.4",
-              .because = "Q of 3.4, 0.0044 in, opens a loop by a hundredth of its range; what 2-8 "
-                         "showed is lost"}),
+              .because = "Q of 3.4, 0.0044 in, opens it by less; what 2-8 showed is lost"}),
        judge(put_in, {.where = "6.3",
                       .says = "The more they contract, the less they pull",
                       .quantity = "largest fall of force while the length grows",
@@ -215,9 +214,8 @@ Exhibit figure_2_9(const std::vector<Loop>& loops) {
                       .ours = largest,
                       .unit = "psi",
                       .accept = analysis::measured(0, 1, 0.5),
-                      .why = "a division of our dial is 1 psi, in the reading and in the first "
-                             "one, which [29] starts from; "
-                             "the thesis's gauge is not described"})}};
+                      .why = "a division of our dial is 1 psi, in a reading and in the first; the "
+                             "thesis's gauge is not described"})}};
 }
 
 // 2-10 and 2-12 have the pressures that 2.3 names.
