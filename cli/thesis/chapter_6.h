@@ -8,7 +8,8 @@ namespace sinew::cli::thesis {
 // Into 6-3 to 6-11.
 void add_text_of_test_1(const LegRun& run, const Sources& from, Exhibits& out);
 
-// rms of the hip's oscillation in the swing of that step, the first is 0  [deg].
-double swing_oscillation(const LegRun& run, int step);
+// Largest amplitude of a joint's half swings in the swing of that step, the first is 0; 0 where it
+// does not turn twice (analysis/oscillation.h)  [deg].
+double swing_amplitude(const LegRun& run, const std::string& joint, int step);
 
 }  // namespace sinew::cli::thesis

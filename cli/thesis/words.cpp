@@ -8,7 +8,7 @@ namespace sinew::cli::thesis {
 namespace {
 
 // Of keys that the experiments of chapters 3, 6 and 7 have judged.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 26> words = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 28> words = {{
     {"swing.period_s", "Period of the swing"},
     {"swing.damping_ratio", "Damping ratio"},
     {"swing.coulomb_length_m", "Coulomb constant Q"},
@@ -28,12 +28,18 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 26> words = 
     {"joints.knee.passiveness", "Passiveness of the knee"},
     {"joints.hip.excursion_rad", "Excursion of the hip"},
     {"joints.knee.excursion_rad", "Excursion of the knee"},
-    {"joints.hip.swing_oscillation_later_steps_rms_rad", "Oscillation of the hip in swing"},
-    {"joints.knee.swing_oscillation_later_steps_rms_rad", "Oscillation of the knee in swing"},
+    {"phases.swing.joints.hip.fewest_turning_points",
+     "The hip oscillates in every swing: turning points of its error, the fewest in one"},
+    {"phases.swing.joints.knee.fewest_turning_points",
+     "The knee oscillates in every swing: the same"},
     {"joints.hip.velocity_jump_largest_rad_per_s", "Jump of the velocity from sample to sample"},
-    {"muscles.hip_extensor.measured_peak_tension_N",
-     "Greatest reading of the hip's extensor, by the controller's one scale"},
-    {"foot.extension_time_s", "Time from the retracted to the extended position"},
+    {"muscles.hip_extensor.own_scale_peak_tension_N",
+     "The greatest force, a reading of the hip's extensor by its own scale, is near the predicted "
+     "one"},
+    {"foot.extension_time_s", "Time from the retracted to the extended position, 10 to 90 % of x"},
+    {"foot.extension_time_to_peak_s",
+     "The same to the first peak of x, beyond the extended position"},
+    {"foot.slip_per_step_m", "Way that the foot slides in a step"},
     {"foot.step_repeat_rms_m", "The foot's path does not repeat itself"},
     {"ground_reaction.mean_normal_stance_true_N", "Foot forces are greater than in test 1"},
     {"rollers.front.min_load_N", "The leg lifts the front roller off the track"},
