@@ -29,6 +29,19 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+// One line, whatever bytes of a file are quoted in it.
+std::string without_controls(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F)
+      out += fmt::format("\\x{:02X}", byte);
+    else
+      out += c;
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string to_text(const Problem& problem) {
@@ -40,7 +53,7 @@ std::string to_text(const Problem& problem) {
   if (!problem.key.empty()) text += problem.key + ": ";
   text += fmt::format("found {}; expected {}", problem.found, problem.expected);
   if (!problem.try_this.empty()) text += "; try " + problem.try_this;
-  return text;
+  return without_controls(text);
 }
 
 std::string to_text(const std::vector<Problem>& problems) {

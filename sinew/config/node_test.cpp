@@ -85,6 +85,12 @@ TEST(Diagnostics, a_problem_is_one_line) {
   EXPECT_EQ(to_text(std::vector{problem, problem}), to_text(problem) + "\n" + to_text(problem));
 }
 
+// A file may hold what moves a terminal's cursor.
+TEST(Diagnostics, bytes_that_are_no_text_are_shown_as_numbers) {
+  const Problem problem{{"a.toml", 1, 1}, "x", in_quotes("1\n2\x1b[31m\x7f"), "a number"};
+  EXPECT_EQ(to_text(problem), "a.toml:1:1: x: found \"1\\x0A2\\x1B[31m\\x7F\"; expected a number");
+}
+
 TEST(Diagnostics, suggests_only_what_is_near) {
   EXPECT_EQ(closest("mount_lenght", {"mount_length", "moment_arm"}), "mount_length");
   EXPECT_EQ(closest("hip_flexr", {"hip_flexor", "knee_flexor"}), "hip_flexor");

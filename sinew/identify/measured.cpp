@@ -156,8 +156,7 @@ class Table {
 
   void find_where() {
     for (const auto& [name, values] : source_.where) {
-      const auto at = std::find_if(grid_.headings.begin(), grid_.headings.end(),
-                                   [&](const Heading& h) { return h.name == name; });
+      const auto at = std::ranges::find(grid_.headings, name, &Heading::name);
       if (at == grid_.headings.end()) {
         add_problem(0, 0, "--where", config::in_quotes(name),
                     "a column of the file: " + all_names(),

@@ -173,8 +173,9 @@ std::vector<double> dips_of(const Pulses& c, double width) {
   std::sort(found.rbegin(), found.rend());
   std::vector<double> out;
   for (const auto& [growth, t] : found) {
-    const bool near = std::any_of(out.begin(), out.end(),
-                                  [&](double other) { return std::abs(other - t) < width; });
+    const bool near = std::any_of(out.begin(), out.end(), [t = t, width](double other) {
+      return std::abs(other - t) < width;
+    });
     if (!near) out.push_back(t);
     if (out.size() == 3) break;
   }

@@ -50,7 +50,7 @@ void law_of_writing(const signals::Table& table) {
       std::filesystem::temp_directory_path() / ("sinew-fuzz-" + std::to_string(getpid()) + ".mcap");
   std::vector<signals::Topic> topics;
   for (const signals::Series& s : table.series) topics.push_back(s.topic);
-  {
+  try {
     log::Writer writer(file, topics);
     for (std::size_t t = 0; t < table.series.size(); ++t) {
       const signals::Series& s = table.series[t];
@@ -61,6 +61,11 @@ void law_of_writing(const signals::Table& table) {
       }
     }
     writer.finish();
+  } catch (const log::Error& error) {
+    std::filesystem::remove(file);
+    return law(
+        std::string(error.what()).find("not UTF-8") != std::string::npos,
+        std::string("what is read is written, but for names that are no text: ") + error.what());
   }
   const signals::Table again = log::read(file);
   std::filesystem::remove(file);
@@ -83,7 +88,8 @@ void mcap(std::string_view input) {
     for (const signals::Series& s : table.series) law_of_series(s);
     if (can_be_written(table)) law_of_writing(table);
   } catch (const log::Error& error) {
-    law(std::string(error.what()).starts_with(file.string()), "a refusal names the file");
+    law(std::string(error.what()).starts_with(file.string()),
+        std::string("a refusal names the file: ") + error.what());
   }
 }
 
