@@ -244,11 +244,14 @@ Node set_value(std::string_view key, std::string_view text) {
   const char* last = text.data() + text.size();
   const bool number_like = text.find_first_of("0123456789") < 2;  // not nan, not inf
   std::int64_t whole = 0;
-  if (std::from_chars(text.data(), last, whole).ptr == last && number_like) {
+  const auto integer = std::from_chars(text.data(), last, whole);
+  if (integer.ptr == last && integer.ec == std::errc{} && number_like) {
     return make_integer(key, whole, set_location());
   }
+  // Whole ones that no integer holds too: a reader says which it takes.
   double real = 0;
-  if (std::from_chars(text.data(), last, real).ptr == last && number_like) {
+  const auto number = std::from_chars(text.data(), last, real);
+  if (number.ptr == last && number.ec == std::errc{} && number_like) {
     return make_number(key, real, set_location());
   }
   return make_text(key, std::string(text), set_location());

@@ -17,6 +17,22 @@ Node make(Node::Kind kind, std::string_view key, Location where) {
   return node;
 }
 
+// The value itself, of { value = …, source = … }.
+const Node& value_of(const Node& node) {
+  return node.is_value_table() ? *node.find("value") : node;
+}
+Node& value_of(Node& node) { return const_cast<Node&>(value_of(std::as_const(node))); }
+
+// What stood there, also of the items of a list: a message may ask in which unit.
+void remember(Node& now, const Node& before) {
+  if (before.is_table()) return;
+  if (now.kind == Node::Kind::array && before.kind == Node::Kind::array && !before.children.empty())
+    for (std::size_t i = 0; i < now.children.size(); ++i)
+      remember(now.children[i], before.children[std::min(i, before.children.size() - 1)]);
+  if (now.kind != Node::Kind::array && before.kind != Node::Kind::array)
+    now.replaced = written(before);
+}
+
 }  // namespace
 
 const Node* Node::find(std::string_view child_key) const {
@@ -30,7 +46,10 @@ Node* Node::find(std::string_view child_key) {
 }
 
 Node& Node::put(Node child) {
-  if (Node* there = find(child.key)) return *there = std::move(child);
+  if (Node* there = find(child.key)) {
+    remember(value_of(child), value_of(*there));
+    return *there = std::move(child);
+  }
   return children.emplace_back(std::move(child));
 }
 

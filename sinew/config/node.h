@@ -23,6 +23,7 @@ struct Node {
   double real = 0;
   bool flag = false;
   std::vector<Node> children;  // of tables and arrays, in order of appearance
+  std::string replaced;        // what was written in its place, where put() took that away
 
   mutable bool used = false;  // somebody asked for it; what stays unused is an unknown key
 

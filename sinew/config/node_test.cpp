@@ -46,8 +46,16 @@ TEST(Node, a_syntax_error_has_a_place) {
 }
 
 TEST(Node, a_quantity_without_quotes_gets_the_hint) {
-  EXPECT_NE(message("mount_length = 3.15 in\n").find("try quotes around a quantity"),
-            std::string::npos);
+  const std::string said = message("mount_length = 7.2 mm  # of the hip\n");
+  EXPECT_NE(said.find("try quotes around a quantity: mount_length = \"7.2 mm\""), std::string::npos)
+      << said;
+}
+
+TEST(Node, a_number_that_nothing_holds_is_no_quantity_without_quotes) {
+  for (const char* number : {"9223372036854775808", "-9223372036854775809", "1e400"}) {
+    const std::string said = message("seed = " + std::string(number) + "\n");
+    EXPECT_NE(said.find("try a number of another size"), std::string::npos) << said;
+  }
 }
 
 TEST(Node, a_key_given_twice_is_an_error) { EXPECT_NE(message("a = 1\na = 2\n"), "no error"); }

@@ -86,22 +86,54 @@ std::string describe_dimension(Dimension dimension) {
   return fmt::format("{} ({})", name->unit, name->word);
 }
 
-std::string dimension_hint(Dimension found, Dimension expected, std::string_view unit) {
+// The unit in which a word of the field's is usually written; per radian stays per radian.
+std::string_view usual_word(std::string_view word) {
+  constexpr std::pair<std::string_view, std::string_view> words[] = {
+      {"m", "in"}, {"m2", "in2"}, {"m3", "in3"}, {"kg", "lb"}, {"N", "lbf"}, {"Pa", "psi"}};
+  for (const auto& [si, usual] : words)
+    if (word == si) return usual;
+  return word;
+}
+
+std::string with_usual_words(std::string_view unit) {
+  std::string out;
+  for (std::size_t at = 0; at < unit.size();) {
+    const std::size_t end = std::min(unit.find_first_of(" /()", at), unit.size());
+    out += usual_word(unit.substr(at, end - at));
+    if (end < unit.size()) out += unit[end];
+    at = end + 1;
+  }
+  return out;
+}
+
+std::string quoted_units(std::string_view number, std::string_view unit) {
+  std::string out;
+  for (const std::string& usual : usual_units(unit))
+    out += fmt::format("{}\"{}{}{}\"", out.empty() ? "" : " or ", number, number.empty() ? "" : " ",
+                       usual);
+  return out;
+}
+
+std::string dimension_hint(Dimension found, Dimension expected, std::string_view text,
+                           std::string_view unit) {
   using namespace units::dimension;
   const bool mass_for_force = combine(found, acceleration) == expected;
   const bool force_for_mass = combine(found, acceleration, -1) == expected;
-  if (mass_for_force) return "lbf: lb is mass, lbf is force";
-  if (force_for_mass) return "lb: lbf is force, lb is mass";
-  if (combine(found, angle, -1) == expected || combine(found, angle) == expected) {
-    return fmt::format("\"{}\": rad counts as a dimension here", unit);
-  }
+  const bool pounds = text.find("lb") != text.npos;
+  if (mass_for_force)
+    return pounds ? "lbf: lb is mass, lbf is force" : "N: kg and g are mass, N is force";
+  if (force_for_mass) return pounds ? "lb: lbf is force, lb is mass" : "kg: N is force, kg is mass";
+  if (combine(found, angle, -1) == expected || combine(found, angle) == expected)
+    return quoted_units("", unit) + ": rad counts as a dimension here";
   return fmt::format("a quantity such as \"1 {}\"", unit);
 }
+
+const char* const number_range = "a number from 1e-307 to 1e308, or 0";
 
 struct NumberAndRest {
   double number = 0;
   std::string_view rest;  // the unit's text
-  bool ok = false;
+  std::errc error{};
 };
 
 NumberAndRest split_number(std::string_view text) {
@@ -110,8 +142,8 @@ NumberAndRest split_number(std::string_view text) {
   if (first != last && *first == '+') ++first;
   NumberAndRest result;
   const auto [end, error] = std::from_chars(first, last, result.number);
-  result.ok = error == std::errc{};
-  result.rest = result.ok ? trimmed({end, static_cast<std::size_t>(last - end)}) : text;
+  result.error = error;
+  result.rest = error == std::errc{} ? trimmed({end, static_cast<std::size_t>(last - end)}) : text;
   return result;
 }
 
@@ -121,12 +153,21 @@ std::string comma_hint(std::string_view text, std::string_view rest) {
   if (!comma) return {};
   std::string with_point(text);
   with_point[text.size() - rest.size()] = '.';
-  return fmt::format("a decimal point: \"{}\"", with_point);
+  const std::string point = fmt::format("a decimal point: \"{}\"", with_point);
+  const std::size_t end = std::min(rest.find_first_not_of("0123456789", 1), rest.size());
+  if (end != 4) return point;
+  std::string without(text);
+  without.erase(text.size() - rest.size(), 1);
+  return fmt::format("{}; or \"{}\", if it parts the thousands", point, without);
 }
 
 std::string unknown_unit_hint(std::string_view piece) {
   std::vector<std::string_view> names{"gauge", "abs", "diff"};
   for (const auto& unit : units::known_units) names.push_back(unit.name);
+  if (piece == "psig" || piece == "barg")
+    return fmt::format("\"{} gauge\"", piece.substr(0, piece.size() - 1));
+  if (piece == "psia" || piece == "bara")
+    return fmt::format("\"{} abs\"", piece.substr(0, piece.size() - 1));
   const std::string_view near = closest(piece, names);
   if (!near.empty()) return fmt::format("\"{}\"", near);
   if (piece == "inch" || piece == "inches" || piece == "\"") return "\"in\"";
@@ -148,7 +189,7 @@ std::optional<Mistake> check_unit(std::string_view text, const FullUnit& found,
   const Dimension needs = wanted.reading.unit.dimension;
   if (has == needs) return std::nullopt;
   return Mistake{fmt::format("{}, {}", in_quotes(text), describe_dimension(has)),
-                 describe_unit(unit), dimension_hint(has, needs, unit)};
+                 describe_unit(unit), dimension_hint(has, needs, found.text, unit)};
 }
 
 std::optional<Mistake> check_reference(std::string_view text, const FullUnit& found,
@@ -183,16 +224,37 @@ double moved(double pressure, Reference from, Reference to, double atmosphere) {
 
 }  // namespace
 
-Mistake missing_unit(std::string_view number, std::string_view unit) {
-  return {fmt::format("{} without a unit", number), describe_unit(unit),
-          fmt::format("\"{} {}\"", number, unit)};
+std::vector<std::string> usual_units(std::string_view unit) {
+  constexpr std::pair<std::string_view, std::string_view> whole[] = {
+      {"rad", "deg"}, {"s", "ms"}, {"m3/(s Pa)", "L/(s bar)"}, {"s/count", "% s/count"}};
+  std::string usual = with_usual_words(unit);
+  for (const auto& [si, other] : whole)
+    if (unit == si) usual = other;
+  if (usual.starts_with("1/") && (unit.find("count") != unit.npos || unit.find('N') != unit.npos))
+    usual.replace(0, 1, "%");
+  std::vector<std::string> out{std::move(usual)};
+  if (out.front() != unit) out.emplace_back(unit);
+  return out;
 }
 
-Parsed parse_quantity(std::string_view text, std::string_view unit, double atmosphere) {
+Mistake missing_unit(std::string_view number, std::string_view unit, std::string_view before) {
+  Mistake out{fmt::format("{} without a unit", number), describe_unit(unit), ""};
+  if (!before.empty() && !parse_quantity(before, unit).mistake)
+    out.try_this =
+        fmt::format("\"{} {}\", the unit of what stood there", number, split_number(before).rest);
+  else
+    out.try_this = quoted_units(number, unit);
+  return out;
+}
+
+Parsed parse_quantity(std::string_view text, std::string_view unit, double atmosphere,
+                      std::string_view before) {
   const FullUnit wanted = field_unit(unit);
   const std::string_view body = trimmed(text);
-  const auto [number, rest, ok] = split_number(body);
-  if (!ok) {
+  const auto [number, rest, error] = split_number(body);
+  if (error == std::errc::result_out_of_range)
+    return {0, Mistake{in_quotes(text), describe_finite(unit), number_range}};
+  if (error != std::errc{}) {
     const std::string example = unit == "1" ? "0.5" : fmt::format("1 {}", unit);
     return {0, Mistake{in_quotes(text), describe_unit(unit),
                        fmt::format("a number first, as in \"{}\"", example)}};
@@ -204,12 +266,13 @@ Parsed parse_quantity(std::string_view text, std::string_view unit, double atmos
     return {0, Mistake{in_quotes(text), describe_unit(unit), hint}};
   }
   if (rest.empty() && wanted.reading.unit.dimension != Dimension{}) {
-    return {0, missing_unit(body, unit)};
+    return {0, missing_unit(body, unit, before)};
   }
   const FullUnit found = split_unit(rest);
   if (auto mistake = check_unit(body, found, wanted, unit)) return {0, mistake};
   if (auto mistake = check_reference(body, found, wanted, unit)) return {0, mistake};
   const double si = wanted.reading.unit.from_si(found.reading.unit.to_si(number));
+  if (!std::isfinite(si)) return {0, Mistake{in_quotes(text), describe_finite(unit), number_range}};
   return {moved(si, found.reference, wanted.reference, atmosphere), std::nullopt};
 }
 

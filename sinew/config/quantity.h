@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sinew/units/constants.h"
 
@@ -25,16 +26,22 @@ struct Parsed {
   std::optional<Mistake> mistake;
 };
 
-// `unit` is a field's unit. A bare number is right for "1" only.
+// `unit` is a field's unit. A bare number is right for "1" only. `before` is the text that stood in
+// its place, where there was one: what lacks a unit was likely meant in that one's.
 Parsed parse_quantity(std::string_view text, std::string_view unit,
-                      double atmosphere = units::atmosphere);
+                      double atmosphere = units::atmosphere, std::string_view before = {});
 
 // The same for callers without a file: throws Error, which calls the text `key`.
 double quantity(std::string_view text, std::string_view unit, std::string_view key = "",
                 double atmosphere = units::atmosphere);
 
-// The mistake of a bare number where a unit is needed: "3.15" for "m".
-Mistake missing_unit(std::string_view number, std::string_view unit);
+// The mistake of a bare number where a unit is needed: "3.15" for "m". Proposes the unit of
+// `before`, or else the usual ones.
+Mistake missing_unit(std::string_view number, std::string_view unit, std::string_view before = {});
+
+// In which people write a quantity of the field's unit, that one last: {"in", "m"} for "m",
+// {"%/count", "1/count"} for "1/count".
+std::vector<std::string> usual_units(std::string_view unit);
 
 // Shortest text that reads back to the same double: "0.08001 m", "0.55" for unit "1".
 std::string format_quantity(double si, std::string_view unit);

@@ -73,12 +73,13 @@ TEST(Quantity, mass_is_not_force) {
 TEST(Quantity, an_angle_is_a_dimension) {
   EXPECT_EQ(message("35 lbf in", "N m/rad"),
             "text: key: found \"35 lbf in\", N m (torque or energy); expected N m/rad (joint "
-            "stiffness); try \"N m/rad\": rad counts as a dimension here");
+            "stiffness); try \"lbf in/rad\" or \"N m/rad\": rad counts as a dimension here");
 }
 
 TEST(Quantity, other_mistakes_say_what_to_do) {
   EXPECT_EQ(message("3.15", "m"),
-            "text: key: found 3.15 without a unit; expected m (length); try \"3.15 m\"");
+            "text: key: found 3.15 without a unit; expected m (length); try \"3.15 in\" or "
+            "\"3.15 m\"");
   EXPECT_EQ(message("3,15 in", "m"),
             "text: key: found \"3,15 in\"; expected m (length); try a decimal point: \"3.15 in\"");
   EXPECT_EQ(message("3.15 s", "m"),
@@ -92,11 +93,55 @@ TEST(Quantity, other_mistakes_say_what_to_do) {
   EXPECT_NE(message("3 s", "1").find("expected a number"), std::string::npos);
 }
 
+// What a hint proposes is read, and what stood there decides its unit: 0.07 behind 0.035 %/count is
+// no 0.07 1/count, which is a hundred times as much.
+TEST(Quantity, the_unit_that_is_proposed_is_the_one_that_was_meant) {
+  const auto hint = [](const char* unit, const char* before) {
+    return parse_quantity("0.07", unit, units::atmosphere, before).mistake->try_this;
+  };
+  EXPECT_EQ(hint("1/count", "0.035 %/count"), "\"0.07 %/count\", the unit of what stood there");
+  EXPECT_EQ(hint("1/count", "0.00035 1/count"), "\"0.07 1/count\", the unit of what stood there");
+  EXPECT_EQ(hint("1/count", ""), "\"0.07 %/count\" or \"0.07 1/count\"");
+  EXPECT_EQ(hint("Pa abs", "62 psi gauge"), "\"0.07 psi gauge\", the unit of what stood there");
+  EXPECT_EQ(hint("Pa abs", ""), "\"0.07 psi abs\" or \"0.07 Pa abs\"");
+  EXPECT_EQ(hint("m", "not set"), "\"0.07 in\" or \"0.07 m\"");
+}
+
+TEST(Quantity, every_usual_unit_is_read_as_the_fields_own) {
+  for (const char* unit : {"m",       "s",        "N/m",         "rad",
+                           "N s/m",   "kg",       "Pa diff",     "Pa abs",
+                           "N",       "m3",       "count",       "1/count",
+                           "s/count", "N m/rad",  "N m s/rad",   "1/(N m/rad)",
+                           "m2",      "kg m2",    "V/Pa",        "V/N",
+                           "V s/rad", "Pa gauge", "s/Pa",        "rad/s2",
+                           "rad/s",   "rad/V",    "m3/(s Pa)",   "m/s2",
+                           "m/V",     "m/N",      "kg/(s Pa)",   "count/rad",
+                           "count/m", "W",        "V",           "N/m3",
+                           "N/m2",    "N m",      "K",           "J/(kg K)",
+                           "Hz",      "1/s",      "1/(count s)", "1/(N m s/rad)",
+                           "1/m",     "1/Pa2"}) {
+    const std::vector<std::string> usual = usual_units(unit);
+    ASSERT_FALSE(usual.empty()) << unit;
+    EXPECT_EQ(usual.back(), unit);
+    for (const std::string& u : usual)
+      EXPECT_EQ(message(("3 " + u).c_str(), unit), "no error") << u << " for " << unit;
+  }
+}
+
+TEST(Quantity, hints_of_other_slips_are_read_too) {
+  EXPECT_NE(message("60 psig", "Pa abs").find("try \"psi gauge\""), std::string::npos);
+  EXPECT_NE(message("60 bara", "Pa abs").find("try \"bar abs\""), std::string::npos);
+  EXPECT_NE(message("1,000 Pa abs", "Pa abs").find("\"1.000 Pa abs\"; or \"1000 Pa abs\""),
+            std::string::npos);
+  EXPECT_NE(message("2 kg", "N").find("try N: kg and g are mass"), std::string::npos);
+}
+
 TEST(Quantity, is_finite) {
   EXPECT_EQ(message("nan m", "m"),
             "text: key: found \"nan m\"; expected a finite number of m (length)");
   EXPECT_NE(message("inf", "1").find("a finite number"), std::string::npos);
-  EXPECT_NE(message("1e999 m", "m"), "no error");
+  for (const char* text : {"1e999 m", "-1e999 m", "1e-999 m", "1e308 km"})
+    EXPECT_NE(message(text, "m").find("from 1e-307 to 1e308, or 0"), std::string::npos) << text;
 }
 
 TEST(Quantity, a_wrong_unit_in_a_field_is_our_bug) {

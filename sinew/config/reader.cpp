@@ -12,9 +12,14 @@ namespace sinew::config {
 
 namespace {
 
+// A number that is none stands for a key without a value of its own.
+std::string default_text(double value, std::string_view unit) {
+  return std::isfinite(value) ? format_quantity(value, unit) : "not set";
+}
+
 std::string joined(const std::vector<double>& values, std::string_view unit) {
   std::string text;
-  for (double v : values) text += (text.empty() ? "" : ", ") + format_quantity(v, unit);
+  for (double v : values) text += (text.empty() ? "" : ", ") + default_text(v, unit);
   return text;
 }
 
@@ -45,7 +50,7 @@ Reader::Reader(const Node& root, ReaderOptions options)
 // --- values ---
 
 void Reader::number(const Field& field, double& value) {
-  auto entry = open(field, format_quantity(value, field.unit), field.unit);
+  auto entry = open(field, default_text(value, field.unit), field.unit);
   if (!entry) return;
   const auto si = si_of(*entry->value, field.unit, entry->origin.path);
   if (si && in_bounds(field, *si, *entry->value, entry->origin.path)) {
@@ -91,17 +96,18 @@ void Reader::integer(const Field& field, int& value) {
   auto entry = open(field, std::to_string(value), "");
   if (!entry) return;
   const Node& node = *entry->value;
-  if (expect_kind(node, Node::Kind::integer, entry->origin.path)) {
-    using Limits = std::numeric_limits<int>;
-    const double low = std::max<double>(field.min, Limits::min());
-    const double high = std::min<double>(field.max, Limits::max());
-    const double found = static_cast<double>(node.integer);
-    if (found >= low && found <= high) {
-      value = static_cast<int>(node.integer);
-    } else {
-      add_problem(node, entry->origin.path, shown(node),
-                  fmt::format("{:.0f} to {:.0f}", low, high));
-    }
+  using Limits = std::numeric_limits<int>;
+  const double low = std::max<double>(field.min, Limits::min());
+  const double high = std::min<double>(field.max, Limits::max());
+  const bool whole = node.kind == Node::Kind::integer;
+  const double found = whole ? static_cast<double>(node.integer) : node.real;
+  // What no integer holds came as a real number.
+  const bool inside = found >= low && found <= high;
+  const bool beyond = node.kind == Node::Kind::real && found == std::floor(found) && !inside;
+  if (beyond || (whole && !inside)) {
+    add_problem(node, entry->origin.path, shown(node), fmt::format("{:.0f} to {:.0f}", low, high));
+  } else if (expect_kind(node, Node::Kind::integer, entry->origin.path)) {
+    value = static_cast<int>(node.integer);
   }
   close(std::move(*entry), true);
 }
@@ -185,7 +191,7 @@ std::optional<double> Reader::si_of(const Node& node, std::string_view unit,
                                     const std::string& path) {
   std::optional<Mistake> mistake;
   if (node.kind == Node::Kind::text) {
-    const Parsed parsed = parse_quantity(node.text, unit, options_.atmosphere);
+    const Parsed parsed = parse_quantity(node.text, unit, options_.atmosphere, node.replaced);
     if (!parsed.mistake) return parsed.si;
     mistake = parsed.mistake;
   } else if (node.is_number()) {
@@ -195,7 +201,7 @@ std::optional<double> Reader::si_of(const Node& node, std::string_view unit,
     } else if (unit == "1") {
       return value;
     } else {
-      mistake = missing_unit(written(node), unit);
+      mistake = missing_unit(written(node), unit, node.replaced);
     }
   } else {
     mistake = Mistake{shown(node), describe_unit(unit), ""};

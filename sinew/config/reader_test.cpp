@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "sinew/units/literals.h"
 
@@ -138,7 +139,7 @@ TEST(Reader, a_missing_key_is_reported_with_its_meaning) {
 TEST(Reader, a_wrong_type_is_reported) {
   EXPECT_TRUE(contains(Reading("length = 3.15").message,
                        "a.toml:1:1: length: found 3.15 without a unit; expected m (length); try "
-                       "\"3.15 m\""));
+                       "\"3.15 in\" or \"3.15 m\""));
   const auto also = [](std::string line) { return Reading("length = \"1 m\"\n" + line).message; };
   EXPECT_EQ(also("count = \"2\""), "a.toml:2:1: count: found \"2\"; expected a whole number");
   EXPECT_EQ(also("count = 9"), "a.toml:2:1: count: found 9; expected 1 to 4");
@@ -155,6 +156,32 @@ TEST(Reader, a_value_out_of_bounds_is_reported_in_si) {
             "a.toml:1:1: length: found \"5 ft\", which is 1.524 m; expected 0 m to 1 m");
   EXPECT_EQ(Reading("length = \"1 m\"\nstiffness = \"-1 N/m\"").message,
             "a.toml:2:1: stiffness: found \"-1 N/m\"; expected at least 0 N/m");
+}
+
+TEST(Reader, a_whole_number_that_no_integer_holds_is_out_of_bounds) {
+  const auto of = [](const Node& count) {
+    Node root = parse_text("length = \"1 m\"", "a.toml");
+    root.put(count);
+    Reader reader(root);
+    Spring spring;
+    fields(reader, spring);
+    return to_text(reader.problems());
+  };
+  EXPECT_TRUE(contains(of(make_number("count", 0x1p63)), "expected 1 to 4"));
+  EXPECT_TRUE(contains(of(make_number("count", -1e300)), "expected 1 to 4"));
+  EXPECT_TRUE(contains(of(make_integer("count", INT64_MIN)), "expected 1 to 4"));
+  EXPECT_TRUE(contains(of(make_integer("count", (std::int64_t{1} << 32) + 2)), "expected 1 to 4"));
+  EXPECT_TRUE(contains(of(make_number("count", 2)), "expected a whole number"));
+}
+
+// A default that is no number stands for "nothing was said".
+TEST(Reader, a_default_that_is_none_is_not_set) {
+  const Node root = parse_text("", "a.toml");
+  Reader reader(root);
+  double arm = std::numeric_limits<double>::quiet_NaN();
+  reader.number({.name = "arm", .unit = "m", .optional = true}, arm);
+  ASSERT_EQ(reader.origins().size(), 1u);
+  EXPECT_EQ(reader.origins()[0].text, "not set");
 }
 
 TEST(Reader, nan_is_reported) {

@@ -79,7 +79,10 @@ std::string line_of(std::string_view text, int line) {
 }
 
 // The slip everybody makes: mount_length = 3.15 in
-std::string syntax_hint(std::string_view line) {
+std::string syntax_hint(std::string_view line, std::string_view error) {
+  const bool size = error.find("not representable") != error.npos ||
+                    error.find("could not be interpreted") != error.npos;
+  if (size) return "a number of another size: whole ones to 9223372036854775807, others to 1e308";
   const std::size_t equals = line.find('=');
   if (equals == line.npos) return "";
   const auto of_a_key = [](char c) {
@@ -91,14 +94,16 @@ std::string syntax_hint(std::string_view line) {
   const bool bare = start != line.npos && (std::isdigit(static_cast<unsigned char>(line[start])) ||
                                            line[start] == '-' || line[start] == '+');
   if (!bare) return "";
-  return "quotes around a quantity: " + std::string(line.substr(0, equals)) + "= \"3.15 in\"";
+  const std::size_t end = line.find_last_not_of(" \t\r", std::min(line.find('#'), line.size()) - 1);
+  return fmt::format("quotes around a quantity: {}= \"{}\"", line.substr(0, equals),
+                     line.substr(start, end + 1 - start));
 }
 
 [[noreturn]] void fail_syntax(const toml::parse_error& error, std::string_view text,
                               const std::string& name) {
   const Location where = location(error.source(), name);
   fail(where, "", fmt::format("a syntax error: {}", error.description()), "TOML",
-       syntax_hint(line_of(text, where.line)));
+       syntax_hint(line_of(text, where.line), error.description()));
 }
 
 }  // namespace

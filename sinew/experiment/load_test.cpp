@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/experiment/machine_file.h"
 
@@ -47,6 +48,30 @@ TEST(MachineFile, ValuesComeInSiUnderTheKeysOfTheirOrigins) {
   ASSERT_NE(trolley->find("drag"), nullptr);
   EXPECT_EQ(config::written(*trolley->find("drag")), "4.4482216152605 N");
   EXPECT_EQ(values.find("phase"), nullptr);
+}
+
+// A number that is set without its unit: the hint proposes what the file itself has there, to the
+// last bit. Every quantity of a walk and of its robot.
+TEST(Load, TheHintOfAMissingUnitIsWhatTheFileSays) {
+  int tried = 0;
+  for (const config::Origin& origin : load(walk).origins) {
+    const config::Parsed meant =
+        config::parse_quantity(origin.text, origin.unit.empty() ? "1" : origin.unit);
+    const std::size_t space = origin.text.find(' ');
+    const bool in_list = origin.path.find('[') != origin.path.npos;
+    if (meant.mistake || origin.is_default || in_list || space == origin.text.npos) continue;
+    const std::string said =
+        refusal([&] { (void)load(walk, {origin.path + "=" + origin.text.substr(0, space)}); });
+    if (said.find("expected a list") != said.npos) continue;
+    ASSERT_NE(said.find("without a unit; expected"), std::string::npos) << origin.path;
+    const std::size_t quote = said.find("try \"") + 5;
+    const std::string hint = said.substr(quote, said.find('"', quote) - quote);
+    const config::Parsed proposed = config::parse_quantity(hint, origin.unit);
+    EXPECT_FALSE(proposed.mistake) << origin.path << ": " << said;
+    EXPECT_EQ(proposed.si, meant.si) << origin.path << ": " << said;
+    ++tried;
+  }
+  EXPECT_GT(tried, 100);
 }
 
 TEST(MachineFile, ARobotAloneIsHeldToItsNames) {

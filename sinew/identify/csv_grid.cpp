@@ -102,12 +102,15 @@ void refuse_ragged_rows(const Grid& grid) {
 
 }  // namespace
 
-bool is_number(std::string_view text) {
+std::optional<double> number_in(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size();
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
 }
+
+bool is_number(std::string_view text) { return number_in(text).has_value(); }
 
 Grid read_grid(std::string_view text, const std::string& file,
                const std::vector<std::string>& columns) {

@@ -2,6 +2,7 @@
 // mean.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,5 +41,6 @@ Grid read_grid(std::string_view text, const std::string& file,
                const std::vector<std::string>& columns);
 
 bool is_number(std::string_view text);
+std::optional<double> number_in(std::string_view text);  // nothing where it is none
 
 }  // namespace sinew::identify

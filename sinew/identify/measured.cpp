@@ -168,8 +168,8 @@ class Table {
   }
 
   static bool same(std::string_view cell, std::string_view value) {
-    if (!is_number(cell) || !is_number(value)) return cell == value;
-    return std::stod(std::string(cell)) == std::stod(std::string(value));
+    const std::optional<double> a = number_in(cell), b = number_in(value);
+    return a && b ? *a == *b : cell == value;
   }
 
   // Every condition of `where` holds.

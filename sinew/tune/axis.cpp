@@ -39,9 +39,15 @@ std::optional<Number> number_in(std::string_view text) {
   return out;
 }
 
+// Steps round: 0.30000000000000004 is 0.3.
+double rounded(double number) {
+  const std::string text = fmt::format("{:.12g}", number);
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
 Value number_value(double number, std::string_view unit) {
-  // Steps round: 0.30000000000000004 is 0.3.
-  const std::string cell = config::format_number(std::stod(fmt::format("{:.12g}", number)));
+  const std::string cell = config::format_number(number);
   return {unit.empty() ? cell : fmt::format("{} {}", cell, unit), cell, number};
 }
 
@@ -87,7 +93,7 @@ void add_range(Axis& axis, std::string_view text, std::string_view option) {
     refuse(option, text, "2 to 10000 values: from:to:how many", example);
   if (from == to) refuse(option, text, "two different ends", example);
   for (double i = 0; i < n; ++i)
-    axis.values.push_back(number_value(from + i * (to - from) / (n - 1), axis.unit));
+    axis.values.push_back(number_value(rounded(from + i * (to - from) / (n - 1)), axis.unit));
 }
 
 }  // namespace
@@ -118,7 +124,7 @@ std::vector<std::string_view> list_of(std::string_view text) {
 
 std::string Axis::heading() const { return unit.empty() ? key : fmt::format("{} [{}]", key, unit); }
 
-Value Axis::at(double number) const { return number_value(number, unit); }
+Value Axis::at(double number) const { return number_value(rounded(number), unit); }
 
 std::string Axis::set(const Value& value) const { return key + "=" + value.text; }
 

@@ -191,6 +191,24 @@ TEST(BadSet, TyposAreSuggestedRight) {
   EXPECT_FALSE(std::filesystem::exists(w / "runs"));
 }
 
+// No number is taken for another one: what is too large is refused with the range.
+TEST(BadSet, NumbersThatNothingHolds) {
+  const Workspace w;
+  const auto said = [&](const std::string& set) {
+    const Result r = w.sinew({"run", walk, "--set", set});
+    EXPECT_EQ(r.code, 1) << set;
+    return r.err;
+  };
+  for (const char* seed : {"9223372036854775808", "-9223372036854775809", "18446744073709551616",
+                           "1e300", "2147483648", "-1"})
+    EXPECT_THAT(said(std::string("seed=") + seed), HasSubstr("expected 0 to 2147483647")) << seed;
+  EXPECT_THAT(said("seed=1.5"), HasSubstr("expected a whole number"));
+  for (const char* drag : {"1e400 lbf", "-1e400 lbf", "1e-400 lbf"})
+    EXPECT_THAT(said(std::string("trolley.drag=") + drag), HasSubstr("a finite number"));
+  EXPECT_THAT(said("joint.hip.angle_gain=0.07"), HasSubstr("try \"0.07 %/count\""));
+  EXPECT_FALSE(std::filesystem::exists(w / "runs"));
+}
+
 TEST(BadSet, AnUnknownChannelIsSuggestedRight) {
   const Workspace w;
   const Result result = w.sinew({"run", walk, "--set", R"(log.channels=["/jiont/*"])"});

@@ -45,6 +45,24 @@ TEST(Show, ReadsEveryKindOfFile) {
   }
 }
 
+// What a file leaves open is no number, and is not shown as one.
+TEST(Show, NoNumberIsNone) {
+  const Workspace w;
+  for (const char* file : {"robots/leg/robot.toml", "experiments/walk-test-1.toml",
+                           "experiments/cricket.toml", "experiments/rig/feedback.toml"}) {
+    for (const bool json : {true, false}) {
+      Words words{"show", file};
+      if (json) words.emplace_back("--json");
+      const Result r = w.sinew(words);
+      EXPECT_EQ(r.code, 0);
+      for (const char* none : {" nan ", " inf ", "\"nan ", "\"inf ", "-inf ", "null"})
+        EXPECT_THAT(r.out, ::testing::Not(HasSubstr(none))) << file;
+    }
+  }
+  EXPECT_EQ(shown(w, {"robots/leg/robot.toml", "muscle.hip_flexor.moment_arm"})[0]["written"],
+            "not set");
+}
+
 TEST(Show, FiltersByHowKeysBegin) {
   const Workspace w;
   for (const Json& value : shown(w, {"robots/leg/robot.toml", "joint.hip", "air"})) {
