@@ -123,7 +123,32 @@ std::vector<tune::Row> run_all(const Options& options, const tune::Sweep& s, Csv
   return rows;
 }
 
+// A figure that no run has was asked for in vain: under a name that is none, or of a machine that
+// does not have it.
+void refuse_empty_columns(const std::vector<tune::Row>& rows, const tune::Sweep& s) {
+  std::vector<config::Problem> problems;
+  for (const std::string& key : tune::keys(s)) {
+    const auto has = [&](const tune::Row& row) {
+      return row.ok && std::ranges::find(row.lacks, key) == row.lacks.end();
+    };
+    const auto lacks = [&](const tune::Row& row) {
+      return std::ranges::find(row.lacks, key) != row.lacks.end();
+    };
+    if (std::ranges::any_of(rows, lacks) && std::ranges::none_of(rows, has))
+      problems.push_back({{key, 0, 0},
+                          "",
+                          "no run with it",
+                          "a key of the runs' summary.json",
+                          "sinew run, whose summary.json has them all"});
+  }
+  if (!problems.empty()) throw config::Error(problems);
+}
+
 void tell(const std::vector<tune::Row>& rows, std::size_t points, const Messages& messages) {
+  const auto part = std::ranges::count_if(rows, [](const auto& r) { return !r.lacks.empty(); });
+  if (part > 0)
+    messages.warning(
+        fmt::format("{} of {} rows lack a figure; their status names it", part, rows.size()));
   const auto bad = std::ranges::count_if(rows, [](const tune::Row& row) { return !row.ok; });
   if (bad > 0)
     messages.warning(
@@ -145,6 +170,7 @@ ExitCode sweep_all(const Options& options) {
   if (csv) csv->finish();
   if (options.json) fmt::print("{}", json_text(headings, rows));
   tell(rows, tune::points(s), messages);
+  refuse_empty_columns(rows, s);
   if (!options.out.empty()) messages.note(options.out);
   return ok;
 }

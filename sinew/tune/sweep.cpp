@@ -30,10 +30,30 @@ const std::string& first_text(const Axis& axis) { return axis.values.front().tex
                config::closest_in_quotes(axis.key, known));
 }
 
-void check_values(const Axis& axis, const std::string& unit, double atmosphere) {
-  if (unit.empty()) return;  // words, whole numbers: the run says
+// Whole numbers: the least and the greatest are read, each alone. What else is wrong with the
+// experiment then may be mended by another axis.
+void check_whole_numbers(const Sweep& s, const Axis& axis) {
+  const auto [least, greatest] = std::ranges::minmax_element(
+      axis.values, {}, [](const Value& v) { return v.number.value_or(0); });
+  for (const Value* value : {&*least, &*greatest}) {
+    if (!value->number) continue;
+    std::vector<std::string> sets = s.sets;
+    sets.push_back(axis.set(*value));
+    try {
+      (void)experiment::load(s.experiment, sets);
+    } catch (const config::Error& e) {
+      for (const config::Problem& problem : e.problems())
+        if (problem.key == axis.key) throw config::Error(problem);
+    }
+  }
+}
+
+void check_values(const Sweep& s, const Axis& axis, const config::Origin& origin,
+                  double atmosphere) {
+  if (origin.unit.empty()) return check_whole_numbers(s, axis);
   for (const Value& value : axis.values) {
-    const auto mistake = config::parse_quantity(value.text, unit, atmosphere).mistake;
+    const auto mistake =
+        config::parse_quantity(value.text, origin.unit, atmosphere, origin.text).mistake;
     if (mistake)
       config::fail({axis.key, 0, 0}, "", mistake->found, mistake->expected, mistake->try_this);
   }
@@ -47,7 +67,7 @@ void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins
     return;
   }
   if (const config::Origin* origin = config::find_origin(origins, axis.key))
-    return check_values(axis, origin->unit, atmosphere);
+    return check_values(s, axis, *origin, atmosphere);
 
   // It may be a key that is there only once it is set. If not, the reader says what it is.
   std::vector<std::string> sets = s.sets;
@@ -56,16 +76,13 @@ void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins
   const experiment::Experiment e = experiment::load(s.experiment, sets);
   const config::Origin* origin = config::find_origin(e.origins, axis.key);
   if (!origin) unknown_key(axis, e.origins);
-  check_values(axis, origin->unit, atmosphere);
+  check_values(s, axis, *origin, atmosphere);
 }
 
-// A key that the summary lacks may not apply; one that is nearly another is a mistake.
+// A key that the first run's summary lacks may not apply to it; one that is nearly another is a
+// mistake.
 void check_keys(const Sweep& s, const analysis::Summary& summary) {
-  std::vector<std::string> keys;
-  for (const Figure& figure : s.report) keys.push_back(figure.key);
-  if (s.largest)
-    for (const Condition& condition : s.largest->where) keys.push_back(condition.key);
-  for (const std::string& key : keys) {
+  for (const std::string& key : keys(s)) {
     const std::string near = nearest_key(key, summary);
     if (!near.empty())
       config::fail({key, 0, 0}, "", "no such key in the summary", "a key of summary.json",
@@ -93,6 +110,29 @@ Point point_of(const Sweep& s, std::size_t index) {
   return out;
 }
 
+std::vector<std::string> missing(const Sweep& s, const Ran& ran) {
+  std::vector<std::string> out;
+  if (!ran.ok()) return out;
+  for (const std::string& key : keys(s))
+    if (!ran.summary.find(key)) out.push_back(key);
+  return out;
+}
+
+// Nothing can hold of a key that is not there.
+bool lacks_condition(const Search& search, const std::vector<std::string>& lacks) {
+  return std::ranges::any_of(search.where, [&](const Condition& c) {
+    return std::ranges::find(lacks, c.key) != lacks.end();
+  });
+}
+
+// "ok" is a run with all that was asked for.
+std::string status_with(const std::vector<std::string>& missing, const std::string& status) {
+  if (missing.empty()) return status;
+  std::string out = "without";
+  for (const std::string& key : missing) out += (&key == missing.data() ? " " : ", ") + key;
+  return out;
+}
+
 void add_report(const Sweep& s, const Ran& ran, std::vector<std::string>& cells) {
   for (const Figure& figure : s.report)
     cells.push_back(ran.ok() ? figure.cell(ran.summary, ran.atmosphere) : "");
@@ -103,8 +143,9 @@ Row single(const Sweep& s, std::size_t index) {
   const Ran ran = run_once(point.experiment, point.sets, s.allow_unreachable);
   if (index == 0 && ran.ok()) check_keys(s, ran.summary);
   add_report(s, ran, point.cells);
-  point.cells.push_back(ran.status);
-  return {index, std::move(point.cells), ran.ok()};
+  const std::vector<std::string> lacks = missing(s, ran);
+  point.cells.push_back(status_with(lacks, ran.status));
+  return {index, std::move(point.cells), ran.ok(), lacks};
 }
 
 // Keeps the run of the largest value that held.
@@ -130,12 +171,15 @@ Row searched(const Sweep& s, std::size_t index) {
   const Largest found = largest(values, search.halvings, holds);
   const bool any = found.is != Largest::Is::never;
   point.cells.push_back(any ? search.axis.at(found.value).cell : "");
-  if (!any) best.status = last.ok() ? "does not hold at the first value" : last.status;
+  const std::vector<std::string> lacks = missing(s, any ? best : last);
+  std::string status = status_with(lacks, best.status);
+  if (!any && !lacks_condition(search, lacks))
+    status = last.ok() ? "does not hold at the first value" : last.status;
+  if (found.is == Largest::Is::to_the_end && lacks.empty()) status = "holds to the last value";
   add_report(s, best, point.cells);
   point.cells.push_back(std::to_string(runs));
-  point.cells.push_back(found.is == Largest::Is::to_the_end ? "holds to the last value"
-                                                            : best.status);
-  return {index, std::move(point.cells), any};
+  point.cells.push_back(std::move(status));
+  return {index, std::move(point.cells), any, lacks};
 }
 
 // --- all of them ---
@@ -191,6 +235,17 @@ class Work {
 };
 
 }  // namespace
+
+std::vector<std::string> keys(const Sweep& s) {
+  std::vector<std::string> out;
+  const auto add = [&](const std::string& key) {
+    if (std::ranges::find(out, key) == out.end()) out.push_back(key);
+  };
+  for (const Figure& figure : s.report) add(figure.key);
+  if (s.largest)
+    for (const Condition& condition : s.largest->where) add(condition.key);
+  return out;
+}
 
 void check(const Sweep& s) {
   const config::Node root = config::compose(s.experiment, s.sets);

@@ -42,6 +42,7 @@ struct Row {
   std::size_t point = 0;           // of the grid
   std::vector<std::string> cells;  // as many as headings(); empty: does not apply
   bool ok = false;                 // what the last cell, the status, says
+  std::vector<std::string> lacks;  // of keys(), what the summary of its run does not have
 };
 
 struct Options {
@@ -56,6 +57,9 @@ struct Options {
 std::vector<std::string> headings(const Sweep&);
 
 std::size_t points(const Sweep&);
+
+// What is asked of a summary: to report, and as a condition. Each once.
+std::vector<std::string> keys(const Sweep&);
 
 // Throws config::Error for an experiment that is wrong as it stands, and for keys and units of the
 // axes that it does not know. Runs nothing.

@@ -125,6 +125,30 @@ TEST(Sweep, RefusesWhatTheExperimentDoesNotKnow) {
   EXPECT_NE(of("phase.up.duration=1,2").find("1 without a unit"), std::string::npos);
   EXPECT_NE(of("seed=1", "durations_s").find("try \"duration_s\""), std::string::npos);
   EXPECT_EQ(of("seed=1", "of.another.machine_m"), "") << "a key that does not apply";
+  EXPECT_NE(of("seed=1,3e9").find("seed: found 3e+09"), std::string::npos);
+  EXPECT_NE(of("seed=1,3e9").find("0 to 2147483647"), std::string::npos);
+  EXPECT_NE(of("seed=1,1e30").find("0 to 2147483647"), std::string::npos);
+}
+
+// A figure that a run does not have is no figure that is fine.
+TEST(Sweep, WhatARunLacksItsStatusNames) {
+  Sweep s{.experiment = lever,
+          .axes = {seeds(1)},
+          .report = parse_figures("duration_s, of.another.machine_m")};
+  std::vector<Row> rows = sweep(s, {});
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_TRUE(rows[0].ok);
+  EXPECT_EQ(rows[0].lacks, std::vector<std::string>{"of.another.machine_m"});
+  EXPECT_EQ(rows[0].cells.back(), "without of.another.machine_m");
+  EXPECT_EQ(rows[0].cells[2], "");
+
+  s.report = parse_figures("duration_s");
+  s.axes.clear();
+  s.largest = Search{parse_axis("seed=1:3:3"), {parse_condition("of.another.machine_m < 1 m")}, 1};
+  rows = sweep(s, {});
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_FALSE(rows[0].ok);
+  EXPECT_EQ(rows[0].cells.back(), "without of.another.machine_m");
 }
 
 // The search's answer holds, the next finer one does not.

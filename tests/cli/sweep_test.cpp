@@ -68,6 +68,24 @@ TEST(Sweep, ThatIsRefusedLeavesNothing) {
   EXPECT_EQ(w.sinew({"sweep", bench, "--threads", "0"}).code, 2);
 }
 
+// A key that no summary has is no empty column of runs that are fine.
+TEST(Sweep, OfAKeyThatNoRunHasFails) {
+  const Workspace w;
+  const Result r = w.sinew({"sweep", bench, "--seeds", "2", "--report", "duration_s,no.such_m"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_THAT(r.out, HasSubstr(",without no.such_m\n"));
+  EXPECT_THAT(r.err, AllOf(HasSubstr("2 of 2 rows lack a figure"),
+                           HasSubstr("no.such_m: found no run with it")));
+}
+
+TEST(Sweep, RefusesAWholeNumberThatIsNone) {
+  const Workspace w;
+  const Result r = w.sinew({"sweep", bench, "--vary", "seed=1,9223372036854775808"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_EQ(r.out, "");
+  EXPECT_THAT(r.err, AllOf(HasSubstr("seed: found 9"), HasSubstr("expected 0 to 2147483647")));
+}
+
 TEST(Sweep, InterruptedKeepsWhatIsDone) {
   const Workspace w;
   const pid_t pid = w.start({"sweep", bench, "--seeds", "10000", "-o", "t.csv", "--quiet"});
