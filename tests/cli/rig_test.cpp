@@ -67,6 +67,15 @@ TEST(Rig, TheLogHasWhatTheRunHas) {
   EXPECT_EQ(log.find("/true/muscle/bpa/pressure"), nullptr);
 }
 
+TEST(Rig, RunsWithoutHoseAndFittings) {
+  const Workspace w;
+  const Result run = w.sinew({"run", trapped, "-o", "a", "--no-report", "--json", "--set",
+                              "element.external_volume=0 m3"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, Not(HasSubstr("hangs nowhere")));
+  EXPECT_TRUE(summary(run.out)["stand"]["final_length_m"].is_number());
+}
+
 // One channel alone, of a place of its own in what is recorded: the length that is desired.
 TEST(Rig, ALogOfOneChannelHoldsThatChannel) {
   const Workspace w;

@@ -67,6 +67,16 @@ Reach reach(const StandSetup& s) {
   return {0.5 * actuator::shortest_length(braid), 1.5 * braid.thread_length};
 }
 
+// Where the threads lie straight a muscle has no volume, and without hose and fittings no room for
+// its air: its pressure would be no number.
+void refuse_without_air(const StandSetup& s, double length) {
+  const double room =
+      s.muscle.count * actuator::volume(s.muscle.actuator, length) + s.muscle.external_volume;
+  if (s.cylinder || room > 0) return;
+  refuse("at a length of " + std::to_string(length) +
+         " m its muscle has no room for air: give an external_volume above 0, or stay shorter");
+}
+
 muscle::Plumbing plumbing_of(const StandSetup& s) {
   if (s.cylinder) return {{}, s.air, s.supply, s.cylinder};
   return {std::span(&s.muscle, 1), s.air, s.supply};
@@ -78,6 +88,8 @@ double hanging_length(const StandSetup& setup) {
   if (setup.cylinder) refuse("an air cylinder at one pressure hangs nowhere: give start.length");
   StandSetup s = setup;
   s.muscle.actuator.loss.stick = true;  // the sign of no speed would be a force
+  // At one pressure the room for air takes no part; beyond the threads there must be some.
+  if (!(s.muscle.external_volume > 0)) s.muscle.external_volume = 1e-6;
   const muscle::Plumbing plumbing = plumbing_of(s);
   const double weight = s.load.mass.at(0) * s.load.gravity + s.load.force.at(0);
   const auto surplus = [&](double length) {
@@ -126,6 +138,9 @@ Stand::Stand(const StandSetup& setup)
   state_.length = start.length;
   state_.air = plumbing_.initial(start.pressure, length, travel(start.length));
   state_.length += start.displacement;
+  refuse_without_air(setup_, start.length);
+  refuse_without_air(setup_, state_.length);
+  for (const Point& p : setup_.load.length.points) refuse_without_air(setup_, p.value);
   if (const Reach r = reach(setup_);
       !setup_.cylinder && !driven_ && !(state_.length >= r.low && state_.length <= r.high))
     refuse("it starts beyond half the shortest length and 1.5 threads");

@@ -81,6 +81,23 @@ TEST(Stand, DryFrictionTakesFourQPerPeriod) {
   EXPECT_NEAR(at_rest.force, weight(s), 1e-12);
 }
 
+// The room of hose and fittings takes no part in where a load hangs at one pressure, also where
+// there is none; it does in how it swings.
+TEST(Stand, HangsTheSameWithoutHoseAndFittings) {
+  StandSetup with = trapped(60, 6), without = with;
+  without.muscle.external_volume = 0;
+  ASSERT_GT(with.muscle.external_volume, 0);
+  EXPECT_NEAR(hanging_length(without), hanging_length(with), 1e-12);
+  Stand a(with), b(without);
+  EXPECT_GT(std::fabs(a.truth(0.1).length - b.truth(0.1).length), 1e-5);
+  for (int i = 0; i < 2000; ++i) {
+    const StandTruth x = b.truth(i * 1e-3);
+    ASSERT_TRUE(std::isfinite(x.length) && std::isfinite(x.pressure)) << i << " ms";
+    // Trapped air: its mass stays.
+    ASSERT_NEAR(x.air, b.truth(0).air, 1e-15) << i << " ms";
+  }
+}
+
 TEST(Stand, BreaksLooseWhereTheLoadAsksForMoreThanTheBound) {
   StandSetup s = trapped(60, 6);
   s.start.displacement = 0;
@@ -327,6 +344,13 @@ TEST(Stand, RefusesWhatIsNoStand) {
               s.muscle.actuator.effectiveness.scale = 0;
             }),
             "test stand: its load hangs nowhere between half the shortest length and 1.5 threads");
+  EXPECT_EQ(refusal([](StandSetup& s) {
+              s.muscle.external_volume = 0;
+              s.load = {.mode = Load::Mode::driven,
+                        .length = 1.01 * s.muscle.actuator.braid.thread_length};
+              s.start = {.pressure = s.start.pressure};
+            }).substr(0, 28),
+            "test stand: at a length of 0");
   for (const double length : {2.0, 0.01})
     EXPECT_EQ(refusal([=](StandSetup& s) { s.start.length = length; }),
               "test stand: it starts beyond half the shortest length and 1.5 threads");
