@@ -9,6 +9,7 @@
 
 #include "cli/arguments.h"
 #include "cli/command.h"
+#include "cli/json_text.h"
 #include "cli/named.h"
 #include "cli/terminal.h"
 #include "cli/text_table.h"
@@ -180,7 +181,7 @@ ExitCode run_actuator(const Options& options) {
              {"shortest_length_m", actuator::shortest_length(a)},
              {"greatest_length_m", a.long_end.length}};
     for (const Point& p : points) out["points"].push_back(to_json(p));
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", json_text(out, 2));
     return ok;
   }
   points.size() == 1 ? print_point(points[0]) : print_table(points, lengths, pressures);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/json_text.h"
 #include "cli/run_folder.h"
 #include "cli/run_rig.h"
 #include "sinew/analysis/stand.h"
@@ -141,7 +142,7 @@ ExitCode check_all(const Options& options) {
         {{"file", finding.file}, {"problems", finding.problems}, {"warnings", finding.warnings}});
     if (!options.json) print(finding);
   }
-  if (options.json) fmt::print("{}\n", report.dump(2));
+  if (options.json) fmt::print("{}\n", json_text(report, 2));
   return good ? ok : failed;
 }
 

@@ -55,16 +55,16 @@ void draw_all(const fs::path& folder, const std::vector<std::string>& scripts) {
 
 }  // namespace
 
-void remove_figures(const fs::path& folder) {
+std::vector<std::string> figures_in(const fs::path& folder) {
   std::ifstream in(folder / index_name);
   const Json index = Json::parse(in, nullptr, false);
   if (!index.is_object() || !index.contains("format") || index["format"] != format ||
       !index.contains("figures"))
-    return;
-  for (const std::string& name : files_of(index))
-    if (fs::is_regular_file(folder / name)) fs::remove(folder / name);
-  fs::remove(folder / index_name);
-  if (fs::is_empty(folder)) fs::remove(folder);
+    return {};
+  const std::set<std::string> files = files_of(index);
+  std::vector<std::string> out(files.begin(), files.end());
+  out.emplace_back(index_name);
+  return out;
 }
 
 std::vector<Picture> parse_formats(const std::vector<std::string>& words) {
@@ -83,6 +83,56 @@ std::vector<Picture> parse_formats(const std::vector<std::string>& words) {
   return out;
 }
 
+namespace {
+
+// Into the folder where they are drawn; those that gnuplot is to draw come back.
+std::vector<std::string> write_all(const fs::path& folder, const report::Gallery& gallery,
+                                   const std::string& index, const std::vector<Picture>& pictures) {
+  constexpr auto later = log::Replacement::Sync::later;
+  std::vector<std::string> scripts;
+  for (const report::Exhibit& exhibit : gallery.exhibits) {
+    const report::Figure& figure = exhibit.figure;
+    const report::FigureData data = report::data(figure);
+    for (const report::Sheet& sheet : data.sheets)
+      write_file(folder / (sheet.name + ".csv"), report::csv(sheet), later);
+    if (pictures.empty()) continue;
+    scripts.push_back(figure.name + ".gp");
+    write_file(folder / scripts.back(), report::script(figure, data, pictures), later);
+  }
+  write_file(folder / index_name, index, later);
+  write_file(folder / page_name, report::index_html(gallery), later);
+  return scripts;
+}
+
+// What is there may be replaced where an index lists it, and `force` says so.
+std::vector<std::string> replaceable(const fs::path& folder, const std::string& index, bool force) {
+  std::vector<std::string> old = figures_in(folder);
+  refuse_to_overwrite(folder / index_name, force);
+  for (const std::string& name : files_of(Json::parse(index)))
+    refuse_to_overwrite(folder / name, force);
+  return old;
+}
+
+// The stage is nobody's but ours, and figures that did not become whole are quickly drawn again.
+struct Stage {
+  explicit Stage(OutputFolder& folder) : folder_(folder) {
+    fs::remove_all(folder.path() / name);
+    folder.stage(name);
+  }
+  ~Stage() {
+    std::error_code ignored;
+    if (folder_.staged()) fs::remove_all(folder_.work(), ignored);
+    if (!fs::is_symlink(folder_.path())) fs::remove(folder_.path(), ignored);  // if it is empty
+  }
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  static constexpr const char* name = ".unfinished";
+  OutputFolder& folder_;
+};
+
+}  // namespace
+
 std::string write_figures(const fs::path& folder, report::Gallery gallery,
                           const FigureFiles& options, const Messages& messages) {
   const bool drawing = !options.pictures.empty() && has_gnuplot();
@@ -91,27 +141,16 @@ std::string write_figures(const fs::path& folder, report::Gallery gallery,
     for (const Picture p : options.pictures) gallery.pictures.emplace_back(ending(p));
   gallery.scripts = !options.pictures.empty();
   const std::string index = report::index_json(gallery);
-  if (options.force) remove_figures(folder);
-  refuse_to_overwrite(folder / index_name, options.force);
-  for (const std::string& name : files_of(Json::parse(index)))
-    refuse_to_overwrite(folder / name, options.force);
 
-  make_folders(folder);
-  std::vector<std::string> scripts;
-  for (const report::Exhibit& exhibit : gallery.exhibits) {
-    const report::Figure& figure = exhibit.figure;
-    const report::FigureData data = report::data(figure);
-    for (const report::Sheet& sheet : data.sheets)
-      write_file(folder / (sheet.name + ".csv"), report::csv(sheet));
-    if (options.pictures.empty()) continue;
-    scripts.push_back(figure.name + ".gp");
-    write_file(folder / scripts.back(), report::script(figure, data, options.pictures));
-  }
-  write_file(folder / index_name, index);
-  write_file(folder / page_name, report::index_html(gallery));
-  if (drawing) {
-    draw_all(folder, scripts);
-  } else if (!options.pictures.empty()) {
+  settle(folder);
+  refuse_to_overwrite(folder / index_name, options.force);
+  OutputFolder out(folder);
+  const Stage stage(out);
+  const std::vector<std::string> replaced = replaceable(folder, index, options.force);
+  const std::vector<std::string> scripts = write_all(out.work(), gallery, index, options.pictures);
+  if (drawing) draw_all(out.work(), scripts);
+  out.commit(replaced);
+  if (!drawing && !options.pictures.empty()) {
     const std::string missing =
         "gnuplot is missing: the CSV files and scripts are written, no pictures; try apt-get "
         "install gnuplot-nox";

@@ -22,15 +22,15 @@ struct FigureFiles {
 std::vector<report::Picture> parse_formats(const std::vector<std::string>& words);
 
 // Writes <sheet>.csv, <figure>.gp, index.json and index.html, and draws the pictures with gnuplot.
-// Refuses to replace anything, unless `force`; then what an earlier index.json lists is removed
-// first, and nothing else. Where there is no gnuplot all but the pictures is written, with a
-// warning, or, if they must be drawn, a std::runtime_error. Fills the gallery's pictures and
-// scripts; returns index.json.
+// Refuses to replace anything, unless `force`; then what an earlier index.json lists goes when the
+// new figures are whole, and nothing else. Where there is no gnuplot all but the pictures is
+// written, with a warning, or, if they must be drawn, a std::runtime_error. Fills the gallery's
+// pictures and scripts; returns index.json.
 std::string write_figures(const std::filesystem::path& folder, report::Gallery gallery,
                           const FigureFiles& options, const Messages& messages);
 
-// Removes the files that the folder's index.json lists, the index, and the folder if nothing else
-// is in it. Nothing where there is no index of figures.
-void remove_figures(const std::filesystem::path& folder);
+// The files that the folder's index.json lists, and the index, which comes last. None where there
+// is no index of figures.
+std::vector<std::string> figures_in(const std::filesystem::path& folder);
 
 }  // namespace sinew::cli

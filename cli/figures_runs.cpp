@@ -8,6 +8,7 @@
 
 #include "cli/arguments.h"
 #include "cli/figure_files.h"
+#include "cli/json_text.h"
 #include "cli/run_folder.h"
 #include "cli/run_log.h"
 #include "cli/text_table.h"
@@ -109,7 +110,7 @@ ExitCode draw_runs(const RunFiguresRequest& request) {
         {{"folder", folder.string()}, {"figures", Json::parse(index)["figures"]}});
   }
   if (request.json)
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", json_text(out, 2));
   else
     print(out["runs"]);
   return ok;

@@ -8,6 +8,7 @@
 
 #include "cli/arguments.h"
 #include "cli/command.h"
+#include "cli/json_text.h"
 #include "cli/terminal.h"
 #include "cli/text_table.h"
 #include "sinew/config/diagnostics.h"
@@ -171,7 +172,7 @@ ExitCode run_force_beam(const Options& options) {
     for (const Line& line : answer(s)) out[line.key] = line.value;
     if (!where.empty()) out["gage_distance_m"] = where;
     out["beyond"] = doubts(s);
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", json_text(out, 2));
     return ok;
   }
   print(s, where, options);

@@ -10,6 +10,7 @@
 
 #include "cli/arguments.h"
 #include "cli/identify_page.h"
+#include "cli/json_text.h"
 #include "cli/run_folder.h"
 #include "cli/terminal.h"
 #include "cli/text_table.h"
@@ -30,6 +31,11 @@ void add_pair(std::string_view option, const std::string& text,
   if (equals == text.npos || equals == 0 || equals + 1 == text.size())
     config::fail({std::string(option), 0, 0}, "", config::in_quotes(text), "name=value");
   pairs[text.substr(0, equals)] = text.substr(equals + 1);
+}
+
+// Something that would be replaced, and that can be read first.
+bool is_old_file(const std::string& path) {
+  return std::filesystem::exists(path) && !log::is_written_directly(path);
 }
 
 // What --force may replace: never somebody's measurements.
@@ -224,13 +230,13 @@ void check_result_options(const ResultOptions& options) {
       config::fail({"--out", 0, 0}, "", config::in_quotes(options.out) + ", the page's name too",
                    "a parameter file, such as mine.toml", "another name, or --no-report");
     refuse_to_overwrite(page, options.force);
-    if (std::filesystem::exists(page) && !is_page(page))
+    if (is_old_file(page) && !is_page(page))
       config::fail({page, 0, 0}, "", "something that is no page of `sinew identify`",
                    "a name that is free, or that of such a page", "another one, or --no-report");
   }
   if (options.out.empty()) return;
   refuse_to_overwrite(options.out, options.force);
-  if (std::filesystem::exists(options.out) && !is_parameter_file(options.out))
+  if (is_old_file(options.out) && !is_parameter_file(options.out))
     config::fail({options.out, 0, 0}, "", "something that is no parameter file",
                  "a name that is free, or that of a parameter file", "another one");
 }
@@ -283,7 +289,7 @@ void tell(const identify::Report& report, const std::string& parameter_file,
   if (options.json) {
     Json out = to_json(report);
     if (extra.is_object()) out.update(extra);
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", json_text(out, 2));
   } else {
     print(report);
   }

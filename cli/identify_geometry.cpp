@@ -5,6 +5,7 @@
 
 #include "cli/arguments.h"
 #include "cli/identify.h"
+#include "cli/json_text.h"
 #include "sinew/actuator/braid.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
@@ -87,7 +88,7 @@ ExitCode from_trapezoids(const Options& options) {
   const actuator::Braid braid = actuator::braid_from_trapezoids(counts[0], counts[1], side);
 
   if (options.result.json) {
-    fmt::print("{}\n", describe(braid).dump(2));
+    fmt::print("{}\n", json_text(describe(braid), 2));
   } else {
     fmt::print("thread_length  {}  [17]\nturns          {}  [18]\nshortest       {}  [5], [6]\n",
                config::format_quantity(braid.thread_length, "m", "mm"),

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "cli/arguments.h"
+#include "cli/json_text.h"
 #include "cli/run_folder.h"
 #include "cli/terminal.h"
 #include "sinew/config/compose.h"
@@ -190,7 +191,7 @@ void leave_page(const std::string& title, const std::vector<const identify::Repo
   report::FitPage fit{.title = title, .version = SINEW_VERSION, .data = in_words(data)};
   fit.atmosphere = argument("--atmosphere", data.atmosphere + " abs", "Pa abs", units::atmosphere);
   for (const identify::Report* r : reports)
-    fit.parts.push_back({.report = to_json(*r).dump(), .charts = charts_of(*r)});
+    fit.parts.push_back({.report = json_text(to_json(*r)), .charts = charts_of(*r)});
   if (!parameter_file.empty())
     fit.values = report::parameters(config::parse_text(parameter_file, "the parameter file"));
   write_file(file, report::page(fit));

@@ -9,6 +9,7 @@
 #include "cli/arguments.h"
 #include "cli/identify.h"
 #include "cli/identify_page.h"
+#include "cli/json_text.h"
 #include "cli/named.h"
 #include "cli/terminal.h"
 #include "cli/text_table.h"
@@ -271,7 +272,7 @@ ExitCode run(const Options& options) {
   const Messages messages(options.result.quiet);
   for (const std::string& note : c.notes) messages.note(note);
   if (options.result.json)
-    fmt::print("{}\n", to_json(c).dump(2));
+    fmt::print("{}\n", json_text(to_json(c), 2));
   else
     print(c, data.display, options.result);
   for (const std::string& warning : c.warnings) messages.warning(warning);

@@ -32,22 +32,21 @@ ExitCode import_log(const Options& options) {
   const analysis::Summary summary = analysis::summarize(table, machine);
   const std::string json = to_json(summary);
 
-  const std::filesystem::path folder = options.folder.empty()
-                                           ? next_run_folder(e.name)
-                                           : chosen_run_folder(options.folder, options.force);
-  write_file(folder / resolved_name, resolved);
-  RunLog log(folder / log_name, e.name, e.seed, resolved, experiment::logged_topics(table));
+  OutputFolder folder = run_folder(options.folder, options.force, e.name);
+  write_into(folder, resolved_name, resolved);
+  RunLog log(folder.work() / log_name, e.name, e.seed, resolved, experiment::logged_topics(table));
   log.write(table);
   log.finish();
-  write_file(folder / summary_name, json);
+  write_into(folder, summary_name, json);
   write_report(folder, table, resolved, e.name, messages);
+  commit_run(folder);
 
   if (options.json) {
     fmt::print("{}", json);
   } else {
     print_verdicts(summary, machine);
   }
-  messages.note(folder.string());
+  messages.note(folder.path().string());
   return ok;
 }
 

@@ -68,11 +68,10 @@ KeptRun::KeptRun(RunRequest request, const Messages& messages)
       resolved_(experiment::resolved(experiment_, SINEW_VERSION)),
       logged_(experiment::logged_topics(experiment_)) {
   (void)machine_in(resolved_);  // what cannot be summed up is not run
-  folder_ = request_.folder.empty() ? next_run_folder(experiment_.name)
-                                    : chosen_run_folder(request_.folder, request_.force);
+  folder_.emplace(run_folder(request_.folder, request_.force, experiment_.name));
   if (!experiment_.log.enabled) return;
-  write_file(folder_ / resolved_name, resolved_);
-  log_.emplace(folder_ / log_name, experiment_.name, experiment_.seed, resolved_, logged_);
+  write_into(*folder_, resolved_name, resolved_);
+  log_.emplace(folder_->work() / log_name, experiment_.name, experiment_.seed, resolved_, logged_);
 }
 
 // What was steered is a part of what was run, with where it comes from.
@@ -89,33 +88,51 @@ void KeptRun::finish_log(const experiment::Outcome& outcome) {
           {.path = fmt::format("change[{}].{}", i, key), .source = "set while it ran"});
   resolved_ = experiment::resolved(experiment_, SINEW_VERSION);
   if (!log_) return;
-  write_file(folder_ / resolved_name, resolved_);
+  write_into(*folder_, resolved_name, resolved_);
   log_->finish(resolved_);
 }
 
-ExitCode KeptRun::keep(experiment::Outcome outcome) {
+// What came until then is in the log, which is left as one that was cut off.
+void KeptRun::break_off(const experiment::Outcome& outcome) {
+  const bool logged = log_.has_value();
+  log_.reset();
+  throw std::runtime_error(
+      fmt::format("{}: interrupted at {:.2f} s of the run; {}", experiment_.path, outcome.duration,
+                  logged ? fmt::format("its log, which reads as cut off, is {}",
+                                       (folder_->work() / log_name).string())
+                         : "it keeps no log"));
+}
+
+analysis::Summary KeptRun::keep_files(experiment::Outcome& outcome,
+                                      const analysis::Machine& machine) {
+  analysis::Summary summary = analysis::summarize(outcome.table, machine);
+  write_into(*folder_, summary_name, summary_json(summary, outcome));
+  if (log_ && request_.report)
+    write_report(*folder_, experiment::logged_part(std::move(outcome.table), logged_), resolved_,
+                 experiment_.name, messages_);
+  commit_run(*folder_);
+  return summary;
+}
+
+ExitCode KeptRun::keep(experiment::Outcome outcome) try {
+  if (outcome.stopped) break_off(outcome);
   finish_log(outcome);
   warn_of(experiment_, outcome, messages_);
   if (ended_early(outcome)) throw std::runtime_error(black_box(experiment_, outcome));
 
   const analysis::Machine machine = machine_in(resolved_);
-  const analysis::Summary summary = analysis::summarize(outcome.table, machine);
-  const std::string json = summary_json(summary, outcome);
-  write_file(folder_ / summary_name, json);
-  const std::string note = fmt::format("{:.2f} s in {:.3f} s, kept in {}", outcome.duration,
-                                       outcome.wall, folder_.string());
-  if (log_ && request_.report)
-    write_report(folder_, experiment::logged_part(std::move(outcome.table), logged_), resolved_,
-                 experiment_.name, messages_);
-
+  const analysis::Summary summary = keep_files(outcome, machine);
   if (request_.json) {
-    fmt::print("{}", json);
-    messages_.note(folder_.string());
+    fmt::print("{}", summary_json(summary, outcome));
+    messages_.note(folder().string());
     return ok;
   }
   print_verdicts(summary, machine);
-  messages_.note(note);
+  messages_.note(fmt::format("{:.2f} s in {:.3f} s, kept in {}", outcome.duration, outcome.wall,
+                             folder().string()));
   return ok;
+} catch (const std::exception& e) {
+  throw std::runtime_error(e.what() + where_left(*folder_));
 }
 
 }  // namespace sinew::cli

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/run_folder.h"
 #include "cli/run_log.h"
 #include "cli/terminal.h"
 #include "sinew/analysis/machine.h"
@@ -36,23 +37,26 @@ class KeptRun {
 
   const experiment::Experiment& experiment() const { return experiment_; }
   const std::string& resolved() const { return resolved_; }
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_->path(); }
   RunLog* log() { return log_ ? &*log_ : nullptr; }
 
   // After the loop: the log's end, summary and page into the folder, verdicts to stdout. What was
-  // changed on the way stands in resolved.toml. Throws where the run ended early, with its last
-  // records.
+  // changed on the way stands in resolved.toml. Only then it takes the place of an older run.
+  // Throws where the run ended early, with its last records, and where it was stopped: then its log
+  // reads as cut off.
   ExitCode keep(experiment::Outcome outcome);
 
  private:
   void finish_log(const experiment::Outcome& outcome);
+  [[noreturn]] void break_off(const experiment::Outcome& outcome);
+  analysis::Summary keep_files(experiment::Outcome& outcome, const analysis::Machine& machine);
 
   RunRequest request_;
   const Messages& messages_;
   experiment::Experiment experiment_;
   std::string resolved_;
   experiment::LoggedTopics logged_;
-  std::filesystem::path folder_;
+  std::optional<OutputFolder> folder_;
   std::optional<RunLog> log_;
 };
 

@@ -13,6 +13,7 @@
 
 #include "cli/arguments.h"
 #include "cli/command.h"
+#include "cli/json_text.h"
 #include "cli/text_table.h"
 #include "sinew/actuator/body.h"
 #include "sinew/config/quantity.h"
@@ -161,7 +162,7 @@ ExitCode run_kinematics(const Options& options) {
   if (options.json) {
     Json out{{"robot", e.robot.name}};
     for (const Branch& b : branches) out["branches"].push_back(to_json(e, b));
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", json_text(out, 2));
     return ok;
   }
   for (std::size_t i = 0; i < branches.size(); ++i) {

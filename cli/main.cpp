@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/interrupt.h"
 #include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
 
@@ -42,6 +43,7 @@ cli::ExitCode run_safely(const cli::Action& action) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cli::survive_file_limits();
   CLI::App app("Sinew: robots driven by braided pneumatic actuators.");
   app.set_version_flag("--version", std::string("sinew ") + SINEW_VERSION);
   app.require_subcommand(1);

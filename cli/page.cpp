@@ -46,12 +46,12 @@ std::string page_of(const RecordedRun& run, const std::string& machine, bool* cu
   return report::page({.table = table, .resolved = resolved, .name = experiment_in(run.log)});
 }
 
-void write_report(const std::filesystem::path& folder, const signals::Table& logged,
+void write_report(const OutputFolder& folder, const signals::Table& logged,
                   const std::string& resolved, const std::string& name, const Messages& messages) {
   if (!report::has_page())
     return messages.note("no report.html: this sinew was built without npm; docs/dependencies.md");
   const config::Node values = config::parse_text(resolved, std::string(resolved_name));
-  write_file(folder / report_name,
+  write_into(folder, report_name,
              report::page({.table = logged, .resolved = values, .name = name}));
 }
 

@@ -14,7 +14,7 @@ inline constexpr std::string_view report_name = "report.html";
 
 // Beside the log, of what it holds: the same bytes as `sinew report` makes of the folder. Without a
 // page in the program: a note and no file.
-void write_report(const std::filesystem::path& folder, const signals::Table& logged,
+void write_report(const OutputFolder& folder, const signals::Table& logged,
                   const std::string& resolved, const std::string& name, const Messages& messages);
 
 // The page of a recorded run, by `machine` where it is not empty, else by its resolved.toml. Throws

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/json_text.h"
 #include "cli/run_folder.h"
 #include "cli/terminal.h"
 #include "sinew/experiment/run.h"
@@ -92,7 +93,7 @@ void print(const Comparison& c, bool json) {
                                  {"topic", c.first->topic},
                                  {"recorded", c.first->recorded},
                                  {"replayed", c.first->replayed}};
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", json_text(out, 2));
   } else if (!c.first) {
     fmt::print("{} edges, all equal\n", c.recorded);
   } else {

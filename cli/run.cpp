@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/interrupt.h"
 #include "cli/kept_run.h"
 #include "cli/run_rig.h"
 #include "cli/terminal.h"
@@ -19,7 +20,8 @@ namespace {
 experiment::Outcome run_logged(double pace, bool quiet, const experiment::Experiment& e,
                                RunLog* log) {
   std::atomic<std::int64_t> tick{0};
-  experiment::RunOptions run_options{.pace = pace, .progress = &tick};
+  const Interrupt interrupt;
+  experiment::RunOptions run_options{.pace = pace, .progress = &tick, .stop = &interrupt.asked()};
   if (log) log->tap(run_options);
   const ProgressBar bar(tick, experiment::last_tick(e), Steps{signals::tick_seconds, "s", 1},
                         quiet);

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
+#include <cstdio>
 #include <vector>
 
 #include "cli/figure_files.h"
@@ -17,9 +17,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The only files that --force may remove.
+// The only files that --force may replace; and what a process that was killed leaves beside them.
 constexpr std::string_view known_files[] = {log_name,     "log.mcap.tmp", resolved_name,
                                             summary_name, measured_name,  "report.html"};
+constexpr std::string_view beside[] = {"", ".part"};
+
+std::vector<std::string> known_names() {
+  std::vector<std::string> names;
+  for (const std::string_view name : known_files)
+    for (const std::string_view ending : beside)
+      names.push_back(std::string(name) + std::string(ending));
+  return names;
+}
 
 [[noreturn]] void refuse(const fs::path& where, std::string found, std::string expected,
                          std::string try_this = "") {
@@ -49,41 +58,79 @@ std::vector<std::string> contents(const fs::path& folder) {
 
 }  // namespace
 
-void make_folders(const fs::path& folder) {
-  std::error_code problem;
-  fs::create_directories(folder, problem);
-  if (problem) refuse(folder, problem.message(), "a folder that can be made", "-o elsewhere");
-}
+namespace {
 
-fs::path next_run_folder(const std::string& experiment) {
+OutputFolder next_run_folder(const std::string& experiment) {
   const fs::path parent = fs::path("runs") / experiment;
   make_folders(parent);
   for (int number = highest_number(parent) + 1;; ++number) {
     const fs::path folder = parent / std::to_string(number);
     std::error_code problem;
-    if (fs::create_directory(folder, problem)) return folder;
+    if (fs::create_directory(folder, problem)) return OutputFolder(folder);
     if (problem) refuse(folder, problem.message(), "a folder that can be made", "-o elsewhere");
   }
 }
 
-fs::path chosen_run_folder(const fs::path& folder, bool force) {
+bool holds_a_run(const std::vector<std::string>& names) {
+  const std::vector<std::string> known = known_names();
+  return std::ranges::any_of(names, [&](const std::string& name) {
+    return name == unfinished_name || std::ranges::find(known, name) != known.end();
+  });
+}
+
+// An earlier run that did not become whole makes way for the next one; nothing else does.
+void clear_unfinished(const fs::path& folder) {
+  if (!fs::is_directory(folder)) return;
+  std::vector<std::string> known = known_names();
+  for (const std::string_view ending : beside) known.push_back(".replaced" + std::string(ending));
+  for (const std::string& name : contents(folder))
+    if (std::ranges::find(known, name) == known.end())
+      refuse(folder, name, "nothing but a run that did not end", "to move it elsewhere");
+  for (const std::string& name : known) fs::remove(folder / name);
+}
+
+}  // namespace
+
+OutputFolder run_folder(const std::string& asked, bool force, const std::string& experiment) {
+  if (asked.empty()) return next_run_folder(experiment);
+  const fs::path folder = asked;
   if (fs::exists(folder) && !fs::is_directory(folder))
     refuse(folder, "a file", "a folder", "-o with another name");
-  make_folders(folder);
+  OutputFolder out(folder);
 
   std::vector<std::string> names = contents(folder);
-  if (names.empty()) return folder;
+  if (names.empty()) return out;
   if (!force) {
     if (names.size() > 4) names.resize(4), names.back() = "…";
     refuse(folder, fmt::format("{}", fmt::join(names, ", ")), "an empty folder",
            "another one, or --force to replace the run in it");
   }
-  for (const std::string_view name : known_files) fs::remove(folder / name);
-  remove_figures(folder / figures_name);
-  return folder;
+  if (!holds_a_run(names)) return out;
+  clear_unfinished(folder / unfinished_name);
+  out.stage(std::string(unfinished_name));
+  return out;
+}
+
+void commit_run(OutputFolder& folder) {
+  std::vector<std::string> replaced = known_names();
+  for (const std::string& name : figures_in(folder.path() / figures_name))
+    replaced.push_back((fs::path(figures_name) / name).string());
+  folder.commit(replaced);
+}
+
+std::string where_left(const OutputFolder& folder) {
+  if (!folder.staged()) return "";
+  const std::string before = folder.path().string() + ": holds what was there before";
+  if (contents(folder.work()).empty()) return "\n" + before;
+  return fmt::format("\n{}; what this run left is in {}", before, folder.work().string());
+}
+
+void write_into(const OutputFolder& folder, std::string_view name, std::string_view text) {
+  write_file(folder.work() / name, text, log::Replacement::Sync::later);
 }
 
 RecordedRun recorded_run(const fs::path& named) {
+  settle(fs::is_directory(named) ? named : named.parent_path());
   if (!fs::exists(named))
     refuse(named, "nothing", "the folder of a run, or its log", "the path, or sinew run first");
   const fs::path folder = fs::is_directory(named) ? named : named.parent_path();
@@ -102,19 +149,18 @@ fs::path machine_of(const RecordedRun& run, const std::string& instead) {
 
 void refuse_to_overwrite(const fs::path& file, bool force) {
   if (fs::is_directory(file)) refuse(file, "a folder", "the name of a file", "a name inside of it");
-  if (force || !fs::exists(file)) return;
+  if (force || !fs::exists(file) || log::is_written_directly(file)) return;
   refuse(file, "a file", "a name that is free", "another one, or --force to replace it");
 }
 
-void write_file(const fs::path& file, std::string_view text) {
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out << text;
-  out.close();
-  if (out) return;
+void write_file(const fs::path& file, std::string_view text, log::Replacement::Sync sync) {
   const fs::path folder = file.parent_path();
   if (!folder.empty() && !fs::is_directory(folder))
     refuse(file, "no folder " + folder.string(), "one that exists", "mkdir -p " + folder.string());
-  refuse(file, "an error while writing", "room for the file", "another folder");
+  std::fflush(stdout);  // it may be /dev/stdout
+  log::Replacement out(file, sync);
+  out.write(text);
+  out.commit();
 }
 
 }  // namespace sinew::cli

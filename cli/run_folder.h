@@ -6,6 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "cli/output_folder.h"
+#include "sinew/log/replacement.h"
+
 namespace sinew::cli {
 
 inline constexpr std::string_view log_name = "log.mcap";
@@ -14,18 +17,28 @@ inline constexpr std::string_view measured_name = "measured.csv";  // of a test 
 inline constexpr std::string_view summary_name = "summary.json";
 inline constexpr std::string_view figures_name = "figures";  // a folder
 
-// With those above it; there already is fine. Throws config::Error where it cannot be made.
-void make_folders(const std::filesystem::path& folder);
+inline constexpr std::string_view unfinished_name = "unfinished";  // a folder: the next run
 
-// runs/<experiment>/<n>, n one above the highest there is: no number is ever used again while its
-// folder stands, also when several runs start at once.
-std::filesystem::path next_run_folder(const std::string& experiment);
+// Where a run is kept, locked for this process. `asked` is made where it is missing; one that holds
+// anything is refused, unless `force`. Where a run is in it already, the new one is written into
+// unfinished/ within, until commit_run().
+//
+// Where `asked` is empty: runs/<experiment>/<n>, n one above the highest there is. No number is
+// ever used again while its folder stands, also when several runs start at once.
+OutputFolder run_folder(const std::string& asked, bool force, const std::string& experiment);
 
-// The folder that was asked for, made where it is missing. One that holds anything is refused,
-// unless `force`; then the files of an earlier run are removed from it, and nothing else.
-std::filesystem::path chosen_run_folder(const std::filesystem::path& folder, bool force);
+// The run is whole: it takes the place of an earlier one's files, and of nothing else.
+void commit_run(OutputFolder& folder);
 
-// What `sinew analyze`, `export` and `replay` are given: a run's folder, or its log alone.
+// For the error of a run that did not become whole: what stands where. Empty where nothing was
+// there before it.
+std::string where_left(const OutputFolder& folder);
+
+// A file of the run. Throws log::Error.
+void write_into(const OutputFolder& folder, std::string_view name, std::string_view text);
+
+// What `sinew analyze`, `export` and `replay` are given: a run's folder, or its log alone. Finishes
+// what a killed process left half done there.
 struct RecordedRun {
   std::filesystem::path log;
   std::filesystem::path resolved;  // need not exist
@@ -36,9 +49,12 @@ RecordedRun recorded_run(const std::filesystem::path& named);
 // no such file.
 std::filesystem::path machine_of(const RecordedRun& run, const std::string& instead);
 
-// Throws config::Error where the file exists, unless `force`.
+// Throws config::Error where the file exists, unless `force`. A pipe or a device is no such file.
 void refuse_to_overwrite(const std::filesystem::path& file, bool force);
 
-void write_file(const std::filesystem::path& file, std::string_view text);
+// Takes the place of an older file when it is whole. Throws config::Error or log::Error; then the
+// older one stands.
+void write_file(const std::filesystem::path& file, std::string_view text,
+                log::Replacement::Sync sync = log::Replacement::Sync::now);
 
 }  // namespace sinew::cli

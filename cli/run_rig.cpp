@@ -17,8 +17,6 @@ namespace sinew::cli {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 // A length that no muscle can have is no result.
 void warn_beyond_the_muscle(const analysis::Summary& summary, const Messages& messages) {
   const double* least = summary.find("stand.least_length_m");
@@ -27,6 +25,55 @@ void warn_beyond_the_muscle(const analysis::Summary& summary, const Messages& me
         "the load was thrown to {:.3g} m: below the shortest length [31] has no force; try an "
         "actuator whose short_end.law is not \"zero\"",
         *least));
+}
+
+// What was run, beside the experiment itself.
+struct What {
+  const std::string& resolved;
+  const analysis::StandFile& stand;
+  experiment::LoggedTopics logged;
+};
+
+void write_log(const rig::Experiment& e, const What& what, const rig::Outcome& outcome,
+               const OutputFolder& folder) {
+  if (!e.log.enabled) return;
+  write_into(folder, resolved_name, what.resolved);
+  RunLog log(folder.work() / log_name, e.name, e.seed, what.resolved, what.logged);
+  log.write(outcome.table);
+  log.finish();
+}
+
+ExitCode keep(const rig::Experiment& e, const What& what, OutputFolder& folder,
+              const RigOptions& options) {
+  const Messages messages(options.quiet);
+  rig::Outcome outcome = rig::run(e);
+  write_log(e, what, outcome, folder);
+  if (outcome.status != signals::Status::ok)
+    throw std::runtime_error(fmt::format(
+        "{}: the run was ended by a state that is no number; try a smaller step", e.path));
+
+  const std::string measured = rig::measured_csv(e, outcome.table);
+  if (!measured.empty()) write_into(folder, measured_name, measured);
+  const analysis::Summary summary = analysis::summarize(outcome.table, what.stand);
+  const double factor = outcome.wall > 0 ? outcome.duration / outcome.wall : 0;
+  const std::string json = to_json(summary, {{"real_time_factor", factor}, {"threads", 1}});
+  write_into(folder, summary_name, json);
+  warn_beyond_the_muscle(summary, messages);
+  for (const analysis::Warning& w : analysis::clipped_transducers(outcome.table))
+    messages.warning(w.text);
+  if (e.log.enabled && options.report)
+    write_report(folder, experiment::logged_part(std::move(outcome.table), what.logged),
+                 what.resolved, e.name, messages);
+  commit_run(folder);
+  if (options.json) {
+    fmt::print("{}", json);
+    messages.note(folder.path().string());
+    return ok;
+  }
+  print_verdicts(summary, what.stand);
+  messages.note(fmt::format("{:.2f} s in {:.3f} s, kept in {}", outcome.duration, outcome.wall,
+                            folder.path().string()));
+  return ok;
 }
 
 }  // namespace
@@ -43,41 +90,12 @@ ExitCode run_rig(const RigOptions& options) {
   // As `analyze` will read it: so both come to the same bits.
   const analysis::StandFile stand =
       analysis::read_stand(config::parse_text(resolved, std::string(resolved_name)));
-  const experiment::LoggedTopics logged = rig::logged_topics(e);
-  const fs::path folder = options.folder.empty() ? next_run_folder(e.name)
-                                                 : chosen_run_folder(options.folder, options.force);
-  rig::Outcome outcome = rig::run(e);
-  if (e.log.enabled) {
-    write_file(folder / resolved_name, resolved);
-    RunLog log(folder / log_name, e.name, e.seed, resolved, logged);
-    log.write(outcome.table);
-    log.finish();
+  OutputFolder folder = run_folder(options.folder, options.force, e.name);
+  try {
+    return keep(e, {resolved, stand, rig::logged_topics(e)}, folder, options);
+  } catch (const std::exception& problem) {
+    throw std::runtime_error(problem.what() + where_left(folder));
   }
-  if (outcome.status != signals::Status::ok)
-    throw std::runtime_error(fmt::format(
-        "{}: the run was ended by a state that is no number; try a smaller step", e.path));
-
-  const std::string measured = rig::measured_csv(e, outcome.table);
-  if (!measured.empty()) write_file(folder / measured_name, measured);
-  const analysis::Summary summary = analysis::summarize(outcome.table, stand);
-  const double factor = outcome.wall > 0 ? outcome.duration / outcome.wall : 0;
-  const std::string json = to_json(summary, {{"real_time_factor", factor}, {"threads", 1}});
-  write_file(folder / summary_name, json);
-  warn_beyond_the_muscle(summary, messages);
-  for (const analysis::Warning& w : analysis::clipped_transducers(outcome.table))
-    messages.warning(w.text);
-  if (e.log.enabled && options.report)
-    write_report(folder, experiment::logged_part(std::move(outcome.table), logged), resolved,
-                 e.name, messages);
-  if (options.json) {
-    fmt::print("{}", json);
-    messages.note(folder.string());
-    return ok;
-  }
-  print_verdicts(summary, stand);
-  messages.note(fmt::format("{:.2f} s in {:.3f} s, kept in {}", outcome.duration, outcome.wall,
-                            folder.string()));
-  return ok;
 }
 
 }  // namespace sinew::cli

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/json_text.h"
 #include "cli/run_rig.h"
 #include "cli/text_table.h"
 #include "sinew/experiment/machine_file.h"
@@ -117,7 +118,7 @@ ExitCode show(const Options& options) {
   if (options.json) {
     Json out = Json::array();
     for (const config::Origin& origin : origins) out.push_back(to_json(origin, values));
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", json_text(out, 2));
     return ok;
   }
   TextTable table({"key", "as written", "SI", "", "range", "where", "source"});

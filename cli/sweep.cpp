@@ -2,16 +2,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
-#include <fstream>
+#include <cstdio>
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <thread>
 
 #include "cli/command.h"
+#include "cli/interrupt.h"
+#include "cli/json_text.h"
 #include "cli/run_folder.h"
 #include "cli/terminal.h"
 #include "sinew/config/compose.h"
+#include "sinew/log/replacement.h"
 #include "sinew/tune/study.h"
 #include "sinew/tune/table.h"
 
@@ -27,12 +30,6 @@ struct Options {
   int halvings = -1, threads = 0;
   bool force = false, json = false, quiet = false;
 };
-
-// Set by Ctrl-C, which then waits for the runs that have begun.
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-void on_interrupt(int) { interrupted = true; }
 
 // A plan's own words, and those of the command line behind them.
 tune::Sweep sweep_for(const Options& options) {
@@ -55,8 +52,9 @@ tune::Sweep sweep_for(const Options& options) {
   return tune::sweep_of(study);
 }
 
-// Rows as they come, so that a run that is killed leaves them; to stdout where no file is named.
-// Made with the first row: a sweep that is refused leaves nothing.
+// Rows as they come, so that a sweep that is killed leaves them, beside the file that they become;
+// to stdout where no file is named. Made with the first row: a sweep that is refused leaves
+// nothing.
 class CsvTable {
  public:
   CsvTable(const std::string& name, std::vector<std::string> headings, bool force)
@@ -64,24 +62,44 @@ class CsvTable {
     if (!name.empty()) refuse_to_overwrite(name, force);
   }
 
-  void add(const std::vector<std::string>& cells) {
-    const std::string text =
-        (lines_++ == 0 ? tune::csv_line(headings_) : "") + tune::csv_line(cells);
-    if (name_.empty()) return fmt::print("{}", text);
-    if (!file_.is_open()) file_.open(name_, std::ios::binary | std::ios::trunc);
-    file_ << text << std::flush;
+  // Called between runs that go on: a failure is told of by finish(). False: there was one.
+  bool add(const std::vector<std::string>& cells) noexcept {
+    if (failure_) return false;
+    try {
+      const std::string text =
+          (lines_++ == 0 ? tune::csv_line(headings_) : "") + tune::csv_line(cells);
+      if (name_.empty()) {
+        std::fwrite(text.data(), 1, text.size(), stdout);
+        return true;
+      }
+      if (!file_) file_.emplace(name_), file_->keep();
+      file_->write(text);
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+    return !failure_;
   }
-  void finish() {
-    if (!name_.empty() && !file_)
-      config::fail({name_, 0, 0}, "", "an error while writing", "room for the file",
-                   "another folder");
+
+  // Of a table that is not whole.
+  std::string part() const { return file_ ? file_->part().string() : name_; }
+
+  void finish(bool whole) {
+    if (file_ && whole && !failure_) return file_->commit();
+    if (!failure_) return;
+    try {
+      std::rethrow_exception(failure_);
+    } catch (const std::exception& e) {
+      throw std::runtime_error(
+          e.what() + (file_ ? "\n" + part() + ": holds the rows that are done" : std::string()));
+    }
   }
 
  private:
   std::string name_;
   std::vector<std::string> headings_;
   std::int64_t lines_ = 0;
-  std::ofstream file_;
+  std::optional<log::Replacement> file_;
+  std::exception_ptr failure_;
 };
 
 // A number or a flag as such.
@@ -90,15 +108,15 @@ Json json_cell(const std::string& cell) {
   return Json::accept(cell) ? Json::parse(cell) : Json(cell);
 }
 
-std::string json_text(const std::vector<std::string>& headings,
-                      const std::vector<tune::Row>& rows) {
+std::string table_as_json(const std::vector<std::string>& headings,
+                          const std::vector<tune::Row>& rows) {
   Json out{{"format", "sinew.sweep/1"}, {"rows", Json::array()}};
   for (const tune::Row& row : rows) {
     Json entry = Json::object();
     for (std::size_t i = 0; i < headings.size(); ++i) entry[headings[i]] = json_cell(row.cells[i]);
     out["rows"].push_back(std::move(entry));
   }
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json_text(out, 2) + "\n";
 }
 
 int threads_for(const Options& options) {
@@ -112,15 +130,13 @@ std::vector<tune::Row> run_all(const Options& options, const tune::Sweep& s, Csv
   const ProgressBar bar(progress, static_cast<std::int64_t>(tune::points(s)),
                         {.each = 1, .unit = "points", .decimals = 0},
                         options.quiet || options.out.empty());
-  const auto before = std::signal(SIGINT, on_interrupt);
-  auto rows = tune::sweep(s, {.threads = threads_for(options),
-                              .stop = &interrupted,
-                              .progress = &progress,
-                              .row = [&](const tune::Row& row) {
-                                if (csv) csv->add(row.cells);
-                              }});
-  std::signal(SIGINT, before);
-  return rows;
+  Interrupt interrupt;
+  return tune::sweep(s, {.threads = threads_for(options),
+                         .stop = &interrupt.asked(),
+                         .progress = &progress,
+                         .row = [&](const tune::Row& row) {
+                           if (csv && !csv->add(row.cells)) interrupt.ask();
+                         }});
 }
 
 // A figure that no run has was asked for in vain: under a name that is none, or of a machine that
@@ -144,7 +160,8 @@ void refuse_empty_columns(const std::vector<tune::Row>& rows, const tune::Sweep&
   if (!problems.empty()) throw config::Error(problems);
 }
 
-void tell(const std::vector<tune::Row>& rows, std::size_t points, const Messages& messages) {
+void tell(const std::vector<tune::Row>& rows, std::size_t points, const CsvTable* csv,
+          const Messages& messages) {
   const auto part = std::ranges::count_if(rows, [](const auto& r) { return !r.lacks.empty(); });
   if (part > 0)
     messages.warning(
@@ -155,7 +172,8 @@ void tell(const std::vector<tune::Row>& rows, std::size_t points, const Messages
         fmt::format("{} of {} rows have no figures; their status says why", bad, rows.size()));
   if (rows.size() < points)
     throw std::runtime_error(
-        fmt::format("interrupted: {} of {} points are done and kept", rows.size(), points));
+        fmt::format("interrupted: {} of {} points are done{}", rows.size(), points,
+                    csv && !csv->part().empty() ? " and kept in " + csv->part() : ""));
 }
 
 ExitCode sweep_all(const Options& options) {
@@ -167,9 +185,10 @@ ExitCode sweep_all(const Options& options) {
   std::optional<CsvTable> csv;
   if (!options.out.empty() || !options.json) csv.emplace(options.out, headings, options.force);
   const std::vector<tune::Row> rows = run_all(options, s, csv ? &*csv : nullptr);
-  if (csv) csv->finish();
-  if (options.json) fmt::print("{}", json_text(headings, rows));
-  tell(rows, tune::points(s), messages);
+  const std::size_t points = tune::points(s);
+  if (csv) csv->finish(rows.size() == points);
+  if (options.json) fmt::print("{}", table_as_json(headings, rows));
+  tell(rows, points, csv ? &*csv : nullptr, messages);
   refuse_empty_columns(rows, s);
   if (!options.out.empty()) messages.note(options.out);
   return ok;

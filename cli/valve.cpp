@@ -8,6 +8,7 @@
 
 #include "cli/arguments.h"
 #include "cli/command.h"
+#include "cli/json_text.h"
 #include "cli/named.h"
 #include "cli/text_table.h"
 #include "sinew/config/quantity.h"
@@ -166,7 +167,7 @@ ExitCode run_valve(const Options& options) {
   const std::vector<Delivered> duties = deliveries(valve, options);
 
   if (options.json) {
-    fmt::print("{}\n", to_json(valve, f, times, duties).dump(2));
+    fmt::print("{}\n", json_text(to_json(valve, f, times, duties), 2));
     return ok;
   }
   print_flow(valve, f);

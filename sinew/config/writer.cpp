@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sinew/config/quantity.h"
+#include "sinew/config/utf8.h"
 
 namespace sinew::config {
 
@@ -21,9 +22,10 @@ bool is_bare(std::string_view key) {
   return !key.empty() && std::all_of(key.begin(), key.end(), plain);
 }
 
+// TOML is UTF-8: of a file's name in a source, what is none is replaced.
 std::string toml_string(std::string_view text) {
   std::string out = "\"";
-  for (char c : text) {
+  for (const char c : in_utf8(text)) {
     const auto byte = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\') {
       out += '\\';

@@ -7,11 +7,19 @@
 
 namespace sinew::experiment {
 
+// A watcher that cannot stop the loop says nothing of it.
+template <class Watch>
+bool ends_it(Watch& watch) noexcept {
+  if constexpr (requires { watch.stopped(); }) return watch.stopped();
+  return false;
+}
+
 // Spine   scan(), seen().phase, command(command), edges(t), due(t), take(conversion, reading, t),
 //         next_event(t), missed(t), shut_down(t): control::Spine, or a stand's drive
 // Brain   update(seen, t) -> Command, finished()
 // Clock   wait_until(t) -> false when late
-// Watch   command(t), edge(e), sample(t), next(t): whoever records; it changes nothing
+// Watch   command(t), edge(e), sample(t), next(t): whoever records; it changes nothing. It may have
+//         stopped(): true ends the loop
 //
 // Ends at `end`, when the body ends or fails, or when the spinal cord has shut down.
 template <class Spine, class Brain, class Clock, class Watch>
@@ -22,7 +30,8 @@ signals::Status loop(Spine& spine, Brain& brain, signals::Port& port, Clock& clo
 
   Status status = port.start(spine.scan());
   Tick t = 0;
-  while (status == Status::ok && t < end && spine.seen().phase != control::Phase::off) {
+  while (status == Status::ok && t < end && spine.seen().phase != control::Phase::off &&
+         !ends_it(watch)) {
     if (!clock.wait_until(t)) spine.missed(t);
 
     // The high level's word for this period, and its last one.

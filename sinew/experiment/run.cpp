@@ -27,7 +27,13 @@ struct Watch {
   World* world;
   bool every_tick;
   int extra_readers;
+  const std::atomic<bool>* stop;
+  bool was_stopped = false;
 
+  bool stopped() noexcept {
+    was_stopped = was_stopped || (stop && stop->load(std::memory_order_relaxed));
+    return was_stopped;
+  }
   void command(Tick t) noexcept { recorder.command(t); }
   void edge(const signals::Edge& e) noexcept { recorder.edge(e); }
   void sample(Tick t) noexcept {
@@ -53,7 +59,7 @@ Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& por
   Recorder recorder(e, spine, high_level, truth, end);
   if (options.tap.push) recorder.tap(options.tap, options.tapped);
   recorder.progress(options.progress);
-  Watch<World> watch{recorder, world, options.every_tick, options.extra_readers};
+  Watch<World> watch{recorder, world, options.every_tick, options.extra_readers, options.stop};
 
   const auto before = std::chrono::steady_clock::now();
   Outcome out;
@@ -61,6 +67,7 @@ Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& por
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - before;
 
   out.wall = wall.count();
+  out.stopped = watch.was_stopped;
   out.table = recorder.take();
   out.seen = spine.seen();
   out.changes = high_level.changes().all();

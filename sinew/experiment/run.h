@@ -20,12 +20,14 @@ struct RunOptions {
   Tap tap;
   std::vector<std::uint16_t> tapped;  // topic in the log of each of topics(), or not_tapped
   std::atomic<std::int64_t>* progress = nullptr;  // the tick that the run has reached
+  const std::atomic<bool>* stop = nullptr;        // true: the run ends there, as it stands
   bool every_tick = false;                        // visit each tick: slower, the same bits
   int extra_readers = 0;                          // looks at the world per event: the same bits
 };
 
 struct Outcome {
   signals::Status status = signals::Status::ok;
+  bool stopped = false;  // by RunOptions::stop
   signals::Table table;
   control::Seen seen;                 // the low level's last word
   std::vector<gait::Change> changes;  // the plan's, and behind them what was steered

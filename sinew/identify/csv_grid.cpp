@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/utf8.h"
 
 namespace sinew::identify {
 
@@ -100,6 +101,19 @@ void refuse_ragged_rows(const Grid& grid) {
               : "to mend these rows");
 }
 
+// Names go on into files and reports, all of which are UTF-8.
+void refuse_other_encodings(const std::string& file, int line, std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = config::letter_at(text, at);
+    if (length == 0)
+      config::fail(
+          {file, line, static_cast<int>(at) + 1}, "",
+          fmt::format("a byte {:02x} that is no UTF-8", static_cast<unsigned char>(text[at])),
+          "a table in UTF-8", "iconv -f LATIN1 -t UTF-8, or to save it so");
+    at += length;
+  }
+}
+
 }  // namespace
 
 std::optional<double> number_in(std::string_view text) {
@@ -125,6 +139,7 @@ Grid read_grid(std::string_view text, const std::string& file,
     const std::string_view raw = text.substr(from, to - from);
     from = to + 1;
     if (trimmed(raw).empty() || trimmed(raw).front() == '#') continue;
+    refuse_other_encodings(file, line + 1, raw);
 
     if (separator == '\0') separator = separator_of(raw);
     Row row{line + 1, split(raw, separator)};

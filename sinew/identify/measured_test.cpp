@@ -103,6 +103,10 @@ TEST(Measured, what_is_wrong_is_told) {
       {"time [s],pressure [kPa gauge],force [N]\n0,100,10\n2,110,12\n1,120,13\n",
        "rig.csv:4:1: time: found 1 s after 2 s"},
       {"pressure [kPa gauge],force [N]\n", "rows: found none"},
+      {"pressure [kPa gauge],force [N],L\xE4nge [mm]\n100,20,1\n",
+       "rig.csv:1:33: found a byte e4 that is no UTF-8"},
+      {"pressure [kPa gauge],force [N],muscle\n100,20,\xFFx\n", "rig.csv:2:8: found a byte ff"},
+      {"pressure [kPa gauge],force [N],L\xC3\n100,20,1\n", "found a byte c3"},
   };
   for (const Case& c : cases) {
     const std::string said = problem(c.text);

@@ -1,14 +1,13 @@
 #include "sinew/log/csv.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
 #include <ostream>
+#include <sstream>
 #include <string_view>
 
-#include "sinew/log/file.h"
 #include "sinew/log/message.h"
+#include "sinew/log/replacement.h"
 
 namespace sinew::log {
 namespace {
@@ -115,13 +114,11 @@ void write_csv(const signals::Table& table, std::ostream& out,
 
 void write_csv(const signals::Table& table, const std::filesystem::path& file,
                const std::vector<std::string>& topics) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  if (out) write_csv(table, out, topics);
-  out.close();
-  if (!out)
-    throw Error(file, "cannot write the table: " + system_words(errno),
-                "choose a folder that exists, that you may write to and that has room");
+  Replacement out(file);
+  std::ostringstream text;
+  write_csv(table, text, topics);
+  out.write(text.view());
+  out.commit();
 }
 
 }  // namespace sinew::log

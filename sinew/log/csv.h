@@ -26,7 +26,7 @@ namespace sinew::log {
 void write_csv(const signals::Table& table, std::ostream& out,
                const std::vector<std::string>& topics = {});
 
-// Throws Error where the file cannot be written.
+// Into a file, which is replaced when the table is whole. Throws Error where it cannot be written.
 void write_csv(const signals::Table& table, const std::filesystem::path& file,
                const std::vector<std::string>& topics = {});
 

@@ -80,7 +80,7 @@ TEST(Csv, ToAFile) {
   write_csv(small_table(), folder / "log.csv");
   EXPECT_EQ(bytes_of(folder / "log.csv"), out.str());
   EXPECT_THAT(error_of([&] { write_csv(small_table(), folder / "no" / "log.csv"); }),
-              HasSubstr("log.csv: cannot write the table: No such file or directory"));
+              HasSubstr("log.csv: cannot be written: No such file or directory"));
 }
 
 }  // namespace

@@ -10,23 +10,49 @@
 #include <system_error>
 
 #include "sinew/log/error.h"
+#include "sinew/log/lock.h"
 
 namespace sinew::log {
 namespace {
 
 const char* const kWhereToLook = "check the name, and that `sinew run` wrote a log there";
 
+// An old file is unlinked rather than truncated: whoever has it mapped keeps it. But not one that
+// is being written.
+void make_way(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return;
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const std::string holder = fd < 0 ? "" : lock(fd);
+  if (holder.empty()) std::filesystem::remove(path, ignored);
+  if (fd >= 0) ::close(fd);
+  if (!holder.empty())
+    throw Error(path, "cannot create the log: " + holder + " is writing it",
+                "wait for it, or choose another name");
+}
+
 }  // namespace
 
 Mapping::Mapping(const std::filesystem::path& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) throw Error(path, "cannot open the log: " + system_words(errno), kWhereToLook);
+  try {
+    map(fd, path);
+  } catch (...) {
+    ::close(fd);
+    throw;
+  }
+  ::close(fd);
+}
+
+Mapping::Mapping(int descriptor, const std::filesystem::path& path) { map(descriptor, path); }
+
+void Mapping::map(int fd, const std::filesystem::path& path) {
   struct stat info {};
   const bool regular = ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode);
   size_ = regular ? static_cast<std::size_t>(info.st_size) : 0;
   void* at = size_ ? ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, fd, 0) : nullptr;
   const int error = errno;
-  ::close(fd);
   if (!regular) throw Error(path, "not a file", "name the log itself, for instance log.mcap");
   if (size_ == 0) throw Error(path, "the file is empty", "run the experiment again");
   if (at == MAP_FAILED)
@@ -37,13 +63,12 @@ Mapping::Mapping(const std::filesystem::path& path) {
 Mapping::~Mapping() { ::munmap(const_cast<char*>(data_), size_); }
 
 Output::Output(const std::filesystem::path& path) {
-  // An old file is unlinked rather than truncated: whoever has it mapped keeps it.
-  std::error_code ignored;
-  if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
-  fd_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  make_way(path);
+  fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (fd_ < 0)
     throw Error(path, "cannot create the log: " + system_words(errno),
                 "choose a folder that exists and that you may write to");
+  (void)lock(fd_);  // new, so nobody holds it
 }
 
 Output::~Output() { close(); }
@@ -62,6 +87,18 @@ bool Output::write(std::string_view bytes) noexcept {
     bytes.remove_prefix(done);
   }
   return error_ == 0;
+}
+
+bool Output::sync() noexcept {
+  if (error_ == 0 && ::fsync(fd_) != 0) error_ = errno;
+  return error_ == 0;
+}
+
+bool Output::stands_at(const std::filesystem::path& path) const noexcept {
+  struct stat mine {
+  }, named{};
+  return fd_ >= 0 && ::fstat(fd_, &mine) == 0 && ::lstat(path.c_str(), &named) == 0 &&
+         mine.st_dev == named.st_dev && mine.st_ino == named.st_ino;
 }
 
 bool Output::close() noexcept {

@@ -12,6 +12,9 @@ namespace sinew::log {
 class Mapping {
  public:
   explicit Mapping(const std::filesystem::path& path);  // throws Error: missing, unreadable, empty
+
+  // Of what is open already; `path` is for messages.
+  Mapping(int descriptor, const std::filesystem::path& path);
   ~Mapping();
   Mapping(const Mapping&) = delete;
   Mapping& operator=(const Mapping&) = delete;
@@ -19,12 +22,15 @@ class Mapping {
   std::string_view bytes() const { return {data_, size_}; }
 
  private:
+  void map(int descriptor, const std::filesystem::path& path);
+
   const char* data_ = nullptr;
   std::size_t size_ = 0;
 };
 
 // A new file that is only appended to. The first failure is final: it is kept, and nothing more is
-// written, so that what stands in the file remains a prefix of what was meant.
+// written, so that what stands in the file remains a prefix of what was meant. While it is open
+// nobody else can make an Output of that name.
 class Output {
  public:
   explicit Output(const std::filesystem::path& path);  // replaces a file; throws Error
@@ -33,7 +39,13 @@ class Output {
   Output& operator=(const Output&) = delete;
 
   bool write(std::string_view bytes) noexcept;
+  bool sync() noexcept;  // to the disk
   bool close() noexcept;
+
+  // Does this very file still stand under that name?
+  bool stands_at(const std::filesystem::path& path) const noexcept;
+
+  int descriptor() const { return fd_; }  // -1: closed
 
   int error() const { return error_; }                  // errno of the first failure, or 0
   std::uint64_t position() const { return position_; }  // bytes written

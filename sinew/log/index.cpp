@@ -8,6 +8,7 @@
 #include "sinew/log/file.h"
 #include "sinew/log/mcap.h"
 #include "sinew/log/names.h"
+#include "sinew/log/replacement.h"
 
 namespace sinew::log {
 namespace {
@@ -70,7 +71,7 @@ bool Indexer::copy(std::string_view source) {
   put_data_end(end, output_.crc());
   output_.write(end.view());
   put_summary();
-  return !records.torn() && output_.close();
+  return !records.torn() && output_.error() == 0;
 }
 
 void Indexer::copy(const Record& record) {
@@ -225,25 +226,29 @@ void Indexer::put_summary() {
 
 }  // namespace
 
-void make_indexed(const std::filesystem::path& file, const Metadata& run) {
+void make_indexed(const Output& row, const std::filesystem::path& file, const Metadata& run) {
   const std::filesystem::path beside = file.string() + ".tmp";
-  const char* const advice = "the log is whole and can be read, only its index is missing";
+  const auto fail = [&](const std::string& why) {
+    std::error_code ignored;
+    std::filesystem::remove(beside, ignored);
+    throw Error(file, "cannot index the log: " + why,
+                "the log is whole and can be read, only its index is missing");
+  };
+  const Mapping source(row.descriptor(), file);
+  Output output(beside);
+  if (!Indexer(output, run).copy(source.bytes()) || !output.sync())
+    fail(output.error() ? system_words(output.error()) : "the file is damaged");
+
+  // By their names both could be somebody else's by now.
   std::error_code error;
-  {
-    const Mapping source(file);
-    Output output(beside);
-    if (!Indexer(output, run).copy(source.bytes())) {
-      std::filesystem::remove(beside, error);
-      const std::string why = output.error() ? system_words(output.error()) : "the file is damaged";
-      throw Error(file, "cannot index the log: " + why, advice);
-    }
+  if (!row.stands_at(file) || !output.stands_at(beside)) {
+    if (output.stands_at(beside)) std::filesystem::remove(beside, error);
+    throw Error(file, "another log has taken its place while it was written",
+                "one run at a time in a folder");
   }
   std::filesystem::rename(beside, file, error);
-  if (error) {
-    const std::string why = error.message();
-    std::filesystem::remove(beside, error);
-    throw Error(file, "cannot index the log: " + why, advice);
-  }
+  if (error) fail(error.message());
+  if (const int unsynced = sync_folder(file.parent_path())) fail(system_words(unsynced));
 }
 
 }  // namespace sinew::log

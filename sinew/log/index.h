@@ -8,11 +8,14 @@
 
 namespace sinew::log {
 
+class Output;
+
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
-// Writes an indexed copy beside the file and renames it over the file, so that at any instant one
-// of the two stands there whole. Throws Error; the file then is as it was. `run`: what
-// was run, in place of what the file says of it; empty: that.
-void make_indexed(const std::filesystem::path& file, const Metadata& run = {});
+// Writes an indexed copy of `row` beside the file, syncs it and renames it over the file, so that
+// at any instant one of the two stands there whole. Throws Error; the file then is as it was: also
+// where another file has taken the place of `row`. `run`: what was run, in place of what the file
+// says of it; empty: that.
+void make_indexed(const Output& row, const std::filesystem::path& file, const Metadata& run = {});
 
 }  // namespace sinew::log

@@ -198,9 +198,9 @@ void Writer::Impl::finish(const Pairs& metadata) {
   put_footer(footer, 0, 0);
   end.raw(footer.view());
   output_.write(end.view());
-  output_.close();
   fail_unless_written();
-  make_indexed(file_, metadata);
+  make_indexed(output_, file_, metadata);
+  output_.close();
 }
 
 void Writer::Impl::fail_unless_written() const {

@@ -3,7 +3,8 @@
 //
 // While the run lasts, the file is a plain row of messages that is never more than a few
 // milliseconds behind, so that a run that is killed leaves a log that can be read up to there.
-// finish() closes that file and then puts an indexed one in its place, in one step.
+// finish() ends that file and then puts an indexed one in its place, in one step. Nobody else can
+// write a log of that name meanwhile.
 #pragma once
 
 #include <chrono>

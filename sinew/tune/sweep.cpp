@@ -1,5 +1,7 @@
 #include "sinew/tune/sweep.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <mutex>
@@ -77,6 +79,20 @@ void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins
   const config::Origin* origin = config::find_origin(e.origins, axis.key);
   if (!origin) unknown_key(axis, e.origins);
   check_values(s, axis, *origin, atmosphere);
+}
+
+// Before they are in memory, and before their number is too large for one.
+void refuse_too_many(const Sweep& s) {
+  double all = 1;
+  std::string product;
+  for (const Axis& axis : s.axes) {
+    all *= static_cast<double>(axis.values.size());
+    product += fmt::format("{}{}", product.empty() ? "" : " x ", axis.values.size());
+  }
+  if (all <= static_cast<double>(most_points)) return;
+  config::fail({"vary", 0, 0}, "", fmt::format("{} = {:.6g} points", product, all),
+               fmt::format("at most {}", most_points),
+               "fewer values, or one sweep after the other");
 }
 
 // A key that the first run's summary lacks may not apply to it; one that is nearly another is a
@@ -248,6 +264,7 @@ std::vector<std::string> keys(const Sweep& s) {
 }
 
 void check(const Sweep& s) {
+  refuse_too_many(s);
   const config::Node root = config::compose(s.experiment, s.sets);
   const double atmosphere = config::atmosphere_of(root);
   const config::Origins origins = experiment::load(root, s.experiment).origins;

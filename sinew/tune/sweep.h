@@ -49,12 +49,15 @@ struct Options {
   int threads = 1;
   const std::atomic<bool>* stop = nullptr;        // true: runs that began are the last
   std::atomic<std::int64_t>* progress = nullptr;  // points that are done
-  std::function<void(const Row&)> row = {};       // called in the grid's order, one at a time
+  std::function<void(const Row&)> row = {};       // called in the grid's order, one at a time; must
+                                                  // not throw
 };
 
 // "joint.hip.angle_gain [%/count]", the reported figures, "status". A search has its largest value
 // and the number of its runs besides.
 std::vector<std::string> headings(const Sweep&);
+
+inline constexpr std::size_t most_points = 1'000'000;  // each keeps a row of the table in memory
 
 std::size_t points(const Sweep&);
 
@@ -62,7 +65,7 @@ std::size_t points(const Sweep&);
 std::vector<std::string> keys(const Sweep&);
 
 // Throws config::Error for an experiment that is wrong as it stands, and for keys and units of the
-// axes that it does not know. Runs nothing.
+// axes that it does not know, and for more than most_points. Runs nothing.
 void check(const Sweep&);
 
 // Checks, then runs. Throws after the first point for a key that the summary lacks and that looks

@@ -86,18 +86,36 @@ TEST(Sweep, RefusesAWholeNumberThatIsNone) {
   EXPECT_THAT(r.err, AllOf(HasSubstr("seed: found 9"), HasSubstr("expected 0 to 2147483647")));
 }
 
+// Beside the table that it would have become, which stands as it was.
 TEST(Sweep, InterruptedKeepsWhatIsDone) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const Workspace w;
+    write_text(w / "t.csv", "an older table\n");
+    const pid_t pid =
+        w.start({"sweep", bench, "--seeds", "10000", "-o", "t.csv", "--force", "--quiet"});
+    for (int i = 0; i < 1000 && !fs::exists(w / "t.csv.part"); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    kill(pid, signal);
+    int status = 0;
+    waitpid(pid, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status)) << "it should end by itself at signal " << signal;
+    EXPECT_EQ(WEXITSTATUS(status), 1);
+    EXPECT_THAT(read_text(w / "err"), HasSubstr("kept in t.csv.part"));
+    EXPECT_EQ(read_text(w / "t.csv"), "an older table\n");
+    const std::string text = read_text(w / "t.csv.part");
+    EXPECT_THAT(text, AllOf(StartsWith("seed,status\n1,ok\n"), EndsWith(",ok\n")));
+  }
+}
+
+TEST(Sweep, OfMoreThanMemoryHoldsIsRefused) {
   const Workspace w;
-  const pid_t pid = w.start({"sweep", bench, "--seeds", "10000", "-o", "t.csv", "--quiet"});
-  for (int i = 0; i < 500 && !fs::exists(w / "t.csv"); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  kill(pid, SIGINT);
-  int status = 0;
-  waitpid(pid, &status, 0);
-  ASSERT_TRUE(WIFEXITED(status)) << "it should end by itself";
-  EXPECT_EQ(WEXITSTATUS(status), 1);
-  const std::string text = read_text(w / "t.csv");
-  EXPECT_THAT(text, AllOf(StartsWith("seed,status\n1,ok\n"), EndsWith(",ok\n")));
+  const Result r =
+      w.sinew({"sweep", bench, "--vary", "joint.lever.angle_gain=0.01:0.1:1000 %/count", "--vary",
+               "seed=1:1000:1000", "--vary", "phase.up.duration=1:2:1000 s", "-o", "t.csv"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_THAT(r.err, AllOf(HasSubstr("found 1000 x 1000 x 1000 = 1e+09 points"),
+                           HasSubstr("expected at most 1000000"), HasSubstr("try fewer values")));
+  EXPECT_FALSE(fs::exists(w / "t.csv"));
 }
 
 TEST(Sweep, RunsAPlan) {

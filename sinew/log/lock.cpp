@@ -1,0 +1,43 @@
+#include "sinew/log/lock.h"
+
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <fstream>
+#include <sstream>
+
+namespace sinew::log {
+namespace {
+
+// The kernel's list of locks has a line for each:
+//   1: FLOCK  ADVISORY  WRITE 4711 fe:00:131080 0 EOF
+// "" where it is not told, as of a process in another container.
+std::string holder_of(int descriptor) {
+  struct stat info {};
+  if (::fstat(descriptor, &info) != 0) return "";
+  const std::string inode = fmt::format(":{}", info.st_ino);
+  std::ifstream locks("/proc/locks");
+  for (std::string line; std::getline(locks, line);) {
+    std::istringstream words(line);
+    std::string number, kind, advisory, mode, pid, place;
+    words >> number >> kind >> advisory >> mode >> pid >> place;
+    if (kind == "FLOCK" && place.ends_with(inode) && pid != "0") return pid;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string lock(int descriptor) {
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return "";
+  const std::string pid = holder_of(descriptor);
+  return pid.empty() ? "another process" : "process " + pid;
+}
+
+void wait_for_lock(int descriptor) {
+  while (::flock(descriptor, LOCK_EX) != 0 && errno == EINTR) {}
+}
+
+}  // namespace sinew::log

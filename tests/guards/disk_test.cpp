@@ -1,0 +1,60 @@
+// The n-th call that writes fails, for n = 1, 2, 3 … until the command is done without it: each
+// time the command says so and ends with 1, and what stands is the old result, or, where only the
+// last words to the disk failed, the new one.
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+
+#include "tests/guards/writers.h"
+
+namespace sinew::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+// Did the call number n fail? The command's end besides.
+bool failed(const Workspace& w, const Writer& writer, int n, Ended& end) {
+  const std::string told = (w / "told").string();
+  fs::remove(told);
+  end = run(w, writer.fresh, [&] {
+    setenv("LD_PRELOAD", SINEW_FAIL_WRITE, 1);
+    setenv("SINEW_FAIL_WRITE", std::to_string(n).c_str(), 1);
+    setenv("SINEW_FAIL_TOLD", told.c_str(), 1);
+  });
+  return fs::exists(told);
+}
+
+// One of them after the other in ./check long; here fewer and fewer.
+int next(int n, bool all) { return all || n < 4 ? n + 1 : n + n / 3; }
+
+TEST(Disk, ThatFailsOnceIsToldOfAndLosesNothing) {
+  const Workspace w;
+  ASSERT_NO_FATAL_FAILURE(prepare(w));
+  const bool all = std::getenv("SINEW_GUARD_COUNT") != nullptr;
+  int total = 0;
+  for (const Writer& writer : writers(w)) {
+    const Results results = both(w, writer);
+    int failures = 0;
+    Ended end;
+    for (int n = 1; n < 5000 && failed(w, writer, n, end); n = next(n, all), ++failures) {
+      EXPECT_EQ(end.code, 1) << writer.name << ", call " << n;
+      EXPECT_THAT(end.output, HasSubstr(writer.target)) << writer.name << ", call " << n;
+      EXPECT_THAT(end.output, HasSubstr("No space left on device")) << writer.name << n;
+      // Whoever comes next finishes what is half done, also where that is all.
+      Words look = writer.fresh;
+      std::erase(look, "--force");
+      if (writer.is_folder()) run(w, writer.is_run() ? Words{"analyze", writer.target} : look);
+      EXPECT_EQ(neither(state(w / writer.target), results), "") << writer.name << ", call " << n;
+      put_back(w, writer);
+    }
+    EXPECT_EQ(end.code, 0) << writer.name << end.output;
+    EXPECT_EQ(difference(state(w / writer.target), results.fresh), "") << writer.name;
+    EXPECT_GE(failures, 3) << writer.name << " does not even write, sync and rename";
+    total += failures;
+  }
+  RecordProperty("failures", total);
+}
+
+}  // namespace
+}  // namespace sinew::test

@@ -1,0 +1,62 @@
+// tests/guards/writers.h - every command that writes a file or a folder, over an older one: what
+// stood there before, what stands there when it is done, and ways to disturb it meanwhile.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/cli/program.h"
+
+namespace sinew::test {
+
+struct Writer {
+  std::string name;
+  Words old, fresh;    // leave an older and a newer result at the same place
+  Words refused;       // such that nothing may happen to it
+  std::string target;  // a file, or the folder of a run or of figures
+
+  bool is_run() const { return fresh[0] == "run" || fresh[0] == "import"; }
+  bool is_folder() const { return is_run() || fresh[0] == "figures"; }
+};
+
+// What they read stands in the workspace after prepare(). Those that need the page in the program
+// are left out where there is none.
+std::vector<Writer> writers(const Workspace& w);
+void prepare(const Workspace& w);
+
+// Names and contents, of a file alone under "". Of a run without what it left unfinished, and of
+// its summary without the wall clock's share. Nothing where nothing is.
+using State = std::map<std::string, std::string>;
+State state(const std::filesystem::path& target);
+
+// "": they are the same; else what differs, by its names.
+std::string difference(const State& found, const State& expected);
+
+// The older and the newer result, and the older one again where it stood.
+struct Results {
+  State old, fresh;
+};
+Results both(const Workspace& w, const Writer& writer);
+std::string neither(const State& found, const Results& results);  // "": one of the two
+void put_back(const Workspace& w, const Writer& writer);          // after both()
+
+// A process of the program with its output in a pipe, so that limits on files do not reach it.
+struct Started {
+  pid_t pid = -1;
+  int output = -1;  // stdout and stderr
+};
+struct Ended {
+  int code = -1;  // -1: by a signal
+  std::string output;
+};
+Started start(const Workspace& w, const Words& words, const std::function<void()>& before = {});
+Ended ended(const Started& process);
+Ended run(const Workspace& w, const Words& words, const std::function<void()>& before = {});
+
+// Of a guard: SINEW_GUARD_COUNT where it is set.
+int tries(int usual);
+
+}  // namespace sinew::test
