@@ -250,5 +250,19 @@ TEST(ForeignFile, NamesThatDoNotExistAreTold) {
   EXPECT_THAT(w.sinew({"identify", "geometry", "absent.csv"}).err, HasSubstr("absent.csv"));
 }
 
+// A file's name may be any bytes: what is written and printed is UTF-8 all the same, and can be
+// read.
+TEST(Identify, OfAFileWhoseNameIsNoUtf8) {
+  const Workspace w;
+  const std::string name = "m\xFFsh.csv";
+  write_text(w / name, mesh);
+  const Result result = w.sinew({"identify", "geometry", name, "--json", "-o", "out.toml"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(Json::accept(result.out));
+  EXPECT_EQ(w.sinew({"check", "out.toml"}).code, 0);
+  const Result check = w.sinew({"check", "--json", name});
+  EXPECT_TRUE(Json::accept(check.out)) << check.err;
+}
+
 }  // namespace
 }  // namespace sinew::test

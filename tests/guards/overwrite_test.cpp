@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <cstdio>
 #include <thread>
 
 #include "sinew/log/reader.h"
@@ -172,9 +173,10 @@ TEST_F(Overwrite, PipesAndStdoutAreWrittenDirectly) {
 
 // Both at once: one of them is told who is there, or both are done one after the other.
 TEST_F(Overwrite, TwoAtOnceLeaveOneOfTheTwoWhole) {
+  int pairs = 0;
   for (const Writer& writer : writers(w)) {
     const Results results = both(w, writer);
-    for (int i = 0; i < tries(2); ++i) {
+    for (int i = 0; i < tries(2); ++i, ++pairs) {
       const Started first = start(w, writer.old), second = start(w, writer.fresh);
       for (const Ended& end : {ended(first), ended(second)}) {
         if (end.code == 0) continue;
@@ -184,6 +186,10 @@ TEST_F(Overwrite, TwoAtOnceLeaveOneOfTheTwoWhole) {
       EXPECT_EQ(neither(state(w / writer.target), results), "") << writer.name;
     }
   }
+  std::printf(
+      "guard: %zu commands refused, cut short by a full disk, through links and pipes; %d "
+      "times two at once\n",
+      writers(w).size(), pairs);
 }
 
 // Half a walk in the place of a whole one, as if the robot had come that far.
