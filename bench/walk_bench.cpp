@@ -7,6 +7,7 @@
 #include "sinew/experiment/loop.h"
 #include "sinew/experiment/run.h"
 #include "sinew/experiment/spinal.h"
+#include "sinew/experiment/supervision.h"
 #include "sinew/plant/planar/world.h"
 
 namespace {
@@ -48,7 +49,8 @@ void unwatched_walk(benchmark::State& state) {
   double simulated = 0;
   for (auto _ : state) {
     plant::World<2> world(experiment::planar_setup(walk()));
-    control::Spine spine(experiment::spine_config(walk()));
+    control::Supervisor spine(experiment::spine_config(walk()),
+                              experiment::supervise_config(walk()));
     experiment::HighLevel high(walk().robot, walk().plan);
     experiment::SimulatedClock clock;
     Nothing nobody;
@@ -75,7 +77,8 @@ void controller_alone(benchmark::State& state) {
   double simulated = 0;
   for (auto _ : state) {
     Still body;
-    control::Spine spine(experiment::spine_config(walk()));
+    control::Supervisor spine(experiment::spine_config(walk()),
+                              experiment::supervise_config(walk()));
     experiment::HighLevel high(walk().robot, walk().plan);
     experiment::SimulatedClock clock;
     Nothing nobody;

@@ -92,6 +92,13 @@ void KeptRun::finish_log(const experiment::Outcome& outcome) {
   log_->finish(resolved_);
 }
 
+// Who the supervisor did not believe: no other figures of a run that was not finished.
+void KeptRun::keep_trip(const experiment::Outcome& outcome) {
+  if (outcome.supervised.trip.cause == control::Trip::Cause::none) return;
+  const analysis::Summary summary = analysis::summarize_trip(outcome.table, machine_in(resolved_));
+  write_into(*folder_, summary_name, summary_json(summary, outcome));
+}
+
 // What came until then is in the log, which is left as one that was cut off.
 void KeptRun::break_off(const experiment::Outcome& outcome) {
   const bool logged = log_.has_value();
@@ -118,7 +125,10 @@ ExitCode KeptRun::keep(experiment::Outcome outcome) try {
   if (outcome.stopped) break_off(outcome);
   finish_log(outcome);
   warn_of(experiment_, outcome, messages_);
-  if (ended_early(outcome)) throw std::runtime_error(black_box(experiment_, outcome));
+  if (ended_early(outcome)) {
+    keep_trip(outcome);
+    throw std::runtime_error(black_box(experiment_, outcome));
+  }
 
   const analysis::Machine machine = machine_in(resolved_);
   const analysis::Summary summary = keep_files(outcome, machine);

@@ -50,6 +50,7 @@ class KeptRun {
   void finish_log(const experiment::Outcome& outcome);
   [[noreturn]] void break_off(const experiment::Outcome& outcome);
   analysis::Summary keep_files(experiment::Outcome& outcome, const analysis::Machine& machine);
+  void keep_trip(const experiment::Outcome& outcome);
 
   RunRequest request_;
   const Messages& messages_;

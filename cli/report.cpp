@@ -8,6 +8,7 @@
 #include "cli/text_table.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/config/quantity.h"
+#include "sinew/experiment/supervision.h"
 
 namespace sinew::cli {
 
@@ -50,6 +51,17 @@ std::string record_text(const signals::Series& s, std::size_t i) {
   for (std::size_t f = 0; f < s.columns.size(); ++f) {
     const std::string& unit = s.topic.fields[f].unit;
     text += fmt::format("  {:.6g}{}", s.columns[f][i], unit == "1" ? "" : " " + unit);
+  }
+  return text;
+}
+
+// "; the last records before:" and one line per topic.
+std::string last_records(const signals::Table& table) {
+  std::string text = "; the last records before:";
+  const std::int64_t end = last_good_time(table);
+  for (const signals::Series& s : table.series) {
+    const auto after = std::ranges::upper_bound(s.time_ns, end) - s.time_ns.begin();
+    if (after > 0) text += "\n  " + record_text(s, static_cast<std::size_t>(after - 1));
   }
   return text;
 }
@@ -101,6 +113,22 @@ bool print_reported(const analysis::Summary& summary,
   return true;
 }
 
+// What the low level did not believe, or should not.
+void warn_of_sensors(const experiment::Experiment& e, const control::Supervised& supervised,
+                     const Messages& messages) {
+  for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
+    const std::string& name = e.robot.sensors[s].name;
+    const control::SensorSeen& seen = supervised.sensor[s];
+    if (seen.rejected > 0)
+      messages.warning(fmt::format("{}: {} readings were not believed; the last good ones stood",
+                                   name, seen.rejected));
+    if (seen.frozen > 0)
+      messages.warning(fmt::format(
+          "{}: the same counts for {} scans in a row while its muscles were driven; {} in all",
+          name, seen.longest, seen.frozen));
+  }
+}
+
 }  // namespace
 
 void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine) {
@@ -126,7 +154,13 @@ void warn_of(const experiment::Experiment& e, const experiment::Outcome& outcome
     if (count > 0) messages.warning(fmt::format("{} {}", count, what));
   };
   tell(seen.late, "readings came late");
-  tell(seen.invalid, "readings were invalid");
+  const control::Supervised& supervised = outcome.supervised;
+  tell(seen.invalid - supervised.rejected, "readings were invalid");
+  tell(supervised.rejected_commands,
+       "commands were rejected: not numbers, out of range or too fast");
+  tell(supervised.gaps,
+       fmt::format("ticks came later than announced, by {} at worst", supervised.worst_gap));
+  warn_of_sensors(e, supervised, messages);
   tell(seen.missed,
        "ticks came late by more than a tick: this machine cannot keep the pace that finely");
   tell(seen.overruns,
@@ -144,17 +178,16 @@ void warn_of(const experiment::Experiment& e, const experiment::Outcome& outcome
 
 std::string black_box(const experiment::Experiment& e, const experiment::Outcome& outcome) {
   const control::Seen& seen = outcome.seen;
+  const std::string tripped = experiment::to_text(outcome.supervised.trip, e);
+  if (!tripped.empty())
+    return fmt::format("{}: the run was ended by {}; all muscles were vented{}", e.path, tripped,
+                       last_records(outcome.table));
   const bool by_sensor = seen.fault != signals::Status::ok;
   std::string text = fmt::format("{}: the run was ended by {}", e.path,
                                  word(by_sensor ? seen.fault : outcome.status));
   if (by_sensor && seen.fault_channel.index < e.robot.sensors.size())
     text += " of sensor " + e.robot.sensors[seen.fault_channel.index].name;
-  text += "; try a smaller plant_steps.body; the last records before:";
-  const std::int64_t end = last_good_time(outcome.table);
-  for (const signals::Series& s : outcome.table.series) {
-    const auto after = std::ranges::upper_bound(s.time_ns, end) - s.time_ns.begin();
-    if (after > 0) text += "\n  " + record_text(s, static_cast<std::size_t>(after - 1));
-  }
+  text += "; try a smaller plant_steps.body" + last_records(outcome.table);
   return text;
 }
 

@@ -55,5 +55,6 @@ void add_air(Figures&);
 void add_valves(Figures&);
 void add_machine(Figures&);
 void add_phases(Figures&);
+void add_supervision(Figures&);
 
 }  // namespace sinew::analysis

@@ -80,6 +80,25 @@ double cylinder_air(const Figures& f, std::size_t first, std::size_t last) {
   return all;
 }
 
+// What the low level did not believe; absent where nothing was, or nobody counted.
+void add_supervision(Figures& f) {
+  const auto counted = [&](const std::string& key, const std::string& topic) {
+    const Column column = f.record.column(topic);
+    if (!column.empty() && column.back() > 0) f.summary.add(key, column.back());
+  };
+  for (const robot::Sensor& sensor : f.machine.robot.sensors) {
+    const std::string from = "/sensor/" + sensor.name, to = "sensors." + sensor.name;
+    counted(to + ".rejected_readings", from + "/rejected");
+    counted(to + ".frozen_readings", from + "/frozen");
+  }
+  counted("low_level.rejected_commands", "/low_level/rejected_commands");
+  counted("low_level.gaps", "/low_level/gaps");
+  const Column tripped = f.record.column("/low_level/tripped");
+  const auto first = std::ranges::find(tripped, 1.0) - tripped.begin();
+  if (first < std::ssize(tripped))
+    f.summary.add("low_level.tripped_time_s", f.record.time(static_cast<std::size_t>(first)));
+}
+
 void add_machine(Figures& f) {
   add_rollers(f);
   add_cylinder(f);

@@ -68,6 +68,17 @@ Summary summarize(const signals::Table& table, const Machine& machine) {
   add_valves(figures);
   add_machine(figures);
   add_phases(figures);
+  add_supervision(figures);
+  return summary;
+}
+
+Summary summarize_trip(const signals::Table& table, const Machine& machine) {
+  const Record record(table, machine);
+  Summary summary;
+  summary.title = machine.title;
+  if (record.rows() == 0) return summary;
+  Figures figures{machine, record, summary};
+  add_supervision(figures);
   return summary;
 }
 

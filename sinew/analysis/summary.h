@@ -36,6 +36,9 @@ class Summary {
 
 Summary summarize(const signals::Table&, const Machine&);
 
+// Of a run that its supervisor ended: why, and nothing that looks like a whole run's figures.
+Summary summarize_trip(const signals::Table&, const Machine&);
+
 // summary.json: format, title, the keys as nested objects in the summary's order, `host` last.
 // Numbers have the fewest digits that read back to the same bits. No dates, nothing of the machine
 // that ran but `host`, which comparisons leave out.

@@ -110,18 +110,38 @@ std::vector<Warning> unreachable_targets(const signals::Table& table) {
   return out;
 }
 
-std::vector<Warning> overruns(const signals::Table& table) {
-  double before = 0;
-  Times times = times_when(table, "/low_level/overruns", [&](double so_far) {
-    const bool more = so_far > before;
-    before = std::max(before, so_far);
+namespace {
+
+// "<before> 3 <after>" of a topic that counts, at the times at which it grows.
+std::vector<Warning> counted(const signals::Table& table, const std::string& topic,
+                             const std::string& before, std::string_view after) {
+  double most = 0;
+  Times times = times_when(table, topic, [&](double so_far) {
+    const bool more = so_far > most;
+    most = std::max(most, so_far);
     return more;
   });
   if (times.count == 0) return {};
-  return {{fmt::format("{:.0f} laws took longer than a hundredth of the period: the thesis's "
-                       "computer locked up so (5.2)",
-                       before),
-           std::move(times.spans)}};
+  return {{fmt::format("{}{:.0f} {}", before, most, after), std::move(times.spans)}};
+}
+
+}  // namespace
+
+std::vector<Warning> overruns(const signals::Table& table) {
+  return counted(table, "/low_level/overruns", "",
+                 "laws took longer than a hundredth of the period: the thesis's computer locked up "
+                 "so (5.2)");
+}
+
+std::vector<Warning> disbelieved_sensors(const signals::Table& table, const robot::Robot& robot) {
+  std::vector<Warning> out;
+  for (const robot::Sensor& s : robot.sensors) {
+    append(out, counted(table, "/sensor/" + s.name + "/rejected", s.name + ": ",
+                        "readings were not believed; the last good ones stood"));
+    append(out, counted(table, "/sensor/" + s.name + "/frozen", s.name + ": ",
+                        "readings repeated themselves while its muscles were driven"));
+  }
+  return out;
 }
 
 std::vector<Warning> cut_logs(const signals::Table& table) {
@@ -133,6 +153,7 @@ std::vector<Warning> warnings(const signals::Table& table, const Machine& machin
   std::vector<Warning> all = cut_logs(table);
   append(all, unreachable_targets(table));
   append(all, overruns(table));
+  append(all, disbelieved_sensors(table, machine.robot));
   append(all, saturated_duties(table, machine.robot));
   append(all, clipped_sensors(table, machine.robot));
   append(all, lifted_rollers(table));

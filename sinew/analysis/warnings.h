@@ -38,6 +38,9 @@ std::vector<Warning> unreachable_targets(const signals::Table&);
 // Laws that took longer than their interrupt may, 5.2.
 std::vector<Warning> overruns(const signals::Table&);
 
+// Readings that the low level did not believe, or that repeated themselves while they were driven.
+std::vector<Warning> disbelieved_sensors(const signals::Table&, const robot::Robot&);
+
 // A log that ends before its run did.
 std::vector<Warning> cut_logs(const signals::Table&);
 

@@ -180,6 +180,11 @@ void check_measures(const Experiment& e, List& out) {
   }
 }
 
+void check_faults(const Experiment& e, List& out) {
+  for (std::size_t i = 0; i < e.faults.size(); ++i)
+    need("fault[" + std::to_string(i) + "].of", e.faults[i].of, e.robot.sensors, out);
+}
+
 // Where the machine starts must be a place where it can be.
 void check_place(const Experiment& e, List& out) {
   const robot::Trolley& trolley = e.robot.trolley;
@@ -284,6 +289,7 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
     check_numbers(e, wrong);
     check_place(e, wrong);
     check_measures(e, wrong);
+    check_faults(e, wrong);
     check_size(e, wrong);
   }
   std::ranges::move(robot::contradictions(e.robot), std::back_inserter(wrong));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sinew/experiment/spinal.h"
+#include "sinew/experiment/supervision.h"
 
 namespace sinew::experiment {
 namespace {
@@ -35,7 +36,7 @@ bool moves(const robot::Cylinder& c) {
 void joint_columns(const robot::Robot& robot, Columns& out) {
   for (std::size_t s = 0; s < robot.sensors.size(); ++s)
     out.scalar("/sensor/" + robot.sensors[s].name + "/count", "count", "as converted",
-               [s](const Moment& m) { return m.seen.reading[s].counts; });
+               [s](const Moment& m) { return m.supervised.sensor[s].counts; });
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     if (robot::angle_sensor_of(robot, static_cast<int>(j)) < 0) continue;
     const std::string& name = robot.joints[j].name;
@@ -130,6 +131,26 @@ void low_level_columns(const robot::Robot& robot, Columns& out) {
              [](const Moment& m) { return m.seen.overruns; });
 }
 
+// What was not believed, where it can be expected (experiment/supervision.h).
+void supervision_columns(const Experiment& e, Columns& out) {
+  if (!is_supervised_closely(e)) return;
+  for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
+    const std::string at = "/sensor/" + e.robot.sensors[s].name;
+    out.scalar(at + "/rejected", "1", "readings so far that were not believed",
+               [s](const Moment& m) { return m.supervised.sensor[s].rejected; });
+    out.scalar(at + "/frozen", "1", "readings so far that repeated themselves while driven",
+               [s](const Moment& m) { return m.supervised.sensor[s].frozen; });
+  }
+  out.scalar("/low_level/rejected_commands", "1", "commands so far that were not followed",
+             [](const Moment& m) { return m.supervised.rejected_commands; });
+  out.scalar("/low_level/gaps", "1", "ticks so far that came later than announced",
+             [](const Moment& m) { return m.supervised.gaps; });
+  out.scalar("/low_level/tripped", "1", "1 from when the supervisor has ended the run",
+             [](const Moment& m) {
+               return m.supervised.trip.cause == control::Trip::Cause::none ? 0.0 : 1.0;
+             });
+}
+
 void plan_columns(Columns& out) {
   out.scalar("/plan/phase", "1", "position in the experiment's phases; -1 outside",
              [](const Moment& m) { return m.desired.phase; });
@@ -187,6 +208,21 @@ void true_muscle_columns(const robot::Robot& robot, Columns& out) {
     if (leak.area > 0 || leak.conductance > 0)
       out.scalar(at + "/air_leaked", "kg", "to the atmosphere, past the valves, since the start",
                  [i](const Moment& m) { return m.truth.air_leaked[i]; });
+  }
+}
+
+// By the list [[fault]].
+void true_fault_columns(const Experiment& e, Columns& out) {
+  for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
+    std::vector<Fault> faults;
+    for (const Fault& f : e.faults)
+      if (f.of == e.robot.sensors[s].name) faults.push_back(f);
+    if (faults.empty()) continue;
+    out.scalar("/true/sensor/" + e.robot.sensors[s].name + "/fault", "1",
+               "1 while one of the experiment's acts on it", [faults](const Moment& m) {
+                 return std::ranges::any_of(faults,
+                                            [&](const Fault& f) { return acts(f, m.time); });
+               });
   }
 }
 
@@ -253,6 +289,7 @@ std::vector<Column> columns(const Experiment& e) {
   muscle_columns(e, out);
   cylinder_columns(e.robot, out);
   low_level_columns(e.robot, out);
+  supervision_columns(e, out);
   plan_columns(out);
   gain_columns(e, out);
   true_joint_columns(e.robot, out);
@@ -260,6 +297,7 @@ std::vector<Column> columns(const Experiment& e) {
   true_body_columns(e.robot, out);
   true_cylinder_columns(e.robot, out);
   true_supply_columns(e.supply, out);
+  true_fault_columns(e, out);
   return std::move(out.list);
 }
 

@@ -9,6 +9,7 @@
 
 #include "sinew/control/gait/brain.h"
 #include "sinew/control/joint/seen.h"
+#include "sinew/control/supervise/supervised.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/plant/planar/setup.h"
 #include "sinew/signals/table.h"
@@ -18,9 +19,11 @@ namespace sinew::experiment {
 // Everything that can be recorded at one instant.
 struct Moment {
   const control::Seen& seen;
+  const control::Supervised& supervised;
   const gait::Measured& measured;
   const gait::Desired& desired;
   const plant::Truth& truth;
+  double time = 0;  // [s]
 };
 
 struct Column {

@@ -7,6 +7,7 @@
 #include "sinew/actuator/actuator.fields.h"
 #include "sinew/control/gait/plan.fields.h"
 #include "sinew/experiment/experiment.h"
+#include "sinew/experiment/fault.fields.h"
 #include "sinew/experiment/log_table.fields.h"
 #include "sinew/gas/air.fields.h"
 #include "sinew/gas/valve.fields.h"
@@ -95,6 +96,8 @@ void run_fields(Visitor& v, Experiment& e) {
     fields(g, e.log);
     g.flag({.name = "gains", .optional = true, .doc = "those in effect, too"}, e.log.gains);
   });
+  v.list({.name = "fault", .optional = true, .doc = "what breaks while it runs"}, e.faults,
+         [](auto& g, Fault& f) { fields(g, f); });
   v.list({.name = "reported", .optional = true, .doc = "printed beside our figures"}, e.reported,
          [](auto& g, config::Reported& r) {
            config::fields(g, r);

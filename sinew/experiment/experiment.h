@@ -11,6 +11,7 @@
 #include "sinew/config/reader.h"
 #include "sinew/config/reported.h"
 #include "sinew/control/gait/plan.h"
+#include "sinew/experiment/fault.h"
 #include "sinew/experiment/log_table.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
@@ -56,6 +57,7 @@ struct Experiment {
   Start start;
   gait::Plan plan;
   Log log;
+  std::vector<Fault> faults;
   std::vector<config::Reported> reported;
 
   config::Origins origins;  // where every value came from

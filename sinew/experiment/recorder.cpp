@@ -17,7 +17,7 @@ double logged(const signals::Edge& edge) noexcept {
 
 }  // namespace
 
-Recorder::Recorder(const Experiment& e, const control::Spine& spine, HighLevel& high_level,
+Recorder::Recorder(const Experiment& e, const control::Supervisor& spine, HighLevel& high_level,
                    TruthAt truth, Tick end)
     : spine_(spine), high_(high_level), truth_(std::move(truth)) {
   // Sample where the last law of a period has run; other periods keep that offset.
@@ -101,7 +101,12 @@ void Recorder::sample(Tick t) noexcept {
   high_.believe(spine_.seen());
   plant::Truth truth;
   if (truth_) truth = truth_(t);
-  const Moment now{spine_.seen(), high_.measured(), high_.desired(), truth};
+  const Moment now{spine_.seen(),
+                   spine_.supervised(),
+                   high_.measured(),
+                   high_.desired(),
+                   truth,
+                   static_cast<double>(t) * signals::tick_seconds};
   for (const Column& c : columns_) {
     if (!truth_ && c.of_truth()) break;  // they come last
     std::array<double, 2> values{};

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "sinew/control/joint/spine.h"
+#include "sinew/control/supervise/supervisor.h"
 #include "sinew/experiment/columns.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/experiment/high_level.h"
@@ -33,7 +33,7 @@ class Recorder {
   // `truth` answers what only a simulation knows, at a tick; empty for a body that is none.
   using TruthAt = std::function<plant::Truth(signals::Tick)>;
 
-  Recorder(const Experiment& experiment, const control::Spine& spine, HighLevel& high_level,
+  Recorder(const Experiment& experiment, const control::Supervisor& spine, HighLevel& high_level,
            TruthAt truth, signals::Tick end);
 
   void tap(Tap t, std::vector<std::uint16_t> topic_of_series) {
@@ -54,7 +54,7 @@ class Recorder {
  private:
   void put(std::span<const double> values) noexcept;
 
-  const control::Spine& spine_;
+  const control::Supervisor& spine_;
   HighLevel& high_;
   TruthAt truth_;
 

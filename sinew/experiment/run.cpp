@@ -5,10 +5,12 @@
 #include <stdexcept>
 
 #include "sinew/experiment/clock.h"
+#include "sinew/experiment/faulty_port.h"
 #include "sinew/experiment/high_level.h"
 #include "sinew/experiment/hose_of.h"
 #include "sinew/experiment/loop.h"
 #include "sinew/experiment/spinal.h"
+#include "sinew/experiment/supervision.h"
 #include "sinew/plant/planar/whole.h"
 #include "sinew/plant/planar/world.h"
 #include "sinew/plant/recorded/recorded.h"
@@ -47,7 +49,7 @@ struct Watch {
 template <class World, class Clock>
 Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& port, World* world,
               Clock& clock) {
-  control::Spine spine(spine_config(e));
+  control::Supervisor spine(spine_config(e), supervise_config(e));
   HighLevel high_level(e.robot, e.plan, options.steering);
   const Tick end = last_tick(e);
 
@@ -70,6 +72,7 @@ Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& por
   out.stopped = watch.was_stopped;
   out.table = recorder.take();
   out.seen = spine.seen();
+  out.supervised = spine.supervised();
   out.changes = high_level.changes().all();
   out.unreachable_periods = high_level.brain().unreachable_periods();
   out.duration = static_cast<double>(end) * signals::tick_seconds;
@@ -79,19 +82,27 @@ Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& por
   return out;
 }
 
+// Sensors that lie stand between the body and the loop.
+template <class World, class Clock>
+Outcome drive_world(const Experiment& e, const RunOptions& options, World& world, Clock& clock) {
+  if (e.faults.empty()) return drive(e, options, world, &world, clock);
+  FaultyPort body(e, world);
+  return drive(e, options, body, &world, clock);
+}
+
 template <class World>
 Outcome run_world(const Experiment& e, const plant::Setup& setup, const RunOptions& options) {
   World world(setup);
   if (options.steering) {
     SteeredClock clock(*options.steering, 0.01 + e.log.period);
-    return drive(e, options, world, &world, clock);
+    return drive_world(e, options, world, clock);
   }
   if (options.pace > 0) {
     PacedClock clock(options.pace);
-    return drive(e, options, world, &world, clock);
+    return drive_world(e, options, world, clock);
   }
   SimulatedClock clock;
-  Outcome out = drive(e, options, world, &world, clock);
+  Outcome out = drive_world(e, options, world, clock);
   out.nodes = world.nodes();
   return out;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sinew/control/joint/seen.h"
+#include "sinew/control/supervise/supervised.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/experiment/recorder.h"
 #include "sinew/experiment/steering.h"
@@ -30,6 +31,7 @@ struct Outcome {
   bool stopped = false;  // by RunOptions::stop
   signals::Table table;
   control::Seen seen;                 // the low level's last word
+  control::Supervised supervised;     // what was not believed, and what ended the run
   std::vector<gait::Change> changes;  // the plan's, and behind them what was steered
   std::int64_t unreachable_periods = 0;
   std::int64_t nodes = 0;  // steps of the integrator

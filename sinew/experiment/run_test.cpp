@@ -17,6 +17,7 @@
 #include "sinew/experiment/clock.h"
 #include "sinew/experiment/loop.h"
 #include "sinew/experiment/spinal.h"
+#include "sinew/experiment/supervision.h"
 #include "sinew/experiment/test_same.h"
 #include "sinew/plant/planar/whole.h"
 #include "sinew/plant/planar/world.h"
@@ -151,7 +152,7 @@ TEST(Run, TheLastRowStandsAfterTheSequence) {
 template <class World>
 void expect_no_heap(const Experiment& e, Steering* steering = nullptr) {
   World world(planar_setup(e));
-  control::Spine spine(spine_config(e));
+  control::Supervisor spine(spine_config(e), supervise_config(e));
   HighLevel high(e.robot, e.plan, steering);
   const signals::Tick end = last_tick(e);
   World* body = &world;

@@ -172,6 +172,24 @@ void check_sensor(const Robot& robot, const Sensor& sensor, List& out) {
                      "at most " + std::to_string(robot.converter.top()), "a count it can give"});
 }
 
+// Where it rests it must be believed.
+void check_plausible(const Robot& robot, const Sensor& sensor, List& out) {
+  const std::vector<double>& range = sensor.plausible;
+  if (range.empty()) return;
+  const std::string key = "sensor." + sensor.name + ".plausible";
+  const auto text = [](double counts) { return std::to_string(std::lround(counts)); };
+  if (range.size() != 2 || range[0] >= range[1] || range[1] > robot.converter.top()) {
+    out.push_back({key, std::to_string(range.size()) + " numbers",
+                   "two, the lowest and the highest count, up to " + text(robot.converter.top()),
+                   "plausible = [\"400 count\", \"3000 count\"]"});
+    return;
+  }
+  for (const double rest : {sensor.at_rest, sensor.assumed_at_rest})
+    if (rest < range[0] || rest > range[1])
+      out.push_back({key, text(range[0]) + " to " + text(range[1]) + " count",
+                     "a range with its count at rest in it, " + text(rest), "a wider one"});
+}
+
 // One converter reads one channel after the other: the result of one before the start of the next.
 void check_scan(const Robot& robot, List& out) {
   int previous = 0;
@@ -188,6 +206,7 @@ void check_scan(const Robot& robot, List& out) {
       out.push_back({key + ".channel", std::to_string(sensor.channel), "a channel of its own",
                      "another one"});
     check_sensor(robot, sensor, out);
+    check_plausible(robot, sensor, out);
     previous = sensor.tick;
   }
 }

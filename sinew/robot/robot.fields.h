@@ -83,6 +83,13 @@ void fields(Visitor& v, LowLevel& low) {
              .optional = true,
              .doc = "bad readings of a sensor in a row that end the run; 0: any number"},
             low.hold_limit);
+  v.number({.name = "command_rate",
+            .unit = "rad/s",
+            .min = 1e-3,
+            .max = 1e6,
+            .optional = true,
+            .doc = "of a desired angle: a command that is faster is rejected; absent: any"},
+           low.command_rate);
   v.number({.name = "interrupt_time",
             .unit = "s",
             .min = 0,

@@ -217,6 +217,11 @@ struct Sensor {
 
   double assumed_scale = 0;    // [count/rad], [V/N], [V/Pa], [V s/rad] or [count/m]
   double assumed_at_rest = 0;  // [count]
+
+  // What the controller takes for possible; not given: experiment/supervision.h derives it.
+  std::vector<double> plausible;  // lowest, highest [count]
+  double max_rate = not_set;      // [count/s]
+  double frozen_limit = not_set;  // the same counts while driven end the run; not set: never [s]
 };
 
 // The low level's hardware: timing, and how it rounds.
@@ -235,6 +240,7 @@ struct LowLevel {
   double vent_time = 0;              // exhausts open at start-up and shut-down [s]
   double dead_band = 0;              // duties of sealing valves below it are 0; whole percents [-]
   int hold_limit = 0;                // bad readings of a channel in a row that end the run; 0: any
+  double command_rate = not_set;  // of a desired angle, above which it is rejected [rad/s]
   double interrupt_time = 0;  // longest interrupt of the thesis's program, 5.2; 0: not known [s]
 };
 

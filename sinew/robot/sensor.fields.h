@@ -61,6 +61,32 @@ void assumed_fields(Visitor& v, Sensor& sensor) {
            sensor.assumed_at_rest);
 }
 
+// What the low level takes for possible before it believes a reading.
+template <class Visitor>
+void limit_fields(Visitor& v, Sensor& sensor) {
+  v.numbers({.name = "plausible",
+             .unit = "count",
+             .min = 0,
+             .max = 65535,
+             .optional = true,
+             .doc = "lowest and highest count that can be; absent: by the joint's reach"},
+            sensor.plausible);
+  v.number({.name = "max_rate",
+            .unit = "count/s",
+            .min = 1,
+            .max = 1e9,
+            .optional = true,
+            .doc = "faster than that it cannot move; absent: 60 rad/s of an angle"},
+           sensor.max_rate);
+  v.number({.name = "frozen_limit",
+            .unit = "s",
+            .min = 1e-3,
+            .max = 3600,
+            .optional = true,
+            .doc = "the same counts for so long, while driven, end the run; absent: never"},
+           sensor.frozen_limit);
+}
+
 template <class Visitor>
 void fields(Visitor& v, Sensor& sensor) {
   v.choice({.name = "kind", .doc = "what it measures; fixed: something that does not move"},
@@ -86,6 +112,7 @@ void fields(Visitor& v, Sensor& sensor) {
           [&](auto& g) { real_fields(g, sensor); });
   v.group({.name = "assumed", .optional = true, .doc = "what the controller believes"},
           [&](auto& g) { assumed_fields(g, sensor); });
+  limit_fields(v, sensor);
 }
 
 }  // namespace sinew::robot

@@ -2,6 +2,7 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/experiment/run.h"
+#include "sinew/experiment/supervision.h"
 #include "sinew/tune/sweep.h"
 
 namespace sinew::tune {
@@ -14,7 +15,9 @@ std::string first_problem(const config::Error& e) {
          (more > 0 ? fmt::format(" (and {} more)", more) : "");
 }
 
-std::string status_of(const experiment::Outcome& outcome) {
+std::string status_of(const experiment::Experiment& e, const experiment::Outcome& outcome) {
+  const std::string tripped = experiment::to_text(outcome.supervised.trip, e);
+  if (!tripped.empty()) return "ended by " + tripped;
   const bool ended =
       outcome.status != signals::Status::ok || outcome.seen.fault != signals::Status::ok;
   if (ended) return fmt::format("ended early, at {:.4f} s", outcome.duration);
@@ -34,7 +37,7 @@ Ran run_once(const std::string& file, const std::vector<std::string>& sets,
     const experiment::Experiment e = experiment::load(root, file);
     if (!allow_unreachable) experiment::refuse_unreachable(e);
     const experiment::Outcome outcome = experiment::run(e);
-    out.status = status_of(outcome);
+    out.status = status_of(e, outcome);
     out.atmosphere = machine.atmosphere;
     if (out.ok()) out.summary = analysis::summarize(outcome.table, machine);
   } catch (const config::Error& e) {

@@ -14,6 +14,8 @@ namespace {
 
 enum ValveOfJoint : std::size_t { flexor_inlet, flexor_exhaust, extensor_inlet, extensor_exhaust };
 
+constexpr std::uint32_t fault_vent = 10'000;  // [ticks] of a machine that has no shutdown_vent
+
 // Do valves that are off hold the air? (A joint without muscles has none to shut.)
 bool seals(JointKind kind) noexcept {
   return kind == JointKind::antagonist || kind == JointKind::cylinder;
@@ -204,7 +206,8 @@ void Spine::trip(Status status, Channel channel, Tick t) noexcept {
   if (seen_.phase == Phase::venting || seen_.phase == Phase::off) return;
   seen_.fault = status;
   seen_.fault_channel = channel;
-  vent(t, config_.shutdown_vent, Phase::venting, Phase::off);
+  const std::uint32_t lasts = config_.shutdown_vent > 0 ? config_.shutdown_vent : fault_vent;
+  vent(t, lasts, Phase::venting, Phase::off);
 }
 
 // Also the muscles of disabled joints, as in the thesis's hardware_start_up. A 3-way valve that is

@@ -1,0 +1,252 @@
+// Sensors that lie, from the list in the file to the end of the run, and what a robot's limits are.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "sinew/config/compose.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/node.h"
+#include "sinew/experiment/faulty_port.h"
+#include "sinew/experiment/run.h"
+#include "sinew/experiment/supervision.h"
+#include "sinew/experiment/test_same.h"
+#include "sinew/robot/actuator_of.h"
+
+namespace sinew::experiment {
+namespace {
+
+using control::Trip;
+using signals::Reading;
+using signals::Status;
+using signals::Tick;
+using What = Fault::What;
+
+const std::string source = SINEW_SOURCE_DIR;
+
+Experiment bench(std::vector<std::string> sets = {}) {
+  sets.push_back("sequence.repeat=1");
+  return load(source + "/experiments/one-joint.toml", sets);
+}
+
+// What a body that always reads the same is read as, every 10 ms.
+class Still final : public signals::Port {
+ public:
+  Status start(const signals::Scan&) noexcept override { return Status::ok; }
+  Status drive(signals::Edge) noexcept override { return Status::ok; }
+  Reading read(signals::Channel, Tick now) noexcept override {
+    return {static_cast<std::uint16_t>(2000 + now / 100), Status::ok};
+  }
+  Status stop(Tick) noexcept override { return Status::ok; }
+};
+
+std::vector<Reading> read(const Fault& fault, int scans, int seed = 1) {
+  Experiment e = bench();
+  e.seed = seed;
+  e.faults = {fault};
+  Still body;
+  FaultyPort port(e, body);
+  std::vector<Reading> out;
+  for (int i = 0; i < scans; ++i) out.push_back(port.read({0}, 100 * i + 1));
+  return out;
+}
+
+Fault of_lever(What what, double amount = robot::not_set) {
+  return {.at = 0.1, .of = "lever_angle", .what = what, .amount = amount};
+}
+
+TEST(Fault, ReadsAsItsWordSays) {
+  const auto at_20 = [](const Fault& f) { return read(f, 30)[20].counts; };
+  EXPECT_EQ(at_20(of_lever(What::open)), 4095);
+  EXPECT_EQ(at_20(of_lever(What::shorted)), 0);
+  EXPECT_EQ(at_20(of_lever(What::stuck)), 2009);  // before 0.1 s
+  EXPECT_EQ(at_20(of_lever(What::offset, -300)), 1720);
+  EXPECT_EQ(at_20(of_lever(What::slip, 3000)), 4095);
+  EXPECT_EQ(read(of_lever(What::dropout), 30)[20].status, Status::late);
+  for (const What what : {What::open, What::stuck, What::dropout}) {
+    const std::vector<Reading> before = read(of_lever(what), 10);
+    for (int i = 0; i < 10; ++i) EXPECT_EQ(before[static_cast<std::size_t>(i)].counts, 2000 + i);
+  }
+}
+
+TEST(Fault, ActsFromItsBeginningToItsEnd) {
+  Fault fault = of_lever(What::shorted);
+  fault.lasts = 0.05;
+  const std::vector<Reading> r = read(fault, 30);
+  for (int i = 0; i < 30; ++i)
+    EXPECT_EQ(r[static_cast<std::size_t>(i)].counts == 0, i >= 10 && i < 15) << i;
+}
+
+// Half of the readings, by the seed alone; noise with its standard deviation and no mean.
+TEST(Fault, NoiseAndDropoutsAreAsLargeAsTheySay) {
+  constexpr int n = 4000;
+  const auto lost = [&](int seed) {
+    std::vector<bool> out;
+    for (const Reading& r : read(of_lever(What::dropout, 0.3), n, seed))
+      out.push_back(r.status == Status::late);
+    return out;
+  };
+  EXPECT_NEAR(static_cast<double>(std::ranges::count(lost(1), true)) / n, 0.3, 0.03);
+  EXPECT_EQ(lost(1), lost(1));
+  EXPECT_NE(lost(1), lost(2));
+
+  double sum = 0, squares = 0;
+  const std::vector<Reading> noisy = read(of_lever(What::noise, 40), 2000);
+  for (std::size_t i = 10; i < noisy.size(); ++i) {
+    const double d = noisy[i].counts - (2000.0 + static_cast<double>(i));
+    sum += d, squares += d * d;
+  }
+  EXPECT_NEAR(sum / 1990, 0, 4);
+  EXPECT_NEAR(std::sqrt(squares / 1990), 40, 3);
+}
+
+TEST(Fault, EndsTheRunAndIsNamed) {
+  Experiment e = bench();
+  e.faults = {{.at = 1, .of = "lever_angle", .what = What::open}};
+  const Outcome out = run(e);
+  EXPECT_EQ(out.supervised.trip.cause, Trip::Cause::range);
+  EXPECT_EQ(out.supervised.trip.at, 10'201);  // read at tick 1 of the third scan
+  EXPECT_EQ(out.seen.fault, Status::fault);
+  const std::string text = to_text(out.supervised.trip, e);
+  EXPECT_TRUE(
+      text.starts_with("sensor lever_angle at 1.0201 s: 4095 count three times in a row, "
+                       "outside its plausible "))
+      << text;
+
+  // The log has what was converted, and when.
+  const auto column = [&](const char* topic) { return out.table.find(topic)->columns[0]; };
+  EXPECT_EQ(column("/sensor/lever_angle/count").back(), 4095);
+  EXPECT_EQ(column("/sensor/lever_angle/count")[99] == 4095, false);
+  EXPECT_EQ(column("/true/sensor/lever_angle/fault")[99], 0);
+  EXPECT_EQ(column("/true/sensor/lever_angle/fault").back(), 1);
+  EXPECT_EQ(column("/low_level/tripped").back(), 1);
+  // The last sample stands before the last scan.
+  EXPECT_NEAR(column("/sensor/lever_angle/rejected").back(), out.supervised.rejected, 1);
+}
+
+// A lie moves nothing but what is read; without one the log is that of an experiment without list.
+TEST(Fault, ThatComesTooLateChangesNoBit) {
+  Experiment e = bench();
+  const Outcome without = run(e);
+  e.faults = {{.at = 1000, .of = "lever_angle", .what = What::open}};
+  const Outcome with = run(e);
+  for (const signals::Series& s : without.table.series) {
+    const signals::Series* other = with.table.find(s.topic.name);
+    ASSERT_NE(other, nullptr);
+    EXPECT_EQ(s.time_ns, other->time_ns);
+    for (std::size_t c = 0; c < s.columns.size(); ++c)
+      for (std::size_t i = 0; i < s.columns[c].size(); ++i)
+        ASSERT_TRUE(s.columns[c][i] == other->columns[c][i] || std::isnan(s.columns[c][i]))
+            << s.topic.name;
+  }
+}
+
+TEST(Fault, IsTheSameHoweverItIsLookedAt) {
+  Experiment e = bench();
+  e.faults = {{.at = 0.5, .of = "lever_angle", .what = What::noise, .amount = 30},
+              {.at = 1, .lasts = 1, .of = "flexor_tension", .what = What::dropout, .amount = 0.5}};
+  const Outcome once = run(e);
+  EXPECT_EQ(once.supervised.trip.cause, Trip::Cause::none);
+  EXPECT_GT(once.seen.late, 20u);
+  expect_same(once.table, run(e, {.every_tick = true}).table);
+}
+
+// The log holds the lies: a replay decides the same edges, without the list acting twice.
+TEST(Fault, ARunWithOneReplaysItsOwnEdges) {
+  Experiment e = bench();
+  e.faults = {{.at = 0.5, .of = "lever_angle", .what = What::offset, .amount = 30},
+              {.at = 1, .of = "lever_angle", .what = What::open}};
+  const Outcome recorded = run(e), again = replay(e, recorded.table);
+  EXPECT_EQ(again.supervised.trip.at, recorded.supervised.trip.at);
+  std::size_t edges = 0;
+  for (const signals::Series& s : recorded.table.series) {
+    if (!s.topic.name.starts_with("/valve/")) continue;
+    EXPECT_EQ(s.time_ns, again.table.find(s.topic.name)->time_ns) << s.topic.name;
+    edges += s.time_ns.size();
+  }
+  EXPECT_GT(edges, 50u);
+}
+
+TEST(Fault, StandsInTheResolvedFile) {
+  Experiment e = bench();
+  e.faults = {
+      {.at = 1.25, .lasts = 0.5, .of = "lever_angle", .what = What::offset, .amount = -12.5},
+      {.at = 2, .of = "flexor_tension", .what = What::slip, .amount = 100},
+      {.at = 2.5, .of = "flexor_tension", .what = What::dropout, .amount = 0.25},
+      {.at = 3, .of = "lever_angle", .what = What::open}};
+  e.robot.sensors[0].plausible = {300, 3900};
+  e.robot.sensors[0].max_rate = 20'000;
+  e.robot.sensors[0].frozen_limit = 1.5;
+  const Experiment again =
+      load(config::parse_text(resolved(e, "test"), "resolved.toml"), "resolved.toml");
+  ASSERT_EQ(again.faults.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Fault &a = e.faults[i], &b = again.faults[i];
+    EXPECT_EQ(a.at, b.at);
+    EXPECT_EQ(a.of, b.of);
+    EXPECT_EQ(a.what, b.what);
+    EXPECT_TRUE(a.lasts == b.lasts || (std::isnan(a.lasts) && std::isnan(b.lasts)));
+    EXPECT_TRUE(a.amount == b.amount || (std::isnan(a.amount) && std::isnan(b.amount)));
+  }
+  EXPECT_EQ(again.robot.sensors[0].plausible, e.robot.sensors[0].plausible);
+  EXPECT_EQ(again.robot.sensors[0].max_rate, 20'000);
+  EXPECT_EQ(again.robot.sensors[0].frozen_limit, 1.5);
+  expect_same(run(e).table, run(again).table);
+}
+
+// --- limits -------------------------------------------------------------------------------------
+
+// robots/leg: the way from the mount's length to the thread's, over cams of 1 in; 767 counts per
+// radian, more than the potentiometer's 714.
+TEST(Supervision, AnAngleIsPlausibleWithinItsMusclesReach) {
+  const Experiment e = load(source + "/experiments/walk-test-1.toml");
+  const control::SuperviseConfig c = supervise_config(e);
+  const int hip = robot::find_sensor(e.robot, "hip_angle");
+  const control::SensorLimits& limit = c.sensor[static_cast<std::size_t>(hip)];
+  EXPECT_GT(limit.low, 0);
+  EXPECT_LT(limit.high, 4095);
+  const auto way = [&](const char* muscle) {
+    const auto& m = e.robot.muscles[static_cast<std::size_t>(robot::find_muscle(e.robot, muscle))];
+    const double thread = robot::actuator_of(m, e.actuators).braid.thread_length;
+    return 1.1 * (thread - m.mount_length) / 0.0254 * 767 + 3;  // and six times the noise
+  };
+  EXPECT_NEAR(limit.low, 1895 - way("hip_flexor"), 1.5);  // which raises the angle
+  EXPECT_NEAR(limit.high, 1895 + way("hip_extensor"), 1.5);
+  EXPECT_GT(way("hip_flexor"), 700);
+  EXPECT_NEAR(limit.max_step, 60 * 767 * 0.01 + 6, 2);
+  const int tension = robot::find_sensor(e.robot, "hip_flexor_tension");
+  const control::SensorLimits& gauge = c.sensor[static_cast<std::size_t>(tension)];
+  EXPECT_EQ(gauge.low, 0);
+  EXPECT_GE(gauge.high, 4095);
+  EXPECT_TRUE(gauge.rests_at_ends);
+}
+
+TEST(Supervision, TheFilesLimitsCount) {
+  Experiment e = bench();
+  e.robot.sensors[0].plausible = {1900, 2500};
+  e.robot.sensors[0].max_rate = 20'000;
+  e.robot.sensors[0].frozen_limit = 0.3;
+  const control::SensorLimits limit = supervise_config(e).sensor[0];
+  EXPECT_EQ(limit.low, 1900);
+  EXPECT_EQ(limit.high, 2500);
+  EXPECT_EQ(limit.max_step, 206);
+  EXPECT_EQ(limit.frozen_limit, 30u);
+
+  e.faults = {{.at = 0.8, .of = "lever_angle", .what = What::stuck}};
+  const Outcome out = run(e);
+  EXPECT_EQ(out.supervised.trip.cause, Trip::Cause::frozen);
+  EXPECT_TRUE(to_text(out.supervised.trip, e).find("its frozen_limit") != std::string::npos);
+}
+
+TEST(Supervision, ACommandThatIsTooFastIsRejected) {
+  Experiment e = load(source + "/experiments/knee-staircase.toml");
+  e.robot.low_level.command_rate = 1;
+  const Outcome out = run(e);
+  EXPECT_EQ(out.supervised.trip.cause, Trip::Cause::command);
+  EXPECT_TRUE(to_text(out.supervised.trip, e).starts_with("the commands for joint knee at "));
+}
+
+}  // namespace
+}  // namespace sinew::experiment

@@ -1,0 +1,67 @@
+#include "sinew/experiment/faulty_port.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/robot/sensing.h"
+
+namespace sinew::experiment {
+
+using signals::Reading;
+using signals::Status;
+using signals::Tick;
+
+FaultyPort::FaultyPort(const Experiment& e, signals::Port& body)
+    : body_(body), seed_(static_cast<std::uint64_t>(e.seed)), top_(e.robot.converter.top()) {
+  for (const Fault& fault : e.faults)
+    faults_.push_back({fault, static_cast<std::uint8_t>(robot::find_sensor(e.robot, fault.of))});
+}
+
+// Behind the sensors' own noise, which counts from 0.
+double FaultyPort::drawn(std::size_t fault, Tick now) const noexcept {
+  constexpr int first = 1000;
+  return robot::noise(seed_, first + static_cast<int>(fault), now);
+}
+
+Reading FaultyPort::spoil(std::size_t i, Reading r, Tick now) const noexcept {
+  const auto& [fault, channel] = faults_[i];
+  const auto counts = [&](double value) {
+    return static_cast<std::uint16_t>(std::clamp(value, 0.0, top_) + 0.5);
+  };
+  using enum Fault::What;
+  switch (fault.what) {
+    case open:
+      return {counts(top_), r.status};
+    case shorted:
+      return {0, r.status};
+    case stuck:
+      return {answered_[channel] ? before_[channel] : r.counts, r.status};
+    case offset:
+    case slip:
+      return {counts(r.counts + fault.amount), r.status};
+    case noise:
+      return {counts(r.counts + fault.amount * drawn(i, now)), r.status};
+    case dropout: {
+      // The part behind the point of a sum of uniform numbers is uniform.
+      const double n = drawn(i, now);
+      const bool lost = !(n - std::floor(n) >= fault.amount);
+      return lost ? Reading{before_[channel], Status::late} : r;
+    }
+  }
+  return r;
+}
+
+Reading FaultyPort::read(signals::Channel channel, Tick now) noexcept {
+  Reading r = body_.read(channel, now);
+  if (r.status == Status::ended || r.status == Status::fault) return r;
+  const double time = static_cast<double>(now) * signals::tick_seconds;
+  for (std::size_t i = 0; i < faults_.size(); ++i)
+    if (faults_[i].channel == channel.index && acts(faults_[i].fault, time)) r = spoil(i, r, now);
+  if (r.status == Status::ok) {
+    before_[channel.index] = r.counts;
+    answered_[channel.index] = true;
+  }
+  return r;
+}
+
+}  // namespace sinew::experiment

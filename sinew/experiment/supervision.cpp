@@ -1,0 +1,230 @@
+#include "sinew/experiment/supervision.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "sinew/experiment/spinal.h"
+#include "sinew/robot/actuator_of.h"
+
+namespace sinew::experiment {
+namespace {
+
+using Kind = robot::Sensor::Kind;
+
+constexpr double fastest_angle = 60;    // [rad/s]
+constexpr double beyond_reach = 0.1;    // of the way from the rest angle
+constexpr double beyond_stroke = 0.25;  // a piston rebounds from its stops
+constexpr double beyond_supply = 0.1;   // of its gauge pressure
+constexpr double noise_bound = 6;       // standard deviations, robot/sensing.h
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+// What a sensor's quantity can be, from where it rests.
+struct Reach {
+  double down = nowhere, up = nowhere;  // both above 0
+};
+
+// The smallest radius that a cord has over a joint  [m].
+double smallest_arm(const robot::Cam& cam, const robot::Joint& joint) {
+  double arm = std::isfinite(cam.radius) ? cam.radius : joint.moment_arm;
+  if (!cam.radii.empty()) arm = *std::ranges::min_element(cam.radii);
+  return arm;
+}
+
+// A muscle is stretched against its pull, at most until its threads are straight. One over two
+// joints can be let out by the other.
+Reach reach_of(const Experiment& e, const robot::Joint& joint) {
+  Reach reach;
+  for (const robot::Muscle& m : e.robot.muscles) {
+    if (m.joint != joint.name || !m.second.joint.empty()) continue;
+    const double arm = smallest_arm(m.cam, joint);
+    const double slack = robot::actuator_of(m, e.actuators).braid.thread_length - m.mount_length;
+    if (!(arm > 0) || !(slack > 0)) continue;
+    const bool raises = (m.role == robot::Muscle::Role::flexor) == (joint.sign() > 0);
+    double& there = raises ? reach.down : reach.up;
+    there = std::min(there, (1 + beyond_reach) * slack / arm);
+  }
+  return reach;
+}
+
+// [low, high] in counts of what lies within the reach by either of the sensor's scales.
+class Range {
+ public:
+  Range(const robot::Sensor& sensor, int top) : sensor_(sensor), top_(top) {}
+
+  // Never the converter's ends.
+  void inside(const Reach& reach, double real, double assumed) {
+    double low = nowhere, high = -nowhere;
+    for (const auto& [rest, scale] :
+         {std::pair{sensor_.at_rest, real}, std::pair{sensor_.assumed_at_rest, assumed}})
+      for (const double at : {rest - scale * reach.down, rest + scale * reach.up}) {
+        low = std::min(low, at);
+        high = std::max(high, at);
+      }
+    const double noise = noise_bound * sensor_.noise;
+    low_ = bounded(std::floor(low - noise), 1, top_ - 1);
+    high_ = bounded(std::ceil(high + noise), 1, top_ - 1);
+  }
+
+  // Its highest count is that of the supply.
+  void below(double real, double assumed, double most) {
+    const double high =
+        std::max(sensor_.at_rest + real * most, sensor_.assumed_at_rest + assumed * most);
+    high_ = bounded(std::ceil(high * (1 + beyond_supply) + noise_bound * sensor_.noise), 1, top_);
+  }
+
+  void put(control::SensorLimits& out) const {
+    out.low = static_cast<std::uint16_t>(low_);
+    out.high = static_cast<std::uint16_t>(high_);
+  }
+
+ private:
+  // Infinite values come to the ends.
+  static double bounded(double x, double low, double high) { return std::clamp(x, low, high); }
+
+  const robot::Sensor& sensor_;
+  int top_;
+  double low_ = 0, high_ = signals::max_counts;
+};
+
+void set_plausible(const Experiment& e, const robot::Sensor& s, control::SensorLimits& out) {
+  const robot::Robot& robot = e.robot;
+  const double per_volt = robot.converter.counts_per_volt();
+  Range range(s, robot.converter.top());
+  if (!s.plausible.empty()) {
+    out.low = static_cast<std::uint16_t>(s.plausible[0]);
+    out.high = static_cast<std::uint16_t>(s.plausible[1]);
+    return;
+  }
+  if (s.kind == Kind::angle) {
+    const auto j = static_cast<std::size_t>(robot::find_joint(robot, s.of));
+    range.inside(reach_of(e, robot.joints[j]), per_volt / s.scale, s.assumed_scale);
+  } else if (s.kind == Kind::cylinder) {
+    const double around = beyond_stroke * robot.cylinder.stroke;
+    range.inside({around, robot.cylinder.stroke + around}, per_volt / s.scale, s.assumed_scale);
+  } else if (s.kind == Kind::pressure && s.scale > 0 && s.assumed_scale > 0) {
+    range.below(per_volt * s.scale, per_volt * s.assumed_scale,
+                e.supply.pressure - e.air.atmosphere);
+  }
+  range.put(out);
+}
+
+// What it reads from one scan to the next, the noise of both of them included.
+void set_rate(const Experiment& e, const robot::Sensor& s, control::SensorLimits& out) {
+  double rate = s.max_rate;  // [count/s]
+  if (!std::isfinite(rate) && s.kind == Kind::angle)
+    rate = fastest_angle *
+           std::max(std::abs(s.assumed_scale), e.robot.converter.counts_per_volt() / s.scale);
+  if (!std::isfinite(rate)) return;
+  const double period = e.robot.low_level.pwm_ticks * signals::tick_seconds;
+  const double step = std::ceil(rate * period + 2 * noise_bound * s.noise);
+  out.max_step = static_cast<std::uint16_t>(std::clamp<double>(step, 1, signals::max_counts));
+}
+
+// The valves that move it; what regulators hold moves without any.
+void set_driver(const robot::Robot& robot, const control::SpineConfig& spine,
+                const robot::Sensor& s, control::SensorLimits& out) {
+  int joint = -1;
+  if (s.kind == Kind::angle) joint = robot::find_joint(robot, s.of);
+  if (s.kind == Kind::cylinder && has_cylinder_joint(robot))
+    joint = static_cast<int>(robot.joints.size());
+  if (s.kind == Kind::tension || s.kind == Kind::pressure) {
+    const auto m = static_cast<std::size_t>(robot::find_muscle(robot, s.of));
+    joint = robot::find_joint(robot, robot.muscles[m].joint);
+    out.of_flexor = robot.muscles[m].role == robot::Muscle::Role::flexor;
+    out.of_extensor = !out.of_flexor;
+    out.rests_at_ends = true;
+  }
+  if (joint < 0 ||
+      spine.joint[static_cast<std::size_t>(joint)].kind == control::JointKind::regulated)
+    return;
+  out.joint = static_cast<std::int8_t>(joint);
+  if (std::isfinite(s.frozen_limit)) {
+    const double period = robot.low_level.pwm_ticks * signals::tick_seconds;
+    out.frozen_limit =
+        static_cast<std::uint32_t>(std::max(1.0, std::ceil(s.frozen_limit / period)));
+  }
+}
+
+// A turn beyond the converter either way: what is further away is no place to go to.
+void set_commands(const Experiment& e, control::SuperviseConfig& out) {
+  const double period = e.robot.low_level.pwm_ticks * signals::tick_seconds;
+  for (std::size_t j = 0; j < e.robot.joints.size(); ++j) {
+    const int s = robot::angle_sensor_of(e.robot, static_cast<int>(j));
+    if (s < 0) continue;
+    control::CommandLimits& limit = out.command[j];
+    limit.low = -signals::max_counts;
+    limit.high = 2 * signals::max_counts;
+    const double rate = e.robot.low_level.command_rate;
+    if (!std::isfinite(rate)) continue;
+    const double step =
+        std::abs(e.robot.sensors[static_cast<std::size_t>(s)].assumed_scale) * rate * period;
+    limit.max_step = static_cast<std::int32_t>(std::clamp(std::ceil(step), 1.0, 1e5));
+  }
+}
+
+std::string sensor_text(const control::Trip& trip) {
+  using enum control::Trip::Cause;
+  if (trip.cause == range)
+    return fmt::format("{} count three times in a row, outside its plausible {} to {} count",
+                       trip.counts, trip.low, trip.high);
+  if (trip.cause == rate)
+    return fmt::format(
+        "{} count, further from its last good {} count than its max_rate allows, {} count in a "
+        "scan, three times in a row",
+        trip.counts, trip.before, trip.high);
+  return fmt::format(
+      "{} count in {} scans in a row while its muscles were driven, its "
+      "frozen_limit",
+      trip.counts, trip.high);
+}
+
+}  // namespace
+
+control::SuperviseConfig supervise_config(const Experiment& e) {
+  control::SuperviseConfig out;
+  const control::SpineConfig spine = spine_config(e);
+  for (std::size_t i = 0; i < e.robot.sensors.size() && i < out.sensor.size(); ++i) {
+    set_plausible(e, e.robot.sensors[i], out.sensor[i]);
+    set_rate(e, e.robot.sensors[i], out.sensor[i]);
+    set_driver(e.robot, spine, e.robot.sensors[i], out.sensor[i]);
+  }
+  set_commands(e, out);
+  if (const char* wrong = control::problem(out)) throw std::invalid_argument(wrong);
+  return out;
+}
+
+bool is_supervised_closely(const Experiment& e) {
+  return !e.faults.empty() || std::isfinite(e.robot.low_level.command_rate) ||
+         std::ranges::any_of(e.robot.sensors, [](const robot::Sensor& s) {
+           return !s.plausible.empty() || std::isfinite(s.max_rate) ||
+                  std::isfinite(s.frozen_limit);
+         });
+}
+
+std::string to_text(const control::Trip& trip, const Experiment& e) {
+  using enum control::Trip::Cause;
+  const double at = static_cast<double>(trip.at) * signals::tick_seconds;
+  if (trip.cause == none) return "";
+  if (trip.cause == gap)
+    return fmt::format("the clock at {:.4f} s: a tick came {} ticks or more too late", at,
+                       trip.high);
+  if (trip.cause == command) {
+    const std::size_t j = trip.joint;
+    const std::string name =
+        j < e.robot.joints.size() ? "joint " + e.robot.joints[j].name : "the cylinder";
+    return fmt::format(
+        "the commands for {} at {:.4f} s: {} in a row were not numbers, out of "
+        "range or too fast",
+        name, at, trip.high);
+  }
+  const std::string name = trip.channel.index < e.robot.sensors.size()
+                               ? e.robot.sensors[trip.channel.index].name
+                               : fmt::format("{}", trip.channel.index);
+  return fmt::format("sensor {} at {:.4f} s: {}", name, at, sensor_text(trip));
+}
+
+}  // namespace sinew::experiment

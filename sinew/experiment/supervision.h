@@ -1,0 +1,29 @@
+// experiment/supervision.h - what the low level takes for possible, from the robot's description:
+// the limits of control/supervise in counts, and what to say when one was broken.
+//
+//   plausible   of an angle: as far as the muscles that are stretched by it can be, to the length
+//               of their thread, and 10 % beyond; of the cylinder: its stroke and 25 % beyond;
+//               never the converter's ends. A tension may stand at either end (slack, clipped),
+//               a pressure at the lower one.
+//   max_rate    of an angle: 60 rad/s, three times the fastest joint that is shipped; else any
+#pragma once
+
+#include <string>
+
+#include "sinew/control/supervise/limits.h"
+#include "sinew/control/supervise/supervised.h"
+#include "sinew/experiment/experiment.h"
+
+namespace sinew::experiment {
+
+// Throws std::invalid_argument where the limits cannot be so (control::problem).
+control::SuperviseConfig supervise_config(const Experiment& experiment);
+
+// Has a reason to record what was rejected: a fault, or a limit in the robot's file.
+bool is_supervised_closely(const Experiment& experiment);
+
+// "sensor hip_angle at 2.0103 s: 4095 count three times in a row, outside its plausible 1075 to
+// 2715 count"; "" where the run was not ended.
+std::string to_text(const control::Trip& trip, const Experiment& experiment);
+
+}  // namespace sinew::experiment

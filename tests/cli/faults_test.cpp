@@ -1,0 +1,92 @@
+// Sensors that break: how such a run ends, what it leaves, and what of a list is refused.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sinew/log/reader.h"
+#include "tests/cli/program.h"
+
+namespace sinew::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::ordered_json;
+
+const std::string broken = "experiments/faults/sensor-open.toml";
+
+TEST(Faults, ABrokenPotentiometerEndsTheRunAndIsNamed) {
+  const Workspace w;
+  const Result r = w.sinew({"run", broken, "-o", "run"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_THAT(r.err,
+              AllOf(HasSubstr("the run was ended by sensor hip_angle at 5.0203 s: 4095 "
+                              "count three times in a row, outside its plausible "),
+                    HasSubstr("all muscles were vented"), HasSubstr("hip_angle: "),
+                    HasSubstr("readings were not believed"), Not(HasSubstr("plant_steps.body"))));
+
+  // The log is kept and whole, the summary says only who was not believed.
+  const signals::Table log = log::read(w / "run/log.mcap");
+  EXPECT_TRUE(log.complete);
+  EXPECT_EQ(log.column("/sensor/hip_angle/count")->back(), 4095);
+  EXPECT_EQ(log.column("/low_level/tripped")->back(), 1);
+  const Json summary = Json::parse(read_text(w / "run/summary.json"));
+  EXPECT_GE(summary["sensors"]["hip_angle"]["rejected_readings"], 3);
+  EXPECT_NEAR(summary["low_level"]["tripped_time_s"], 5.02, 0.011);
+  EXPECT_FALSE(summary.contains("trolley"));
+  EXPECT_FALSE(summary.contains("joints"));
+
+  // What was run runs again, to the same end; and the log's lies give the same edges.
+  const Result again = w.sinew({"run", "run/resolved.toml", "-o", "again", "--quiet"});
+  EXPECT_EQ(again.code, 1);
+  EXPECT_THAT(again.err, HasSubstr("sensor hip_angle at 5.0203 s"));
+  EXPECT_THAT(w.sinew({"replay", "run"}).out, HasSubstr("all equal"));
+}
+
+TEST(Faults, AHealthyRunSaysNothingOfThem) {
+  const Workspace w;
+  const Result r = w.sinew({"run", "experiments/one-joint.toml", "-o", "run", "--json"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.out, AllOf(Not(HasSubstr("rejected")), Not(HasSubstr("tripped"))));
+  EXPECT_THAT(r.err, Not(HasSubstr("believed")));
+}
+
+TEST(Faults, WhatCannotBeIsRefused) {
+  const Workspace w;
+  const auto refused = [&](const std::string& list) {
+    write_text(w / "experiments/x.toml",
+               "format = \"sinew.experiment/1\"\nbase = "
+               "\"one-joint.toml\"\n[[fault]]\n" +
+                   list);
+    const Result r = w.sinew({"check", "experiments/x.toml"});
+    EXPECT_EQ(r.code, 1) << list;
+    return r.out + r.err;
+  };
+  EXPECT_THAT(refused("at = \"1 s\"\nof = \"lever_angel\"\nwhat = \"open\"\n"),
+              AllOf(HasSubstr("lever_angel"), HasSubstr("lever_angle")));
+  EXPECT_THAT(refused("at = \"1 s\"\nof = \"lever_angle\"\nwhat = \"opened\"\n"),
+              HasSubstr("opened"));
+  EXPECT_THAT(refused("at = \"1 s\"\nof = \"lever_angle\"\nwhat = \"offset\"\n"),
+              HasSubstr("amount"));
+  EXPECT_THAT(
+      refused("at = \"1 s\"\nof = \"lever_angle\"\nwhat = \"open\"\namount = \"3 count\"\n"),
+      HasSubstr("amount"));
+  EXPECT_THAT(refused("at = \"1 s\"\nof = \"lever_angle\"\nwhat = \"slip\"\namount = \"3 count\"\n"
+                      "for = \"1 s\"\n"),
+              HasSubstr("a slip that ends"));
+  EXPECT_THAT(refused("at = \"-1 s\"\nof = \"lever_angle\"\nwhat = \"open\"\n"), HasSubstr("at"));
+}
+
+TEST(Faults, ARangeWithoutTheCountAtRestIsRefused) {
+  const Workspace w;
+  w.edit("robots/one-joint/robot.toml", "[sensor.lever_angle]\n",
+         "[sensor.lever_angle]\nplausible = [\"2100 count\", \"3000 count\"]\n");
+  const Result r = w.sinew({"check", "experiments/one-joint.toml"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_THAT(r.out + r.err, AllOf(HasSubstr("sensor.lever_angle.plausible"),
+                                   HasSubstr("a range with its count at rest in it, 2048")));
+}
+
+}  // namespace
+}  // namespace sinew::test

@@ -1,0 +1,201 @@
+// Readings that lie, commands that cannot be and ticks that are skipped, in quantity: what is
+// really broken ends the run in time, what is only noise does not, and the valves obey whatever
+// comes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <string>
+
+#include "sinew/control/supervise/test_fuzz.h"
+#include "sinew/experiment/run.h"
+#include "sinew/experiment/supervision.h"
+
+namespace sinew::experiment {
+namespace {
+
+using control::Trip;
+using signals::Tick;
+using What = Fault::What;
+
+constexpr Tick period = 100;  // of the low level [ticks]
+
+// Tries of each kind.
+int count() {
+  const char* asked = std::getenv("SINEW_GUARD_COUNT");
+  return asked ? std::max(1, std::atoi(asked)) : 60;
+}
+
+double in(std::mt19937& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+// The bench's lever, up and down once; and the leg's two joints in the air.
+const Experiment& bench() {
+  static const Experiment e =
+      load(SINEW_SOURCE_DIR "/experiments/one-joint.toml", {"sequence.repeat=1"});
+  return e;
+}
+const Experiment& leg() {
+  static const Experiment e =
+      load(SINEW_SOURCE_DIR "/experiments/leg-in-air.toml", {"sequence.repeat=1"});
+  return e;
+}
+
+struct Trial {
+  Experiment experiment;
+  std::string sensor;
+  double first_lie = 0;  // [s]
+};
+
+Trial any_trial(std::mt19937& random) {
+  Trial out{random() % 4 ? bench() : leg(), "", 0};
+  out.experiment.seed = static_cast<int>(random() % 1'000'000);
+  std::vector<std::string> angles;
+  for (const robot::Sensor& s : out.experiment.robot.sensors)
+    if (s.kind == robot::Sensor::Kind::angle) angles.push_back(s.name);
+  out.sensor = angles[random() % angles.size()];
+  out.first_lie = in(random, 0.05, 1.5);
+  return out;
+}
+
+// When all inlets are shut and all exhausts open, by the edges of the log; -1: never.
+Tick vented_at(const Outcome& outcome, const Experiment& e, Tick from) {
+  Tick all = from;
+  for (const robot::Muscle& m : e.robot.muscles)
+    for (const auto& [which, wanted] : {std::pair{"inlet", 0.0}, std::pair{"exhaust", 1.0}}) {
+      const signals::Series& s = *outcome.table.find("/valve/" + m.name + "/" + which + "/open");
+      Tick since = wanted == 0 ? 0 : -1;  // all are shut before the first edge
+      for (std::size_t i = 0; i < s.time_ns.size(); ++i) {
+        const Tick at = s.time_ns[i] / signals::tick_nanoseconds;
+        if (at > from + 5) break;
+        const bool now = s.columns[0][i] == wanted;
+        if (!now) since = -1;
+        if (now && since < 0) since = at;
+      }
+      if (since < 0) return -1;
+      all = std::max(all, since);
+    }
+  return all;
+}
+
+void expect_vented_in_time(const Trial& trial, const char* what) {
+  const Experiment& e = trial.experiment;
+  const Outcome out = run(e);
+  const int channel = robot::find_sensor(e.robot, trial.sensor);
+  const Trip& trip = out.supervised.trip;
+  ASSERT_TRUE(trip.cause == Trip::Cause::range || trip.cause == Trip::Cause::rate)
+      << what << " of " << trial.sensor << " at " << trial.first_lie << " s, seed " << e.seed;
+  EXPECT_EQ(trip.channel.index, channel);
+  EXPECT_EQ(out.seen.fault, signals::Status::fault);
+
+  // The first scan that reads a lie, and the third.
+  const Tick read = e.robot.sensors[static_cast<std::size_t>(channel)].tick;
+  const double scan = (trial.first_lie / signals::tick_seconds - static_cast<double>(read)) /
+                      static_cast<double>(period);
+  const Tick third = (static_cast<Tick>(std::ceil(scan - 1e-9)) + 2) * period + read;
+  EXPECT_EQ(trip.at, third) << what;
+  const Tick vented = vented_at(out, e, third);
+  ASSERT_GE(vented, 0) << what << ", seed " << e.seed;
+  EXPECT_LE(vented - third, 5);
+  EXPECT_NE(to_text(trip, e).find("sensor " + trial.sensor), std::string::npos);
+}
+
+void break_sensor(What what, double amount, const char* name) {
+  std::mt19937 random(static_cast<unsigned>(what) + (amount < 0 ? 100 : 0));
+  for (int i = 0; i < count(); ++i) {
+    Trial trial = any_trial(random);
+    trial.experiment.faults = {
+        {.at = trial.first_lie, .of = trial.sensor, .what = what, .amount = amount}};
+    expect_vented_in_time(trial, name);
+  }
+}
+
+TEST(Supervise, AnOpenPotentiometerIsVentedInTime) { break_sensor(What::open, 0, "open"); }
+TEST(Supervise, AShortedOneIsVentedInTime) { break_sensor(What::shorted, 0, "short"); }
+TEST(Supervise, OneAtTheUpperRailIsVentedInTime) { break_sensor(What::offset, 4095, "top rail"); }
+TEST(Supervise, OneAtTheLowerRailIsVentedInTime) {
+  break_sensor(What::offset, -4095, "bottom rail");
+}
+
+// As noisy as its file says, and one reading of ten at most a lie, never two in a row.
+TEST(Supervise, NoiseWithinItsFileAndSingleBadSamplesDoNotTrip) {
+  std::mt19937 random(3);
+  std::int64_t rejected = 0;
+  for (int i = 0; i < count(); ++i) {
+    Trial trial = any_trial(random);
+    Experiment& e = trial.experiment;
+    for (robot::Sensor& s : e.robot.sensors) s.noise *= in(random, 0, 6);
+    double at = 0.02;
+    while (at < 2) {
+      const What kinds[] = {What::open, What::shorted, What::offset, What::noise, What::dropout};
+      const What what = kinds[random() % 5];
+      const double amount = what == What::dropout ? 1
+                            : what == What::noise ? in(random, 0, 1000)
+                                                  : in(random, -4095, 4095);
+      e.faults.push_back(
+          {.at = at, .lasts = 0.01, .of = trial.sensor, .what = what, .amount = amount});
+      at += in(random, 0.03, 0.3);
+    }
+    const Outcome out = run(e);
+    EXPECT_EQ(out.supervised.trip.cause, Trip::Cause::none)
+        << to_text(out.supervised.trip, e) << ", seed " << e.seed;
+    EXPECT_EQ(out.status, signals::Status::ok);
+    rejected += out.supervised.rejected;
+  }
+  EXPECT_GT(rejected, count());
+}
+
+// A frozen reading ends no run by itself; it is counted, where its joint is driven.
+TEST(Supervise, AStuckPotentiometerIsCountedAndEndsNoRun) {
+  std::mt19937 random(5);
+  int counted = 0;
+  for (int i = 0; i < count(); ++i) {
+    Trial trial = any_trial(random);
+    trial.experiment.faults = {{.at = trial.first_lie, .of = trial.sensor, .what = What::stuck}};
+    const Outcome out = run(trial.experiment);
+    EXPECT_EQ(out.supervised.trip.cause, Trip::Cause::none) << trial.experiment.seed;
+    const int s = robot::find_sensor(trial.experiment.robot, trial.sensor);
+    counted += out.supervised.sensor[static_cast<std::size_t>(s)].frozen > 0;
+  }
+  EXPECT_GT(counted, count() / 2);
+}
+
+// --- the low level alone ------------------------------------------------------------------------
+
+// 5,000 periods a try: random gaps, commands that are no numbers, readings that lie.
+TEST(Supervise, ValvesObeyWhateverComes) {
+  std::mt19937 random(9);
+  control::FuzzCount all;
+  for (int i = 0; i < count(); ++i)
+    for (int part = 0; part < 10; ++part) {
+      const control::SpineConfig config = control::any_leg(random);
+      control::SuperviseConfig limits;
+      const bool trips = random() % 4 == 0;  // else it goes on, so that there is something to see
+      if (!trips) limits.gap_vent = limits.vent_commands = limits.bad_readings = 1'000'000;
+      for (std::size_t s = 0; s < 7; ++s)
+        limits.sensor[s] = {.low = 100, .high = 4000, .max_step = 2000, .joint = 1};
+      ASSERT_EQ(control::problem(limits), nullptr);
+      control::Supervisor supervisor(config, limits);
+      const control::FuzzOptions options{.gap_every = 5 + static_cast<unsigned>(random() % 200),
+                                         .impossible_every = 5,
+                                         .late_every = 50,
+                                         .counts = 5000};
+      control::fuzz(supervisor, 500, options, random, all);
+      const control::Supervised& seen = supervisor.supervised();
+      EXPECT_GT(seen.rejected, 0u);
+      if (seen.trip.cause != Trip::Cause::none) {
+        EXPECT_NE(supervisor.seen().phase, control::Phase::running);
+        EXPECT_EQ(supervisor.seen().fault, signals::Status::fault);
+      }
+    }
+  EXPECT_EQ(all.both_open, 0);
+  EXPECT_EQ(all.not_finite, 0);
+  EXPECT_GT(all.gaps, 100 * count());
+  EXPECT_GT(all.edges, 10'000 * count());
+  RecordProperty("periods", static_cast<int>(all.periods));
+}
+
+}  // namespace
+}  // namespace sinew::experiment
