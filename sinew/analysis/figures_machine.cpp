@@ -1,5 +1,6 @@
 // rollers.*, cylinder.*, supply.*, sensors.*: the parts of a whole machine beside its joints and
 // muscles.
+#include <algorithm>
 #include <string>
 
 #include "sinew/analysis/figures.h"

@@ -24,7 +24,7 @@ constexpr Tick period = 100;  // of the low level [ticks]
 // Tries of each kind.
 int count() {
   const char* asked = std::getenv("SINEW_GUARD_COUNT");
-  return asked ? std::max(1, std::atoi(asked)) : 60;
+  return asked ? std::max(1, std::atoi(asked)) : 200;
 }
 
 double in(std::mt19937& random, double low, double high) {
