@@ -223,6 +223,19 @@ TEST(Supervision, AnAngleIsPlausibleWithinItsMusclesReach) {
   EXPECT_TRUE(gauge.rests_at_ends);
 }
 
+// A potentiometer may be mounted so that it rests at the converter's end; then it is no fault.
+TEST(Supervision, WhereItRestsIsPlausible) {
+  for (const double rest : {0.0, 2.0, 4095.0}) {
+    Experiment e = bench();
+    e.robot.sensors[0].at_rest = e.robot.sensors[0].assumed_at_rest = rest;
+    const control::SensorLimits limit = supervise_config(e).sensor[0];
+    EXPECT_EQ(limit.low, rest < 4000 ? 0 : limit.low);
+    EXPECT_EQ(limit.high, rest > 4000 ? 4095 : limit.high);
+    EXPECT_LE(limit.low, rest);
+    EXPECT_GE(limit.high, rest);
+  }
+}
+
 TEST(Supervision, TheFilesLimitsCount) {
   Experiment e = bench();
   e.robot.sensors[0].plausible = {1900, 2500};

@@ -15,7 +15,8 @@ bool ends_it(Watch& watch) noexcept {
 }
 
 // Spine   scan(), seen().phase, command(command), edges(t), due(t), take(conversion, reading, t),
-//         next_event(t), missed(t), shut_down(t): control::Spine, or a stand's drive
+//         next_event(t), missed(t), shut_down(t): control::Supervisor, control::Spine alone,
+//         or a stand's drive
 // Brain   update(seen, t) -> Command, finished()
 // Clock   wait_until(t) -> false when late
 // Watch   command(t), edge(e), sample(t), next(t): whoever records; it changes nothing. It may have

@@ -55,7 +55,8 @@ class Range {
  public:
   Range(const robot::Sensor& sensor, int top) : sensor_(sensor), top_(top) {}
 
-  // Never the converter's ends.
+  // Never the converter's ends, unless it rests at one. A converter of three bits has none to
+  // spare.
   void inside(const Reach& reach, double real, double assumed) {
     double low = nowhere, high = -nowhere;
     for (const auto& [rest, scale] :
@@ -64,9 +65,13 @@ class Range {
         low = std::min(low, at);
         high = std::max(high, at);
       }
+    if (top_ < 15) return;
     const double noise = noise_bound * sensor_.noise;
-    low_ = bounded(std::floor(low - noise), 1, top_ - 1);
-    high_ = bounded(std::ceil(high + noise), 1, top_ - 1);
+    const auto [lower, upper] = std::minmax(sensor_.at_rest, sensor_.assumed_at_rest);
+    const double first = lower - noise < 1 ? 0 : 1,
+                 last = upper + noise > top_ - 1 ? top_ : top_ - 1;
+    low_ = bounded(std::floor(low - noise), first, last);
+    high_ = bounded(std::ceil(high + noise), first, last);
   }
 
   // Its highest count is that of the supply.
