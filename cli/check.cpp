@@ -10,14 +10,13 @@
 #include "cli/json_text.h"
 #include "cli/run_folder.h"
 #include "cli/run_rig.h"
-#include "sinew/analysis/stand.h"
+#include "cli/runnable.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/gains.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/experiment/rig/rig.h"
 #include "sinew/log/reader.h"
-#include "sinew/signals/timing.h"
 #include "sinew/tune/study.h"
 
 namespace sinew::cli {
@@ -50,14 +49,6 @@ void check_log(const std::filesystem::path& file, Finding& out) {
                            ": was cut off or is damaged; everything before can be read");
 }
 
-void check_timing(const std::string& path, Finding& out) {
-  const config::ValveTiming read = config::read_valve_timing(path);
-  if (!signals::closes_at_zero({.closing = read.closing, .opening = read.opening}))
-    out.warnings.push_back(path +
-                           ":1: duty 0 does not shut at once and stay shut; inlet and exhaust of "
-                           "one muscle could be open together");
-}
-
 void check_run(const std::filesystem::path& folder, Finding& out) {
   const RecordedRun run = recorded_run(folder);
   check_log(run.log, out);
@@ -80,17 +71,17 @@ void tell_of_sources(const Problems& unsourced, Finding& out) {
 }
 
 void check_rig(const std::string& path, Finding& out) {
-  const rig::Experiment e = rig::load(path);
-  analysis::read_stand(config::compose(path));  // what is reported of it
+  const rig::Experiment e = runnable_on_stand(path, {});
   out.add(e.warnings, out.warnings);
   tell_of_sources(e.unsourced, out);
 }
 
 void check_machine(const std::string& path, Finding& out) {
-  const experiment::Experiment e = experiment::load_machine_file(path).experiment;
+  const bool runs = config::format_kind(config::parse_file(path)) == "experiment";
+  const experiment::Experiment e =
+      runs ? runnable(path, {}, false) : experiment::load_machine_file(path).experiment;
   out.add(e.warnings, out.warnings);
   tell_of_sources(e.unsourced, out);
-  refuse_unreachable(e);  // a file without a plan has no path
 }
 
 Finding check(const std::string& path) {
@@ -104,7 +95,7 @@ Finding check(const std::string& path) {
     } else if (file.extension() == ".dat" && file.filename().string().starts_with("gain")) {
       config::read_gains(path);
     } else if (file.extension() == ".dat") {
-      check_timing(path, out);
+      config::read_valve_timing(path);
     } else if (config::format_kind(config::parse_file(path)) == "plan") {
       tune::check(tune::sweep_of(tune::load_study(path)));
     } else if (is_rig(path)) {

@@ -8,6 +8,7 @@
 #include "cli/page.h"
 #include "cli/report.h"
 #include "cli/run_folder.h"
+#include "cli/runnable.h"
 #include "sinew/config/node.h"
 
 namespace sinew::cli {
@@ -17,8 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 experiment::Experiment load(const RunRequest& request, const Messages& messages) {
-  experiment::Experiment e = experiment::load(request.experiment, request.sets);
-  if (!request.allow_unreachable) refuse_unreachable(e);
+  experiment::Experiment e = runnable(request.experiment, request.sets, request.allow_unreachable);
   for (const config::Problem& warning : e.warnings) messages.warning(config::to_text(warning));
   return e;
 }
@@ -31,10 +31,6 @@ analysis::Machine machine_in(const std::string& resolved) {
 std::string summary_json(const analysis::Summary& summary, const experiment::Outcome& outcome) {
   const double factor = outcome.wall > 0 ? outcome.duration / outcome.wall : 0;
   return to_json(summary, {{"real_time_factor", factor}, {"threads", 1}});
-}
-
-bool ended_early(const experiment::Outcome& outcome) {
-  return outcome.status != signals::Status::ok || outcome.seen.fault != signals::Status::ok;
 }
 
 }  // namespace
@@ -67,7 +63,6 @@ KeptRun::KeptRun(RunRequest request, const Messages& messages)
       experiment_(load(request_, messages)),
       resolved_(experiment::resolved(experiment_, SINEW_VERSION)),
       logged_(experiment::logged_topics(experiment_)) {
-  (void)machine_in(resolved_);  // what cannot be summed up is not run
   folder_.emplace(run_folder(request_.folder, request_.force, experiment_.name));
   if (!experiment_.log.enabled) return;
   write_into(*folder_, resolved_name, resolved_);
@@ -125,7 +120,7 @@ ExitCode KeptRun::keep(experiment::Outcome outcome) try {
   if (outcome.stopped) break_off(outcome);
   finish_log(outcome);
   warn_of(experiment_, outcome, messages_);
-  if (ended_early(outcome)) {
+  if (outcome.ended_early()) {
     keep_trip(outcome);
     throw std::runtime_error(black_box(experiment_, outcome));
   }

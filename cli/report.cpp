@@ -8,27 +8,10 @@
 #include "cli/text_table.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/config/quantity.h"
-#include "sinew/experiment/supervision.h"
 
 namespace sinew::cli {
 
 namespace {
-
-std::string_view word(signals::Status status) {
-  switch (status) {
-    case signals::Status::ok:
-      return "ok";
-    case signals::Status::late:
-      return "a late reading";
-    case signals::Status::invalid:
-      return "an invalid reading";
-    case signals::Status::ended:
-      return "the body ended";
-    case signals::Status::fault:
-      return "a fault";
-  }
-  return "";
-}
 
 bool finite(const signals::Series& s, std::size_t i) {
   return std::ranges::all_of(s.columns, [i](const auto& c) { return std::isfinite(c[i]); });
@@ -177,17 +160,10 @@ void warn_of(const experiment::Experiment& e, const experiment::Outcome& outcome
 }
 
 std::string black_box(const experiment::Experiment& e, const experiment::Outcome& outcome) {
-  const control::Seen& seen = outcome.seen;
-  const std::string tripped = experiment::to_text(outcome.supervised.trip, e);
-  if (!tripped.empty())
-    return fmt::format("{}: the run was ended by {}; all muscles were vented{}", e.path, tripped,
-                       last_records(outcome.table));
-  const bool by_sensor = seen.fault != signals::Status::ok;
-  std::string text = fmt::format("{}: the run was ended by {}", e.path,
-                                 word(by_sensor ? seen.fault : outcome.status));
-  if (by_sensor && seen.fault_channel.index < e.robot.sensors.size())
-    text += " of sensor " + e.robot.sensors[seen.fault_channel.index].name;
-  text += "; try a smaller plant_steps.body" + last_records(outcome.table);
+  std::string text = fmt::format("{}: the run was ended: {}", e.path, cause_of(e, outcome));
+  if (outcome.supervised.trip.cause != control::Trip::Cause::none)
+    text += "; all muscles were vented";
+  text += last_records(outcome.table);
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include "cli/report.h"
 #include "cli/run_folder.h"
 #include "cli/run_log.h"
+#include "cli/runnable.h"
 #include "cli/terminal.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/analysis/warnings.h"
@@ -48,9 +49,9 @@ ExitCode keep(const rig::Experiment& e, const What& what, OutputFolder& folder,
   const Messages messages(options.quiet);
   rig::Outcome outcome = rig::run(e);
   write_log(e, what, outcome, folder);
-  if (outcome.status != signals::Status::ok)
-    throw std::runtime_error(fmt::format(
-        "{}: the run was ended by a state that is no number; try a smaller step", e.path));
+  if (outcome.failure || outcome.status != signals::Status::ok)
+    throw std::runtime_error(
+        fmt::format("{}: the run was ended: {}", e.path, rig::cause_of(e, outcome)));
 
   const std::string measured = rig::measured_csv(e, outcome.table);
   if (!measured.empty()) write_into(folder, measured_name, measured);
@@ -84,7 +85,7 @@ bool is_rig(const std::string& path) {
 
 ExitCode run_rig(const RigOptions& options) {
   const Messages messages(options.quiet);
-  const rig::Experiment e = rig::load(options.experiment, options.sets);
+  const rig::Experiment e = runnable_on_stand(options.experiment, options.sets);
   for (const config::Problem& warning : e.warnings) messages.warning(config::to_text(warning));
   const std::string resolved = rig::resolved(e, SINEW_VERSION);
   // As `analyze` will read it: so both come to the same bits.

@@ -10,7 +10,9 @@
 #include "sinew/actuator/actuator.h"
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/braid.h"
+#include "sinew/actuator/tension.h"
 #include "sinew/units/complain.h"
+#include "sinew/units/constants.h"
 #include "sinew/units/field.h"
 
 namespace sinew::actuator {
@@ -21,13 +23,17 @@ template <class Visitor>
 void fields(Visitor& v, Braid& braid) {
   v.number({.name = "thread_length",
             .unit = "m",
-            .min = 0,
+            .min = 1e-4,
+            .max = 10,
+            .why = "a braid from a cricket's size to an elephant's",
             .optional = true,
             .doc = "b, length of one thread [17]; or give trapezoids"},
            braid.thread_length);
   v.number({.name = "turns",
             .unit = "1",
-            .min = 0,
+            .min = 0.01,
+            .max = 1e4,
+            .why = "a thread winds about the axis",
             .optional = true,
             .doc = "n, turns of one thread about the axis [18]; or give trapezoids"},
            braid.turns);
@@ -35,9 +41,26 @@ void fields(Visitor& v, Braid& braid) {
   double lengthwise = 0, around = 0, side = 0;
   v.group({.name = "trapezoids", .optional = true, .doc = "counted on the opened mesh, figure 2-4"},
           [&](auto& g) {
-            g.number({.name = "lengthwise", .unit = "1", .min = 0, .doc = "A [14]"}, lengthwise);
-            g.number({.name = "around", .unit = "1", .min = 0, .doc = "B [15]"}, around);
-            g.number({.name = "side", .unit = "m", .min = 0, .doc = "l, of one trapezoid"}, side);
+            const auto counted = [&](std::string_view name, std::string_view doc, double& value) {
+              g.number({.name = name,
+                        .unit = "1",
+                        .min = 0,
+                        .max = 1e5,
+                        .least = 1,
+                        .why = "trapezoids are counted",
+                        .doc = doc},
+                       value);
+            };
+            counted("lengthwise", "A [14]", lengthwise);
+            counted("around", "B [15]", around);
+            g.number({.name = "side",
+                      .unit = "m",
+                      .min = 0,
+                      .max = 1,
+                      .least = 1e-6,
+                      .why = "a trapezoid can be seen",
+                      .doc = "l, of one trapezoid"},
+                     side);
           });
   const bool mesh = lengthwise > 0 && around > 0 && side > 0;
   const bool thread = braid.thread_length > 0 && braid.turns > 0;
@@ -49,6 +72,19 @@ void fields(Visitor& v, Braid& braid) {
                     "thread_length and turns, or trapezoids");
   }
   if (mesh) braid = braid_from_trapezoids(lengthwise, around, side);
+}
+
+// A polynomial that has run away at the ends of its range is no share of anything.
+template <class Visitor>
+void check_share(Visitor& v, const Effectiveness& e) {
+  constexpr double most = 3;
+  for (const double gauge : {e.valid_from, e.valid_to}) {
+    const double share = effectiveness(e, gauge, units::atmosphere);
+    if (share >= -most && share <= most) continue;
+    units::complain(v, "polynomial", "a share of " + std::to_string(share) + " where it is valid",
+                    "within 3 of 0: a share of the ideal tension", "a look at its units");
+    return;
+  }
 }
 
 template <class Visitor>
@@ -75,6 +111,7 @@ void fields(Visitor& v, Effectiveness& e) {
             .unit = "1",
             .min = 0,
             .max = 2,
+            .why = "no more than all of the ideal tension arrives, by a wide margin",
             .optional = true,
             .doc = "times the polynomial"},
            e.scale);
@@ -98,6 +135,7 @@ void fields(Visitor& v, Effectiveness& e) {
             .optional = true,
             .doc = "that the bladder takes before it reaches the mesh; not in the thesis"},
            e.threshold);
+  check_share(v, e);
 }
 
 template <class Visitor>
@@ -182,6 +220,8 @@ void fields(Visitor& v, Bladder& bladder) {
   v.number({.name = "saturation_length",
             .unit = "m",
             .min = 0,
+            .least = 1e-6,
+            .why = "what is lost over less than a micrometre is not there",
             .optional = true,
             .doc = "lambda, the way over which S is lost"},
            bladder.saturation_length);
@@ -225,6 +265,8 @@ void fields(Visitor& v, Taper& taper) {
   v.number({.name = "extra_pressure",
             .unit = "Pa diff",
             .min = 0,
+            .least = 1,
+            .why = "what goes over less than a pascal is not there",
             .optional = true,
             .doc = "P_low, over which k_low goes"},
            taper.extra_pressure);
@@ -268,6 +310,8 @@ void fields(Visitor& v, Hysteresis& h) {
   v.number({.name = "volume_pressure",
             .unit = "Pa diff",
             .min = 0,
+            .least = 1,
+            .why = "less than a pascal turns nothing",
             .optional = true,
             .doc = "K, pressure that turns the friction as the greatest volume does; 0: length "
                    "does not turn it"},
@@ -289,7 +333,12 @@ void fields(Visitor& v, Creep& creep) {
              .max = 1,
              .doc = "c, of the tension, that comes late; one or two elements"},
             share);
-  v.numbers({.name = "time", .unit = "s", .min = 0, .doc = "tau of each element"}, time);
+  v.numbers({.name = "time",
+             .unit = "s",
+             .min = 1e-3,
+             .why = "what comes within a millisecond does not come late",
+             .doc = "tau of each element"},
+            time);
   bool slow = true;
   for (const double tau : time) slow = slow && tau > 0;
   if (share.size() != time.size() || share.size() > creep.share.size() || !slow) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sinew/config/quantity.h"
+#include "sinew/units/ranges.h"
 
 namespace sinew::config {
 
@@ -29,6 +30,26 @@ std::string bounds_text(const units::Field& field) {
   if (field.max == units::unbounded) return "at least " + low;
   if (field.min == -units::unbounded) return "at most " + high;
   return fmt::format("{} to {}", low, high);
+}
+
+std::string with_reason(std::string text, std::string_view why) {
+  return why.empty() ? text : fmt::format("{}: {}", text, why);
+}
+
+// What the field's own bounds have against the value, or else its unit's; empty: nothing.
+std::string out_of_bounds(const units::Field& field, double value) {
+  if (!(value >= field.min && value <= field.max)) {
+    return with_reason(bounds_text(field), field.why);
+  }
+  if (value != 0 && std::abs(value) < field.least) {
+    const std::string least = format_quantity(field.least, field.unit);
+    return with_reason("0, or at least " + least, field.why);
+  }
+  const units::Range& range = units::range_of(field.unit);
+  if (std::abs(value) <= range.most) return {};
+  const double end = std::copysign(range.most, value);
+  const std::string text = format_quantity(end, field.unit);
+  return with_reason((value > 0 ? "at most " : "at least ") + text, range.why);
 }
 
 }  // namespace
@@ -83,7 +104,9 @@ void Reader::polynomial(const Field& field, std::vector<double>& coefficients,
     for (const Node& item : entry->value->children) {
       const int power = static_cast<int>(coefficients.size());
       const std::string unit = coefficient_unit(field.unit, per, power);
-      coefficients.push_back(si_of(item, unit, entry->origin.path).value_or(0));
+      const auto si = si_of(item, unit, entry->origin.path);
+      const bool good = si && in_bounds({.unit = unit}, *si, item, entry->origin.path);
+      coefficients.push_back(good ? *si : 0);
     }
     if (coefficients.empty()) {
       add_problem(*entry->value, entry->origin.path, "an empty list", "at least one coefficient");
@@ -212,12 +235,13 @@ std::optional<double> Reader::si_of(const Node& node, std::string_view unit,
 
 bool Reader::in_bounds(const Field& field, double value, const Node& node,
                        const std::string& path) {
-  if (value >= field.min && value <= field.max) return true;
+  std::string expected = out_of_bounds(field, value);
+  if (expected.empty()) return true;
   std::string found = shown(node);
   const std::string unit(field.unit.empty() ? "1" : field.unit);
   const std::string si = format_quantity(value, unit, unit);
   if (written(node) != si) found += ", which is " + si;
-  add_problem(node, path, found, bounds_text(field));
+  add_problem(node, path, std::move(found), std::move(expected));
   return false;
 }
 

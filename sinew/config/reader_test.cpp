@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "sinew/config/quantity.h"
 #include "sinew/units/literals.h"
+#include "sinew/units/ranges.h"
 
 namespace sinew::config {
 namespace {
@@ -182,6 +184,39 @@ TEST(Reader, a_default_that_is_none_is_not_set) {
   reader.number({.name = "arm", .unit = "m", .optional = true}, arm);
   ASSERT_EQ(reader.origins().size(), 1u);
   EXPECT_EQ(reader.origins()[0].text, "not set");
+}
+
+// No field says it: its unit does.
+TEST(Reader, no_machine_is_as_large_as_that) {
+  EXPECT_EQ(Reading("length = \"1 m\"\nstiffness = \"1e300 N/m\"").message,
+            "a.toml:2:1: stiffness: found \"1e300 N/m\", which is 1e+300 N/m; expected at most "
+            "1e+10 N/m: steel of a robot's size is not stiffer");
+  EXPECT_EQ(Reading("length = \"1 m\"\nratio = -1e300").message,
+            "a.toml:2:1: ratio: found -1e+300; expected at least -1e+09: no plain number of a "
+            "machine is larger");
+  EXPECT_TRUE(contains(Reading("length = \"1 m\"\ncurve = [1, \"1e300 1/Pa\"]").message,
+                       "curve: found \"1e300 1/Pa\""));
+}
+
+TEST(Reader, the_reason_of_a_range_is_told) {
+  double share = 0, period = 0;
+  const Node root = parse_text("share = 1.2\nperiod = \"1 us\"\n", "a.toml");
+  Reader reader(root);
+  reader.number({.name = "share", .unit = "1", .min = 0, .max = 1, .why = "a share"}, share);
+  reader.number({.name = "period", .unit = "s", .min = 0, .least = 1e-4, .why = "a tick"}, period);
+  EXPECT_EQ(to_text(reader.problems()),
+            "a.toml:1:1: share: found 1.2; expected 0 to 1: a share\n"
+            "a.toml:2:1: period: found \"1 us\", which is 1e-06 s; expected 0, or at least "
+            "0.0001 s: a tick");
+}
+
+// A unit without a row would have the widest range of all.
+TEST(Reader, every_range_is_of_a_unit) {
+  for (const units::Range& range : units::ranges) {
+    EXPECT_FALSE(parse_quantity("1 " + std::string(range.unit), range.unit).mistake) << range.unit;
+    EXPECT_GT(range.most, 0) << range.unit;
+    EXPECT_FALSE(range.why.empty()) << range.unit;
+  }
 }
 
 TEST(Reader, nan_is_reported) {

@@ -49,6 +49,13 @@ void check_row(const Row& row, int line, int duty, const Row& last, RowProblems&
                  fmt::format("0 to {} ticks", ValveTiming::never),
                  fmt::format("{} for never", ValveTiming::never));
   }
+  // Inlet and exhaust of one muscle could else be open together.
+  if (duty == 0 && (row[1] > 1 || row[2] < ValveTiming::never)) {
+    problems.add(line, 1, row[1] > 1 ? "close" : "open",
+                 fmt::format("{} at duty 0, which does not shut at once and stay shut",
+                             row[1] > 1 ? row[1] : row[2]),
+                 row[1] > 1 ? "0 or 1" : fmt::format("{} for never", ValveTiming::never));
+  }
   if (row[1] < last[1]) {
     problems.add(line, 1, "close", fmt::format("{} after {}", row[1], last[1]),
                  "a closing tick that does not fall as the duty rises");

@@ -1,13 +1,18 @@
 #include "sinew/experiment/check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "sinew/config/quantity.h"
 #include "sinew/config/valve_timing.h"
+#include "sinew/control/gait/brain.h"
 #include "sinew/control/joint/config.h"
 #include "sinew/experiment/run.h"
+#include "sinew/experiment/spinal.h"
 #include "sinew/muscle/plumbing.h"
+#include "sinew/plant/planar/cords.h"
 #include "sinew/plant/planar/whole.h"
 #include "sinew/signals/tick.h"
 
@@ -15,6 +20,8 @@ namespace sinew::experiment {
 namespace {
 
 using List = std::vector<robot::Contradiction>;
+
+std::string inches(double metres) { return config::format_quantity(metres, "m", "in"); }
 
 // Names that lead from one table to another.
 template <class Items>
@@ -136,10 +143,79 @@ void check_cylinder(const Experiment& e, List& out) {
   }
 }
 
+// How far a joint is taken: where it starts, and where the plan wants it in one step  [rad].
+struct Reach {
+  double low = 0, high = 0;
+
+  void add(double angle) {
+    low = std::min(low, angle);
+    high = std::max(high, angle);
+  }
+};
+
+std::vector<Reach> reaches(const Experiment& e) {
+  std::vector<Reach> out;
+  for (const robot::Joint& j : e.robot.joints) {
+    const double start = e.start.joint_angles.at(j.name);
+    out.push_back({start, start});
+  }
+  gait::Brain brain(e.robot, e.plan);
+  gait::Measured still;
+  for (std::size_t j = 0; j < out.size(); ++j) still.angle[j] = e.robot.joints[j].rest_angle;
+  const auto settle = std::llround(e.start.settle / e.plan.brain_period);
+  const auto last = settle + gait::periods_per_step(e.plan);
+  for (std::int64_t k = settle; k <= last; ++k) {
+    const gait::Desired& desired = brain.update(still, k);
+    if (desired.stage != gait::Stage::walking) continue;
+    for (std::size_t j = 0; j < out.size(); ++j) {
+      const robot::Joint& joint = e.robot.joints[j];
+      const double turned = desired.joint[j].angle - joint.rest_angle;  // 0 deg is 360 deg
+      if (joint.kind == robot::Joint::Kind::driven)
+        out[j].add(joint.rest_angle + std::remainder(turned, 2 * std::numbers::pi));
+    }
+  }
+  return out;
+}
+
+// A chamber that vanishes within its joint's reach: no pressure is left to speak of.
+void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
+  const std::vector<Reach> reach = reaches(e);
+  const plant::Cords cords(e.robot);
+  for (const bool high : {false, true}) {
+    std::array<double, robot::max_joints> angle{}, still{};
+    for (std::size_t j = 0; j < reach.size(); ++j) angle[j] = high ? reach[j].high : reach[j].low;
+    muscle::Lanes length{}, rate{};
+    plant::Cords::Pulls pulls{};
+    cords.at(angle.data(), still.data(), length, rate, pulls);
+    for (int i = 0; i < cords.count(); ++i) {
+      const auto m = static_cast<std::size_t>(i);
+      const actuator::Actuator& a = setup.muscles[m].actuator;
+      const bool none = length[i] - a.caps.length <= 0;
+      const bool taut = length[i] - a.caps.length >= a.braid.thread_length;
+      if (!none && !(taut && setup.muscles[m].external_volume <= 0)) continue;
+      const robot::Muscle& muscle = e.robot.muscles[m];
+      const std::string& joint = muscle.joint;
+      const double at = angle[static_cast<std::size_t>(cords.joint(i, 0))];
+      const std::string key = "muscle." + muscle.name;
+      if (std::ranges::any_of(out, [&](const auto& c) { return c.key.starts_with(key + "."); }))
+        continue;
+      out.push_back(
+          {key + (none ? ".mount_length" : ".external_volume"),
+           "a chamber without volume: with joint " + joint + " at " +
+               config::format_quantity(at, "rad", "deg") + " the muscle is " + inches(length[i]) +
+               " long",
+           none ? "a length above 0 wherever the plan takes the joint"
+                : "less than the thread's " + inches(a.braid.thread_length) +
+                      ", or an external volume",
+           none ? "a smaller joint." + joint + ".moment_arm, or another rest_angle"
+                : "an external_volume above 0, or a smaller joint." + joint + ".moment_arm"});
+    }
+  }
+}
+
 // Air or joints that move so quickly that a run would take for ever.
-void check_steps(const Experiment& e, List& out) {
+void check_steps(const Experiment& e, const plant::Setup& s, List& out) {
   constexpr double shortest = 2e-6;  // step [s]
-  const plant::Setup s = planar_setup(e);
   if (!needs_whole_world(e, s)) return;
   const double air = muscle::Plumbing(s.muscles, s.air, s.supply, s.cylinder).longest_step();
   const auto micro = [](double step) { return config::format_number(1e6 * step) + " us"; };
@@ -154,6 +230,13 @@ void check_steps(const Experiment& e, List& out) {
                    "at least 2 us", "less damping or stiffness, a smaller leak, heavier links"});
 }
 
+// What follows from machine and plan together.
+void check_motion(const Experiment& e, List& out) {
+  const plant::Setup setup = planar_setup(e);
+  check_volumes(e, setup, out);
+  if (out.empty()) check_steps(e, setup, out);
+}
+
 void check_start(const Experiment& e, List& out) {
   for (const std::string& name : e.start.blocked) need("start.blocked", name, e.robot.joints, out);
   for (const auto& [name, angle] : e.start.joint_angles)
@@ -162,8 +245,6 @@ void check_start(const Experiment& e, List& out) {
     if (!e.start.joint_angles.count(j.name))
       out.push_back({"start.joint_angles", "no " + j.name, "an angle for every joint", ""});
 }
-
-std::string inches(double metres) { return config::format_quantity(metres, "m", "in"); }
 
 // A phase ends on what is measured.
 void check_measures(const Experiment& e, List& out) {
@@ -294,8 +375,9 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
   }
   std::ranges::move(robot::contradictions(e.robot), std::back_inserter(wrong));
   std::ranges::move(robot::contradictions(e.wiring, e.robot), std::back_inserter(wrong));
-  if (runs && wrong.empty()) check_steps(e, wrong);
+  if (wrong.empty()) wrong = misfits(e);
   if (runs && wrong.empty()) wrong = gait::contradictions(e.robot, e.plan);
+  if (runs && wrong.empty()) check_motion(e, wrong);
   refuse(wrong, e);
 }
 

@@ -23,7 +23,12 @@ void fields(Visitor& v, Start& start) {
                   start.joint_angles);
   v.texts({.name = "blocked", .optional = true, .doc = "joints that are held where they start"},
           start.blocked);
-  v.number({.name = "pressure", .unit = "Pa abs", .min = 0, .doc = "of the air in every muscle"},
+  v.number({.name = "pressure",
+            .unit = "Pa abs",
+            .min = 1e3,
+            .max = 2e6,
+            .why = "air of a muscle, no vacuum",
+            .doc = "of the air in every muscle"},
            start.pressure);
   v.number({.name = "trolley", .unit = "m", .optional = true, .doc = "along the track"},
            start.trolley);

@@ -71,7 +71,7 @@ Experiment read(const config::Node& root, std::string_view kind, const std::stri
   e.warnings = reader.warnings();
   e.unsourced = reader.unsourced();
   e.plan.settle = e.start.settle;
-  if (runs) read_timing(e);
+  if (runs || kind == "robot") read_timing(e);
   refuse_contradictions(kind, e);
   return e;
 }

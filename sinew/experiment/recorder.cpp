@@ -23,7 +23,8 @@ Recorder::Recorder(const Experiment& e, const control::Supervisor& spine, HighLe
   // Sample where the last law of a period has run; other periods keep that offset.
   period_ = std::max<Tick>(1, std::llround(e.log.period / signals::tick_seconds));
   const Tick scan = spine.scan().period;
-  next_ = period_ % scan == 0 ? spine.scan().conversions.back().read : 0;
+  const auto& conversions = spine.scan().conversions;
+  next_ = period_ % scan == 0 && !conversions.empty() ? conversions.back().read : 0;
 
   // What a row holds; without a truth the topics under /true have no samples.
   columns_ = columns(e);

@@ -70,6 +70,7 @@ Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& por
 
   out.wall = wall.count();
   out.stopped = watch.was_stopped;
+  if (world) out.failure = world->failure();
   out.table = recorder.take();
   out.seen = spine.seen();
   out.supervised = spine.supervised();

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "sinew/control/joint/seen.h"
@@ -10,6 +11,7 @@
 #include "sinew/experiment/experiment.h"
 #include "sinew/experiment/recorder.h"
 #include "sinew/experiment/steering.h"
+#include "sinew/muscle/failure.h"
 #include "sinew/plant/planar/setup.h"
 #include "sinew/signals/table.h"
 
@@ -32,12 +34,23 @@ struct Outcome {
   signals::Table table;
   control::Seen seen;                 // the low level's last word
   control::Supervised supervised;     // what was not believed, and what ended the run
+  muscle::Failure failure;            // what of the machine was no number any more
   std::vector<gait::Change> changes;  // the plan's, and behind them what was steered
   std::int64_t unreachable_periods = 0;
   std::int64_t nodes = 0;  // steps of the integrator
   double duration = 0;     // simulated [s]
   double wall = 0;         // [s]
+
+  // It did not come to its end: there is nothing to sum up.
+  bool ended_early() const {
+    return failure || status != signals::Status::ok || seen.fault != signals::Status::ok ||
+           supervised.trip.cause != control::Trip::Cause::none;
+  }
 };
+
+// Why a run ended early, when, and what to do: "the air of muscle knee_flexor was no number any
+// more at 0 s: …".
+std::string cause_of(const Experiment& experiment, const Outcome& outcome);
 
 // The last tick that the run can reach.
 signals::Tick last_tick(const Experiment& experiment);

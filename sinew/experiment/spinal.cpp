@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "sinew/actuator/braid.h"
+#include "sinew/config/quantity.h"
 #include "sinew/experiment/estimators.h"
 #include "sinew/robot/actuator_of.h"
 #include "sinew/robot/kinematics.h"
@@ -14,6 +15,7 @@ namespace sinew::experiment {
 namespace {
 
 using Role = robot::Muscle::Role;
+using List = std::vector<robot::Contradiction>;
 
 // The controller's unit of stiffness, lbf in/rad  [N m/rad].
 constexpr double stiffness_unit = units::pound_force * units::inch;
@@ -65,18 +67,28 @@ class MuscleSide {
   // Torque of a count of its tension  [N m].
   double torque_per_count() const { return pull_.arm * newtons_per_count(e_.robot, index_); }
 
-  control::MuscleConfig config(double flexor_torque_per_count) const {
-    const robot::LowLevel& low = e_.robot.low_level;
+  // As the stiffness law takes it, before it is cut to whole counts  [count].
+  double free_length() const {
+    const double assumed = e_.robot.low_level.assumed_mount_length;
+    return counts_per_metre_ * (assumed > 0 ? assumed : muscle_.mount_length);
+  }
+  double thread_length() const {
+    const double assumed = e_.robot.low_level.assumed_thread_length;
     const actuator::Actuator a = robot::actuator_of(muscle_, e_.actuators);
-    const double assumed = low.assumed_mount_length, thread = low.assumed_thread_length;
+    return counts_per_metre_ * (assumed > 0 ? assumed : a.braid.thread_length);
+  }
 
+  void add_misfits(double flexor_torque_per_count, List& out) const;
+
+  control::MuscleConfig config(double flexor_torque_per_count) const {
+    const actuator::Actuator a = robot::actuator_of(muscle_, e_.actuators);
     control::MuscleConfig c;
     c.tension = channel(robot::tension_sensor_of(e_.robot, index_));
     c.inlet = {static_cast<std::uint8_t>(2 * index_)};
     c.exhaust = {static_cast<std::uint8_t>(2 * index_ + 1)};
-    c.free_length = counts(assumed > 0 ? assumed : muscle_.mount_length);
+    c.free_length = static_cast<std::int32_t>(free_length());
     // b in counts, cut as in B.1: 3235^2 = 10465225.
-    const std::int32_t b = counts(thread > 0 ? thread : a.braid.thread_length);
+    const auto b = static_cast<std::int32_t>(thread_length());
     c.thread_length_squared = b * b;
     if (flexor_torque_per_count > 0)
       c.tension_ratio = static_cast<float>(torque_per_count() / flexor_torque_per_count);
@@ -86,8 +98,11 @@ class MuscleSide {
   }
 
  private:
-  std::int32_t counts(double length) const {
-    return static_cast<std::int32_t>(length * counts_per_metre_);
+  // [26], of a count of so many pascals.
+  double pressure_factor(double pascals) const {
+    const actuator::Actuator a = robot::actuator_of(muscle_, e_.actuators);
+    return 6.0 * muscle_.count * actuator::braid_factor(a.braid) * pull_.arm * pull_.arm /
+           counts_per_metre_ * pascals / stiffness_unit;
   }
 
   // [26] and [30] in counts of gauge pressure.
@@ -98,9 +113,7 @@ class MuscleSide {
     const double pascals = 1.0 / (e_.robot.converter.counts_per_volt() * from.assumed_scale);
     c.pressure = channel(s);
     c.pressure_at_zero = static_cast<std::int32_t>(std::lround(from.assumed_at_rest));
-    c.pressure_factor =
-        static_cast<float>(6.0 * muscle_.count * actuator::braid_factor(a.braid) * pull_.arm *
-                           pull_.arm / counts_per_metre_ * pascals / stiffness_unit);
+    c.pressure_factor = static_cast<float>(pressure_factor(pascals));
     const actuator::Effectiveness& e = a.effectiveness;
     // As a polynomial of gauge pressure, whichever it is fitted to.
     const double zero =
@@ -132,6 +145,47 @@ class MuscleSide {
   Pull pull_;
   double counts_per_rad_, counts_per_metre_;
 };
+
+// Where a number does not fit, the sensor's scale or the cam may be wrong as well as the length.
+void MuscleSide::add_misfits(double flexor_torque_per_count, List& out) const {
+  const robot::LowLevel& low = e_.robot.low_level;
+  const std::string muscle = "muscle." + muscle_.name;
+  const std::string angle =
+      "sensor." +
+      sensor(e_.robot, robot::angle_sensor_of(e_.robot, robot::find_joint(e_.robot, joint_.name)))
+          .name;
+  const auto number = [](double x) { return config::format_number(std::round(x)); };
+  const std::string remedy = "another length, " + angle + ".assumed.scale or moment_arm";
+
+  if (!(free_length() < control::max_length + 1.0))
+    out.push_back(
+        {low.assumed_mount_length > 0 ? "low_level.assumed_mount_length" : muscle + ".mount_length",
+         number(free_length()) + " count of " + angle + " at muscle " + muscle_.name,
+         "at most " + std::to_string(control::max_length) + " count", remedy});
+  const double longest = std::sqrt(static_cast<double>(control::max_thread_length_squared));
+  if (!(thread_length() >= 1 && thread_length() < longest))
+    out.push_back({low.assumed_thread_length > 0
+                       ? "low_level.assumed_thread_length"
+                       : "actuator." + muscle_.actuator + ".braid.thread_length",
+                   number(thread_length()) + " count of " + angle + " at muscle " + muscle_.name,
+                   "1 to " + number(longest) + " count", remedy});
+  const int s = robot::tension_sensor_of(e_.robot, index_);
+  const double ratio =
+      flexor_torque_per_count > 0 ? torque_per_count() / flexor_torque_per_count : 1.0;
+  if (s >= 0 && !(ratio <= control::max_tension_ratio))
+    out.push_back({"sensor." + sensor(e_.robot, s).name + ".assumed.scale",
+                   "a count " + number(ratio) + " times as strong as the flexor's",
+                   "at most " + number(control::max_tension_ratio) + " times",
+                   "the scales of both muscles' transducers"});
+  if (const int p = robot::pressure_sensor_of(e_.robot, index_); p >= 0) {
+    const double pascals =
+        1.0 / (e_.robot.converter.counts_per_volt() * sensor(e_.robot, p).assumed_scale);
+    if (!(pressure_factor(pascals) <= control::max_pressure_factor))
+      out.push_back({"sensor." + sensor(e_.robot, p).name + ".assumed.scale",
+                     "a count of " + number(pascals) + " Pa", "a finer one",
+                     "what the transducer gives for one Pa"});
+  }
+}
 
 control::JointKind kind_of(const Experiment& e, const std::vector<int>& muscles) {
   for (const int m : muscles)
@@ -281,6 +335,38 @@ void set_scan(const robot::Robot& robot, control::SpineConfig& c) {
 // The thesis's interrupt comes a hundred times in a period, whatever the period (5.2).
 bool laws_overrun(const robot::Robot& robot) {
   return robot.low_level.interrupt_time > period_of(robot) / 100.0 * (1.0 + 1e-9);
+}
+
+std::vector<robot::Contradiction> misfits(const Experiment& e) {
+  const robot::Robot& robot = e.robot;
+  List out;
+  const int joints = static_cast<int>(robot.joints.size());
+  for (int j = 0; j < joints; ++j) {
+    const robot::Joint& joint = robot.joints[static_cast<std::size_t>(j)];
+    if (joint.kind == robot::Joint::Kind::passive) continue;
+    const int flexor = robot::muscle_of(robot, j, Role::flexor);
+    const int extensor = robot::muscle_of(robot, j, Role::extensor);
+    const double torque = MuscleSide(e, j, flexor >= 0 ? flexor : extensor).torque_per_count();
+    for (const int m : {flexor, extensor})
+      if (m >= 0) MuscleSide(e, j, m).add_misfits(torque, out);
+    const double clamp = robot.low_level.stiffness_pole_clamp *
+                         sensor(robot, robot::angle_sensor_of(robot, j)).assumed_scale;
+    if (!(std::abs(clamp) <= control::max_length))
+      out.push_back({"low_level.stiffness_pole_clamp",
+                     config::format_number(std::round(clamp)) + " count of joint " + joint.name,
+                     "within " + std::to_string(control::max_length) + " count of 0",
+                     "a smaller one, or the sensor's assumed.scale"});
+  }
+  if (robot.low_level.output_delay > robot.low_level.pwm_ticks)
+    out.push_back({"low_level.output_delay", std::to_string(robot.low_level.output_delay),
+                   "at most pwm_ticks, " + std::to_string(robot.low_level.pwm_ticks), "1"});
+  if (!out.empty()) return out;
+  try {
+    (void)spine_config(e);
+  } catch (const std::invalid_argument& refused) {
+    out.push_back({"low_level", refused.what(), "what the low level can work with", ""});
+  }
+  return out;
 }
 
 control::SpineConfig spine_config(const Experiment& e) {

@@ -1,6 +1,8 @@
 // experiment/spinal.h - a robot's description turned into the low level's constants, in its counts.
 #pragma once
 
+#include <vector>
+
 #include "sinew/control/joint/config.h"
 #include "sinew/experiment/experiment.h"
 
@@ -13,6 +15,10 @@ inline bool has_cylinder_joint(const robot::Robot& robot) {
 
 // Does an interrupt that runs a law take longer than the thesis's program has for it (5.2)?
 bool laws_overrun(const robot::Robot& robot);
+
+// What does not fit into the low level's numbers, by the keys that it comes from. Of a robot
+// without other contradictions.
+std::vector<robot::Contradiction> misfits(const Experiment& experiment);
 
 // Throws std::invalid_argument where the low level cannot be built so (control::problem).
 control::SpineConfig spine_config(const Experiment& experiment);

@@ -26,7 +26,8 @@ void fields(Visitor& v, Flow& flow) {
   v.number({.name = "efficiency",
             .unit = "1",
             .min = 0,
-            .max = 2,
+            .max = 1,
+            .why = "a share of the ideal flow",
             .optional = true,
             .doc = "orifice: times the flow, 3.4"},
            flow.efficiency);
@@ -162,6 +163,8 @@ void limit_fields(Visitor& v, Valve& valve) {
   v.number({.name = "max_frequency",
             .unit = "Hz",
             .min = 0,
+            .least = 1e-3,
+            .why = "a shutter that takes longer than a run never moves",
             .optional = true,
             .doc = "of a square wave that the shutter follows; 0: any, 4.3"},
            valve.max_frequency);
@@ -188,6 +191,8 @@ void regulator_fields(Visitor& v, Valve& valve) {
               .unit = "s",
               .min = 0,
               .max = 10,
+              .least = 1e-5,
+              .why = "what takes less than 10 us comes at once",
               .optional = true,
               .doc = "of the outlet's pressure; 0: at once"},
              r.time_constant);

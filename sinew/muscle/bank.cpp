@@ -7,6 +7,7 @@
 #include "sinew/actuator/loss.h"
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
+#include "sinew/muscle/failure.h"
 
 // Lanes of four doubles where the machine has them; the same operations, so the same bits. The
 // sanitizers start before the loader could choose, and what Clang 14 makes of it has a name that no
@@ -149,10 +150,12 @@ double Bank::exact_y(double density) const noexcept {
   return units::power(density * inverse_reference_density_, air_.polytropic_exponent / 7.0);
 }
 
-void Bank::follow(const Lanes& drift) noexcept {
+int Bank::follow(const Lanes& drift) noexcept {
+  int failed = -1;
   for (int i = 0; i < size_; ++i) {
-    if (drift[i] < rebase_at && drift[i] > -rebase_at) continue;
+    if (drift[i] < rebase_at && drift[i] > -rebase_at) continue;  // what is no number goes on
     const double sigma = (drift[i] + 1.0) / inverse_sigma_[i];
+    if (!is_density(sigma) && failed < 0) failed = i;
     y_reference_[i] = exact_y(sigma);
     inverse_sigma_[i] = 1.0 / sigma;
   }
@@ -160,6 +163,7 @@ void Bank::follow(const Lanes& drift) noexcept {
     y_reference_[i] = y_reference_[size_ - 1];
     inverse_sigma_[i] = inverse_sigma_[size_ - 1];
   }
+  return failed;
 }
 
 // [31]-[34] and [40] in lanes. actuator/tension.h and loss.h have the same laws in words, and a

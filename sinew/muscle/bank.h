@@ -78,8 +78,9 @@ class Bank {
     if (next_change_ <= t) move_valves(t);
   }
 
-  // At a node, after its evaluation: the pressure's reference follows where it has drifted.
-  void follow(const Lanes& drift) noexcept;
+  // At a node, after its evaluation: the pressure's reference follows where it has drifted. Answers
+  // the first muscle whose density is none, or -1.
+  int follow(const Lanes& drift) noexcept;
 
   // The law itself. Pure between two nodes; t matters only to valves that ramp.
   void evaluate(double t, const Lanes& length, const Lanes& rate, const Lanes& mass,

@@ -111,6 +111,8 @@ void fields(Visitor& v, Cylinder& c) {
   v.number({.name = "body_mass",
             .unit = "kg",
             .min = 0,
+            .least = 1e-9,
+            .why = "a body that moves weighs a microgram",
             .doc = "moves up and down beside links and foot; part of the total mass"},
            c.body_mass);
   v.number({.name = "friction", .unit = "N", .min = 0, .doc = "of piston and bearings, dry"},
@@ -131,11 +133,19 @@ template <class Visitor>
 void fields(Visitor& v, Link& link) {
   v.number({.name = "length", .unit = "m", .min = 1e-3, .doc = "joint to joint, or joint to foot"},
            link.length);
-  v.number({.name = "mass", .unit = "kg", .min = 0, .doc = "without what is named elsewhere"},
+  v.number({.name = "mass",
+            .unit = "kg",
+            .min = 1e-9,
+            .why = "a link has a mass, a cricket's too",
+            .doc = "without what is named elsewhere"},
            link.mass);
   v.number({.name = "center_of_mass", .unit = "m", .min = 0, .doc = "from the proximal joint"},
            link.center_of_mass);
-  v.number({.name = "inertia", .unit = "kg m2", .min = 0, .doc = "about the centre of mass"},
+  v.number({.name = "inertia",
+            .unit = "kg m2",
+            .min = 1e-16,
+            .why = "a link has an inertia, a cricket's too",
+            .doc = "about the centre of mass"},
            link.inertia);
 }
 

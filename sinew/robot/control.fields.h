@@ -16,6 +16,8 @@ void observer_fields(Visitor& v, Velocity& velocity) {
   v.number({.name = "inertia",
             .unit = "kg m2",
             .min = 0,
+            .least = 1e-16,
+            .why = "a link has an inertia, a cricket's too",
             .optional = true,
             .doc = "observers: of everything that turns with the joint"},
            velocity.inertia);

@@ -107,6 +107,8 @@ void fields(Visitor& v, Hose& hose) {
   v.number({.name = "volume",
             .unit = "m3",
             .min = 0,
+            .least = 1e-12,
+            .why = "a chamber holds air",
             .optional = true,
             .doc = "of its air, as a chamber between valves and muscle; 0: none"},
            hose.volume);

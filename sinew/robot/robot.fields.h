@@ -9,6 +9,7 @@
 #include "sinew/robot/muscle.fields.h"
 #include "sinew/robot/robot.h"
 #include "sinew/robot/sensor.fields.h"
+#include "sinew/units/complain.h"
 #include "sinew/units/field.h"
 
 namespace sinew::robot {
@@ -23,15 +24,25 @@ void stiffness_fields(Visitor& v, LowLevel& low) {
        .max = 0.7,
        .doc = "nearer to the pole of [27] the last stiffness is held; -800 deg: never, as in B.1"},
       low.stiffness_pole_clamp);
+  constexpr double never = -12;  // [rad]: no muscle gets as far beyond its pole
+  if (low.stiffness_pole_clamp < 0 && low.stiffness_pole_clamp > never)
+    units::complain(v, "stiffness_pole_clamp", "a distance below 0",
+                    "at least 0 deg, or -800 deg for never", "\"10 deg\"");
   v.number({.name = "assumed_thread_length",
             .unit = "m",
             .min = 0,
+            .max = 10,
+            .least = 1e-4,
+            .why = "a braid from a cricket's size to an elephant's",
             .optional = true,
             .doc = "b in the stiffness law; 0: the actuator's"},
            low.assumed_thread_length);
   v.number({.name = "assumed_mount_length",
             .unit = "m",
             .min = 0,
+            .max = 10,
+            .least = 1e-4,
+            .why = "a braid from a cricket's size to an elephant's",
             .optional = true,
             .doc = "free length in the stiffness law; 0: the muscle's"},
            low.assumed_mount_length);
@@ -39,6 +50,9 @@ void stiffness_fields(Visitor& v, LowLevel& low) {
       {.name = "stiffness_factor",
        .unit = "1",
        .min = 0,
+       .max = 1e6,
+       .least = 1e-6,
+       .why = "5.5 for the leg",
        .optional = true,
        .doc = "tension counts/length counts to lbf in/rad, 5.5 in B.1; 0: from the assumed scales"},
       low.stiffness_factor);
@@ -67,6 +81,8 @@ void fields(Visitor& v, LowLevel& low) {
   v.number({.name = "vent_time",
             .unit = "s",
             .min = 0,
+            .max = 3600,
+            .why = "a run does not take hours",
             .optional = true,
             .doc = "exhausts open at the end, then shut"},
            low.vent_time);
@@ -102,7 +118,13 @@ void fields(Visitor& v, LowLevel& low) {
 template <class Visitor>
 void fields(Visitor& v, Robot& robot) {
   v.text({.name = "robot_name", .doc = "`name` in the file of the robot"}, robot.name);
-  v.number({.name = "gravity", .unit = "m/s2", .min = 0, .optional = true, .doc = "downwards"},
+  v.number({.name = "gravity",
+            .unit = "m/s2",
+            .min = 0,
+            .max = 100,
+            .why = "Jupiter has 25 m/s2",
+            .optional = true,
+            .doc = "downwards"},
            robot.gravity);
 
   v.group(

@@ -1,6 +1,8 @@
 // robot/sensor.fields.h - the keys of the converter and of the sensors before it.
 #pragma once
 
+#include <string_view>
+
 #include "sinew/robot/robot.h"
 #include "sinew/units/field.h"
 
@@ -13,19 +15,32 @@ void fields(Visitor& v, Converter& converter) {
            converter.full_scale);
 }
 
+// What a sensor gives for what it measures, or the other way round. Wired the other way it would
+// tell the laws that a joint moves against them.
+template <class Visitor>
+void scale_field(Visitor& v, std::string_view unit, double least, std::string_view doc,
+                 double& value) {
+  v.number({.name = "scale",
+            .unit = unit,
+            .min = least,
+            .why = "a sensor's reading rises with what it measures",
+            .doc = doc},
+           value);
+}
+
 // What a sensor really does. The unit of `scale` follows its kind.
 template <class Visitor>
 void real_fields(Visitor& v, Sensor& sensor) {
   if (sensor.kind == Sensor::Kind::angle)
-    v.number({.name = "scale", .unit = "rad/V", .doc = "of the potentiometer"}, sensor.scale);
+    scale_field(v, "rad/V", 1e-6, "of the potentiometer", sensor.scale);
   if (sensor.kind == Sensor::Kind::tension)
-    v.number({.name = "scale", .unit = "V/N", .doc = "of the transducer"}, sensor.scale);
+    scale_field(v, "V/N", 1e-9, "of the transducer", sensor.scale);
   if (sensor.kind == Sensor::Kind::pressure)
-    v.number({.name = "scale", .unit = "V/Pa", .doc = "of the transducer"}, sensor.scale);
+    scale_field(v, "V/Pa", 1e-12, "of the transducer", sensor.scale);
   if (sensor.kind == Sensor::Kind::velocity)
-    v.number({.name = "scale", .unit = "V s/rad", .doc = "of the spindle"}, sensor.scale);
+    scale_field(v, "V s/rad", 1e-9, "of the spindle", sensor.scale);
   if (sensor.kind == Sensor::Kind::cylinder)
-    v.number({.name = "scale", .unit = "m/V", .doc = "of the potentiometer"}, sensor.scale);
+    scale_field(v, "m/V", 1e-9, "of the potentiometer", sensor.scale);
   v.number({.name = "at_rest",
             .unit = "count",
             .min = 0,
@@ -41,17 +56,15 @@ void real_fields(Visitor& v, Sensor& sensor) {
 template <class Visitor>
 void assumed_fields(Visitor& v, Sensor& sensor) {
   if (sensor.kind == Sensor::Kind::angle)
-    v.number({.name = "scale", .unit = "count/rad", .doc = "767 in B.1, 714 by 4.5"},
-             sensor.assumed_scale);
+    scale_field(v, "count/rad", 1e-3, "767 in B.1, 714 by 4.5", sensor.assumed_scale);
   if (sensor.kind == Sensor::Kind::tension)
-    v.number({.name = "scale", .unit = "V/N", .doc = "one for all transducers in B.1"},
-             sensor.assumed_scale);
+    scale_field(v, "V/N", 1e-9, "one for all transducers in B.1", sensor.assumed_scale);
   if (sensor.kind == Sensor::Kind::pressure)
-    v.number({.name = "scale", .unit = "V/Pa", .doc = "of the transducer"}, sensor.assumed_scale);
+    scale_field(v, "V/Pa", 1e-12, "of the transducer", sensor.assumed_scale);
   if (sensor.kind == Sensor::Kind::velocity)
-    v.number({.name = "scale", .unit = "V s/rad", .doc = "of the spindle"}, sensor.assumed_scale);
+    scale_field(v, "V s/rad", 1e-9, "of the spindle", sensor.assumed_scale);
   if (sensor.kind == Sensor::Kind::cylinder)
-    v.number({.name = "scale", .unit = "count/m", .doc = "of its travel"}, sensor.assumed_scale);
+    scale_field(v, "count/m", 1e-3, "of its travel", sensor.assumed_scale);
   v.number({.name = "at_rest",
             .unit = "count",
             .min = 0,

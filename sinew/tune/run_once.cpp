@@ -2,7 +2,6 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/experiment/run.h"
-#include "sinew/experiment/supervision.h"
 #include "sinew/tune/sweep.h"
 
 namespace sinew::tune {
@@ -16,11 +15,7 @@ std::string first_problem(const config::Error& e) {
 }
 
 std::string status_of(const experiment::Experiment& e, const experiment::Outcome& outcome) {
-  const std::string tripped = experiment::to_text(outcome.supervised.trip, e);
-  if (!tripped.empty()) return "ended by " + tripped;
-  const bool ended =
-      outcome.status != signals::Status::ok || outcome.seen.fault != signals::Status::ok;
-  if (ended) return fmt::format("ended early, at {:.4f} s", outcome.duration);
+  if (outcome.ended_early()) return "ended early: " + cause_of(e, outcome);
   if (!outcome.table.complete) return "more valve edges than there was room for";
   return "ok";
 }

@@ -38,8 +38,10 @@ struct Field {
   std::string_view name;  // key in the file
   // SI; "Pa abs", "Pa gauge" or "Pa diff" for a pressure; "1" for a bare number.
   std::string_view unit = "";
-  double min = -unbounded;  // inclusive, in `unit`
+  double min = -unbounded;  // inclusive, in `unit`; beyond them units/ranges.h holds for the unit
   double max = unbounded;
+  double least = 0;           // of what is not 0: 0 is "none", what is nearly 0 is a slip
+  std::string_view why = "";  // of min, max and least, for messages: "an efficiency is a share"
   bool optional = false;      // absent: the struct's default stays
   std::string_view doc = "";  // one line
 };

@@ -21,7 +21,7 @@ TEST(Faults, ABrokenPotentiometerEndsTheRunAndIsNamed) {
   const Result r = w.sinew({"run", broken, "-o", "run"});
   EXPECT_EQ(r.code, 1);
   EXPECT_THAT(r.err,
-              AllOf(HasSubstr("the run was ended by sensor hip_angle at 5.0203 s: 4095 "
+              AllOf(HasSubstr("the run was ended: sensor hip_angle at 5.0203 s: 4095 "
                               "count three times in a row, outside its plausible "),
                     HasSubstr("all muscles were vented"), HasSubstr("hip_angle: "),
                     HasSubstr("readings were not believed"), Not(HasSubstr("plant_steps.body"))));

@@ -78,7 +78,7 @@ TEST_F(Overwrite, AFaultLeavesTheOldRunAndSaysWhereTheNewOneIs) {
       run(w, {"run", "experiments/walk-test-1.toml", "-o", writer.target, "--force", "--set",
               "plant_steps.body=5 ms", "--set", "ground.normal_stiffness=1e9 N/m"});
   EXPECT_EQ(fault.code, 1);
-  EXPECT_THAT(fault.output, AllOf(HasSubstr("the run was ended by"),
+  EXPECT_THAT(fault.output, AllOf(HasSubstr("the run was ended: "),
                                   HasSubstr("out/run: holds what was there before"),
                                   HasSubstr("out/run/unfinished")));
   EXPECT_EQ(difference(state(w / writer.target), results.old), "");

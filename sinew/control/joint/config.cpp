@@ -3,8 +3,6 @@
 namespace sinew::control {
 namespace {
 
-constexpr std::int32_t max_length = 20'000;  // [count]; 3 L^2 fits 32 bits, L a float
-
 bool read_at(const SpineConfig& config, std::uint16_t tick) noexcept {
   for (std::size_t i = 0; i < config.conversions; ++i)
     if (config.conversion[i].read == tick) return true;
@@ -40,12 +38,12 @@ bool has_exhaust(JointKind kind) noexcept {
 
 const char* problem_of_muscle(const MuscleConfig& muscle, JointKind kind) noexcept {
   if (muscle.free_length < 0 || muscle.free_length > max_length) return "free_length out of range";
-  if (muscle.thread_length_squared <= 0 || muscle.thread_length_squared >= 1 << 30)
+  if (muscle.thread_length_squared <= 0 || muscle.thread_length_squared > max_thread_length_squared)
     return "thread_length_squared out of range";
   if (!(muscle.share >= 0 && muscle.share <= 1)) return "a muscle's share must be 0 to 1";
-  if (!within(muscle.other_travel, 100)) return "other_travel out of range";
-  if (!within(muscle.tension_ratio, 1000)) return "tension_ratio out of range";
-  if (!within(muscle.pressure_factor, 1)) return "pressure_factor out of range";
+  if (!within(muscle.other_travel, max_other_travel)) return "other_travel out of range";
+  if (!within(muscle.tension_ratio, max_tension_ratio)) return "tension_ratio out of range";
+  if (!within(muscle.pressure_factor, max_pressure_factor)) return "pressure_factor out of range";
   if (muscle.exhaust_inverted && !has_exhaust(kind)) return "no exhaust that could be inverted";
   return nullptr;
 }

@@ -22,6 +22,11 @@ namespace sinew::control {
 inline constexpr std::size_t max_conversions = 32;
 inline constexpr std::size_t max_channels = 32;
 
+// Lengths and angles in counts stay within it: 3 L^2 fits 32 bits, L a float  [count].
+inline constexpr std::int32_t max_length = 20'000;
+inline constexpr float max_tension_ratio = 1000, max_other_travel = 100, max_pressure_factor = 1;
+inline constexpr std::int32_t max_thread_length_squared = (1 << 30) - 1;  // [count^2]
+
 enum class JointKind : std::uint8_t {
   antagonist,  // two muscles, the laws [54]-[60]
   cylinder,    // an air cylinder with feedforward duties, appendix B's joint 0

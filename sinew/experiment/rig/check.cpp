@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "sinew/actuator/body.h"
+#include "sinew/config/quantity.h"
 #include "sinew/plant/rig/stand.h"
 
 namespace sinew::rig {
@@ -47,6 +49,8 @@ class Findings {
   const Experiment& e_;
   std::vector<config::Problem> problems_;
 };
+
+std::string inches(double metres) { return config::format_quantity(metres, "m", "in"); }
 
 bool whole_ticks(double seconds) {
   const double ticks = seconds / signals::tick_seconds;
@@ -120,6 +124,35 @@ void check_load(const Experiment& e, Findings& out) {
   out.unused(regulated && e.start_pressure > 0, "start.pressure", "a charge that is not regulated");
 }
 
+// A length at which the chamber holds no air has no pressure.
+void check_volumes(const Experiment& e, Findings& out) {
+  const auto check = [&](const std::string& key, double length) {
+    for (const actuator::Actuator& a : e.actuators) {
+      if (a.name != e.element.actuator) continue;
+      if (length > a.caps.length && actuator::volume(a, length) + e.element.external_volume > 0)
+        continue;
+      out.add(key, "a chamber without volume: the muscle is " + inches(length) + " long",
+              "above " + inches(a.caps.length) + " and below the thread's " +
+                  inches(a.braid.thread_length),
+              "an element.external_volume above 0 where it is longer");
+    }
+  };
+  if (e.element.cylinder.bore > 0) return;
+  if (e.load.length > 0) check("load.length", e.load.length);
+  for (std::size_t i = 0; i < e.load.lengths.size(); ++i)
+    check("load.lengths[" + std::to_string(i) + "].length", e.load.lengths[i].value);
+  if (e.start_length > 0) check("start.length", e.start_length);
+}
+
+// More memory than there is, for a slip of the pen.
+void check_size(const Experiment& e, Findings& out) {
+  constexpr double most = 2'000'000;  // samples
+  const double period = e.sweep.step > 0 ? e.duration : e.log.period;
+  if (e.duration > most * period)
+    out.add("log.period", config::format_number(e.duration / period) + " samples",
+            "at most 2000000", "a longer period");
+}
+
 void check_law(const Experiment& e, Findings& out) {
   const Drive& d = e.drive;
   const bool law = d.kind == Kind::feed_forward || d.kind == Kind::feedback;
@@ -181,6 +214,8 @@ void refuse_contradictions(const Experiment& e) {
   check_valves(e, out);
   check_load(e, out);
   check_drive(e, out);
+  check_size(e, out);
+  check_volumes(e, out);
   if (out.none()) check_plant(e, out);
   out.refuse();
 }

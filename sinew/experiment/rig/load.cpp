@@ -79,7 +79,10 @@ plant::StandSetup setup_of(const Experiment& e) {
 }
 
 Experiment load(const std::string& path, const std::vector<std::string>& sets) {
-  const config::Node root = config::compose(path, sets);
+  return load(config::compose(path, sets), path);
+}
+
+Experiment load(const config::Node& root, const std::string& path) {
   const std::string kind(config::format_kind(root));
   if (kind != "rig")
     config::fail({path, 0, 0}, "format", config::in_quotes(kind), "\"sinew.rig/1\"",

@@ -23,13 +23,28 @@ void amount(Visitor& v, std::string_view name, std::string_view unit, double min
   v.number({.name = name, .unit = unit, .min = min, .optional = true, .doc = doc}, value);
 }
 
-// [{ at = "1 s", <what> = "…" }, …]
+// The same, of something that is there: 0 where there is none, else at least so much.
 template <class Visitor>
-void points(Visitor& v, std::string_view name, std::string_view what, std::string_view unit,
-            std::string_view doc, std::vector<plant::Point>& list) {
+void size(Visitor& v, std::string_view name, std::string_view unit, double least,
+          std::string_view why, std::string_view doc, double& value) {
+  v.number({.name = name,
+            .unit = unit,
+            .min = 0,
+            .least = least,
+            .why = why,
+            .optional = true,
+            .doc = doc},
+           value);
+}
+
+// [{ at = "1 s", <what.name> = "…" }, …]; `what` says what is there.
+template <class Visitor>
+void points(Visitor& v, std::string_view name, units::Field what, std::string_view doc,
+            std::vector<plant::Point>& list) {
+  what.doc = "there";
   v.list({.name = name, .optional = true, .doc = doc}, list, [&](auto& g, plant::Point& p) {
     g.number({.name = "at", .unit = "s", .min = 0, .doc = "instant"}, p.at);
-    g.number({.name = what, .unit = unit, .doc = "there"}, p.value);
+    g.number(what, p.value);
   });
   for (std::size_t i = 1; i < list.size(); ++i)
     if (list[i].at < list[i - 1].at)
@@ -38,10 +53,11 @@ void points(Visitor& v, std::string_view name, std::string_view what, std::strin
 
 template <class Visitor>
 void fields(Visitor& v, Element::Cylinder& c) {
-  amount(v, "bore", "m", 0, "diameter of the piston", c.bore);
+  constexpr std::string_view why = "a cylinder that can be seen";
+  size(v, "bore", "m", 1e-5, why, "diameter of the piston", c.bore);
   amount(v, "rod_diameter", "m", 0, "", c.rod_diameter);
-  amount(v, "stroke", "m", 0, "", c.stroke);
-  amount(v, "dead_volume", "m3", 0, "of the rod's side, with hoses", c.dead_volume);
+  size(v, "stroke", "m", 1e-5, why, "", c.stroke);
+  size(v, "dead_volume", "m3", 1e-15, why, "of the rod's side, with hoses", c.dead_volume);
 }
 
 template <class Visitor>
@@ -68,12 +84,17 @@ void fields(Visitor& v, Load& load) {
   using Mode = plant::Load::Mode;
   v.choice({.name = "mode", .doc = "hanging: a mass [36]; driven: the length is prescribed"},
            load.mode, {{"hanging", Mode::hanging}, {"driven", Mode::driven}});
-  amount(v, "mass", "kg", 0, "hanging", load.mass);
-  points(v, "weights", "mass", "kg", "hanging: what hangs from an instant on", load.weights);
+  constexpr double least_mass = 1e-9, least_length = 1e-4;
+  constexpr std::string_view mass = "what hangs weighs a microgram";
+  constexpr std::string_view length = "a muscle that can be seen";
+  size(v, "mass", "kg", least_mass, mass, "hanging", load.mass);
+  points(v, "weights", {.name = "mass", .unit = "kg", .min = least_mass, .why = mass},
+         "hanging: what hangs from an instant on", load.weights);
   amount(v, "force", "N", -1e6, "hanging: on the mass beside its weight, down > 0", load.force);
-  points(v, "forces", "force", "N", "hanging: the same over time", load.forces);
-  amount(v, "length", "m", 0, "driven", load.length);
-  points(v, "lengths", "length", "m", "driven: over time", load.lengths);
+  points(v, "forces", {.name = "force", .unit = "N"}, "hanging: the same over time", load.forces);
+  size(v, "length", "m", least_length, length, "driven", load.length);
+  points(v, "lengths", {.name = "length", .unit = "m", .min = least_length, .why = length},
+         "driven: over time", load.lengths);
 }
 
 template <class Visitor>
@@ -81,14 +102,19 @@ void fields(Visitor& v, Charge& charge) {
   using Mode = plant::Charge::Mode;
   v.choice({.name = "mode", .doc = "sealed from the start on, by the valves, or held"}, charge.mode,
            {{"sealed", Mode::sealed}, {"valves", Mode::valves}, {"regulated", Mode::regulated}});
-  amount(v, "pressure", "Pa abs", 0, "regulated", charge.pressure);
-  points(v, "pressures", "pressure", "Pa abs", "regulated: over time", charge.pressures);
+  constexpr double least = 1e3;
+  constexpr std::string_view why = "air of a muscle, no vacuum";
+  size(v, "pressure", "Pa abs", least, why, "regulated", charge.pressure);
+  points(v, "pressures", {.name = "pressure", .unit = "Pa abs", .min = least, .why = why},
+         "regulated: over time", charge.pressures);
 }
 
 template <class Visitor>
 void law_fields(Visitor& v, Drive& d) {
   amount(v, "desired", "m", 0, "feed-forward, feedback: length", d.desired);
-  points(v, "lengths", "length", "m", "feed-forward, feedback: desired over time", d.lengths);
+  points(v, "lengths",
+         {.name = "length", .unit = "m", .min = 0, .why = "no muscle is shorter than nothing"},
+         "feed-forward, feedback: desired over time", d.lengths);
   amount(v, "believed_load", "N", 0, "feed-forward: what hangs on the element", d.believed_load);
   v.choice({.name = "law", .optional = true, .doc = "feedback"}, d.law,
            {{"on-off", Drive::Law::on_off}, {"proportional", Drive::Law::proportional}});
@@ -115,7 +141,9 @@ void fields(Visitor& v, Drive& d) {
            d.period);
   v.number({.name = "duty", .unit = "1", .min = 0, .max = 1, .optional = true, .doc = "pwm"},
            d.duty);
-  points(v, "duties", "duty", "1", "pwm: from an instant on", d.duties);
+  points(v, "duties",
+         {.name = "duty", .unit = "1", .min = 0, .max = 1, .why = "a share of the period"},
+         "pwm: from an instant on", d.duties);
   v.list({.name = "pulses", .optional = true, .doc = "single ones"}, d.pulses,
          [](auto& g, Drive::Pulse& p) {
            g.number({.name = "at", .unit = "s", .min = 0, .doc = "edge of the coil"}, p.at);
@@ -154,10 +182,13 @@ void start_fields(Visitor& v, Experiment& e) {
             .unit = "Pa abs",
             .min = 0,
             .max = 2e6,
+            .least = 1e3,
+            .why = "air of a muscle, no vacuum",
             .optional = true,
             .doc = "of the air"},
            e.start_pressure);
-  amount(v, "length", "m", 0, "0: where the load hangs", e.start_length);
+  size(v, "length", "m", 1e-4, "a muscle that can be seen", "0: where the load hangs",
+       e.start_length);
   v.number({.name = "displacement",
             .unit = "m",
             .optional = true,
@@ -172,12 +203,20 @@ void fields(Visitor& v, Sweep& s) {
   };
   share("from", "first duty", s.from);
   share("to", "last duty", s.to);
-  share("step", "between them", s.step);
+  v.number({.name = "step",
+            .unit = "1",
+            .min = 0,
+            .max = 1,
+            .least = 1e-4,
+            .why = "each step is a run of its own",
+            .doc = "between them"},
+           s.step);
 }
 
 template <class Visitor>
 void fields(Visitor& v, Measured& m) {
-  amount(v, "period", "s", 0, "between rows of measured.csv; 0: that of the log", m.period);
+  size(v, "period", "s", 1e-4, "a tick", "between rows of measured.csv; 0: that of the log",
+       m.period);
   amount(v, "from", "s", 0, "the first row", m.from);
 }
 

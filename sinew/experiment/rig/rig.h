@@ -119,6 +119,9 @@ struct Experiment {
 // wrong.
 Experiment load(const std::string& path, const std::vector<std::string>& sets = {});
 
+// The same from a tree that is composed already.
+Experiment load(const config::Node& root, const std::string& path);
+
 // Points as steps: each value holds from its instant on.
 std::vector<plant::Point> steps_of(const std::vector<plant::Point>& points);
 

@@ -54,6 +54,41 @@ TEST(RigFiles, ResolvedOnesRunAgainWithTheSameBits) {
   }
 }
 
+// At each length that is prescribed there must be air.
+TEST(RigFiles, ALengthWithoutVolumeIsRefusedByItsKey) {
+  const auto refusal = [](const std::vector<std::string>& sets) -> std::string {
+    try {
+      load(folder + "length-sweep.toml", sets);
+    } catch (const config::Error& e) {
+      return e.what();
+    }
+    return "none";
+  };
+  const std::string lengths =
+      R"(load.lengths=[{at="0 s",length="3 in"},{at="20 s",length="4.3 in"}])";
+  EXPECT_EQ(refusal({lengths}), "none");
+  const std::string text = refusal({lengths, "element.external_volume=0 m3"});
+  EXPECT_NE(text.find("load.lengths[1].length: found a chamber without volume"), text.npos) << text;
+  EXPECT_NE(
+      refusal({"log.period=0.1 ms", "duration=1e5 s"}).find("log.period: found 1e+09 samples"),
+      std::string::npos);
+}
+
+// What load() would have refused: the run ends with the element, the time and the cause.
+TEST(RigRun, AirThatVanishesEndsTheRun) {
+  Experiment e = load(folder + "length-sweep.toml");
+  e.element.external_volume = 0;
+  e.load.lengths = {{0, 0.09}, {1, 0.2}};
+  e.duration = 3;
+  const Outcome out = run(e);
+  ASSERT_EQ(out.failure.of, muscle::Failure::Of::air);
+  EXPECT_GT(out.failure.time, 0.1);
+  EXPECT_LT(out.failure.time, 1);
+  const std::string cause = cause_of(e, out);
+  EXPECT_NE(cause.find("the air of element "), cause.npos) << cause;
+  EXPECT_NE(cause.find("try an external_volume above 0"), cause.npos) << cause;
+}
+
 TEST(RigRun, EveryTickVisitedIsTheSameRun) {
   for (const char* name : {"feedback.toml", "pwm-25hz-5lb.toml", "pressure-steps.toml"}) {
     Experiment e = load(folder + name);

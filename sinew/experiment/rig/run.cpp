@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "sinew/experiment/clock.h"
+#include "sinew/experiment/failure.h"
 #include "sinew/experiment/loop.h"
 #include "sinew/experiment/rig/recorder.h"
 
@@ -60,7 +61,8 @@ Settled settled(Experiment e, double duty) {
           .length = watch.sum.length / n,
           .ripple = watch.longest - watch.shortest,
           .pressure = watch.sum.pressure / n,
-          .force = watch.sum.force / n};
+          .force = watch.sum.force / n,
+          .failure = stand.failure()};
 }
 
 signals::Table table_of(const Experiment& e, const std::vector<Settled>& all) {
@@ -120,12 +122,23 @@ std::vector<Settled> sweep(const Experiment& e, int threads) {
   return out;
 }
 
+std::string cause_of(const Experiment& e, const Outcome& outcome) {
+  if (!outcome.failure) return "a fault of a transducer";
+  actuator::Actuator actuator;
+  for (const actuator::Actuator& a : e.actuators)
+    if (a.name == e.element.actuator) actuator = a;
+  return experiment::in_words(outcome.failure, "element " + e.element.name, actuator, "step");
+}
+
 Outcome run(const Experiment& e, const RunOptions& options) {
   const auto before = std::chrono::steady_clock::now();
   Outcome out;
   out.duration = e.duration;
   if (e.sweep.step > 0) {
-    out.table = table_of(e, sweep(e, options.threads));
+    const std::vector<Settled> all = sweep(e, options.threads);
+    for (const Settled& s : all)
+      if (!out.failure) out.failure = s.failure;
+    out.table = table_of(e, all);
   } else {
     const Tick end = last_tick(e);
     plant::Stand stand(setup_of(e));
@@ -135,7 +148,7 @@ Outcome run(const Experiment& e, const RunOptions& options) {
     experiment::SimulatedClock clock;
     out.status = experiment::loop(controller, wishes, stand, clock, recorder, end);
     if (controller.seen().fault != signals::Status::ok) out.status = controller.seen().fault;
-    if (!std::isfinite(stand.truth(e.duration).length)) out.status = signals::Status::fault;
+    out.failure = stand.failure();
     out.table = recorder.take();
     out.nodes = stand.nodes();
   }

@@ -1,10 +1,12 @@
 // experiment/rig/run.h - an experiment on the stand from start to finish.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "sinew/experiment/logged.h"
 #include "sinew/experiment/rig/rig.h"
+#include "sinew/muscle/failure.h"
 #include "sinew/plant/rig/setup.h"
 #include "sinew/signals/port.h"
 #include "sinew/signals/table.h"
@@ -14,10 +16,14 @@ namespace sinew::rig {
 struct Outcome {
   signals::Status status = signals::Status::ok;
   signals::Table table;
+  muscle::Failure failure;  // what of the stand was no number any more
   std::int64_t nodes = 0;
   double duration = 0;  // simulated [s]
   double wall = 0;      // [s]
 };
+
+// Why a run ended early, when, and what to do.
+std::string cause_of(const Experiment& experiment, const Outcome& outcome);
 
 struct RunOptions {
   bool every_tick = false;  // visit each tick: slower, the same bits
@@ -39,6 +45,7 @@ struct Settled {
   double length = 0, ripple = 0;  // mean, greatest less smallest [m]
   double pressure = 0;            // mean, absolute [Pa]
   double force = 0;               // mean [N]
+  muscle::Failure failure;
 };
 std::vector<Settled> sweep(const Experiment& experiment, int threads);
 

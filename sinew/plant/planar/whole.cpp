@@ -15,6 +15,9 @@ constexpr double blocked_bound = 1e9;  // of a joint that is held [N m]
 // with the pose.
 constexpr double longest_rate = 1.5;
 
+// Of a step; beyond them a chamber has vanished, which the next node tells of.
+constexpr double most_pieces = 1e5;
+
 }  // namespace
 
 WholeWorld::WholeWorld(const Setup& setup)
@@ -161,6 +164,7 @@ void WholeWorld::prepare() noexcept {
   glanced_ = false;
   plumbing_.node(time_);
   air(time_, state_, first_);
+  look_for_failure();
   plumbing_.remember(first_.pull, state_.air);
   const Body body(constants_, state_.motion);
   forces(body, state_, first_);
@@ -230,7 +234,8 @@ void WholeWorld::step(double h) noexcept {
 // While nothing flows there is nothing to be quick.
 double WholeWorld::pieces_of(double h, const Look& look) const noexcept {
   const double longest = plumbing_.longest_step(look.length);
-  return h > longest && !plumbing_.quiet() ? std::ceil(h / longest) : 1.0;
+  const double pieces = h > longest && !plumbing_.quiet() ? std::ceil(h / longest) : 1.0;
+  return std::min(pieces, most_pieces);
 }
 
 double WholeWorld::shortest_step() const noexcept {
@@ -265,7 +270,7 @@ double WholeWorld::next_node() const noexcept {
 }
 
 void WholeWorld::advance(double t) noexcept {
-  while (next_node() <= t) commit();
+  while (!failure_ && next_node() <= t) commit();
 }
 
 void WholeWorld::commit() noexcept {
@@ -302,7 +307,7 @@ Motion WholeWorld::peek_motion(const Glance& g, double t) const noexcept {
 auto WholeWorld::peek(const Glance& g, double t) const noexcept -> Peek {
   Peek p{.state = state_, .look = first_};
   const double dt = t - time_;
-  if (dt <= 0) return p;
+  if (dt <= 0 || failure_) return p;
   const double pieces = pieces_of(dt, first_);
   const double h = dt / pieces;
   for (double k = 1; k <= pieces; ++k) {
@@ -344,9 +349,11 @@ Status WholeWorld::start(const signals::Scan& scan) noexcept {
 
 Status WholeWorld::drive(signals::Edge edge) noexcept {
   if (ended_) return Status::ended;
+  if (failure_) return Status::fault;
   if (edge.valve.index >= plumbing_.valves()) return Status::invalid;
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
-  while (next_node() < t) commit();  // later edges act at t or after: these nodes are final
+  while (!failure_ && next_node() < t)
+    commit();  // later edges act at t or after: these nodes are final
   plumbing_.electrical(edge.valve.index, t, edge.open, first_.pull);
   plumbing_.level(edge.valve.index, t, static_cast<double>(edge.level) / signals::max_level);
   return Status::ok;
@@ -376,14 +383,14 @@ signals::Reading WholeWorld::read(signals::Channel channel, signals::Tick now) n
   const double value =
       quantity(channel.index, static_cast<double>(sampled) * signals::tick_seconds);
   // A state that ran away never comes back: every later reading says so too.
-  if (!std::isfinite(value)) return {0, Status::fault};
+  if (failure_ || !std::isfinite(value)) return {0, Status::fault};
   const double hiss = sensor.noise > 0 ? robot::noise(seed_, channel.index, sampled) : 0.0;
   return {counts(sensor, robot_.converter, value, hiss), ended_ ? Status::ended : Status::ok};
 }
 
 Status WholeWorld::stop(signals::Tick) noexcept {
   ended_ = true;  // nothing moves a simulated body after its last tick
-  return Status::ok;
+  return failure_ ? Status::fault : Status::ok;
 }
 
 }  // namespace sinew::plant

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 
+#include "sinew/muscle/failure.h"
 #include "sinew/muscle/plumbing.h"
 #include "sinew/plant/planar/body.h"
 #include "sinew/plant/planar/cords.h"
@@ -45,6 +46,7 @@ class WholeWorld final : public signals::Port {
   double time() const noexcept { return time_; }
   double shortest_step() const noexcept;  // of body and air, where it starts [s]
   std::int64_t nodes() const noexcept { return nodes_; }
+  const muscle::Failure& failure() const noexcept { return failure_; }
   void set_rates(const std::array<double, most_links>& joint_rates, double x_rate,
                  double y_rate) noexcept;
 
@@ -95,6 +97,7 @@ class WholeWorld final : public signals::Port {
              const Look& look) const noexcept;
 
   void prepare() noexcept;  // the look at a new node
+  void look_for_failure() noexcept;
   void step(double h) noexcept;
   double pieces_of(double h, const Look& look) const noexcept;  // of a step
   void piece(double h) noexcept;
@@ -132,6 +135,7 @@ class WholeWorld final : public signals::Port {
   std::array<signals::Tick, 256> lag_{};  // per channel, from the start of a conversion to its read
   std::array<int, 256> source_{};         // per channel, its joint or muscle
   bool ended_ = false;
+  muscle::Failure failure_;
 };
 
 }  // namespace sinew::plant

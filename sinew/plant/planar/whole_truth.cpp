@@ -82,4 +82,21 @@ void WholeWorld::tell_rollers(const Glance& g, const Peek& p, Truth& out) const 
   out.roller_rear = loads.rear;
 }
 
+// Is anything of the look at a node no number?
+void WholeWorld::look_for_failure() noexcept {
+  if (failure_) return;
+  using Of = muscle::Failure::Of;
+  for (int i = 0; i < cords_.count(); ++i)
+    if (!muscle::is_pressure(first_.pull.pressure[i])) {
+      failure_ = {.of = Of::air, .muscle = i, .length = first_.length[i], .time = time_};
+      return;
+    }
+  double places = 0;
+  for (std::size_t c = 0; c < constants_.coordinates(); ++c) places += state_.motion.at[c];
+  if (!muscle::is_place(places)) failure_ = {.of = Of::motion, .time = time_};
+  for (const double p : first_.pull.cylinder_pressure)
+    if (!constants_.held[up] && !(p >= 0 && p < muscle::most_pressure))
+      failure_ = {.of = Of::cylinder, .time = time_};
+}
+
 }  // namespace sinew::plant

@@ -148,7 +148,7 @@ void World<N>::prepare() noexcept {
   strings(state_.pose, first_);
   bank_.node(time_);
   bank_.evaluate(time_, first_.length, first_.rate, state_.mass, first_.pull);
-  bank_.follow(first_.pull.drift);
+  look_for_failure(bank_.follow(first_.pull.drift));
   const Chain<N> chain(chain_, state_.pose);
   forces(chain, state_.pose, first_);
   first_.acceleration = chain.accelerations(first_.force);
@@ -220,7 +220,7 @@ double World<N>::next_node() const noexcept {
 
 template <int N>
 void World<N>::advance(double t) noexcept {
-  while (next_node() <= t) commit();
+  while (!failure_ && next_node() <= t) commit();
 }
 
 template <int N>
@@ -303,9 +303,11 @@ Status World<N>::start(const signals::Scan& scan) noexcept {
 template <int N>
 Status World<N>::drive(signals::Edge edge) noexcept {
   if (ended_) return Status::ended;
+  if (failure_) return Status::fault;
   if (edge.valve.index >= 2 * strings_.count) return Status::invalid;
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
-  while (next_node() < t) commit();  // later edges act at t or after: these nodes are final
+  while (!failure_ && next_node() < t)
+    commit();  // later edges act at t or after: these nodes are final
   bank_.electrical(edge.valve.index, t, edge.open);
   return Status::ok;
 }
@@ -329,7 +331,7 @@ signals::Reading World<N>::read(signals::Channel channel, signals::Tick now) noe
     }
   }
   // A state that ran away never comes back: every later reading says so too.
-  if (!std::isfinite(quantity)) return {0, Status::fault};
+  if (failure_ || !std::isfinite(quantity)) return {0, Status::fault};
   const double hiss = sensor.noise > 0 ? robot::noise(seed_, channel.index, sampled) : 0.0;
   return {counts(sensor, robot_.converter, quantity, hiss), ended_ ? Status::ended : Status::ok};
 }
@@ -337,7 +339,7 @@ signals::Reading World<N>::read(signals::Channel channel, signals::Tick now) noe
 template <int N>
 Status World<N>::stop(signals::Tick) noexcept {
   ended_ = true;  // nothing moves a simulated body after its last tick
-  return Status::ok;
+  return failure_ ? Status::fault : Status::ok;
 }
 
 template <int N>

@@ -13,6 +13,7 @@
 #include <cmath>
 
 #include "sinew/muscle/bank.h"
+#include "sinew/muscle/failure.h"
 #include "sinew/plant/planar/chain.h"
 #include "sinew/plant/planar/contacts.h"
 #include "sinew/plant/planar/layout.h"
@@ -43,6 +44,7 @@ class World final : public signals::Port {
   const ChainConstants<N>& constants() const noexcept { return chain_; }
   double time() const noexcept { return time_; }
   std::int64_t nodes() const noexcept { return nodes_; }
+  const muscle::Failure& failure() const noexcept { return failure_; }
   void set_rates(const std::array<double, N>& joint_rates, double x_rate) noexcept;
 
  private:
@@ -81,6 +83,18 @@ class World final : public signals::Port {
   void look_at(double t, const State& state, const Forces& f, Look& look) const noexcept;
 
   void prepare() noexcept;  // the look at a new node
+
+  // Is the motion at this node no number, or the air of that muscle (-1: none)?
+  void look_for_failure(int muscle) noexcept {
+    double places = state_.pose.x;
+    for (int j = 0; j < N; ++j) places += state_.pose.angle[j];
+    using Of = muscle::Failure::Of;
+    if (muscle < 0 && muscle::is_place(places)) return;
+    if (failure_) return;
+    failure_ = {.of = muscle < 0 ? Of::motion : Of::air, .time = time_};
+    if (muscle >= 0) failure_.muscle = muscle, failure_.length = first_.length[muscle];
+  }
+
   void step(double h) noexcept;
 
   const Glance& glance() noexcept;
@@ -114,6 +128,7 @@ class World final : public signals::Port {
   std::array<signals::Tick, 256> lag_{};  // per channel, from the start of a conversion to its read
   std::array<int, 256> source_{};         // per channel, its joint or muscle
   bool ended_ = false;
+  muscle::Failure failure_;
 };
 
 extern template class World<1>;

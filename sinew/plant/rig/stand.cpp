@@ -256,6 +256,19 @@ void Stand::prepare() noexcept {
   place(time_, o, state_);
   settle(time_, o, state_);
   look(time_, o, state_, first_);
+  look_for_failure();
+}
+
+// Is anything of the look at a node no number?
+void Stand::look_for_failure() noexcept {
+  if (failure_) return;
+  using Of = muscle::Failure::Of;
+  const bool cylinder = setup_.cylinder.has_value();
+  const double p = cylinder ? first_.pull.cylinder_pressure[muscle::up] : first_.pull.pressure[0];
+  if (!muscle::is_pressure(p))
+    failure_ = {.of = cylinder ? Of::cylinder : Of::air, .length = state_.length, .time = time_};
+  else if (!muscle::is_place(state_.length))
+    failure_ = {.of = Of::motion, .length = state_.length, .time = time_};
 }
 
 // The next multiple of the step, or the next change of a valve.
@@ -265,7 +278,7 @@ double Stand::next_node() const noexcept {
 }
 
 void Stand::advance(double t) noexcept {
-  while (next_node() <= t) commit();
+  while (!failure_ && next_node() <= t) commit();
 }
 
 void Stand::commit() noexcept {
@@ -283,7 +296,7 @@ double Stand::air_mass() const noexcept {
 
 StandTruth Stand::truth(double t) noexcept {
   advance(t);
-  const State s = moved(state_, time_, t);
+  const State s = failure_ ? state_ : moved(state_, time_, t);
   const Order o = order(t);
   Look l;
   look(t, o, s, l);
@@ -319,9 +332,11 @@ Status Stand::start(const signals::Scan& scan) noexcept {
 
 Status Stand::drive(signals::Edge edge) noexcept {
   if (ended_) return Status::ended;
+  if (failure_) return Status::fault;
   if (setup_.charge.mode != Charge::Mode::valves || edge.valve.index > 1) return Status::invalid;
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
-  while (next_node() < t) commit();  // later edges act at t or after: these nodes are final
+  while (!failure_ && next_node() < t)
+    commit();  // later edges act at t or after: these nodes are final
   plumbing_.electrical(edge.valve.index, t, edge.open, first_.pull);
   plumbing_.level(edge.valve.index, t, static_cast<double>(edge.level) / signals::max_level);
   return Status::ok;
@@ -350,14 +365,14 @@ signals::Reading Stand::read(signals::Channel channel, signals::Tick now) noexce
   const signals::Tick sampled = now - lag_[channel.index];
   const double value = quantity(t, static_cast<double>(sampled) * signals::tick_seconds);
   // A state that ran away never comes back: every later reading says so too.
-  if (!std::isfinite(value)) return {0, Status::fault};
+  if (failure_ || !std::isfinite(value)) return {0, Status::fault};
   const double hiss = t.noise > 0 ? robot::noise(setup_.seed, channel.index, sampled) : 0.0;
   return {counts(t, value, hiss), ended_ ? Status::ended : Status::ok};
 }
 
 Status Stand::stop(signals::Tick) noexcept {
   ended_ = true;  // nothing moves a simulated body after its last tick
-  return Status::ok;
+  return failure_ ? Status::fault : Status::ok;
 }
 
 }  // namespace sinew::plant

@@ -29,6 +29,7 @@
 #include <array>
 #include <cstdint>
 
+#include "sinew/muscle/failure.h"
 #include "sinew/muscle/plumbing.h"
 #include "sinew/plant/rig/setup.h"
 #include "sinew/signals/port.h"
@@ -57,6 +58,7 @@ class Stand final : public signals::Port {
   void advance(double t) noexcept;
   double time() const noexcept { return time_; }  // of the last node [s]
   std::int64_t nodes() const noexcept { return nodes_; }
+  const muscle::Failure& failure() const noexcept { return failure_; }
   double air_mass() const noexcept;  // in muscle, hose and tank [kg]
 
  private:
@@ -104,6 +106,7 @@ class Stand final : public signals::Port {
   void place(double t, const Order& o, State& s) const noexcept;
   double travel(double length) const noexcept;  // of the cylinder [m]
   void prepare() noexcept;                      // at a new node
+  void look_for_failure() noexcept;
   double next_node() const noexcept;
   void commit() noexcept;
   double quantity(const Transducer& t, double at) noexcept;
@@ -121,6 +124,7 @@ class Stand final : public signals::Port {
   std::int64_t multiple_ = 0, nodes_ = 0;
   std::array<signals::Tick, 256> lag_{};
   bool ended_ = false;
+  muscle::Failure failure_;
 };
 
 }  // namespace sinew::plant

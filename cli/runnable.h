@@ -1,0 +1,21 @@
+// cli/runnable.h - everything that can be refused before a run, refused: `sinew run` begins with
+// it, and `sinew check` is it, so that the two cannot disagree.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sinew/experiment/experiment.h"
+#include "sinew/experiment/rig/rig.h"
+
+namespace sinew::cli {
+
+// The experiment, its machine, plan, controller, channels and what is reported of it. Throws
+// config::Error by the files' own lines; with `allow_unreachable` a foot path may leave the reach.
+experiment::Experiment runnable(const std::string& path, const std::vector<std::string>& sets,
+                                bool allow_unreachable);
+
+// The same of an experiment on the test stand.
+rig::Experiment runnable_on_stand(const std::string& path, const std::vector<std::string>& sets);
+
+}  // namespace sinew::cli

@@ -1,0 +1,16 @@
+// experiment/failure.h - a failure of a simulated machine in words.
+#pragma once
+
+#include <string>
+
+#include "sinew/actuator/actuator.h"
+#include "sinew/muscle/failure.h"
+
+namespace sinew::experiment {
+
+// "the air of muscle knee_flexor was no number any more at 0.012 s: …; try …". `who` is the muscle
+// as its file calls it, `step` the key of the step's length.
+std::string in_words(const muscle::Failure& failure, const std::string& who,
+                     const actuator::Actuator& actuator, const std::string& step);
+
+}  // namespace sinew::experiment

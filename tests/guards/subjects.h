@@ -1,0 +1,114 @@
+// tests/guards/subjects.h - shipped experiments as trees, of the robots and of the test stand, and
+// short runs of what they become.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "sinew/analysis/machine.h"
+#include "sinew/analysis/stand.h"
+#include "sinew/analysis/summary.h"
+#include "sinew/config/compose.h"
+#include "sinew/experiment/experiment.fields.h"
+#include "sinew/experiment/experiment.h"
+#include "sinew/experiment/rig/rig.fields.h"
+#include "sinew/experiment/rig/rig.h"
+#include "sinew/experiment/rig/run.h"
+#include "sinew/experiment/run.h"
+#include "tests/guards/numeric_fields.h"
+
+namespace sinew::guards {
+
+// An experiment as its resolved file has it.
+struct Subject {
+  std::string name;
+  bool rig = false;
+  config::Node root;
+  std::vector<NumericField> fields;
+};
+
+inline Subject subject(const std::filesystem::path& file) {
+  Subject out{.name = file.stem().string(), .rig = false, .root = {}, .fields = {}};
+  const config::Node composed = config::compose(file.string());
+  out.rig = config::format_kind(composed) == "rig";
+  Lister lister;
+  std::string text;
+  if (out.rig) {
+    rig::Experiment e = rig::load(composed, file.string());
+    text = rig::resolved(e, "0");
+    rig::fields(lister, e);
+    rig::machine_fields(lister, e);
+  } else {
+    experiment::Experiment e = experiment::load(composed, file.string());
+    text = experiment::resolved(e, "0");
+    experiment::run_fields(lister, e);
+    experiment::machine_fields(lister, e);
+  }
+  out.root = config::parse_text(text, "resolved.toml");
+  out.fields = std::move(lister.fields);
+  return out;
+}
+
+// Of experiments/ and experiments/rig/, by name.
+inline std::vector<std::filesystem::path> shipped() {
+  std::set<std::filesystem::path> files;
+  for (const char* folder : {"/experiments", "/experiments/rig"})
+    for (const auto& entry :
+         std::filesystem::directory_iterator(SINEW_SOURCE_DIR + std::string(folder)))
+      if (entry.path().extension() == ".toml") files.insert(entry.path());
+  return {files.begin(), files.end()};
+}
+
+// What a short run leaves.
+struct Ran {
+  bool ended = false;
+  std::string cause;
+  signals::Table table;
+  std::vector<std::string> not_finite;  // topics and summary keys
+};
+
+inline void look_at(const signals::Table& table, const analysis::Summary& summary, Ran& out) {
+  for (const signals::Series& s : table.series)
+    for (const auto& column : s.columns)
+      if (!std::ranges::all_of(column, [](double x) { return std::isfinite(x); })) {
+        out.not_finite.push_back(s.topic.name);
+        break;
+      }
+  for (const analysis::Entry& entry : summary.entries())
+    if (!std::isfinite(entry.value)) out.not_finite.push_back(entry.key);
+}
+
+// The machine's first moments: every phase once, none for long.
+inline Ran short_run(experiment::Experiment e, const analysis::Machine& machine) {
+  constexpr double most = 0.06;  // of a phase [s]
+  e.plan.repeat = 1;
+  e.start.settle = std::min(e.start.settle, most);
+  e.plan.settle = e.start.settle;
+  e.robot.low_level.vent_time = std::min(e.robot.low_level.vent_time, most);
+  for (gait::Phase& phase : e.plan.phases) phase.duration = std::min(phase.duration, most);
+  e.log.period = std::max(e.log.period, 1e-3);
+  experiment::Outcome outcome = experiment::run(e);
+  Ran out;
+  out.ended = outcome.ended_early();
+  if (out.ended) out.cause = cause_of(e, outcome);
+  if (!out.ended) look_at(outcome.table, analysis::summarize(outcome.table, machine), out);
+  out.table = std::move(outcome.table);
+  return out;
+}
+
+inline Ran short_run(rig::Experiment e, const analysis::StandFile& file) {
+  e.duration = std::min(e.duration, std::max(0.25, 6 * e.drive.period));
+  e.measured.from = 0;
+  if (e.sweep.step > 0) e.sweep.step = std::max(e.sweep.step, 0.3);
+  rig::Outcome outcome = rig::run(e, {.threads = 1});
+  Ran out;
+  out.ended = outcome.failure || outcome.status != signals::Status::ok;
+  if (out.ended) out.cause = cause_of(e, outcome);
+  if (!out.ended) look_at(outcome.table, analysis::summarize(outcome.table, file), out);
+  out.table = std::move(outcome.table);
+  return out;
+}
+
+}  // namespace sinew::guards
