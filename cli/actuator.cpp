@@ -73,6 +73,13 @@ Point evaluate(const actuator::Actuator& a, const gas::Air& air, double length, 
   return p;
 }
 
+// A braid has a length; a half more than its threads is as far as the stiffness of its long end
+// says anything.
+Range possible_lengths(const actuator::Actuator& a) {
+  return {a.caps.length, a.caps.length + 1.5 * a.braid.thread_length,
+          "from the caps alone to one and a half threads", true};
+}
+
 // What is reported of a point: key of the JSON, words, SI unit and the thesis's.
 struct Row {
   const char* key;
@@ -163,10 +170,12 @@ ExitCode run_actuator(const Options& options) {
   const gas::Air& air = file.experiment.air;
   const actuator::Actuator& a =
       named(file.experiment.actuators, options.name, "--name", "actuator");
-  const Values lengths = arguments("--length", options.length, "m", air.atmosphere);
-  const Values pressures = arguments("--pressure", options.pressure, "Pa gauge", air.atmosphere);
+  const Values lengths =
+      arguments("--length", options.length, "m", air.atmosphere, possible_lengths(a));
+  const Values pressures = arguments("--pressure", options.pressure, "Pa gauge", air.atmosphere,
+                                     gauge_air_pressure(air.atmosphere));
   const double external =
-      argument("--external-volume", options.external_volume, "m3", air.atmosphere);
+      argument("--external-volume", options.external_volume, "m3", air.atmosphere, air_volume);
 
   std::vector<Point> points;
   for (const double pressure : pressures.si)

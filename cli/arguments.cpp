@@ -41,23 +41,69 @@ std::string unit_text(std::string_view text) {
                std::move(try_this));
 }
 
+std::string in_words(const Range& range, std::string_view unit) {
+  const std::string low = config::format_quantity(range.low, unit);
+  const std::string high = config::format_quantity(range.high, unit);
+  std::string out = range.above ? "more than " + low : low;
+  if (range.low == -units::unbounded)
+    out = "at most " + high;
+  else if (range.high == units::unbounded)
+    out = range.above ? out : "at least " + low;
+  else
+    out += (range.above ? ", at most " : " to ") + high;
+  return out + (range.why.empty() ? "" : ": ") + std::string(range.why);
+}
+
+void refuse_outside(std::string_view option, const std::string& text, double si,
+                    std::string_view unit, const Range& range) {
+  if ((range.above ? si > range.low : si >= range.low) && si <= range.high) return;
+  std::string found = text;
+  const std::string plain = config::format_quantity(si, unit);
+  if (text != config::in_quotes(plain) && text != plain) found += ", which is " + plain;
+  config::fail({std::string(option), 0, 0}, "", found, in_words(range, unit));
+}
+
+// "1 in:2 in:0.1 in", in the unit's usual words; a step of pressures is neither gauge nor absolute.
+std::string example_of(std::string_view unit) {
+  if (unit == "1") return "\"0:1:0.1\"";
+  const std::string usual = config::usual_units(unit).front();
+  std::string step = usual;
+  for (const std::string_view point : {" gauge", " abs"})
+    if (step.ends_with(point)) step.resize(step.size() - point.size());
+  return fmt::format("\"1 {0}:2 {0}:0.1 {1}\"", usual, step);
+}
+
 }  // namespace
 
+Range gauge_air_pressure(double atmosphere) {
+  Range out = air_pressure;
+  out.low = -atmosphere;
+  return out;
+}
+
 double argument(std::string_view option, std::string_view text, std::string_view unit,
-                double atmosphere) {
+                double atmosphere, const Range& range) {
   const config::Parsed parsed = config::parse_quantity(text, unit, atmosphere);
-  if (!parsed.mistake) return parsed.si;
-  const config::Mistake& m = *parsed.mistake;
-  config::fail({std::string(option), 0, 0}, "", m.found, m.expected, m.try_this);
+  if (parsed.mistake) {
+    const config::Mistake& m = *parsed.mistake;
+    config::fail({std::string(option), 0, 0}, "", m.found, m.expected, m.try_this);
+  }
+  refuse_outside(option, config::in_quotes(text), parsed.si, unit, range);
+  return parsed.si;
+}
+
+double number_argument(std::string_view option, double value, const Range& range) {
+  refuse_outside(option, config::format_number(value), value, "1", range);
+  return value;
 }
 
 Values arguments(std::string_view option, std::string_view text, std::string_view unit,
-                 double atmosphere) {
+                 double atmosphere, const Range& range) {
   const std::vector<std::string_view> parts = split(text, ':');
-  Values out{{argument(option, parts[0], unit, atmosphere)}, unit_text(parts[0])};
+  if (parts.size() != 1 && parts.size() != 3)
+    refuse(option, text, "a quantity, or from:to:step", example_of(unit));
+  Values out{{argument(option, parts[0], unit, atmosphere, range)}, unit_text(parts[0])};
   if (parts.size() == 1) return out;
-  const std::string example = fmt::format("\"1 {0}:2 {0}:0.1 {0}\"", unit);
-  if (parts.size() != 3) refuse(option, text, "a quantity, or from:to:step", example);
 
   const std::string_view step_unit = config::difference_unit(unit);
   std::string step_text(parts[2]);
@@ -67,22 +113,23 @@ Values arguments(std::string_view option, std::string_view text, std::string_vie
              config::in_quotes(step_text.substr(0, step_text.size() - point.size())));
   if (step_unit == "Pa diff" && !step_text.ends_with("diff")) step_text += " diff";
   const double first = out.si[0];
-  const double last = argument(option, parts[1], unit, atmosphere);
+  const double last = argument(option, parts[1], unit, atmosphere, range);
   const double step = argument(option, step_text, step_unit, atmosphere);
 
   // The last value belongs to it although steps round.
   const double steps = step != 0 ? std::floor((last - first) / step + 1e-9) : -1;
-  if (steps < 0) refuse(option, text, "a step that leads from the first to the last", example);
+  if (!(steps >= 0))
+    refuse(option, text, "a step that leads from the first to the last", example_of(unit));
   if (steps >= most_values) refuse(option, text, "at most 10000 values", "a larger step");
   for (int i = 1; i <= static_cast<int>(steps); ++i) out.si.push_back(first + i * step);
   return out;
 }
 
 std::vector<double> argument_list(std::string_view option, std::string_view text,
-                                  std::string_view unit) {
+                                  std::string_view unit, const Range& range) {
   std::vector<double> out;
   for (const std::string_view part : split(text, ','))
-    out.push_back(argument(option, part, unit, units::atmosphere));
+    out.push_back(argument(option, part, unit, units::atmosphere, range));
   return out;
 }
 

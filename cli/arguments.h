@@ -6,12 +6,37 @@
 #include <vector>
 
 #include "sinew/gas/air.h"
+#include "sinew/units/field.h"
 
 namespace sinew::cli {
 
+// What a quantity can be, in the SI unit that is asked for, and why it cannot be more or less. Both
+// ends belong to it, but for a `low` that it must be above.
+struct Range {
+  double low = -units::unbounded;
+  double high = units::unbounded;
+  std::string_view why = "";
+  bool above = false;
+};
+
+constexpr Range above_zero(double high, std::string_view why) { return {0, high, why, true}; }
+constexpr Range from_zero(double high, std::string_view why) { return {0, high, why}; }
+
+// Up to here air is the ideal gas of the laws within about 5 %.
+inline constexpr double greatest_pressure = 2e7;  // absolute [Pa]
+inline constexpr Range air_pressure = above_zero(
+    greatest_pressure, "absolute pressures are positive, and above it air is no ideal gas");
+Range gauge_air_pressure(double atmosphere);
+inline constexpr Range air_volume = from_zero(1000, "room for air in a laboratory");
+inline constexpr Range polytropic = {1, 5.0 / 3, "from isothermal to adiabatic"};
+inline constexpr Range pulses = above_zero(1e4, "a pulse has at least a tick of 0.1 ms");
+
 // One quantity in SI; throws config::Error that begins with the option's name.
 double argument(std::string_view option, std::string_view text, std::string_view unit,
-                double atmosphere);
+                double atmosphere, const Range& range = {});
+
+// The same of a number that the command line gave.
+double number_argument(std::string_view option, double value, const Range& range);
 
 // "2.5in:3.9in:0.1in", first and last included; or one quantity. A pressure's step is a difference:
 // "20 psi gauge:110 psi gauge:10 psi".
@@ -20,10 +45,10 @@ struct Values {
   std::string display;  // the unit that was written, for columns of a table
 };
 Values arguments(std::string_view option, std::string_view text, std::string_view unit,
-                 double atmosphere);
+                 double atmosphere, const Range& range = {});
 
 // "-2 in, -13 in": as many quantities as there are commas and one.
 std::vector<double> argument_list(std::string_view option, std::string_view text,
-                                  std::string_view unit);
+                                  std::string_view unit, const Range& range = {});
 
 }  // namespace sinew::cli

@@ -42,36 +42,35 @@ struct Setup {
   int bits = 12;
 };
 
-double above_zero(std::string_view option, const std::string& text, std::string_view unit) {
-  const double value = argument(option, text, unit, units::atmosphere);
-  if (!(value > 0))
-    config::fail({std::string(option), 0, 0}, "", config::in_quotes(text),
-                 "more than 0 " + std::string(unit));
-  return value;
-}
+// Sizes, stresses and voltages that a transducer can have; what is beyond is a slip of its unit.
+constexpr Range size = above_zero(10, "of a transducer");
+constexpr Range stress = above_zero(1e13, "diamond has 1.2e12 N/m2");
+constexpr Range voltage = above_zero(1000, "of an instrument");
 
-double above_zero(std::string_view option, double value) {
-  if (!(value > 0) || !std::isfinite(value))
-    config::fail({std::string(option), 0, 0}, "", fmt::format("{}", value), "a number above zero");
-  return value;
+double quantity(std::string_view option, const std::string& text, std::string_view unit,
+                const Range& range) {
+  return argument(option, text, unit, units::atmosphere, range);
 }
 
 Setup read(const Options& o) {
   Setup s;
-  s.beam = {.length = above_zero("--length", o.length, "m"),
-            .width = above_zero("--width", o.width, "m"),
-            .height = above_zero("--height", o.height, "m"),
-            .gage_distance = above_zero("--gages", o.gages, "m"),
-            .modulus = above_zero("--modulus", o.modulus, "N/m2"),
-            .poisson_ratio = o.poisson,
-            .yield_stress = above_zero("--yield", o.yield, "N/m2"),
-            .stress_concentration = above_zero("--concentration", o.concentration)};
+  s.beam = {.length = quantity("--length", o.length, "m", size),
+            .width = quantity("--width", o.width, "m", size),
+            .height = quantity("--height", o.height, "m", size),
+            .gage_distance = quantity("--gages", o.gages, "m", size),
+            .modulus = quantity("--modulus", o.modulus, "N/m2", stress),
+            .poisson_ratio = number_argument("--poisson", o.poisson,
+                                             from_zero(0.5, "no stretched solid gains more")),
+            .yield_stress = quantity("--yield", o.yield, "N/m2", stress),
+            .stress_concentration = number_argument("--concentration", o.concentration,
+                                                    {1, 100, "a mount adds to the stress"})};
   s.bridge = {.arms = o.arms,
-              .gage_factor = above_zero("--gage-factor", o.gage_factor),
-              .excitation = above_zero("--excitation", o.excitation, "V"),
-              .gain = above_zero("--gain", o.gain)};
-  s.load = above_zero("--load", o.load, "N");
-  s.full_scale = above_zero("--full-scale", o.full_scale, "V");
+              .gage_factor = number_argument("--gage-factor", o.gage_factor,
+                                             above_zero(1000, "semiconductors have 200")),
+              .excitation = quantity("--excitation", o.excitation, "V", voltage),
+              .gain = number_argument("--gain", o.gain, above_zero(1e6, "of an amplifier"))};
+  s.load = quantity("--load", o.load, "N", above_zero(1e9, "at the beam's free end"));
+  s.full_scale = quantity("--full-scale", o.full_scale, "V", voltage);
   s.bits = o.bits;
   if (s.beam.gage_distance > s.beam.length)
     config::fail({"--gages", 0, 0}, "", config::in_quotes(o.gages),
@@ -166,7 +165,8 @@ ExitCode run_force_beam(const Options& options) {
   const Setup s = read(options);
   Json where;
   if (!options.wanted.empty())
-    where = places(s, above_zero("--sensitivity", options.wanted, "V/N"));
+    where = places(
+        s, quantity("--sensitivity", options.wanted, "V/N", above_zero(1e9, "output by load")));
   if (options.json) {
     Json out;
     for (const Line& line : answer(s)) out[line.key] = line.value;
@@ -187,9 +187,7 @@ void add_beam_options(CLI::App& sub, Options& o) {
   sub.add_option("--gages", o.gages, "from the load to the middle of the gages")
       ->capture_default_str();
   sub.add_option("--modulus", o.modulus, "Young's, of the material")->capture_default_str();
-  sub.add_option("--poisson", o.poisson, "Poisson's ratio")
-      ->check(CLI::Range(0.0, 0.5))
-      ->capture_default_str();
+  sub.add_option("--poisson", o.poisson, "Poisson's ratio")->capture_default_str();
   sub.add_option("--yield", o.yield, "stress at which it yields")->capture_default_str();
   sub.add_option("--concentration", o.concentration, "of stress at the mount")
       ->capture_default_str();

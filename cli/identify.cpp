@@ -179,8 +179,8 @@ std::vector<identify::Source> sources_of(const DataOptions& options) {
   for (const std::string& where : options.where) add_pair("--where", where, source.where);
   source.columns = at_commas(options.columns);
   source.drop_incomplete = options.drop_incomplete;
-  source.atmosphere =
-      argument("--atmosphere", options.atmosphere + " abs", "Pa abs", units::atmosphere);
+  source.atmosphere = argument("--atmosphere", options.atmosphere + " abs", "Pa abs",
+                               units::atmosphere, air_pressure);
   std::vector<identify::Source> out;
   for (const std::string& file : options.files) {
     // Twice the same rows would make every interval too narrow, and hold nothing out.

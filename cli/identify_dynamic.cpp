@@ -33,10 +33,11 @@ struct Options {
 
 // One value for all files, or one for each.
 std::vector<double> per_file(std::string_view option, const std::string& text,
-                             std::string_view unit, double atmosphere, std::size_t files) {
+                             std::string_view unit, double atmosphere, std::size_t files,
+                             const Range& range) {
   std::vector<double> out;
   for (const std::string& piece : at_commas(text))
-    out.push_back(argument(option, piece, unit, atmosphere));
+    out.push_back(argument(option, piece, unit, atmosphere, range));
   if (out.size() == 1) out.resize(files, out[0]);
   if (out.size() != files)
     config::fail({std::string(option), 0, 0}, "", fmt::format("{} values", out.size()),
@@ -53,18 +54,20 @@ std::vector<identify::DecayRecord> records_of(Options options, const actuator::A
   const std::vector<identify::Source> sources = sources_of(options.data);
   const double atmosphere = sources[0].atmosphere;
   const std::size_t n = sources.size();
-  const auto values = [&](std::string_view option, const std::string& text, std::string_view unit) {
-    return per_file(option, text, unit, atmosphere, n);
+  const auto values = [&](std::string_view option, const std::string& text, std::string_view unit,
+                          const Range& range) {
+    return per_file(option, text, unit, atmosphere, n, range);
   };
-  const std::vector<double> mass = values("--mass", options.mass, "kg");
-  const std::vector<double> external = values("--external-volume", options.external, "m3");
+  const std::vector<double> mass =
+      values("--mass", options.mass, "kg", above_zero(1e6, "hangs on the muscle"));
+  const std::vector<double> external =
+      values("--external-volume", options.external, "m3", air_volume);
   std::vector<double> pressure(n, unknown);
-  if (!options.pressure.empty()) pressure = values("--pressure", options.pressure, "Pa abs");
+  if (!options.pressure.empty())
+    pressure = values("--pressure", options.pressure, "Pa abs", air_pressure);
   const bool given = !options.exponent.empty();
-  const double exponent = given ? argument("--exponent", options.exponent, "1", atmosphere) : 1.4;
-
-  if (!(exponent >= 1 && exponent <= 5.0 / 3))
-    config::fail({"--exponent", 0, 0}, "", options.exponent, "1 (isothermal) to 1.6667");
+  const double exponent =
+      given ? argument("--exponent", options.exponent, "1", atmosphere, polytropic) : 1.4;
 
   std::vector<identify::DecayRecord> out;
   for (std::size_t i = 0; i < n; ++i) {

@@ -24,6 +24,8 @@ struct Options {
   std::string name = "bpa", trapezoids, side, thread = "0 mm";
 };
 
+constexpr Range thickness = from_zero(0.1, "of one thread");
+
 // What a braid leaves open, so that the file can be read: the mesh ends where its threads lie
 // straight, and nothing is lost yet.
 actuator::Actuator actuator_of(const actuator::Braid& braid, const std::string& name,
@@ -64,7 +66,8 @@ ExitCode from_pairs(const Options& options) {
   const std::vector<identify::Source> sources = sources_of(options.data);
   if (sources.size() != 1)
     config::fail({"data", 0, 0}, "", fmt::format("{} files", sources.size()), "one");
-  const double thread = argument("--thread-thickness", options.thread, "m", units::atmosphere);
+  const double thread =
+      argument("--thread-thickness", options.thread, "m", units::atmosphere, thickness);
   const identify::GeometryResult found = identify::identify_geometry(
       identify::read_measured(sources[0], identify::geometry_columns()), thread);
 
@@ -78,13 +81,15 @@ ExitCode from_pairs(const Options& options) {
 }
 
 ExitCode from_trapezoids(const Options& options) {
-  const std::vector<double> counts = argument_list("--trapezoids", options.trapezoids, "1");
-  if (counts.size() != 2 || !(counts[0] > 0) || !(counts[1] > 0))
+  const std::vector<double> counts =
+      argument_list("--trapezoids", options.trapezoids, "1",
+                    {1, 1e5, "at least one each way, and no more than can be counted"});
+  if (counts.size() != 2)
     config::fail({"--trapezoids", 0, 0}, "", config::in_quotes(options.trapezoids),
                  "two counts, lengthwise and around: 37,16");
-  const double side = argument("--side", options.side, "m", units::atmosphere);
-  if (!(side > 0))
-    config::fail({"--side", 0, 0}, "", config::in_quotes(options.side), "a length above zero");
+  const double side = argument("--side", options.side, "m", units::atmosphere,
+                               above_zero(1, "of one trapezoid between two threads"));
+  (void)argument("--thread-thickness", options.thread, "m", units::atmosphere, thickness);
   const actuator::Braid braid = actuator::braid_from_trapezoids(counts[0], counts[1], side);
 
   if (options.result.json) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "cli/arguments.h"
 #include "cli/identify.h"
@@ -36,21 +37,27 @@ struct Options {
 
 identify::JointSetup setup_of(const Options& options, const actuator::Actuator& a,
                               double atmosphere) {
-  const auto value = [&](std::string_view option, const std::string& text, std::string_view unit) {
-    return text.empty() ? identify::to_be_found : argument(option, text, unit, atmosphere);
+  const auto value = [&](std::string_view option, const std::string& text, std::string_view unit,
+                         const Range& range) {
+    return text.empty() ? identify::to_be_found : argument(option, text, unit, atmosphere, range);
   };
+  constexpr double turns = 4 * std::numbers::pi;
+  constexpr Range angle{-turns, turns, "two turns; a joint makes less than one"};
+  constexpr Range mass = from_zero(1e6, "of what hangs on a joint");
+  constexpr Range lever = from_zero(1000, "from the joint's axis");
+  constexpr Range size = above_zero(1000, "of a robot");
   identify::JointSetup s{.actuator = a, .count = options.count, .atmosphere = atmosphere};
   s.gravity = units::standard_gravity;
   s.flexion_raises = options.flexion == "raises angle";
-  s.rest_angle = value("--rest-angle", options.rest, "rad");
-  s.load = value("--load", options.load, "kg");
-  s.lever = value("--lever", options.lever, "m");
-  s.down = value("--down", options.down, "rad");
-  s.limb = value("--limb", options.limb, "kg");
-  s.limb_lever = value("--limb-lever", options.limb_lever, "m");
-  s.moment_arm = value("--moment-arm", options.moment_arm, "m");
-  s.flexor_length = value("--flexor-length", options.flexor_length, "m");
-  s.extensor_length = value("--extensor-length", options.extensor_length, "m");
+  s.rest_angle = value("--rest-angle", options.rest, "rad", angle);
+  s.load = value("--load", options.load, "kg", mass);
+  s.lever = value("--lever", options.lever, "m", lever);
+  s.down = value("--down", options.down, "rad", angle);
+  s.limb = value("--limb", options.limb, "kg", mass);
+  s.limb_lever = value("--limb-lever", options.limb_lever, "m", lever);
+  s.moment_arm = value("--moment-arm", options.moment_arm, "m", size);
+  s.flexor_length = value("--flexor-length", options.flexor_length, "m", size);
+  s.extensor_length = value("--extensor-length", options.extensor_length, "m", size);
   s.keep_force = options.keep_force;
   return s;
 }

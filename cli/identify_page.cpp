@@ -189,7 +189,8 @@ void leave_page(const std::string& title, const std::vector<const identify::Repo
   const std::string file = page_of(options);
   if (file.empty()) return;
   report::FitPage fit{.title = title, .version = SINEW_VERSION, .data = in_words(data)};
-  fit.atmosphere = argument("--atmosphere", data.atmosphere + " abs", "Pa abs", units::atmosphere);
+  fit.atmosphere =
+      argument("--atmosphere", data.atmosphere + " abs", "Pa abs", units::atmosphere, air_pressure);
   for (const identify::Report* r : reports)
     fit.parts.push_back({.report = json_text(to_json(*r)), .charts = charts_of(*r)});
   if (!parameter_file.empty())

@@ -219,7 +219,8 @@ void print(const Calibration& c, const std::string& display, const ResultOptions
 // --- the command ---
 
 identify::CountScale converter_of(const Options& options) {
-  return {options.bits, argument("--full-scale", options.full_scale, "V", units::atmosphere)};
+  return {options.bits, argument("--full-scale", options.full_scale, "V", units::atmosphere,
+                                 above_zero(1000, "of a converter"))};
 }
 
 // The base must have these sensors, of this kind.

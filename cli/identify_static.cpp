@@ -29,6 +29,8 @@ struct Options {
   std::vector<std::string> lengths, fit_where;
 };
 
+constexpr Range actuator_length = above_zero(1000, "of an actuator");
+
 // "205 mm" for all files, or "Kinked19=206 mm" for those whose name contains it.
 double length_for(const std::vector<std::string>& lengths, const std::string& file,
                   double atmosphere) {
@@ -38,10 +40,27 @@ double length_for(const std::vector<std::string>& lengths, const std::string& fi
     const std::string part = equals == text.npos ? "" : text.substr(0, equals);
     const std::string name = std::filesystem::path(file).filename().string();
     if (name.find(part) == name.npos) continue;
-    out =
-        argument("--length", equals == text.npos ? text : text.substr(equals + 1), "m", atmosphere);
+    out = argument("--length", equals == text.npos ? text : text.substr(equals + 1), "m",
+                   atmosphere, actuator_length);
   }
   return out;
+}
+
+// A part of a name that no file has is a slip: its files would take another length.
+void refuse_lengths_of_no_file(const Options& options) {
+  std::vector<std::string> files = options.data.files;
+  if (!options.hold_out.empty()) files.push_back(options.hold_out);
+  for (const std::string& text : options.lengths) {
+    const std::size_t equals = text.find('=');
+    if (equals == text.npos) continue;
+    const std::string part = text.substr(0, equals);
+    const bool any = std::ranges::any_of(files, [&](const std::string& file) {
+      return std::filesystem::path(file).filename().string().find(part) != part.npos;
+    });
+    if (!any)
+      config::fail({"--length", 0, 0}, "", config::in_quotes(text),
+                   "a part of the name of one of the files");
+  }
 }
 
 // Rows that --fit-where names are fitted; the others are held out.
@@ -51,10 +70,8 @@ void read_file(const Options& options, const identify::Source& source, bool fitt
   identify::StaticInput input{.length = length_for(options.lengths, source.path, atmosphere),
                               .fitted = fitted};
   if (!options.rest_length.empty()) {
-    input.rest_length = argument("--rest-length", options.rest_length, "m", atmosphere);
-    if (!(input.rest_length > 0))
-      config::fail({"--rest-length", 0, 0}, "", config::in_quotes(options.rest_length),
-                   "more than zero");
+    input.rest_length =
+        argument("--rest-length", options.rest_length, "m", atmosphere, actuator_length);
   }
   const identify::Measured all = read_measured(source, identify::static_columns());
   const std::size_t before = data.points.size();
@@ -107,6 +124,7 @@ std::string file_of_muscle(const std::string& out, const identify::StaticMuscle&
 
 ExitCode run_static(const Options& options) {
   const std::vector<identify::Source> sources = sources_of(options.data);
+  refuse_lengths_of_no_file(options);
   identify::StaticData data;
   for (const identify::Source& source : sources) read_file(options, source, true, data);
   if (!options.hold_out.empty() && options.hold_out != "pressure" && options.hold_out != "length") {

@@ -43,23 +43,20 @@ identify::ValveOptions valve_options(const Options& o, double atmosphere) {
     out.provenance = identify::Provenance(file.experiment.origins, o.base);
   }
   out.air.atmosphere = atmosphere;
-  out.air.temperature = argument("--temperature", o.temperature, "K", atmosphere);
-  if (!(out.air.temperature >= 200 && out.air.temperature <= 400))
-    config::fail({"--temperature", 0, 0}, "", config::in_quotes(o.temperature), "200 K to 400 K");
-  const auto optional = [&](const char* option, const std::string& text, const char* unit) {
+  out.air.temperature = argument("--temperature", o.temperature, "K", atmosphere,
+                                 {200, 400, "of air in a laboratory"});
+  const auto optional = [&](const char* option, const std::string& text, const char* unit,
+                            const Range& range) {
     std::optional<double> value;
-    if (text.empty()) return value;
-    value = argument(option, text, unit, atmosphere);
-    if (!(*value > 0)) config::fail({option, 0, 0}, "", config::in_quotes(text), "more than zero");
+    if (!text.empty()) value = argument(option, text, unit, atmosphere, range);
     return value;
   };
-  out.volume = optional("--volume", o.volume, "m3");
-  out.conductance = optional("--conductance", o.conductance, "m3/(s Pa)");
-  out.port = optional("--supply", o.port, "Pa abs");
-  out.frequency = optional("--frequency", o.frequency, "Hz");
-  out.exponent = optional("--exponent", o.exponent, "1");
-  if (out.exponent && !(*out.exponent >= 1 && *out.exponent <= 5.0 / 3.0))
-    config::fail({"--exponent", 0, 0}, "", config::in_quotes(o.exponent), "1 to 1.667");
+  out.volume = optional("--volume", o.volume, "m3", above_zero(air_volume.high, air_volume.why));
+  out.conductance = optional("--conductance", o.conductance, "m3/(s Pa)",
+                             above_zero(1, "a valve of this size fills a hall"));
+  out.port = optional("--supply", o.port, "Pa abs", air_pressure);
+  out.frequency = optional("--frequency", o.frequency, "Hz", pulses);
+  out.exponent = optional("--exponent", o.exponent, "1", polytropic);
   out.per_volume = o.per_volume;
   return out;
 }
@@ -112,7 +109,7 @@ void write_timing(const Options& options, const identify::ValveResult& found) {
                             "a map of duties, or pulses and their pressure");
   const double frequency =
       argument("--frequency", options.frequency.empty() ? "100 Hz" : options.frequency, "Hz",
-               units::atmosphere);
+               units::atmosphere, pulses);
   const identify::CompensatedTiming timing =
       identify::compensated(found.valve.opening_delay, found.valve.closing_delay, frequency);
   write_file(options.predict, identify::predict_dat(timing.timing));

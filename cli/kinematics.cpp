@@ -94,7 +94,8 @@ Branch stand(const experiment::Experiment& e, const std::vector<double>& angles)
 }
 
 std::vector<Branch> branches_to(const experiment::Experiment& e, const std::string& text) {
-  const std::vector<double> target = argument_list("--foot", text, "m");
+  const std::vector<double> target =
+      argument_list("--foot", text, "m", {-1000, 1000, "a foot is on a leg"});
   if (target.size() != 2)
     config::fail({"--foot", 0, 0}, "", config::in_quotes(text), "x and y", "\"-2 in, -13 in\"");
 
@@ -109,7 +110,9 @@ std::vector<Branch> branches_to(const experiment::Experiment& e, const std::stri
 }
 
 Branch branch_at(const experiment::Experiment& e, const std::string& text) {
-  const std::vector<double> angles = argument_list("--angles", text, "rad");
+  const std::vector<double> angles = argument_list(
+      "--angles", text, "rad",
+      {-4 * std::numbers::pi, 4 * std::numbers::pi, "two turns; a joint makes less than one"});
   if (angles.size() != e.robot.joints.size())
     config::fail({"--angles", 0, 0}, "", config::in_quotes(text),
                  fmt::format("{} angles, as there are joints", e.robot.joints.size()));

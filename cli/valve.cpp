@@ -79,8 +79,10 @@ std::vector<Delivered> deliveries(const gas::Valve& valve, const Options& option
   std::vector<Delivered> out;
   if (options.duty.empty()) return out;
   const gas::Delays delays = gas::delays(valve);
-  const double period = 1.0 / argument("--frequency", options.frequency, "1/s", units::atmosphere);
-  for (const double duty : arguments("--duty", options.duty, "1", units::atmosphere).si)
+  const double period =
+      1.0 / argument("--frequency", options.frequency, "1/s", units::atmosphere, pulses);
+  constexpr Range share = from_zero(1, "a share of the period");
+  for (const double duty : arguments("--duty", options.duty, "1", units::atmosphere, share).si)
     out.push_back({duty, signals::delivered_duty(duty, period, delays.opening, delays.closing)});
   return out;
 }
@@ -150,18 +152,17 @@ ExitCode run_valve(const Options& options) {
   const auto file = experiment::load_machine_file(options.file);
   const gas::Air& air = file.experiment.air;
   const gas::Valve& valve = named(file.experiment.valves, options.name, "NAME", "valve");
-  const double up = argument("--upstream", options.upstream, "Pa abs", air.atmosphere);
-  const double down = argument("--downstream", options.downstream, "Pa abs", air.atmosphere);
-  for (const auto& [option, p] : {std::pair{"--upstream", up}, {"--downstream", down}})
-    if (!(p > 0))
-      config::fail({option, 0, 0}, "", config::format_quantity(p, "Pa abs"),
-                   "a pressure above 0 Pa abs");
+  const double up =
+      argument("--upstream", options.upstream, "Pa abs", air.atmosphere, air_pressure);
+  const double down =
+      argument("--downstream", options.downstream, "Pa abs", air.atmosphere, air_pressure);
 
   const FlowResult f = flow_through(valve.flow, air, up, down);
   std::vector<Transfer> times;
   double volume = 0;
   if (!options.volume.empty()) {
-    volume = argument("--volume", options.volume, "m3", air.atmosphere);
+    volume = argument("--volume", options.volume, "m3", air.atmosphere,
+                      above_zero(air_volume.high, air_volume.why));
     times = transfers(valve.flow, air, volume, f);
   }
   const std::vector<Delivered> duties = deliveries(valve, options);
@@ -189,8 +190,9 @@ void add_valve(CLI::App& app, Action& action) {
   sub.add_option("--upstream", options->upstream, "pressure, gauge or abs")->required();
   sub.add_option("--downstream", options->downstream, "pressure, gauge or abs")->required();
   sub.add_option("--volume", options->volume, "rigid, to be filled and vented");
-  sub.add_option("--duty", options->duty, "share of the period, or from:to:step");
-  sub.add_option("--frequency", options->frequency, "of the pulses; 100 Hz");
+  CLI::Option& duty =
+      *sub.add_option("--duty", options->duty, "share of the period, or from:to:step");
+  sub.add_option("--frequency", options->frequency, "of the pulses; 100 Hz")->needs(&duty);
   sub.add_flag("--json", options->json, "as JSON, SI");
   sub.callback([=, &action] { action = [=] { return run_valve(*options); }; });
 }

@@ -99,7 +99,104 @@ TEST(Actuator, RefusesWhatIsNoQuantity) {
   EXPECT_THAT(said("3in:4in:1um", "60 psi gauge"), HasSubstr("--length"));
 }
 
+// What cannot be is refused with its range and the reason, before anything is answered.
+struct Impossible {
+  Words words;
+  const char* says;
+};
+
+void expect_refused(const std::vector<Impossible>& all) {
+  const Workspace w;
+  for (const Impossible& one : all) {
+    const Result r = w.sinew(one.words);
+    EXPECT_EQ(r.code, 1) << testing::PrintToString(one.words);
+    EXPECT_THAT(r.out, IsEmpty()) << testing::PrintToString(one.words);
+    EXPECT_THAT(r.err, HasSubstr(one.says));
+    EXPECT_THAT(r.err, ::testing::AnyOf(HasSubstr("; expected more than "), HasSubstr(" to ")));
+  }
+}
+
+TEST(Actuator, RefusesWhatNoActuatorIs) {
+  const auto at = [](const char* length, const char* pressure, const char* external = "0 m3") {
+    return Words{"actuator",   actuator_file, "--length",          length,
+                 "--pressure", pressure,      "--external-volume", external};
+  };
+  expect_refused(
+      {{at("-3 in", "60 psi gauge"), "--length: found \"-3 in\", which is -0.0762 m; expected"},
+       {at("0 in", "60 psi gauge"), "from the caps alone to one and a half threads"},
+       {at("300 in", "60 psi gauge"), "--length: found \"300 in\""},
+       {at("1e300 in", "60 psi gauge"), "--length"},
+       {at("-3in:3in:1in", "60 psi gauge"), "--length: found \"-3in\""},
+       {at("3in:300in:1in", "60 psi gauge"), "--length: found \"300in\""},
+       {at("3 in", "-500 psi gauge"), "--pressure: found \"-500 psi gauge\""},
+       {at("3 in", "-1 psi abs"), "absolute pressures are positive"},
+       {at("3 in", "0 psi abs"), "absolute pressures are positive"},
+       {at("3 in", "1e300 psi gauge"), "above it air is no ideal gas"},
+       {at("3 in", "60 psi gauge", "-1 in3"), "--external-volume: found \"-1 in3\""}});
+}
+
+// What the hint of a range proposes is a range.
+TEST(Actuator, ProposesRangesThatItTakes) {
+  const Workspace w;
+  const Result wrong = w.sinew(
+      {"actuator", actuator_file, "--length", "3in", "--pressure", "20 psi gauge:50 psi gauge"});
+  const std::string hint = "1 psi gauge:2 psi gauge:0.1 psi";
+  EXPECT_THAT(wrong.err, HasSubstr("try \"" + hint + "\""));
+  EXPECT_EQ(w.sinew({"actuator", actuator_file, "--length", "3in", "--pressure", hint}).code, 0);
+}
+
+// --- force-beam and geometry ---
+
+TEST(ForceBeam, RefusesWhatNoTransducerIs) {
+  const auto with = [](const char* option, const char* value) {
+    return Words{"force-beam", std::string("--") + option + "=" + value};
+  };
+  expect_refused({{with("poisson", "nan"), "--poisson: found nan"},
+                  {with("poisson", "0.6"), "--poisson: found 0.6; expected 0 to 0.5"},
+                  {with("concentration", "0.1"), "a mount adds to the stress"},
+                  {with("concentration", "nan"), "--concentration: found nan"},
+                  {with("gain", "-1"), "--gain: found -1"},
+                  {with("gain", "1e300"), "--gain"},
+                  {with("gage-factor", "1e300"), "semiconductors have 200"},
+                  {with("length", "-1 in"), "--length: found \"-1 in\""},
+                  {with("modulus", "1e300 psi"), "diamond"},
+                  {with("load", "1e300 lbf"), "--load"},
+                  {with("load", "0 lbf"), "--load"},
+                  {with("sensitivity", "-1 V/lbf"), "--sensitivity"}});
+}
+
+TEST(Geometry, RefusesWhatNoBraidIs) {
+  const auto with = [](const char* counts, const char* side, const char* thread = "0 mm") {
+    return Words{"identify", "geometry", "--trapezoids",       counts,
+                 "--side",   side,       "--thread-thickness", thread};
+  };
+  expect_refused({{with("37,16", "1e300 in"), "--side"},
+                  {with("37,16", "-0.057 in"), "--side"},
+                  {with("1e300,16", "0.057 in"), "--trapezoids: found \"1e300\""},
+                  {with("37.5,0.1", "0.057 in"), "--trapezoids: found \"0.1\""},
+                  {with("37,16", "0.057 in", "-1 mm"), "--thread-thickness"}});
+}
+
 // --- valve ---
+
+TEST(Valve, RefusesWhatNoValveSees) {
+  const auto with = [](const char* up, Words more) {
+    Words words{"valve", valves, "inlet", "--upstream", up, "--downstream", "0 psi gauge"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const char* const line = "100 psi gauge";
+  expect_refused({{with("1e300 psi gauge", {}), "--upstream"},
+                  {with("-20 psi gauge", {}), "--upstream: found \"-20 psi gauge\""},
+                  {with(line, {"--volume", "-1 in3"}), "--volume: found \"-1 in3\""},
+                  {with(line, {"--volume", "0 in3"}), "--volume"},
+                  {with(line, {"--duty", "2"}), "--duty: found \"2\"; expected 0 to 1"},
+                  {with(line, {"--duty=-0.5"}), "a share of the period"},
+                  {with(line, {"--duty", "0.5", "--frequency", "0 Hz"}), "--frequency"},
+                  {with(line, {"--duty", "0.5", "--frequency=-100 Hz"}), "--frequency"}});
+  const Workspace w;
+  EXPECT_EQ(w.sinew(with(line, {"--frequency", "50 Hz"})).code, 2) << "of no pulses";
+}
 
 TEST(Valve, ChokesBelowTheCriticalRatio) {
   const Workspace w;
@@ -183,6 +280,12 @@ TEST(Kinematics, GoesToTheFootAndBack) {
   }
   EXPECT_EQ(there["branches"][0]["within"], true) << "the leg's own branch comes first";
   EXPECT_EQ(there["branches"][1]["within"], false);
+}
+
+TEST(Kinematics, RefusesWhatNoJointIs) {
+  expect_refused({{{"kinematics", "robots/leg/robot.toml", "--angles", "1e300 deg, 10 deg"},
+                   "--angles: found \"1e300 deg\""},
+                  {{"kinematics", "robots/leg/robot.toml", "--foot", "1e300 in, 1 in"}, "--foot"}});
 }
 
 TEST(Kinematics, SaysHowFarAFootCannotReach) {
