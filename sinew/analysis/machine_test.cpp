@@ -55,7 +55,7 @@ TEST(Machine, ValvesHaveTheDelaysOfTheirProfile) {
 TEST(Machine, ARobotWithoutAFootHasNoLeg) { EXPECT_FALSE(has_leg(read("one-joint.toml"))); }
 
 TEST(Machine, ABadBandIsFoundWithItsPlace) {
-  config::Node root = config::compose(experiments + "walk-test-1.toml");
+  config::Node root = config::compose(experiments + "joint-limits.toml");
   config::Node& first = root.find("reported")->children.at(0);
   first.find("accept")->children.at(0).text = "53 lb";
   try {
