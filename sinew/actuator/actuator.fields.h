@@ -77,12 +77,12 @@ void fields(Visitor& v, Braid& braid) {
 // A polynomial that has run away at the ends of its range is no share of anything.
 template <class Visitor>
 void check_share(Visitor& v, const Effectiveness& e) {
-  constexpr double most = 3;
+  constexpr double least = -0.5, most = 3;  // a line through a threshold begins below 0
   for (const double gauge : {e.valid_from, e.valid_to}) {
     const double share = effectiveness(e, gauge, units::atmosphere);
-    if (share >= -most && share <= most) continue;
+    if (share >= least && share <= most) continue;
     units::complain(v, "polynomial", "a share of " + std::to_string(share) + " where it is valid",
-                    "within 3 of 0: a share of the ideal tension", "a look at its units");
+                    "-0.5 to 3: a share of the ideal tension", "a look at its units");
     return;
   }
 }

@@ -69,6 +69,7 @@ void fields(Visitor& v, Whole& w) {
 
 class Random {
  public:
+  // Within the least of the ranges that a unit has (units/ranges.h).
   double real() { return mantissa_(engine_) * std::pow(10.0, exponent_(engine_)); }
   Part part(std::string name) {
     Part p;
@@ -88,7 +89,7 @@ class Random {
  private:
   std::mt19937_64 engine_{41};
   std::uniform_real_distribution<double> mantissa_{-10, 10};
-  std::uniform_int_distribution<int> exponent_{-9, 9};
+  std::uniform_int_distribution<int> exponent_{-17, 1};
 };
 
 Whole read_back(const std::string& toml, Origins* origins = nullptr) {

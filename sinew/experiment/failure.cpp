@@ -44,10 +44,14 @@ std::string in_words(const muscle::Failure& failure, const std::string& who,
   if (failure.of == Of::air) what = "the air of " + who;
   if (failure.of == Of::cylinder) what = "the air of the cylinder";
   what += fmt::format(" was no number any more at {:.4f} s: ", failure.time);
+  const std::string remedy = "less stiffness or damping, or a smaller " + step;
+  const double thread = actuator.braid.thread_length;
+  const bool near = failure.length > -thread && failure.length < 2 * thread;
   const std::string length =
-      failure.of == Of::air ? length_in_words(failure, actuator) : std::string();
-  if (!length.empty()) return what + length;
-  return what + "the integration ran away; try less stiffness or damping, or a smaller " + step;
+      failure.of == Of::air && near ? length_in_words(failure, actuator) : std::string();
+  if (length.empty()) return what + "the motion ran away; try " + remedy;
+  return failure.time > 0 ? what + length + "; or, where the motion ran away, " + remedy
+                          : what + length;
 }
 
 std::string cause_of(const Experiment& e, const Outcome& outcome) {

@@ -89,7 +89,7 @@ TEST(Failure, OfAirEndsTheRunInEveryWorld) {
     expect_says(cause, "the air of muscle knee_");
     expect_says(cause, " was no number any more at 0.0000 s: it was ");
     // Nothing goes on from there.
-    for (const signals::Series& s : out.table.series) EXPECT_LE(s.time_ns.size(), 8u) << name;
+    for (const signals::Series& s : out.table.series) EXPECT_EQ(s.time_ns.size(), 0u) << name;
   }
 }
 
@@ -98,19 +98,26 @@ TEST(Failure, OfTheMotionIsToldFromThatOfAir) {
   e.robot.ground.normal_stiffness = 1e10;
   const Outcome out = run(e);
   ASSERT_TRUE(out.failure);
-  EXPECT_GT(out.failure.time, 0.6);  // the foot stands on the table
+  EXPECT_GT(out.failure.time, 0.1);  // the foot has come down on the table
   const std::string cause = cause_of(e, out);
-  expect_says(cause, "the integration ran away");
+  expect_says(cause, "the motion ran away");
   expect_says(cause, "plant_steps.body");
 }
 
-// The log has numbers up to the failure, and the end of the run is there.
-TEST(Failure, ComesWithinOnePeriodOfItsTime) {
+// The log goes up to the failure, and has nothing but numbers.
+TEST(Failure, LeavesNoNumberThatIsNone) {
   Experiment e = load(folder + "walk-test-1.toml", {"plant_steps.body=5 ms"});
   e.robot.ground.normal_stiffness = 1e10;
   const Outcome out = run(e);
-  const double last = 1e-9 * static_cast<double>(out.table.series.front().time_ns.back());
-  EXPECT_NEAR(last, out.failure.time, 0.03);
+  for (const signals::Series& s : out.table.series) {
+    if (s.time_ns.empty()) continue;
+    EXPECT_LE(1e-9 * static_cast<double>(s.time_ns.back()), out.failure.time) << s.topic.name;
+    if (!s.topic.name.starts_with("/true/")) continue;
+    for (const auto& column : s.columns)
+      for (const double x : column) ASSERT_TRUE(std::isfinite(x)) << s.topic.name;
+  }
+  EXPECT_NEAR(1e-9 * static_cast<double>(out.table.series.front().time_ns.back()), out.failure.time,
+              0.03);
 }
 
 }  // namespace

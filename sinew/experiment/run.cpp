@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "sinew/experiment/clock.h"
@@ -37,13 +38,23 @@ struct Watch {
     return was_stopped;
   }
   void command(Tick t) noexcept { recorder.command(t); }
-  void edge(const signals::Edge& e) noexcept { recorder.edge(e); }
+  void edge(const signals::Edge& e) noexcept {
+    if (!failed()) recorder.edge(e);
+  }
   void sample(Tick t) noexcept {
+    // Of a world that has failed no number is kept.
+    if (world && t >= recorder.next(t))
+      world->advance(static_cast<double>(t) * signals::tick_seconds);
+    if (failed()) return;
     for (int i = 0; i < extra_readers; ++i)
       if (world) (void)world->truth(static_cast<double>(t) * signals::tick_seconds);
     recorder.sample(t);
   }
-  Tick next(Tick t) const noexcept { return every_tick ? t + 1 : recorder.next(t); }
+  Tick next(Tick t) const noexcept {
+    if (failed()) return std::numeric_limits<Tick>::max();
+    return every_tick ? t + 1 : recorder.next(t);
+  }
+  bool failed() const noexcept { return world && world->failure(); }
 };
 
 template <class World, class Clock>

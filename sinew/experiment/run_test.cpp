@@ -263,7 +263,7 @@ TEST(Load, RefusesWhatCannotBe) {
   expect("start.trolley=100 in", "expected 0 to the track's end, 60 in");
   expect("muscle.hip_flexor.mount_length=9 in", "expected less than the thread's length");
   expect("link.femur.center_of_mass=30 in", "expected within the link, 8.875 in");
-  expect("phase.swing.duration=4e7 s", "expected at most 3600 s");
+  expect("phase.swing.duration=4e5 s", "expected at most 3600 s");
   expect("low_level.pwm_ticks=50", "predict.dat counts the ticks");
   expect("low_level.output_delay=0", "expected 1 to 100");
 }

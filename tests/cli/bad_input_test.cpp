@@ -285,7 +285,7 @@ TEST(Fault, EndsTheRunWithItsLastRecords) {
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(result.err,
               AllOf(HasSubstr("the run was ended: the "), HasSubstr("was no number any more at "),
-                    HasSubstr("try less stiffness or damping, or a smaller "
+                    HasSubstr("less stiffness or damping, or a smaller "
                               "plant_steps.body"),
                     HasSubstr(" s  /sensor/hip_angle/count  ")));
   EXPECT_THAT(result.out, IsEmpty());

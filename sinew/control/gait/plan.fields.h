@@ -157,7 +157,13 @@ void joint_fields(Visitor& v, const Plan& plan, Phase& phase) {
 
 template <class Visitor>
 void fields(Visitor& v, const Plan& plan, Phase& phase) {
-  v.number({.name = "duration", .unit = "s", .min = 0, .doc = "at the latest"}, phase.duration);
+  v.number({.name = "duration",
+            .unit = "s",
+            .min = 0,
+            .least = 1e-4,
+            .why = "a tick",
+            .doc = "at the latest"},
+           phase.duration);
   v.number({.name = "thesis_duration",
             .unit = "s",
             .min = 0,

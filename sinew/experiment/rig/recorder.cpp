@@ -132,8 +132,9 @@ void Recorder::sample(Tick t) noexcept {
     complete_ = false;
     return;
   }
-  row_time_ns_.push_back(t * signals::tick_nanoseconds);
   const plant::StandTruth truth = stand_.truth(static_cast<double>(t) * signals::tick_seconds);
+  if (stand_.failure()) return;  // no number of a stand that has failed is kept
+  row_time_ns_.push_back(t * signals::tick_nanoseconds);
   const Moment now{controller_.seen(), truth};
   for (const Column& c : columns_) rows_.push_back(c.value(now));
 }
