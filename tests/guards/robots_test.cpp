@@ -50,8 +50,8 @@ bool physical(const NumericField& f) {
 // Within its range mostly, now and then far around it.
 double varied(const NumericField& f, Random& random) {
   const bool narrow = f.unit == "rad" || f.pattern.ends_with(".efficiency");
-  const double wide = random.one_in(300) ? 100 : narrow || rises ? 1.05 : 1.4;
   const bool rises = f.pattern == "air.polytropic_exponent";  // from just above 1
+  const double wide = random.one_in(300) ? 100 : narrow || rises ? 1.05 : 1.4;
   const double factor = std::pow(wide, random.between(rises ? 0 : -1, narrow ? 0 : 1));
   if (random.one_in(1500)) return 0;
   return random.one_in(5000) ? -f.values.front() * factor : f.values.front() * factor;
