@@ -167,7 +167,6 @@ template <int N>
 void World<N>::step(double h) noexcept {
   held_ = contacts_.hold(h, held_);
   const bool flowing = bank_.any_open();
-
   // The first stage is the look at the node; two to four stand at 1/2, 1/2 and 1.
   Look later[3];
   const Look* look[4] = {&first_, &later[0], &later[1], &later[2]};
@@ -187,8 +186,8 @@ void World<N>::step(double h) noexcept {
     a[s + 1] = later[s].acceleration;
   }
 
-  // Their weighted mean.
   const double sixth = h / 6.0;
+  // Their weighted mean.
   const auto mean = [&](auto&& of) { return sixth * (of(0) + 2.0 * of(1) + 2.0 * of(2) + of(3)); };
   Pose<N>& now = state_.pose;
   const Pose<N> rates = now;  // of the first stage: `now` moves
