@@ -115,6 +115,10 @@ BandOrMistake read_wording(const Reported& r, double atmosphere) {
   }
   if (r.wording == Wording::percentage && value.unit != "%")
     return mistake(fmt::format("\"{}\"", r.value), "a value in %");
+  if (r.wording == Wording::range && value.lowest == value.highest)
+    return mistake(
+        fmt::format("\"{}\"", r.value),
+        "two numbers with \"to\" between them, or one with below, above, at most, at least");
   Band band = band_of(r.wording, value, value.highest, error);
   for (double* end : {&band.lowest, &band.highest}) {
     if (std::isinf(*end)) continue;
@@ -122,7 +126,8 @@ BandOrMistake read_wording(const Reported& r, double atmosphere) {
                                  ? config::format_number(*end)
                                  : fmt::format("{} {}", config::format_number(*end), value.unit);
     const config::Parsed parsed = config::parse_quantity(text, unit_of_key(r.key), atmosphere);
-    if (parsed.mistake) return {{}, parsed.mistake};
+    if (parsed.mistake)
+      return mistake(fmt::format("\"{}\"", share ? r.of : r.value), parsed.mistake->expected);
     *end = parsed.si;
   }
   return {band, std::nullopt};

@@ -120,7 +120,7 @@ TEST(Reported, ABandFollowsFromTheWording) {
   Summary s;
   s.add("d_m", 1.43);
   s.add("share", 0.955);
-  s.add("p_Pa", 101325 + 6894.757 * 57);
+  s.add("p_Pa", 101325 + 6894.757 * 57.1);
   Reported r{.key = "d_m", .value = "55 to 60 in", .source = "6.3"};
   r.statement_class = StatementClass::fitted;
   r.wording = Wording::range;
@@ -160,7 +160,8 @@ TEST(Reported, AWordingNeedsItsNumber) {
   EXPECT_THAT(with("d_m", "as far as the wall", Wording::measured),
               HasSubstr("a number in `value`"));
   EXPECT_THAT(with("d_m", "much", Wording::much_more), HasSubstr("of = a quantity"));
-  EXPECT_THAT(with("d_m", "60 lb", Wording::measured), HasSubstr("d_m: wording"));
+  EXPECT_THAT(with("d_m", "60 lb", Wording::measured), HasSubstr("d_m: wording: found \"60 lb\""));
+  EXPECT_THAT(with("d_m", "60 in", Wording::range), HasSubstr("two numbers with \"to\""));
   EXPECT_THAT(with("share", "0.94", Wording::percentage), HasSubstr("a value in %"));
 }
 
