@@ -55,17 +55,17 @@ TEST(Machine, ValvesHaveTheDelaysOfTheirProfile) {
 TEST(Machine, ARobotWithoutAFootHasNoLeg) { EXPECT_FALSE(has_leg(read("one-joint.toml"))); }
 
 TEST(Machine, ABadBandIsFoundWithItsPlace) {
-  config::Node root = config::compose(experiments + "joint-limits.toml");
+  config::Node root = config::compose(experiments + "walk-test-1.toml");
   config::Node& first = root.find("reported")->children.at(0);
-  first.find("accept")->children.at(0).text = "53 lb";
+  first.find("value")->text = "53 to 60 lb";
   try {
     read_machine(root);
     FAIL() << "no error";
   } catch (const config::Error& e) {
     ASSERT_EQ(e.problems().size(), 1u);
-    EXPECT_EQ(e.problems()[0].key, "reported[0].accept");
+    EXPECT_EQ(e.problems()[0].key, "reported[0].wording");
     EXPECT_GT(e.problems()[0].where.line, 0);
-    EXPECT_NE(std::string(e.what()).find("\"53 lb\""), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("found \"53 to 60 lb\""), std::string::npos);
   }
 }
 
