@@ -146,7 +146,7 @@ class Rows {
     std::vector<double> all;
     for (const Curve& c : curves_) all.insert(all.end(), c.xs.begin(), c.xs.end());
     std::ranges::sort(all);
-    all.erase(std::ranges::unique(all).begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
     for (Curve& c : curves_) {
       std::vector<double> ys;
       std::size_t i = 0;
