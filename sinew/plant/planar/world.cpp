@@ -199,8 +199,7 @@ void World<N>::step(double h) noexcept {
     now.rate[i] += mean([&](int s) { return a[s].angle[i]; });
   }
 
-  if (!flowing) return;
-  for (int i = 0; i < strings_.count; ++i) {
+  for (int i = 0; flowing && i < strings_.count; ++i) {
     const double in = mean([&](int s) { return look[s]->pull.inflow[i]; });
     const double out = mean([&](int s) { return look[s]->pull.outflow[i]; });
     air_in_[i] += in;
