@@ -129,12 +129,13 @@ void set_rate(const Experiment& e, const robot::Sensor& s, control::SensorLimits
   out.max_step = static_cast<std::uint16_t>(std::clamp<double>(step, 1, signals::max_counts));
 }
 
-// The valves that move it; what regulators hold moves without any.
+// The valves that move it; what regulators hold moves without any. A cylinder's work all the time,
+// also at its stop: its position is judged only where the file asks for it.
 void set_driver(const robot::Robot& robot, const control::SpineConfig& spine,
                 const robot::Sensor& s, control::SensorLimits& out) {
   int joint = -1;
   if (s.kind == Kind::angle) joint = robot::find_joint(robot, s.of);
-  if (s.kind == Kind::cylinder && has_cylinder_joint(robot))
+  if (s.kind == Kind::cylinder && has_cylinder_joint(robot) && std::isfinite(s.frozen_limit))
     joint = static_cast<int>(robot.joints.size());
   if (s.kind == Kind::tension || s.kind == Kind::pressure) {
     const auto m = static_cast<std::size_t>(robot::find_muscle(robot, s.of));

@@ -128,6 +128,19 @@ TEST(Supervisor, EvenWhereALawsOutputTakesAPeriod) {
   EXPECT_LE(*stand.vented - 2203, 5);
 }
 
+TEST(Supervisor, AMachineWithoutAVentTimeIsVentedForASecond) {
+  SpineConfig leg = test_leg();
+  leg.shutdown_vent = 0;
+  Stand stand(limits(), leg);
+  stand.lie = lying(hip_angle, 4095, 20);
+  stand.run(121);
+  EXPECT_EQ(stand.vented.value_or(0), 2204);
+  EXPECT_EQ(stand.spine.seen().phase, Phase::venting);
+  stand.run(3);
+  EXPECT_EQ(stand.spine.seen().phase, Phase::off);
+  EXPECT_FALSE(stand.valves.an_exhaust_open());
+}
+
 // The laws go on with the last good counts: the edges are those of a leg that stood still.
 TEST(Supervisor, SingleBadSamplesNeverEndARun) {
   Stand honest, stand;
