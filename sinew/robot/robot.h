@@ -240,7 +240,7 @@ struct LowLevel {
   double vent_time = 0;              // exhausts open at start-up and shut-down [s]
   double dead_band = 0;              // duties of sealing valves below it are 0; whole percents [-]
   int hold_limit = 0;                // bad readings of a channel in a row that end the run; 0: any
-  double command_rate = not_set;  // of a desired angle, above which it is rejected [rad/s]
+  double command_rate = not_set;     // of a desired angle, above which it is rejected [rad/s]
   double interrupt_time = 0;  // longest interrupt of the thesis's program, 5.2; 0: not known [s]
 };
 
