@@ -1,9 +1,10 @@
 #include "cli/runnable.h"
 
-#include "cli/run_log.h"
 #include "sinew/analysis/machine.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
+#include "sinew/experiment/logged.h"
+#include "sinew/experiment/rig/run.h"
 
 namespace sinew::cli {
 
