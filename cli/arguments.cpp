@@ -42,8 +42,8 @@ std::string unit_text(std::string_view text) {
 }
 
 std::string in_words(const Range& range, std::string_view unit) {
-  const std::string low = config::format_quantity(range.low, unit);
-  const std::string high = config::format_quantity(range.high, unit);
+  const std::string low = config::format_quantity(range.low, unit, unit);
+  const std::string high = config::format_quantity(range.high, unit, unit);
   std::string out = range.above ? "more than " + low : low;
   if (range.low == -units::unbounded)
     out = "at most " + high;
@@ -58,7 +58,7 @@ void refuse_outside(std::string_view option, const std::string& text, double si,
                     std::string_view unit, const Range& range) {
   if ((range.above ? si > range.low : si >= range.low) && si <= range.high) return;
   std::string found = text;
-  const std::string plain = config::format_quantity(si, unit);
+  const std::string plain = config::format_quantity(si, unit, unit);
   if (text != config::in_quotes(plain) && text != plain) found += ", which is " + plain;
   config::fail({std::string(option), 0, 0}, "", found, in_words(range, unit));
 }
@@ -77,7 +77,8 @@ std::string example_of(std::string_view unit) {
 
 Range gauge_air_pressure(double atmosphere) {
   Range out = air_pressure;
-  out.low = -atmosphere;
+  out.low -= atmosphere;
+  out.high -= atmosphere;
   return out;
 }
 

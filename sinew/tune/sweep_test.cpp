@@ -99,7 +99,7 @@ TEST(Sweep, FailuresAreRows) {
   EXPECT_EQ(rows[0].cells[2], "");
   EXPECT_FALSE(rows[0].ok);
   EXPECT_TRUE(rows[2].ok);
-  EXPECT_EQ(rows[3].cells.back().find("ended early, at "), 0U);
+  EXPECT_EQ(rows[3].cells.back().find("ended early: "), 0U);
   EXPECT_EQ(rows[3].cells[2], "");
 }
 

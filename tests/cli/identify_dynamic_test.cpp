@@ -118,7 +118,9 @@ TEST(IdentifyDynamic, RefusesWhatItCannotUse) {
 
   result = with({"--mass", "6 lb", "--exponent", "0"});
   EXPECT_EQ(result.code, 1);
-  EXPECT_THAT(result.err, HasSubstr("--exponent: found 0; expected 1 (isothermal) to 1.6667"));
+  EXPECT_THAT(
+      result.err,
+      HasSubstr("--exponent: found \"0\"; expected 1 to 1.66667: from isothermal to adiabatic"));
 
   result = identified(w, {"a.csv", "a.csv"}, {"--mass", "6 lb", "--pressure", "60 psi gauge"});
   EXPECT_EQ(result.code, 1);
