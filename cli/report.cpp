@@ -80,19 +80,37 @@ std::string shown(analysis::Verdict::Is is) {
   return is == differs || is == agrees_after_all ? in_red(word) : std::string(word);
 }
 
+// The class of a statement has a column of its own, or stands before the source where the window
+// has no room for one.
+TextTable verdict_table(const std::vector<analysis::Verdict>& verdicts, bool class_column) {
+  std::vector<std::string> titles = {"", "reported", "Sinew", "accepted", "class", "", "source"};
+  if (!class_column) titles = {"", "reported", "Sinew", "accepted", "", "class; source"};
+  TextTable table(titles);
+  for (const analysis::Verdict& v : verdicts) {
+    const std::string statement_class(to_text(v.statement_class));
+    std::vector<std::string> row = {std::string(analysis::without_unit(v.key)), v.reported,
+                                    v.ours.empty() ? "-" : v.ours, v.accept};
+    if (class_column) row.push_back(statement_class);
+    row.push_back(shown(v.is));
+    row.push_back(class_column || statement_class.empty() ? v.source
+                                                          : statement_class + "; " + v.source);
+    table.add(std::move(row));
+  }
+  return table;
+}
+
 bool print_reported(const analysis::Summary& summary,
                     const std::vector<analysis::Reported>& reported, double atmosphere) {
   fmt::print("{}", summary.title);
   if (!summary.reproduces.empty()) fmt::print(" ({})", summary.reproduces);
   fmt::print("\n");
 
-  TextTable table({"", "reported", "Sinew", "accepted", "class", "", "source"});
-  for (const analysis::Verdict& v : compare(summary, reported, atmosphere))
-    table.add({std::string(analysis::without_unit(v.key)), v.reported,
-               v.ours.empty() ? "-" : v.ours, v.accept, std::string(to_text(v.statement_class)),
-               shown(v.is), v.source});
-  if (table.empty()) return false;
-  fmt::print("{}", table.text_within(width_of_output()));
+  const std::vector<analysis::Verdict> verdicts = compare(summary, reported, atmosphere);
+  if (verdicts.empty()) return false;
+  const std::size_t width = width_of_output();
+  const TextTable table = verdict_table(verdicts, true);
+  const bool fits = width == 0 || table.width_before_last() <= width;
+  fmt::print("{}", (fits ? table : verdict_table(verdicts, false)).text_within(width));
   return true;
 }
 

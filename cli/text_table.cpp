@@ -74,11 +74,17 @@ std::string TextTable::text(std::string_view indent) const {
   return out;
 }
 
+std::size_t TextTable::width_before_last() const {
+  const std::vector<std::size_t> all = widths();
+  std::size_t out = 0;
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) out += all[i] + 2;
+  return out;
+}
+
 std::string TextTable::text_within(std::size_t width) const {
   constexpr std::size_t least = 20, indent = 4;
   const std::vector<std::size_t> all = widths();
-  std::size_t before = 0;  // of the last column
-  for (std::size_t i = 0; i + 1 < all.size(); ++i) before += all[i] + 2;
+  const std::size_t before = width_before_last();
   if (width == 0 || before + all.back() <= width) return text();
 
   const bool beside = before + least <= width;

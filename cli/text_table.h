@@ -18,6 +18,9 @@ class TextTable {
   void add(std::vector<std::string> row);
   bool empty() const { return rows_.size() == 1; }
 
+  // Letters that all columns but the last need side by side.
+  std::size_t width_before_last() const;
+
   // The last column is never padded. `indent` stands before each line.
   std::string text(std::string_view indent = "") const;
 

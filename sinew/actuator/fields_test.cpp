@@ -150,7 +150,7 @@ TEST(ActuatorFields, complain_about_what_does_not_go_together) {
   EXPECT_EQ(complaints(v), Strings{"braid.thread_length"});
 
   v = leg();
-  v.numbers_given["effectiveness.polynomial"] = {1, 2, 3, 4};
+  v.numbers_given["effectiveness.polynomial"] = {1, 0, 0, 0};
   EXPECT_EQ(complaints(v), Strings{"effectiveness.polynomial"});
 
   v = leg();
