@@ -31,9 +31,13 @@ std::string holder_of(int descriptor) {
 }  // namespace
 
 std::string lock(int descriptor) {
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return "";
-  const std::string pid = holder_of(descriptor);
-  return pid.empty() ? "another process" : "process " + pid;
+  // A holder that cannot be found may just have ended: then the lock is free at the next try.
+  for (int tries = 0; tries < 10; ++tries) {
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return "";
+    const std::string pid = holder_of(descriptor);
+    if (!pid.empty()) return "process " + pid;
+  }
+  return "another process";
 }
 
 void wait_for_lock(int descriptor) {

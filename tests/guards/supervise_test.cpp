@@ -210,7 +210,7 @@ TEST(Supervise, ValvesObeyWhateverComes) {
                                          .counts = 5000};
       control::fuzz(supervisor, 500, options, random, all);
       const control::Supervised& seen = supervisor.supervised();
-      EXPECT_GT(seen.rejected, 0u);
+      if (!trips) EXPECT_GT(seen.rejected, 0u);  // an ended one judges no more
       if (seen.trip.cause != Trip::Cause::none) {
         EXPECT_NE(supervisor.seen().phase, control::Phase::running);
         EXPECT_EQ(supervisor.seen().fault, signals::Status::fault);

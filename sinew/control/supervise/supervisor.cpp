@@ -142,7 +142,9 @@ const Conversion* Supervisor::due(Tick t) noexcept {
 void Supervisor::take(const Conversion& conversion, Reading reading, Tick t) noexcept {
   enter(t);
   const std::size_t i = conversion.channel.index;
-  if (i < max_channels && reading.status == Status::ok) {
+  // Once the run is ended no law asks what is true: nothing is judged or counted any more.
+  const bool judged = supervised_.trip.cause == Trip::Cause::none;
+  if (judged && i < max_channels && reading.status == Status::ok) {
     supervised_.sensor[i].counts = reading.counts;
     const Trip::Cause wrong = judge(i, reading.counts);
     if (wrong == Trip::Cause::none) {
