@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <tuple>
 
 namespace sinew::analysis {
 namespace {
@@ -152,7 +153,7 @@ Spoken spoken(std::string_view words) {
   if (unit != words.npos) out.unit = words.substr(unit);
   const std::string_view before = words.substr(0, last[1].begin);
   if (count > 1 && words.substr(last[0].end, last[1].begin - last[0].end) == " to ")
-    out.lowest = last[0].value;
+    std::tie(out.lowest, out.highest) = std::minmax(last[0].value, last[1].value);
   else if (holds_word(before, {"below ", "at most ", "less than ", "under "}))
     out.lowest = -infinity;
   else if (holds_word(before, {"above ", "at least ", "more than ", "over "}))

@@ -69,6 +69,7 @@ TEST(Band, NumbersAreTakenFromWhatIsSaid) {
   const double inf = std::numeric_limits<double>::infinity();
   expect_words("94 %", 94, 94, 1, "%");
   expect_words("55 to 60 in", 55, 60, 1, "in");
+  expect_words("60 to 55 in", 55, 60, 1, "in");
   expect_words("-13 in", -13, -13, 1, "in");
   expect_words("1.56 rad/s", 1.56, 1.56, 0.01, "rad/s");
   expect_words("98.70 psi gauge", 98.7, 98.7, 0.01, "psi gauge");

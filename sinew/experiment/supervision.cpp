@@ -224,7 +224,7 @@ std::string to_text(const control::Trip& trip, const Experiment& e) {
         j < e.robot.joints.size() ? "joint " + e.robot.joints[j].name : "the cylinder";
     return fmt::format(
         "the commands for {} at {:.4f} s: {} in a row were not numbers, out of "
-        "range or too fast",
+        "range or faster than low_level.command_rate",
         name, at, trip.high);
   }
   const std::string name = trip.channel.index < e.robot.sensors.size()

@@ -74,7 +74,8 @@ dl { margin: 0; }
 @media screen and (max-width: 860px) { article { grid-template-columns: minmax(0, 1fr); padding: 16px; }
   header, main { padding: 0 14px; } header { padding-top: 22px; } .bar > div { padding: 8px 14px; }
   .bar, figure { position: static; } html { scroll-padding-top: 8px; } figure { margin-bottom: 14px; }
-  .says { flex-wrap: wrap; gap: 2px 12px; } }
+  .says { flex-wrap: wrap; gap: 2px 12px; } .tally { display: block; overflow-x: auto; font-size: 12px; }
+  .tally th, .tally td { padding-left: 10px; } }
 @media print { :root { color-scheme: light; --paper: #fff; --back: #fff; --ink: #000; --quiet: #444;
   --edge: #bbb; --accent: #000; --good: #0a7a58; --bad: #b3401a; --known: #7a5c00; }
   body, .numbers, .verdict { font-size: 9pt; } figcaption, .where, .why, .curves { font-size: 8pt; }

@@ -131,7 +131,7 @@ void fields(Visitor& v, Cylinder& c) {
 
 template <class Visitor>
 void fields(Visitor& v, Link& link) {
-  v.number({.name = "length", .unit = "m", .min = 1e-3, .doc = "joint to joint, or joint to foot"},
+  v.number({.name = "length", .unit = "m", .min = 1e-4, .doc = "joint to joint, or joint to foot"},
            link.length);
   v.number({.name = "mass",
             .unit = "kg",

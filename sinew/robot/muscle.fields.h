@@ -137,7 +137,7 @@ void fields(Visitor& v, Muscle& muscle) {
            {{"flexor", Muscle::Role::flexor}, {"extensor", Muscle::Role::extensor}});
   v.text({.name = "actuator", .doc = "name in the actuator file"}, muscle.actuator);
   v.integer({.name = "count", .min = 1, .max = 100, .doc = "actuators in parallel"}, muscle.count);
-  v.number({.name = "mount_length", .unit = "m", .min = 1e-3, .doc = "at the joint's rest angle"},
+  v.number({.name = "mount_length", .unit = "m", .min = 1e-4, .doc = "at the joint's rest angle"},
            muscle.mount_length);
   fields(v, muscle.cam);
   v.group({.name = "second", .optional = true, .doc = "another joint that it runs across"},

@@ -145,7 +145,12 @@ void joint_fields(Visitor& v, const Plan& plan, Phase& phase) {
            {.unit = "rad", .optional = true, .doc = "desired"},
            [](JointPhase& j) -> Profile& { return j.angle; });
   profiles({.name = "stiffness", .optional = true, .doc = "from this phase on"},
-           {.unit = "N m/rad", .min = 0, .optional = true, .doc = "K_des [58]"},
+           {.unit = "N m/rad",
+            .min = 0,
+            .max = 1e5,
+            .why = "the low level takes no more",
+            .optional = true,
+            .doc = "K_des [58]"},
            [](JointPhase& j) -> Profile& { return j.stiffness; });
   groups({.name = "gains", .optional = true, .doc = "from this phase on"},
          [](JointPhase& j) -> GainProfiles& { return j.gains; });
@@ -217,7 +222,12 @@ void control_fields(Visitor& v, Plan& plan) {
   v.group({.name = "stiffness", .doc = "K_des [58], until a phase says otherwise"}, [&](auto& g) {
     for (JointPlan& joint : plan.joints)
       if (joint.driven)
-        g.number({.name = joint.name, .unit = "N m/rad", .min = 0, .doc = "desired"},
+        g.number({.name = joint.name,
+                  .unit = "N m/rad",
+                  .min = 0,
+                  .max = 1e5,
+                  .why = "the low level takes no more",
+                  .doc = "desired"},
                  joint.stiffness);
   });
   v.group(

@@ -124,11 +124,18 @@ void check_load(const Experiment& e, Findings& out) {
   out.unused(regulated && e.start_pressure > 0, "start.pressure", "a charge that is not regulated");
 }
 
-// A length at which the chamber holds no air has no pressure.
+// No clamp reaches further than the stand itself takes (plant/rig), and a length at which the
+// chamber holds no air has no pressure.
 void check_volumes(const Experiment& e, Findings& out) {
   const auto check = [&](const std::string& key, double length) {
     for (const actuator::Actuator& a : e.actuators) {
       if (a.name != e.element.actuator) continue;
+      const double longest = 1.5 * a.braid.thread_length;
+      if (length > longest) {
+        out.add(key, inches(length), "at most " + inches(longest) + ", 1.5 threads of the muscle",
+                "a length that it can have");
+        continue;
+      }
       if (length > a.caps.length && actuator::volume(a, length) + e.element.external_volume > 0)
         continue;
       out.add(key, "a chamber without volume: the muscle is " + inches(length) + " long",

@@ -140,7 +140,12 @@ Stand::Stand(const StandSetup& setup)
   state_.length += start.displacement;
   refuse_without_air(setup_, start.length);
   refuse_without_air(setup_, state_.length);
-  for (const Point& p : setup_.load.length.points) refuse_without_air(setup_, p.value);
+  for (const Point& p : setup_.load.length.points) {
+    refuse_without_air(setup_, p.value);
+    if (const Reach r = reach(setup_); !setup_.cylinder && (p.value < r.low || p.value > r.high))
+      refuse("a driven length of " + std::to_string(p.value) +
+             " m is beyond half the shortest length and 1.5 threads of its muscle");
+  }
   if (const Reach r = reach(setup_);
       !setup_.cylinder && !driven_ && !(state_.length >= r.low && state_.length <= r.high))
     refuse("it starts beyond half the shortest length and 1.5 threads");
