@@ -96,7 +96,7 @@ Exhibit figure_2_6(const Sources& from) {
              .quantity = "least distance of a curve from a straight line, of its range",
              .ours = 100 * straightest,
              .unit = "%",
-             .accept = analysis::at_least(analysis::identity(100).highest),
+             .accept = analysis::another(analysis::identity(100).highest, 100),
              .why = "[22] is of second order in the length, for any numbers; no more than rounding "
                     "would be a line",
              .because = {}}),

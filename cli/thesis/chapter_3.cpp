@@ -78,31 +78,32 @@ Exhibit figure_3_13(const Sources& from) {
   const Section text("3.4");
   const char* drawn = "drawn in steps of 0.5 %";
   const char* rounded = "printed in whole percents; 42.5 % is 17 of 40 ms";
-  return {
-      {.name = "3-13",
-       .title = "Actual over commanded duty cycle",
-       .caption = "A valve that opens 4 ms late and shuts 1 ms late.",
-       .plots = {{.x = {"commanded duty cycle", "%", 0, 100},
-                  .y = {"actual duty cycle", "%", 0, 100},
-                  .curves = curves}}},
-      {text.number(code_against_code, "A command of 50 % at 25 Hz opens the valve for", "43 %",
-                   "actual duty", report::value_at(trace(curves[0]), 50), "%",
-                   analysis::percentage(43), rounded),
-       text.number(code_against_code, "A command of 50 % at 50 Hz opens the valve for", "35 %",
-                   "actual duty", report::value_at(trace(curves[1]), 50), "%",
-                   analysis::percentage(35), "printed in whole percents"),
-       text.number(code_against_code, "Commands of less than 4 ms do not open it, at 25 Hz", "10 %",
-                   "largest command with no flow", shut_to(curves[0]), "%",
-                   analysis::percentage(10), drawn),
-       text.number(code_against_code, "The same at 50 Hz", "20 %", "largest command with no flow",
-                   shut_to(curves[1]), "%", analysis::percentage(20), drawn),
-       text.number(code_against_code, "With less than 1 ms to shut it stays open, at 25 Hz",
-                   "97.5 %", "least command that never shuts it",
-                   report::first_at_least(trace(curves[0]), 100), "%", analysis::percentage(97.5),
-                   drawn),
-       text.number(
-           code_against_code, "The same at 50 Hz", "95 %", "least command that never shuts it",
-           report::first_at_least(trace(curves[1]), 100), "%", analysis::percentage(95), drawn)}};
+  return {{.name = "3-13",
+           .title = "Actual over commanded duty cycle",
+           .caption = "A valve that opens 4 ms late and shuts 1 ms late.",
+           .plots = {{.x = {"commanded duty cycle", "%", 0, 100},
+                      .y = {"actual duty cycle", "%", 0, 100},
+                      .curves = curves}}},
+          {text.number(code_against_code, "A command of 50 % at 25 Hz opens the valve for", "43 %",
+                       "actual duty", report::value_at(trace(curves[0]), 50), "%",
+                       analysis::percentage(43), rounded),
+           text.number(code_against_code, "A command of 50 % at 50 Hz opens the valve for", "35 %",
+                       "actual duty", report::value_at(trace(curves[1]), 50), "%",
+                       analysis::percentage(35), "printed in whole percents"),
+           text.number(code_against_code, "Commands of less than 4 ms do not open it, at 25 Hz",
+                       "10 %", "largest command with no flow", shut_to(curves[0]), "%",
+                       analysis::percentage(10), drawn),
+           text.number(code_against_code, "Commands of less than 4 ms do not open it, at 50 Hz",
+                       "20 %", "largest command with no flow", shut_to(curves[1]), "%",
+                       analysis::percentage(20), drawn),
+           text.number(code_against_code, "With less than 1 ms to shut it stays open, at 25 Hz",
+                       "97.5 %", "least command that never shuts it",
+                       report::first_at_least(trace(curves[0]), 100), "%",
+                       analysis::percentage(97.5), drawn),
+           text.number(code_against_code, "With less than 1 ms to shut it stays open, at 50 Hz",
+                       "95 %", "least command that never shuts it",
+                       report::first_at_least(trace(curves[1]), 100), "%", analysis::percentage(95),
+                       drawn)}};
 }
 
 }  // namespace

@@ -24,11 +24,10 @@ report::Gallery gallery(const Sources& from, std::atomic<std::int64_t>& done) {
           "What was measured is lost: where a synthetic curve stands in its place, it is our "
           "own stand's and says so. Each verdict is computed from the curves as they are "
           "drawn, or from the run's summary, within a band that follows from the wording. Its "
-          "class "
-          "says what agreement is worth: only what is predicted tests the model. What was fitted "
-          "(docs/calibration.md) shows that one leg can do all of it at once; what was put in, is "
-          "true by construction or is the same equations twice, that nothing is broken "
-          "(docs/evidence.md).",
+          "class says what agreement is worth: only what is predicted tests the model. What was "
+          "fitted (docs/calibration.md) shows that one leg can do all of it at once; agreement of "
+          "what was put in, is true by construction or is the same equations twice shows only "
+          "that nothing is broken (docs/evidence.md).",
       .prefix = "Figure "};
   for (const auto make : makers) {
     for (Exhibit& e : make(from)) out.exhibits.push_back(std::move(e));

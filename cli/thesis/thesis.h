@@ -69,6 +69,9 @@ class Section {
 // A verdict on a summary's key, its key in words where we have them.
 report::Claim in_words(const analysis::Verdict& verdict);
 
+// "knee flexor" of knee_flexor.
+std::string in_words(std::string name);
+
 inline report::Trace trace(const report::Curve& curve) { return {curve.xs, curve.ys}; }
 
 }  // namespace sinew::cli::thesis

@@ -23,7 +23,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 28> words = 
     {"trolley.mean_speed_m_per_s", "Mean speed"},
     {"trolley.distance_from_torques_m", "Distance by integrating the forces of 6-8"},
     {"trolley.distance_from_torques_by_plan_m",
-     "The same, with the forces of planned stance alone"},
+     "Distance by integrating the forces of 6-8 in planned stance alone"},
     {"joints.hip.passiveness", "Passiveness of the hip"},
     {"joints.knee.passiveness", "Passiveness of the knee"},
     {"joints.hip.excursion_rad", "Excursion of the hip"},
@@ -31,14 +31,14 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 28> words = 
     {"phases.swing.joints.hip.fewest_turning_points",
      "The hip oscillates in every swing: turning points of its error, the fewest in one"},
     {"phases.swing.joints.knee.fewest_turning_points",
-     "The knee oscillates in every swing: the same"},
+     "The knee oscillates in every swing: turning points of its error, the fewest in one"},
     {"joints.hip.velocity_jump_largest_rad_per_s", "Jump of the velocity from sample to sample"},
     {"muscles.hip_extensor.own_scale_peak_tension_N",
      "The greatest force, a reading of the hip's extensor by its own scale, is near the predicted "
      "one"},
     {"foot.extension_time_s", "Time from the retracted to the extended position, 10 to 90 % of x"},
     {"foot.extension_time_to_peak_s",
-     "The same to the first peak of x, beyond the extended position"},
+     "Time from the retracted position to the first peak of x, 10 to 90 %"},
     {"foot.slip_per_step_m", "Way that the foot slides in a step"},
     {"foot.step_repeat_rms_m", "The foot's path does not repeat itself"},
     {"ground_reaction.mean_normal_stance_true_N", "Foot forces are greater than in test 1"},
@@ -66,6 +66,11 @@ report::Claim in_words(const analysis::Verdict& verdict) {
   const auto* known = std::ranges::find(words, verdict.key, &decltype(words)::value_type::first);
   if (known != words.end()) out.says = known->second;
   return out;
+}
+
+std::string in_words(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
 }
 
 }  // namespace sinew::cli::thesis

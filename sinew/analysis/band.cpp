@@ -41,6 +41,11 @@ Band negligible(double of) {
   return {-most, most, Wording::negligible};
 }
 
+Band small(double of) {
+  const double most = large_share * std::fabs(of);
+  return {-most, most, Wording::small};
+}
+
 Band noticeable(double of) { return {small_share * of, infinity, Wording::noticeable}; }
 Band substantial(double of) { return {large_share * of, infinity, Wording::substantial}; }
 
@@ -79,6 +84,8 @@ std::string_view rule_of(Wording wording) {
       return "negligible: under 5 % of the range";
     case Wording::noticeable:
       return "said to be there: not under 5 % of the range";
+    case Wording::small:
+      return "small, slight: not substantial, under 20 %";
     case Wording::substantial:
       return "substantial: over 20 %";
     case Wording::much_less:

@@ -5,6 +5,7 @@
 //   about(90)                10 %
 //   negligible(44)           under 5 % of the quantity's range, which is 44
 //   noticeable(44)           said to be there, without how much: no less than negligible
+//   small(44)                said to be small or slight: not substantial, under 20 % of it
 //   substantial(44)          over 20 % of it
 //   much_less(44), much_more(44)     by over 20 %
 //   range(55, 60)            itself; at_least(60), at_most(5) have one end
@@ -41,6 +42,7 @@ Band percentage(double percents, double reading_error = 0);
 Band about(double value, double reading_error = 0);
 Band negligible(double of);   // of either sign
 Band noticeable(double of);   // of > 0
+Band small(double of);        // of either sign
 Band substantial(double of);  // of > 0
 Band much_less(double of);
 Band much_more(double of);

@@ -35,6 +35,7 @@ TEST(Band, WordsWithoutANumberAreSharesOfTheRange) {
   expect(negligible(44), -2.2, 2.2);
   EXPECT_EQ(noticeable(100).lowest, 5);
   EXPECT_EQ(substantial(100).lowest, 20);
+  expect(small(100), -20, 20);
   EXPECT_NEAR(much_less(44).highest, 35.2, 1e-9);
   EXPECT_NEAR(much_more(10).lowest, 12, 1e-9);
   EXPECT_TRUE(std::isinf(much_more(10).highest));

@@ -76,6 +76,8 @@ Band band_of(Wording wording, const Spoken& value, double of, double error) {
       return negligible(of);
     case Wording::noticeable:
       return noticeable(of);
+    case Wording::small:
+      return small(of);
     case Wording::substantial:
       return substantial(of);
     case Wording::much_less:
@@ -91,8 +93,8 @@ Band band_of(Wording wording, const Spoken& value, double of, double error) {
 
 bool is_share(Wording wording) {
   using enum Wording;
-  return wording == negligible || wording == noticeable || wording == substantial ||
-         wording == much_less || wording == much_more;
+  return wording == negligible || wording == noticeable || wording == small ||
+         wording == substantial || wording == much_less || wording == much_more;
 }
 
 // Of a wording: in the unit of its own words, then in SI.

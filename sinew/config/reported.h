@@ -38,6 +38,7 @@ enum class Wording {
   about,
   negligible,
   noticeable,
+  small,
   substantial,
   much_less,
   much_more,
@@ -46,11 +47,17 @@ enum class Wording {
 };
 
 inline const std::initializer_list<units::Choice<Wording>> wordings = {
-    {"measured", Wording::measured},     {"percentage", Wording::percentage},
-    {"about", Wording::about},           {"negligible", Wording::negligible},
-    {"noticeable", Wording::noticeable}, {"substantial", Wording::substantial},
-    {"much less", Wording::much_less},   {"much more", Wording::much_more},
-    {"range", Wording::range},           {"computed", Wording::computed}};
+    {"measured", Wording::measured},
+    {"percentage", Wording::percentage},
+    {"about", Wording::about},
+    {"negligible", Wording::negligible},
+    {"noticeable", Wording::noticeable},
+    {"small", Wording::small},
+    {"substantial", Wording::substantial},
+    {"much less", Wording::much_less},
+    {"much more", Wording::much_more},
+    {"range", Wording::range},
+    {"computed", Wording::computed}};
 
 // "another band" and "-" where no word stands for it.
 template <class Enum>
