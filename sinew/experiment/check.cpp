@@ -292,7 +292,7 @@ void check_place(const Experiment& e, List& out) {
     }
 }
 
-// A run that would take hours, or more memory than there is, is a slip of the pen.
+// A run that would take hours, or more memory than there is, is a typing error.
 void check_size(const Experiment& e, List& out) {
   constexpr double longest = 3600;    // [s]
   constexpr double most = 2'000'000;  // samples

@@ -196,7 +196,7 @@ void warn_of_outliers(const SensorData& data, const SensorReadings& s, const Usa
   for (const std::size_t i : outliers(off, std::max(4 * finest, 0.02 * span)))
     warnings.push_back(
         fmt::format("{}:{}: {}: {:.4g} V is {:+.3g} V from the fit, far from the "
-                    "others: a slip of the pen?",
+                    "others: a typing error?",
                     data.file, u.lines[i], s.name, u.output[i], off[i]));
 }
 

@@ -42,8 +42,7 @@ struct Maker {
   }
 };
 
-// --- what moves
-// -----------------------------------------------------------------------------------
+// --- what moves ---------------------------------------------------------------------------------
 
 void add_frames(Maker& m) {
   m.out.frames.push_back({"body",
@@ -73,8 +72,7 @@ void add_frames(Maker& m) {
   }
 }
 
-// --- muscles
-// --------------------------------------------------------------------------------------
+// --- muscles ------------------------------------------------------------------------------------
 
 // Outline of the largest cam at a joint, as it stands in the distal link at the joint's rest angle:
 // the cord leaves it where the proximal frame's muscle is.
@@ -198,8 +196,7 @@ void add_muscle(Maker& m, const robot::Muscle& muscle) {
   m.out.muscles.push_back(std::move(shape));
 }
 
-// --- what it stands and rolls on
-// ------------------------------------------------------------------
+// --- what it stands and rolls on ----------------------------------------------------------------
 
 void add_discs(Maker& m) {
   const robot::Foot& foot = m.robot().foot;

@@ -69,7 +69,7 @@ std::vector<std::string> keys(const Sweep&);
 void check(const Sweep&);
 
 // Checks, then runs. Throws after the first point for a key that the summary lacks and that looks
-// like a slip of the pen. Returns the rows that are done.
+// like a typing error. Returns the rows that are done.
 std::vector<Row> sweep(const Sweep&, const Options&);
 
 // One run: what `sinew run` would say of it.

@@ -1,6 +1,6 @@
 // units/ranges.h - how large a quantity of a machine can be, by its unit.
 //
-// Robots go from a cricket's size to an elephant's. What lies far beyond is a slip of the pen, and
+// Robots go from a cricket's size to an elephant's. What lies far beyond is a typing error, and
 // would overflow somewhere in the laws. A field's own bounds are the narrower ones (field.h).
 #pragma once
 
@@ -23,8 +23,8 @@ inline constexpr std::array ranges = {
     Range{"rad", 100, "a joint turns a few times at most"},
     Range{"rad/s", 1e5, "no joint turns faster"},
     Range{"rad/s2", 1e8, "no joint is set in motion faster"},
-    Range{"s", 1e6, "a run does not take days"},
-    Range{"1/s", 1e6, "a weight of angles that are read every few milliseconds"},
+    Range{"s", 1e6, "a run does not take two weeks"},
+    Range{"1/s", 1e6, "a weight of readings per second; no angle is read a million times in one"},
     Range{"Hz", 1e6, "no valve follows a faster wave"},
     Range{"kg", 1e5, "an elephant has 6000 kg"},
     Range{"kg m2", 1e6, "an elephant turns with 10000 kg m2"},

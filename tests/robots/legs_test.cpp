@@ -69,8 +69,7 @@ TEST(FewerSensors, TransducersThatNoLawReadsChangeLittle) {
               0.5);
 }
 
-// --- 7.3: dampers
-// ---------------------------------------------------------------------------------
+// --- 7.3: dampers -------------------------------------------------------------------------------
 
 std::vector<std::string> dampers(const std::string& size) {
   return {"joint.hip.damper=" + size, "joint.knee.damper=" + size};

@@ -108,8 +108,7 @@ TEST(Endurance, TheThesissTankHardlyMoves) {
   EXPECT_NEAR((units::absolute(100 * units::psi) - end) / units::psi, 0.05, 0.02);
 }
 
-// --- hoses
-// ----------------------------------------------------------------------------------------
+// --- hoses --------------------------------------------------------------------------------------
 
 // 3.4: what a hose takes away is flow, so the walk gets shorter with it; it hardly damps.
 TEST(Hoses, TakeWayAndHardlyDamp) {

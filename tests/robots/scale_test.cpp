@@ -178,8 +178,7 @@ TEST(Scale, BothKindsOfFrictionAgreeButForAHair) {
   }
 }
 
-// --- robots/cricket
-// -------------------------------------------------------------------------------
+// --- robots/cricket -----------------------------------------------------------------------------
 
 // Its file is the leg an eighth as large, in numbers of four digits: in the air, with the leg's
 // delays and gravity scaled as well, it moves alike.

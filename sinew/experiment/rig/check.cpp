@@ -151,7 +151,7 @@ void check_volumes(const Experiment& e, Findings& out) {
   if (e.start_length > 0) check("start.length", e.start_length);
 }
 
-// More memory than there is, for a slip of the pen.
+// More memory than there is, for a typing error.
 void check_size(const Experiment& e, Findings& out) {
   constexpr double most = 2'000'000;  // samples
   const double period = e.sweep.step > 0 ? e.duration : e.log.period;

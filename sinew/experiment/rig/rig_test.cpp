@@ -153,8 +153,7 @@ TEST(RigRun, FeedbackGoesBackAfterATug) {
   EXPECT_GT(length[6100], length[5990]);
 }
 
-// --- files that contradict themselves
-// ---------------------------------------------------------------
+// --- files that contradict themselves -----------------------------------------------------------
 
 std::string refusal(const std::string& name, const std::vector<std::string>& sets) {
   try {
@@ -212,8 +211,7 @@ TEST(RigFiles, OtherFormatsAreRefused) {
   }
 }
 
-// --- laws
-// ---------------------------------------------------------------------------------------------
+// --- laws ---------------------------------------------------------------------------------------
 
 TEST(DriveLaws, TheSteadyDutyLetsInWhatItLetsOut) {
   const gas::Air air;

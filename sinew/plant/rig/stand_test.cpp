@@ -189,8 +189,7 @@ TEST(Stand, AirIsNeitherMadeNorLost) {
   EXPECT_NEAR(x.air, at_start + x.air_in - x.air_out - x.air_leaked, 1e-12 * x.air_in);
 }
 
-// --- driven and regulated
-// -------------------------------------------------------------------------
+// --- driven and regulated -----------------------------------------------------------------------
 
 TEST(Stand, ATensileMachineSeesTheLawAndItsFriction) {
   StandSetup s = trapped(60, 5);
@@ -244,8 +243,7 @@ TEST(Stand, WeightsMayBeAddedAndTakenAway) {
   EXPECT_GT(again.length, one.length);  // hysteresis: friction keeps some of it
 }
 
-// --- the air cylinder
-// -----------------------------------------------------------------------------
+// --- the air cylinder ---------------------------------------------------------------------------
 
 StandSetup with_cylinder() {
   StandSetup s;
@@ -286,8 +284,7 @@ TEST(Stand, ACylinderOscillatesAsItsStiffnessSays) {
   EXPECT_NEAR(stand.truth(period).length, 0.02 + 1e-5, 1e-8);
 }
 
-// --- the port
-// -------------------------------------------------------------------------------------
+// --- the port -----------------------------------------------------------------------------------
 
 TEST(Stand, ReadsInCountsOfItsTransducers) {
   StandSetup s = trapped(60, 6);
