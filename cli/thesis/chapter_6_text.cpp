@@ -185,11 +185,11 @@ void add_text_of_test_1(const LegRun& run, const Sources& from, Exhibits& out) {
                          "shoulders: it never goes back"));
   add("6-4",
       text.number(
-          predicted, "These oscillations are small", "",
+          predicted, "The hip's oscillations are small", "",
           "their amplitude in the mean, of the hip's excursion",
           100 * run.summary("phases.swing.joints.hip.oscillation_amplitude_rad") / excursion, "%",
           analysis::small(100), "6.3 has \"a few\", too, without a number: not judged"));
-  add("6-4", text.number(predicted, "They are at the beginning of each swing", "",
+  add("6-4", text.number(predicted, "The hip oscillates at the beginning of each swing", "",
                          "share of swing after which the hip turns no more, mean of the steps",
                          last_turn(run), "%", analysis::another(0, 50),
                          "the beginning: no more than the first half"));
