@@ -259,7 +259,7 @@ TEST(Supervisor, ImpossibleCommandsAreRejected) {
       [](JointCommand& c) { c.stiffness = nan; },
       [](JointCommand& c) { c.stiffness = -2e6f; },
       [](JointCommand& c) { c.gains.angle = nan; },
-      [](JointCommand& c) { c.gains.stiffness = 1001; },
+      [](JointCommand& c) { c.gains.stiffness = 2e6f; },
       [](JointCommand& c) { c.gains.velocity = -std::numeric_limits<float>::infinity(); },
       [](JointCommand& c) { c.angle = std::numeric_limits<std::int32_t>::min(); },
       [](JointCommand& c) { c.angle = 40'000; },

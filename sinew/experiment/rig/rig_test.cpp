@@ -189,7 +189,8 @@ TEST(RigFiles, SayWhatIsWrongWithThem) {
   says({"sensor.length.high=1 in"}, "sensor.length.high: found no range", "feedback.toml");
   says({"sweep.to=0"}, "sweep.to: found no more than from", "duty-sweep.toml");
   says({"load.mass=5000 lb"}, "hangs nowhere", "trapped-60-6.toml");
-  says({"start.length=100 in"}, "starts beyond", "trapped-60-6.toml");
+  says({"start.length=100 in"}, "start.length: found 100 in; expected at most",
+       "trapped-60-6.toml");
   says({"start.pressure=4000 psi gauge"}, "start.pressure: found", "trapped-60-6.toml");
   says({"measured.from=60 s"}, "measured.from: found no row", "weights-60.toml");
 }
