@@ -55,18 +55,18 @@ done
 ((${#parts[@]})) || parts=(experiments figures)
 
 for part in "${parts[@]}"; do
-  "of_$part" | sort >"$scratch/$part"
+  "of_$part" | sort >"$scratch/$part.list"
   # The list's own lines of that part, and the other ones.
   [[ $part == figures ]] && mine='^figure ' || mine='^experiments/'
   touch "$list"
   if [[ $write ]]; then
-    { grep -v "$mine" "$list" || true; cat "$scratch/$part"; } | sort >"$scratch/list"
+    { grep -v "$mine" "$list" || true; cat "$scratch/$part.list"; } | sort >"$scratch/list"
     cp "$scratch/list" "$list"
-  elif ! diff -u --label "$list" <(grep "$mine" "$list") --label "now" "$scratch/$part"; then
+  elif ! diff -u --label "$list" <(grep "$mine" "$list") --label "now" "$scratch/$part.list"; then
     echo "statements: $part are not as $list has them; if they are right: tools/statements.sh --write $part"
     exit 1
   fi
-  echo "statements: $(wc -l <"$scratch/$part") of $part, as $list has them"
+  echo "statements: $(wc -l <"$scratch/$part.list") of $part, as $list has them"
 done
 
 if [[ $write ]]; then
