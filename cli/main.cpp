@@ -43,6 +43,7 @@ cli::ExitCode run_safely(const cli::Action& action) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cli::fill_closed_streams();
   cli::survive_file_limits();
   CLI::App app("Sinew: robots driven by braided pneumatic actuators.");
   app.set_version_flag("--version", std::string("sinew ") + SINEW_VERSION);

@@ -1,5 +1,6 @@
 #include "cli/terminal.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -28,19 +29,28 @@ std::string in_color(int stream, std::string_view text, std::string_view code) {
   return fmt::format("\033[{}m{}\033[0m", code, text);
 }
 
+// What cannot be told is no failure of what was done: a full or missing stderr is let be.
+void to_stderr(std::string_view text) noexcept { std::fwrite(text.data(), 1, text.size(), stderr); }
+
 }  // namespace
 
-// Each line starts with its place, so that editors can jump there.
-void error(std::string_view text) {
-  fmt::print(stderr, "{}\n", in_color(STDERR_FILENO, text, "31"));
+// Else the next file that is opened would be taken for the stream. Nothing can be written to the
+// stdout that is put there, so that a result without a place is told of.
+void fill_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0)
+      if (::open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY) < 0) std::abort();
 }
 
+// Each line starts with its place, so that editors can jump there.
+void error(std::string_view text) { to_stderr(in_color(STDERR_FILENO, text, "31") + "\n"); }
+
 void Messages::warning(std::string_view text) const {
-  if (!quiet_) fmt::print(stderr, "{} {}\n", in_color(STDERR_FILENO, "warning:", "33"), text);
+  if (!quiet_) to_stderr(fmt::format("{} {}\n", in_color(STDERR_FILENO, "warning:", "33"), text));
 }
 
 void Messages::note(std::string_view text) const {
-  if (!quiet_) fmt::print(stderr, "{}\n", text);
+  if (!quiet_) to_stderr(fmt::format("{}\n", text));
 }
 
 std::size_t width_of_output() {
@@ -63,7 +73,7 @@ ProgressBar::~ProgressBar() {
   done_ = true;
   if (!thread_.joinable()) return;
   thread_.join();
-  fmt::print(stderr, "\r\033[K");
+  to_stderr("\r\033[K");
 }
 
 // Short runs end before anything is drawn.
@@ -78,9 +88,9 @@ void ProgressBar::watch() {
 void ProgressBar::draw(std::int64_t now) const {
   constexpr std::int64_t width = 30;
   const std::string done(static_cast<std::size_t>(width * now / end_), '#');
-  fmt::print(stderr, "\r[{:<{}}] {:3} %  {:.{}f} of {:.{}f} {}", done, width, 100 * now / end_,
-             static_cast<double>(now) * steps_.each, steps_.decimals,
-             static_cast<double>(end_) * steps_.each, steps_.decimals, steps_.unit);
+  to_stderr(fmt::format("\r[{:<{}}] {:3} %  {:.{}f} of {:.{}f} {}", done, width, 100 * now / end_,
+                        static_cast<double>(now) * steps_.each, steps_.decimals,
+                        static_cast<double>(end_) * steps_.each, steps_.decimals, steps_.unit));
   std::fflush(stderr);
 }
 

@@ -13,6 +13,10 @@
 
 namespace sinew::cli {
 
+// Of stdin, stdout and stderr, which a shell may have closed. To be called before anything is
+// opened.
+void fill_closed_streams();
+
 void error(std::string_view text);
 
 // Everything but errors, unless it is to be quiet.

@@ -84,5 +84,26 @@ TEST(Terminal, TheBarIsGoneAtTheEnd) {
   EXPECT_THAT(seen.substr(seen.rfind('#')), HasSubstr("\033[K"));
 }
 
+// Who cannot be told anything keeps what was done all the same; a result without a place is none.
+TEST(Terminal, AFullOrClosedStderrCostsNoResult) {
+  const Workspace w;
+  const std::string program = std::string("cd '") + w.path().string() + "' && '" + SINEW_PROGRAM +
+                              "' run experiments/one-joint.toml --no-report -o ";
+  const auto code = [&](const std::string& words) {
+    const int status = std::system((program + words).c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  EXPECT_EQ(code("whole >/dev/null 2>/dev/null"), 0);
+  const auto names = names_in(w / "whole");
+  for (const std::string to : {"2>/dev/full", "2>&-", "<&- 2>&-"}) {
+    std::filesystem::remove_all(w / "out");
+    EXPECT_EQ(code("out >/dev/null " + to), 0) << to;
+    EXPECT_EQ(names_in(w / "out"), names) << to;
+    EXPECT_EQ(read_text(w / "out/log.mcap"), read_text(w / "whole/log.mcap")) << to;
+    EXPECT_EQ(code("out >/dev/null " + to), 1) << "what is refused ends with 1, " << to;
+  }
+  EXPECT_EQ(code("unheard >&- 2>&-"), 1);
+}
+
 }  // namespace
 }  // namespace sinew::test
