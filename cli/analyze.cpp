@@ -4,6 +4,7 @@
 #include "cli/command.h"
 #include "cli/report.h"
 #include "cli/run_folder.h"
+#include "cli/run_log.h"
 #include "cli/terminal.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
@@ -19,10 +20,13 @@ struct Options {
   bool json = false, verdicts = false, force = false, quiet = false;
 };
 
-// The machine is a whole one or a stand.
+// The machine is a whole one or a stand. What is reported is of whole runs: there is no verdict on
+// a part of one.
 template <class Machine>
-ExitCode tell(const Options& options, const signals::Table& table, const Machine& machine) {
-  const analysis::Summary summary = analysis::summarize(table, machine);
+ExitCode tell(const Options& options, const signals::Table& table, Machine machine) {
+  if (!table.complete) machine.reported.clear();
+  analysis::Summary summary = analysis::summarize(table, machine);
+  summary.cut_off = !table.complete;
   const std::string json = to_json(summary);
   if (!options.out.empty()) {
     refuse_to_overwrite(options.out, options.force);
@@ -41,11 +45,13 @@ ExitCode tell(const Options& options, const signals::Table& table, const Machine
 ExitCode analyze_run(const Options& options) {
   const Messages messages(options.quiet);
   const RecordedRun run = recorded_run(options.run);
+  require_finished(run.log);
   const config::Node file = config::compose(machine_of(run, options.machine).string());
   const signals::Table table = log::read(run.log);
   if (!table.complete)
-    messages.warning(run.log.string() +
-                     " was cut off or is damaged; the figures are of what stands before");
+    messages.warning(
+        run.log.string() +
+        " was cut off or is damaged; the figures are of what stands before, without verdicts");
 
   if (config::format_kind(file) == "rig") return tell(options, table, analysis::read_stand(file));
   return tell(options, table, analysis::read_machine(file));

@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "cli/run_folder.h"
+#include "cli/run_log.h"
 #include "cli/terminal.h"
 #include "sinew/experiment/globs.h"
 #include "sinew/log/reader.h"
@@ -67,6 +68,7 @@ config::Node resolved_of(const RecordedRun& run) {
 report::RecordedRun recorded(const std::string& named, std::string label,
                              const Messages& messages) {
   const RecordedRun run = recorded_run(named);
+  require_finished(run.log);
   report::RecordedRun out{std::move(label), log::read(run.log), resolved_of(run)};
   if (!out.logged.complete)
     messages.warning(run.log.string() + " was cut off or is damaged; compared as far as it goes");

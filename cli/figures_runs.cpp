@@ -42,6 +42,9 @@ std::vector<report::Figure> figures_of(const RecordedRun& run, const RunFiguresR
   if (!table.complete)
     messages.warning(run.log.string() +
                      " was cut off or is damaged; the figures show what stands before");
+  if (const std::string ended = ended_in(run.log); !ended.empty())
+    messages.warning(fmt::format("{}: the run was ended: {}; the figures show it until then",
+                                 run.log.string(), ended));
   return report::run_figures({.table = table, .resolved = resolved, .name = experiment_in(run.log)},
                              options_of(request));
 }

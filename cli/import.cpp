@@ -36,7 +36,7 @@ ExitCode import_log(const Options& options) {
   write_into(folder, resolved_name, resolved);
   RunLog log(folder.work() / log_name, e.name, e.seed, resolved, experiment::logged_topics(table));
   log.write(table);
-  log.finish();
+  log.finish(resolved, "");
   write_into(folder, summary_name, json);
   write_report(folder, table, resolved, e.name, messages);
   commit_run(folder);

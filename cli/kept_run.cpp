@@ -72,8 +72,9 @@ KeptRun::KeptRun(RunRequest request, const Messages& messages)
 // What was steered is a part of what was run, with where it comes from.
 void KeptRun::finish_log(const experiment::Outcome& outcome) {
   const std::size_t written = experiment_.plan.changes.size();
+  const std::string ended = outcome.ended_early() ? cause_of(experiment_, outcome) : "";
   if (outcome.changes.size() == written) {
-    if (log_) log_->finish();
+    if (log_) log_->finish(resolved_, ended);
     return;
   }
   experiment_.plan.changes = outcome.changes;
@@ -84,7 +85,7 @@ void KeptRun::finish_log(const experiment::Outcome& outcome) {
   resolved_ = experiment::resolved(experiment_, SINEW_VERSION);
   if (!log_) return;
   write_into(*folder_, resolved_name, resolved_);
-  log_->finish(resolved_);
+  log_->finish(resolved_, ended);
 }
 
 // Who the supervisor did not believe: no other figures of a run that was not finished.

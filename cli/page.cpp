@@ -27,6 +27,9 @@ ExitCode report_run(const Options& options) {
   refuse_to_overwrite(out, options.force);
   bool cut = false;
   const std::string page = page_of(run, options.machine, &cut);
+  if (const std::string ended = ended_in(run.log); !ended.empty())
+    messages.warning(fmt::format("{}: the run was ended: {}; the page shows it until then",
+                                 run.log.string(), ended));
   if (cut)
     messages.warning(run.log.string() +
                      " was cut off or is damaged; the page shows what stands "
@@ -43,7 +46,10 @@ std::string page_of(const RecordedRun& run, const std::string& machine, bool* cu
   const config::Node resolved = config::compose(machine_of(run, machine).string());
   const signals::Table table = log::read(run.log);
   if (cut) *cut = !table.complete;
-  return report::page({.table = table, .resolved = resolved, .name = experiment_in(run.log)});
+  return report::page({.table = table,
+                       .resolved = resolved,
+                       .name = experiment_in(run.log),
+                       .ended = ended_in(run.log)});
 }
 
 void write_report(const OutputFolder& folder, const signals::Table& logged,

@@ -1,5 +1,9 @@
 #include "cli/run_log.h"
 
+#include <fmt/format.h>
+
+#include <stdexcept>
+
 #include "sinew/log/reader.h"
 
 namespace sinew::cli {
@@ -12,12 +16,25 @@ void push(void* writer, std::uint16_t topic, std::int64_t time_ns,
   (void)static_cast<log::Writer*>(writer)->push(topic, time_ns, values);
 }
 
+std::string told_in(const std::filesystem::path& log, std::string_view name) {
+  for (const auto& [key, value] : log::read_metadata(log))
+    if (key == name) return value;
+  return "";
+}
+
 }  // namespace
 
-std::string experiment_in(const std::filesystem::path& log) {
-  for (const auto& [key, value] : log::read_metadata(log))
-    if (key == "experiment") return value;
-  return "";
+std::string experiment_in(const std::filesystem::path& log) { return told_in(log, "experiment"); }
+
+std::string ended_in(const std::filesystem::path& log) { return told_in(log, "ended"); }
+
+void require_finished(const std::filesystem::path& log) {
+  const std::string ended = ended_in(log);
+  if (!ended.empty())
+    throw std::runtime_error(
+        fmt::format("{}: the run was ended: {}; a run that was not finished has no figures; sinew "
+                    "report shows what it did",
+                    log.string(), ended));
 }
 
 RunLog::RunLog(const std::filesystem::path& file, const std::string& name, int seed,
@@ -36,6 +53,12 @@ std::vector<std::pair<std::string, std::string>> RunLog::metadata(
 }
 
 void RunLog::write(const signals::Table& table) { experiment::write(writer_, table, logged_); }
+
+void RunLog::finish(const std::string& resolved, const std::string& ended) {
+  std::vector<std::pair<std::string, std::string>> said = metadata(resolved);
+  if (!ended.empty()) said.emplace_back("ended", ended);
+  writer_.finish(said);
+}
 
 void RunLog::tap(experiment::RunOptions& options) {
   options.tap = {&writer_, push};

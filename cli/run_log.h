@@ -13,6 +13,12 @@ namespace sinew::cli {
 // The experiment that a log says that it is of; empty where it does not.
 std::string experiment_in(const std::filesystem::path& log);
 
+// Why its run was ended before it was finished, in the words of cause_of(); empty where it was not.
+std::string ended_in(const std::filesystem::path& log);
+
+// For what speaks of whole runs only. Throws std::runtime_error where the log's run was ended.
+void require_finished(const std::filesystem::path& log);
+
 class RunLog {
  public:
   // Throws log::Error where the file cannot be made. `name` and `seed` are the experiment's.
@@ -26,9 +32,8 @@ class RunLog {
   void tap(experiment::RunOptions& options);
 
   // Indexes the file. Without it, the file is one that was cut off. `resolved`: what was run after
-  // all, in place of the constructor's.
-  void finish() { writer_.finish(); }
-  void finish(const std::string& resolved) { writer_.finish(metadata(resolved)); }
+  // all, which may be the constructor's. `ended`: why the run was not finished; empty where it was.
+  void finish(const std::string& resolved, const std::string& ended);
 
  private:
   std::vector<std::pair<std::string, std::string>> metadata(const std::string& resolved) const;

@@ -36,22 +36,22 @@ struct What {
 };
 
 void write_log(const rig::Experiment& e, const What& what, const rig::Outcome& outcome,
-               const OutputFolder& folder) {
+               const std::string& ended, const OutputFolder& folder) {
   if (!e.log.enabled) return;
   write_into(folder, resolved_name, what.resolved);
   RunLog log(folder.work() / log_name, e.name, e.seed, what.resolved, what.logged);
   log.write(outcome.table);
-  log.finish();
+  log.finish(what.resolved, ended);
 }
 
 ExitCode keep(const rig::Experiment& e, const What& what, OutputFolder& folder,
               const RigOptions& options) {
   const Messages messages(options.quiet);
   rig::Outcome outcome = rig::run(e);
-  write_log(e, what, outcome, folder);
-  if (outcome.failure || outcome.status != signals::Status::ok)
-    throw std::runtime_error(
-        fmt::format("{}: the run was ended: {}", e.path, rig::cause_of(e, outcome)));
+  const bool early = outcome.failure || outcome.status != signals::Status::ok;
+  const std::string ended = early ? rig::cause_of(e, outcome) : "";
+  write_log(e, what, outcome, ended, folder);
+  if (early) throw std::runtime_error(fmt::format("{}: the run was ended: {}", e.path, ended));
 
   const std::string measured = rig::measured_csv(e, outcome.table);
   if (!measured.empty()) write_into(folder, measured_name, measured);

@@ -88,6 +88,7 @@ std::string to_json(const Summary& summary,
   root["format"] = "sinew.summary/1";
   root["title"] = summary.title;
   if (!summary.reproduces.empty()) root["reproduces"] = summary.reproduces;
+  if (summary.cut_off) root["cut_off"] = true;
   for (const Entry& e : summary.entries()) put(root, e.key, e.value);
   for (const auto& [key, value] : host)
     if (std::isfinite(value)) put(root, "host." + key, value);

@@ -24,6 +24,7 @@ class Summary {
  public:
   std::string title;
   std::string reproduces;
+  bool cut_off = false;  // its log was: these are the figures of a part of the run
 
   // Keys come in a fixed order. What is not finite is not added.
   void add(std::string key, double value);
@@ -39,9 +40,9 @@ Summary summarize(const signals::Table&, const Machine&);
 // Of a run that its supervisor ended: why, and nothing that looks like a whole run's figures.
 Summary summarize_trip(const signals::Table&, const Machine&);
 
-// summary.json: format, title, the keys as nested objects in the summary's order, `host` last.
-// Numbers have the fewest digits that read back to the same bits. No dates, nothing of the machine
-// that ran but `host`, which comparisons leave out.
+// summary.json: format, title, cut_off where it is true, the keys as nested objects in the
+// summary's order, `host` last. Numbers have the fewest digits that read back to the same bits. No
+// dates, nothing of the machine that ran but `host`, which comparisons leave out.
 std::string to_json(const Summary&, const std::vector<std::pair<std::string, double>>& host = {});
 
 }  // namespace sinew::analysis

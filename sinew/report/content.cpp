@@ -69,11 +69,23 @@ Content finish(Object json, const Run& run, const analysis::Summary& summary,
   return {summary.title.empty() ? run.name : summary.title, json.text(), blob.base64()};
 }
 
+// What stands at the top of a page of a run that was ended.
+std::vector<analysis::Warning> how_it_ended(const Run& run) {
+  if (run.ended.empty()) return {};
+  return {{"the run was ended: " + run.ended, {}}};
+}
+
+// What is reported is of whole runs.
+bool whole(const Run& run) { return run.ended.empty() && run.table.complete; }
+
 Content of_robot(const Run& run) {
-  const analysis::Machine machine = analysis::read_machine(run.resolved);
+  analysis::Machine machine = analysis::read_machine(run.resolved);
+  if (!whole(run)) machine.reported.clear();
   const signals::Table derived = analysis::derive(run.table, machine);
   const analysis::Record record(run.table, machine, &derived);
-  const analysis::Summary summary = analysis::summarize(run.table, machine);
+  const analysis::Summary summary = run.ended.empty()
+                                        ? analysis::summarize(run.table, machine)
+                                        : analysis::summarize_trip(run.table, machine);
 
   Channels channels;
   channels.add(run.table);
@@ -90,14 +102,19 @@ Content of_robot(const Run& run) {
   json.put("phases", phases_of(record, machine));
   json.put("panels", to_json(panels(channels, machine.robot), columns));
   json.put("scene", to_json(scene_of_run, columns));
-  json.put("warnings", to_json(analysis::warnings(run.table, machine)));
+  std::vector<analysis::Warning> warnings = how_it_ended(run);
+  std::ranges::move(analysis::warnings(run.table, machine), std::back_inserter(warnings));
+  json.put("warnings", to_json(warnings));
   return finish(std::move(json), run, summary,
                 compare(summary, machine.reported, machine.atmosphere), blob);
 }
 
 Content of_stand(const Run& run) {
-  const analysis::StandFile file = analysis::read_stand(run.resolved);
-  const analysis::Summary summary = analysis::summarize(run.table, file);
+  analysis::StandFile file = analysis::read_stand(run.resolved);
+  if (!whole(run)) file.reported.clear();
+  analysis::Summary summary;
+  summary.title = file.title;
+  if (run.ended.empty()) summary = analysis::summarize(run.table, file);
   Channels channels;
   channels.add(run.table);
   signals::Table drawn;
@@ -113,7 +130,8 @@ Content of_stand(const Run& run) {
   json.put("scene", "null");
   json.put("stand", to_json(stand_of_run, columns));
   json.put("charts", to_json(stand_charts(channels, stand_of_run), columns));
-  std::vector<analysis::Warning> warnings = analysis::cut_logs(run.table);
+  std::vector<analysis::Warning> warnings = how_it_ended(run);
+  std::ranges::move(analysis::cut_logs(run.table), std::back_inserter(warnings));
   std::ranges::move(analysis::clipped_transducers(run.table), std::back_inserter(warnings));
   json.put("warnings", to_json(warnings));
   return finish(std::move(json), run, summary, compare(summary, file.reported, file.atmosphere),

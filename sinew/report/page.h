@@ -19,6 +19,7 @@ struct Run {
   const signals::Table& table;   // what was logged
   const config::Node& resolved;  // resolved.toml
   std::string name;              // of the experiment; empty where nobody knows
+  std::string ended{};           // why it was not finished: then no verdicts; empty where it was
 };
 
 // Was the program built with its page? Without npm there is none.

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sinew/log/reader.h"
+#include "sinew/report/page.h"
 #include "tests/cli/program.h"
 
 namespace sinew::test {
@@ -42,6 +43,42 @@ TEST(Faults, ABrokenPotentiometerEndsTheRunAndIsNamed) {
   EXPECT_EQ(again.code, 1);
   EXPECT_THAT(again.err, HasSubstr("sensor hip_angle at 5.0203 s"));
   EXPECT_THAT(w.sinew({"replay", "run"}).out, HasSubstr("all equal"));
+}
+
+// Of a run that was ended nothing may look like a whole run's figures.
+void expect_no_figures_of(const Workspace& w, const std::string& run, const std::string& cause) {
+  for (const Words& words :
+       {Words{"analyze", run}, Words{"analyze", run, "--json"}, Words{"analyze", run, "--verdicts"},
+        Words{"compare", run, run}, Words{"compare", run, run, "--json"}}) {
+    const Result r = w.sinew(words);
+    EXPECT_EQ(r.code, 1) << words[0];
+    EXPECT_EQ(r.out, "") << words[0];
+    EXPECT_THAT(r.err, AllOf(HasSubstr(run + "/log.mcap: the run was ended: "), HasSubstr(cause),
+                             HasSubstr("a run that was not finished has no figures; sinew report "
+                                       "shows what it did")));
+  }
+  const Result figures = w.sinew({"figures", run});
+  EXPECT_EQ(figures.code, 0);
+  EXPECT_THAT(figures.err, AllOf(HasSubstr("the run was ended: "), HasSubstr(cause)));
+  if (!report::has_page()) return;
+  const Result page = w.sinew({"report", run});
+  EXPECT_EQ(page.code, 0);
+  EXPECT_THAT(page.err, AllOf(HasSubstr("the run was ended: "), HasSubstr(cause)));
+  EXPECT_THAT(read_text(w / (run + "/report.html")),
+              AllOf(HasSubstr("\"warnings\":[{\"text\":\"the run was ended: "),
+                    HasSubstr("\"verdicts\":[]")));
+}
+
+TEST(Faults, ARunThatWasEndedReadsBackAsOne) {
+  const Workspace w;
+  ASSERT_EQ(w.sinew({"run", broken, "-o", "run", "--quiet"}).code, 1);
+  expect_no_figures_of(w, "run", "sensor hip_angle at 5.0203 s");
+
+  const Result away = w.sinew({"run", "experiments/walk-test-1.toml", "-o", "away", "--quiet",
+                               "--set", "ground.normal_stiffness=1e10 N/m"});
+  ASSERT_EQ(away.code, 1);
+  ASSERT_THAT(away.err, HasSubstr("was no number any more"));
+  expect_no_figures_of(w, "away", "was no number any more");
 }
 
 TEST(Faults, AHealthyRunSaysNothingOfThem) {

@@ -226,6 +226,14 @@ TEST(CutLog, IsUsedAsFarAsItGoesWithAWarning) {
   const double distance = Json::parse(analysis.out)["trolley"]["distance_m"];
   EXPECT_GT(distance, 0.1);
   EXPECT_LT(distance, 1.2);
+  EXPECT_EQ(Json::parse(analysis.out)["cut_off"], true);
+
+  // What is reported is of whole walks.
+  const Result told = w.sinew({"analyze", "run"});
+  EXPECT_EQ(told.code, 0);
+  EXPECT_THAT(told.out, AllOf(HasSubstr("trolley.distance"), Not(HasSubstr("differs")),
+                              Not(HasSubstr("agrees"))));
+  EXPECT_EQ(Json::parse(w.sinew({"analyze", "run", "--verdicts"}).out), Json::array());
 
   const Result check = w.sinew({"check", "run"});
   EXPECT_EQ(check.code, 0);
