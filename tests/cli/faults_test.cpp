@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "sinew/log/reader.h"
-#include "sinew/report/page.h"
 #include "tests/cli/program.h"
 
 namespace sinew::test {
@@ -60,7 +59,7 @@ void expect_no_figures_of(const Workspace& w, const std::string& run, const std:
   const Result figures = w.sinew({"figures", run});
   EXPECT_EQ(figures.code, 0);
   EXPECT_THAT(figures.err, AllOf(HasSubstr("the run was ended: "), HasSubstr(cause)));
-  if (!report::has_page()) return;
+  if (!SINEW_HAS_PAGE) return;
   const Result page = w.sinew({"report", run});
   EXPECT_EQ(page.code, 0);
   EXPECT_THAT(page.err, AllOf(HasSubstr("the run was ended: "), HasSubstr(cause)));
