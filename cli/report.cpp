@@ -38,10 +38,17 @@ std::string record_text(const signals::Series& s, std::size_t i) {
   return text;
 }
 
-// "; the last records before:" and one line per topic.
-std::string last_records(const signals::Table& table) {
+// Until when the run was one: what is vented after a trip is not what led to it.
+std::int64_t end_of_run(const experiment::Outcome& outcome) {
+  const control::Trip& trip = outcome.supervised.trip;
+  const std::int64_t end = last_good_time(outcome.table);
+  if (trip.cause == control::Trip::Cause::none) return end;
+  return std::min(end, trip.at * signals::tick_nanoseconds);
+}
+
+// "; the last records before:" and one line per topic, until `end` [ns].
+std::string last_records(const signals::Table& table, std::int64_t end) {
   std::string text = "; the last records before:";
-  const std::int64_t end = last_good_time(table);
   for (const signals::Series& s : table.series) {
     const auto after = std::ranges::upper_bound(s.time_ns, end) - s.time_ns.begin();
     if (after > 0) text += "\n  " + record_text(s, static_cast<std::size_t>(after - 1));
@@ -114,6 +121,27 @@ bool print_reported(const analysis::Summary& summary,
   return true;
 }
 
+// "1 reading was", "2 readings were".
+std::string counted(std::int64_t count, std::string_view one, std::string_view more) {
+  return fmt::format("{} {}", count, count == 1 ? one : more);
+}
+
+// A fault that changed nothing: the run was one without it. Of one that lasts less than the time
+// between two readings nothing is said.
+void warn_of_idle_faults(const experiment::Experiment& e, const experiment::Outcome& outcome,
+                         const Messages& messages) {
+  for (std::size_t i = 0; i < e.faults.size(); ++i) {
+    const experiment::Fault& fault = e.faults[i];
+    if (fault.at > outcome.duration)
+      messages.warning(
+          fmt::format("fault[{}] never acted: it begins at {:.6g} s, the run lasted "
+                      "{:.4f} s",
+                      i, fault.at, outcome.duration));
+    else if (fault.amount == 0)
+      messages.warning(fmt::format("fault[{}] never acted: its amount is 0", i));
+  }
+}
+
 // What the low level did not believe, or should not.
 void warn_of_sensors(const experiment::Experiment& e, const control::Supervised& supervised,
                      const Messages& messages) {
@@ -121,8 +149,8 @@ void warn_of_sensors(const experiment::Experiment& e, const control::Supervised&
     const std::string& name = e.robot.sensors[s].name;
     const control::SensorSeen& seen = supervised.sensor[s];
     if (seen.rejected > 0)
-      messages.warning(fmt::format("{}: {} readings were not believed; the last good ones stood",
-                                   name, seen.rejected));
+      messages.warning(fmt::format("{}: {} not believed; the last good ones stood", name,
+                                   counted(seen.rejected, "reading was", "readings were")));
     if (seen.frozen > 0)
       messages.warning(fmt::format(
           "{}: the same counts for {} scans in a row while its muscles were driven; {} in all",
@@ -151,24 +179,26 @@ void print_verdicts(const analysis::Summary& summary, const analysis::StandFile&
 void warn_of(const experiment::Experiment& e, const experiment::Outcome& outcome,
              const Messages& messages) {
   const control::Seen& seen = outcome.seen;
-  const auto tell = [&](std::int64_t count, std::string_view what) {
-    if (count > 0) messages.warning(fmt::format("{} {}", count, what));
+  const auto tell = [&](std::int64_t count, std::string_view one, std::string_view more,
+                        std::string_view what) {
+    if (count > 0) messages.warning(fmt::format("{} {}", counted(count, one, more), what));
   };
-  tell(seen.late, "readings came late");
+  tell(seen.late, "reading", "readings", "came late");
   const control::Supervised& supervised = outcome.supervised;
-  tell(seen.invalid - supervised.rejected, "readings were invalid");
-  tell(supervised.rejected_commands,
-       "commands were rejected: not numbers, out of range or too fast");
-  tell(supervised.gaps,
-       fmt::format("ticks came later than announced, by {} at worst", supervised.worst_gap));
+  tell(seen.invalid - supervised.rejected, "reading was", "readings were", "invalid");
+  tell(supervised.rejected_commands, "command was", "commands were",
+       "rejected: not numbers, out of range or too fast");
+  tell(supervised.gaps, "tick", "ticks",
+       fmt::format("came later than announced, by {} at worst", supervised.worst_gap));
   warn_of_sensors(e, supervised, messages);
-  tell(seen.missed,
-       "ticks came late by more than a tick: this machine cannot keep the pace that finely");
-  tell(seen.overruns,
-       "laws took longer than a hundredth of the period, low_level.interrupt_time: the thesis's "
+  warn_of_idle_faults(e, outcome, messages);
+  tell(seen.missed, "tick", "ticks",
+       "came late by more than a tick: this machine cannot keep the pace that finely");
+  tell(seen.overruns, "law", "laws",
+       "took longer than a hundredth of the period, low_level.interrupt_time: the thesis's "
        "computer locked up so (5.2)");
-  tell(outcome.unreachable_periods,
-       "periods with a foot out of reach: the nearest point was aimed at");
+  tell(outcome.unreachable_periods, "period", "periods",
+       "with a foot out of reach: the nearest point was aimed at");
   if (!outcome.table.complete)
     messages.warning("more valve edges than there was room for; the table lacks the last ones");
   for (const analysis::Warning& w : analysis::clipped_sensors(outcome.table, e.robot))
@@ -181,7 +211,7 @@ std::string black_box(const experiment::Experiment& e, const experiment::Outcome
   std::string text = fmt::format("{}: the run was ended: {}", e.path, cause_of(e, outcome));
   if (outcome.supervised.trip.cause != control::Trip::Cause::none)
     text += "; all muscles were vented";
-  text += last_records(outcome.table);
+  text += last_records(outcome.table, end_of_run(outcome));
   return text;
 }
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "sinew/log/reader.h"
 #include "tests/cli/program.h"
@@ -122,6 +123,47 @@ TEST(Faults, ARangeWithoutTheCountAtRestIsRefused) {
   EXPECT_EQ(r.code, 1);
   EXPECT_THAT(r.out + r.err, AllOf(HasSubstr("sensor.lever_angle.plausible"),
                                    HasSubstr("a range with its count at rest in it, 2048")));
+}
+
+TEST(Faults, TheLastRecordsAreThoseOfTheTrip) {
+  const Workspace w;
+  const Result r = w.sinew({"run", broken, "-o", "run"});
+  const std::size_t records = r.err.find("the last records before:");
+  ASSERT_NE(records, std::string::npos);
+  std::istringstream lines(r.err.substr(records));
+  std::string line;
+  std::getline(lines, line);
+  int told = 0;
+  while (std::getline(lines, line) && line.starts_with("  ")) {
+    EXPECT_LE(std::stod(line), 5.0203) << line;
+    ++told;
+  }
+  EXPECT_GT(told, 10);
+  EXPECT_THAT(r.err, HasSubstr("\n  5.0113 s  /sensor/hip_angle/count  4095 count"));
+}
+
+TEST(Faults, OneReadingIsOne) {
+  const Workspace w;
+  write_text(w / "experiments/x.toml",
+             "format = \"sinew.experiment/1\"\nbase = \"one-joint.toml\"\n[[fault]]\n"
+             "at = \"1 s\"\nfor = \"10 ms\"\nof = \"lever_angle\"\nwhat = \"open\"\n");
+  const Result r = w.sinew({"run", "experiments/x.toml", "-o", "run"});
+  EXPECT_THAT(r.err, HasSubstr("lever_angle: 1 reading was not believed"));
+}
+
+TEST(Faults, OneThatNeverActsIsTold) {
+  const Workspace w;
+  write_text(w / "experiments/x.toml",
+             "format = \"sinew.experiment/1\"\nbase = \"one-joint.toml\"\n[[fault]]\n"
+             "at = \"100 s\"\nof = \"lever_angle\"\nwhat = \"open\"\n[[fault]]\n"
+             "at = \"1 s\"\nof = \"lever_angle\"\nwhat = \"offset\"\namount = \"0 count\"\n"
+             "[[fault]]\nat = \"1 s\"\nof = \"lever_angle\"\nwhat = \"offset\"\n"
+             "amount = \"1 count\"\n");
+  const Result r = w.sinew({"run", "experiments/x.toml", "-o", "run"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err, AllOf(HasSubstr("warning: fault[0] never acted: it begins at 100 s"),
+                           HasSubstr("warning: fault[1] never acted: its amount is 0"),
+                           Not(HasSubstr("fault[2]"))));
 }
 
 }  // namespace
