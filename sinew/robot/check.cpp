@@ -178,13 +178,22 @@ void check_plausible(const Robot& robot, const Sensor& sensor, List& out) {
   if (range.empty()) return;
   const std::string key = "sensor." + sensor.name + ".plausible";
   const auto text = [](double counts) { return std::to_string(std::lround(counts)); };
-  if (range.size() != 2 || range[0] >= range[1] || range[1] > robot.converter.top()) {
+  if (range.size() == 2 && range[0] >= range[1]) {
+    const bool equal = range[0] == range[1];
+    out.push_back({key, text(range[0]) + " to " + text(range[1]) + " count",
+                   "the lowest count first, then the highest",
+                   equal ? "two that differ"
+                         : "plausible = [\"" + text(range[1]) + " count\", \"" + text(range[0]) +
+                               " count\"]"});
+    return;
+  }
+  if (range.size() != 2 || range[1] > robot.converter.top()) {
     out.push_back({key, std::to_string(range.size()) + " numbers",
                    "two, the lowest and the highest count, up to " + text(robot.converter.top()),
                    "plausible = [\"400 count\", \"3000 count\"]"});
     return;
   }
-  for (const double rest : {sensor.at_rest, sensor.assumed_at_rest})
+  for (const double rest : std::set{sensor.at_rest, sensor.assumed_at_rest})
     if (rest < range[0] || rest > range[1])
       out.push_back({key, text(range[0]) + " to " + text(range[1]) + " count",
                      "a range with its count at rest in it, " + text(rest), "a wider one"});

@@ -93,8 +93,9 @@ void limit_fields(Visitor& v, Sensor& sensor) {
            sensor.max_rate);
   v.number({.name = "frozen_limit",
             .unit = "s",
-            .min = 1e-3,
+            .min = 0.1,
             .max = 3600,
+            .why = "of less than ten scans a converter's noise repeats itself by chance",
             .optional = true,
             .doc = "the same counts for so long, while driven, end the run; absent: never"},
            sensor.frozen_limit);

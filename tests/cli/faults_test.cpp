@@ -166,5 +166,34 @@ TEST(Faults, OneThatNeverActsIsTold) {
                            Not(HasSubstr("fault[2]"))));
 }
 
+// What `check` says of the lever's sensor with this line more.
+std::string check_with(const std::string& line) {
+  const Workspace w;
+  w.edit("robots/one-joint/robot.toml", "[sensor.lever_angle]\n",
+         "[sensor.lever_angle]\n" + line + "\n");
+  const Result r = w.sinew({"check", "experiments/one-joint.toml"});
+  EXPECT_EQ(r.code, 1) << line;
+  return r.out + r.err;
+}
+
+TEST(Faults, AFrozenLimitThatNoiseReachesIsRefused) {
+  EXPECT_THAT(check_with("frozen_limit = \"10 ms\""),
+              AllOf(HasSubstr("sensor.lever_angle.frozen_limit"),
+                    HasSubstr("a converter's noise repeats itself by chance")));
+}
+
+TEST(Faults, AReversedRangeIsNamedOnce) {
+  const std::string reversed = check_with("plausible = [\"2800 count\", \"1000 count\"]");
+  EXPECT_THAT(reversed, AllOf(HasSubstr("2800 to 1000 count"),
+                              HasSubstr("the lowest count first, then the highest"),
+                              HasSubstr("[\"1000 count\", \"2800 count\"]")));
+  EXPECT_THAT(check_with("plausible = [\"2048 count\", \"2048 count\"]"),
+              HasSubstr("two that differ"));
+  const std::string aside = check_with("plausible = [\"2100 count\", \"3000 count\"]");
+  const std::string told = "a range with its count at rest in it, 2048";
+  ASSERT_THAT(aside, HasSubstr(told));
+  EXPECT_EQ(aside.find(told), aside.rfind(told)) << aside;
+}
+
 }  // namespace
 }  // namespace sinew::test
