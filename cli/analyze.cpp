@@ -29,7 +29,8 @@ ExitCode tell(const Options& options, const signals::Table& table, Machine machi
   summary.cut_off = !table.complete;
   const std::string json = to_json(summary);
   if (!options.out.empty()) {
-    refuse_to_overwrite(options.out, options.force);
+    refuse_to_overwrite(options.out, options.force,
+                        {recorded_run(options.run).log, options.machine}, summary_name);
     write_file(options.out, json);
   }
   if (options.verdicts) {

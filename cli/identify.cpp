@@ -235,7 +235,7 @@ void check_result_options(const ResultOptions& options) {
                    "a name that is free, or that of such a page", "another one, or --no-report");
   }
   if (options.out.empty()) return;
-  refuse_to_overwrite(options.out, options.force);
+  refuse_to_overwrite(options.out, options.force, {}, ".toml");
   if (is_old_file(options.out) && !is_parameter_file(options.out))
     config::fail({options.out, 0, 0}, "", "something that is no parameter file",
                  "a name that is free, or that of a parameter file", "another one");

@@ -20,13 +20,11 @@ namespace {
 // The only files that --force may replace; and what a process that was killed leaves beside them.
 constexpr std::string_view known_files[] = {log_name,     "log.mcap.tmp", resolved_name,
                                             summary_name, measured_name,  "report.html"};
-constexpr std::string_view beside[] = {"", ".part"};
 
 std::vector<std::string> known_names() {
   std::vector<std::string> names;
   for (const std::string_view name : known_files)
-    for (const std::string_view ending : beside)
-      names.push_back(std::string(name) + std::string(ending));
+    names.insert(names.end(), {std::string(name), log::hidden_name(name)});
   return names;
 }
 
@@ -82,7 +80,7 @@ bool holds_a_run(const std::vector<std::string>& names) {
 void clear_unfinished(const fs::path& folder) {
   if (!fs::is_directory(folder)) return;
   std::vector<std::string> known = known_names();
-  for (const std::string_view ending : beside) known.push_back(".replaced" + std::string(ending));
+  known.insert(known.end(), {".replaced", log::hidden_name(".replaced")});
   for (const std::string& name : contents(folder))
     if (std::ranges::find(known, name) == known.end())
       refuse(folder, name, "nothing but a run that did not end", "to move it elsewhere");
@@ -147,8 +145,28 @@ fs::path machine_of(const RecordedRun& run, const std::string& instead) {
   return file;
 }
 
-void refuse_to_overwrite(const fs::path& file, bool force) {
+namespace {
+
+// A log, or a file of a run or of parameters: what no page, table or summary may take the place of.
+bool is_of_another_kind(const fs::path& file, std::string_view own) {
+  if (file.filename() == own || file.extension() == own) return false;
+  return file.extension() == ".toml" || file.extension() == ".mcap" ||
+         (file.filename() == summary_name && fs::exists(file.parent_path() / log_name));
+}
+
+}  // namespace
+
+void refuse_to_overwrite(const fs::path& file, bool force, const std::vector<fs::path>& inputs,
+                         std::string_view own) {
   if (fs::is_directory(file)) refuse(file, "a folder", "the name of a file", "a name inside of it");
+  std::error_code none;
+  const bool direct = log::is_written_directly(file);
+  for (const fs::path& input : inputs)
+    if (!direct && fs::equivalent(file, input, none))
+      refuse(file, "what this command reads", "a name for what it writes", "another name");
+  if (!direct && fs::exists(file) && is_of_another_kind(fs::weakly_canonical(file), own))
+    refuse(file, "a file of another kind, which not even --force replaces",
+           "a name for what this command writes", "another name, or to remove it first");
   if (force || !fs::exists(file) || log::is_written_directly(file)) return;
   refuse(file, "a file", "a name that is free", "another one, or --force to replace it");
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/output_folder.h"
 #include "sinew/log/replacement.h"
@@ -49,8 +50,12 @@ RecordedRun recorded_run(const std::filesystem::path& named);
 // no such file.
 std::filesystem::path machine_of(const RecordedRun& run, const std::string& instead);
 
-// Throws config::Error where the file exists, unless `force`. A pipe or a device is no such file.
-void refuse_to_overwrite(const std::filesystem::path& file, bool force);
+// Throws config::Error where the file exists, unless `force`; with it too where the file is one of
+// the command's inputs, or a log, parameters or a run's summary. `own` names or ends what the
+// command writes itself: "summary.json", ".toml". A pipe or a device is no such file.
+void refuse_to_overwrite(const std::filesystem::path& file, bool force,
+                         const std::vector<std::filesystem::path>& inputs = {},
+                         std::string_view own = "");
 
 // Takes the place of an older file when it is whole. Throws config::Error or log::Error; then the
 // older one stands.

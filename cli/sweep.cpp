@@ -57,9 +57,11 @@ tune::Sweep sweep_for(const Options& options) {
 // nothing.
 class CsvTable {
  public:
-  CsvTable(const std::string& name, std::vector<std::string> headings, bool force)
-      : name_(name), headings_(std::move(headings)) {
-    if (!name.empty()) refuse_to_overwrite(name, force);
+  CsvTable(const Options& options, std::vector<std::string> headings)
+      : name_(options.out), headings_(std::move(headings)) {
+    if (name_.empty()) return;
+    refuse_to_overwrite(name_, options.force, {options.file});
+    log::require_free_part(name_);
   }
 
   // Called between runs that go on: a failure is told of by finish(). False: there was one.
@@ -72,7 +74,7 @@ class CsvTable {
         std::fwrite(text.data(), 1, text.size(), stdout);
         return true;
       }
-      if (!file_) file_.emplace(name_), file_->keep();
+      if (!file_) file_.emplace(name_, log::Replacement::Sync::now, log::Replacement::Part::kept);
       file_->write(text);
     } catch (...) {
       failure_ = std::current_exception();
@@ -83,8 +85,11 @@ class CsvTable {
   // Of a table that is not whole.
   std::string part() const { return file_ ? file_->part().string() : name_; }
 
-  void finish(bool whole) {
-    if (file_ && whole && !failure_) return file_->commit();
+  void take_place() {
+    if (file_) file_->commit();
+  }
+
+  void tell_failure() const {
     if (!failure_) return;
     try {
       std::rethrow_exception(failure_);
@@ -158,6 +163,17 @@ void refuse_empty_columns(const std::vector<tune::Row>& rows, const tune::Sweep&
                           "sinew run, whose summary.json has them all"});
   }
   if (!problems.empty()) throw config::Error(problems);
+  if (std::ranges::none_of(rows, &tune::Row::ok))
+    throw std::runtime_error("no row has figures; the first one's status: " +
+                             rows.front().cells.back());
+}
+
+// Before the table takes an older one's place.
+void judge(const std::vector<tune::Row>& rows, const tune::Sweep& s, const std::string& part) try {
+  refuse_empty_columns(rows, s);
+} catch (const std::exception& e) {
+  if (part.empty()) throw;
+  throw std::runtime_error(std::string(e.what()) + "\n" + part + ": holds the rows");
 }
 
 void tell(const std::vector<tune::Row>& rows, std::size_t points, const CsvTable* csv,
@@ -183,13 +199,14 @@ ExitCode sweep_all(const Options& options) {
 
   const std::vector<std::string> headings = tune::headings(s);
   std::optional<CsvTable> csv;
-  if (!options.out.empty() || !options.json) csv.emplace(options.out, headings, options.force);
+  if (!options.out.empty() || !options.json) csv.emplace(options, headings);
   const std::vector<tune::Row> rows = run_all(options, s, csv ? &*csv : nullptr);
   const std::size_t points = tune::points(s);
-  if (csv) csv->finish(rows.size() == points);
+  if (csv) csv->tell_failure();
   if (options.json) fmt::print("{}", table_as_json(headings, rows));
   tell(rows, points, csv ? &*csv : nullptr, messages);
-  refuse_empty_columns(rows, s);
+  judge(rows, s, csv ? csv->part() : "");
+  if (csv) csv->take_place();
   if (!options.out.empty()) messages.note(options.out);
   return ok;
 }

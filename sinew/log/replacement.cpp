@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <cstdio>
 #include <optional>
 
 #include "sinew/log/file.h"
@@ -45,9 +46,39 @@ bool same_file(int descriptor, const fs::path& name) {
          a.st_ino == b.st_ino;
 }
 
+fs::path visible_part(const fs::path& target) { return target.string() + ".part"; }
+
+[[noreturn]] void fail_taken(const fs::path& part) {
+  throw Error(part, "stands already: rows of an interrupted sweep, or a file of yours",
+              "move it elsewhere or remove it");
+}
+
+// Who is writing it, or nobody.
+std::string writer_of(const fs::path& file) {
+  const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (fd < 0) return "";
+  std::string holder = lock(fd);
+  ::close(fd);
+  return holder;
+}
+
 }  // namespace
 
-Replacement::Replacement(const fs::path& file, Sync sync) : file_(file), sync_(sync) {
+std::string hidden_name(std::string_view name) {
+  return std::string(".").append(name).append(".sinew");
+}
+
+void require_free_part(const fs::path& file) {
+  if (is_written_directly(file)) return;
+  const fs::path part = visible_part(followed(file));
+  struct stat info {};
+  if (::lstat(part.c_str(), &info) != 0) return;
+  if (const std::string holder = writer_of(part); !holder.empty())
+    throw Error(file, holder + " is writing it", "wait for it, or choose another name");
+  fail_taken(part);
+}
+
+Replacement::Replacement(const fs::path& file, Sync sync, Part part) : file_(file), sync_(sync) {
   const fs::path target = followed(file);
   if (const auto number = own_descriptor(target)) {
     part_ = file_;
@@ -66,8 +97,9 @@ Replacement::Replacement(const fs::path& file, Sync sync) : file_(file), sync_(s
     if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) fail(errno);
   }
   target_ = target;
-  part_ = target_.string() + ".part";
+  part_ = target_.parent_path() / hidden_name(target_.filename().string());
   open_part();
+  if (part == Part::kept) show_part(visible_part(target_));
 }
 
 // An earlier part, of a process that was killed, is written anew.
@@ -91,6 +123,19 @@ void Replacement::open_part() {
   ::unlink(part_.c_str());
   ::close(fd_);
   fail(error);
+}
+
+// Under a name that nothing stands at, in one step.
+void Replacement::show_part(const fs::path& name) {
+  if (::renameat2(AT_FDCWD, part_.c_str(), AT_FDCWD, name.c_str(), RENAME_NOREPLACE) != 0) {
+    const int error = errno;
+    ::unlink(part_.c_str());
+    ::close(fd_);
+    if (error == EEXIST) require_free_part(file_);
+    fail(error);
+  }
+  part_ = name;
+  kept_ = true;
 }
 
 Replacement::~Replacement() {

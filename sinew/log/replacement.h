@@ -4,12 +4,13 @@
 //   file.write(text);
 //   file.commit();
 //
-// It is written to `table.csv.part` beside, synced, and renamed: whatever happens meanwhile, under
-// its name stands the old file or the new one. A symbolic link stays, what it leads to is replaced.
-// What is no file - a pipe, a terminal, /dev/stdout - is written directly.
+// It is written to `.table.csv.sinew` beside, synced, and renamed: whatever happens meanwhile,
+// under its name stands the old file or the new one. A symbolic link stays, what it leads to is
+// replaced. What is no file - a pipe, a terminal, /dev/stdout - is written directly.
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "sinew/log/error.h"
@@ -21,10 +22,16 @@ class Replacement {
   // Later: whoever renames the folder syncs it.
   enum class Sync { now, later };
 
-  // Throws Error where it cannot be written, or where another process is writing it.
-  explicit Replacement(const std::filesystem::path& file, Sync sync = Sync::now);
+  // hidden: `.table.csv.sinew`, a name of our own; what a killed process left there is written
+  // anew. kept: `table.csv.part`, which stays without commit(); what stands there already is
+  // refused.
+  enum class Part { hidden, kept };
 
-  // Without commit() the old file stands, and nothing else; unless keep().
+  // Throws Error where it cannot be written, or where another process is writing it.
+  explicit Replacement(const std::filesystem::path& file, Sync sync = Sync::now,
+                       Part part = Part::hidden);
+
+  // Without commit() the old file stands, and nothing else; but for a part that is kept.
   ~Replacement();
   Replacement(const Replacement&) = delete;
   Replacement& operator=(const Replacement&) = delete;
@@ -36,14 +43,12 @@ class Replacement {
   // last moment: then it is the new one.
   void commit();
 
-  // Leaves part() as it is where there is no commit().
-  void keep() noexcept { kept_ = true; }
-
-  // Where the bytes stand until then: `file` + ".part", or `file` where it is no file.
+  // Where the bytes stand until then; `file` where it is no file.
   const std::filesystem::path& part() const { return part_; }
 
  private:
   void open_part();
+  void show_part(const std::filesystem::path& name);
   [[noreturn]] void fail(int error) const;
 
   std::filesystem::path file_;    // as it was named
@@ -53,6 +58,12 @@ class Replacement {
   int fd_ = -1;
   bool kept_ = false;
 };
+
+// The name under which a file of this name is written until it is whole.
+std::string hidden_name(std::string_view name);
+
+// Throws Error where `file` + ".part" stands, which Part::kept would refuse.
+void require_free_part(const std::filesystem::path& file);
 
 // Is it a pipe, a device or one of this process's own descriptors, so that there is no old file?
 bool is_written_directly(const std::filesystem::path& file);

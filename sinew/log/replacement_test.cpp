@@ -33,7 +33,7 @@ TEST(Replacement, IsThereWhenItIsCommitted) {
     file.commit();
     EXPECT_EQ(bytes_of(folder / "a.csv"), "new");
   }
-  EXPECT_FALSE(fs::exists(folder / "a.csv.part"));
+  EXPECT_FALSE(fs::exists(folder / ".a.csv.sinew"));
 }
 
 TEST(Replacement, LeavesTheOldOneWithoutACommit) {
@@ -41,20 +41,22 @@ TEST(Replacement, LeavesTheOldOneWithoutACommit) {
   put_bytes(folder / "a.csv", "old");
   { Replacement(folder / "a.csv").write("new"); }
   EXPECT_EQ(bytes_of(folder / "a.csv"), "old");
-  EXPECT_FALSE(fs::exists(folder / "a.csv.part"));
-  {
-    Replacement file(folder / "a.csv");
-    file.keep();
-    file.write("rows");
-  }
+  EXPECT_FALSE(fs::exists(folder / ".a.csv.sinew"));
+  constexpr auto now = Replacement::Sync::now;
+  { Replacement(folder / "a.csv", now, Replacement::Part::kept).write("rows"); }
   EXPECT_EQ(bytes_of(folder / "a.csv"), "old");
   EXPECT_EQ(bytes_of(folder / "a.csv.part"), "rows");
 
-  // What was kept is no obstacle.
+  // What was kept is not lost to the next one, and no obstacle to what is not kept.
+  EXPECT_THAT(error_of([&] { Replacement(folder / "a.csv", now, Replacement::Part::kept); }),
+              AllOf(HasSubstr("a.csv.part: stands already"), HasSubstr("move it elsewhere")));
+  put_bytes(folder / ".a.csv.sinew", "of one that was killed");
   Replacement again(folder / "a.csv");
   again.write("new");
   again.commit();
   EXPECT_EQ(bytes_of(folder / "a.csv"), "new");
+  EXPECT_EQ(bytes_of(folder / "a.csv.part"), "rows");
+  EXPECT_FALSE(fs::exists(folder / ".a.csv.sinew"));
 }
 
 TEST(Replacement, FollowsALinkAlsoToNothing) {

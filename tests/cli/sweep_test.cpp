@@ -78,6 +78,31 @@ TEST(Sweep, OfAKeyThatNoRunHasFails) {
                            HasSubstr("no.such_m: found no run with it")));
 }
 
+// It does not take the place of a good one, and its rows are kept beside.
+TEST(Sweep, WithoutFiguresReplacesNoTable) {
+  const std::vector<std::pair<Words, std::string>> cases = {
+      {{"--report", "duration_s,no.such_m"}, "no.such_m: found no run with it"},
+      {{"--report", "duration_s", "--vary", "joint.lever.angle_gain=-1,-2 %/count"},
+       "no row has figures"}};
+  for (const auto& [words, said] : cases) {
+    const Workspace w;
+    write_text(w / "t.csv", "an older table\n");
+    Words all = {"sweep", bench, "-o", "t.csv", "--force"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Result r = w.sinew(all);
+    EXPECT_EQ(r.code, 1);
+    EXPECT_THAT(r.err, AllOf(HasSubstr(said), HasSubstr("t.csv.part: holds the rows")));
+    EXPECT_EQ(read_text(w / "t.csv"), "an older table\n");
+    const std::string rows = read_text(w / "t.csv.part");
+    EXPECT_THAT(rows, HasSubstr("duration [s]"));
+
+    const Result again = w.sinew(all);
+    EXPECT_EQ(again.code, 1);
+    EXPECT_THAT(again.err, HasSubstr("t.csv.part: stands already"));
+    EXPECT_EQ(read_text(w / "t.csv.part"), rows);
+  }
+}
+
 TEST(Sweep, RefusesAWholeNumberThatIsNone) {
   const Workspace w;
   const Result r = w.sinew({"sweep", bench, "--vary", "seed=1,9223372036854775808"});
