@@ -90,7 +90,12 @@ ExitCode compare_runs(const Options& options) {
   const Messages messages(options.quiet);
   if (!options.out.empty()) {
     report::require_page(options.out);
-    refuse_to_overwrite(options.out, options.force);
+    std::vector<fs::path> inputs;
+    for (const std::string& named : options.runs) {
+      const RecordedRun run = recorded_run(named);
+      inputs.insert(inputs.end(), {run.log, run.resolved});
+    }
+    refuse_to_overwrite(options.out, options.force, inputs);
   }
   const std::vector<std::string> labels = labels_of(options.runs);
   std::vector<report::RecordedRun> runs;

@@ -76,7 +76,8 @@ ExitCode export_run(const Options& options) {
   const Messages messages(options.quiet);
   refuse_csv_options(options);
   const RecordedRun run = recorded_run(options.run);
-  if (!options.out.empty()) refuse_to_overwrite(options.out, options.force);
+  if (!options.out.empty())
+    refuse_to_overwrite(options.out, options.force, {run.log, run.resolved, options.machine});
 
   signals::Table table = log::read(run.log);
   if (!table.complete)

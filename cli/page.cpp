@@ -24,7 +24,7 @@ ExitCode report_run(const Options& options) {
   const RecordedRun run = recorded_run(options.run);
   const std::filesystem::path out = options.out.empty() ? run.log.parent_path() / report_name
                                                         : std::filesystem::path(options.out);
-  refuse_to_overwrite(out, options.force);
+  refuse_to_overwrite(out, options.force, {run.log, run.resolved, options.machine});
   bool cut = false;
   const std::string page = page_of(run, options.machine, &cut);
   if (const std::string ended = ended_in(run.log); !ended.empty())

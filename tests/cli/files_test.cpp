@@ -128,5 +128,36 @@ TEST(Check, GoesOnAfterAFileWithProblems) {
                                 HasSubstr("robots/leg/valves.toml: ok\n")));
 }
 
+// What a command reads, a log and parameters are replaced by no table, page or summary.
+TEST(Files, ForceReplacesNoInputAndNoOtherKind) {
+  const Workspace w;
+  const std::string bench = "experiments/one-joint.toml";
+  ASSERT_EQ(w.sinew({"run", bench, "-o", "r", "--no-report"}).code, 0);
+  std::filesystem::create_hard_link(w / "r/log.mcap", w / "same.csv");
+  const std::vector<std::pair<Words, std::string>> cases = {
+      {{"export", "r", "--csv"}, "r/log.mcap"},     {{"export", "r", "--csv"}, "same.csv"},
+      {{"export", "r", "--csv"}, "r/summary.json"}, {{"report", "r"}, "r/log.mcap"},
+      {{"analyze", "r"}, "r/resolved.toml"},        {{"sweep", bench}, bench}};
+  for (const auto& [words, target] : cases) {
+    const std::string before = read_text(w / target);
+    Words all = words;
+    all.insert(all.end(), {"-o", target, "--force"});
+    const Result r = w.sinew(all);
+    EXPECT_EQ(r.code, 1) << words[0] << " -o " << target;
+    EXPECT_THAT(r.err, ::testing::HasSubstr("another name")) << words[0];
+    EXPECT_TRUE(read_text(w / target) == before) << words[0] << " -o " << target;
+  }
+  EXPECT_EQ(w.sinew({"analyze", "r", "-o", "r/summary.json", "--force"}).code, 0);
+}
+
+// A name beside that is a user's own.
+TEST(Files, APartOfAUsersStays) {
+  const Workspace w;
+  ASSERT_EQ(w.sinew({"run", "experiments/one-joint.toml", "-o", "r", "--no-report"}).code, 0);
+  write_text(w / "foo.csv.part", "mine");
+  EXPECT_EQ(w.sinew({"export", "r", "--csv", "-o", "foo.csv"}).code, 0);
+  EXPECT_EQ(read_text(w / "foo.csv.part"), "mine");
+}
+
 }  // namespace
 }  // namespace sinew::test
