@@ -117,7 +117,7 @@ constexpr float joint_stiffness_from_pressure(const JointConfig& joint, const Pa
          pressure_stiffness(joint.extensor, length.extensor, pressure.extensor);
 }
 
-inline constexpr float gain_limit = 1e6f;  // a machine of a cricket's size needs thousands
+inline constexpr float gain_limit = 1e6f;           // a machine of a cricket's size needs thousands
 inline constexpr float stiffness_limit = 1e6f;      // [lbf in/rad]
 inline constexpr std::int32_t angle_limit = 32767;  // [count]
 
