@@ -75,6 +75,7 @@ void require_free_part(const fs::path& file) {
   if (::lstat(part.c_str(), &info) != 0) return;
   if (const std::string holder = writer_of(part); !holder.empty())
     throw Error(file, holder + " is writing it", "wait for it, or choose another name");
+  if (::lstat(part.c_str(), &info) != 0) return;  // its writer has just finished
   fail_taken(part);
 }
 
@@ -127,12 +128,22 @@ void Replacement::open_part() {
 
 // Under a name that nothing stands at, in one step.
 void Replacement::show_part(const fs::path& name) {
-  if (::renameat2(AT_FDCWD, part_.c_str(), AT_FDCWD, name.c_str(), RENAME_NOREPLACE) != 0) {
-    const int error = errno;
+  const auto give_up = [this] {
     ::unlink(part_.c_str());
     ::close(fd_);
-    if (error == EEXIST) require_free_part(file_);
-    fail(error);
+  };
+  while (::renameat2(AT_FDCWD, part_.c_str(), AT_FDCWD, name.c_str(), RENAME_NOREPLACE) != 0) {
+    const int error = errno;
+    if (error != EEXIST) {
+      give_up();
+      fail(error);
+    }
+    try {
+      require_free_part(file_);  // and where it has become free, once more
+    } catch (...) {
+      give_up();
+      throw;
+    }
   }
   part_ = name;
   kept_ = true;
