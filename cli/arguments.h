@@ -10,8 +10,8 @@
 
 namespace sinew::cli {
 
-// What a quantity can be, in the SI unit that is asked for, and why it cannot be more or less. Both
-// ends belong to it, but for a `low` that it must be above.
+// Range says how small and how large a quantity may be, in the SI unit that is asked for, and why.
+// Both ends belong to it, except a `low` that the quantity must be above.
 struct Range {
   double low = -units::unbounded;
   double high = units::unbounded;
@@ -35,7 +35,7 @@ inline constexpr Range pulses = above_zero(1e4, "a pulse has at least a tick of 
 double argument(std::string_view option, std::string_view text, std::string_view unit,
                 double atmosphere, const Range& range = {});
 
-// The same of a number that the command line gave.
+// Returns the number that the command line gave; throws config::Error where it is out of range.
 double number_argument(std::string_view option, double value, const Range& range);
 
 // "2.5in:3.9in:0.1in", first and last included; or one quantity. A pressure's step is a difference:

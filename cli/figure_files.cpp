@@ -104,7 +104,7 @@ std::vector<std::string> write_all(const fs::path& folder, const report::Gallery
   return scripts;
 }
 
-// What is there may be replaced where an index lists it, and `force` says so.
+// Returns the figures of an earlier call, which may be replaced where `force` says so.
 std::vector<std::string> replaceable(const fs::path& folder, const std::string& index, bool force) {
   std::vector<std::string> old = figures_in(folder);
   refuse_to_overwrite(folder / index_name, force);

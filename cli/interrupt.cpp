@@ -6,7 +6,7 @@ namespace {
 
 constexpr int heard[] = {SIGINT, SIGTERM};
 
-// What a handler may touch has to outlive every listener.
+// A signal handler may touch this flag at any time, so it outlives every listener.
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 

@@ -95,7 +95,7 @@ void KeptRun::keep_trip(const experiment::Outcome& outcome) {
   write_into(*folder_, summary_name, summary_json(summary, outcome));
 }
 
-// What came until then is in the log, which is left as one that was cut off.
+// Leaves the log without an index, as one that was cut off, and throws with its name.
 void KeptRun::break_off(const experiment::Outcome& outcome) {
   const bool logged = log_.has_value();
   log_.reset();

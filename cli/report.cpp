@@ -142,7 +142,7 @@ void warn_of_idle_faults(const experiment::Experiment& e, const experiment::Outc
   }
 }
 
-// What the low level did not believe, or should not.
+// Warns of each sensor whose readings were rejected or stood still while it was driven.
 void warn_of_sensors(const experiment::Experiment& e, const control::Supervised& supervised,
                      const Messages& messages) {
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {

@@ -38,8 +38,8 @@ std::string where_left(const OutputFolder& folder);
 // A file of the run. Throws log::Error.
 void write_into(const OutputFolder& folder, std::string_view name, std::string_view text);
 
-// What `sinew analyze`, `export` and `replay` are given: a run's folder, or its log alone. Finishes
-// what a killed process left half done there.
+// Finds the files of a run that `sinew analyze`, `export` or `replay` is given by its folder or its
+// log. Finishes a replacement that a killed process left half done there.
 struct RecordedRun {
   std::filesystem::path log;
   std::filesystem::path resolved;  // need not exist

@@ -28,7 +28,7 @@ void warn_beyond_the_muscle(const analysis::Summary& summary, const Messages& me
         *least));
 }
 
-// What was run, beside the experiment itself.
+// The texts and channels that go into the folder of a stand's run, beside the experiment itself.
 struct What {
   const std::string& resolved;
   const analysis::StandFile& stand;

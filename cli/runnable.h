@@ -15,7 +15,7 @@ namespace sinew::cli {
 experiment::Experiment runnable(const std::string& path, const std::vector<std::string>& sets,
                                 bool allow_unreachable);
 
-// The same of an experiment on the test stand.
+// Returns an experiment on the test stand that can be run; throws as runnable() does.
 rig::Experiment runnable_on_stand(const std::string& path, const std::vector<std::string>& sets);
 
 }  // namespace sinew::cli

@@ -82,7 +82,7 @@ class CsvTable {
     return !failure_;
   }
 
-  // Of a table that is not whole.
+  // Returns the file that holds the rows of a table that is not whole.
   std::string part() const { return file_ ? file_->part().string() : name_; }
 
   void take_place() {

@@ -29,7 +29,8 @@ std::string in_color(int stream, std::string_view text, std::string_view code) {
   return fmt::format("\033[{}m{}\033[0m", code, text);
 }
 
-// What cannot be told is no failure of what was done: a full or missing stderr is let be.
+// Ignores a stderr that is full or missing: a message that is lost must not end the work it tells
+// of.
 void to_stderr(std::string_view text) noexcept { std::fwrite(text.data(), 1, text.size(), stderr); }
 
 }  // namespace

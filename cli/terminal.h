@@ -13,8 +13,8 @@
 
 namespace sinew::cli {
 
-// Of stdin, stdout and stderr, which a shell may have closed. To be called before anything is
-// opened.
+// Opens /dev/null for each of stdin, stdout and stderr that the shell has closed, so that no file
+// gets their numbers. Call it before any file is opened.
 void fill_closed_streams();
 
 void error(std::string_view text);

@@ -2,7 +2,7 @@
 # fuzz.sh NAME OUT SECONDS   one harness of tests/fuzz, as preset `fuzz` builds it, for so long.
 #
 # Starts from tests/fuzz/corpus/NAME and from what earlier calls found worth keeping in OUT/NAME/kept.
-# What breaks a law, crashes, hangs for 10 s or takes 2 GB is left in OUT/NAME with the command that
+# An input that breaks a law, crashes, hangs for 10 s or takes 2 GB is left in OUT/NAME with the command that
 # repeats it; exit 1. The number of inputs that were tried goes into OUT/NAME/tries.
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -159,7 +159,7 @@ void add_text_of_test_1(const LegRun& run, const Sources& from, Exhibits& out) {
       return e.figure.name == figure;
     })->claims.push_back(std::move(claim));
   };
-  // What another run's file has judged, in the text's words.
+  // Adds a statement that another experiment's file judges, in the words of the text.
   const auto add_run = [&](const char* figure, const char* experiment, const char* key,
                            const char* says) {
     for (report::Claim& c : LegRun(from, experiment).verdicts({key})) {

@@ -54,7 +54,7 @@ Exhibits chapter_7(const Sources&);
 
 using report::StatementClass;
 
-// What one section says, a number at a time; `because`: ours is known to differ.
+// Section collects the statements of one section, a number each; `because` says why ours differs.
 class Section {
  public:
   explicit Section(std::string where) : where_(std::move(where)) {}

@@ -56,8 +56,9 @@ Band another(double lowest, double highest);
 // "a measured number: half its last digit, or 5 % of it where that is more"
 std::string_view rule_of(Wording wording);
 
-// What a source's words hold: "55 to 60 in" 55, 60, "in"; "below 0.5" -inf, 0.5, ""; "0.035" twice
-// 0.035 with 0.001 as its last digit. `found` is false where they have no number.
+// Spoken holds the numbers of a source's words: "55 to 60 in" gives 55, 60, "in"; "below 0.5" gives
+// -inf, 0.5, ""; "0.035" gives 0.035 twice with 0.001 as its last digit. `found` is false without a
+// number.
 struct Spoken {
   bool found = false;
   double lowest = 0, highest = 0;

@@ -81,7 +81,8 @@ double cylinder_air(const Figures& f, std::size_t first, std::size_t last) {
   return all;
 }
 
-// What the low level did not believe; absent where nothing was, or nobody counted.
+// Adds the counts of rejected readings and commands; a key is absent where its channel was not
+// logged.
 void add_supervision(Figures& f) {
   const auto counted = [&](const std::string& key, const std::string& topic) {
     const Column column = f.record.column(topic);

@@ -61,7 +61,7 @@ BandOrMistake read_accept(const Reported& r, double atmosphere) {
   return {another(si[0], si[1]), std::nullopt};
 }
 
-// What the wording's rule makes of the number, and of what it is a share of.
+// Returns the band that the wording's rule gives for a number, or for a share of the quantity `of`.
 Band band_of(Wording wording, const Spoken& value, double of, double error) {
   switch (wording) {
     case Wording::measured:
@@ -97,7 +97,7 @@ bool is_share(Wording wording) {
          wording == substantial || wording == much_less || wording == much_more;
 }
 
-// Of a wording: in the unit of its own words, then in SI.
+// Returns the band of a wording in SI; the rule is applied in the unit of the source's own words.
 BandOrMistake read_wording(const Reported& r, double atmosphere) {
   const auto mistake = [](std::string found, std::string expected) {
     return BandOrMistake{{}, config::Mistake{std::move(found), std::move(expected), ""}};

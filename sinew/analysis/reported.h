@@ -36,7 +36,7 @@ using config::Reported;
 std::string unit_of_key(std::string_view key);
 std::string_view without_unit(std::string_view key);  // "trolley.distance" of "trolley.distance_m"
 
-// What is wrong with `accept`, or with what a wording needs; nothing where nothing is judged.
+// Returns what is wrong with `accept` or with the words that a wording needs, or nothing.
 std::optional<config::Mistake> mistake_in_band(const Reported&,
                                                double atmosphere = units::atmosphere);
 

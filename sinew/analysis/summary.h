@@ -37,7 +37,8 @@ class Summary {
 
 Summary summarize(const signals::Table&, const Machine&);
 
-// Of a run that its supervisor ended: why, and nothing that looks like a whole run's figures.
+// Returns the counts and the cause of a run that its supervisor ended, without a whole run's
+// figures.
 Summary summarize_trip(const signals::Table&, const Machine&);
 
 // summary.json: format, title, cut_off where it is true, the keys as nested objects in the

@@ -23,7 +23,7 @@ const Node& value_of(const Node& node) {
 }
 Node& value_of(Node& node) { return const_cast<Node&>(value_of(std::as_const(node))); }
 
-// What stood there, also of the items of a list: a message may ask in which unit.
+// Keeps the text that a new value replaces, item by item: a message may ask in which unit it was.
 void remember(Node& now, const Node& before) {
   if (before.is_table()) return;
   if (now.kind == Node::Kind::array && before.kind == Node::Kind::array && !before.children.empty())

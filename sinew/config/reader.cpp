@@ -36,7 +36,8 @@ std::string with_reason(std::string text, std::string_view why) {
   return why.empty() ? text : fmt::format("{}: {}", text, why);
 }
 
-// What the field's own bounds have against the value, or else its unit's; empty: nothing.
+// Returns the range that the value breaks, the field's own or else its unit's; empty if it breaks
+// none.
 std::string out_of_bounds(const units::Field& field, double value) {
   if (!(value >= field.min && value <= field.max)) {
     return with_reason(bounds_text(field), field.why);
@@ -124,7 +125,7 @@ void Reader::integer(const Field& field, int& value) {
   const double high = std::min<double>(field.max, Limits::max());
   const bool whole = node.kind == Node::Kind::integer;
   const double found = whole ? static_cast<double>(node.integer) : node.real;
-  // What no integer holds came as a real number.
+  // The parser gives a whole number that no integer holds as a real number.
   const bool inside = found >= low && found <= high;
   const bool beyond = node.kind == Node::Kind::real && found == std::floor(found) && !inside;
   if (beyond || (whole && !inside)) {

@@ -13,7 +13,7 @@
 
 namespace sinew::config {
 
-// What agreement with a statement is worth.
+// The class of a statement says what agreement with it is worth.
 enum class StatementClass {
   none,               // not given: nothing is judged, or the file is older than classes
   predicted,          // nothing of it was fitted or put in
@@ -107,7 +107,7 @@ void fields(Visitor& v, Reported& r) {
   v.text({.name = "because", .optional = true, .doc = "why ours is known to differ"}, r.because);
 }
 
-// What a file of today must say of what it judges. Logs of before have experiments without it.
+// Complains of a judged figure without a class. Older logs hold experiments that have none.
 template <class Visitor>
 void check_class(Visitor& v, const Reported& r) {
   if (!is_judged(r)) return;

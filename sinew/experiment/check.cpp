@@ -230,7 +230,7 @@ void check_steps(const Experiment& e, const plant::Setup& s, List& out) {
                    "at least 2 us", "less damping or stiffness, a smaller leak, heavier links"});
 }
 
-// What follows from machine and plan together.
+// Checks that need the machine and its plan together: volumes within the reach of the motion.
 void check_motion(const Experiment& e, List& out) {
   const plant::Setup setup = planar_setup(e);
   check_volumes(e, setup, out);

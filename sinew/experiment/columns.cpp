@@ -131,7 +131,7 @@ void low_level_columns(const robot::Robot& robot, Columns& out) {
              [](const Moment& m) { return m.seen.overruns; });
 }
 
-// What was not believed, where it can be expected (experiment/supervision.h).
+// Adds the counters of rejected readings where the experiment gives reason to expect some.
 void supervision_columns(const Experiment& e, Columns& out) {
   if (!is_supervised_closely(e)) return;
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {

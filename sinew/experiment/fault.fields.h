@@ -7,7 +7,7 @@
 
 namespace sinew::experiment {
 
-// What it takes follows from what it is.
+// The unit and the range of a fault's amount follow from its kind.
 template <class Visitor>
 void amount_field(Visitor& v, Fault& fault) {
   const std::string_view unit = unit_of_amount(fault.what);

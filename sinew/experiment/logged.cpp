@@ -11,7 +11,7 @@ namespace sinew::experiment {
 
 namespace {
 
-// The same number of series, and those that are logged by the same name.
+// Throws where the table is not of the topics that were chosen from.
 void refuse_other_topics(const signals::Table& table, const LoggedTopics& logged) {
   bool same = table.series.size() == logged.of_series.size();
   for (std::size_t s = 0; same && s < table.series.size(); ++s) {

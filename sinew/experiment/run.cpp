@@ -42,7 +42,7 @@ struct Watch {
     if (!failed()) recorder.edge(e);
   }
   void sample(Tick t) noexcept {
-    // Of a world that has failed no number is kept.
+    // Nothing is recorded of a world that has failed.
     if (world && t >= recorder.next(t))
       world->advance(static_cast<double>(t) * signals::tick_seconds);
     if (failed()) return;

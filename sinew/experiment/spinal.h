@@ -16,7 +16,7 @@ inline bool has_cylinder_joint(const robot::Robot& robot) {
 // Does an interrupt that runs a law take longer than the thesis's program has for it (5.2)?
 bool laws_overrun(const robot::Robot& robot);
 
-// What does not fit into the low level's numbers, by the keys that it comes from. Of a robot
+// Returns the values that the low level's numbers cannot hold, by their keys. Expects a robot
 // without other contradictions.
 std::vector<robot::Contradiction> misfits(const Experiment& experiment);
 

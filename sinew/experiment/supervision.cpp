@@ -22,7 +22,7 @@ constexpr double beyond_supply = 0.1;   // of its gauge pressure
 constexpr double noise_bound = 6;       // standard deviations, robot/sensing.h
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-// What a sensor's quantity can be, from where it rests.
+// Reach is how far a sensor's quantity can go down and up from its rest.
 struct Reach {
   double down = nowhere, up = nowhere;  // both above 0
 };
@@ -117,7 +117,7 @@ void set_plausible(const Experiment& e, const robot::Sensor& s, control::SensorL
   range.put(out);
 }
 
-// What it reads from one scan to the next, the noise of both of them included.
+// Sets the largest change from one scan to the next, with the noise of both readings included.
 void set_rate(const Experiment& e, const robot::Sensor& s, control::SensorLimits& out) {
   double rate = s.max_rate;  // [count/s]
   if (!std::isfinite(rate) && s.kind == Kind::angle)

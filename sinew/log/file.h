@@ -13,7 +13,7 @@ class Mapping {
  public:
   explicit Mapping(const std::filesystem::path& path);  // throws Error: missing, unreadable, empty
 
-  // Of what is open already; `path` is for messages.
+  // Maps a file that is open already; `path` is for messages.
   Mapping(int descriptor, const std::filesystem::path& path);
   ~Mapping();
   Mapping(const Mapping&) = delete;

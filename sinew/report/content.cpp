@@ -69,13 +69,13 @@ Content finish(Object json, const Run& run, const analysis::Summary& summary,
   return {summary.title.empty() ? run.name : summary.title, json.text(), blob.base64()};
 }
 
-// What stands at the top of a page of a run that was ended.
+// Returns the warning at the top of the page of a run that was ended.
 std::vector<analysis::Warning> how_it_ended(const Run& run) {
   if (run.ended.empty()) return {};
   return {{"the run was ended: " + run.ended, {}}};
 }
 
-// What is reported is of whole runs.
+// Only whole runs are held against reported figures.
 bool whole(const Run& run) { return run.ended.empty() && run.table.complete; }
 
 Content of_robot(const Run& run) {

@@ -15,8 +15,8 @@ void fields(Visitor& v, Converter& converter) {
            converter.full_scale);
 }
 
-// What a sensor gives for what it measures, or the other way round. Wired the other way it would
-// tell the laws that a joint moves against them.
+// The scale of a sensor, volts per unit or units per volt. It is above 0: a sensor that is wired
+// the other way would tell the laws that a joint moves against them.
 template <class Visitor>
 void scale_field(Visitor& v, std::string_view unit, double least, std::string_view doc,
                  double& value) {
@@ -74,7 +74,7 @@ void assumed_fields(Visitor& v, Sensor& sensor) {
            sensor.assumed_at_rest);
 }
 
-// What the low level takes for possible before it believes a reading.
+// The limits within which the low level believes a reading.
 template <class Visitor>
 void limit_fields(Visitor& v, Sensor& sensor) {
   v.numbers({.name = "plausible",

@@ -61,7 +61,7 @@ inline constexpr std::size_t most_points = 1'000'000;  // each keeps a row of th
 
 std::size_t points(const Sweep&);
 
-// What is asked of a summary: to report, and as a condition. Each once.
+// Returns the keys of a summary that the sweep reports or has conditions on, each once.
 std::vector<std::string> keys(const Sweep&);
 
 // Throws config::Error for an experiment that is wrong as it stands, and for keys and units of the

@@ -67,7 +67,7 @@ inline constexpr std::array ranges = {
     Range{"1/m", 1e6, "a micrometre of error already opens a valve for good"},
 };
 
-// Of a unit that no row has, such as a polynomial's 1/Pa2.
+// The range of a unit that has no row, such as 1/Pa2 of a polynomial.
 inline constexpr Range any_range{"", 1e12, "no number of a machine is larger"};
 
 constexpr const Range& range_of(std::string_view unit) {

@@ -1,4 +1,4 @@
-// What a page asks of a run is done only where it is within its bounds, and reads the same again.
+// Law: a page's request is carried out only within its bounds, and is read the same again.
 #include <fmt/format.h>
 
 #include <stdexcept>

@@ -30,7 +30,7 @@ void law_of_series(const signals::Series& s) {
     law(column.size() == s.time_ns.size(), "a value for each time: " + s.topic.name);
 }
 
-// What the writer takes: a run's own topics.
+// The log's writer takes a table whose topics could be a run's own.
 bool can_be_written(const signals::Table& table) {
   std::set<std::string> names;
   std::size_t samples = 0;

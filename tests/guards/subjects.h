@@ -51,7 +51,7 @@ inline Subject subject(const std::filesystem::path& file) {
   return out;
 }
 
-// Of experiments/ and experiments/rig/, by name.
+// Returns the shipped experiments of experiments/ and experiments/rig/, sorted by name.
 inline std::vector<std::filesystem::path> shipped() {
   std::set<std::filesystem::path> files;
   for (const char* folder : {"/experiments", "/experiments/rig"})
@@ -61,7 +61,7 @@ inline std::vector<std::filesystem::path> shipped() {
   return {files.begin(), files.end()};
 }
 
-// What a short run leaves.
+// Ran is the outcome of a short run.
 struct Ran {
   bool ended = false;
   std::string cause;

@@ -22,8 +22,8 @@ struct Writer {
   bool is_folder() const { return is_run() || fresh[0] == "figures"; }
 };
 
-// What they read stands in the workspace after prepare(). Those that need the page in the program
-// are left out where there is none.
+// prepare() makes the files that the commands read. Commands that need the page are left out of a
+// program that is built without one.
 std::vector<Writer> writers(const Workspace& w);
 void prepare(const Workspace& w);
 
@@ -56,7 +56,7 @@ Started start(const Workspace& w, const Words& words, const std::function<void()
 Ended ended(const Started& process);
 Ended run(const Workspace& w, const Words& words, const std::function<void()>& before = {});
 
-// Of a guard: SINEW_GUARD_COUNT where it is set.
+// Returns the number of tries of a guard: SINEW_GUARD_COUNT where it is set, else `usual`.
 int tries(int usual);
 
 }  // namespace sinew::test

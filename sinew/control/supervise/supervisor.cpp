@@ -11,7 +11,7 @@ using signals::Tick;
 
 namespace {
 
-// What can be said of a limit that may be as large as a counter.
+// Returns a limit as a signed number; one that is too large for it becomes the largest.
 std::int32_t shown(std::uint32_t limit) noexcept {
   constexpr std::uint32_t most = 0x7fffffffu;
   return static_cast<std::int32_t>(limit < most ? limit : most);
@@ -189,7 +189,7 @@ void Supervisor::reject(Channel channel, std::uint16_t counts, Trip::Cause cause
   ++supervised_.sensor[channel.index].rejected;
   ++supervised_.rejected;
   watch.equal = 0;
-  // Of the first readings nobody knows which one lies.
+  // Among a sensor's first readings it cannot be known which one is wrong.
   if (cause == Trip::Cause::rate && watch.agreed < limits_.bad_readings) watch.agreed = 0;
   if (++watch.bad != limits_.bad_readings) return;
   Trip wrong{.cause = cause, .at = t, .channel = channel, .counts = counts, .before = watch.good};
@@ -249,7 +249,7 @@ bool Supervisor::possible(std::size_t j, const JointCommand& command) const noex
   return !command.open_loop || control::possible(command.duties);
 }
 
-// Of joints that have laws; what the others are told nobody reads.
+// Judges the commands of joints that have laws; the commands of passive joints are never read.
 void Supervisor::command(const Command& command) noexcept {
   for (std::size_t j = 0; j < config().joints; ++j) {
     if (config().joint[j].kind == JointKind::passive || possible(j, command.joint[j])) continue;

@@ -53,7 +53,7 @@ class Supervisor {
   const SuperviseConfig& limits() const noexcept { return limits_; }
 
  private:
-  // What it remembers of a channel.
+  // Watch is the memory of one channel.
   struct Watch {
     std::uint16_t good = 0;    // the last good reading [count]
     std::uint16_t scans = 1;   // since then, the next one included

@@ -15,7 +15,7 @@
 
 namespace sinew::control {
 
-// What the valves of a machine were told, and what was wrong with it.
+// ValveWatch follows the edges that a machine's valves were sent, and tells which of them are open.
 class ValveWatch {
  public:
   explicit ValveWatch(const SpineConfig& config) : config_(config) { inverted_exhausts(); }
@@ -33,7 +33,7 @@ class ValveWatch {
     return false;
   }
 
-  // Of any muscle or chamber.
+  // True where a valve of that kind is open at any muscle or chamber.
   bool an_inlet_open() const { return any(&MuscleConfig::inlet); }
   bool an_exhaust_open() const { return any(&MuscleConfig::exhaust); }
   bool all_exhausts_open() const {

@@ -23,7 +23,7 @@ void amount(Visitor& v, std::string_view name, std::string_view unit, double min
   v.number({.name = name, .unit = unit, .min = min, .optional = true, .doc = doc}, value);
 }
 
-// The same, of something that is there: 0 where there is none, else at least so much.
+// A quantity of a part that may be missing: 0 stands for none, any other value is at least `least`.
 template <class Visitor>
 void size(Visitor& v, std::string_view name, std::string_view unit, double least,
           std::string_view why, std::string_view doc, double& value) {

@@ -119,7 +119,7 @@ struct Experiment {
 // wrong.
 Experiment load(const std::string& path, const std::vector<std::string>& sets = {});
 
-// The same from a tree that is composed already.
+// Loads the experiment from a tree that is composed already; `path` is for messages.
 Experiment load(const config::Node& root, const std::string& path);
 
 // Points as steps: each value holds from its instant on.

@@ -33,7 +33,7 @@ struct RunOptions {
 // What a run records, in the order of its table.
 std::vector<signals::Topic> topics(const Experiment& experiment);
 
-// Of those, what its log holds. Throws config::Error where a pattern of log.channels means none.
+// Returns the topics that its log holds. Throws config::Error where a pattern matches no topic.
 experiment::LoggedTopics logged_topics(const Experiment& experiment);
 
 // A run, or the runs of a sweep, of which the table has one row per duty.

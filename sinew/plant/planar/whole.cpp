@@ -15,7 +15,7 @@ constexpr double blocked_bound = 1e9;  // of a joint that is held [N m]
 // with the pose.
 constexpr double longest_rate = 1.5;
 
-// Of a step; beyond them a chamber has vanished, which the next node tells of.
+// A step is cut into at most so many pieces. More are asked for only where a chamber has vanished.
 constexpr double most_pieces = 1e5;
 
 }  // namespace
