@@ -87,4 +87,9 @@ inline Log walk(int steps, double before = 0, double after = 0) {
   return log;
 }
 
+inline void duties(Log& log, const std::string& muscle, double inlet, double exhaust) {
+  log.scalar("/muscle/" + muscle + "/inlet_duty", constant(inlet));
+  log.scalar("/muscle/" + muscle + "/exhaust_duty", constant(exhaust));
+}
+
 }  // namespace sinew::analysis::test

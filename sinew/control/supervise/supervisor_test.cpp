@@ -1,101 +1,17 @@
-// What is wrong with readings, commands and the clock, and what the supervisor makes of it.
+// Readings that are wrong, and what the supervisor makes of them; and what holds whatever comes.
 #include "sinew/control/supervise/supervisor.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "sinew/control/supervise/test_fuzz.h"
+#include "sinew/control/supervise/test_stand.h"
 
 namespace sinew::control {
 namespace {
-
-using signals::Status;
-using signals::Tick;
-
-constexpr std::uint8_t hip_angle = 1, hip_tension = 3;
-
-// A leg whose potentiometers stand between 100 and 4000 and turn by at most 50 counts in a scan.
-SuperviseConfig limits() {
-  SuperviseConfig out;
-  for (const std::uint8_t channel : {0, 1, 2}) {
-    out.sensor[channel] = {.low = 100, .high = 4000, .max_step = 50};
-    out.sensor[channel].joint = channel == 0 ? cylinder : channel == 1 ? hip : knee;
-  }
-  for (const std::uint8_t channel : {3, 4, 5, 6}) {
-    out.sensor[channel].joint = channel < 5 ? hip : knee;
-    out.sensor[channel].rests_at_ends = true;
-    out.sensor[channel].of_flexor = channel % 2 == 1;
-    out.sensor[channel].of_extensor = channel % 2 == 0;
-  }
-  return out;
-}
-
-// A supervised leg at its rest angles. Its ears lie as a test wants.
-struct Stand {
-  explicit Stand(const SuperviseConfig& config = limits(), const SpineConfig& leg = test_leg())
-      : spine(leg, config), valves(leg) {
-    EXPECT_EQ(problem(config), nullptr);
-    command = rest_command(leg);
-    for (JointCommand& c : command.joint) {
-      c.enabled = c.open_loop = true;  // valves work, whatever the readings are
-      c.duties = {30, 0, 0, 30};
-    }
-  }
-
-  // One tick, and where the loop goes from there.
-  Tick visit(Tick t) {
-    if (spine.starts_period(t)) spine.command(command);
-    for (const signals::Edge& e : spine.edges(t)) {
-      valves.drive(e);
-      EXPECT_FALSE(valves.both_open()) << t;
-    }
-    if (const signals::Conversion* c = spine.due(t)) {
-      const int scan = static_cast<int>(t / 100);
-      signals::Reading r{rest(c->channel.index), Status::ok};
-      if (lie) r = lie(c->channel.index, scan, r);
-      spine.take(*c, r, t);
-    }
-    if (!vented && spine.seen().phase == Phase::venting && valves.all_exhausts_open() &&
-        !valves.an_inlet_open())
-      vented = t;
-    return spine.next_event(t);
-  }
-  void run(int periods) {
-    for (const Tick end = now + 100 * periods; now < end;) now = visit(now);
-  }
-
-  static std::uint16_t rest(std::uint8_t channel) {
-    constexpr std::uint16_t counts[] = {404, 1895, 1175, 800, 800, 800, 800};
-    return counts[channel];
-  }
-  // The hip's and knee's flexors are filled all the time.
-  void fill() {
-    for (JointCommand& c : command.joint) c.duties = {100, 0, 0, 100};
-  }
-  const Supervised& supervised() const { return spine.supervised(); }
-  const Trip& trip() const { return supervised().trip; }
-
-  Supervisor spine;
-  ValveWatch valves;
-  Command command;
-  std::function<signals::Reading(std::uint8_t channel, int scan, signals::Reading)> lie;
-  Tick now = 0;
-  std::optional<Tick> vented;  // the first tick with all exhausts open after a trip
-};
-
-// A lie of one channel from a scan on, for so many scans.
-auto lying(std::uint8_t channel, std::uint16_t counts, int from, int scans = 1'000'000) {
-  return [=](std::uint8_t c, int scan, signals::Reading r) {
-    if (c == channel && scan >= from && scan < from + scans) r.counts = counts;
-    return r;
-  };
-}
 
 // --- readings -----------------------------------------------------------------------------------
 
@@ -249,142 +165,6 @@ TEST(Supervisor, AFrozenReadingEndsARunOnlyByItsLimit) {
   EXPECT_EQ(stand.trip().channel.index, hip_angle);
   EXPECT_EQ(stand.trip().at, 7003);
   EXPECT_TRUE(stand.vented.has_value());
-}
-
-// --- commands -----------------------------------------------------------------------------------
-
-TEST(Supervisor, ImpossibleCommandsAreRejected) {
-  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  const std::function<void(JointCommand&)> wrong[] = {
-      [](JointCommand& c) { c.stiffness = nan; },
-      [](JointCommand& c) { c.stiffness = -2e6f; },
-      [](JointCommand& c) { c.gains.angle = nan; },
-      [](JointCommand& c) { c.gains.stiffness = 2e6f; },
-      [](JointCommand& c) { c.gains.velocity = -std::numeric_limits<float>::infinity(); },
-      [](JointCommand& c) { c.angle = std::numeric_limits<std::int32_t>::min(); },
-      [](JointCommand& c) { c.angle = 40'000; },
-      [](JointCommand& c) { c.duties.flexor_inlet = 101; },
-      [](JointCommand& c) { c.duties.extensor_exhaust = -1; },
-  };
-  for (const auto& spoil : wrong) {
-    Stand stand;
-    stand.run(10);
-    const Command good = stand.command;
-    spoil(stand.command.joint[knee]);
-    stand.run(2);
-    EXPECT_EQ(stand.supervised().rejected_commands, 2u);
-    EXPECT_FALSE(stand.supervised().holding);
-    stand.command = good;
-    stand.run(2);
-    EXPECT_EQ(stand.supervised().rejected_commands, 2u);
-    EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
-  }
-}
-
-TEST(Supervisor, ACommandFasterThanItsLimitIsRejected) {
-  SuperviseConfig config = limits();
-  config.command[hip].max_step = 20;
-  Stand stand(config);
-  stand.command.joint[hip].angle += 500;  // where it begins is free
-  stand.run(3);
-  EXPECT_EQ(stand.supervised().rejected_commands, 0u);
-  stand.command.joint[hip].angle += 20;
-  stand.run(1);
-  EXPECT_EQ(stand.supervised().rejected_commands, 0u);
-  stand.command.joint[hip].angle += 21;
-  stand.run(1);
-  EXPECT_EQ(stand.supervised().rejected_commands, 1u);
-}
-
-TEST(Supervisor, ThreeBadCommandsHoldAndSixVent) {
-  Stand stand;
-  stand.fill();
-  stand.run(10);
-  EXPECT_TRUE(stand.valves.is_open(4 * hip));
-  stand.command.joint[hip].stiffness = std::numeric_limits<float>::quiet_NaN();
-  stand.run(2);
-  EXPECT_TRUE(stand.valves.is_open(4 * hip));
-  stand.now = stand.visit(stand.now);  // the third
-  EXPECT_TRUE(stand.supervised().holding);
-  EXPECT_FALSE(stand.valves.an_inlet_open());
-  EXPECT_FALSE(stand.valves.an_exhaust_open());
-  EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
-  while (stand.now < 1500) {
-    stand.now = stand.visit(stand.now);
-    EXPECT_FALSE(stand.valves.an_inlet_open());
-    EXPECT_FALSE(stand.valves.an_exhaust_open());
-  }
-  EXPECT_EQ(stand.supervised().rejected_commands, 5u);
-  stand.visit(stand.now);
-  EXPECT_EQ(stand.trip().cause, Trip::Cause::command);
-  EXPECT_EQ(stand.trip().joint, hip);
-  EXPECT_EQ(stand.trip().at, 1500);
-  EXPECT_TRUE(stand.valves.all_exhausts_open());
-}
-
-TEST(Supervisor, AGoodCommandEndsTheHold) {
-  Stand stand;
-  stand.fill();
-  const Command good = stand.command;
-  stand.run(10);
-  stand.command.joint[hip].stiffness = 1e30f;
-  stand.run(5);
-  EXPECT_TRUE(stand.supervised().holding);
-  stand.command = good;
-  stand.run(3);
-  EXPECT_FALSE(stand.supervised().holding);
-  EXPECT_TRUE(stand.valves.is_open(4 * hip));
-  EXPECT_EQ(stand.supervised().holds, 1u);
-}
-
-// --- the clock ----------------------------------------------------------------------------------
-
-TEST(Supervisor, JumpingToTheNextEventIsNoGap) {
-  Stand stand;
-  stand.run(100);
-  EXPECT_EQ(stand.supervised().gaps, 0u);
-}
-
-TEST(Supervisor, AGapOfTwoTicksShutsInlets) {
-  Stand stand;
-  stand.run(10);  // inlets open at count 100 of a period, for 30 ticks
-  while (stand.now < 1013) stand.now = stand.visit(stand.now);
-  ASSERT_TRUE(stand.valves.is_open(4 * hip));
-  const Tick next = stand.now;
-  stand.visit(next + 2);
-  EXPECT_FALSE(stand.valves.an_inlet_open());
-  EXPECT_EQ(stand.supervised().gaps, 1u);
-  EXPECT_EQ(stand.supervised().worst_gap, 2u);
-  EXPECT_EQ(stand.trip().cause, Trip::Cause::none);
-}
-
-TEST(Supervisor, AGapOfTenMillisecondsVents) {
-  for (const Tick gap : {99, 100, 5000}) {
-    Stand stand;
-    stand.run(10);
-    const Tick first = stand.now + gap;
-    stand.visit(first);
-    EXPECT_FALSE(stand.valves.an_inlet_open());
-    EXPECT_EQ(stand.trip().cause, gap < 100 ? Trip::Cause::none : Trip::Cause::gap);
-    if (gap >= 100) {
-      EXPECT_EQ(stand.vented, first);
-    }
-  }
-}
-
-// A law that fell into the gap would have shut the valve.
-TEST(Supervisor, AJointWhoseLawWasSkippedIsShut) {
-  Stand stand;
-  stand.fill();
-  while (stand.now < 1009) stand.now = stand.visit(stand.now);
-  EXPECT_TRUE(stand.valves.is_open(4 * hip));
-  stand.now = stand.visit(1010);
-  EXPECT_EQ(stand.supervised().worst_gap, 1u);
-  EXPECT_FALSE(stand.valves.is_open(4 * hip));
-  EXPECT_FALSE(stand.valves.is_open(4 * hip + 3));
-  EXPECT_TRUE(stand.valves.is_open(4 * knee));  // its law comes later
-  stand.run(2);
-  EXPECT_TRUE(stand.valves.is_open(4 * hip));  // and the hip's again
 }
 
 // --- laws over whatever comes -------------------------------------------------------------------

@@ -1,0 +1,97 @@
+// control/supervise/test_stand.h - a supervised leg whose readings lie as a test wants.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "sinew/control/supervise/supervisor.h"
+#include "sinew/control/supervise/test_fuzz.h"
+
+namespace sinew::control {
+
+using signals::Status;
+using signals::Tick;
+
+inline constexpr std::uint8_t hip_angle = 1, hip_tension = 3;
+
+// A leg whose potentiometers stand between 100 and 4000 and turn by at most 50 counts in a scan.
+inline SuperviseConfig limits() {
+  SuperviseConfig out;
+  for (const std::uint8_t channel : {0, 1, 2}) {
+    out.sensor[channel] = {.low = 100, .high = 4000, .max_step = 50};
+    out.sensor[channel].joint = channel == 0 ? cylinder : channel == 1 ? hip : knee;
+  }
+  for (const std::uint8_t channel : {3, 4, 5, 6}) {
+    out.sensor[channel].joint = channel < 5 ? hip : knee;
+    out.sensor[channel].rests_at_ends = true;
+    out.sensor[channel].of_flexor = channel % 2 == 1;
+    out.sensor[channel].of_extensor = channel % 2 == 0;
+  }
+  return out;
+}
+
+// A supervised leg at its rest angles. Its readings lie where a test sets `lie`.
+struct Stand {
+  explicit Stand(const SuperviseConfig& config = limits(), const SpineConfig& leg = test_leg())
+      : spine(leg, config), valves(leg) {
+    EXPECT_EQ(problem(config), nullptr);
+    command = rest_command(leg);
+    for (JointCommand& c : command.joint) {
+      c.enabled = c.open_loop = true;  // valves work, whatever the readings are
+      c.duties = {30, 0, 0, 30};
+    }
+  }
+
+  // One tick, and where the loop goes from there.
+  Tick visit(Tick t) {
+    if (spine.starts_period(t)) spine.command(command);
+    for (const signals::Edge& e : spine.edges(t)) {
+      valves.drive(e);
+      EXPECT_FALSE(valves.both_open()) << t;
+    }
+    if (const signals::Conversion* c = spine.due(t)) {
+      const int scan = static_cast<int>(t / 100);
+      signals::Reading r{rest(c->channel.index), Status::ok};
+      if (lie) r = lie(c->channel.index, scan, r);
+      spine.take(*c, r, t);
+    }
+    if (!vented && spine.seen().phase == Phase::venting && valves.all_exhausts_open() &&
+        !valves.an_inlet_open())
+      vented = t;
+    return spine.next_event(t);
+  }
+  void run(int periods) {
+    for (const Tick end = now + 100 * periods; now < end;) now = visit(now);
+  }
+
+  static std::uint16_t rest(std::uint8_t channel) {
+    constexpr std::uint16_t counts[] = {404, 1895, 1175, 800, 800, 800, 800};
+    return counts[channel];
+  }
+  // The hip's and knee's flexors are filled all the time.
+  void fill() {
+    for (JointCommand& c : command.joint) c.duties = {100, 0, 0, 100};
+  }
+  const Supervised& supervised() const { return spine.supervised(); }
+  const Trip& trip() const { return supervised().trip; }
+
+  Supervisor spine;
+  ValveWatch valves;
+  Command command;
+  std::function<signals::Reading(std::uint8_t channel, int scan, signals::Reading)> lie;
+  Tick now = 0;
+  std::optional<Tick> vented;  // the first tick with all exhausts open after a trip
+};
+
+// A lie of one channel from a scan on, for so many scans.
+inline auto lying(std::uint8_t channel, std::uint16_t counts, int from, int scans = 1'000'000) {
+  return [=](std::uint8_t c, int scan, signals::Reading r) {
+    if (c == channel && scan >= from && scan < from + scans) r.counts = counts;
+    return r;
+  };
+}
+
+}  // namespace sinew::control
