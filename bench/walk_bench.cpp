@@ -8,7 +8,7 @@
 #include "sinew/experiment/run.h"
 #include "sinew/experiment/spinal.h"
 #include "sinew/experiment/supervision.h"
-#include "sinew/plant/planar/world.h"
+#include "sinew/plant/planar/machine.h"
 
 namespace {
 
@@ -48,7 +48,7 @@ void unwatched_walk(benchmark::State& state) {
   const signals::Tick end = experiment::last_tick(walk());
   double simulated = 0;
   for (auto _ : state) {
-    plant::World<2> world(experiment::planar_setup(walk()));
+    plant::ChainWorld<2> world(experiment::planar_setup(walk()));
     control::Supervisor spine(experiment::spine_config(walk()),
                               experiment::supervise_config(walk()));
     experiment::HighLevel high(walk().robot, walk().plan);
@@ -91,7 +91,7 @@ BENCHMARK(controller_alone)->Unit(benchmark::kMillisecond);
 
 // One 1 ms step of the standing leg: four stages, friction, contact.
 void one_node(benchmark::State& state) {
-  plant::World<2> world(experiment::planar_setup(walk()));
+  plant::ChainWorld<2> world(experiment::planar_setup(walk()));
   double t = 0.5;
   world.advance(t);
   for (auto _ : state) world.advance(t += 1e-3);
@@ -100,7 +100,7 @@ BENCHMARK(one_node);
 
 // One look between two nodes.
 void one_peek(benchmark::State& state) {
-  plant::World<2> world(experiment::planar_setup(walk()));
+  plant::ChainWorld<2> world(experiment::planar_setup(walk()));
   for (auto _ : state) benchmark::DoNotOptimize(world.truth(0.5005));
 }
 BENCHMARK(one_peek);

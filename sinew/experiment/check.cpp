@@ -13,7 +13,7 @@
 #include "sinew/experiment/spinal.h"
 #include "sinew/muscle/plumbing.h"
 #include "sinew/plant/planar/cords.h"
-#include "sinew/plant/planar/whole.h"
+#include "sinew/plant/planar/machine.h"
 #include "sinew/signals/tick.h"
 
 namespace sinew::experiment {
@@ -214,9 +214,8 @@ void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
 }
 
 // Air or joints that move so quickly that a run would take for ever.
-void check_steps(const Experiment& e, const plant::Setup& s, List& out) {
+void check_steps(const plant::Setup& s, List& out) {
   constexpr double shortest = 2e-6;  // step [s]
-  if (!needs_whole_world(e, s)) return;
   const double air = muscle::Plumbing(s.muscles, s.air, s.supply, s.cylinder).longest_step();
   const auto micro = [](double step) { return config::format_number(1e6 * step) + " us"; };
   if (air < shortest) {
@@ -224,7 +223,7 @@ void check_steps(const Experiment& e, const plant::Setup& s, List& out) {
                    "at least 2 us", "a larger volume, or a hose without one"});
     return;
   }
-  const double step = plant::WholeWorld(s).shortest_step();
+  const double step = plant::Machine(s).shortest_step();
   if (step < shortest && step < s.steps.body)
     out.push_back({"plant_steps.body", "a machine that needs steps of " + micro(step),
                    "at least 2 us", "less damping or stiffness, a smaller leak, heavier links"});
@@ -234,7 +233,7 @@ void check_steps(const Experiment& e, const plant::Setup& s, List& out) {
 void check_motion(const Experiment& e, List& out) {
   const plant::Setup setup = planar_setup(e);
   check_volumes(e, setup, out);
-  if (out.empty()) check_steps(e, setup, out);
+  if (out.empty()) check_steps(setup, out);
 }
 
 void check_start(const Experiment& e, List& out) {

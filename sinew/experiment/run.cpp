@@ -12,8 +12,7 @@
 #include "sinew/experiment/loop.h"
 #include "sinew/experiment/spinal.h"
 #include "sinew/experiment/supervision.h"
-#include "sinew/plant/planar/whole.h"
-#include "sinew/plant/planar/world.h"
+#include "sinew/plant/planar/machine.h"
 #include "sinew/plant/recorded/recorded.h"
 #include "sinew/robot/actuator_of.h"
 
@@ -24,10 +23,9 @@ using signals::Tick;
 namespace {
 
 // The recorder, and on demand more looks and more visits than a run needs, which change nothing.
-template <class World>
 struct Watch {
   Recorder& recorder;
-  World* world;
+  plant::Machine* machine;  // none where a log is replayed
   bool every_tick;
   int extra_readers;
   const std::atomic<bool>* stop;
@@ -42,37 +40,37 @@ struct Watch {
     if (!failed()) recorder.edge(e);
   }
   void sample(Tick t) noexcept {
-    // Nothing is recorded of a world that has failed.
-    if (world && t >= recorder.next(t))
-      world->advance(static_cast<double>(t) * signals::tick_seconds);
+    // Nothing is recorded of a machine that has failed.
+    if (machine && t >= recorder.next(t))
+      machine->advance(static_cast<double>(t) * signals::tick_seconds);
     if (failed()) return;
     for (int i = 0; i < extra_readers; ++i)
-      if (world) (void)world->truth(static_cast<double>(t) * signals::tick_seconds);
+      if (machine) (void)machine->truth(static_cast<double>(t) * signals::tick_seconds);
     recorder.sample(t);
   }
   Tick next(Tick t) const noexcept {
     if (failed()) return std::numeric_limits<Tick>::max();
     return every_tick ? t + 1 : recorder.next(t);
   }
-  bool failed() const noexcept { return world && world->failure(); }
+  bool failed() const noexcept { return machine && machine->failure(); }
 };
 
-template <class World, class Clock>
-Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& port, World* world,
-              Clock& clock) {
+template <class Clock>
+Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& port,
+              plant::Machine* machine, Clock& clock) {
   control::Supervisor spine(spine_config(e), supervise_config(e));
   HighLevel high_level(e.robot, e.plan, options.steering);
   const Tick end = last_tick(e);
 
   Recorder::TruthAt truth;
-  if (world)
-    truth = [world](Tick t) {
-      return world->truth(static_cast<double>(t) * signals::tick_seconds);
+  if (machine)
+    truth = [machine](Tick t) {
+      return machine->truth(static_cast<double>(t) * signals::tick_seconds);
     };
   Recorder recorder(e, spine, high_level, truth, end);
   if (options.tap.push) recorder.tap(options.tap, options.tapped);
   recorder.progress(options.progress);
-  Watch<World> watch{recorder, world, options.every_tick, options.extra_readers, options.stop};
+  Watch watch{recorder, machine, options.every_tick, options.extra_readers, options.stop};
 
   const auto before = std::chrono::steady_clock::now();
   Outcome out;
@@ -81,7 +79,7 @@ Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& por
 
   out.wall = wall.count();
   out.stopped = watch.was_stopped;
-  if (world) out.failure = world->failure();
+  if (machine) out.failure = machine->failure();
   out.table = recorder.take();
   out.seen = spine.seen();
   out.supervised = spine.supervised();
@@ -95,27 +93,27 @@ Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& por
 }
 
 // Sensors that lie stand between the body and the loop.
-template <class World, class Clock>
-Outcome drive_world(const Experiment& e, const RunOptions& options, World& world, Clock& clock) {
-  if (e.faults.empty()) return drive(e, options, world, &world, clock);
-  FaultyPort body(e, world);
-  return drive(e, options, body, &world, clock);
+template <class Clock>
+Outcome drive_machine(const Experiment& e, const RunOptions& options, plant::Machine& machine,
+                      Clock& clock) {
+  if (e.faults.empty()) return drive(e, options, machine.port(), &machine, clock);
+  FaultyPort body(e, machine.port());
+  return drive(e, options, body, &machine, clock);
 }
 
-template <class World>
-Outcome run_world(const Experiment& e, const plant::Setup& setup, const RunOptions& options) {
-  World world(setup);
+Outcome run_machine(const Experiment& e, const plant::Setup& setup, const RunOptions& options) {
+  plant::Machine machine(setup);
   if (options.steering) {
     SteeredClock clock(*options.steering, 0.01 + e.log.period);
-    return drive_world(e, options, world, clock);
+    return drive_machine(e, options, machine, clock);
   }
   if (options.pace > 0) {
     PacedClock clock(options.pace);
-    return drive_world(e, options, world, clock);
+    return drive_machine(e, options, machine, clock);
   }
   SimulatedClock clock;
-  Outcome out = drive_world(e, options, world, clock);
-  out.nodes = world.nodes();
+  Outcome out = drive_machine(e, options, machine, clock);
+  out.nodes = machine.nodes();
   return out;
 }
 
@@ -189,24 +187,14 @@ plant::Setup planar_setup(const Experiment& e) {
   return s;
 }
 
-bool needs_whole_world(const Experiment& e, const plant::Setup& setup) {
-  return !robot::is_plain(e.robot) ||
-         muscle::needs_plumbing(setup.muscles, setup.air, setup.supply, setup.cylinder);
-}
-
 Outcome run(const Experiment& e, const RunOptions& options) {
-  const plant::Setup setup = planar_setup(e);
-  if (!needs_whole_world(e, setup)) {
-    if (e.robot.joints.size() == 1) return run_world<plant::World<1>>(e, setup, options);
-    return run_world<plant::World<2>>(e, setup, options);
-  }
-  return run_world<plant::WholeWorld>(e, setup, options);
+  return run_machine(e, planar_setup(e), options);
 }
 
 Outcome replay(const Experiment& e, const signals::Table& recorded) {
   plant::Recorded port(e.robot, recorded);
   SimulatedClock clock;
-  return drive<plant::World<1>>(e, {}, port, nullptr, clock);
+  return drive(e, {}, port, nullptr, clock);
 }
 
 }  // namespace sinew::experiment

@@ -58,9 +58,6 @@ signals::Tick last_tick(const Experiment& experiment);
 // A planar world for the experiment's robot.
 plant::Setup planar_setup(const Experiment& experiment);
 
-// The fast world does not hold it: plant/planar/whole.h runs it.
-bool needs_whole_world(const Experiment& experiment, const plant::Setup& setup);
-
 // Throws std::invalid_argument for a robot that no plant can hold; nothing once the loop runs.
 Outcome run(const Experiment& experiment, const RunOptions& options = {});
 

@@ -19,8 +19,7 @@
 #include "sinew/experiment/spinal.h"
 #include "sinew/experiment/supervision.h"
 #include "sinew/experiment/test_same.h"
-#include "sinew/plant/planar/whole.h"
-#include "sinew/plant/planar/world.h"
+#include "sinew/plant/planar/machine.h"
 
 namespace {
 thread_local bool counting = false;
@@ -170,8 +169,8 @@ void expect_no_heap(const Experiment& e, Steering* steering = nullptr) {
 }
 
 TEST(Run, NoHeapInTheLoop) {
-  expect_no_heap<plant::World<2>>(walk());
-  expect_no_heap<plant::WholeWorld>(
+  expect_no_heap<plant::ChainWorld<2>>(walk());
+  expect_no_heap<plant::BodyWorld>(
       walk({"air.supply.kind=tank", "air.supply.volume=1 L",
             "air.supply.initial_pressure=100 psi gauge", "air.wall_time=0.3 s",
             "muscle.hip_flexor.hose.law=pipe", "muscle.hip_flexor.hose.length=1 m",
@@ -190,7 +189,7 @@ TEST(Run, NoHeapInTheLoopWhileChangesArrive) {
       std::this_thread::yield();
     }
   });
-  expect_no_heap<plant::World<2>>(e, &steering);
+  expect_no_heap<plant::ChainWorld<2>>(e, &steering);
   over = true;
   person.join();
 }

@@ -44,6 +44,12 @@ struct alignas(64) Lanes {
   Four& four(int first) { return reinterpret_cast<Four&>(of[first]); }
 };
 
+// What the body does to the air: the muscles' lengths and the piston's travel.
+struct Ends {
+  Lanes length, rate;                  // [m], [m/s]
+  double travel = 0, travel_rate = 0;  // of a cylinder, upwards [m], [m/s]
+};
+
 // Answer to one evaluation.
 struct Pull {
   Lanes tension;   // of the bundle, static and viscous, never negative: a cord cannot push [N]
@@ -60,6 +66,7 @@ class Bank {
   Bank(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply);
 
   int size() const { return size_; }
+  int padded() const { return padded_; }  // to whole lanes, which repeat the last muscle
 
   // Mass of air in muscle i at this pressure and length  [kg].
   double mass_at(int i, double pressure, double length) const;

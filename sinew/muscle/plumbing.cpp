@@ -161,8 +161,11 @@ void Plumbing::pull(int i, double length, double rate, double pressure, const Ai
   const double gauge = pressure - air_.atmosphere;
   const double smooth = smooth_tension(i, length, rate, gauge, state, out, derivative);
   const double exponent = air_.wall_time > 0 ? gas::heat_capacity_ratio : air_.polytropic_exponent;
-  const double sealed = actuator::stiffness_sealed(m.actuator, length, pressure, air_.atmosphere,
-                                                   m.external_volume / m.count, exponent);
+  const bool by_sealed = m.actuator.loss.coulomb_scale == actuator::Loss::Scale::sealed;
+  const double sealed =
+      by_sealed ? actuator::stiffness_sealed(m.actuator, length, pressure, air_.atmosphere,
+                                             m.external_volume / m.count, exponent)
+                : 0.0;
   const double bound =
       m.count * actuator::coulomb_bound(m.actuator, length, gauge, air_.atmosphere, sealed);
 

@@ -85,6 +85,13 @@ bool is_plain(const Robot& robot) {
          (!robot.cylinder.present || robot.cylinder.mode == Cylinder::Mode::locked);
 }
 
+bool is_chain(const Robot& robot) {
+  for (const Muscle& m : robot.muscles)
+    if (!m.second.joint.empty() || !m.cam.angle.empty()) return false;
+  return !robot.joints.empty() && robot.joints.size() <= 2 && robot.foot.points.empty() &&
+         (!robot.cylinder.present || robot.cylinder.mode == Cylinder::Mode::locked);
+}
+
 double leg_mass(const Robot& robot) {
   double mass = robot.foot.present ? robot.foot.mass : 0.0;
   for (const Link& link : robot.links) mass += link.mass;

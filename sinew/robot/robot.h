@@ -280,9 +280,13 @@ int cylinder_sensor(const Robot&);
 // Does a law need what this muscle's transducer says?
 bool needs_tension(const Robot&, int muscle);
 
-// What the fast planar world leaves out: anything but driven joints with round cams and their own
-// pairs, a disc for a foot, a locked cylinder.
+// Every joint has a pair of its own over round cams of its moment arm, nothing else pulls, and no
+// sensor but angles and tensions looks: what the thesis's laws of a joint are written for.
 bool is_plain(const Robot&);
+
+// At most two joints, every muscle over a round cam at one of them, one disc for a foot, the
+// cylinder locked or none: a machine that a planar chain in closed form holds.
+bool is_chain(const Robot&);
 
 // Links and foot together  [kg].
 double leg_mass(const Robot&);

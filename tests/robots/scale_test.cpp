@@ -9,8 +9,7 @@
 
 #include "runs.h"
 #include "sinew/experiment/run.h"
-#include "sinew/plant/planar/whole.h"
-#include "sinew/plant/planar/world.h"
+#include "sinew/plant/planar/machine.h"
 
 namespace sinew {
 namespace {
@@ -137,27 +136,27 @@ std::vector<std::string> operator+(std::vector<std::string> a, const std::vector
 // that has a unit and was not scaled would show, however small what it does.
 TEST(Scale, AnEighthOfTheLegMovesAlikeToTheBit) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
-    compare<plant::World<2>>(load("leg-in-air", no_trolley), 8, seed, 4, 0);
-    compare<plant::World<2>>(load("walk-test-1", smooth_joints), 8, seed, 4, 0);
+    compare<plant::ChainWorld<2>>(load("leg-in-air", no_trolley), 8, seed, 4, 0);
+    compare<plant::ChainWorld<2>>(load("walk-test-1", smooth_joints), 8, seed, 4, 0);
   }
 }
 
 TEST(Scale, AnEighthOfAWholeMachineToo) {
   for (unsigned seed = 1; seed <= 2; ++seed) {
-    compare<plant::WholeWorld>(load("leg-in-air", no_trolley + everything), 8, seed, 2, 0);
-    compare<plant::WholeWorld>(load("walk-test-1", smooth_joints + everything), 8, seed, 2, 0);
-    compare<plant::WholeWorld>(load("walk-with-ankle", smooth_joints + smooth_ankle + everything),
-                               8, seed, 2, 0);
-    compare<plant::WholeWorld>(load("known-load", smooth_joints), 8, seed, 2, 0);
+    compare<plant::BodyWorld>(load("leg-in-air", no_trolley + everything), 8, seed, 2, 0);
+    compare<plant::BodyWorld>(load("walk-test-1", smooth_joints + everything), 8, seed, 2, 0);
+    compare<plant::BodyWorld>(load("walk-with-ankle", smooth_joints + smooth_ankle + everything), 8,
+                              seed, 2, 0);
+    compare<plant::BodyWorld>(load("known-load", smooth_joints), 8, seed, 2, 0);
   }
 }
 
 // Any other one to rounding.
 TEST(Scale, AFifthOfTheLegMovesAlikeToRounding) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
-    compare<plant::World<2>>(load("leg-in-air", no_trolley), 5, seed, 2, 1e-9);
-    compare<plant::World<2>>(load("walk-test-1", smooth_joints), 5, seed, 2, 1e-9);
-    compare<plant::WholeWorld>(load("leg-in-air", no_trolley + everything), 5, seed, 2, 1e-9);
+    compare<plant::ChainWorld<2>>(load("leg-in-air", no_trolley), 5, seed, 2, 1e-9);
+    compare<plant::ChainWorld<2>>(load("walk-test-1", smooth_joints), 5, seed, 2, 1e-9);
+    compare<plant::BodyWorld>(load("leg-in-air", no_trolley + everything), 5, seed, 2, 1e-9);
   }
 }
 
@@ -169,8 +168,8 @@ TEST(Scale, BothKindsOfFrictionAgreeButForAHair) {
   const Experiment leg = load("walk-test-1");
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const auto toggles = random_toggles(seed, 8, end);
-    const auto large = motion<plant::World<2>>(leg, toggles, n, end),
-               small = motion<plant::World<2>>(scaled(leg, 1.0 / n), toggles, 1, end);
+    const auto large = motion<plant::ChainWorld<2>>(leg, toggles, n, end),
+               small = motion<plant::ChainWorld<2>>(scaled(leg, 1.0 / n), toggles, 1, end);
     for (std::size_t j = 0; j < 2; ++j)
       EXPECT_LE(difference(large, small, 1, [j](const plant::Truth& t) { return t.angle[j]; }),
                 1e-5);
@@ -194,8 +193,8 @@ TEST(Cricket, IsTheLegAnEighthAsLarge) {
     e->robot.foot.present = e->robot.ground.present = e->robot.trolley.present = false;
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const auto toggles = random_toggles(seed, 8, end);
-    const auto a = motion<plant::World<2>>(leg, toggles, 1, end),
-               b = motion<plant::World<2>>(cricket, toggles, 1, end);
+    const auto a = motion<plant::ChainWorld<2>>(leg, toggles, 1, end),
+               b = motion<plant::ChainWorld<2>>(cricket, toggles, 1, end);
     for (std::size_t j = 0; j < 2; ++j)
       EXPECT_LE(difference(a, b, 1, [j](const plant::Truth& t) { return t.angle[j]; }), 2e-3);
     for (std::size_t m = 0; m < 4; ++m)

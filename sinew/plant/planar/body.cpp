@@ -42,13 +42,14 @@ Body::Body(const BodyConstants& constants, const Motion& motion) : k_(constants)
 // LDL^T of the mass matrix; a held coordinate has the row of a unit matrix.
 void Body::factor() {
   const std::size_t n = k_.coordinates();
-  std::array<Coordinates, most_coordinates> m{};
+  std::array<Coordinates, most_coordinates> m;
   m[along_track][along_track] = k_.held[0] ? 1.0 : k_.sliding_mass;
+  m[up][along_track] = 0;
   m[up][up] = k_.held[1] ? 1.0 : k_.lifted_mass;
   for (std::size_t i = 0; i < k_.links; ++i) {
     const std::size_t row = first_link + i;
-    if (!k_.held[0]) m[row][along_track] = -k_.first_moment[i] * sin_[i];
-    if (!k_.held[1]) m[row][up] = k_.first_moment[i] * cos_[i];
+    m[row][along_track] = k_.held[0] ? 0.0 : -k_.first_moment[i] * sin_[i];
+    m[row][up] = k_.held[1] ? 0.0 : k_.first_moment[i] * cos_[i];
     for (std::size_t j = 0; j < i; ++j)
       m[row][first_link + j] = k_.inertia[i][j] * (cos_[i] * cos_[j] + sin_[i] * sin_[j]);
     m[row][row] = k_.inertia[i][i];

@@ -63,9 +63,10 @@ class Body {
 
   const BodyConstants& k_;
   const Motion& motion_;
-  std::array<double, most_links> sin_{}, cos_{};
-  std::array<Coordinates, most_coordinates> lower_{};
-  Coordinates pivot_{}, inverse_pivot_{};
+  // Set for the coordinates that are there, no others.
+  std::array<double, most_links> sin_, cos_;
+  std::array<Coordinates, most_coordinates> lower_;
+  Coordinates pivot_, inverse_pivot_;
 };
 
 // Kinetic plus potential energy [J], zero potential at the origin.

@@ -5,7 +5,9 @@
 // forces for a step of any length then follow from it (hold). See friction.h for the law.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "sinew/plant/planar/chain.h"
 #include "sinew/plant/planar/friction.h"
@@ -43,6 +45,29 @@ class Contacts {
       s[foot] -= k_.length[i] * chain.sin(i) * v.angle[i];
     }
     return s;
+  }
+
+  // The fastest rate at which springs, dampers and the ground bring the machine to rest  [1/s]: c w
+  // and sqrt(k w) with w, the acceleration per force of the joint or of the ankle.
+  double stiffest_rate(const Chain<N>& chain, const std::array<double, N>& damping,
+                       const std::array<double, N>& spring) const {
+    double fastest = 0;
+    const auto consider = [&](double w, double c, double k) {
+      fastest = std::max({fastest, c * w, std::sqrt(k * w)});
+    };
+    Generalised<N> up;
+    for (int i = 0; i < N; ++i) {
+      Forces unit{};
+      unit[i] = 1.0;
+      consider(slips(chain, chain.response(generalised(chain, unit)))[i], damping[i], spring[i]);
+      up.angle[i] = k_.length[i] * chain.cos(i);
+    }
+    if (!ground_.present || !foot_.present) return fastest;
+    const Generalised<N> column = chain.response(up);
+    double w = 0;
+    for (int i = 0; i < N; ++i) w += up.angle[i] * column.angle[i];
+    consider(w, ground_.normal_damping, ground_.normal_stiffness);
+    return fastest;
   }
 
   // At a node: accelerations without friction, bounds, and the ground's force on the foot.

@@ -31,7 +31,7 @@ double CamLaw::area(double angle) const noexcept {
   return area_.back() + radius_.back() * (angle - angle_.back());
 }
 
-// A round cam is exactly r (theta - rest), as in the fast world.
+// A round cam is exactly r (theta - rest), as a chain has it.
 double CamLaw::travel(double angle) const noexcept {
   if (angle_.size() == 1) return radius_[0] * (angle - rest_);
   return area(angle) - area_at_rest_;
@@ -72,6 +72,10 @@ void Cords::at(const double* angle, const double* rate, muscle::Lanes& length,
     }
     length[i] = l;
     length_rate[i] = v;
+  }
+  for (int i = count(); i % muscle::lanes != 0; ++i) {
+    length[i] = length[count() - 1];
+    length_rate[i] = length_rate[count() - 1];
   }
 }
 

@@ -46,7 +46,7 @@ class Cords {
   // Of muscle i: its joints; the second is -1 where there is none.
   int joint(int i, int k) const { return cords_[static_cast<std::size_t>(i)].joint[k]; }
 
-  // From the joints' angles [rad] and rates [rad/s].
+  // From the joints' angles [rad] and rates [rad/s]. Lanes beyond the last muscle repeat it.
   void at(const double* angle, const double* rate, muscle::Lanes& length,
           muscle::Lanes& length_rate, Pulls& pull) const noexcept;
 

@@ -29,21 +29,23 @@ namespace detail {
 enum class Side : unsigned char { idle, sticks, slides };
 
 template <int C>
-double slip_under(const FrictionProblem<C>& p, const std::array<double, C>& force, int i) {
+[[gnu::always_inline]] inline double slip_under(const FrictionProblem<C>& p, int count,
+                                                const std::array<double, C>& force, int i) {
   double s = p.slip[i];
-  for (int j = 0; j < C; ++j) s += p.response[i][j] * force[j];
+  for (int j = 0; j < count; ++j) s += p.response[i][j] * force[j];
   return s;
 }
 
 // Brings the sticking contacts' slips to zero by the smallest change of their forces: LDL^T with a
 // hair of damping, 1e-9 of the largest response, for those that cannot move independently.
 template <int C>
-void solve_sticking(const FrictionProblem<C>& p, const std::array<Side, C>& side,
-                    std::array<double, C>& force) {
+[[gnu::always_inline]] inline void solve_sticking(const FrictionProblem<C>& p, int count,
+                                                  const std::array<Side, C>& side,
+                                                  std::array<double, C>& force) {
   std::array<int, C> index;
   int n = 0;
   double largest = 0;
-  for (int i = 0; i < C; ++i)
+  for (int i = 0; i < count; ++i)
     if (side[i] == Side::sticks) {
       index[n++] = i;
       largest = p.response[i][i] > largest ? p.response[i][i] : largest;
@@ -54,7 +56,7 @@ void solve_sticking(const FrictionProblem<C>& p, const std::array<Side, C>& side
   const double damping = 1e-9 * largest;
   for (int a = 0; a < n; ++a) {
     const int i = index[a];
-    x[a] = -slip_under<C>(p, force, i);
+    x[a] = -slip_under<C>(p, count, force, i);
     for (int b = 0; b <= a; ++b) {
       double m = p.response[i][index[b]];
       for (int k = 0; k < b; ++k) m -= lower[a][k] * lower[b][k] * pivot[k];
@@ -77,15 +79,15 @@ void solve_sticking(const FrictionProblem<C>& p, const std::array<Side, C>& side
 // Lets go what asks for more than its bound, holds what slides the way it is pushed: all of them,
 // or only the first. True if all contacts agree with their sides.
 template <int C>
-bool settle(const FrictionProblem<C>& p, bool only_first, std::array<Side, C>& side,
-            std::array<double, C>& force) {
+[[gnu::always_inline]] inline bool settle(const FrictionProblem<C>& p, int count, bool only_first,
+                                          std::array<Side, C>& side, std::array<double, C>& force) {
   bool agreed = true;
-  for (int i = 0; i < C && (agreed || !only_first); ++i) {
+  for (int i = 0; i < count && (agreed || !only_first); ++i) {
     if (side[i] == Side::sticks && (force[i] > p.bound[i] || force[i] < -p.bound[i])) {
       force[i] = force[i] > 0 ? p.bound[i] : -p.bound[i];
       side[i] = Side::slides;
       agreed = false;
-    } else if (side[i] == Side::slides && slip_under<C>(p, force, i) * force[i] > 0) {
+    } else if (side[i] == Side::slides && slip_under<C>(p, count, force, i) * force[i] > 0) {
       side[i] = Side::sticks;
       agreed = false;
     }
@@ -94,9 +96,10 @@ bool settle(const FrictionProblem<C>& p, bool only_first, std::array<Side, C>& s
 }
 
 template <int C>
-std::array<Side, C> sides_of(const FrictionProblem<C>& p, std::array<double, C>& force) {
-  std::array<Side, C> side;
-  for (int i = 0; i < C; ++i) {
+[[gnu::always_inline]] inline std::array<Side, C> sides_of(const FrictionProblem<C>& p, int count,
+                                                           std::array<double, C>& force) {
+  std::array<Side, C> side{};  // idle beyond the last
+  for (int i = 0; i < count; ++i) {
     const double b = p.bound[i];
     const bool free = force[i] < b && force[i] > -b;
     side[i] = b <= 0 ? Side::idle : free ? Side::sticks : Side::slides;
@@ -107,20 +110,21 @@ std::array<Side, C> sides_of(const FrictionProblem<C>& p, std::array<double, C>&
 
 }  // namespace detail
 
-// Forces that stop or slow each contact. `last` is the last step's.
+// Forces that stop or slow each of the first `count` contacts. `last` are the last step's. Inlined,
+// so that a constant count costs nothing.
 template <int C>
-std::array<double, C> solve_friction(const FrictionProblem<C>& p,
-                                     const std::array<double, C>& last) {
+[[gnu::always_inline]] inline std::array<double, C> solve_friction(
+    const FrictionProblem<C>& p, const std::array<double, C>& last, int count = C) {
   std::array<double, C> force = last;
-  std::array<detail::Side, C> side = detail::sides_of<C>(p, force);
+  std::array<detail::Side, C> side = detail::sides_of<C>(p, count, force);
   // Changing all at once is nearly always enough; one at a time, the first one first, comes to rest
   // for every positive definite W.
-  constexpr int all_at_once = 2 * C, one_at_a_time = 24 * C;
+  const int all_at_once = 2 * count, one_at_a_time = 24 * count;
   for (int change = 0; change < all_at_once + one_at_a_time; ++change) {
-    detail::solve_sticking<C>(p, side, force);
-    if (detail::settle<C>(p, change >= all_at_once, side, force)) return force;
+    detail::solve_sticking<C>(p, count, side, force);
+    if (detail::settle<C>(p, count, change >= all_at_once, side, force)) return force;
   }
-  for (int i = 0; i < C; ++i)
+  for (int i = 0; i < count; ++i)
     force[i] = force[i] < -p.bound[i] ? -p.bound[i] : force[i] > p.bound[i] ? p.bound[i] : force[i];
   return force;
 }

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "sinew/plant/planar/machine.h"
 #include "sinew/plant/planar/test_setups.h"
-#include "sinew/plant/planar/world.h"
 
 namespace sinew::plant {
 namespace {
@@ -91,10 +91,10 @@ TEST(Friction, ATrolleySticksUnderLoad) {
     setup.robot.trolley.track_length = -1.0;
     setup.robot.trolley.stop_stiffness = push;
     setup.robot.trolley.stop_damping = 0;
-    World<2> world(setup);
+    ChainWorld<2> world(setup);
     world.set_rates({0, 0}, 0);
     world.advance(0.1);
-    const double moved = -world.pose().x;
+    const double moved = -world.motion().x;
     // The hanging leg lags behind, so the trolley starts a little faster than all of its mass
     // would.
     const double expected = push > 4.0 ? 0.5 * (push - 4.0) / (23.8 * pound) * 0.01 : 0.0;
@@ -107,10 +107,10 @@ TEST(Friction, ATrolleySticksUnderLoad) {
 TEST(Friction, ABlockedJointDoesNotMove) {
   plant::Setup setup = leg_without_muscles(0.0, 0.3);
   setup.start.blocked = {true, true};
-  World<2> world(setup);
+  ChainWorld<2> world(setup);
   world.advance(10.0);
-  EXPECT_NEAR(world.pose().angle[0], 0.0, 1e-6);
-  EXPECT_NEAR(world.pose().angle[1], 0.3, 1e-6);
+  EXPECT_NEAR(world.motion().angle[0], 0.0, 1e-6);
+  EXPECT_NEAR(world.motion().angle[1], 0.3, 1e-6);
 }
 
 // A standing foot that may not slide: the friction it needs stays inside the cone.
@@ -120,7 +120,7 @@ TEST(Friction, TheFootKeepsItsCone) {
   setup.robot.foot.friction = 0.3;
   setup.robot.joints[0].dry_friction = 0.3;
   setup.robot.joints[1].dry_friction = 0.05;
-  World<2> world(setup);
+  ChainWorld<2> world(setup);
   bool touched = false;
   for (int k = 1; k < 1000; ++k) {
     const Truth now = world.truth(k * 1e-3);

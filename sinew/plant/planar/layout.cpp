@@ -1,5 +1,7 @@
 #include "sinew/plant/planar/layout.h"
 
+#include "sinew/robot/kinematics.h"
+
 namespace sinew::plant {
 
 Strings strings_of(const robot::Robot& robot) {
@@ -10,7 +12,7 @@ Strings strings_of(const robot::Robot& robot) {
     const robot::Joint& joint = robot.joints[static_cast<std::size_t>(s.joint[i])];
     const double role = m.role == robot::Muscle::Role::flexor ? 1.0 : -1.0;
     s.mount[i] = m.mount_length;
-    s.pull[i] = role * joint.sign() * joint.moment_arm;
+    s.pull[i] = role * joint.sign() * robot::cam_radius(m.cam, joint, joint.rest_angle);
   }
   s.padded = (s.count + muscle::lanes - 1) / muscle::lanes * muscle::lanes;
   for (int i = s.count; i < s.padded; ++i) {

@@ -107,19 +107,24 @@ void Rubs::prepare(const Body& body, const Motion& motion, const Coordinates& ac
   std::array<DiscAt, most_discs> discs;
   for (int i = 0; i < disc_count_; ++i) discs[static_cast<std::size_t>(i)] = disc(body, motion, i);
 
-  problem_.bound = bound;
+  bound_ = bound;
   normal_ = normal;
+  active_count_ = 0;
   std::array<Coordinates, count> rows;
-  for (std::size_t c = 0; c < count; ++c) {
-    rows[c] = row(static_cast<int>(c), discs);
-    problem_.slip[c] = dot(rows[c], motion.rate);
-    slip_rate_[c] = dot(rows[c], acceleration);
-    if (c >= first_disc) slip_rate_[c] += discs[c - first_disc].slip_bias;
-    column_[c] = bound[c] > 0 ? body.response(rows[c]) : Coordinates{};
+  for (int c = 0; c < count; ++c) {
+    if (!(bound[static_cast<std::size_t>(c)] > 0)) continue;
+    const auto k = static_cast<std::size_t>(active_count_++);
+    active_[k] = c;
+    rows[k] = row(c, discs);
+    problem_.bound[k] = bound[static_cast<std::size_t>(c)];
+    problem_.slip[k] = dot(rows[k], motion.rate);
+    slip_rate_[k] = dot(rows[k], acceleration);
+    if (c >= first_disc) slip_rate_[k] += discs[static_cast<std::size_t>(c - first_disc)].slip_bias;
+    column_[k] = body.response(rows[k]);
   }
-  for (std::size_t c = 0; c < count; ++c)
-    for (std::size_t d = 0; d < count; ++d)
-      problem_.response[d][c] = bound[c] > 0 ? dot(rows[d], column_[c]) : 0.0;
+  const auto n = static_cast<std::size_t>(active_count_);
+  for (std::size_t c = 0; c < n; ++c)
+    for (std::size_t d = 0; d < n; ++d) problem_.response[d][c] = dot(rows[d], column_[c]);
 
   for (std::size_t i = 0; i < most_discs; ++i) {
     if (normal[i] <= 0) continue;
@@ -129,7 +134,7 @@ void Rubs::prepare(const Body& body, const Motion& motion, const Coordinates& ac
     rise_rate_[i] = dot(at.rise, acceleration) + at.rise_bias;
     for (std::size_t k = 0; k < most_discs; ++k)
       response_[k][i] = normal[k] > 0 ? dot(discs[k].rise, column) : 0.0;
-    for (std::size_t c = 0; c < count; ++c) along_[i][c] = dot(at.rise, column_[c]);
+    for (std::size_t c = 0; c < n; ++c) along_[i][c] = dot(at.rise, column_[c]);
   }
 }
 
@@ -150,6 +155,7 @@ Rubs::Normals Rubs::solve(Matrix m, Normals b) const {
 
 // The ground's give within the step, put into slips, responses and bounds.
 void Rubs::soften(double h, FrictionProblem<count>& p) const {
+  const auto n = static_cast<std::size_t>(active_count_);
   const double k = ground_.normal_stiffness;
   const double beta = h * (h / 6.0 * k + 0.5 * ground_.normal_damping);
   Matrix m{};
@@ -167,35 +173,46 @@ void Rubs::soften(double h, FrictionProblem<count>& p) const {
   for (std::size_t i = 0; i < most_discs; ++i) {
     const double mean = normal_[i] + change[i];
     bears[i] = normal_[i] > 0 && mean > 0;
-    p.bound[first_disc + i] = bears[i] ? foot_.friction * mean : 0.0;
+    for (std::size_t c = 0; c < n; ++c)
+      if (active_[c] == first_disc + static_cast<int>(i))
+        p.bound[c] = bears[i] ? foot_.friction * mean : 0.0;
   }
-  for (std::size_t c = 0; c < count; ++c) {
+  for (std::size_t c = 0; c < n; ++c) {
     Normals give{};  // change of the normal forces per friction force c, divided by -beta
     for (std::size_t i = 0; i < most_discs; ++i) give[i] = bears[i] ? along_[i][c] : 0.0;
     give = solve(m, give);
     for (std::size_t i = 0; i < most_discs; ++i) {
       if (!bears[i]) continue;
       p.slip[c] += h * along_[i][c] * change[i];
-      for (std::size_t d = 0; d < count; ++d) p.response[d][c] -= h * beta * along_[i][d] * give[i];
+      for (std::size_t d = 0; d < n; ++d) p.response[d][c] -= h * beta * along_[i][d] * give[i];
     }
   }
 }
 
 Rubs::Forces Rubs::hold(double h, const Forces& last) const {
-  FrictionProblem<count> p = problem_;
-  bool touches = false;
-  for (std::size_t c = 0; c < count; ++c) {
-    p.slip[c] += h * slip_rate_[c];
-    for (std::size_t d = 0; d < count; ++d) p.response[c][d] *= h;
+  const auto n = static_cast<std::size_t>(active_count_);
+  FrictionProblem<count> p;
+  Forces before;
+  for (std::size_t c = 0; c < n; ++c) {
+    before[c] = last[static_cast<std::size_t>(active_[c])];
+    p.bound[c] = problem_.bound[c];
+    p.slip[c] = problem_.slip[c] + h * slip_rate_[c];
+    for (std::size_t d = 0; d < n; ++d) p.response[c][d] = h * problem_.response[c][d];
   }
+  bool touches = false;
   for (const double force : normal_) touches = touches || force > 0;
   if (touches) soften(h, p);
-  return solve_friction<count>(p, last);
+  const Forces solved = solve_friction<count>(p, before, active_count_);
+  Forces all{};
+  for (std::size_t c = 0; c < n; ++c) all[static_cast<std::size_t>(active_[c])] = solved[c];
+  return all;
 }
 
 Coordinates Rubs::accelerations(Coordinates without, const Forces& f) const {
-  for (std::size_t c = 0; c < count; ++c)
-    for (std::size_t i = 0; i < most_coordinates; ++i) without[i] += column_[c][i] * f[c];
+  for (std::size_t c = 0; c < static_cast<std::size_t>(active_count_); ++c) {
+    const double force = f[static_cast<std::size_t>(active_[c])];
+    for (std::size_t i = 0; i < most_coordinates; ++i) without[i] += column_[c][i] * force;
+  }
   return without;
 }
 

@@ -1,5 +1,5 @@
-// plant/planar/rubs.h - where a whole machine touches and rubs: joints, trolley, lift and the discs
-// of its foot. contacts.h with a list of discs in place of one and a coordinate more.
+// plant/planar/rubs.h - where a machine of any shape touches and rubs: joints, trolley, lift and
+// the discs of its foot. contacts.h with a list of discs in place of one and a coordinate more.
 //
 // A disc's centre stands at (along, across) of the last link; its lowest point slips and is pushed.
 // Contact c slips with the velocity J_c q' and carries the force f_c; see friction.h for the law.
@@ -63,7 +63,7 @@ class Rubs {
   // Accelerations under the friction f, given those without any.
   Coordinates accelerations(Coordinates without, const Forces& f) const;
 
-  double bound(int c) const { return problem_.bound[static_cast<std::size_t>(c)]; }
+  double bound(int c) const { return bound_[static_cast<std::size_t>(c)]; }
 
  private:
   using Matrix = std::array<Normals, most_discs>;
@@ -80,13 +80,18 @@ class Rubs {
   int disc_count_ = 0;
   double surface_ = 0;  // of the ground [m]
 
+  // Of the contacts that can carry something at the node, one after the other: only these are
+  // solved.
+  int active_count_ = 0;
+  std::array<int, count> active_{};          // their numbers
   std::array<Coordinates, count> column_{};  // M^-1 J^T
   FrictionProblem<count> problem_{};         // slips at the node, responses per second
   Forces slip_rate_{};                       // of the slips, without friction
+  Forces bound_{};                           // of every contact
   Normals normal_{};                         // at the node; 0: no contact [N]
   Normals rise_{}, rise_rate_{};             // of the discs, without friction
   Matrix response_{};                        // R
-  std::array<Forces, most_discs> along_{};   // A
+  std::array<Forces, most_discs> along_{};   // A, of the active contacts
 };
 
 }  // namespace sinew::plant

@@ -52,7 +52,7 @@ struct Truth {
   double force_x = 0, force_y = 0;                           // on the foot by the ground [N]
   double roller_front = 0, roller_rear = 0;                  // loads, below 0: lifted off [N]
 
-  // Of a whole machine.
+  // Of parts that not every machine has; 0 without them.
   std::array<double, 4> disc_force{};                   // of the ground on each disc, up [N]
   std::array<double, muscle::capacity> air_leaked{};    // since the start [kg]
   double supply_pressure = 0, tank_pressure = 0;        // absolute [Pa]

@@ -1,4 +1,5 @@
-// plant/planar/world.h - a planar machine with N joints, its muscles and its air, as a Port.
+// plant/planar/world.h - a machine that its muscles move, as a Port: nodes, steps, peeks and
+// events, written once for every mechanism and every air.
 //
 // One RK4 over body and air. Committed nodes are the multiples of the body step and the instants at
 // which valves really open or close, nothing else; a node is committed only when no earlier edge
@@ -7,23 +8,30 @@
 //
 //   order of one step:  node (valves, reference of the pressure, first stage)
 //                       -> dry friction for this step -> three more stages -> next node
+//
+// A step is cut into several pieces, under the friction of the whole, where air is quicker than the
+// body.
+//
+// Mechanism  what moves: routes of the muscles, forces, equations of motion, contacts
+//            (chain_mechanism.h, body_mechanism.h)
+// Air        what fills the muscles: valves, masses, pressures, tensions (muscle/bank.h,
+//            plumbing.h)
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstdint>
+#include <initializer_list>
 
 #include "sinew/muscle/bank.h"
 #include "sinew/muscle/failure.h"
-#include "sinew/plant/planar/chain.h"
-#include "sinew/plant/planar/contacts.h"
-#include "sinew/plant/planar/layout.h"
 #include "sinew/plant/planar/setup.h"
 #include "sinew/robot/sensing.h"
 #include "sinew/signals/port.h"
 
 namespace sinew::plant {
 
-template <int N>
+template <class Mechanism, class Air>
 class World final : public signals::Port {
  public:
   // The setup must be free of contradictions (robot::contradictions).
@@ -38,87 +46,95 @@ class World final : public signals::Port {
   // rest.
   Truth truth(double t) noexcept;
 
-  // For tests and tools: commit every node up to t.
+  // Commits every node up to t.
   void advance(double t) noexcept;
-  const Pose<N>& pose() const noexcept { return state_.pose; }
-  const ChainConstants<N>& constants() const noexcept { return chain_; }
+
+  using Motion = typename Mechanism::Motion;
+  const Motion& motion() const noexcept { return state_.motion; }
+  const auto& constants() const noexcept { return mechanism_.constants(); }
+  double air_mass() const noexcept {  // in chambers, hoses and tank [kg]
+    return air_.total_mass(state_.air, first_.ends.travel);
+  }
   double time() const noexcept { return time_; }
+  double shortest_step() const noexcept {  // of body and air, where it starts [s]
+    return std::min(step_, air_.longest_step(first_.ends.length));
+  }
   std::int64_t nodes() const noexcept { return nodes_; }
   const muscle::Failure& failure() const noexcept { return failure_; }
-  void set_rates(const std::array<double, N>& joint_rates, double x_rate) noexcept;
+
+  // For tests: rates at the last node, of the joints (those not given: 0) [rad/s], of the trolley
+  // and of the lift [m/s].
+  void set_rates(std::initializer_list<double> joint_rates, double x_rate,
+                 double y_rate = 0) noexcept {
+    mechanism_.set_rates(state_.motion, joint_rates, x_rate, y_rate);
+    prepare();
+  }
 
  private:
-  using Forces = typename Contacts<N>::Forces;
+  using Acceleration = typename Mechanism::Acceleration;
+  using Forces = typename Mechanism::Forces;
 
   struct State {
-    Pose<N> pose;
-    muscle::Lanes mass;
+    Motion motion;
+    typename Air::State air;
   };
 
   // Everything that one look at a state yields.
   struct Look {
-    muscle::Lanes length, rate;
-    muscle::Pull pull;
-    Generalised<N> force;  // muscles, damping, ground, track's stop; no friction
-    double normal = 0;     // on the foot [N]
-    double ankle_x = 0, ankle_y = 0;
-    Generalised<N> acceleration;  // with the friction of the step
+    muscle::Ends ends;
+    typename Mechanism::Arms arms;
+    typename Air::Answer air;
+    typename Mechanism::Load load;  // all that pushes the coordinates but dry friction
+    Acceleration acceleration;      // with the friction of the step
   };
 
   // Friction and accelerations that a look beyond the last node goes by.
   struct Glance {
     Forces held{};
-    Generalised<N> acceleration;
+    Acceleration acceleration{};
   };
-
   struct Peek {
     State state;
     Look look;
-    muscle::Lanes air_in, air_out;
   };
 
-  void strings(const Pose<N>& pose, Look& look) const noexcept;
-  void forces(const Chain<N>& chain, const Pose<N>& pose, Look& look) const noexcept;
-  void contact(const Chain<N>& chain, const Pose<N>& pose, Look& look) const noexcept;
-  void look_at(double t, const State& state, const Forces& f, Look& look) const noexcept;
-
-  void prepare() noexcept;  // the look at a new node
-
-  // Is the motion at this node no number, or the air of that muscle (-1: none)?
-  void look_for_failure(int muscle) noexcept {
-    double places = state_.pose.x;
-    for (int j = 0; j < N; ++j) places += state_.pose.angle[j];
-    using Of = muscle::Failure::Of;
-    if (muscle < 0 && muscle::is_place(places)) return;
-    if (failure_) return;
-    failure_ = {.of = muscle < 0 ? Of::motion : Of::air, .time = time_};
-    if (muscle >= 0) failure_.muscle = muscle, failure_.length = first_.length[muscle];
+  void evaluate_air(double t, const State& state, Look& look) const noexcept {
+    mechanism_.route(state.motion, look.ends, look.arms);
+    air_.evaluate(t, look.ends, state.air, look.air);
   }
-
+  void look_at(double t, const State& state, const Forces& held, Look& look) const noexcept;
+  void prepare() noexcept;
+  void look_for_failure() noexcept;
   void step(double h) noexcept;
-
-  const Glance& glance() noexcept;
-  Pose<N> peek_pose(const Glance& g, double t) const noexcept;
-  Peek peek(const Glance& g, double t) const noexcept;
-  double gauge(const Glance& g, const Peek& p, int muscle) const noexcept;
-  void rollers(const Glance& g, const Chain<N>& chain, const Pose<N>& pose,
-               Truth& out) const noexcept;
+  void piece(double from, double h, const Acceleration& first) noexcept;
+  double pieces_of(double h, const Look& look) const noexcept;
   double next_node() const noexcept;
   void commit() noexcept;
 
-  ChainConstants<N> chain_;
-  Strings strings_;
-  muscle::Bank bank_;
-  Contacts<N> contacts_;
+  const Glance& glance() noexcept;
+  Motion peek_motion(const Glance& g, double t) const noexcept {
+    Motion motion = state_.motion;
+    mechanism_.glide(motion, t - time_, g.acceleration);
+    return motion;
+  }
+  Peek peek(const Glance& g, double t) const noexcept;
+  double gauge(const Glance& g, const Peek& p, int muscle) const noexcept;
+  double quantity(std::size_t sensor, double t) noexcept;
+
+  // A step is cut into at most so many pieces. More are asked for only where a chamber has
+  // vanished.
+  static constexpr double most_pieces = 1e5;
+
+  Mechanism mechanism_;
+  Air air_;
   robot::Robot robot_;
-  std::array<double, N> rest_{}, damping_{}, dry_{};
+  double atmosphere_ = 0;  // [Pa]
   double step_ = 1e-3;
   std::uint64_t seed_ = 1;
 
   State state_{};
-  muscle::Lanes air_in_{}, air_out_{};  // since the start [kg]
-  double time_ = 0;                     // of the last committed node [s]
-  std::int64_t multiple_ = 0;           // of the body step that was passed last
+  double time_ = 0;            // of the last committed node [s]
+  std::int64_t multiple_ = 0;  // of the body step that was passed last
   std::int64_t nodes_ = 0;
   Glance glance_{};  // from this node, once somebody has looked
   bool glanced_ = false;
@@ -130,8 +146,5 @@ class World final : public signals::Port {
   bool ended_ = false;
   muscle::Failure failure_;
 };
-
-extern template class World<1>;
-extern template class World<2>;
 
 }  // namespace sinew::plant

@@ -1,5 +1,5 @@
 // Laws that a planar world keeps, with and without muscles.
-#include "sinew/plant/planar/world.h"
+#include "sinew/plant/planar/machine.h"
 
 #include <gtest/gtest.h>
 
@@ -11,37 +11,37 @@
 namespace sinew::plant {
 namespace {
 
-double swinging_energy(const World<2>& world) {
+double swinging_energy(const ChainWorld<2>& world) {
   return world.constants().gravity *
          (world.constants().first_moment[0] + world.constants().first_moment[1]);
 }
 
 // Released from (0.6, -0.9) rad the leg swings wildly under its free trolley.
 TEST(World, EnergyIsKeptWithoutMusclesAndFriction) {
-  World<2> world(leg_without_muscles(0.6, -0.9));
-  const double before = energy(world.constants(), world.pose());
+  ChainWorld<2> world(leg_without_muscles(0.6, -0.9));
+  const double before = energy(world.constants(), world.motion());
   world.advance(10.0);
-  const double drift = energy(world.constants(), world.pose()) - before;
+  const double drift = energy(world.constants(), world.motion()) - before;
   EXPECT_LE(std::abs(drift) / swinging_energy(world), 1e-7);
 }
 
 TEST(World, EnergyIsKeptOnAFixedBase) {
   plant::Setup setup = leg_without_muscles(0.6, -0.9);
   setup.robot.trolley.present = false;
-  World<2> world(setup);
-  const double before = energy(world.constants(), world.pose());
+  ChainWorld<2> world(setup);
+  const double before = energy(world.constants(), world.motion());
   world.advance(10.0);
-  EXPECT_LE(std::abs(energy(world.constants(), world.pose()) - before) / swinging_energy(world),
+  EXPECT_LE(std::abs(energy(world.constants(), world.motion()) - before) / swinging_energy(world),
             1e-7);
-  EXPECT_EQ(world.pose().x, 0.0);
+  EXPECT_EQ(world.motion().x, 0.0);
 }
 
 // Nothing pushes along the track, so the centre of mass does not move along it either.
 TEST(World, MomentumAlongTheTrackIsKept) {
-  World<2> world(leg_without_muscles(0.6, -0.9));
+  ChainWorld<2> world(leg_without_muscles(0.6, -0.9));
   world.advance(5.0);
   const double scale = world.constants().total_mass;  // times 1 m/s
-  EXPECT_LE(std::abs(momentum(world.constants(), world.pose())) / scale, 1e-8);
+  EXPECT_LE(std::abs(momentum(world.constants(), world.motion())) / scale, 1e-8);
 }
 
 // One link, small swing: the physical pendulum's period 2 pi sqrt(I / (m g r)), amplitude included.
@@ -53,7 +53,7 @@ TEST(World, OneLinkIsAPhysicalPendulum) {
   setup.robot.foot.present = false;
   const double down = 1.5 * 3.14159265358979312, amplitude = 0.05;
   setup.start.joint_angle = {down + amplitude};
-  World<1> world(setup);
+  ChainWorld<1> world(setup);
 
   const robot::Link& link = setup.robot.links[0];
   const double r = link.center_of_mass;
@@ -61,7 +61,7 @@ TEST(World, OneLinkIsAPhysicalPendulum) {
   const double period = 2 * 3.14159265358979312 * std::sqrt(inertia / (link.mass * 9.80665 * r)) *
                         (1 + amplitude * amplitude / 16);
   world.advance(10 * period);
-  EXPECT_NEAR(world.pose().angle[0], down + amplitude, 3e-5);
+  EXPECT_NEAR(world.motion().angle[0], down + amplitude, 3e-5);
 }
 
 // Sealed muscles, no dry friction: halving the step divides the error by sixteen.
@@ -71,9 +71,9 @@ TEST(World, SealedMusclesConvergeWithTheFourthOrder) {
     for (muscle::Muscle& m : setup.muscles) m.actuator.loss.coulomb_length = 0;
     setup.start.pressure = 3e5;
     setup.steps.body = step;
-    World<2> world(setup);
+    ChainWorld<2> world(setup);
     world.advance(0.256);
-    return world.pose();
+    return world.motion();
   };
   const Pose<2> exact = swing(1.25e-4);
   const auto error = [&](double step) {
@@ -87,7 +87,7 @@ TEST(World, SealedMusclesConvergeWithTheFourthOrder) {
 
 // What went in less what went out is what is there, whatever the valves do.
 TEST(World, AirIsAccountedFor) {
-  World<2> world(leg_with_muscles(4.95, 5.40));
+  ChainWorld<2> world(leg_with_muscles(4.95, 5.40));
   const Truth before = world.truth(0);
   std::mt19937 random(7);
   signals::Tick t = 0;
@@ -110,7 +110,7 @@ TEST(World, AirIsAccountedFor) {
 TEST(World, SealedAirStaysOnItsPolytrope) {
   plant::Setup setup = leg_with_muscles(4.95, 5.40);
   setup.start.pressure = 4e5;
-  World<2> world(setup);
+  ChainWorld<2> world(setup);
   const Truth start = world.truth(0);
   muscle::Bank bank(setup.muscles, setup.air, setup.supply);
   for (int k = 1; k <= 300; ++k) {
@@ -130,15 +130,15 @@ TEST(World, PeeksAgreeWithNodes) {
   plant::Setup setup = leg_with_muscles(4.87, 5.46);
   setup.start.pressure = 2.5e5;
   for (muscle::Muscle& m : setup.muscles) m.actuator.loss.coulomb_length = 0;
-  World<2> coarse(setup);
+  ChainWorld<2> coarse(setup);
   setup.steps.body = 2e-5;
-  World<2> fine(setup);
+  ChainWorld<2> fine(setup);
   std::mt19937 random(11);
   for (int k = 1; k <= 60; ++k) {
     const signals::Tick t = 10 * k + static_cast<signals::Tick>(random() % 10);
     // A valve moves now and then; both worlds see the same edge.
     if (k % 20 == 5)
-      for (World<2>* w : {&coarse, &fine}) w->drive({10 * k, {0}, k % 40 == 5});
+      for (ChainWorld<2>* w : {&coarse, &fine}) w->drive({10 * k, {0}, k % 40 == 5});
     const Truth a = coarse.truth(t * 1e-4), b = fine.truth(t * 1e-4);
     for (std::size_t j = 0; j < 2; ++j)
       EXPECT_NEAR(a.angle[j] * counts_per_rad, b.angle[j] * counts_per_rad, 0.01);
@@ -151,7 +151,7 @@ TEST(World, PeeksAgreeWithNodes) {
 TEST(World, PeeksLeaveNoTrace) {
   plant::Setup setup = leg_with_muscles(4.95, 5.40);
   setup.robot.joints[0].dry_friction = 0.1;
-  World<2> watched(setup), alone(setup);
+  ChainWorld<2> watched(setup), alone(setup);
   std::mt19937 random(5);
   for (signals::Tick t = 0; t < 5000; ++t) {
     if (t % 37 == 0) {
@@ -165,10 +165,10 @@ TEST(World, PeeksLeaveNoTrace) {
   alone.advance(0.5);
   EXPECT_EQ(watched.nodes(), alone.nodes());
   for (std::size_t j = 0; j < 2; ++j) {
-    EXPECT_EQ(watched.pose().angle[j], alone.pose().angle[j]);
-    EXPECT_EQ(watched.pose().rate[j], alone.pose().rate[j]);
+    EXPECT_EQ(watched.motion().angle[j], alone.motion().angle[j]);
+    EXPECT_EQ(watched.motion().rate[j], alone.motion().rate[j]);
   }
-  EXPECT_EQ(watched.pose().x, alone.pose().x);
+  EXPECT_EQ(watched.motion().x, alone.motion().x);
 }
 
 }  // namespace

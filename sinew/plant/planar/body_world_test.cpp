@@ -1,5 +1,5 @@
-// Laws that a whole machine keeps, and that it agrees with the fast world where both hold a robot.
-#include "sinew/plant/planar/whole.h"
+// Laws that a machine of any shape keeps, and that all worlds agree where several hold a robot.
+#include "sinew/plant/planar/machine.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include <random>
 
 #include "sinew/plant/planar/test_setups.h"
-#include "sinew/plant/planar/world.h"
 
 namespace sinew::plant {
 namespace {
@@ -68,7 +67,7 @@ double swinging_energy(const BodyConstants& k) {
 class Chains : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(Chains, KeepEnergyAndMomentum) {
-  WholeWorld world(chain_setup(GetParam()));
+  BodyWorld world(chain_setup(GetParam()));
   const double before = energy(world.constants(), world.motion());
   world.advance(4.0);
   const double scale = swinging_energy(world.constants());
@@ -79,7 +78,7 @@ TEST_P(Chains, KeepEnergyAndMomentum) {
 INSTANTIATE_TEST_SUITE_P(OneToFour, Chains, ::testing::Values(1u, 2u, 3u, 4u));
 
 // Two derivations of the same equations: eliminated trolley, and dense with a held lift.
-TEST(Whole, BodyAgreesWithTheFastChain) {
+TEST(BodyWorld, BodyAgreesWithTheFastChain) {
   const plant::Setup s = leg_without_muscles(0.6, -0.9);
   const BodyConstants whole = body_of(s.robot);
   const ChainConstants<2> fast = chain_of<2>(s.robot);
@@ -102,24 +101,31 @@ TEST(Whole, BodyAgreesWithTheFastChain) {
 }
 
 // A muscled leg that walks over its ground with friction everywhere, valves opened at random: the
-// same motion from both worlds, to what rounding grows to.
-TEST(Whole, AgreesWithTheFastWorld) {
+// same motion from every mechanism with every air, to what rounding grows to.
+template <class World>
+class Alike : public ::testing::Test {};
+using Others = ::testing::Types<ChainPlumbingWorld<2>, BodyBankWorld, BodyWorld>;
+TYPED_TEST_SUITE(Alike, Others);
+
+TYPED_TEST(Alike, MovesAsTheChainWithItsBank) {
   plant::Setup s = leg_with_muscles(4.95, 5.40);
   s.robot.ground.present = true;
   s.robot.trolley.drag = 4;
   for (robot::Joint& j : s.robot.joints) {
     j.dry_friction = 0.1;
     j.damping = 0.05;
+    j.spring = 0.3;
+    j.spring_angle = 5;
   }
-  World<2> fast(s);
-  WholeWorld whole(s);
+  ChainWorld<2> fast(s);
+  TypeParam other(s);
   std::mt19937 random(11);
   bool touched = false;
   for (signals::Tick t = 100; t <= 20000; t += 100) {
     const signals::Edge edge{t, {static_cast<std::uint8_t>(random() % 8)}, random() % 3 == 0};
     fast.drive(edge);
-    whole.drive(edge);
-    const Truth a = fast.truth(t * 1e-4), b = whole.truth(t * 1e-4);
+    other.drive(edge);
+    const Truth a = fast.truth(t * 1e-4), b = other.truth(t * 1e-4);
     touched = touched || a.force_y > 0;
     for (std::size_t j = 0; j < 2; ++j) EXPECT_NEAR(a.angle[j], b.angle[j], 2e-6) << t;
     EXPECT_NEAR(a.x, b.x, 1e-6) << t;
@@ -131,13 +137,13 @@ TEST(Whole, AgreesWithTheFastWorld) {
 
 // Behind a regulator the air pushes the body down with p A, whatever its travel: what the leg lifts
 // is known.
-TEST(Whole, RegulatorPushesWithAKnownForce) {
+TEST(BodyWorld, RegulatorPushesWithAKnownForce) {
   plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0);
   give_cylinder(s, robot::Cylinder::Mode::regulator);
   s.cylinder->mode = muscle::Cylinder::Mode::regulator;
   s.cylinder->pressure = s.air.atmosphere + 1e5;
   s.start.lift = 2 * inch;
-  WholeWorld world(s);
+  BodyWorld world(s);
   world.advance(0.05);
   const double mass = robot::leg_mass(s.robot) + s.robot.cylinder.body_mass;
   const double push = 1e5 * muscle::area(*s.cylinder, muscle::down);
@@ -146,7 +152,7 @@ TEST(Whole, RegulatorPushesWithAKnownForce) {
 }
 
 // Two sealed chambers are a spring k = n (P_u A_u^2/V_u + P_d A_d^2/V_d); the body swings on it.
-TEST(Whole, SealedCylinderIsAGasSpring) {
+TEST(BodyWorld, SealedCylinderIsAGasSpring) {
   plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0);
   give_cylinder(s, robot::Cylinder::Mode::valves);
   s.cylinder->mode = muscle::Cylinder::Mode::valves;
@@ -162,7 +168,7 @@ TEST(Whole, SealedCylinderIsAGasSpring) {
                  muscle::volume(*s.cylinder, muscle::down, s.start.lift));
   const double omega = std::sqrt(stiffness / mass), rate = 0.005;
 
-  WholeWorld world(s);
+  BodyWorld world(s);
   world.set_rates({}, 0, rate);
   const double quarter = 0.5 * std::numbers::pi / omega;
   world.advance(quarter);
@@ -172,19 +178,19 @@ TEST(Whole, SealedCylinderIsAGasSpring) {
 }
 
 // Trolley and ground away, the whole leg falls with its body as one mass.
-TEST(Whole, LiftedMassFallsFreely) {
+TEST(BodyWorld, LiftedMassFallsFreely) {
   plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0.4);
   give_cylinder(s, robot::Cylinder::Mode::regulator);
   s.cylinder->mode = muscle::Cylinder::Mode::regulator;
   s.cylinder->pressure = s.air.atmosphere;
   s.start.lift = 2 * inch;
-  WholeWorld world(s);
+  BodyWorld world(s);
   world.advance(0.08);
   EXPECT_NEAR(world.motion().at[up] - 2 * inch, -0.5 * 9.80665 * 0.08 * 0.08, 1e-9);
 }
 
 // A body on its ankle, over a shoe with heel and toe: each carries what the levers say.
-TEST(Whole, ShoeStandsOnHeelAndToe) {
+TEST(BodyWorld, ShoeStandsOnHeelAndToe) {
   plant::Setup s = chain_setup(1);
   give_cylinder(s, robot::Cylinder::Mode::regulator);
   s.cylinder->mode = muscle::Cylinder::Mode::regulator;
@@ -197,7 +203,7 @@ TEST(Whole, ShoeStandsOnHeelAndToe) {
   s.robot.foot = {.present = true, .mass = 0, .radius = 0, .friction = 0};
   const double heel = 0.03, toe = 0.09;
   s.robot.foot.points = {{"heel", -heel, -0.01, 0.004}, {"toe", toe, -0.01, 0.004}};
-  WholeWorld world(s);
+  BodyWorld world(s);
   const Truth truth = world.truth(4.0);
 
   const robot::Link& link = s.robot.links[0];
@@ -212,7 +218,7 @@ TEST(Whole, ShoeStandsOnHeelAndToe) {
 
 // A foot link at an ankle that is held is the leg's fixed foot, on its ground and in its friction:
 // to what the shorter steps of the light link change.
-TEST(Whole, HeldAnkleIsAFixedFoot) {
+TEST(BodyWorld, HeldAnkleIsAFixedFoot) {
   plant::Setup fixed = leg_with_muscles(4.95, 5.40);
   fixed.robot.ground.present = true;
   fixed.robot.trolley.drag = 4;
@@ -228,7 +234,7 @@ TEST(Whole, HeldAnkleIsAFixedFoot) {
   ankle.robot.foot.mass = 0;
   ankle.robot.foot.points = {{"sole", 0, 0, fixed.robot.foot.radius}};
 
-  WholeWorld a(fixed), b(ankle);
+  BodyWorld a(fixed), b(ankle);
   bool touched = false;
   for (signals::Tick t = 100; t <= 6000; t += 100) {
     const auto valve = static_cast<std::uint8_t>((t / 100 * 5) % 8);
@@ -244,7 +250,7 @@ TEST(Whole, HeldAnkleIsAFixedFoot) {
 }
 
 // A damper far too strong for the body step: still exponential decay, v = v0 exp(-c t/I).
-TEST(Whole, StrongDamperIsStable) {
+TEST(BodyWorld, StrongDamperIsStable) {
   plant::Setup s = chain_setup(1);
   s.robot.trolley.present = false;
   s.robot.foot.present = false;
@@ -252,7 +258,7 @@ TEST(Whole, StrongDamperIsStable) {
   const robot::Link& link = s.robot.links[0];
   const double inertia = link.inertia + link.mass * link.center_of_mass * link.center_of_mass;
   s.robot.joints[0].damper = 8000 * inertia;  // decays in 0.125 ms
-  WholeWorld world(s);
+  BodyWorld world(s);
   world.set_rates({1.0}, 0, 0);
   world.advance(0.01);
   EXPECT_NEAR(world.motion().at[first_link] - 0.6, 1.0 / 8000, 1e-6);
@@ -290,7 +296,7 @@ TEST(Cords, TorqueIsTheSlopeOfLength) {
 }
 
 // A passive joint with a spring alone: the pendulum's period with k + m g r in place of m g r.
-TEST(Whole, SpringAtAJointIsAPendulumInNoGravity) {
+TEST(BodyWorld, SpringAtAJointIsAPendulumInNoGravity) {
   plant::Setup s = chain_setup(1);
   s.robot.trolley.present = false;
   s.robot.foot.present = false;
@@ -300,7 +306,7 @@ TEST(Whole, SpringAtAJointIsAPendulumInNoGravity) {
   s.start.joint_angle = {1.1};
   const robot::Link& link = s.robot.links[0];
   const double inertia = link.inertia + link.mass * link.center_of_mass * link.center_of_mass;
-  WholeWorld world(s);
+  BodyWorld world(s);
   world.advance(0.5);
   EXPECT_NEAR(world.motion().at[first_link], 1.0 + 0.1 * std::cos(std::sqrt(2.0 / inertia) * 0.5),
               1e-5);
@@ -308,14 +314,14 @@ TEST(Whole, SpringAtAJointIsAPendulumInNoGravity) {
 
 // A trolley that breaks away at 6 N and rolls on against 1: it rests as long as 6 N hold it, and
 // then moves as in a world that starts there; both worlds agree.
-TEST(Whole, TrolleyBreaksAway) {
+TEST(BodyWorld, TrolleyBreaksAway) {
   plant::Setup s = leg_without_muscles(0, 0);  // straight out, it swings down
   s.robot.trolley.drag = 1;
   s.robot.trolley.breakaway = 6;
   plant::Setup loose = s;
   loose.robot.trolley.breakaway = 0;
-  World<2> fast(s);
-  WholeWorld whole(s), rolls(loose);
+  ChainWorld<2> fast(s);
+  BodyWorld whole(s), rolls(loose);
   double rested = 0, rolled = 0;
   for (int k = 1; k <= 900; ++k) {
     const Truth a = fast.truth(k * 1e-3), b = whole.truth(k * 1e-3), c = rolls.truth(k * 1e-3);
@@ -328,7 +334,7 @@ TEST(Whole, TrolleyBreaksAway) {
 }
 
 // Standing still, the rollers carry the weight, and the counterweight loads the one it hangs on.
-TEST(Whole, RollersCarryTheWeight) {
+TEST(BodyWorld, RollersCarryTheWeight) {
   plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0);
   for (auto&& blocked : s.start.blocked) blocked = true;
   s.robot.trolley.drag = 4;
@@ -337,7 +343,7 @@ TEST(Whole, RollersCarryTheWeight) {
                      .rear = -0.1,
                      .counterweight = 10 * pound,
                      .counterweight_at = 0.1};
-  const Truth whole = WholeWorld(s).truth(0), fast = World<2>(s).truth(0);
+  const Truth whole = BodyWorld(s).truth(0), fast = ChainWorld<2>(s).truth(0);
   const double weight = 23.8 * pound * 9.80665;
   EXPECT_NEAR(whole.roller_front + whole.roller_rear, weight, 1e-6);
   EXPECT_NEAR(whole.roller_front - whole.roller_rear, 10 * pound * 9.80665, 1e-6);
@@ -346,7 +352,7 @@ TEST(Whole, RollersCarryTheWeight) {
 
 // Muscles that creep: in the end the leg hangs where stronger ones would hold it, and the cords
 // pull 1 + c times as much as they would. The hysteresis of a hair's width changes nothing.
-TEST(Whole, CreepEndsWhereStrongerMusclesHoldTheLeg) {
+TEST(BodyWorld, CreepEndsWhereStrongerMusclesHoldTheLeg) {
   const auto settled = [](double creep, double scale, double half_width) {
     plant::Setup s = leg_with_muscles(4.85, 5.48);
     s.start.pressure = 2e5;
@@ -356,7 +362,7 @@ TEST(Whole, CreepEndsWhereStrongerMusclesHoldTheLeg) {
       m.actuator.creep = {.share = {creep, 0}, .time = {0.2, 0}};
       m.actuator.hysteresis.half_width = half_width;
     }
-    WholeWorld world(s);
+    BodyWorld world(s);
     world.drive({0, {0}, true});
     world.drive({60, {0}, false});
     return world.truth(5);

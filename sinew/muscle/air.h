@@ -1,0 +1,228 @@
+// muscle/air.h - a bank or a plumbing as the air half of a world: its state, its look, and how both
+// move on. plant/planar/world.h integrates it together with a body.
+//
+//   State    what is integrated, and what has passed the valves since the start
+//   Answer   all that one evaluation yields
+//   move     the state, h along the rates of one look: the stages of RK4
+//   finish   the state, by RK4's weighted mean of four looks
+//   predict, correct   Heun's rule, for a peek
+//   remember at a node: the references and the plays that looks between nodes go by; answers what
+//            of the air is no number
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "sinew/muscle/bank.h"
+#include "sinew/muscle/failure.h"
+#include "sinew/muscle/plumbing.h"
+#include "sinew/signals/port.h"
+
+namespace sinew::muscle {
+
+// Air of one chamber: what is there, and what has passed since the start  [kg].
+struct Account {
+  double mass = 0, in = 0, out = 0, leak = 0;
+};
+
+// Pressures of the supply, absolute  [Pa].
+struct SupplyState {
+  double line = 0, tank = 0;
+};
+
+inline double piston_force(const Pull&) { return 0; }  // a bank has no cylinder
+inline double piston_force(const AirPull& pull) { return pull.cylinder_force; }
+
+// Muscles on a supply that is always the same, with valves beside them: lanes.
+class BankAir {
+ public:
+  using Answer = Pull;
+  struct State {
+    Lanes mass, in, out;  // [kg]
+  };
+
+  BankAir(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
+          const std::optional<Cylinder>&)
+      : bank_(muscles, air, supply), supply_(supply.pressure) {}
+
+  State initial(double pressure, const Lanes& length, double) const {
+    State s{};
+    for (int i = 0; i < bank_.size(); ++i) s.mass[i] = bank_.mass_at(i, pressure, length[i]);
+    for (int i = bank_.size(); i < bank_.padded(); ++i) s.mass[i] = s.mass[bank_.size() - 1];
+    return s;
+  }
+
+  int valves() const noexcept { return 2 * bank_.size(); }
+  void command(const signals::Edge& edge, double t, const Answer&) noexcept {
+    bank_.electrical(edge.valve.index, t, edge.open);
+  }
+  void node(double t) noexcept { bank_.node(t); }
+  double next_change() const noexcept { return bank_.next_change(); }
+  bool flowing() const noexcept { return bank_.any_open(); }
+  double longest_step(const Lanes&) const noexcept {
+    return std::numeric_limits<double>::infinity();
+  }
+
+  void evaluate(double t, const Ends& ends, const State& state, Answer& out) const noexcept {
+    bank_.evaluate(t, ends.length, ends.rate, state.mass, out);
+  }
+
+  Failure remember(const Answer& look, State&) noexcept {
+    const int failed = bank_.follow(look.drift);
+    if (failed < 0) return {};
+    return {.of = Failure::Of::air, .muscle = failed};
+  }
+
+  // Only the masses: what has passed is summed where the step ends.
+  void move(State& out, const State& from, double h, const Answer& look) const noexcept {
+    const bool flows = flowing();
+    for (int i = 0; i < bank_.padded(); i += lanes) {
+      Four mass = from.mass.four(i);
+      if (flows) mass += h * (look.inflow.four(i) - look.outflow.four(i));
+      out.mass.four(i) = mass;
+    }
+  }
+
+  void finish(State& state, double h, const Answer* const (&look)[4]) const noexcept {
+    const double sixth = h / 6.0;
+    const auto mean = [&](auto&& of) {
+      return sixth * (of(0) + 2.0 * of(1) + 2.0 * of(2) + of(3));
+    };
+    for (int i = 0; flowing() && i < bank_.size(); ++i)
+      pass(state, state, i, mean([&](int s) { return look[s]->inflow[i]; }),
+           mean([&](int s) { return look[s]->outflow[i]; }));
+  }
+
+  // The mass at the node serves the predictor.
+  void predict(State&, const State&, double, const Answer&) const noexcept {}
+  void correct(State& out, const State& from, double h, const Answer& before,
+               const Answer& after) const noexcept {
+    for (int i = 0; i < bank_.size(); ++i)
+      pass(out, from, i, 0.5 * h * (before.inflow[i] + after.inflow[i]),
+           0.5 * h * (before.outflow[i] + after.outflow[i]));
+  }
+
+  Account account(const State& s, int muscle) const noexcept {
+    return {.mass = s.mass[muscle], .in = s.in[muscle], .out = s.out[muscle]};
+  }
+  double total_mass(const State& s, double) const noexcept {
+    double sum = 0;
+    for (int i = 0; i < bank_.size(); ++i) sum += s.mass[i];
+    return sum;
+  }
+  SupplyState supply_state(const Answer&) const noexcept { return {supply_, supply_}; }
+  double cylinder_pressure(const Answer&, int) const noexcept { return 0; }
+  Account cylinder_account(const State&, int) const noexcept { return {}; }
+
+ private:
+  static void pass(State& out, const State& from, int i, double in, double gone) noexcept {
+    out.in[i] = from.in[i] + in;
+    out.out[i] = from.out[i] + gone;
+    out.mass[i] = from.mass[i] + (in - gone);
+  }
+
+  Bank bank_;
+  double supply_ = 0;  // [Pa]
+};
+
+// Muscles with whatever a plumbing has: tank, regulators, hoses, leaks, heat, a cylinder.
+class PlumbingAir {
+ public:
+  struct Answer : AirPull {
+    AirState flow;  // d(air)/dt
+  };
+  // The cylinder's chambers, up and down, come after the muscles.
+  struct State {
+    AirState air;
+    std::array<double, capacity + 2> in, out, leak;  // [kg]
+  };
+
+  PlumbingAir(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
+              const std::optional<Cylinder>& cylinder)
+      : plumbing_(muscles, air, supply, cylinder), cylinder_(cylinder.has_value()) {}
+
+  State initial(double pressure, const Lanes& length, double travel) const {
+    State s{};
+    s.air = plumbing_.initial(pressure, length, travel);
+    return s;
+  }
+
+  int valves() const noexcept { return plumbing_.valves(); }
+  void command(const signals::Edge& edge, double t, const Answer& at_node) noexcept {
+    plumbing_.electrical(edge.valve.index, t, edge.open, at_node);
+    plumbing_.level(edge.valve.index, t, static_cast<double>(edge.level) / signals::max_level);
+  }
+  void node(double t) noexcept { plumbing_.node(t); }
+  double next_change() const noexcept { return plumbing_.next_change(); }
+  bool flowing() const noexcept { return !plumbing_.quiet(); }
+  double longest_step(const Lanes& length) const noexcept { return plumbing_.longest_step(length); }
+
+  void evaluate(double t, const Ends& ends, const State& state, Answer& out) const noexcept {
+    plumbing_.evaluate(t, ends.length, ends.rate, ends.travel, ends.travel_rate, state.air, out,
+                       out.flow);
+  }
+
+  Failure remember(const Answer& look, State& state) noexcept {
+    plumbing_.remember(look, state.air);
+    for (int i = 0; i < plumbing_.muscles(); ++i)
+      if (!is_pressure(look.pressure[i])) return {.of = Failure::Of::air, .muscle = i};
+    for (const double p : look.cylinder_pressure)
+      if (cylinder_ && !(p >= 0 && p < most_pressure)) return {.of = Failure::Of::cylinder};
+    return {};
+  }
+
+  void move(State& out, const State& from, double h, const Answer& look) const noexcept {
+    for (int i = 0; i < plumbing_.states(); ++i) out.air[i] = from.air[i] + h * look.flow[i];
+    const auto n = static_cast<std::size_t>(plumbing_.muscles());
+    for (std::size_t i = 0; i < n; ++i) {
+      const int m = static_cast<int>(i);
+      out.in[i] = from.in[i] + h * look.inflow[m];
+      out.out[i] = from.out[i] + h * look.outflow[m];
+      out.leak[i] = from.leak[i] + h * look.leak[m];
+    }
+    for (std::size_t c = 0; c < 2; ++c) {
+      out.in[n + c] = from.in[n + c] + h * look.cylinder_inflow[c];
+      out.out[n + c] = from.out[n + c] + h * look.cylinder_outflow[c];
+    }
+  }
+
+  void finish(State& state, double h, const Answer* const (&look)[4]) const noexcept {
+    const double weight[4] = {h / 6.0, h / 3.0, h / 3.0, h / 6.0};
+    for (int s = 0; s < 4; ++s) move(state, state, weight[s], *look[s]);
+  }
+
+  void predict(State& out, const State& from, double h, const Answer& before) const noexcept {
+    move(out, from, h, before);
+  }
+  void correct(State& out, const State& from, double h, const Answer& before,
+               const Answer& after) const noexcept {
+    move(out, from, 0.5 * h, before);
+    move(out, out, 0.5 * h, after);
+  }
+
+  Account account(const State& s, int muscle) const noexcept {
+    const auto i = static_cast<std::size_t>(muscle);
+    return {.mass = s.air[muscle], .in = s.in[i], .out = s.out[i], .leak = s.leak[i]};
+  }
+  double total_mass(const State& s, double travel) const noexcept {
+    return plumbing_.total_mass(s.air, travel);
+  }
+  SupplyState supply_state(const Answer& a) const noexcept {
+    return {a.supply_pressure, a.tank_pressure};
+  }
+  double cylinder_pressure(const Answer& a, int chamber) const noexcept {
+    return a.cylinder_pressure[static_cast<std::size_t>(chamber)];
+  }
+  Account cylinder_account(const State& s, int chamber) const noexcept {
+    const auto i = static_cast<std::size_t>(plumbing_.muscles() + chamber);
+    return {.in = s.in[i], .out = s.out[i]};
+  }
+
+ private:
+  Plumbing plumbing_;
+  bool cylinder_ = false;
+};
+
+}  // namespace sinew::muscle

@@ -1,0 +1,121 @@
+// plant/planar/body_mechanism.h - any planar machine: up to four joints, driven or passive, a body
+// that a cylinder lifts, cams of any shape, muscles across two joints, a foot of several discs.
+//
+//   body.h   equations of motion, dense      rubs.h     friction and the discs on the ground
+//   cords.h  routes of the muscles           rollers.h  what the trolley rests on
+//
+// One of the mechanisms of world.h; chain_mechanism.h is the same for the leg that walks, faster.
+#pragma once
+
+#include <array>
+#include <initializer_list>
+
+#include "sinew/muscle/bank.h"
+#include "sinew/plant/planar/body.h"
+#include "sinew/plant/planar/cords.h"
+#include "sinew/plant/planar/rubs.h"
+#include "sinew/plant/planar/setup.h"
+
+namespace sinew::plant {
+
+class BodyMechanism {
+ public:
+  using Motion = plant::Motion;
+  using Acceleration = Coordinates;
+  using Forces = Rubs::Forces;
+  using Arms = Cords::Pulls;
+  using Pose = Body;
+
+  struct Load {
+    Coordinates force;                              // all but dry friction
+    std::array<double, most_links> passive_torque;  // dampers and springs [N m]
+    Rubs::Normals normal;                           // of the ground on the discs [N]
+  };
+
+  explicit BodyMechanism(const Setup& setup);
+
+  const BodyConstants& constants() const noexcept { return constants_; }
+  const Motion& start() const noexcept { return start_; }
+  int muscles() const noexcept { return cords_.count(); }
+  int joint(int muscle) const noexcept { return cords_.joint(muscle, 0); }
+  double arm(const Arms& arms, int muscle) const noexcept {  // at its first joint [m]
+    return arms[static_cast<std::size_t>(muscle)][0];
+  }
+  Pose pose(const Motion& motion) const noexcept { return Pose(constants_, motion); }
+
+  double joint_angle(const Motion& m, std::size_t j) const noexcept {
+    return m.at[first_link + j] - (j > 0 ? m.at[first_link + j - 1] : 0.0);
+  }
+  double joint_rate(const Motion& m, std::size_t j) const noexcept {
+    return m.rate[first_link + j] - (j > 0 ? m.rate[first_link + j - 1] : 0.0);
+  }
+  double lift(const Motion& m) const noexcept { return m.at[up]; }
+
+  // A number that is none where one of the coordinates is none.
+  double sum(const Motion& m) const noexcept;
+
+  // The body step, or a whole part of it that suits the fastest rate of the machine at its start.
+  double stable_step(double step) const;
+
+  void set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
+                 double y_rate) const;
+
+  // Lengths of the muscles, the piston's travel, their rates; the muscles' arms.
+  void route(const Motion& m, muscle::Ends& ends, Arms& arms) const noexcept;
+
+  template <class Answer>
+  void load(const Pose& body, const Motion& m, const Arms& arms, const Answer& air,
+            Load& out) const noexcept {
+    load(body, m, arms, air.tension, piston_force(air), out);  // muscle/air.h
+  }
+
+  Acceleration accelerate(const Pose& body, const Motion& m, const Load& load,
+                          const Forces& held) const noexcept;
+
+  // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
+  // the mesh's own friction acts through the cams and is part of the joint's.
+  Acceleration prepare(const Pose& body, const Motion& m, const Arms& arms,
+                       const muscle::Lanes& mesh, const Forces& held, const Load& load) noexcept;
+
+  // Dry friction of a step of length h from the prepared node, and accelerations under it.
+  Forces hold(double h, const Forces& last) const noexcept { return rubs_.hold(h, last); }
+  Acceleration accelerate(const Acceleration& free, const Forces& held) const noexcept {
+    return rubs_.accelerations(free, held);
+  }
+  double bound(int contact) const noexcept { return rubs_.bound(contact); }
+
+  // `from`, h along the given rates and accelerations.
+  void move(Motion& out, const Motion& from, double h, const Motion& rates,
+            const Acceleration& a) const noexcept;
+
+  // h along a constant acceleration.
+  void glide(Motion& m, double h, const Acceleration& a) const noexcept;
+
+  // RK4's weighted mean of four stages.
+  void finish(Motion& now, double h, const Motion* const (&stage)[4],
+              const Acceleration (&a)[4]) const noexcept;
+
+  void add_torque(const Arms& arms, int muscle, double tension,
+                  std::array<double, most_joints>& torque) const noexcept;
+
+  // What only a simulation knows of the body at a motion, the muscles' torques being there; `load`
+  // is that of the last node.
+  void tell(const Motion& m, const Acceleration& a, const Forces& held, const Load& load,
+            Truth& out) const noexcept;
+
+ private:
+  void load(const Pose& body, const Motion& m, const Arms& arms, const muscle::Lanes& tension,
+            double piston_force, Load& out) const noexcept;
+  double cylinder_stop(const Motion& m) const noexcept;
+  void tell_rollers(const Body& body, const Motion& m, const Acceleration& a, const Forces& held,
+                    const Load& load, Truth& out) const noexcept;
+
+  BodyConstants constants_;
+  robot::Robot robot_;
+  Cords cords_;
+  Rubs rubs_;
+  Motion start_{};
+  std::array<double, most_links> damping_{}, dry_{};
+};
+
+}  // namespace sinew::plant

@@ -1,0 +1,10 @@
+// plant/planar/body_worlds.cpp - the worlds of machines that are no chain, compiled once.
+#include "sinew/plant/planar/machine.h"
+#include "sinew/plant/planar/world_members.h"
+
+namespace sinew::plant {
+
+template class World<BodyMechanism, muscle::BankAir>;
+template class World<BodyMechanism, muscle::PlumbingAir>;
+
+}  // namespace sinew::plant

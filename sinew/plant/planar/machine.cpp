@@ -1,0 +1,50 @@
+#include "sinew/plant/planar/machine.h"
+
+namespace sinew::plant {
+
+namespace {
+
+using AnyWorld = std::variant<ChainWorld<1>, ChainWorld<2>, ChainPlumbingWorld<1>,
+                              ChainPlumbingWorld<2>, BodyBankWorld, BodyWorld>;
+
+AnyWorld world_for(const Setup& s) {
+  const bool chain = robot::is_chain(s.robot), one = s.robot.joints.size() == 1;
+  const bool bank = !muscle::needs_plumbing(s.muscles, s.air, s.supply, s.cylinder);
+  using std::in_place_type;
+  if (chain && bank && one) return AnyWorld(in_place_type<ChainWorld<1>>, s);
+  if (chain && bank) return AnyWorld(in_place_type<ChainWorld<2>>, s);
+  if (chain && one) return AnyWorld(in_place_type<ChainPlumbingWorld<1>>, s);
+  if (chain) return AnyWorld(in_place_type<ChainPlumbingWorld<2>>, s);
+  if (bank) return AnyWorld(in_place_type<BodyBankWorld>, s);
+  return AnyWorld(in_place_type<BodyWorld>, s);
+}
+
+}  // namespace
+
+Machine::Machine(const Setup& setup) : world_(world_for(setup)) {}
+
+signals::Port& Machine::port() noexcept {
+  return *std::visit([](auto& world) -> signals::Port* { return &world; }, world_);
+}
+
+Truth Machine::truth(double t) noexcept {
+  return std::visit([&](auto& world) { return world.truth(t); }, world_);
+}
+
+void Machine::advance(double t) noexcept {
+  std::visit([&](auto& world) { world.advance(t); }, world_);
+}
+
+std::int64_t Machine::nodes() const noexcept {
+  return std::visit([](const auto& world) { return world.nodes(); }, world_);
+}
+
+double Machine::shortest_step() const noexcept {
+  return std::visit([](const auto& world) { return world.shortest_step(); }, world_);
+}
+
+const muscle::Failure& Machine::failure() const noexcept {
+  return *std::visit([](const auto& world) { return &world.failure(); }, world_);
+}
+
+}  // namespace sinew::plant

@@ -1,0 +1,49 @@
+// plant/planar/machine.h - a planar machine in simulation: the mechanism and the air that suit its
+// description, behind one face. Robots that a chain holds go by chain_mechanism.h, air that a bank
+// holds by muscle/bank.h; each is chosen on its own.
+#pragma once
+
+#include <variant>
+
+#include "sinew/muscle/air.h"
+#include "sinew/plant/planar/body_mechanism.h"
+#include "sinew/plant/planar/chain_mechanism.h"
+#include "sinew/plant/planar/world.h"
+
+namespace sinew::plant {
+
+template <int N>
+using ChainWorld = World<ChainMechanism<N>, muscle::BankAir>;
+template <int N>
+using ChainPlumbingWorld = World<ChainMechanism<N>, muscle::PlumbingAir>;
+using BodyBankWorld = World<BodyMechanism, muscle::BankAir>;
+using BodyWorld = World<BodyMechanism, muscle::PlumbingAir>;  // holds every robot
+
+extern template class World<ChainMechanism<1>, muscle::BankAir>;
+extern template class World<ChainMechanism<2>, muscle::BankAir>;
+extern template class World<ChainMechanism<1>, muscle::PlumbingAir>;
+extern template class World<ChainMechanism<2>, muscle::PlumbingAir>;
+extern template class World<BodyMechanism, muscle::BankAir>;
+extern template class World<BodyMechanism, muscle::PlumbingAir>;
+
+class Machine {
+ public:
+  // The setup must be free of contradictions (robot::contradictions).
+  explicit Machine(const Setup& setup);
+
+  signals::Port& port() noexcept;
+
+  // As World's.
+  Truth truth(double t) noexcept;
+  void advance(double t) noexcept;
+  std::int64_t nodes() const noexcept;
+  double shortest_step() const noexcept;
+  const muscle::Failure& failure() const noexcept;
+
+ private:
+  std::variant<ChainWorld<1>, ChainWorld<2>, ChainPlumbingWorld<1>, ChainPlumbingWorld<2>,
+               BodyBankWorld, BodyWorld>
+      world_;
+};
+
+}  // namespace sinew::plant
