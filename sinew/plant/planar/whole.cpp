@@ -350,8 +350,8 @@ Status WholeWorld::start(const signals::Scan& scan) noexcept {
 Status WholeWorld::drive(signals::Edge edge) noexcept {
   if (ended_) return Status::ended;
   if (failure_) return Status::fault;
-  if (edge.valve.index >= plumbing_.valves()) return Status::invalid;
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
+  if (edge.valve.index >= plumbing_.valves() || t < time_) return Status::invalid;
   while (!failure_ && next_node() < t)
     commit();  // later edges act at t or after: these nodes are final
   plumbing_.electrical(edge.valve.index, t, edge.open, first_.pull);

@@ -302,8 +302,8 @@ template <int N>
 Status World<N>::drive(signals::Edge edge) noexcept {
   if (ended_) return Status::ended;
   if (failure_) return Status::fault;
-  if (edge.valve.index >= 2 * strings_.count) return Status::invalid;
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
+  if (edge.valve.index >= 2 * strings_.count || t < time_) return Status::invalid;
   while (!failure_ && next_node() < t)
     commit();  // later edges act at t or after: these nodes are final
   bank_.electrical(edge.valve.index, t, edge.open);
