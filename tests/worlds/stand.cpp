@@ -167,6 +167,9 @@ Limits limits_of(const std::string& name) {
            .peek_tension = 1e-4,
            .peek_pressure = 0.5,
            .peek_mass = 2e-11,
+           .rubbing_angle = 0,
+           .rubbing_place = 2e-8,
+           .rubbing_tension = 1e-4,
            .error = 1e-9,
            .driven_order = 1.5,
            .driven_error = 1e-7,
@@ -183,8 +186,8 @@ Limits limits_of(const std::string& name) {
 }  // namespace
 
 std::vector<Subject> stand_subjects() {
-  const Sets tank{"air.supply.kind=tank", "air.supply.volume=0.5 L",
-                  "air.supply.initial_pressure=110 psi gauge"};
+  const Sets tank{"air.supply.kind=tank", "air.supply.volume=0.1 L",
+                  "air.supply.initial_pressure=80 psi gauge"};
   const std::string pipe = "law = \"pipe\", length = \"0.5 m\", inner_diameter = \"2.5 mm\"";
   std::vector<Subject> all{
       of_experiment("sealed", "trapped-60-6"),
