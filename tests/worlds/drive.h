@@ -74,8 +74,8 @@ struct Record {
   double entered = 0;  // air through the valves [kg]
 };
 
-// The instant at which a look falls into the tick before the next one. A conversion that begins at
-// a tick is read a tick later, and calls never go back in time: no look in between.
+// A world from its start to `end`, with somebody who looks. A conversion that begins at a tick is
+// read a tick later, and calls never go back in time, so nobody looks between the two.
 inline Record follow(const Subject& subject, const Variant& variant, Tick end, unsigned seed,
                      const Looks& looks = {}) {
   const std::unique_ptr<Body> body = subject.make(variant);
