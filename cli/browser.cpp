@@ -45,17 +45,17 @@ void start_quietly(std::string program, std::string word) {
 
 Browser::Browser(const std::string& url) {
   if (url.empty() || (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))) return;
-  door_ = private_file(fmt::format(
+  redirecting_page_ = private_file(fmt::format(
       "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Sinew</title><meta "
       "http-equiv=\"refresh\" content=\"0; url={0}\"></head><body><a "
       "href=\"{0}\">{0}</a></body></html>\n",
       url));
-  if (!door_.empty()) start_quietly("xdg-open", door_.string());
+  if (!redirecting_page_.empty()) start_quietly("xdg-open", redirecting_page_.string());
 }
 
 Browser::~Browser() {
   std::error_code ignored;
-  if (!door_.empty()) fs::remove(door_, ignored);
+  if (!redirecting_page_.empty()) fs::remove(redirecting_page_, ignored);
 }
 
 }  // namespace sinew::cli

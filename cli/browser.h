@@ -17,7 +17,7 @@ class Browser {
   Browser& operator=(const Browser&) = delete;
 
  private:
-  std::filesystem::path door_;
+  std::filesystem::path redirecting_page_;
 };
 
 }  // namespace sinew::cli

@@ -142,7 +142,7 @@ std::string write_figures(const fs::path& folder, report::Gallery gallery,
   gallery.scripts = !options.pictures.empty();
   const std::string index = report::index_json(gallery);
 
-  settle(folder);
+  finish_replacing(folder);
   refuse_to_overwrite(folder / index_name, options.force);
   OutputFolder out(folder);
   const Stage stage(out);

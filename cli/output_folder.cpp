@@ -154,7 +154,7 @@ void OutputFolder::commit(const std::vector<std::string>& replaced) {
   take_places(path_);
 }
 
-void settle(const fs::path& folder) {
+void finish_replacing(const fs::path& folder) {
   std::error_code none;
   if (!fs::exists(folder / finished_name, none)) return;
   const int fd = open_folder(folder);

@@ -43,6 +43,6 @@ class OutputFolder {
 
 // Where a process was killed while its files took their places: the rest of that. For those who
 // read from a folder; nothing else is touched.
-void settle(const std::filesystem::path& folder);
+void finish_replacing(const std::filesystem::path& folder);
 
 }  // namespace sinew::cli

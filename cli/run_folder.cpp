@@ -76,7 +76,7 @@ bool holds_a_run(const std::vector<std::string>& names) {
   });
 }
 
-// An earlier run that did not become whole makes way for the next one; nothing else does.
+// An earlier run that did not become whole is removed before the next one; nothing else is.
 void clear_unfinished(const fs::path& folder) {
   if (!fs::is_directory(folder)) return;
   std::vector<std::string> known = known_names();
@@ -128,7 +128,7 @@ void write_into(const OutputFolder& folder, std::string_view name, std::string_v
 }
 
 RecordedRun recorded_run(const fs::path& named) {
-  settle(fs::is_directory(named) ? named : named.parent_path());
+  finish_replacing(fs::is_directory(named) ? named : named.parent_path());
   if (!fs::exists(named))
     refuse(named, "nothing", "the folder of a run, or its log", "the path, or sinew run first");
   const fs::path folder = fs::is_directory(named) ? named : named.parent_path();

@@ -59,7 +59,7 @@ struct Server::Impl : std::enable_shared_from_this<Server::Impl> {
   asio::signal_set signals{io};
   Handlers handlers;
   std::map<Watcher, std::weak_ptr<Socket>> sockets;
-  std::list<Connection*> strangers;  // have not shown the token; the oldest first
+  std::list<Connection*> unauthorized;  // have not shown the token; the oldest first
   const std::string token = random_token();
   Watcher last = 0;
   std::size_t connections = 0;
@@ -152,16 +152,16 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
   Connection(std::shared_ptr<Impl> s, tcp::socket&& socket)
       : server(std::move(s)), stream(std::move(socket)) {
     ++server->connections;
-    place = server->strangers.insert(server->strangers.end(), this);
+    place = server->unauthorized.insert(server->unauthorized.end(), this);
   }
   ~Connection() {
     --server->connections;
     is_known();
   }
 
-  // No stranger any more.
+  // It has shown the token.
   void is_known() {
-    if (place) server->strangers.erase(*place);
+    if (place) server->unauthorized.erase(*place);
     place.reset();
   }
 
@@ -225,7 +225,7 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
   }
 
   std::shared_ptr<Impl> server;
-  std::optional<std::list<Connection*>::iterator> place;  // among the strangers
+  std::optional<std::list<Connection*>::iterator> place;  // of it among the unauthorized
   beast::tcp_stream stream;
   beast::flat_buffer buffer;
   std::optional<http::request_parser<http::string_body>> parser;
@@ -281,12 +281,12 @@ void Server::Impl::accept() {
   });
 }
 
-// Whether there may be one more connection: the oldest stranger makes way, one with the token never
-// does.
+// Returns whether there may be one more connection. The oldest that has not shown the token is
+// closed for it; one that has shown it never is.
 bool Server::Impl::make_room() {
   if (connections < most_connections) return true;
-  if (strangers.empty()) return false;
-  Connection& oldest = *strangers.front();
+  if (unauthorized.empty()) return false;
+  Connection& oldest = *unauthorized.front();
   oldest.is_known();  // it counts until it is gone
   oldest.stream.close();
   return true;

@@ -9,7 +9,7 @@
 //
 // A request that does not come whole within `patience`, or an answer that is not read within it,
 // ends its connection. Where there are `most_connections`, the oldest of those that have not shown
-// the token makes way for the next one.
+// the token is closed for the next one.
 #pragma once
 
 #include <cstdint>

@@ -16,6 +16,9 @@ if(SINEW_NODE AND web_packages)
     DEPENDS ${web_sources} ${web_packages} ${web}/build.mjs
     COMMENT "Bundling the page of web/"
     VERBATIM)
+  # The page is one literal, longer than the 65536 characters that the standard promises; GCC and
+  # Clang take it, and Clang would warn.
+  set_source_files_properties(${page_template} PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
 else()
   set(sinew_has_page OFF)
   set(page_template ${CMAKE_CURRENT_BINARY_DIR}/no_page_template.cpp)

@@ -112,9 +112,11 @@ std::vector<Warning> unreachable_targets(const signals::Table& table) {
 
 namespace {
 
-// "<before> 3 <after>" of a topic that counts, at the times at which it grows.
+// "<before>3 <things>" or "<before>1 <thing>", then "<after>", of a topic that counts, at the times
+// at which it grows.
 std::vector<Warning> counted(const signals::Table& table, const std::string& topic,
-                             const std::string& before, std::string_view after) {
+                             const std::string& before, std::string_view thing,
+                             std::string_view things, std::string_view after) {
   double most = 0;
   Times times = times_when(table, topic, [&](double so_far) {
     const bool more = so_far > most;
@@ -122,24 +124,25 @@ std::vector<Warning> counted(const signals::Table& table, const std::string& top
     return more;
   });
   if (times.count == 0) return {};
-  return {{fmt::format("{}{:.0f} {}", before, most, after), std::move(times.spans)}};
+  const std::string_view what = most == 1 ? thing : things;
+  return {{fmt::format("{}{:.0f} {}{}", before, most, what, after), std::move(times.spans)}};
 }
 
 }  // namespace
 
 std::vector<Warning> overruns(const signals::Table& table) {
-  return counted(table, "/low_level/overruns", "",
-                 "laws took longer than a hundredth of the period: the thesis's computer locked up "
-                 "so (5.2)");
+  return counted(table, "/low_level/overruns", "", "law", "laws",
+                 " took longer than a hundredth of the period: the thesis's computer locked up so "
+                 "(5.2)");
 }
 
 std::vector<Warning> disbelieved_sensors(const signals::Table& table, const robot::Robot& robot) {
   std::vector<Warning> out;
   for (const robot::Sensor& s : robot.sensors) {
-    append(out, counted(table, "/sensor/" + s.name + "/rejected", s.name + ": ",
-                        "readings were not believed; the last good ones stood"));
-    append(out, counted(table, "/sensor/" + s.name + "/frozen", s.name + ": ",
-                        "readings repeated themselves while its muscles were driven"));
+    append(out, counted(table, "/sensor/" + s.name + "/rejected", s.name + ": ", "reading was",
+                        "readings were", " not believed; the last good ones stood"));
+    append(out, counted(table, "/sensor/" + s.name + "/frozen", s.name + ": ", "reading",
+                        "readings", " came again while its muscles were driven"));
   }
   return out;
 }

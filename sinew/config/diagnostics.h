@@ -46,7 +46,7 @@ class Error : public std::exception {
 [[noreturn]] void fail(Location where, std::string key, std::string found, std::string expected,
                        std::string try_this = "");
 
-// The candidate most like `word`, empty where none is near enough to be a slip of the pen.
+// The candidate most like `word`, empty where none is near enough to be a typing error.
 std::string_view closest(std::string_view word, const std::vector<std::string_view>& candidates);
 
 // The same in quotes, for Problem::try_this.

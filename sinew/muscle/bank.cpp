@@ -220,6 +220,7 @@ SINEW_WIDE void Bank::evaluate(double t, const Lanes& length, const Lanes& rate,
 
   if (any_sealed_) sealed_mesh(length, out);
   if (!all_stick_) loose_signs(rate, out);
+  for (int i = 0; i < padded_; i += lanes) out.inflow.four(i) = out.outflow.four(i) = Four{};
   if (any_open()) flows(t, y, out);
 }
 
@@ -255,7 +256,6 @@ void Bank::loose_signs(const Lanes& rate, Pull& out) const noexcept {
 }
 
 void Bank::flows(double t, const Lanes& y, Pull& out) const noexcept {
-  for (int i = 0; i < padded_; i += lanes) out.inflow.four(i) = out.outflow.four(i) = Four{};
   const auto through = [&](int valve, double share) {
     const int i = valve / 2;
     const gas::FlowConstants& c = flow_[static_cast<std::size_t>(valve)];

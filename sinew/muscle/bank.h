@@ -56,8 +56,8 @@ struct Pull {
   Lanes pressure;  // absolute [Pa]
   Lanes mesh;      // bound of the bundle's dry friction, [33], [34]; 0 if not `stick` [N]
   Lanes drift;     // x, how far the density is from the pressure's reference [-]
-  Lanes inflow;    // from the supply [kg/s]; only while some valve is open
-  Lanes outflow;   // to the atmosphere [kg/s]; only while some valve is open
+  Lanes inflow;    // from the supply; 0 while all valves are shut [kg/s]
+  Lanes outflow;   // to the atmosphere; 0 while all valves are shut [kg/s]
 };
 
 class Bank {

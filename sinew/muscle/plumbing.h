@@ -41,7 +41,7 @@ struct AirState {
   double operator[](int i) const { return of[static_cast<std::size_t>(i)]; }
 };
 
-// Pull's inflow and outflow are always set, `drift` never. Pairs of the cylinder: up, down.
+// Pull's `drift` is never set. Pairs of the cylinder: up, down.
 struct AirPull : Pull {
   Lanes leak;      // out of the muscle to the atmosphere [kg/s]
   Lanes manifold;  // pressure between valves and hose; the muscle's own without a hose [Pa]

@@ -183,7 +183,7 @@ TEST(Appendix, OnlyDampingOrAStandingFlowKeepTheCylinderFromSwinging) {
   EXPECT_LT(hold(cylinder("0.05", "3") + no_feedforward).swing, 0.01 * inch);
 }
 
-// Of what it uses, nearly all goes straight through.
+// Nearly all of the air that it uses goes straight through.
 TEST(Appendix, TheStandingFlowTakesMoreAirThanTheWalk) {
   const analysis::Summary with = summary_of("cylinder-following"),
                           without = summary_of("cylinder-following", no_feedforward);

@@ -61,7 +61,7 @@ std::uint64_t hash_of(const signals::Table& table) {
   return hash.value();
 }
 
-// What an experiment has changed since, put back.
+// Puts back what an experiment has changed since.
 std::vector<std::string> of_the_first_day(const std::string& experiment) {
   if (experiment == "no-drag") return {"trolley.drag=0 lbf"};
   return {};

@@ -1,4 +1,4 @@
-// What the program says to what cannot be: message, exit code, and that nothing is left behind.
+// The program refuses what cannot be: with its message, its exit code, and nothing left behind.
 #include <gmock/gmock.h>
 
 #include "tests/cli/program.h"

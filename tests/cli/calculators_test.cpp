@@ -99,7 +99,7 @@ TEST(Actuator, RefusesWhatIsNoQuantity) {
   EXPECT_THAT(said("3in:4in:1um", "60 psi gauge"), HasSubstr("--length"));
 }
 
-// What cannot be is refused with its range and the reason, before anything is answered.
+// A quantity that cannot be is refused with its range and the reason, before anything is answered.
 struct Impossible {
   Words words;
   const char* says;
@@ -135,7 +135,7 @@ TEST(Actuator, RefusesWhatNoActuatorIs) {
        {at("3 in", "60 psi gauge", "-1 in3"), "--external-volume: found \"-1 in3\""}});
 }
 
-// What the hint of a range proposes is a range.
+// The hint of a range proposes a range that is taken.
 TEST(Actuator, ProposesRangesThatItTakes) {
   const Workspace w;
   const Result wrong = w.sinew(

@@ -25,7 +25,7 @@ TEST(Faults, ABrokenPotentiometerEndsTheRunAndIsNamed) {
               AllOf(HasSubstr("the run was ended: sensor hip_angle at 5.0203 s: 4095 "
                               "count three times in a row, outside its plausible "),
                     HasSubstr("all muscles were vented"), HasSubstr("hip_angle: "),
-                    HasSubstr("readings were not believed"), Not(HasSubstr("plant_steps.body"))));
+                    HasSubstr("3 readings were not believed"), Not(HasSubstr("plant_steps.body"))));
 
   // The log is kept and whole, the summary says only who was not believed.
   const signals::Table log = log::read(w / "run/log.mcap");
@@ -38,14 +38,14 @@ TEST(Faults, ABrokenPotentiometerEndsTheRunAndIsNamed) {
   EXPECT_FALSE(summary.contains("trolley"));
   EXPECT_FALSE(summary.contains("joints"));
 
-  // What was run runs again, to the same end; and the log's lies give the same edges.
+  // The same run again comes to the same end; and the log's lies give the same edges.
   const Result again = w.sinew({"run", "run/resolved.toml", "-o", "again", "--quiet"});
   EXPECT_EQ(again.code, 1);
   EXPECT_THAT(again.err, HasSubstr("sensor hip_angle at 5.0203 s"));
   EXPECT_THAT(w.sinew({"replay", "run"}).out, HasSubstr("all equal"));
 }
 
-// Of a run that was ended nothing may look like a whole run's figures.
+// Nothing of a run that was ended may look like a whole run's figures.
 void expect_no_figures_of(const Workspace& w, const std::string& run, const std::string& cause) {
   for (const Words& words :
        {Words{"analyze", run}, Words{"analyze", run, "--json"}, Words{"analyze", run, "--verdicts"},
@@ -166,7 +166,7 @@ TEST(Faults, OneThatNeverActsIsTold) {
                            Not(HasSubstr("fault[2]"))));
 }
 
-// What `check` says of the lever's sensor with this line more.
+// Returns what `check` says of the lever's sensor with this line more.
 std::string check_with(const std::string& line) {
   const Workspace w;
   w.edit("robots/one-joint/robot.toml", "[sensor.lever_angle]\n",

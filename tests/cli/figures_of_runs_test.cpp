@@ -107,7 +107,7 @@ TEST(FiguresOfRuns, ReplaceOnlyWhatTheyKnow) {
   EXPECT_THAT(kept.err,
               AllOf(HasSubstr("run/figures/index.json: found a file"), HasSubstr("--force")));
 
-  // What is not made again goes; what is not theirs stays.
+  // A figure that is not made again goes; a file that is none of theirs stays.
   const Result only =
       w.sinew({"figures", "run", "--format", "csv", "--force", "--only", "tension"});
   ASSERT_EQ(only.code, 0) << only.err;

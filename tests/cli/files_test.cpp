@@ -45,7 +45,7 @@ TEST(Show, ReadsEveryKindOfFile) {
   }
 }
 
-// What a file leaves open is no number, and is not shown as one.
+// A value that a file leaves open is no number, and is not shown as one.
 TEST(Show, NoNumberIsNone) {
   const Workspace w;
   for (const char* file : {"robots/leg/robot.toml", "experiments/walk-test-1.toml",

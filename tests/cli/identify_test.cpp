@@ -42,7 +42,7 @@ void expect_refused(const Broken& b) {
 // A braid's length and diameter.
 const std::string mesh = "length [mm],diameter [mm]\n65,11.7\n75,10.5\n85,9.0\n95,6.8\n";
 
-// What an ideal braid pulls with at three lengths and four pressures from 100 kPa on.
+// Returns the tension of an ideal braid at three lengths and four pressures from 100 kPa on.
 std::string map(double pressure_step = 100e3) {
   std::string text = "length [mm],pressure [kPa gauge],force [N]\n";
   for (const double length : {0.080, 0.090, 0.100})

@@ -228,7 +228,7 @@ TEST(CutLog, IsUsedAsFarAsItGoesWithAWarning) {
   EXPECT_LT(distance, 1.2);
   EXPECT_EQ(Json::parse(analysis.out)["cut_off"], true);
 
-  // What is reported is of whole walks.
+  // Only whole walks are reported.
   const Result told = w.sinew({"analyze", "run"});
   EXPECT_EQ(told.code, 0);
   EXPECT_THAT(told.out, AllOf(HasSubstr("trolley.distance"), Not(HasSubstr("differs")),

@@ -1,4 +1,4 @@
-// What a person sees: color and width on a terminal, neither in a file.
+// A terminal gets color and lines of its width, a file neither.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pty.h>
@@ -18,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// What `sinew WORDS` writes to a terminal of so many columns.
+// Returns what `sinew WORDS` writes to a terminal of so many columns.
 std::string on_terminal(const Workspace& w, const Words& words, unsigned short columns,
                         const char* no_color, const char* term = "xterm") {
   winsize size{.ws_row = 50, .ws_col = columns, .ws_xpixel = 0, .ws_ypixel = 0};

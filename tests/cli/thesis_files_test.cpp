@@ -40,7 +40,7 @@ TEST(OutDat, OfARunGivesTheSameNumbers) {
   EXPECT_GE(again.size(), 60U);
   for (const auto& [key, value] : again) {
     ASSERT_TRUE(ran.count(key)) << key;
-    // What is before and after the sequence is not in the file.
+    // The file holds nothing of before and after the sequence.
     if (key == "/duration_s" || key.ends_with("/swing_oscillation_rms_rad")) continue;
     // Its last period is cut short where no row follows: 10 ms at 0.4 m/s.
     const bool way = key.starts_with("/trolley/distance");

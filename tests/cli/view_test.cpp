@@ -44,7 +44,7 @@ class Wire {
     if (open_) open_ = ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) >= 0;
   }
 
-  // What comes until the words are among it, the other side closes, or the time is over.
+  // Returns what comes until the words are among it, the other side closes, or the time is over.
   std::string hear(const std::string& words, seconds at_most) {
     const auto until = Clock::now() + at_most;
     std::string all;

@@ -36,10 +36,10 @@ std::vector<std::string> shipped() {
 
 int choices() {
   const char* more = std::getenv("SINEW_GUARD_COUNT");
-  return more ? std::atoi(more) : 100;
+  return more ? std::atoi(more) : 200;
 }
 
-// What an experiment records, and how its log.channels are read.
+// The table that an experiment records, and the topics that its log.channels may name.
 struct Recorded {
   signals::Table table;
   std::vector<signals::Topic> topics;

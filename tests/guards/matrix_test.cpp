@@ -74,7 +74,7 @@ void judge_refusal(const config::Error& e, const NumericField& field, const std:
     if (p.key.empty() || p.found.empty() || p.expected.empty()) out.wrong = true;
     if (p.found.find("nan") != std::string::npos && cell != "nan") out.wrong = true;
   }
-  // What the reader refuses stands at its own line.
+  // A cell that the reader refuses is refused by its own line.
   const bool own = std::ranges::any_of(e.problems(), [&](const config::Problem& p) {
     return p.where.file == "cell.toml" && p.where.line == 7;
   });

@@ -34,9 +34,9 @@ class Random {
   std::uint64_t state_;
 };
 
-// Of the machine, not of what is asked of it or of how finely it is integrated.
+// Whether a field describes the machine, not what is asked of it nor how finely it is integrated.
 bool physical(const NumericField& f) {
-  // What is not there stays away: half an option is a contradiction.
+  // An option that is not there stays away whole: half of one is a contradiction.
   for (const char* option : {".taper.", ".pressure_law."})
     if (f.pattern.find(option) != f.pattern.npos) return false;
   if (f.kind == NumericField::Kind::integer) return f.pattern == "muscle.*.count";
@@ -101,7 +101,7 @@ bool same_bits(const signals::Table& a, const signals::Table& b) {
   return true;
 }
 
-// What came in and has not left is still in the muscle.
+// Air that came in and has not left is still in the muscle.
 void expect_air_balance(const experiment::Experiment& e, const signals::Table& table,
                         const std::string& who) {
   for (const robot::Muscle& m : e.robot.muscles) {

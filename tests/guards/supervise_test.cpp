@@ -22,7 +22,7 @@ using What = Fault::What;
 
 constexpr Tick period = 100;  // of the low level [ticks]
 
-// What was tried, in one line for whoever reads ./check.
+// Prints what was tried, in one line for whoever reads ./check.
 struct Tally {
   std::int64_t broken = 0, noisy = 0, stuck = 0, rejected = 0;
   control::FuzzCount fuzz;

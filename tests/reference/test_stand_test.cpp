@@ -222,7 +222,8 @@ std::vector<Sample> smooth(const Pulsed& set_up, const std::vector<Sample>& samp
   return out;
 }
 
-// Of the swinging about the mean: the median distance of its upward crossings.
+// Returns the frequency of the swinging about the mean, by the median distance of its upward
+// crossings.
 double transient_frequency(const std::vector<Sample>& smoothed, double mean) {
   std::vector<double> crossings, distances;
   for (std::size_t i = 1; i < smoothed.size() && smoothed[i].t < 1.5; ++i)

@@ -1,4 +1,4 @@
-// What another plumbing of the leg does to its walk.
+// Another plumbing of the leg changes its walk as the laws of the plumbing say.
 #include <gtest/gtest.h>
 
 #include "runs.h"

@@ -32,7 +32,7 @@ std::vector<Toggle> random_toggles(unsigned seed, int valves, Tick end) {
   return out;
 }
 
-// What the machine does, its ticks being `stretch` of the small one's.
+// Returns what the machine does, its ticks being `stretch` of the small one's.
 template <class World>
 std::vector<plant::Truth> motion(const Experiment& e, const std::vector<Toggle>& toggles,
                                  Tick stretch, Tick end) {

@@ -108,7 +108,6 @@ Recorder::Recorder(const Experiment& e, const Controller& controller, plant::Sta
       stand_(stand),
       columns_(columns(e)),
       valves_(valve_topics(e)),
-      end_(end),
       every_tick_(every_tick) {
   period_ = std::max<Tick>(1, std::llround(e.log.period / signals::tick_seconds));
   const auto samples = static_cast<std::size_t>(end / period_ + 2);

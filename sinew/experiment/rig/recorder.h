@@ -47,7 +47,7 @@ class Recorder {
   std::vector<double> rows_;
   std::vector<std::int64_t> row_time_ns_;
   std::vector<signals::Edge> edges_;
-  signals::Tick period_ = 10, next_ = 0, end_ = 0;
+  signals::Tick period_ = 10, next_ = 0;
   bool every_tick_ = false, complete_ = true;
 };
 

@@ -35,6 +35,14 @@ void Machine::advance(double t) noexcept {
   std::visit([&](auto& world) { world.advance(t); }, world_);
 }
 
+double Machine::time() const noexcept {
+  return std::visit([](const auto& world) { return world.time(); }, world_);
+}
+
+double Machine::air_mass() const noexcept {
+  return std::visit([](const auto& world) { return world.air_mass(); }, world_);
+}
+
 std::int64_t Machine::nodes() const noexcept {
   return std::visit([](const auto& world) { return world.nodes(); }, world_);
 }

@@ -36,7 +36,9 @@ class Machine {
   // As World's.
   Truth truth(double t) noexcept;
   void advance(double t) noexcept;
+  double time() const noexcept;
   std::int64_t nodes() const noexcept;
+  double air_mass() const noexcept;
   double shortest_step() const noexcept;
   const muscle::Failure& failure() const noexcept;
 

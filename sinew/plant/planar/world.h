@@ -38,12 +38,13 @@ class World final : public signals::Port {
   explicit World(const Setup& setup);
 
   signals::Status start(const signals::Scan& scan) noexcept override;
+  // Answers invalid for an edge before the last node.
   signals::Status drive(signals::Edge edge) noexcept override;
   signals::Reading read(signals::Channel channel, signals::Tick now) noexcept override;
   signals::Status stop(signals::Tick now) noexcept override;
 
-  // The machine at time t [s], at or after every earlier call's. Commits what is due, peeks the
-  // rest.
+  // The machine at time t [s], at or after every earlier call's; an earlier one is answered with
+  // the last node. Commits what is due, peeks the rest.
   Truth truth(double t) noexcept;
 
   // Commits every node up to t.

@@ -199,8 +199,8 @@ template <class M, class A>
 signals::Status World<M, A>::drive(signals::Edge edge) noexcept {
   if (ended_) return signals::Status::ended;
   if (failure_) return signals::Status::fault;
-  if (edge.valve.index >= air_.valves()) return signals::Status::invalid;
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
+  if (edge.valve.index >= air_.valves() || t < time_) return signals::Status::invalid;
   while (!failure_ && next_node() < t)
     commit();  // later edges act at t or after: these nodes are final
   air_.command(edge, t, first_.air);

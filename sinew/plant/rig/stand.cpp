@@ -294,7 +294,9 @@ double Stand::air_mass() const noexcept {
   return plumbing_.total_mass(state_.air, travel(state_.length));
 }
 
-StandTruth Stand::truth(double t) noexcept {
+StandTruth Stand::truth(double t) noexcept { return seen(std::max(t, time_)); }
+
+StandTruth Stand::seen(double t) noexcept {
   advance(t);
   const State s = failure_ ? state_ : moved(state_, time_, t);
   const Order o = order(t);
@@ -335,6 +337,7 @@ Status Stand::drive(signals::Edge edge) noexcept {
   if (failure_) return Status::fault;
   if (setup_.charge.mode != Charge::Mode::valves || edge.valve.index > 1) return Status::invalid;
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
+  if (t < time_) return Status::invalid;  // that node is final
   while (!failure_ && next_node() < t)
     commit();  // later edges act at t or after: these nodes are final
   plumbing_.electrical(edge.valve.index, t, edge.open, first_.pull);
@@ -345,7 +348,7 @@ Status Stand::drive(signals::Edge edge) noexcept {
 // What the transducer stands before at t.
 double Stand::quantity(const Transducer& t, double at) noexcept {
   using Of = Transducer::Of;
-  const StandTruth now = truth(at);
+  const StandTruth now = seen(at);
   switch (t.of) {
     case Of::length:
       return now.length;

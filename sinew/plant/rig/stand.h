@@ -46,12 +46,14 @@ class Stand final : public signals::Port {
   explicit Stand(const StandSetup& setup);
 
   signals::Status start(const signals::Scan& scan) noexcept override;
-  // Valve 0 is the inlet or a 3-way valve, 1 the exhaust; invalid unless the air comes by valves.
+  // Valve 0 is the inlet or a 3-way valve, 1 the exhaust; invalid unless the air comes by valves,
+  // and for an edge before the last node.
   signals::Status drive(signals::Edge edge) noexcept override;
   signals::Reading read(signals::Channel channel, signals::Tick now) noexcept override;
   signals::Status stop(signals::Tick now) noexcept override;
 
-  // The stand at time t [s], at or after every earlier call's.
+  // The stand at time t [s], at or after every earlier call's; an earlier one is answered with the
+  // last node.
   StandTruth truth(double t) noexcept;
 
   // Commits every node up to t.
@@ -109,6 +111,8 @@ class Stand final : public signals::Port {
   void look_for_failure() noexcept;
   double next_node() const noexcept;
   void commit() noexcept;
+  // `truth`, and for a conversion that began before the last node what was prescribed there.
+  StandTruth seen(double t) noexcept;
   double quantity(const Transducer& t, double at) noexcept;
 
   StandSetup setup_;

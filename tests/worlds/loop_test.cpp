@@ -1,0 +1,107 @@
+// What a world owes to the loop: no heap once it runs, and no way back in time.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "tests/worlds/drive.h"
+
+namespace {
+
+thread_local bool counting = false;
+thread_local int taken = 0;
+
+}  // namespace
+
+// Not inlined: GCC would see malloc and delete meet, and warn.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  taken += counting ? 1 : 0;
+  if (void* p = std::malloc(size + 1)) return p;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  taken += counting ? 1 : 0;
+  return std::malloc(size + 1);
+}
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t align) {
+  taken += counting ? 1 : 0;
+  const auto a = static_cast<std::size_t>(align);
+  if (void* p = std::aligned_alloc(a, (size + a) / a * a)) return p;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  std::free(p);
+}
+
+namespace sinew::worlds {
+namespace {
+
+class Loop : public Worlds {};
+
+TEST_P(Loop, TakesNoMemory) {
+  const std::unique_ptr<Body> body = GetParam().make({});
+  Channels channels(*body);
+  const std::vector<signals::Edge> edges = random_edges(GetParam().taps, 2000, 8);
+  std::array<double, most_quantities> numbers{};
+
+  taken = 0;
+  counting = true;
+  std::size_t next = 0;
+  for (Tick t = 0; t < 2000; ++t) {
+    for (; next < edges.size() && edges[next].at == t; ++next) body->port().drive(edges[next]);
+    for (std::size_t i = 0; i < channels.count() && t % 10 == 5; ++i) channels.read(i, t);
+    if (t % 7 == 0) body->truth(seconds(static_cast<double>(t)), numbers);
+    if (t % 13 == 0) body->advance(seconds(static_cast<double>(t)));
+  }
+  body->port().stop(2000);
+  counting = false;
+  EXPECT_EQ(taken, 0);
+  EXPECT_GT(body->nodes(), 100);
+
+  counting = true;
+  ::operator delete(::operator new(1));  // the counter counts
+  counting = false;
+  EXPECT_EQ(taken, 1);
+}
+
+// An edge before the last node is refused and changes nothing; a look back sees the last node.
+TEST_P(Loop, NeverGoesBack) {
+  const std::unique_ptr<Body> body = GetParam().make({}), other = GetParam().make({});
+  const std::size_t count = body->quantities().size();
+  std::array<double, most_quantities> now{}, earlier{}, later{}, undisturbed{};
+  body->advance(0.3505);
+  body->truth(body->time(), now);
+  body->truth(0.2, earlier);
+  for (std::size_t i = 0; i < count; ++i)
+    EXPECT_EQ(earlier[i], now[i]) << body->quantities()[i].name;
+  for (const Tap& tap : GetParam().taps)
+    for (const Tick t : {Tick{0}, Tick{1000}, Tick{3490}})
+      EXPECT_EQ(body->port().drive({.at = t, .valve = {tap.valve}, .open = true, .level = 4000}),
+                signals::Status::invalid);
+  body->truth(0.5, later);
+  other->truth(0.5, undisturbed);
+  for (std::size_t i = 0; i < count; ++i)
+    EXPECT_EQ(later[i], undisturbed[i]) << body->quantities()[i].name;
+  // At the node itself an edge still comes in time.
+  if (GetParam().taps.empty()) return;
+  EXPECT_EQ(body->port().drive({.at = 5000, .valve = {GetParam().taps[0].valve}, .open = true}),
+            signals::Status::ok);
+}
+
+// What has ended says so, and takes no edge.
+TEST_P(Loop, StopsForGood) {
+  const std::unique_ptr<Body> body = GetParam().make({});
+  Channels channels(*body);
+  EXPECT_EQ(body->port().stop(100), signals::Status::ok);
+  EXPECT_EQ(body->port().drive({.at = 200, .valve = {0}, .open = true}), signals::Status::ended);
+  for (std::size_t i = 0; i < channels.count(); ++i)
+    EXPECT_EQ(channels.read(i, 201).status, signals::Status::ended);
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Loop, ::testing::ValuesIn(subjects()), name_of);
+
+}  // namespace
+}  // namespace sinew::worlds

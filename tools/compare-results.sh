@@ -1,0 +1,183 @@
+#!/usr/bin/env bash
+# compare-results.sh keep FILE                      the results of every shipped experiment, as a table
+# compare-results.sh compare BEFORE NOW [OPTION]    which of them agree between two builds
+#
+#   SINEW=build/dev/bin/sinew tools/compare-results.sh keep /tmp/before.tsv
+#   … change the code, build …
+#   tools/compare-results.sh keep /tmp/now.tsv
+#   tools/compare-results.sh compare /tmp/before.tsv /tmp/now.tsv --tolerance 1e-6
+#
+#   --tolerance R   relative difference up to which two numbers agree; 0 by default: to the last digit
+#   --floor A       numbers up to this size are all the same, in SI; 1e-12 by default
+#   --all           prints the numbers that agree as well
+#
+# A line of the table: experiment, key, value, with tabs between. Keys are those of summary.json
+# (`host` apart, which is of the machine that ran it); `verdict KEY: REPORTED` with class and verdict;
+# `log` with a hash of what `sinew export --csv` prints of it, every digit of every channel; `exit`
+# with the run's exit code. Nothing of it is committed: it is made by an earlier build.
+#
+# compare exits 0 when all numbers, texts and verdicts agree, 1 when something differs. Logs that
+# differ are counted, and do not decide.
+#
+# SINEW: the program, build/dev/bin/sinew. JOBS: how many run at once, 1. ONLY: files in place of all
+# of experiments/.
+set -euo pipefail
+export LC_ALL=C.UTF-8
+
+usage() { awk 'NR > 1 && /^#/ { print substr($0, 3); next } NR > 1 { exit }' "$0"; }
+
+here=$(cd "$(dirname "$0")" && pwd)
+
+# One experiment's lines into PART.
+result_of() {  # result_of FILE WORK
+  local file=$1 work=$2 name=${1%.toml} run code=0
+  run=$work/runs/$name
+  mkdir -p "$(dirname "$run")" "$(dirname "$work/parts/$name")"
+  "$SINEW" run "$file" -o "$run" --quiet --no-report >/dev/null 2>&1 || code=$?
+  {
+    printf 'exit\t%d\n' "$code"
+    [[ ! -f $run/summary.json ]] ||
+      awk -f "$here/flatten.awk" -v digits=17 "$run/summary.json" | sed 's/ /\t/' | grep -v '^host'
+    ((code)) ||
+      "$SINEW" analyze "$run" --quiet --verdicts | node "$here/statements.mjs" run x |
+      awk -F ' [|] ' '{ printf "verdict %s\t%s, %s\n", $2, $3, $4 }'
+    [[ ! -f $run/log.mcap ]] ||
+      printf 'log\t%s\n' "$("$SINEW" export "$run" --csv 2>/dev/null | sha256sum | cut -c 1-32)"
+  } | awk -v name="$name" '{ print name "\t" $0 }' >"$work/parts/$name"
+  rm -rf "$run"  # large, and done with
+}
+
+keep() {
+  [[ $# == 1 ]] || { usage >&2; exit 2; }
+  local out count
+  out=$(realpath "$1")
+  work=$(mktemp -d)  # not local: the trap outlives this function
+  trap 'rm -rf "$work"' EXIT
+  SINEW=$(realpath "${SINEW:-$here/../build/dev/bin/sinew}")
+  cd "$here/.."
+  export SINEW here
+  export -f result_of
+  # shellcheck disable=SC2016,SC2086  # $0 is of the inner shell; ONLY is a list
+  { [[ ${ONLY:-} ]] && printf '%s\n' $ONLY || find experiments -name '*.toml'; } |
+    xargs -P "${JOBS:-1}" -I'{}' bash -euo pipefail -c 'result_of "$0" "$1"' '{}' "$work"
+  find "$work/parts" -type f -exec cat '{}' + | sort >"$out"
+  count=$(find "$work/parts" -type f | wc -l)
+  echo "compare-results: $count experiments, $(wc -l <"$out") results in $out"
+}
+
+compare() {
+  local files=() tolerance=0 floor=1e-12 all=''
+  while (($#)); do
+    case $1 in
+      --tolerance) tolerance=${2:?}; shift ;;
+      --floor) floor=${2:?}; shift ;;
+      --all) all=yes ;;
+      -*) usage >&2; exit 2 ;;
+      *) files+=("$1") ;;
+    esac
+    shift
+  done
+  [[ ${#files[@]} == 2 && -r ${files[0]} && -r ${files[1]} ]] || { usage >&2; exit 2; }
+  awk -F '\t' -v tolerance="$tolerance" -v floor="$floor" -v all="$all" "$program" "${files[@]}"
+}
+
+# shellcheck disable=SC2016  # $ belongs to awk
+program='
+function is_number(text) { return text ~ /^-?[0-9.]+([eE][-+]?[0-9]+)?$/ }
+function size(x) { return x < 0 ? -x : x }
+function say(what, line) { listed[what] = listed[what] line "\n"; ++count[what] }
+
+# Relative difference of two numbers, 0 where both are as good as nothing.
+function difference(a, b,   larger) {
+  larger = size(a) > size(b) ? size(a) : size(b)
+  return larger <= floor ? 0 : size(a - b) / larger
+}
+
+function compare(key, a, b,   at, off) {
+  at = key
+  sub(SUBSEP, " ", at)
+  if (key ~ SUBSEP "log$") { say(a == b ? "same logs" : "other logs", at); return }
+  if (key ~ SUBSEP "verdict ") {
+    if (a == b) ++count["same verdicts"]
+    else say("verdicts", at ": " a " -> " b)
+  } else if (is_number(a) && is_number(b)) {
+    off = difference(a, b)
+    if (off <= tolerance) say("agree", sprintf("%s  %s -> %s  (%.1e)", at, a, b, off))
+    else say("numbers", sprintf("%s  %s -> %s  (%.1e)", at, a, b, off))
+    if (off > most) { most = off; where = at }
+  } else if (a != b) say("texts", at ": " a " -> " b)
+}
+
+function show(what, title) {
+  if (count[what]) printf "%s (%d):\n%s\n", title, count[what], listed[what]
+}
+
+FNR == NR { before[$1, $2] = $3; order[++lines] = $1 SUBSEP $2; next }
+{ now[$1, $2] = $3 }
+!(($1, $2) in before) { say("new", $1 " " $2) }
+
+END {
+  for (i = 1; i <= lines; ++i) {
+    key = order[i]
+    if (key in now) compare(key, before[key], now[key])
+    else { at = key; sub(SUBSEP, " ", at); say("gone", at) }
+  }
+
+  if (all) show("agree", "numbers that agree")
+  show("other logs", "logs with other bits")
+  show("numbers", "numbers that differ by more than " tolerance)
+  show("texts", "texts that differ")
+  show("gone", "results that are gone")
+  show("new", "results that are new")
+  show("verdicts", "verdicts that changed")
+  where = most > 0 ? " (" where ")" : ""
+  printf "%d numbers agree within %s, %d differ; largest difference %.1e%s; %d of %d logs have the same bits; ", \
+    count["agree"], tolerance, count["numbers"], most, where, \
+    count["same logs"], count["same logs"] + count["other logs"]
+  printf "%d verdicts are as they were, %d changed\n", count["same verdicts"], count["verdicts"]
+  exit (count["numbers"] + count["texts"] + count["gone"] + count["new"] + count["verdicts"] > 0)
+}
+'
+
+# Each kind of difference once, and what is none.
+self_test() {
+  local before now found failed=0
+  before=$(mktemp) now=$(mktemp)
+  expect() {  # expect CODE WORDS OPTIONS...
+    local code=0
+    found=$("$0" compare "$before" "$now" "${@:3}") || code=$?
+    [[ $code == "$1" && $found == *"$2"* ]] && return
+    echo "compare-results --self-test: expected $1 and \"$2\", found $code and: $found"
+    failed=1
+  }
+  line() { printf '%s\t' "${@:1:$#-1}"; printf '%s\n' "${@: -1}"; }
+
+  { line e1 speed_m 1.5; line e1 log abc; line e1 title walk; line e1 'verdict speed_m: 1 m' 'fitted, agrees'; } >"$before"
+  cp "$before" "$now"
+  expect 0 '1 numbers agree within 0, 0 differ; largest difference 0.0e+00; 1 of 1 logs have the same bits; 1 verdicts are as they were, 0 changed'
+  sed -i 's/1[.]5$/1.5000003/' "$now"
+  expect 1 'e1 speed_m  1.5 -> 1.5000003  (2.0e-07)'
+  expect 0 'e1 speed_m  1.5 -> 1.5000003  (2.0e-07)' --tolerance 1e-6 --all
+  expect 0 '1 numbers agree' --floor 2
+  { cat "$before"; line e2 speed_m 2; } >"$now"
+  expect 1 'results that are new (1):'
+  sed 1d "$before" >"$now"
+  expect 1 'results that are gone (1):'
+  sed 's/agrees/differs/' "$before" >"$now"
+  expect 1 'e1 verdict speed_m: 1 m: fitted, agrees -> fitted, differs'
+  sed 's/abc/def/' "$before" >"$now"
+  expect 0 'logs with other bits (1):'
+  sed 's/walk/run/' "$before" >"$now"
+  expect 1 'e1 title: walk -> run'
+  rm "$before" "$now"
+  ((failed)) && exit 1
+  echo "compare-results: 8 cases of the self-test"
+}
+
+case ${1:-} in
+  --self-test) self_test ;;
+  keep) shift; keep "$@" ;;
+  compare) shift; compare "$@" ;;
+  -h | --help) usage ;;
+  *) usage >&2; exit 2 ;;
+esac
