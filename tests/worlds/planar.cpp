@@ -1,12 +1,11 @@
-// tests/worlds/planar.cpp - the planar worlds as subjects: World<1>, World<2>, and WholeWorld for
-// each of its reasons to exist.
+// tests/worlds/planar.cpp - planar machines as subjects: every mechanism with every air, each for
+// what it exists for.
 #include <algorithm>
 #include <cmath>
 
 #include "sinew/actuator/braid.h"
 #include "sinew/experiment/run.h"
 #include "sinew/plant/planar/machine.h"
-#include "sinew/plant/planar/world.h"
 #include "tests/worlds/body.h"
 
 namespace sinew::worlds {
