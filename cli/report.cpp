@@ -7,7 +7,6 @@
 
 #include "cli/terminal.h"
 #include "cli/text_table.h"
-#include "sinew/analysis/warnings.h"
 #include "sinew/config/quantity.h"
 
 namespace sinew::cli {

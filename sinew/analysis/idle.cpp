@@ -6,7 +6,6 @@
 #include <numbers>
 #include <optional>
 
-#include "sinew/actuator/body.h"
 #include "sinew/analysis/record.h"
 #include "sinew/analysis/statistics.h"
 #include "sinew/analysis/times.h"
