@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "cli/arguments.h"
@@ -28,14 +30,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string file, name, length, pressure, external_volume = "0 m3";
+  std::string file, name, length, pressure, velocity, external_volume = "0 m3";
   bool json = false, quiet = false;
 };
+
+constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
 
 // All laws at one length and one pressure, SI.
 struct Point {
   double length = 0, gauge_pressure = 0;
   double tension = 0, effectiveness = 0, coulomb_bound = 0;
+  double velocity = not_asked, sliding_tension = not_asked, viscous_loss = not_asked;  // [33]
   double stiffness_at_constant_pressure = 0, stiffness_sealed = 0, passive_stiffness = 0;
   double volume = 0, diameter = 0, braid_angle = 0;
   std::vector<std::string> beyond;  // where the model ends
@@ -56,7 +61,7 @@ std::vector<std::string> beyond(const actuator::Actuator& a, double length, doub
 }
 
 Point evaluate(const actuator::Actuator& a, const gas::Air& air, double length, double gauge,
-               double external_volume) {
+               double velocity, double external_volume) {
   const double atmosphere = air.atmosphere;
   Point p{.length = length, .gauge_pressure = gauge};
   p.tension = tension(a, length, 0.0, gauge, atmosphere);
@@ -66,6 +71,11 @@ Point evaluate(const actuator::Actuator& a, const gas::Air& air, double length, 
                                         air.polytropic_exponent);
   p.passive_stiffness = passive_stiffness(a, length);
   p.coulomb_bound = coulomb_bound(a, length, gauge, atmosphere, p.stiffness_sealed);
+  if (std::isfinite(velocity)) {
+    p.velocity = velocity;
+    p.viscous_loss = tension(a, length, velocity, gauge, atmosphere) - p.tension;
+    p.sliding_tension = sliding_tension(a, length, velocity, gauge, atmosphere, p.stiffness_sealed);
+  }
   p.volume = volume(a, length);
   p.diameter = diameter(a.braid, length - a.caps.length);
   p.braid_angle = braid_angle(a.braid, length - a.caps.length);
@@ -80,7 +90,7 @@ Range possible_lengths(const actuator::Actuator& a) {
           "from the caps alone to one and a half threads", true};
 }
 
-// What is reported of a point: key of the JSON, words, SI unit and the thesis's.
+// What is reported of a point: key of the JSON, words, SI unit and that of inches and pounds.
 struct Row {
   const char* key;
   const char* words;
@@ -94,6 +104,9 @@ constexpr Row rows[] = {
     {"tension_N", "tension, at rest", &Point::tension, "N", "lbf"},
     {"effectiveness", "effectiveness", &Point::effectiveness, "1", "1"},
     {"coulomb_bound_N", "dry friction, at most", &Point::coulomb_bound, "N", "lbf"},
+    {"velocity_m_per_s", "velocity", &Point::velocity, "m/s", "in/s"},
+    {"sliding_tension_N", "tension, sliding", &Point::sliding_tension, "N", "lbf"},
+    {"viscous_loss_N", "of it viscous", &Point::viscous_loss, "N", "lbf"},
     {"stiffness_at_constant_pressure_N_per_m", "stiffness, constant pressure",
      &Point::stiffness_at_constant_pressure, "N/m", "lbf/in"},
     {"stiffness_sealed_N_per_m", "stiffness, valves shut", &Point::stiffness_sealed, "N/m",
@@ -119,13 +132,15 @@ std::string shown(double value, const char* format) {
 }
 
 void print_point(const Point& p) {
-  TextTable table({"", "SI", "thesis"},
+  TextTable table({"", "SI", "in, lbf, psi"},
                   {TextTable::Align::left, TextTable::Align::right, TextTable::Align::right});
   for (const Row& row : rows) {
     const double value = p.*row.value;
     const bool plain = std::string_view(row.unit) == "1";
     if (!std::isfinite(value)) {
-      table.add({row.words, "-"});
+      if (row.value != &Point::velocity && row.value != &Point::sliding_tension &&
+          row.value != &Point::viscous_loss)
+        table.add({row.words, "-"});
       continue;
     }
     table.add({row.words, config::format_quantity(value, row.unit, row.unit),
@@ -134,23 +149,48 @@ void print_point(const Point& p) {
   fmt::print("{}", table.text());
 }
 
+// The columns of a table of points: title, and what stands under it.
+struct Cell {
+  std::string title;
+  std::function<std::string(const Point&)> text;
+};
+
+std::vector<Cell> cells_for(bool moves, const Values& lengths, const Values& pressures) {
+  const auto in = [](double Point::*value, const char* unit, std::string display,
+                     const char* format) {
+    return [=](const Point& p) { return shown(config::convert(p.*value, unit, display), format); };
+  };
+  const auto plain = [](double Point::*value, const char* format) {
+    return [=](const Point& p) { return shown(p.*value, format); };
+  };
+  std::vector<Cell> out = {
+      {"length [" + lengths.display + "]", in(&Point::length, "m", lengths.display, "{:.5g}")},
+      {"pressure [" + pressures.display + "]",
+       in(&Point::gauge_pressure, "Pa gauge", pressures.display, "{:.5g}")},
+      {"tension [N]", plain(&Point::tension, "{:.3f}")},
+      {"Eff", plain(&Point::effectiveness, "{:.4f}")},
+      {"k at p [N/m]", plain(&Point::stiffness_at_constant_pressure, "{:.1f}")},
+      {"k sealed [N/m]", plain(&Point::stiffness_sealed, "{:.1f}")},
+      {"friction [N]", plain(&Point::coulomb_bound, "{:.3f}")}};
+  if (moves) out.push_back({"sliding [N]", plain(&Point::sliding_tension, "{:.3f}")});
+  out.push_back({"volume [mL]", in(&Point::volume, "m3", "mL", "{:.3f}")});
+  out.push_back({"diameter [mm]", in(&Point::diameter, "m", "mm", "{:.3f}")});
+  out.push_back({"angle [deg]", in(&Point::braid_angle, "rad", "deg", "{:.3f}")});
+  return out;
+}
+
 void print_table(const std::vector<Point>& points, const Values& lengths, const Values& pressures) {
-  using enum TextTable::Align;
-  TextTable table({"length [" + lengths.display + "]", "pressure [" + pressures.display + "]",
-                   "tension [N]", "Eff", "k at p [N/m]", "k sealed [N/m]", "friction [N]",
-                   "volume [mL]", "diameter [mm]", "angle [deg]", ""},
-                  {right, right, right, right, right, right, right, right, right, right, left});
+  const std::vector<Cell> cells = cells_for(std::isfinite(points[0].velocity), lengths, pressures);
+  std::vector<std::string> titles;
+  for (const Cell& cell : cells) titles.push_back(cell.title);
+  titles.emplace_back("");
+  std::vector<TextTable::Align> align(cells.size(), TextTable::Align::right);
+  TextTable table(titles, align);
   for (const Point& p : points) {
-    const auto in = [](double si, const char* unit, std::string_view display, const char* format) {
-      return shown(config::convert(si, unit, display), format);
-    };
-    table.add({in(p.length, "m", lengths.display, "{:.5g}"),
-               in(p.gauge_pressure, "Pa gauge", pressures.display, "{:.5g}"),
-               shown(p.tension, "{:.3f}"), shown(p.effectiveness, "{:.4f}"),
-               shown(p.stiffness_at_constant_pressure, "{:.1f}"),
-               shown(p.stiffness_sealed, "{:.1f}"), shown(p.coulomb_bound, "{:.3f}"),
-               in(p.volume, "m3", "mL", "{:.3f}"), in(p.diameter, "m", "mm", "{:.3f}"),
-               in(p.braid_angle, "rad", "deg", "{:.3f}"), p.beyond.empty() ? "" : "*"});
+    std::vector<std::string> row;
+    for (const Cell& cell : cells) row.push_back(cell.text(p));
+    row.emplace_back(p.beyond.empty() ? "" : "*");
+    table.add(std::move(row));
   }
   fmt::print("{}", table.text());
 }
@@ -177,10 +217,15 @@ ExitCode run_actuator(const Options& options) {
   const double external =
       argument("--external-volume", options.external_volume, "m3", air.atmosphere, air_volume);
 
+  const double velocity = options.velocity.empty()
+                              ? not_asked
+                              : argument("--velocity", options.velocity, "m/s", air.atmosphere,
+                                         {-100, 100, "a muscle's end is slower than 100 m/s"});
+
   std::vector<Point> points;
   for (const double pressure : pressures.si)
     for (const double length : lengths.si)
-      points.push_back(evaluate(a, air, length, pressure, external));
+      points.push_back(evaluate(a, air, length, pressure, velocity, external));
 
   if (options.json) {
     Json out{{"actuator", a.name},
@@ -205,10 +250,12 @@ void add_actuator(CLI::App& app, Action& action) {
   CLI::App& sub =
       subcommand(app, "actuator", "tension, stiffness and geometry of one braided actuator",
                  "sinew actuator robots/leg/actuator.toml --length 2.5in:3.9in:0.2in --pressure "
-                 "\"60 psi gauge\"");
+                 "\"60 psi gauge\" --velocity \"-2 in/s\"");
   sub.add_option("FILE", options->file, "actuator, robot or experiment file")->required();
   sub.add_option("--length", options->length, "a length, or from:to:step")->required();
   sub.add_option("--pressure", options->pressure, "gauge or abs, or from:to:step")->required();
+  sub.add_option("--velocity", options->velocity,
+                 "of the length, below 0 while it contracts: the tension with its losses, [33]");
   sub.add_option("--name", options->name, "which actuator, where the file has several");
   sub.add_option("--external-volume", options->external_volume,
                  "of hose and fittings, for the stiffness with valves shut; 0");

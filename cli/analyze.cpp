@@ -23,10 +23,12 @@ struct Options {
 // The machine is a whole one or a stand. What is reported is of whole runs: there is no verdict on
 // a part of one.
 template <class Machine>
-ExitCode tell(const Options& options, const signals::Table& table, Machine machine) {
+ExitCode tell(const Options& options, const Messages& messages, const signals::Table& table,
+              Machine machine) {
   if (!table.complete) machine.reported.clear();
   analysis::Summary summary = analysis::summarize(table, machine);
   summary.cut_off = !table.complete;
+  for (const std::string& text : summary.warnings) messages.warning(text);
   const std::string json = to_json(summary);
   if (!options.out.empty()) {
     refuse_to_overwrite(options.out, options.force,
@@ -54,8 +56,9 @@ ExitCode analyze_run(const Options& options) {
         run.log.string() +
         " was cut off or is damaged; the figures are of what stands before, without verdicts");
 
-  if (config::format_kind(file) == "rig") return tell(options, table, analysis::read_stand(file));
-  return tell(options, table, analysis::read_machine(file));
+  if (config::format_kind(file) == "rig")
+    return tell(options, messages, table, analysis::read_stand(file));
+  return tell(options, messages, table, analysis::read_machine(file));
 }
 
 }  // namespace

@@ -24,17 +24,6 @@ std::vector<std::string_view> split(std::string_view text, char at) {
   return parts;
 }
 
-// What stands behind the number; the text was understood before.
-std::string unit_text(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(" +"), text.size()));
-  double number = 0;
-  const char* last = text.data() + text.size();
-  std::string unit(std::from_chars(text.data(), last, number).ptr, last);
-  unit.erase(unit.find_last_not_of(' ') + 1);
-  unit.erase(0, std::min(unit.find_first_not_of(' '), unit.size()));
-  return unit.empty() ? "1" : unit;
-}
-
 [[noreturn]] void refuse(std::string_view option, std::string_view text, std::string expected,
                          std::string try_this) {
   config::fail({std::string(option), 0, 0}, "", config::in_quotes(text), std::move(expected),
@@ -74,6 +63,16 @@ std::string example_of(std::string_view unit) {
 }
 
 }  // namespace
+
+std::string unit_text(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" +"), text.size()));
+  double number = 0;
+  const char* last = text.data() + text.size();
+  std::string unit(std::from_chars(text.data(), last, number).ptr, last);
+  unit.erase(unit.find_last_not_of(' ') + 1);
+  unit.erase(0, std::min(unit.find_first_not_of(' '), unit.size()));
+  return unit.empty() ? "1" : unit;
+}
 
 Range gauge_air_pressure(double atmosphere) {
   Range out = air_pressure;

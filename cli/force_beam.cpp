@@ -143,7 +143,7 @@ Json places(const Setup& s, double wanted) {
 }
 
 void print(const Setup& s, const Json& where, const Options& options) {
-  TextTable table({"", "SI", "thesis"},
+  TextTable table({"", "SI", "in, lbf, psi"},
                   {TextTable::Align::left, TextTable::Align::right, TextTable::Align::right});
   for (const Line& line : answer(s))
     table.add({line.words, config::format_quantity(line.value, line.unit, line.unit),

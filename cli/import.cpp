@@ -38,8 +38,9 @@ ExitCode import_log(const Options& options) {
   log.write(table);
   log.finish(resolved, "");
   write_into(folder, summary_name, json);
-  write_report(folder, table, resolved, e.name, messages);
+  const bool page = write_report(folder, table, resolved, e.name, messages);
   commit_run(folder);
+  for (const std::string& text : summary.warnings) messages.warning(text);
 
   if (options.json) {
     fmt::print("{}", json);
@@ -47,6 +48,7 @@ ExitCode import_log(const Options& options) {
     print_verdicts(summary, machine);
   }
   messages.note(folder.path().string());
+  if (page) note_report(folder, messages);
   return ok;
 }
 

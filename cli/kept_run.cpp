@@ -9,6 +9,7 @@
 #include "cli/report.h"
 #include "cli/run_folder.h"
 #include "cli/runnable.h"
+#include "sinew/analysis/warnings.h"
 #include "sinew/config/node.h"
 
 namespace sinew::cli {
@@ -28,9 +29,11 @@ analysis::Machine machine_in(const std::string& resolved) {
   return analysis::read_machine(config::parse_text(resolved, std::string(resolved_name)));
 }
 
-std::string summary_json(const analysis::Summary& summary, const experiment::Outcome& outcome) {
+std::string summary_json(const analysis::Summary& summary, const experiment::Experiment& e,
+                         const experiment::Outcome& outcome) {
   const double factor = outcome.wall > 0 ? outcome.duration / outcome.wall : 0;
-  return to_json(summary, {{"real_time_factor", factor}, {"threads", 1}});
+  return to_json(summary, {.numbers = {{"real_time_factor", factor}, {"threads", 1}},
+                           .warnings = warnings_beside_the_log(e, outcome)});
 }
 
 }  // namespace
@@ -92,7 +95,7 @@ void KeptRun::finish_log(const experiment::Outcome& outcome) {
 void KeptRun::keep_trip(const experiment::Outcome& outcome) {
   if (outcome.supervised.trip.cause == control::Trip::Cause::none) return;
   const analysis::Summary summary = analysis::summarize_trip(outcome.table, machine_in(resolved_));
-  write_into(*folder_, summary_name, summary_json(summary, outcome));
+  write_into(*folder_, summary_name, summary_json(summary, experiment_, outcome));
 }
 
 // Leaves the log without an index, as one that was cut off, and throws with its name.
@@ -106,36 +109,47 @@ void KeptRun::break_off(const experiment::Outcome& outcome) {
                          : "it keeps no log"));
 }
 
-analysis::Summary KeptRun::keep_files(experiment::Outcome& outcome,
-                                      const analysis::Machine& machine) {
+KeptRun::Files KeptRun::keep_files(experiment::Outcome& outcome, const analysis::Machine& machine) {
   analysis::Summary summary = analysis::summarize(outcome.table, machine);
-  write_into(*folder_, summary_name, summary_json(summary, outcome));
+  warn(summary.warnings, outcome);
+  const std::string json = summary_json(summary, experiment_, outcome);
+  write_into(*folder_, summary_name, json);
+  bool page = false;
   if (log_ && request_.report)
-    write_report(*folder_, experiment::logged_part(std::move(outcome.table), logged_), resolved_,
-                 experiment_.name, messages_);
+    page = write_report(*folder_, experiment::logged_part(std::move(outcome.table), logged_),
+                        resolved_, experiment_.name, messages_);
   commit_run(*folder_);
-  return summary;
+  return {std::move(summary), json, page};
+}
+
+// What summary.json has under `warnings` and `host.warnings`.
+void KeptRun::warn(const std::vector<std::string>& of_the_log,
+                   const experiment::Outcome& outcome) const {
+  for (const std::string& text : of_the_log) messages_.warning(text);
+  for (const std::string& text : warnings_beside_the_log(experiment_, outcome))
+    messages_.warning(text);
 }
 
 ExitCode KeptRun::keep(experiment::Outcome outcome) try {
   if (outcome.stopped) break_off(outcome);
   finish_log(outcome);
-  warn_of(experiment_, outcome, messages_);
+  const analysis::Machine machine = machine_in(resolved_);
   if (outcome.ended_early()) {
+    warn(analysis::texts(analysis::warnings(outcome.table, machine)), outcome);
     keep_trip(outcome);
     throw std::runtime_error(black_box(experiment_, outcome));
   }
 
-  const analysis::Machine machine = machine_in(resolved_);
-  const analysis::Summary summary = keep_files(outcome, machine);
+  const Files files = keep_files(outcome, machine);
   if (request_.json) {
-    fmt::print("{}", summary_json(summary, outcome));
+    fmt::print("{}", files.json);
     messages_.note(folder().string());
-    return ok;
+  } else {
+    print_verdicts(files.summary, machine);
+    messages_.note(fmt::format("{:.2f} s in {:.3f} s, kept in {}", outcome.duration, outcome.wall,
+                               folder().string()));
   }
-  print_verdicts(summary, machine);
-  messages_.note(fmt::format("{:.2f} s in {:.3f} s, kept in {}", outcome.duration, outcome.wall,
-                             folder().string()));
+  if (files.page) note_report(*folder_, messages_);
   return ok;
 } catch (const std::exception& e) {
   throw std::runtime_error(e.what() + where_left(*folder_));

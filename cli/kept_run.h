@@ -12,6 +12,7 @@
 #include "cli/run_log.h"
 #include "cli/terminal.h"
 #include "sinew/analysis/machine.h"
+#include "sinew/analysis/summary.h"
 #include "sinew/experiment/run.h"
 
 namespace sinew::cli {
@@ -49,7 +50,13 @@ class KeptRun {
  private:
   void finish_log(const experiment::Outcome& outcome);
   [[noreturn]] void break_off(const experiment::Outcome& outcome);
-  analysis::Summary keep_files(experiment::Outcome& outcome, const analysis::Machine& machine);
+  struct Files {
+    analysis::Summary summary;
+    std::string json;   // summary.json
+    bool page = false;  // there is a report.html
+  };
+  Files keep_files(experiment::Outcome& outcome, const analysis::Machine& machine);
+  void warn(const std::vector<std::string>& of_the_log, const experiment::Outcome& outcome) const;
   void keep_trip(const experiment::Outcome& outcome);
 
   RunRequest request_;

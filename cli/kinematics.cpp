@@ -1,4 +1,5 @@
-// cli/kinematics.cpp - `sinew kinematics`: foot to joint angles and back.
+// cli/kinematics.cpp - `sinew kinematics`: foot to joint angles and back, and the torques behind a
+// force. Lengths and angles are printed in the units of the robot's file.
 #include "sinew/robot/kinematics.h"
 
 #include <fmt/format.h>
@@ -28,8 +29,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string file, foot, angles;
+  std::string file, foot, angles, force;
   bool json = false;
+};
+
+// The units in which the robot's file speaks, by its first link and its first joint; of the torques
+// by the force that is given.
+struct Shown {
+  std::string length = "m", angle = "deg", torque = "N m";
 };
 
 struct MuscleAt {
@@ -45,11 +52,28 @@ struct Branch {
   robot::Point foot;           // [m]
   std::vector<MuscleAt> muscles;
   std::optional<robot::Jacobian> jacobian;  // of two links
+  std::vector<double> torques;              // [N m]; empty where no force is given
 
   bool within() const {
     return std::ranges::all_of(muscles, [](const MuscleAt& m) { return m.within(); });
   }
 };
+
+std::string unit_in(const config::Origins& origins, std::string_view table, std::string_view key,
+                    std::string otherwise) {
+  for (const config::Origin& o : origins)
+    if (o.path.starts_with(table) && o.path.ends_with(key) && !o.is_default && !o.unit.empty())
+      return unit_text(o.text);
+  return otherwise;
+}
+
+Shown shown_for(const experiment::Experiment& e, const std::string& force) {
+  Shown out;
+  out.length = unit_in(e.origins, "link.", ".length", out.length);
+  out.angle = unit_in(e.origins, "joint.", ".rest_angle", out.angle);
+  if (unit_text(force.substr(0, force.find(','))) == "lbf") out.torque = "lbf in";
+  return out;
+}
 
 robot::TwoLinks need_two_links(const robot::Robot& robot) {
   if (!robot::is_leg(robot))
@@ -84,26 +108,34 @@ Branch stand(const experiment::Experiment& e, const std::vector<double>& angles)
   return out;
 }
 
-[[noreturn]] void out_of_reach(const std::string& text, const robot::Inverse& inverse) {
-  const auto inches = [](double m) { return config::format_quantity(m, "m", "in", 5); };
+[[noreturn]] void out_of_reach(const std::string& text, const robot::Inverse& inverse,
+                               const Shown& units) {
+  const auto length = [&](double m) { return config::format_quantity(m, "m", units.length, 5); };
   config::fail({"--foot", 0, 0}, "",
-               fmt::format("\"{}\", {} from the first joint", text, inches(inverse.distance)),
-               fmt::format("{} to {}", inches(inverse.shortest), inches(inverse.longest)),
+               fmt::format("\"{}\", {} from the first joint", text, length(inverse.distance)),
+               fmt::format("{} to {}", length(inverse.shortest), length(inverse.longest)),
                fmt::format("\"{}, {}\", the nearest point that can be reached",
-                           inches(inverse.nearest.x), inches(inverse.nearest.y)));
+                           length(inverse.nearest.x), length(inverse.nearest.y)));
 }
 
-std::vector<Branch> branches_to(const experiment::Experiment& e, const std::string& text) {
-  const std::vector<double> target =
-      argument_list("--foot", text, "m", {-1000, 1000, "a foot is on a leg"});
-  if (target.size() != 2)
-    config::fail({"--foot", 0, 0}, "", config::in_quotes(text), "x and y", "\"-2 in, -13 in\"");
+// Two quantities with a comma between them.
+robot::Point x_and_y(std::string_view option, const std::string& text, std::string_view unit,
+                     const Range& range, std::string_view example) {
+  const std::vector<double> values = argument_list(option, text, unit, range);
+  if (values.size() != 2)
+    config::fail({std::string(option), 0, 0}, "", config::in_quotes(text), "x and y",
+                 std::string(example));
+  return {values[0], values[1]};
+}
 
+std::vector<Branch> branches_to(const experiment::Experiment& e, const std::string& text,
+                                const Shown& units) {
+  const robot::Point target =
+      x_and_y("--foot", text, "m", {-1000, 1000, "a foot is on a leg"}, "\"-2 in, -13 in\"");
   std::vector<Branch> out;
   for (const robot::Knee knee : {robot::Knee::above_pi, robot::Knee::below_pi}) {
-    const robot::Inverse inverse =
-        robot::inverse(need_two_links(e.robot), {target[0], target[1]}, knee);
-    if (!inverse.reached()) out_of_reach(text, inverse);
+    const robot::Inverse inverse = robot::inverse(need_two_links(e.robot), target, knee);
+    if (!inverse.reached()) out_of_reach(text, inverse, units);
     out.push_back(stand(e, {inverse.angle[0], inverse.angle[1]}));
   }
   return out;
@@ -119,6 +151,17 @@ Branch branch_at(const experiment::Experiment& e, const std::string& text) {
   return stand(e, angles);
 }
 
+// [71] in each way to stand.
+void add_torques(const experiment::Experiment& e, const std::string& text,
+                 std::vector<Branch>& branches) {
+  const robot::Point force = x_and_y("--force", text, "N", {-1e6, 1e6, "a foot pushes with it"},
+                                     "\"0 lbf, -20 lbf\", which presses down");
+  for (Branch& b : branches) {
+    const auto torques = robot::torques_for(robot::forward(e.robot, b.angles), force);
+    b.torques.assign(torques.begin(), torques.begin() + std::ssize(b.angles));
+  }
+}
+
 Json to_json(const experiment::Experiment& e, const Branch& b) {
   Json out{{"foot_m", {b.foot.x, b.foot.y}}};
   for (std::size_t j = 0; j < b.angles.size(); ++j)
@@ -131,27 +174,36 @@ Json to_json(const experiment::Experiment& e, const Branch& b) {
   if (b.jacobian)
     out["jacobian_m_per_rad"] = {{b.jacobian->x1, b.jacobian->x2},
                                  {b.jacobian->y1, b.jacobian->y2}};
+  for (std::size_t j = 0; j < b.torques.size(); ++j)
+    out["torques_Nm"][e.robot.joints[j].name] = b.torques[j];
   out["within"] = b.within();
   return out;
 }
 
-void print(const experiment::Experiment& e, const Branch& b) {
-  const auto show = [](double si, std::string_view unit, std::string_view display) {
-    return config::format_quantity(si, unit, display, 5);
-  };
-  fmt::print("foot at {}, {}{}\n", show(b.foot.x, "m", "in"), show(b.foot.y, "m", "in"),
+// What rounding left over of a length or a torque is 0.
+std::string shown(double si, std::string_view unit, std::string_view display) {
+  return config::format_quantity(std::abs(si) < 1e-9 ? 0 : si, unit, display, 5);
+}
+
+void print(const experiment::Experiment& e, const Branch& b, const Shown& units) {
+  const auto length = [&](double m) { return shown(m, "m", units.length); };
+  fmt::print("foot at {}, {}{}\n", length(b.foot.x), length(b.foot.y),
              b.within() ? "" : ": beyond a muscle's lengths");
   for (std::size_t j = 0; j < b.angles.size(); ++j)
-    fmt::print("  {:<14} {}\n", e.robot.joints[j].name, show(b.angles[j], "rad", "deg"));
+    fmt::print("  {:<14} {}\n", e.robot.joints[j].name,
+               config::format_quantity(b.angles[j], "rad", units.angle, 5));
 
   TextTable table({"muscle", "length", "from", "to", ""});
   for (const MuscleAt& m : b.muscles)
-    table.add({m.name, show(m.length, "m", "in"), show(m.shortest, "m", "in"),
-               show(m.longest, "m", "in"), m.within() ? "" : "beyond"});
+    table.add({m.name, length(m.length), length(m.shortest), length(m.longest),
+               m.within() ? "" : "beyond"});
   fmt::print("{}", table.text("  "));
-  if (!b.jacobian) return;
-  fmt::print("  Jacobian [m/rad]  x: {:9.5f} {:9.5f}\n                    y: {:9.5f} {:9.5f}\n",
-             b.jacobian->x1, b.jacobian->x2, b.jacobian->y1, b.jacobian->y2);
+  if (b.jacobian)
+    fmt::print("  Jacobian [m/rad]  x: {:9.5f} {:9.5f}\n                    y: {:9.5f} {:9.5f}\n",
+               b.jacobian->x1, b.jacobian->x2, b.jacobian->y1, b.jacobian->y2);
+  for (std::size_t j = 0; j < b.torques.size(); ++j)
+    fmt::print("  torque {:<7} {}\n", e.robot.joints[j].name,
+               shown(b.torques[j], "N m", units.torque));
 }
 
 ExitCode run_kinematics(const Options& options) {
@@ -159,9 +211,10 @@ ExitCode run_kinematics(const Options& options) {
   const experiment::Experiment& e = file.experiment;
   if (e.robot.joints.empty())
     throw std::invalid_argument(options.file + ": has no joints; try a robot's file");
-  const std::vector<Branch> branches = options.foot.empty()
-                                           ? std::vector{branch_at(e, options.angles)}
-                                           : branches_to(e, options.foot);
+  const Shown units = shown_for(e, options.force);
+  std::vector<Branch> branches = options.foot.empty() ? std::vector{branch_at(e, options.angles)}
+                                                      : branches_to(e, options.foot, units);
+  if (!options.force.empty()) add_torques(e, options.force, branches);
   if (options.json) {
     Json out{{"robot", e.robot.name}};
     for (const Branch& b : branches) out["branches"].push_back(to_json(e, b));
@@ -170,7 +223,7 @@ ExitCode run_kinematics(const Options& options) {
   }
   for (std::size_t i = 0; i < branches.size(); ++i) {
     if (i > 0) fmt::print("\n");
-    print(e, branches[i]);
+    print(e, branches[i], units);
   }
   return ok;
 }
@@ -179,13 +232,17 @@ ExitCode run_kinematics(const Options& options) {
 
 void add_kinematics(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(app, "kinematics", "foot to joint angles and muscle lengths, and back",
-                             "sinew kinematics robots/leg/robot.toml --foot \"-2 in, -13 in\"");
+  CLI::App& sub =
+      subcommand(app, "kinematics", "foot to joint angles, muscle lengths and torques, and back",
+                 "sinew kinematics robots/leg/robot.toml --foot \"-2 in, -13 in\" "
+                 "--force \"0 lbf, -20 lbf\"");
   sub.add_option("ROBOT", options->file, "robot or experiment file")->required();
   auto& target = *sub.add_option_group("target");
   target.add_option("--foot", options->foot, "x, y about the first joint: all ways to stand there");
   target.add_option("--angles", options->angles, "one per joint, in the robot's order");
   target.require_option(1);
+  sub.add_option("--force", options->force,
+                 "x, y of what the foot pushes with: the joints' torques for it, [71]");
   sub.add_flag("--json", options->json, "as JSON, SI");
   sub.callback([=, &action] { action = [=] { return run_kinematics(*options); }; });
 }

@@ -52,13 +52,20 @@ std::string page_of(const RecordedRun& run, const std::string& machine, bool* cu
                        .ended = ended_in(run.log)});
 }
 
-void write_report(const OutputFolder& folder, const signals::Table& logged,
+bool write_report(const OutputFolder& folder, const signals::Table& logged,
                   const std::string& resolved, const std::string& name, const Messages& messages) {
-  if (!report::has_page())
-    return messages.note("no report.html: this sinew was built without npm; docs/dependencies.md");
+  if (!report::has_page()) {
+    messages.note("no report.html: this sinew was built without npm; docs/dependencies.md");
+    return false;
+  }
   const config::Node values = config::parse_text(resolved, std::string(resolved_name));
   write_into(folder, report_name,
              report::page({.table = logged, .resolved = values, .name = name}));
+  return true;
+}
+
+void note_report(const OutputFolder& folder, const Messages& messages) {
+  messages.note(fmt::format("to look at it, open {}", (folder.path() / report_name).string()));
 }
 
 void add_report(CLI::App& app, Action& action) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/terminal.h"
 #include "cli/text_table.h"
-#include "sinew/analysis/warnings.h"
 #include "sinew/config/quantity.h"
 
 namespace sinew::cli {
@@ -56,12 +56,12 @@ std::string last_records(const signals::Table& table, std::int64_t end) {
   return text;
 }
 
-// Of a run of which nothing is reported.
+// Of a run of which nothing is reported, in whose units one would speak.
 void print_main_figures(const analysis::Summary& summary, const analysis::Machine& machine) {
   std::vector<std::pair<std::string, std::string_view>> keys = {
       {"sequence_duration_s", "s"},
-      {"trolley.distance_m", "in"},
-      {"trolley.mean_speed_m_per_s", "in/s"},
+      {"trolley.distance_m", "mm"},
+      {"trolley.mean_speed_m_per_s", "mm/s"},
   };
   for (const robot::Joint& joint : machine.robot.joints) {
     const std::string at = "joints." + joint.name;
@@ -126,35 +126,36 @@ std::string counted(std::int64_t count, std::string_view one, std::string_view m
   return fmt::format("{} {}", count, count == 1 ? one : more);
 }
 
-// A fault that changed nothing: the run was one without it. Of one that lasts less than the time
+// Faults that changed nothing: the run was one without them. Of one that lasts less than the time
 // between two readings nothing is said.
-void warn_of_idle_faults(const experiment::Experiment& e, const experiment::Outcome& outcome,
-                         const Messages& messages) {
+void add_idle_faults(const experiment::Experiment& e, const experiment::Outcome& outcome,
+                     std::vector<std::string>& out) {
   for (std::size_t i = 0; i < e.faults.size(); ++i) {
     const experiment::Fault& fault = e.faults[i];
     if (fault.at > outcome.duration)
-      messages.warning(
-          fmt::format("fault[{}] never acted: it begins at {:.6g} s, the run lasted "
-                      "{:.4f} s",
-                      i, fault.at, outcome.duration));
+      out.push_back(
+          fmt::format("fault[{}] never acted: it begins at {:.6g} s, the run lasted {:.4f} s", i,
+                      fault.at, outcome.duration));
     else if (fault.amount == 0)
-      messages.warning(fmt::format("fault[{}] never acted: its amount is 0", i));
+      out.push_back(fmt::format("fault[{}] never acted: its amount is 0", i));
   }
 }
 
-// Warns of each sensor whose readings were rejected or stood still while it was driven.
-void warn_of_sensors(const experiment::Experiment& e, const control::Supervised& supervised,
-                     const Messages& messages) {
+// Sensors whose readings were rejected or stood still, and whose counters the run did not record.
+void add_sensors(const experiment::Experiment& e, const experiment::Outcome& outcome,
+                 std::vector<std::string>& out) {
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
     const std::string& name = e.robot.sensors[s].name;
-    const control::SensorSeen& seen = supervised.sensor[s];
+    if (outcome.table.find("/sensor/" + name + "/rejected")) continue;
+    const control::SensorSeen& seen = outcome.supervised.sensor[s];
     if (seen.rejected > 0)
-      messages.warning(fmt::format("{}: {} not believed; the last good ones stood", name,
-                                   counted(seen.rejected, "reading was", "readings were")));
+      out.push_back(fmt::format("{}: {} not believed; the last good ones stood", name,
+                                counted(seen.rejected, "reading was", "readings were")));
     if (seen.frozen > 0)
-      messages.warning(fmt::format(
-          "{}: the same counts for {} scans in a row while its muscles were driven; {} in all",
-          name, seen.longest, seen.frozen));
+      out.push_back(
+          fmt::format("{}: the same counts for {} scans in a row while its muscles were driven; {} "
+                      "in all",
+                      name, seen.longest, seen.frozen));
   }
 }
 
@@ -171,40 +172,34 @@ void print_verdicts(const analysis::Summary& summary, const analysis::StandFile&
   for (const analysis::Entry& e : summary.entries()) {
     const std::string unit = analysis::unit_of_key(e.key);
     table.add({std::string(analysis::without_unit(e.key)),
-               analysis::show(e.value, e.key, unit == "m" ? "in" : unit, stand.atmosphere)});
+               analysis::show(e.value, e.key, unit == "m" ? "mm" : unit, stand.atmosphere)});
   }
   if (!table.empty()) fmt::print("{}", table.text());
 }
 
-void warn_of(const experiment::Experiment& e, const experiment::Outcome& outcome,
-             const Messages& messages) {
+std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& e,
+                                                 const experiment::Outcome& outcome) {
+  std::vector<std::string> out;
   const control::Seen& seen = outcome.seen;
+  const control::Supervised& supervised = outcome.supervised;
+  const bool logged = outcome.table.find("/low_level/gaps") != nullptr;
   const auto tell = [&](std::int64_t count, std::string_view one, std::string_view more,
                         std::string_view what) {
-    if (count > 0) messages.warning(fmt::format("{} {}", counted(count, one, more), what));
+    if (count > 0) out.push_back(fmt::format("{} {}", counted(count, one, more), what));
   };
   tell(seen.late, "reading", "readings", "came late");
-  const control::Supervised& supervised = outcome.supervised;
   tell(seen.invalid - supervised.rejected, "reading was", "readings were", "invalid");
-  tell(supervised.rejected_commands, "command was", "commands were",
+  tell(logged ? 0 : supervised.rejected_commands, "command was", "commands were",
        "rejected: not numbers, out of range or too fast");
-  tell(supervised.gaps, "tick", "ticks",
+  tell(logged ? 0 : supervised.gaps, "tick", "ticks",
        fmt::format("came later than announced, by {} at worst", supervised.worst_gap));
-  warn_of_sensors(e, supervised, messages);
-  warn_of_idle_faults(e, outcome, messages);
+  add_sensors(e, outcome, out);
+  add_idle_faults(e, outcome, out);
   tell(seen.missed, "tick", "ticks",
        "came late by more than a tick: this machine cannot keep the pace that finely");
-  tell(seen.overruns, "law", "laws",
-       "took longer than a hundredth of the period, low_level.interrupt_time: the thesis's "
-       "computer locked up so (5.2)");
-  tell(outcome.unreachable_periods, "period", "periods",
-       "with a foot out of reach: the nearest point was aimed at");
   if (!outcome.table.complete)
-    messages.warning("more valve edges than there was room for; the table lacks the last ones");
-  for (const analysis::Warning& w : analysis::clipped_sensors(outcome.table, e.robot))
-    messages.warning(w.text);
-  for (const analysis::Warning& w : analysis::lifted_rollers(outcome.table))
-    messages.warning(w.text);
+    out.emplace_back("more valve edges than there was room for; the table lacks the last ones");
+  return out;
 }
 
 std::string black_box(const experiment::Experiment& e, const experiment::Outcome& outcome) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "cli/terminal.h"
 #include "sinew/analysis/machine.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/analysis/summary.h"
@@ -15,9 +15,10 @@ namespace sinew::cli {
 void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine);
 void print_verdicts(const analysis::Summary& summary, const analysis::StandFile& stand);
 
-// What went on in the run that its figures do not show.
-void warn_of(const experiment::Experiment& experiment, const experiment::Outcome& outcome,
-             const Messages& messages);
+// What went on in the run that neither its figures nor its log show: what came late on this
+// computer, readings without a channel of their own, faults that never acted.
+std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& experiment,
+                                                 const experiment::Outcome& outcome);
 
 // Why the run ended early, with the last record of every topic.
 std::string black_box(const experiment::Experiment& experiment, const experiment::Outcome& outcome);

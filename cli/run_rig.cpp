@@ -9,7 +9,6 @@
 #include "cli/runnable.h"
 #include "cli/terminal.h"
 #include "sinew/analysis/stand.h"
-#include "sinew/analysis/warnings.h"
 #include "sinew/config/compose.h"
 #include "sinew/experiment/rig/measured.h"
 #include "sinew/experiment/rig/run.h"
@@ -17,16 +16,6 @@
 namespace sinew::cli {
 
 namespace {
-
-// A length that no muscle can have is no result.
-void warn_beyond_the_muscle(const analysis::Summary& summary, const Messages& messages) {
-  const double* least = summary.find("stand.least_length_m");
-  if (least && *least <= 0)
-    messages.warning(fmt::format(
-        "the load was thrown to {:.3g} m: below the shortest length [31] has no force; try an "
-        "actuator whose short_end.law is not \"zero\"",
-        *least));
-}
 
 // The texts and channels that go into the folder of a stand's run, beside the experiment itself.
 struct What {
@@ -57,23 +46,24 @@ ExitCode keep(const rig::Experiment& e, const What& what, OutputFolder& folder,
   if (!measured.empty()) write_into(folder, measured_name, measured);
   const analysis::Summary summary = analysis::summarize(outcome.table, what.stand);
   const double factor = outcome.wall > 0 ? outcome.duration / outcome.wall : 0;
-  const std::string json = to_json(summary, {{"real_time_factor", factor}, {"threads", 1}});
+  const std::string json =
+      to_json(summary, {.numbers = {{"real_time_factor", factor}, {"threads", 1}}});
   write_into(folder, summary_name, json);
-  warn_beyond_the_muscle(summary, messages);
-  for (const analysis::Warning& w : analysis::clipped_transducers(outcome.table))
-    messages.warning(w.text);
+  for (const std::string& text : summary.warnings) messages.warning(text);
+  bool page = false;
   if (e.log.enabled && options.report)
-    write_report(folder, experiment::logged_part(std::move(outcome.table), what.logged),
-                 what.resolved, e.name, messages);
+    page = write_report(folder, experiment::logged_part(std::move(outcome.table), what.logged),
+                        what.resolved, e.name, messages);
   commit_run(folder);
   if (options.json) {
     fmt::print("{}", json);
     messages.note(folder.path().string());
-    return ok;
+  } else {
+    print_verdicts(summary, what.stand);
+    messages.note(fmt::format("{:.2f} s in {:.3f} s, kept in {}", outcome.duration, outcome.wall,
+                              folder.path().string()));
   }
-  print_verdicts(summary, what.stand);
-  messages.note(fmt::format("{:.2f} s in {:.3f} s, kept in {}", outcome.duration, outcome.wall,
-                            folder.path().string()));
+  if (page) note_report(folder, messages);
   return ok;
 }
 

@@ -186,6 +186,12 @@ void tell(const std::vector<tune::Row>& rows, std::size_t points, const CsvTable
   if (bad > 0)
     messages.warning(
         fmt::format("{} of {} rows have no figures; their status says why", bad, rows.size()));
+  const auto ended = std::ranges::count_if(rows, &tune::Row::stop_reached);
+  if (ended > 0)
+    messages.warning(
+        fmt::format("in {} of {} rows the trolley reaches the end of its track; distance and mean "
+                    "speed are up to there",
+                    ended, rows.size()));
   if (rows.size() < points)
     throw std::runtime_error(
         fmt::format("interrupted: {} of {} points are done{}", rows.size(), points,

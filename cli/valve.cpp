@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/json_text.h"
 #include "cli/named.h"
+#include "cli/terminal.h"
 #include "cli/text_table.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
@@ -26,12 +27,14 @@ using Json = nlohmann::ordered_json;
 
 struct Options {
   std::string file, name, upstream, downstream, volume, duty, frequency = "100 Hz";
-  bool json = false;
+  bool json = false, quiet = false;
 };
 
 struct FlowResult {
   double upstream = 0, downstream = 0;  // [Pa]
   double mass_flow = 0;                 // [kg/s]
+  double law_flow = 0;                  // of the law itself, also where mass_flow is linear [kg/s]
+  bool linear = false;                  // so near to equal pressures that mass_flow is linear
   double normal_flow = 0;               // of reference air [m3/s]
   double critical_ratio = 0, ratio = 0;
   double sonic_conductance = 0, area = 0;  // of either law, and what it equals in the other
@@ -54,6 +57,10 @@ FlowResult flow_through(const gas::Flow& flow, const gas::Air& air, double upstr
   const bool iso = flow.law == gas::Flow::Law::iso6358;
   const double high = std::max(upstream, downstream), low = std::min(upstream, downstream);
   out.mass_flow = gas::mass_flow(flow, air, upstream, downstream);
+  gas::Flow law = flow;
+  law.linear_below = 0;
+  out.law_flow = gas::mass_flow(law, air, upstream, downstream);
+  out.linear = upstream != downstream && gas::in_linear_part(flow, upstream, downstream);
   out.normal_flow = out.mass_flow / gas::iso_density;
   out.ratio = low / high;
   out.critical_ratio = iso ? flow.critical_pressure_ratio : gas::critical_pressure_ratio();
@@ -97,6 +104,8 @@ Json to_json(const gas::Valve& valve, const FlowResult& f, const std::vector<Tra
            {"pressure_ratio", f.ratio},
            {"critical_pressure_ratio", f.critical_ratio},
            {"choked", f.choked()},
+           {"linear_part", f.linear},
+           {"law_mass_flow_kg_per_s", f.law_flow},
            {"effective_area_m2", f.area},
            {"sonic_conductance_m3_per_s_Pa", f.sonic_conductance},
            {"opening_delay_s", gas::delays(valve).opening},
@@ -116,13 +125,28 @@ void print_flow(const gas::Valve& valve, const FlowResult& f) {
   TextTable table({"", "", ""});
   table.add({"mass flow", show(f.mass_flow, "kg/s", "kg/s"),
              show(f.normal_flow, "m3/s", "L/min") + " ANR"});
-  table.add({"flow", f.choked() ? "choked" : "free",
-             fmt::format("ratio {:.4f}, critical {:.4f}", f.ratio, f.critical_ratio)});
+  if (f.linear) table.add({"by the law itself", show(f.law_flow, "kg/s", "kg/s"), ""});
+  table.add(
+      {"flow",
+       f.choked() ? "choked"
+       : f.linear ? "free, linear"
+                  : "free",
+       fmt::format("ratio {:.{}f}, critical {:.4f}", f.ratio, f.linear ? 6 : 4, f.critical_ratio)});
   table.add({"effective area", show(f.area, "m2", "mm2"), show(f.area, "m2", "in2")});
   table.add({"sonic conductance C", show(f.sonic_conductance, "m3/(s Pa)", "L/(s bar)"), ""});
   table.add({"delays", "opens after " + show(gas::delays(valve).opening, "s", "ms"),
              "shuts after " + show(gas::delays(valve).closing, "s", "ms")});
   fmt::print("{}", table.text().substr(1));
+}
+
+// The linear part is there for integration; near equal pressures it is far below the law.
+void warn_of_linear_part(const gas::Valve& valve, const FlowResult& f, const Messages& messages) {
+  if (!f.linear) return;
+  messages.warning(fmt::format(
+      "{}: the pressures are {:.2g} % apart, less than linear_below, {:.2g} %: there the flow is a "
+      "straight line through zero, so that it can be integrated; the law itself gives {:.3g} times "
+      "as much",
+      valve.name, 100 * (1 - f.ratio), 100 * valve.flow.linear_below, f.law_flow / f.mass_flow));
 }
 
 void print_times(const std::vector<Transfer>& times, double volume, const FlowResult& f) {
@@ -167,6 +191,7 @@ ExitCode run_valve(const Options& options) {
   }
   const std::vector<Delivered> duties = deliveries(valve, options);
 
+  warn_of_linear_part(valve, f, Messages(options.quiet));
   if (options.json) {
     fmt::print("{}\n", json_text(to_json(valve, f, times, duties), 2));
     return ok;
@@ -194,6 +219,7 @@ void add_valve(CLI::App& app, Action& action) {
       *sub.add_option("--duty", options->duty, "share of the period, or from:to:step");
   sub.add_option("--frequency", options->frequency, "of the pulses; 100 Hz")->needs(&duty);
   sub.add_flag("--json", options->json, "as JSON, SI");
+  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
   sub.callback([=, &action] { action = [=] { return run_valve(*options); }; });
 }
 

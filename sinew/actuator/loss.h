@@ -38,4 +38,15 @@ inline double coulomb_bound(const Actuator& a, double length, double gauge_press
   return bound > 0 ? bound : 0.0;
 }
 
+// [33] while the length changes at `velocity` = dL/dt, below 0 where the muscle contracts  [N]: the
+// static tension, what flows (c v and the ends' own damping), and the dry friction at its bound,
+// which holds a muscle back that contracts and pulls with one that is drawn out. At rest the dry
+// friction is anything within its bound, and here 0.
+inline double sliding_tension(const Actuator& a, double length, double velocity,
+                              double gauge_pressure, double atmosphere, double sealed_stiffness) {
+  const double flowing = tension(a, length, velocity, gauge_pressure, atmosphere);
+  const double bound = coulomb_bound(a, length, gauge_pressure, atmosphere, sealed_stiffness);
+  return flowing + (velocity > 0 ? bound : velocity < 0 ? -bound : 0.0);
+}
+
 }  // namespace sinew::actuator

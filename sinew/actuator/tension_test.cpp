@@ -169,5 +169,22 @@ TEST(Loss, bound_follows_its_scale_and_is_never_negative) {
   EXPECT_DOUBLE_EQ(coulomb_bound(a, l, p, atmosphere, sealed), q * 3000);
 }
 
+// [33]: losses take from what moves, and the tension at rest lies halfway between in and out.
+TEST(SlidingTension, loses_both_ways_and_only_while_it_moves) {
+  const Actuator a = thesis_actuator();
+  std::mt19937 random(33);
+  std::uniform_real_distribution<double> lengths(0.064, 0.095), pressures(1e5, 6e5), speeds(0, 1);
+  for (int i = 0; i < 1000; ++i) {
+    const double l = lengths(random), p = pressures(random), v = speeds(random);
+    const double rest = tension(a, l, 0, p, atmosphere);
+    const double bound = coulomb_bound(a, l, p, atmosphere, 0);
+    const double out = sliding_tension(a, l, v, p, atmosphere, 0);
+    const double in = sliding_tension(a, l, -v, p, atmosphere, 0);
+    ASSERT_NEAR(out - rest, bound + a.loss.viscous * v, 1e-12);
+    ASSERT_NEAR(rest - in, bound + a.loss.viscous * v, 1e-12);
+    ASSERT_EQ(sliding_tension(a, l, 0, p, atmosphere, 0), rest);
+  }
+}
+
 }  // namespace
 }  // namespace sinew::actuator

@@ -32,6 +32,16 @@ Travel travel(const Figures& f) {
   return {.distance = x[end] - x[first], .time = f.record.time(end) - f.record.time(first)};
 }
 
+// When the sequence's trolley came to the track's end  [s] from its start; not a number: never.
+double stop_reached(const Figures& f) {
+  const Column x = f.record.column("/true/trolley/position");
+  if (x.empty() || !f.record.has_sequence() || f.machine.robot.trolley.track_length <= 0)
+    return no_figure;
+  const std::size_t stop = stop_row(f, x);
+  if (stop == f.record.end_row()) return no_figure;
+  return f.record.time(stop) - f.record.sequence_start();
+}
+
 // Complete steps but the first, up to the track's end.
 std::vector<int> repeated_steps(const Figures& f) {
   std::vector<int> steps = f.record.complete_steps();
@@ -200,6 +210,7 @@ void add_trolley(Figures& f) {
   const Travel real = travel(f);
   f.summary.add("trolley.distance_m", real.distance);
   f.summary.add("trolley.mean_speed_m_per_s", real.distance / real.time);
+  f.summary.add("trolley.stop_reached_s", stop_reached(f));
   f.add("trolley.peak_speed_m_per_s", largest, f.record.column("/true/trolley/velocity"),
         f.record.sequence());
 

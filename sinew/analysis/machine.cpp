@@ -78,7 +78,8 @@ MachineValve what_matters(const ValveTable& valve) {
   const bool fast = valve.drive == ValveTable::Drive::speed_up;
   if (!fast) out.coil.boost_power = out.coil.boost_time = 0;
   if (valve.profile == ValveTable::Profile::ideal) return out;
-  out.opening = (fast ? valve.fast_opening : valve.opening_delay) + 0.5 * valve.opening_ramp;
+  out.shut = fast ? valve.fast_opening : valve.opening_delay;
+  out.opening = out.shut + 0.5 * valve.opening_ramp;
   out.closing = (fast ? valve.fast_closing : valve.closing_delay) + 0.5 * valve.closing_ramp;
   return out;
 }

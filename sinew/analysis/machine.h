@@ -23,6 +23,7 @@ struct MachineValve {
   double opening = 0, closing = 0;  // from the edge until half of the way is done; ideal: 0 [s]
   Coil coil;
   bool seals = true;  // false: a 3-way valve, which joins its muscle to the supply or to the room
+  double shut = 0;    // from the edge that opens it until the shutter moves [s]
 };
 
 struct Machine {

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "sinew/analysis/reported.fields.h"
+#include "sinew/analysis/warnings.h"
 #include "sinew/config/reader.h"
 
 namespace sinew::analysis {
@@ -209,6 +210,7 @@ Summary summarize(const signals::Table& table, const StandFile& file) {
   summary.reproduces = file.reproduces;
   add_sweep(table, summary);
   const signals::Series* rows = table.find("/true/stand/length");
+  summary.warnings = texts(warnings(table, summary));
   if (!rows || rows->time_ns.empty()) return summary;
   Log log{table, file, summary, {}};
   for (const std::int64_t ns : rows->time_ns)
@@ -217,6 +219,7 @@ Summary summarize(const signals::Table& table, const StandFile& file) {
   add_swing(log);
   add_pulsed(log);
   add_track(log);
+  summary.warnings = texts(warnings(table, summary));
   return summary;
 }
 

@@ -5,6 +5,7 @@
 
 #include "sinew/analysis/derived.h"
 #include "sinew/analysis/figures.h"
+#include "sinew/analysis/warnings.h"
 #include "sinew/config/quantity.h"
 
 namespace sinew::analysis {
@@ -23,16 +24,18 @@ void put(Json& root, std::string_view key, double value) {
 // Our own printing, for numbers with the fewest digits; nlohmann's may have one more.
 std::string text_of(const Json& json, const std::string& indent) {
   if (json.is_number_float()) return config::format_number(json.get<double>());
-  if (!json.is_object()) return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (json.empty()) return "{}";
+  if (!json.is_structured()) return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const bool list = json.is_array();
+  if (json.empty()) return list ? "[]" : "{}";
 
-  std::string out = "{";
+  std::string out = list ? "[" : "{";
   const char* before = "\n";
   for (const auto& [key, value] : json.items()) {
-    out += before + indent + "  " + Json(key).dump() + ": " + text_of(value, indent + "  ");
+    const std::string name = list ? "" : Json(key).dump() + ": ";
+    out += before + indent + "  " + name + text_of(value, indent + "  ");
     before = ",\n";
   }
-  return out + "\n" + indent + "}";
+  return out + "\n" + indent + (list ? "]" : "}");
 }
 
 }  // namespace
@@ -54,6 +57,7 @@ Summary summarize(const signals::Table& table, const Machine& machine) {
   Summary summary;
   summary.title = machine.title;
   summary.reproduces = machine.reproduces;
+  summary.warnings = texts(warnings(table, machine));
   if (record.rows() == 0) return summary;
 
   Figures figures{machine, record, summary};
@@ -76,22 +80,24 @@ Summary summarize_trip(const signals::Table& table, const Machine& machine) {
   const Record record(table, machine);
   Summary summary;
   summary.title = machine.title;
+  summary.warnings = texts(warnings(table, machine));
   if (record.rows() == 0) return summary;
   Figures figures{machine, record, summary};
   add_supervision(figures);
   return summary;
 }
 
-std::string to_json(const Summary& summary,
-                    const std::vector<std::pair<std::string, double>>& host) {
+std::string to_json(const Summary& summary, const Host& host) {
   Json root;
   root["format"] = "sinew.summary/1";
   root["title"] = summary.title;
   if (!summary.reproduces.empty()) root["reproduces"] = summary.reproduces;
   if (summary.cut_off) root["cut_off"] = true;
   for (const Entry& e : summary.entries()) put(root, e.key, e.value);
-  for (const auto& [key, value] : host)
+  if (!summary.warnings.empty()) root["warnings"] = summary.warnings;
+  for (const auto& [key, value] : host.numbers)
     if (std::isfinite(value)) put(root, "host." + key, value);
+  if (!host.warnings.empty()) root["host"]["warnings"] = host.warnings;
   return text_of(root, "") + "\n";
 }
 

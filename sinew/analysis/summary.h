@@ -24,7 +24,8 @@ class Summary {
  public:
   std::string title;
   std::string reproduces;
-  bool cut_off = false;  // its log was: these are the figures of a part of the run
+  bool cut_off = false;               // its log was: these are the figures of a part of the run
+  std::vector<std::string> warnings;  // what went on that no figure shows, of the log alone
 
   // Keys come in a fixed order. What is not finite is not added.
   void add(std::string key, double value);
@@ -41,9 +42,16 @@ Summary summarize(const signals::Table&, const Machine&);
 // figures.
 Summary summarize_trip(const signals::Table&, const Machine&);
 
+// What depends on the computer that ran, or what only the run itself saw and its log does not hold.
+struct Host {
+  std::vector<std::pair<std::string, double>> numbers;
+  std::vector<std::string> warnings;
+};
+
 // summary.json: format, title, cut_off where it is true, the keys as nested objects in the
-// summary's order, `host` last. Numbers have the fewest digits that read back to the same bits. No
-// dates, nothing of the machine that ran but `host`, which comparisons leave out.
-std::string to_json(const Summary&, const std::vector<std::pair<std::string, double>>& host = {});
+// summary's order, `warnings` where there are any, `host` last. Numbers have the fewest digits that
+// read back to the same bits. No dates, nothing of the machine that ran but `host`, which
+// comparisons leave out.
+std::string to_json(const Summary&, const Host& host = {});
 
 }  // namespace sinew::analysis

@@ -23,7 +23,7 @@ TEST(Json, NestsKeysInTheirOrder) {
   s.add("z.a.c", 1e-12);
   s.add("not", std::numeric_limits<double>::quiet_NaN());
   s.add("zero", -0.0);
-  const std::string text = to_json(s, {{"threads", 2}});
+  const std::string text = to_json(s, {.numbers = {{"threads", 2}}, .warnings = {}});
   EXPECT_EQ(text,
             "{\n"
             "  \"format\": \"sinew.summary/1\",\n"
@@ -38,6 +38,28 @@ TEST(Json, NestsKeysInTheirOrder) {
             "  \"zero\": 0,\n"
             "  \"host\": {\n"
             "    \"threads\": 2\n"
+            "  }\n"
+            "}\n");
+}
+
+// What the log shows stands apart from what the computer that ran alone knows.
+TEST(Json, HasWarningsBeforeTheHost) {
+  Summary s;
+  s.title = "A walk";
+  s.warnings = {"a \"first\"", "a second"};
+  EXPECT_EQ(to_json(s, {.numbers = {{"threads", 1}}, .warnings = {"3 ticks came late"}}),
+            "{\n"
+            "  \"format\": \"sinew.summary/1\",\n"
+            "  \"title\": \"A walk\",\n"
+            "  \"warnings\": [\n"
+            "    \"a \\\"first\\\"\",\n"
+            "    \"a second\"\n"
+            "  ],\n"
+            "  \"host\": {\n"
+            "    \"threads\": 1,\n"
+            "    \"warnings\": [\n"
+            "      \"3 ticks came late\"\n"
+            "    ]\n"
             "  }\n"
             "}\n");
 }

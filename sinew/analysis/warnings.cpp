@@ -3,36 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
+
+#include "sinew/analysis/summary.h"
+#include "sinew/analysis/times.h"
 
 namespace sinew::analysis {
 namespace {
 
-constexpr double apart = 0.1;            // of two spans [s]
 constexpr double whole_period = 0.9999;  // a duty of 100 % as a double [-]
-
-struct Times {
-  std::size_t count = 0, of = 0;  // samples
-  std::vector<Span> spans;
-};
-
-// The samples of a topic for which `is` holds; none where there is no such topic.
-Times times_when(const signals::Table& table, const std::string& topic,
-                 const std::function<bool(double)>& is) {
-  Times out;
-  const signals::Series* series = table.find(topic);
-  if (!series || series->columns.empty()) return out;
-  const std::vector<double>& values = series->columns.front();
-  out.of = values.size();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!is(values[i])) continue;
-    ++out.count;
-    const double t = static_cast<double>(series->time_ns[i]) / 1e9;
-    if (out.spans.empty() || t - out.spans.back().to >= apart) out.spans.push_back({t, t});
-    out.spans.back().to = t;
-  }
-  return out;
-}
 
 // "<before> 3 of 100 <after>", where it ever was.
 void add(std::vector<Warning>& out, Times times, std::string_view before, std::string_view after) {
@@ -94,12 +72,13 @@ std::vector<Warning> lifted_rollers(const signals::Table& table) {
 std::vector<Warning> saturated_duties(const signals::Table& table, const robot::Robot& robot) {
   std::vector<Warning> out;
   for (const robot::Muscle& muscle : robot.muscles)
-    for (const std::string which : {"inlet", "exhaust"})
-      add(out,
-          times_when(table, "/muscle/" + muscle.name + "/" + which + "_duty",
-                     [](double duty) { return duty >= whole_period; }),
-          muscle.name + ": the " + which + " stays open all the time in",
+    for (const std::string which : {"inlet", "exhaust"}) {
+      Times times = times_when(table, "/muscle/" + muscle.name + "/" + which + "_duty",
+                               [](double duty) { return duty >= whole_period; });
+      if (10 * times.count <= times.of) continue;
+      add(out, std::move(times), muscle.name + ": the " + which + " stays open all the time in",
           "periods: its duty is saturated");
+    }
   return out;
 }
 
@@ -132,8 +111,8 @@ std::vector<Warning> counted(const signals::Table& table, const std::string& top
 
 std::vector<Warning> overruns(const signals::Table& table) {
   return counted(table, "/low_level/overruns", "", "law", "laws",
-                 " took longer than a hundredth of the period: the thesis's computer locked up so "
-                 "(5.2)");
+                 " took longer than a hundredth of the period, low_level.interrupt_time: the "
+                 "thesis's computer locked up so (5.2)");
 }
 
 std::vector<Warning> disbelieved_sensors(const signals::Table& table, const robot::Robot& robot) {
@@ -147,20 +126,58 @@ std::vector<Warning> disbelieved_sensors(const signals::Table& table, const robo
   return out;
 }
 
+std::vector<Warning> rejected_commands(const signals::Table& table) {
+  std::vector<Warning> out =
+      counted(table, "/low_level/rejected_commands", "", "command was", "commands were",
+              " rejected: not numbers, out of range or too fast");
+  append(out, counted(table, "/low_level/gaps", "", "tick", "ticks", " came later than announced"));
+  return out;
+}
+
 std::vector<Warning> cut_logs(const signals::Table& table) {
   if (table.complete) return {};
   return {{"the log was cut off or is damaged: this is what stands before", {}}};
 }
 
+namespace {
+
+// A length that no muscle can have is no result.
+std::vector<Warning> beyond_the_muscle(const Summary& summary) {
+  const double* least = summary.find("stand.least_length_m");
+  if (!least || *least > 0) return {};
+  return {{fmt::format("the load was thrown to {:.3g} m: below the shortest length [31] has no "
+                       "force; try an actuator whose short_end.law is not \"zero\"",
+                       *least),
+           {}}};
+}
+
+}  // namespace
+
 std::vector<Warning> warnings(const signals::Table& table, const Machine& machine) {
-  std::vector<Warning> all = cut_logs(table);
+  std::vector<Warning> all = unused_air(table, machine);
+  append(all, unopened_valves(table, machine));
+  append(all, ended_tracks(table, machine));
+  append(all, overturned_joints(table, machine));
   append(all, unreachable_targets(table));
   append(all, overruns(table));
   append(all, disbelieved_sensors(table, machine.robot));
+  append(all, rejected_commands(table));
   append(all, saturated_duties(table, machine.robot));
   append(all, clipped_sensors(table, machine.robot));
   append(all, lifted_rollers(table));
   return all;
+}
+
+std::vector<Warning> warnings(const signals::Table& table, const Summary& of_the_stand) {
+  std::vector<Warning> all = beyond_the_muscle(of_the_stand);
+  append(all, clipped_transducers(table));
+  return all;
+}
+
+std::vector<std::string> texts(const std::vector<Warning>& warnings) {
+  std::vector<std::string> out;
+  for (const Warning& w : warnings) out.push_back(w.text);
+  return out;
 }
 
 }  // namespace sinew::analysis

@@ -9,6 +9,8 @@
 
 namespace sinew::analysis {
 
+class Summary;
+
 struct Span {
   double from = 0, to = 0;  // [s]
 };
@@ -29,7 +31,8 @@ std::vector<Warning> clipped_transducers(const signals::Table&);
 // Rollers that the leg lifted off the track, 7.2: from there on the trolley would have tipped.
 std::vector<Warning> lifted_rollers(const signals::Table&);
 
-// Valves that were told to stay open for a whole period: their law asked for more than there is.
+// Valves that were told to stay open for whole periods, in more than a tenth of all: their law asks
+// for more than there is. A jump of the plan does so for a few periods; that is none.
 std::vector<Warning> saturated_duties(const signals::Table&, const robot::Robot&);
 
 // Times at which the foot was asked to where it cannot go.
@@ -41,10 +44,35 @@ std::vector<Warning> overruns(const signals::Table&);
 // Readings that the low level did not believe, or that repeated themselves while they were driven.
 std::vector<Warning> disbelieved_sensors(const signals::Table&, const robot::Robot&);
 
+// Commands that the supervisor did not follow, and ticks that came later than it was told.
+std::vector<Warning> rejected_commands(const signals::Table&);
+
 // A log that ends before its run did.
 std::vector<Warning> cut_logs(const signals::Table&);
 
-// All of these.
+// --- idle.cpp: a robot that does nothing, or that stands where it can go no further ---
+
+// Valves none of whose pulses lasts until the shutter moves. One that let air through, as a
+// simulation knows, is none of them.
+std::vector<Warning> unopened_valves(const signals::Table&, const Machine&);
+
+// Plans that moved a joint, or opened an inlet, while no muscle took any air.
+std::vector<Warning> unused_air(const signals::Table&, const Machine&);
+
+// A trolley that reached the end of its track before its sequence was over.
+std::vector<Warning> ended_tracks(const signals::Table&, const Machine&);
+
+// Joints that turned by more than a whole turn, or until a muscle would be shorter than its caps or
+// longer than its thread by a tenth: no cord runs so far.
+std::vector<Warning> overturned_joints(const signals::Table&, const Machine&);
+
+// ---
+
+// All of these but cut_logs(), of which a summary has a key; of the test stand those that apply to
+// it, of its log and its figures.
 std::vector<Warning> warnings(const signals::Table&, const Machine&);
+std::vector<Warning> warnings(const signals::Table&, const Summary& of_the_stand);
+
+std::vector<std::string> texts(const std::vector<Warning>&);
 
 }  // namespace sinew::analysis

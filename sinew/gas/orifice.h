@@ -84,6 +84,13 @@ inline double effective_area_of(double sonic_conductance, const Air& air) {
   return sonic_conductance / sonic_conductance_of(1.0, air);  // [m^2]
 }
 
+// Are the pressures so near to each other that the flow is the straight line's, not the law's?
+constexpr bool in_linear_part(const Flow& flow, double pressure_a, double pressure_b) {
+  const double up = pressure_a > pressure_b ? pressure_a : pressure_b;
+  const double down = pressure_a > pressure_b ? pressure_b : pressure_a;
+  return up - down < flow.linear_below * up;
+}
+
 // Either law between two ports, positive from a to b, from pressures; the reference for flow_y
 // [kg/s].
 inline double mass_flow(const Flow& flow, const Air& air, double pressure_a, double pressure_b) {

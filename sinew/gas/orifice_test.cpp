@@ -169,6 +169,25 @@ TEST(Flow, is_linear_in_the_difference_near_equal_pressures) {
   }
 }
 
+// Which of the two a flow is: the straight line is below the law, and meets it where it ends.
+TEST(Flow, says_whether_it_is_in_the_linear_part) {
+  const Air air;
+  for (const Flow& flow : both_laws) {
+    Flow law = flow;
+    law.linear_below = 0;
+    const double up = 5e5;
+    for (const double share : {0.1, 0.5, 0.9, 1.1, 2.0}) {
+      const double down = up * (1 - share * flow.linear_below);
+      const bool linear = in_linear_part(flow, up, down);
+      EXPECT_EQ(linear, share < 1);
+      EXPECT_EQ(in_linear_part(flow, down, up), linear);
+      EXPECT_FALSE(in_linear_part(law, up, down));
+      const double ratio = mass_flow(flow, air, up, down) / mass_flow(law, air, up, down);
+      EXPECT_NEAR(ratio, linear ? std::sqrt(share) : 1, 1e-2);
+    }
+  }
+}
+
 TEST(Flow, without_a_linear_part_is_the_bare_law) {
   const Air air;
   for (Flow flow : both_laws) {

@@ -103,6 +103,7 @@ Content of_robot(const Run& run) {
   json.put("panels", to_json(panels(channels, machine.robot), columns));
   json.put("scene", to_json(scene_of_run, columns));
   std::vector<analysis::Warning> warnings = how_it_ended(run);
+  std::ranges::move(analysis::cut_logs(run.table), std::back_inserter(warnings));
   std::ranges::move(analysis::warnings(run.table, machine), std::back_inserter(warnings));
   json.put("warnings", to_json(warnings));
   return finish(std::move(json), run, summary,
@@ -132,7 +133,7 @@ Content of_stand(const Run& run) {
   json.put("charts", to_json(stand_charts(channels, stand_of_run), columns));
   std::vector<analysis::Warning> warnings = how_it_ended(run);
   std::ranges::move(analysis::cut_logs(run.table), std::back_inserter(warnings));
-  std::ranges::move(analysis::clipped_transducers(run.table), std::back_inserter(warnings));
+  std::ranges::move(analysis::warnings(run.table, summary), std::back_inserter(warnings));
   json.put("warnings", to_json(warnings));
   return finish(std::move(json), run, summary, compare(summary, file.reported, file.atmosphere),
                 blob);

@@ -26,7 +26,8 @@ struct File {
   int count = 1;
   double bore = 0, rod = 0, stroke = 0;  // [m]
   std::string load = "hanging", charge = "sealed";
-  double mass = 0, force = 0;  // [kg], [N]
+  double mass = 0, force = 0;                // [kg], [N]
+  double gravity = units::standard_gravity;  // [m/s2]
   std::vector<Point> weights, forces, lengths;
   std::vector<actuator::Actuator> actuators;
   std::vector<Named> sensors, valves;
@@ -62,6 +63,7 @@ void read_load(config::Reader& v, File& f) {
   v.text({.name = "mode", .optional = true}, f.load);
   amount(v, "mass", "kg", f.mass);
   amount(v, "force", "N", f.force);
+  amount(v, "gravity", "m/s2", f.gravity);
   points(v, "weights", "mass", "kg", f.weights);
   points(v, "forces", "force", "N", f.forces);
   points(v, "lengths", "length", "m", f.lengths);
@@ -195,7 +197,7 @@ class Maker {
   double pull(double t) const {
     const double mass = file_.weights.empty() ? file_.mass : step_at(file_.weights, t);
     const double force = file_.forces.empty() ? file_.force : at(file_.forces, t);
-    return mass * units::standard_gravity + force;
+    return mass * file_.gravity + force;
   }
 
   // By which the schedules change what hangs; 0 where nothing changes  [N].
@@ -207,7 +209,7 @@ class Maker {
         if (step > 0 && (least == 0 || step < least)) least = step;
       }
     };
-    look(file_.weights, units::standard_gravity);
+    look(file_.weights, file_.gravity);
     look(file_.forces, 1);
     return least;
   }

@@ -136,6 +136,14 @@ GroundReaction ground_reaction(const TwoLinks& leg, double theta1, double theta2
   return {.force = {-by_foot.x, -by_foot.y}, .singular = false};
 }
 
+std::array<double, max_joints> torques_for(const Pose& pose, Point force) {
+  std::array<double, max_joints> out{};
+  const Point foot = pose.foot();
+  for (std::size_t j = 0; j < static_cast<std::size_t>(pose.links); ++j)
+    out[j] = (foot.x - pose.joint[j].x) * force.y - (foot.y - pose.joint[j].y) * force.x;
+  return out;
+}
+
 double cam_radius(std::span<const double> angle, std::span<const double> radii, double at) {
   if (at <= angle.front()) return radii.front();
   for (std::size_t k = 1; k < angle.size(); ++k) {

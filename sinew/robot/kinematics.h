@@ -86,6 +86,14 @@ inline constexpr double singular_sine = 0.02;  // 1.1 deg from straight or folde
 GroundReaction ground_reaction(const TwoLinks&, double theta1, double theta2,
                                std::array<double, 2> torque);
 
+// The torques that joints need for the foot to push with a force, from the first joint outwards; of
+// any chain, joint by joint  [N m], > 0 raises the angle:
+//
+//   T = J^T F    T_j = (foot - joint_j) x F                                                [71]
+//
+// F  by the foot, on what it stands on [N]; the ground answers with -F. Static, as ground_reaction.
+std::array<double, max_joints> torques_for(const Pose&, Point force);
+
 // Radius of a cam by its table, at least one point long: straight in between, constant beyond  [m].
 double cam_radius(std::span<const double> angle, std::span<const double> radii, double at);
 

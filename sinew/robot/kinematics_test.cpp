@@ -209,6 +209,34 @@ TEST(GroundReaction, VirtualWorkVanishes) {
   }
 }
 
+// [71]: T = J^T F, and the ground's answer to those torques is -F.
+TEST(FootForce, TorquesAreTheJacobiansAndTheGroundAnswersThem) {
+  std::mt19937 random(10);
+  std::uniform_real_distribution<double> newtons(-100, 100);
+  Targets targets(11);
+  for (int i = 0; i < 1000; ++i) {
+    const Target t = targets.next(0.05);
+    const Point force{newtons(random), newtons(random)};
+    const std::array lengths{leg.l1, leg.l2}, angles{t.theta1, t.theta2};
+    const auto torque = torques_for(forward(lengths, angles), force);
+    const Jacobian j = jacobian(leg, t.theta1, t.theta2);
+    ASSERT_NEAR(torque[0], j.x1 * force.x + j.y1 * force.y, 1e-12);
+    ASSERT_NEAR(torque[1], j.x2 * force.x + j.y2 * force.y, 1e-12);
+    EXPECT_EQ(torque[2], 0);
+    const GroundReaction ground = ground_reaction(leg, t.theta1, t.theta2, {torque[0], torque[1]});
+    ASSERT_NEAR(ground.force.x, -force.x, 1e-9);
+    ASSERT_NEAR(ground.force.y, -force.y, 1e-9);
+  }
+}
+
+// A chain that lies along x holds a weight at its end by force times distance, joint by joint.
+TEST(FootForce, OfAStraightChainIsForceTimesDistance) {
+  const std::array lengths{0.4, 0.3, 0.2, 0.1}, angles{0.0, 0.0, 0.0, 0.0};
+  const auto torque = torques_for(forward(lengths, angles), {7, -10});
+  const std::array expected{-10.0, -6.0, -3.0, -1.0};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(torque[i], expected[i], 1e-12) << i;
+}
+
 // A hip that pulls the leg back pushes the trolley forward: the ground's force points forward.
 TEST(GroundReaction, ExtendingHipIsPushedForward) {
   const Inverse inv = inverse(leg, {0, -13 * inch});

@@ -141,9 +141,13 @@ bool lacks_condition(const Search& search, const std::vector<std::string>& lacks
   });
 }
 
-// "ok" is a run with all that was asked for.
-std::string status_with(const std::vector<std::string>& missing, const std::string& status) {
-  if (missing.empty()) return status;
+bool stop_reached(const Ran& ran) {
+  return ran.ok() && ran.summary.find("trolley.stop_reached_s") != nullptr;
+}
+
+// "ok" is a run with all that was asked for, and on a track that was long enough for it.
+std::string status_with(const std::vector<std::string>& missing, const Ran& ran) {
+  if (missing.empty()) return stop_reached(ran) ? "reaches the end of the track" : ran.status;
   std::string out = "without";
   for (const std::string& key : missing) out += (&key == missing.data() ? " " : ", ") + key;
   return out;
@@ -160,8 +164,8 @@ Row single(const Sweep& s, std::size_t index) {
   if (index == 0 && ran.ok()) check_keys(s, ran.summary);
   add_report(s, ran, point.cells);
   const std::vector<std::string> lacks = missing(s, ran);
-  point.cells.push_back(status_with(lacks, ran.status));
-  return {index, std::move(point.cells), ran.ok(), lacks};
+  point.cells.push_back(status_with(lacks, ran));
+  return {index, std::move(point.cells), ran.ok(), lacks, stop_reached(ran)};
 }
 
 // Keeps the run of the largest value that held.
@@ -188,14 +192,14 @@ Row searched(const Sweep& s, std::size_t index) {
   const bool any = found.is != Largest::Is::never;
   point.cells.push_back(any ? search.axis.at(found.value).cell : "");
   const std::vector<std::string> lacks = missing(s, any ? best : last);
-  std::string status = status_with(lacks, best.status);
+  std::string status = status_with(lacks, best);
   if (!any && !lacks_condition(search, lacks))
     status = last.ok() ? "does not hold at the first value" : last.status;
   if (found.is == Largest::Is::to_the_end && lacks.empty()) status = "holds to the last value";
   add_report(s, best, point.cells);
   point.cells.push_back(std::to_string(runs));
   point.cells.push_back(std::move(status));
-  return {index, std::move(point.cells), any, lacks};
+  return {index, std::move(point.cells), any, lacks, any && stop_reached(best)};
 }
 
 // --- all of them ---

@@ -43,6 +43,7 @@ struct Row {
   std::vector<std::string> cells;  // as many as headings(); empty: does not apply
   bool ok = false;                 // what the last cell, the status, says
   std::vector<std::string> lacks;  // of keys(), what the summary of its run does not have
+  bool stop_reached = false;       // by the trolley: its figures are up to there
 };
 
 struct Options {

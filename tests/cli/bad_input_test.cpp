@@ -155,7 +155,7 @@ TEST(BadPath, OutOfReachIsNamedUnlessTheNearestPointWillDo) {
 
   const Result nearest = w.sinew({"run", walk, "--allow-unreachable"});
   EXPECT_EQ(nearest.code, 0);
-  EXPECT_THAT(nearest.err, HasSubstr("periods with a foot out of reach"));
+  EXPECT_THAT(nearest.err, HasSubstr("the foot is out of reach in "));
 }
 
 TEST(BadFile, AllOfItsProblemsAreToldAtOnce) {

@@ -1,4 +1,4 @@
-// `actuator`, `valve` and `kinematics`: the laws' own numbers, and what is said where they end.
+// `actuator` and `valve`: the laws' own numbers, and what is said where they end.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -16,6 +16,7 @@ using namespace units::literals;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using Json = nlohmann::ordered_json;
 
 const std::string actuator_file = "robots/leg/actuator.toml";
@@ -50,6 +51,33 @@ TEST(Actuator, TakesAbsolutePressureAndUnitsWithAndWithoutASpace) {
   const Json absolute =
       json(w, {"actuator", robot, "--length", "86.36mm", "--pressure", "74.7psi abs"});
   EXPECT_NEAR(gauge["points"][0]["tension_N"], absolute["points"][0]["tension_N"], 1e-9);
+}
+
+// [33]: what moves loses, and more the faster it moves.
+TEST(Actuator, GivesTheTensionWhileItContracts) {
+  const Workspace w;
+  const Words words = {"actuator",   "robots/stand/equations.toml",
+                       "--length",   "3.4 in",
+                       "--pressure", "60 psi gauge",
+                       "--velocity", "-2 in/s"};
+  const Json p = json(w, words)["points"][0];
+  const double at_rest = p["tension_N"].get<double>();
+  EXPECT_LT(p["viscous_loss_N"], 0);
+  EXPECT_NEAR(p["sliding_tension_N"],
+              at_rest + p["viscous_loss_N"].get<double>() - p["coulomb_bound_N"].get<double>(),
+              1e-9);
+  EXPECT_THAT(w.sinew(words).out, AllOf(HasSubstr("tension, sliding"), HasSubstr("of it viscous")));
+  Words table = words;
+  table[3] = "3in:3.4in:0.2in";
+  EXPECT_THAT(w.sinew(table).out, HasSubstr("sliding [N]"));
+  table.resize(6);
+  EXPECT_THAT(w.sinew(table).out, Not(HasSubstr("sliding")));
+  Words fast = words;
+  fast.back() = "-1000 m/s";
+  EXPECT_THAT(w.sinew(fast).err, HasSubstr("--velocity: found \"-1000 m/s\"; expected -100 m/s"));
+  EXPECT_FALSE(json(w, {"actuator", actuator_file, "--length", "3.4in", "--pressure",
+                        "60 psi gauge"})["points"][0]
+                   .contains("sliding_tension_N"));
 }
 
 TEST(Actuator, MakesTablesOverRanges) {
@@ -263,62 +291,25 @@ TEST(Valve, NamesTheValvesThereAre) {
   EXPECT_THAT(vacuum.err, HasSubstr("--downstream: "));
 }
 
-// --- kinematics ---
-
-TEST(Kinematics, GoesToTheFootAndBack) {
+// Near equal pressures the straight line through zero is far below the law, which is told.
+TEST(Valve, SaysThatItsFlowIsInTheLinearPart) {
   const Workspace w;
-  const Json there = json(w, {"kinematics", robot, "--foot", "-2 in, -13 in"});
-  ASSERT_EQ(there["branches"].size(), 2u);
-  for (const Json& branch : there["branches"]) {
-    const auto angle = [&](const char* joint) {
-      return std::to_string(branch["angles_rad"][joint].get<double>()) + " rad";
-    };
-    const Json back =
-        json(w, {"kinematics", robot, "--angles", angle("hip") + "," + angle("knee")});
-    EXPECT_NEAR(back["branches"][0]["foot_m"][0], -2.0_in, 1e-6);
-    EXPECT_NEAR(back["branches"][0]["foot_m"][1], -13.0_in, 1e-6);
-  }
-  EXPECT_EQ(there["branches"][0]["within"], true) << "the leg's own branch comes first";
-  EXPECT_EQ(there["branches"][1]["within"], false);
-}
+  const Words near = {"valve",          valves,         "inlet",      "--upstream",
+                      "100.02 psi abs", "--downstream", "100 psi abs"};
+  const Json out = json(w, near);
+  EXPECT_EQ(out["linear_part"], true);
+  const double share =
+      out["mass_flow_kg_per_s"].get<double>() / out["law_mass_flow_kg_per_s"].get<double>();
+  EXPECT_NEAR(share, std::sqrt(0.02 / 100.02 / 1e-3), 1e-3) << "55 % low";
+  const Result text = w.sinew(near);
+  EXPECT_THAT(text.out, AllOf(HasSubstr("by the law itself"), HasSubstr("free, linear")));
+  EXPECT_THAT(text.err, AllOf(HasSubstr("warning: inlet: the pressures are 0.02 % apart"),
+                              HasSubstr("2.24 times as much")));
 
-TEST(Kinematics, RefusesWhatNoJointIs) {
-  expect_refused({{{"kinematics", "robots/leg/robot.toml", "--angles", "1e300 deg, 10 deg"},
-                   "--angles: found \"1e300 deg\""},
-                  {{"kinematics", "robots/leg/robot.toml", "--foot", "1e300 in, 1 in"}, "--foot"}});
-}
-
-TEST(Kinematics, SaysHowFarAFootCannotReach) {
-  const Workspace w;
-  const Result result = w.sinew({"kinematics", robot, "--foot", "-2 in, -23 in"});
-  EXPECT_EQ(result.code, 1);
-  EXPECT_THAT(result.out, IsEmpty());
-  EXPECT_THAT(result.err,
-              AllOf(HasSubstr("23.087 in from the first joint"), HasSubstr("2.625 in to 15.125 in"),
-                    HasSubstr("the nearest point that can be reached")));
-}
-
-TEST(Kinematics, KnowsOtherRobotsThanTheLeg) {
-  const Workspace w;
-  const Json lever = json(w, {"kinematics", "robots/one-joint/robot.toml", "--angles", "270 deg"});
-  EXPECT_NEAR(lever["branches"][0]["foot_m"][1], -6.0_in, 1e-12);
-  const Result foot =
-      w.sinew({"kinematics", "robots/one-joint/robot.toml", "--foot", "1 in, 2 in"});
-  EXPECT_EQ(foot.code, 1);
-  EXPECT_THAT(foot.err, HasSubstr("--foot needs two"));
-}
-
-// A knee that bends by 10 deg gives the hamstring its arm there, 0.4 in, times that.
-TEST(Kinematics, AMuscleOverTwoJointsFeelsBoth) {
-  const Workspace w;
-  const auto hamstring = [&](const char* angles) {
-    const Json at =
-        json(w, {"kinematics", "robots/three-muscle-leg/robot.toml", "--angles", angles});
-    return at["branches"][0]["muscles"]["hamstring"]["length_m"].get<double>();
-  };
-  EXPECT_NEAR(hamstring("290 deg, 310 deg"), 3.15_in, 1e-12);
-  EXPECT_NEAR(hamstring("290 deg, 300 deg"), 3.15_in - 0.4_in * 0.174532925199, 1e-12);
-  EXPECT_NEAR(hamstring("300 deg, 300 deg"), 3.15_in + 0.6_in * 0.174532925199, 1e-12);
+  Words apart = near;
+  apart[4] = "110 psi abs";
+  EXPECT_EQ(json(w, apart)["linear_part"], false);
+  EXPECT_THAT(w.sinew(apart).err, IsEmpty());
 }
 
 }  // namespace

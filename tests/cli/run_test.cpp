@@ -110,6 +110,68 @@ TEST(Run, PrintsItsSummaryAsJson) {
   EXPECT_EQ(Json::parse(result.out)["format"], "sinew.summary/1");
 }
 
+// What is warned of stands in summary.json, is analyzed again, and is told by both.
+TEST(Run, KeepsItsWarningsInTheSummary) {
+  const Workspace w;
+  const Result run = w.sinew({"run", walk, "-o", "a", "--no-report"});
+  const Json kept = Json::parse(read_text(w / "a/summary.json"));
+  ASSERT_TRUE(kept.contains("warnings"));
+  EXPECT_FALSE(kept["host"].contains("warnings"));
+  const Result again = w.sinew({"analyze", "a", "--json"});
+  EXPECT_EQ(Json::parse(again.out)["warnings"], kept["warnings"]);
+  for (const Json& text : kept["warnings"]) {
+    const std::string line = "warning: " + text.get<std::string>() + "\n";
+    EXPECT_THAT(run.err, HasSubstr(line));
+    EXPECT_THAT(again.err, HasSubstr(line));
+  }
+  EXPECT_THAT(w.sinew({"analyze", "a", "--json", "--quiet"}).err, IsEmpty());
+}
+
+TEST(Run, SaysWhereItsPageIs) {
+  const Workspace w;
+  EXPECT_THAT(w.sinew({"run", bench, "-o", "a"}).err, HasSubstr("open a/report.html\n"));
+  EXPECT_THAT(w.sinew({"run", bench, "-o", "b", "--json"}).err, HasSubstr("open b/report.html\n"));
+  EXPECT_THAT(w.sinew({"run", bench, "-o", "a", "--force"}).err, HasSubstr("open a/report.html\n"));
+  EXPECT_THAT(w.sinew({"run", bench, "-o", "c", "--quiet"}).err, IsEmpty());
+  EXPECT_THAT(w.sinew({"run", bench, "-o", "d", "--no-report"}).err, Not(HasSubstr("report")));
+  const std::string rig = "experiments/rig/trapped-60-6.toml";
+  EXPECT_THAT(w.sinew({"run", rig, "-o", "e"}).err, HasSubstr("open e/report.html\n"));
+}
+
+// A robot that does nothing: valves that need longer than the longest pulse.
+TEST(Run, WarnsOfARobotThatDoesNothing) {
+  const Workspace w;
+  const Result run =
+      w.sinew({"run", bench, "-o", "a", "--no-report", "--set", "valve.inlet.opening_delay=20 ms",
+               "--set", "joint.lever.angle_gain=0.01 %/count"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_THAT(run.err, AllOf(HasSubstr("no muscle took any air in the 12 s of the plan"),
+                             HasSubstr("flexor: the inlet never opens: the longest of its "),
+                             HasSubstr("the valve takes 20 ms to move")));
+}
+
+// Ends without strength let the lever go round as far as no cord runs; its converter sees a third.
+TEST(Run, WarnsOfAJointThatGoesRound) {
+  const Workspace w;
+  Words words = {"run", bench, "-o", "a", "--no-report"};
+  for (const char* set :
+       {"joint.lever.moment_arm=0.5 in", "joint.lever.damping=0.001 lbf in s/rad",
+        "joint.lever.dry_friction=0 lbf in", "actuator.bpa.long_end.stiffness=0.1 lbf/in",
+        "actuator.bpa.short_end.law=zero", "muscle.flexor.bladder_stiffness=0 lbf/in",
+        "muscle.extensor.bladder_stiffness=0 lbf/in"})
+    words.insert(words.end(), {"--set", set});
+  EXPECT_THAT(w.sinew(words).err, AllOf(HasSubstr("warning: lever: turned "),
+                                        HasSubstr(" mm long, beyond its thread's 107.1 mm")));
+}
+
+TEST(Run, WarnsOfATrackThatEnds) {
+  const Workspace w;
+  const Result run =
+      w.sinew({"run", walk, "-o", "a", "--no-report", "--set", "trolley.track_length=20 in"});
+  EXPECT_THAT(run.err, HasSubstr("warning: the trolley reaches the end of its track at "));
+  EXPECT_TRUE(summary(read_text(w / "a/summary.json"))["trolley"]["stop_reached_s"].is_number());
+}
+
 // --- the same bits ---
 
 TEST(Run, TwiceTheSameBits) {

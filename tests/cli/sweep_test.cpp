@@ -33,6 +33,18 @@ TEST(Sweep, IsATableOnStdout) {
   EXPECT_THAT(r.err, IsEmpty());
 }
 
+// The best speed of a sweep is none where the track ends: the row says so.
+TEST(Sweep, ARowSaysThatTheTrackEnded) {
+  const Workspace w;
+  const Result r =
+      w.sinew({"sweep", "experiments/walk-test-1.toml", "--vary", "trolley.track_length=20,100 in",
+               "--report", "trolley.mean_speed_m_per_s [in/s]", "--threads", "1"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.out, AllOf(HasSubstr("\n20,"), HasSubstr(",reaches the end of the track\n100,"),
+                           EndsWith(",ok\n")));
+  EXPECT_THAT(r.err, HasSubstr("in 1 of 2 rows the trolley reaches the end of its track"));
+}
+
 TEST(Sweep, IsTheSameInAFileAsJsonAndWithMoreThreads) {
   const Workspace w;
   const Words words = {"sweep", bench, "--seeds", "5", "--report", "joints.lever.tracking_rms_rad"};

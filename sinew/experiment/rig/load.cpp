@@ -63,6 +63,7 @@ plant::StandSetup setup_of(const Experiment& e) {
   if (e.load.mode == plant::Load::Mode::hanging) {
     s.load.mass = schedule(e.load.mass, steps_of(e.load.weights));
     s.load.force = schedule(e.load.force, e.load.forces);
+    s.load.gravity = e.load.gravity;
   } else {
     s.load.length = schedule(e.load.length, e.load.lengths);
   }

@@ -95,6 +95,14 @@ void fields(Visitor& v, Load& load) {
   size(v, "length", "m", least_length, length, "driven", load.length);
   points(v, "lengths", {.name = "length", .unit = "m", .min = least_length, .why = length},
          "driven: over time", load.lengths);
+  v.number({.name = "gravity",
+            .unit = "m/s2",
+            .min = 0,
+            .max = 100,
+            .why = "Jupiter has 25 m/s2",
+            .optional = true,
+            .doc = "hanging: what the mass weighs by; 0: it floats, and only forces pull"},
+           load.gravity);
 }
 
 template <class Visitor>

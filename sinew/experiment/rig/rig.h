@@ -44,6 +44,7 @@ struct Load {
   plant::Load::Mode mode = plant::Load::Mode::hanging;
   double mass = 0, length = 0, force = 0;  // [kg] [m] [N]
   std::vector<plant::Point> weights, lengths, forces;
+  double gravity = units::standard_gravity;  // hanging [m/s^2]
 };
 struct Charge {
   plant::Charge::Mode mode = plant::Charge::Mode::sealed;

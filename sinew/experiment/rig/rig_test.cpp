@@ -14,6 +14,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/experiment/rig/drive_laws.h"
 #include "sinew/experiment/rig/run.h"
+#include "sinew/plant/rig/stand.h"
 #include "sinew/signals/pulse.h"
 
 namespace sinew::rig {
@@ -86,6 +87,18 @@ TEST(RigRun, AirThatVanishesEndsTheRun) {
   EXPECT_LT(out.failure.time, 0.2);
   const std::string cause = cause_of(e, out);
   EXPECT_NE(cause.find("the air of element bpa was no number any more at "), cause.npos) << cause;
+}
+
+// A third of the gravity and three times the mass weigh the same: the load hangs where it hung.
+TEST(RigRun, AWeightIsMassTimesTheGravityOfTheFile) {
+  const auto hangs = [](const std::vector<std::string>& sets) {
+    return plant::hanging_length(setup_of(load(folder + "trapped-60-6.toml", sets)));
+  };
+  const double on_earth = hangs({});
+  EXPECT_EQ(hangs({"load.gravity=9.80665 m/s2"}), on_earth)
+      << "the standard one, unless it is said";
+  EXPECT_NEAR(hangs({"load.gravity=4.903325 m/s2", "load.mass=12 lb"}), on_earth, 1e-12);
+  EXPECT_GT(on_earth, hangs({"load.gravity=1.62 m/s2"}) + 1e-3) << "on the moon it weighs less";
 }
 
 TEST(RigRun, EveryTickVisitedIsTheSameRun) {

@@ -1,0 +1,198 @@
+// A robot that does nothing, or that stands where it can go no further: what to warn of.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "sinew/analysis/record.h"
+#include "sinew/analysis/statistics.h"
+#include "sinew/analysis/times.h"
+#include "sinew/analysis/warnings.h"
+#include "sinew/robot/actuator_of.h"
+#include "sinew/robot/kinematics.h"
+#include "sinew/units/constants.h"
+
+namespace sinew::analysis {
+namespace {
+
+// From a topic's first sample to its last; nothing where the log does not have it.
+std::optional<double> gained(const signals::Table& table, const std::string& topic) {
+  const signals::Series* s = table.find(topic);
+  if (!s || s->columns.empty() || s->columns[0].empty()) return std::nullopt;
+  return s->columns[0].back() - s->columns[0].front();
+}
+
+struct Pulses {
+  Times times;
+  double longest = 0;  // [s]
+  bool opens = false;  // one lasts until the shutter moves
+};
+
+Pulses pulses_of(const signals::Series& edges, double shut) {
+  constexpr double simultaneous = 1e-9;  // [s]
+  Pulses out;
+  const Edges list = edges_of(edges.time_ns, edges.columns[0]);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (!list[i].open) continue;
+    out.times.add(std::llround(1e9 * list[i].time));
+    if (i + 1 == list.size()) continue;  // cut off by the end of the log
+    const double lasts = list[i + 1].time - list[i].time;
+    out.longest = std::max(out.longest, lasts);
+    out.opens = out.opens || lasts > shut + simultaneous;
+  }
+  return out;
+}
+
+void add_unopened(const signals::Table& table, const Machine& machine, const robot::Muscle& muscle,
+                  bool inlet, std::vector<Warning>& out) {
+  const std::string name = inlet ? "inlet" : "exhaust";
+  const double shut = valve_of(machine, inlet ? muscle.inlet : muscle.exhaust).shut;
+  const signals::Series* edges = table.find("/valve/" + muscle.name + "/" + name + "/open");
+  if (!edges || edges->columns.empty() || shut <= 0) return;
+  const std::string moved = "/true/muscle/" + muscle.name + (inlet ? "/air_in" : "/air_out");
+  if (gained(table, moved).value_or(0) > 0) return;
+
+  Pulses pulses = pulses_of(*edges, shut);
+  if (pulses.opens || pulses.longest == 0) return;
+  out.push_back({fmt::format("{}: the {} never opens: the longest of its {} pulse{} lasts {:.3g} "
+                             "ms, the valve takes {:.3g} ms to move",
+                             muscle.name, name, pulses.times.count,
+                             pulses.times.count == 1 ? "" : "s", 1e3 * pulses.longest, 1e3 * shut),
+                 std::move(pulses.times.spans)});
+}
+
+constexpr double held = units::degree;  // a desired angle that changes by less is held [rad]
+
+// Does the plan move a joint, or was an inlet told to open? A joint that is held may need no air.
+bool is_commanded(const Record& record, const Machine& machine) {
+  for (const robot::Joint& joint : machine.robot.joints) {
+    const Column desired = record.column("/desired/joint/" + joint.name + "/angle");
+    if (!joint.enabled || desired.empty()) continue;
+    if (largest(desired, record.sequence()) - smallest(desired, record.sequence()) > held)
+      return true;
+  }
+  for (const robot::Muscle& muscle : machine.robot.muscles) {
+    const Column duty = record.column("/muscle/" + muscle.name + "/inlet_duty");
+    if (!duty.empty() && largest(duty, record.sequence()) > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<Warning> unopened_valves(const signals::Table& table, const Machine& machine) {
+  std::vector<Warning> out;
+  for (const robot::Muscle& muscle : machine.robot.muscles)
+    for (const bool inlet : {true, false}) add_unopened(table, machine, muscle, inlet, out);
+  return out;
+}
+
+std::vector<Warning> unused_air(const signals::Table& table, const Machine& machine) {
+  bool known = false;
+  for (const robot::Muscle& muscle : machine.robot.muscles) {
+    const auto in = gained(table, "/true/muscle/" + muscle.name + "/air_in");
+    if (in.value_or(0) > 0) return {};
+    known = known || in.has_value();
+  }
+  const Record record(table, machine);
+  if (!known || !record.has_sequence() || !is_commanded(record, machine)) return {};
+  return {
+      {fmt::format("no muscle took any air in the {:.4g} s of the plan, whatever it commanded: the "
+                   "robot does nothing",
+                   record.sequence_lasts()),
+       {{record.sequence_start(), record.sequence_end()}}}};
+}
+
+std::vector<Warning> ended_tracks(const signals::Table& table, const Machine& machine) {
+  const double track = machine.robot.trolley.track_length;
+  if (!machine.robot.trolley.present || track <= 0) return {};
+  const Record record(table, machine);
+  const Column x = record.column("/true/trolley/position");
+  if (x.empty() || !record.has_sequence()) return {};
+  Times times;
+  for (std::size_t i = record.first_row(); i <= record.last_row(); ++i)
+    if (x[i] >= track) times.add(record.time_ns()[i]);
+  if (times.count == 0) return {};
+  const double at = times.spans.front().from;
+  return {{fmt::format("the trolley reaches the end of its track at {:.2f} s, {:.2f} s before the "
+                       "sequence is over: distance and mean speed are up to there",
+                       at, record.sequence_end() - at),
+           std::move(times.spans)}};
+}
+
+namespace {
+
+constexpr double stretched = 1.1;  // of the thread: more than an end gives [-]
+
+// A muscle across one joint alone, on a round cam: of any other it takes more than one angle.
+bool is_of_one_joint(const robot::Muscle& m, const robot::Joint& joint) {
+  return m.joint == joint.name && m.second.joint.empty() && m.cam.angle.empty() &&
+         std::isnan(m.cam.radius);
+}
+
+// What is wrong with the muscle's length at this angle; empty: nothing.
+std::string beyond(const robot::Joint& joint, const robot::Muscle& m, const actuator::Actuator& a,
+                   double angle) {
+  const double length = robot::muscle_length(joint, m.role, m.mount_length, angle);
+  const double thread = a.caps.length + a.braid.thread_length;
+  if (length > a.caps.length && length - a.caps.length <= stretched * a.braid.thread_length)
+    return "";
+  const bool longer = length > thread;
+  return fmt::format("{} would be {:.4g} mm long, {} its {}'s {:.4g} mm", m.name, 1e3 * length,
+                     longer ? "beyond" : "below", longer ? "thread" : "caps",
+                     1e3 * (longer ? thread : a.caps.length));
+}
+
+std::string what_is_beyond(const Machine& machine, const robot::Joint& joint, double turned) {
+  if (std::abs(turned) > 2 * std::numbers::pi) return "more than a whole turn";
+  if (joint.kind != robot::Joint::Kind::driven) return "";
+  for (const robot::Muscle& m : machine.robot.muscles) {
+    if (!is_of_one_joint(m, joint)) continue;
+    const actuator::Actuator a = robot::actuator_of(m, machine.actuators);
+    const std::string text = beyond(joint, m, a, joint.rest_angle + turned);
+    if (!text.empty()) return text;
+  }
+  return "";
+}
+
+// The true angle; of hardware the measured one, which knows no whole turns.
+const signals::Series* angles_of(const signals::Table& table, const robot::Joint& joint) {
+  const signals::Series* known = table.find("/true/joint/" + joint.name + "/angle");
+  return known ? known : table.find("/joint/" + joint.name + "/angle");
+}
+
+// In each sample; of equal angles the log's first is the one next to the rest angle.
+std::vector<double> turned_from_rest(const robot::Joint& joint, std::vector<double> angle) {
+  if (angle.empty()) return angle;
+  constexpr double turn = 2 * std::numbers::pi;
+  const double whole = turn * std::round((angle.front() - joint.rest_angle) / turn);
+  for (double& a : angle) a -= joint.rest_angle + (std::isfinite(whole) ? whole : 0.0);
+  return angle;
+}
+
+}  // namespace
+
+std::vector<Warning> overturned_joints(const signals::Table& table, const Machine& machine) {
+  std::vector<Warning> out;
+  for (const robot::Joint& joint : machine.robot.joints) {
+    const signals::Series* series = angles_of(table, joint);
+    if (!series || series->columns.empty()) continue;
+    const std::vector<double> turned = turned_from_rest(joint, series->columns[0]);
+    double furthest = 0;
+    for (const double t : turned)
+      if (std::abs(t) > std::abs(furthest)) furthest = t;
+    const std::string text = what_is_beyond(machine, joint, furthest);
+    if (text.empty()) continue;
+    Times times;
+    for (std::size_t i = 0; i < turned.size(); ++i)
+      if (!what_is_beyond(machine, joint, turned[i]).empty()) times.add(series->time_ns[i]);
+    out.push_back({fmt::format("{}: turned {:.0f} deg from its rest angle: {}", joint.name,
+                               furthest / units::degree, text),
+                   std::move(times.spans)});
+  }
+  return out;
+}
+
+}  // namespace sinew::analysis

@@ -1,0 +1,41 @@
+// analysis/times.h - when a channel shows what it should not: its samples counted, and as spans.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sinew/analysis/warnings.h"
+#include "sinew/signals/table.h"
+
+namespace sinew::analysis {
+
+struct Times {
+  std::size_t count = 0, of = 0;  // samples
+  std::vector<Span> spans;
+
+  // Those less than 0.1 s apart are one span.
+  void add(std::int64_t time_ns) {
+    constexpr double apart = 0.1;  // of two spans [s]
+    const double t = static_cast<double>(time_ns) / 1e9;
+    if (spans.empty() || t - spans.back().to >= apart) spans.push_back({t, t});
+    spans.back().to = t;
+    ++count;
+  }
+};
+
+// The samples of a topic for which `is` holds; none where there is no such topic.
+inline Times times_when(const signals::Table& table, const std::string& topic,
+                        const std::function<bool(double)>& is) {
+  Times out;
+  const signals::Series* series = table.find(topic);
+  if (!series || series->columns.empty()) return out;
+  const std::vector<double>& values = series->columns.front();
+  out.of = values.size();
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (is(values[i])) out.add(series->time_ns[i]);
+  return out;
+}
+
+}  // namespace sinew::analysis
