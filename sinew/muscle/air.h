@@ -61,7 +61,7 @@ class BankAir {
   void node(double t) noexcept { bank_.node(t); }
   double next_change() const noexcept { return bank_.next_change(); }
   bool flowing() const noexcept { return bank_.any_open(); }
-  double longest_step(const Lanes&) const noexcept {
+  double longest_step(const Ends&) const noexcept {
     return std::numeric_limits<double>::infinity();
   }
 
@@ -157,7 +157,9 @@ class PlumbingAir {
   void node(double t) noexcept { plumbing_.node(t); }
   double next_change() const noexcept { return plumbing_.next_change(); }
   bool flowing() const noexcept { return !plumbing_.quiet(); }
-  double longest_step(const Lanes& length) const noexcept { return plumbing_.longest_step(length); }
+  double longest_step(const Ends& ends) const noexcept {
+    return plumbing_.longest_step(ends.length, ends.travel);
+  }
 
   void evaluate(double t, const Ends& ends, const State& state, Answer& out) const noexcept {
     plumbing_.evaluate(t, ends.length, ends.rate, ends.travel, ends.travel_rate, state.air, out,
@@ -174,6 +176,7 @@ class PlumbingAir {
   }
 
   void move(State& out, const State& from, double h, const Answer& look) const noexcept {
+    out.air.reference = from.air.reference;
     for (int i = 0; i < plumbing_.states(); ++i) out.air[i] = from.air[i] + h * look.flow[i];
     const auto n = static_cast<std::size_t>(plumbing_.muscles());
     for (std::size_t i = 0; i < n; ++i) {

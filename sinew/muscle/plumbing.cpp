@@ -175,7 +175,7 @@ void Plumbing::pull(int i, double length, double rate, double pressure, const Ai
   out.tension[i] = stick ? cord : greater(cord + (rate >= 0 ? bound : -bound), 0.0);
   out.clamped[i] = stick ? smooth : smooth + (rate >= 0 ? bound : -bound);
   out.mesh[i] = stick ? bound : 0.0;
-  out.pressure[i] = out.manifold[i] = pressure;
+  out.pressure[i] = pressure;
 }
 
 // m' c_p T of a flow between two bodies of air; against its arrow it has the other's temperature.
@@ -224,9 +224,13 @@ Plumbing::Flows Plumbing::buffered(int i, double t, double y_supply, const Chamb
 }
 
 // Air of muscle i: valves, hose, leak.
-void Plumbing::line(int i, double t, double y_supply, double volume_rate, const Chamber& c,
+void Plumbing::line(int i, double t, double y_supply, double length, double rate, const Chamber& c,
                     const AirState& state, AirPull& out, AirState& derivative) const noexcept {
   const Line& l = lines_[static_cast<std::size_t>(i)];
+  if (quiet() && l.leak.tight()) {
+    out.inflow[i] = out.outflow[i] = out.leak[i] = derivative[l.chamber.mass] = 0;
+    return;
+  }
   const double room = air_.temperature;
   Flows valves;
   double arrives, there = room;  // in the muscle [kg/s], from air of this temperature
@@ -245,6 +249,9 @@ void Plumbing::line(int i, double t, double y_supply, double volume_rate, const 
   out.outflow[i] = valves.out;
   out.leak[i] = leak;
   derivative[l.chamber.mass] = arrives - leak;
+  if (l.chamber.energy == none) return;
+  const Muscle& m = muscles_[static_cast<std::size_t>(i)];
+  const double volume_rate = m.count * actuator::volume_slope(m.actuator, length) * rate;
   warm(l.chamber, state,
        enthalpy(arrives, there, c.temperature) - enthalpy(leak, c.temperature, room),
        c.pressure * volume_rate, derivative);
@@ -283,26 +290,44 @@ void Plumbing::cylinder(double t, double y_supply, double travel, double travel_
       force(c, out.cylinder_pressure[up], out.cylinder_pressure[down], air_.atmosphere);
 }
 
+void Plumbing::muscles_in_lanes(const Lanes& length, const Lanes& rate, const AirState& state,
+                                AirPull& out, Lanes& y) const noexcept {
+  Lanes l, v, mass;  // lanes beyond the last muscle repeat it
+  for (int i = 0; i < braids_.padded(); ++i) {
+    const int m = i < size_ ? i : size_ - 1;
+    l[i] = length[m];
+    v[i] = rate[m];
+    mass[i] = state[m];
+  }
+  braids_.evaluate(l, v, mass, state.reference, out, y);
+}
+
 void Plumbing::evaluate(double t, const Lanes& length, const Lanes& rate, double travel,
                         double travel_rate, const AirState& state, AirPull& out,
                         AirState& derivative) const noexcept {
-  out = AirPull{};
   out.tank_pressure =
       tank_ != none ? gas::tank_pressure(supply_, air_, state[tank_]) : supply_.pressure;
   out.supply_pressure =
       tank_ != none ? gas::line_pressure(supply_, out.tank_pressure) : supply_.pressure;
-  const double y_supply = gas::y_of(air_, out.supply_pressure);
+  const double y_supply =
+      out.supply_pressure < supply_.pressure ? gas::y_of(air_, out.supply_pressure) : supply_y_;
 
+  Lanes y;
+  if (in_lanes_) muscles_in_lanes(length, rate, state, out, y);
   double taken = 0;  // from the supply [kg/s]
   for (int i = 0; i < size_; ++i) {
-    const Muscle& m = muscles_[static_cast<std::size_t>(i)];
-    const Chamber c =
-        chamber(lines_[static_cast<std::size_t>(i)].chamber, volume(i, length[i]), state);
-    pull(i, length[i], rate[i], c.pressure, state, out, derivative);
-    line(i, t, y_supply, m.count * actuator::volume_slope(m.actuator, length[i]) * rate[i], c,
-         state, out, derivative);
+    Chamber c{out.pressure[i], y[i], air_.temperature};
+    if (!in_lanes_) {
+      c = chamber(lines_[static_cast<std::size_t>(i)].chamber, volume(i, length[i]), state);
+      pull(i, length[i], rate[i], c.pressure, state, out, derivative);
+      out.drift[i] = 0;
+    }
+    out.manifold[i] = c.pressure;
+    line(i, t, y_supply, length[i], rate[i], c, state, out, derivative);
     taken += out.inflow[i];
   }
+  out.cylinder_force = 0;
+  out.cylinder_pressure = out.cylinder_inflow = out.cylinder_outflow = {};
   if (cylinder_) cylinder(t, y_supply, travel, travel_rate, state, out, derivative);
   taken += out.cylinder_inflow[up] + out.cylinder_inflow[down];
 

@@ -6,8 +6,9 @@
 //
 //   lengths, rates, state  ->  tensions, pressures, flows, and the state's derivative
 //
-// What the state holds depends on what is switched on: the muscles' masses come first. Scalar and
-// exact (one power per chamber); with nothing switched on it says what the bank says. The laws:
+// What the state holds depends on what is switched on: the muscles' masses come first. Muscles go
+// by braid_lanes.h where it holds them and no wall is warm, else by one power and
+// actuator/tension.h each; with nothing switched on it says what the bank says. The laws:
 // gas/orifice.h, series.h, hose.h, leak.h, heat.h, supply.h, regulator.h, cylinder.h,
 // actuator/hysteresis.h, creep.h.
 //
@@ -33,20 +34,21 @@ namespace sinew::muscle {
 
 inline constexpr int max_air_states = 72;
 
-// Only the first states() are used. Not set when made: `AirState x{}` is zero.
+// Only the first states() are used. Not set when made: `AirState x{}` is zero. The reference is
+// what the pressures' series stands on; it moves at nodes alone.
 struct AirState {
   std::array<double, max_air_states> of;
+  Reference reference;
 
   double& operator[](int i) { return of[static_cast<std::size_t>(i)]; }
   double operator[](int i) const { return of[static_cast<std::size_t>(i)]; }
 };
 
-// Pull's `drift` is never set. Pairs of the cylinder: up, down.
+// Pull's `drift` is 0 where lanes do not hold. Pairs of the cylinder: up, down.
 struct AirPull : Pull {
   Lanes leak;      // out of the muscle to the atmosphere [kg/s]
   Lanes manifold;  // pressure between valves and hose; the muscle's own without a hose [Pa]
   Lanes play;      // state of the hysteresis, where there is one [Pa]
-  Lanes clamped;   // tension of a muscle that is held at both ends: it may push [N]
 
   double cylinder_force = 0;  // on the body, up > 0 [N]
   std::array<double, 2> cylinder_pressure{}, cylinder_inflow{}, cylinder_outflow{};  // [Pa] [kg/s]
@@ -107,9 +109,11 @@ class Plumbing {
   void evaluate(double t, const Lanes& length, const Lanes& rate, double travel, double travel_rate,
                 const AirState& state, AirPull& out, AirState& derivative) const noexcept;
 
-  // At a node, with the look at it: the plays of the hysteresis move on. Looks between two nodes go
-  // by the last one, exactly as long as a pressure does not turn between them.
+  // At a node, with the look at it: the reference of the pressures follows, the plays of the
+  // hysteresis move on. Looks between two nodes go by the last one, exactly as long as a pressure
+  // does not turn between them.
   void remember(const AirPull& at_node, AirState& state) const noexcept {
+    if (in_lanes_) braids_.follow(at_node.drift, state.reference);
     for (int i = 0; i < size_ && plays_; ++i)
       if (const int play = lines_[static_cast<std::size_t>(i)].play; play != none)
         state[play] = at_node.play[i];
@@ -122,10 +126,11 @@ class Plumbing {
   double open_share(int valve, double t) const noexcept;
 
   // RK4 is stable up to this step: the fastest chamber, lag or wall that an option adds, or
-  // infinity [s]. With lengths, muscles that never seal are in it too: behind a regulator or a
-  // hose's chamber, or with a leak. Muscles behind shutters are not.
-  double longest_step() const noexcept { return longest_step_; }
-  double longest_step(const Lanes& length) const noexcept;
+  // infinity [s]. Without a place, wherever the piston stands. With one, muscles that never seal
+  // are in it too: behind a regulator or a hose's chamber, or with a leak. Muscles behind shutters
+  // are not.
+  double longest_step() const noexcept;
+  double longest_step(const Lanes& length, double travel) const noexcept;
 
  private:
   static constexpr int none = -1;
@@ -188,7 +193,7 @@ class Plumbing {
   Flows buffered(int i, double t, double y_supply, const Chamber& h, const Chamber& c,
                  double passed, const AirState& state, AirPull& out,
                  AirState& derivative) const noexcept;
-  void line(int i, double t, double y_supply, double volume_rate, const Chamber& c,
+  void line(int i, double t, double y_supply, double length, double rate, const Chamber& c,
             const AirState& state, AirPull& out, AirState& derivative) const noexcept;
   void cylinder(double t, double y_supply, double travel, double travel_rate, const AirState& state,
                 AirPull& out, AirState& derivative) const noexcept;
@@ -200,10 +205,16 @@ class Plumbing {
   void move_valves(double t) noexcept;
   void refresh(double t) noexcept;
 
+  void muscles_in_lanes(const Lanes& length, const Lanes& rate, const AirState& state, AirPull& out,
+                        Lanes& y) const noexcept;
+
   int size_ = 0, states_ = 0, held_states_ = 0;
   gas::Air air_;
   gas::Supply supply_;
+  double supply_y_ = 0;  // of its set pressure
   std::vector<Muscle> muscles_;
+  BraidLanes braids_;
+  bool in_lanes_ = false;  // all muscles go by braids_
   std::optional<Cylinder> cylinder_;
 
   std::vector<Tap> taps_;
@@ -213,9 +224,10 @@ class Plumbing {
   int open_count_ = 0;
   double next_change_ = 0;
   bool ramping_ = false, restless_ = false;
-  double longest_step_ = 0;
-  bool settles_ = false;  // a line has `settling`
-  bool plays_ = false;    // a line has a `play`
+  double longest_step_ = 0;  // of all that has the same rate wherever the machine stands [s]
+  std::array<double, 2> side_settling_{};  // of the cylinder's chambers, as a line's [m^3/s]
+  bool settles_ = false;                   // a line has `settling`
+  bool plays_ = false;                     // a line has a `play`
 };
 
 }  // namespace sinew::muscle

@@ -1,4 +1,5 @@
 // muscle/plumbing_setup.cpp - what a plumbing's state holds, how it starts, and how fast it can be.
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -17,6 +18,8 @@ constexpr double stable = 2.5;  // step x rate of a decay that RK4 can bear, 2.7
 
 using Kind = gas::Valve::Kind;
 
+double greater(double a, double b) { return a > b ? a : b; }
+
 bool regulates(const gas::Valve& valve) { return valve.kind == Kind::regulator; }
 
 bool needs_pressures(const gas::Valve& v) {
@@ -30,11 +33,8 @@ bool needs_plumbing(std::span<const Muscle> muscles, const gas::Air& air, const 
   bool any =
       cylinder.has_value() || air.wall_time > 0 || supply.kind != gas::Supply::Kind::constant;
   for (const Muscle& m : muscles) {
-    any = any || m.actuator.short_end.law == actuator::ShortEnd::Law::empirical;
+    any = any || !lanes_hold(m);
     any = any || m.hose.law != gas::Hose::Law::none || m.leak.area > 0 || m.leak.conductance > 0;
-    any = any || !actuator::is_plain(m.actuator);
-    any = any || actuator::has_hysteresis(m.actuator.hysteresis) ||
-          actuator::has_creep(m.actuator.creep);
     for (const gas::Valve* v : {&m.inlet, &m.exhaust})
       any = any || regulates(*v) || needs_pressures(*v);
   }
@@ -46,9 +46,11 @@ Plumbing::Plumbing(std::span<const Muscle> muscles, const gas::Air& air, const g
     : size_(static_cast<int>(muscles.size())),
       air_(air),
       supply_(supply),
+      supply_y_(gas::y_of(air, supply.pressure)),
       muscles_(muscles.begin(), muscles.end()),
+      braids_(muscles, air),
+      in_lanes_(!(air.wall_time > 0) && std::ranges::all_of(muscles, lanes_hold)),
       cylinder_(cylinder) {
-  if (size_ > capacity) throw std::invalid_argument("a machine has at most 8 muscles");
   for (const Muscle& m : muscles_) add_muscle(m);
   for (int i = 0; i < size_; ++i) lines_[static_cast<std::size_t>(i)].chamber.mass = states_++;
   if (air_.wall_time > 0)
@@ -162,19 +164,35 @@ void Plumbing::limit_step() {
   }
   for (const Side side : {up, down})
     if (sides_[side].mass != none)
-      faster(spring * fastest_slope(2 * (size_ + side)) / cylinder_->dead_volume[side]);
+      side_settling_[side] = spring * fastest_slope(2 * (size_ + side));
   longest_step_ = rate > 0 ? stable / rate : never;
 }
 
-// Rates of a hose's chamber and of the muscle behind it add up, at most.
-double Plumbing::longest_step(const Lanes& length) const noexcept {
-  if (!settles_) return longest_step_;
+// With the piston at the end of its stroke a chamber is the dead volume alone.
+double Plumbing::longest_step() const noexcept {
+  double fastest = stable / longest_step_;
+  for (const Side side : {up, down})
+    if (sides_[side].mass != none)
+      fastest = greater(fastest, side_settling_[side] / cylinder_->dead_volume[side]);
+  return fastest > 0 ? stable / fastest : never;
+}
+
+// Rates of a hose's chamber and of the muscle behind it add up, at most. A cylinder's chamber with
+// its valves shut has none.
+double Plumbing::longest_step(const Lanes& length, double travel) const noexcept {
   double fastest = 0;
-  for (int i = 0; i < size_; ++i) {
+  for (int i = 0; i < size_ && settles_; ++i) {
     const double rate = lines_[static_cast<std::size_t>(i)].settling / volume(i, length[i]);
-    fastest = rate > fastest ? rate : fastest;
+    fastest = greater(fastest, rate);
   }
-  return stable / (fastest + stable / longest_step_);
+  fastest += stable / longest_step_;
+  for (const Side side : {up, down}) {
+    if (sides_[side].mass == none) continue;
+    const auto inlet = static_cast<std::size_t>(2 * (size_ + side));
+    if (!ramping_ && !(taps_[inlet].share > 0) && !(taps_[inlet + 1].share > 0)) continue;
+    fastest = greater(fastest, side_settling_[side] / muscle::volume(*cylinder_, side, travel));
+  }
+  return fastest > 0 ? stable / fastest : never;
 }
 
 // A mesh that has stood at this pressure and length for long.
@@ -212,6 +230,7 @@ void Plumbing::hold(double pressure, const Lanes& length, double travel,
 
 AirState Plumbing::initial(double pressure, const Lanes& length, double travel) const {
   AirState state{};
+  state.reference = braids_.reference();
   hold(pressure, length, travel, state);
   for (int i = 0; i < size_; ++i) rest(i, pressure - air_.atmosphere, length[i], state);
   for (const Side side : {up, down}) {

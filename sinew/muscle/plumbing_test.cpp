@@ -45,7 +45,7 @@ TEST(Plumbing, PlainMusclesAreTheBanks) {
     ASSERT_EQ(plumbing.states(), capacity);
 
     Lanes length{}, rate{}, mass{};
-    AirState state{}, derivative{};
+    AirState state = plumbing.initial(air.atmosphere, length, 0), derivative{};
     for (int i = 0; i < capacity; ++i) {
       length[i] = lengths(random);
       rate[i] = rates(random);
@@ -69,6 +69,8 @@ TEST(Plumbing, PlainMusclesAreTheBanks) {
     bank.evaluate(t, length, rate, mass, by_bank);
     bank.follow(by_bank.drift);
     bank.evaluate(t, length, rate, mass, by_bank);
+    plumbing.evaluate(t, length, rate, 0, 0, state, out, derivative);
+    plumbing.remember(out, state);
     plumbing.evaluate(t, length, rate, 0, 0, state, out, derivative);
     for (int i = 0; i < capacity; ++i) {
       EXPECT_NEAR(out.pressure[i] / by_bank.pressure[i], 1, 1e-12);

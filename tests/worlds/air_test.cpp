@@ -84,13 +84,14 @@ double drift(const Subject& s, double step) {
 }
 
 // Shut in and without losses, body, springs, air and the room's air together keep their energy but
-// for what RK4 makes of it: half the step, a thirty-second of the drift.
+// for what RK4 makes of it: half the step, a thirty-second of the drift, down to what the series of
+// the pressures leaves (2e-11 of a pressure, 2e-13 of the energy that moves).
 TEST_P(Balance, EnergyIsKeptWithoutLosses) {
   const Subject& s = GetParam();
   if (!s.conserves) return;
   const double coarse = drift(s, s.step), fine = drift(s, 0.5 * s.step);
   EXPECT_LE(coarse, s.limits.energy);
-  EXPECT_LE(fine, std::max(0.1 * coarse, 1e-14)) << coarse;
+  EXPECT_LE(fine, std::max(0.1 * coarse, 1e-12)) << coarse;
   RecordProperty("drift", std::to_string(1e12 * coarse) + "e-12");
 }
 

@@ -104,7 +104,7 @@ TEST(BodyWorld, BodyAgreesWithTheFastChain) {
 // same motion from every mechanism with every air, to what rounding grows to.
 template <class World>
 class Alike : public ::testing::Test {};
-using Others = ::testing::Types<ChainPlumbingWorld<2>, BodyBankWorld, BodyWorld>;
+using Others = ::testing::Types<ChainPlumbingWorld<2>, BodyWorld>;
 TYPED_TEST_SUITE(Alike, Others);
 
 TYPED_TEST(Alike, MovesAsTheChainWithItsBank) {

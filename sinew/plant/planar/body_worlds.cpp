@@ -4,7 +4,6 @@
 
 namespace sinew::plant {
 
-template class World<BodyMechanism, muscle::BankAir>;
 template class World<BodyMechanism, muscle::PlumbingAir>;
 
 }  // namespace sinew::plant

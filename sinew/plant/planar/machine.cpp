@@ -5,7 +5,7 @@ namespace sinew::plant {
 namespace {
 
 using AnyWorld = std::variant<ChainWorld<1>, ChainWorld<2>, ChainPlumbingWorld<1>,
-                              ChainPlumbingWorld<2>, BodyBankWorld, BodyWorld>;
+                              ChainPlumbingWorld<2>, BodyWorld>;
 
 AnyWorld world_for(const Setup& s) {
   const bool chain = robot::is_chain(s.robot), one = s.robot.joints.size() == 1;
@@ -15,7 +15,6 @@ AnyWorld world_for(const Setup& s) {
   if (chain && bank) return AnyWorld(in_place_type<ChainWorld<2>>, s);
   if (chain && one) return AnyWorld(in_place_type<ChainPlumbingWorld<1>>, s);
   if (chain) return AnyWorld(in_place_type<ChainPlumbingWorld<2>>, s);
-  if (bank) return AnyWorld(in_place_type<BodyBankWorld>, s);
   return AnyWorld(in_place_type<BodyWorld>, s);
 }
 

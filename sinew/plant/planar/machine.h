@@ -1,6 +1,6 @@
 // plant/planar/machine.h - a planar machine in simulation: the mechanism and the air that suit its
-// description, behind one face. Robots that a chain holds go by chain_mechanism.h, air that a bank
-// holds by muscle/bank.h; each is chosen on its own.
+// description, behind one face. Robots that a chain holds go by chain_mechanism.h, and what of them
+// has only air that a bank holds by muscle/bank.h.
 #pragma once
 
 #include <variant>
@@ -16,14 +16,12 @@ template <int N>
 using ChainWorld = World<ChainMechanism<N>, muscle::BankAir>;
 template <int N>
 using ChainPlumbingWorld = World<ChainMechanism<N>, muscle::PlumbingAir>;
-using BodyBankWorld = World<BodyMechanism, muscle::BankAir>;
 using BodyWorld = World<BodyMechanism, muscle::PlumbingAir>;  // holds every robot
 
 extern template class World<ChainMechanism<1>, muscle::BankAir>;
 extern template class World<ChainMechanism<2>, muscle::BankAir>;
 extern template class World<ChainMechanism<1>, muscle::PlumbingAir>;
 extern template class World<ChainMechanism<2>, muscle::PlumbingAir>;
-extern template class World<BodyMechanism, muscle::BankAir>;
 extern template class World<BodyMechanism, muscle::PlumbingAir>;
 
 class Machine {
@@ -44,7 +42,7 @@ class Machine {
 
  private:
   std::variant<ChainWorld<1>, ChainWorld<2>, ChainPlumbingWorld<1>, ChainPlumbingWorld<2>,
-               BodyBankWorld, BodyWorld>
+               BodyWorld>
       world_;
 };
 

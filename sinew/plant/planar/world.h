@@ -58,7 +58,7 @@ class World final : public signals::Port {
   }
   double time() const noexcept { return time_; }
   double shortest_step() const noexcept {  // of body and air, where it starts [s]
-    return std::min(step_, air_.longest_step(first_.ends.length));
+    return std::min(step_, air_.longest_step(first_.ends));
   }
   std::int64_t nodes() const noexcept { return nodes_; }
   const muscle::Failure& failure() const noexcept { return failure_; }

@@ -71,7 +71,7 @@ void World<M, A>::look_for_failure() noexcept {
 template <class M, class A>
 double World<M, A>::pieces_of(double h, const Look& look) const noexcept {
   if (!air_.flowing()) return 1.0;
-  const double longest = air_.longest_step(look.ends.length);
+  const double longest = air_.longest_step(look.ends);
   return h > longest ? std::min(std::ceil(h / longest), most_pieces) : 1.0;
 }
 

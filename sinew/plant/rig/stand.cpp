@@ -201,8 +201,8 @@ double Stand::longest_piece(const Order& o, const State& s, const Look& at) cons
   if (!plumbing_.quiet()) {
     muscle::Lanes lengths{};
     lengths[0] = s.length;
-    longest = std::min(
-        {longest, plumbing_.longest_step(lengths), longest_settling / settling_rate(n, s, at)});
+    longest = std::min({longest, plumbing_.longest_step(lengths, travel(s.length)),
+                        longest_settling / settling_rate(n, s, at)});
   }
   if (!driven_) longest = std::min(longest, longest_swing / swinging_rate(n, o.mass.value, s, at));
   return std::max(longest, shortest_piece);
