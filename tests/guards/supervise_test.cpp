@@ -22,23 +22,28 @@ using What = Fault::What;
 
 constexpr Tick period = 100;  // of the low level [ticks]
 
-// Prints what was tried, in one line for whoever reads ./check.
+// What this process has tried: ctest gives each test one of its own.
 struct Tally {
   std::int64_t broken = 0, noisy = 0, stuck = 0, rejected = 0;
   control::FuzzCount fuzz;
 };
 Tally tally;
 
+// Prints what was tried, a line each for whoever reads ./check.
 class Tell : public ::testing::Environment {
  public:
   void TearDown() override {
-    std::printf(
-        "guard: %lld sensors broken, vented in time; %lld noisy runs with %lld readings rejected, "
-        "none ended; %lld stuck; %lld periods with %lld gaps, %lld times both valves open\n",
-        static_cast<long long>(tally.broken), static_cast<long long>(tally.noisy),
-        static_cast<long long>(tally.rejected), static_cast<long long>(tally.stuck),
-        static_cast<long long>(tally.fuzz.periods), static_cast<long long>(tally.fuzz.gaps),
-        static_cast<long long>(tally.fuzz.both_open));
+    const auto number = [](std::int64_t n) { return static_cast<long long>(n); };
+    if (tally.broken > 0)
+      std::printf("guard: %lld sensors broken, vented in time\n", number(tally.broken));
+    if (tally.noisy > 0)
+      std::printf("guard: %lld noisy runs with %lld readings rejected, none ended\n",
+                  number(tally.noisy), number(tally.rejected));
+    if (tally.stuck > 0) std::printf("guard: %lld sensors stuck\n", number(tally.stuck));
+    if (tally.fuzz.periods > 0)
+      std::printf("guard: %lld periods with %lld gaps, %lld times both valves open\n",
+                  number(tally.fuzz.periods), number(tally.fuzz.gaps),
+                  number(tally.fuzz.both_open));
   }
 };
 const auto* const tell = ::testing::AddGlobalTestEnvironment(new Tell);
