@@ -93,12 +93,15 @@ TEST(Failure, OfAirEndsTheRunInEveryWorld) {
   }
 }
 
+// Muscles whose dampers are too strong for the step: the steps are cut for springs, dampers and the
+// ground, not for muscles.
+const std::vector<std::string> runs_away{"actuator.bpa.loss.viscous=5000 N s/m"};
+
 TEST(Failure, OfTheMotionIsToldFromThatOfAir) {
-  Experiment e = load(folder + "walk-test-1.toml", {"plant_steps.body=5 ms"});
-  e.robot.ground.normal_stiffness = 1e10;
+  const Experiment e = load(folder + "walk-test-1.toml", runs_away);
   const Outcome out = run(e);
   ASSERT_TRUE(out.failure);
-  EXPECT_GT(out.failure.time, 0.1);  // the foot has come down on the table
+  EXPECT_GT(out.failure.time, 0.1);  // it has walked for a while
   const std::string cause = cause_of(e, out);
   expect_says(cause, "the motion ran away");
   expect_says(cause, "plant_steps.body");
@@ -106,9 +109,8 @@ TEST(Failure, OfTheMotionIsToldFromThatOfAir) {
 
 // The log goes up to the failure, and has nothing but numbers.
 TEST(Failure, LeavesNoNumberThatIsNone) {
-  Experiment e = load(folder + "walk-test-1.toml", {"plant_steps.body=5 ms"});
-  e.robot.ground.normal_stiffness = 1e10;
-  const Outcome out = run(e);
+  const Outcome out = run(load(folder + "walk-test-1.toml", runs_away));
+  ASSERT_TRUE(out.failure);
   for (const signals::Series& s : out.table.series) {
     if (s.time_ns.empty()) continue;
     EXPECT_LE(1e-9 * static_cast<double>(s.time_ns.back()), out.failure.time) << s.topic.name;

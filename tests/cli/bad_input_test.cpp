@@ -281,8 +281,8 @@ TEST(BadSet, AnUnknownChannelIsSuggestedRight) {
 
 TEST(Fault, EndsTheRunWithItsLastRecords) {
   const Workspace w;
-  const Result result = w.sinew({"run", walk, "-o", "run", "--set", "plant_steps.body=5 ms",
-                                 "--set", "ground.normal_stiffness=1e9 N/m"});
+  const Result result =
+      w.sinew({"run", walk, "-o", "run", "--set", "actuator.bpa.loss.viscous=5000 N s/m"});
   EXPECT_EQ(result.code, 1);
   EXPECT_THAT(result.err,
               AllOf(HasSubstr("the run was ended: the "), HasSubstr("was no number any more at "),

@@ -75,7 +75,7 @@ TEST(Faults, ARunThatWasEndedReadsBackAsOne) {
   expect_no_figures_of(w, "run", "sensor hip_angle at 5.0203 s");
 
   const Result away = w.sinew({"run", "experiments/walk-test-1.toml", "-o", "away", "--quiet",
-                               "--set", "ground.normal_stiffness=1e10 N/m"});
+                               "--set", "actuator.bpa.loss.viscous=5000 N s/m"});
   ASSERT_EQ(away.code, 1);
   ASSERT_THAT(away.err, HasSubstr("was no number any more"));
   expect_no_figures_of(w, "away", "was no number any more");

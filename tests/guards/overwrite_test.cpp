@@ -74,9 +74,8 @@ TEST_F(Overwrite, AFullDiskLeavesTheOld) {
 TEST_F(Overwrite, AFaultLeavesTheOldRunAndSaysWhereTheNewOneIs) {
   const Writer writer = writers(w).front();
   const Results results = both(w, writer);
-  const Ended fault =
-      run(w, {"run", "experiments/walk-test-1.toml", "-o", writer.target, "--force", "--set",
-              "plant_steps.body=5 ms", "--set", "ground.normal_stiffness=1e9 N/m"});
+  const Ended fault = run(w, {"run", "experiments/walk-test-1.toml", "-o", writer.target, "--force",
+                              "--set", "actuator.bpa.loss.viscous=5000 N s/m"});
   EXPECT_EQ(fault.code, 1);
   EXPECT_THAT(fault.output, AllOf(HasSubstr("the run was ended: "),
                                   HasSubstr("out/run: holds what was there before"),
