@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/muscle/air.h"
 #include "sinew/plant/planar/world.h"
 
 namespace sinew::plant {
