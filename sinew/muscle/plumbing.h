@@ -6,8 +6,8 @@
 //
 //   lengths, rates, state  ->  tensions, pressures, flows, and the state's derivative
 //
-// What the state holds depends on what is switched on: the muscles' masses come first. Muscles go
-// by braid_lanes.h where it holds them and no wall is warm, else by one power and
+// The content of the state depends on what is switched on: the muscles' masses come first. Muscles
+// go by braid_lanes.h where it holds them and no wall is warm, else by one power and
 // actuator/tension.h each; with nothing switched on it says what the bank says. The laws:
 // gas/orifice.h, series.h, hose.h, leak.h, heat.h, supply.h, regulator.h, cylinder.h,
 // actuator/hysteresis.h, creep.h.

@@ -18,8 +18,6 @@ constexpr double stable = 2.5;  // step x rate of a decay that RK4 can bear, 2.7
 
 using Kind = gas::Valve::Kind;
 
-double greater(double a, double b) { return a > b ? a : b; }
-
 bool regulates(const gas::Valve& valve) { return valve.kind == Kind::regulator; }
 
 bool needs_pressures(const gas::Valve& v) {
@@ -173,7 +171,7 @@ double Plumbing::longest_step() const noexcept {
   double fastest = stable / longest_step_;
   for (const Side side : {up, down})
     if (sides_[side].mass != none)
-      fastest = greater(fastest, side_settling_[side] / cylinder_->dead_volume[side]);
+      fastest = std::max(fastest, side_settling_[side] / cylinder_->dead_volume[side]);
   return fastest > 0 ? stable / fastest : never;
 }
 
@@ -183,14 +181,14 @@ double Plumbing::longest_step(const Lanes& length, double travel) const noexcept
   double fastest = 0;
   for (int i = 0; i < size_ && settles_; ++i) {
     const double rate = lines_[static_cast<std::size_t>(i)].settling / volume(i, length[i]);
-    fastest = greater(fastest, rate);
+    fastest = std::max(fastest, rate);
   }
   fastest += stable / longest_step_;
   for (const Side side : {up, down}) {
     if (sides_[side].mass == none) continue;
     const auto inlet = static_cast<std::size_t>(2 * (size_ + side));
     if (!ramping_ && !(taps_[inlet].share > 0) && !(taps_[inlet + 1].share > 0)) continue;
-    fastest = greater(fastest, side_settling_[side] / muscle::volume(*cylinder_, side, travel));
+    fastest = std::max(fastest, side_settling_[side] / muscle::volume(*cylinder_, side, travel));
   }
   return fastest > 0 ? stable / fastest : never;
 }

@@ -1,4 +1,4 @@
-// The same bits, however often and however a world is looked at, and twice.
+// A world has the same bits twice, however often and however it is looked at.
 #include <gtest/gtest.h>
 
 #include "sinew/experiment/test_same.h"

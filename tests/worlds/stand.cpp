@@ -70,7 +70,7 @@ class OnStand final : public Body {
     tell(stand_.truth(t), [&](const char*, Kind, double x) { out[n++] = x; });
   }
 
-  // What a tank gives stays within the stand.
+  // Air that a tank gives stays within the stand.
   std::vector<Account> air(double t) override {
     const StandTruth x = stand_.truth(t);
     const bool tank = setup_.supply.kind == gas::Supply::Kind::tank;

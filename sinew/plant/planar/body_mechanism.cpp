@@ -6,16 +6,6 @@
 
 namespace sinew::plant {
 
-namespace {
-
-constexpr double blocked_bound = 1e9;  // of a joint that is held [N m]
-
-// The fastest rate in the machine times the step: RK4 is stable up to 2.8, and the rate changes
-// with the pose.
-constexpr double longest_rate = 1.5;
-
-}  // namespace
-
 BodyMechanism::BodyMechanism(const Setup& setup)
     : constants_(body_of(setup.robot)),
       robot_(setup.robot),
@@ -40,8 +30,7 @@ double BodyMechanism::sum(const Motion& m) const noexcept {
 }
 
 double BodyMechanism::stable_step(double step) const {
-  const double rate = rubs_.stiffest_rate(Body(constants_, start_), start_, robot_);
-  return rate * step > longest_rate ? step / std::ceil(rate * step / longest_rate) : step;
+  return plant::stable_step(step, rubs_.stiffest_rate(Body(constants_, start_), start_, robot_));
 }
 
 void BodyMechanism::set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,

@@ -98,8 +98,8 @@ class BodyMechanism {
   void add_torque(const Arms& arms, int muscle, double tension,
                   std::array<double, most_joints>& torque) const noexcept;
 
-  // What only a simulation knows of the body at a motion, the muscles' torques being there; `load`
-  // is that of the last node.
+  // Fills in what only a simulation knows of the body at a motion; the muscles' torques are there
+  // already, and `load` is that of the last node.
   void tell(const Motion& m, const Acceleration& a, const Forces& held, const Load& load,
             Truth& out) const noexcept;
 

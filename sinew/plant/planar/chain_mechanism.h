@@ -82,8 +82,8 @@ class ChainMechanism {
 
   // The body step, or a whole part of it that suits the fastest rate of the machine at its start.
   double stable_step(double step) const {
-    const double rate = contacts_.stiffest_rate(Pose(chain_, start_), damping_, spring_);
-    return rate * step > longest_rate ? step / std::ceil(rate * step / longest_rate) : step;
+    return plant::stable_step(step,
+                              contacts_.stiffest_rate(Pose(chain_, start_), damping_, spring_));
   }
 
   void set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
@@ -207,7 +207,8 @@ class ChainMechanism {
     torque[static_cast<std::size_t>(joint(muscle))] += routes_.pull[muscle] * tension;
   }
 
-  // What only a simulation knows of the body at a motion, the muscles' torques being there.
+  // Fills in what only a simulation knows of the body at a motion; the muscles' torques are there
+  // already.
   void tell(const Motion& pose, const Acceleration& a, const Forces& held, const Load&,
             Truth& out) const noexcept {
     out.x = pose.x;
@@ -227,12 +228,6 @@ class ChainMechanism {
   }
 
  private:
-  static constexpr double blocked_bound = 1e9;  // of a joint that is held [N m]
-
-  // The fastest rate in the machine times the step: RK4 is stable up to 2.8, and the rate changes
-  // with the pose.
-  static constexpr double longest_rate = 1.5;
-
   // The foot: a disc about the ankle that belongs to the last link. Compliant normal force only;
   // the tangential force is one of the step's dry frictions.
   void ground(const Chain<N>& chain, const Motion& pose, Load& out) const noexcept {

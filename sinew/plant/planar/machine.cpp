@@ -4,9 +4,6 @@ namespace sinew::plant {
 
 namespace {
 
-using AnyWorld = std::variant<ChainWorld<1>, ChainWorld<2>, ChainPlumbingWorld<1>,
-                              ChainPlumbingWorld<2>, BodyWorld>;
-
 AnyWorld world_for(const Setup& s) {
   const bool chain = robot::is_chain(s.robot), one = s.robot.joints.size() == 1;
   const bool bank = !muscle::needs_plumbing(s.muscles, s.air, s.supply, s.cylinder);

@@ -24,6 +24,9 @@ extern template class World<ChainMechanism<1>, muscle::PlumbingAir>;
 extern template class World<ChainMechanism<2>, muscle::PlumbingAir>;
 extern template class World<BodyMechanism, muscle::PlumbingAir>;
 
+using AnyWorld = std::variant<ChainWorld<1>, ChainWorld<2>, ChainPlumbingWorld<1>,
+                              ChainPlumbingWorld<2>, BodyWorld>;
+
 class Machine {
  public:
   // The setup must be free of contradictions (robot::contradictions).
@@ -41,9 +44,7 @@ class Machine {
   const muscle::Failure& failure() const noexcept;
 
  private:
-  std::variant<ChainWorld<1>, ChainWorld<2>, ChainPlumbingWorld<1>, ChainPlumbingWorld<2>,
-               BodyWorld>
-      world_;
+  AnyWorld world_;
 };
 
 }  // namespace sinew::plant

@@ -173,8 +173,8 @@ auto World<M, A>::peek(const Glance& g, double t) const noexcept -> Peek {
   return p;
 }
 
-// What a gauge in the cord sees: the pull and its share of the mesh's friction, by the joint that
-// the muscle belongs to.
+// Returns the force on a gauge in the cord [N]: the muscle's tension and its share of the mesh's
+// friction at the joint that it belongs to.
 template <class M, class A>
 double World<M, A>::gauge(const Glance& g, const Peek& p, int muscle) const noexcept {
   const auto j = static_cast<std::size_t>(mechanism_.joint(muscle));
@@ -208,7 +208,7 @@ signals::Status World<M, A>::drive(signals::Edge edge) noexcept {
   return signals::Status::ok;
 }
 
-// What the sensor stands before at t; of something that stands still, 0.
+// Returns the quantity that the sensor measures at t, in SI; of something that stands still, 0.
 template <class M, class A>
 double World<M, A>::quantity(std::size_t index, double t) noexcept {
   using Kind = robot::Sensor::Kind;
