@@ -12,7 +12,6 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/json_text.h"
-#include "cli/named.h"
 #include "cli/terminal.h"
 #include "cli/text_table.h"
 #include "sinew/actuator/body.h"
@@ -20,6 +19,7 @@
 #include "sinew/actuator/loss.h"
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
+#include "sinew/config/named.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
 
@@ -210,7 +210,7 @@ ExitCode run_actuator(const Options& options) {
   const auto file = experiment::load_machine_file(options.file);
   const gas::Air& air = file.experiment.air;
   const actuator::Actuator& a =
-      named(file.experiment.actuators, options.name, "--name", "actuator");
+      config::named(file.experiment.actuators, options.name, "--name", "actuator");
   const Values lengths =
       arguments("--length", options.length, "m", air.atmosphere, possible_lengths(a));
   const Values pressures = arguments("--pressure", options.pressure, "Pa gauge", air.atmosphere,

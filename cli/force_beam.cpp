@@ -1,5 +1,5 @@
 // cli/force_beam.cpp - `sinew force-beam`: what a beam with strain gages reads, and when it yields.
-#include "sinew/identify/force_beam.h"
+#include "sinew/identify/sensor/force_beam.h"
 
 #include <fmt/format.h>
 

@@ -8,10 +8,10 @@
 
 #include "cli/command.h"
 #include "cli/json_text.h"
-#include "cli/run_folder.h"
 #include "cli/terminal.h"
 #include "sinew/experiment/run.h"
 #include "sinew/log/reader.h"
+#include "sinew/run/folder/run_folder.h"
 
 namespace sinew::cli {
 
@@ -106,8 +106,8 @@ void print(const Comparison& c, bool json) {
 
 ExitCode replay_run(const Options& options) {
   const Messages messages(options.quiet);
-  const RecordedRun run = recorded_run(options.run);
-  const auto experiment = experiment::load(machine_of(run, options.machine).string());
+  const run::RecordedRun run = run::recorded_run(options.run);
+  const auto experiment = experiment::load(run::machine_of(run, options.machine).string());
   const signals::Table recorded = log::read(run.log);
   if (!recorded.complete)
     messages.warning(run.log.string() + " was cut off; compared as far as it goes");

@@ -11,10 +11,11 @@
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/json_text.h"
-#include "cli/run_folder.h"
 #include "cli/terminal.h"
 #include "sinew/config/compose.h"
 #include "sinew/log/replacement.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/run/folder/run_folder.h"
 #include "sinew/tune/study.h"
 #include "sinew/tune/table.h"
 
@@ -60,7 +61,7 @@ class CsvTable {
   CsvTable(const Options& options, std::vector<std::string> headings)
       : name_(options.out), headings_(std::move(headings)) {
     if (name_.empty()) return;
-    refuse_to_overwrite(name_, options.force, {options.file});
+    run::refuse_to_overwrite(name_, options.force, {options.file});
     log::require_free_part(name_);
   }
 

@@ -9,9 +9,9 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/json_text.h"
-#include "cli/named.h"
 #include "cli/terminal.h"
 #include "cli/text_table.h"
+#include "sinew/config/named.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/delay.h"
@@ -175,7 +175,7 @@ void print_duties(const std::vector<Delivered>& duties, const std::string& frequ
 ExitCode run_valve(const Options& options) {
   const auto file = experiment::load_machine_file(options.file);
   const gas::Air& air = file.experiment.air;
-  const gas::Valve& valve = named(file.experiment.valves, options.name, "NAME", "valve");
+  const gas::Valve& valve = config::named(file.experiment.valves, options.name, "NAME", "valve");
   const double up =
       argument("--upstream", options.upstream, "Pa abs", air.atmosphere, air_pressure);
   const double down =

@@ -7,11 +7,11 @@
 #include <charconv>
 
 #include "cli/browser.h"
-#include "cli/page.h"
-#include "cli/run_folder.h"
 #include "cli/server.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/report/page.h"
+#include "sinew/run/folder/page.h"
+#include "sinew/run/folder/run_folder.h"
 
 namespace sinew::cli {
 
@@ -24,7 +24,7 @@ std::vector<fs::path> runs_here() {
   std::vector<std::pair<fs::file_time_type, fs::path>> found;
   std::error_code none;
   for (const fs::directory_entry& e : fs::recursive_directory_iterator("runs", none))
-    if (e.path().filename() == log_name && e.is_regular_file())
+    if (e.path().filename() == run::log_name && e.is_regular_file())
       found.emplace_back(e.last_write_time(), e.path().parent_path());
   std::ranges::sort(found, [](const auto& a, const auto& b) { return a > b; });
   std::vector<fs::path> out;
@@ -62,7 +62,7 @@ Reply not_found() { return {404, "Nothing is here; the runs are at runs.\n", "te
 
 Reply page_of_run(const fs::path& run, const std::string& machine) {
   try {
-    return {200, page_of(recorded_run(run), machine)};
+    return {200, run::page_of(run::recorded_run(run), machine)};
   } catch (const std::exception& wrong) {
     return {500, std::string(wrong.what()) + "\n", "text/plain; charset=utf-8"};
   }
@@ -88,7 +88,8 @@ ExitCode view_recorded(const ViewOptions& o) {
   if (runs.empty())
     config::fail({"runs", 0, 0}, "", "no run", "folders with a log.mcap",
                  "sinew run experiments/walk-test-1.toml, or the folder of a run");
-  if (!o.run.empty()) (void)page_of(recorded_run(o.run), o.machine);  // its errors belong here
+  if (!o.run.empty())
+    (void)run::page_of(run::recorded_run(o.run), o.machine);  // its errors belong here
   Server server(static_cast<std::uint16_t>(o.port),
                 {.get = [&](std::string_view path) { return answer(path, runs, o.machine); }});
   fmt::print("{}\n", server.url());
@@ -112,7 +113,7 @@ void add_view(CLI::App& app, Action& action) {
   sub.add_option("--machine", options->machine,
                  "what was run, in place of the folder's resolved.toml");
   auto* live =
-      sub.add_option("--live", options->live.experiment, "run this experiment and watch it");
+      sub.add_option("--live", options->live.run.experiment, "run this experiment and watch it");
   live->excludes(dir);
   sub.add_option("--port", options->port, "on 127.0.0.1; 0: a free one")
       ->check(CLI::Range(0, 65535));
@@ -130,7 +131,7 @@ void add_view(CLI::App& app, Action& action) {
     sub.get_option(of_a_run)->needs(live);
   sub.callback([=, &action] {
     action = [=] {
-      return options->live.experiment.empty() ? view_recorded(*options) : view_live(*options);
+      return options->live.run.experiment.empty() ? view_recorded(*options) : view_live(*options);
     };
   });
 }

@@ -5,13 +5,13 @@
 #include <string>
 
 #include "cli/command.h"
-#include "cli/kept_run.h"
+#include "cli/run.h"
 
 namespace sinew::cli {
 
 struct ViewOptions {
   std::string run, machine;  // recorded
-  RunRequest live;           // .experiment empty: a recorded one
+  RunOptions live;           // .run.experiment empty: a recorded one
   int port = 0;              // 0: a free one
   bool open = true, once = false, paused = false;
 };

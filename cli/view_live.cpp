@@ -10,14 +10,14 @@
 #include <thread>
 
 #include "cli/browser.h"
-#include "cli/page.h"
-#include "cli/run_rig.h"
 #include "cli/server.h"
 #include "cli/view.h"
 #include "sinew/config/compose.h"
 #include "sinew/experiment/columns.h"
 #include "sinew/live/show.h"
 #include "sinew/report/page.h"
+#include "sinew/run/folder/page.h"
+#include "sinew/run/folder/runnable.h"
 
 namespace sinew::cli {
 
@@ -50,7 +50,7 @@ class LiveRun {
   LiveRun(const ViewOptions& options, const Messages& messages)
       : options_(options),
         messages_(messages),
-        kept_(options.live, messages),
+        kept_(options.live.run, messages.notices()),
         values_(config::parse_text(kept_.resolved(), "resolved.toml")),
         feed_(experiment::topics(kept_.experiment())),
         show_(kept_.experiment(), values_, steering_, feed_, tick_),
@@ -96,9 +96,10 @@ class LiveRun {
       o.tapped.clear();
       for (std::size_t i = 0; i < experiment::topics(kept_.experiment()).size(); ++i)
         o.tapped.push_back(static_cast<std::uint16_t>(i));
-      code_ = kept_.keep(experiment::run(kept_.experiment(), o));
+      tell(kept_.keep(experiment::run(kept_.experiment(), o)), options_.live.json, messages_);
+      code_ = ok;
       std::fflush(stdout);
-      page_ = text_of(kept_.folder() / report_name);
+      page_ = text_of(kept_.folder() / run::report_name);
     } catch (const std::exception& e) {
       failure_ = std::current_exception();
       words_ = e.what();
@@ -147,7 +148,7 @@ class LiveRun {
 
   const ViewOptions& options_;
   const Messages& messages_;
-  KeptRun kept_;
+  run::KeptRun kept_;
   const config::Node values_;
   experiment::Steering steering_;
   live::Feed feed_;
@@ -167,8 +168,8 @@ class LiveRun {
 }  // namespace
 
 ExitCode view_live(const ViewOptions& options) {
-  const std::string& file = options.live.experiment;
-  if (is_rig(file))
+  const std::string& file = options.live.run.experiment;
+  if (run::is_on_stand(file))
     config::fail({file, 0, 0}, "--live", "an experiment on the stand",
                  "one of a robot: a stand's run is over in a moment and is not steered",
                  "sinew run, then sinew view");
