@@ -35,8 +35,10 @@ void to_stderr(std::string_view text) noexcept { std::fwrite(text.data(), 1, tex
 
 // The library's settings as the options of this program.
 std::string as_options(std::string_view text) {
-  constexpr std::pair<std::string_view, std::string_view> all[] = {
-      {"force=true", "--force"}, {"machine=", "--machine "}, {"root=", "--root "}};
+  constexpr std::pair<std::string_view, std::string_view> all[] = {{"force=true", "--force"},
+                                                                   {"machine=", "--machine "},
+                                                                   {"root=", "--root "},
+                                                                   {"port=", "--port "}};
   std::string out(text);
   for (const auto& [setting, option] : all)
     for (std::size_t at = 0; (at = out.find(setting, at)) != out.npos; at += option.size())

@@ -36,7 +36,7 @@ layers='
     report          analysis log robot
     run/folder      experiment log analysis report
     tune            experiment analysis run/folder
-    live            experiment report
+    live            experiment report run/folder
 '
 
 # What only the tests of a folder may include besides (*_test.cpp, *_test.h, test_*.h, testing.h).
@@ -54,7 +54,7 @@ libraries='
     mujoco/         sinew/plant/mujoco
     cvode/          sinew/plant/rig
     CLI/            cli
-    boost/          cli
+    boost/          sinew/live
     ceres/          sinew/identify/fit
     Eigen/          sinew/identify
 '

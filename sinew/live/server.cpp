@@ -1,4 +1,4 @@
-#include "cli/server.h"
+#include "sinew/live/server.h"
 
 #include <fmt/format.h>
 
@@ -17,9 +17,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "cli/token.h"
+#include "sinew/live/token.h"
 
-namespace sinew::cli {
+namespace sinew::live {
 namespace {
 
 namespace asio = boost::asio;
@@ -260,7 +260,7 @@ void Server::Impl::listen(std::uint16_t wanted) {
   if (!error) acceptor.bind(here, error);
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
   if (error)
-    throw std::runtime_error(fmt::format("--port: found {}: {}; expected a free port; try --port 0",
+    throw std::runtime_error(fmt::format("port: found {}: {}; expected a free port; try port=0",
                                          wanted, error.message()));
   port = acceptor.local_endpoint().port();
   accept();
@@ -359,4 +359,4 @@ void Server::finish() {
   });
 }
 
-}  // namespace sinew::cli
+}  // namespace sinew::live

@@ -1,4 +1,4 @@
-// cli/server.h - pages over HTTP and WebSocket, for browsers on this machine alone.
+// live/server.h - pages over HTTP and WebSocket, for browsers on this machine alone.
 //
 // Listens on 127.0.0.1. The address has a token, drawn anew by each server: whoever else uses this
 // machine can reach the port, but is told nothing and steers nothing. A request whose Host is not
@@ -18,7 +18,7 @@
 #include <string>
 #include <string_view>
 
-namespace sinew::cli {
+namespace sinew::live {
 
 struct Reply {
   int status = 200;
@@ -59,4 +59,4 @@ class Server {
   std::shared_ptr<Impl> impl_;
 };
 
-}  // namespace sinew::cli
+}  // namespace sinew::live

@@ -1,4 +1,4 @@
-#include "cli/token.h"
+#include "sinew/live/token.h"
 
 #include <fmt/format.h>
 #include <sys/random.h>
@@ -6,7 +6,7 @@
 #include <array>
 #include <stdexcept>
 
-namespace sinew::cli {
+namespace sinew::live {
 
 std::string random_token() {
   std::array<unsigned char, 16> bits{};
@@ -26,4 +26,4 @@ bool same_token(std::string_view a, std::string_view b) {
   return different == 0;
 }
 
-}  // namespace sinew::cli
+}  // namespace sinew::live

@@ -1,5 +1,5 @@
-// cli/view_live.cpp - `sinew view --live`: a run on a thread of its own, those who watch on this
-// one. Between them stand feed and steering alone, so that the loop waits for nobody.
+#include "sinew/live/live_run.h"
+
 #include <fmt/format.h>
 
 #include <csignal>
@@ -9,17 +9,16 @@
 #include <sstream>
 #include <thread>
 
-#include "cli/browser.h"
-#include "cli/server.h"
-#include "cli/view.h"
 #include "sinew/config/compose.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/experiment/columns.h"
+#include "sinew/live/server.h"
 #include "sinew/live/show.h"
 #include "sinew/report/page.h"
 #include "sinew/run/folder/page.h"
 #include "sinew/run/folder/runnable.h"
 
-namespace sinew::cli {
+namespace sinew::live {
 
 namespace {
 
@@ -45,40 +44,37 @@ std::string text_of(const std::filesystem::path& file) {
   return out.str();
 }
 
-class LiveRun {
+}  // namespace
+
+class LiveRun::Impl {
  public:
-  LiveRun(const ViewOptions& options, const Messages& messages)
-      : options_(options),
-        messages_(messages),
-        kept_(options.live.run, messages.notices()),
+  Impl(const run::RunRequest& request, LiveOptions options, run::Notices notices)
+      : options_(std::move(options)),
+        notices_(std::move(notices)),
+        kept_(request, notices_),
         values_(config::parse_text(kept_.resolved(), "resolved.toml")),
         feed_(experiment::topics(kept_.experiment())),
         show_(kept_.experiment(), values_, steering_, feed_, tick_),
-        server_(
-            static_cast<std::uint16_t>(options.port),
-            {.get = [this](std::string_view path) { return get(path); },
-             .tick = [this] { feed_.collect(); },
-             .frame = [this](Server::Watcher w) { return frame(w); },
-             .message = [this](Server::Watcher,
-                               std::string_view text) { return over() ? "" : show_.answer(text); },
-             .left = [this](Server::Watcher w) { positions_.erase(w); },
-             .interrupted = [this] { interrupted(); }}) {
-    steering_.pace(options.live.pace);
-    steering_.pause(options.paused);
+        server_(options_.port, {.get = [this](std::string_view path) { return get(path); },
+                                .tick = [this] { feed_.collect(); },
+                                .frame = [this](Server::Watcher w) { return frame(w); },
+                                .message =
+                                    [this](Server::Watcher, std::string_view text) {
+                                      return over() ? "" : show_.answer(text);
+                                    },
+                                .left = [this](Server::Watcher w) { positions_.erase(w); },
+                                .interrupted = [this] { interrupted(); }}) {
+    steering_.pace(options_.pace);
+    steering_.pause(options_.paused);
   }
 
-  ExitCode go() {
-    if (options_.live.json)
-      messages_.note(server_.url());
-    else
-      fmt::print("{}\n", server_.url());
-    std::fflush(stdout);
-    const Browser browser(options_.open ? server_.url() : "");
+  std::string url() const { return server_.url(); }
+
+  void go() {
     std::thread runner([this] { run(); });
     server_.run();
     runner.join();
     if (failure_) std::rethrow_exception(failure_);
-    return code_;
   }
 
  private:
@@ -96,9 +92,8 @@ class LiveRun {
       o.tapped.clear();
       for (std::size_t i = 0; i < experiment::topics(kept_.experiment()).size(); ++i)
         o.tapped.push_back(static_cast<std::uint16_t>(i));
-      tell(kept_.keep(experiment::run(kept_.experiment(), o)), options_.live.json, messages_);
-      code_ = ok;
-      std::fflush(stdout);
+      const auto kept = kept_.keep(experiment::run(kept_.experiment(), o));
+      if (options_.kept) options_.kept(kept);
       page_ = text_of(kept_.folder() / run::report_name);
     } catch (const std::exception& e) {
       failure_ = std::current_exception();
@@ -108,7 +103,7 @@ class LiveRun {
     if (options_.once || ending_.load())
       server_.finish();
     else
-      messages_.note("its page stays at " + server_.url() + " until Ctrl-C");
+      notices_.note("its page stays at " + server_.url() + " until Ctrl-C");
   }
 
   Reply get(std::string_view path) {
@@ -136,51 +131,60 @@ class LiveRun {
       std::signal(SIGINT, SIG_DFL);
       std::raise(SIGINT);
     }
-    messages_.note("the run goes to its end at full speed; Ctrl-C again breaks it off");
+    notices_.note("the run goes to its end at full speed; Ctrl-C again breaks it off");
     steering_.pace(0);
     steering_.pause(false);
   }
 
   struct Watching {
-    live::Show::Position position;
+    Show::Position position;
     bool told = false;
   };
 
-  const ViewOptions& options_;
-  const Messages& messages_;
+  const LiveOptions options_;
+  const run::Notices notices_;
   run::KeptRun kept_;
   const config::Node values_;
   experiment::Steering steering_;
-  live::Feed feed_;
+  Feed feed_;
   std::atomic<std::int64_t> tick_{0};
-  live::Show show_;
+  Show show_;
   std::map<Server::Watcher, Watching> positions_;
   std::atomic<bool> over_{false}, ending_{false};
 
   // The runner's, until `over`.
-  ExitCode code_ = failed;
   std::exception_ptr failure_;
   std::string page_, words_;
 
   Server server_;  // last: its end calls those above
 };
 
-}  // namespace
+namespace {
 
-ExitCode view_live(const ViewOptions& options) {
-  const std::string& file = options.live.run.experiment;
-  if (run::is_on_stand(file))
-    config::fail({file, 0, 0}, "--live", "an experiment on the stand",
+// What can be refused before there is a folder.
+void require_live(const std::string& experiment, std::uint16_t port) {
+  if (run::is_on_stand(experiment))
+    config::fail({experiment, 0, 0}, "", "an experiment on the stand",
                  "one of a robot: a stand's run is over in a moment and is not steered",
                  "sinew run, then sinew view");
   if (!report::has_page())
     throw std::runtime_error(
         "sinew view: this sinew was built without its page, which npm bundles; try: install npm, "
         "then run npm ci in web/ and build again");
-  // A port that is taken is told of before there is a folder.
-  if (options.port > 0) Server(static_cast<std::uint16_t>(options.port), {});
-  const Messages messages(options.live.quiet);
-  return LiveRun(options, messages).go();
+  if (port > 0) Server(port, {});
 }
 
-}  // namespace sinew::cli
+}  // namespace
+
+LiveRun::LiveRun(const run::RunRequest& request, LiveOptions options, run::Notices notices) {
+  require_live(request.experiment, options.port);
+  impl_ = std::make_unique<Impl>(request, std::move(options), std::move(notices));
+}
+
+LiveRun::~LiveRun() = default;
+
+std::string LiveRun::url() const { return impl_->url(); }
+
+void LiveRun::go() { impl_->go(); }
+
+}  // namespace sinew::live
