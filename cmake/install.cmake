@@ -1,5 +1,5 @@
 # cmake --install gives find_package(sinew) and one target for everything, sinew::sinew; each folder
-# of sinew/ is a component and a target too: sinew::muscle, sinew::control_joint, …
+# of sinew/ is a target too: sinew::muscle, sinew::control_joint, …
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -12,38 +12,12 @@ add_library(sinew::sinew ALIAS sinew_all)
 target_link_libraries(sinew_all INTERFACE ${folders})
 set_target_properties(sinew_all PROPERTIES EXPORT_NAME sinew)
 
+set(SINEW_COMPONENTS "")
 foreach(folder ${folders})
   string(REGEX REPLACE "^sinew_" "" name ${folder})
   set_target_properties(${folder} PROPERTIES EXPORT_NAME ${name})
+  string(APPEND SINEW_COMPONENTS " ${name}")
 endforeach()
-
-# The outside packages that a component is linked with, by itself and by what stands below it.
-function(sinew_packages target out)
-  set(packages)
-  get_target_property(below ${target} INTERFACE_LINK_LIBRARIES)
-  foreach(item ${below})
-    string(REGEX REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1" item "${item}")
-    if(item IN_LIST folders)
-      sinew_packages(${item} more)
-      list(APPEND packages ${more})
-    elseif(item MATCHES "^([A-Za-z0-9_]+)::")
-      list(APPEND packages ${CMAKE_MATCH_1})
-    endif()
-  endforeach()
-  if(packages)
-    list(REMOVE_DUPLICATES packages)
-  endif()
-  set(${out} ${packages} PARENT_SCOPE)
-endfunction()
-
-set(sinew_components)
-foreach(folder ${folders})
-  string(REGEX REPLACE "^sinew_" "" name ${folder})
-  sinew_packages(${folder} packages)
-  string(APPEND sinew_components "set(_sinew_packages_of_${name} ${packages})\n")
-endforeach()
-
-sinew_packages(sinew_all sinew_all_packages)
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/sinew)
 install(TARGETS sinew_all ${folders} EXPORT sinew
@@ -72,6 +46,4 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/robots ${PROJECT_SOURCE_DIR}/experiments
         DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
               ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-
-# Headers point to pages of docs/.
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR})  # headers name its pages

@@ -12,11 +12,8 @@ if [[ ! ${SINEW_PREFIX:-} ]]; then
   cmake --install "$root/${SINEW_BUILD:-build/release}" --prefix "$prefix" >/dev/null
 fi
 
-# A muscle needs none of the packages that other components of Sinew are linked with.
-none=()
-for package in fmt ZLIB nlohmann_json Ceres; do none+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON"); done
-
+read -ra flags <<<"${SINEW_CMAKE_FLAGS:-}"
 cmake -G Ninja -S "$here" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
-  "${none[@]}" >/dev/null
+  "${flags[@]}" >/dev/null
 cmake --build "$work/build" >/dev/null
 "$work/build/hanging_mass"
