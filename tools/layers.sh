@@ -33,7 +33,9 @@ layers='
     identify/sensor identify/data robot
     identify/page   identify/fit report
     analysis        signals robot actuator config
-    report          analysis log robot
+    report/page     analysis log robot
+    report/figures  report/page
+    report/compare  report/page
     run/folder      experiment log analysis report
     tune            experiment analysis run/folder
     live            experiment report run/folder

@@ -14,7 +14,7 @@
 #include "sinew/experiment/columns.h"
 #include "sinew/live/server.h"
 #include "sinew/live/show.h"
-#include "sinew/report/page.h"
+#include "sinew/report/page/page.h"
 #include "sinew/run/folder/page.h"
 #include "sinew/run/folder/runnable.h"
 

@@ -8,7 +8,7 @@
 #include "sinew/experiment/columns.h"
 #include "sinew/experiment/run.h"
 #include "sinew/live/request.h"
-#include "sinew/report/page_template.h"
+#include "sinew/report/page/page_template.h"
 #include "sinew/signals/tick.h"
 
 namespace sinew::live {

@@ -11,7 +11,7 @@
 #include "sinew/experiment/experiment.h"
 #include "sinew/experiment/steering.h"
 #include "sinew/live/feed.h"
-#include "sinew/report/growing.h"
+#include "sinew/report/page/growing.h"
 
 namespace sinew::live {
 
@@ -27,7 +27,8 @@ class Show {
   // The page without samples. `server`: where it may connect to, "127.0.0.1:8080".
   std::string page(std::string_view server) const;
 
-  // What is new to a page: JSON with `piece` (report/growing.h), where there is any, and `state`.
+  // What is new to a page: JSON with `piece` (report/page/growing.h), where there is any, and
+  // `state`.
   // "" before the first row.
   std::string frame(Position& position);
 

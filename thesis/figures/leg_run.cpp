@@ -8,7 +8,7 @@
 #include "sinew/analysis/derived.h"
 #include "sinew/config/compose.h"
 #include "sinew/experiment/run.h"
-#include "sinew/report/run_figures.h"
+#include "sinew/report/figures/run_figures.h"
 
 namespace sinew::thesis {
 namespace {
