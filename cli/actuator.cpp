@@ -90,7 +90,8 @@ Range possible_lengths(const actuator::Actuator& a) {
           "from the caps alone to one and a half threads", true};
 }
 
-// What is reported of a point: key of the JSON, words, SI unit and that of inches and pounds.
+// A quantity that is reported of a point: key of the JSON, words, SI unit and that of inches and
+// pounds.
 struct Row {
   const char* key;
   const char* words;

@@ -47,7 +47,8 @@ struct Values {
 Values arguments(std::string_view option, std::string_view text, std::string_view unit,
                  double atmosphere, const Range& range = {});
 
-// What stands behind the number of a quantity that was understood: "in" of "3.4 in"; "1" for none.
+// Returns the unit behind the number of a quantity that was understood: "in" of "3.4 in"; "1" for
+// none.
 std::string unit_text(std::string_view text);
 
 // "-2 in, -13 in": as many quantities as there are commas and one.

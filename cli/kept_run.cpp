@@ -122,7 +122,7 @@ KeptRun::Files KeptRun::keep_files(experiment::Outcome& outcome, const analysis:
   return {std::move(summary), json, page};
 }
 
-// What summary.json has under `warnings` and `host.warnings`.
+// Prints what summary.json has under `warnings` and `host.warnings`.
 void KeptRun::warn(const std::vector<std::string>& of_the_log,
                    const experiment::Outcome& outcome) const {
   for (const std::string& text : of_the_log) messages_.warning(text);

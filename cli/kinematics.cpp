@@ -180,7 +180,7 @@ Json to_json(const experiment::Experiment& e, const Branch& b) {
   return out;
 }
 
-// What rounding left over of a length or a torque is 0.
+// Returns a length or a torque as text; the 1e-9 that rounding leaves is shown as 0.
 std::string shown(double si, std::string_view unit, std::string_view display) {
   return config::format_quantity(std::abs(si) < 1e-9 ? 0 : si, unit, display, 5);
 }

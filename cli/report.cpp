@@ -56,7 +56,7 @@ std::string last_records(const signals::Table& table, std::int64_t end) {
   return text;
 }
 
-// Of a run of which nothing is reported, in whose units one would speak.
+// Prints the main figures of a run of which nothing is reported, so that no paper gives the units.
 void print_main_figures(const analysis::Summary& summary, const analysis::Machine& machine) {
   std::vector<std::pair<std::string, std::string_view>> keys = {
       {"sequence_duration_s", "s"},

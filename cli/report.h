@@ -15,7 +15,7 @@ namespace sinew::cli {
 void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine);
 void print_verdicts(const analysis::Summary& summary, const analysis::StandFile& stand);
 
-// What went on in the run that neither its figures nor its log show: what came late on this
+// Returns warnings of what neither the figures nor the log of a run show: what came late on this
 // computer, readings without a channel of their own, faults that never acted.
 std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& experiment,
                                                  const experiment::Outcome& outcome);

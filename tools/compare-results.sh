@@ -2,10 +2,10 @@
 # compare-results.sh keep FILE                      the results of every shipped experiment, as a table
 # compare-results.sh compare BEFORE NOW [OPTION]    which of them agree between two builds
 #
-#   SINEW=build/dev/bin/sinew tools/compare-results.sh keep /tmp/before.tsv
+#   SINEW=build/dev/bin/sinew tools/compare-results.sh keep before.tsv
 #   … change the code, build …
-#   tools/compare-results.sh keep /tmp/now.tsv
-#   tools/compare-results.sh compare /tmp/before.tsv /tmp/now.tsv --tolerance 1e-6
+#   tools/compare-results.sh keep now.tsv
+#   tools/compare-results.sh compare before.tsv now.tsv --tolerance 1e-6
 #
 #   --tolerance R   relative difference up to which two numbers agree; 0 by default: to the last digit
 #   --floor A       numbers up to this size are all the same, in SI; 1e-12 by default

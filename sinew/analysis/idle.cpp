@@ -132,7 +132,7 @@ bool is_of_one_joint(const robot::Muscle& m, const robot::Joint& joint) {
          std::isnan(m.cam.radius);
 }
 
-// What is wrong with the muscle's length at this angle; empty: nothing.
+// Says what is wrong with the muscle's length at this angle; empty: nothing.
 std::string beyond(const robot::Joint& joint, const robot::Muscle& m, const actuator::Actuator& a,
                    double angle) {
   const double length = robot::muscle_length(joint, m.role, m.mount_length, angle);

@@ -1,4 +1,4 @@
-// What is warned of a robot that does nothing, or that stands where it can go no further.
+// A robot that does nothing, or that stands where it can go no further, is warned of.
 #include <gtest/gtest.h>
 
 #include "sinew/analysis/summary.h"

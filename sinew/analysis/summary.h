@@ -42,7 +42,8 @@ Summary summarize(const signals::Table&, const Machine&);
 // figures.
 Summary summarize_trip(const signals::Table&, const Machine&);
 
-// What depends on the computer that ran, or what only the run itself saw and its log does not hold.
+// Numbers that depend on the computer that ran, and warnings of what only the run itself saw and
+// its log does not hold.
 struct Host {
   std::vector<std::pair<std::string, double>> numbers;
   std::vector<std::string> warnings;

@@ -42,7 +42,7 @@ TEST(Json, NestsKeysInTheirOrder) {
             "}\n");
 }
 
-// What the log shows stands apart from what the computer that ran alone knows.
+// Warnings of the log stand apart from those that only the computer that ran could give.
 TEST(Json, HasWarningsBeforeTheHost) {
   Summary s;
   s.title = "A walk";

@@ -6,9 +6,7 @@
 #include <unistd.h>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <new>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,36 +18,13 @@
 #include "sinew/experiment/supervision.h"
 #include "sinew/experiment/test_same.h"
 #include "sinew/plant/planar/machine.h"
-
-namespace {
-thread_local bool counting = false;
-thread_local int allocations = 0;
-}  // namespace
-
-// Counts heap use of the thread that asks for it.
-void* operator new(std::size_t size) {
-  if (counting) ++allocations;
-  if (void* p = std::malloc(size ? size : 1)) return p;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  if (counting) ++allocations;
-  return std::malloc(size ? size : 1);
-}
-void* operator new(std::size_t size, std::align_val_t align) {
-  if (counting) ++allocations;
-  const auto a = static_cast<std::size_t>(align);
-  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
-  throw std::bad_alloc();
-}
-// Not inlined: GCC would see new and free meet, and warn.
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+#include "tests/counted_heap.h"
 
 namespace sinew::experiment {
 namespace {
+
+using test::allocations;
+using test::counting;
 
 const std::string source = SINEW_SOURCE_DIR;
 

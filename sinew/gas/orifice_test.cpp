@@ -169,7 +169,8 @@ TEST(Flow, is_linear_in_the_difference_near_equal_pressures) {
   }
 }
 
-// Which of the two a flow is: the straight line is below the law, and meets it where it ends.
+// A flow says which of the two it is: the straight line is below the law, and meets it where it
+// ends.
 TEST(Flow, says_whether_it_is_in_the_linear_part) {
   const Air air;
   for (const Flow& flow : both_laws) {

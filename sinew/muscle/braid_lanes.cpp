@@ -143,7 +143,7 @@ SINEW_WIDE void BraidLanes::evaluate(const Lanes& length, const Lanes& rate, con
     if ((outside[0] | outside[1] | outside[2] | outside[3]) != 0) far_roots(i, x, reference, root);
     y.four(i) = root;
 
-    // What does not depend on the pressure.
+    // These terms do not depend on the pressure.
     const Four lever = k.cubic.four(i) * (3.0 * l2 - k.thread2.four(i));
     const Four stretch = l - k.long_length.four(i), squeeze = l - k.short_length.four(i);
     const Four braid = k.long_stiffness.four(i) * stretch + k.long_damping.four(i) * v;

@@ -42,7 +42,7 @@ struct alignas(64) Lanes {
   Four& four(int first) { return reinterpret_cast<Four&>(of[first]); }
 };
 
-// What the body does to the air: the muscles' lengths and the piston's travel.
+// The body's motion, as the air feels it: the muscles' lengths and the piston's travel.
 struct Ends {
   Lanes length, rate;                  // [m], [m/s]
   double travel = 0, travel_rate = 0;  // of a cylinder, upwards [m], [m/s]
@@ -59,7 +59,7 @@ struct Pull {
   Lanes outflow;   // to the atmosphere [kg/s]; only while some valve is open
 };
 
-// What the series stands on: y_ref and 1/sigma_ref [m^3/kg] of each muscle.
+// The series are taken about this density of each muscle: y_ref and 1/sigma_ref [m^3/kg].
 struct Reference {
   Lanes y, inverse_sigma;
 };

@@ -2,12 +2,11 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "sinew/actuator/tension.h"
 #include "sinew/actuator/thesis_actuator.h"
 #include "sinew/units/literals.h"
-#include "tests/cli/program.h"
+#include "tests/cli/json.h"
 
 namespace sinew::test {
 namespace {
@@ -22,13 +21,6 @@ using Json = nlohmann::ordered_json;
 const std::string actuator_file = "robots/leg/actuator.toml";
 const std::string valves = "robots/leg/valves.toml";
 const std::string robot = "robots/leg/robot.toml";
-
-Json json(const Workspace& w, Words words) {
-  words.push_back("--json");
-  const Result result = w.sinew(words);
-  EXPECT_EQ(result.code, 0) << result.err;
-  return result.code == 0 ? Json::parse(result.out) : Json::object();
-}
 
 // --- actuator ---
 

@@ -38,7 +38,7 @@ TEST(Faults, ABrokenPotentiometerEndsTheRunAndIsNamed) {
   EXPECT_FALSE(summary.contains("trolley"));
   EXPECT_FALSE(summary.contains("joints"));
 
-  // The same run again comes to the same end; and the log's lies give the same edges.
+  // A second run comes to the same end; and the log's lies give the same edges.
   const Result again = w.sinew({"run", "run/resolved.toml", "-o", "again", "--quiet"});
   EXPECT_EQ(again.code, 1);
   EXPECT_THAT(again.err, HasSubstr("sensor hip_angle at 5.0203 s"));

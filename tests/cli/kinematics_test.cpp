@@ -1,10 +1,8 @@
 // `kinematics`: where the foot is, what its muscles and its torques are, in the file's own units.
 #include <gmock/gmock.h>
 
-#include <nlohmann/json.hpp>
-
 #include "sinew/units/literals.h"
-#include "tests/cli/program.h"
+#include "tests/cli/json.h"
 
 namespace sinew::test {
 namespace {
@@ -17,13 +15,6 @@ using ::testing::Not;
 using Json = nlohmann::ordered_json;
 
 const std::string robot = "robots/leg/robot.toml";
-
-Json json(const Workspace& w, Words words) {
-  words.push_back("--json");
-  const Result result = w.sinew(words);
-  EXPECT_EQ(result.code, 0) << result.err;
-  return result.code == 0 ? Json::parse(result.out) : Json::object();
-}
 
 TEST(Kinematics, GoesToTheFootAndBack) {
   const Workspace w;

@@ -110,7 +110,7 @@ TEST(Run, PrintsItsSummaryAsJson) {
   EXPECT_EQ(Json::parse(result.out)["format"], "sinew.summary/1");
 }
 
-// What is warned of stands in summary.json, is analyzed again, and is told by both.
+// Warnings stand in summary.json, are found again by `analyze`, and are told by both.
 TEST(Run, KeepsItsWarningsInTheSummary) {
   const Workspace w;
   const Result run = w.sinew({"run", walk, "-o", "a", "--no-report"});

@@ -22,7 +22,7 @@ using What = Fault::What;
 
 constexpr Tick period = 100;  // of the low level [ticks]
 
-// What this process has tried: ctest gives each test one of its own.
+// Counts what this process has tried: ctest gives each test one of its own.
 struct Tally {
   std::int64_t broken = 0, noisy = 0, stuck = 0, rejected = 0;
   control::FuzzCount fuzz;

@@ -1,4 +1,4 @@
-// How exact a look between two nodes is, and how fast a world converges.
+// A look between two nodes is nearly the node, and a world converges with its order.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ class Accuracy : public Worlds {};
 
 using Numbers = std::array<double, most_quantities>;
 
-// Of the figures that a law found, for --gtest_output and for who wants to see them.
+// Records a figure that a law found, for --gtest_output and for who wants to see it.
 void record(const std::string& key, double figure) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2e", figure);

@@ -1,4 +1,4 @@
-// What goes in, out and astray is what is there, and what nothing takes away is kept.
+// Air that went in and has not left is there, and energy that nothing takes away is kept.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 // and a law meet. A new world needs an adapter like those of planar.cpp and stand.cpp, no new law.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -42,18 +43,23 @@ class Body {
   virtual std::int64_t nodes() const = 0;
   virtual muscle::Failure failure() const = 0;
 
-  // What the truth is made of, and the truth at t. Takes no memory.
+  // The state at the last node and the commands since, as bytes; and a body that goes on from it.
+  virtual std::vector<std::byte> save() const = 0;
+  virtual void restore(std::span<const std::byte> saved) = 0;
+
+  // Names the quantities of the truth, and gives them at t. Takes no memory.
   virtual const std::vector<Quantity>& quantities() const = 0;
   virtual void truth(double t, std::span<double> out) = 0;
 
   // At a node.
   virtual std::vector<Account> air(double t) = 0;
 
-  // Of all that moves, springs and gravity, the air and the room that it pushes aside  [J].
+  // Returns the energy of all that moves, of springs and gravity, of the air and of the room that
+  // it pushes aside  [J].
   virtual double energy(double t) = 0;
 };
 
-// What a law changes of a subject before it is made.
+// The changes that a law makes to a subject before it is made.
 struct Variant {
   double step = 0;         // between nodes; 0: the subject's own [s]
   double pressure = 0;     // at the start, absolute; 0: the subject's own [Pa]
@@ -68,8 +74,8 @@ struct Tap {
   bool regulator = false;
 };
 
-// What a subject is held to. The defaults are those of a planar world; each other value stands
-// where its subject is made, with the reason and the figure that was measured.
+// The limits that a subject is held to. The defaults are those of a planar world; each other value
+// stands where its subject is made, with the reason and the figure that was measured.
 struct Limits {
   // A peek over a whole step against the node there, valves at random. A peek is the motion at
   // constant acceleration and Heun's rule for the air, both of the third order within the step.
@@ -80,7 +86,7 @@ struct Limits {
   double peek_pressure = 600;  // [Pa]
   double peek_mass = 1e-7;     // [kg]
 
-  // The same where it rubs: the foot may touch the ground, or a joint come to rest, within the
+  // These hold where it rubs: the foot may touch the ground, or a joint come to rest, within the
   // step, and the gauge's share of the mesh's friction jumps at the node. Measured of legs: 5.2e-4
   // rad, 5.5e-5 m, 1.4 N.
   double rubbing_angle = 7e-4;   // [rad]

@@ -1,43 +1,14 @@
-// What a world owes to the loop: no heap once it runs, and no way back in time.
+// A world takes no heap once it runs, and never goes back in time: the loop relies on both.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
+#include "tests/counted_heap.h"
 #include "tests/worlds/drive.h"
-
-namespace {
-
-thread_local bool counting = false;
-thread_local int taken = 0;
-
-}  // namespace
-
-// Not inlined: GCC would see malloc and delete meet, and warn.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  taken += counting ? 1 : 0;
-  if (void* p = std::malloc(size + 1)) return p;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  taken += counting ? 1 : 0;
-  return std::malloc(size + 1);
-}
-[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t align) {
-  taken += counting ? 1 : 0;
-  const auto a = static_cast<std::size_t>(align);
-  if (void* p = std::aligned_alloc(a, (size + a) / a * a)) return p;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
-  std::free(p);
-}
 
 namespace sinew::worlds {
 namespace {
+
+using test::allocations;
+using test::counting;
 
 class Loop : public Worlds {};
 
@@ -47,7 +18,7 @@ TEST_P(Loop, TakesNoMemory) {
   const std::vector<signals::Edge> edges = random_edges(GetParam().taps, 2000, 8);
   std::array<double, most_quantities> numbers{};
 
-  taken = 0;
+  allocations = 0;
   counting = true;
   std::size_t next = 0;
   for (Tick t = 0; t < 2000; ++t) {
@@ -58,13 +29,13 @@ TEST_P(Loop, TakesNoMemory) {
   }
   body->port().stop(2000);
   counting = false;
-  EXPECT_EQ(taken, 0);
+  EXPECT_EQ(allocations, 0);
   EXPECT_GT(body->nodes(), 100);
 
   counting = true;
   ::operator delete(::operator new(1));  // the counter counts
   counting = false;
-  EXPECT_EQ(taken, 1);
+  EXPECT_EQ(allocations, 1);
 }
 
 // An edge before the last node is refused and changes nothing; a look back sees the last node.
@@ -91,7 +62,7 @@ TEST_P(Loop, NeverGoesBack) {
             signals::Status::ok);
 }
 
-// What has ended says so, and takes no edge.
+// A world that has ended says so, and takes no edge.
 TEST_P(Loop, StopsForGood) {
   const std::unique_ptr<Body> body = GetParam().make({});
   Channels channels(*body);

@@ -118,7 +118,7 @@ Account machine_account(const Setup& s, const Truth& x, double held) {
   return all;
 }
 
-// Of a polytrope that is shut in, and of the room that its volume takes.
+// Returns the energy of a polytrope that is shut in, and of the room that its volume takes  [J].
 double air_energy(const Setup& s, double pressure, double volume) {
   return pressure * volume / (s.air.polytropic_exponent - 1.0) + s.air.atmosphere * volume;
 }
@@ -164,6 +164,12 @@ class Planar final : public Body {
   double time() const override { return machine_.time(); }
   std::int64_t nodes() const override { return machine_.nodes(); }
   muscle::Failure failure() const override { return machine_.failure(); }
+  std::vector<std::byte> save() const override {
+    std::vector<std::byte> out(machine_.state_size());
+    machine_.save(out);
+    return out;
+  }
+  void restore(std::span<const std::byte> saved) override { machine_.restore(saved); }
   const std::vector<Quantity>& quantities() const override { return quantities_; }
 
   void truth(double t, std::span<double> out) override {
@@ -230,7 +236,8 @@ Subject of_setup(const std::string& name, const Setup& s) {
   return out;
 }
 
-// Of a shipped experiment, with or without changes; its closed loop walks one step.
+// Returns a shipped experiment as a subject, with or without changes; its closed loop walks one
+// step.
 Subject of_experiment(const std::string& name, const std::string& file, Sets sets = {}) {
   const Experiment e = load(file, sets);
   const Setup s = experiment::planar_setup(e);
@@ -315,7 +322,7 @@ Limits limits_of(const std::string& name) {
   if (name == "regulated_cylinder") l.order = l.driven_order = -3, l.error = l.driven_error = 2e-3;
   // Never shut in: what vents passes from choked to not choked to linear (order 1.9).
   if (name == "leg_3_way") l.order = 1.5;
-  // The same at regulators, all the time (order 0.6, 2.0e-6 rad; 0.29 N, 1360 Pa, 0.21 mg).
+  // Regulators have such kinks all the time (order 0.6, 2.0e-6 rad; 0.29 N, 1360 Pa, 0.21 mg).
   if (name == "regulators") {
     l.order = l.driven_order = -2, l.error = l.driven_error = 1e-5;
     l.peek_tension = 0.35, l.peek_pressure = 1600, l.peek_mass = 2.5e-7;
@@ -353,6 +360,7 @@ std::vector<Subject> planar_subjects() {
       of_setup("memory", with_memory()),
       of_experiment("failing_valves", "walk-test-1", failing),
       of_experiment("dampers", "damper"),
+      of_experiment("breakaway", "walk-test-1", {"trolley.breakaway=3 lbf"}),
   };
   for (Subject& s : all) s.limits = limits_of(s.name);
   return all;

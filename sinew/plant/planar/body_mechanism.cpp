@@ -6,16 +6,6 @@
 
 namespace sinew::plant {
 
-namespace {
-
-constexpr double blocked_bound = 1e9;  // of a joint that is held [N m]
-
-// The fastest rate in the machine times the step: RK4 is stable up to 2.8, and the rate changes
-// with the pose.
-constexpr double longest_rate = 1.5;
-
-}  // namespace
-
 BodyMechanism::BodyMechanism(const Setup& setup)
     : constants_(body_of(setup.robot)),
       robot_(setup.robot),
@@ -40,8 +30,7 @@ double BodyMechanism::sum(const Motion& m) const noexcept {
 }
 
 double BodyMechanism::stable_step(double step) const {
-  const double rate = rubs_.stiffest_rate(Body(constants_, start_), start_, robot_);
-  return rate * step > longest_rate ? step / std::ceil(rate * step / longest_rate) : step;
+  return plant::stable_step(step, rubs_.stiffest_rate(Body(constants_, start_), start_, robot_));
 }
 
 void BodyMechanism::set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
@@ -127,7 +116,7 @@ auto BodyMechanism::accelerate(const Pose& body, const Motion& m, const Load& lo
 }
 
 auto BodyMechanism::prepare(const Pose& body, const Motion& m, const Arms& arms,
-                            const muscle::Lanes& mesh, const Forces& held,
+                            const muscle::Lanes& mesh, double trolley_bound,
                             const Load& load) noexcept -> Acceleration {
   const Acceleration free = body.accelerations(load.force);
   Forces bound{};
@@ -137,8 +126,7 @@ auto BodyMechanism::prepare(const Pose& body, const Motion& m, const Arms& arms,
       if (const int j = cords_.joint(i, k); j >= 0)
         bound[static_cast<std::size_t>(j)] +=
             std::abs(arms[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)]) * mesh[i];
-  if (!constants_.held[along_track])
-    bound[Rubs::trolley] = robot_.trolley.friction(held[Rubs::trolley], rubs_.bound(Rubs::trolley));
+  bound[Rubs::trolley] = trolley_bound;
   bound[Rubs::lift] = constants_.held[up] ? 0.0 : robot_.cylinder.friction;
   for (std::size_t i = 0; i < most_discs; ++i)
     bound[Rubs::first_disc + i] = robot_.foot.friction * load.normal[i];

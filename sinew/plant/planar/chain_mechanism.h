@@ -82,8 +82,8 @@ class ChainMechanism {
 
   // The body step, or a whole part of it that suits the fastest rate of the machine at its start.
   double stable_step(double step) const {
-    const double rate = contacts_.stiffest_rate(Pose(chain_, start_), damping_, spring_);
-    return rate * step > longest_rate ? step / std::ceil(rate * step / longest_rate) : step;
+    return plant::stable_step(step,
+                              contacts_.stiffest_rate(Pose(chain_, start_), damping_, spring_));
   }
 
   void set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
@@ -146,17 +146,21 @@ class ChainMechanism {
     return chain.accelerations(force);
   }
 
+  // Bound of the trolley's dry friction, from the last step's and what was held in it [N].
+  double trolley_bound(const Forces& held, double last) const noexcept {
+    return robot_.trolley.friction(held[Contacts<N>::trolley], last);
+  }
+
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
   // the mesh's own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& chain, const Motion& pose, const Arms&,
-                       const muscle::Lanes& mesh, const Forces& held, const Load& load) noexcept {
+                       const muscle::Lanes& mesh, double trolley_bound, const Load& load) noexcept {
     const Acceleration free = chain.accelerations(load.force);
     Forces bound;
     for (int j = 0; j < N; ++j) bound[j] = dry_[j];
     for (int i = 0; i < routes_.count; ++i)
       bound[routes_.joint[i]] += std::abs(routes_.pull[i]) * mesh[i];
-    bound[Contacts<N>::trolley] =
-        robot_.trolley.friction(held[Contacts<N>::trolley], contacts_.bound(Contacts<N>::trolley));
+    bound[Contacts<N>::trolley] = trolley_bound;
     bound[Contacts<N>::foot] = robot_.foot.friction * load.normal;
     contacts_.prepare(chain, pose, free, bound, load.normal);
     return free;
@@ -207,7 +211,8 @@ class ChainMechanism {
     torque[static_cast<std::size_t>(joint(muscle))] += routes_.pull[muscle] * tension;
   }
 
-  // What only a simulation knows of the body at a motion, the muscles' torques being there.
+  // Fills in what only a simulation knows of the body at a motion; the muscles' torques are there
+  // already.
   void tell(const Motion& pose, const Acceleration& a, const Forces& held, const Load&,
             Truth& out) const noexcept {
     out.x = pose.x;
@@ -227,12 +232,6 @@ class ChainMechanism {
   }
 
  private:
-  static constexpr double blocked_bound = 1e9;  // of a joint that is held [N m]
-
-  // The fastest rate in the machine times the step: RK4 is stable up to 2.8, and the rate changes
-  // with the pose.
-  static constexpr double longest_rate = 1.5;
-
   // The foot: a disc about the ankle that belongs to the last link. Compliant normal force only;
   // the tangential force is one of the step's dry frictions.
   void ground(const Chain<N>& chain, const Motion& pose, Load& out) const noexcept {

@@ -3,6 +3,8 @@
 // has only air that a bank holds by muscle/bank.h.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <variant>
 
 #include "sinew/muscle/air.h"
@@ -24,6 +26,9 @@ extern template class World<ChainMechanism<1>, muscle::PlumbingAir>;
 extern template class World<ChainMechanism<2>, muscle::PlumbingAir>;
 extern template class World<BodyMechanism, muscle::PlumbingAir>;
 
+using AnyWorld = std::variant<ChainWorld<1>, ChainWorld<2>, ChainPlumbingWorld<1>,
+                              ChainPlumbingWorld<2>, BodyWorld>;
+
 class Machine {
  public:
   // The setup must be free of contradictions (robot::contradictions).
@@ -40,10 +45,14 @@ class Machine {
   double shortest_step() const noexcept;
   const muscle::Failure& failure() const noexcept;
 
+  // The machine's state at the last node, with the commands since, as bytes of one build of the
+  // library; state_size() of them. A machine of an equal setup goes on from there: the same bits.
+  std::size_t state_size() const noexcept;
+  void save(std::span<std::byte> out) const noexcept;
+  void restore(std::span<const std::byte> saved) noexcept;
+
  private:
-  std::variant<ChainWorld<1>, ChainWorld<2>, ChainPlumbingWorld<1>, ChainPlumbingWorld<2>,
-               BodyWorld>
-      world_;
+  AnyWorld world_;
 };
 
 }  // namespace sinew::plant

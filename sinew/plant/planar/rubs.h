@@ -80,8 +80,8 @@ class Rubs {
   int disc_count_ = 0;
   double surface_ = 0;  // of the ground [m]
 
-  // Of the contacts that can carry something at the node, one after the other: only these are
-  // solved.
+  // The contacts that can carry something at the node stand here one after the other: only these
+  // are solved.
   int active_count_ = 0;
   std::array<int, count> active_{};          // their numbers
   std::array<Coordinates, count> column_{};  // M^-1 J^T

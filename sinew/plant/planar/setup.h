@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -29,6 +30,16 @@ struct Steps {
   double body = 1e-3;  // between nodes [s]
 };
 
+inline constexpr double blocked_bound = 1e9;  // dry friction of a joint that is held [N m]
+
+// The body step, or a whole part of it that suits the machine's fastest rate [1/s]: RK4 is stable
+// up to a product of 2.8, and the rate changes with the pose.
+inline double stable_step(double step, double rate) {
+  constexpr double largest_product = 1.5;
+  const double product = rate * step;
+  return product > largest_product ? step / std::ceil(product / largest_product) : step;
+}
+
 struct Setup {
   robot::Robot robot;
   std::vector<muscle::Muscle> muscles;  // in the order of robot.muscles
@@ -52,7 +63,7 @@ struct Truth {
   double force_x = 0, force_y = 0;                           // on the foot by the ground [N]
   double roller_front = 0, roller_rear = 0;                  // loads, below 0: lifted off [N]
 
-  // Of parts that not every machine has; 0 without them.
+  // These belong to parts that not every machine has, and are 0 without them.
   std::array<double, 4> disc_force{};                   // of the ground on each disc, up [N]
   std::array<double, muscle::capacity> air_leaked{};    // since the start [kg]
   double supply_pressure = 0, tank_pressure = 0;        // absolute [Pa]

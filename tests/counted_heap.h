@@ -1,0 +1,38 @@
+// tests/counted_heap.h - counts what one thread takes from the heap. It replaces the program's
+// operator new, so exactly one file of a test program includes it.
+#pragma once
+
+#include <cstdlib>
+#include <new>
+
+namespace sinew::test {
+
+inline thread_local bool counting = false;  // set it around what must take nothing
+inline thread_local int allocations = 0;    // taken while counting
+
+inline void count_allocation() { allocations += counting ? 1 : 0; }
+
+}  // namespace sinew::test
+
+// Not inlined: GCC would see malloc and delete meet, and warn.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  sinew::test::count_allocation();
+  if (void* p = std::malloc(size ? size : 1)) return p;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  sinew::test::count_allocation();
+  return std::malloc(size ? size : 1);
+}
+[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t align) {
+  sinew::test::count_allocation();
+  const auto a = static_cast<std::size_t>(align);
+  if (void* p = std::aligned_alloc(a, (size + a) / a * a)) return p;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+[[gnu::noinline]] void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
+  std::free(p);
+}
