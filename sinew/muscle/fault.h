@@ -43,6 +43,9 @@ inline bool is_share_of_valve(const AirFault& f) {
   return f.of_valve() && !(f.leak.area > 0) && !(f.leak.conductance > 0);
 }
 
+// The open share of the area of a valve that does not seal: its shutter covers the rest  [-].
+constexpr double open_share(double seat, double shutter) { return seat + (1.0 - seat) * shutter; }
+
 // Which faults act: the state of a schedule.
 struct ActingFaults {
   std::uint64_t acting = 0;  // a bit each
@@ -92,11 +95,21 @@ class FaultSchedule {
     }
   }
 
-  // visit(fault) of each that acts, in their order.
+  // visit(number, fault) of each that acts, in their order.
   template <class Visit>
   void each(const ActingFaults& now, Visit visit) const noexcept {
     for (std::size_t i = 0; i < faults_.size() && now.acting >> i != 0; ++i)
-      if ((now.acting >> i & 1) != 0) visit(faults_[i]);
+      if ((now.acting >> i & 1) != 0) visit(i, faults_[i]);
+  }
+
+  // Share of its area that a valve with a leaking seat leaves open, 0 of any other  [-].
+  double seat(int valve, const ActingFaults& now) const noexcept {
+    double share = 0;
+    if (now.any())
+      each(now, [&](std::size_t, const AirFault& f) {
+        if (f.what == AirFault::What::seat_leak && f.of == valve) share = f.share;
+      });
+    return share;
   }
 
  private:
