@@ -247,6 +247,19 @@ void true_fault_columns(const Experiment& e, Columns& out) {
   }
 }
 
+// All of the machine's air, for its balance: where something may break that lets air in or out.
+void true_air_columns(const Experiment& e, Columns& out) {
+  if (std::ranges::all_of(e.faults, [](const Fault& f) { return is_of_sensor(f.what); })) return;
+  out.scalar("/true/air/mass", "kg", "in chambers, hoses and tank",
+             [](const Moment& m) { return m.truth.air_mass; });
+  const bool fails =
+      std::ranges::any_of(e.faults, [](const Fault& f) { return f.what == Fault::What::failed; });
+  if (fails && e.supply.kind == gas::Supply::Kind::tank)
+    out.scalar("/true/supply/air_past_tank", "kg",
+               "from the line while a fault had cut it from its tank, since the start",
+               [](const Moment& m) { return m.truth.air_past_tank; });
+}
+
 void true_supply_columns(const gas::Supply& supply, Columns& out) {
   if (supply.kind != gas::Supply::Kind::tank) return;
   out.scalar("/true/supply/pressure", "Pa", "of the line to the inlets, absolute",
@@ -317,6 +330,7 @@ std::vector<Column> columns(const Experiment& e) {
   true_muscle_columns(e, out);
   true_body_columns(e.robot, out);
   true_cylinder_columns(e.robot, out);
+  true_air_columns(e, out);
   true_supply_columns(e.supply, out);
   true_fault_columns(e, out);
   return std::move(out.list);
