@@ -170,7 +170,7 @@ void gain_columns(const Experiment& e, Columns& out) {
   if (!e.log.gains) return;
   for (const gait::Setting& s : gait::settings(e.plan)) {
     constexpr std::string_view before = "control.gains.";
-    if (!s.key.starts_with(before)) continue;  // desired stiffnesses are always there
+    if (!s.key.starts_with(before)) continue;  // desired angles and stiffnesses are always there
     std::string name = "/desired/gain/" + s.key.substr(before.size());
     std::ranges::replace(name, '.', '/');
     out.scalar(std::move(name), std::string(s.unit), "in effect",

@@ -174,6 +174,16 @@ TEST(Faults, OnePartOfTheAirBreaksOnceAtATime) {
                 "1 s on; flexor blocked from 1 s on; flexor.inlet stuck shut from 1.5 s on"));
 }
 
+TEST(Faults, ATestStandSaysThatItTakesNone) {
+  const Workspace w;
+  write_text(w / "experiments/rig/x.toml", "format = \"sinew.rig/1\"\nbase = \"feedback.toml\"\n" +
+                                               of_air("inlet", "stuck open"));
+  const Result r = w.sinew({"check", "experiments/rig/x.toml"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_THAT(r.out, AllOf(HasSubstr("x.toml:3:"), HasSubstr("fault: found a list of faults"),
+                           HasSubstr("nothing of a test stand breaks while it runs")));
+}
+
 TEST(Faults, AValveThatStandsOpenIsListedAndDrawn) {
   const Workspace w;
   const Result r = w.sinew({"run", "experiments/faults/valve-stuck-open.toml", "-o", "run"});
