@@ -9,6 +9,7 @@
 #include "sinew/config/valve_timing.h"
 #include "sinew/control/gait/brain.h"
 #include "sinew/control/joint/config.h"
+#include "sinew/experiment/faults.h"
 #include "sinew/experiment/run.h"
 #include "sinew/experiment/spinal.h"
 #include "sinew/muscle/plumbing.h"
@@ -258,11 +259,6 @@ void check_measures(const Experiment& e, List& out) {
       out.push_back({"phase." + phase.name + ".until", config::in_quotes(phase.until.measure),
                      "a measure that has its sensors", "a [sensor.…] of kind = \"tension\""});
   }
-}
-
-void check_faults(const Experiment& e, List& out) {
-  for (std::size_t i = 0; i < e.faults.size(); ++i)
-    need("fault[" + std::to_string(i) + "].of", e.faults[i].of, e.robot.sensors, out);
 }
 
 // Where the machine starts must be a place where it can be.

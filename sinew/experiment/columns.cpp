@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/experiment/faults.h"
 #include "sinew/experiment/spinal.h"
 #include "sinew/experiment/supervision.h"
 
@@ -189,7 +190,17 @@ void true_joint_columns(const robot::Robot& robot, Columns& out) {
   }
 }
 
-void true_muscle_columns(const robot::Robot& robot, Columns& out) {
+// By its description, or by a fault.
+bool leaks(const Experiment& e, const robot::Muscle& m) {
+  using What = Fault::What;
+  return m.leak.area > 0 || m.leak.conductance > 0 ||
+         std::ranges::any_of(e.faults, [&](const Fault& f) {
+           return f.of == m.name && (f.what == What::leaking || f.what == What::ruptured);
+         });
+}
+
+void true_muscle_columns(const Experiment& e, Columns& out) {
+  const robot::Robot& robot = e.robot;
   for (std::size_t i = 0; i < robot.muscles.size(); ++i) {
     const std::string at = "/true/muscle/" + robot.muscles[i].name;
     out.scalar(at + "/tension", "N", "at the cord",
@@ -204,26 +215,49 @@ void true_muscle_columns(const robot::Robot& robot, Columns& out) {
                [i](const Moment& m) { return m.truth.air_in[i]; });
     out.scalar(at + "/air_out", "kg", "to the atmosphere since the start",
                [i](const Moment& m) { return m.truth.air_out[i]; });
-    const robot::Leak& leak = robot.muscles[i].leak;
-    if (leak.area > 0 || leak.conductance > 0)
+    if (leaks(e, robot.muscles[i]))
       out.scalar(at + "/air_leaked", "kg", "to the atmosphere, past the valves, since the start",
                  [i](const Moment& m) { return m.truth.air_leaked[i]; });
   }
 }
 
-// By the list [[fault]].
+// By the list [[fault]], part by part. What breaks in the air may break for less than a sample.
 void true_fault_columns(const Experiment& e, Columns& out) {
-  for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
+  std::vector<std::string> done;
+  for (const Fault& first : e.faults) {
+    const std::string topic = topic_of(first);
+    if (std::ranges::count(done, topic) > 0) continue;
+    done.push_back(topic);
     std::vector<Fault> faults;
     for (const Fault& f : e.faults)
-      if (f.of == e.robot.sensors[s].name) faults.push_back(f);
-    if (faults.empty()) continue;
-    out.scalar("/true/sensor/" + e.robot.sensors[s].name + "/fault", "1",
-               "1 while one of the experiment's acts on it", [faults](const Moment& m) {
-                 return std::ranges::any_of(faults,
-                                            [&](const Fault& f) { return acts(f, m.time); });
-               });
+      if (topic_of(f) == topic) faults.push_back(f);
+    if (is_of_sensor(first.what))
+      out.scalar(
+          topic, "1", "1 while one of the experiment's acts on it", [faults](const Moment& m) {
+            return std::ranges::any_of(faults, [&](const Fault& f) { return acts(f, m.time); });
+          });
+    else
+      out.scalar(topic, "1",
+                 "1 where one of the experiment's acts or has acted since the last sample",
+                 [faults, period = e.log.period](const Moment& m) {
+                   return std::ranges::any_of(faults, [&](const Fault& f) {
+                     return f.at <= m.time && !(m.time - period >= f.at + f.lasts);
+                   });
+                 });
   }
+}
+
+// All of the machine's air, for its balance: where something may break that lets air in or out.
+void true_air_columns(const Experiment& e, Columns& out) {
+  if (std::ranges::all_of(e.faults, [](const Fault& f) { return is_of_sensor(f.what); })) return;
+  out.scalar("/true/air/mass", "kg", "in chambers, hoses and tank",
+             [](const Moment& m) { return m.truth.air_mass; });
+  const bool fails =
+      std::ranges::any_of(e.faults, [](const Fault& f) { return f.what == Fault::What::failed; });
+  if (fails && e.supply.kind == gas::Supply::Kind::tank)
+    out.scalar("/true/supply/air_past_tank", "kg",
+               "from the line while a fault had cut it from its tank, since the start",
+               [](const Moment& m) { return m.truth.air_past_tank; });
 }
 
 void true_supply_columns(const gas::Supply& supply, Columns& out) {
@@ -293,9 +327,10 @@ std::vector<Column> columns(const Experiment& e) {
   plan_columns(out);
   gain_columns(e, out);
   true_joint_columns(e.robot, out);
-  true_muscle_columns(e.robot, out);
+  true_muscle_columns(e, out);
   true_body_columns(e.robot, out);
   true_cylinder_columns(e.robot, out);
+  true_air_columns(e, out);
   true_supply_columns(e.supply, out);
   true_fault_columns(e, out);
   return std::move(out.list);

@@ -9,10 +9,12 @@
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/node.h"
+#include "sinew/experiment/faults.h"
 #include "sinew/experiment/faulty_port.h"
 #include "sinew/experiment/run.h"
 #include "sinew/experiment/supervision.h"
 #include "sinew/experiment/test_same.h"
+#include "sinew/muscle/fault.h"
 #include "sinew/robot/actuator_of.h"
 
 namespace sinew::experiment {
@@ -194,6 +196,113 @@ TEST(Fault, StandsInTheResolvedFile) {
   EXPECT_EQ(again.robot.sensors[0].max_rate, 20'000);
   EXPECT_EQ(again.robot.sensors[0].frozen_limit, 1.5);
   expect_same(run(e).table, run(again).table);
+}
+
+// --- the air ---
+
+Fault of_air(const std::string& of, What what, double at, double lasts = robot::not_set) {
+  return {.at = at, .lasts = lasts, .of = of, .what = what};
+}
+
+TEST(AirFault, StandsInTheResolvedFile) {
+  Experiment e = bench();
+  e.faults = {of_air("flexor.inlet", What::stuck_open, 1.25, 0.5),
+              of_air("flexor.exhaust", What::stuck_shut, 1.25),
+              of_air("extensor.inlet", What::leaking, 0.5, 1),
+              of_air("extensor", What::leaking, 0.5, 1),
+              of_air("flexor", What::ruptured, 3),
+              of_air("extensor", What::blocked, 2, 0.1),
+              of_air("supply", What::failed, 2, 0.1),
+              of_air("supply", What::failed, 2.5)};
+  e.faults[2].share = 0.05;
+  e.faults[3].area = 1e-8;
+  e.faults[3].conductance = 2e-12;
+  e.faults[6].pressure = 3e5;
+  const Experiment again =
+      load(config::parse_text(resolved(e, "test"), "resolved.toml"), "resolved.toml");
+  ASSERT_EQ(again.faults.size(), e.faults.size());
+  for (std::size_t i = 0; i < e.faults.size(); ++i) {
+    EXPECT_EQ(again.faults[i].what, e.faults[i].what);
+    EXPECT_EQ(in_words(again.faults[i]), in_words(e.faults[i]));
+  }
+  EXPECT_EQ(in_words(e.faults[2]), "extensor.inlet leaking (5 % of its area) from 0.5 s to 1.5 s");
+  EXPECT_EQ(in_words(e.faults[4]), "flexor ruptured from 3 s on");
+  expect_same(run(e).table, run(again).table);
+}
+
+// What the plant is given: parts by their numbers, a rupture as wide as one actuator.
+TEST(AirFault, ComesToPartsOfThePlant) {
+  Experiment e = bench();
+  e.faults = {of_air("extensor.exhaust", What::stuck_shut, 1, 0.5), of_lever(What::open),
+              of_air("extensor", What::ruptured, 1), of_air("supply", What::failed, 2)};
+  const std::vector<muscle::AirFault> air = air_faults(e);
+  ASSERT_EQ(air.size(), 3u);
+  EXPECT_EQ(air[0].what, muscle::AirFault::What::stuck_shut);
+  EXPECT_EQ(air[0].of, 3);
+  EXPECT_EQ(air[0].begin, 1);
+  EXPECT_EQ(air[0].end, 1.5);
+  EXPECT_EQ(air[1].of, 1);
+  const robot::Muscle& m = e.robot.muscles[1];
+  const auto& braid = robot::actuator_of(m, e.actuators).braid;
+  const double widest = braid.thread_length / (braid.turns * 3.14159265358979);
+  EXPECT_GT(air[1].leak.area, 0.3 * widest * widest / 4);
+  EXPECT_LT(air[1].leak.area, 3.15 * widest * widest / 4);
+  EXPECT_EQ(air[2].pressure, e.air.atmosphere);
+}
+
+// The log has when it acted, however short, and all of the air; its sensors do not lie.
+TEST(AirFault, IsInTheLogWithTheAirsBalance) {
+  Experiment e = bench();
+  e.faults = {of_air("flexor.inlet", What::stuck_open, 1.0042, 1e-3),
+              of_air("flexor", What::leaking, 1.2)};
+  e.faults[1].area = 2e-8;
+  const signals::Table table = run(e).table;
+  const auto column = [&](const char* topic) { return table.find(topic)->columns[0]; };
+  EXPECT_EQ(std::ranges::count(column("/true/valve/flexor/inlet/fault"), 1.0), 1);
+  EXPECT_EQ(column("/true/valve/flexor/inlet/fault")[101], 1);
+  EXPECT_EQ(column("/true/muscle/flexor/fault")[119], 0);
+  EXPECT_EQ(column("/true/muscle/flexor/fault").back(), 1);
+  EXPECT_EQ(table.find("/true/sensor/lever_angle/fault"), nullptr);
+
+  const auto gained = [&](const std::string& topic) {
+    const std::vector<double> c = column(topic.c_str());
+    return c.back() - c.front();
+  };
+  double in = 0, out = 0;
+  for (const std::string m : {"/true/muscle/flexor", "/true/muscle/extensor"})
+    in += gained(m + "/air_in"), out += gained(m + "/air_out");
+  const double leaked = gained("/true/muscle/flexor/air_leaked");
+  EXPECT_GT(leaked, 1e-6);
+  EXPECT_NEAR((gained("/true/air/mass") - in + out + leaked) / in, 0, 1e-12);
+}
+
+TEST(AirFault, ThatComesTooLateChangesNoBit) {
+  Experiment e = bench();
+  const Outcome without = run(e);
+  e.faults = {of_air("flexor.inlet", What::stuck_open, 1000)};
+  const Outcome with = run(e);
+  for (const signals::Series& s : without.table.series) {
+    const signals::Series* other = with.table.find(s.topic.name);
+    ASSERT_NE(other, nullptr);
+    for (std::size_t c = 0; c < s.columns.size(); ++c)
+      for (std::size_t i = 0; i < s.columns[c].size(); ++i)
+        ASSERT_TRUE(s.columns[c][i] == other->columns[c][i] || std::isnan(s.columns[c][i]))
+            << s.topic.name;
+  }
+}
+
+// Both kinds at once: the port lies, the body leaks.
+TEST(AirFault, GoesWithALieOfASensor) {
+  Experiment e = bench();
+  e.faults = {of_air("flexor", What::leaking, 0.5, 1), of_lever(What::noise, 30)};
+  e.faults[0].area = 1e-8;
+  const Outcome once = run(e);
+  EXPECT_EQ(once.status, Status::ok);
+  expect_same(once.table, run(e, {.every_tick = true, .extra_readers = 2}).table);
+  // Noise is numbered by the whole list: another fault before it changes it, one behind does not.
+  std::swap(e.faults[0], e.faults[1]);
+  EXPECT_NE(run(e).table.find("/sensor/lever_angle/count")->columns[0],
+            once.table.find("/sensor/lever_angle/count")->columns[0]);
 }
 
 // --- limits -------------------------------------------------------------------------------------

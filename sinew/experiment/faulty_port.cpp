@@ -13,8 +13,10 @@ using signals::Tick;
 
 FaultyPort::FaultyPort(const Experiment& e, signals::Port& body)
     : body_(body), seed_(static_cast<std::uint64_t>(e.seed)), top_(e.robot.converter.top()) {
-  for (const Fault& fault : e.faults)
-    faults_.push_back({fault, static_cast<std::uint8_t>(robot::find_sensor(e.robot, fault.of))});
+  for (std::size_t i = 0; i < e.faults.size(); ++i)
+    if (const Fault& fault = e.faults[i]; is_of_sensor(fault.what))
+      faults_.push_back(
+          {fault, i, static_cast<std::uint8_t>(robot::find_sensor(e.robot, fault.of))});
 }
 
 // Behind the sensors' own noise, which counts from 0.
@@ -23,8 +25,8 @@ double FaultyPort::drawn(std::size_t fault, Tick now) const noexcept {
   return robot::noise(seed_, first + static_cast<int>(fault), now);
 }
 
-Reading FaultyPort::spoil(std::size_t i, Reading r, Tick now) const noexcept {
-  const auto& [fault, channel] = faults_[i];
+Reading FaultyPort::spoil(const Acting& acting, Reading r, Tick now) const noexcept {
+  const auto& [fault, i, channel] = acting;
   const auto counts = [&](double value) {
     return static_cast<std::uint16_t>(std::clamp(value, 0.0, top_) + 0.5);
   };
@@ -47,6 +49,8 @@ Reading FaultyPort::spoil(std::size_t i, Reading r, Tick now) const noexcept {
       const bool lost = !(n - std::floor(n) >= fault.amount);
       return lost ? Reading{before_[channel], Status::late} : r;
     }
+    default:
+      break;  // of the air
   }
   return r;
 }
@@ -55,8 +59,8 @@ Reading FaultyPort::read(signals::Channel channel, Tick now) noexcept {
   Reading r = body_.read(channel, now);
   if (r.status == Status::ended || r.status == Status::fault) return r;
   const double time = static_cast<double>(now) * signals::tick_seconds;
-  for (std::size_t i = 0; i < faults_.size(); ++i)
-    if (faults_[i].channel == channel.index && acts(faults_[i].fault, time)) r = spoil(i, r, now);
+  for (const Acting& f : faults_)
+    if (f.channel == channel.index && acts(f.fault, time)) r = spoil(f, r, now);
   if (r.status == Status::ok) {
     before_[channel.index] = r.counts;
     answered_[channel.index] = true;

@@ -1,5 +1,6 @@
 // experiment/faulty_port.h - a body whose sensors lie as the experiment's [[fault]] says. What
-// moves, moves as it does without; only what read() answers differs.
+// moves, moves as it does without; only what read() answers differs. Faults of the air are the
+// body's own.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@ namespace sinew::experiment {
 // looked at.
 class FaultyPort final : public signals::Port {
  public:
-  // `body` outlives it. Every fault's sensor is there.
+  // `body` outlives it. Every fault's sensor is there; faults of the air are passed over.
   FaultyPort(const Experiment& experiment, signals::Port& body);
 
   signals::Status start(const signals::Scan& scan) noexcept override { return body_.start(scan); }
@@ -38,11 +39,12 @@ class FaultyPort final : public signals::Port {
  private:
   struct Acting {
     Fault fault;
+    std::size_t index = 0;  // in the experiment's list
     std::uint8_t channel = 0;
   };
 
   double drawn(std::size_t fault, signals::Tick now) const noexcept;
-  signals::Reading spoil(std::size_t fault, signals::Reading, signals::Tick now) const noexcept;
+  signals::Reading spoil(const Acting&, signals::Reading, signals::Tick now) const noexcept;
 
   signals::Port& body_;
   std::vector<Acting> faults_;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "sinew/experiment/clock.h"
+#include "sinew/experiment/faults.h"
 #include "sinew/experiment/hose_of.h"
 #include "sinew/experiment/simulation.h"
 #include "sinew/plant/recorded/recorded.h"
@@ -148,6 +149,7 @@ plant::Setup planar_setup(const Experiment& e) {
     s.start.blocked.push_back(blocked);
   }
   s.cylinder = cylinder_of(e);
+  s.faults = air_faults(e);
   s.start.trolley = e.start.trolley;
   s.start.lift = e.start.lift;
   s.start.pressure = e.start.pressure;

@@ -236,6 +236,14 @@ std::string to_json(const std::vector<analysis::Warning>& warnings) {
   return text_of(out);
 }
 
+std::string to_json(const std::vector<analysis::MachineFault>& faults, double end) {
+  Json out = Json::array();
+  for (const analysis::MachineFault& f : faults)
+    out.push_back(
+        {{"of", f.of}, {"what", f.what}, {"from", f.begin}, {"to", std::fmin(f.end, end)}});
+  return text_of(out);
+}
+
 std::string to_json(const std::vector<analysis::Verdict>& verdicts) {
   Json out = Json::array();
   for (const analysis::Verdict& v : verdicts)

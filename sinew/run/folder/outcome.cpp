@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/experiment/faults.h"
+
 namespace sinew::run {
 
 namespace {
@@ -57,19 +59,14 @@ std::string counted(std::int64_t count, std::string_view one, std::string_view m
   return fmt::format("{} {}", count, count == 1 ? one : more);
 }
 
-// Faults that changed nothing: the run was one without them. Of one that lasts less than the time
-// between two readings nothing is said.
+// Faults that changed nothing: the run was one without them.
 void add_idle_faults(const experiment::Experiment& e, const experiment::Outcome& outcome,
                      std::vector<std::string>& out) {
-  for (std::size_t i = 0; i < e.faults.size(); ++i) {
-    const experiment::Fault& fault = e.faults[i];
-    if (fault.at > outcome.duration)
-      out.push_back(
-          fmt::format("fault[{}] never acted: it begins at {:.6g} s, the run lasted {:.4f} s", i,
-                      fault.at, outcome.duration));
-    else if (fault.amount == 0)
-      out.push_back(fmt::format("fault[{}] never acted: its amount is 0", i));
-  }
+  const auto end =
+      static_cast<signals::Tick>(std::llround(outcome.duration / signals::tick_seconds));
+  for (std::size_t i = 0; i < e.faults.size(); ++i)
+    if (const std::string why = why_idle(e, e.faults[i], end); !why.empty())
+      out.push_back(fmt::format("fault[{}] never acted: {}", i, why));
 }
 
 // Sensors whose readings were rejected or stood still, and whose counters the run did not record.
