@@ -2,6 +2,7 @@
 // whoever steers. Both take effect at period starts; what was steered is kept.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "sinew/control/gait/brain.h"
@@ -19,8 +20,9 @@ class Changes {
   // `steering` may be null and outlives this.
   Changes(const gait::Plan& plan, Steering* steering);
 
-  // At a period start, before the high level's word is passed on.
-  void apply(signals::Tick t, gait::Desired& desired) noexcept;
+  // At a period start, before the high level's word is passed on: what every leg desires, which one
+  // change sets for all of them.
+  void apply(signals::Tick t, std::span<gait::Desired> legs) noexcept;
 
   // The plan's list, and behind it what was steered, at the times at which it took effect.
   std::vector<gait::Change> all() const;

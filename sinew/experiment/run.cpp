@@ -84,10 +84,10 @@ Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& por
   out.seen = spine.seen();
   out.supervised = spine.supervised();
   out.changes = high_level.changes().all();
-  out.unreachable_periods = high_level.brain().unreachable_periods();
+  out.unreachable_periods = high_level.legs().unreachable_periods();
   out.duration = static_cast<double>(end) * signals::tick_seconds;
   for (const signals::Series& s : out.table.series)
-    if (!s.time_ns.empty() && s.topic.name == "/plan/phase")
+    if (!s.time_ns.empty() && s.topic.name.ends_with("/plan/phase"))
       out.duration = 1e-9 * static_cast<double>(s.time_ns.back());
   return out;
 }
@@ -122,7 +122,7 @@ Outcome run_machine(const Experiment& e, const plant::Setup& setup, const RunOpt
 Tick last_tick(const Experiment& e) {
   const double vent = e.plan.finish == gait::Plan::Finish::vent ? e.robot.low_level.vent_time : 0.0;
   const auto brain_ticks = std::llround(e.plan.brain_period / signals::tick_seconds);
-  const Tick plan = gait::periods(e.plan) * brain_ticks;
+  const Tick plan = gait::periods(e.robot, e.plan) * brain_ticks;
   // One period for the last valves to shut, and for a sample of where the plan has led to.
   const Tick last = e.robot.low_level.pwm_ticks;
   return plan + std::llround(vent / signals::tick_seconds) + last;

@@ -5,7 +5,9 @@
 #include <map>
 #include <set>
 
+#include "sinew/robot/check_legs.h"
 #include "sinew/robot/kinematics.h"
+#include "sinew/robot/legs.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::robot {
@@ -309,7 +311,10 @@ void check_masses(const Robot& robot, List& out) {
     out.push_back({"trolley.total_mass", std::to_string(robot.trolley.total_mass) + " kg",
                    "more than links and foot together, " + std::to_string(leg_mass(robot)) + " kg",
                    "the mass of all that moves along the track"});
-  if (robot.ground.present && !robot.foot.present)
+  bool stands = false;
+  for (std::size_t l = 0; l < std::max<std::size_t>(1, robot.legs.size()); ++l)
+    stands = stands || foot_of(robot, l).present;
+  if (robot.ground.present && !stands)
     out.push_back({"ground.present", "true", "a foot to stand on it",
                    "[foot] with present = true, or ground.present = false"});
   for (const Link& link : robot.links)
@@ -323,6 +328,8 @@ void check_masses(const Robot& robot, List& out) {
 std::vector<Contradiction> contradictions(const Robot& robot) {
   List out;
   check_sizes(robot, out);
+  check_tree(robot, out);
+  if (out.empty()) check_legs(robot, out);
   check_pairs(robot, out);
   check_bits(robot, out);
   check_scan(robot, out);

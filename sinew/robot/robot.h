@@ -2,8 +2,8 @@
 // plants move it, controllers drive it, analysis reads its logs.
 //
 // Plane x forward, y up, origin at the hip axis; angles counter-clockwise, the first joint's from
-// +x, every other joint's from its proximal link's direction. Link k hangs at joint k. SI
-// throughout.
+// +x, every other joint's from its proximal link's direction. Link k hangs at joint k: on the link
+// before it, on another one (a tree), or on the body, which carries the first. SI throughout.
 #pragma once
 
 #include <limits>
@@ -17,8 +17,12 @@ namespace sinew::robot {
 
 inline constexpr int max_joints = 4;                // what the loop's fixed arrays hold
 inline constexpr int max_muscles = 2 * max_joints;  // one pair per joint
+inline constexpr int max_discs = 4;                 // of all feet together
 
 inline constexpr double not_set = std::numeric_limits<double>::quiet_NaN();
+
+// What a link names as its parent that hangs on the body.
+inline constexpr std::string_view body_name = "body";
 
 struct Link {
   std::string name;
@@ -26,6 +30,9 @@ struct Link {
   double mass = 0;            // [kg]
   double center_of_mass = 0;  // from the proximal joint [m]
   double inertia = 0;         // about the centre of mass [kg m^2]
+  std::string parent = {};    // link that it hangs on, or body_name; empty: the one before it
+  double at = not_set;        // along the parent, or ahead of the body's origin; not set: at the
+                              // parent's end, or at the origin [m]
 };
 
 // Gains in the controller's own units; see control/joint/config.h.
@@ -124,6 +131,17 @@ struct Foot {
   double radius = 0;          // a disc about the ankle, fixed to the last link [m]
   double friction = 0;        // Coulomb, static = sliding [-]
   std::vector<Point> points;  // in place of the one disc at the link's end; a shoe has two
+};
+
+// One of several legs: a path of joints from the body outwards, with a foot at its end. The names
+// of its joints and muscles begin with its own and "_"; what drives it, and what is logged of it,
+// leaves that out (legs.h).
+struct Leg {
+  std::string name;
+  std::vector<std::string> joints;  // from the body outwards
+  Foot foot;                        // in place of Robot::foot where it is present
+  std::string plan;                 // sequence of the experiment's that it follows; empty: the one
+  double offset = 0;                // by which its sequence is ahead, as a share of a step [-]
 };
 
 struct Ground {
@@ -254,6 +272,7 @@ struct Robot {
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Muscle> muscles;
+  std::vector<Leg> legs;  // empty: one, which is all of the robot's links
   Foot foot;
   Ground ground;
   Trolley trolley;
@@ -284,11 +303,20 @@ bool needs_tension(const Robot&, int muscle);
 // sensor but angles and tensions looks: what the thesis's laws of a joint are written for.
 bool is_plain(const Robot&);
 
+// The link that a link hangs on, by its position; -1: the body. A name that leads nowhere: -2.
+int parent_of(const Robot&, std::size_t link);
+
+// Where a link hangs: along its parent, or ahead of the body's origin  [m].
+double attachment_of(const Robot&, std::size_t link);
+
+// One link after the other, each at the end of the one before, with one foot: no tree.
+bool is_serial(const Robot&);
+
 // At most two joints, every muscle over a round cam at one of them, one disc for a foot, the
 // cylinder locked or none: a machine that a planar chain in closed form holds.
 bool is_chain(const Robot&);
 
-// Links and foot together  [kg].
+// Links and feet together  [kg].
 double leg_mass(const Robot&);
 
 // What is left of the total for the trolley itself  [kg]; 0 without a trolley.

@@ -146,6 +146,7 @@ struct Census {
   void integer(const units::Field& f, int&) { note(f, false); }
   void flag(const units::Field& f, bool&) { note(f, false); }
   void text(const units::Field& f, std::string&) { note(f, false); }
+  void texts(const units::Field& f, std::vector<std::string>&) { note(f, false); }
   template <class Enum>
   void choice(const units::Field& f, Enum&,
               std::initializer_list<units::Choice<std::type_identity_t<Enum>>> choices) {

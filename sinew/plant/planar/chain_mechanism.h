@@ -220,10 +220,10 @@ class ChainMechanism {
     Load at{};
     const Chain<N> chain(chain_, pose);
     ground(chain, pose, at);
-    out.foot_x = at.ankle_x;
-    out.foot_y = at.ankle_y;
-    out.force_x = at.normal > 0 ? held[Contacts<N>::foot] : 0.0;
-    out.force_y = out.disc_force[0] = at.normal;
+    out.foot[0].x = at.ankle_x;
+    out.foot[0].y = at.ankle_y;
+    out.foot[0].force_x = at.normal > 0 ? held[Contacts<N>::foot] : 0.0;
+    out.foot[0].force_y = out.disc_force[0] = at.normal;
     if (robot_.rollers.present) tell_rollers(chain, pose, a, held, out);
   }
 
@@ -252,8 +252,8 @@ class ChainMechanism {
                     const Forces& held, Truth& out) const noexcept {
     const double hung = robot::leg_mass(robot_) + robot_.cylinder.body_mass;
     Hanging h{.acceleration = a.x};
-    h.force_x = hung * a.x - out.force_x;
-    h.force_y = hung * chain_.gravity - out.force_y;
+    h.force_x = hung * a.x - out.foot[0].force_x;
+    h.force_y = hung * chain_.gravity - out.foot[0].force_y;
     for (int i = 0; i < N; ++i)
       h.add(chain_.first_moment[i], chain.sin(i), chain.cos(i), pose.rate[i], a.angle[i]);
     h.torque = out.torque[0] - damping_[0] * pose.rate[0] -

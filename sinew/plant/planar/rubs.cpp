@@ -15,16 +15,40 @@ double dot(const Coordinates& a, const Coordinates& b) {
 
 }  // namespace
 
-Rubs::Rubs(const BodyConstants& body, const robot::Robot& robot)
-    : k_(body), foot_(robot.foot), ground_(robot.ground) {
-  if (!robot.foot.present || body.links == 0) return;
-  surface_ = robot.ground.height - robot.foot.radius;
-  disc_[0] = {.along = body.length[body.links - 1], .radius = robot.foot.radius};
-  disc_count_ = 1;
-  if (robot.foot.points.empty()) return;
-  disc_count_ = 0;
-  for (const robot::Foot::Point& p : robot.foot.points)
-    if (disc_count_ < most_discs) disc_[static_cast<std::size_t>(disc_count_++)] = p;
+Rubs::Rubs(const BodyConstants& body, const robot::Robot& robot) : k_(body), ground_(robot.ground) {
+  const std::size_t legs = std::max<std::size_t>(1, robot.legs.size());
+  for (std::size_t leg = 0; leg < legs && leg < path_.size(); ++leg) add_foot(robot, leg);
+}
+
+void Rubs::add_foot(const robot::Robot& robot, std::size_t leg) {
+  foot_count_ = leg + 1;
+  const robot::Foot& foot = robot::foot_of(robot, leg);
+  const int last = robot::foot_link(robot, leg);
+  if (last < 0) return;
+
+  // From the foot inwards, then turned round.
+  Path& path = path_[leg];
+  const auto foot_link = static_cast<std::size_t>(last);
+  double reach = k_.length[foot_link];
+  for (std::size_t link = foot_link;; link = k_.on(link)) {
+    path.link[path.count] = link;
+    path.reach[path.count++] = reach;
+    reach = k_.attachment[link];
+    if (!k_.hangs_on_link(link)) break;
+  }
+  path.start = reach;
+  const auto n = static_cast<std::ptrdiff_t>(path.count);
+  std::reverse(path.link.begin(), path.link.begin() + n);
+  std::reverse(path.reach.begin(), path.reach.begin() + n);
+
+  if (!foot.present) return;
+  const auto add = [&](double along, double across, double radius) {
+    if (disc_count_ < most_discs)
+      disc_[static_cast<std::size_t>(disc_count_++)] = {
+          leg, along, across, radius, foot.friction, robot.ground.height - foot.radius};
+  };
+  if (foot.points.empty()) add(k_.length[foot_link], 0, foot.radius);
+  for (const robot::Foot::Point& p : foot.points) add(p.along, p.across, p.radius);
 }
 
 double Rubs::stiffest_rate(const Body& body, const Motion& motion,
@@ -44,15 +68,17 @@ double Rubs::stiffest_rate(const Body& body, const Motion& motion,
 }
 
 DiscAt Rubs::disc(const Body& body, const Motion& motion, int i) const {
-  const robot::Foot::Point& d = disc_[static_cast<std::size_t>(i)];
+  const Disc& d = disc_[static_cast<std::size_t>(i)];
+  const Path& path = path_[d.foot];
   DiscAt at;
-  at.x = motion.at[along_track];
+  at.x = motion.at[along_track] + path.start;
   at.y = motion.at[up];
   at.slip[along_track] = 1;
   at.rise[up] = 1;
-  for (std::size_t link = 0; link < k_.links; ++link) {
-    const bool last = link + 1 == k_.links;
-    const double a = last ? d.along : k_.length[link], b = last ? d.across : 0.0;
+  for (std::size_t k = 0; k < path.count; ++k) {
+    const std::size_t link = path.link[k];
+    const bool last = k + 1 == path.count;
+    const double a = last ? d.along : path.reach[k], b = last ? d.across : 0.0;
     const double dx = a * body.cos(link) - b * body.sin(link);
     const double dy = a * body.sin(link) + b * body.cos(link);
     const double rate = motion.rate[first_link + link];
@@ -68,7 +94,8 @@ DiscAt Rubs::disc(const Body& body, const Motion& motion, int i) const {
 
 double Rubs::push(const DiscAt& disc, int i, const Motion& motion) const {
   if (!ground_.present) return 0;
-  const double depth = surface_ + disc_[static_cast<std::size_t>(i)].radius - disc.y;
+  const Disc& d = disc_[static_cast<std::size_t>(i)];
+  const double depth = d.surface + d.radius - disc.y;
   if (depth <= 0) return 0;
   const double rate = dot(disc.rise, motion.rate);
   const double force = ground_.normal_stiffness * depth - ground_.normal_damping * rate;
@@ -83,7 +110,7 @@ Coordinates Rubs::row(int c, const std::array<DiscAt, most_discs>& discs) const 
   if (c >= most_links || c >= static_cast<int>(k_.links)) return j;
   const auto link = static_cast<std::size_t>(c);
   j[first_link + link] = 1;
-  if (link > 0) j[first_link + link - 1] = -1;
+  if (k_.hangs_on_link(link)) j[first_link + k_.on(link)] = -1;
   return j;
 }
 
@@ -175,7 +202,7 @@ void Rubs::soften(double h, FrictionProblem<count>& p) const {
     bears[i] = normal_[i] > 0 && mean > 0;
     for (std::size_t c = 0; c < n; ++c)
       if (active_[c] == first_disc + static_cast<int>(i))
-        p.bound[c] = bears[i] ? foot_.friction * mean : 0.0;
+        p.bound[c] = bears[i] ? disc_[i].friction * mean : 0.0;
   }
   for (std::size_t c = 0; c < n; ++c) {
     Normals give{};  // change of the normal forces per friction force c, divided by -beta
