@@ -108,6 +108,8 @@ BENCHMARK(one_peek);
 struct FourMuscles {
   plant::Setup setup = experiment::planar_setup(walk());
   muscle::Bank bank{setup.muscles, setup.air, setup.supply};
+  muscle::Bank::Valves valves = bank.valves_at_rest();
+  muscle::Reference reference = bank.reference_at_rest();
   muscle::Lanes length{}, rate{}, mass{};
 
   FourMuscles() {
@@ -116,8 +118,8 @@ struct FourMuscles {
       mass[i] = bank.mass_at(i % 4, 3e5, 0.08);
     }
     muscle::Pull pull;
-    bank.evaluate(0, length, rate, mass, pull);
-    bank.follow(pull.drift);
+    bank.evaluate(0, length, rate, mass, valves, reference, pull);
+    bank.follow(pull.drift, reference);
   }
 };
 
@@ -126,7 +128,7 @@ void four_muscles(benchmark::State& state) {
   FourMuscles m;
   muscle::Pull pull;
   for (auto _ : state) {
-    m.bank.evaluate(0, m.length, m.rate, m.mass, pull);
+    m.bank.evaluate(0, m.length, m.rate, m.mass, m.valves, m.reference, pull);
     benchmark::DoNotOptimize(pull);
   }
 }
@@ -139,7 +141,7 @@ void four_muscles_in_sequence(benchmark::State& state) {
   pull.tension[0] = 0;
   for (auto _ : state) {
     m.length[0] = 0.08 + 1e-12 * pull.tension[0];
-    m.bank.evaluate(0, m.length, m.rate, m.mass, pull);
+    m.bank.evaluate(0, m.length, m.rate, m.mass, m.valves, m.reference, pull);
   }
   benchmark::DoNotOptimize(pull);
 }

@@ -50,24 +50,26 @@ struct State {
 class HangingMass {
  public:
   HangingMass(const muscle::Muscle& m, const gas::Air& air, const gas::Supply& supply)
-      : bank_(std::array{m}, air, supply) {
+      : bank_(std::array{m}, air, supply),
+        valves_(bank_.valves_at_rest()),
+        reference_(bank_.reference_at_rest()) {
     // Without air the load hangs in the stretched threads.
     state_.length = m.actuator.long_end.length + weight / m.actuator.long_end.stiffness;
     state_.velocity = 0;
     state_.mass = bank_.mass_at(0, air.atmosphere, state_.length);
-    bank_.follow(pull().drift);
+    bank_.follow(pull().drift, reference_);
   }
 
-  void inlet(bool open) { bank_.electrical(0, time_, open); }
+  void inlet(bool open) { bank_.electrical(0, time_, open, valves_); }
 
   // Steps of RK4. They end where a valve moves, since the slope jumps there.
   void run_until(double end) {
     while (time_ < end) {
-      const double next = std::min({time_ + step, bank_.next_change(), end});
+      const double next = std::min({time_ + step, valves_.next_change, end});
       rk4(next - time_);
       time_ = next;
-      bank_.node(time_);
-      bank_.follow(pull().drift);
+      bank_.node(time_, valves_);
+      bank_.follow(pull().drift, reference_);
     }
   }
 
@@ -87,7 +89,7 @@ class HangingMass {
 
   muscle::Pull ask(double t, const State& s) const {
     muscle::Pull pull{};
-    bank_.evaluate(t, lanes(s.length), lanes(s.velocity), lanes(s.mass), pull);
+    bank_.evaluate(t, lanes(s.length), lanes(s.velocity), lanes(s.mass), valves_, reference_, pull);
     return pull;
   }
 
@@ -110,6 +112,8 @@ class HangingMass {
   }
 
   muscle::Bank bank_;
+  muscle::Bank::Valves valves_;
+  muscle::Reference reference_;
   State state_{};
   double time_ = 0;
 };

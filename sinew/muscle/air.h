@@ -2,6 +2,7 @@
 // move on. plant/planar/world.h integrates it together with a body.
 //
 //   State    what is integrated, and what has passed the valves since the start
+//   Node     what holds until the next node: where the valves are, and what the series stand on
 //   Answer   all that one evaluation yields
 //   move     the state, h along the rates of one look: the stages of RK4
 //   finish   the state, by RK4's weighted mean of four looks
@@ -42,6 +43,10 @@ class BankAir {
   struct State {
     Lanes mass, in, out;  // [kg]
   };
+  struct Node {
+    Bank::Valves valves;
+    Reference reference;
+  };
 
   BankAir(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
           const std::optional<Cylinder>&)
@@ -54,30 +59,34 @@ class BankAir {
     return s;
   }
 
+  Node at_rest() const { return {bank_.valves_at_rest(), bank_.reference_at_rest()}; }
+
   int valves() const noexcept { return 2 * bank_.size(); }
-  void command(const signals::Edge& edge, double t, const Answer&) noexcept {
-    bank_.electrical(edge.valve.index, t, edge.open);
+  void command(const signals::Edge& edge, double t, const Answer&, Node& node) const noexcept {
+    bank_.electrical(edge.valve.index, t, edge.open, node.valves);
   }
-  void node(double t) noexcept { bank_.node(t); }
-  double next_change() const noexcept { return bank_.next_change(); }
-  bool flowing() const noexcept { return bank_.any_open(); }
-  double longest_step(const Ends&) const noexcept {
+  void move_valves(double t, Node& node) const noexcept { bank_.node(t, node.valves); }
+  double next_change(const Node& node) const noexcept { return node.valves.next_change; }
+  bool flowing(const Node& node) const noexcept { return bank_.any_open(node.valves); }
+  double longest_step(const Ends&, const Node&) const noexcept {
     return std::numeric_limits<double>::infinity();
   }
 
-  void evaluate(double t, const Ends& ends, const State& state, Answer& out) const noexcept {
-    bank_.evaluate(t, ends.length, ends.rate, state.mass, out);
+  void evaluate(double t, const Ends& ends, const State& state, const Node& node,
+                Answer& out) const noexcept {
+    bank_.evaluate(t, ends.length, ends.rate, state.mass, node.valves, node.reference, out);
   }
 
-  Failure remember(const Answer& look, State&) noexcept {
-    const int failed = bank_.follow(look.drift);
+  Failure remember(const Answer& look, State&, Node& node) const noexcept {
+    const int failed = bank_.follow(look.drift, node.reference);
     if (failed < 0) return {};
     return {.of = Failure::Of::air, .muscle = failed};
   }
 
   // Only the masses: what has passed is summed where the step ends.
-  void move(State& out, const State& from, double h, const Answer& look) const noexcept {
-    const bool flows = flowing();
+  void move(State& out, const State& from, double h, const Answer& look,
+            const Node& node) const noexcept {
+    const bool flows = flowing(node);
     for (int i = 0; i < bank_.padded(); i += lanes) {
       Four mass = from.mass.four(i);
       if (flows) mass += h * (look.inflow.four(i) - look.outflow.four(i));
@@ -85,12 +94,14 @@ class BankAir {
     }
   }
 
-  void finish(State& state, double h, const Answer* const (&look)[4]) const noexcept {
+  void finish(State& state, double h, const Answer* const (&look)[4],
+              const Node& node) const noexcept {
+    if (!flowing(node)) return;
     const double sixth = h / 6.0;
     const auto mean = [&](auto&& of) {
       return sixth * (of(0) + 2.0 * of(1) + 2.0 * of(2) + of(3));
     };
-    for (int i = 0; flowing() && i < bank_.size(); ++i)
+    for (int i = 0; i < bank_.size(); ++i)
       pass(state, state, i, mean([&](int s) { return look[s]->inflow[i]; }),
            mean([&](int s) { return look[s]->outflow[i]; }));
   }
@@ -138,6 +149,9 @@ class PlumbingAir {
     AirState air;
     std::array<double, capacity + 2> in, out, leak;  // [kg]
   };
+  struct Node {
+    Plumbing::Valves valves;
+  };
 
   PlumbingAir(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
               const std::optional<Cylinder>& cylinder)
@@ -149,24 +163,29 @@ class PlumbingAir {
     return s;
   }
 
+  Node at_rest() const { return {plumbing_.valves_at_rest()}; }
+
   int valves() const noexcept { return plumbing_.valves(); }
-  void command(const signals::Edge& edge, double t, const Answer& at_node) noexcept {
-    plumbing_.electrical(edge.valve.index, t, edge.open, at_node);
-    plumbing_.level(edge.valve.index, t, static_cast<double>(edge.level) / signals::max_level);
+  void command(const signals::Edge& edge, double t, const Answer& at_node,
+               Node& node) const noexcept {
+    const double share = static_cast<double>(edge.level) / signals::max_level;
+    plumbing_.electrical(edge.valve.index, t, edge.open, at_node, node.valves);
+    plumbing_.level(edge.valve.index, t, share, node.valves);
   }
-  void node(double t) noexcept { plumbing_.node(t); }
-  double next_change() const noexcept { return plumbing_.next_change(); }
-  bool flowing() const noexcept { return !plumbing_.quiet(); }
-  double longest_step(const Ends& ends) const noexcept {
-    return plumbing_.longest_step(ends.length, ends.travel);
-  }
-
-  void evaluate(double t, const Ends& ends, const State& state, Answer& out) const noexcept {
-    plumbing_.evaluate(t, ends.length, ends.rate, ends.travel, ends.travel_rate, state.air, out,
-                       out.flow);
+  void move_valves(double t, Node& node) const noexcept { plumbing_.node(t, node.valves); }
+  double next_change(const Node& node) const noexcept { return node.valves.next_change; }
+  bool flowing(const Node& node) const noexcept { return !plumbing_.quiet(node.valves); }
+  double longest_step(const Ends& ends, const Node& node) const noexcept {
+    return plumbing_.longest_step(ends.length, ends.travel, node.valves);
   }
 
-  Failure remember(const Answer& look, State& state) noexcept {
+  void evaluate(double t, const Ends& ends, const State& state, const Node& node,
+                Answer& out) const noexcept {
+    plumbing_.evaluate(t, ends.length, ends.rate, ends.travel, ends.travel_rate, state.air,
+                       node.valves, out, out.flow);
+  }
+
+  Failure remember(const Answer& look, State& state, Node&) const noexcept {
     plumbing_.remember(look, state.air);
     for (int i = 0; i < plumbing_.muscles(); ++i)
       if (!is_pressure(look.pressure[i])) return {.of = Failure::Of::air, .muscle = i};
@@ -175,34 +194,23 @@ class PlumbingAir {
     return {};
   }
 
-  void move(State& out, const State& from, double h, const Answer& look) const noexcept {
-    out.air.reference = from.air.reference;
-    for (int i = 0; i < plumbing_.states(); ++i) out.air[i] = from.air[i] + h * look.flow[i];
-    const auto n = static_cast<std::size_t>(plumbing_.muscles());
-    for (std::size_t i = 0; i < n; ++i) {
-      const int m = static_cast<int>(i);
-      out.in[i] = from.in[i] + h * look.inflow[m];
-      out.out[i] = from.out[i] + h * look.outflow[m];
-      out.leak[i] = from.leak[i] + h * look.leak[m];
-    }
-    for (std::size_t c = 0; c < 2; ++c) {
-      out.in[n + c] = from.in[n + c] + h * look.cylinder_inflow[c];
-      out.out[n + c] = from.out[n + c] + h * look.cylinder_outflow[c];
-    }
+  void move(State& out, const State& from, double h, const Answer& look,
+            const Node&) const noexcept {
+    shift(out, from, h, look);
   }
 
-  void finish(State& state, double h, const Answer* const (&look)[4]) const noexcept {
+  void finish(State& state, double h, const Answer* const (&look)[4], const Node&) const noexcept {
     const double weight[4] = {h / 6.0, h / 3.0, h / 3.0, h / 6.0};
-    for (int s = 0; s < 4; ++s) move(state, state, weight[s], *look[s]);
+    for (int s = 0; s < 4; ++s) shift(state, state, weight[s], *look[s]);
   }
 
   void predict(State& out, const State& from, double h, const Answer& before) const noexcept {
-    move(out, from, h, before);
+    shift(out, from, h, before);
   }
   void correct(State& out, const State& from, double h, const Answer& before,
                const Answer& after) const noexcept {
-    move(out, from, 0.5 * h, before);
-    move(out, out, 0.5 * h, after);
+    shift(out, from, 0.5 * h, before);
+    shift(out, out, 0.5 * h, after);
   }
 
   Account account(const State& s, int muscle) const noexcept {
@@ -224,6 +232,22 @@ class PlumbingAir {
   }
 
  private:
+  void shift(State& out, const State& from, double h, const Answer& look) const noexcept {
+    out.air.reference = from.air.reference;
+    for (int i = 0; i < plumbing_.states(); ++i) out.air[i] = from.air[i] + h * look.flow[i];
+    const auto n = static_cast<std::size_t>(plumbing_.muscles());
+    for (std::size_t i = 0; i < n; ++i) {
+      const int m = static_cast<int>(i);
+      out.in[i] = from.in[i] + h * look.inflow[m];
+      out.out[i] = from.out[i] + h * look.outflow[m];
+      out.leak[i] = from.leak[i] + h * look.leak[m];
+    }
+    for (std::size_t c = 0; c < 2; ++c) {
+      out.in[n + c] = from.in[n + c] + h * look.cylinder_inflow[c];
+      out.out[n + c] = from.out[n + c] + h * look.cylinder_outflow[c];
+    }
+  }
+
   Plumbing plumbing_;
   bool cylinder_ = false;
 };

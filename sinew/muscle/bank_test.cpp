@@ -10,6 +10,7 @@
 #include "sinew/actuator/loss.h"
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
+#include "sinew/muscle/test_bank.h"
 #include "sinew/muscle/test_machines.h"
 
 namespace sinew::muscle {
@@ -24,7 +25,7 @@ TEST(Bank, TensionAndPressureAreTheLawsInWords) {
   const Machine k;
   std::vector<Muscle> muscles;
   for (int i = 0; i < 6; ++i) muscles.push_back(bundle(0.15 * i));
-  Bank bank(muscles, k.air, k.supply);
+  BankByHand bank(muscles, k.air, k.supply);
 
   std::mt19937 random(1);
   std::uniform_real_distribution<double> lengths(2.3 * inch, 4.0 * inch), rates(-0.3, 0.3);
@@ -71,7 +72,7 @@ TEST(Bank, SwitchesAreTheLawsInWords) {
       m.actuator.short_end.law = law;
       muscles.push_back(m);
     }
-  Bank bank(muscles, k.air, k.supply);
+  BankByHand bank(muscles, k.air, k.supply);
 
   std::mt19937 random(4);
   std::uniform_real_distribution<double> lengths(2.2 * inch, 4.0 * inch), rates(-0.3, 0.3);
@@ -110,7 +111,7 @@ TEST(Bank, PressureBySeriesIsThePower) {
   for (int trial = 0; trial < 2000; ++trial) {
     const gas::Air air{.polytropic_exponent = exponents(random)};
     const std::vector<Muscle> one{bundle(0)};
-    Bank bank(one, air, {});
+    BankByHand bank(one, air, {});
     Lanes length{}, rate{}, mass{};
     for (int i = 0; i < lanes; ++i)
       length[i] = 3.1 * inch, mass[i] = 4.0 * bank.volume(0, length[i]);
@@ -129,7 +130,7 @@ TEST(Bank, AMuscleHasTheSameBitsAloneAndAmongOthers) {
   const Machine k;
   std::vector<Muscle> many;
   for (int i = 0; i < capacity; ++i) many.push_back(bundle(0.1 * i));
-  Bank together(many, k.air, k.supply);
+  BankByHand together(many, k.air, k.supply);
 
   std::mt19937 random(3);
   std::uniform_real_distribution<double> lengths(2.3 * inch, 4.0 * inch), rates(-0.3, 0.3);
@@ -145,7 +146,7 @@ TEST(Bank, AMuscleHasTheSameBitsAloneAndAmongOthers) {
     together.evaluate(0, length, rate, mass, all);
     for (int i = 0; i < capacity; ++i) {
       const std::vector<Muscle> one{many[static_cast<std::size_t>(i)]};
-      Bank alone(one, k.air, k.supply);
+      BankByHand alone(one, k.air, k.supply);
       Lanes l{}, v{}, m{};
       for (int j = 0; j < lanes; ++j) l[j] = length[i], v[j] = rate[i], m[j] = mass[i];
       Pull pull;
@@ -161,7 +162,7 @@ TEST(Bank, AMuscleHasTheSameBitsAloneAndAmongOthers) {
 TEST(Bank, FlowsFollowTheValvesAndTheirDelays) {
   const Machine k;
   const std::vector<Muscle> one{bundle(0)};
-  Bank bank(one, k.air, k.supply);
+  BankByHand bank(one, k.air, k.supply);
   Lanes length{}, rate{}, mass{};
   for (int i = 0; i < lanes; ++i) {
     length[i] = 3.15 * inch;
@@ -198,7 +199,7 @@ TEST(Bank, AThreeWayValveIsNeverSealed) {
   std::vector<Muscle> one{bundle(0)};
   one[0].inlet.kind = gas::Valve::Kind::three_way;
   one[0].exhaust = {};
-  Bank bank(one, k.air, k.supply);
+  BankByHand bank(one, k.air, k.supply);
   EXPECT_EQ(bank.open_share(0, 0), 0.0);
   EXPECT_EQ(bank.open_share(1, 0), 1.0);
   bank.electrical(0, 0.01, true);
@@ -212,7 +213,7 @@ TEST(Bank, ARampOpensLinearly) {
   std::vector<Muscle> one{bundle(0)};
   one[0].inlet.profile = gas::Valve::Profile::ramp;
   one[0].inlet.opening_ramp = 2e-3;
-  Bank bank(one, k.air, k.supply);
+  BankByHand bank(one, k.air, k.supply);
   bank.electrical(0, 0.01, true);
   bank.node(0.0103);
   EXPECT_NEAR(bank.open_share(0, 0.0113), 0.5, 1e-9);

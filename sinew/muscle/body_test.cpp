@@ -40,7 +40,7 @@ TEST(RealTube, PullsAndHoldsAirByItsLaws) {
     const AirState state = plumbing.initial(p, length, 0);
     AirPull out{};
     AirState derivative{};
-    plumbing.evaluate(0, length, rate, 0, 0, state, out, derivative);
+    plumbing.evaluate(0, length, rate, 0, 0, state, plumbing.valves_at_rest(), out, derivative);
     const double pull = actuator::tension(m.actuator, length[0], 0, gauge, air.atmosphere);
     EXPECT_NEAR(out.tension[0], m.count * std::max(pull, 0.0), 1e-9);
     const double volume = m.count * actuator::volume(m.actuator, length[0]) + m.external_volume;

@@ -89,7 +89,8 @@ TEST(Memory, RatesAreAllSet) {
   AirState rate;
   rate.of.fill(1e9);
   AirPull out{};
-  plumbing.evaluate(0, still(3.2 * inch).length, Lanes{}, 0, 0, state, out, rate);
+  plumbing.evaluate(0, still(3.2 * inch).length, Lanes{}, 0, 0, state, plumbing.valves_at_rest(),
+                    out, rate);
   for (int i = 0; i < plumbing.states(); ++i) EXPECT_EQ(rate[i], 0) << i;
 }
 
@@ -145,7 +146,7 @@ TEST(Memory, QuickCreepShortensTheStep) {
   m.actuator.creep = {.share = {0.05, 0.01}, .time = {10, 1e-4}};
   Plumbing plumbing(std::vector{m}, {}, {});
   EXPECT_LT(plumbing.longest_step(), 2.6e-4);
-  EXPECT_FALSE(plumbing.quiet());
+  EXPECT_FALSE(plumbing.quiet(plumbing.valves_at_rest()));
 }
 
 // A bundle's work on what moves it, once round a loop of length at nearly one pressure (a large

@@ -31,62 +31,65 @@ double Plumbing::difference(int valve, const AirPull& at_node) const noexcept {
   return valve % 2 == 0 ? at_node.supply_pressure - p : p - air_.atmosphere;
 }
 
-void Plumbing::electrical(int valve, double t, bool open, const AirPull& at_node) noexcept {
-  Tap& tap = taps_[static_cast<std::size_t>(valve)];
-  const gas::Valve& v = tap.valve;
+void Plumbing::electrical(int valve, double t, bool open, const AirPull& at_node,
+                          Valves& valves) const noexcept {
+  const auto i = static_cast<std::size_t>(valve);
+  const gas::Valve& v = taps_[i].valve;
   // A 3-way valve has one coil, a regulator has none.
   if (v.kind == Kind::regulator || (v.kind == Kind::three_way && valve % 2 == 1)) return;
   const double dp = difference(valve, at_node);
   if (open && v.fails_above > 0 && dp > v.fails_above) return;  // and its end will be no edge
-  tap.shutter.electrical(t, open, gas::delay_at(v, open, dp));
-  look_ahead();
+  valves[i].shutter.electrical(t, open, gas::delay_at(v, open, dp));
+  look_ahead(valves);
 }
 
-void Plumbing::level(int valve, double t, double share) noexcept {
-  Tap& tap = taps_[static_cast<std::size_t>(valve)];
-  if (tap.valve.kind != Kind::regulator) return;
-  tap.next_set = gas::set_point(tap.valve.regulator, share, air_.atmosphere);
-  tap.next_set_at = t;
-  look_ahead();
+void Plumbing::level(int valve, double t, double share, Valves& valves) const noexcept {
+  const auto i = static_cast<std::size_t>(valve);
+  const gas::Valve& v = taps_[i].valve;
+  if (v.kind != Kind::regulator) return;
+  valves[i].next_set = gas::set_point(v.regulator, share, air_.atmosphere);
+  valves[i].next_set_at = t;
+  look_ahead(valves);
 }
 
 // A command can also take a pending change back, so look at all of them.
-void Plumbing::look_ahead() noexcept {
-  next_change_ = never;
-  for (const Tap& tap : taps_)
-    next_change_ = lesser(next_change_, lesser(tap.shutter.next(), tap.next_set_at));
+void Plumbing::look_ahead(Valves& valves) const noexcept {
+  valves.next_change = never;
+  for (std::size_t v = 0; v < taps_.size(); ++v)
+    valves.next_change =
+        lesser(valves.next_change, lesser(valves[v].shutter.next(), valves[v].next_set_at));
 }
 
-void Plumbing::move_valves(double t) noexcept {
-  for (Tap& tap : taps_) {
-    tap.shutter.advance(t);
-    if (tap.next_set_at > t) continue;
-    tap.set = tap.next_set;
-    tap.next_set_at = never;
+void Plumbing::move(double t, Valves& valves) const noexcept {
+  for (std::size_t v = 0; v < taps_.size(); ++v) {
+    Valves::Valve& valve = valves[v];
+    valve.shutter.advance(t);
+    if (valve.next_set_at > t) continue;
+    valve.set = valve.next_set;
+    valve.next_set_at = never;
   }
-  refresh(t);
+  refresh(t, valves);
 }
 
 // Shares of area after a change. A 3-way valve that leaves the supply opens to the atmosphere.
-void Plumbing::refresh(double t) noexcept {
-  ramping_ = false;
-  open_count_ = 0;
+void Plumbing::refresh(double t, Valves& valves) const noexcept {
+  valves.open_count = 0;
   for (std::size_t v = 0; v < taps_.size(); ++v) {
-    Tap& tap = taps_[v];
-    const bool other_way = v % 2 == 1 && tap.valve.kind == Kind::three_way;
-    tap.share = other_way ? 1.0 - taps_[v - 1].share : tap.shutter.fraction(t);
-    if (tap.valve.kind == Kind::regulator) tap.share = 1.0;
-    ramping_ = ramping_ || tap.valve.profile == gas::Valve::Profile::ramp;
-    if (tap.share > 0) ++open_count_;
+    const Kind kind = taps_[v].valve.kind;
+    const bool other_way = v % 2 == 1 && kind == Kind::three_way;
+    valves[v].share = other_way ? 1.0 - valves[v - 1].share : valves[v].shutter.fraction(t);
+    if (kind == Kind::regulator) valves[v].share = 1.0;
+    if (valves[v].share > 0) ++valves.open_count;
   }
-  look_ahead();
+  look_ahead(valves);
 }
 
-double Plumbing::open_share(int valve, double t) const noexcept {
-  const Tap& tap = taps_[static_cast<std::size_t>(valve)];
-  if (!ramping_ || tap.valve.kind == Kind::regulator) return tap.share;
-  if (valve % 2 == 1 && tap.valve.kind == Kind::three_way) return 1.0 - open_share(valve - 1, t);
-  return tap.shutter.fraction(t);
+double Plumbing::open_share(int valve, double t, const Valves& valves) const noexcept {
+  const auto v = static_cast<std::size_t>(valve);
+  const Kind kind = taps_[v].valve.kind;
+  if (!ramping_ || kind == Kind::regulator) return valves[v].share;
+  if (valve % 2 == 1 && kind == Kind::three_way) return 1.0 - open_share(valve - 1, t, valves);
+  return valves[v].shutter.fraction(t);
 }
 
 // Of the air in muscle i  [m^3].
@@ -95,8 +98,9 @@ double Plumbing::volume(int i, double length) const noexcept {
   return m.count * actuator::volume(m.actuator, length) + m.external_volume;
 }
 
-bool Plumbing::shut(int inlet, double t) const noexcept {
-  return !(open_share(inlet, t) > 0) && !(open_share(inlet + 1, t) > 0);
+bool Plumbing::shut(int inlet, const Now& now) const noexcept {
+  return !(open_share(inlet, now.t, now.valves) > 0) &&
+         !(open_share(inlet + 1, now.t, now.valves) > 0);
 }
 
 // By [40], or from the energy where there is one.
@@ -113,19 +117,19 @@ Plumbing::Chamber Plumbing::chamber(const Slot& slot, double volume,
 }
 
 // Through a pair of valves that ends at y: `inlet` and the one after it.
-Plumbing::Flows Plumbing::through(int inlet, double t, double y_supply, double y,
-                                  const AirState& state) const noexcept {
-  const Tap& tap = taps_[static_cast<std::size_t>(inlet)];
+Plumbing::Flows Plumbing::through(int inlet, const Now& now, double y) const noexcept {
+  const auto v = static_cast<std::size_t>(inlet);
+  const Tap& tap = taps_[v];
   if (tap.valve.kind == Kind::regulator) {
-    const double outlet = tap.outlet != none ? state[tap.outlet] : tap.set;
-    const double flow = gas::flow_y(tap.flow, lesser(gas::y_of(air_, outlet), y_supply), y);
+    const double outlet = tap.outlet != none ? now.state[tap.outlet] : now.valves[v].set;
+    const double flow = gas::flow_y(tap.flow, lesser(gas::y_of(air_, outlet), now.y_supply), y);
     return {greater(flow, 0.0), greater(-flow, 0.0)};
   }
   Flows flows;
-  const double in = open_share(inlet, t), out = open_share(inlet + 1, t);
-  if (in > 0) flows.in = in * gas::flow_y(tap.flow, y_supply, y);
-  if (out > 0)
-    flows.out = out * gas::flow_y(taps_[static_cast<std::size_t>(inlet + 1)].flow, y, 1.0);
+  const double in = open_share(inlet, now.t, now.valves),
+               out = open_share(inlet + 1, now.t, now.valves);
+  if (in > 0) flows.in = in * gas::flow_y(tap.flow, now.y_supply, y);
+  if (out > 0) flows.out = out * gas::flow_y(taps_[v + 1].flow, y, 1.0);
   return flows;
 }
 
@@ -192,31 +196,31 @@ void Plumbing::warm(const Slot& slot, const AirState& state, double gained, doub
 }
 
 // Flows of the valves where the hose holds no air: what they let in goes through it.
-Plumbing::Flows Plumbing::series(int i, double t, double y_supply, const Chamber& c,
-                                 const AirState& state, AirPull& out) const noexcept {
+Plumbing::Flows Plumbing::series(int i, const Now& now, const Chamber& c,
+                                 AirPull& out) const noexcept {
   const gas::HoseConstants& hose = lines_[static_cast<std::size_t>(i)].hose_flow;
-  if (shut(2 * i, t)) return {};
+  if (shut(2 * i, now)) return {};
   const auto surplus = [&](double y) {
-    const Flows f = through(2 * i, t, y_supply, y, state);
+    const Flows f = through(2 * i, now, y);
     return f.in - f.out - gas::hose_flow_y(hose, y, c.y);
   };
-  const double low = lesser(1.0, lesser(y_supply, c.y)),
-               high = greater(1.0, greater(y_supply, c.y));
+  const double low = lesser(1.0, lesser(now.y_supply, c.y)),
+               high = greater(1.0, greater(now.y_supply, c.y));
   const double y = gas::balance(surplus, low, high);
   out.manifold[i] = gas::pressure_of_y(air_, y);
-  return through(2 * i, t, y_supply, y, state);
+  return through(2 * i, now, y);
 }
 
 // The same where the hose is a chamber: it takes what the valves let in, and hands on `passed`.
-Plumbing::Flows Plumbing::buffered(int i, double t, double y_supply, const Chamber& h,
-                                   const Chamber& c, double passed, const AirState& state,
-                                   AirPull& out, AirState& derivative) const noexcept {
+Plumbing::Flows Plumbing::buffered(int i, const Now& now, const Chamber& h, const Chamber& c,
+                                   double passed, AirPull& out,
+                                   AirState& derivative) const noexcept {
   const Slot& slot = lines_[static_cast<std::size_t>(i)].hose;
-  const Flows valves = through(2 * i, t, y_supply, h.y, state);
+  const Flows valves = through(2 * i, now, h.y);
   out.manifold[i] = h.pressure;
   derivative[slot.mass] = valves.in - valves.out - passed;
   const double room = air_.temperature;
-  warm(slot, state,
+  warm(slot, now.state,
        enthalpy(valves.in, room, h.temperature) - enthalpy(valves.out, h.temperature, room) -
            enthalpy(passed, h.temperature, c.temperature),
        0.0, derivative);
@@ -224,10 +228,10 @@ Plumbing::Flows Plumbing::buffered(int i, double t, double y_supply, const Chamb
 }
 
 // Air of muscle i: valves, hose, leak.
-void Plumbing::line(int i, double t, double y_supply, double length, double rate, const Chamber& c,
-                    const AirState& state, AirPull& out, AirState& derivative) const noexcept {
+void Plumbing::line(int i, const Now& now, double length, double rate, const Chamber& c,
+                    AirPull& out, AirState& derivative) const noexcept {
   const Line& l = lines_[static_cast<std::size_t>(i)];
-  if (quiet() && l.leak.tight()) {
+  if (quiet(now.valves) && l.leak.tight()) {
     out.inflow[i] = out.outflow[i] = out.leak[i] = derivative[l.chamber.mass] = 0;
     return;
   }
@@ -235,13 +239,12 @@ void Plumbing::line(int i, double t, double y_supply, double length, double rate
   Flows valves;
   double arrives, there = room;  // in the muscle [kg/s], from air of this temperature
   if (l.hose.mass != none) {
-    const Chamber h = chamber(l.hose, muscles_[static_cast<std::size_t>(i)].hose.volume, state);
+    const Chamber h = chamber(l.hose, muscles_[static_cast<std::size_t>(i)].hose.volume, now.state);
     arrives = gas::hose_flow_y(l.hose_flow, h.y, c.y);
     there = h.temperature;
-    valves = buffered(i, t, y_supply, h, c, arrives, state, out, derivative);
+    valves = buffered(i, now, h, c, arrives, out, derivative);
   } else {
-    valves =
-        l.resists ? series(i, t, y_supply, c, state, out) : through(2 * i, t, y_supply, c.y, state);
+    valves = l.resists ? series(i, now, c, out) : through(2 * i, now, c.y);
     arrives = valves.in - valves.out;
   }
   const double leak = l.leak.tight() ? 0.0 : gas::leak_flow_y(l.leak, c.y);
@@ -252,13 +255,13 @@ void Plumbing::line(int i, double t, double y_supply, double length, double rate
   if (l.chamber.energy == none) return;
   const Muscle& m = muscles_[static_cast<std::size_t>(i)];
   const double volume_rate = m.count * actuator::volume_slope(m.actuator, length) * rate;
-  warm(l.chamber, state,
+  warm(l.chamber, now.state,
        enthalpy(arrives, there, c.temperature) - enthalpy(leak, c.temperature, room),
        c.pressure * volume_rate, derivative);
 }
 
-void Plumbing::cylinder(double t, double y_supply, double travel, double travel_rate,
-                        const AirState& state, AirPull& out, AirState& derivative) const noexcept {
+void Plumbing::cylinder(const Now& now, double travel, double travel_rate, AirPull& out,
+                        AirState& derivative) const noexcept {
   const Cylinder& c = *cylinder_;
   if (c.mode == Cylinder::Mode::regulator) {
     // Held pressure: the regulator lets in or relieves what the volume asks for.
@@ -275,13 +278,13 @@ void Plumbing::cylinder(double t, double y_supply, double travel, double travel_
         out.cylinder_pressure[side] = air_.atmosphere;
         continue;
       }
-      const Chamber air = chamber(slot, muscle::volume(c, side, travel), state);
-      const Flows f = through(2 * (size_ + side), t, y_supply, air.y, state);
+      const Chamber air = chamber(slot, muscle::volume(c, side, travel), now.state);
+      const Flows f = through(2 * (size_ + side), now, air.y);
       out.cylinder_pressure[side] = air.pressure;
       out.cylinder_inflow[side] = f.in;
       out.cylinder_outflow[side] = f.out;
       derivative[slot.mass] = f.in - f.out;
-      warm(slot, state,
+      warm(slot, now.state,
            enthalpy(f.in, room, air.temperature) - enthalpy(f.out, air.temperature, room),
            air.pressure * volume_slope(c, side) * travel_rate, derivative);
     }
@@ -303,14 +306,16 @@ void Plumbing::muscles_in_lanes(const Lanes& length, const Lanes& rate, const Ai
 }
 
 void Plumbing::evaluate(double t, const Lanes& length, const Lanes& rate, double travel,
-                        double travel_rate, const AirState& state, AirPull& out,
-                        AirState& derivative) const noexcept {
+                        double travel_rate, const AirState& state, const Valves& valves,
+                        AirPull& out, AirState& derivative) const noexcept {
   out.tank_pressure =
       tank_ != none ? gas::tank_pressure(supply_, air_, state[tank_]) : supply_.pressure;
   out.supply_pressure =
       tank_ != none ? gas::line_pressure(supply_, out.tank_pressure) : supply_.pressure;
   const double y_supply =
       out.supply_pressure < supply_.pressure ? gas::y_of(air_, out.supply_pressure) : supply_y_;
+
+  const Now now{t, y_supply, state, valves};
 
   Lanes y;
   if (in_lanes_) muscles_in_lanes(length, rate, state, out, y);
@@ -323,17 +328,17 @@ void Plumbing::evaluate(double t, const Lanes& length, const Lanes& rate, double
       out.drift[i] = 0;
     }
     out.manifold[i] = c.pressure;
-    line(i, t, y_supply, length[i], rate[i], c, state, out, derivative);
+    line(i, now, length[i], rate[i], c, out, derivative);
     taken += out.inflow[i];
   }
   out.cylinder_force = 0;
   out.cylinder_pressure = out.cylinder_inflow = out.cylinder_outflow = {};
-  if (cylinder_) cylinder(t, y_supply, travel, travel_rate, state, out, derivative);
+  if (cylinder_) cylinder(now, travel, travel_rate, out, derivative);
   taken += out.cylinder_inflow[up] + out.cylinder_inflow[down];
 
-  for (const Tap& tap : taps_)
-    if (tap.outlet != none)
-      derivative[tap.outlet] = gas::outlet_rate(tap.valve.regulator, state[tap.outlet], tap.set);
+  for (std::size_t v = 0; v < taps_.size(); ++v)
+    if (const int outlet = taps_[v].outlet; outlet != none)
+      derivative[outlet] = gas::outlet_rate(taps_[v].valve.regulator, state[outlet], valves[v].set);
   if (tank_ != none) derivative[tank_] = -taken;
 }
 

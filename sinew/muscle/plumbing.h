@@ -2,7 +2,8 @@
 // empties, hoses that resist, walls that warm, leaks, regulators, an air cylinder. And for meshes
 // that remember: hysteresis and creep.
 //
-// Like a bank it owns the valves and is asked in every stage; whoever integrates owns the state:
+// Like a bank it is constant and is asked in every stage; whoever integrates owns the state, and
+// the valves, which stay what they are between two nodes:
 //
 //   lengths, rates, state  ->  tensions, pressures, flows, and the state's derivative
 //
@@ -63,6 +64,22 @@ bool needs_plumbing(std::span<const Muscle> muscles, const gas::Air& air, const 
 
 class Plumbing {
  public:
+  // Valves and regulators: where they are. Copied like bytes.
+  struct Valves {
+    struct Valve {
+      gas::Shutter shutter;
+      double share = 0;                      // of its area that is open
+      double set = 0;                        // set point of a regulator in force [Pa]
+      double next_set = 0, next_set_at = 0;  // and the one to come [Pa], [s]
+    };
+    std::array<Valve, 2 * capacity + 4> of;
+    int open_count = 0;
+    double next_change = 0;  // instant at which a valve or a set point changes, or infinity [s]
+
+    Valve& operator[](std::size_t v) { return of[v]; }
+    const Valve& operator[](std::size_t v) const { return of[v]; }
+  };
+
   // Throws std::invalid_argument for more than `capacity` muscles, and for a cylinder with valves
   // whose chambers vanish at a stop.
   Plumbing(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
@@ -79,6 +96,9 @@ class Plumbing {
   // All muscles at one absolute pressure and at rest, air at the wall's temperature.
   AirState initial(double pressure, const Lanes& length, double travel) const;
 
+  // All valves without current since ever, all set points at the atmosphere's pressure.
+  Valves valves_at_rest() const;
+
   // Chambers and hoses of the muscles, and of a single-acting cylinder, filled to one absolute
   // pressure, air at the wall's temperature: what an ideal regulator does.
   void hold(double pressure, const Lanes& length, double travel, AirState& state) const noexcept;
@@ -92,22 +112,21 @@ class Plumbing {
 
   // An electrical edge of a valve at t, not before the last node. `at_node`: the look at that node,
   // for delays and failures that depend on the pressure difference.
-  void electrical(int valve, double t, bool open, const AirPull& at_node) noexcept;
+  void electrical(int valve, double t, bool open, const AirPull& at_node,
+                  Valves& valves) const noexcept;
 
   // Set point of a regulator from t on, as a share 0..1 of its range; not before the last node.
-  void level(int valve, double t, double share) noexcept;
-
-  // The next instant at which a valve really changes or a set point jumps, or infinity  [s].
-  double next_change() const noexcept { return next_change_; }
+  void level(int valve, double t, double share, Valves& valves) const noexcept;
 
   // At a node: valves and set points move to t.
-  void node(double t) noexcept {
-    if (next_change_ <= t) move_valves(t);
+  void node(double t, Valves& valves) const noexcept {
+    if (valves.next_change <= t) move(t, valves);
   }
 
-  // The law itself. Pure between two nodes; t matters only to valves that ramp.
+  // The law itself; t matters only to valves that ramp.
   void evaluate(double t, const Lanes& length, const Lanes& rate, double travel, double travel_rate,
-                const AirState& state, AirPull& out, AirState& derivative) const noexcept;
+                const AirState& state, const Valves& valves, AirPull& out,
+                AirState& derivative) const noexcept;
 
   // At a node, with the look at it: the reference of the pressures follows, the plays of the
   // hysteresis move on. Looks between two nodes go by the last one, exactly as long as a pressure
@@ -120,32 +139,28 @@ class Plumbing {
   }
 
   // Nothing flows, warms or creeps: the derivative is all zero until the next change.
-  bool quiet() const noexcept { return !restless_ && !ramping_ && open_count_ == 0; }
+  bool quiet(const Valves& valves) const noexcept {
+    return !restless_ && !ramping_ && valves.open_count == 0;
+  }
 
   // Share of the valve's area that is open at t  [-].
-  double open_share(int valve, double t) const noexcept;
+  double open_share(int valve, double t, const Valves& valves) const noexcept;
 
   // RK4 is stable up to this step: the fastest chamber, lag or wall that an option adds, or
   // infinity [s]. Without a place, wherever the piston stands. With one, muscles that never seal
   // are in it too: behind a regulator or a hose's chamber, or with a leak. Muscles behind shutters
   // are not.
   double longest_step() const noexcept;
-  double longest_step(const Lanes& length, double travel) const noexcept;
+  double longest_step(const Lanes& length, double travel, const Valves& valves) const noexcept;
 
  private:
   static constexpr int none = -1;
 
-  // One valve, or regulator: where it is and what it lets through.
+  // One valve, or regulator, and what it lets through.
   struct Tap {
     gas::Valve valve;
-    gas::Shutter shutter;
     gas::FlowConstants flow;
-    double share = 0;  // of its area
-
-    // Kind::regulator
-    double set = 0;                        // set point in force [Pa]
-    double next_set = 0, next_set_at = 0;  // and the one to come
-    int outlet = none;                     // state of its outlet pressure
+    int outlet = none;  // Kind::regulator: state of its outlet pressure
   };
   // One body of air and where its numbers stand in the state.
   struct Slot {
@@ -185,25 +200,29 @@ class Plumbing {
                         AirPull& out, AirState& derivative) const noexcept;
   void pull(int i, double length, double rate, double pressure, const AirState& state, AirPull& out,
             AirState& derivative) const noexcept;
-  Flows through(int inlet, double t, double y_supply, double y,
-                const AirState& state) const noexcept;
-  bool shut(int inlet, double t) const noexcept;
-  Flows series(int i, double t, double y_supply, const Chamber& c, const AirState& state,
-               AirPull& out) const noexcept;
-  Flows buffered(int i, double t, double y_supply, const Chamber& h, const Chamber& c,
-                 double passed, const AirState& state, AirPull& out,
-                 AirState& derivative) const noexcept;
-  void line(int i, double t, double y_supply, double length, double rate, const Chamber& c,
-            const AirState& state, AirPull& out, AirState& derivative) const noexcept;
-  void cylinder(double t, double y_supply, double travel, double travel_rate, const AirState& state,
-                AirPull& out, AirState& derivative) const noexcept;
+  // What the flows of one look go by, beside the chambers.
+  struct Now {
+    double t;         // [s]
+    double y_supply;  // of the line to the inlets
+    const AirState& state;
+    const Valves& valves;
+  };
+  Flows through(int inlet, const Now& now, double y) const noexcept;
+  bool shut(int inlet, const Now& now) const noexcept;
+  Flows series(int i, const Now& now, const Chamber& c, AirPull& out) const noexcept;
+  Flows buffered(int i, const Now& now, const Chamber& h, const Chamber& c, double passed,
+                 AirPull& out, AirState& derivative) const noexcept;
+  void line(int i, const Now& now, double length, double rate, const Chamber& c, AirPull& out,
+            AirState& derivative) const noexcept;
+  void cylinder(const Now& now, double travel, double travel_rate, AirPull& out,
+                AirState& derivative) const noexcept;
   double enthalpy(double flow, double from, double to) const noexcept;
   void warm(const Slot& slot, const AirState& state, double gained, double work,
             AirState& derivative) const noexcept;
   double difference(int valve, const AirPull& at_node) const noexcept;
-  void look_ahead() noexcept;
-  void move_valves(double t) noexcept;
-  void refresh(double t) noexcept;
+  void look_ahead(Valves& valves) const noexcept;
+  void move(double t, Valves& valves) const noexcept;
+  void refresh(double t, Valves& valves) const noexcept;
 
   void muscles_in_lanes(const Lanes& length, const Lanes& rate, const AirState& state, AirPull& out,
                         Lanes& y) const noexcept;
@@ -221,8 +240,6 @@ class Plumbing {
   std::vector<Line> lines_;
   std::array<Slot, 2> sides_;  // of the cylinder
   int tank_ = none;
-  int open_count_ = 0;
-  double next_change_ = 0;
   bool ramping_ = false, restless_ = false;
   double longest_step_ = 0;  // of all that has the same rate wherever the machine stands [s]
   std::array<double, 2> side_settling_{};  // of the cylinder's chambers, as a line's [m^3/s]

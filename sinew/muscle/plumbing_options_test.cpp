@@ -90,7 +90,7 @@ TEST(Plumbing, AirIsConserved) {
     std::mt19937 random(1);
     for (int k = 0; k < 300; ++k) {
       hand.electrical(static_cast<int>(random() % 16u), random() % 2 == 0);
-      plumbing.level(8, hand.t, 0.1 * (k % 10));
+      plumbing.level(8, hand.t, 0.1 * (k % 10), hand.valves);
       hand.go(hand.t + 2e-3, plumbing.longest_step());
     }
     EXPECT_GT(hand.left, 0.1 * before);
@@ -241,7 +241,7 @@ TEST(Plumbing, LeaksDecayInClosedForm) {
   Muscle hole = bundle(0);
   hole.leak.area = 2e-8;
   Plumbing a(std::vector{hole}, air, {});
-  EXPECT_FALSE(a.quiet());
+  EXPECT_FALSE(a.quiet(a.valves_at_rest()));
   Hand choked(a, at_rest, 7 * bar);
   choked.go(0.5, 1e-3);
   ASSERT_GT(choked.now.pressure[0], 2 * bar);
@@ -321,8 +321,8 @@ TEST(Plumbing, ARegulatorLagsAndItsFlowIsLimited) {
   const gas::Air air;
   Plumbing ample(std::vector{m}, air, {});
   Hand hand(ample, at_rest, air.atmosphere);
-  ample.level(0, 0.01, 0.8);
-  EXPECT_EQ(ample.next_change(), 0.01);
+  ample.level(0, 0.01, 0.8, hand.valves);
+  EXPECT_EQ(hand.valves.next_change, 0.01);
   hand.go(0.06, 1e-5);
   const double expected = air.atmosphere + 4 * bar * (1 - std::exp(-1.0));
   EXPECT_NEAR(hand.state[1], expected, 1e-6 * bar);
@@ -333,15 +333,15 @@ TEST(Plumbing, ARegulatorLagsAndItsFlowIsLimited) {
   Plumbing small(std::vector{m}, air, {});
   EXPECT_EQ(small.states(), 1);
   Hand fill(small, at_rest, air.atmosphere);
-  small.level(0, 0, 1.0);
-  small.node(0);
+  small.level(0, 0, 1.0, fill.valves);
+  small.node(0, fill.valves);
   fill.go(0.05, 1e-3);
   const double outlet = air.atmosphere + 5 * bar;
   EXPECT_NEAR(fill.entered / (0.05 * gas::mass_flow(1e-7, outlet, air.temperature, 0, air)), 1,
               1e-9);
   // What comes back is relieved into the room.
-  small.level(0, 0.05, 0.0);
-  small.node(0.05);
+  small.level(0, 0.05, 0.0, fill.valves);
+  small.node(0.05, fill.valves);
   fill.go(0.06, 1e-3);
   EXPECT_GT(fill.left, 0);
   EXPECT_EQ(fill.now.inflow[0], 0);
@@ -353,8 +353,8 @@ TEST(Plumbing, ARegulatorCannotGiveMoreThanTheLine) {
   m.inlet.regulator = {.range = 9 * bar};
   Plumbing plumbing(std::vector{m}, isothermal(), {.pressure = 4 * bar});
   Hand hand(plumbing, at_rest, 1.5 * bar);
-  plumbing.level(0, 0, 1.0);
-  plumbing.node(0);
+  plumbing.level(0, 0, 1.0, hand.valves);
+  plumbing.node(0, hand.valves);
   hand.go(0.5, 5e-4);
   EXPECT_NEAR(hand.now.pressure[0], 4 * bar, 10);
 }
@@ -369,31 +369,31 @@ TEST(Plumbing, EdgesFeelThePressureOverTheirValve) {
   const gas::Supply supply;
   for (const double p : {2 * bar, 4.9 * bar, 5.2 * bar}) {
     Plumbing plumbing(std::vector{m}, air, supply);
-    const Hand hand(plumbing, at_rest, p);
+    Hand hand(plumbing, at_rest, p);
     const double over = hand.now.pressure[0] - air.atmosphere;
-    plumbing.electrical(1, 0.1, true, hand.now);
+    plumbing.electrical(1, 0.1, true, hand.now, hand.valves);
     if (over > 4 * bar) {
-      EXPECT_EQ(plumbing.next_change(), std::numeric_limits<double>::infinity());
-      plumbing.electrical(1, 0.2, false, hand.now);  // no edge either
-      EXPECT_EQ(plumbing.next_change(), std::numeric_limits<double>::infinity());
+      EXPECT_EQ(hand.valves.next_change, std::numeric_limits<double>::infinity());
+      plumbing.electrical(1, 0.2, false, hand.now, hand.valves);  // no edge either
+      EXPECT_EQ(hand.valves.next_change, std::numeric_limits<double>::infinity());
     } else {
-      EXPECT_NEAR(plumbing.next_change(), 0.1 + 0.3e-3 + 2e-9 * over, 1e-15);
+      EXPECT_NEAR(hand.valves.next_change, 0.1 + 0.3e-3 + 2e-9 * over, 1e-15);
     }
-    plumbing.electrical(0, 0.05, true, hand.now);
+    plumbing.electrical(0, 0.05, true, hand.now, hand.valves);
     const double below = supply.pressure - hand.now.pressure[0];
-    EXPECT_NEAR(plumbing.next_change(), 0.05 + 0.3e-3 + 1e-9 * below, 1e-15);
+    EXPECT_NEAR(hand.valves.next_change, 0.05 + 0.3e-3 + 1e-9 * below, 1e-15);
   }
 }
 
 TEST(Plumbing, QuietMeansThatNothingMoves) {
   Plumbing plumbing(std::vector{bundle(0), bundle(0.2)}, {}, {}, thesis_cylinder());
-  EXPECT_TRUE(plumbing.quiet());
   Hand hand(plumbing, at_rest, 3 * bar);
+  EXPECT_TRUE(plumbing.quiet(hand.valves));
   const AirState derivative = hand.look(0, hand.state, hand.now);
   for (int i = 0; i < plumbing.states(); ++i) EXPECT_EQ(derivative[i], 0);
   hand.electrical(5, true);
   hand.go(1e-3, 1e-3);
-  EXPECT_FALSE(plumbing.quiet());
+  EXPECT_FALSE(plumbing.quiet(hand.valves));
 }
 
 }  // namespace

@@ -68,8 +68,20 @@ Plumbing::Plumbing(std::span<const Muscle> muscles, const gas::Air& air, const g
   for (const Line& l : lines_) restless_ = restless_ || !l.leak.tight() || l.hose.mass != none;
   for (const Tap& tap : taps_) restless_ = restless_ || regulates(tap.valve);
   for (const Muscle& m : muscles_) restless_ = restless_ || actuator::has_creep(m.actuator.creep);
+  for (const Tap& tap : taps_)
+    ramping_ = ramping_ || tap.valve.profile == gas::Valve::Profile::ramp;
   limit_step();
-  refresh(0.0);
+}
+
+Plumbing::Valves Plumbing::valves_at_rest() const {
+  Valves valves;
+  for (std::size_t v = 0; v < taps_.size(); ++v) {
+    valves[v].shutter = gas::Shutter(taps_[v].valve);
+    valves[v].set = air_.atmosphere;
+    valves[v].next_set_at = never;
+  }
+  refresh(0.0, valves);
+  return valves;
 }
 
 Plumbing::Slot Plumbing::add_chamber() {
@@ -79,11 +91,7 @@ Plumbing::Slot Plumbing::add_chamber() {
 }
 
 void Plumbing::add_tap(const gas::Valve& valve) {
-  Tap tap{.valve = valve, .shutter = gas::Shutter(valve)};
-  tap.flow = gas::flow_constants(valve.flow, air_);
-  tap.set = air_.atmosphere;
-  tap.next_set_at = never;
-  taps_.push_back(tap);
+  taps_.push_back({.valve = valve, .flow = gas::flow_constants(valve.flow, air_)});
 }
 
 // A 3-way valve and a regulator serve both ways; no other valve stands beside them.
@@ -91,7 +99,6 @@ void Plumbing::add_muscle(const Muscle& m) {
   add_tap(m.inlet);
   add_tap(m.inlet.kind == Kind::two_way ? m.exhaust : m.inlet);
   if (regulates(m.inlet)) taps_.back() = {};
-  if (regulates(m.inlet)) taps_.back().next_set_at = never;
 
   Line line;
   line.resists = m.hose.law != gas::Hose::Law::none;
@@ -177,7 +184,8 @@ double Plumbing::longest_step() const noexcept {
 
 // Rates of a hose's chamber and of the muscle behind it add up, at most. A cylinder's chamber with
 // its valves shut has none.
-double Plumbing::longest_step(const Lanes& length, double travel) const noexcept {
+double Plumbing::longest_step(const Lanes& length, double travel,
+                              const Valves& valves) const noexcept {
   double fastest = 0;
   for (int i = 0; i < size_ && settles_; ++i) {
     const double rate = lines_[static_cast<std::size_t>(i)].settling / volume(i, length[i]);
@@ -187,7 +195,7 @@ double Plumbing::longest_step(const Lanes& length, double travel) const noexcept
   for (const Side side : {up, down}) {
     if (sides_[side].mass == none) continue;
     const auto inlet = static_cast<std::size_t>(2 * (size_ + side));
-    if (!ramping_ && !(taps_[inlet].share > 0) && !(taps_[inlet + 1].share > 0)) continue;
+    if (!ramping_ && !(valves[inlet].share > 0) && !(valves[inlet + 1].share > 0)) continue;
     fastest = std::max(fastest, side_settling_[side] / muscle::volume(*cylinder_, side, travel));
   }
   return fastest > 0 ? stable / fastest : never;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "sinew/muscle/test_bank.h"
 #include "sinew/muscle/test_machines.h"
 
 namespace sinew::muscle {
@@ -40,8 +41,9 @@ TEST(Plumbing, PlainMusclesAreTheBanks) {
   const gas::Air air{.polytropic_exponent = 1.1};
   for (int trial = 0; trial < 300; ++trial) {
     const std::vector<Muscle> muscles = any_muscles(random);
-    Bank bank(muscles, air, {});
+    BankByHand bank(muscles, air, {});
     Plumbing plumbing(muscles, air, {});
+    Plumbing::Valves valves = plumbing.valves_at_rest();
     ASSERT_EQ(plumbing.states(), capacity);
 
     Lanes length{}, rate{}, mass{};
@@ -56,22 +58,22 @@ TEST(Plumbing, PlainMusclesAreTheBanks) {
           (valve % 2 == 0 ||
            muscles[static_cast<std::size_t>(valve / 2)].inlet.kind == gas::Valve::Kind::two_way)) {
         bank.electrical(valve, 0, true);
-        plumbing.electrical(valve, 0, true, {});
+        plumbing.electrical(valve, 0, true, {}, valves);
       }
-    EXPECT_EQ(bank.next_change(), plumbing.next_change());
+    EXPECT_EQ(bank.next_change(), valves.next_change);
     const double t = instants(random);
     bank.node(t);
-    plumbing.node(t);
-    EXPECT_EQ(bank.next_change(), plumbing.next_change());
+    plumbing.node(t, valves);
+    EXPECT_EQ(bank.next_change(), valves.next_change);
 
     Pull by_bank{};
     AirPull out{};
     bank.evaluate(t, length, rate, mass, by_bank);
     bank.follow(by_bank.drift);
     bank.evaluate(t, length, rate, mass, by_bank);
-    plumbing.evaluate(t, length, rate, 0, 0, state, out, derivative);
+    plumbing.evaluate(t, length, rate, 0, 0, state, valves, out, derivative);
     plumbing.remember(out, state);
-    plumbing.evaluate(t, length, rate, 0, 0, state, out, derivative);
+    plumbing.evaluate(t, length, rate, 0, 0, state, valves, out, derivative);
     for (int i = 0; i < capacity; ++i) {
       EXPECT_NEAR(out.pressure[i] / by_bank.pressure[i], 1, 1e-12);
       EXPECT_NEAR(out.tension[i], by_bank.tension[i], 1e-12 * (1000 + by_bank.tension[i])) << i;

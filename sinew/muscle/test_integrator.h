@@ -20,9 +20,10 @@ struct Hand {
   double t = 0;
   double entered = 0, left = 0;  // through inlets; through exhausts and leaks [kg]
   AirPull now{};
+  Plumbing::Valves valves;
 
   Hand(Plumbing& p, std::function<Motion(double)> m, double pressure)
-      : plumbing(p), motion(std::move(m)) {
+      : plumbing(p), motion(std::move(m)), valves(p.valves_at_rest()) {
     const Motion start = motion(0);
     state = p.initial(pressure, start.length, start.travel);
     look(0, state, now);
@@ -31,7 +32,7 @@ struct Hand {
   AirState look(double at, const AirState& s, AirPull& out) {
     const Motion m = motion(at);
     AirState derivative{};
-    plumbing.evaluate(at, m.length, m.rate, m.travel, m.travel_rate, s, out, derivative);
+    plumbing.evaluate(at, m.length, m.rate, m.travel, m.travel_rate, s, valves, out, derivative);
     return derivative;
   }
 
@@ -69,17 +70,17 @@ struct Hand {
   void go(double until, double h) {
     while (t < until - 1e-12) {
       double next = t + h < until ? t + h : until;
-      if (plumbing.next_change() < next) next = plumbing.next_change();
+      if (valves.next_change < next) next = valves.next_change;
       if (next > t) step(next - t);
       t = next;
-      plumbing.node(t);
+      plumbing.node(t, valves);
     }
     look(t, state, now);
   }
 
   void electrical(int valve, bool open) {
-    plumbing.electrical(valve, t, open, now);
-    plumbing.node(t);
+    plumbing.electrical(valve, t, open, now, valves);
+    plumbing.node(t, valves);
     look(t, state, now);
   }
 };

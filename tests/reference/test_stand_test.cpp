@@ -19,6 +19,8 @@
 #include <set>
 #include <string>
 
+#include "sinew/muscle/test_bank.h"
+
 namespace sinew::reference {
 namespace {
 
@@ -358,7 +360,7 @@ TEST(TestStand, errors_of_the_reference_are_smaller_than_the_tolerances) {
 TEST(TestStand, sign_of_the_speed_is_the_banks) {
   muscle::Muscle sticks = TestStand::muscle({}), slides = sticks;
   slides.actuator.loss.stick = false;
-  muscle::Bank bank(std::vector{sticks, slides}, {}, {});
+  muscle::BankByHand bank(std::vector{sticks, slides}, {}, {});
   for (double speed : {0.1, -0.1}) {
     muscle::Lanes length{}, rate{}, mass{};
     for (int i = 0; i < muscle::lanes; ++i) {

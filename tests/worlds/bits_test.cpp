@@ -42,6 +42,13 @@ TEST_P(Bits, AdvancingInPortionsChangesNoBit) {
               follow(GetParam(), {}, end, 4, {.advances = true}));
 }
 
+// What another body restores from a save is all that the future depends on: some 80 times in a run,
+// between nodes too, while edges are on their way.
+TEST_P(Bits, GoesOnFromASave) {
+  expect_same(GetParam(), follow(GetParam(), {}, end, 5),
+              follow(GetParam(), {}, end, 5, {.restores = true}));
+}
+
 // The real controller in the loop: what it decides depends on every reading.
 TEST_P(Bits, AClosedLoopSeesNoLooks) {
   if (!GetParam().run) return;

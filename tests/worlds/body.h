@@ -2,6 +2,7 @@
 // and a law meet. A new world needs an adapter like those of planar.cpp and stand.cpp, no new law.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -41,6 +42,10 @@ class Body {
   virtual double time() const = 0;     // of the last node [s]
   virtual std::int64_t nodes() const = 0;
   virtual muscle::Failure failure() const = 0;
+
+  // The state at the last node and the commands since, as bytes; and a body that goes on from it.
+  virtual std::vector<std::byte> save() const = 0;
+  virtual void restore(std::span<const std::byte> saved) = 0;
 
   // Names the quantities of the truth, and gives them at t. Takes no memory.
   virtual const std::vector<Quantity>& quantities() const = 0;

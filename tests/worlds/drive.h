@@ -40,22 +40,27 @@ inline std::vector<signals::Edge> random_edges(const std::vector<Tap>& taps, Tic
 // Conversions of all channels, a tick apart, each read a tick after it began.
 class Channels {
  public:
-  explicit Channels(Body& body) : body_(body), count_(body.channels()) {
+  explicit Channels(Body& body) : count_(body.channels()) {
     for (std::size_t i = 0; i < count_; ++i) {
       const auto start = static_cast<std::uint16_t>(2 * i);
       all_[i] = {{static_cast<std::uint8_t>(i)}, start, static_cast<std::uint16_t>(start + 1)};
     }
-    EXPECT_EQ(body_.port().start({.period = 100, .conversions = {all_.data(), count_}}),
+    start(body);
+  }
+
+  void start(Body& body) {
+    body_ = &body;
+    EXPECT_EQ(body.port().start({.period = 100, .conversions = {all_.data(), count_}}),
               signals::Status::ok);
   }
 
   std::size_t count() const { return count_; }
   signals::Reading read(std::size_t channel, Tick now) {
-    return body_.port().read({static_cast<std::uint8_t>(channel)}, now);
+    return body_->port().read({static_cast<std::uint8_t>(channel)}, now);
   }
 
  private:
-  Body& body_;
+  Body* body_ = nullptr;
   std::size_t count_ = 0;
   std::array<signals::Conversion, 40> all_{};
 };
@@ -65,6 +70,7 @@ struct Looks {
   bool every_tick = false;  // the truth at each tick, and a node if one is due
   unsigned truths = 0;      // at most, at random instants of each tick
   bool advances = false;    // calls that commit nodes, at random instants
+  bool restores = false;    // another body goes on from a save, at random instants
 };
 
 // Truth each 3.7 ms, readings of all channels each millisecond.
@@ -78,7 +84,7 @@ struct Record {
 // read a tick later, and calls never go back in time, so nobody looks between the two.
 inline Record follow(const Subject& subject, const Variant& variant, Tick end, unsigned seed,
                      const Looks& looks = {}) {
-  const std::unique_ptr<Body> body = subject.make(variant);
+  std::unique_ptr<Body> body = subject.make(variant);
   Channels channels(*body);
   const std::vector<signals::Edge> edges = random_edges(subject.taps, end, seed);
   std::mt19937 random(99);
@@ -109,6 +115,12 @@ inline Record follow(const Subject& subject, const Variant& variant, Tick end, u
       return seconds(static_cast<double>(t) + within);
     };
     if (looks.advances && random() % 5 == 0) body->advance(later());
+    if (looks.restores && random() % 50 == 0) {
+      std::unique_ptr<Body> other = subject.make(variant);
+      channels.start(*other);
+      other->restore(body->save());
+      body = std::move(other);
+    }
     for (unsigned i = looks.truths > 0 ? random() % (looks.truths + 1) : 0; i > 0; --i)
       body->truth(later(), unused);
   }

@@ -169,6 +169,12 @@ class Planar final : public Body {
   double time() const override { return machine_.time(); }
   std::int64_t nodes() const override { return machine_.nodes(); }
   muscle::Failure failure() const override { return machine_.failure(); }
+  std::vector<std::byte> save() const override {
+    std::vector<std::byte> out(machine_.state_size());
+    machine_.save(out);
+    return out;
+  }
+  void restore(std::span<const std::byte> saved) override { machine_.restore(saved); }
   const std::vector<Quantity>& quantities() const override { return quantities_; }
 
   void truth(double t, std::span<double> out) override {
@@ -360,6 +366,7 @@ std::vector<Subject> planar_subjects() {
       of_experiment("failing_valves", "walk-test-1", failing),
       of_experiment("dampers", "damper"),
       of_experiment("two_legs", "walk-two-legs"),
+      of_experiment("breakaway", "walk-test-1", {"trolley.breakaway=3 lbf"}),
   };
   for (Subject& s : all) s.limits = limits_of(s.name);
   return all;

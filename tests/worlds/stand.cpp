@@ -1,6 +1,7 @@
 // tests/worlds/stand.cpp - the test stand as a subject: hanging, driven, regulated, with an air
 // cylinder in the muscle's place, and each option of its air.
 #include <cmath>
+#include <cstring>
 
 #include "sinew/actuator/braid.h"
 #include "sinew/experiment/rig/run.h"
@@ -63,6 +64,15 @@ class OnStand final : public Body {
   double time() const override { return stand_.time(); }
   std::int64_t nodes() const override { return stand_.nodes(); }
   muscle::Failure failure() const override { return stand_.failure(); }
+  std::vector<std::byte> save() const override {
+    const auto bytes = std::as_bytes(std::span(&stand_.state(), 1));
+    return {bytes.begin(), bytes.end()};
+  }
+  void restore(std::span<const std::byte> saved) override {
+    plant::Stand::State state;
+    std::memcpy(&state, saved.data(), sizeof state);
+    stand_.restore(state);
+  }
   const std::vector<Quantity>& quantities() const override { return quantities_; }
 
   void truth(double t, std::span<double> out) override {

@@ -118,7 +118,7 @@ auto BodyMechanism::accelerate(const Pose& body, const Motion& m, const Load& lo
 }
 
 auto BodyMechanism::prepare(const Pose& body, const Motion& m, const Arms& arms,
-                            const muscle::Lanes& mesh, const Forces& held,
+                            const muscle::Lanes& mesh, double trolley_bound,
                             const Load& load) noexcept -> Acceleration {
   const Acceleration free = body.accelerations(load.force);
   Forces bound{};
@@ -128,8 +128,7 @@ auto BodyMechanism::prepare(const Pose& body, const Motion& m, const Arms& arms,
       if (const int j = cords_.joint(i, k); j >= 0)
         bound[static_cast<std::size_t>(j)] +=
             std::abs(arms[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)]) * mesh[i];
-  if (!constants_.held[along_track])
-    bound[Rubs::trolley] = robot_.trolley.friction(held[Rubs::trolley], rubs_.bound(Rubs::trolley));
+  bound[Rubs::trolley] = trolley_bound;
   bound[Rubs::lift] = constants_.held[up] ? 0.0 : robot_.cylinder.friction;
   for (std::size_t i = 0; i < most_discs; ++i)
     bound[Rubs::first_disc + i] = rubs_.friction(i) * load.normal[i];

@@ -75,10 +75,16 @@ class BodyMechanism {
   Acceleration accelerate(const Pose& body, const Motion& m, const Load& load,
                           const Forces& held) const noexcept;
 
+  // Bound of the trolley's dry friction, from the last step's and what was held in it [N].
+  double trolley_bound(const Forces& held, double last) const noexcept {
+    if (constants_.held[along_track]) return 0;
+    return robot_.trolley.friction(held[Rubs::trolley], last);
+  }
+
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
   // the mesh's own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& body, const Motion& m, const Arms& arms,
-                       const muscle::Lanes& mesh, const Forces& held, const Load& load) noexcept;
+                       const muscle::Lanes& mesh, double trolley_bound, const Load& load) noexcept;
 
   // Dry friction of a step of length h from the prepared node, and accelerations under it.
   Forces hold(double h, const Forces& last) const noexcept { return rubs_.hold(h, last); }

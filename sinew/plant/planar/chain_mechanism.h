@@ -146,17 +146,21 @@ class ChainMechanism {
     return chain.accelerations(force);
   }
 
+  // Bound of the trolley's dry friction, from the last step's and what was held in it [N].
+  double trolley_bound(const Forces& held, double last) const noexcept {
+    return robot_.trolley.friction(held[Contacts<N>::trolley], last);
+  }
+
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
   // the mesh's own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& chain, const Motion& pose, const Arms&,
-                       const muscle::Lanes& mesh, const Forces& held, const Load& load) noexcept {
+                       const muscle::Lanes& mesh, double trolley_bound, const Load& load) noexcept {
     const Acceleration free = chain.accelerations(load.force);
     Forces bound;
     for (int j = 0; j < N; ++j) bound[j] = dry_[j];
     for (int i = 0; i < routes_.count; ++i)
       bound[routes_.joint[i]] += std::abs(routes_.pull[i]) * mesh[i];
-    bound[Contacts<N>::trolley] =
-        robot_.trolley.friction(held[Contacts<N>::trolley], contacts_.bound(Contacts<N>::trolley));
+    bound[Contacts<N>::trolley] = trolley_bound;
     bound[Contacts<N>::foot] = robot_.foot.friction * load.normal;
     contacts_.prepare(chain, pose, free, bound, load.normal);
     return free;

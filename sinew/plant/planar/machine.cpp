@@ -1,5 +1,8 @@
 #include "sinew/plant/planar/machine.h"
 
+#include <cstring>
+#include <type_traits>
+
 namespace sinew::plant {
 
 namespace {
@@ -45,6 +48,24 @@ std::int64_t Machine::nodes() const noexcept {
 
 double Machine::shortest_step() const noexcept {
   return std::visit([](const auto& world) { return world.shortest_step(); }, world_);
+}
+
+std::size_t Machine::state_size() const noexcept {
+  return std::visit([](const auto& world) { return sizeof(world.state()); }, world_);
+}
+
+void Machine::save(std::span<std::byte> out) const noexcept {
+  std::visit([&](const auto& world) { std::memcpy(out.data(), &world.state(), out.size()); },
+             world_);
+}
+
+void Machine::restore(std::span<const std::byte> saved) noexcept {
+  const auto from_bytes = [&](auto& world) {
+    typename std::remove_reference_t<decltype(world)>::State state;
+    std::memcpy(&state, saved.data(), sizeof state);
+    world.restore(state);
+  };
+  std::visit(from_bytes, world_);
 }
 
 const muscle::Failure& Machine::failure() const noexcept {

@@ -3,6 +3,8 @@
 // has only air that a bank holds by muscle/bank.h.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <variant>
 
 #include "sinew/muscle/air.h"
@@ -42,6 +44,12 @@ class Machine {
   double air_mass() const noexcept;
   double shortest_step() const noexcept;
   const muscle::Failure& failure() const noexcept;
+
+  // The machine's state at the last node, with the commands since, as bytes of one build of the
+  // library; state_size() of them. A machine of an equal setup goes on from there: the same bits.
+  std::size_t state_size() const noexcept;
+  void save(std::span<std::byte> out) const noexcept;
+  void restore(std::span<const std::byte> saved) noexcept;
 
  private:
   AnyWorld world_;

@@ -12,6 +12,10 @@
 // A step is cut into several pieces, under the friction of the whole, where air is quicker than the
 // body.
 //
+// Model, state and scratch are apart: mechanism and air are constant once made, State is everything
+// that the future depends on, one block that is copied like bytes, and all else is worked out from
+// it at a node.
+//
 // Mechanism  what moves: routes of the muscles, forces, equations of motion, contacts
 //            (chain_mechanism.h, body_mechanism.h)
 // Air        what fills the muscles: valves, masses, pressures, tensions (muscle/bank.h,
@@ -33,7 +37,39 @@ namespace sinew::plant {
 
 template <class Mechanism, class Air>
 class World final : public signals::Port {
+  using Acceleration = typename Mechanism::Acceleration;
+  using Forces = typename Mechanism::Forces;
+
+  // What is integrated.
+  struct Moving {
+    typename Mechanism::Motion motion;
+    typename Air::State air;
+  };
+
+  // Everything that one look at a state yields.
+  struct Look {
+    muscle::Ends ends;
+    typename Mechanism::Arms arms;
+    typename Air::Answer air;
+    typename Mechanism::Load load;  // all that pushes the coordinates but dry friction
+    Acceleration acceleration;      // with the friction of the step
+  };
+
  public:
+  // The state at the last committed node, and the commands since. Copied like bytes; of one build
+  // of the library, and for worlds of equal setups.
+  struct State {
+    Moving now;
+    typename Air::Node valves;
+    Forces held;                   // friction of the last step
+    double trolley_bound;          // of the trolley's friction in the next [N]
+    Look first;                    // first stage at the node, without friction
+    double time;                   // of the node [s]
+    std::int64_t multiple, nodes;  // of the body step that was passed last; so far
+    bool ended;
+    muscle::Failure failure;
+  };
+
   // The setup must be free of contradictions (robot::contradictions).
   explicit World(const Setup& setup);
 
@@ -51,60 +87,48 @@ class World final : public signals::Port {
   void advance(double t) noexcept;
 
   using Motion = typename Mechanism::Motion;
-  const Motion& motion() const noexcept { return state_.motion; }
+  const Motion& motion() const noexcept { return state_.now.motion; }
   const auto& constants() const noexcept { return mechanism_.constants(); }
   double air_mass() const noexcept {  // in chambers, hoses and tank [kg]
-    return air_.total_mass(state_.air, first_.ends.travel);
+    return air_.total_mass(state_.now.air, state_.first.ends.travel);
   }
-  double time() const noexcept { return time_; }
+  double time() const noexcept { return state_.time; }
   double shortest_step() const noexcept {  // of body and air, where it starts [s]
-    return std::min(step_, air_.longest_step(first_.ends));
+    return std::min(step_, air_.longest_step(state_.first.ends, state_.valves));
   }
-  std::int64_t nodes() const noexcept { return nodes_; }
-  const muscle::Failure& failure() const noexcept { return failure_; }
+  std::int64_t nodes() const noexcept { return state_.nodes; }
+  const muscle::Failure& failure() const noexcept { return state_.failure; }
+
+  const State& state() const noexcept { return state_; }
+  // Goes on from there as the world did whose state it was: the same bits.
+  void restore(const State& state) noexcept;
 
   // For tests: rates at the last node, of the joints (those not given: 0) [rad/s], of the trolley
   // and of the lift [m/s].
   void set_rates(std::initializer_list<double> joint_rates, double x_rate,
                  double y_rate = 0) noexcept {
-    mechanism_.set_rates(state_.motion, joint_rates, x_rate, y_rate);
+    mechanism_.set_rates(state_.now.motion, joint_rates, x_rate, y_rate);
     prepare();
   }
 
  private:
-  using Acceleration = typename Mechanism::Acceleration;
-  using Forces = typename Mechanism::Forces;
-
-  struct State {
-    Motion motion;
-    typename Air::State air;
-  };
-
-  // Everything that one look at a state yields.
-  struct Look {
-    muscle::Ends ends;
-    typename Mechanism::Arms arms;
-    typename Air::Answer air;
-    typename Mechanism::Load load;  // all that pushes the coordinates but dry friction
-    Acceleration acceleration;      // with the friction of the step
-  };
-
   // Friction and accelerations that a look beyond the last node goes by.
   struct Glance {
     Forces held{};
     Acceleration acceleration{};
   };
   struct Peek {
-    State state;
+    Moving state;
     Look look;
   };
 
-  void evaluate_air(double t, const State& state, Look& look) const noexcept {
+  void evaluate_air(double t, const Moving& state, Look& look) const noexcept {
     mechanism_.route(state.motion, look.ends, look.arms);
-    air_.evaluate(t, look.ends, state.air, look.air);
+    air_.evaluate(t, look.ends, state.air, state_.valves, look.air);
   }
-  void look_at(double t, const State& state, const Forces& held, Look& look) const noexcept;
+  void look_at(double t, const Moving& state, const Forces& held, Look& look) const noexcept;
   void prepare() noexcept;
+  Acceleration prepare_friction() noexcept;
   void look_for_failure() noexcept;
   void step(double h) noexcept;
   void piece(double from, double h, const Acceleration& first) noexcept;
@@ -114,8 +138,8 @@ class World final : public signals::Port {
 
   const Glance& glance() noexcept;
   Motion peek_motion(const Glance& g, double t) const noexcept {
-    Motion motion = state_.motion;
-    mechanism_.glide(motion, t - time_, g.acceleration);
+    Motion motion = state_.now.motion;
+    mechanism_.glide(motion, t - state_.time, g.acceleration);
     return motion;
   }
   Peek peek(const Glance& g, double t) const noexcept;
@@ -134,18 +158,11 @@ class World final : public signals::Port {
   std::uint64_t seed_ = 1;
 
   State state_{};
-  double time_ = 0;            // of the last committed node [s]
-  std::int64_t multiple_ = 0;  // of the body step that was passed last
-  std::int64_t nodes_ = 0;
   Glance glance_{};  // from this node, once somebody has looked
   bool glanced_ = false;
-  Look first_{};   // first stage at the node, without friction
-  Forces held_{};  // friction of the last step
 
   std::array<signals::Tick, 256> lag_{};  // per channel, from the start of a conversion to its read
   std::array<int, 256> source_{};         // per channel, its joint or muscle
-  bool ended_ = false;
-  muscle::Failure failure_;
 };
 
 }  // namespace sinew::plant

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "sinew/muscle/air.h"
 #include "sinew/plant/planar/world.h"
@@ -25,15 +26,18 @@ World<M, A>::World(const Setup& setup)
     source_[s] =
         joint ? robot::find_joint(robot_, sensor.of) : robot::find_muscle(robot_, sensor.of);
   }
-  state_.motion = mechanism_.start();
-  mechanism_.route(state_.motion, first_.ends, first_.arms);
-  state_.air = air_.initial(setup.start.pressure, first_.ends.length, setup.start.lift);
+  static_assert(std::is_trivially_copyable_v<State>);
+  Look& first = state_.first;
+  state_.now.motion = mechanism_.start();
+  mechanism_.route(state_.now.motion, first.ends, first.arms);
+  state_.now.air = air_.initial(setup.start.pressure, first.ends.length, setup.start.lift);
+  state_.valves = air_.at_rest();
   prepare();
 }
 
 // One evaluation of the right-hand side, with the frictions held.
 template <class M, class A>
-void World<M, A>::look_at(double t, const State& state, const Forces& held,
+void World<M, A>::look_at(double t, const Moving& state, const Forces& held,
                           Look& look) const noexcept {
   evaluate_air(t, state, look);
   const typename M::Pose pose = mechanism_.pose(state.motion);
@@ -44,35 +48,51 @@ void World<M, A>::look_at(double t, const State& state, const Forces& held,
 // A new node: valves and references, the first stage, and what friction can do about it.
 template <class M, class A>
 void World<M, A>::prepare() noexcept {
-  glanced_ = false;
-  air_.node(time_);
-  evaluate_air(time_, state_, first_);
+  Look& first = state_.first;
+  air_.move_valves(state_.time, state_.valves);
+  evaluate_air(state_.time, state_.now, first);
   look_for_failure();
-  const typename M::Pose pose = mechanism_.pose(state_.motion);
-  mechanism_.load(pose, state_.motion, first_.arms, first_.air, first_.load);
-  first_.acceleration =
-      mechanism_.prepare(pose, state_.motion, first_.arms, first_.air.mesh, held_, first_.load);
+  mechanism_.load(mechanism_.pose(state_.now.motion), state_.now.motion, first.arms, first.air,
+                  first.load);
+  state_.trolley_bound = mechanism_.trolley_bound(state_.held, state_.trolley_bound);
+  first.acceleration = prepare_friction();
+}
+
+// The friction problem of the node, and the accelerations without friction.
+template <class M, class A>
+auto World<M, A>::prepare_friction() noexcept -> Acceleration {
+  const Look& first = state_.first;
+  glanced_ = false;
+  return mechanism_.prepare(mechanism_.pose(state_.now.motion), state_.now.motion, first.arms,
+                            first.air.mesh, state_.trolley_bound, first.load);
+}
+
+template <class M, class A>
+void World<M, A>::restore(const State& state) noexcept {
+  state_ = state;
+  (void)prepare_friction();
 }
 
 // Is anything of the look at a node no number? The air also takes from the look what it remembers.
 template <class M, class A>
 void World<M, A>::look_for_failure() noexcept {
-  const muscle::Failure of_air = air_.remember(first_.air, state_.air);
-  if (failure_) return;
+  const muscle::Failure of_air = air_.remember(state_.first.air, state_.now.air, state_.valves);
+  if (state_.failure) return;
   if (of_air) {
-    failure_ = of_air;
-    failure_.time = time_;
-    if (of_air.of == muscle::Failure::Of::air) failure_.length = first_.ends.length[of_air.muscle];
-  } else if (!muscle::is_place(mechanism_.sum(state_.motion))) {
-    failure_ = {.of = muscle::Failure::Of::motion, .time = time_};
+    state_.failure = of_air;
+    state_.failure.time = state_.time;
+    if (of_air.of == muscle::Failure::Of::air)
+      state_.failure.length = state_.first.ends.length[of_air.muscle];
+  } else if (!muscle::is_place(mechanism_.sum(state_.now.motion))) {
+    state_.failure = {.of = muscle::Failure::Of::motion, .time = state_.time};
   }
 }
 
 // While nothing flows there is nothing to be quick.
 template <class M, class A>
 double World<M, A>::pieces_of(double h, const Look& look) const noexcept {
-  if (!air_.flowing()) return 1.0;
-  const double longest = air_.longest_step(look.ends);
+  if (!air_.flowing(state_.valves)) return 1.0;
+  const double longest = air_.longest_step(look.ends, state_.valves);
   return h > longest ? std::min(std::ceil(h / longest), most_pieces) : 1.0;
 }
 
@@ -80,15 +100,15 @@ double World<M, A>::pieces_of(double h, const Look& look) const noexcept {
 // the friction of the whole.
 template <class M, class A>
 void World<M, A>::step(double h) noexcept {
-  held_ = mechanism_.hold(h, held_);
-  Acceleration first = mechanism_.accelerate(first_.acceleration, held_);
-  const double pieces = pieces_of(h, first_);
+  state_.held = mechanism_.hold(h, state_.held);
+  Acceleration first = mechanism_.accelerate(state_.first.acceleration, state_.held);
+  const double pieces = pieces_of(h, state_.first);
   for (double k = 0; k < pieces; ++k) {
-    const double from = time_ + k * (h / pieces);
+    const double from = state_.time + k * (h / pieces);
     if (k > 0) {
-      look_at(from, state_, held_, first_);
-      air_.remember(first_.air, state_.air);
-      first = first_.acceleration;
+      look_at(from, state_.now, state_.held, state_.first);
+      air_.remember(state_.first.air, state_.now.air, state_.valves);
+      first = state_.first.acceleration;
     }
     piece(from, h / pieces, first);
   }
@@ -97,45 +117,47 @@ void World<M, A>::step(double h) noexcept {
 template <class M, class A>
 void World<M, A>::piece(double from, double h, const Acceleration& first) noexcept {
   // The first stage is the look at hand; two to four stand at 1/2, 1/2 and 1.
+  Moving& now = state_.now;
   Look later[3];
-  State stage[3];
-  const Motion* motion[4] = {&state_.motion, &stage[0].motion, &stage[1].motion, &stage[2].motion};
-  const typename A::Answer* air[4] = {&first_.air, &later[0].air, &later[1].air, &later[2].air};
+  Moving stage[3];
+  const Motion* motion[4] = {&now.motion, &stage[0].motion, &stage[1].motion, &stage[2].motion};
+  const typename A::Answer* air[4] = {&state_.first.air, &later[0].air, &later[1].air,
+                                      &later[2].air};
   Acceleration acceleration[4] = {first};
   for (int s = 0; s < 3; ++s) {
     const double part = s == 2 ? h : 0.5 * h;
-    mechanism_.move(stage[s].motion, state_.motion, part, *motion[s], acceleration[s]);
-    air_.move(stage[s].air, state_.air, part, *air[s]);
-    look_at(from + part, stage[s], held_, later[s]);
+    mechanism_.move(stage[s].motion, now.motion, part, *motion[s], acceleration[s]);
+    air_.move(stage[s].air, now.air, part, *air[s], state_.valves);
+    look_at(from + part, stage[s], state_.held, later[s]);
     acceleration[s + 1] = later[s].acceleration;
   }
 
-  const Motion rates = state_.motion;  // of the first stage: the state moves
+  const Motion rates = now.motion;  // of the first stage: the state moves
   motion[0] = &rates;
-  mechanism_.finish(state_.motion, h, motion, acceleration);
-  air_.finish(state_.air, h, air);
+  mechanism_.finish(now.motion, h, motion, acceleration);
+  air_.finish(now.air, h, air, state_.valves);
 }
 
 // The next multiple of the body step, or the next change of a valve.
 template <class M, class A>
 double World<M, A>::next_node() const noexcept {
-  const double multiple = static_cast<double>(multiple_ + 1) * step_;
-  const double change = air_.next_change();
+  const double multiple = static_cast<double>(state_.multiple + 1) * step_;
+  const double change = air_.next_change(state_.valves);
   return change < multiple ? change : multiple;
 }
 
 template <class M, class A>
 void World<M, A>::advance(double t) noexcept {
-  while (!failure_ && next_node() <= t) commit();
+  while (!state_.failure && next_node() <= t) commit();
 }
 
 template <class M, class A>
 void World<M, A>::commit() noexcept {
-  const double next = next_node(), h = next - time_;
+  const double next = next_node(), h = next - state_.time;
   if (h > 0) step(h);
-  time_ = next > time_ ? next : time_;
-  if (next >= static_cast<double>(multiple_ + 1) * step_) ++multiple_;
-  ++nodes_;
+  state_.time = next > state_.time ? next : state_.time;
+  if (next >= static_cast<double>(state_.multiple + 1) * step_) ++state_.multiple;
+  ++state_.nodes;
   prepare();
 }
 
@@ -145,8 +167,8 @@ template <class M, class A>
 auto World<M, A>::glance() noexcept -> const Glance& {
   if (glanced_) return glance_;
   glanced_ = true;
-  glance_.held = mechanism_.hold(step_, held_);
-  glance_.acceleration = mechanism_.accelerate(first_.acceleration, glance_.held);
+  glance_.held = mechanism_.hold(step_, state_.held);
+  glance_.acceleration = mechanism_.accelerate(state_.first.acceleration, glance_.held);
   return glance_;
 }
 
@@ -154,14 +176,14 @@ auto World<M, A>::glance() noexcept -> const Glance& {
 // many pieces as a step would take.
 template <class M, class A>
 auto World<M, A>::peek(const Glance& g, double t) const noexcept -> Peek {
-  Peek p{.state = state_, .look = first_};
-  const double dt = t - time_;
-  if (dt <= 0 || failure_) return p;
-  const double pieces = pieces_of(dt, first_), h = dt / pieces;
+  Peek p{.state = state_.now, .look = state_.first};
+  const double dt = t - state_.time;
+  if (dt <= 0 || state_.failure) return p;
+  const double pieces = pieces_of(dt, state_.first), h = dt / pieces;
   for (double k = 1; k <= pieces; ++k) {
-    const double to = k < pieces ? time_ + k * h : t;
+    const double to = k < pieces ? state_.time + k * h : t;
     p.state.motion = peek_motion(g, to);
-    if (air_.flowing()) {
+    if (air_.flowing(state_.valves)) {
       const typename A::State from = p.state.air;
       const typename A::Answer before = p.look.air;
       air_.predict(p.state.air, from, h, before);
@@ -179,10 +201,10 @@ template <class M, class A>
 double World<M, A>::gauge(const Glance& g, const Peek& p, int muscle) const noexcept {
   const auto j = static_cast<std::size_t>(mechanism_.joint(muscle));
   double f = p.look.air.tension[muscle];
-  const double mesh = first_.air.mesh[muscle], bound = mechanism_.bound(static_cast<int>(j));
+  const double mesh = state_.first.air.mesh[muscle], bound = mechanism_.bound(static_cast<int>(j));
   if (mesh > 0 && bound > 0) {
     const double share = g.held[j] * mesh / bound;
-    f += mechanism_.arm(first_.arms, muscle) > 0 ? share : -share;
+    f += mechanism_.arm(state_.first.arms, muscle) > 0 ? share : -share;
   }
   return f < 0 ? 0.0 : f;  // not a number stays what it is
 }
@@ -198,13 +220,13 @@ signals::Status World<M, A>::start(const signals::Scan& scan) noexcept {
 
 template <class M, class A>
 signals::Status World<M, A>::drive(signals::Edge edge) noexcept {
-  if (ended_) return signals::Status::ended;
-  if (failure_) return signals::Status::fault;
+  if (state_.ended) return signals::Status::ended;
+  if (state_.failure) return signals::Status::fault;
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
-  if (edge.valve.index >= air_.valves() || t < time_) return signals::Status::invalid;
-  while (!failure_ && next_node() < t)
+  if (edge.valve.index >= air_.valves() || t < state_.time) return signals::Status::invalid;
+  while (!state_.failure && next_node() < t)
     commit();  // later edges act at t or after: these nodes are final
-  air_.command(edge, t, first_.air);
+  air_.command(edge, t, state_.first.air, state_.valves);
   return signals::Status::ok;
 }
 
@@ -235,16 +257,16 @@ signals::Reading World<M, A>::read(signals::Channel channel, signals::Tick now) 
   const double value =
       quantity(channel.index, static_cast<double>(sampled) * signals::tick_seconds);
   // A state that ran away never comes back: every later reading says so too.
-  if (failure_ || !std::isfinite(value)) return {0, signals::Status::fault};
+  if (state_.failure || !std::isfinite(value)) return {0, signals::Status::fault};
   const double hiss = sensor.noise > 0 ? robot::noise(seed_, channel.index, sampled) : 0.0;
   return {counts(sensor, robot_.converter, value, hiss),
-          ended_ ? signals::Status::ended : signals::Status::ok};
+          state_.ended ? signals::Status::ended : signals::Status::ok};
 }
 
 template <class M, class A>
 signals::Status World<M, A>::stop(signals::Tick) noexcept {
-  ended_ = true;  // nothing moves a simulated body after its last tick
-  return failure_ ? signals::Status::fault : signals::Status::ok;
+  state_.ended = true;  // nothing moves a simulated body after its last tick
+  return state_.failure ? signals::Status::fault : signals::Status::ok;
 }
 
 template <class M, class A>
@@ -276,7 +298,7 @@ Truth World<M, A>::truth(double t) noexcept {
     out.cylinder_in[k] = account.in;
     out.cylinder_out[k] = account.out;
   }
-  mechanism_.tell(p.state.motion, g.acceleration, g.held, first_.load, out);
+  mechanism_.tell(p.state.motion, g.acceleration, g.held, state_.first.load, out);
   return out;
 }
 

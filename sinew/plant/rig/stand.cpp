@@ -50,7 +50,8 @@ void Stand::evaluate(double t, double length, double rate, const muscle::AirStat
   muscle::Lanes lengths{}, rates{};
   lengths[0] = length;
   rates[0] = rate;
-  plumbing_.evaluate(t, lengths, rates, travel(length), -rate, air, out.pull, out.flow);
+  plumbing_.evaluate(t, lengths, rates, travel(length), -rate, air, state_.valves, out.pull,
+                     out.flow);
   const muscle::AirPull& p = out.pull;
   if (setup_.cylinder) {
     out.force = p.cylinder_force;
@@ -68,7 +69,7 @@ void Stand::evaluate(double t, double length, double rate, const muscle::AirStat
 }
 
 // Everything that one look at a state yields.
-void Stand::look(double t, const Order& o, const State& s, Look& out) const noexcept {
+void Stand::look(double t, const Order& o, const Moving& s, Look& out) const noexcept {
   const double length = driven_ ? o.length.at(t) : std::clamp(s.length, o.shortest, o.longest);
   const double rate = driven_ ? o.length.slope : s.velocity;
   if (regulated_) {
@@ -90,8 +91,8 @@ void Stand::look(double t, const Order& o, const State& s, Look& out) const noex
   out.acceleration = held ? 0.0 : (out.asks - dry) / mass;
 }
 
-auto Stand::shifted(const State& from, double h, const Look& by) const noexcept -> State {
-  State s = from;
+auto Stand::shifted(const Moving& from, double h, const Look& by) const noexcept -> Moving {
+  Moving s = from;
   s.length += h * by.velocity;
   s.velocity += h * by.acceleration;
   for (int i = 0; i < plumbing_.states(); ++i) s.air[i] += h * by.flow[i];
@@ -101,13 +102,13 @@ auto Stand::shifted(const State& from, double h, const Look& by) const noexcept 
   return s;
 }
 
-auto Stand::rk4(double t, double h, const Order& o, const State& s,
-                const Look& first) const noexcept -> State {
+auto Stand::rk4(double t, double h, const Order& o, const Moving& s,
+                const Look& first) const noexcept -> Moving {
   Look second, third, fourth;
   look(t + 0.5 * h, o, shifted(s, 0.5 * h, first), second);
   look(t + 0.5 * h, o, shifted(s, 0.5 * h, second), third);
   look(t + h, o, shifted(s, h, third), fourth);
-  State sum = shifted(s, h / 6.0, first);
+  Moving sum = shifted(s, h / 6.0, first);
   sum = shifted(sum, h / 3.0, second);
   sum = shifted(sum, h / 3.0, third);
   return shifted(sum, h / 6.0, fourth);
@@ -119,8 +120,8 @@ int Stand::region(double length) const noexcept {
 }
 
 // Is there something between the two states that no smooth piece can hold?
-bool Stand::breaks(double t, const Order& o, const State& before,
-                   const State& after) const noexcept {
+bool Stand::breaks(double t, const Order& o, const Moving& before,
+                   const Moving& after) const noexcept {
   if (driven_) return false;
   if (region(after.length) != region(before.length)) return true;
   if (!rubs_) return false;
@@ -131,7 +132,7 @@ bool Stand::breaks(double t, const Order& o, const State& before,
 }
 
 // What turned back stops; what stands holds, or sets off.
-void Stand::settle(double t, const Order& o, State& s) const noexcept {
+void Stand::settle(double t, const Order& o, Moving& s) const noexcept {
   if (driven_ || !rubs_) return;
   const bool turned = s.velocity * static_cast<double>(s.rub) < 0;
   if (s.rub != Rub::rests && !turned) return;
@@ -143,7 +144,7 @@ void Stand::settle(double t, const Order& o, State& s) const noexcept {
 }
 
 // What is prescribed at t goes into the state.
-void Stand::place(double t, const Order& o, State& s) const noexcept {
+void Stand::place(double t, const Order& o, Moving& s) const noexcept {
   if (driven_) {
     s.length = o.length.at(t);
     s.velocity = o.length.slope;
@@ -160,7 +161,7 @@ void Stand::place(double t, const Order& o, State& s) const noexcept {
 
 // Of a chamber that settles at the pressure behind an open valve: the flow's slope is steep there
 // [1/s].
-double Stand::settling_rate(double exponent, const State& s, const Look& at) const noexcept {
+double Stand::settling_rate(double exponent, const Moving& s, const Look& at) const noexcept {
   const muscle::AirPull& p = at.pull;
   const bool cylinder = setup_.cylinder.has_value();
   const double behind = cylinder ? p.cylinder_pressure[muscle::up] : p.manifold[0];
@@ -171,7 +172,7 @@ double Stand::settling_rate(double exponent, const State& s, const Look& at) con
 }
 
 // Of the load on its spring, air shut in; of the ends where they act  [1/s].
-double Stand::swinging_rate(double exponent, double mass, const State& s,
+double Stand::swinging_rate(double exponent, double mass, const Moving& s,
                             const Look& at) const noexcept {
   double stiffness = 0, damping = 0;
   if (setup_.cylinder) {
@@ -194,14 +195,14 @@ double Stand::swinging_rate(double exponent, double mass, const State& s,
 }
 
 // That a piece may have  [s].
-double Stand::longest_piece(const Order& o, const State& s, const Look& at) const noexcept {
+double Stand::longest_piece(const Order& o, const Moving& s, const Look& at) const noexcept {
   const double n =
       setup_.air.wall_time > 0 ? gas::heat_capacity_ratio : setup_.air.polytropic_exponent;
   double longest = setup_.step;
-  if (!plumbing_.quiet()) {
+  if (!plumbing_.quiet(state_.valves)) {
     muscle::Lanes lengths{};
     lengths[0] = s.length;
-    longest = std::min({longest, plumbing_.longest_step(lengths, travel(s.length)),
+    longest = std::min({longest, plumbing_.longest_step(lengths, travel(s.length), state_.valves),
                         longest_settling / settling_rate(n, s, at)});
   }
   if (!driven_) longest = std::min(longest, longest_swing / swinging_rate(n, o.mass.value, s, at));
@@ -209,7 +210,7 @@ double Stand::longest_piece(const Order& o, const State& s, const Look& at) cons
 }
 
 // One smooth piece from t on, at most to `end`; answers where it ends.
-double Stand::piece(double t, double end, State& s) const noexcept {
+double Stand::piece(double t, double end, Moving& s) const noexcept {
   Order o = order(t);
   place(t, o, s);
   o = order_from(t, s.length);
@@ -222,13 +223,13 @@ double Stand::piece(double t, double end, State& s) const noexcept {
   const double pieces = std::ceil(whole / longest_piece(o, s, first) - 1e-9);
   double h = pieces > 1 ? whole / pieces : whole;
   double reached = pieces > 1 ? t + h : target;
-  State after = rk4(t, h, o, s, first);
+  Moving after = rk4(t, h, o, s, first);
   if (breaks(reached, o, s, after)) {
     // The end of the piece is put where it breaks, on the far side of it.
     double before = 0;
     for (int i = 0; i < 44; ++i) {
       const double middle = 0.5 * (before + h);
-      const State there = rk4(t, middle, o, s, first);
+      const Moving there = rk4(t, middle, o, s, first);
       if (breaks(t + middle, o, s, there)) {
         h = middle;
         after = there;
@@ -244,61 +245,63 @@ double Stand::piece(double t, double end, State& s) const noexcept {
 }
 
 // From one instant to another, in a copy.
-auto Stand::moved(State s, double from, double to) const noexcept -> State {
+auto Stand::moved(Moving s, double from, double to) const noexcept -> Moving {
   for (double t = from; t < to;) t = piece(t, to, s);
   place(to, order(to), s);
   return s;
 }
 
 void Stand::prepare() noexcept {
-  plumbing_.node(time_);
-  const Order o = order(time_);
-  place(time_, o, state_);
-  settle(time_, o, state_);
-  look(time_, o, state_, first_);
+  plumbing_.node(state_.time, state_.valves);
+  const Order o = order(state_.time);
+  place(state_.time, o, state_.now);
+  settle(state_.time, o, state_.now);
+  look(state_.time, o, state_.now, state_.first);
   look_for_failure();
 }
 
 // Is anything of the look at a node no number?
 void Stand::look_for_failure() noexcept {
-  if (failure_) return;
+  if (state_.failure) return;
   using Of = muscle::Failure::Of;
   const bool cylinder = setup_.cylinder.has_value();
-  const double p = cylinder ? first_.pull.cylinder_pressure[muscle::up] : first_.pull.pressure[0];
+  const double p =
+      cylinder ? state_.first.pull.cylinder_pressure[muscle::up] : state_.first.pull.pressure[0];
   if (!muscle::is_pressure(p))
-    failure_ = {.of = cylinder ? Of::cylinder : Of::air, .length = state_.length, .time = time_};
-  else if (!muscle::is_place(state_.length))
-    failure_ = {.of = Of::motion, .length = state_.length, .time = time_};
+    state_.failure = {
+        .of = cylinder ? Of::cylinder : Of::air, .length = state_.now.length, .time = state_.time};
+  else if (!muscle::is_place(state_.now.length))
+    state_.failure = {.of = Of::motion, .length = state_.now.length, .time = state_.time};
 }
 
 // The next multiple of the step, or the next change of a valve.
 double Stand::next_node() const noexcept {
-  const double multiple = static_cast<double>(multiple_ + 1) * setup_.step;
-  return std::min(multiple, plumbing_.next_change());
+  const double multiple = static_cast<double>(state_.multiple + 1) * setup_.step;
+  return std::min(multiple, state_.valves.next_change);
 }
 
 void Stand::advance(double t) noexcept {
-  while (!failure_ && next_node() <= t) commit();
+  while (!state_.failure && next_node() <= t) commit();
 }
 
 void Stand::commit() noexcept {
   const double next = next_node();
-  if (next > time_) state_ = moved(state_, time_, next);
-  time_ = std::max(next, time_);
-  if (next >= static_cast<double>(multiple_ + 1) * setup_.step) ++multiple_;
-  ++nodes_;
+  if (next > state_.time) state_.now = moved(state_.now, state_.time, next);
+  state_.time = std::max(next, state_.time);
+  if (next >= static_cast<double>(state_.multiple + 1) * setup_.step) ++state_.multiple;
+  ++state_.nodes;
   prepare();
 }
 
 double Stand::air_mass() const noexcept {
-  return plumbing_.total_mass(state_.air, travel(state_.length));
+  return plumbing_.total_mass(state_.now.air, travel(state_.now.length));
 }
 
-StandTruth Stand::truth(double t) noexcept { return seen(std::max(t, time_)); }
+StandTruth Stand::truth(double t) noexcept { return seen(std::max(t, state_.time)); }
 
 StandTruth Stand::seen(double t) noexcept {
   advance(t);
-  const State s = failure_ ? state_ : moved(state_, time_, t);
+  const Moving s = state_.failure ? state_.now : moved(state_.now, state_.time, t);
   const Order o = order(t);
   Look l;
   look(t, o, s, l);
@@ -318,8 +321,8 @@ StandTruth Stand::seen(double t) noexcept {
           .air_in = s.in,
           .air_out = s.out,
           .air_leaked = s.leak,
-          .inlet = plumbing_.open_share(0, t),
-          .exhaust = plumbing_.open_share(1, t),
+          .inlet = plumbing_.open_share(0, t, state_.valves),
+          .exhaust = plumbing_.open_share(1, t, state_.valves),
           .supply_pressure = l.pull.supply_pressure,
           .tank_pressure = l.pull.tank_pressure};
 }
@@ -333,15 +336,16 @@ Status Stand::start(const signals::Scan& scan) noexcept {
 }
 
 Status Stand::drive(signals::Edge edge) noexcept {
-  if (ended_) return Status::ended;
-  if (failure_) return Status::fault;
+  if (state_.ended) return Status::ended;
+  if (state_.failure) return Status::fault;
   if (setup_.charge.mode != Charge::Mode::valves || edge.valve.index > 1) return Status::invalid;
   const double t = static_cast<double>(edge.at) * signals::tick_seconds;
-  if (t < time_) return Status::invalid;  // that node is final
-  while (!failure_ && next_node() < t)
+  if (t < state_.time) return Status::invalid;  // that node is final
+  while (!state_.failure && next_node() < t)
     commit();  // later edges act at t or after: these nodes are final
-  plumbing_.electrical(edge.valve.index, t, edge.open, first_.pull);
-  plumbing_.level(edge.valve.index, t, static_cast<double>(edge.level) / signals::max_level);
+  plumbing_.electrical(edge.valve.index, t, edge.open, state_.first.pull, state_.valves);
+  plumbing_.level(edge.valve.index, t, static_cast<double>(edge.level) / signals::max_level,
+                  state_.valves);
   return Status::ok;
 }
 
@@ -368,14 +372,14 @@ signals::Reading Stand::read(signals::Channel channel, signals::Tick now) noexce
   const signals::Tick sampled = now - lag_[channel.index];
   const double value = quantity(t, static_cast<double>(sampled) * signals::tick_seconds);
   // A state that ran away never comes back: every later reading says so too.
-  if (failure_ || !std::isfinite(value)) return {0, Status::fault};
+  if (state_.failure || !std::isfinite(value)) return {0, Status::fault};
   const double hiss = t.noise > 0 ? robot::noise(setup_.seed, channel.index, sampled) : 0.0;
-  return {counts(t, value, hiss), ended_ ? Status::ended : Status::ok};
+  return {counts(t, value, hiss), state_.ended ? Status::ended : Status::ok};
 }
 
 Status Stand::stop(signals::Tick) noexcept {
-  ended_ = true;  // nothing moves a simulated body after its last tick
-  return failure_ ? Status::fault : Status::ok;
+  state_.ended = true;  // nothing moves a simulated body after its last tick
+  return state_.failure ? Status::fault : Status::ok;
 }
 
 }  // namespace sinew::plant

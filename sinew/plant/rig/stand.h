@@ -41,32 +41,10 @@ namespace sinew::plant {
 double hanging_length(const StandSetup& setup);
 
 class Stand final : public signals::Port {
- public:
-  // Throws std::invalid_argument for a set-up that is no stand.
-  explicit Stand(const StandSetup& setup);
-
-  signals::Status start(const signals::Scan& scan) noexcept override;
-  // Valve 0 is the inlet or a 3-way valve, 1 the exhaust; invalid unless the air comes by valves,
-  // and for an edge before the last node.
-  signals::Status drive(signals::Edge edge) noexcept override;
-  signals::Reading read(signals::Channel channel, signals::Tick now) noexcept override;
-  signals::Status stop(signals::Tick now) noexcept override;
-
-  // The stand at time t [s], at or after every earlier call's; an earlier one is answered with the
-  // last node.
-  StandTruth truth(double t) noexcept;
-
-  // Commits every node up to t.
-  void advance(double t) noexcept;
-  double time() const noexcept { return time_; }  // of the last node [s]
-  std::int64_t nodes() const noexcept { return nodes_; }
-  const muscle::Failure& failure() const noexcept { return failure_; }
-  double air_mass() const noexcept;  // in muscle, hose and tank [kg]
-
- private:
   enum class Rub : signed char { rests = 0, down = 1, up = -1 };
 
-  struct State {
+  // What is integrated.
+  struct Moving {
     double length = 0, velocity = 0;
     muscle::AirState air{};
     double in = 0, out = 0, leak = 0;  // since the start [kg]
@@ -90,22 +68,62 @@ class Stand final : public signals::Port {
     double in = 0, out = 0, leak = 0;  // [kg/s]
   };
 
+ public:
+  // The stand at its last node, and the commands since. Copied like bytes; of one build of the
+  // library, and for stands of equal setups.
+  struct State {
+    Moving now;
+    muscle::Plumbing::Valves valves;
+    Look first;       // at the last node
+    double time = 0;  // of the node [s]
+    std::int64_t multiple = 0, nodes = 0;
+    bool ended = false;
+    muscle::Failure failure;
+  };
+
+  // Throws std::invalid_argument for a set-up that is no stand.
+  explicit Stand(const StandSetup& setup);
+
+  signals::Status start(const signals::Scan& scan) noexcept override;
+  // Valve 0 is the inlet or a 3-way valve, 1 the exhaust; invalid unless the air comes by valves,
+  // and for an edge before the last node.
+  signals::Status drive(signals::Edge edge) noexcept override;
+  signals::Reading read(signals::Channel channel, signals::Tick now) noexcept override;
+  signals::Status stop(signals::Tick now) noexcept override;
+
+  // The stand at time t [s], at or after every earlier call's; an earlier one is answered with the
+  // last node.
+  StandTruth truth(double t) noexcept;
+
+  // Commits every node up to t.
+  void advance(double t) noexcept;
+  double time() const noexcept { return state_.time; }  // of the last node [s]
+  std::int64_t nodes() const noexcept { return state_.nodes; }
+  const muscle::Failure& failure() const noexcept { return state_.failure; }
+  double air_mass() const noexcept;  // in muscle, hose and tank [kg]
+
+  const State& state() const noexcept { return state_; }
+  // Goes on from there as the stand did whose state it was: the same bits.
+  void restore(const State& state) noexcept { state_ = state; }
+
+ private:
   Order order(double t) const noexcept;
   Order order_from(double t, double length) const noexcept;
-  void look(double t, const Order& o, const State& s, Look& out) const noexcept;
+  void look(double t, const Order& o, const Moving& s, Look& out) const noexcept;
   void evaluate(double t, double length, double rate, const muscle::AirState& air,
                 Look& out) const noexcept;
-  State shifted(const State& from, double h, const Look& by) const noexcept;
-  State rk4(double t, double h, const Order& o, const State& s, const Look& first) const noexcept;
+  Moving shifted(const Moving& from, double h, const Look& by) const noexcept;
+  Moving rk4(double t, double h, const Order& o, const Moving& s, const Look& first) const noexcept;
   int region(double length) const noexcept;
-  bool breaks(double t, const Order& o, const State& before, const State& after) const noexcept;
-  void settle(double t, const Order& o, State& s) const noexcept;
-  double settling_rate(double exponent, const State& s, const Look& at) const noexcept;
-  double swinging_rate(double exponent, double mass, const State& s, const Look& at) const noexcept;
-  double longest_piece(const Order& o, const State& s, const Look& at) const noexcept;
-  double piece(double t, double end, State& s) const noexcept;
-  State moved(State s, double from, double to) const noexcept;
-  void place(double t, const Order& o, State& s) const noexcept;
+  bool breaks(double t, const Order& o, const Moving& before, const Moving& after) const noexcept;
+  void settle(double t, const Order& o, Moving& s) const noexcept;
+  double settling_rate(double exponent, const Moving& s, const Look& at) const noexcept;
+  double swinging_rate(double exponent, double mass, const Moving& s,
+                       const Look& at) const noexcept;
+  double longest_piece(const Order& o, const Moving& s, const Look& at) const noexcept;
+  double piece(double t, double end, Moving& s) const noexcept;
+  Moving moved(Moving s, double from, double to) const noexcept;
+  void place(double t, const Order& o, Moving& s) const noexcept;
   double travel(double length) const noexcept;  // of the cylinder [m]
   void prepare() noexcept;                      // at a new node
   void look_for_failure() noexcept;
@@ -123,12 +141,7 @@ class Stand final : public signals::Port {
   double end_stiffness_ = 0, end_damping_ = 0;  // of the stiffer end [N/m], [N s/m]
 
   State state_;
-  Look first_{};  // at the last node
-  double time_ = 0;
-  std::int64_t multiple_ = 0, nodes_ = 0;
   std::array<signals::Tick, 256> lag_{};
-  bool ended_ = false;
-  muscle::Failure failure_;
 };
 
 }  // namespace sinew::plant

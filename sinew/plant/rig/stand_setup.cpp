@@ -91,13 +91,14 @@ double hanging_length(const StandSetup& setup) {
   // At one pressure the room for air takes no part; beyond the threads there must be some.
   if (!(s.muscle.external_volume > 0)) s.muscle.external_volume = 1e-6;
   const muscle::Plumbing plumbing = plumbing_of(s);
+  const muscle::Plumbing::Valves valves = plumbing.valves_at_rest();
   const double weight = s.load.mass.at(0) * s.load.gravity + s.load.force.at(0);
   const auto surplus = [&](double length) {
     muscle::Lanes lengths{}, rates{};
     lengths[0] = length;
     muscle::AirState air = plumbing.initial(s.start.pressure, lengths, 0), flow{};
     muscle::AirPull pull{};
-    plumbing.evaluate(0, lengths, rates, 0, 0, air, pull, flow);
+    plumbing.evaluate(0, lengths, rates, 0, 0, air, valves, pull, flow);
     return pull.clamped[0] - weight;
   };
   auto [low, high] = reach(s);
@@ -109,6 +110,8 @@ double hanging_length(const StandSetup& setup) {
   }
   return 0.5 * (low + high);
 }
+
+static_assert(std::is_trivially_copyable_v<Stand::State>);
 
 Stand::Stand(const StandSetup& setup)
     : setup_(with_valves(setup)),
@@ -135,11 +138,12 @@ Stand::Stand(const StandSetup& setup)
   length[0] = start.length;
   if (setup_.cylinder) setup_.cylinder->initial_pressure[muscle::up] = start.pressure;
   plumbing_ = plumbing_of(setup_);
-  state_.length = start.length;
-  state_.air = plumbing_.initial(start.pressure, length, travel(start.length));
-  state_.length += start.displacement;
+  state_.valves = plumbing_.valves_at_rest();
+  state_.now.length = start.length;
+  state_.now.air = plumbing_.initial(start.pressure, length, travel(start.length));
+  state_.now.length += start.displacement;
   refuse_without_air(setup_, start.length);
-  refuse_without_air(setup_, state_.length);
+  refuse_without_air(setup_, state_.now.length);
   for (const Point& p : setup_.load.length.points) {
     refuse_without_air(setup_, p.value);
     if (const Reach r = reach(setup_); !setup_.cylinder && (p.value < r.low || p.value > r.high))
@@ -147,7 +151,7 @@ Stand::Stand(const StandSetup& setup)
              " m is beyond half the shortest length and 1.5 threads of its muscle");
   }
   if (const Reach r = reach(setup_);
-      !setup_.cylinder && !driven_ && !(state_.length >= r.low && state_.length <= r.high))
+      !setup_.cylinder && !driven_ && !(state_.now.length >= r.low && state_.now.length <= r.high))
     refuse("it starts beyond half the shortest length and 1.5 threads");
   prepare();
 }
