@@ -73,7 +73,7 @@ Comparison compare_edges(const signals::Table& recorded, const signals::Table& r
   const std::int64_t end = end_of(recorded);
   Comparison out;
   for (const signals::Series& now : replayed.series) {
-    if (!now.topic.name.starts_with("/valve/")) continue;
+    if (!signals::is_of_valve(now.topic.name)) continue;
     const signals::Series* then = recorded.find(now.topic.name);
     if (!then) throw std::invalid_argument("the log has no " + now.topic.name + " to compare with");
     const std::size_t a = edges(*then, end), b = edges(now, end);

@@ -8,6 +8,7 @@
 #include "cli/terminal.h"
 #include "cli/text_table.h"
 #include "sinew/config/quantity.h"
+#include "sinew/robot/legs.h"
 
 namespace sinew::cli {
 
@@ -63,12 +64,19 @@ void print_main_figures(const analysis::Summary& summary, const analysis::Machin
       {"trolley.distance_m", "mm"},
       {"trolley.mean_speed_m_per_s", "mm/s"},
   };
-  for (const robot::Joint& joint : machine.robot.joints) {
-    const std::string at = "joints." + joint.name;
+  for (std::size_t j = 0; j < machine.robot.joints.size(); ++j) {
+    const std::string& name = machine.robot.joints[j].name;
+    const std::size_t leg = robot::leg_of_joint(machine.robot, static_cast<int>(j));
+    const bool one = machine.robot.legs.empty();
+    const std::string of = one ? "" : machine.robot.legs[leg].name;
+    const std::string at =
+        (one ? "joints." : "legs." + of + ".joints.") + robot::name_in_leg(of, name);
     keys.push_back({at + ".excursion_rad", "deg"});
     keys.push_back({at + ".tracking_rms_rad", "deg"});
     keys.push_back({at + ".passiveness", "%"});
   }
+  for (const robot::Leg& leg : machine.robot.legs)
+    keys.push_back({"legs." + leg.name + ".foot.loaded_share_true", "%"});
   keys.push_back({"air_used_kg", "g"});
 
   TextTable table({"", "Sinew"});

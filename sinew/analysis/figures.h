@@ -54,6 +54,7 @@ void add_ground_reaction(Figures&);
 void add_air(Figures&);
 void add_valves(Figures&);
 void add_machine(Figures&);
+void add_sole(Figures&);  // the discs of a leg's foot
 void add_phases(Figures&);
 void add_supervision(Figures&);
 

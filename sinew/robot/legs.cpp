@@ -120,6 +120,27 @@ std::string topic_in_leg(std::string_view leg, std::string_view topic) {
   return is_mine ? std::string(topic.substr(0, head)) + std::string(rest) : std::string();
 }
 
+std::string logged_topic(const Robot& robot, std::string_view topic) {
+  if (robot.legs.empty()) return std::string(topic);
+  const std::size_t head = head_of(topic);
+  const std::string_view rest = topic.substr(head);
+  for (const std::string_view kind : {"/joint/", "/muscle/", "/valve/"}) {
+    if (!rest.starts_with(kind)) continue;
+    const std::size_t end = std::min(rest.find('/', kind.size()), rest.size());
+    const std::string_view name = rest.substr(kind.size(), end - kind.size());
+    const int joint = find_joint(robot, name), muscle = find_muscle(robot, name);
+    std::string of;
+    if (kind == "/joint/" && joint >= 0)
+      of = topic_of_joint(robot, static_cast<std::size_t>(joint));
+    const auto m = static_cast<std::size_t>(std::max(muscle, 0));
+    if (kind == "/muscle/" && muscle >= 0) of = topic_of_muscle(robot, m);
+    if (kind == "/valve/" && muscle >= 0) of = topic_of_valves(robot, m);
+    if (of.empty()) break;
+    return std::string(topic.substr(0, head)) + of + std::string(rest.substr(end));
+  }
+  return std::string(topic);
+}
+
 std::string topic_of_joint(const Robot& robot, std::size_t joint) {
   return topic_of(robot, leg_of_joint(robot, static_cast<int>(joint)), "/joint/",
                   robot.joints[joint].name);

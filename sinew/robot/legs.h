@@ -56,6 +56,10 @@ std::string topic_of_leg(std::string_view leg, std::string_view topic);
 // topic as it is.
 std::string topic_in_leg(std::string_view leg, std::string_view topic);
 
+// A topic that names a joint, a muscle or its valves as the robot does,
+// "/true/joint/left_hip/angle", as the log has it; any other as it is.
+std::string logged_topic(const Robot&, std::string_view topic);
+
 // A joint's and a muscle's topics begin so, behind /true or /desired: "/joint/hip",
 // "/leg/left/muscle/hip_flexor"; a muscle's valves': "/leg/left/valve/hip_flexor".
 std::string topic_of_joint(const Robot&, std::size_t joint);

@@ -68,6 +68,12 @@ TEST(Legs, TopicsOfALegAndBack) {
   const Robot two = test::two_legs();
   EXPECT_EQ(topic_of_joint(two, 3), "/leg/right/joint/knee");
   EXPECT_EQ(topic_of_muscle(two, 0), "/leg/left/muscle/hip_flexor");
+  EXPECT_EQ(logged_topic(two, "/desired/joint/left_hip/angle"),
+            "/desired/leg/left/joint/hip/angle");
+  EXPECT_EQ(logged_topic(two, "/valve/right_knee_flexor/inlet/open"),
+            "/leg/right/valve/knee_flexor/inlet/open");
+  EXPECT_EQ(logged_topic(two, "/valve/cylinder_up/inlet/open"), "/valve/cylinder_up/inlet/open");
+  EXPECT_EQ(logged_topic(test::leg(), "/joint/hip/angle"), "/joint/hip/angle");
   EXPECT_EQ(topic_of_leg("left", "/true/foot/force"), "/true/leg/left/foot/force");
   EXPECT_EQ(topic_of_leg("left", "/trueish/foot"), "/leg/left/trueish/foot");
   for (const std::string topic : {"/joint/hip/angle", "/true/foot/force", "/desired/foot/position"})
