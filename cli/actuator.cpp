@@ -6,20 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/json_text.h"
-#include "cli/named.h"
 #include "cli/terminal.h"
 #include "cli/text_table.h"
 #include "sinew/actuator/body.h"
-#include "sinew/actuator/braid.h"
-#include "sinew/actuator/loss.h"
-#include "sinew/actuator/stiffness.h"
-#include "sinew/actuator/tension.h"
+#include "sinew/actuator/operating_point.h"
+#include "sinew/config/named.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
 
@@ -34,54 +30,7 @@ struct Options {
   bool json = false, quiet = false;
 };
 
-constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
-
-// All laws at one length and one pressure, SI.
-struct Point {
-  double length = 0, gauge_pressure = 0;
-  double tension = 0, effectiveness = 0, coulomb_bound = 0;
-  double velocity = not_asked, sliding_tension = not_asked, viscous_loss = not_asked;  // [33]
-  double stiffness_at_constant_pressure = 0, stiffness_sealed = 0, passive_stiffness = 0;
-  double volume = 0, diameter = 0, braid_angle = 0;
-  std::vector<std::string> beyond;  // where the model ends
-};
-
-std::vector<std::string> beyond(const actuator::Actuator& a, double length, double gauge) {
-  std::vector<std::string> out;
-  if (length - a.caps.length >= a.braid.thread_length)
-    out.emplace_back("longer than the thread: no braid angle");
-  if (length > a.long_end.length) out.emplace_back("beyond the long end: the threads stretch");
-  if (length < actuator::shortest_length(a))
-    out.emplace_back("below the shortest length: the end stop pushes, or nothing pulls");
-  if (gauge < a.effectiveness.valid_from || gauge > a.effectiveness.valid_to)
-    out.emplace_back("outside the fitted pressures: the effectiveness is held");
-  if (length < a.bladder.valid_from || length > a.bladder.valid_to)
-    out.emplace_back("outside the fitted lengths: the bladder is held");
-  return out;
-}
-
-Point evaluate(const actuator::Actuator& a, const gas::Air& air, double length, double gauge,
-               double velocity, double external_volume) {
-  const double atmosphere = air.atmosphere;
-  Point p{.length = length, .gauge_pressure = gauge};
-  p.tension = tension(a, length, 0.0, gauge, atmosphere);
-  p.effectiveness = effectiveness(a.effectiveness, gauge, atmosphere);
-  p.stiffness_at_constant_pressure = stiffness_at_constant_pressure(a, length, gauge, atmosphere);
-  p.stiffness_sealed = stiffness_sealed(a, length, gauge + atmosphere, atmosphere, external_volume,
-                                        air.polytropic_exponent);
-  p.passive_stiffness = passive_stiffness(a, length);
-  p.coulomb_bound = coulomb_bound(a, length, gauge, atmosphere, p.stiffness_sealed);
-  if (std::isfinite(velocity)) {
-    p.velocity = velocity;
-    p.viscous_loss = tension(a, length, velocity, gauge, atmosphere) - p.tension;
-    p.sliding_tension = sliding_tension(a, length, velocity, gauge, atmosphere, p.stiffness_sealed);
-  }
-  p.volume = volume(a, length);
-  p.diameter = diameter(a.braid, length - a.caps.length);
-  p.braid_angle = braid_angle(a.braid, length - a.caps.length);
-  p.beyond = beyond(a, length, gauge);
-  return p;
-}
+using Point = actuator::OperatingPoint;
 
 // A braid has a length; a half more than its threads is as far as the stiffness of its long end
 // says anything.
@@ -210,7 +159,7 @@ ExitCode run_actuator(const Options& options) {
   const auto file = experiment::load_machine_file(options.file);
   const gas::Air& air = file.experiment.air;
   const actuator::Actuator& a =
-      named(file.experiment.actuators, options.name, "--name", "actuator");
+      config::named(file.experiment.actuators, options.name, "--name", "actuator");
   const Values lengths =
       arguments("--length", options.length, "m", air.atmosphere, possible_lengths(a));
   const Values pressures = arguments("--pressure", options.pressure, "Pa gauge", air.atmosphere,
@@ -219,14 +168,15 @@ ExitCode run_actuator(const Options& options) {
       argument("--external-volume", options.external_volume, "m3", air.atmosphere, air_volume);
 
   const double velocity = options.velocity.empty()
-                              ? not_asked
+                              ? Point::not_asked
                               : argument("--velocity", options.velocity, "m/s", air.atmosphere,
                                          {-100, 100, "a muscle's end is slower than 100 m/s"});
 
+  const actuator::Surroundings around{air.atmosphere, air.polytropic_exponent, external};
   std::vector<Point> points;
   for (const double pressure : pressures.si)
     for (const double length : lengths.si)
-      points.push_back(evaluate(a, air, length, pressure, velocity, external));
+      points.push_back(actuator::operating_point(a, length, pressure, around, velocity));
 
   if (options.json) {
     Json out{{"actuator", a.name},

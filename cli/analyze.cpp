@@ -2,14 +2,15 @@
 #include <fmt/format.h>
 
 #include "cli/command.h"
-#include "cli/report.h"
-#include "cli/run_folder.h"
-#include "cli/run_log.h"
 #include "cli/terminal.h"
+#include "cli/verdicts.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
 #include "sinew/log/reader.h"
 #include "sinew/report/content.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/run/folder/run_folder.h"
+#include "sinew/run/folder/run_log.h"
 
 namespace sinew::cli {
 
@@ -31,9 +32,10 @@ ExitCode tell(const Options& options, const Messages& messages, const signals::T
   for (const std::string& text : summary.warnings) messages.warning(text);
   const std::string json = to_json(summary);
   if (!options.out.empty()) {
-    refuse_to_overwrite(options.out, options.force,
-                        {recorded_run(options.run).log, options.machine}, summary_name);
-    write_file(options.out, json);
+    run::refuse_to_overwrite(options.out, options.force,
+                             {run::recorded_run(options.run).log, options.machine},
+                             run::summary_name);
+    run::write_file(options.out, json);
   }
   if (options.verdicts) {
     fmt::print("{}\n", report::to_json(compare(summary, machine.reported, machine.atmosphere)));
@@ -47,9 +49,9 @@ ExitCode tell(const Options& options, const Messages& messages, const signals::T
 
 ExitCode analyze_run(const Options& options) {
   const Messages messages(options.quiet);
-  const RecordedRun run = recorded_run(options.run);
-  require_finished(run.log);
-  const config::Node file = config::compose(machine_of(run, options.machine).string());
+  const run::RecordedRun run = run::recorded_run(options.run);
+  run::require_finished(run.log);
+  const config::Node file = config::compose(run::machine_of(run, options.machine).string());
   const signals::Table table = log::read(run.log);
   if (!table.complete)
     messages.warning(

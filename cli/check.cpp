@@ -8,15 +8,14 @@
 
 #include "cli/command.h"
 #include "cli/json_text.h"
-#include "cli/run_folder.h"
-#include "cli/run_rig.h"
-#include "cli/runnable.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/gains.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/experiment/rig/rig.h"
 #include "sinew/log/reader.h"
+#include "sinew/run/folder/run_folder.h"
+#include "sinew/run/folder/runnable.h"
 #include "sinew/tune/study.h"
 
 namespace sinew::cli {
@@ -50,13 +49,14 @@ void check_log(const std::filesystem::path& file, Finding& out) {
 }
 
 void check_run(const std::filesystem::path& folder, Finding& out) {
-  const RecordedRun run = recorded_run(folder);
+  const run::RecordedRun run = run::recorded_run(folder);
   check_log(run.log, out);
-  if (const auto file = machine_of(run, ""); is_rig(file)) {
+  if (const auto file = run::machine_of(run, ""); run::is_on_stand(file)) {
     out.add(rig::load(file).warnings, out.warnings);
     return;
   }
-  out.add(experiment::load_machine_file(machine_of(run, "")).experiment.warnings, out.warnings);
+  out.add(experiment::load_machine_file(run::machine_of(run, "")).experiment.warnings,
+          out.warnings);
 }
 
 // One line per file: an experiment's own choices need no more.
@@ -71,7 +71,7 @@ void tell_of_sources(const Problems& unsourced, Finding& out) {
 }
 
 void check_rig(const std::string& path, Finding& out) {
-  const rig::Experiment e = runnable_on_stand(path, {});
+  const rig::Experiment e = run::runnable_on_stand(path, {});
   out.add(e.warnings, out.warnings);
   tell_of_sources(e.unsourced, out);
 }
@@ -79,7 +79,7 @@ void check_rig(const std::string& path, Finding& out) {
 void check_machine(const std::string& path, Finding& out) {
   const bool runs = config::format_kind(config::parse_file(path)) == "experiment";
   const experiment::Experiment e =
-      runs ? runnable(path, {}, false) : experiment::load_machine_file(path).experiment;
+      runs ? run::runnable(path, {}, false) : experiment::load_machine_file(path).experiment;
   out.add(e.warnings, out.warnings);
   tell_of_sources(e.unsourced, out);
 }
@@ -98,7 +98,7 @@ Finding check(const std::string& path) {
       config::read_valve_timing(path);
     } else if (config::format_kind(config::parse_file(path)) == "plan") {
       tune::check(tune::sweep_of(tune::load_study(path)));
-    } else if (is_rig(path)) {
+    } else if (run::is_on_stand(path)) {
       check_rig(path, out);
     } else {
       check_machine(path, out);

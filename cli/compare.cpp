@@ -3,14 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <set>
-
 #include "cli/command.h"
-#include "cli/run_folder.h"
-#include "cli/run_log.h"
 #include "cli/terminal.h"
-#include "sinew/experiment/globs.h"
-#include "sinew/log/reader.h"
+#include "sinew/report/page.h"
+#include "sinew/run/folder/compared.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/run/folder/run_folder.h"
 
 namespace sinew::cli {
 
@@ -26,84 +24,20 @@ struct Options {
   bool json = false, all = false, force = false, quiet = false;
 };
 
-// The last `parts` of a run's path; the log's usual name says nothing.
-std::string tail_of(const fs::path& run, std::size_t parts) {
-  std::vector<std::string> names;
-  for (const fs::path& part : run.lexically_normal())
-    if (!part.empty() && part != "." && part != log_name) names.push_back(part.string());
-  std::string tail;
-  for (std::size_t i = names.size() > parts ? names.size() - parts : 0; i < names.size(); ++i)
-    tail += (tail.empty() || tail == "/" ? "" : "/") + names[i];
-  return tail.empty() ? "." : tail;
-}
-
-bool is_number(const std::string& text) {
-  return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
-}
-
-// The shortest ends of the paths that tell the runs apart. A number alone says too little.
-std::vector<std::string> labels_of(const std::vector<std::string>& runs) {
-  const std::set<fs::path> all(runs.begin(), runs.end());
-  for (std::size_t parts = 1;; ++parts) {
-    std::vector<std::string> labels;
-    bool numbers = false;
-    for (const std::string& run : runs) {
-      labels.push_back(tail_of(run, parts));
-      numbers = numbers || is_number(labels.back());
-    }
-    const std::set<std::string> different(labels.begin(), labels.end());
-    if ((different.size() == all.size() && (!numbers || parts > 1)) || parts > 8) return labels;
-  }
-}
-
-// What was run, as the folder or the log itself says.
-config::Node resolved_of(const RecordedRun& run) {
-  if (fs::exists(run.resolved)) return config::parse_file(run.resolved.string());
-  for (const auto& [key, value] : log::read_metadata(run.log))
-    if (key == "resolved") return config::parse_text(value, run.log.string() + ": resolved");
-  config::fail({run.log.string(), 0, 0}, "", "a log that does not say what was run",
-               "resolved.toml beside it, or its text in the log", "sinew import");
-}
-
-report::RecordedRun recorded(const std::string& named, std::string label,
-                             const Messages& messages) {
-  const RecordedRun run = recorded_run(named);
-  require_finished(run.log);
-  report::RecordedRun out{std::move(label), log::read(run.log), resolved_of(run)};
-  if (!out.logged.complete)
-    messages.warning(run.log.string() + " was cut off or is damaged; compared as far as it goes");
-  return out;
-}
-
-void keep_chosen(report::Comparison& comparison, const std::vector<std::string>& patterns) {
-  if (patterns.empty()) return;
-  std::vector<std::string_view> names;
-  for (const report::ChannelRow& row : comparison.channels) names.push_back(row.channel.topic);
-  const std::vector<bool> chosen = experiment::select(patterns, names, {"--channels", 0, 0});
-  std::set<std::string> topics;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (chosen[i]) topics.emplace(names[i]);
-  keep(comparison, topics);
-}
-
 ExitCode compare_runs(const Options& options) {
   const Messages messages(options.quiet);
   if (!options.out.empty()) {
     report::require_page(options.out);
     std::vector<fs::path> inputs;
     for (const std::string& named : options.runs) {
-      const RecordedRun run = recorded_run(named);
+      const run::RecordedRun run = run::recorded_run(named);
       inputs.insert(inputs.end(), {run.log, run.resolved});
     }
-    refuse_to_overwrite(options.out, options.force, inputs);
+    run::refuse_to_overwrite(options.out, options.force, inputs);
   }
-  const std::vector<std::string> labels = labels_of(options.runs);
-  std::vector<report::RecordedRun> runs;
-  for (std::size_t i = 0; i < options.runs.size(); ++i)
-    runs.push_back(recorded(options.runs[i], labels[i], messages));
-  report::Comparison comparison = compare(
-      std::move(runs), options.align == "start" ? report::Align::start : report::Align::sequence);
-  keep_chosen(comparison, options.channels);
+  const report::Comparison comparison = run::compare_runs(
+      options.runs, options.align == "start" ? report::Align::start : report::Align::sequence,
+      options.channels, messages.notices());
 
   if (options.json)
     fmt::print("{}", to_json(comparison));
@@ -112,7 +46,7 @@ ExitCode compare_runs(const Options& options) {
                      options.all);
   if (options.out.empty()) return ok;
   const std::string page = report::page(comparison);
-  write_file(options.out, page);
+  run::write_file(options.out, page);
   messages.note(fmt::format("{}, {:.1f} MB", options.out, 1e-6 * static_cast<double>(page.size())));
   return ok;
 }

@@ -5,15 +5,16 @@
 #include <sstream>
 
 #include "cli/command.h"
-#include "cli/run_folder.h"
 #include "cli/terminal.h"
 #include "sinew/analysis/derived.h"
 #include "sinew/analysis/machine.h"
 #include "sinew/config/compose.h"
 #include "sinew/experiment/globs.h"
-#include "sinew/experiment/out_dat.h"
 #include "sinew/log/csv.h"
 #include "sinew/log/reader.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/run/folder/run_folder.h"
+#include "thesis/out_dat/out_dat.h"
 
 namespace sinew::cli {
 
@@ -44,8 +45,8 @@ void refuse_csv_options(const Options& options) {
                "csv, for --channels and --derived");
 }
 
-experiment::Experiment experiment_of(const RecordedRun& run, const Options& options) {
-  return experiment::load(machine_of(run, options.machine).string());
+experiment::Experiment experiment_of(const run::RecordedRun& run, const Options& options) {
+  return experiment::load(run::machine_of(run, options.machine).string());
 }
 
 // What B.1 writes to its two ports, and when.
@@ -58,12 +59,12 @@ std::string ports_text(const signals::Table& table, const experiment::Experiment
   return out;
 }
 
-std::string text_of(const RecordedRun& run, const Options& options, signals::Table table) {
-  if (options.format == "out.dat") return write_out_dat(table, experiment_of(run, options));
+std::string text_of(const run::RecordedRun& run, const Options& options, signals::Table table) {
+  if (options.format == "out.dat") return thesis::write_out_dat(table, experiment_of(run, options));
   if (options.format == "ports") return ports_text(table, experiment_of(run, options));
 
   if (options.derived) {
-    const config::Node root = config::compose(machine_of(run, options.machine).string());
+    const config::Node root = config::compose(run::machine_of(run, options.machine).string());
     signals::Table derived = analysis::derive(table, analysis::read_machine(root));
     for (signals::Series& s : derived.series) table.series.push_back(std::move(s));
   }
@@ -75,9 +76,9 @@ std::string text_of(const RecordedRun& run, const Options& options, signals::Tab
 ExitCode export_run(const Options& options) {
   const Messages messages(options.quiet);
   refuse_csv_options(options);
-  const RecordedRun run = recorded_run(options.run);
+  const run::RecordedRun run = run::recorded_run(options.run);
   if (!options.out.empty())
-    refuse_to_overwrite(options.out, options.force, {run.log, run.resolved, options.machine});
+    run::refuse_to_overwrite(options.out, options.force, {run.log, run.resolved, options.machine});
 
   signals::Table table = log::read(run.log);
   if (!table.complete)
@@ -87,7 +88,7 @@ ExitCode export_run(const Options& options) {
   if (options.out.empty()) {
     fmt::print("{}", text);
   } else {
-    write_file(options.out, text);
+    run::write_file(options.out, text);
     messages.note(options.out);
   }
   return ok;

@@ -1,7 +1,13 @@
 // cli/figures.cpp - `sinew figures`: figures for print, of runs or of the thesis.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
 #include "cli/command.h"
 #include "cli/figures_runs.h"
 #include "cli/figures_thesis.h"
+#include "sinew/config/diagnostics.h"
 
 namespace sinew::cli {
 namespace {
@@ -11,6 +17,22 @@ struct Options {
   ThesisFiguresRequest thesis;
   bool of_thesis = false;
 };
+
+std::vector<report::Picture> parse_formats(const std::vector<std::string>& words) {
+  std::vector<report::Picture> out;
+  for (const std::string& list : words) {
+    std::istringstream in(list);
+    for (std::string word; std::getline(in, word, ',');) {
+      if (word == "csv") continue;
+      if (word != "svg" && word != "png")
+        config::fail({"--format", 0, 0}, "", fmt::format("\"{}\"", word), "svg, png or csv",
+                     "--format svg,png");
+      const auto picture = word == "svg" ? report::Picture::svg : report::Picture::png;
+      if (std::ranges::find(out, picture) == out.end()) out.push_back(picture);
+    }
+  }
+  return out;
+}
 
 ExitCode draw(Options& options) {
   if (!options.of_thesis) return draw_runs(options.runs);
@@ -23,6 +45,12 @@ ExitCode draw(Options& options) {
 }
 
 }  // namespace
+
+run::FigureFiles files_of(const std::vector<std::string>& formats, bool force) {
+  run::FigureFiles files{.must_draw = !formats.empty(), .force = force};
+  if (files.must_draw) files.pictures = parse_formats(formats);
+  return files;
+}
 
 void add_figures(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "sinew/run/folder/figure_files.h"
 
 namespace sinew::cli {
 
@@ -17,6 +18,10 @@ struct RunFiguresRequest {
   std::vector<std::string> only, formats;
   bool force = false, json = false, quiet = false;
 };
+
+// What --format and --force ask for: "svg,png,csv"; "csv" alone draws nothing. Throws config::Error
+// for another word.
+run::FigureFiles files_of(const std::vector<std::string>& formats, bool force);
 
 ExitCode draw_runs(const RunFiguresRequest& request);
 

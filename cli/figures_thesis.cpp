@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "cli/figure_files.h"
-#include "cli/run_folder.h"
+#include "cli/figures_runs.h"
+#include "cli/terminal.h"
 #include "cli/text_table.h"
-#include "cli/thesis/thesis.h"
+#include "sinew/run/folder/files.h"
+#include "thesis/figures/thesis.h"
 
 namespace sinew::cli {
 namespace {
@@ -67,12 +68,11 @@ report::Gallery made(const std::string& root, bool quiet) {
 
 ExitCode draw_thesis(const ThesisFiguresRequest& request) {
   const Messages messages(request.quiet);
-  FigureFiles files{.must_draw = !request.formats.empty(), .force = request.force};
-  if (files.must_draw) files.pictures = parse_formats(request.formats);
-  refuse_to_overwrite(std::filesystem::path(request.out) / "index.json", request.force);
+  const run::FigureFiles files = files_of(request.formats, request.force);
+  run::refuse_to_overwrite(std::filesystem::path(request.out) / "index.json", request.force);
 
   const report::Gallery gallery = made(request.root, request.quiet);
-  const std::string index = write_figures(request.out, gallery, files, messages);
+  const std::string index = run::write_figures(request.out, gallery, files, messages.notices());
   if (request.json)
     fmt::print("{}", index);
   else

@@ -1,5 +1,5 @@
 // cli/force_beam.cpp - `sinew force-beam`: what a beam with strain gages reads, and when it yields.
-#include "sinew/identify/force_beam.h"
+#include "sinew/identify/sensor/transducer.h"
 
 #include <fmt/format.h>
 
@@ -20,6 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Arms = identify::Bridge::Arms;
+using identify::Transducer;
 
 // The thesis's transducer, 4.4. Where the gages sit and how they are wired it does not print: of
 // the bridges one gives the measured 0.17 V/lb near the strain that it wanted, 1000e-6 at 30 lb.
@@ -34,14 +35,6 @@ struct Options {
   bool json = false, quiet = false;
 };
 
-struct Setup {
-  identify::ForceBeam beam;
-  identify::Bridge bridge;
-  double load = 0;        // [N]
-  double full_scale = 0;  // of the converter  [V]
-  int bits = 12;
-};
-
 // Sizes, stresses and voltages that a transducer can have; what is beyond is a slip of its unit.
 constexpr Range size = above_zero(10, "of a transducer");
 constexpr Range stress = above_zero(1e13, "diamond has 1.2e12 N/m2");
@@ -52,8 +45,8 @@ double quantity(std::string_view option, const std::string& text, std::string_vi
   return argument(option, text, unit, units::atmosphere, range);
 }
 
-Setup read(const Options& o) {
-  Setup s;
+Transducer read(const Options& o) {
+  Transducer s;
   s.beam = {.length = quantity("--length", o.length, "m", size),
             .width = quantity("--width", o.width, "m", size),
             .height = quantity("--height", o.height, "m", size),
@@ -88,41 +81,21 @@ struct Line {
   const char* display;
 };
 
-std::vector<Line> answer(const Setup& s) {
-  using namespace identify;
-  const double per_newton = sensitivity(s.beam, s.bridge);
+std::vector<Line> answer(const Transducer& s) {
+  const identify::TransducerPoint p = evaluate(s);
   return {
       {"load_N", "load", s.load, "N", "lbf"},
-      {"strain", "strain at the gages", gage_strain(s.beam, s.load), "1", "1"},
-      {"stress_Pa", "stress at the mount", mount_stress(s.beam, s.load), "N/m2", "psi"},
-      {"factor_of_safety", "factor of safety", factor_of_safety(s.beam, s.load), "1", "1"},
-      {"yield_load_N", "yields at", yield_load(s.beam), "N", "lbf"},
-      {"deflection_m", "deflection", deflection(s.beam, s.load), "m", "in"},
-      {"bridge_output_V", "bridge", bridge_output(s.beam, s.bridge, s.load), "V", "mV"},
-      {"output_V", "amplifier", per_newton * s.load, "V", "V"},
-      {"sensitivity_V_per_N", "sensitivity", per_newton, "V/N", "V/lbf"},
-      {"counts_per_N", "after the converter", per_newton * (1 << s.bits) / s.full_scale, "count/N",
-       "count/lbf"},
-      {"clip_load_N", "the converter ends at", s.full_scale / per_newton, "N", "lbf"},
+      {"strain", "strain at the gages", p.strain, "1", "1"},
+      {"stress_Pa", "stress at the mount", p.stress, "N/m2", "psi"},
+      {"factor_of_safety", "factor of safety", p.factor_of_safety, "1", "1"},
+      {"yield_load_N", "yields at", p.yield_load, "N", "lbf"},
+      {"deflection_m", "deflection", p.deflection, "m", "in"},
+      {"bridge_output_V", "bridge", p.bridge_output, "V", "mV"},
+      {"output_V", "amplifier", p.output, "V", "V"},
+      {"sensitivity_V_per_N", "sensitivity", p.sensitivity, "V/N", "V/lbf"},
+      {"counts_per_N", "after the converter", p.counts_per_newton, "count/N", "count/lbf"},
+      {"clip_load_N", "the converter ends at", p.clip_load, "N", "lbf"},
   };
-}
-
-std::vector<std::string> doubts(const Setup& s) {
-  std::vector<std::string> out;
-  if (factor_of_safety(s.beam, s.load) < 1)
-    out.emplace_back(
-        "the beam yields under this load: it stays bent, and strain is no longer "
-        "stress by the modulus");
-  if (s.beam.length < 5 * s.beam.height)
-    out.emplace_back(
-        "shorter than five times its height: shear counts, the law is for slender "
-        "beams");
-  if (sensitivity(s.beam, s.bridge) * s.load > s.full_scale)
-    out.push_back(
-        fmt::format("the amplifier's output is beyond the converter's {} V: readings "
-                    "end before this load",
-                    s.full_scale));
-  return out;
 }
 
 constexpr std::pair<const char*, Arms> arrangements[] = {{"quarter", Arms::quarter},
@@ -131,7 +104,7 @@ constexpr std::pair<const char*, Arms> arrangements[] = {{"quarter", Arms::quart
                                                          {"bending", Arms::bending}};
 
 // Where the gages would have to be, for each way to wire them.
-Json places(const Setup& s, double wanted) {
+Json places(const Transducer& s, double wanted) {
   Json out;
   for (const auto& [name, arms] : arrangements) {
     identify::Bridge bridge = s.bridge;
@@ -142,7 +115,7 @@ Json places(const Setup& s, double wanted) {
   return out;
 }
 
-void print(const Setup& s, const Json& where, const Options& options) {
+void print(const Transducer& s, const Json& where, const Options& options) {
   TextTable table({"", "SI", "in, lbf, psi"},
                   {TextTable::Align::left, TextTable::Align::right, TextTable::Align::right});
   for (const Line& line : answer(s))
@@ -162,7 +135,7 @@ void print(const Setup& s, const Json& where, const Options& options) {
 }
 
 ExitCode run_force_beam(const Options& options) {
-  const Setup s = read(options);
+  const Transducer s = read(options);
   Json where;
   if (!options.wanted.empty())
     where = places(

@@ -11,12 +11,14 @@
 #include "cli/arguments.h"
 #include "cli/identify_page.h"
 #include "cli/json_text.h"
-#include "cli/run_folder.h"
 #include "cli/terminal.h"
 #include "cli/text_table.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
+#include "sinew/identify/fit/report_json.h"
 #include "sinew/report/page.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/run/folder/run_folder.h"
 
 namespace sinew::cli {
 
@@ -51,41 +53,6 @@ bool is_parameter_file(const std::string& path) {
   while (std::getline(in, line))
     if (line.starts_with("format") && line.find("\"sinew.") != line.npos) return true;
   return false;
-}
-
-Json to_json(const identify::Score& score) {
-  return {{"points", score.points},
-          {"rmse", score.rmse},
-          {"max", score.max},
-          {"rmse_percent", score.rmse_percent},
-          {"max_percent", score.max_percent}};
-}
-
-// JSON has no infinity: what is not known is null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
-Json to_json(const identify::Estimate& e) {
-  Json out{{"name", e.name}, {"unit", e.unit}, {"value", e.value}};
-  out["low"] = e.at_bound ? Json() : number(e.low);
-  out["high"] = e.at_bound ? Json() : number(e.high);
-  out["identifiable"] = e.identifiable;
-  if (e.at_bound) out["at_bound"] = true;
-  return out;
-}
-
-Json to_json(const identify::Fit& fit) {
-  Json out{{"model", fit.model}, {"law", fit.law}, {"source", fit.source}};
-  if (!fit.refused.empty()) {
-    out["refused"] = fit.refused;
-    return out;
-  }
-  out["parameters"] = Json::array();
-  for (const identify::Estimate& e : fit.parameters) out["parameters"].push_back(to_json(e));
-  out["fit"] = to_json(fit.fit);
-  if (fit.held_out) out["held_out"] = to_json(*fit.held_out);
-  if (fit.cross_validated) out["cross_validated"] = to_json(*fit.cross_validated);
-  if (!fit.notes.empty()) out["notes"] = fit.notes;
-  return out;
 }
 
 void print_models(const identify::Report& report) {
@@ -229,56 +196,22 @@ void check_result_options(const ResultOptions& options) {
     if (page == options.out)
       config::fail({"--out", 0, 0}, "", config::in_quotes(options.out) + ", the page's name too",
                    "a parameter file, such as mine.toml", "another name, or --no-report");
-    refuse_to_overwrite(page, options.force);
+    run::refuse_to_overwrite(page, options.force);
     if (is_old_file(page) && !is_page(page))
       config::fail({page, 0, 0}, "", "something that is no page of `sinew identify`",
                    "a name that is free, or that of such a page", "another one, or --no-report");
   }
   if (options.out.empty()) return;
-  refuse_to_overwrite(options.out, options.force, {}, ".toml");
+  run::refuse_to_overwrite(options.out, options.force, {}, ".toml");
   if (is_old_file(options.out) && !is_parameter_file(options.out))
     config::fail({options.out, 0, 0}, "", "something that is no parameter file",
                  "a name that is free, or that of a parameter file", "another one");
 }
 
-config::Node robot_over(const std::string& base, const std::string& out) {
-  namespace fs = std::filesystem;
-  config::Node root = config::make_table("");
-  root.put(config::make_text("format", "sinew.robot/1"));
-  if (base.empty()) return root;
-  if (!out.empty() && fs::exists(out) && fs::equivalent(base, out))
-    config::fail({"--base", 0, 0}, "", "the file that is to be written", "another one",
-                 "another name for the parameter file");
-  const fs::path folder = fs::absolute(out).parent_path();
-  root.put(config::make_text("base", fs::absolute(base).lexically_relative(folder)));
-  return root;
-}
-
 void write_parameter_file(const std::string& text, const ResultOptions& options) {
   if (options.out.empty()) return;
-  write_file(options.out, text);
+  run::write_file(options.out, text);
   Messages(options.quiet).note(fmt::format("{}: written", options.out));
-}
-
-Json to_json(const identify::Report& report) {
-  Json out{{"format", "sinew.identification/1"}, {"subject", report.subject}};
-  out["quantity"] = report.quantity;
-  out["unit"] = report.unit;
-  out["full_scale"] = report.full_scale;
-  out["full_scale_is"] = report.full_scale_is;
-  if (!report.held_out_is.empty()) out["held_out_is"] = report.held_out_is;
-  out["chosen"] = report.best().model;
-  out["rule"] = report.rule;
-  out["models"] = Json::array();
-  for (const identify::Fit& fit : report.fits) out["models"].push_back(to_json(fit));
-  out["notes"] = report.notes;
-  out["warnings"] = report.warnings;
-
-  // The chosen one once more, where a program looks first.
-  const Json best = to_json(report.best());
-  for (const char* key : {"model", "parameters", "fit", "held_out", "cross_validated"})
-    if (best.contains(key)) out[key] = best[key];
-  return out;
 }
 
 void tell(const identify::Report& report, const std::string& parameter_file,

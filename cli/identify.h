@@ -12,9 +12,8 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "sinew/config/node.h"
-#include "sinew/identify/fit.h"
-#include "sinew/identify/measured.h"
+#include "sinew/identify/data/measured.h"
+#include "sinew/identify/fit/fit.h"
 
 namespace sinew::cli {
 
@@ -65,11 +64,6 @@ void check_result_options(const ResultOptions& options);
 
 // Writes the parameter file where one is wanted, and says so.
 void write_parameter_file(const std::string& text, const ResultOptions& options);
-
-// The beginning of a robot's file at `out` that adds to the one at `base`; empty: to none.
-config::Node robot_over(const std::string& base, const std::string& out);
-
-nlohmann::ordered_json to_json(const identify::Report& report);
 
 // Prints the report, as words or JSON (`extra` is added to it), and writes the parameter file
 // and the page where they are wanted. Notes and warnings go to stderr.

@@ -1,7 +1,7 @@
 // cli/identify_creep.cpp - `sinew identify creep`: shares and times of creep from a hold.
 #include "cli/identify.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/identify/creep.h"
+#include "sinew/identify/actuator/creep.h"
 
 namespace sinew::cli {
 

@@ -7,19 +7,17 @@
 
 #include "cli/arguments.h"
 #include "cli/identify.h"
-#include "cli/named.h"
 #include "cli/text_table.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/named.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/identify/dynamic.h"
-#include "sinew/identify/provenance.h"
+#include "sinew/identify/motion/dynamic_file.h"
 
 namespace sinew::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Align = TextTable::Align;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -90,33 +88,6 @@ std::vector<identify::DecayRecord> records_of(Options options, const actuator::A
   return out;
 }
 
-Json describe(const identify::Damping& d) {
-  return {{"coulomb_length_m", d.coulomb_length},
-          {"viscous_N_s_per_m", d.viscous},
-          {"kept_per_period", d.kept},
-          {"equivalent_damping_ratio", d.ratio}};
-}
-
-Json describe(const identify::DynamicResult& found) {
-  Json out;
-  for (const identify::DecaySummary& s : found.records) {
-    Json r{{"file", s.file},
-           {"turns", s.turns},
-           {"period_s", s.period},
-           {"noise_m", s.noise},
-           {"rest_length_m", s.rest},
-           {"first_amplitude_m", s.amplitude},
-           {"sealed_stiffness_N_per_m", s.stiffness},
-           {"friction_at_rest_N", s.friction}};
-    if (s.printed) r["two_point_printed"] = describe(*s.printed);
-    if (s.exact) r["two_point_exact"] = describe(*s.exact);
-    if (!s.exact) r["two_point_refused"] = s.why_not;
-    r["all_turns"] = describe(s.all.damping);
-    out["records"].push_back(r);
-  }
-  return out;
-}
-
 // Methods that know no muscle beside the trajectories.
 void print_methods(const identify::DynamicResult& found) {
   TextTable table(
@@ -141,38 +112,17 @@ void print_methods(const identify::DynamicResult& found) {
     if (!s.exact) fmt::print("no two points: {}\n", s.why_not);
 }
 
-// The start file with another [loss].
-std::string file_with(const experiment::Experiment& start, actuator::Actuator a,
-                      const identify::DynamicResult& found, const Options& options) {
-  identify::Provenance provenance(start.origins, options.actuator);
-  std::string source = "sinew identify dynamic";
-  for (const std::string& file : options.data.files) source += " " + file;
-  source += ": " + found.report.best().model;
-
-  const std::string path = "actuator." + a.name + ".loss.";
-  for (const char* key : {"viscous", "coulomb_length"}) {
-    provenance.given(path + key, source + ", which has none");
-    for (const identify::Estimate& e : found.report.best().parameters)
-      if (e.name == key) provenance.fitted(path + key, e, source);
-  }
-  provenance.given(path + "coulomb_scale", source);
-  provenance.given(path + "coulomb_stiffness",
-                   source + (found.loss.coulomb_stiffness > 0 ? ", of the sealed muscle at rest"
-                                                              : ", which has none"));
-  provenance.given(path + "stick", source);
-  a.loss = found.loss;
-  return identify::actuator_file(a, provenance);
-}
-
 ExitCode run_dynamic(const Options& options) {
   check_result_options(options.result);
   const experiment::MachineFile start = experiment::load_machine_file(options.actuator);
   const actuator::Actuator& a =
-      named(start.experiment.actuators, options.name, "--name", "actuator");
+      config::named(start.experiment.actuators, options.name, "--name", "actuator");
   const identify::DynamicResult found =
       identify::identify_dynamic(records_of(options, a, units::standard_gravity), options.model);
-  tell(found.report, file_with(start.experiment, a, found, options), options.data, options.result,
-       describe(found));
+  tell(
+      found.report,
+      identify::loss_file(start.experiment.origins, options.actuator, a, found, options.data.files),
+      options.data, options.result, identify::describe(found));
   if (!options.result.json) print_methods(found);
   return ok;
 }

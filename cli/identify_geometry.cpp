@@ -9,14 +9,12 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
-#include "sinew/identify/geometry.h"
-#include "sinew/identify/provenance.h"
+#include "sinew/identify/actuator/geometry.h"
+#include "sinew/identify/actuator/geometry_file.h"
 
 namespace sinew::cli {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Options {
   DataOptions data;
@@ -25,42 +23,6 @@ struct Options {
 };
 
 constexpr Range thickness = from_zero(0.1, "of one thread");
-
-// What a braid leaves open, so that the file can be read: the mesh ends where its threads lie
-// straight, and nothing is lost yet.
-actuator::Actuator actuator_of(const actuator::Braid& braid, const std::string& name,
-                               const std::string& source, const identify::Report* report,
-                               identify::Provenance& provenance) {
-  actuator::Actuator a;
-  a.name = name;
-  a.braid = braid;
-  a.long_end = {.length = 0.93 * braid.thread_length, .stiffness = 87563.4, .damping = 122.6};
-  a.short_end.stiffness = a.long_end.stiffness;
-  a.short_end.damping = a.long_end.damping;
-
-  const std::string path = "actuator." + name + ".";
-  for (const char* key : {"thread_length", "turns"}) {
-    const identify::Estimate* found = nullptr;
-    if (report)
-      for (const identify::Estimate& e : report->best().parameters)
-        if (e.name == key) found = &e;
-    if (found)
-      provenance.fitted(path + "braid." + key, *found, source);
-    else
-      provenance.given(path + "braid." + key, source);
-  }
-  provenance.guessed(path + "long_end.length", "as the thesis's share of the thread's length");
-  for (const char* end : {"long_end", "short_end"})
-    for (const char* key : {"stiffness", "damping"})
-      provenance.guessed(path + end + "." + key, "the thesis's actuator, appendix A");
-  return a;
-}
-
-Json describe(const actuator::Braid& braid) {
-  return {{"thread_length_m", braid.thread_length},
-          {"turns", braid.turns},
-          {"shortest_length_m", actuator::shortest_length(braid)}};
-}
 
 ExitCode from_pairs(const Options& options) {
   const std::vector<identify::Source> sources = sources_of(options.data);
@@ -71,12 +33,10 @@ ExitCode from_pairs(const Options& options) {
   const identify::GeometryResult found = identify::identify_geometry(
       identify::read_measured(sources[0], identify::geometry_columns()), thread);
 
-  identify::Provenance provenance;
-  const actuator::Actuator a =
-      actuator_of(found.braid, options.name, "sinew identify geometry " + sources[0].path,
-                  &found.report, provenance);
-  tell(found.report, identify::actuator_file(a, provenance), options.data, options.result,
-       describe(found.braid));
+  tell(found.report,
+       identify::braid_file(found.braid, options.name, "sinew identify geometry " + sources[0].path,
+                            &found.report),
+       options.data, options.result, identify::describe(found.braid));
   return ok;
 }
 
@@ -93,18 +53,16 @@ ExitCode from_trapezoids(const Options& options) {
   const actuator::Braid braid = actuator::braid_from_trapezoids(counts[0], counts[1], side);
 
   if (options.result.json) {
-    fmt::print("{}\n", json_text(describe(braid), 2));
+    fmt::print("{}\n", json_text(identify::describe(braid), 2));
   } else {
     fmt::print("thread_length  {}  [17]\nturns          {}  [18]\nshortest       {}  [5], [6]\n",
                config::format_quantity(braid.thread_length, "m", "mm"),
                config::format_number(braid.turns),
                config::format_quantity(actuator::shortest_length(braid), "m", "mm"));
   }
-  identify::Provenance provenance;
   const std::string source =
       fmt::format("{} x {} trapezoids of {}, [17], [18]", counts[0], counts[1], options.side);
-  const actuator::Actuator a = actuator_of(braid, options.name, source, nullptr, provenance);
-  write_parameter_file(identify::actuator_file(a, provenance), options.result);
+  write_parameter_file(identify::braid_file(braid, options.name, source), options.result);
   return ok;
 }
 

@@ -6,29 +6,26 @@
 
 #include "cli/arguments.h"
 #include "cli/identify.h"
-#include "cli/named.h"
 #include "cli/text_table.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/named.h"
 #include "sinew/config/quantity.h"
-#include "sinew/config/writer.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/identify/joint.h"
-#include "sinew/identify/provenance.h"
+#include "sinew/identify/fit/robot_over.h"
+#include "sinew/identify/joint/joint_file.h"
 
 namespace sinew::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using identify::JointResult;
-using robot::Joint;
-using robot::Muscle;
 
 struct Options {
   DataOptions data;
   ResultOptions result;
   std::string actuator, actuator_name, actuator_out, base, model, hold_out;
-  std::string joint = "joint", flexor, extensor, flexion = "raises angle", rest = "0 rad";
+  std::string rest = "0 rad";
+  identify::JointNames names{.flexor = "", .extensor = ""};
   std::string load, lever = "0 m", down = "270 deg", limb = "0 kg", limb_lever = "0 m";
   std::string moment_arm, flexor_length, extensor_length;
   bool keep_force = false;
@@ -48,7 +45,7 @@ identify::JointSetup setup_of(const Options& options, const actuator::Actuator& 
   constexpr Range size = above_zero(1000, "of a robot");
   identify::JointSetup s{.actuator = a, .count = options.count, .atmosphere = atmosphere};
   s.gravity = units::standard_gravity;
-  s.flexion_raises = options.flexion == "raises angle";
+  s.flexion_raises = options.names.flexion == "raises angle";
   s.rest_angle = value("--rest-angle", options.rest, "rad", angle);
   s.load = value("--load", options.load, "kg", mass);
   s.lever = value("--lever", options.lever, "m", lever);
@@ -60,103 +57,6 @@ identify::JointSetup setup_of(const Options& options, const actuator::Actuator& 
   s.extensor_length = value("--extensor-length", options.extensor_length, "m", size);
   s.keep_force = options.keep_force;
   return s;
-}
-
-const identify::Estimate* parameter(const JointResult& found, std::string_view name) {
-  for (const identify::Estimate& e : found.report.best().parameters)
-    if (e.name == name) return &e;
-  return nullptr;
-}
-
-// --- files ---
-
-void note_origin(const JointResult& found, std::string_view parameter_name, const std::string& path,
-                 const std::string& source, identify::Provenance& provenance) {
-  if (const identify::Estimate* e = parameter(found, parameter_name))
-    provenance.fitted(path, *e, source);
-  else
-    provenance.given(path, "given to " + source);
-}
-
-// What the joint's and the muscles' tables in a robot's file say, to be laid over a whole robot.
-std::string robot_file(const JointResult& found, const identify::JointSetup& setup,
-                       const Options& options, const std::string& source) {
-  identify::Provenance provenance;
-  std::vector<Joint> joints(1);
-  joints[0].name = options.joint;
-  joints[0].rest_angle = setup.rest_angle;
-  joints[0].moment_arm = found.moment_arm;
-  const std::string path = "joint." + options.joint + ".";
-  provenance.given(path + "rest_angle", "given to " + source);
-  note_origin(found, "moment_arm", path + "moment_arm", source, provenance);
-
-  std::vector<Muscle> muscles;
-  const auto add = [&](const std::string& name, const char* what, double length,
-                       const std::vector<double>& radii) {
-    if (!std::isfinite(length)) return;
-    Muscle m{.name = name, .mount_length = length};
-    m.cam.angle = found.cam_angle;
-    m.cam.radii = radii;
-    muscles.push_back(std::move(m));
-    note_origin(found, what, "muscle." + name + ".mount_length", source, provenance);
-    for (const char* key : {"angle", "radius"})
-      provenance.given("muscle." + name + ".cam." + key, source + ", between two points");
-  };
-  add(options.flexor, "flexor_length", found.flexor_length, found.cam_flexor);
-  add(options.extensor, "extensor_length", found.extensor_length, found.cam_extensor);
-
-  config::Writer writer(&provenance.origins());
-  writer.each({.name = "joint"}, joints, [&](auto& v, Joint& j) {
-    v.number({.name = "rest_angle", .unit = "rad"}, j.rest_angle);
-    std::string flexion = options.flexion;
-    v.text({.name = "flexion"}, flexion);
-    v.number({.name = "moment_arm", .unit = "m"}, j.moment_arm);
-  });
-  writer.each({.name = "muscle"}, muscles, [](auto& v, Muscle& m) {
-    v.number({.name = "mount_length", .unit = "m"}, m.mount_length);
-    if (m.cam.angle.empty()) return;
-    v.group({.name = "cam"}, [&](auto& g) {
-      g.numbers({.name = "angle", .unit = "rad"}, m.cam.angle);
-      g.numbers({.name = "radius", .unit = "m"}, m.cam.radii);
-    });
-  });
-  config::Node root = robot_over(options.base, options.result.out);
-  for (const config::Node& child : writer.root().children) root.put(child);
-  return config::to_toml(root);
-}
-
-std::string actuator_file(const experiment::Experiment& start, actuator::Actuator a,
-                          const JointResult& found, const Options& options,
-                          const std::string& source) {
-  identify::Provenance provenance(start.origins, options.actuator);
-  const std::string path = "actuator." + a.name + ".effectiveness.";
-  if (!options.keep_force) {
-    std::string text = source;
-    for (const char* name : {"c0", "c1"})
-      if (const identify::Estimate* e = parameter(found, name))
-        text += fmt::format(", {} +- {:.2g}{}", name, 0.5 * (e->high - e->low),
-                            e->unit == "1" ? "" : " " + e->unit);
-    provenance.fitted(path + "polynomial", "1", std::nan(""), text);
-    provenance.given(path + "argument", source);
-    provenance.given(path + "scale", source + ": in the polynomial");
-    provenance.given(path + "valid", source + ": the highest pressure");
-    a.effectiveness = found.effectiveness;
-  }
-  return identify::actuator_file(a, provenance);
-}
-
-// --- the report ---
-
-Json describe(const JointResult& found) {
-  Json out{{"moment_arm_m", found.moment_arm}};
-  if (std::isfinite(found.flexor_length)) out["flexor_length_m"] = found.flexor_length;
-  if (std::isfinite(found.extensor_length)) out["extensor_length_m"] = found.extensor_length;
-  out["combinations"] = Json::array();
-  for (const identify::Combination& c : found.combinations)
-    out["combinations"].push_back(
-        {{"combination", c.text},
-         {"relative_error", std::isfinite(c.relative_error) ? Json(c.relative_error) : Json()}});
-  return out;
 }
 
 void print_combinations(const JointResult& found) {
@@ -183,7 +83,7 @@ ExitCode run_joint(const Options& options) {
     config::fail({"data", 0, 0}, "", fmt::format("{} files", sources.size()), "one");
   const experiment::MachineFile start = experiment::load_machine_file(options.actuator);
   const actuator::Actuator& a =
-      named(start.experiment.actuators, options.actuator_name, "--name", "actuator");
+      config::named(start.experiment.actuators, options.actuator_name, "--name", "actuator");
   const identify::JointSetup setup = setup_of(options, a, sources[0].atmosphere);
 
   std::optional<identify::Measured> held_out;
@@ -198,10 +98,13 @@ ExitCode run_joint(const Options& options) {
                                held_out, setup, options.model);
   const std::string source =
       fmt::format("sinew identify joint {}: {}", sources[0].path, found.report.best().model);
-  tell(found.report, robot_file(found, setup, options, source), options.data, options.result,
-       describe(found));
+  const config::Node robot = identify::robot_over(options.base, options.result.out);
+  tell(found.report, identify::joint_file(found, setup, options.names, source, robot), options.data,
+       options.result, identify::describe(found));
   if (!options.result.json) print_combinations(found);
-  write_parameter_file(actuator_file(start.experiment, a, found, options, source), actuator_result);
+  write_parameter_file(identify::effectiveness_file(start.experiment.origins, options.actuator, a,
+                                                    found, options.keep_force, source),
+                       actuator_result);
   return ok;
 }
 
@@ -236,7 +139,7 @@ void add_identify_joint(CLI::App& identify, Action& action) {
   sub.add_option("--count", options->count, "actuators in parallel in a muscle")
       ->check(CLI::Range(1, 100))
       ->capture_default_str();
-  sub.add_option("--flexion", options->flexion, "what a shorter flexor does to the angle")
+  sub.add_option("--flexion", options->names.flexion, "what a shorter flexor does to the angle")
       ->check(CLI::IsMember({"raises angle", "lowers angle"}))
       ->capture_default_str();
   sub.add_option("--rest-angle", options->rest, "at which the muscles' lengths are told")
@@ -247,15 +150,18 @@ void add_identify_joint(CLI::App& identify, Action& action) {
                  "a file that scores the models and is not fitted; absent: every third row");
   sub.add_option("--model", options->model, "only this one")
       ->check(CLI::IsMember(identify::joint_models()));
-  sub.add_option("--joint", options->joint, "its name in the robot's file")->capture_default_str();
-  sub.add_option("--flexor", options->flexor, "the muscle's name; absent: <joint>_flexor");
-  sub.add_option("--extensor", options->extensor, "the muscle's name; absent: <joint>_extensor");
+  sub.add_option("--joint", options->names.joint, "its name in the robot's file")
+      ->capture_default_str();
+  sub.add_option("--flexor", options->names.flexor, "the muscle's name; absent: <joint>_flexor");
+  sub.add_option("--extensor", options->names.extensor,
+                 "the muscle's name; absent: <joint>_extensor");
   sub.add_option("--base", options->base, "robot whose joint it is, named in the file of --out");
   sub.add_option("--actuator-out", options->actuator_out, "the actuator's file to write");
   add_result_options(sub, options->result);
   sub.callback([options, &action] {
-    if (options->flexor.empty()) options->flexor = options->joint + "_flexor";
-    if (options->extensor.empty()) options->extensor = options->joint + "_extensor";
+    if (options->names.flexor.empty()) options->names.flexor = options->names.joint + "_flexor";
+    if (options->names.extensor.empty())
+      options->names.extensor = options->names.joint + "_extensor";
     if (options->keep_force && options->model.ends_with("pressure"))
       throw CLI::ValidationError("--model", "with --keep-force round or hinge");
     action = [options] { return run_joint(*options); };

@@ -8,13 +8,13 @@
 
 #include "cli/arguments.h"
 #include "cli/identify.h"
-#include "cli/named.h"
 #include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/named.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/identify/refusal.h"
-#include "sinew/identify/static.h"
+#include "sinew/identify/actuator/static.h"
+#include "sinew/identify/fit/refusal.h"
 
 namespace sinew::cli {
 
@@ -110,7 +110,7 @@ identify::StaticOptions options_of(const Options& options, double atmosphere) {
   if (options.hold_out == "length") out.hold_out = identify::HoldOut::length;
   if (!options.actuator.empty()) {
     const auto file = experiment::load_machine_file(options.actuator);
-    out.braid = named(file.experiment.actuators, "", "--actuator", "actuator").braid;
+    out.braid = config::named(file.experiment.actuators, "", "--actuator", "actuator").braid;
   }
   return out;
 }

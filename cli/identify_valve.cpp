@@ -5,14 +5,15 @@
 
 #include "cli/arguments.h"
 #include "cli/identify.h"
-#include "cli/named.h"
-#include "cli/run_folder.h"
 #include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/named.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/identify/refusal.h"
-#include "sinew/identify/valve.h"
-#include "sinew/identify/valve_timing.h"
+#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/valve/timing.h"
+#include "sinew/identify/valve/valve.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/run/folder/run_folder.h"
 
 namespace sinew::cli {
 
@@ -39,7 +40,7 @@ identify::ValveOptions valve_options(const Options& o, double atmosphere) {
   out.valve.profile = gas::Valve::Profile::ideal;
   if (!o.base.empty()) {
     const auto file = experiment::load_machine_file(o.base);
-    out.valve = named(file.experiment.valves, o.name, "--name", "valve");
+    out.valve = config::named(file.experiment.valves, o.name, "--name", "valve");
     out.provenance = identify::Provenance(file.experiment.origins, o.base);
   }
   out.air.atmosphere = atmosphere;
@@ -112,7 +113,7 @@ void write_timing(const Options& options, const identify::ValveResult& found) {
                units::atmosphere, pulses);
   const identify::CompensatedTiming timing =
       identify::compensated(found.valve.opening_delay, found.valve.closing_delay, frequency);
-  write_file(options.predict, identify::predict_dat(timing.timing));
+  run::write_file(options.predict, identify::predict_dat(timing.timing));
   Messages(options.result.quiet)
       .note(
           fmt::format("{}: written for {:g} Hz; the delivered duty differs from the commanded one "
@@ -172,7 +173,8 @@ void add_identify_valve(CLI::App& identify, Action& action) {
     action = [options] {
       check_result_options(options->result);
       refuse_data_file("--predict-dat", options->predict, options->data);
-      if (!options->predict.empty()) refuse_to_overwrite(options->predict, options->result.force);
+      if (!options->predict.empty())
+        run::refuse_to_overwrite(options->predict, options->result.force);
       return run_identify_valve(*options);
     };
   });

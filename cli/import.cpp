@@ -1,14 +1,9 @@
 // cli/import.cpp - `sinew import`: the thesis's own log, out.dat, as the folder of a run.
 #include <fmt/format.h>
 
-#include "cli/command.h"
-#include "cli/page.h"
-#include "cli/report.h"
-#include "cli/run_folder.h"
-#include "cli/run_log.h"
-#include "cli/terminal.h"
+#include "cli/run.h"
 #include "sinew/config/text_file.h"
-#include "sinew/experiment/out_dat.h"
+#include "thesis/out_dat/out_dat.h"
 
 namespace sinew::cli {
 
@@ -23,32 +18,18 @@ struct Options {
 ExitCode import_log(const Options& options) {
   const Messages messages(options.quiet);
   const experiment::Experiment e = experiment::load(options.experiment, options.sets);
-  const signals::Table table = experiment::parse_out_dat(
-      config::read_text_file(options.file, "a log out.dat"), options.file, e);
+  const signals::Table table =
+      thesis::parse_out_dat(config::read_text_file(options.file, "a log out.dat"), options.file, e);
 
-  const std::string resolved = experiment::resolved(e, SINEW_VERSION);
-  const analysis::Machine machine =
-      analysis::read_machine(config::parse_text(resolved, std::string(resolved_name)));
-  const analysis::Summary summary = analysis::summarize(table, machine);
-  const std::string json = to_json(summary);
-
-  OutputFolder folder = run_folder(options.folder, options.force, e.name);
-  write_into(folder, resolved_name, resolved);
-  RunLog log(folder.work() / log_name, e.name, e.seed, resolved, experiment::logged_topics(table));
-  log.write(table);
-  log.finish(resolved, "");
-  write_into(folder, summary_name, json);
-  const bool page = write_report(folder, table, resolved, e.name, messages);
-  commit_run(folder);
-  for (const std::string& text : summary.warnings) messages.warning(text);
-
-  if (options.json) {
-    fmt::print("{}", json);
-  } else {
-    print_verdicts(summary, machine);
-  }
-  messages.note(folder.path().string());
-  if (page) note_report(folder, messages);
+  const run::Kept<analysis::Machine> kept = run::keep_table(
+      table, e, {.folder = options.folder, .force = options.force}, messages.notices());
+  for (const std::string& text : kept.summary.warnings) messages.warning(text);
+  if (options.json)
+    fmt::print("{}", kept.json);
+  else
+    print_verdicts(kept.summary, kept.machine);
+  messages.note(kept.folder.string());
+  if (kept.page) note_page(kept.folder, messages);
   return ok;
 }
 

@@ -1,59 +1,81 @@
 // cli/run.cpp - `sinew run`: an experiment from its file to a folder with its log and its numbers.
-#include "sinew/experiment/run.h"
+#include "cli/run.h"
 
-#include <fmt/format.h>
+#include <charconv>
+#include <cmath>
 
-#include <optional>
-
-#include "cli/command.h"
 #include "cli/interrupt.h"
-#include "cli/kept_run.h"
-#include "cli/run_rig.h"
-#include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/run/folder/kept_stand_run.h"
+#include "sinew/run/folder/runnable.h"
 
 namespace sinew::cli {
 
 namespace {
 
 // The run itself, with its log where there is one.
-experiment::Outcome run_logged(double pace, bool quiet, const experiment::Experiment& e,
-                               RunLog* log) {
+experiment::Outcome run_logged(const RunOptions& options, run::KeptRun& kept) {
   std::atomic<std::int64_t> tick{0};
   const Interrupt interrupt;
-  experiment::RunOptions run_options{.pace = pace, .progress = &tick, .stop = &interrupt.asked()};
-  if (log) log->tap(run_options);
-  const ProgressBar bar(tick, experiment::last_tick(e), Steps{signals::tick_seconds, "s", 1},
-                        quiet);
-  return experiment::run(e, run_options);
+  experiment::RunOptions run_options{
+      .pace = options.pace, .progress = &tick, .stop = &interrupt.asked()};
+  if (kept.log()) kept.log()->tap(run_options);
+  const ProgressBar bar(tick, experiment::last_tick(kept.experiment()),
+                        Steps{signals::tick_seconds, "s", 1}, options.quiet);
+  return experiment::run(kept.experiment(), run_options);
 }
 
-// What a stand has no use for.
-ExitCode run_on_stand(const RunRequest& o) {
+// A stand has no use for a pace.
+ExitCode run_stand(const RunOptions& o, const Messages& messages) {
   if (o.pace > 0)
-    config::fail({o.experiment, 0, 0}, "--pace", fmt::format("{}", o.pace),
+    config::fail({o.run.experiment, 0, 0}, "--pace", fmt::format("{}", o.pace),
                  "a run as fast as it goes: a stand has no live log");
-  return run_rig({o.experiment, o.folder, o.sets, o.force, o.report, o.json, o.quiet});
+  tell(run::run_on_stand(o.run, messages.notices()), o.json, messages);
+  return ok;
 }
 
-ExitCode run_experiment(const RunRequest& request) {
-  if (is_rig(request.experiment)) return run_on_stand(request);
-  const Messages messages(request.quiet);
-  KeptRun kept(request, messages);
-  return kept.keep(run_logged(request.pace, request.quiet, kept.experiment(), kept.log()));
+ExitCode run_experiment(const RunOptions& options) {
+  const Messages messages(options.quiet);
+  if (run::is_on_stand(options.run.experiment)) return run_stand(options, messages);
+  run::KeptRun kept(options.run, messages.notices());
+  tell(kept.keep(run_logged(options, kept)), options.json, messages);
+  return ok;
 }
 
 }  // namespace
 
+// CLI11's own words for it name the largest double there is. Slower than that no clock can wait.
+std::string a_pace(const std::string& text) {
+  constexpr double slowest = 1e-3;
+  double value = -1;
+  const char* last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  const bool number = error == std::errc{} && end == last && std::isfinite(value);
+  if (number && (value == 0 || value >= slowest)) return "";
+  return fmt::format("found \"{}\"; expected 0, or a number from {} on", text, slowest);
+}
+
+void add_run_options(CLI::App& sub, RunOptions& options) {
+  run::RunRequest& request = options.run;
+  sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
+  sub.add_flag("--force", request.force, "replace the run that is in the folder");
+  add_sets(sub, request.sets);
+  sub.add_flag("--allow-unreachable", request.allow_unreachable,
+               "aim at the nearest point where the foot path is out of reach");
+  sub.add_flag("!--no-report", request.report, "leave report.html out");
+  sub.add_flag("--json", options.json, "print summary.json");
+  sub.add_flag("--quiet", options.quiet, "only errors on stderr");
+}
+
 void add_run(CLI::App& app, Action& action) {
-  auto request = std::make_shared<RunRequest>();
+  auto options = std::make_shared<RunOptions>();
   CLI::App& sub = subcommand(app, "run", "an experiment; its log and numbers go into a new folder",
                              "sinew run experiments/walk-test-1.toml --set \"trolley.drag=0 lbf\"");
-  sub.add_option("EXPERIMENT", request->experiment, "file of the experiment")->required();
-  add_run_options(sub, *request);
-  sub.add_option("--pace", request->pace, "simulated seconds per second of wall time; 0: no limit")
+  sub.add_option("EXPERIMENT", options->run.experiment, "file of the experiment")->required();
+  add_run_options(sub, *options);
+  sub.add_option("--pace", options->pace, "simulated seconds per second of wall time; 0: no limit")
       ->check(a_pace, "");
-  sub.callback([=, &action] { action = [=] { return run_experiment(*request); }; });
+  sub.callback([=, &action] { action = [=] { return run_experiment(*options); }; });
 }
 
 }  // namespace sinew::cli

@@ -7,10 +7,10 @@
 
 #include "cli/command.h"
 #include "cli/json_text.h"
-#include "cli/run_rig.h"
 #include "cli/text_table.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/experiment/rig/rig.h"
+#include "sinew/run/folder/runnable.h"
 
 namespace sinew::cli {
 
@@ -103,7 +103,7 @@ Json to_json(const config::Origin& o, const config::Node& values) {
 
 // Every value in SI, and its origin.
 std::pair<config::Node, config::Origins> read(const Options& options) {
-  if (is_rig(options.file)) {
+  if (run::is_on_stand(options.file)) {
     const rig::Experiment e = rig::load(options.file, options.sets);
     return {rig::values_in_si(e), e.origins};
   }

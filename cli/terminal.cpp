@@ -33,6 +33,19 @@ std::string in_color(int stream, std::string_view text, std::string_view code) {
 // of.
 void to_stderr(std::string_view text) noexcept { std::fwrite(text.data(), 1, text.size(), stderr); }
 
+// The library's settings as the options of this program.
+std::string as_options(std::string_view text) {
+  constexpr std::pair<std::string_view, std::string_view> all[] = {{"force=true", "--force"},
+                                                                   {"machine=", "--machine "},
+                                                                   {"root=", "--root "},
+                                                                   {"port=", "--port "}};
+  std::string out(text);
+  for (const auto& [setting, option] : all)
+    for (std::size_t at = 0; (at = out.find(setting, at)) != out.npos; at += option.size())
+      out.replace(at, setting.size(), option);
+  return out;
+}
+
 }  // namespace
 
 // Else the next file that is opened would be taken for the stream. Nothing can be written to the
@@ -44,7 +57,9 @@ void fill_closed_streams() {
 }
 
 // Each line starts with its place, so that editors can jump there.
-void error(std::string_view text) { to_stderr(in_color(STDERR_FILENO, text, "31") + "\n"); }
+void error(std::string_view text) {
+  to_stderr(in_color(STDERR_FILENO, as_options(text), "31") + "\n");
+}
 
 void Messages::warning(std::string_view text) const {
   if (!quiet_) to_stderr(fmt::format("{} {}\n", in_color(STDERR_FILENO, "warning:", "33"), text));
@@ -52,6 +67,11 @@ void Messages::warning(std::string_view text) const {
 
 void Messages::note(std::string_view text) const {
   if (!quiet_) to_stderr(fmt::format("{}\n", text));
+}
+
+run::Notices Messages::notices() const {
+  return {.on_warning = [*this](std::string_view text) { warning(text); },
+          .on_note = [*this](std::string_view text) { note(text); }};
 }
 
 std::size_t width_of_output() {

@@ -11,12 +11,16 @@
 #include <string_view>
 #include <thread>
 
+#include "sinew/run/folder/notices.h"
+
 namespace sinew::cli {
 
 // Opens /dev/null for each of stdin, stdout and stderr that the shell has closed, so that no file
 // gets their numbers. Call it before any file is opened.
 void fill_closed_streams();
 
+// An error's words. What the library says of its settings is said of the options they come from:
+// force=true is --force.
 void error(std::string_view text);
 
 // Everything but errors, unless it is to be quiet.
@@ -26,6 +30,7 @@ class Messages {
 
   void warning(std::string_view text) const;
   void note(std::string_view text) const;
+  run::Notices notices() const;  // the same two, for the library
   bool quiet() const { return quiet_; }
 
  private:

@@ -9,14 +9,13 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/json_text.h"
-#include "cli/named.h"
 #include "cli/terminal.h"
 #include "cli/text_table.h"
+#include "sinew/config/named.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/delay.h"
-#include "sinew/gas/fill.h"
-#include "sinew/gas/orifice.h"
+#include "sinew/gas/valve_flow.h"
 #include "sinew/signals/pulse.h"
 
 namespace sinew::cli {
@@ -30,57 +29,9 @@ struct Options {
   bool json = false, quiet = false;
 };
 
-struct FlowResult {
-  double upstream = 0, downstream = 0;  // [Pa]
-  double mass_flow = 0;                 // [kg/s]
-  double law_flow = 0;                  // of the law itself, also where mass_flow is linear [kg/s]
-  bool linear = false;                  // so near to equal pressures that mass_flow is linear
-  double normal_flow = 0;               // of reference air [m3/s]
-  double critical_ratio = 0, ratio = 0;
-  double sonic_conductance = 0, area = 0;  // of either law, and what it equals in the other
-
-  bool choked() const { return ratio <= critical_ratio; }
-};
-
-// When the volume has gone a share of the way between the two pressures.
-struct Transfer {
-  double share = 0, fill = 0, vent = 0;  // [-], [s]
-};
-
 struct Delivered {
   double duty = 0, delivered = 0;
 };
-
-FlowResult flow_through(const gas::Flow& flow, const gas::Air& air, double upstream,
-                        double downstream) {
-  FlowResult out{.upstream = upstream, .downstream = downstream};
-  const bool iso = flow.law == gas::Flow::Law::iso6358;
-  const double high = std::max(upstream, downstream), low = std::min(upstream, downstream);
-  out.mass_flow = gas::mass_flow(flow, air, upstream, downstream);
-  gas::Flow law = flow;
-  law.linear_below = 0;
-  out.law_flow = gas::mass_flow(law, air, upstream, downstream);
-  out.linear = upstream != downstream && gas::in_linear_part(flow, upstream, downstream);
-  out.normal_flow = out.mass_flow / gas::iso_density;
-  out.ratio = low / high;
-  out.critical_ratio = iso ? flow.critical_pressure_ratio : gas::critical_pressure_ratio();
-  out.area =
-      iso ? gas::effective_area_of(flow.sonic_conductance, air) : flow.area * flow.efficiency;
-  out.sonic_conductance = iso ? flow.sonic_conductance : gas::sonic_conductance_of(out.area, air);
-  return out;
-}
-
-std::vector<Transfer> transfers(const gas::Flow& flow, const gas::Air& air, double volume,
-                                const FlowResult& f) {
-  std::vector<Transfer> out;
-  for (const double share : {0.5, 0.9, 0.99}) {
-    const double way = share * (f.upstream - f.downstream);
-    out.push_back(
-        {share, gas::transfer_time(flow, air, volume, f.upstream, f.downstream, f.downstream + way),
-         gas::transfer_time(flow, air, volume, f.downstream, f.upstream, f.upstream - way)});
-  }
-  return out;
-}
 
 std::vector<Delivered> deliveries(const gas::Valve& valve, const Options& options) {
   std::vector<Delivered> out;
@@ -94,8 +45,8 @@ std::vector<Delivered> deliveries(const gas::Valve& valve, const Options& option
   return out;
 }
 
-Json to_json(const gas::Valve& valve, const FlowResult& f, const std::vector<Transfer>& times,
-             const std::vector<Delivered>& duties) {
+Json to_json(const gas::Valve& valve, const gas::ValveFlow& f,
+             const std::vector<gas::Transfer>& times, const std::vector<Delivered>& duties) {
   Json out{{"valve", valve.name},
            {"upstream_Pa", f.upstream},
            {"downstream_Pa", f.downstream},
@@ -110,7 +61,7 @@ Json to_json(const gas::Valve& valve, const FlowResult& f, const std::vector<Tra
            {"sonic_conductance_m3_per_s_Pa", f.sonic_conductance},
            {"opening_delay_s", gas::delays(valve).opening},
            {"closing_delay_s", gas::delays(valve).closing}};
-  for (const Transfer& t : times)
+  for (const gas::Transfer& t : times)
     out["transfers"].push_back(
         {{"share", t.share}, {"fill_time_s", t.fill}, {"vent_time_s", t.vent}});
   for (const Delivered& d : duties)
@@ -118,7 +69,7 @@ Json to_json(const gas::Valve& valve, const FlowResult& f, const std::vector<Tra
   return out;
 }
 
-void print_flow(const gas::Valve& valve, const FlowResult& f) {
+void print_flow(const gas::Valve& valve, const gas::ValveFlow& f) {
   const auto show = [](double si, std::string_view unit, std::string_view display) {
     return config::format_quantity(si, unit, display, 5);
   };
@@ -140,7 +91,8 @@ void print_flow(const gas::Valve& valve, const FlowResult& f) {
 }
 
 // The linear part is there for integration; near equal pressures it is far below the law.
-void warn_of_linear_part(const gas::Valve& valve, const FlowResult& f, const Messages& messages) {
+void warn_of_linear_part(const gas::Valve& valve, const gas::ValveFlow& f,
+                         const Messages& messages) {
   if (!f.linear) return;
   messages.warning(fmt::format(
       "{}: the pressures are {:.2g} % apart, less than linear_below, {:.2g} %: there the flow is a "
@@ -149,14 +101,14 @@ void warn_of_linear_part(const gas::Valve& valve, const FlowResult& f, const Mes
       valve.name, 100 * (1 - f.ratio), 100 * valve.flow.linear_below, f.law_flow / f.mass_flow));
 }
 
-void print_times(const std::vector<Transfer>& times, double volume, const FlowResult& f) {
+void print_times(const std::vector<gas::Transfer>& times, double volume, const gas::ValveFlow& f) {
   if (times.empty()) return;
   const auto bar = [](double p) { return config::format_quantity(p, "Pa abs", "psi abs", 4); };
   fmt::print("\n{} between {} and {}, valve open:\n", config::format_quantity(volume, "m3", "in3"),
              bar(f.downstream), bar(f.upstream));
   using enum TextTable::Align;
   TextTable table({"of the way", "fill [ms]", "vent [ms]"}, {right, right, right});
-  for (const Transfer& t : times)
+  for (const gas::Transfer& t : times)
     table.add({fmt::format("{:.0f} %", 100 * t.share), fmt::format("{:.3f}", 1e3 * t.fill),
                fmt::format("{:.3f}", 1e3 * t.vent)});
   fmt::print("{}", table.text());
@@ -175,19 +127,19 @@ void print_duties(const std::vector<Delivered>& duties, const std::string& frequ
 ExitCode run_valve(const Options& options) {
   const auto file = experiment::load_machine_file(options.file);
   const gas::Air& air = file.experiment.air;
-  const gas::Valve& valve = named(file.experiment.valves, options.name, "NAME", "valve");
+  const gas::Valve& valve = config::named(file.experiment.valves, options.name, "NAME", "valve");
   const double up =
       argument("--upstream", options.upstream, "Pa abs", air.atmosphere, air_pressure);
   const double down =
       argument("--downstream", options.downstream, "Pa abs", air.atmosphere, air_pressure);
 
-  const FlowResult f = flow_through(valve.flow, air, up, down);
-  std::vector<Transfer> times;
+  const gas::ValveFlow f = gas::flow_through(valve.flow, air, up, down);
+  std::vector<gas::Transfer> times;
   double volume = 0;
   if (!options.volume.empty()) {
     volume = argument("--volume", options.volume, "m3", air.atmosphere,
                       above_zero(air_volume.high, air_volume.why));
-    times = transfers(valve.flow, air, volume, f);
+    times = gas::transfers(valve.flow, air, volume, f);
   }
   const std::vector<Delivered> duties = deliveries(valve, options);
 

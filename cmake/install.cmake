@@ -12,9 +12,11 @@ add_library(sinew::sinew ALIAS sinew_all)
 target_link_libraries(sinew_all INTERFACE ${folders})
 set_target_properties(sinew_all PROPERTIES EXPORT_NAME sinew)
 
+set(SINEW_COMPONENTS "")
 foreach(folder ${folders})
   string(REGEX REPLACE "^sinew_" "" name ${folder})
   set_target_properties(${folder} PROPERTIES EXPORT_NAME ${name})
+  string(APPEND SINEW_COMPONENTS " ${name}")
 endforeach()
 
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/sinew)
@@ -23,7 +25,7 @@ install(TARGETS sinew_all ${folders} EXPORT sinew
         INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT sinew NAMESPACE sinew:: FILE sinewTargets.cmake DESTINATION ${package})
 
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/sinew DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/sinew ${PROJECT_SOURCE_DIR}/thesis DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.h"
         PATTERN "*_test.h" EXCLUDE PATTERN "test_*.h" EXCLUDE PATTERN "testing.h" EXCLUDE)
 
@@ -42,4 +44,6 @@ if(TARGET sinew)
 endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/robots ${PROJECT_SOURCE_DIR}/experiments
         DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
+              ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR})  # headers name its pages

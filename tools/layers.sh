@@ -3,8 +3,9 @@
 #
 # Prints "file:line: what is wrong" for each finding; exit 1 if there is one.
 
-# A folder may include itself, what its row names, and everything that those may. A name stands for
-# the rows below it too: `plant` for plant/planar. Every folder with sources needs a row.
+# A folder of sinew/ may include itself, what its row names, and everything that those may. A name
+# stands for the rows below it too: `plant` for plant/planar. Every folder with sources needs a row.
+# thesis/ may include all of them, cli/ those and thesis/.
 layers='
     units
     signals
@@ -23,18 +24,26 @@ layers='
     plant/mujoco    muscle robot signals
     plant/hardware  muscle robot signals
     experiment      plant control config
-    identify        muscle signals log config
+    identify/fit    actuator config
+    identify/data   identify/fit config
+    identify/actuator  identify/data
+    identify/motion identify/data
+    identify/joint  identify/data robot
+    identify/valve  identify/data gas signals
+    identify/sensor identify/data robot
+    identify/page   identify/fit report
     analysis        signals robot actuator config
     report          analysis log robot
-    tune            experiment analysis
-    live            experiment report
+    run/folder      experiment log analysis report
+    tune            experiment analysis run/folder
+    live            experiment report run/folder
 '
 
 # What only the tests of a folder may include besides (*_test.cpp, *_test.h, test_*.h, testing.h).
 # Tests of any folder may include config, to read a file of robots/ or experiments/.
 test_layers='
     *               config
-    identify        plant/rig
+    identify/motion plant/rig
 '
 
 # Each outside library sits behind one folder.
@@ -45,8 +54,8 @@ libraries='
     mujoco/         sinew/plant/mujoco
     cvode/          sinew/plant/rig
     CLI/            cli
-    boost/          cli
-    ceres/          sinew/identify
+    boost/          sinew/live
+    ceres/          sinew/identify/fit
     Eigen/          sinew/identify
 '
 
@@ -59,7 +68,7 @@ export LC_ALL=C.UTF-8
 check_tree() {  # check_tree ROOT: findings on stdout, status 1 if there are any
   (
     cd "$1"
-    find sinew cli -type f \( -name '*.h' -o -name '*.cpp' \) 2>/dev/null | sort |
+    find sinew thesis cli -type f \( -name '*.h' -o -name '*.cpp' \) 2>/dev/null | sort |
       awk -v layers="$layers" -v test_layers="$test_layers" -v libraries="$libraries" \
           -v longest_file="$longest_file" "$program"
   )
@@ -129,6 +138,8 @@ function check_include(file, line, target,   folder, mine, theirs, name) {
   for (name in library)
     if (target ~ ("^" name) && !below(file, library[name]))
       say(file, line, "<" target "> belongs behind " library[name])
+  if (file ~ /^sinew\// && target ~ /^(thesis|cli)\//) say(file, line, "sinew may not include " target)
+  if (file ~ /^thesis\// && target ~ /^cli\//) say(file, line, "thesis may not include " target)
   if (target !~ /^sinew\//) return
   if (file !~ /^sinew\//) return
 
@@ -173,7 +184,7 @@ function check_file(file,   text, line, code, name, folder) {
       say(file, line, "virtual: the port is the one virtual class")
     if (code ~ /^[ \t]*#[ \t]*define[ \t]+[A-Za-z0-9_]+\(/ && !is_test)
       say(file, line, "a macro with arguments: write a function")
-    if (file ~ /^sinew\// && !is_test &&
+    if (file ~ /^(sinew|thesis)\// && !is_test &&
         (code ~ /std::(cout|cerr|clog)/ || code ~ /(^|[^A-Za-z0-9_])v?(printf|puts|putchar)[ \t]*\(/ ||
          code ~ /(^|[^A-Za-z0-9_])fprintf[ \t]*\([ \t]*std(out|err)/ || code ~ /fmt::print(ln)?[ \t]*\(/))
       say(file, line, "the library does not print: return it, or throw it")
@@ -221,12 +232,17 @@ self_test() {
   expect sinew/analysis/a.cpp     '#include "sinew/control/gait/a.h"'          'analysis may not include control/gait'
   expect sinew/gas/a_test.cpp     '#include "sinew/config/reader.h"'           ''
   expect sinew/gas/a.cpp          '#include "sinew/config/reader.h"'           'gas may not include config'
-  expect sinew/identify/a_test.cpp '#include "sinew/plant/rig/rig.h"'          ''
-  expect sinew/identify/a.cpp     '#include "sinew/plant/rig/rig.h"'           'identify may not include plant/rig'
+  expect sinew/identify/motion/a_test.cpp '#include "sinew/plant/rig/rig.h"'          ''
+  expect sinew/identify/motion/a.cpp '#include "sinew/plant/rig/rig.h"'           'identify/motion may not include plant/rig'
   expect sinew/novelty/a.h        'int a;'                                     'no row'
   expect sinew/gas/a.h            '#include "sinew/novelty/a.h"'               'no row'
   expect sinew/gas/a.cpp          '#include <toml++/toml.h>'                   'behind sinew/config'
   expect sinew/config/a.cpp       '#include <toml++/toml.h>'                   ''
+  expect sinew/report/a.cpp       '#include "thesis/figures/a.h"'              'sinew may not include'
+  expect sinew/report/a.cpp       '#include "cli/terminal.h"'                  'sinew may not include'
+  expect thesis/figures/a.cpp     '#include "cli/terminal.h"'                  'thesis may not include'
+  expect thesis/figures/a.cpp     '#include "sinew/report/a.h"'                ''
+  expect thesis/figures/a.cpp     'void f() { std::cout << 1; }'               'does not print'
   expect cli/a.cpp                '#include <zlib.h>'                          'behind sinew/log'
   expect cli/a.cpp                '#include <CLI/CLI.hpp>'                     ''
   expect sinew/log/a.cpp          '#include <CLI/CLI.hpp>'                     'behind cli'

@@ -12,6 +12,8 @@ if [[ ! ${SINEW_PREFIX:-} ]]; then
   cmake --install "$root/${SINEW_BUILD:-build/release}" --prefix "$prefix" >/dev/null
 fi
 
-cmake -G Ninja -S "$here" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release >/dev/null
+read -ra flags <<<"${SINEW_CMAKE_FLAGS:-}"
+cmake -G Ninja -S "$here" -B "$work/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release \
+  "${flags[@]}" >/dev/null
 cmake --build "$work/build" >/dev/null
 "$work/build/hanging_mass"

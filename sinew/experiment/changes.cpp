@@ -19,6 +19,20 @@ Changes::Changes(const gait::Plan& plan, Steering* steering)
   if (steering_) steered_.reserve(most);
 }
 
+bool Changes::wish(const Steering::Wish& wish) noexcept {
+  if (wish.setting >= overrides_.settings().size()) return false;
+  waiting_[wish.setting] = {true, wish};
+  waits_ = true;
+  return true;
+}
+
+void Changes::restore(const State& state) noexcept {
+  overrides_.restore(state.overrides);
+  next_ = state.next;
+  waiting_ = state.waiting;
+  waits_ = state.waits;
+}
+
 void Changes::follow(const Steering::Wish& wish) noexcept {
   if (wish.release)
     overrides_.release(wish.setting);
@@ -35,6 +49,12 @@ void Changes::apply(Tick t, std::span<gait::Desired> legs) noexcept {
       steered_.push_back({t, wish});
       follow(wish);
     });
+  for (Waiting& w : waiting_) {
+    if (!waits_) break;
+    if (w.given) follow(w.wish);
+    w.given = false;
+  }
+  waits_ = false;
 
   for (gait::Desired& desired : legs) overrides_.apply(desired);
   if (!steering_ || legs.empty()) return;

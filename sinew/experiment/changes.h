@@ -2,6 +2,7 @@
 // whoever steers. Both take effect at period starts; what was steered is kept.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -24,8 +25,30 @@ class Changes {
   // change sets for all of them.
   void apply(signals::Tick t, std::span<gait::Desired> legs) noexcept;
 
+  // A wish of whoever holds the run: followed at the next period start, behind the plan's own
+  // changes; a later one of the same setting stands in its place. False, and nothing done, for a
+  // setting that there is not.
+  bool wish(const Steering::Wish& wish) noexcept;
+
   // The plan's list, and behind it what was steered, at the times at which it took effect.
   std::vector<gait::Change> all() const;
+
+  const std::vector<gait::Setting>& settings() const noexcept { return overrides_.settings(); }
+
+  // Everything that later words depend on. Copied like bytes. What was steered so far is no part of
+  // it: that is a log.
+  struct Waiting {
+    bool given = false;
+    Steering::Wish wish;
+  };
+  struct State {
+    gait::Overrides::State overrides;
+    std::size_t next = 0;  // of the plan's list
+    std::array<Waiting, gait::Overrides::most> waiting{};
+    bool waits = false;
+  };
+  State state() const noexcept { return {overrides_.state(), next_, waiting_, waits_}; }
+  void restore(const State& state) noexcept;
 
  private:
   struct Due {
@@ -39,6 +62,8 @@ class Changes {
   Steering* steering_;
   std::vector<Due> due_;  // of the plan's list, by time
   std::size_t next_ = 0;
+  std::array<Waiting, gait::Overrides::most> waiting_{};
+  bool waits_ = false;  // one of them is given
   std::vector<Due> steered_;
 };
 

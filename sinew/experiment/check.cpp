@@ -184,6 +184,18 @@ void check_place(const Experiment& e, List& out) {
                    "cylinder.mode = \"regulator\" or \"valves\""});
   else if (e.start.lift > top)
     out.push_back({"start.lift", inches(e.start.lift), "0 to the stroke, " + inches(top), ""});
+  for (const robot::Joint& joint : e.robot.joints) {
+    const double angle = e.start.joint_angles.count(joint.name)
+                             ? e.start.joint_angles.at(joint.name)
+                             : joint.rest_angle;
+    const std::vector<double>& range = joint.stop.range;
+    if (joint.stop.present() && (angle < range[0] || angle > range[1]))
+      out.push_back({"start.joint_angles." + joint.name,
+                     config::format_quantity(angle, "rad", "deg"),
+                     "within its stops, " + config::format_quantity(range[0], "rad", "deg") +
+                         " to " + config::format_quantity(range[1], "rad", "deg"),
+                     ""});
+  }
   for (const robot::Link& link : e.robot.links)
     if (link.center_of_mass > link.length)
       out.push_back({"link." + link.name + ".center_of_mass", inches(link.center_of_mass),

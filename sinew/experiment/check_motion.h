@@ -1,5 +1,5 @@
-// experiment/check_motion.h - a part of refuse_contradictions: what the machine and its plan cannot be
-// together.
+// experiment/check_motion.h - a part of refuse_contradictions: what the machine and its plan cannot
+// be together.
 #pragma once
 
 #include <vector>

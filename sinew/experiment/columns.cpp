@@ -49,6 +49,7 @@ struct JointAt {
   std::size_t leg = 0, joint = 0;
 };
 
+// Of a joint that is no leg's, the first leg's first: it has no sensor and desires nothing.
 JointAt place_of(const robot::Robot& robot, std::size_t joint) {
   for (const LegAt& leg : legs_at(robot))
     for (std::size_t i = 0; i < leg.parts.joints.size(); ++i)
@@ -201,7 +202,7 @@ void gain_columns(const Experiment& e, const LegAt& leg, Columns& out) {
   if (!e.log.gains) return;
   for (const gait::Setting& s : gait::settings(e.plan)) {
     constexpr std::string_view before = "control.gains.";
-    if (!s.key.starts_with(before)) continue;  // desired stiffnesses are always there
+    if (!s.key.starts_with(before)) continue;  // desired angles and stiffnesses are always there
     std::string name = leg.topic("/desired/gain/" + s.key.substr(before.size()));
     std::ranges::replace(name, '.', '/');
     out.scalar(std::move(name), std::string(s.unit), "in effect",
@@ -310,6 +311,7 @@ void true_cylinder_columns(const robot::Robot& robot, Columns& out) {
              [](const Moment& m) { return m.truth.lift; });
   out.scalar("/true/cylinder/velocity", "m/s", "upwards",
              [](const Moment& m) { return m.truth.lift_rate; });
+  if (robot.cylinder.mode == robot::Cylinder::Mode::free) return;
   for (const auto& [name, c] :
        {std::pair{"up", std::size_t{0}}, std::pair{"down", std::size_t{1}}}) {
     const std::string at = std::string("/true/cylinder/") + name;

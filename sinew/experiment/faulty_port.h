@@ -24,6 +24,17 @@ class FaultyPort final : public signals::Port {
   signals::Reading read(signals::Channel, signals::Tick now) noexcept override;
   signals::Status stop(signals::Tick now) noexcept override { return body_.stop(now); }
 
+  // The last counts of each channel that were handed out. Copied like bytes.
+  struct State {
+    std::array<std::uint16_t, control::max_channels> before{};
+    std::array<bool, control::max_channels> answered{};
+  };
+  State state() const noexcept { return {before_, answered_}; }
+  void restore(const State& state) noexcept {
+    before_ = state.before;
+    answered_ = state.answered;
+  }
+
  private:
   struct Acting {
     Fault fault;

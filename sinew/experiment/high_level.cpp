@@ -59,33 +59,43 @@ HighLevel::HighLevel(const robot::Robot& robot, const gait::Plan& plan, Steering
 }
 
 // What has no sensor is believed to rest.
-void HighLevel::believe(const control::Seen& seen) noexcept {
+gait::Measured HighLevel::believe(const control::Seen& seen) const noexcept {
+  gait::Measured measured;
   const auto counts = [&](int channel) -> double {
     return seen.reading[static_cast<std::size_t>(channel)].counts;
   };
   for (int j = 0; j < joints_; ++j) {
     const auto k = static_cast<std::size_t>(j);
-    measured_.angle[k] = scale_.rest[k];
+    measured.angle[k] = scale_.rest[k];
     if (scale_.angle_channel[k] < 0) continue;
-    measured_.angle[k] =
+    measured.angle[k] =
         scale_.rest[k] +
         (counts(scale_.angle_channel[k]) - scale_.counts_at_rest[k]) / scale_.counts_per_rad[k];
-    measured_.velocity[k] = static_cast<double>(seen.joint[k].velocity) / scale_.counts_per_rad[k];
-    measured_.stiffness[k] = static_cast<double>(seen.joint[k].stiffness) * stiffness_unit;
+    measured.velocity[k] = static_cast<double>(seen.joint[k].velocity) / scale_.counts_per_rad[k];
+    measured.stiffness[k] = static_cast<double>(seen.joint[k].stiffness) * stiffness_unit;
   }
   for (int m = 0; m < muscles_; ++m) {
     const auto k = static_cast<std::size_t>(m);
     if (scale_.tension_channel[k] < 0) continue;
-    measured_.tension[k] = (counts(scale_.tension_channel[k]) - scale_.counts_at_zero[k]) *
-                           scale_.newtons_per_count[k];
+    measured.tension[k] = (counts(scale_.tension_channel[k]) - scale_.counts_at_zero[k]) *
+                          scale_.newtons_per_count[k];
   }
   if (scale_.cylinder_channel >= 0)
-    measured_.cylinder = (counts(scale_.cylinder_channel) - scale_.cylinder_at_rest) /
-                         scale_.cylinder_counts_per_metre;
+    measured.cylinder = (counts(scale_.cylinder_channel) - scale_.cylinder_at_rest) /
+                        scale_.cylinder_counts_per_metre;
+  return measured;
+}
+
+void HighLevel::restore(const State& state) noexcept {
+  legs_.restore(state.legs);
+  changes_.restore(state.changes);
+  desired_ = state.desired;
+  measured_ = state.measured;
+  command_ = state.command;
 }
 
 const control::Command& HighLevel::update(const control::Seen& seen, signals::Tick t) noexcept {
-  believe(seen);
+  measured_ = believe(seen);
   legs_.update(measured_, t / brain_ticks_);
   for (std::size_t l = 0; l < legs_.count(); ++l) desired_[l] = legs_.desired(l);
   changes_.apply(t, {desired_.data(), legs_.count()});

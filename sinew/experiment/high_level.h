@@ -47,7 +47,25 @@ class HighLevel {
   }
 
   // Readings as the brain gets them.
-  void believe(const control::Seen& seen) noexcept;
+  gait::Measured believe(const control::Seen& seen) const noexcept;
+
+  // A wish of whoever holds the run, as Changes has it.
+  bool wish(const Steering::Wish& wish) noexcept { return changes_.wish(wish); }
+
+  const std::vector<gait::Setting>& settings() const noexcept { return changes_.settings(); }
+
+  // Everything that its next word depends on, beside what it will be told. Copied like bytes.
+  struct State {
+    gait::Legs::State legs;
+    Changes::State changes;
+    std::array<gait::Desired, robot::max_legs> desired;
+    gait::Measured measured;
+    control::Command command;
+  };
+  State state() const noexcept {
+    return {legs_.state(), changes_.state(), desired_, measured_, command_};
+  }
+  void restore(const State& state) noexcept;
 
  private:
   void translate(const gait::Desired& desired, const robot::LegParts& leg) noexcept;

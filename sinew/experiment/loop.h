@@ -14,6 +14,13 @@ bool ends_it(Watch& watch) noexcept {
   return false;
 }
 
+// Where a loop stands. Copied like bytes.
+struct LoopState {
+  signals::Tick at = 0;  // the next tick at which anything happens
+  signals::Status status = signals::Status::ok;
+  bool started = false;  // the body knows the scan
+};
+
 // Spine   scan(), seen().phase, command(command), edges(t), due(t), take(conversion, reading, t),
 //         next_event(t), missed(t), shut_down(t): control::Supervisor, control::Spine alone,
 //         or a stand's drive
@@ -22,16 +29,19 @@ bool ends_it(Watch& watch) noexcept {
 // Watch   command(t), edge(e), sample(t), next(t): whoever records; it changes nothing. It may have
 //         stopped(): true ends the loop
 //
-// Ends at `end`, when the body ends or fails, or when the spinal cord has shut down.
+// Runs the ticks before `until`, in as many calls as one likes: the bits are the same. Ends early
+// when the body ends or fails, or when the spinal cord has shut down.
 template <class Spine, class Brain, class Clock, class Watch>
-signals::Status loop(Spine& spine, Brain& brain, signals::Port& port, Clock& clock, Watch& watch,
-                     signals::Tick end) noexcept {
+void advance(LoopState& loop, Spine& spine, Brain& brain, signals::Port& port, Clock& clock,
+             Watch& watch, signals::Tick until) noexcept {
   using signals::Status;
   using signals::Tick;
 
-  Status status = port.start(spine.scan());
-  Tick t = 0;
-  while (status == Status::ok && t < end && spine.seen().phase != control::Phase::off &&
+  if (!loop.started) loop.status = port.start(spine.scan());
+  loop.started = true;
+  Status& status = loop.status;
+  Tick& t = loop.at;
+  while (status == Status::ok && t < until && spine.seen().phase != control::Phase::off &&
          !ends_it(watch)) {
     if (!clock.wait_until(t)) spine.missed(t);
 
@@ -54,8 +64,21 @@ signals::Status loop(Spine& spine, Brain& brain, signals::Port& port, Clock& clo
     const Tick next = spine.next_event(t), sample = watch.next(t);
     t = sample < next ? sample : next;
   }
-  const Status safe = port.stop(t);
-  return status == Status::ok ? safe : status;
+}
+
+// Ends the body's part: it is left safe. Answers the first status of the whole that was not ok.
+inline signals::Status finish(LoopState& loop, signals::Port& port) noexcept {
+  const signals::Status safe = port.stop(loop.at);
+  return loop.status == signals::Status::ok ? safe : loop.status;
+}
+
+// From the first tick to `end`, or to whatever ends it before.
+template <class Spine, class Brain, class Clock, class Watch>
+signals::Status loop(Spine& spine, Brain& brain, signals::Port& port, Clock& clock, Watch& watch,
+                     signals::Tick end) noexcept {
+  LoopState state;
+  advance(state, spine, brain, port, clock, watch, end);
+  return finish(state, port);
 }
 
 }  // namespace sinew::experiment

@@ -17,8 +17,8 @@ double logged(const signals::Edge& edge) noexcept {
 
 }  // namespace
 
-Recorder::Recorder(const Experiment& e, const control::Supervisor& spine, HighLevel& high_level,
-                   TruthAt truth, Tick end)
+Recorder::Recorder(const Experiment& e, const control::Supervisor& spine,
+                   const HighLevel& high_level, TruthAt truth, Tick end)
     : spine_(spine), high_(high_level), truth_(std::move(truth)) {
   // Sample where the last law of a period has run; other periods keep that offset.
   period_ = std::max<Tick>(1, std::llround(e.log.period / signals::tick_seconds));
@@ -99,15 +99,12 @@ void Recorder::sample(Tick t) noexcept {
   row_time_ns_.push_back(t * signals::tick_nanoseconds);
   now_ns_ = t * signals::tick_nanoseconds;
   cursor_ = 0;
-  high_.believe(spine_.seen());
+  const gait::Measured measured = high_.believe(spine_.seen());
   plant::Truth truth;
   if (truth_) truth = truth_(t);
-  const Moment now{spine_.seen(),
-                   spine_.supervised(),
-                   high_.measured(),
-                   high_.desired(),
-                   truth,
-                   static_cast<double>(t) * signals::tick_seconds};
+  const Moment now{spine_.seen(), spine_.supervised(),
+                   measured,      high_.desired(),
+                   truth,         static_cast<double>(t) * signals::tick_seconds};
   for (const Column& c : columns_) {
     if (!truth_ && c.of_truth()) break;  // they come last
     std::array<double, 2> values{};

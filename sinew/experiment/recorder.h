@@ -33,8 +33,8 @@ class Recorder {
   // `truth` answers what only a simulation knows, at a tick; empty for a body that is none.
   using TruthAt = std::function<plant::Truth(signals::Tick)>;
 
-  Recorder(const Experiment& experiment, const control::Supervisor& spine, HighLevel& high_level,
-           TruthAt truth, signals::Tick end);
+  Recorder(const Experiment& experiment, const control::Supervisor& spine,
+           const HighLevel& high_level, TruthAt truth, signals::Tick end);
 
   void tap(Tap t, std::vector<std::uint16_t> topic_of_series) {
     tap_ = t;
@@ -55,7 +55,7 @@ class Recorder {
   void put(std::span<const double> values) noexcept;
 
   const control::Supervisor& spine_;
-  HighLevel& high_;
+  const HighLevel& high_;
   TruthAt truth_;
 
   // While the run goes: rows of numbers one behind the other, and the edges. Both are reserved for

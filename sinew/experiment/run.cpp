@@ -6,13 +6,8 @@
 #include <stdexcept>
 
 #include "sinew/experiment/clock.h"
-#include "sinew/experiment/faulty_port.h"
-#include "sinew/experiment/high_level.h"
 #include "sinew/experiment/hose_of.h"
-#include "sinew/experiment/loop.h"
-#include "sinew/experiment/spinal.h"
-#include "sinew/experiment/supervision.h"
-#include "sinew/plant/planar/machine.h"
+#include "sinew/experiment/simulation.h"
 #include "sinew/plant/recorded/recorded.h"
 #include "sinew/robot/actuator_of.h"
 
@@ -55,65 +50,39 @@ struct Watch {
   bool failed() const noexcept { return machine && machine->failure(); }
 };
 
+// From where the simulation stands to its end, recorded.
 template <class Clock>
-Outcome drive(const Experiment& e, const RunOptions& options, signals::Port& port,
-              plant::Machine* machine, Clock& clock) {
-  control::Supervisor spine(spine_config(e), supervise_config(e));
-  HighLevel high_level(e.robot, e.plan, options.steering);
-  const Tick end = last_tick(e);
-
+Outcome to_the_end(Simulation& simulation, const RunOptions& options, Clock& clock) {
+  plant::Machine* machine = simulation.machine();
   Recorder::TruthAt truth;
   if (machine)
     truth = [machine](Tick t) {
       return machine->truth(static_cast<double>(t) * signals::tick_seconds);
     };
-  Recorder recorder(e, spine, high_level, truth, end);
+  Recorder recorder(simulation.experiment(), simulation.spine(), simulation.high_level(), truth,
+                    simulation.last());
   if (options.tap.push) recorder.tap(options.tap, options.tapped);
   recorder.progress(options.progress);
   Watch watch{recorder, machine, options.every_tick, options.extra_readers, options.stop};
 
   const auto before = std::chrono::steady_clock::now();
+  simulation.advance(simulation.last(), clock, watch);
   Outcome out;
-  out.status = loop(spine, high_level, port, clock, watch, end);
+  out.status = simulation.finish();
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - before;
 
   out.wall = wall.count();
   out.stopped = watch.was_stopped;
-  if (machine) out.failure = machine->failure();
+  out.failure = simulation.failure();
   out.table = recorder.take();
-  out.seen = spine.seen();
-  out.supervised = spine.supervised();
-  out.changes = high_level.changes().all();
-  out.unreachable_periods = high_level.legs().unreachable_periods();
-  out.duration = static_cast<double>(end) * signals::tick_seconds;
+  out.seen = simulation.spine().seen();
+  out.supervised = simulation.spine().supervised();
+  out.changes = simulation.high_level().changes().all();
+  out.unreachable_periods = simulation.high_level().legs().unreachable_periods();
+  out.duration = static_cast<double>(simulation.last()) * signals::tick_seconds;
   for (const signals::Series& s : out.table.series)
     if (!s.time_ns.empty() && s.topic.name.ends_with("/plan/phase"))
       out.duration = 1e-9 * static_cast<double>(s.time_ns.back());
-  return out;
-}
-
-// Sensors that lie stand between the body and the loop.
-template <class Clock>
-Outcome drive_machine(const Experiment& e, const RunOptions& options, plant::Machine& machine,
-                      Clock& clock) {
-  if (e.faults.empty()) return drive(e, options, machine.port(), &machine, clock);
-  FaultyPort body(e, machine.port());
-  return drive(e, options, body, &machine, clock);
-}
-
-Outcome run_machine(const Experiment& e, const plant::Setup& setup, const RunOptions& options) {
-  plant::Machine machine(setup);
-  if (options.steering) {
-    SteeredClock clock(*options.steering, 0.01 + e.log.period);
-    return drive_machine(e, options, machine, clock);
-  }
-  if (options.pace > 0) {
-    PacedClock clock(options.pace);
-    return drive_machine(e, options, machine, clock);
-  }
-  SimulatedClock clock;
-  Outcome out = drive_machine(e, options, machine, clock);
-  out.nodes = machine.nodes();
   return out;
 }
 
@@ -140,7 +109,7 @@ const gas::Valve* find_valve(const Experiment& e, const std::string& name) {
 std::optional<muscle::Cylinder> cylinder_of(const Experiment& e) {
   using Mode = robot::Cylinder::Mode;
   const robot::Cylinder& c = e.robot.cylinder;
-  if (!c.present || c.mode == Mode::locked) return {};
+  if (!c.present || c.mode == Mode::locked || c.mode == Mode::free) return {};
   muscle::Cylinder out{.bore = c.bore,
                        .rod_diameter = c.rod_diameter,
                        .stroke = c.stroke,
@@ -188,13 +157,26 @@ plant::Setup planar_setup(const Experiment& e) {
 }
 
 Outcome run(const Experiment& e, const RunOptions& options) {
-  return run_machine(e, planar_setup(e), options);
+  Simulation simulation(e, options.steering);
+  if (options.steering) {
+    SteeredClock clock(*options.steering, 0.01 + e.log.period);
+    return to_the_end(simulation, options, clock);
+  }
+  if (options.pace > 0) {
+    PacedClock clock(options.pace);
+    return to_the_end(simulation, options, clock);
+  }
+  SimulatedClock clock;
+  Outcome out = to_the_end(simulation, options, clock);
+  out.nodes = simulation.machine()->nodes();
+  return out;
 }
 
 Outcome replay(const Experiment& e, const signals::Table& recorded) {
   plant::Recorded port(e.robot, recorded);
+  Simulation simulation(e, port);
   SimulatedClock clock;
-  return drive(e, {}, port, nullptr, clock);
+  return to_the_end(simulation, {}, clock);
 }
 
 }  // namespace sinew::experiment

@@ -14,6 +14,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/experiment/clock.h"
 #include "sinew/experiment/loop.h"
+#include "sinew/experiment/simulation.h"
 #include "sinew/experiment/spinal.h"
 #include "sinew/experiment/supervision.h"
 #include "sinew/experiment/test_same.h"
@@ -50,6 +51,23 @@ TEST(Run, ExtraReadersChangeNothing) {
 TEST(Run, VisitingEveryTickChangesNothing) {
   const Experiment e = walk();
   expect_same(run(e).table, run(e, {.every_tick = true}).table);
+}
+
+// Somebody who holds a run, reads and changes it.
+TEST(Run, HeldTakesNoMemory) {
+  for (const char* name : {"walk-test-1", "walk-with-hoses", "walk-with-regulators",
+                           "cylinder-following", "faults/sensor-open"}) {
+    Simulation held(load(source + "/experiments/" + name + ".toml", {"sequence.repeat=1"}));
+    const std::size_t angle = held.find("/true/joint/hip/angle");
+    allocations = 0;
+    counting = true;
+    held.advance_to(held.last() / 4);
+    (void)held.read(angle);
+    held.change("control.stiffness.hip", 1.0);
+    held.advance_to(held.last() / 2);
+    counting = false;
+    EXPECT_EQ(allocations, 0) << name;
+  }
 }
 
 TEST(Run, ThreadsChangeNothing) {

@@ -212,7 +212,7 @@ TEST(Show, EachPageGetsEverythingOnce) {
   for (Show::Position* page : {&early, &late}) {
     const Json first = Json::parse(stage.show.frame(*page));
     EXPECT_EQ(first["piece"]["samples"]["clocks"][0], rows);
-    EXPECT_EQ(first["state"]["values"].size(), 8u);
+    EXPECT_EQ(first["state"]["values"].size(), 10u);
     const Json again = Json::parse(stage.show.frame(*page));
     EXPECT_FALSE(again.contains("piece"));
     EXPECT_TRUE(again.contains("state"));
@@ -252,8 +252,7 @@ TEST(Show, ItsPageMayConnectToItsServerAlone) {
   if (!report::has_page()) GTEST_SKIP() << "built without npm";
   const std::string page = stage.show.page("127.0.0.1:1234");
   EXPECT_NE(page.find("; connect-src ws://127.0.0.1:1234\">"), std::string::npos);
-  EXPECT_NE(page.find("\"live\":{\"controls\":[{\"key\":\"control.stiffness.hip\""),
-            std::string::npos);
+  EXPECT_NE(page.find("\"live\":{\"controls\":[{\"key\":\"control.angle.hip\""), std::string::npos);
 }
 
 TEST(Largest, IsTheLargestOfThePlan) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <stdexcept>
 
 #include "sinew/experiment/columns.h"
@@ -16,12 +17,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 using What = gait::Setting::What;
 
+constexpr double whole_turn = 2 * std::numbers::pi;  // [rad]
+
 std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string_view word(What what) {
   switch (what) {
+    case What::angle:
+      return "desired angle";
     case What::stiffness:
       return "desired stiffness";
     case What::angle_gain:
@@ -37,6 +42,8 @@ std::string_view word(What what) {
 // How far a slider goes where the plan has nothing but zeros: about the largest of the thesis.
 double usual(What what) {
   switch (what) {
+    case What::angle:
+      return whole_turn;
     case What::stiffness:
       return 4;  // [N m/rad]
     case What::angle_gain:
@@ -72,6 +79,7 @@ double end_of(const experiment::Experiment& e) {
 }  // namespace
 
 double largest(const gait::Plan& plan, const gait::Setting& s) {
+  if (s.what == What::angle) return whole_turn / 3;
   double out = from_start(plan.joints[s.joint], s.what);
   for (const gait::Phase& phase : plan.phases)
     if (s.joint < phase.joints.size())

@@ -237,7 +237,8 @@ void add_track(Maker& m) {
 // One that is locked is a part of the body.
 void add_cylinder(Maker& m) {
   const robot::Cylinder& c = m.robot().cylinder;
-  if (!c.present || c.mode == robot::Cylinder::Mode::locked) return;
+  using Mode = robot::Cylinder::Mode;
+  if (!c.present || c.mode == Mode::locked || c.mode == Mode::free) return;
   CylinderShape shape{.bore = c.bore, .stroke = c.stroke};
   shape.up = m.logged("/true/cylinder/up/pressure");
   shape.down = m.logged("/true/cylinder/down/pressure");

@@ -101,10 +101,13 @@ void fields(Visitor& v, Cylinder& c) {
     v.number({.name = name, .unit = "m", .min = 0, .doc = doc}, value);
   };
   v.flag({.name = "present", .doc = "false: the first joint keeps its height"}, c.present);
-  v.choice({.name = "mode", .doc = "locked: at the extended stop"}, c.mode,
-           {{"locked", Cylinder::Mode::locked},
-            {"regulator", Cylinder::Mode::regulator},
-            {"valves", Cylinder::Mode::valves}});
+  v.choice(
+      {.name = "mode", .doc = "locked: at the extended stop; free: without air, the body slides"},
+      c.mode,
+      {{"locked", Cylinder::Mode::locked},
+       {"regulator", Cylinder::Mode::regulator},
+       {"valves", Cylinder::Mode::valves},
+       {"free", Cylinder::Mode::free}});
   length("bore", "of the cylinder", c.bore);
   length("rod_diameter", "of its rod, on the side of `up`", c.rod_diameter);
   length("stroke", "upwards from the extended stop", c.stroke);

@@ -23,7 +23,10 @@ bool belongs(const std::string& leg, const std::string& name) {
   return name_in_leg(leg, name) != name;
 }
 
-// Its joints are there, named after it, and hang one on the other from the body on.
+bool in_a_leg(const Robot& robot, int link) { return leg_of_joint(robot, link) >= 0; }
+
+// Its joints are there, named after it, and hang one on the other from the body on, or from a link
+// that is no leg's.
 void check_path(const Robot& robot, const Leg& leg, List& out) {
   const std::string key = "leg." + leg.name + ".joints";
   if (leg.joints.empty())
@@ -40,11 +43,14 @@ void check_path(const Robot& robot, const Leg& leg, List& out) {
       out.push_back({key, quoted(name), "a name that begins with " + quoted(leg.name + "_"),
                      quoted(leg.name + "_" + name)});
     const auto at = static_cast<std::size_t>(j);
-    if (at < robot.links.size() && parent_of(robot, at) != before)
+    const int parent = at < robot.links.size() ? parent_of(robot, at) : before;
+    const bool hangs = before >= 0 ? parent == before : parent < 0 || !in_a_leg(robot, parent);
+    if (!hangs)
       out.push_back({"link." + robot.links[at].name + ".parent",
                      robot.links[at].parent.empty() ? "none" : quoted(robot.links[at].parent),
-                     before < 0 ? "body, as its joint is leg " + leg.name + "'s first"
-                                : "the link before it in leg " + leg.name,
+                     before < 0
+                         ? "body, or a link of no leg: its joint is leg " + leg.name + "'s first"
+                         : "the link before it in leg " + leg.name,
                      before < 0 ? "parent = \"body\"" : ""});
     before = j;
   }
@@ -56,7 +62,7 @@ void check_membership(const Robot& robot, List& out) {
     for (const Leg& leg : robot.legs)
       for (const std::string& name : leg.joints)
         if (name == joint.name) of.push_back(leg.name);
-    if (of.size() == 1) continue;
+    if (of.size() == 1 || (of.empty() && joint.kind == Joint::Kind::passive)) continue;
     out.push_back({"joint." + joint.name, of.empty() ? "in no leg" : "in legs " + listed(of),
                    "one leg that it belongs to", "[leg.<name>] with joints = [… " + joint.name});
   }
@@ -64,8 +70,9 @@ void check_membership(const Robot& robot, List& out) {
     const Muscle& muscle = robot.muscles[m];
     const int joint = find_joint(robot, muscle.joint);
     if (joint < 0) continue;  // said already
-    const std::size_t leg = leg_of_joint(robot, joint);
-    const std::string& name = robot.legs[leg].name;
+    const int leg = leg_of_joint(robot, joint);
+    if (leg < 0) continue;
+    const std::string& name = robot.legs[static_cast<std::size_t>(leg)].name;
     if (!belongs(name, muscle.name))
       out.push_back({"muscle." + muscle.name, quoted(muscle.name),
                      "a name that begins with " + quoted(name + "_"),

@@ -18,9 +18,10 @@ std::size_t head_of(std::string_view topic) {
   return 0;
 }
 
-std::string topic_of(const Robot& robot, std::size_t leg, std::string_view kind,
-                     const std::string& name) {
-  const std::string_view of = robot.legs.empty() ? std::string_view{} : robot.legs[leg].name;
+std::string topic_of(const Robot& robot, int leg, std::string_view kind, const std::string& name) {
+  const bool none = robot.legs.empty() || leg < 0;
+  const std::string_view of =
+      none ? std::string_view{} : robot.legs[static_cast<std::size_t>(leg)].name;
   return topic_of_leg(of, std::string(kind) + name_in_leg(of, name));
 }
 
@@ -34,15 +35,16 @@ void rename(const std::string& leg, Robot& out) {
 
 }  // namespace
 
-std::size_t leg_of_joint(const Robot& robot, int joint) {
-  if (joint < 0) return 0;
+int leg_of_joint(const Robot& robot, int joint) {
+  if (robot.legs.empty()) return 0;
+  if (joint < 0) return -1;
   const std::string& name = robot.joints[static_cast<std::size_t>(joint)].name;
   for (std::size_t l = 0; l < robot.legs.size(); ++l)
-    if (has(robot.legs[l].joints, name)) return l;
-  return 0;
+    if (has(robot.legs[l].joints, name)) return static_cast<int>(l);
+  return -1;
 }
 
-std::size_t leg_of_muscle(const Robot& robot, int muscle) {
+int leg_of_muscle(const Robot& robot, int muscle) {
   return leg_of_joint(robot,
                       find_joint(robot, robot.muscles[static_cast<std::size_t>(muscle)].joint));
 }
@@ -55,9 +57,11 @@ std::vector<LegParts> legs_of(const Robot& robot) {
     out[l].plan = robot.legs[l].plan;
   }
   for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j)
-    out[leg_of_joint(robot, j)].joints.push_back(j);
+    if (const int l = leg_of_joint(robot, j); l >= 0)
+      out[static_cast<std::size_t>(l)].joints.push_back(j);
   for (int m = 0; m < static_cast<int>(robot.muscles.size()); ++m)
-    out[leg_of_muscle(robot, m)].muscles.push_back(m);
+    if (const int l = leg_of_muscle(robot, m); l >= 0)
+      out[static_cast<std::size_t>(l)].muscles.push_back(m);
   return out;
 }
 

@@ -19,7 +19,7 @@
 
 namespace sinew::robot {
 
-inline constexpr int max_legs = 8;
+inline constexpr int max_legs = 4;
 
 // One leg's joints and muscles, by their positions in the robot's lists.
 struct LegParts {
@@ -32,9 +32,10 @@ struct LegParts {
 // The robot's legs in the order of its file. contradictions(robot) must be empty.
 std::vector<LegParts> legs_of(const Robot&);
 
-// The leg that a joint belongs to, and a muscle by its first joint; 0 of a robot without [leg.*].
-std::size_t leg_of_joint(const Robot&, int joint);
-std::size_t leg_of_muscle(const Robot&, int muscle);
+// The leg that a joint belongs to, and a muscle by its first joint; 0 of a robot without [leg.*],
+// -1 of a passive joint between legs and body, which is no leg's.
+int leg_of_joint(const Robot&, int joint);
+int leg_of_muscle(const Robot&, int muscle);
 
 // The foot of a leg: its own, or the robot's.
 const Foot& foot_of(const Robot&, std::size_t leg);

@@ -99,7 +99,27 @@ TEST(Legs, WhatCannotBe) {
             "muscle.hip_flexor: \"hip_flexor");
   EXPECT_EQ(first_after([](Robot& r) { r.joints[3].gains.angle *= 2; }),
             "joint.right_knee: another kind, switch or gain");
-  EXPECT_EQ(first_after([](Robot& r) { r.foot.points.resize(3); }).substr(0, 10), "foot.point");
+  EXPECT_EQ(first_after([](Robot& r) { r.foot.points.resize(5); }).substr(0, 10), "foot.point");
+}
+
+// A passive trunk is no leg's; the legs may hang on it, and their own parts are as before.
+TEST(Legs, MayHangOnATrunk) {
+  Robot robot = test::two_legs();
+  Link trunk = robot.links[0];
+  trunk.name = "trunk";
+  robot.links.insert(robot.links.begin(), trunk);
+  Joint joint;
+  joint.name = "trunk";
+  joint.kind = Joint::Kind::passive;
+  robot.joints.insert(robot.joints.begin(), joint);
+  robot.links[1].parent = robot.links[3].parent = "trunk";
+  EXPECT_TRUE(contradictions(robot).empty());
+  EXPECT_EQ(leg_of_joint(robot, 0), -1);
+  EXPECT_EQ(topic_of_joint(robot, 0), "/joint/trunk");
+  EXPECT_EQ(legs_of(robot)[1].joints, (std::vector<int>{3, 4}));
+  EXPECT_EQ(names_of(only_leg(robot, 1).joints), names_of(test::leg().joints));
+  robot.joints[0].kind = Joint::Kind::driven;
+  EXPECT_FALSE(contradictions(robot).empty());
 }
 
 // Places by parents are the chain's where the robot is one, and a leg's where it is a tree.

@@ -15,9 +15,10 @@
 
 namespace sinew::robot {
 
-inline constexpr int max_joints = 4;                // what the loop's fixed arrays hold
-inline constexpr int max_muscles = 2 * max_joints;  // one pair per joint
-inline constexpr int max_discs = 4;                 // of all feet together
+// What the loop's fixed arrays hold.
+inline constexpr int max_joints = 8;   // of one board of the low level
+inline constexpr int max_muscles = 8;  // with an inlet and an exhaust each: its 16 bits
+inline constexpr int max_discs = 8;    // of all feet together
 
 inline constexpr double not_set = std::numeric_limits<double>::quiet_NaN();
 
@@ -42,6 +43,16 @@ struct Gains {
   double velocity = 0;   // G_v [s/count]
 };
 
+// What a joint strikes at the ends of its range: a spring and a damper at either end that only
+// push.
+struct Stop {
+  std::vector<double> range;  // lowest and highest angle; empty: none [rad]
+  double stiffness = 0;       // [N m/rad]
+  double damping = 0;         // [N m s/rad]
+
+  bool present() const { return range.size() == 2; }
+};
+
 struct Joint {
   enum class Flexion { raises_angle, lowers_angle };
   enum class Kind { driven, passive };  // passive: no muscles, no sensors, the low level knows none
@@ -56,6 +67,7 @@ struct Joint {
   double damper = 0;        // of a rotary damper beside it, 7.3 [N m s/rad]
   double spring = 0;        // [N m/rad]
   double spring_angle = 0;  // where the spring pulls nothing [rad]
+  Stop stop;
   Gains gains;
   Velocity velocity;
   StiffnessSource stiffness_source = StiffnessSource::forces;
@@ -188,7 +200,7 @@ struct Rollers {
 // Joint 0 of 4.2: an air cylinder between trolley and body moves the first joint up and down.
 // Travel counts upwards from the extended stop, where the first joint is at the origin.
 struct Cylinder {
-  enum class Mode { locked, regulator, valves };
+  enum class Mode { locked, regulator, valves, free };
   struct Chamber {
     double dead_volume = 0;      // with its hoses, at its end of the stroke [m^3]
     std::string inlet, exhaust;  // names in the valves file
@@ -196,8 +208,8 @@ struct Cylinder {
   };
 
   bool present = false;
-  Mode mode =
-      Mode::locked;  // at the extended stop; or behind a regulator; or four valves in a loop
+  Mode mode = Mode::locked;  // at the extended stop; or behind a regulator; or four valves in a
+                             // loop; or free: there is no air in it, the body slides
   double bore = 0, rod_diameter = 0, stroke = 0;  // [m]
   double body_mass = 0;  // what moves up and down, links and foot apart; in the total mass [kg]
   double friction = 0;   // of piston and bearings, dry [N]

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sinew/actuator/thesis_actuator.h"
-#include "sinew/identify/free_decay.h"
+#include "sinew/identify/motion/free_decay.h"
 #include "sinew/units/literals.h"
 #include "tests/cli/program.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "sinew/identify/measured.h"
+#include "sinew/identify/data/measured.h"
 #include "tests/fuzz/law.h"
 
 namespace sinew::fuzz {

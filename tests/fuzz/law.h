@@ -38,7 +38,7 @@ void mcap(std::string_view input);     // log::read
 void csv(std::string_view input);      // identify::parse_measured
 void predict(std::string_view input);  // config::parse_valve_timing
 void gain(std::string_view input);     // config::parse_gains
-void out(std::string_view input);      // experiment::parse_out_dat
+void out(std::string_view input);      // thesis::parse_out_dat
 void set(std::string_view input);      // config::apply_set and experiment::load, a --set a line
 void live(std::string_view input);     // live::read_request
 

@@ -1,8 +1,8 @@
 // An out.dat that is read has times that ascend; written as such a log it reads as itself.
 #include <algorithm>
 
-#include "sinew/experiment/out_dat.h"
 #include "tests/fuzz/law.h"
+#include "thesis/out_dat/out_dat.h"
 
 namespace sinew::fuzz {
 namespace {
@@ -18,20 +18,20 @@ const experiment::Experiment& walk() {
 void out(std::string_view input) {
   std::string text;
   try {
-    const signals::Table table = experiment::parse_out_dat(input, "out.dat", walk());
+    const signals::Table table = thesis::parse_out_dat(input, "out.dat", walk());
     law(!table.series.empty(), "a log that is taken has samples");
     for (const signals::Series& s : table.series) {
       law(s.time_ns.front() >= 0 && std::ranges::is_sorted(s.time_ns, std::less_equal<>{}),
           "times ascend: " + s.topic.name);
       law(s.columns[0].size() == s.time_ns.size(), "a value for each time: " + s.topic.name);
     }
-    text = experiment::write_out_dat(table, walk());
+    text = thesis::write_out_dat(table, walk());
   } catch (const config::Error& error) {
     return law(!error.problems().empty(), "a refusal says what is wrong");
   }
   try {
-    const signals::Table again = experiment::parse_out_dat(text, "written.dat", walk());
-    law(experiment::write_out_dat(again, walk()) == text, "it is written the same again:\n" + text);
+    const signals::Table again = thesis::parse_out_dat(text, "written.dat", walk());
+    law(thesis::write_out_dat(again, walk()) == text, "it is written the same again:\n" + text);
   } catch (const config::Error& error) {
     law(false, std::string("what is written can be read: ") + error.what() + "\n" + text);
   }

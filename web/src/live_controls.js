@@ -1,4 +1,4 @@
-// What a person can do to a run that goes: pause, speed, gains and desired stiffnesses.
+// What a person can do to a run that goes: pause, speed, gains, desired angles and stiffnesses.
 import { element, set_icon } from './page.js';
 import { number } from './units.js';
 
@@ -14,7 +14,7 @@ const gain_units = {
 
 const paces = [['0.1', '0.1×'], ['0.25', '0.25×'], ['0.5', '0.5×'], ['1', '1×'], ['2', '2×'], ['4', '4×'], ['0', 'full speed']];
 
-// One gain or desired stiffness: a slider, a field, and the way back to the plan's own.
+// One gain, desired angle or stiffness: a slider, a field, and the way back to the plan's own.
 class Control {
   constructor(spec, index, panel) {
     Object.assign(this, { spec, index, panel, most: spec.most, held: false, sent: 0 });
@@ -121,7 +121,7 @@ export class LiveControls {
 
   make_panel() {
     const joints = [...new Set(this.controls.map((c) => c.spec.joint))];
-    return element('section', { class: 'live-controls no-print', 'aria-label': 'Gains and desired stiffnesses' },
+    return element('section', { class: 'live-controls no-print', 'aria-label': 'Gains, desired angles and stiffnesses' },
       ...joints.map((joint) => element('fieldset', {},
         element('legend', {}, joint.replaceAll('_', ' ')),
         ...this.controls.filter((c) => c.spec.joint === joint).map((c) => c.root))));

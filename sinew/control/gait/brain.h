@@ -90,6 +90,25 @@ class Brain {
 
   const Plan& plan() const noexcept { return plan_; }
 
+  // Everything that its next word depends on, beside its plan and what it will be told. Copied like
+  // bytes.
+  struct State {
+    std::int64_t period = -1;  // the last one answered
+    std::size_t position = 0;  // in the sequence
+    int k = 0;                 // period within the phase
+    std::int64_t unreachable_periods = 0;
+    Desired desired;
+  };
+  State state() const noexcept { return {period_, position_, k_, unreachable_periods_, desired_}; }
+  // Expects the state of a brain with an equal plan.
+  void restore(const State& s) noexcept {
+    period_ = s.period;
+    position_ = s.position;
+    k_ = s.k;
+    unreachable_periods_ = s.unreachable_periods;
+    desired_ = s.desired;
+  }
+
  private:
   // A phase in its place of the sequence.
   struct Slot {

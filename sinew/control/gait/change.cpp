@@ -13,6 +13,7 @@ struct Kind {
   std::string_view head, tail, unit;
 };
 constexpr Kind kinds[] = {
+    {What::angle, "control.angle.", "", "rad"},
     {What::stiffness, "control.stiffness.", "", "N m/rad"},
     {What::angle_gain, "control.gains.", ".angle", "1/count"},
     {What::stiffness_gain, "control.gains.", ".stiffness", "1/(N m/rad)"},
@@ -33,6 +34,8 @@ auto& value_in(Joint& joint, What what) noexcept {
       return joint.gains.stiffness;
     case What::velocity_gain:
       return joint.gains.velocity;
+    case What::angle:
+      return joint.angle;
     case What::stiffness:
       break;
   }

@@ -1,5 +1,5 @@
-// control/gait/change.h - what is set in place of the plan's while it runs: gains and desired
-// stiffnesses, by the list [[change]] of an experiment or by a person who watches.
+// control/gait/change.h - what is set in place of the plan's while it runs: gains, desired angles
+// and stiffnesses, by the list [[change]] of an experiment or by a person who watches.
 //
 // A change takes effect at the first period start that is not before its time. From there on its
 // value stands in place of the plan's, whatever phases, profiles and feedback say, until the run's
@@ -22,14 +22,14 @@ struct Plan;
 
 struct Change {
   double time = 0;                // [s]
-  std::string key;                // "control.gains.hip.angle", "control.stiffness.knee"
+  std::string key;                // "control.gains.hip.angle", "control.angle.knee"
   double value = robot::not_set;  // in the key's SI unit
   bool release = false;           // no value: the plan's own again
 };
 
 // What can be changed, one for each key; its place in settings() is its number.
 struct Setting {
-  enum class What { stiffness, angle_gain, stiffness_gain, velocity_gain };
+  enum class What { angle, stiffness, angle_gain, stiffness_gain, velocity_gain };
   static constexpr double most = 1e6;  // that is taken, in the key's SI unit
 
   std::string key;
@@ -38,7 +38,7 @@ struct Setting {
   What what = What::stiffness;
 };
 
-// Four for each driven joint, in the robot's order.
+// Five for each driven joint, in the robot's order.
 std::vector<Setting> settings(const Plan& plan);
 
 // SI; by the key alone, "" where it is none.
@@ -54,7 +54,7 @@ double value_of(const Setting& setting, const Desired& desired) noexcept;
 // What stands in place of the plan's. No heap after construction.
 class Overrides {
  public:
-  static constexpr std::size_t most = 4 * robot::max_joints;
+  static constexpr std::size_t most = 5 * robot::max_joints;
 
   explicit Overrides(const Plan& plan);
 
@@ -67,13 +67,18 @@ class Overrides {
 
   void apply(Desired& desired) const noexcept;
 
- private:
+  // What is set of each setting, by its number. Copied like bytes.
   struct Slot {
     bool given = false;
     double value = 0;
   };
+  using State = std::array<Slot, most>;
+  const State& state() const noexcept { return slots_; }
+  void restore(const State& state) noexcept { slots_ = state; }
+
+ private:
   std::vector<Setting> settings_;
-  std::array<Slot, most> slots_{};
+  State slots_{};
 };
 
 }  // namespace sinew::gait

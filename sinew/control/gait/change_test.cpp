@@ -11,11 +11,11 @@ namespace {
 
 robot::Robot leg() { return robot::test::leg(); }
 
-TEST(Setting, ThereAreFourForEachDrivenJoint) {
+TEST(Setting, ThereAreFiveForEachDrivenJoint) {
   robot::Robot robot = leg();
-  EXPECT_EQ(settings(plan_for(robot)).size(), 8u);
+  EXPECT_EQ(settings(plan_for(robot)).size(), 10u);
   robot.joints[1].kind = robot::Joint::Kind::passive;
-  EXPECT_EQ(settings(plan_for(robot)).size(), 4u);
+  EXPECT_EQ(settings(plan_for(robot)).size(), 5u);
 }
 
 TEST(Setting, ItsKeyFindsItAndGivesItsUnit) {
@@ -27,7 +27,7 @@ TEST(Setting, ItsKeyFindsItAndGivesItsUnit) {
   }
   EXPECT_EQ(find_setting(all, "control.gains.elbow.angle"), -1);
   for (const char* key : {"", "control.gains.", "control.gains..angle", "control.gains.hip",
-                          "control.stiffness.", "gains.hip.angle"})
+                          "control.stiffness.", "control.angle.", "gains.hip.angle"})
     EXPECT_EQ(unit_of_setting(key), "") << key;
 }
 

@@ -35,6 +35,16 @@ void Legs::update(const Measured& machine, std::int64_t period_index) noexcept {
   }
 }
 
+Legs::State Legs::state() const noexcept {
+  State out{};
+  for (std::size_t l = 0; l < brains_.size(); ++l) out[l] = brains_[l].state();
+  return out;
+}
+
+void Legs::restore(const State& state) noexcept {
+  for (std::size_t l = 0; l < brains_.size(); ++l) brains_[l].restore(state[l]);
+}
+
 bool Legs::finished() const noexcept {
   return std::ranges::all_of(brains_, [](const Brain& b) { return b.finished(); });
 }

@@ -8,6 +8,7 @@
 // A robot without [leg.*] has one leg, which is all of it: nothing but its Brain.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -31,6 +32,12 @@ class Legs {
   const robot::LegParts& parts(std::size_t leg) const noexcept { return parts_[leg]; }
   const Brain& brain(std::size_t leg) const noexcept { return brains_[leg]; }
   const Desired& desired(std::size_t leg) const noexcept { return brains_[leg].desired(); }
+
+  // Everything that their next words depend on, beside the plan and what they will be told; of legs
+  // that are not there, the default. Copied like bytes.
+  using State = std::array<Brain::State, robot::max_legs>;
+  State state() const noexcept;
+  void restore(const State& state) noexcept;  // of legs with an equal plan
 
   // All of them.
   bool finished() const noexcept;

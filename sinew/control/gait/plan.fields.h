@@ -252,7 +252,8 @@ void control_fields(Visitor& v, Plan& plan) {
 template <class Visitor>
 void fields(Visitor& v, Change& c) {
   constexpr std::string_view keys =
-      "control.stiffness.<joint>, or control.gains.<joint>.angle, .stiffness or .velocity";
+      "control.angle.<joint>, control.stiffness.<joint>, or control.gains.<joint>.angle, "
+      ".stiffness or .velocity";
   v.number({.name = "time", .unit = "s", .min = 0, .doc = "takes effect at the next period start"},
            c.time);
   v.text({.name = "key", .doc = keys}, c.key);

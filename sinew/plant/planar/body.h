@@ -1,4 +1,4 @@
-// plant/planar/body.h - a planar tree of up to four links under a trolley that slides and a body
+// plant/planar/body.h - a planar tree of up to eight links under a trolley that slides and a body
 // that a cylinder moves up and down: the equations of chain.h with one coordinate more, as a dense
 // system.
 //

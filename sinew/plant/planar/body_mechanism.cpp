@@ -14,6 +14,7 @@ BodyMechanism::BodyMechanism(const Setup& setup)
   for (std::size_t j = 0; j < constants_.links; ++j) {
     const robot::Joint& joint = robot_.joints[j];
     damping_[j] = joint.damping + joint.damper;
+    stop_[j] = JointStop(joint.stop);
     dry_[j] = setup.start.blocked[j] ? blocked_bound : joint.dry_friction;
     const double on = constants_.hangs_on_link(j) ? start_.at[first_link + constants_.on(j)] : 0.0;
     start_.at[first_link + j] = on + setup.start.joint_angle[j];
@@ -76,6 +77,7 @@ void BodyMechanism::load(const Pose& body, const Motion& m, const Arms& arms,
     const robot::Joint& joint = robot_.joints[j];
     out.passive_torque[j] =
         -damping_[j] * joint_rate(m, j) - joint.spring * (joint_angle(m, j) - joint.spring_angle);
+    out.passive_torque[j] += stop_[j].torque(joint_angle(m, j), joint_rate(m, j));
     torque[j] = out.passive_torque[j];
   }
   for (int i = 0; i < cords_.count(); ++i)
@@ -130,7 +132,7 @@ auto BodyMechanism::prepare(const Pose& body, const Motion& m, const Arms& arms,
             std::abs(arms[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)]) * mesh[i];
   bound[Rubs::trolley] = trolley_bound;
   bound[Rubs::lift] = constants_.held[up] ? 0.0 : robot_.cylinder.friction;
-  for (std::size_t i = 0; i < most_discs; ++i)
+  for (std::size_t i = 0; i < static_cast<std::size_t>(rubs_.discs()); ++i)
     bound[Rubs::first_disc + i] = rubs_.friction(i) * load.normal[i];
   rubs_.prepare(body, m, free, bound, load.normal);
   return free;
@@ -182,7 +184,7 @@ void BodyMechanism::tell(const Motion& m, const Acceleration& a, const Forces& h
   }
   for (std::size_t f = 0; f < rubs_.feet(); ++f) {
     const Rubs::Path& path = rubs_.leg(f);
-    for (std::size_t k = 0; k < path.count; ++k) {
+    for (std::size_t k = path.first; k < path.count; ++k) {
       out.foot[f].x += path.reach[k] * body.cos(path.link[k]);
       out.foot[f].y += path.reach[k] * body.sin(path.link[k]);
     }

@@ -1,4 +1,4 @@
-// plant/planar/body_mechanism.h - any planar machine: chains and trees of up to four joints, driven
+// plant/planar/body_mechanism.h - any planar machine: chains and trees of up to eight joints, driven
 // or passive, a body that a cylinder lifts, cams of any shape, muscles across two joints, feet of
 // several discs.
 //
@@ -16,6 +16,7 @@
 #include "sinew/plant/planar/cords.h"
 #include "sinew/plant/planar/rubs.h"
 #include "sinew/plant/planar/setup.h"
+#include "sinew/plant/planar/stops.h"
 
 namespace sinew::plant {
 
@@ -128,6 +129,7 @@ class BodyMechanism {
   Rubs rubs_;
   Motion start_{};
   std::array<double, most_links> damping_{}, dry_{};
+  std::array<JointStop, most_links> stop_{};
 };
 
 }  // namespace sinew::plant

@@ -19,6 +19,7 @@
 #include "sinew/plant/planar/layout.h"
 #include "sinew/plant/planar/rollers.h"
 #include "sinew/plant/planar/setup.h"
+#include "sinew/plant/planar/stops.h"
 
 namespace sinew::plant {
 
@@ -50,6 +51,7 @@ class ChainMechanism {
       rest_[j] = joint.rest_angle;
       damping_[j] = joint.damping + joint.damper;
       spring_[j] = joint.spring;
+      stop_[j] = JointStop(joint.stop);
       spring_angle_[j] = joint.spring_angle;
       dry_[j] = setup.start.blocked[k] ? blocked_bound : joint.dry_friction;
       absolute += setup.start.joint_angle[k];
@@ -82,8 +84,9 @@ class ChainMechanism {
 
   // The body step, or a whole part of it that suits the fastest rate of the machine at its start.
   double stable_step(double step) const {
-    return plant::stable_step(step,
-                              contacts_.stiffest_rate(Pose(chain_, start_), damping_, spring_));
+    std::array<double, N> damping = damping_, spring = spring_;
+    for (int j = 0; j < N; ++j) damping[j] += stop_[j].damping, spring[j] += stop_[j].stiffness;
+    return plant::stable_step(step, contacts_.stiffest_rate(Pose(chain_, start_), damping, spring));
   }
 
   void set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
@@ -122,6 +125,7 @@ class ChainMechanism {
       const auto k = static_cast<std::size_t>(j);
       torque[j] -= damping_[j] * joint_rate(pose, k);
       torque[j] -= spring_[j] * (joint_angle(pose, k) - spring_angle_[j]);
+      torque[j] += stop_[j].torque(joint_angle(pose, k), joint_rate(pose, k));
     }
 
     out.force.x = 0;
@@ -261,7 +265,8 @@ class ChainMechanism {
     for (int i = 0; i < N; ++i)
       h.add(chain_.first_moment[i], chain.sin(i), chain.cos(i), pose.rate[i], a.angle[i]);
     h.torque = out.torque[0] - damping_[0] * pose.rate[0] -
-               spring_[0] * (pose.angle[0] - spring_angle_[0]) + held[0];
+               spring_[0] * (pose.angle[0] - spring_angle_[0]) +
+               stop_[0].torque(pose.angle[0], pose.rate[0]) + held[0];
     const RollerLoads loads = roller_loads(robot_, h);
     out.roller_front = loads.front;
     out.roller_rear = loads.rear;
@@ -273,6 +278,7 @@ class ChainMechanism {
   robot::Robot robot_;
   Motion start_{};
   std::array<double, N> rest_{}, damping_{}, spring_{}, spring_angle_{}, dry_{};
+  std::array<JointStop, N> stop_{};
 };
 
 }  // namespace sinew::plant

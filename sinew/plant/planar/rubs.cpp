@@ -6,10 +6,10 @@
 namespace sinew::plant {
 namespace {
 
-// What a machine has not is zero in both.
-double dot(const Coordinates& a, const Coordinates& b) {
+// Over the coordinates that the machine has.
+double dot(const BodyConstants& k, const Coordinates& a, const Coordinates& b) {
   double sum = 0;
-  for (std::size_t i = 0; i < most_coordinates; ++i) sum += a[i] * b[i];
+  for (std::size_t i = 0; i < k.coordinates(); ++i) sum += a[i] * b[i];
   return sum;
 }
 
@@ -37,6 +37,8 @@ void Rubs::add_foot(const robot::Robot& robot, std::size_t leg) {
     if (!k_.hangs_on_link(link)) break;
   }
   path.start = reach;
+  const std::vector<robot::LegParts> legs = robot::legs_of(robot);
+  path.first = path.count - std::min(path.count, legs[leg].joints.size());
   const auto n = static_cast<std::ptrdiff_t>(path.count);
   std::reverse(path.link.begin(), path.link.begin() + n);
   std::reverse(path.reach.begin(), path.reach.begin() + n);
@@ -55,12 +57,13 @@ double Rubs::stiffest_rate(const Body& body, const Motion& motion,
                            const robot::Robot& robot) const {
   double fastest = 0;
   const auto consider = [&](const Coordinates& row, double damping, double stiffness) {
-    const double w = dot(row, body.response(row));
+    const double w = dot(k_, row, body.response(row));
     fastest = std::max({fastest, damping * w, std::sqrt(stiffness * w)});
   };
   for (std::size_t j = 0; j < k_.links; ++j) {
     const robot::Joint& joint = robot.joints[j];
-    consider(row(static_cast<int>(j), {}), joint.damping + joint.damper, joint.spring);
+    consider(row(static_cast<int>(j), {}), joint.damping + joint.damper + joint.stop.damping,
+             joint.spring + joint.stop.stiffness);
   }
   for (int i = 0; i < disc_count_ && ground_.present; ++i)
     consider(disc(body, motion, i).rise, ground_.normal_damping, ground_.normal_stiffness);
@@ -97,7 +100,7 @@ double Rubs::push(const DiscAt& disc, int i, const Motion& motion) const {
   const Disc& d = disc_[static_cast<std::size_t>(i)];
   const double depth = d.surface + d.radius - disc.y;
   if (depth <= 0) return 0;
-  const double rate = dot(disc.rise, motion.rate);
+  const double rate = dot(k_, disc.rise, motion.rate);
   const double force = ground_.normal_stiffness * depth - ground_.normal_damping * rate;
   return force > 0 ? force : 0.0;
 }
@@ -124,7 +127,7 @@ Coordinates Rubs::generalised(const Body& body, const Motion& motion, const Forc
     const double force = f[static_cast<std::size_t>(c)];
     if (force == 0) continue;
     const Coordinates j = row(c, discs);
-    for (std::size_t i = 0; i < most_coordinates; ++i) sum[i] += j[i] * force;
+    for (std::size_t i = 0; i < k_.coordinates(); ++i) sum[i] += j[i] * force;
   }
   return sum;
 }
@@ -144,37 +147,37 @@ void Rubs::prepare(const Body& body, const Motion& motion, const Coordinates& ac
     active_[k] = c;
     rows[k] = row(c, discs);
     problem_.bound[k] = bound[static_cast<std::size_t>(c)];
-    problem_.slip[k] = dot(rows[k], motion.rate);
-    slip_rate_[k] = dot(rows[k], acceleration);
+    problem_.slip[k] = dot(k_, rows[k], motion.rate);
+    slip_rate_[k] = dot(k_, rows[k], acceleration);
     if (c >= first_disc) slip_rate_[k] += discs[static_cast<std::size_t>(c - first_disc)].slip_bias;
     column_[k] = body.response(rows[k]);
   }
   const auto n = static_cast<std::size_t>(active_count_);
   for (std::size_t c = 0; c < n; ++c)
-    for (std::size_t d = 0; d < n; ++d) problem_.response[d][c] = dot(rows[d], column_[c]);
+    for (std::size_t d = 0; d < n; ++d) problem_.response[d][c] = dot(k_, rows[d], column_[c]);
 
-  for (std::size_t i = 0; i < most_discs; ++i) {
+  for (std::size_t i = 0; i < discs_there(); ++i) {
     if (normal[i] <= 0) continue;
     const DiscAt& at = discs[i];
     const Coordinates column = body.response(at.rise);
-    rise_[i] = dot(at.rise, motion.rate);
-    rise_rate_[i] = dot(at.rise, acceleration) + at.rise_bias;
-    for (std::size_t k = 0; k < most_discs; ++k)
-      response_[k][i] = normal[k] > 0 ? dot(discs[k].rise, column) : 0.0;
-    for (std::size_t c = 0; c < n; ++c) along_[i][c] = dot(at.rise, column_[c]);
+    rise_[i] = dot(k_, at.rise, motion.rate);
+    rise_rate_[i] = dot(k_, at.rise, acceleration) + at.rise_bias;
+    for (std::size_t k = 0; k < discs_there(); ++k)
+      response_[k][i] = normal[k] > 0 ? dot(k_, discs[k].rise, column) : 0.0;
+    for (std::size_t c = 0; c < n; ++c) along_[i][c] = dot(k_, at.rise, column_[c]);
   }
 }
 
 // Gaussian elimination of the discs that touch; the matrix is a unit matrix plus a positive one.
 Rubs::Normals Rubs::solve(Matrix m, Normals b) const {
-  for (std::size_t i = 0; i < most_discs; ++i)
-    for (std::size_t k = i + 1; k < most_discs; ++k) {
+  for (std::size_t i = 0; i < discs_there(); ++i)
+    for (std::size_t k = i + 1; k < discs_there(); ++k) {
       const double share = m[k][i] / m[i][i];
-      for (std::size_t j = i; j < most_discs; ++j) m[k][j] -= share * m[i][j];
+      for (std::size_t j = i; j < discs_there(); ++j) m[k][j] -= share * m[i][j];
       b[k] -= share * b[i];
     }
-  for (std::size_t i = most_discs; i-- > 0;) {
-    for (std::size_t j = i + 1; j < most_discs; ++j) b[i] -= m[i][j] * b[j];
+  for (std::size_t i = discs_there(); i-- > 0;) {
+    for (std::size_t j = i + 1; j < discs_there(); ++j) b[i] -= m[i][j] * b[j];
     b[i] /= m[i][i];
   }
   return b;
@@ -187,17 +190,17 @@ void Rubs::soften(double h, FrictionProblem<count>& p) const {
   const double beta = h * (h / 6.0 * k + 0.5 * ground_.normal_damping);
   Matrix m{};
   Normals change{};
-  for (std::size_t i = 0; i < most_discs; ++i) {
+  for (std::size_t i = 0; i < discs_there(); ++i) {
     m[i][i] = 1.0;
     if (normal_[i] <= 0) continue;
-    for (std::size_t j = 0; j < most_discs; ++j)
+    for (std::size_t j = 0; j < discs_there(); ++j)
       if (normal_[j] > 0) m[i][j] += beta * response_[i][j];
     change[i] = -(0.5 * h * k * rise_[i] + beta * rise_rate_[i]);
   }
   change = solve(m, change);
 
   std::array<bool, most_discs> bears{};
-  for (std::size_t i = 0; i < most_discs; ++i) {
+  for (std::size_t i = 0; i < discs_there(); ++i) {
     const double mean = normal_[i] + change[i];
     bears[i] = normal_[i] > 0 && mean > 0;
     for (std::size_t c = 0; c < n; ++c)
@@ -206,9 +209,9 @@ void Rubs::soften(double h, FrictionProblem<count>& p) const {
   }
   for (std::size_t c = 0; c < n; ++c) {
     Normals give{};  // change of the normal forces per friction force c, divided by -beta
-    for (std::size_t i = 0; i < most_discs; ++i) give[i] = bears[i] ? along_[i][c] : 0.0;
+    for (std::size_t i = 0; i < discs_there(); ++i) give[i] = bears[i] ? along_[i][c] : 0.0;
     give = solve(m, give);
-    for (std::size_t i = 0; i < most_discs; ++i) {
+    for (std::size_t i = 0; i < discs_there(); ++i) {
       if (!bears[i]) continue;
       p.slip[c] += h * along_[i][c] * change[i];
       for (std::size_t d = 0; d < n; ++d) p.response[d][c] -= h * beta * along_[i][d] * give[i];
@@ -238,7 +241,7 @@ Rubs::Forces Rubs::hold(double h, const Forces& last) const {
 Coordinates Rubs::accelerations(Coordinates without, const Forces& f) const {
   for (std::size_t c = 0; c < static_cast<std::size_t>(active_count_); ++c) {
     const double force = f[static_cast<std::size_t>(active_[c])];
-    for (std::size_t i = 0; i < most_coordinates; ++i) without[i] += column_[c][i] * force;
+    for (std::size_t i = 0; i < k_.coordinates(); ++i) without[i] += column_[c][i] * force;
   }
   return without;
 }

@@ -44,9 +44,10 @@ class Rubs {
   // last one its end  [m].
   struct Path {
     std::size_t count = 0;
+    std::size_t first = 0;  // in it: the leg's first link
     std::array<std::size_t, most_links> link{};
     std::array<double, most_links> reach{};
-    double start = 0;  // of the first joint, ahead of the body's origin [m]
+    double start = 0;  // of the first link, ahead of the body's origin [m]
   };
 
   Rubs(const BodyConstants& body, const robot::Robot& robot);
@@ -96,6 +97,7 @@ class Rubs {
     double surface = 0;                        // of the ground [m]
   };
   void add_foot(const robot::Robot& robot, std::size_t leg);
+  std::size_t discs_there() const { return static_cast<std::size_t>(disc_count_); }
 
   BodyConstants k_;
   robot::Ground ground_;

@@ -16,7 +16,7 @@
 
 namespace sinew::plant {
 
-inline constexpr int most_joints = 4;
+inline constexpr int most_joints = robot::max_joints;
 
 // Where the machine starts, and what holds it.
 struct Start {

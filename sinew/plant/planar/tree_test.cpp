@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <span>
 
 #include "sinew/plant/planar/machine.h"
 #include "sinew/plant/planar/test_setups.h"
@@ -231,6 +232,141 @@ TEST(Trees, MirroredLegsKeepTheTrolleyAtRest) {
     moved = std::max(moved, std::abs(now.foot[0].x - start));
   }
   EXPECT_GT(moved, 0.1);
+}
+
+// A body that is free in the plane: a trolley without drag, a slide without air, and a trunk that
+// pitches at a passive joint, with both legs on it.
+plant::Setup free_in_the_plane(double apart) {
+  plant::Setup s = twice(leg_without_muscles(4.4, 0.5));
+  robot::Link trunk = s.robot.links[0];
+  trunk.name = "trunk";
+  trunk.parent = robot::body_name;
+  trunk.length = apart;
+  trunk.center_of_mass = 0.5 * apart;
+  s.robot.links.insert(s.robot.links.begin(), trunk);
+  robot::Joint pitch;
+  pitch.name = "trunk";
+  pitch.kind = robot::Joint::Kind::passive;
+  s.robot.joints.insert(s.robot.joints.begin(), pitch);
+  s.start.joint_angle.insert(s.start.joint_angle.begin(), 0.1);
+  s.start.blocked.insert(s.start.blocked.begin(), false);
+  s.robot.links[1].parent = s.robot.links[3].parent = "trunk";
+  s.robot.links[1].at = 0;
+  s.robot.links[3].at = apart;
+  s.robot.cylinder = {.present = true, .mode = robot::Cylinder::Mode::free, .stroke = 1};
+  s.robot.trolley.total_mass = robot::leg_mass(s.robot);
+  return s;
+}
+
+// Thrown, its centre of mass flies a parabola, its energy stays, and without gravity so does its
+// angular momentum.
+TEST(Trees, FreeBodyFliesAParabola) {
+  const plant::Setup s = free_in_the_plane(0.3);
+  BodyWorld world(s);
+  world.set_rates({2, -3, 4, 1, -2}, 0.7, 3);
+  const BodyConstants& k = world.constants();
+  const double mass = k.sliding_mass, before = energy(k, world.motion());
+  const std::array<double, 2> thrown = momentum(k, world.motion());
+  world.advance(0.5);
+  const std::array<double, 2> now = momentum(k, world.motion());
+  EXPECT_NEAR(now[0], thrown[0], 1e-7 * mass);
+  EXPECT_NEAR(now[1], thrown[1] - mass * k.gravity * world.time(), 1e-7 * mass);
+  EXPECT_NEAR(energy(k, world.motion()), before, 1e-6 * std::abs(before));
+  EXPECT_GT(std::abs(world.truth(0.5).angle[0] - 0.1), 0.1);
+}
+
+TEST(Trees, FreeBodyKeepsItsAngularMomentum) {
+  plant::Setup s = free_in_the_plane(0.3);
+  s.robot.gravity = 0;
+  BodyWorld world(s);
+  world.set_rates({2, -3, 4, 1, -2}, 0, 0);
+  // About the origin, of the masses where the kinematics put them, a hair before and after.
+  const auto angular = [&](double t) {
+    constexpr double h = 1e-3;
+    const auto at = [&](double when) {
+      const Truth truth = world.truth(when);
+      auto places = robot::places(s.robot, std::span(truth.angle).first(5));
+      for (robot::LinkPlace& p : places) p.joint.x += truth.x, p.joint.y += truth.lift;
+      return places;
+    };
+    const auto a = at(t), b = at(t + h);
+    double sum = 0;
+    const auto add = [&](double mass, const robot::LinkPlace& p, const robot::LinkPlace& q,
+                         double along) {
+      const double x = p.joint.x + along * std::cos(p.heading),
+                   y = p.joint.y + along * std::sin(p.heading),
+                   u = q.joint.x + along * std::cos(q.heading),
+                   v = q.joint.y + along * std::sin(q.heading);
+      sum += mass * (0.5 * (x + u) * (v - y) - 0.5 * (y + v) * (u - x)) / h;
+    };
+    for (std::size_t i = 0; i < s.robot.links.size(); ++i) {
+      const robot::Link& link = s.robot.links[i];
+      add(link.mass, a[i], b[i], link.center_of_mass);
+      if (i == 2 || i == 4) add(s.robot.foot.mass, a[i], b[i], link.length);
+      sum += link.inertia * (b[i].heading - a[i].heading) / h;
+    }
+    return sum;
+  };
+  const double start = angular(0);
+  EXPECT_GT(std::abs(start), 1e-3);
+  for (const double t : {0.2, 0.5, 0.9})
+    EXPECT_NEAR(angular(t), start, 1e-4 * std::abs(start)) << t;
+}
+
+// Without losses a stop gives back what it took; with its damper the joint comes to rest within.
+TEST(Stops, HoldAJointWithinItsRange) {
+  for (const bool chain : {true, false}) {
+    plant::Setup s = leg_without_muscles(4.9, 5.6);
+    s.robot.trolley.present = false;
+    s.robot.joints[0].stop = {.range = {4.0, 5.2}, .stiffness = 2000, .damping = 0};
+    s.robot.joints[1].stop = {.range = {5.0, 6.0}, .stiffness = 2000, .damping = 0};
+    const auto run = [&](auto& world, double seconds) {
+      world.set_rates({6, -4}, 0);
+      double beyond = 0;
+      for (int i = 1; i <= 1000 * seconds; ++i) {
+        const Truth now = world.truth(1e-3 * i);
+        for (std::size_t j = 0; j < 2; ++j) {
+          const auto& range = s.robot.joints[j].stop.range;
+          beyond = std::max({beyond, now.angle[j] - range[1], range[0] - now.angle[j]});
+        }
+      }
+      return beyond;
+    };
+    const auto made = [&](const plant::Setup& setup, double seconds) {
+      if (chain) {
+        ChainWorld<2> world(setup);
+        return run(world, seconds);
+      }
+      BodyWorld world(setup);
+      return run(world, seconds);
+    };
+    const double elastic = made(s, 2);
+    EXPECT_GT(elastic, 0.005) << chain;  // it strikes
+    EXPECT_LT(elastic, 0.1) << chain;
+    for (robot::Joint& j : s.robot.joints) j.stop.damping = 5;
+    EXPECT_LT(made(s, 2), elastic) << chain;
+  }
+}
+
+TEST(Stops, AnElasticStopKeepsEnergy) {
+  plant::Setup s = leg_without_muscles(4.9, 5.6);
+  s.robot.joints[0].stop = {.range = {4.4, 5.1}, .stiffness = 500, .damping = 0};
+  s.steps.body = 1e-4;
+  BodyWorld world(s);
+  world.set_rates({5, 0}, 0);
+  const double before = energy(world.constants(), world.motion());
+  bool struck = false;
+  double apart = 0;
+  for (int i = 1; i <= 300; ++i) {
+    const Truth now = world.truth(0.01 * i);
+    const double over = std::max({0.0, now.angle[0] - 5.1, 4.4 - now.angle[0]});
+    struck = struck || over > 0.01;
+    world.advance(0.01 * i);
+    const double held = energy(world.constants(), world.motion());
+    if (over == 0) apart = std::max(apart, std::abs(held - before));
+  }
+  EXPECT_TRUE(struck);
+  EXPECT_LT(apart, 1e-4 * swinging_energy(world.constants()));
 }
 
 // Standing still, legs that hang ahead of the origin load the front roller by their lever.

@@ -1,0 +1,41 @@
+// actuator/operating_point.h - all laws of an actuator at one length and one pressure.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "sinew/actuator/actuator.h"
+
+namespace sinew::actuator {
+
+// What is around the actuator's air.
+struct Surroundings {
+  double atmosphere = 0;           // that gauges read against [Pa]
+  double polytropic_exponent = 0;  // of the air when valves are shut
+  double external_volume = 0;      // of hose and fittings up to the valves [m3]
+};
+
+struct OperatingPoint {
+  static constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
+
+  double length = 0, gauge_pressure = 0;  // [m], [Pa]
+  double tension = 0;                     // at rest, without losses [N]
+  double effectiveness = 0;
+  double coulomb_bound = 0;                            // of the dry friction [N]
+  double velocity = not_asked;                         // of the length [m/s]
+  double sliding_tension = not_asked;                  // with its losses, [33] [N]
+  double viscous_loss = not_asked;                     // of it [N]
+  double stiffness_at_constant_pressure = 0;           // [26] [N/m]
+  double stiffness_sealed = 0, passive_stiffness = 0;  // valves shut, and without air [N/m]
+  double volume = 0, diameter = 0, braid_angle = 0;    // [m3], [m], [rad]; NaN: there is none
+  std::vector<std::string> beyond;                     // where the model ends, in words
+};
+
+// Evaluates the laws at `length` [m] and `gauge` pressure [Pa], and at `velocity` [m/s] where it is
+// asked for.
+OperatingPoint operating_point(const Actuator& a, double length, double gauge,
+                               const Surroundings& around,
+                               double velocity = OperatingPoint::not_asked);
+
+}  // namespace sinew::actuator

@@ -1,0 +1,68 @@
+// Shares and times of creep come back from a hold; a pressure that still rises is told.
+#include "sinew/identify/actuator/creep.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "sinew/actuator/creep.h"
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+namespace {
+
+// Integrated by small steps of actuator::creep_rate, not by what the fit uses.
+Measured hold(double share, double tau, double rising, double noise, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal(0, noise);
+  Measured m{.file = "hold.csv",
+             .columns = {{"time", "s", {}}, {"force", "N", {}}, {"pressure", "Pa gauge", {}}}};
+  double z = 0;
+  constexpr double dt = 1e-3;
+  for (int i = 0; i <= 60000; ++i) {
+    const double t = i * dt;
+    const double p = 4e5 * (1 - std::exp(-t / 0.3)) * (1 + rising * t / 60);
+    if (i % 500 == 0) {
+      m.columns[0].values.push_back(t);
+      m.columns[1].values.push_back(
+          5e-4 * (std::max(p - 5e4, 0.0) + share * std::max(z - 5e4, 0.0)) + normal(random));
+      m.columns[2].values.push_back(p);
+      m.lines.push_back(i);
+    }
+    z += dt * actuator::creep_rate(tau, p, z);
+  }
+  return m;
+}
+
+TEST(Creep, share_and_time_come_back) {
+  for (const double tau : {2.0, 8.0}) {
+    const CreepResult found = identify_creep(hold(0.08, tau, 0, 0.2, 1));
+    EXPECT_EQ(found.report.best().model, "one");
+    const Estimate& share = found.report.best().parameters[2];
+    EXPECT_EQ(share.name, "share_1");
+    EXPECT_NEAR(share.value, 0.08, 1.5 * (share.high - share.value));
+    EXPECT_NEAR(share.value, 0.08, 0.01);
+    EXPECT_NEAR(found.creep.time[0] / tau, 1, 0.15);
+    EXPECT_TRUE(found.report.warnings.empty());
+  }
+}
+
+TEST(Creep, none_is_found_where_there_is_none) {
+  EXPECT_EQ(identify_creep(hold(0, 1, 0, 0.2, 2)).report.best().model, "none");
+}
+
+TEST(Creep, a_pressure_that_rises_on_is_told) {
+  const CreepResult found = identify_creep(hold(0.08, 8, 0.02, 0.2, 3));
+  ASSERT_EQ(found.report.warnings.size(), 1u);
+  EXPECT_NE(found.report.warnings[0].find("confounded"), std::string::npos);
+}
+
+TEST(Creep, a_few_rows_are_refused) {
+  Measured m = hold(0.1, 5, 0, 0.1, 4);
+  const std::vector<std::size_t> few{0, 1, 2, 3};
+  EXPECT_THROW(identify_creep(m.subset(few)), Refusal);
+}
+
+}  // namespace
+}  // namespace sinew::identify

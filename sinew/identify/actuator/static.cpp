@@ -1,0 +1,369 @@
+#include "sinew/identify/actuator/static.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "sinew/identify/actuator/static_groups.h"
+#include "sinew/identify/actuator/static_outliers.h"
+#include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+
+namespace {
+
+using Points = std::vector<StaticPoint>;
+
+constexpr int pressure_parts = 4;
+
+template <class Keep>
+StaticSplit split(const Points& points, Keep keep) {
+  StaticSplit out;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    (keep(i) ? out.fitted : out.held_out).push_back(points[i]);
+  return out;
+}
+
+StaticScales scales_of(const Points& points, const StaticOptions& options) {
+  StaticScales out{.atmosphere = options.atmosphere, .braid = options.braid};
+  for (const StaticPoint& p : points) {
+    out.rest_length = std::max(out.rest_length, p.rest_length);
+    out.full_scale = std::max(out.full_scale, p.force);
+    out.top_pressure = std::max(out.top_pressure, p.pressure);
+  }
+  return out;
+}
+
+// A muscle whose rest length nobody said: its longest length.
+void give_rest_length(Points& points, Report& report) {
+  double longest = 0;
+  bool none = false, some = false;
+  for (const StaticPoint& p : points) {
+    longest = std::max(longest, p.length);
+    (p.rest_length > 0 ? some : none) = true;
+  }
+  if (!none) return;
+  if (some)
+    throw Refusal("rest length", "points with and without one", "one for every file or row",
+                  "--rest-length, or a column rest_length");
+  for (StaticPoint& p : points) p.rest_length = longest;
+  report.notes.push_back(
+      fmt::format("no rest length given: the longest, {:.4g} mm, stands for it", 1e3 * longest));
+}
+
+// The fit of a model to some of the points, by its own way.
+class Tried {
+ public:
+  Tried(const StaticModel& model, const StaticScales& scales, const Points& points)
+      : model_(model), scales_(scales), knobs_(knobs_of(model, scales)) {
+    std::set<double> muscles;
+    bool fill = false, vent = false;
+    for (const StaticPoint& p : points) {
+      muscles.insert(p.rest_length);
+      fill |= p.branch == Branch::fill;
+      vent |= p.branch == Branch::vent;
+    }
+    if (muscles.size() > 1) knobs_.push_back(Knob::end_loss);
+    if (fill && vent) knobs_.push_back(Knob::half_width);
+    if (count_of(length_groups(points)) > 1) return;
+    if (!scales.braid)
+      throw Refusal("lengths", "one length only", "several lengths, or a braid that is known",
+                    "measure at other lengths, or --actuator FILE with the braid's geometry");
+    for (const Knob knob : knobs_)
+      if (needs_lengths(knob)) throw Refusal("lengths", "one length only", "several for this", "");
+  }
+
+  bool by_ratio() const { return model_.name == "effectiveness-by-ratio"; }
+
+  StaticFit fit(const Points& points, const StaticFit* start = nullptr) const {
+    if (by_ratio()) return fit_by_ratio(points, scales_);
+    return fit_static(knobs_, points, scales_, start);
+  }
+
+  // What parts of the points make of each other.
+  std::vector<double> cross(const Points& points, const std::vector<int>& part, int parts,
+                            const StaticFit& whole) const {
+    std::vector<double> out;
+    for (int k = 0; k < parts; ++k) {
+      const StaticSplit s = split(points, [&](std::size_t i) { return part[i] != k; });
+      if (s.held_out.empty()) continue;
+      const StaticFit one = fit(s.fitted, &whole);
+      const std::vector<double> r = misses(one.setting, scales_of_fit(one), s.held_out);
+      out.insert(out.end(), r.begin(), r.end());
+    }
+    return out;
+  }
+
+  // 2.3 has found its own braid.
+  StaticScales scales_of_fit(const StaticFit& fit) const {
+    StaticScales out = scales_;
+    if (by_ratio()) out.braid = fit.setting.actuator.braid;
+    return out;
+  }
+
+ private:
+  const StaticModel& model_;
+  const StaticScales& scales_;
+  std::vector<Knob> knobs_;
+};
+
+double mean_square(std::span<const double> residuals) {
+  double sum = 0;
+  for (const double r : residuals) sum += r * r;
+  return residuals.empty() ? 0 : sum / static_cast<double>(residuals.size());
+}
+
+// Pressures in four parts, lengths each on its own; both kinds count alike.
+Score cross_validate(const Tried& model, const Points& points, const StaticFit& whole,
+                     double full_scale, std::vector<std::string>& notes) {
+  std::vector<int> part = pressure_groups(points);
+  const int pressures = count_of(part);
+  for (int& p : part) p %= pressure_parts;
+  std::vector<double> all = model.cross(points, part, pressure_parts, whole);
+  double square = mean_square(all);
+  notes.push_back(fmt::format("pressures that it did not see, {} groups in {} parts: {:.2f} % rmse",
+                              pressures, pressure_parts, 100 * std::sqrt(square) / full_scale));
+
+  const std::vector<int> length = length_groups(points);
+  const int lengths = count_of(length);
+  if (lengths >= 3) {
+    std::vector<double> left_out;
+    std::string each;
+    for (int k = 0; k < lengths; ++k) {
+      std::vector<int> mine(points.size(), 1);
+      double at = 0;
+      for (std::size_t i = 0; i < points.size(); ++i)
+        if (length[i] == k) {
+          mine[i] = 0;
+          at = points[i].length;
+        }
+      const std::vector<double> r = model.cross(points, mine, 1, whole);
+      const Score s = score(r, full_scale);
+      each += fmt::format("{}{:.4g} mm {:.2f}/{:.2f}", k ? ", " : "", 1e3 * at, s.rmse_percent,
+                          s.max_percent);
+      left_out.insert(left_out.end(), r.begin(), r.end());
+    }
+    notes.push_back("lengths that it did not see, rmse/max %: " + each);
+    square = 0.5 * (square + mean_square(left_out));
+    all.insert(all.end(), left_out.begin(), left_out.end());
+  }
+  Score out = score(all, full_scale);
+  out.rmse = std::sqrt(square);
+  out.rmse_percent = 100 * out.rmse / full_scale;
+  return out;
+}
+
+// A law that is used elsewhere must grow with the pressure.
+void refuse_falling(const StaticFit& fit, const StaticScales& scales) {
+  double before = -1;
+  for (int i = 0; i <= 100; ++i) {
+    const actuator::Effectiveness& e = fit.setting.actuator.effectiveness;
+    const double p = scales.top_pressure * i / 100;
+    const double acting = std::max(0.0, p - e.threshold) * (e.c0 + p * (e.c1 + p * e.c2));
+    if (acting < before)
+      throw Refusal("effectiveness", "a tension that falls as pressure rises",
+                    "one that grows with it", "");
+    before = acting;
+  }
+}
+
+void describe(const StaticFit& fit, Fit& out) {
+  out.parameters = fit.solution.estimates;
+  for (const Knob knob : fit.unknown)
+    for (std::size_t i = 0; i < fit.knobs.size(); ++i)
+      if (fit.knobs[i] == knob)
+        out.notes.push_back(fmt::format("{} leans on other muscles: these data say little about it",
+                                        out.parameters[i].name));
+  for (const std::string& unseen : fit.solution.unseen)
+    out.notes.push_back("not determined: " + unseen);
+  if (fit.outliers > 0)
+    out.notes.push_back(
+        fmt::format("{} of {} points are beyond 4 times the scatter of {:.3g} N "
+                    "and count less",
+                    fit.outliers, fit.solution.residuals.size(), fit.scatter));
+}
+
+// Held out by the points themselves, or every second pressure, or each length once.
+std::optional<Score> held_out(const Tried& model, const StaticFit& fit, const StaticSplit& s,
+                              HoldOut which, double full_scale) {
+  if (which == HoldOut::length) {
+    const std::vector<int> group = length_groups(s.fitted);
+    return score(model.cross(s.fitted, group, count_of(group), fit), full_scale);
+  }
+  if (s.held_out.empty()) return std::nullopt;
+  return score(misses(fit.setting, model.scales_of_fit(fit), s.held_out), full_scale);
+}
+
+struct Best {
+  std::optional<StaticFit> fit;
+  StaticScales scales;
+};
+
+Fit try_model(const StaticModel& model, const StaticSplit& s, const StaticScales& scales,
+              HoldOut hold_out, double full_scale, Best& found) {
+  Fit out{.model = std::string(model.name),
+          .law = std::string(model.law),
+          .source = std::string(model.source)};
+  try {
+    if (model.name == "effectiveness" && !scales.braid)
+      throw Refusal("braid", "no geometry", "a braid that is known: here turns stand for it", "");
+    const Tried tried(model, scales, s.fitted);
+    const StaticFit fit = tried.fit(s.fitted);
+    refuse_falling(fit, scales);
+    describe(fit, out);
+    const StaticScales own = tried.scales_of_fit(fit);
+    out.residuals = misses(fit.setting, own, s.fitted);
+    out.fit = score(out.residuals, full_scale);
+    const std::vector<double> unseen = misses(fit.setting, own, s.held_out);
+    out.residuals.insert(out.residuals.end(), unseen.begin(), unseen.end());
+    out.held_out = held_out(tried, fit, s, hold_out, full_scale);
+    out.cross_validated = cross_validate(tried, s.fitted, fit, full_scale, out.notes);
+    found = {fit, own};
+  } catch (const Refusal& refusal) {
+    out.refused = refusal.what();
+  }
+  return out;
+}
+
+StaticSplit split_by(const Points& points, HoldOut hold_out, Report& report) {
+  StaticSplit s = split(points, [&](std::size_t i) { return points[i].fitted; });
+  if (!s.held_out.empty()) report.held_out_is = "rows that were not to be fitted";
+  if (hold_out == HoldOut::length) {
+    report.held_out_is = "each length once, all others fitted";
+    if (count_of(length_groups(s.fitted)) < 3)
+      throw Refusal("--hold-out length", "fewer than three lengths", "at least three", "");
+  }
+  if (hold_out == HoldOut::pressure) {
+    const std::vector<int> group = pressure_groups(s.fitted);
+    if (count_of(group) < 4)
+      throw Refusal("--hold-out pressure", "fewer than four pressures", "at least four", "");
+    const Points before = s.fitted;
+    StaticSplit more = split(before, [&](std::size_t i) { return group[i] % 2 == 0; });
+    s.fitted = more.fitted;
+    s.held_out.insert(s.held_out.end(), more.held_out.begin(), more.held_out.end());
+    report.held_out_is = "every second pressure";
+  }
+  return s;
+}
+
+// Points that no law explains have no say in which is chosen.
+void drop_gross_outliers(Points& points, const StaticOptions& options, Report& report) {
+  const std::vector<std::size_t> wild = gross_outliers(points, scales_of(points, options));
+  if (wild.empty()) return;
+  std::string list;
+  for (std::size_t k = 0; k < std::min<std::size_t>(wild.size(), 5); ++k) {
+    const StaticPoint& p = points[wild[k]];
+    list += fmt::format("{}{:.4g} N at {:.4g} mm, {:.4g} kPa", k ? "; " : "", p.force,
+                        1e3 * p.length, 1e-3 * p.pressure);
+  }
+  report.warnings.push_back(
+      fmt::format("{} of {} points left out, far from the law that the others lie on: {}{}",
+                  wild.size(), points.size(), list, wild.size() > 5 ? "; …" : ""));
+  for (auto i = wild.rbegin(); i != wild.rend(); ++i)
+    points.erase(points.begin() + static_cast<std::ptrdiff_t>(*i));
+}
+
+std::vector<StaticMuscle> muscles_of(const StaticFit& fit, const StaticScales& scales,
+                                     const Points& points) {
+  std::vector<StaticMuscle> out;
+  for (const StaticPoint& p : points) {
+    if (out.empty() || out.back().rest_length != p.rest_length) {
+      out.push_back({.rest_length = p.rest_length,
+                     .shortest = p.length,
+                     .longest = p.length,
+                     .lowest = p.pressure,
+                     .highest = p.pressure});
+      out.back().actuator = scaled(fit.setting, scales, p.rest_length);
+    }
+    StaticMuscle& m = out.back();
+    m.shortest = std::min(m.shortest, p.length);
+    m.longest = std::max(m.longest, p.length);
+    m.lowest = std::min(m.lowest, p.pressure);
+    m.highest = std::max(m.highest, p.pressure);
+  }
+  std::reverse(out.begin(), out.end());
+  return out;
+}
+
+// What the chosen one makes of the points it was not for: the other branch.
+void note_muscles(const StaticFit& fit, const StaticScales& scales, const Points& points,
+                  Report& report) {
+  std::set<double> muscles;
+  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+  if (muscles.size() < 2) return;
+  for (const double m : muscles) {
+    Points own;
+    double full = 0;
+    for (const StaticPoint& p : points)
+      if (p.rest_length == m) {
+        own.push_back(p);
+        full = std::max(full, p.force);
+      }
+    const Score s = score(misses(fit.setting, scales, own), full);
+    report.notes.push_back(fmt::format(
+        "one model for all: the muscle of {:.4g} mm {:.2f} % rmse, {:.2f} % at most, of its own "
+        "largest force",
+        1e3 * m, s.rmse_percent, s.max_percent));
+  }
+}
+
+void check_model(const std::string& name) {
+  if (name.empty()) return;
+  std::string all;
+  for (const StaticModel& m : static_models()) {
+    if (m.name == name) return;
+    all += (all.empty() ? "" : ", ") + std::string(m.name);
+  }
+  throw Refusal("--model", "\"" + name + "\"", "one of " + all, "");
+}
+
+}  // namespace
+
+StaticResult identify_static(const StaticData& data, const StaticOptions& options) {
+  check_model(options.model);
+  StaticResult out;
+  Report& report = out.report;
+  report.subject = options.subject;
+  report.quantity = "force";
+  report.unit = "N";
+  report.full_scale_is = "the largest force";
+  report.notes = data.notes;
+  report.warnings = data.warnings;
+
+  Points points = data.points;
+  give_rest_length(points, report);
+  sort_points(points);
+  StaticSplit s = split_by(points, options.hold_out, report);
+  drop_gross_outliers(s.fitted, options, report);
+  points = s.fitted;
+  points.insert(points.end(), s.held_out.begin(), s.held_out.end());
+  sort_points(points);
+  report.full_scale = scales_of(points, options).full_scale;
+  out.scales = scales_of(s.fitted, options);
+  if (!(out.scales.full_scale > 0))
+    throw Refusal("force", "no force above zero among what is to be fitted", "a muscle that pulls",
+                  "the sign of the force");
+
+  std::vector<Best> found;
+  for (const StaticModel& model : static_models()) {
+    if (!options.model.empty() && model.name != options.model) continue;
+    found.emplace_back();
+    report.fits.push_back(
+        try_model(model, s, out.scales, options.hold_out, report.full_scale, found.back()));
+  }
+  report.rows = rows_of(s);
+  choose(report);
+  if (options.model.empty())
+    refuse_unexplained(report, 15, "--map and --unit: columns may be swapped or in other units");
+  out.fit = *found[report.chosen].fit;
+  out.scales = found[report.chosen].scales;
+  out.muscles = muscles_of(out.fit, out.scales, s.fitted);
+  note_muscles(out.fit, out.scales, points, report);
+  return out;
+}
+
+}  // namespace sinew::identify

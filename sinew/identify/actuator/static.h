@@ -1,0 +1,53 @@
+// identify/actuator/static.h - the static law of an actuator from force, length and pressure: every
+// model is tried, the data choose.
+//
+// Choice: each model predicts parts of the data it was not fitted to - every pressure once in four
+// parts, every length once on its own - and the one with the fewest parameters within 10 % of the
+// smallest error (root mean square over both kinds, alike) is taken. What is held out by the user
+// (StaticPoint::fitted) has no part in it and tells how good the result is.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sinew/identify/actuator/static_data.h"
+#include "sinew/identify/actuator/static_fit.h"
+#include "sinew/identify/fit/fit.h"
+
+namespace sinew::identify {
+
+enum class HoldOut { none, pressure, length };
+
+struct StaticOptions {
+  std::string subject = "static law";
+  double atmosphere = units::atmosphere;  // [Pa]
+  std::optional<actuator::Braid> braid;   // known from elsewhere
+  std::string model;                      // this one alone; empty: all
+  HoldOut hold_out = HoldOut::none;       // beside what the points say
+};
+
+// One muscle's actuator, as a file would have it.
+struct StaticMuscle {
+  actuator::Actuator actuator;
+  double rest_length = 0;            // [m]
+  double shortest = 0, longest = 0;  // lengths that were fitted [m]
+  double lowest = 0, highest = 0;    // gauge pressures that were fitted [Pa]
+};
+
+struct StaticResult {
+  Report report;
+  std::vector<StaticMuscle> muscles;  // the reference, the longest, first
+  StaticScales scales;
+  StaticFit fit;  // the chosen one, to all points that were to be fitted
+};
+
+// Throws Refusal where the data support no model, std::invalid_argument for a model that there is
+// not.
+StaticResult identify_static(const StaticData& data, const StaticOptions& options);
+
+// The file of one muscle, sinew.actuator/1. `source` says where the data are from.
+std::string static_file(const StaticResult& result, std::size_t muscle, const std::string& name,
+                        const std::string& source, const std::string& braid_source);
+
+}  // namespace sinew::identify

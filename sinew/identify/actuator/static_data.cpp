@@ -1,0 +1,321 @@
+#include "sinew/identify/actuator/static_data.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "sinew/config/quantity.h"
+#include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+
+namespace {
+
+constexpr double turn = 0.1;       // of the range of pressures: less is no turn of a branch
+constexpr int bins = 25;           // over the range of pressures
+constexpr std::size_t fewest = 3;  // samples in a bin
+constexpr double largest_zero_force = 0.25;     // of the range of forces: more is no zero
+constexpr double largest_zero_pressure = 0.05;  // of the range of pressures
+
+constexpr std::pair<std::string_view, double> branch_words[] = {{"fill", 1.0}, {"vent", -1.0}};
+
+const Wanted columns[] = {
+    {.name = "force",
+     .unit = "N",
+     .least = 0.05,
+     .most = 2e4,
+     .optional = true,
+     .doc = "tension of the muscle"},
+    {.name = "load",
+     .unit = "kg",
+     .least = 0.005,
+     .most = 2e3,
+     .optional = true,
+     .doc = "mass that hangs on the muscle, instead of force"},
+    {.name = "pressure", .unit = "Pa gauge", .least = 1e4, .most = 5e6, .doc = "in the muscle"},
+    {.name = "length",
+     .unit = "m",
+     .least = 0.005,
+     .most = 5,
+     .optional = true,
+     .doc = "of the muscle"},
+    {.name = "rest_length",
+     .unit = "m",
+     .least = 0.005,
+     .most = 5,
+     .optional = true,
+     .doc = "of the muscle without pressure and load, where the file has several muscles"},
+    {.name = "branch", .unit = "1", .optional = true, .doc = "fill or vent", .words = branch_words},
+    {.name = "time", .unit = "s", .optional = true, .doc = "of a recording"},
+};
+
+std::vector<double> force_of(const Measured& m) {
+  if (m.has("force") == m.has("load"))
+    throw Refusal(m.file, m.has("force") ? "both force and load" : "neither force nor load",
+                  "one of them", m.has("force") ? "" : "--map force=NAME");
+  if (m.has("force")) return m["force"];
+  std::vector<double> out = m["load"];
+  for (double& x : out) x *= units::standard_gravity;
+  return out;
+}
+
+// Length of every row.
+std::vector<double> length_of(const Measured& m, const StaticInput& input) {
+  if (m.has("length")) return m["length"];
+  if (!(input.length > 0))
+    throw Refusal(m.file, "no length", "a column of lengths, or the one length of this file",
+                  "--map length=NAME, or " + input.length_from + " \"205 mm\"");
+  return std::vector<double>(m.rows(), input.length);
+}
+
+// A sensor at its upper end. At the lower one it may well stay: a slack muscle leaves it there.
+void refuse_full(const Measured& m, std::string_view column, const std::vector<double>& values,
+                 std::string_view unit) {
+  const Clipping c = clipping(values);
+  if (c.at_top == 0) return;
+  throw Refusal(fmt::format("{}: {}", m.file, column),
+                fmt::format("{} samples that stay at {}: the sensor or its converter is at its end",
+                            c.at_top, config::format_quantity(c.top, unit, unit, 5)),
+                "readings within its range", "a sensor of a larger range, or less pressure");
+}
+
+// Among rows of one length force rises with the pressure; columns that are swapped, or a sign, do
+// the opposite.
+void refuse_falling(const Measured& m, const std::vector<double>& force,
+                    const std::vector<double>& length) {
+  const std::vector<double>& p = m["pressure"];
+  const std::vector<int> group = groups_of(length, 0.005 * largest(length), 1e9);
+  double rise = 0;
+  for (int g = 0; g <= *std::max_element(group.begin(), group.end()); ++g) {
+    std::vector<double> ps, fs;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (group[i] != g) continue;
+      ps.push_back(p[i]);
+      fs.push_back(force[i]);
+    }
+    const double p0 = median(ps), f0 = median(fs);
+    for (std::size_t i = 0; i < ps.size(); ++i) rise += (ps[i] - p0) * (fs[i] - f0);
+  }
+  if (rise < 0)
+    throw Refusal(m.file, "force that falls while the pressure rises", "a muscle that pulls",
+                  "--map, if columns are swapped, or the sign of the force");
+}
+
+void check(const Measured& m, const std::vector<double>& force, const std::vector<double>& length) {
+  refuse_constant(m, "pressure", 0.02 * largest(m["pressure"]),
+                  "several pressures: a static law says how force grows with them",
+                  "fill the muscle step by step");
+  if (m.has("time")) refuse_full(m, "pressure", m["pressure"], "Pa gauge");
+  if (m.has("time")) refuse_full(m, "force", force, "N");
+
+  refuse_falling(m, force, length);
+}
+
+// Turning points of the pressure: rows at which a branch ends.
+std::vector<std::size_t> turns_of(const std::vector<double>& p, double least) {
+  std::vector<std::size_t> out{0};
+  std::size_t low = 0, high = 0;
+  int direction = 0;
+  for (std::size_t i = 1; i < p.size(); ++i) {
+    if (p[i] > p[high]) high = i;
+    if (p[i] < p[low]) low = i;
+    if (direction >= 0 && p[high] - p[i] > least) {
+      if (direction > 0 || high > 0) out.push_back(high);
+      direction = -1;
+      low = i;
+      high = i;
+    } else if (direction <= 0 && p[i] - p[low] > least) {
+      if (direction < 0) out.push_back(low);
+      direction = 1;
+      high = i;
+      low = i;
+    }
+  }
+  out.push_back(p.size());
+  return out;
+}
+
+// Noise of single samples would make turns: the median of what is around each.
+std::vector<double> smooth(const std::vector<double>& values) {
+  constexpr std::size_t half = 7;
+  std::vector<double> out(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t reach = std::min({half, i, values.size() - 1 - i});
+    out[i] = median(std::span(values).subspan(i - reach, 2 * reach + 1));
+  }
+  return out;
+}
+
+// What the sensors read before the pressure begins to rise.
+Zero vented_start(const std::vector<double>& p, const std::vector<double>& f, StaticData& data,
+                  const std::string& file) {
+  const double lowest = smallest(p), range = largest(p) - lowest;
+  std::size_t quiet = 0;
+  while (quiet < p.size() && std::abs(p[quiet] - p[0]) < 0.01 * range) ++quiet;
+  if (quiet < 10) {
+    data.warnings.push_back(file + ": no rest at its beginning; zeros are taken as they are");
+    return {};
+  }
+  Zero zero{.force = median(std::span(f).first(quiet)),
+            .pressure = median(std::span(p).first(quiet)),
+            .from = "the vented start"};
+  if (std::abs(zero.pressure) > largest_zero_pressure * range) {
+    data.warnings.push_back(
+        fmt::format("{}: begins at {:.3g} kPa, which is no zero; pressure is taken as it is", file,
+                    zero.pressure / 1e3));
+    return {};
+  }
+  if (std::abs(zero.force) > largest_zero_force * (largest(f) - smallest(f))) {
+    data.warnings.push_back(fmt::format(
+        "{}: begins with {:.3g} N, which is no zero; force is taken as it is", file, zero.force));
+    zero.force = 0;
+  }
+  return zero;
+}
+
+// One branch, rows from ... to: its bins.
+void add_branch(const std::vector<double>& p, const std::vector<double>& f, std::size_t from,
+                std::size_t to, double width, const StaticPoint& like, StaticData& data) {
+  std::vector<std::vector<double>> pressures, forces;
+  for (std::size_t i = from; i < to; ++i) {
+    const auto bin = static_cast<std::size_t>(std::max(0.0, std::floor(p[i] / width + 0.5)));
+    if (bin >= pressures.size()) pressures.resize(bin + 1), forces.resize(bin + 1);
+    pressures[bin].push_back(p[i]);
+    forces[bin].push_back(f[i]);
+  }
+  for (std::size_t bin = 0; bin < pressures.size(); ++bin) {
+    if (pressures[bin].size() < fewest) continue;
+    StaticPoint point = like;
+    point.pressure = median(pressures[bin]);
+    point.force = median(forces[bin]);
+    data.points.push_back(point);
+  }
+}
+
+Zero add_recording(const Measured& m, const StaticInput& input, StaticData& data) {
+  std::vector<double> p = m["pressure"], f = force_of(m);
+  const std::vector<double> lengths = length_of(m, input);
+  const double length = median(lengths);
+  if (largest(lengths) - smallest(lengths) > 0.01 * length)
+    throw Refusal(m.file, "a recording whose length changes", "one at one length",
+                  "a table of points at rest, without the time");
+  const Zero zero = vented_start(smooth(p), f, data, m.file);
+  for (double& x : p) x -= zero.pressure;
+  for (double& x : f) x -= zero.force;
+
+  const double range = largest(p) - smallest(p);
+  const std::vector<std::size_t> turns = turns_of(smooth(p), turn * range);
+  StaticPoint like{.length = length, .rest_length = input.rest_length, .fitted = input.fitted};
+  for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
+    const std::size_t last = std::min(turns[i + 1], p.size() - 1);
+    like.branch = p[last] > p[turns[i]] ? Branch::fill : Branch::vent;
+    add_branch(p, f, turns[i], turns[i + 1], range / bins, like, data);
+  }
+  data.notes.push_back(fmt::format("{}: {} branches; zeros {:.3g} N, {:.3g} kPa from {}", m.file,
+                                   turns.size() - 1, zero.force, zero.pressure / 1e3,
+                                   zero.from.empty() ? "nowhere" : zero.from));
+  return zero;
+}
+
+// Force where the muscle is slack: at one length, from the lowest pressure on, it stays. Median of
+// all such rows; 0 where there are too few.
+double slack_force(const std::vector<double>& length, const std::vector<double>& p,
+                   const std::vector<double>& f) {
+  const double range = largest(p) - smallest(p), near = 0.005 * (largest(f) - smallest(f));
+  const std::vector<int> group = groups_of(length, 0.005 * largest(length), 1e9);
+  std::vector<double> slack;
+  for (int g = 0; g <= *std::max_element(group.begin(), group.end()); ++g) {
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < p.size(); ++i)
+      if (group[i] == g) rows.push_back(i);
+    std::stable_sort(rows.begin(), rows.end(),
+                     [&](std::size_t a, std::size_t b) { return p[a] < p[b]; });
+    std::vector<double> level;
+    std::size_t last = 0;
+    for (const std::size_t row : rows) {
+      if (!level.empty() && std::abs(f[row] - median(level)) > near) break;
+      level.push_back(f[row]);
+      last = row;
+    }
+    if (level.size() >= 4 && p[last] - p[rows.front()] > 0.12 * range)
+      slack.insert(slack.end(), level.begin(), level.end());
+  }
+  return slack.empty() ? 0.0 : median(slack);
+}
+
+Zero add_table(const Measured& m, const StaticInput& input, StaticData& data) {
+  const std::vector<double> length = length_of(m, input);
+  std::vector<double> force = force_of(m);
+  Zero zero{.force = slack_force(length, m["pressure"], force)};
+  if (std::abs(zero.force) > largest_zero_force * (largest(force) - smallest(force))) {
+    data.warnings.push_back(
+        fmt::format("{}: {:.3g} N where it is slack, which is no zero; force is taken as it is",
+                    m.file, zero.force));
+    zero.force = 0;
+  }
+  if (zero.force != 0) {
+    zero.from = "slack rows";
+    data.notes.push_back(fmt::format("{}: zero {:.3g} N from slack rows", m.file, zero.force));
+  }
+  for (std::size_t i = 0; i < m.rows(); ++i) {
+    StaticPoint point{.length = length[i],
+                      .pressure = m["pressure"][i],
+                      .force = force[i] - zero.force,
+                      .rest_length = m.has("rest_length") ? m["rest_length"][i] : input.rest_length,
+                      .fitted = input.fitted};
+    if (m.has("branch")) point.branch = m["branch"][i] > 0 ? Branch::fill : Branch::vent;
+    data.points.push_back(point);
+  }
+  return zero;
+}
+
+}  // namespace
+
+std::span<const Wanted> static_columns() { return columns; }
+
+Zero add_points(const Measured& m, const StaticInput& input, StaticData& data) {
+  if (m.rows() == 0) throw Refusal(m.file, "no rows", "rows of numbers", "");
+  check(m, force_of(m), length_of(m, input));
+  for (const std::string& note : m.notes) data.notes.push_back(m.file + ": " + note);
+  return m.has("time") ? add_recording(m, input, data) : add_table(m, input, data);
+}
+
+void sort_points(std::vector<StaticPoint>& points) {
+  const auto key = [](const StaticPoint& p) {
+    return std::tuple(p.rest_length, -static_cast<int>(p.branch), p.length, p.pressure, p.force,
+                      p.fitted);
+  };
+  std::sort(points.begin(), points.end(),
+            [&](const StaticPoint& a, const StaticPoint& b) { return key(a) < key(b); });
+}
+
+std::vector<int> groups_of(std::span<const double> values, double gap, double most) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  std::vector<int> out(values.size());
+  if (values.empty()) return out;
+  int group = 0;
+  double first = values[order[0]], before = first, widest = 0;
+  for (const std::size_t i : order) {
+    if (values[i] - before > gap) {
+      ++group;
+      first = values[i];
+    }
+    before = values[i];
+    widest = std::max(widest, values[i] - first);
+    out[i] = group;
+  }
+  if (widest <= most) return out;
+  const double lowest = values[order[0]];
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = static_cast<int>(std::floor((values[i] - lowest) / (0.5 * most)));
+  return out;
+}
+
+}  // namespace sinew::identify

@@ -1,0 +1,234 @@
+// Tables and recordings become points: units, branches, zeros; what cannot be used is refused.
+#include "sinew/identify/actuator/static_data.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <random>
+
+#include "sinew/identify/actuator/static.h"
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+namespace {
+
+constexpr double bar = 1e5, rest = 0.25;
+
+StaticSetting truth() {
+  StaticSetting s = setting_of({.rest_length = rest, .full_scale = 540, .top_pressure = 6.5 * bar});
+  s.actuator.braid = {.thread_length = 0.28, .turns = 3.0};
+  s.actuator.effectiveness.threshold = 0.4 * bar;
+  s.actuator.bladder.saturating_tension = 130;
+  s.actuator.bladder.saturation_length = 0.006;
+  return s;
+}
+
+double force_at(double length, double pressure) {
+  return predicted(truth(), {.rest_length = rest},
+                   {.length = length, .pressure = pressure, .rest_length = rest});
+}
+
+// Filled for 20 s, vented for 10, 200 Hz; vented and at rest before.
+std::string recording(double length, double zero_force, double zero_kpa, unsigned seed,
+                      double clip = 1e9) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  std::string out = "time [s],force [N],pressure [kPa gauge]\n";
+  for (int i = 0; i < 6200; ++i) {
+    const double t = i / 200.0, s = t - 1;
+    const double p = s < 0    ? 0
+                     : s < 20 ? 600 * (1 - std::exp(-s / 5)) / (1 - std::exp(-4))
+                              : 600 * std::exp(-(s - 20) / 2.5);
+    const double f = force_at(length, 1e3 * p) + 1.5 * normal(random) + zero_force;
+    out += fmt::format("{},{},{}\n", t, std::min(f, clip), p + 0.4 * normal(random) + zero_kpa);
+  }
+  return out;
+}
+
+Measured read(const std::string& text, Source source = {.path = "muscle.csv"}) {
+  return parse_measured(text, source, static_columns());
+}
+
+std::string refusal_of(const std::string& text, const StaticInput& input = {}) {
+  StaticData data;
+  try {
+    add_points(read(text), input, data);
+    sort_points(data.points);
+    identify_static(data, {});
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(StaticData, branches_and_zeros_of_a_recording_are_found) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> force(-30, 30), pressure(-10, 10);
+  for (unsigned trial = 0; trial < 10; ++trial) {
+    const double f0 = force(random), p0 = pressure(random);
+    StaticData data;
+    const Zero zero = add_points(read(recording(0.235, f0, p0, trial)), {.length = 0.235}, data);
+    EXPECT_NEAR(zero.force, f0, 0.5);
+    EXPECT_NEAR(zero.pressure, 1e3 * p0, 150);
+    int fill = 0, vent = 0;
+    for (const StaticPoint& p : data.points) {
+      (p.branch == Branch::fill ? fill : vent) += 1;
+      EXPECT_NEAR(p.force, force_at(0.235, p.pressure), 6) << p.pressure;
+    }
+    EXPECT_GT(fill, 15);
+    EXPECT_GT(vent, 15);
+  }
+}
+
+// The same law, whatever the sensors' zeros.
+TEST(StaticData, zeros_do_not_matter_to_the_parameters) {
+  const auto identify = [](double f0, double p0) {
+    StaticData data;
+    unsigned seed = 7;
+    for (const double length : {0.25, 0.24, 0.22})
+      add_points(read(recording(length, f0, p0, seed++)), {.length = length, .rest_length = rest},
+                 data);
+    return identify_static(data, {.model = "saturating"});
+  };
+  const StaticResult clean = identify(0, 0), off = identify(-27, 9);
+  for (std::size_t i = 0; i < clean.fit.knobs.size(); ++i) {
+    const Estimate& e = clean.fit.solution.estimates[i];
+    EXPECT_NEAR(off.fit.solution.values[i], e.value, e.high - e.low) << e.name;
+  }
+  EXPECT_LT(off.report.best().fit.rmse_percent, 1);
+}
+
+std::string table(double newton, double pascal, double zero = 0) {
+  std::string out = fmt::format("length [mm],force [{}],pressure [{}]\n", newton == 1 ? "N" : "lbf",
+                                pascal == 1e3 ? "kPa gauge" : "psi gauge");
+  for (const double l : {250.0, 240.0, 225.0, 210.0})
+    for (double p = 30e3; p <= 630e3; p += 40e3)
+      out += fmt::format("{},{:.17g},{:.17g}\n", l, (force_at(l / 1e3, p) + zero) / newton,
+                         p / pascal);
+  return out;
+}
+
+TEST(StaticData, units_change_nothing) {
+  StaticData metric, inch;
+  add_points(read(table(1, 1e3)), {.rest_length = rest}, metric);
+  add_points(read(table(4.4482216152605, 6894.757293168361)), {.rest_length = rest}, inch);
+  ASSERT_EQ(metric.points.size(), inch.points.size());
+  for (std::size_t i = 0; i < metric.points.size(); ++i) {
+    EXPECT_NEAR(metric.points[i].force, inch.points[i].force, 1e-9);
+    EXPECT_NEAR(metric.points[i].pressure, inch.points[i].pressure, 1e-6);
+  }
+}
+
+TEST(StaticData, slack_rows_of_a_table_tell_the_zero_of_the_force) {
+  for (const double zero : {-30.0, 0.0, 20.0}) {
+    StaticData data;
+    EXPECT_NEAR(add_points(read(table(1, 1e3, zero)), {.rest_length = rest}, data).force, zero,
+                1e-9);
+  }
+}
+
+// What hangs on the muscle pulls with its weight.
+TEST(StaticData, masses_are_weighed) {
+  StaticData data;
+  add_points(read("load [kg],length [mm],pressure [kPa gauge]\n1,200,100\n2,210,200\n"), {}, data);
+  EXPECT_NEAR(data.points[1].force, 19.6133, 1e-9);
+}
+
+TEST(StaticData, a_column_may_say_the_branch_in_words_and_rows_may_be_chosen) {
+  Source source{.path = "bins.csv"};
+  const std::string text =
+      "length [mm],force [N],pressure [kPa gauge],branch,muscle\n"
+      "200,10,100,fill,a\n200,20,200,vent,a\n200,30,300,fill,b\n";
+  StaticData data;
+  source.where = {{"muscle", "a, c"}};
+  add_points(read(text, source), {}, data);
+  ASSERT_EQ(data.points.size(), 2u);
+  EXPECT_EQ(data.points[0].branch, Branch::fill);
+  EXPECT_EQ(data.points[1].branch, Branch::vent);
+}
+
+TEST(StaticData, groups_follow_gaps_and_else_steps) {
+  EXPECT_EQ(groups_of(std::vector{3.0, 1.0, 1.1, 2.9}, 0.5, 1), (std::vector{1, 0, 0, 1}));
+  const std::vector<int> even = groups_of(std::vector{0.0, 0.4, 0.8, 1.2, 1.6}, 0.5, 1);
+  EXPECT_EQ(even, (std::vector{0, 0, 1, 2, 3}));
+}
+
+// --- what cannot be used says why ---
+
+void expect_refused(const std::string& message, std::initializer_list<const char*> words) {
+  for (const char* word : words)
+    EXPECT_NE(message.find(word), message.npos) << "\"" << word << "\" in: " << message;
+}
+
+TEST(StaticRefusal, constant_pressure) {
+  expect_refused(refusal_of("length [mm],force [N],pressure [kPa gauge]\n"
+                            "250,100,300\n240,80,300\n230,50,301\n"),
+                 {"pressure", "throughout", "several pressures"});
+}
+
+TEST(StaticRefusal, one_length_and_no_geometry) {
+  std::string text = "length [mm],force [N],pressure [kPa gauge]\n";
+  for (int p = 50; p <= 600; p += 25)
+    text += fmt::format("240,{},{}\n", force_at(0.24, 1e3 * p), p);
+  expect_refused(refusal_of(text), {"one length only", "--actuator"});
+}
+
+TEST(StaticRefusal, too_few_points) {
+  expect_refused(refusal_of("length [mm],force [N],pressure [kPa gauge]\n"
+                            "250,100,300\n240,80,400\n230,50,500\n"),
+                 {"3 points", "at least", "more measurements"});
+}
+
+TEST(StaticRefusal, no_length) {
+  expect_refused(refusal_of("force [N],pressure [kPa gauge]\n1,100\n2,200\n"),
+                 {"no length", "--length"});
+}
+
+TEST(StaticRefusal, swapped_columns) {
+  expect_refused(refusal_of("length [mm],pressure [kPa gauge],force [N]\n"
+                            "250,0.9,300\n240,0.8,400\n230,0.5,500\n"),
+                 {"pressure", "wrong unit, or another column"});
+  std::string falling = "length [mm],force [N],pressure [kPa gauge]\n";
+  for (int p = 50; p <= 600; p += 50)
+    falling += fmt::format("240,{},{}\n", -force_at(0.24, 1e3 * p), p);
+  expect_refused(refusal_of(falling), {"falls while the pressure rises", "sign"});
+}
+
+TEST(StaticRefusal, wrong_unit) {
+  expect_refused(refusal_of("length [m],force [N],pressure [kPa gauge]\n"
+                            "250,100,300\n240,80,400\n230,50,500\n"),
+                 {"length", "wrong unit", "--unit length=", "mm"});
+}
+
+TEST(StaticRefusal, a_sensor_at_its_end) {
+  StaticData data;
+  try {
+    add_points(read(recording(0.25, 0, 0, 3, 300)), {.length = 0.25}, data);
+    FAIL();
+  } catch (const Refusal& e) {
+    expect_refused(e.what(), {"force", "stay at", "at its end"});
+  }
+}
+
+TEST(StaticRefusal, a_recording_whose_length_changes) {
+  std::string text = "time [s],length [mm],force [N],pressure [kPa gauge]\n";
+  for (int i = 0; i < 100; ++i) text += fmt::format("{},{},{},{}\n", i, 250 - i % 30, i, 5 * i);
+  expect_refused(refusal_of(text), {"length changes"});
+}
+
+TEST(StaticRefusal, a_model_that_there_is_not) {
+  StaticData data;
+  add_points(read(table(1, 1e3)), {.rest_length = rest}, data);
+  try {
+    identify_static(data, {.model = "cubik"});
+    FAIL();
+  } catch (const Refusal& e) {
+    expect_refused(e.what(), {"cubik", "elastic-cubic"});
+  }
+}
+
+}  // namespace
+}  // namespace sinew::identify

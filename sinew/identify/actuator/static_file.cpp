@@ -1,0 +1,90 @@
+// The file of a muscle whose static law was identified.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sinew/actuator/body.h"
+#include "sinew/identify/actuator/static.h"
+#include "sinew/identify/fit/provenance.h"
+
+namespace sinew::identify {
+
+namespace {
+
+// Uncertainty of the polynomial is told in its source: a key has one, this has up to three values.
+std::string polynomial_source(const StaticFit& fit, const std::string& source) {
+  std::string out = source;
+  for (std::size_t i = 0; i < fit.knobs.size(); ++i) {
+    if (key_of(fit.knobs[i]) != "effectiveness.polynomial") continue;
+    const Estimate& e = fit.solution.estimates[i];
+    out += fmt::format("; {} +- {:.2g} {}", e.name, 0.5 * (e.high - e.low), e.unit);
+  }
+  return out;
+}
+
+// Estimates are the reference's: another muscle's are larger or smaller with it.
+Estimate scaled_estimate(const Estimate& e, double value) {
+  Estimate out = e;
+  const double ratio = e.value != 0 ? value / e.value : 1;
+  out.value = value;
+  out.low = value - std::abs(ratio) * (e.value - e.low);
+  out.high = value + std::abs(ratio) * (e.high - e.value);
+  return out;
+}
+
+// What no static measurement tells: ends as stiff as the thesis's, reached where the data end.
+void add_ends(const StaticMuscle& muscle, const std::string& path, actuator::Actuator& a,
+              Provenance& provenance) {
+  const double longest = std::min(0.999 * (a.braid.thread_length + a.caps.length),
+                                  std::max(muscle.longest, muscle.rest_length) * 1.005);
+  a.long_end = {.length = std::max(longest, actuator::shortest_length(a)),
+                .stiffness = 87563.4,
+                .damping = 122.6};
+  a.short_end = {.stiffness = 87563.4, .damping = 122.6};
+  provenance.guessed(path + "long_end.length", "0.5 % beyond the longest length measured");
+  for (const char* end : {"long_end", "short_end"})
+    for (const char* key : {"stiffness", "damping"})
+      provenance.guessed(path + end + "." + key, "the thesis's actuator, appendix A");
+}
+
+}  // namespace
+
+std::string static_file(const StaticResult& result, std::size_t index, const std::string& name,
+                        const std::string& source, const std::string& braid_source) {
+  const StaticMuscle& muscle = result.muscles.at(index);
+  actuator::Actuator a = muscle.actuator;
+  a.name = name;
+  const std::string path = "actuator." + name + ".";
+  Provenance provenance;
+
+  StaticSetting own{.actuator = a};
+  for (std::size_t i = 0; i < result.fit.knobs.size(); ++i) {
+    const Knob knob = result.fit.knobs[i];
+    const std::string key(key_of(knob));
+    if (key.empty() || key == "effectiveness.polynomial") continue;
+    provenance.fitted(
+        path + key, scaled_estimate(result.fit.solution.estimates[i], value_of(own, knob)), source);
+  }
+  if (result.scales.braid)
+    for (const char* key : {"braid.thread_length", "braid.turns"})
+      provenance.given(path + key, braid_source);
+  provenance.fitted(path + "effectiveness.polynomial", "1", std::nan(""),
+                    polynomial_source(result.fit, source));
+  if (a.effectiveness.scale != 1)
+    provenance.given(path + "effectiveness.scale", source + "; the rest length's effect");
+
+  // Outside what was measured the laws are held.
+  a.effectiveness.valid_from = std::max(0.0, muscle.lowest);
+  a.effectiveness.valid_to = muscle.highest;
+  a.bladder.valid_from = muscle.shortest;
+  a.bladder.valid_to = std::max(muscle.longest, muscle.shortest * 1.0001);
+  provenance.given(path + "effectiveness.valid", "pressures in " + source);
+  provenance.given(path + "bladder.valid", "lengths in " + source);
+  if (!(a.bladder.saturating_tension > 0)) a.bladder.saturation_length = 0;
+  if (!actuator::tapers(a.taper)) a.taper = {};
+  if (!(a.taper.extra_gain > 0)) a.taper.extra_pressure = 0;
+  add_ends(muscle, path, a, provenance);
+  return actuator_file(a, provenance);
+}
+
+}  // namespace sinew::identify

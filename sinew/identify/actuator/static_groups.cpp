@@ -1,0 +1,81 @@
+#include "sinew/identify/actuator/static_groups.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "sinew/identify/data/quality.h"
+
+namespace sinew::identify {
+
+namespace {
+
+using Points = std::vector<StaticPoint>;
+
+// Of each group the mean of what its points have.
+std::vector<double> means(const Points& points, const std::vector<int>& group,
+                          double StaticPoint::*what) {
+  std::vector<double> sum(points.size() + 1), count(points.size() + 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    sum[static_cast<std::size_t>(group[i])] += points[i].*what;
+    count[static_cast<std::size_t>(group[i])] += 1;
+  }
+  for (std::size_t g = 0; g < sum.size(); ++g) sum[g] /= std::max(1.0, count[g]);
+  return sum;
+}
+
+// A length and, of a recording, its branch; of several muscles the muscle.
+std::string branch_of(const StaticPoint& p, double length, bool several) {
+  std::string out = several ? fmt::format("{:.0f} mm muscle, ", 1e3 * p.rest_length) : "";
+  out += fmt::format("{:.4g} mm", 1e3 * length);
+  if (p.branch != Branch::unknown) out += p.branch == Branch::fill ? ", filling" : ", venting";
+  return out;
+}
+
+}  // namespace
+
+std::vector<int> pressure_groups(const Points& points) {
+  std::vector<double> p;
+  for (const StaticPoint& point : points) p.push_back(point.pressure);
+  const double range = largest(p) - smallest(p);
+  return groups_of(p, 0.015 * range, 0.1 * range);
+}
+
+std::vector<int> length_groups(const Points& points) {
+  std::vector<double> l;
+  double longest = 0;
+  for (const StaticPoint& point : points) longest = std::max(longest, point.length);
+  for (const StaticPoint& point : points) l.push_back(point.length + 10 * point.rest_length);
+  return groups_of(l, 0.004 * longest, 1e9);
+}
+
+int count_of(const std::vector<int>& groups) {
+  return static_cast<int>(std::set<int>(groups.begin(), groups.end()).size());
+}
+
+Rows rows_of(const StaticSplit& s) {
+  Points points = s.fitted;
+  points.insert(points.end(), s.held_out.begin(), s.held_out.end());
+  std::set<double> muscles;
+  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+  const std::vector<int> pressure = pressure_groups(points), length = length_groups(points);
+  const bool by_length = muscles.size() > 1 || count_of(length) <= count_of(pressure);
+  const std::vector<int>& group = by_length ? length : pressure;
+  const std::vector<double> mean =
+      means(points, group, by_length ? &StaticPoint::length : &StaticPoint::pressure);
+  Rows out{.x = by_length ? "pressure" : "length", .x_unit = by_length ? "Pa gauge" : "m"};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const StaticPoint& p = points[i];
+    const double own = mean[static_cast<std::size_t>(group[i])];
+    out.at.push_back(by_length ? p.pressure : p.length);
+    out.measured.push_back(p.force);
+    out.group.push_back(by_length ? branch_of(p, own, muscles.size() > 1)
+                                  : fmt::format("{:.0f} kPa", 1e-3 * own));
+    out.order.push_back(group[i]);
+    out.held_out.push_back(i >= s.fitted.size());
+  }
+  return out;
+}
+
+}  // namespace sinew::identify

@@ -1,0 +1,26 @@
+// identify/actuator/static_groups.h - which points of a static test belong together: those of one
+// pressure, of one length; and how they are shown.
+#pragma once
+
+#include <vector>
+
+#include "sinew/identify/actuator/static_data.h"
+#include "sinew/identify/fit/fit.h"
+
+namespace sinew::identify {
+
+struct StaticSplit {
+  std::vector<StaticPoint> fitted, held_out;
+};
+
+// Of each point its group, counted from the smallest.
+std::vector<int> pressure_groups(const std::vector<StaticPoint>& points);
+// Lengths of different muscles are different lengths.
+std::vector<int> length_groups(const std::vector<StaticPoint>& points);
+int count_of(const std::vector<int>& groups);
+
+// The fitted ones, then the others: over pressure with a curve per length, or over length with a
+// curve per pressure, whichever makes fewer.
+Rows rows_of(const StaticSplit& split);
+
+}  // namespace sinew::identify

@@ -1,0 +1,99 @@
+// identify/actuator/static_model.h - the static laws that are tried: which of the actuator's
+// parameters each sets free, where the search begins, what other muscles let one expect.
+//
+// Every model is a choice of terms of actuator/tension.h, so that what is identified is what is
+// simulated. Parameters are those of one muscle. Of muscles of one make and several rest lengths
+// the longest is the reference; the others are its like: same braid angle, same diameter, same
+// strains,
+//
+//   b, n, lambda ~ L_0     k ~ 1/L_0   k2 ~ 1/L_0^2   k3 ~ 1/L_0^3     Eff x (1 - c/L_0)
+//
+// c, the rest length's own effect, is what the ends take from every muscle alike; no geometric law
+// gives it.
+//
+// Priors: a term that the data do not determine stays where three Festo muscles of 20 mm put it
+// (rest lengths 98, 225, 398 mm; docs/theory/static-models.md), instead of anywhere. Where the data
+// say something, that wins.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/actuator/actuator.h"
+#include "sinew/identify/fit/least_squares.h"
+
+namespace sinew::identify {
+
+enum class Knob {
+  thread_length,
+  turns,
+  eff_constant,
+  eff_linear,
+  eff_quadratic,
+  threshold,
+  stiffness,
+  bladder_rest_length,
+  quadratic,
+  cubic,
+  saturating_tension,
+  saturation_length,
+  caps,
+  taper_gain,
+  taper_extra_gain,
+  taper_extra_pressure,
+  wall,
+  half_width,
+  end_loss
+};
+
+// What a set of knobs comes to.
+struct StaticSetting {
+  actuator::Actuator actuator;  // of the reference muscle
+  double end_loss = 0;          // c [m]
+};
+
+// Sizes that start values and bounds go by.
+struct StaticScales {
+  double rest_length = 0;                // of the reference muscle [m]
+  double full_scale = 0;                 // largest force [N]
+  double top_pressure = 0;               // [Pa]
+  double atmosphere = 0;                 // [Pa]
+  std::optional<actuator::Braid> braid;  // given: thread length and turns are not searched
+};
+
+struct Prior {
+  double mean = 0, deviation = 0;
+  bool logarithmic = false;  // deviation of ln(value/mean)
+};
+
+struct StaticModel {
+  std::string_view name, law, source;
+  std::vector<Knob> knobs;  // beside the braid's
+};
+
+std::span<const StaticModel> static_models();
+
+// All that a model sets free with this data: the braid (or, where it is given, the effectiveness),
+// the model's own.
+std::vector<Knob> knobs_of(const StaticModel& model, const StaticScales& scales);
+
+// "actuator.<name>." + key is its place in a file; end_loss has none of its own.
+std::string_view key_of(Knob knob);
+double& value_of(StaticSetting& setting, Knob knob);
+Parameter parameter_of(Knob knob, const StaticScales& scales);
+std::optional<Prior> prior_of(Knob knob, const StaticScales& scales);
+
+// Does it shape how force goes with length? One length cannot tell.
+bool needs_lengths(Knob knob);
+
+// What every search begins with.
+StaticSetting setting_of(const StaticScales& scales);
+
+// The like of the reference muscle with another rest length.
+actuator::Actuator scaled(const StaticSetting& setting, const StaticScales& scales,
+                          double rest_length);
+
+}  // namespace sinew::identify

@@ -1,0 +1,71 @@
+#include "sinew/identify/actuator/static_outliers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "sinew/identify/actuator/static_fit.h"
+#include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+
+namespace {
+
+constexpr double scatters = 8, share = 0.05, most = 0.1;
+
+std::vector<double> distances(const StaticFit& fit, const StaticScales& scales,
+                              const std::vector<StaticPoint>& points) {
+  std::vector<double> out = misses(fit.setting, scales, points);
+  for (double& r : out) r = std::abs(r);
+  return out;
+}
+
+// Distances from the law that most points are closest to; empty where there is none.
+std::vector<double> from_the_closest(const std::vector<StaticPoint>& points,
+                                     const StaticScales& scales) {
+  std::set<double> muscles;
+  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+  std::vector<double> closest;
+  for (const StaticModel& model : static_models()) {
+    if (model.name == "effectiveness-by-ratio") continue;
+    std::vector<Knob> knobs = knobs_of(model, scales);
+    if (muscles.size() > 1) knobs.push_back(Knob::end_loss);
+    try {
+      const std::vector<double> d = distances(fit_static(knobs, points, scales), scales, points);
+      if (closest.empty() || median(d) < median(closest)) closest = d;
+    } catch (const Refusal&) {
+      continue;  // too few points for this one
+    }
+  }
+  return closest;
+}
+
+// The largest force that is not alone: what one wild point says does not count.
+double common_force(const std::vector<StaticPoint>& points) {
+  std::vector<double> forces;
+  for (const StaticPoint& p : points) forces.push_back(p.force);
+  const auto at = forces.begin() + static_cast<std::ptrdiff_t>(forces.size() * 9 / 10);
+  std::nth_element(forces.begin(), at, forces.end());
+  return *at;
+}
+
+}  // namespace
+
+std::vector<std::size_t> gross_outliers(const std::vector<StaticPoint>& points,
+                                        const StaticScales& scales) {
+  if (points.empty()) return {};
+  StaticScales common = scales;
+  common.full_scale = common_force(points);
+  if (!(common.full_scale > 0)) return {};
+  const std::vector<double> d = from_the_closest(points, common);
+  const double limit =
+      std::max(scatters * 1.4826 * (d.empty() ? 0 : median(d)), share * common.full_scale);
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < d.size(); ++i)
+    if (d[i] > limit) out.push_back(i);
+  if (static_cast<double>(out.size()) > most * static_cast<double>(points.size())) return {};
+  return out;
+}
+
+}  // namespace sinew::identify

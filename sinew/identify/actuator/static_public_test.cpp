@@ -1,0 +1,110 @@
+// Static laws on public measurements. The force map of the DMSP-10-250 ships in data/; the 20 mm
+// muscles may not, and are read where SINEW_DATA_DIR has them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "sinew/identify/actuator/static.h"
+
+namespace sinew::identify {
+namespace {
+
+StaticData dmsp() {
+  Source source{.path = SINEW_SOURCE_DIR "/data/martens_boblan_2017/DMSP-10-250_force_map.csv"};
+  source.names = {{"force", "F_N"}, {"pressure", "P_gauge_Pa"}, {"length", "L_m"}};
+  source.units = {{"F_N", "N"}, {"P_gauge_Pa", "Pa gauge"}, {"L_m", "m"}};
+  StaticData data;
+  add_points(read_measured(source, static_columns()), {.rest_length = 0.25}, data);
+  return data;
+}
+
+// Every second pressure was not seen: 0.5 % of the largest force. All models are tried.
+TEST(PublicData, dmsp_by_pressure) {
+  const StaticResult found = identify_static(dmsp(), {.hold_out = HoldOut::pressure});
+  EXPECT_LE(found.report.best().held_out->rmse_percent, 0.5) << found.report.rule;
+  EXPECT_LE(found.report.best().held_out->max_percent, 2.5);
+}
+
+// Each length on its own, the longest and the shortest too, was not seen. Its authors' model, which
+// saw them all, is off by up to 4.4 %.
+TEST(PublicData, dmsp_by_length) {
+  const StaticResult found = identify_static(dmsp(), {.hold_out = HoldOut::length});
+  EXPECT_LT(found.report.best().held_out->max_percent, 4.4) << found.report.rule;
+  EXPECT_LT(found.report.best().held_out->rmse_percent, 1.2);
+}
+
+std::string shared(const std::string& name) {
+  const char* folder = std::getenv("SINEW_DATA_DIR");
+  if (!folder) return "";
+  const std::filesystem::path path = std::filesystem::path(folder) / name;
+  return std::filesystem::exists(path) ? path.string() : "";
+}
+
+// One muscle of the 20 mm bins: its fill branch, fitted at 100, 200 ... 600 kPa.
+StaticResult bins(const std::string& path, const std::string& muscles, bool all) {
+  Source source{.path = path, .drop_incomplete = true};
+  source.names = {{"force", "F_mean_N"},
+                  {"pressure", "p_mean_kPa"},
+                  {"length", "l_mounted_mm"},
+                  {"rest_length", "l_rest_mm"},
+                  {"branch", "phase"}};
+  source.units = {
+      {"F_mean_N", "N"}, {"p_mean_kPa", "kPa gauge"}, {"l_mounted_mm", "mm"}, {"l_rest_mm", "mm"}};
+  source.where = {{"l_rest_mm", muscles}, {"phase", "fill"}};
+  StaticData data;
+  const Measured every = read_measured(source, static_columns());
+  add_points(every, {}, data);
+  source.where["p_bin_kPa"] = "100,200,300,400,500,600";
+  const std::vector<int> lines = read_measured(source, static_columns()).lines;
+  for (std::size_t i = 0; i < every.rows() && !all; ++i)
+    data.points[i].fitted = std::find(lines.begin(), lines.end(), every.lines[i]) != lines.end();
+  return identify_static(data, {.model = all ? "saturating" : ""});
+}
+
+TEST(PublicData, muscles_of_20_mm_by_pressure) {
+  const std::string path = shared("psu_20mm/isometric_bins.csv");
+  if (path.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no psu_20mm";
+  const auto held_out = [&](const char* muscle) {
+    return bins(path, muscle, false).report.best().held_out->rmse_percent;
+  };
+  EXPECT_LE(held_out("98"), 1.0);  // asked for: 2.5, 3.0, 1.0
+  EXPECT_LE(held_out("225"), 1.0);
+  EXPECT_LE(held_out("398"), 1.0);
+}
+
+// Three rest lengths, one law: the ends take a length of 3 cm from each.
+TEST(PublicData, muscles_of_20_mm_are_of_one_make) {
+  const std::string path = shared("psu_20mm/isometric_bins.csv");
+  if (path.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no psu_20mm";
+  const StaticResult found = bins(path, "98,225,398", true);
+  EXPECT_EQ(found.muscles.size(), 3u);
+  EXPECT_LE(found.report.best().fit.rmse_percent, 2.6);
+  EXPECT_NEAR(found.fit.setting.end_loss, 0.03, 0.01);
+}
+
+// Three mounts, recorded at 600 Hz: branches, zeros and bins are found.
+TEST(PublicData, recordings_of_20_mm_need_no_hand) {
+  const std::string first = shared("psu_20mm/raw/20mm_23cm_Unkinked_Test10.csv");
+  if (first.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no psu_20mm";
+  StaticData data;
+  const std::pair<const char*, double> mounts[] = {
+      {"Unkinked", 0.225}, {"Kinked9mm", 0.219}, {"Kinked19mm", 0.209}};
+  for (const auto& [mount, length] : mounts) {
+    Source source{.path = shared(std::string("psu_20mm/raw/20mm_23cm_") + mount + "_Test10.csv"),
+                  .columns = {"force [N]", "pressure [kPa gauge]", "time [s]"}};
+    const Zero zero = add_points(read_measured(source, static_columns()),
+                                 {.length = length, .rest_length = 0.225}, data);
+    EXPECT_NEAR(zero.pressure, 8.9e3, 300) << mount;
+  }
+  for (const Branch branch : {Branch::fill, Branch::vent})
+    EXPECT_GT(std::count_if(data.points.begin(), data.points.end(),
+                            [&](const StaticPoint& p) { return p.branch == branch; }),
+              40);
+  const StaticResult found = identify_static(data, {.model = "saturating"});
+  EXPECT_LE(found.report.best().fit.rmse_percent, 1.2);
+}
+
+}  // namespace
+}  // namespace sinew::identify

@@ -1,0 +1,174 @@
+// Measurements come out in SI whatever they were written in, and what is wrong is told by its line.
+#include "sinew/identify/data/measured.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+namespace {
+
+constexpr Wanted wanted[] = {
+    {.name = "time", .unit = "s", .optional = true, .doc = "since the start"},
+    {.name = "length", .unit = "m", .least = 5e-3, .most = 5, .optional = true, .doc = "of it"},
+    {.name = "pressure", .unit = "Pa gauge", .least = 1e3, .most = 2e6, .doc = "inside"},
+    {.name = "force", .unit = "N", .least = 1, .most = 1e5, .doc = "it pulls with"}};
+
+Measured read(std::string_view text, Source source = {}) {
+  source.path = "rig.csv";
+  return parse_measured(text, source, wanted);
+}
+
+std::string problem(std::string_view text, Source source = {}) {
+  try {
+    read(text, std::move(source));
+  } catch (const config::Error& e) {
+    return e.what();
+  }
+  return "none";
+}
+
+bool says(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+
+TEST(Measured, units_change_nothing) {
+  const Measured a = read("pressure [kPa gauge],force [N]\n100,44.4822161526\n200,88.9644323052\n");
+  const Measured b = read("force [lbf],pressure [bar gauge]\n10,1\n20,2\n");
+  const Measured c =
+      read("force [lbf],pressure [bar abs]\n10,2.013529322095749\n20,3.013529322095749\n");
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(a["pressure"][i], b["pressure"][i], 1e-6);
+    EXPECT_NEAR(a["pressure"][i], c["pressure"][i], 1e-6);
+    EXPECT_NEAR(a["force"][i], b["force"][i], 1e-9);
+  }
+}
+
+TEST(Measured, a_foreign_file_is_read_by_saying_what_its_columns_are) {
+  Source source{.names = {{"pressure", "p_raw"}, {"force", "F"}},
+                .units = {{"p_raw", "kPa gauge"}, {"F", "N"}}};
+  const Measured m = read("n;F;p_raw\n# comment\n1;12.5;300\n\n2;+13;310\n", source);
+  ASSERT_EQ(m.rows(), 2u);
+  EXPECT_EQ(m["force"][1], 13);
+  EXPECT_NEAR(m["pressure"][0], 3e5, 1e-9);
+  EXPECT_EQ(m.lines, (std::vector<int>{3, 5}));
+}
+
+TEST(Measured, a_file_without_a_header_is_read_by_its_columns) {
+  Source source{.columns = {"force [N]", "pressure [kPa gauge]", "time [s]"}};
+  const Measured m = read("14.5,8.9,0\n14.6,9.0,0.001\n", source);
+  ASSERT_EQ(m.rows(), 2u);
+  EXPECT_EQ(m["time"][1], 0.001);
+}
+
+TEST(Measured, a_makers_table_becomes_rows) {
+  const Measured m = read(
+      "length [mm],force [N] @ pressure = 1 bar gauge,force [N] @ pressure = 2 bar gauge\n"
+      "250,100,210\n240,,150\n");
+  ASSERT_EQ(m.rows(), 3u);  // an empty cell was not measured
+  EXPECT_EQ(m["force"], (std::vector<double>{100, 210, 150}));
+  EXPECT_EQ(m["pressure"], (std::vector<double>{1e5, 2e5, 2e5}));
+  EXPECT_EQ(m["length"], (std::vector<double>{0.25, 0.25, 0.24}));
+}
+
+TEST(Measured, rows_that_are_not_complete_are_left_out_on_request_only) {
+  const std::string text = "pressure [kPa gauge],force [N]\n100,10\n,20\n300,nan\n400,40\n";
+  const std::string said = problem(text);
+  EXPECT_TRUE(says(said, "rig.csv:3:1: pressure: found an empty cell")) << said;
+  EXPECT_TRUE(says(said, "rig.csv:4:5: force: found \"nan\"")) << said;
+  EXPECT_TRUE(says(said, "--drop-incomplete")) << said;
+
+  const Measured m = read(text, {.drop_incomplete = true});
+  EXPECT_EQ(m["force"], (std::vector<double>{10, 40}));
+  ASSERT_EQ(m.notes.size(), 1u);
+  EXPECT_TRUE(says(m.notes[0], "2 of 4 rows")) << m.notes[0];
+}
+
+TEST(Measured, what_is_wrong_is_told) {
+  struct Case {
+    const char* text;
+    const char* part;
+  };
+  const Case cases[] = {
+      {"1,2\n3,4\n", "rig.csv:1:1: header: found numbers in the first line"},
+      {"pressure [kPa gauge],Force [N]\n1,2\n", "no column \"force\""},
+      {"pressure [kPa],force [N]\n1,2\n", "try \"kPa gauge\" or \"kPa abs\""},
+      {"pressure [kPa gauge],force\n1,2\n", "without a unit"},
+      {"pressure [kPa gauge],force [lb]\n100,2\n", "lbf: lb is mass, lbf is force"},
+      {"pressure [Pa gauge],force [N]\n100,20\n", "--unit pressure=kPa gauge"},
+      {"pressure [kPa gauge];force [N]\n100,5;20,1\n", "a decimal point: 100.5"},
+      {"pressure [kPa gauge],force [N]\n100,5,20,1\n", "found 4 cells (1 such row)"},
+      {"time [s],pressure [kPa gauge],force [N]\n0,100,10\n2,110,12\n1,120,13\n",
+       "rig.csv:4:1: time: found 1 s after 2 s"},
+      {"pressure [kPa gauge],force [N]\n", "rows: found none"},
+      {"pressure [kPa gauge],force [N],L\xE4nge [mm]\n100,20,1\n",
+       "rig.csv:1:33: found a byte e4 that is no UTF-8"},
+      {"pressure [kPa gauge],force [N],muscle\n100,20,\xFFx\n", "rig.csv:2:8: found a byte ff"},
+      {"pressure [kPa gauge],force [N],L\xC3\n100,20,1\n", "found a byte c3"},
+  };
+  for (const Case& c : cases) {
+    const std::string said = problem(c.text);
+    EXPECT_TRUE(says(said, c.part)) << c.text << said;
+  }
+  EXPECT_TRUE(says(problem("pressure [kPa gauge],force [N]\n100,20\n", {.names = {{"froce", "x"}}}),
+                   "--map: found \"froce\""));
+  EXPECT_TRUE(says(problem("pressure [kPa gauge],force [N]\n100,20\n", {.units = {{"x", "N"}}}),
+                   "--unit: found \"x\""));
+}
+
+TEST(Measured, two_columns_of_one_name_are_refused_unless_an_at_tells_them_apart) {
+  const std::string said = problem("pressure [kPa gauge],force [N],force [lbf]\n100,20,30\n");
+  EXPECT_TRUE(says(said, "rig.csv:1:32: force: found a second column of this name")) << said;
+  const std::string unread = "n [mm],n [s],pressure [kPa gauge],force [N]\n1,2,100,20\n";
+  EXPECT_EQ(problem(unread), "none");  // nobody asked for it
+}
+
+TEST(Quality, a_sensor_at_its_end_repeats_itself_and_noise_does_not) {
+  std::vector<double> noisy, clipped;
+  unsigned state = 1;
+  for (int i = 0; i < 500; ++i) {
+    state = state * 1664525u + 1013904223u;
+    noisy.push_back(i * 0.1 + static_cast<double>(state >> 16) / 65536.0);
+    clipped.push_back(std::min(noisy.back(), 29.4));
+  }
+  EXPECT_FALSE(clipping(noisy).clipped);
+  EXPECT_TRUE(clipping(clipped).clipped);
+  EXPECT_GT(clipping(clipped).at_top, 150u);
+
+  // Slack at exactly zero, and coarse steps that rest on every value, are no clipping.
+  std::vector<double> slack(noisy), steps;
+  for (double& x : slack) x = std::max(x - 20, 0.0);
+  for (int i = 0; i < 500; ++i) steps.push_back(i / 50);
+  EXPECT_FALSE(clipping(slack).clipped);
+  EXPECT_FALSE(clipping(steps).clipped);
+}
+
+TEST(Quality, an_outlier_is_one_among_many_and_noise_has_none) {
+  std::vector<double> r;
+  unsigned state = 7;
+  for (int i = 0; i < 200; ++i) {
+    state = state * 1664525u + 1013904223u;
+    r.push_back(static_cast<double>(state >> 16) / 65536.0 - 0.5);
+  }
+  EXPECT_TRUE(outliers(r, 0).empty());
+  r[31] = 9;
+  EXPECT_EQ(outliers(r, 0), (std::vector<std::size_t>{31}));
+  EXPECT_TRUE(outliers(r, 10).empty());
+  EXPECT_TRUE(outliers(std::vector<double>{0, 0, 0, 9}, 0).empty()) << "too few to tell";
+}
+
+TEST(Quality, constants_are_refused_with_the_reason) {
+  const Measured m = read("pressure [kPa gauge],force [N]\n100,10\n100.1,20\n");
+  EXPECT_NO_THROW(refuse_constant(m, "force", 1, "", ""));
+  try {
+    refuse_constant(m, "pressure", 5e3, "pressures that differ", "another");
+    FAIL();
+  } catch (const Refusal& e) {
+    EXPECT_TRUE(says(e.what(), "rig.csv: pressure: found 1e+05 Pa gauge throughout")) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace sinew::identify

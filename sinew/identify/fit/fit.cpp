@@ -1,0 +1,105 @@
+#include "sinew/identify/fit/fit.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+
+Score score(std::span<const double> residuals, double full_scale) {
+  Score out{.points = residuals.size()};
+  double sum = 0;
+  for (const double r : residuals) {
+    sum += r * r;
+    out.max = std::max(out.max, std::abs(r));
+  }
+  if (!residuals.empty()) out.rmse = std::sqrt(sum / static_cast<double>(residuals.size()));
+  if (full_scale > 0) {
+    out.rmse_percent = 100 * out.rmse / full_scale;
+    out.max_percent = 100 * out.max / full_scale;
+  }
+  return out;
+}
+
+namespace {
+
+bool usable(const Fit& fit) { return fit.refused.empty(); }
+
+enum class By { cross_validation, held_out, fit };
+
+double error_of(const Fit& fit, By by) {
+  if (by == By::cross_validation) return fit.cross_validated->rmse_percent;
+  return by == By::held_out ? fit.held_out->rmse_percent : fit.fit.rmse_percent;
+}
+
+// What all usable fits have.
+By measure(const Report& report) {
+  bool cross = true, held_out = true;
+  for (const Fit& fit : report.fits) {
+    if (!usable(fit)) continue;
+    cross &= fit.cross_validated.has_value();
+    held_out &= fit.held_out.has_value();
+  }
+  return cross ? By::cross_validation : held_out ? By::held_out : By::fit;
+}
+
+// Each reason once, with the models that it stands for.
+[[noreturn]] void refuse_all(const Report& report) {
+  std::string all;
+  for (std::size_t i = 0; i < report.fits.size(); ++i) {
+    const std::string& reason = report.fits[i].refused;
+    std::string models;
+    bool told = false;
+    for (std::size_t k = 0; k < report.fits.size(); ++k) {
+      if (report.fits[k].refused != reason) continue;
+      told |= k < i;
+      models += (models.empty() ? "" : ", ") + report.fits[k].model;
+    }
+    if (!told) all += fmt::format("{}{} ({})", all.empty() ? "" : "; ", reason, models);
+  }
+  throw Refusal(report.subject, "no model that the data support: " + all,
+                "data that determine the simplest of them", "");
+}
+
+}  // namespace
+
+void choose(Report& report, double tolerance, double negligible) {
+  const By by = measure(report);
+  const Fit* smallest = nullptr;
+  for (const Fit& fit : report.fits)
+    if (usable(fit) && (!smallest || error_of(fit, by) < error_of(*smallest, by))) smallest = &fit;
+  if (!smallest) refuse_all(report);
+
+  const double near = (1 + tolerance) * error_of(*smallest, by);
+  const double limit = std::max(near, negligible);
+  const Fit* chosen = smallest;
+  for (const Fit& fit : report.fits)
+    if (usable(fit) && error_of(fit, by) <= limit &&
+        fit.parameters.size() < chosen->parameters.size())
+      chosen = &fit;
+
+  report.chosen = static_cast<std::size_t>(chosen - report.fits.data());
+  report.rule = fmt::format(
+      "fewest parameters among those whose {} error is {}: {} has {} and {:.3g} %, the smallest is "
+      "{:.3g} % ({})",
+      by == By::cross_validation ? "cross-validated"
+      : by == By::held_out       ? "held-out"
+                                 : "fit",
+      near < negligible ? fmt::format("below {:.2g} %, where it says nothing", negligible)
+                        : fmt::format("within {:.0f} % of the smallest", 100 * tolerance),
+      chosen->model, chosen->parameters.size(), error_of(*chosen, by), error_of(*smallest, by),
+      smallest->model);
+}
+
+void refuse_unexplained(const Report& report, double percent, const std::string& try_this) {
+  const Fit& best = report.best();
+  if (best.fit.rmse_percent <= percent) return;
+  throw Refusal(report.subject,
+                fmt::format("{:.0f} % of {} that the best model, {}, does not explain",
+                            best.fit.rmse_percent, report.full_scale_is, best.model),
+                fmt::format("at most {:.0f} %", percent), try_this);
+}
+
+}  // namespace sinew::identify

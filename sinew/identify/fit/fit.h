@@ -1,0 +1,79 @@
+// identify/fit/fit.h - what an identification found: every model that was tried, how well it fits
+// what it saw and what it did not see, and which one was chosen by which rule.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sinew/identify/fit/least_squares.h"
+
+namespace sinew::identify {
+
+struct Score {
+  std::size_t points = 0;
+  double rmse = 0, max = 0;  // of the residuals, in the report's unit
+
+  // Of `full_scale`, for instance the muscle's largest force  [%].
+  double rmse_percent = 0, max_percent = 0;
+};
+
+Score score(std::span<const double> residuals, double full_scale);
+
+struct Fit {
+  std::string model;   // its name, as --model takes it
+  std::string law;     // "F = Eff(p) p b^2/(4 pi n^2) (3 L^2/b^2 - 1)"
+  std::string source;  // of the law
+  std::vector<Estimate> parameters;
+  Score fit;
+  std::optional<Score> held_out;
+  // Parts of what was fitted, predicted by the rest; a method's own way, told in `notes`.
+  std::optional<Score> cross_validated;
+  std::vector<double> residuals;   // predicted - measured, of Report::rows; none: not told
+  std::vector<std::string> notes;  // what one should know about this fit
+  std::string refused;             // why this model cannot be had from the data; empty: it can
+};
+
+// What was measured, for a picture of it: the report's quantity at another one.
+struct Rows {
+  std::string x, x_unit;             // "pressure", "Pa gauge"
+  std::string unit;                  // of what was measured; empty: Report::unit
+  std::vector<double> at, measured;  // [x_unit], [unit]
+  std::vector<std::string> group;    // of each row: "205 mm"; empty: all are one
+  std::vector<int> order;            // of each row its group's place; empty: as they come
+  std::vector<bool> held_out;        // of each row; empty: none is
+
+  // More than x and the group changes from row to row: no curve leads through them.
+  bool scattered = false;
+
+  std::size_t size() const { return at.size(); }
+};
+
+struct Report {
+  std::string subject;        // "static model of DMSP-10-250"
+  std::string quantity;       // what the residuals are: "force"
+  std::string unit;           // and their SI unit
+  double full_scale = 0;      // what 100 % is, in `unit`
+  std::string full_scale_is;  // "the largest force measured"
+  std::string held_out_is;    // "every second pressure"; empty where nothing was held out
+  std::vector<Fit> fits;
+  std::size_t chosen = 0;
+  std::string rule;  // by which it was chosen, with the numbers that decided
+  Rows rows;
+  std::vector<std::string> notes, warnings;
+
+  const Fit& best() const { return fits[chosen]; }
+};
+
+// The simplest model (fewest parameters) whose cross-validated error - without one the held-out
+// error, without that its fit - is within `tolerance` (relative) of the smallest, or within
+// `negligible` [%]: errors below it say nothing, for instance the converter's steps. Refused models
+// do not count. Writes `chosen` and `rule`.
+// Throws Refusal where every model was refused.
+void choose(Report& report, double tolerance = 0.1, double negligible = 0);
+
+// Throws Refusal if the chosen model leaves a larger error than that where it was fitted: then the
+// data are of something else, or not what their columns say.
+void refuse_unexplained(const Report& report, double percent, const std::string& try_this);
+
+}  // namespace sinew::identify

@@ -1,0 +1,61 @@
+// The choice among models follows its rule, and refusals say why once.
+#include "sinew/identify/fit/fit.h"
+
+#include <gtest/gtest.h>
+
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+namespace {
+
+Fit model(const std::string& name, std::size_t parameters, double percent) {
+  Fit fit{.model = name};
+  fit.parameters.resize(parameters);
+  fit.fit.rmse_percent = percent;
+  return fit;
+}
+
+std::string message(const Report& report, double percent) {
+  try {
+    Report r = report;
+    choose(r);
+    refuse_unexplained(r, percent, "something else");
+  } catch (const Refusal& e) {
+    return e.what();
+  }
+  return "none";
+}
+
+TEST(Choice, is_the_fewest_parameters_among_the_good_ones) {
+  Report r{.fits = {model("one", 1, 2.0), model("two", 2, 1.05), model("five", 5, 1.0)}};
+  choose(r);
+  EXPECT_EQ(r.best().model, "two");
+  choose(r, 0.01);
+  EXPECT_EQ(r.best().model, "five");
+  choose(r, 0.01, 2.5);  // all below what says nothing
+  EXPECT_EQ(r.best().model, "one");
+  r.fits[1].refused = "for a reason";
+  choose(r);
+  EXPECT_EQ(r.best().model, "five");
+}
+
+TEST(Choice, refuses_when_nothing_is_left_and_says_each_reason_once) {
+  Report r{.subject = "law", .fits = {model("a", 1, 1), model("b", 2, 1), model("c", 3, 1)}};
+  r.fits[0].refused = r.fits[2].refused = "one length only";
+  r.fits[1].refused = "no mesh";
+  EXPECT_EQ(message(r, 10),
+            "law: found no model that the data support: one length only (a, c); no mesh (b); "
+            "expected data that determine the simplest of them");
+}
+
+TEST(Choice, refuses_what_no_model_explains) {
+  const Report r{
+      .subject = "law", .full_scale_is = "the largest force", .fits = {model("a", 1, 20)}};
+  EXPECT_EQ(message(r, 25), "none");
+  EXPECT_EQ(message(r, 15),
+            "law: found 20 % of the largest force that the best model, a, does not explain; "
+            "expected at most 15 %; try something else");
+}
+
+}  // namespace
+}  // namespace sinew::identify

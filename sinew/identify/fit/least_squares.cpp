@@ -1,0 +1,357 @@
+#include "sinew/identify/fit/least_squares.h"
+
+#include <ceres/ceres.h>
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+
+namespace {
+
+// A direction that moves the residuals less than this share of what the best seen one does.
+constexpr double unseen_below = 1e-8;
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+// The residuals over scaled parameters, for Ceres and for the covariance alike.
+class Scaled {
+ public:
+  Scaled(const Residuals& residuals, std::size_t count, std::span<const Parameter> parameters,
+         double difference)
+      : residuals_(residuals),
+        count_(count),
+        parameters_(parameters),
+        difference_(difference),
+        p_(parameters.size()) {}
+
+  std::size_t count() const { return count_; }
+  std::size_t size() const { return parameters_.size(); }
+  double low(std::size_t i) const { return parameters_[i].low / parameters_[i].scale; }
+  double high(std::size_t i) const { return parameters_[i].high / parameters_[i].scale; }
+
+  bool operator()(const double* u, double* r) const {
+    for (std::size_t i = 0; i < p_.size(); ++i)
+      p_[i] = std::clamp(u[i] * parameters_[i].scale, parameters_[i].low, parameters_[i].high);
+    const std::span<double> out(r, count_);
+    if (!residuals_(p_, out)) return false;
+    return std::all_of(out.begin(), out.end(), [](double x) { return std::isfinite(x); });
+  }
+
+  // d r/d u_i: central, at a bound one-sided. False where the model has no answer.
+  bool column(const std::vector<double>& u, std::size_t i, double* out) const {
+    const double step = difference_ * std::max(1.0, std::abs(u[i]));
+    std::vector<double> at = u, above(count_), below(count_);
+    at[i] = std::min(u[i] + step, high(i));
+    const double to = at[i];
+    if (!(*this)(at.data(), above.data())) return false;
+    at[i] = std::max(u[i] - step, low(i));
+    const double from = at[i];
+    if (!(*this)(at.data(), below.data()) || !(to > from)) return false;
+    for (std::size_t k = 0; k < count_; ++k) out[k] = (above[k] - below[k]) / (to - from);
+    return true;
+  }
+
+ private:
+  const Residuals& residuals_;
+  std::size_t count_;
+  std::span<const Parameter> parameters_;
+  double difference_;
+  mutable std::vector<double> p_;
+};
+
+class Cost final : public ceres::CostFunction {
+ public:
+  explicit Cost(const Scaled& model) : model_(model) {
+    set_num_residuals(static_cast<int>(model.count()));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(model.size()));
+  }
+
+  bool Evaluate(double const* const* u, double* r, double** jacobians) const override {
+    if (!model_(u[0], r)) return false;
+    if (!jacobians || !jacobians[0]) return true;
+    const std::vector<double> at(u[0], u[0] + model_.size());
+    std::vector<double> column(model_.count());
+    for (std::size_t i = 0; i < model_.size(); ++i) {
+      if (!model_.column(at, i, column.data())) return false;
+      for (std::size_t k = 0; k < column.size(); ++k)
+        jacobians[0][k * model_.size() + i] = column[k];
+    }
+    return true;
+  }
+
+ private:
+  const Scaled& model_;
+};
+
+// The loss acts on every residual by itself; Ceres would apply it to the whole block. So the
+// residuals become sqrt(rho(r^2)) of the same sign: log1p is Cauchy's rho.
+Residuals with_loss(const Residuals& residuals, double outlier) {
+  if (outlier <= 0) return residuals;
+  return [&residuals, outlier](std::span<const double> p, std::span<double> r) {
+    if (!residuals(p, r)) return false;
+    for (double& x : r) {
+      const double s = x / outlier;
+      x = std::copysign(outlier * std::sqrt(std::log1p(s * s)), x);
+    }
+    return true;
+  };
+}
+
+// 1 + 2 sum of the autocorrelation, up to where it is lost in noise.
+double inflation_of(std::span<const double> r) {
+  const std::size_t n = r.size();
+  double mean = 0, c0 = 0;
+  for (const double x : r) mean += x / static_cast<double>(n);
+  for (const double x : r) c0 += (x - mean) * (x - mean);
+  if (c0 <= 0) return 1;
+  double sum = 1;
+  for (std::size_t lag = 1; lag < n / 4; ++lag) {
+    double c = 0;
+    for (std::size_t i = lag; i < n; ++i) c += (r[i] - mean) * (r[i - lag] - mean);
+    if (c / c0 < 2 / std::sqrt(static_cast<double>(n))) break;
+    sum += 2 * c / c0;
+  }
+  return sum;
+}
+
+// What is known about the solution at u: everything but the values.
+class Uncertainty {
+ public:
+  Uncertainty(const Scaled& model, std::span<const Parameter> parameters,
+              const SolverOptions& options)
+      : model_(model), parameters_(parameters), options_(options) {}
+
+  void describe(const std::vector<double>& u, Solution& out) const {
+    const std::size_t n = model_.size();
+    std::vector<std::size_t> free;
+    for (std::size_t i = 0; i < n; ++i)
+      if (!at_bound(u, i)) free.push_back(i);
+    out.freedom = static_cast<int>(model_.count()) - static_cast<int>(free.size());
+
+    const Matrix jacobian = weighted_jacobian(u, free, out.residuals);
+    set_deviation(out);
+    const Matrix cov = covariance(jacobian, free, out);
+    write(u, free, cov, out);
+  }
+
+ private:
+  bool at_bound(const std::vector<double>& u, std::size_t i) const {
+    const double margin = 1e-7 * std::max(1.0, std::abs(u[i]));
+    return u[i] <= model_.low(i) + margin || u[i] >= model_.high(i) - margin;
+  }
+
+  double weight(double residual) const {
+    if (options_.outlier <= 0) return 1;
+    const double s = residual / options_.outlier;
+    return 1 / (1 + s * s);
+  }
+
+  Matrix weighted_jacobian(const std::vector<double>& u, const std::vector<std::size_t>& free,
+                           std::span<const double> residuals) const {
+    const auto rows = static_cast<Eigen::Index>(model_.count());
+    Matrix j(rows, static_cast<Eigen::Index>(free.size()));
+    std::vector<double> column(model_.count());
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      if (!model_.column(u, free[i], column.data())) std::fill(column.begin(), column.end(), 0.0);
+      for (std::size_t k = 0; k < column.size(); ++k)
+        j(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
+            column[k] * std::sqrt(weight(residuals[k]));
+    }
+    return j;
+  }
+
+  void set_deviation(Solution& out) const {
+    double plain = 0, weighted = 0, weights = 0;
+    for (const double r : out.residuals) {
+      plain += r * r;
+      weighted += weight(r) * r * r;
+      weights += weight(r);
+    }
+    const auto count = static_cast<double>(out.residuals.size());
+    out.rms = std::sqrt(plain / count);
+    // Residuals that the loss ignores do not count as data.
+    const double freedom = weights - (count - out.freedom);
+    out.standard_deviation = freedom > 0 ? std::sqrt(weighted / freedom) : 0;
+    if (options_.correlated) out.inflation = inflation_of(out.residuals);
+  }
+
+  // Of the free scaled parameters; infinite where the data say nothing.
+  Matrix covariance(const Matrix& jacobian, const std::vector<std::size_t>& free,
+                    Solution& out) const {
+    const Eigen::Index n = jacobian.cols();
+    Matrix cov = Matrix::Zero(n, n);
+    if (n == 0) return cov;
+    // By the triangle of its QR: squaring J would lose half the digits.
+    const Eigen::HouseholderQR<Matrix> qr(jacobian);
+    const Matrix triangle = qr.matrixQR().topRows(n).triangularView<Eigen::Upper>();
+    const Eigen::JacobiSVD<Matrix> svd(triangle, Eigen::ComputeFullV);
+    const Vector& seen = svd.singularValues();
+    const double s2 = out.standard_deviation * out.standard_deviation * out.inflation;
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Vector v = svd.matrixV().col(k);
+      if (seen(k) > unseen_below * seen(0)) {
+        cov += s2 / (seen(k) * seen(k)) * v * v.transpose();
+        continue;
+      }
+      out.unseen.push_back(combination(v, free));
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (std::abs(v(i)) > 1e-3) cov(i, i) = unbounded;
+    }
+    return cov;
+  }
+
+  // "0.71 scale - 0.71 moment_arm", in the parameters' scales.
+  std::string combination(const Vector& v, const std::vector<std::size_t>& free) const {
+    std::string out;
+    for (Eigen::Index i = 0; i < v.size(); ++i) {
+      if (std::abs(v(i)) < 1e-3) continue;
+      const bool minus = v(i) < 0;
+      const char* sign = out.empty() ? (minus ? "-" : "") : (minus ? " - " : " + ");
+      const Parameter& p = parameters_[free[static_cast<std::size_t>(i)]];
+      out += fmt::format("{}{:.2g} {}/({:g} {})", sign, std::abs(v(i)), p.name, p.scale, p.unit);
+    }
+    return out;
+  }
+
+  void write(const std::vector<double>& u, const std::vector<std::size_t>& free, const Matrix& cov,
+             Solution& out) const {
+    const std::size_t n = model_.size();
+    out.covariance.assign(n * n, 0.0);
+    for (std::size_t i = 0; i < free.size(); ++i)
+      for (std::size_t k = 0; k < free.size(); ++k)
+        out.covariance[free[i] * n + free[k]] =
+            cov(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) *
+            parameters_[free[i]].scale * parameters_[free[k]].scale;
+
+    const double t = t_quantile(std::max(1, out.freedom));
+    for (std::size_t i = 0; i < n; ++i) {
+      const Parameter& p = parameters_[i];
+      Estimate e{.name = p.name, .unit = p.unit, .value = out.values[i]};
+      e.at_bound = at_bound(u, i);
+      e.standard_error = e.at_bound ? 0 : std::sqrt(out.covariance[i * n + i]);
+      e.low = e.value - t * e.standard_error;
+      e.high = e.value + t * e.standard_error;
+      if (out.freedom < 1 && !e.at_bound) e.low = -unbounded, e.high = unbounded;
+      const double size = std::max(std::abs(e.value), p.scale);
+      e.identifiable = !e.at_bound && t * e.standard_error <= options_.widest_interval * size;
+      out.estimates.push_back(e);
+    }
+  }
+
+  const Scaled& model_;
+  std::span<const Parameter> parameters_;
+  const SolverOptions& options_;
+};
+
+void check_start(std::span<const Parameter> parameters, std::size_t count) {
+  for (const Parameter& p : parameters)
+    if (!(p.low <= p.start && p.start <= p.high) || !(p.low < p.high) || !(p.scale > 0))
+      throw std::invalid_argument(fmt::format("parameter {}: start {} in [{}, {}], scale {}",
+                                              p.name, p.start, p.low, p.high, p.scale));
+  if (count < parameters.size())
+    throw Refusal("data", fmt::format("{} points", count),
+                  fmt::format("at least {}, one per parameter", parameters.size()),
+                  "more measurements, or a model with fewer parameters");
+}
+
+}  // namespace
+
+const Estimate& Solution::operator[](std::string_view name) const {
+  for (const Estimate& e : estimates)
+    if (e.name == name) return e;
+  throw std::out_of_range(fmt::format("no parameter {}", name));
+}
+
+double t_quantile(int freedom) {
+  // Cornish and Fisher's expansion about the normal quantile; the first ones are exact.
+  constexpr double exact[] = {12.7062, 4.30265, 3.18245, 2.77645, 2.57058};
+  if (freedom < 1) return unbounded;
+  if (freedom <= 5) return exact[freedom - 1];
+  const double z = 1.959963984540054, v = freedom, z2 = z * z;
+  return z + z * (z2 + 1) / (4 * v) + z * ((5 * z2 + 16) * z2 + 3) / (96 * v * v) +
+         z * (((3 * z2 + 19) * z2 + 17) * z2 - 15) / (384 * v * v * v);
+}
+
+Solution least_squares(const Residuals& residuals, std::size_t count,
+                       std::span<const Parameter> parameters, const SolverOptions& options) {
+  check_start(parameters, count);
+  const Residuals lossy = with_loss(residuals, options.outlier);
+  const Scaled model(lossy, count, parameters, options.difference);
+  const Scaled plain(residuals, count, parameters, options.difference);
+
+  std::vector<double> u;
+  for (const Parameter& p : parameters) u.push_back(p.start / p.scale);
+  Solution out;
+  out.residuals.resize(count);
+  if (!plain(u.data(), out.residuals.data()))
+    throw Refusal("model", "no answer at its start values", "finite residuals",
+                  "other start values");
+
+  if (!parameters.empty()) {
+    ceres::Problem problem;
+    problem.AddParameterBlock(u.data(), static_cast<int>(u.size()));
+    problem.AddResidualBlock(new Cost(model), nullptr, u.data());  // which owns the cost
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      const int index = static_cast<int>(i);
+      if (std::isfinite(model.low(i)))
+        problem.SetParameterLowerBound(u.data(), index, model.low(i));
+      if (std::isfinite(model.high(i)))
+        problem.SetParameterUpperBound(u.data(), index, model.high(i));
+    }
+    ceres::Solver::Options solver;
+    solver.linear_solver_type = ceres::DENSE_QR;
+    solver.max_num_iterations = options.most_steps;
+    solver.function_tolerance = 1e-14;
+    solver.gradient_tolerance = 1e-14;
+    solver.parameter_tolerance = 1e-10;
+    solver.logging_type = ceres::SILENT;
+    solver.num_threads = 1;
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver, &problem, &summary);
+    out.converged = summary.termination_type == ceres::CONVERGENCE;
+    out.steps = static_cast<int>(summary.iterations.size());
+  }
+
+  plain(u.data(), out.residuals.data());
+  for (std::size_t i = 0; i < u.size(); ++i)
+    out.values.push_back(
+        std::clamp(u[i] * parameters[i].scale, parameters[i].low, parameters[i].high));
+  Uncertainty(plain, parameters, options).describe(u, out);
+  return out;
+}
+
+Solution least_squares_from(const Residuals& residuals, std::size_t count,
+                            std::span<const Parameter> parameters,
+                            std::span<const std::vector<double>> starts,
+                            const SolverOptions& options) {
+  const auto cost = [&](const Solution& s) {
+    double sum = 0;
+    for (const double r : s.residuals)
+      sum += options.outlier > 0 ? std::log1p(std::pow(r / options.outlier, 2)) : r * r;
+    return sum;
+  };
+  std::unique_ptr<Solution> best;
+  std::vector<Parameter> from(parameters.begin(), parameters.end());
+  for (const std::vector<double>& start : starts) {
+    for (std::size_t i = 0; i < from.size(); ++i)
+      from[i].start = std::clamp(start.at(i), from[i].low, from[i].high);
+    try {
+      Solution s = least_squares(residuals, count, from, options);
+      if (!best || cost(s) < cost(*best)) best = std::make_unique<Solution>(std::move(s));
+    } catch (const Refusal&) {
+      if (&start == &starts.back() && !best) throw;
+    }
+  }
+  if (!best) throw std::invalid_argument("no start values");
+  return *best;
+}
+
+}  // namespace sinew::identify

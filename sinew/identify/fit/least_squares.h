@@ -1,0 +1,92 @@
+// identify/fit/least_squares.h - parameters that make residuals small, and how far they can be
+// trusted.
+//
+//   minimise  sum rho(r_i(p)^2)/2     by Levenberg-Marquardt (Ceres), p within bounds
+//
+//   J     dr/dp by central differences at the solution, rows weighted as the loss weighs them
+//   s^2   sum w r^2/(n - k)           n residuals, k parameters that are free
+//   cov   s^2 (J^T J)^-1              by singular values; directions that J does not see are left
+//                                     out and every parameter in them counts as not identifiable
+//
+// The intervals are value +- t(0.975, n - k) standard errors: 95 %, if the model is right and the
+// residuals are independent. Where there are no more residuals than parameters no error can be
+// seen, and the interval is infinite. Samples of a time series are not; with `correlated` the
+// variance grows by 1 + 2 sum of the residuals' autocorrelation.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sinew::identify {
+
+inline constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+struct Parameter {
+  std::string name;
+  std::string unit;  // SI, as a field's
+  double start = 0;
+  double low = -unbounded, high = unbounded;
+  double scale = 1;  // a change of this size matters; > 0
+};
+
+// Writes the residuals of the parameters p, always as many. May return false where the model has no
+// answer there: the step is then refused.
+using Residuals = std::function<bool(std::span<const double> p, std::span<double> r)>;
+
+struct SolverOptions {
+  // Residuals beyond it are taken for outliers, in units of the residuals; 0: none is (rho = r^2).
+  // Cauchy's rho grows with their logarithm only.
+  double outlier = 0;
+  bool correlated = false;  // residuals are a time series
+  int most_steps = 200;
+  // A parameter whose interval is wider than this share of the larger of its value and its scale is
+  // not identifiable.
+  double widest_interval = 1.0;
+  // Step of the derivatives, in the parameters' scales. By default the cube root of the roundoff; a
+  // model that integrates with steps of its own has kinks of that size and needs more.
+  double difference = 6e-6;
+};
+
+struct Estimate {
+  std::string name, unit;
+  double value = 0;
+  double standard_error = 0;  // infinite: not identifiable at all
+  double low = 0, high = 0;   // 95 %
+  bool identifiable = true;
+  bool at_bound = false;  // no interval: it would like to be elsewhere
+};
+
+struct Solution {
+  std::vector<Estimate> estimates;  // in the parameters' order
+  std::vector<double> values;
+  std::vector<double> residuals;    // at the solution, without the loss
+  std::vector<double> covariance;   // row by row; of fixed parameters 0
+  std::vector<std::string> unseen;  // combinations of parameters that the data do not determine
+  double rms = 0;                   // of the residuals
+  double standard_deviation = 0;    // s
+  double inflation = 1;             // of the variance, by correlation
+  int freedom = 0;                  // n - k
+  int steps = 0;
+  bool converged = false;
+
+  const Estimate& operator[](std::string_view name) const;  // throws std::out_of_range
+};
+
+// Throws std::invalid_argument for bounds that contain no start, and Refusal where there are fewer
+// residuals than parameters or the model has no answer at the start.
+Solution least_squares(const Residuals& residuals, std::size_t count,
+                       std::span<const Parameter> parameters, const SolverOptions& options = {});
+
+// The best of several starts; ties go to the earlier. `starts` hold one value per parameter.
+Solution least_squares_from(const Residuals& residuals, std::size_t count,
+                            std::span<const Parameter> parameters,
+                            std::span<const std::vector<double>> starts,
+                            const SolverOptions& options = {});
+
+// Quantile 0.975 of Student's t: the half-width of a 95 % interval in standard errors.
+double t_quantile(int freedom);
+
+}  // namespace sinew::identify

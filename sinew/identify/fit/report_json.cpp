@@ -1,0 +1,69 @@
+#include "sinew/identify/fit/report_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace sinew::identify {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Score& score) {
+  return {{"points", score.points},
+          {"rmse", score.rmse},
+          {"max", score.max},
+          {"rmse_percent", score.rmse_percent},
+          {"max_percent", score.max_percent}};
+}
+
+Json to_json(const Estimate& e) {
+  Json out{{"name", e.name}, {"unit", e.unit}, {"value", e.value}};
+  out["low"] = e.at_bound ? Json() : finite_or_null(e.low);
+  out["high"] = e.at_bound ? Json() : finite_or_null(e.high);
+  out["identifiable"] = e.identifiable;
+  if (e.at_bound) out["at_bound"] = true;
+  return out;
+}
+
+Json to_json(const Fit& fit) {
+  Json out{{"model", fit.model}, {"law", fit.law}, {"source", fit.source}};
+  if (!fit.refused.empty()) {
+    out["refused"] = fit.refused;
+    return out;
+  }
+  out["parameters"] = Json::array();
+  for (const Estimate& e : fit.parameters) out["parameters"].push_back(to_json(e));
+  out["fit"] = to_json(fit.fit);
+  if (fit.held_out) out["held_out"] = to_json(*fit.held_out);
+  if (fit.cross_validated) out["cross_validated"] = to_json(*fit.cross_validated);
+  if (!fit.notes.empty()) out["notes"] = fit.notes;
+  return out;
+}
+
+}  // namespace
+
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json to_json(const Report& report) {
+  Json out{{"format", "sinew.identification/1"}, {"subject", report.subject}};
+  out["quantity"] = report.quantity;
+  out["unit"] = report.unit;
+  out["full_scale"] = report.full_scale;
+  out["full_scale_is"] = report.full_scale_is;
+  if (!report.held_out_is.empty()) out["held_out_is"] = report.held_out_is;
+  out["chosen"] = report.best().model;
+  out["rule"] = report.rule;
+  out["models"] = Json::array();
+  for (const Fit& fit : report.fits) out["models"].push_back(to_json(fit));
+  out["notes"] = report.notes;
+  out["warnings"] = report.warnings;
+
+  // The chosen one once more, where a program looks first.
+  const Json best = to_json(report.best());
+  for (const char* key : {"model", "parameters", "fit", "held_out", "cross_validated"})
+    if (best.contains(key)) out[key] = best[key];
+  return out;
+}
+
+}  // namespace sinew::identify

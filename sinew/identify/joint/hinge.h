@@ -1,0 +1,55 @@
+// identify/joint/hinge.h - how a muscle's cord runs over a joint: its moment arm and what the
+// muscle loses in length, over the joint's angle q from rest, positive where the muscle shortens.
+//
+//   round   r(q) = r                          s(q) = r q
+//   hinge   r(q) = a d sin(phi)/D(phi)        s(q) = D(phi_0) - D(phi),  phi = phi_0 - q
+//           D^2 = a^2 + d^2 - 2 a d cos(phi)
+//
+//   r  moment arm [m]     s  shortening [m], s' = r     a, d  from the joint to the two points that
+//   the muscle is fixed to [m]     phi  angle between them, seen from the joint [rad]
+//
+// A hinge is described by r = r(0), phi_0 and a sin(phi_0)/r, which is above 1; d follows.
+#pragma once
+
+#include <cmath>
+
+namespace sinew::identify {
+
+class Hinge {
+ public:
+  static Hinge round(double arm) { return Hinge(arm, 0, 0, 0); }
+
+  // `ratio` is a sin(angle)/arm, above 1; 0 < angle < pi.
+  static Hinge points(double arm, double ratio, double angle) {
+    const double s = std::sin(angle), origin = ratio * arm / s;
+    const double insertion =
+        origin * (std::sqrt(ratio * ratio - s * s) - std::cos(angle)) / (ratio * ratio - 1);
+    return Hinge(arm, origin, insertion, angle);
+  }
+
+  double arm(double q) const {
+    if (origin_ == 0) return arm_;
+    const double phi = angle_ - q;
+    return origin_ * insertion_ * std::sin(phi) / distance(phi);
+  }
+
+  double shortening(double q) const {
+    return origin_ == 0 ? arm_ * q : distance(angle_) - distance(angle_ - q);
+  }
+
+  double origin() const { return origin_; }        // a [m]
+  double insertion() const { return insertion_; }  // d [m]
+
+ private:
+  Hinge(double arm, double origin, double insertion, double angle)
+      : arm_(arm), origin_(origin), insertion_(insertion), angle_(angle) {}
+
+  double distance(double phi) const {
+    return std::sqrt(origin_ * origin_ + insertion_ * insertion_ -
+                     2 * origin_ * insertion_ * std::cos(phi));
+  }
+
+  double arm_, origin_, insertion_, angle_;
+};
+
+}  // namespace sinew::identify

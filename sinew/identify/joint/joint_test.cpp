@@ -1,0 +1,260 @@
+// Force law and arm of a joint from angles, pressures and loads: back from joints that are known,
+// and an answer of its own where they cannot be told apart.
+#include "sinew/identify/joint/joint.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "sinew/actuator/thesis_actuator.h"
+#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/joint/hinge.h"
+
+namespace sinew::identify {
+namespace {
+
+constexpr double pi = std::numbers::pi, atmosphere = actuator::thesis_atmosphere;
+
+struct Truth {
+  double arm = 0.022, flexor = 0.083, extensor = 0.084;
+  double c0 = 0.97, c1 = -1.5e-7;
+  double origin = 0, origin_angle = 0;  // of a hinge
+  double sign = 1, rest = 4.0, half_range = 0.55;
+};
+
+// [22] and the cosine rule, written out once more.
+double pull(const Truth& t, double mount, double q, double gauge) {
+  const actuator::Braid braid = actuator::thesis_actuator().braid;
+  double arm = t.arm, shortening = t.arm * q;
+  if (t.origin > 0) {
+    // d by bisection from the arm at rest.
+    const auto distance = [&](double d, double phi) {
+      return std::sqrt(t.origin * t.origin + d * d - 2 * t.origin * d * std::cos(phi));
+    };
+    double low = 0, high = 10;
+    for (int i = 0; i < 200; ++i) {
+      const double d = 0.5 * (low + high);
+      const double a = t.origin * d * std::sin(t.origin_angle) / distance(d, t.origin_angle);
+      (a < t.arm ? low : high) = d;
+    }
+    arm = t.origin * low * std::sin(t.origin_angle - q) / distance(low, t.origin_angle - q);
+    shortening = distance(low, t.origin_angle) - distance(low, t.origin_angle - q);
+  }
+  const double length = mount - shortening, b = braid.thread_length, n = braid.turns;
+  const double force = gauge * (3 * length * length - b * b) / (4 * pi * n * n);
+  return arm * std::max(0.0, force * (t.c0 + t.c1 * gauge));
+}
+
+// Poses at random pressures; the load that holds them, read with an error of `noise` [N m].
+Measured poses(const Truth& t, bool pair, double noise, unsigned seed, int count = 120) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> where(-t.half_range, t.half_range), gauge(1e5, 6.5e5);
+  std::normal_distribution<double> normal(0, noise);
+  Measured m{
+      .file = "knee.csv",
+      .columns = {{"angle", "rad", {}}, {"flexor_pressure", "Pa abs", {}}, {"torque", "N m", {}}}};
+  if (pair) m.columns.push_back({"extensor_pressure", "Pa abs", {}});
+  for (int i = 0; i < count; ++i) {
+    const double q = where(random), flexor = gauge(random), extensor = gauge(random);
+    double torque = pull(t, t.flexor, q, flexor);
+    if (pair) torque -= pull(t, t.extensor, -q, extensor);
+    m.columns[0].values.push_back(t.rest + t.sign * q);
+    m.columns[1].values.push_back(flexor + atmosphere);
+    m.columns[2].values.push_back(-t.sign * torque + normal(random));
+    if (pair) m.columns[3].values.push_back(extensor + atmosphere);
+    m.lines.push_back(i + 2);
+  }
+  return m;
+}
+
+JointSetup setup_of(const Truth& t) {
+  JointSetup s{.actuator = actuator::thesis_actuator()};
+  s.atmosphere = atmosphere;
+  s.gravity = units::standard_gravity;
+  s.flexion_raises = t.sign > 0;
+  s.rest_angle = t.rest;
+  return s;
+}
+
+std::string refused(const Measured& m, const JointSetup& s, std::string_view model = "") {
+  try {
+    identify_joint(m, {}, s, model);
+  } catch (const Refusal& e) {
+    return e.what();
+  }
+  return "not refused";
+}
+
+TEST(Hinge, arm_is_the_slope_of_the_shortening) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> angle(0.4, 2.5), q(-0.4, 0.4), ratio(1.05, 20);
+  for (int i = 0; i < 200; ++i) {
+    const Hinge h = Hinge::points(0.015, ratio(random), angle(random));
+    const double at = q(random), step = 1e-5;
+    EXPECT_NEAR(h.arm(at), (h.shortening(at + step) - h.shortening(at - step)) / (2 * step), 1e-8);
+    EXPECT_NEAR(h.arm(0), 0.015, 1e-12);
+    EXPECT_GE(h.insertion(), 0.015);
+    EXPECT_GE(h.origin(), 0.015);
+  }
+}
+
+// From far away the cosine rule's points give a hinge whose arm goes with the sine alone.
+TEST(Hinge, from_far_away_the_arm_is_the_insertion_times_the_sine) {
+  const Hinge h = Hinge::points(0.02, 1e6, pi / 2);
+  for (const double q : {-0.5, 0.0, 0.5}) EXPECT_NEAR(h.arm(q), 0.02 * std::sin(pi / 2 - q), 1e-6);
+}
+
+TEST(Joint, without_noise_everything_comes_back) {
+  for (const bool pair : {false, true})
+    for (const double sign : {1.0, -1.0}) {
+      const Truth t{.sign = sign};
+      const JointResult r = identify_joint(poses(t, pair, 0, 1), {}, setup_of(t), "round_pressure");
+      EXPECT_NEAR(r.moment_arm, t.arm, 1e-5 * t.arm) << pair << sign;
+      EXPECT_NEAR(r.flexor_length, t.flexor, 1e-5 * t.flexor);
+      EXPECT_NEAR(r.effectiveness.c0, t.c0, 1e-5);
+      EXPECT_NEAR(r.effectiveness.c1, t.c1, 1e-11);
+      EXPECT_EQ(std::isfinite(r.extensor_length), pair);
+      if (pair) {
+        EXPECT_NEAR(r.extensor_length, t.extensor, 1e-5 * t.extensor);
+      }
+    }
+}
+
+TEST(Joint, the_model_is_chosen_by_what_it_did_not_see) {
+  const std::pair<Truth, const char*> cases[] = {{Truth{.c1 = 0}, "round"},
+                                                 {Truth{}, "round_pressure"}};
+  for (const auto& [t, name] : cases) {
+    const JointResult r = identify_joint(poses(t, false, 0.002, 5), {}, setup_of(t));
+    EXPECT_EQ(r.report.best().model, name) << r.report.rule;
+    EXPECT_TRUE(r.cam_angle.empty());
+    EXPECT_LT(r.report.best().held_out->rmse_percent, 0.3);
+  }
+}
+
+// An arm that changes with the angle and an unknown force law are too much for torques; with the
+// force law known the points come out.
+TEST(Joint, attachment_points_need_a_known_force_law) {
+  const Truth t{.c1 = 0, .origin = 0.06, .origin_angle = 1.2};
+  JointSetup s = setup_of(t);
+  EXPECT_NE(refused(poses(t, false, 0.002, 5), s).find("cannot be told apart"), std::string::npos);
+
+  s.keep_force = true;
+  s.actuator.effectiveness = {.c0 = t.c0};
+  const JointResult r = identify_joint(poses(t, false, 0.002, 5), {}, s);
+  EXPECT_EQ(r.report.best().model, "hinge") << r.report.rule;
+  EXPECT_NEAR(r.moment_arm, t.arm, 0.005 * t.arm);
+  EXPECT_NEAR(r.flexor_length, t.flexor, 0.005 * t.flexor);
+  ASSERT_EQ(r.cam_angle.size(), r.cam_flexor.size());
+  EXPECT_EQ(r.effectiveness.c0, t.c0);
+}
+
+TEST(Joint, intervals_cover_the_truth_in_200_trials) {
+  const Truth t;
+  int covered[4] = {};
+  double bias[4] = {};
+  const double truth[] = {t.arm, t.flexor, t.c0, t.c1};
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    const JointResult r =
+        identify_joint(poses(t, false, 0.005, seed), {}, setup_of(t), "round_pressure");
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Estimate& e = r.report.best().parameters[i];
+      covered[i] += e.low <= truth[i] && truth[i] <= e.high;
+      bias[i] += (e.value / truth[i] - 1) / 200;
+    }
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_GE(covered[i], 180) << i;
+    EXPECT_LE(covered[i], 198) << i;
+    EXPECT_LT(std::abs(bias[i]), 0.01) << i;
+  }
+}
+
+// A small excursion at one length: torque is arm times force, and that is all.
+TEST(Joint, small_excursions_determine_a_product_only_and_it_says_so) {
+  const Truth t{.half_range = 0.06};
+  const std::string text = refused(poses(t, false, 0.05, 2), setup_of(t), "round");
+  EXPECT_NE(text.find("cannot be told apart"), std::string::npos) << text;
+  EXPECT_NE(text.find("determined is"), std::string::npos) << text;
+  EXPECT_NE(text.find("moment_arm^"), std::string::npos) << text;
+  EXPECT_NE(text.find("c0^"), std::string::npos) << text;
+
+  // With a known arm, or a known force law, the rest can be had.
+  JointSetup arm = setup_of(t);
+  arm.moment_arm = t.arm;
+  const JointResult with_arm = identify_joint(poses(t, false, 0.01, 2), {}, arm, "round_pressure");
+  EXPECT_NEAR(with_arm.flexor_length, t.flexor, 0.02 * t.flexor);
+  EXPECT_EQ(with_arm.moment_arm, t.arm);
+
+  JointSetup force = setup_of(t);
+  force.keep_force = true;
+  force.actuator.effectiveness = {.c0 = t.c0, .c1 = t.c1};
+  const JointResult with_force = identify_joint(poses(t, false, 0.05, 2), {}, force);
+  EXPECT_EQ(with_force.report.best().model, "round");
+  EXPECT_NEAR(with_force.moment_arm, t.arm, 0.1 * t.arm);
+}
+
+TEST(Joint, what_is_well_determined_comes_first) {
+  const Truth t;
+  const JointResult r =
+      identify_joint(poses(t, false, 0.005, 9), {}, setup_of(t), "round_pressure");
+  ASSERT_EQ(r.combinations.size(), 3u);
+  EXPECT_LT(r.combinations[0].relative_error, 0.1 * r.combinations[2].relative_error);
+}
+
+// A hanging mass is a torque like any other.
+TEST(Joint, a_mass_on_a_lever_says_the_same_as_its_torque) {
+  const Truth t{.rest = 1.5 * pi + 0.9};
+  Measured by_torque = poses(t, false, 0, 4), by_load = by_torque;
+  JointSetup s = setup_of(t);
+  s.lever = 0.15;
+  s.down = 1.5 * pi;
+  s.limb = 0.3;
+  s.limb_lever = 0.05;
+  by_load.columns[2] = {"load", "kg", {}};
+  for (std::size_t i = 0; i < by_torque.rows(); ++i) {
+    const double arm = std::sin(by_torque["angle"][i] - s.down);
+    const double total = -by_torque["torque"][i] / (s.gravity * arm);
+    by_load.columns[2].values.push_back((total - s.limb * s.limb_lever) / s.lever);
+  }
+  const JointResult a = identify_joint(by_torque, {}, s, "round_pressure");
+  const JointResult b = identify_joint(by_load, {}, s, "round_pressure");
+  EXPECT_NEAR(a.moment_arm, b.moment_arm, 1e-6 * a.moment_arm);
+  EXPECT_NEAR(a.effectiveness.c0, b.effectiveness.c0, 1e-6);
+}
+
+TEST(Joint, what_cannot_be_used_is_told) {
+  const Truth t;
+  const Measured good = poses(t, false, 0.001, 1);
+  const auto says = [](const Measured& m, const JointSetup& s, const char* text) {
+    EXPECT_NE(refused(m, s).find(text), std::string::npos) << refused(m, s);
+  };
+  Measured unloaded = good;
+  unloaded.columns.pop_back();
+  says(unloaded, setup_of(t), "no known load");
+
+  JointSetup hangs = setup_of(t);
+  hangs.load = 1;
+  says(unloaded, hangs, "a load without a lever");
+
+  Measured zero = good;
+  for (double& x : zero.columns[2].values) x = 0;
+  says(zero, setup_of(t), "zero throughout");
+
+  Measured one_angle = good;
+  for (double& x : one_angle.columns[0].values) x = 4;
+  says(one_angle, setup_of(t), "the arm and the force are one number");
+
+  JointSetup other_way = setup_of(t);
+  other_way.flexion_raises = false;
+  says(good, other_way, "pulls the way the muscle pulls");
+
+  Measured no_pressure = good;
+  no_pressure.columns.erase(no_pressure.columns.begin() + 1);
+  says(no_pressure, setup_of(t), "no pressure");
+}
+
+}  // namespace
+}  // namespace sinew::identify

@@ -1,0 +1,352 @@
+#include "sinew/identify/motion/dynamic.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+
+namespace {
+
+using actuator::Loss;
+using Scale = Loss::Scale;
+
+struct Law {
+  const char* name;
+  const char* law;
+  const char* source;
+  bool viscous, dry;
+  Scale scale;
+};
+
+constexpr std::array laws{
+    Law{"viscous", "F = c v", "[33] without its dry part", true, false, Scale::secant},
+    Law{"dry_constant", "F = Q k sign v, k constant", "Coulomb", false, true, Scale::constant},
+    Law{"dry_secant", "F = Q k sign v, k the secant [34]", "[33], [34]", false, true,
+        Scale::secant},
+    Law{"dry_sealed", "F = Q k sign v, k of the sealed muscle", "[33], [45]", false, true,
+        Scale::sealed},
+    Law{"constant", "F = c v + Q k sign v, k constant", "[33], Coulomb", true, true,
+        Scale::constant},
+    Law{"secant", "F = c v + Q k sign v, k the secant [34]", "[33], [34]", true, true,
+        Scale::secant},
+    Law{"sealed", "F = c v + Q k sign v, k of the sealed muscle", "[33], [45]", true, true,
+        Scale::sealed}};
+
+// Parameters that all records share: c, Q, as far as the law has them.
+std::size_t shared(const Law& law) { return (law.viscous ? 1u : 0u) + (law.dry ? 1u : 0u); }
+
+// Of the constant laws, so that their Q compares with the others'.
+double middle_stiffness(std::span<const Swing> swings) {
+  std::vector<double> all;
+  for (const Swing& s : swings) all.push_back(s.stiffness());
+  return median(all);
+}
+
+Loss loss_of(const Law& law, std::span<const double> p, double stiffness) {
+  Loss out{.coulomb_scale = law.scale};
+  if (law.viscous) out.viscous = p[0];
+  if (law.dry) out.coulomb_length = p[law.viscous ? 1 : 0];
+  if (law.scale == Scale::constant) out.coulomb_stiffness = stiffness;
+  return out;
+}
+
+// Records that are fitted together, each up to some sample.
+struct Part {
+  const Swing* swing;
+  std::size_t samples;
+};
+
+// The trajectories of all parts as one residual vector. A part whose parameters have not changed
+// since the last call is not integrated again.
+class Trajectories {
+ public:
+  Trajectories(const Law& law, std::span<const Part> parts, double stiffness)
+      : law_(law), parts_(parts), stiffness_(stiffness), last_(parts.size()) {}
+
+  std::size_t size() const {
+    std::size_t n = 0;
+    for (const Part& part : parts_) n += part.samples;
+    return n;
+  }
+
+  bool operator()(std::span<const double> p, std::span<double> r) {
+    const std::size_t common = shared(law_);
+    std::size_t from = 0;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const auto own = p.subspan(common + i * Swing::nuisances, Swing::nuisances);
+      std::vector<double> key(p.begin(), p.begin() + static_cast<std::ptrdiff_t>(common));
+      key.insert(key.end(), own.begin(), own.end());
+      if (!last_[i].known || key != last_[i].key) {
+        last_[i] = {key, std::vector<double>(parts_[i].samples), true};
+        if (!parts_[i].swing->simulate(loss_of(law_, p, stiffness_), own, last_[i].lengths)) {
+          last_[i].known = false;
+          return false;
+        }
+      }
+      for (std::size_t k = 0; k < parts_[i].samples; ++k)
+        r[from + k] = last_[i].lengths[k] - parts_[i].swing->length[k];
+      from += parts_[i].samples;
+    }
+    return true;
+  }
+
+ private:
+  struct Last {
+    std::vector<double> key, lengths;
+    bool known = false;
+  };
+  const Law& law_;
+  std::span<const Part> parts_;
+  double stiffness_;
+  std::vector<Last> last_;
+};
+
+// What a fit starts from.
+struct Start {
+  double viscous = 0, coulomb_length = 0;
+  std::vector<Swing::Nuisance> nuisance;  // per record
+};
+
+class Dynamic {
+ public:
+  Dynamic(std::span<const Swing> swings, std::span<const DecayRecord> records)
+      : swings_(swings), stiffness_(middle_stiffness(swings)) {
+    for (std::size_t i = 0; i < records.size(); ++i)
+      (records[i].held_out ? held_out_ : fitted_).push_back(i);
+  }
+
+  void start_from(std::span<const DecaySummary> summaries) {
+    std::vector<double> c, q;
+    for (const DecaySummary& s : summaries) {
+      c.push_back(s.all.damping.viscous);
+      q.push_back(s.all.damping.coulomb_length);
+    }
+    start_.viscous = std::max(median(c), 1e-3);
+    start_.coulomb_length = std::max(median(q), 1e-6);
+    const Loss loss{.viscous = start_.viscous,
+                    .coulomb_length = start_.coulomb_length,
+                    .coulomb_scale = Scale::sealed};
+    for (const Swing& s : swings_) start_.nuisance.push_back(s.settle(loss));
+  }
+
+  Fit fit(const Law& law, double full_scale) const {
+    Fit out{.model = law.name, .law = law.law, .source = law.source};
+    const Solution s = solve(law, fitted_, start_);
+    out.parameters = s.estimates;
+    out.fit = score(s.residuals, full_scale);
+    out.residuals = s.residuals;
+    if (law.scale == Scale::constant && law.dry)
+      out.notes.push_back(fmt::format("k = {:.5g} N/m, of the sealed muscle at rest", stiffness_));
+    const std::vector<double> others = unseen(law, s);
+    out.held_out = score(others, full_scale);
+    if (!held_out_.empty()) out.residuals.insert(out.residuals.end(), others.begin(), others.end());
+    return out;
+  }
+
+  // Samples in the order of the residuals.
+  Rows rows() const {
+    Rows out{.x = "time", .x_unit = "s"};
+    for (const bool held_out : {false, true})
+      for (const std::size_t i : held_out ? held_out_ : fitted_) {
+        const Swing& s = swings_[i];
+        out.at.insert(out.at.end(), s.time.begin(), s.time.end());
+        out.measured.insert(out.measured.end(), s.length.begin(), s.length.end());
+        out.group.resize(out.size(), s.file);
+        out.held_out.resize(out.size(), held_out);
+      }
+    return out;
+  }
+
+  Loss loss(const Law& law, const Fit& fit) const {
+    std::vector<double> p;
+    for (std::size_t i = 0; i < shared(law); ++i) p.push_back(fit.parameters[i].value);
+    return loss_of(law, p, stiffness_);
+  }
+
+ private:
+  using Which = std::vector<std::size_t>;  // of the records
+
+  Solution solve(const Law& law, const Which& which, const Start& start, double share = 1) const {
+    std::vector<Parameter> parameters;
+    if (law.viscous)
+      parameters.push_back({.name = "viscous",
+                            .unit = "N s/m",
+                            .start = start.viscous,
+                            .low = 0,
+                            .scale = start_.viscous});
+    if (law.dry)
+      parameters.push_back({.name = "coulomb_length",
+                            .unit = "m",
+                            .start = start.coulomb_length,
+                            .low = 0,
+                            .scale = start_.coulomb_length});
+    std::vector<Part> parts;
+    for (const std::size_t i : which) {
+      const Swing& swing = swings_[i];
+      parts.push_back({&swing, share < 1 ? swing.samples_until(share) : swing.time.size()});
+      for (Parameter p : swing.parameters(start.nuisance[i])) {
+        if (swings_.size() > 1) p.name += " of " + swing.file;
+        parameters.push_back(std::move(p));
+      }
+    }
+    Trajectories trajectories(law, parts, stiffness_);
+    return least_squares(std::ref(trajectories), trajectories.size(), parameters,
+                         {.correlated = true});
+  }
+
+  // Residuals of what was not fitted.
+  std::vector<double> unseen(const Law& law, const Solution& all) const {
+    if (swings_.size() == 1) return last_third(law, all);
+    const bool marked = !held_out_.empty();
+    std::vector<double> out;
+    for (const std::size_t i : marked ? held_out_ : fitted_) {
+      const Loss loss = marked ? loss_of(law, all.values, stiffness_) : loss_without(law, all, i);
+      const std::vector<double> r =
+          residuals_of(swings_[i], loss, swings_[i].settle(loss, start_.nuisance[i]));
+      out.insert(out.end(), r.begin(), r.end());
+    }
+    return out;
+  }
+
+  // The solution as a start for a part of the records.
+  Start start_at(const Law& law, const Solution& s) const {
+    Start out = start_;
+    if (law.viscous) out.viscous = s.values[0];
+    if (law.dry) out.coulomb_length = s.values[law.viscous ? 1 : 0];
+    for (std::size_t i = 0; i < fitted_.size(); ++i)
+      for (std::size_t k = 0; k < Swing::nuisances; ++k)
+        out.nuisance[fitted_[i]][k] = s.values[shared(law) + i * Swing::nuisances + k];
+    return out;
+  }
+
+  Loss loss_without(const Law& law, const Solution& all, std::size_t left_out) const {
+    Which which = fitted_;
+    std::erase(which, left_out);
+    return loss_of(law, solve(law, which, start_at(law, all)).values, stiffness_);
+  }
+
+  static std::vector<double> residuals_of(const Swing& swing, const Loss& loss,
+                                          std::span<const double> nuisance) {
+    std::vector<double> r(swing.time.size());
+    if (!swing.simulate(loss, nuisance, r)) r.assign(r.size(), swing.rest);
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] -= swing.length[i];
+    return r;
+  }
+
+  // Fitted to the first two thirds, which predict the last.
+  std::vector<double> last_third(const Law& law, const Solution& all) const {
+    constexpr double seen = 2.0 / 3;
+    const Solution s = solve(law, fitted_, start_at(law, all), seen);
+    const std::vector<double> r = residuals_of(swings_[0], loss_of(law, s.values, stiffness_),
+                                               std::span(s.values).subspan(shared(law)));
+    return {r.begin() + static_cast<std::ptrdiff_t>(swings_[0].samples_until(seen)), r.end()};
+  }
+
+  std::span<const Swing> swings_;
+  Which fitted_, held_out_;
+  double stiffness_;
+  Start start_;
+};
+
+DecaySummary summary_of(const Swing& swing) {
+  const Oscillation& o = swing.oscillation;
+  const double mass = swing.stand.mass;
+  DecaySummary out{.file = swing.file,
+                   .period = o.period,
+                   .noise = o.noise,
+                   .rest = swing.rest,
+                   .amplitude = swing.amplitude,
+                   .stiffness = swing.stiffness(),
+                   .turns = o.turns.size(),
+                   .all = decay_fit(o, mass)};
+  try {
+    const TwoPoints p = two_points(o, swing.rest, swing.file);
+    out.printed = two_point(p.x1, p.dx1, p.x2, p.dx2, mass, o.period, DecayForm::printed);
+    out.exact = two_point(p.x1, p.dx1, p.x2, p.dx2, mass, o.period, DecayForm::exact);
+  } catch (const Refusal& e) {
+    out.why_not = e.what();
+  }
+  return out;
+}
+
+void refuse_memory(const DecayRecord& record) {
+  const actuator::Actuator& a = record.stand.actuator;
+  const bool lags = a.hysteresis.half_width > 0 || a.hysteresis.width_per_pressure > 0 ||
+                    a.hysteresis.width_per_contraction > 0;
+  const bool creeps = a.creep.share[0] > 0 || a.creep.share[1] > 0;
+  if (lags || creeps)
+    throw Refusal(fmt::format("actuator {}", a.name), lags ? "a hysteresis" : "creep",
+                  "an actuator whose only loss is to be found: these trajectories know none",
+                  "a file without it");
+}
+
+std::string held_out_is(std::span<const DecayRecord> records, bool marked) {
+  if (records.size() == 1) return "the last third of the record, from a fit to the first two";
+  if (!marked) return "each record in turn";
+  std::string out;
+  for (const DecayRecord& r : records)
+    if (r.held_out) out += (out.empty() ? "" : ", ") + r.data.file;
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> dynamic_models() {
+  std::vector<std::string> out;
+  for (const Law& law : laws) out.emplace_back(law.name);
+  return out;
+}
+
+DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string_view model) {
+  if (records.empty()) throw Refusal("data", "no record", "one free decay at least", "");
+  std::vector<Swing> swings;
+  std::size_t marked = 0;
+  DynamicResult out;
+  for (const DecayRecord& r : records) {
+    refuse_memory(r);
+    swings.emplace_back(r);
+    marked += r.held_out;
+    out.records.push_back(summary_of(swings.back()));
+  }
+  if (marked == records.size())
+    throw Refusal("data", "every record held out", "one at least to fit", "");
+
+  Report& report = out.report;
+  report.subject = "losses in motion";
+  report.quantity = "length";
+  report.unit = "m";
+  report.full_scale_is = "the largest first amplitude";
+  report.held_out_is = held_out_is(records, marked > 0);
+  for (const Swing& s : swings) {
+    report.full_scale = std::max(report.full_scale, s.amplitude);
+    report.notes.insert(report.notes.end(), s.notes.begin(), s.notes.end());
+  }
+  Dynamic dynamic(swings, records);
+  dynamic.start_from(out.records);
+  std::vector<const Law*> tried;
+  for (const Law& law : laws)
+    if (model.empty() || model == law.name) tried.push_back(&law);
+  if (tried.empty()) throw std::invalid_argument(fmt::format("no model {}", model));
+  for (const Law* law : tried) report.fits.push_back(dynamic.fit(*law, report.full_scale));
+  report.rows = dynamic.rows();
+  choose(report);
+  out.loss = dynamic.loss(*tried[report.chosen], report.best());
+  for (std::size_t i = 0; i < swings.size(); ++i)
+    out.records[i].friction = swings[i].friction(out.loss);
+  for (const Estimate& e : report.best().parameters)
+    if (e.name.starts_with("tension") && std::abs(e.value - 1) > 0.05)
+      report.warnings.push_back(
+          fmt::format("{}: rest and period ask for {:.3f} times the tension of the actuator's file",
+                      e.name, e.value));
+  return out;
+}
+
+}  // namespace sinew::identify

@@ -1,0 +1,183 @@
+#include "sinew/identify/page/fit_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "sinew/config/compose.h"
+#include "sinew/identify/fit/report_json.h"
+#include "sinew/report/fit_page.h"
+
+namespace sinew::identify {
+
+namespace {
+
+using report::Chart;
+using Curve = report::ChartCurve;
+
+// More make a page slow and a picture no better.
+constexpr std::size_t most_rows = 20000;
+
+// Rows of one curve, in ascending x.
+using Group = std::vector<std::size_t>;
+
+// By their places, else in the order in which they first come; held-out rows apart.
+std::vector<std::pair<std::string, Group>> groups_of(const Rows& rows, bool held_out) {
+  std::vector<std::pair<std::string, Group>> out;
+  std::map<std::string, std::size_t> place;
+  const std::size_t stride = 1 + rows.size() / most_rows;
+  std::vector<std::size_t> in_order;
+  for (std::size_t i = 0; i < rows.size(); i += stride) in_order.push_back(i);
+  if (!rows.order.empty())
+    std::ranges::stable_sort(in_order, {}, [&](std::size_t i) { return rows.order[i]; });
+  for (const std::size_t i : in_order) {
+    if ((!rows.held_out.empty() && rows.held_out[i]) != held_out) continue;
+    const std::string name = rows.group.empty() ? "" : rows.group[i];
+    const auto [at, is_new] = place.try_emplace(name, out.size());
+    if (is_new) out.push_back({name, {}});
+    out[at->second].second.push_back(i);
+  }
+  for (auto& [name, group] : out)
+    std::ranges::stable_sort(group, {}, [&](std::size_t i) { return rows.at[i]; });
+  return out;
+}
+
+template <class Value>
+std::vector<double> pick(const Group& group, Value value) {
+  std::vector<double> out;
+  for (const std::size_t i : group) out.push_back(value(i));
+  return out;
+}
+
+// All curves of both charts: points as measured, a line by the model, points of what it leaves.
+class Maker {
+ public:
+  explicit Maker(const Report& report) : report_(report), rows_(report.rows) {
+    const std::string unit = rows_.unit.empty() ? report.unit : rows_.unit;
+    const report::ChartAxis x{rows_.x, rows_.x_unit};
+    fit_ = {.title = "Measured and by the model", .x = x, .y = {report.quantity, unit}, .note = ""};
+    left_ = {
+        .title = "Model less measured", .x = x, .y = {report.quantity, report.unit}, .note = ""};
+    if (unit == "Pa abs" || unit == "Pa gauge") left_.y.unit = "Pa diff";
+  }
+
+  std::vector<Chart> make() {
+    give_colors();
+    for (const bool held_out : {false, true}) {
+      const auto groups = groups_of(rows_, held_out);
+      for (std::size_t k = 0; k < groups.size(); ++k)
+        add(groups[k].first, groups[k].second, held_out);
+    }
+    if (rows_.scattered) return {against_measured(), left_};
+    const std::size_t stride = 1 + rows_.size() / most_rows;
+    if (stride > 1) fit_.note = fmt::format("One row of {} is shown.", stride);
+    if (colors_.size() == 1) {
+      for (Curve& c : fit_.curves)
+        if (c.style == Curve::Style::line) c.color = 1;
+      add_other_models();
+    }
+    return {fit_, left_};
+  }
+
+ private:
+  // A group has one color, whether its rows were fitted or held out; places make a scale of them.
+  void give_colors() {
+    Rows all = rows_;
+    all.held_out.clear();
+    for (const auto& [name, group] : groups_of(all, false))
+      colors_.try_emplace(name, static_cast<int>(colors_.size()));
+  }
+
+  double measured(std::size_t i) const { return rows_.measured[i]; }
+  bool told(const Fit& fit) const { return fit.residuals.size() == rows_.size(); }
+
+  void add(const std::string& name, const Group& group, bool held_out) {
+    const Fit& best = report_.best();
+    const int color = colors_.at(name);
+    const auto x = pick(group, [&](std::size_t i) { return rows_.at[i]; });
+    const auto style = held_out ? Curve::Style::held_out : Curve::Style::points;
+    const std::string label = held_out ? "held out" : name.empty() ? "measured" : name;
+    fit_.curves.push_back({.label = label,
+                           .style = style,
+                           .color = color,
+                           .x = x,
+                           .y = pick(group, [&](std::size_t i) { return measured(i); })});
+    if (!told(best)) return;
+    fit_.curves.push_back(
+        {.label = best.model, .color = color, .x = x, .y = pick(group, [&](std::size_t i) {
+                                                        return measured(i) + best.residuals[i];
+                                                      })});
+    left_.curves.push_back({.label = label,
+                            .style = style,
+                            .color = color,
+                            .x = x,
+                            .y = pick(group, [&](std::size_t i) { return best.residuals[i]; })});
+  }
+
+  // What the chosen model says against what was measured; right is the diagonal.
+  Chart against_measured() const {
+    Chart out = fit_;
+    out.title = "By the model against measured";
+    out.x = {report_.quantity + ", measured", out.y.unit};
+    out.y.label += ", by the model";
+    std::erase_if(out.curves, [](const Curve& c) { return c.style != Curve::Style::line; });
+    for (std::size_t k = 0; k < out.curves.size(); ++k) {  // each line follows its points
+      Curve& c = out.curves[k];
+      const Curve& points = fit_.curves[2 * k];
+      c = {.label = points.label,
+           .style = points.style,
+           .color = points.color,
+           .x = points.y,
+           .y = c.y};
+    }
+    const auto [least, most] = std::ranges::minmax(rows_.measured);
+    out.curves.push_back(
+        {.label = "as measured", .color = 6, .x = {least, most}, .y = {least, most}});
+    return out;
+  }
+
+  // Of one curve the eye can follow the others too; they wait until they are asked for.
+  void add_other_models() {
+    int color = 2;
+    for (std::size_t k = 0; k < report_.fits.size(); ++k) {
+      const Fit& other = report_.fits[k];
+      if (k == report_.chosen || !told(other)) continue;
+      for (const auto& [name, group] : groups_of(rows_, false)) {
+        Curve curve{.label = other.model, .color = color, .hidden = true};
+        curve.x = pick(group, [&](std::size_t i) { return rows_.at[i]; });
+        curve.y = pick(group, [&](std::size_t i) { return measured(i) + other.residuals[i]; });
+        fit_.curves.push_back(std::move(curve));
+      }
+      ++color;
+    }
+  }
+
+  const Report& report_;
+  const Rows& rows_;
+  Chart fit_, left_;
+  std::map<std::string, int> colors_;
+};
+
+}  // namespace
+
+std::vector<Chart> charts_of(const Report& report) {
+  return report.rows.size() == 0 ? std::vector<Chart>{} : Maker(report).make();
+}
+
+std::string page(const Page& page) {
+  report::FitPage fit{.title = page.title, .version = page.version, .data = page.data};
+  fit.atmosphere = page.atmosphere;
+  using Json = nlohmann::ordered_json;
+  for (const Report* r : page.reports)
+    fit.parts.push_back({.report = to_json(*r).dump(-1, ' ', false, Json::error_handler_t::replace),
+                         .charts = charts_of(*r)});
+  if (!page.parameter_file.empty())
+    fit.values = report::parameters(config::parse_text(page.parameter_file, "the parameter file"));
+  return report::page(fit);
+}
+
+}  // namespace sinew::identify

@@ -1,0 +1,62 @@
+// identify/sensor/force_beam.h - a cantilever with strain gages as a force transducer, its bridge
+// and its amplifier.
+//
+//   |<--------- L --------->|        F  load at the free end  [N]
+//   F   x -> gages     mount ]       x  from the load to the middle of the gages
+//
+//   s(x)  F x/(w h^2/6)              stress at the surface, w wide and h high  [Pa]
+//   e     s(x)/E                     strain under the gages  [-]
+//   d     F L^3/(3 E I)              deflection of the load, I = w h^3/12  [m]
+//   V     G Vex k B e                after the amplifier: gain G, gage factor k, bridge factor B
+//
+// Source: Colbrunn 4.4, which prints dimensions and results; the equations are the elastic theory
+// of slender beams. Bridge factors B of gages in bending, nu Poisson's ratio:
+//
+//   quarter  1/4          one gage along the beam (slightly nonlinear: 1 % at 10000e-6)
+//   half     1/2          one above, one below
+//   poisson  (1 + nu)/2   above and below one along and one across
+//   bending  1            two above, two below
+//
+// Valid below the yield, for L >= 5 h. Departures: the flange's notch (radius 0.063 in in the
+// thesis, from finite elements) is one factor on the stress at the mount; gages measure the strain
+// at their middle; no temperature, no lead resistance.
+#pragma once
+
+namespace sinew::identify {
+
+struct ForceBeam {
+  double length = 0;         // L, from the load to the mount  [m]
+  double width = 0;          // [m]
+  double height = 0;         // in the direction of the load  [m]
+  double gage_distance = 0;  // x  [m]
+  double modulus = 0;        // E  [Pa]
+  double poisson_ratio = 0;
+  double yield_stress = 0;          // [Pa]
+  double stress_concentration = 1;  // at the mount
+};
+
+struct Bridge {
+  enum class Arms { quarter, half, poisson, bending };
+
+  Arms arms = Arms::poisson;
+  double gage_factor = 2;
+  double excitation = 0;  // [V]
+  double gain = 1;        // of the amplifier
+};
+
+double bending_stress(const ForceBeam& beam, double load, double distance);  // [Pa]
+double gage_strain(const ForceBeam& beam, double load);
+double mount_stress(const ForceBeam& beam, double load);  // with its concentration  [Pa]
+double yield_load(const ForceBeam& beam);                 // [N]
+double factor_of_safety(const ForceBeam& beam, double load);
+double deflection(const ForceBeam& beam, double load);  // [m]
+
+double bridge_factor(Bridge::Arms arms, double poisson_ratio);
+// Before the amplifier  [V].
+double bridge_output(const ForceBeam& beam, const Bridge& bridge, double load);
+// After it, per newton  [V/N].
+double sensitivity(const ForceBeam& beam, const Bridge& bridge);
+// Where the gages must be for it  [m]; beyond the mount where that is impossible.
+double gage_distance_for(const ForceBeam& beam, const Bridge& bridge, double wanted_sensitivity);
+
+}  // namespace sinew::identify

@@ -1,0 +1,310 @@
+#include "sinew/identify/sensor/sensor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+#include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/sensor/points.h"
+
+namespace sinew::identify {
+
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t most_folds = 20;
+
+// Powers of the known value in a model; proportional has no 0.
+struct Law {
+  const char* name;
+  const char* law;
+  int first, last;
+  std::size_t fewest_levels;
+};
+constexpr Law laws[] = {{"proportional", "V = s x", 1, 1, 2},
+                        {"line", "V = V0 + s x", 0, 1, 2},
+                        {"quadratic", "V = V0 + s x + c x^2", 0, 2, 4}};
+constexpr const char* parameter_names[] = {"at_rest", "sensitivity", "curvature"};
+
+double value_of(const Law& law, std::span<const double> p, double x) {
+  double value = 0, power = law.first == 0 ? 1 : x;
+  for (const double each : p) {
+    value += each * power;
+    power *= x;
+  }
+  return value;
+}
+
+// The straight line through the points' ends: where the fit may start.
+double slope_of(std::span<const Point> points) {
+  return (points.back().output - points.front().output) /
+         (points.back().known - points.front().known);
+}
+
+Solution fit(const Law& law, std::span<const Point> points, double rest, const KindFacts& facts) {
+  double reach = 0, span = 0;
+  for (const Point& p : points) {
+    reach = std::max(reach, std::abs(p.known - rest));
+    span = std::max(span, std::abs(p.output - points.front().output));
+  }
+  const std::string units[] = {"V", std::string(facts.sensitivity), std::string(facts.curvature)};
+  std::vector<Parameter> parameters;
+  for (int k = law.first; k <= law.last; ++k)
+    parameters.push_back({.name = parameter_names[k],
+                          .unit = units[k],
+                          .start = k == 1 ? slope_of(points) : 0,
+                          .scale = span / std::pow(reach, k)});
+  const Residuals residuals = [&](std::span<const double> p, std::span<double> r) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      r[i] = value_of(law, p, points[i].known - rest) - points[i].output;
+    return true;
+  };
+  // A bent sensor's errors from a line are alike at like values: they count as correlated.
+  return least_squares(residuals, points.size(), parameters, {.correlated = true});
+}
+
+std::vector<double> residuals_at(const Law& law, const Solution& s, std::span<const Point> points,
+                                 double rest) {
+  std::vector<double> out;
+  for (const Point& p : points) out.push_back(value_of(law, s.values, p.known - rest) - p.output);
+  return out;
+}
+
+// Every known value predicted from the others; of many, every twentieth at a time.
+std::optional<Score> leave_out(const Law& law, std::span<const Point> points, double rest,
+                               const KindFacts& facts, double span) {
+  const std::size_t levels = level_count(points), folds = std::min(levels, most_folds);
+  std::vector<double> residuals;
+  for (std::size_t fold = 0; fold < folds; ++fold) {
+    std::vector<Point> kept, out;
+    for (const Point& p : points) (p.level % folds == fold ? out : kept).push_back(p);
+    if (out.empty() || level_count(kept) < 2) return std::nullopt;
+    for (const double r : residuals_at(law, fit(law, kept, rest, facts), out, rest))
+      residuals.push_back(r);
+  }
+  return score(residuals, span);
+}
+
+// One sensor's readings without those at an end.
+struct Usable {
+  std::vector<double> known, output;
+  std::vector<int> lines;
+  std::vector<Point> points;
+  double step = none;
+  std::vector<std::string> notes;
+};
+
+[[noreturn]] void refuse(const SensorData& data, const std::string& sensor, std::string found,
+                         std::string expected, std::string try_this) {
+  throw Refusal(fmt::format("{}: {}", data.file, sensor), found, expected, try_this);
+}
+
+// Levels with a reading at an end are left out whole: a mean with cut noise lies too low.
+std::set<std::size_t> rows_of_levels(std::span<const Point> points, const Ends& ends) {
+  std::set<std::size_t> rows(ends.at_top.begin(), ends.at_top.end());
+  rows.insert(ends.at_bottom.begin(), ends.at_bottom.end());
+  std::set<std::size_t> levels, out;
+  for (const Point& p : points)
+    if (std::ranges::any_of(p.rows, [&](std::size_t r) { return rows.contains(r); }))
+      levels.insert(p.level);
+  for (const Point& p : points)
+    if (levels.contains(p.level)) out.insert(p.rows.begin(), p.rows.end());
+  return out;
+}
+
+std::string in_words(const Ends& ends) {
+  const std::string top = fmt::format("{} at {:.4g} V", ends.at_top.size(), ends.top);
+  const std::string bottom = fmt::format("{} at {:.4g} V", ends.at_bottom.size(), ends.bottom);
+  return fmt::format("{}, the end of the sensor or its converter", ends.at_top.empty() ? bottom
+                                                                   : ends.at_bottom.empty()
+                                                                       ? top
+                                                                       : top + " and " + bottom);
+}
+
+Usable without_ends(const SensorData& data, const SensorReadings& s, const CountScale& converter) {
+  Usable all{.known = data.known, .output = s.volts, .lines = data.lines};
+  all.points = points_of(all.known, all.output);
+  all.step = s.counted ? converter.volts_per_count() : step_of(all.points, all.output);
+  const Ends ends = ends_of(all.points, all.output, all.step, converter.top());
+  const std::set<std::size_t> left_out = rows_of_levels(all.points, ends);
+  if (left_out.empty()) return all;
+
+  Usable kept{.step = all.step};
+  for (std::size_t i = 0; i < all.known.size(); ++i) {
+    if (left_out.contains(i)) continue;
+    kept.known.push_back(all.known[i]);
+    kept.output.push_back(all.output[i]);
+    kept.lines.push_back(all.lines[i]);
+  }
+  kept.points = points_of(kept.known, kept.output);
+  const std::string where =
+      fmt::format("{} of {} readings at an end (first in line {}): {}", left_out.size(),
+                  all.known.size(), all.lines[*left_out.begin()], in_words(ends));
+  if (2 * kept.known.size() < all.known.size() || level_count(kept.points) < 2)
+    refuse(data, s.name, where, "readings within its range, at two known values or more",
+           "less load, less gain, or --full-scale of your converter");
+  kept.notes.push_back(fmt::format("{}: left out {}", s.name, where));
+  return kept;
+}
+
+void refuse_poor(const SensorData& data, const SensorReadings& s, const Usable& u) {
+  const KindFacts& facts = facts_of(data.kind);
+  if (u.known.size() < 2)
+    refuse(data, s.name, "one reading", "readings at two known values or more", "");
+  if (level_count(u.points) < 2)
+    refuse(data, s.name,
+           fmt::format("one known value throughout, {}",
+                       config::format_quantity(u.known.front(), facts.unit, facts.unit, 5)),
+           "two or more: one does not tell scale from offset", "another load, angle or pressure");
+  const double low = smallest(u.output), high = largest(u.output);
+  const double finest =
+      std::isfinite(u.step) ? u.step : 1e-6 * std::max(std::abs(low), std::abs(high));
+  if (high - low <= 2 * finest)
+    refuse(data, s.name, fmt::format("{:.5g} V throughout", low),
+           "an output that changes with what is measured",
+           "the wiring and the sensor's supply, or --sensors to leave it out");
+}
+
+// A sensor that does not follow: more than half of what it does is something else.
+void refuse_unrelated(const SensorData& data, const SensorReadings& s, const Fit& line,
+                      std::span<const Point> points) {
+  double mean = 0, variance = 0;
+  for (const Point& p : points) mean += p.output / static_cast<double>(points.size());
+  for (const Point& p : points) variance += std::pow(p.output - mean, 2);
+  variance /= static_cast<double>(points.size());
+  if (line.fit.rmse * line.fit.rmse <= 0.5 * variance) return;
+  refuse(data, s.name, "an output that does not follow the known values",
+         "a change with them that is larger than all else",
+         "the columns: they may be swapped, or the sensor not connected");
+}
+
+void warn_of_outliers(const SensorData& data, const SensorReadings& s, const Usable& u,
+                      const Law& law, const Solution& solution, double rest,
+                      std::vector<std::string>& warnings) {
+  std::vector<double> off;
+  for (std::size_t i = 0; i < u.known.size(); ++i)
+    off.push_back(u.output[i] - value_of(law, solution.values, u.known[i] - rest));
+  const double finest = std::isfinite(u.step) ? u.step : 0;
+  const double span = largest(u.output) - smallest(u.output);
+  if (u.points.size() < 5) return;  // the fit follows any of them
+  for (const std::size_t i : outliers(off, std::max(4 * finest, 0.02 * span)))
+    warnings.push_back(
+        fmt::format("{}:{}: {}: {:.4g} V is {:+.3g} V from the fit, far from the "
+                    "others: a typing error?",
+                    data.file, u.lines[i], s.name, u.output[i], off[i]));
+}
+
+Fit fit_of(const Law& law, const SensorResult& r, const Usable& u, double rest,
+           const KindFacts& facts, const Usable* other, Solution& solution) {
+  Fit fit{.model = law.name, .law = law.law, .source = "4.4, table 4-1"};
+  const std::size_t levels = level_count(u.points);
+  if (levels < law.fewest_levels) {
+    fit.refused = fmt::format("{} known values; it takes {}", levels, law.fewest_levels);
+    return fit;
+  }
+  solution = identify::fit(law, u.points, rest, facts);
+  fit.parameters = solution.estimates;
+  fit.fit = score(solution.residuals, r.span);
+  fit.residuals = solution.residuals;
+  fit.held_out = other ? score(residuals_at(law, solution, other->points, rest), r.span)
+                       : leave_out(law, u.points, rest, facts, r.span);
+  if (solution.freedom < 1)
+    fit.notes.emplace_back("as many values as points: no error can be seen");
+  return fit;
+}
+
+double half_interval(const Estimate& e) { return 0.5 * (e.high - e.low); }
+
+// What the straight fit says; robots have no other.
+void describe(const Usable& u, const Fit& straight, SensorResult& r) {
+  for (const Estimate& e : straight.parameters) {
+    const bool slope = e.name == "sensitivity";
+    (slope ? r.sensitivity : r.at_rest) = e.value;
+    (slope ? r.sensitivity_uncertainty : r.at_rest_uncertainty) = half_interval(e);
+  }
+  r.linearity = straight.fit.max / r.span;
+  r.step = u.step;
+  r.noise = noise_of(u.points, u.output, u.step);
+  const Hysteresis h = hysteresis_of(u.points, r.noise);
+  r.hysteresis = h.largest / r.span;
+  if (h.largest <= h.by_noise)
+    r.report.notes.push_back(fmt::format("{}: the hysteresis is no more than noise makes", r.name));
+}
+
+// The mean of the readings at every known value, each way by itself.
+Rows rows_of(std::span<const Point> points, const KindFacts& facts) {
+  Rows out{.x = std::string(facts.word), .x_unit = std::string(facts.unit)};
+  for (const Point& p : points) {
+    out.at.push_back(p.known);
+    out.measured.push_back(p.output);
+    out.group.emplace_back(p.direction < 0 ? "from above" : "from below");
+  }
+  return out;
+}
+
+SensorResult calibrate(const SensorData& data, const SensorReadings& s, const CountScale& converter,
+                       double rest, const SensorData* other, Calibration& out) {
+  const KindFacts& facts = facts_of(data.kind);
+  const Usable u = without_ends(data, s, converter);
+  refuse_poor(data, s, u);
+  SensorResult r{.name = s.name, .span = largest(u.output) - smallest(u.output)};
+  r.report = {.subject = fmt::format("calibration of {}", s.name),
+              .quantity = "output",
+              .unit = "V",
+              .full_scale = r.span,
+              .full_scale_is = "its span"};
+  r.report.notes = u.notes;
+
+  Usable second;
+  if (other) {
+    const auto same = std::ranges::find(other->sensors, s.name, &SensorReadings::name);
+    if (same == other->sensors.end())
+      config::fail({other->file, 1, 1}, "sensor", "no column " + config::in_quotes(s.name),
+                   "the sensors of " + data.file);
+    second = without_ends(*other, *same, converter);
+  }
+  r.report.rows = rows_of(u.points, facts);
+  Solution solution[std::size(laws)];
+  for (std::size_t i = 0; i < std::size(laws); ++i)
+    r.report.fits.push_back(
+        fit_of(laws[i], r, u, rest, facts, other ? &second : nullptr, solution[i]));
+  refuse_unrelated(data, s, r.report.fits[1], u.points);
+  if (r.report.fits[0].fit.points > 0 && r.report.fits[0].held_out)
+    r.report.held_out_is = other ? other->file : "each known value from the others";
+
+  // Differences below what the steps make mean nothing.
+  const double steps = std::isfinite(u.step) ? u.step / std::sqrt(12.0) : 0;
+  choose(r.report, 0.1, std::max(1e-6, 100 * steps / r.span));
+  const bool bent = r.report.chosen == 2;
+  r.straight = bent ? 1 : r.report.chosen;
+  describe(u, r.report.fits[r.straight], r);
+  warn_of_outliers(data, s, u, laws[r.report.chosen], solution[r.report.chosen], rest,
+                   out.warnings);
+  if (bent)
+    out.warnings.push_back(fmt::format(
+        "{}: the output is bent; a robot's sensor is a straight line, which is up to {:.2g} % of "
+        "the span off",
+        s.name, 100 * r.linearity));
+  return r;
+}
+
+}  // namespace
+
+Calibration identify_sensors(const SensorData& data, const CountScale& converter, double rest,
+                             const SensorData* other) {
+  Calibration out{.kind = data.kind, .file = data.file, .notes = data.notes};
+  for (const SensorReadings& s : data.sensors)
+    out.sensors.push_back(calibrate(data, s, converter, rest, other, out));
+  for (const SensorResult& r : out.sensors)
+    out.average += r.sensitivity / static_cast<double>(out.sensors.size());
+  for (SensorResult& r : out.sensors) r.deviation = out.average / r.sensitivity - 1;
+  return out;
+}
+
+}  // namespace sinew::identify

@@ -1,0 +1,157 @@
+// A chart of pressure and flow: the area of [44], or C and b of ISO 6358.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/gas/orifice.h"
+#include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/valve/valve.h"
+
+namespace sinew::identify {
+
+namespace {
+
+struct Chart {
+  std::vector<double> up, down, flow;  // [Pa abs], [Pa abs], [kg/s]
+
+  std::size_t size() const { return flow.size(); }
+};
+
+Chart chart_of(const Measured& data, const gas::Air& air) {
+  Chart c{.up = data["upstream"]};
+  const std::size_t n = c.up.size();
+  c.down = data.has("downstream") ? data["downstream"] : std::vector<double>(n, air.atmosphere);
+  const bool mass = data.has("mass_flow");
+  c.flow = mass ? data["mass_flow"] : data["flow"];
+  if (!mass)
+    for (double& f : c.flow) f *= gas::iso_density;
+
+  for (std::size_t i = 0; i < n; ++i)
+    if (c.down[i] > c.up[i] * (1 + 1e-6) && c.flow[i] > 0)
+      throw Refusal(fmt::format("{}:{}: downstream", data.file, data.lines[i]),
+                    fmt::format("{:.4g} kPa abs above the {:.4g} kPa abs upstream",
+                                1e-3 * c.down[i], 1e-3 * c.up[i]),
+                    "flow from the higher to the lower pressure",
+                    "the columns, they may be swapped; or gauge for abs");
+  if (n < 3)
+    throw Refusal(data.file, fmt::format("{} points", n), "at least three", "more of the chart");
+  const double most = largest(c.flow);
+  if (!(most > 0) || most - smallest(c.flow) < 0.02 * most)
+    throw Refusal(data.file + ": flow", "the same flow throughout", "flows at different pressures",
+                  "the columns, and the meter's range");
+  return c;
+}
+
+double predicted(bool iso, std::span<const double> p, const gas::Air& air, double up, double down) {
+  const double lower = std::min(up, down);
+  return iso ? gas::mass_flow_iso6358(p[0], p[1], up, air.temperature, lower)
+             : gas::mass_flow(p[0], up, air.temperature, lower, air);
+}
+
+Solution fit_rows(bool iso, const Chart& c, const gas::Air& air,
+                  std::span<const std::size_t> keep) {
+  double area = 0;  // of the widest point as if it were choked
+  for (std::size_t i = 0; i < c.size(); ++i)
+    area = std::max(area, c.flow[i] / gas::mass_flow(1.0, c.up[i], air.temperature, 0.0, air));
+  const double conductance = gas::sonic_conductance_of(area, air);
+  std::vector<Parameter> parameters;
+  if (iso) {
+    parameters = {
+        {"sonic_conductance", "m3/(s Pa)", conductance, 0, 100 * conductance, conductance},
+        {"critical_pressure_ratio", "1", 0.4, 0, 0.999, 1}};
+  } else {
+    parameters = {{"area", "m2", area, 0, 100 * area, area}};
+  }
+  const auto residuals = [&](std::span<const double> p, std::span<double> r) {
+    for (std::size_t i = 0; i < keep.size(); ++i)
+      r[i] = predicted(iso, p, air, c.up[keep[i]], c.down[keep[i]]) - c.flow[keep[i]];
+    return true;
+  };
+  return least_squares(residuals, keep.size(), parameters, {.widest_interval = 0.25});
+}
+
+// Each point by a fit of all the others.
+Score leave_one_out(bool iso, const Chart& c, const gas::Air& air) {
+  std::vector<double> errors;
+  for (std::size_t out = 0; out < c.size(); ++out) {
+    std::vector<std::size_t> keep;
+    for (std::size_t i = 0; i < c.size(); ++i)
+      if (i != out) keep.push_back(i);
+    const Solution s = fit_rows(iso, c, air, keep);
+    errors.push_back(predicted(iso, s.values, air, c.up[out], c.down[out]) - c.flow[out]);
+  }
+  return score(errors, largest(c.flow));
+}
+
+Fit try_law(bool iso, const Chart& c, const gas::Air& air) {
+  Fit fit{.model = iso ? "iso6358" : "orifice"};
+  fit.law = iso ? "m' = C rho_0 P_up sqrt(T_0/T) sqrt(1 - ((r - b)/(1 - b))^2)"
+                : "m' = A P_up C_m/sqrt(T)";
+  fit.source = iso ? "ISO 6358-1" : "[42]-[44]";
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < c.size(); ++i) all.push_back(i);
+  const Solution s = fit_rows(iso, c, air, all);
+  fit.parameters = s.estimates;
+  fit.fit = score(s.residuals, largest(c.flow));
+  fit.residuals = s.residuals;
+  fit.held_out = leave_one_out(iso, c, air);
+  if (!iso) return fit;
+  const Estimate& b = s["critical_pressure_ratio"];
+  if (!b.identifiable)
+    fit.refused = b.at_bound ? fmt::format("b would be {:.3g}, the bound of its range", b.value)
+                             : "b is not determined: points with downstream/upstream above it "
+                               "are missing";
+  return fit;
+}
+
+Rows rows_of(const Chart& c) {
+  Rows out{.x = "downstream pressure", .x_unit = "Pa abs", .at = c.down, .measured = c.flow};
+  for (const double up : c.up) out.group.push_back(fmt::format("{:.4g} kPa abs above", 1e-3 * up));
+  return out;
+}
+
+void tell_choking(const Chart& c, Report& report) {
+  std::size_t choked = 0;
+  for (std::size_t i = 0; i < c.size(); ++i)
+    choked += c.down[i] <= gas::critical_pressure_ratio() * c.up[i];
+  report.notes.push_back(fmt::format("{} of {} points are choked by [44]", choked, c.size()));
+  if (choked == 0)
+    report.warnings.emplace_back("no point is choked: C, or the area, is an extrapolation");
+}
+
+}  // namespace
+
+ValveResult identify_chart(const Measured& data, const ValveOptions& options) {
+  const Chart c = chart_of(data, options.air);
+  ValveResult out = before(options);
+  Report& report = out.report;
+  report.subject = "flow of a valve by its chart";
+  report.quantity = "mass flow";
+  report.unit = "kg/s";
+  report.full_scale = largest(c.flow);
+  report.full_scale_is = "the largest flow";
+  report.held_out_is = "each point by a fit of all the others";
+  report.notes = data.notes;
+  if (!data.has("mass_flow"))
+    report.notes.emplace_back("volume flow is taken as of reference air, 20 degC and 1 bar (ANR)");
+  for (const bool iso : {false, true}) report.fits.push_back(try_law(iso, c, options.air));
+  report.rows = rows_of(c);
+  choose(report);
+  tell_choking(c, report);
+
+  const bool iso = report.chosen == 1;
+  const std::string source = "sinew identify valve " + data.file;
+  replace_flow(iso ? gas::Flow::Law::iso6358 : gas::Flow::Law::orifice, source, out);
+  for (const Estimate& e : report.best().parameters) {
+    if (e.name == "area") out.valve.flow.area = e.value;
+    if (e.name == "sonic_conductance") out.valve.flow.sonic_conductance = e.value;
+    if (e.name == "critical_pressure_ratio") out.valve.flow.critical_pressure_ratio = e.value;
+    out.provenance.fitted("valve." + options.name + ".flow." + e.name, e, source);
+  }
+  out.flow_known = true;
+  return out;
+}
+
+}  // namespace sinew::identify

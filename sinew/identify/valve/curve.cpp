@@ -1,0 +1,139 @@
+#include "sinew/identify/valve/curve.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/config/quantity.h"
+#include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+
+namespace {
+
+constexpr std::size_t fewest_on_the_way = 8;  // samples between 10 and 90 %
+constexpr double smallest_range = 5e3;        // [Pa]
+
+std::string pressure_text(double p) { return config::format_quantity(p, "Pa abs", "kPa abs", 4); }
+
+// The first row that has gone that share of the way; rows() if none has.
+std::size_t first_beyond(const Curve& c, double share) {
+  for (std::size_t i = 0; i < c.pressure.size(); ++i)
+    if (c.share(c.pressure[i]) >= share) return i;
+  return c.pressure.size();
+}
+
+void find_ends(const Measured& data, Curve& c) {
+  const std::size_t n = c.pressure.size(), tail = std::max<std::size_t>(3, n / 20);
+  c.end = median(std::span(c.pressure).last(std::min(tail, n)));
+  c.start = c.pressure.front();
+  if (c.range() < smallest_range)
+    throw Refusal(data.file + ": pressure",
+                  fmt::format("{} at the start and {} at the end", pressure_text(c.start),
+                              pressure_text(c.end)),
+                  "a chamber that fills or vents by more than 5 kPa", "the columns, and the valve");
+  const std::size_t moves = first_beyond(c, 0.03);
+  c.opening_seen = moves >= 2;
+  if (c.opening_seen)
+    c.start = median(std::span(c.pressure).first(std::min<std::size_t>(moves, 9)));
+}
+
+void find_rate(const Measured& data, Curve& c) {
+  const std::size_t a = first_beyond(c, 0.1), b = first_beyond(c, 0.9);
+  const std::size_t on_the_way = b > a ? b - a : 0;
+  if (on_the_way < fewest_on_the_way)
+    throw Refusal(
+        data.file + ": time", fmt::format("{} samples between 10 and 90 % of the way", on_the_way),
+        fmt::format("at least {}: the sample rate is too low for this volume", fewest_on_the_way),
+        "a faster sampling, or a larger volume");
+  const std::size_t from = first_beyond(c, 0.15), to = std::max(first_beyond(c, 0.5), from + 2);
+  c.rate = (c.pressure[to] - c.pressure[from]) / std::max(c.time[to] - c.time[from], 1e-9);
+  const std::size_t last = c.time.size() - 1, tenth = last - std::max<std::size_t>(last / 10, 4);
+  const double at_end = (c.pressure[last] - c.pressure[tenth]) / (c.time[last] - c.time[tenth]);
+  c.settled = std::abs(at_end) < 0.1 * std::abs(c.rate);
+  const std::size_t moves = first_beyond(c, 0.03);
+  c.opening = c.opening_seen ? c.time[moves - 1] : c.time.front();
+}
+
+// A flow through a valve slows down as the pressures meet. A curve that runs up to its end at full
+// speed and then stays on one value has met the sensor's end, not the port's pressure.
+void refuse_saturated(const Measured& data, const Curve& c) {
+  const std::size_t a = first_beyond(c, 0.6), b = first_beyond(c, 0.95);
+  const double extreme = c.fills() ? largest(c.pressure) : smallest(c.pressure);
+  const auto top = std::find(c.pressure.begin(), c.pressure.end(), extreme);
+  const auto at = static_cast<std::size_t>(top - c.pressure.begin());
+  std::size_t stays = 0;
+  while (at + stays < c.pressure.size() && c.pressure[at + stays] == extreme) ++stays;
+  if (stays < 5 || at <= b || b <= a) return;
+
+  const double before = (c.share(c.pressure[b]) - c.share(c.pressure[a])) / (c.time[b] - c.time[a]);
+  const double last = (1.0 - c.share(c.pressure[b - 1])) / (c.time[at] - c.time[b - 1]);
+  if (last < 0.7 * before) return;
+  throw Refusal(data.file + ": pressure",
+                fmt::format("{} samples at {} right after full speed: the sensor or its converter "
+                            "is at its end",
+                            stays, pressure_text(extreme)),
+                "a curve that slows down as it reaches the pressure of the port",
+                "a sensor with a larger range, or a lower pressure");
+}
+
+void refuse_to_and_fro(const Measured& data, const Curve& c) {
+  double most = c.start;  // the farthest on the way so far
+  std::size_t where = 0;
+  for (std::size_t i = 0; i < c.pressure.size(); ++i) {
+    if (c.share(c.pressure[i]) > c.share(most)) most = c.pressure[i];
+    if (c.share(most) - c.share(c.pressure[i]) > 0.15 && where == 0) where = i;
+  }
+  if (where == 0) return;
+  throw Refusal(fmt::format("{}:{}: pressure", data.file, data.lines[where]),
+                fmt::format("a fall back by more than 15 % of the way, to {}",
+                            pressure_text(c.pressure[where])),
+                "one filling or one venting", "the rows of one; or a column `command`, for pulses");
+}
+
+// What comes long after the pressure has settled would only flatter the fit.
+void cut_hold(Curve& c) {
+  const std::size_t settled = first_beyond(c, 0.98);
+  if (settled >= c.time.size()) return;
+  const double until = c.opening + 2.0 * (c.time[settled] - c.opening);
+  std::size_t keep = settled;
+  while (keep < c.time.size() && c.time[keep] <= until) ++keep;
+  if (keep == c.time.size()) return;
+  c.notes.push_back(
+      fmt::format("{} of {} rows are fitted, until {:.4g} s: of the hold, as long as it took to "
+                  "come within 2 %",
+                  keep, c.time.size(), c.time[keep - 1]));
+  c.time.resize(keep);
+  c.pressure.resize(keep);
+}
+
+void tell_times(const Measured& data, Curve& c) {
+  std::size_t same = 0;
+  for (std::size_t i = 1; i < c.time.size(); ++i) same += c.time[i] == c.time[i - 1];
+  if (same > 0)
+    c.notes.push_back(
+        fmt::format("{}: {} rows have the time of the row before them", data.file, same));
+  if (!c.opening_seen)
+    c.notes.emplace_back(
+        "the curve begins while the pressure moves: the valve's instant is not in it");
+}
+
+}  // namespace
+
+Curve curve_of(const Measured& data) {
+  Curve c{.time = data["time"], .pressure = data["pressure"], .notes = data.notes};
+  if (data.rows() < 2 * fewest_on_the_way)
+    throw Refusal(data.file, fmt::format("{} rows", data.rows()),
+                  fmt::format("at least {}", 2 * fewest_on_the_way), "a longer record");
+  find_ends(data, c);
+  find_rate(data, c);
+  refuse_saturated(data, c);
+  refuse_to_and_fro(data, c);
+  cut_hold(c);
+  tell_times(data, c);
+  return c;
+}
+
+}  // namespace sinew::identify

@@ -1,0 +1,210 @@
+// A map of commanded and delivered duty, figure 3-13: the valve's two delays.
+//
+//   delivered = D - (t_o - t_c) f          0 if D < t_o f          1 if 1 - D < t_c f          3.4
+//
+// The straight part tells the difference of the delays alone; where it ends tells each of them, as
+// closely as the duties stand there.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/valve/valve.h"
+
+namespace sinew::identify {
+
+namespace {
+
+constexpr double nothing = 0.02;  // of the full delivery: less is none, and more than 1 - it is all
+
+struct Map {
+  std::vector<double> duty, delivered, frequency;  // delivered, or a flow of any scale
+  double full = 1;                                 // of what is delivered at full duty
+  bool flow = false;
+
+  bool none(std::size_t i) const { return delivered[i] < nothing * full; }
+  bool all(std::size_t i) const { return delivered[i] > (1 - nothing) * full; }
+};
+
+Map map_of(const Measured& data, const ValveOptions& options) {
+  Map m{.duty = data["duty"], .flow = !data.has("delivered")};
+  m.delivered = m.flow ? data[data.has("flow") ? "flow" : "mass_flow"] : data["delivered"];
+  if (data.has("frequency"))
+    m.frequency = data["frequency"];
+  else if (options.frequency)
+    m.frequency.assign(m.duty.size(), *options.frequency);
+  else
+    throw Refusal(data.file, "no frequency of the pulses",
+                  "a column frequency [Hz], or one for all", "--frequency \"100 Hz\"");
+  if (m.flow) m.full = largest(m.delivered);
+  refuse_constant(data, "duty", 0.05, "duties that differ", "a sweep from 0 to 100 %");
+  if (!(largest(m.delivered) - smallest(m.delivered) > nothing * m.full))
+    throw Refusal(data.file, "the same delivery for all duties", "one that grows with the duty",
+                  "the columns, and the frequency");
+  return m;
+}
+
+// What an edge of the map says of a delay: between those two  [s].
+struct Bracket {
+  double low = 0, high = unbounded;
+  bool seen_low = false, seen_high = false;
+
+  bool closed() const { return seen_low && seen_high; }
+};
+
+Bracket opening_of(const Map& m) {
+  Bracket b;
+  for (std::size_t i = 0; i < m.duty.size(); ++i) {
+    const double time = m.duty[i] / m.frequency[i];
+    if (m.none(i) && m.duty[i] > 0 && time > b.low) b.low = time, b.seen_low = true;
+    if (!m.none(i) && time < b.high) b.high = time, b.seen_high = true;
+  }
+  return b;
+}
+
+Bracket closing_of(const Map& m) {
+  Bracket b;
+  for (std::size_t i = 0; i < m.duty.size(); ++i) {
+    const double gap = (1 - m.duty[i]) / m.frequency[i];
+    if (m.all(i) && m.duty[i] < 1 && gap > b.low) b.low = gap, b.seen_low = true;
+    if (!m.all(i) && gap < b.high) b.high = gap, b.seen_high = true;
+  }
+  return b;
+}
+
+std::vector<std::size_t> straight_part(const Map& m) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < m.duty.size(); ++i)
+    if (!m.none(i) && !m.all(i)) out.push_back(i);
+  return out;
+}
+
+// difference of the delays, and of a flow its scale.
+Solution fit_straight(const Map& m, std::span<const std::size_t> keep, bool delayed) {
+  std::vector<Parameter> parameters;
+  const double period = 1 / largest(m.frequency);
+  if (delayed) parameters.push_back({"delay_difference", "s", 0, -period, period, 0.01 * period});
+  if (m.flow) parameters.push_back({"full_flow", "1", m.full, 0, 10 * m.full, m.full});
+  const auto residuals = [&](std::span<const double> p, std::span<double> r) {
+    for (std::size_t k = 0; k < keep.size(); ++k) {
+      const std::size_t i = keep[k];
+      const double lost = delayed ? p[0] * m.frequency[i] : 0;
+      const double scale = m.flow ? p.back() : 1;
+      r[k] = scale * (m.duty[i] - lost) - m.delivered[i];
+    }
+    return true;
+  };
+  return least_squares(residuals, keep.size(), parameters);
+}
+
+Fit try_straight(const Map& m, std::span<const std::size_t> rows, bool delayed) {
+  Fit fit{.model = delayed ? "dead times" : "ideal"};
+  fit.law =
+      delayed ? "delivered = D - (t_o - t_c) f, 0 below t_o f, 1 above 1 - t_c f" : "delivered = D";
+  fit.source = delayed ? "3.4" : "no delays";
+  const Solution s = fit_straight(m, rows, delayed);
+  fit.parameters = s.estimates;
+  fit.fit = score(s.residuals, m.full);
+  fit.residuals = s.residuals;
+  std::vector<double> errors;
+  for (std::size_t out = 0; out < rows.size(); ++out) {
+    std::vector<std::size_t> keep(rows.begin(), rows.end());
+    keep.erase(keep.begin() + static_cast<std::ptrdiff_t>(out));
+    const Solution part = fit_straight(m, keep, delayed);
+    const std::size_t i = rows[out];
+    const double lost = delayed ? part.values[0] * m.frequency[i] : 0;
+    const double scale = m.flow ? part.values.back() : 1;
+    errors.push_back(scale * (m.duty[i] - lost) - m.delivered[i]);
+  }
+  fit.held_out = score(errors, m.full);
+  return fit;
+}
+
+// Of the straight part.
+Rows rows_of(const Map& m, std::span<const std::size_t> rows) {
+  Rows out{.x = "commanded duty", .x_unit = "1"};
+  for (const std::size_t i : rows) {
+    out.at.push_back(m.duty[i]);
+    out.measured.push_back(m.delivered[i]);
+    out.group.push_back(fmt::format("{:.4g} Hz", m.frequency[i]));
+  }
+  return out;
+}
+
+Estimate delay_in(const Bracket& b, std::string name) {
+  Estimate e{.name = std::move(name), .unit = "s", .value = 0.5 * (b.low + b.high)};
+  e.low = b.low;
+  e.high = b.high;
+  e.standard_error = (b.high - b.low) / std::sqrt(12.0);
+  return e;
+}
+
+// Both brackets and the difference with its interval, made to agree.
+void join(Bracket& opening, Bracket& closing, const Estimate& difference) {
+  const double low = std::isfinite(difference.low) ? difference.low : difference.value;
+  const double high = std::isfinite(difference.high) ? difference.high : difference.value;
+  const auto narrow = [](Bracket& b, double from, double to, bool closed) {
+    if (from > b.low) b.low = from;
+    if (to < b.high) b.high = to;
+    if (closed) b.seen_low = b.seen_high = true;
+    b.low = std::max(b.low, 0.0);
+    if (b.low > b.high) b.low = b.high = 0.5 * (b.low + b.high);  // at the edge of the noise
+  };
+  const Bracket o = opening, c = closing;
+  narrow(opening, c.low + low, c.high + high, c.closed());
+  narrow(closing, o.low - high, o.high - low, o.closed());
+}
+
+}  // namespace
+
+ValveResult identify_duty(const Measured& data, const ValveOptions& options) {
+  const Map m = map_of(data, options);
+  const std::vector<std::size_t> straight = straight_part(m);
+  if (straight.size() < 3)
+    throw Refusal(data.file,
+                  fmt::format("{} points between nothing and everything", straight.size()),
+                  "at least three", "a lower frequency, or more duties");
+
+  ValveResult out = before(options);
+  Report& report = out.report;
+  report.subject = "delays of a valve by its map of duties";
+  report.quantity = m.flow ? "delivered flow" : "delivered duty";
+  report.unit = !m.flow ? "1" : data.has("flow") ? "m3/s" : "kg/s";
+  report.full_scale = m.full;
+  report.full_scale_is = m.flow ? "the largest flow" : "the whole period";
+  report.held_out_is = "each point by a fit of all the others";
+  report.notes = data.notes;
+  for (const bool delayed : {false, true})
+    report.fits.push_back(try_straight(m, straight, delayed));
+  report.rows = rows_of(m, straight);
+  choose(report);
+
+  Fit& fit = report.fits[report.chosen];
+  Bracket opening = opening_of(m), closing = closing_of(m);
+  const Estimate difference = report.chosen == 1 ? fit.parameters.front() : Estimate{};
+  join(opening, closing, difference);
+  const std::string valve = "valve." + options.name + ".";
+  const auto known = [&](const Bracket& b, const char* name, double& value, bool& flag) {
+    if (!b.closed()) return;
+    const Estimate e = delay_in(b, name);
+    fit.parameters.push_back(e);
+    value = e.value;
+    flag = true;
+    out.provenance.fitted(valve + name, e, "sinew identify valve " + data.file);
+  };
+  known(opening, "opening_delay", out.valve.opening_delay, out.opening_known);
+  known(closing, "closing_delay", out.valve.closing_delay, out.closing_known);
+  out.valve.profile = gas::Valve::Profile::dead_time;
+  if (!out.opening_known)
+    out.refused = fmt::format(
+        "opening_delay: found its difference from closing_delay alone, {:.4g} ms; expected a duty "
+        "that delivers nothing or a smaller one than 1 that delivers everything: the straight part "
+        "of the map does not tell the delays apart; try smaller and larger duties, or a higher "
+        "frequency",
+        1e3 * difference.value);
+  return out;
+}
+
+}  // namespace sinew::identify

@@ -1,0 +1,316 @@
+// All models of a filling, the choice, and what C/V is worth without V.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/config/quantity.h"
+#include "sinew/gas/orifice.h"
+#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/valve/fill.h"
+#include "sinew/identify/valve/fill_trust.h"
+
+namespace sinew::identify {
+
+namespace {
+
+// Parameters that belong to this one record, not to the valve and its chamber.
+bool of_the_record(std::string_view name) {
+  return name == "start_pressure" || name == "opening_instant";
+}
+
+std::vector<std::size_t> all_rows(const Curve& c) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < c.time.size(); ++i) out.push_back(i);
+  return out;
+}
+
+// Every second tenth of the way is held out; its ends stay.
+bool held_out(const Curve& c, std::size_t i) {
+  const double share = c.share(c.pressure[i]);
+  return share > 0.1 && share < 0.8 && static_cast<int>(10 * share) % 2 == 1;
+}
+
+std::vector<double> starts_of(std::span<const FreeValue> free) {
+  std::vector<double> out;
+  for (const FreeValue& f : free) out.push_back(f.parameter.start);
+  return out;
+}
+
+// There may be several minima: these starts are spread over what can be. Before a narrow hose a
+// small share of the volume fills fast, and C/V is less than the first rise says.
+std::vector<std::vector<double>> spread_starts(const FillModel& model,
+                                               std::span<const FreeValue> free) {
+  struct Spread {
+    double share, factor, exponent;
+  };
+  constexpr Spread rigid[] = {{0, 1, 1.03}, {0, 1, 1.35}};
+  constexpr Spread more[] = {{0.2, 1, 1.05}, {0.2, 1, 1.35}, {0.02, 0.05, 1.2}, {0.7, 1, 1.1}};
+  std::vector<std::vector<double>> out;
+  const bool rigid_only = model.shape == Chamber::Shape::rigid;
+  for (const Spread& s :
+       rigid_only ? std::span<const Spread>(rigid) : std::span<const Spread>(more)) {
+    std::vector<double> one = starts_of(free);
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      if (free[i].member == &Chamber::conductance) one[i] *= s.factor;
+      if (free[i].member == &Chamber::share) one[i] = s.share;
+      if (free[i].member == &Chamber::exponent) one[i] = s.exponent;
+    }
+    out.push_back(one);
+    if (rigid_only && model.exponent > 0) break;
+  }
+  return out;
+}
+
+std::vector<double> predict(const FillModel& model, const Curve& c, const ValveOptions& options,
+                            std::span<const double> values) {
+  const std::vector<FreeValue> free = free_values(model, c, options);
+  const FillCase fill = fill_case(model, c, options, free, values);
+  const Opening opening{fill.opening, true};
+  std::vector<double> out(c.time.size());
+  if (!simulate(fill.chamber, options.air, {&opening, 1}, c.time, out))
+    throw Refusal("model", "no answer", "a pressure", "");
+  return out;
+}
+
+Score score_tenths(const FillModel& model, const Curve& c, const ValveOptions& options,
+                   const Solution& whole) {
+  std::vector<std::size_t> keep;
+  for (std::size_t i = 0; i < c.time.size(); ++i)
+    if (!held_out(c, i)) keep.push_back(i);
+  const Solution part = fit_fill(model, c, options, keep, {&whole.values, 1});
+  const std::vector<double> all = predict(model, c, options, part.values);
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < c.time.size(); ++i)
+    if (held_out(c, i)) errors.push_back(all[i] - c.pressure[i]);
+  return score(errors, c.range());
+}
+
+// The model's own values are kept; where the other record starts and when is the record's.
+Score score_other(const FillModel& model, const Curve& other, const ValveOptions& options,
+                  const Solution& found) {
+  const std::vector<FreeValue> free = free_values(model, other, options);
+  std::vector<double> values = starts_of(free);
+  std::vector<Parameter> record;
+  std::vector<std::size_t> index;
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    const Parameter& p = free[i].parameter;
+    if (of_the_record(p.name)) {
+      record.push_back(p);
+      index.push_back(i);
+    } else {
+      values[i] = found[p.name].value;
+    }
+  }
+  const auto residuals = [&](std::span<const double> p, std::span<double> r) {
+    for (std::size_t i = 0; i < p.size(); ++i) values[index[i]] = p[i];
+    const FillCase fill = fill_case(model, other, options, free, values);
+    const Opening opening{fill.opening, true};
+    if (!simulate(fill.chamber, options.air, {&opening, 1}, other.time, r)) return false;
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] -= other.pressure[i];
+    return true;
+  };
+  return score(least_squares(residuals, other.time.size(), record).residuals, other.range());
+}
+
+// Two of the valve's parameters that the curve hardly tells apart.
+void tell_correlations(const Solution& s, Fit& fit) {
+  const std::size_t n = s.estimates.size();
+  const auto cov = [&](std::size_t i, std::size_t k) { return s.covariance[i * n + k]; };
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = i + 1; k < n; ++k) {
+      if (of_the_record(s.estimates[i].name) || of_the_record(s.estimates[k].name)) continue;
+      const double r = cov(i, k) / std::sqrt(cov(i, i) * cov(k, k));
+      if (std::isfinite(r) && std::abs(r) > 0.95)
+        fit.notes.push_back(fmt::format("{} and {} can hardly be told apart: correlation {:.3f}",
+                                        s.estimates[i].name, s.estimates[k].name, r));
+    }
+  for (const std::string& unseen : s.unseen)
+    fit.notes.push_back("the curve does not tell " + unseen);
+}
+
+Estimate scaled(Estimate e, std::string name, std::string unit, double factor) {
+  e.name = std::move(name);
+  e.unit = std::move(unit);
+  for (double* x : {&e.value, &e.standard_error, &e.low, &e.high}) *x *= factor;
+  return e;
+}
+
+// C/V with what is known beside it.
+void divide(const FillModel& model, const ValveOptions& options, Fit& fit) {
+  Estimate& k = fit.parameters.front();
+  if (options.volume) {
+    const Estimate c = scaled(k, "sonic_conductance", "m3/(s Pa)", *options.volume);
+    if (model.flow == gas::Flow::Law::iso6358)
+      k = c;
+    else
+      k = scaled(c, "area", "m2", gas::effective_area_of(1.0, options.air));
+  } else if (options.conductance) {
+    Estimate v = k;
+    v.name = "volume";
+    v.unit = "m3";
+    v.value = *options.conductance / k.value;
+    v.standard_error = k.standard_error * v.value / k.value;
+    v.low = *options.conductance / k.high;
+    v.high = k.low > 0 ? *options.conductance / k.low : unbounded;
+    k = v;
+  }
+}
+
+Tried try_model(const FillModel& model, const Curve& c, const ValveOptions& options,
+                const Curve* other) {
+  Tried out;
+  Fit& fit = out.fit;
+  fit.model = model.name;
+  fit.law = model.law;
+  fit.source = model.source;
+  if (model.leak && !options.port) {
+    fit.refused = "a leak and the port's pressure look the same; --supply tells them apart";
+    return out;
+  }
+  const bool named = options.exponent == 1.0 || options.exponent == gas::heat_capacity_ratio;
+  if (options.exponent && (model.exponent > 0 ? model.exponent != *options.exponent : named)) {
+    fit.refused = fmt::format("--exponent is {:g}", *options.exponent);
+    return out;
+  }
+  const std::vector<FreeValue> free = free_values(model, c, options);
+  try {
+    const Solution s = fit_fill(model, c, options, all_rows(c), spread_starts(model, free));
+    refuse_undetermined(s);
+    for (const double r : s.residuals) out.squares += r * r;
+    const double t = t_quantile(s.freedom);
+    out.acceptable = out.squares * (1 + t * t * s.inflation / s.freedom);
+    fit.parameters = s.estimates;
+    fit.parameters.front().identifiable &= half_of(fit.parameters.front()) <= well_known;
+    fit.fit = score(s.residuals, c.range());
+    fit.residuals = s.residuals;
+    tell_correlations(s, fit);
+    fit.held_out =
+        other ? score_other(model, *other, options, s) : score_tenths(model, c, options, s);
+  } catch (const Refusal& refusal) {
+    fit.refused = refusal.what();
+  }
+  return out;
+}
+
+void refuse_unsettled(const Measured& data, const Curve& c, const ValveOptions& options) {
+  if (c.settled || options.port) return;
+  throw Refusal(data.file + ": pressure",
+                fmt::format("one that still moves at the end, at {}",
+                            config::format_quantity(c.pressure.back(), "Pa abs", "kPa abs", 4)),
+                "one that settles at the pressure on the valve's other side",
+                "a longer record, or --supply");
+}
+
+void refuse_poor_fit(const Measured& data, const Report& report, double worst) {
+  if (report.best().fit.rmse_percent <= worst) return;
+  throw Refusal(
+      data.file,
+      fmt::format("{:.2g} % of the range left by the best model, {}",
+                  report.best().fit.rmse_percent, report.best().model),
+      fmt::format("at most {:g} %: one valve, one constant port pressure, one chamber behind it",
+                  worst),
+      "a rigid chamber near the valve, the pressure of the supply beside it");
+}
+
+// What the exponent is, where the chosen model has it fixed: from its sister that fits it.
+void tell_exponent(Report& report) {
+  const std::span<const FillModel> models = fill_models();
+  const FillModel& chosen = models[report.chosen];
+  if (chosen.exponent == 0 || !report.fits[report.chosen].refused.empty()) return;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const FillModel& m = models[i];
+    if (m.shape != chosen.shape || m.flow != chosen.flow || m.exponent != 0 || m.leak) continue;
+    for (const Estimate& e : report.fits[i].parameters) {
+      if (e.name != "polytropic_exponent") continue;
+      report.fits[report.chosen].notes.push_back(
+          fmt::format("polytropic_exponent is {:g} by the model; fitted it is {:.3f}{}",
+                      chosen.exponent, e.value,
+                      e.at_bound ? ", the bound of its range"
+                                 : fmt::format(" +- {:.2g}", 0.5 * (e.high - e.low))));
+    }
+  }
+}
+
+void set_valve(const FillModel& model, const ValveOptions& options, const std::string& source,
+               ValveResult& out) {
+  const std::string flow = "valve." + options.name + ".flow.";
+  const Fit& fit = out.report.best();
+  if (options.volume) replace_flow(model.flow, source + ", model " + fit.model, out);
+  for (const Estimate& e : fit.parameters) {
+    if (!options.volume) break;
+    if (e.name == "sonic_conductance") out.valve.flow.sonic_conductance = e.value;
+    if (e.name == "area") out.valve.flow.area = e.value;
+    if (e.name == "critical_pressure_ratio") out.valve.flow.critical_pressure_ratio = e.value;
+    if (e.name == "sonic_conductance" || e.name == "area" || e.name == "critical_pressure_ratio") {
+      out.provenance.fitted(flow + e.name, e, source + ", model " + fit.model);
+      out.flow_known = options.volume.has_value();
+    }
+  }
+}
+
+void describe(const Curve& c, const ValveOptions& options, ValveResult& out) {
+  Report& r = out.report;
+  r.notes.insert(r.notes.end(), c.notes.begin(), c.notes.end());
+  if (!options.port)
+    r.notes.push_back(fmt::format(
+        "the pressure on the valve's other side is fitted as a constant, {}; a supply that droops "
+        "or an unknown zero of the sensor looks like another b or n",
+        c.fills() ? "for a supply" : "for a room"));
+  if (options.volume) r.notes.emplace_back("the volume is taken as exact");
+  const Estimate& k = r.best().parameters.front();
+  if (!options.volume && !options.conductance && !options.per_volume)
+    out.refused = fmt::format(
+        "sonic conductance: found C/V = {} alone; expected the volume beside it: one curve does "
+        "not tell C from V; try --volume \"0.5 L\", --conductance for the volume instead, or "
+        "--per-volume where C/V is enough",
+        config::format_quantity(k.value, "1/(s Pa)", "1/(s bar)", 4));
+  if (half_of(k) <= well_known) return;
+  out.refused += fmt::format(
+      "{}{}: found an interval of +- {:.0f} %; expected at most +- {:.0f} %; try {}{}a rigid "
+      "chamber "
+      "near the valve, less noise",
+      out.refused.empty() ? "" : "\n", k.name, 100 * half_of(k), 100 * well_known,
+      options.port ? "" : "--supply with the pressure on the valve's other side, ",
+      options.exponent ? "" : "--exponent where it is known (1 in a chamber full of wire wool), ");
+}
+
+}  // namespace
+
+ValveResult identify_fill(const Measured& data, const ValveOptions& options,
+                          const Measured* other) {
+  const Curve c = curve_of(data);
+  std::optional<Curve> unseen;
+  if (other) unseen = curve_of(*other);
+  refuse_unsettled(data, c, options);
+
+  ValveResult out = before(options);
+  Report& report = out.report;
+  report.subject =
+      fmt::format("{} of a chamber through a valve", c.fills() ? "filling" : "venting");
+  report.quantity = "pressure";
+  report.unit = "Pa diff";
+  report.full_scale = c.range();
+  report.full_scale_is = "the pressure's range";
+  report.held_out_is = other ? other->file + ", with its own start and opening instant"
+                             : "every second tenth of the way, 10 to 20 % up to 70 to 80 %";
+  std::vector<Tried> tried;
+  for (const FillModel& model : fill_models())
+    tried.push_back(try_model(model, c, options, unseen ? &*unseen : nullptr));
+  reach_for_fixed(tried);
+  refuse_open(tried, options.worst_fit);
+  for (const Tried& t : tried) report.fits.push_back(t.fit);
+  report.rows = {
+      .x = "time", .x_unit = "s", .unit = "Pa abs", .at = c.time, .measured = c.pressure};
+  choose(report);
+  reach_over_models(tried, report);
+  for (std::size_t i = 0; i < report.fits.size(); ++i)
+    if (report.fits[i].refused.empty()) divide(fill_models()[i], options, report.fits[i]);
+  refuse_poor_fit(data, report, options.worst_fit);
+  tell_exponent(report);
+  set_valve(fill_models()[report.chosen], options, "sinew identify valve " + data.file, out);
+  describe(c, options, out);
+  return out;
+}
+
+}  // namespace sinew::identify

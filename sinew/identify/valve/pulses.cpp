@@ -1,0 +1,259 @@
+// Pressure in a chamber while the valve is pulsed: both delays, beside C/V.
+//
+// sealed: the chamber is shut between the pulses; vents: a 3-way valve joins it to the room then.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sinew/gas/orifice.h"
+#include "sinew/identify/data/quality.h"
+#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/valve/edges.h"
+#include "sinew/identify/valve/fill.h"
+#include "sinew/identify/valve/valve.h"
+
+namespace sinew::identify {
+
+namespace {
+
+struct Record {
+  std::vector<double> time, pressure;  // [s], [Pa abs]
+  Edges commands;
+  double shortest = 0;  // pulse or gap [s]
+  double rate = 0;      // fastest change while the coil is on [Pa/s]
+  bool fills = true;
+
+  double range() const { return largest(pressure) - smallest(pressure); }
+};
+
+struct PulseModel {
+  std::string_view name, law;
+  bool vents = false;
+  double exponent = 0;  // 0: fitted
+};
+
+constexpr std::string_view law_sealed = "V d rho/dt = m' from t + t_o to t + t_c, ISO 6358";
+constexpr std::string_view law_vents = "the same, and to the room the rest of the time";
+constexpr std::array models{PulseModel{"sealed isothermal", law_sealed, false, 1},
+                            PulseModel{"sealed polytropic", law_sealed, false, 0},
+                            PulseModel{"venting isothermal", law_vents, true, 1},
+                            PulseModel{"venting polytropic", law_vents, true, 0}};
+
+struct PulseCase {
+  Chamber chamber;
+  double opening = 0, closing = 0;  // delays [s]
+};
+
+struct Place {
+  double Chamber::*chamber = nullptr;
+  double PulseCase::*delay = nullptr;
+};
+
+struct Unknowns {
+  std::vector<Parameter> parameters;
+  std::vector<Place> places;
+};
+
+Record record_of(const Measured& data) {
+  Record r{.time = data["time"], .pressure = data["pressure"], .commands = edges_of(data)};
+  refuse_constant(data, "pressure", 5e3, "a pressure that answers to the command by 5 kPa or more",
+                  "the columns, and the valve");
+  refuse_clipped(data, "pressure", "a sensor with a larger range, or shorter pulses");
+  r.shortest = r.time.back() - r.time.front();
+  const std::vector<Opening>& e = r.commands.edges;
+  for (std::size_t i = 1; i < e.size(); ++i)
+    if (e[i].time - e[i - 1].time > 0) r.shortest = std::min(r.shortest, e[i].time - e[i - 1].time);
+  if (r.shortest < 4 * r.commands.sample)
+    throw Refusal(data.file + ": time",
+                  fmt::format("pulses or gaps of {:.2g} samples", r.shortest / r.commands.sample),
+                  "at least 4: the sample rate is too low", "a faster sampling, or longer pulses");
+
+  // The pressure's fastest way, over a quarter of the shortest pulse.
+  const auto lag =
+      std::max<std::size_t>(2, static_cast<std::size_t>(0.25 * r.shortest / r.commands.sample));
+  for (std::size_t i = lag; i < r.time.size(); ++i) {
+    const double rate =
+        (r.pressure[i] - r.pressure[i - lag]) / std::max(r.time[i] - r.time[i - lag], 1e-9);
+    if (std::abs(rate) > std::abs(r.rate)) r.rate = rate;
+  }
+  // Up or down while it is on: by the whole of the first pulse.
+  double before = r.pressure.front(), on = -unbounded, off = unbounded;
+  for (const Opening& edge : e) {
+    if (edge.open && on == -unbounded) on = edge.time;
+    if (!edge.open && on != -unbounded && off == unbounded) off = edge.time;
+  }
+  for (std::size_t i = 0; i < r.time.size(); ++i) {
+    if (r.time[i] <= on) before = r.pressure[i];
+    if (r.time[i] <= off) r.fills = r.pressure[i] > before;
+  }
+  return r;
+}
+
+Unknowns unknowns_of(const PulseModel& model, const Record& r, const ValveOptions& options) {
+  Unknowns u;
+  const auto add = [&](Parameter p, Place place) {
+    u.parameters.push_back(std::move(p));
+    u.places.push_back(place);
+  };
+  const double top = largest(r.pressure), range = r.range();
+  const double flow =
+      gas::mass_flow_iso6358(1.0, 0.3, r.fills ? 1.2 * top : top, options.air.temperature, 0.0);
+  const double k = std::abs(r.rate) / (options.air.gas_constant * options.air.temperature * flow);
+  add({"conductance_per_volume", "1/(s Pa)", k, 1e-3 * k, 20 * k, k}, {&Chamber::conductance});
+  add({"opening_delay", "s", 0.1 * r.shortest, 0, r.shortest, 0.1 * r.shortest},
+      {nullptr, &PulseCase::opening});
+  add({"closing_delay", "s", 0.1 * r.shortest, 0, r.shortest, 0.1 * r.shortest},
+      {nullptr, &PulseCase::closing});
+  add({"critical_pressure_ratio", "1", 0.4, 0, 0.95, 1}, {&Chamber::critical_ratio});
+  if (model.exponent == 0)
+    add({"polytropic_exponent", "1", 1.2, 1, 5.0 / 3.0, 1}, {&Chamber::exponent});
+  if (model.vents) add({"vent_over_conductance", "1", 1, 1e-3, 20, 1}, {&Chamber::vent});
+  if (!options.port && r.fills)
+    add({"port_pressure", "Pa abs", 1.2 * top, top - 0.05 * range, 3 * top, range},
+        {&Chamber::port});
+  add({"start_pressure", "Pa abs", r.pressure.front(),
+       std::max(1e3, r.pressure.front() - 0.2 * range), r.pressure.front() + 0.2 * range, range},
+      {&Chamber::start});
+  return u;
+}
+
+PulseCase case_of(const PulseModel& model, const ValveOptions& options, const Unknowns& u,
+                  std::span<const double> p) {
+  PulseCase c;
+  c.chamber.port = options.port.value_or(options.air.atmosphere);
+  if (model.exponent > 0) c.chamber.exponent = model.exponent;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (u.places[i].chamber) c.chamber.*u.places[i].chamber = p[i];
+    if (u.places[i].delay) c.*u.places[i].delay = p[i];
+  }
+  return c;
+}
+
+bool predict(const PulseModel& model, const Record& r, const ValveOptions& options,
+             const Unknowns& u, std::span<const double> p, std::span<double> out) {
+  const PulseCase c = case_of(model, options, u, p);
+  return simulate(c.chamber, options.air, delayed(r.commands.edges, c.opening, c.closing),
+                  std::span(r.time).first(out.size()), out);
+}
+
+// Fits the first `rows` samples.
+Solution fit_pulses(const PulseModel& model, const Record& r, const ValveOptions& options,
+                    std::size_t rows, std::span<const std::vector<double>> starts) {
+  const Unknowns u = unknowns_of(model, r, options);
+  const auto residuals = [&](std::span<const double> p, std::span<double> out) {
+    if (!predict(model, r, options, u, p, out)) return false;
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] -= r.pressure[i];
+    return true;
+  };
+  return least_squares_from(
+      residuals, rows, u.parameters, starts,
+      {.correlated = true, .most_steps = 60, .widest_interval = 0.25, .difference = 1e-3});
+}
+
+std::vector<std::vector<double>> starts_of(const Unknowns& u) {
+  std::vector<std::vector<double>> out;
+  for (const double factor : {1.0, 0.2, 4.0}) {
+    out.emplace_back();
+    for (std::size_t i = 0; i < u.parameters.size(); ++i)
+      out.back().push_back(u.parameters[i].start * (u.places[i].delay ? factor : 1.0));
+  }
+  return out;
+}
+
+Fit try_model(const PulseModel& model, const Record& r, const ValveOptions& options) {
+  Fit fit{.model = std::string(model.name), .law = std::string(model.law)};
+  fit.source = "3.4, gas/delay.h; ISO 6358-1";
+  try {
+    const Unknowns u = unknowns_of(model, r, options);
+    const Solution s = fit_pulses(model, r, options, r.time.size(), starts_of(u));
+    fit.parameters = s.estimates;
+    fit.fit = score(s.residuals, r.range());
+    fit.residuals = s.residuals;
+    const std::size_t seen = r.time.size() * 2 / 3;
+    const Solution part = fit_pulses(model, r, options, seen, {&s.values, 1});
+    std::vector<double> all(r.time.size());
+    if (!predict(model, r, options, u, part.values, all))
+      throw Refusal("model", "no answer", "a pressure", "");
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] -= r.pressure[i];
+    fit.held_out = score(std::span(all).subspan(seen), r.range());
+  } catch (const Refusal& refusal) {
+    fit.refused = refusal.what();
+  }
+  return fit;
+}
+
+// An edge lies anywhere between two samples of the command: the same for every edge if both were
+// made by one clock.
+Estimate widened(Estimate e, double half) {
+  e.low -= half;
+  e.high += half;
+  return e;
+}
+
+}  // namespace
+
+ValveResult identify_pulses(const Measured& data, const ValveOptions& options) {
+  const Record r = record_of(data);
+  ValveResult out = before(options);
+  Report& report = out.report;
+  report.subject = "delays of a valve by the pressure behind it";
+  report.quantity = "pressure";
+  report.unit = "Pa diff";
+  report.full_scale = r.range();
+  report.full_scale_is = "the pressure's range";
+  report.held_out_is = "the last third of the record";
+  report.notes = data.notes;
+  for (const PulseModel& model : models) report.fits.push_back(try_model(model, r, options));
+  report.rows = {
+      .x = "time", .x_unit = "s", .unit = "Pa abs", .at = r.time, .measured = r.pressure};
+  choose(report);
+  if (report.best().fit.rmse_percent > options.worst_fit)
+    throw Refusal(
+        data.file,
+        fmt::format("{:.2g} % of the range left by the best model", report.best().fit.rmse_percent),
+        fmt::format("at most {:g} %: a chamber that only this valve fills or vents",
+                    options.worst_fit),
+        "a rigid chamber, the other valves shut");
+
+  const std::string valve = "valve." + options.name + ".";
+  for (Estimate& e : report.fits[report.chosen].parameters) {
+    const bool opening = e.name == "opening_delay", closing = e.name == "closing_delay";
+    if (!opening && !closing) continue;
+    e = widened(e, 0.5 * r.commands.sample);
+    if (!e.identifiable) continue;
+    (opening ? out.valve.opening_delay : out.valve.closing_delay) = e.value;
+    (opening ? out.opening_known : out.closing_known) = true;
+    out.valve.profile = gas::Valve::Profile::dead_time;
+    out.provenance.fitted(valve + e.name, e, "sinew identify valve " + data.file);
+  }
+  report.notes.push_back(fmt::format(
+      "the intervals of the delays include half a sample, {:.3g} ms, of the command's edge",
+      0.5e3 * r.commands.sample));
+  if (options.volume) {
+    replace_flow(gas::Flow::Law::iso6358, "sinew identify valve " + data.file, out);
+    for (Estimate& e : report.fits[report.chosen].parameters)
+      if (e.name == "conductance_per_volume") {
+        e.name = "sonic_conductance";
+        e.unit = "m3/(s Pa)";
+        for (double* x : {&e.value, &e.standard_error, &e.low, &e.high}) *x *= *options.volume;
+        out.valve.flow.sonic_conductance = e.value;
+        out.flow_known = true;
+        out.provenance.fitted(valve + "flow.sonic_conductance", e,
+                              "sinew identify valve " + data.file);
+      } else if (e.name == "critical_pressure_ratio") {
+        out.valve.flow.critical_pressure_ratio = e.value;
+        out.provenance.fitted(valve + "flow.critical_pressure_ratio", e,
+                              "sinew identify valve " + data.file);
+      }
+  }
+  if (!out.opening_known || !out.closing_known)
+    out.refused = fmt::format(
+        "{}: found no instant the pressure determines; expected pulses that the pressure answers "
+        "to; try more pulses, a smaller volume, or a faster sampling",
+        out.opening_known ? "closing_delay" : "opening_delay");
+  return out;
+}
+
+}  // namespace sinew::identify

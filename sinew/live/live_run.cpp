@@ -1,0 +1,190 @@
+#include "sinew/live/live_run.h"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <exception>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <thread>
+
+#include "sinew/config/compose.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/experiment/columns.h"
+#include "sinew/live/server.h"
+#include "sinew/live/show.h"
+#include "sinew/report/page.h"
+#include "sinew/run/folder/page.h"
+#include "sinew/run/folder/runnable.h"
+
+namespace sinew::live {
+
+namespace {
+
+// Into the log what belongs there, everything to the watchers.
+struct Tee {
+  experiment::Tap log;
+  std::vector<std::uint16_t> logged;  // topic in the log of each, or not_tapped
+  live::Feed& feed;
+
+  static void push(void* self, std::uint16_t topic, std::int64_t time_ns,
+                   std::span<const double> values) noexcept {
+    const Tee& tee = *static_cast<Tee*>(self);
+    tee.feed.push(topic, time_ns, values);
+    if (tee.log.push && tee.logged[topic] != experiment::not_tapped)
+      tee.log.push(tee.log.object, tee.logged[topic], time_ns, values);
+  }
+};
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+}  // namespace
+
+class LiveRun::Impl {
+ public:
+  Impl(const run::RunRequest& request, LiveOptions options, run::Notices notices)
+      : options_(std::move(options)),
+        notices_(std::move(notices)),
+        kept_(request, notices_),
+        values_(config::parse_text(kept_.resolved(), "resolved.toml")),
+        feed_(experiment::topics(kept_.experiment())),
+        show_(kept_.experiment(), values_, steering_, feed_, tick_),
+        server_(options_.port, {.get = [this](std::string_view path) { return get(path); },
+                                .tick = [this] { feed_.collect(); },
+                                .frame = [this](Server::Watcher w) { return frame(w); },
+                                .message =
+                                    [this](Server::Watcher, std::string_view text) {
+                                      return over() ? "" : show_.answer(text);
+                                    },
+                                .left = [this](Server::Watcher w) { positions_.erase(w); },
+                                .interrupted = [this] { interrupted(); }}) {
+    steering_.pace(options_.pace);
+    steering_.pause(options_.paused);
+  }
+
+  std::string url() const { return server_.url(); }
+
+  void go() {
+    std::thread runner([this] { run(); });
+    server_.run();
+    runner.join();
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  bool over() const { return over_.load(std::memory_order_acquire); }
+
+  // On the runner's thread, which alone touches what `over` publishes.
+  void run() {
+    try {
+      Tee tee{{}, {}, feed_};
+      experiment::RunOptions o{.steering = &steering_, .progress = &tick_};
+      if (kept_.log()) kept_.log()->tap(o);
+      tee.log = o.tap;
+      tee.logged = std::move(o.tapped);
+      o.tap = {&tee, &Tee::push};
+      o.tapped.clear();
+      for (std::size_t i = 0; i < experiment::topics(kept_.experiment()).size(); ++i)
+        o.tapped.push_back(static_cast<std::uint16_t>(i));
+      const auto kept = kept_.keep(experiment::run(kept_.experiment(), o));
+      if (options_.kept) options_.kept(kept);
+      page_ = text_of(kept_.folder() / run::report_name);
+    } catch (const std::exception& e) {
+      failure_ = std::current_exception();
+      words_ = e.what();
+    }
+    over_.store(true, std::memory_order_release);
+    if (options_.once || ending_.load())
+      server_.finish();
+    else
+      notices_.note("its page stays at " + server_.url() + " until Ctrl-C");
+  }
+
+  Reply get(std::string_view path) {
+    if (path != "/")
+      return {404, "Nothing is here; the run is at the address that was printed.\n", "text/plain"};
+    if (!over())
+      return {200, show_.page(fmt::format("127.0.0.1:{0} ws://localhost:{0}", server_.port()))};
+    if (!page_.empty()) return {200, page_};
+    return {200, failure_ ? words_ : "The run is over; it was to leave no page.\n",
+            "text/plain; charset=utf-8"};
+  }
+
+  std::string frame(Server::Watcher watcher) {
+    Watching& w = positions_[watcher];
+    if (!over()) return show_.frame(w.position);
+    if (w.told) return "";
+    w.told = true;
+    return "{\"over\":true}";
+  }
+
+  // The run is brought to its end, so that what it leaves is whole.
+  void interrupted() {
+    if (over()) return server_.stop();
+    if (ending_.exchange(true)) {
+      std::signal(SIGINT, SIG_DFL);
+      std::raise(SIGINT);
+    }
+    notices_.note("the run goes to its end at full speed; Ctrl-C again breaks it off");
+    steering_.pace(0);
+    steering_.pause(false);
+  }
+
+  struct Watching {
+    Show::Position position;
+    bool told = false;
+  };
+
+  const LiveOptions options_;
+  const run::Notices notices_;
+  run::KeptRun kept_;
+  const config::Node values_;
+  experiment::Steering steering_;
+  Feed feed_;
+  std::atomic<std::int64_t> tick_{0};
+  Show show_;
+  std::map<Server::Watcher, Watching> positions_;
+  std::atomic<bool> over_{false}, ending_{false};
+
+  // The runner's, until `over`.
+  std::exception_ptr failure_;
+  std::string page_, words_;
+
+  Server server_;  // last: its end calls those above
+};
+
+namespace {
+
+// What can be refused before there is a folder.
+void require_live(const std::string& experiment, std::uint16_t port) {
+  if (run::is_on_stand(experiment))
+    config::fail({experiment, 0, 0}, "", "an experiment on the stand",
+                 "one of a robot: a stand's run is over in a moment and is not steered",
+                 "sinew run, then sinew view");
+  if (!report::has_page())
+    throw std::runtime_error(
+        "sinew view: this sinew was built without its page, which npm bundles; try: install npm, "
+        "then run npm ci in web/ and build again");
+  if (port > 0) Server(port, {});
+}
+
+}  // namespace
+
+LiveRun::LiveRun(const run::RunRequest& request, LiveOptions options, run::Notices notices) {
+  require_live(request.experiment, options.port);
+  impl_ = std::make_unique<Impl>(request, std::move(options), std::move(notices));
+}
+
+LiveRun::~LiveRun() = default;
+
+std::string LiveRun::url() const { return impl_->url(); }
+
+void LiveRun::go() { impl_->go(); }
+
+}  // namespace sinew::live

@@ -1,0 +1,362 @@
+#include "sinew/live/server.h"
+
+#include <fmt/format.h>
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <chrono>
+#include <csignal>
+#include <deque>
+#include <list>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+#include "sinew/live/token.h"
+
+namespace sinew::live {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
+using tcp = asio::ip::tcp;
+using Error = beast::error_code;
+
+constexpr auto between_frames = std::chrono::milliseconds(40);
+constexpr auto patience = std::chrono::seconds(10);  // with a request that does not come
+constexpr auto last_moment = std::chrono::seconds(1);
+constexpr std::size_t longest_head = 8 << 10, longest_message = 4 << 10;  // [bytes]
+constexpr std::string_view ready = "ready";
+constexpr std::size_t most_connections = 64, most_answers = 32;
+
+using Request = http::request<http::string_body>;
+
+}  // namespace
+
+struct Server::Impl : std::enable_shared_from_this<Server::Impl> {
+  struct Connection;
+  struct Socket;
+
+  explicit Impl(Handlers h) : handlers(std::move(h)) {}
+
+  void listen(std::uint16_t port);
+  void accept();
+  void tick();
+  bool make_room();
+  bool is_ours(const Request& request, http::field field, std::string_view before) const;
+  bool has_token(std::string_view target) const;
+
+  asio::io_context io{1};
+  tcp::acceptor acceptor{io};
+  asio::steady_timer timer{io}, end{io}, pause{io};
+  asio::signal_set signals{io};
+  Handlers handlers;
+  std::map<Watcher, std::weak_ptr<Socket>> sockets;
+  std::list<Connection*> unauthorized;  // have not shown the token; the oldest first
+  const std::string token = random_token();
+  Watcher last = 0;
+  std::size_t connections = 0;
+  std::uint16_t port = 0;
+};
+
+// --- a WebSocket ---
+
+struct Server::Impl::Socket : std::enable_shared_from_this<Socket> {
+  Socket(std::shared_ptr<Impl> s, beast::tcp_stream&& stream)
+      : server(std::move(s)), id(++server->last), ws(std::move(stream)) {
+    ++server->connections;
+  }
+  ~Socket() {
+    --server->connections;
+    if (server->handlers.left) server->handlers.left(id);
+    server->sockets.erase(id);
+  }
+
+  void start(const Request& request) {
+    beast::get_lowest_layer(ws).expires_never();
+    ws.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
+    ws.read_message_max(longest_message);
+    ws.async_accept(request, [self = shared_from_this()](Error error) {
+      if (error) return;
+      self->server->sockets[self->id] = self;
+      self->open = true;
+      self->read();
+    });
+  }
+
+  void read() {
+    ws.async_read(in, [self = shared_from_this()](Error error, std::size_t) {
+      if (error) return self->leave();
+      const std::string text = beast::buffers_to_string(self->in.data());
+      self->in.consume(self->in.size());
+      if (text == ready) {
+        self->waits = true;
+        return self->read();
+      }
+      if (std::string answer = self->server->handlers.message(self->id, text); !answer.empty()) {
+        if (self->answers.size() == most_answers) return self->leave();
+        self->answers.push_back(std::move(answer));
+        self->send();
+      }
+      self->read();
+    });
+  }
+
+  // Answers first, then a frame of what there is now, if the last one is done with.
+  void send() {
+    if (!open || sending) return;
+    if (!answers.empty()) {
+      out = std::move(answers.front());
+      answers.pop_front();
+    } else if (waits) {
+      out = server->handlers.frame(id);
+      waits = out.empty();
+    } else {
+      return;
+    }
+    if (out.empty()) return;
+    sending = true;
+    ws.text(true);
+    ws.async_write(asio::buffer(out), [self = shared_from_this()](Error error, std::size_t) {
+      self->sending = false;
+      if (error) return self->leave();
+      if (!self->answers.empty()) self->send();
+    });
+  }
+
+  void leave() {
+    open = false;
+    beast::get_lowest_layer(ws).close();
+  }
+
+  std::shared_ptr<Impl> server;
+  Watcher id;
+  websocket::stream<beast::tcp_stream> ws;
+  beast::flat_buffer in;
+  std::string out;
+  std::deque<std::string> answers;
+  bool open = false, sending = false;
+  bool waits = true;  // for a frame
+};
+
+// --- HTTP ---
+
+struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
+  Connection(std::shared_ptr<Impl> s, tcp::socket&& socket)
+      : server(std::move(s)), stream(std::move(socket)) {
+    ++server->connections;
+    place = server->unauthorized.insert(server->unauthorized.end(), this);
+  }
+  ~Connection() {
+    --server->connections;
+    is_known();
+  }
+
+  // It has shown the token.
+  void is_known() {
+    if (place) server->unauthorized.erase(*place);
+    place.reset();
+  }
+
+  void read() {
+    parser.emplace();
+    parser->header_limit(longest_head);
+    parser->body_limit(longest_message);
+    stream.expires_after(patience);
+    http::async_read(stream, buffer, *parser,
+                     [self = shared_from_this()](Error error, std::size_t) {
+                       if (!error) self->handle(self->parser->release());
+                     });
+  }
+
+  void handle(Request request) {
+    if (!server->is_ours(request, http::field::host, ""))
+      return write(request, {403, "This server answers to its own name only.\n", "text/plain"});
+    const std::string_view target(request.target().data(), request.target().size());
+    if (!server->has_token(target))
+      return write(request, {403,
+                             "This address lacks its token; open the whole one that sinew view "
+                             "printed.\n",
+                             "text/plain"});
+    is_known();
+    const std::string_view path = target.substr(1 + server->token.size());
+    if (websocket::is_upgrade(request)) {
+      if (!server->handlers.frame || path != "/live" ||
+          !server->is_ours(request, http::field::origin, "http://"))
+        return write(request, {403, "Only this server's own page may watch.\n", "text/plain"});
+      return std::make_shared<Socket>(server, std::move(stream))->start(request);
+    }
+    const bool head = request.method() == http::verb::head;
+    if (request.method() != http::verb::get && !head)
+      return write(request, {405, "GET only.\n", "text/plain"});
+    if (path.empty())
+      return write(request, {404, "The address ends in a slash.\n", "text/plain"}, head);
+    write(request, server->handlers.get(path), head);
+  }
+
+  void write(const Request& request, Reply reply, bool head = false) {
+    response = {static_cast<http::status>(reply.status), request.version()};
+    response.set(http::field::content_type, reply.type);
+    response.set(http::field::cache_control, "no-store");
+    response.set("X-Content-Type-Options", "nosniff");
+    response.set(http::field::x_frame_options, "DENY");
+    response.set("Cross-Origin-Resource-Policy", "same-origin");
+    response.set("Referrer-Policy", "no-referrer");
+    response.keep_alive(request.keep_alive() && reply.status == 200);
+    response.body() = std::move(reply.body);
+    response.prepare_payload();
+    if (head) response.body().clear();
+    stream.expires_after(patience);
+    http::async_write(stream, response,
+                      [self = shared_from_this(), keep = response.keep_alive() && !head](
+                          Error error, std::size_t) {
+                        if (error) return;
+                        if (keep) return self->read();
+                        Error ignored;
+                        self->stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
+                      });
+  }
+
+  std::shared_ptr<Impl> server;
+  std::optional<std::list<Connection*>::iterator> place;  // of it among the unauthorized
+  beast::tcp_stream stream;
+  beast::flat_buffer buffer;
+  std::optional<http::request_parser<http::string_body>> parser;
+  http::response<http::string_body> response;
+};
+
+// --- the server ---
+
+// The field names this server, as a browser writes it; exactly once.
+bool Server::Impl::is_ours(const Request& request, http::field field,
+                           std::string_view before) const {
+  if (request.count(field) != 1) return false;
+  const auto value = request[field];
+  for (const std::string_view host : {"127.0.0.1", "localhost"})
+    if (value == fmt::format("{}{}:{}", before, host, port)) return true;
+  return false;
+}
+
+// The target begins with the token's folder.
+bool Server::Impl::has_token(std::string_view target) const {
+  if (target.empty() || target[0] != '/') return false;
+  const std::string_view shown = target.substr(1, token.size());
+  const std::string_view rest = target.substr(1 + shown.size());
+  return same_token(shown, token) && (rest.empty() || rest[0] == '/');
+}
+
+void Server::Impl::listen(std::uint16_t wanted) {
+  const tcp::endpoint here(asio::ip::address_v4::loopback(), wanted);
+  Error error;
+  acceptor.open(here.protocol(), error);
+  if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
+  if (!error) acceptor.bind(here, error);
+  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+  if (error)
+    throw std::runtime_error(fmt::format("port: found {}: {}; expected a free port; try port=0",
+                                         wanted, error.message()));
+  port = acceptor.local_endpoint().port();
+  accept();
+}
+
+void Server::Impl::accept() {
+  acceptor.async_accept([self = shared_from_this()](Error error, tcp::socket socket) {
+    if (error == asio::error::operation_aborted) return;
+    if (!error) {
+      if (self->make_room()) std::make_shared<Connection>(self, std::move(socket))->read();
+      return self->accept();
+    }
+    // As of no more descriptors: they do not come by asking at once.
+    self->pause.expires_after(between_frames);
+    self->pause.async_wait([self](Error stopped) {
+      if (!stopped) self->accept();
+    });
+  });
+}
+
+// Returns whether there may be one more connection. The oldest that has not shown the token is
+// closed for it; one that has shown it never is.
+bool Server::Impl::make_room() {
+  if (connections < most_connections) return true;
+  if (unauthorized.empty()) return false;
+  Connection& oldest = *unauthorized.front();
+  oldest.is_known();  // it counts until it is gone
+  oldest.stream.close();
+  return true;
+}
+
+void Server::Impl::tick() {
+  timer.expires_after(between_frames);
+  timer.async_wait([self = shared_from_this()](Error error) {
+    if (error) return;
+    if (self->handlers.tick) self->handlers.tick();
+    const auto all = self->sockets;  // a frame may be the last of its socket
+    for (const auto& [id, socket] : all)
+      if (const auto s = socket.lock()) s->send();
+    self->tick();
+  });
+}
+
+Server::Server(std::uint16_t port, Handlers handlers)
+    : impl_(std::make_shared<Impl>(std::move(handlers))) {
+  impl_->listen(port);
+  impl_->signals.add(SIGINT);
+  impl_->signals.add(SIGTERM);
+}
+
+// What holds the parts together is undone: each of them holds the server.
+Server::~Server() {
+  impl_->handlers.left = {};
+  Error ignored;
+  impl_->acceptor.close(ignored);
+  impl_->timer.cancel();
+  impl_->end.cancel();
+  impl_->pause.cancel();
+  impl_->signals.cancel(ignored);
+  for (const auto& [id, socket] : std::map(impl_->sockets))
+    if (const auto s = socket.lock()) s->leave();
+  impl_->io.restart();
+  impl_->io.run_for(last_moment);
+}
+
+std::uint16_t Server::port() const { return impl_->port; }
+
+std::string Server::url() const {
+  return fmt::format("http://127.0.0.1:{}/{}/", port(), impl_->token);
+}
+
+void Server::run() {
+  const auto wait = [this](auto&& again) -> void {
+    impl_->signals.async_wait([this, again](Error error, int) {
+      if (error) return;
+      again(again);
+      if (impl_->handlers.interrupted)
+        impl_->handlers.interrupted();
+      else
+        stop();
+    });
+  };
+  wait(wait);
+  if (impl_->handlers.frame) impl_->tick();
+  impl_->io.run();
+}
+
+void Server::stop() { impl_->io.stop(); }
+
+void Server::finish() {
+  asio::post(impl_->io, [impl = impl_] {
+    impl->end.expires_after(last_moment);
+    impl->end.async_wait([impl](Error error) {
+      if (!error) impl->io.stop();
+    });
+  });
+}
+
+}  // namespace sinew::live

@@ -1,0 +1,89 @@
+#include "sinew/run/folder/compared.h"
+
+#include <set>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/experiment/globs.h"
+#include "sinew/log/reader.h"
+#include "sinew/run/folder/run_folder.h"
+#include "sinew/run/folder/run_log.h"
+
+namespace sinew::run {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The last `parts` of a run's path; the log's usual name says nothing.
+std::string tail_of(const fs::path& run, std::size_t parts) {
+  std::vector<std::string> names;
+  for (const fs::path& part : run.lexically_normal())
+    if (!part.empty() && part != "." && part != log_name) names.push_back(part.string());
+  std::string tail;
+  for (std::size_t i = names.size() > parts ? names.size() - parts : 0; i < names.size(); ++i)
+    tail += (tail.empty() || tail == "/" ? "" : "/") + names[i];
+  return tail.empty() ? "." : tail;
+}
+
+bool is_number(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+}
+
+// The shortest ends of the paths that tell the runs apart. A number alone says too little.
+std::vector<std::string> labels_of(const std::vector<std::string>& runs) {
+  const std::set<fs::path> all(runs.begin(), runs.end());
+  for (std::size_t parts = 1;; ++parts) {
+    std::vector<std::string> labels;
+    bool numbers = false;
+    for (const std::string& run : runs) {
+      labels.push_back(tail_of(run, parts));
+      numbers = numbers || is_number(labels.back());
+    }
+    const std::set<std::string> different(labels.begin(), labels.end());
+    if ((different.size() == all.size() && (!numbers || parts > 1)) || parts > 8) return labels;
+  }
+}
+
+// What was run, as the folder or the log itself says.
+config::Node resolved_of(const RecordedRun& run) {
+  if (fs::exists(run.resolved)) return config::parse_file(run.resolved.string());
+  for (const auto& [key, value] : log::read_metadata(run.log))
+    if (key == "resolved") return config::parse_text(value, run.log.string() + ": resolved");
+  config::fail({run.log.string(), 0, 0}, "", "a log that does not say what was run",
+               "resolved.toml beside it, or its text in the log", "sinew import");
+}
+
+report::RecordedRun recorded(const std::string& named, std::string label, const Notices& notices) {
+  const RecordedRun run = recorded_run(named);
+  require_finished(run.log);
+  report::RecordedRun out{std::move(label), log::read(run.log), resolved_of(run)};
+  if (!out.logged.complete)
+    notices.warning(run.log.string() + " was cut off or is damaged; compared as far as it goes");
+  return out;
+}
+
+void keep_chosen(report::Comparison& comparison, const std::vector<std::string>& patterns) {
+  if (patterns.empty()) return;
+  std::vector<std::string_view> names;
+  for (const report::ChannelRow& row : comparison.channels) names.push_back(row.channel.topic);
+  const std::vector<bool> chosen = experiment::select(patterns, names, {"channels", 0, 0});
+  std::set<std::string> topics;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (chosen[i]) topics.emplace(names[i]);
+  keep(comparison, topics);
+}
+
+}  // namespace
+
+report::Comparison compare_runs(const std::vector<std::string>& runs, report::Align align,
+                                const std::vector<std::string>& channels, const Notices& notices) {
+  const std::vector<std::string> labels = labels_of(runs);
+  std::vector<report::RecordedRun> all;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    all.push_back(recorded(runs[i], labels[i], notices));
+  report::Comparison comparison = compare(std::move(all), align);
+  keep_chosen(comparison, channels);
+  return comparison;
+}
+
+}  // namespace sinew::run

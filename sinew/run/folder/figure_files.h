@@ -1,0 +1,33 @@
+// run/folder/figure_files.h - a folder of figures: CSV, scripts and pictures, and two indices that
+// tell what each of them shows, index.json and the page index.html.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sinew/report/figure_script.h"
+#include "sinew/report/gallery.h"
+#include "sinew/run/folder/notices.h"
+
+namespace sinew::run {
+
+struct FigureFiles {
+  std::vector<report::Picture> pictures{report::Picture::svg, report::Picture::png};
+  bool must_draw = false;  // the pictures were asked for by name
+  bool force = false;
+};
+
+// Writes <sheet>.csv, <figure>.gp, index.json and index.html, and draws the pictures with gnuplot.
+// Refuses to replace anything, unless `force`; then what an earlier index.json lists goes when the
+// new figures are whole, and nothing else. Where there is no gnuplot all but the pictures is
+// written, with a warning, or, if they must be drawn, a std::runtime_error. Fills the gallery's
+// pictures and scripts; returns index.json.
+std::string write_figures(const std::filesystem::path& folder, report::Gallery gallery,
+                          const FigureFiles& options, const Notices& notices);
+
+// The files that the folder's index.json lists, and the index, which comes last. None where there
+// is no index of figures.
+std::vector<std::string> figures_in(const std::filesystem::path& folder);
+
+}  // namespace sinew::run

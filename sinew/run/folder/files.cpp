@@ -1,0 +1,48 @@
+#include "sinew/run/folder/files.h"
+
+#include <cstdio>
+
+#include "sinew/run/folder/refusal.h"
+#include "sinew/run/folder/run_folder.h"
+
+namespace sinew::run {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// A log, or a file of a run or of parameters: what no page, table or summary may take the place of.
+bool is_of_another_kind(const fs::path& file, std::string_view own) {
+  if (file.filename() == own || file.extension() == own) return false;
+  return file.extension() == ".toml" || file.extension() == ".mcap" ||
+         (file.filename() == summary_name && fs::exists(file.parent_path() / log_name));
+}
+
+}  // namespace
+
+void refuse_to_overwrite(const fs::path& file, bool force, const std::vector<fs::path>& inputs,
+                         std::string_view own) {
+  if (fs::is_directory(file)) refuse(file, "a folder", "the name of a file", "a name inside of it");
+  std::error_code none;
+  const bool direct = log::is_written_directly(file);
+  for (const fs::path& input : inputs)
+    if (!direct && fs::equivalent(file, input, none))
+      refuse(file, "what this command reads", "a name for what it writes", "another name");
+  if (!direct && fs::exists(file) && is_of_another_kind(fs::weakly_canonical(file), own))
+    refuse(file, "a file of another kind, which not even force=true replaces",
+           "a name for what this command writes", "another name, or to remove it first");
+  if (force || !fs::exists(file) || log::is_written_directly(file)) return;
+  refuse(file, "a file", "a name that is free", "another one, or force=true to replace it");
+}
+
+void write_file(const fs::path& file, std::string_view text, log::Replacement::Sync sync) {
+  const fs::path folder = file.parent_path();
+  if (!folder.empty() && !fs::is_directory(folder))
+    refuse(file, "no folder " + folder.string(), "one that exists", "mkdir -p " + folder.string());
+  std::fflush(stdout);  // it may be /dev/stdout
+  log::Replacement out(file, sync);
+  out.write(text);
+  out.commit();
+}
+
+}  // namespace sinew::run

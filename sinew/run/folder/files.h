@@ -1,0 +1,25 @@
+// run/folder/files.h - files that are written whole or not at all, and never in the place of what
+// is not theirs.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "sinew/log/replacement.h"
+
+namespace sinew::run {
+
+// Throws config::Error where the file exists, unless `force`; with it too where the file is one of
+// `inputs`, or a log, parameters or a run's summary. `own` names or ends what the caller writes
+// itself: "summary.json", ".toml". A pipe or a device is no such file.
+void refuse_to_overwrite(const std::filesystem::path& file, bool force,
+                         const std::vector<std::filesystem::path>& inputs = {},
+                         std::string_view own = "");
+
+// Takes the place of an older file when it is whole. Throws config::Error or log::Error; then the
+// older one stands.
+void write_file(const std::filesystem::path& file, std::string_view text,
+                log::Replacement::Sync sync = log::Replacement::Sync::now);
+
+}  // namespace sinew::run

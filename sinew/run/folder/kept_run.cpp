@@ -1,0 +1,151 @@
+#include "sinew/run/folder/kept_run.h"
+
+#include <fmt/format.h>
+
+#include "sinew/analysis/warnings.h"
+#include "sinew/config/node.h"
+#include "sinew/run/folder/outcome.h"
+#include "sinew/run/folder/page.h"
+#include "sinew/run/folder/run_folder.h"
+#include "sinew/run/folder/runnable.h"
+
+namespace sinew::run {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+experiment::Experiment load(const RunRequest& request, const Notices& notices) {
+  experiment::Experiment e = runnable(request.experiment, request.sets, request.allow_unreachable);
+  for (const config::Problem& warning : e.warnings) notices.warning(config::to_text(warning));
+  return e;
+}
+
+// As `analyze` will read it: so both come to the same bits.
+analysis::Machine machine_in(const std::string& resolved) {
+  return analysis::read_machine(config::parse_text(resolved, std::string(resolved_name)));
+}
+
+std::string summary_json(const analysis::Summary& summary, const experiment::Experiment& e,
+                         const experiment::Outcome& outcome) {
+  const double factor = outcome.wall > 0 ? outcome.duration / outcome.wall : 0;
+  return to_json(summary, {.numbers = {{"real_time_factor", factor}, {"threads", 1}},
+                           .warnings = warnings_beside_the_log(e, outcome)});
+}
+
+}  // namespace
+
+KeptRun::KeptRun(RunRequest request, Notices notices)
+    : request_(std::move(request)),
+      notices_(std::move(notices)),
+      experiment_(load(request_, notices_)),
+      resolved_(experiment::resolved(experiment_, SINEW_VERSION)),
+      logged_(experiment::logged_topics(experiment_)) {
+  folder_.emplace(run_folder(request_.folder, request_.force, experiment_.name));
+  if (!experiment_.log.enabled) return;
+  write_into(*folder_, resolved_name, resolved_);
+  log_.emplace(folder_->work() / log_name, experiment_.name, experiment_.seed, resolved_, logged_);
+}
+
+// What was steered is a part of what was run, with where it comes from.
+void KeptRun::finish_log(const experiment::Outcome& outcome) {
+  const std::size_t written = experiment_.plan.changes.size();
+  const std::string ended = outcome.ended_early() ? cause_of(experiment_, outcome) : "";
+  if (outcome.changes.size() == written) {
+    if (log_) log_->finish(resolved_, ended);
+    return;
+  }
+  experiment_.plan.changes = outcome.changes;
+  for (std::size_t i = written; i < outcome.changes.size(); ++i)
+    for (const char* key : {"time", "value"})
+      experiment_.origins.push_back(
+          {.path = fmt::format("change[{}].{}", i, key), .source = "set while it ran"});
+  resolved_ = experiment::resolved(experiment_, SINEW_VERSION);
+  if (!log_) return;
+  write_into(*folder_, resolved_name, resolved_);
+  log_->finish(resolved_, ended);
+}
+
+// Who the supervisor did not believe: no other figures of a run that was not finished.
+void KeptRun::keep_trip(const experiment::Outcome& outcome) {
+  if (outcome.supervised.trip.cause == control::Trip::Cause::none) return;
+  const analysis::Summary summary = analysis::summarize_trip(outcome.table, machine_in(resolved_));
+  write_into(*folder_, summary_name, summary_json(summary, experiment_, outcome));
+}
+
+// Leaves the log without an index, as one that was cut off, and throws with its name.
+void KeptRun::break_off(const experiment::Outcome& outcome) {
+  const bool logged = log_.has_value();
+  log_.reset();
+  throw std::runtime_error(
+      fmt::format("{}: interrupted at {:.2f} s of the run; {}", experiment_.path, outcome.duration,
+                  logged ? fmt::format("its log, which reads as cut off, is {}",
+                                       (folder_->work() / log_name).string())
+                         : "it keeps no log"));
+}
+
+Kept<analysis::Machine> KeptRun::keep_files(experiment::Outcome& outcome,
+                                            analysis::Machine machine) {
+  Kept<analysis::Machine> kept{.folder = folder(),
+                               .summary = analysis::summarize(outcome.table, machine),
+                               .duration = outcome.duration,
+                               .wall = outcome.wall};
+  warn(kept.summary.warnings, outcome);
+  kept.json = summary_json(kept.summary, experiment_, outcome);
+  write_into(*folder_, summary_name, kept.json);
+  if (log_ && request_.report)
+    kept.page = write_report(*folder_, experiment::logged_part(std::move(outcome.table), logged_),
+                             resolved_, experiment_.name, notices_);
+  commit_run(*folder_);
+  kept.machine = std::move(machine);
+  return kept;
+}
+
+void KeptRun::warn(const std::vector<std::string>& of_the_log,
+                   const experiment::Outcome& outcome) const {
+  for (const std::string& text : of_the_log) notices_.warning(text);
+  for (const std::string& text : warnings_beside_the_log(experiment_, outcome))
+    notices_.warning(text);
+}
+
+Kept<analysis::Machine> KeptRun::keep(experiment::Outcome outcome) try {
+  if (outcome.stopped) break_off(outcome);
+  finish_log(outcome);
+  analysis::Machine machine = machine_in(resolved_);
+  if (outcome.ended_early()) {
+    warn(analysis::texts(analysis::warnings(outcome.table, machine)), outcome);
+    keep_trip(outcome);
+    throw std::runtime_error(black_box(experiment_, outcome));
+  }
+  return keep_files(outcome, std::move(machine));
+} catch (const std::exception& e) {
+  throw std::runtime_error(e.what() + where_left(*folder_));
+}
+
+Kept<analysis::Machine> run_and_keep(RunRequest request, Notices notices) {
+  KeptRun kept(std::move(request), std::move(notices));
+  experiment::RunOptions options;
+  if (kept.log()) kept.log()->tap(options);
+  return kept.keep(experiment::run(kept.experiment(), options));
+}
+
+Kept<analysis::Machine> keep_table(const signals::Table& table, const experiment::Experiment& e,
+                                   const RunRequest& where, const Notices& notices) {
+  const std::string resolved = experiment::resolved(e, SINEW_VERSION);
+  Kept<analysis::Machine> kept{.machine = machine_in(resolved)};
+  kept.summary = analysis::summarize(table, kept.machine);
+  kept.json = to_json(kept.summary);
+
+  OutputFolder folder = run_folder(where.folder, where.force, e.name);
+  kept.folder = folder.path();
+  write_into(folder, resolved_name, resolved);
+  RunLog log(folder.work() / log_name, e.name, e.seed, resolved, experiment::logged_topics(table));
+  log.write(table);
+  log.finish(resolved, "");
+  write_into(folder, summary_name, kept.json);
+  kept.page = write_report(folder, table, resolved, e.name, notices);
+  commit_run(folder);
+  return kept;
+}
+
+}  // namespace sinew::run

@@ -1,0 +1,81 @@
+// run/folder/kept_run.h - a run and the folder that keeps it: what comes before the loop, and
+// after.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sinew/analysis/machine.h"
+#include "sinew/analysis/summary.h"
+#include "sinew/experiment/run.h"
+#include "sinew/run/folder/notices.h"
+#include "sinew/run/folder/run_folder.h"
+#include "sinew/run/folder/run_log.h"
+
+namespace sinew::run {
+
+// What is run, and where it is kept.
+struct RunRequest {
+  std::string experiment;          // its file
+  std::string folder;              // empty: runs/<experiment>/<n>, counting up
+  std::vector<std::string> sets;   // "key=value" in place of the file's
+  bool force = false;              // replace the run that is in the folder
+  bool allow_unreachable = false;  // aim at the nearest point where the foot path is out of reach
+  bool report = true;              // leave report.html
+};
+
+// What a run left. Machine is analysis::Machine or, of a stand, analysis::StandFile.
+template <class Machine>
+struct Kept {
+  std::filesystem::path folder;
+  analysis::Summary summary;
+  Machine machine;                // as `sinew analyze` will read it
+  std::string json;               // summary.json
+  double duration = 0, wall = 0;  // simulated, and of the clock on the wall [s]
+  bool page = false;              // there is a report.html
+};
+
+// KeptRun holds the folder of a run locked, and its log, from before the loop until it is kept.
+class KeptRun {
+ public:
+  // Loads the experiment and opens its folder and its log. Throws config::Error for what cannot be
+  // run, or kept.
+  explicit KeptRun(RunRequest request, Notices notices = {});
+
+  const experiment::Experiment& experiment() const { return experiment_; }
+  const std::string& resolved() const { return resolved_; }  // the text of resolved.toml
+  const std::filesystem::path& folder() const { return folder_->path(); }
+  RunLog* log() { return log_ ? &*log_ : nullptr; }  // nullptr where the experiment wants none
+
+  // After the loop: the log's end, summary and page into the folder. What was changed on the way
+  // stands in resolved.toml. Only then it takes the place of an older run. Throws where the run
+  // ended early, with its last records, and where it was stopped: then its log reads as cut off.
+  Kept<analysis::Machine> keep(experiment::Outcome outcome);
+
+ private:
+  void finish_log(const experiment::Outcome& outcome);
+  [[noreturn]] void break_off(const experiment::Outcome& outcome);
+  Kept<analysis::Machine> keep_files(experiment::Outcome& outcome, analysis::Machine machine);
+  void warn(const std::vector<std::string>& of_the_log, const experiment::Outcome& outcome) const;
+  void keep_trip(const experiment::Outcome& outcome);
+
+  RunRequest request_;
+  Notices notices_;
+  experiment::Experiment experiment_;
+  std::string resolved_;
+  experiment::LoggedTopics logged_;
+  std::optional<OutputFolder> folder_;
+  std::optional<RunLog> log_;
+};
+
+// Runs an experiment as fast as it goes and keeps it. Throws as KeptRun does.
+Kept<analysis::Machine> run_and_keep(RunRequest request, Notices notices = {});
+
+// Keeps a table that is there already, as of a recording from elsewhere, as the run of `e`;
+// `where.folder` and `where.force` say where. Throws config::Error or log::Error.
+Kept<analysis::Machine> keep_table(const signals::Table& table, const experiment::Experiment& e,
+                                   const RunRequest& where, const Notices& notices = {});
+
+}  // namespace sinew::run

@@ -1,0 +1,128 @@
+#include "sinew/run/folder/outcome.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::run {
+
+namespace {
+
+bool finite(const signals::Series& s, std::size_t i) {
+  return std::ranges::all_of(s.columns, [i](const auto& c) { return std::isfinite(c[i]); });
+}
+
+// Until when the simulated state was made of numbers.
+std::int64_t last_good_time(const signals::Table& table) {
+  std::int64_t end = INT64_MAX;
+  for (const signals::Series& s : table.series) {
+    if (!s.topic.name.starts_with("/true/")) continue;
+    for (std::size_t i = 0; i < s.time_ns.size() && s.time_ns[i] <= end; ++i)
+      if (!finite(s, i)) end = s.time_ns[i] - 1;
+  }
+  return end;
+}
+
+std::string record_text(const signals::Series& s, std::size_t i) {
+  std::string text =
+      fmt::format("{:.4f} s  {}", 1e-9 * static_cast<double>(s.time_ns[i]), s.topic.name);
+  for (std::size_t f = 0; f < s.columns.size(); ++f) {
+    const std::string& unit = s.topic.fields[f].unit;
+    text += fmt::format("  {:.6g}{}", s.columns[f][i], unit == "1" ? "" : " " + unit);
+  }
+  return text;
+}
+
+// Until when the run was one: what is vented after a trip is not what led to it.
+std::int64_t end_of_run(const experiment::Outcome& outcome) {
+  const control::Trip& trip = outcome.supervised.trip;
+  const std::int64_t end = last_good_time(outcome.table);
+  if (trip.cause == control::Trip::Cause::none) return end;
+  return std::min(end, trip.at * signals::tick_nanoseconds);
+}
+
+// "; the last records before:" and one line per topic, until `end` [ns].
+std::string last_records(const signals::Table& table, std::int64_t end) {
+  std::string text = "; the last records before:";
+  for (const signals::Series& s : table.series) {
+    const auto after = std::ranges::upper_bound(s.time_ns, end) - s.time_ns.begin();
+    if (after > 0) text += "\n  " + record_text(s, static_cast<std::size_t>(after - 1));
+  }
+  return text;
+}
+
+// "1 reading was", "2 readings were".
+std::string counted(std::int64_t count, std::string_view one, std::string_view more) {
+  return fmt::format("{} {}", count, count == 1 ? one : more);
+}
+
+// Faults that changed nothing: the run was one without them. Of one that lasts less than the time
+// between two readings nothing is said.
+void add_idle_faults(const experiment::Experiment& e, const experiment::Outcome& outcome,
+                     std::vector<std::string>& out) {
+  for (std::size_t i = 0; i < e.faults.size(); ++i) {
+    const experiment::Fault& fault = e.faults[i];
+    if (fault.at > outcome.duration)
+      out.push_back(
+          fmt::format("fault[{}] never acted: it begins at {:.6g} s, the run lasted {:.4f} s", i,
+                      fault.at, outcome.duration));
+    else if (fault.amount == 0)
+      out.push_back(fmt::format("fault[{}] never acted: its amount is 0", i));
+  }
+}
+
+// Sensors whose readings were rejected or stood still, and whose counters the run did not record.
+void add_sensors(const experiment::Experiment& e, const experiment::Outcome& outcome,
+                 std::vector<std::string>& out) {
+  for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
+    const std::string& name = e.robot.sensors[s].name;
+    if (outcome.table.find("/sensor/" + name + "/rejected")) continue;
+    const control::SensorSeen& seen = outcome.supervised.sensor[s];
+    if (seen.rejected > 0)
+      out.push_back(fmt::format("{}: {} not believed; the last good ones stood", name,
+                                counted(seen.rejected, "reading was", "readings were")));
+    if (seen.frozen > 0)
+      out.push_back(
+          fmt::format("{}: the same counts for {} scans in a row while its muscles were driven; {} "
+                      "in all",
+                      name, seen.longest, seen.frozen));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& e,
+                                                 const experiment::Outcome& outcome) {
+  std::vector<std::string> out;
+  const control::Seen& seen = outcome.seen;
+  const control::Supervised& supervised = outcome.supervised;
+  const bool logged = outcome.table.find("/low_level/gaps") != nullptr;
+  const auto tell = [&](std::int64_t count, std::string_view one, std::string_view more,
+                        std::string_view what) {
+    if (count > 0) out.push_back(fmt::format("{} {}", counted(count, one, more), what));
+  };
+  tell(seen.late, "reading", "readings", "came late");
+  tell(seen.invalid - supervised.rejected, "reading was", "readings were", "invalid");
+  tell(logged ? 0 : supervised.rejected_commands, "command was", "commands were",
+       "rejected: not numbers, out of range or too fast");
+  tell(logged ? 0 : supervised.gaps, "tick", "ticks",
+       fmt::format("came later than announced, by {} at worst", supervised.worst_gap));
+  add_sensors(e, outcome, out);
+  add_idle_faults(e, outcome, out);
+  tell(seen.missed, "tick", "ticks",
+       "came late by more than a tick: this machine cannot keep the pace that finely");
+  if (!outcome.table.complete)
+    out.emplace_back("more valve edges than there was room for; the table lacks the last ones");
+  return out;
+}
+
+std::string black_box(const experiment::Experiment& e, const experiment::Outcome& outcome) {
+  std::string text = fmt::format("{}: the run was ended: {}", e.path, cause_of(e, outcome));
+  if (outcome.supervised.trip.cause != control::Trip::Cause::none)
+    text += "; all muscles were vented";
+  text += last_records(outcome.table, end_of_run(outcome));
+  return text;
+}
+
+}  // namespace sinew::run

@@ -1,0 +1,32 @@
+#include "sinew/run/folder/page.h"
+
+#include "sinew/config/compose.h"
+#include "sinew/log/reader.h"
+#include "sinew/report/page.h"
+#include "sinew/run/folder/run_log.h"
+
+namespace sinew::run {
+
+std::string page_of(const RecordedRun& run, const std::string& machine, bool* cut) {
+  const config::Node resolved = config::compose(machine_of(run, machine).string());
+  const signals::Table table = log::read(run.log);
+  if (cut) *cut = !table.complete;
+  return report::page({.table = table,
+                       .resolved = resolved,
+                       .name = experiment_in(run.log),
+                       .ended = ended_in(run.log)});
+}
+
+bool write_report(const OutputFolder& folder, const signals::Table& logged,
+                  const std::string& resolved, const std::string& name, const Notices& notices) {
+  if (!report::has_page()) {
+    notices.note("no report.html: this sinew was built without npm; docs/dependencies.md");
+    return false;
+  }
+  const config::Node values = config::parse_text(resolved, std::string(resolved_name));
+  write_into(folder, report_name,
+             report::page({.table = logged, .resolved = values, .name = name}));
+  return true;
+}
+
+}  // namespace sinew::run

@@ -1,0 +1,26 @@
+// run/folder/page.h - report.html of a run's folder: `sinew report`, and what `run` and `import`
+// leave.
+#pragma once
+
+#include <string>
+
+#include "sinew/run/folder/notices.h"
+#include "sinew/run/folder/run_folder.h"
+#include "sinew/signals/table.h"
+
+namespace sinew::run {
+
+inline constexpr std::string_view report_name = "report.html";
+
+// Writes the page of a run of that name beside its log, of what the log holds: the same bytes as
+// page_of() makes of the folder. `resolved`: the text of resolved.toml. Returns false, with a note
+// and no file, where the library was built without its page. Throws log::Error.
+bool write_report(const OutputFolder& folder, const signals::Table& logged,
+                  const std::string& resolved, const std::string& name, const Notices& notices);
+
+// Returns the page of a recorded run, by `machine` where it is not empty, else by its
+// resolved.toml. Throws where there is no such run, or no page in the library; `cut` says whether
+// the log was.
+std::string page_of(const RecordedRun& run, const std::string& machine, bool* cut = nullptr);
+
+}  // namespace sinew::run

@@ -1,0 +1,139 @@
+#include "sinew/run/folder/run_folder.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <vector>
+
+#include "sinew/run/folder/figure_files.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/run/folder/refusal.h"
+
+namespace sinew::run {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The only files that force=true may replace; and what a process that was killed leaves beside
+// them.
+constexpr std::string_view known_files[] = {log_name,     "log.mcap.tmp", resolved_name,
+                                            summary_name, measured_name,  "report.html"};
+
+std::vector<std::string> known_names() {
+  std::vector<std::string> names;
+  for (const std::string_view name : known_files)
+    names.insert(names.end(), {std::string(name), log::hidden_name(name)});
+  return names;
+}
+
+int highest_number(const fs::path& folder) {
+  int highest = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    int number = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+    if (error == std::errc{} && end == name.data() + name.size())
+      highest = std::max(highest, number);
+  }
+  return highest;
+}
+
+std::vector<std::string> contents(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+OutputFolder next_run_folder(const std::string& experiment) {
+  const fs::path parent = fs::path("runs") / experiment;
+  make_folders(parent);
+  for (int number = highest_number(parent) + 1;; ++number) {
+    const fs::path folder = parent / std::to_string(number);
+    std::error_code problem;
+    if (fs::create_directory(folder, problem)) return OutputFolder(folder);
+    if (problem) refuse(folder, problem.message(), "a folder that can be made", "another folder");
+  }
+}
+
+bool holds_a_run(const std::vector<std::string>& names) {
+  const std::vector<std::string> known = known_names();
+  return std::ranges::any_of(names, [&](const std::string& name) {
+    return name == unfinished_name || std::ranges::find(known, name) != known.end();
+  });
+}
+
+// An earlier run that did not become whole is removed before the next one; nothing else is.
+void clear_unfinished(const fs::path& folder) {
+  if (!fs::is_directory(folder)) return;
+  std::vector<std::string> known = known_names();
+  known.insert(known.end(), {".replaced", log::hidden_name(".replaced")});
+  for (const std::string& name : contents(folder))
+    if (std::ranges::find(known, name) == known.end())
+      refuse(folder, name, "nothing but a run that did not end", "to move it elsewhere");
+  for (const std::string& name : known) fs::remove(folder / name);
+}
+
+}  // namespace
+
+OutputFolder run_folder(const std::string& asked, bool force, const std::string& experiment) {
+  if (asked.empty()) return next_run_folder(experiment);
+  const fs::path folder = asked;
+  if (fs::exists(folder) && !fs::is_directory(folder))
+    refuse(folder, "a file", "a folder", "another name");
+  OutputFolder out(folder);
+
+  std::vector<std::string> names = contents(folder);
+  if (names.empty()) return out;
+  if (!force) {
+    if (names.size() > 4) names.resize(4), names.back() = "…";
+    refuse(folder, fmt::format("{}", fmt::join(names, ", ")), "an empty folder",
+           "another one, or force=true to replace the run in it");
+  }
+  if (!holds_a_run(names)) return out;
+  clear_unfinished(folder / unfinished_name);
+  out.stage(std::string(unfinished_name));
+  return out;
+}
+
+void commit_run(OutputFolder& folder) {
+  std::vector<std::string> replaced = known_names();
+  for (const std::string& name : figures_in(folder.path() / figures_name))
+    replaced.push_back((fs::path(figures_name) / name).string());
+  folder.commit(replaced);
+}
+
+std::string where_left(const OutputFolder& folder) {
+  if (!folder.staged()) return "";
+  const std::string before = folder.path().string() + ": holds what was there before";
+  if (contents(folder.work()).empty()) return "\n" + before;
+  return fmt::format("\n{}; what this run left is in {}", before, folder.work().string());
+}
+
+void write_into(const OutputFolder& folder, std::string_view name, std::string_view text) {
+  write_file(folder.work() / name, text, log::Replacement::Sync::later);
+}
+
+RecordedRun recorded_run(const fs::path& named) {
+  finish_replacing(fs::is_directory(named) ? named : named.parent_path());
+  if (!fs::exists(named))
+    refuse(named, "nothing", "the folder of a run, or its log", "the path, or sinew run first");
+  const fs::path folder = fs::is_directory(named) ? named : named.parent_path();
+  const fs::path log = fs::is_directory(named) ? named / log_name : named;
+  if (!fs::exists(log))
+    refuse(named, "no log.mcap", "the folder of a run", "a run with log.enabled=true");
+  return {log, folder / resolved_name};
+}
+
+fs::path machine_of(const RecordedRun& run, const std::string& instead) {
+  const fs::path file = instead.empty() ? run.resolved : fs::path(instead);
+  if (!fs::exists(file))
+    refuse(file, "nothing", "what was run", "machine=resolved.toml of the run");
+  return file;
+}
+
+}  // namespace sinew::run

@@ -1,0 +1,68 @@
+#include "sinew/run/folder/run_log.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "sinew/log/reader.h"
+
+namespace sinew::run {
+
+namespace {
+
+// Called from the loop. A file that fails is told of by finish().
+void push(void* writer, std::uint16_t topic, std::int64_t time_ns,
+          std::span<const double> values) noexcept {
+  (void)static_cast<log::Writer*>(writer)->push(topic, time_ns, values);
+}
+
+std::string told_in(const std::filesystem::path& log, std::string_view name) {
+  for (const auto& [key, value] : log::read_metadata(log))
+    if (key == name) return value;
+  return "";
+}
+
+}  // namespace
+
+std::string experiment_in(const std::filesystem::path& log) { return told_in(log, "experiment"); }
+
+std::string ended_in(const std::filesystem::path& log) { return told_in(log, "ended"); }
+
+void require_finished(const std::filesystem::path& log) {
+  const std::string ended = ended_in(log);
+  if (!ended.empty())
+    throw std::runtime_error(
+        fmt::format("{}: the run was ended: {}; a run that was not finished has no figures; sinew "
+                    "report shows what it did",
+                    log.string(), ended));
+}
+
+RunLog::RunLog(const std::filesystem::path& file, const std::string& name, int seed,
+               const std::string& resolved, experiment::LoggedTopics logged)
+    : name_(name),
+      seed_(seed),
+      logged_(std::move(logged)),
+      writer_(file, logged_.topics, metadata(resolved), {.version = SINEW_VERSION}) {}
+
+std::vector<std::pair<std::string, std::string>> RunLog::metadata(
+    const std::string& resolved) const {
+  return {{"experiment", name_},
+          {"seed", std::to_string(seed_)},
+          {"version", SINEW_VERSION},
+          {"resolved", resolved}};
+}
+
+void RunLog::write(const signals::Table& table) { experiment::write(writer_, table, logged_); }
+
+void RunLog::finish(const std::string& resolved, const std::string& ended) {
+  std::vector<std::pair<std::string, std::string>> said = metadata(resolved);
+  if (!ended.empty()) said.emplace_back("ended", ended);
+  writer_.finish(said);
+}
+
+void RunLog::tap(experiment::RunOptions& options) {
+  options.tap = {&writer_, push};
+  options.tapped = logged_.of_series;
+}
+
+}  // namespace sinew::run

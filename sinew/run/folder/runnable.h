@@ -1,0 +1,25 @@
+// run/folder/runnable.h - everything that can be refused before a run, refused: `sinew run` begins
+// with it, and `sinew check` is it, so that the two cannot disagree.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sinew/experiment/experiment.h"
+#include "sinew/experiment/rig/rig.h"
+
+namespace sinew::run {
+
+// The experiment, its machine, plan, controller, channels and what is reported of it. Throws
+// config::Error by the files' own lines; with `allow_unreachable` a foot path may leave the reach.
+experiment::Experiment runnable(const std::string& path, const std::vector<std::string>& sets,
+                                bool allow_unreachable);
+
+// Returns an experiment on the test stand that can be run; throws as runnable() does.
+rig::Experiment runnable_on_stand(const std::string& path, const std::vector<std::string>& sets);
+
+// Is the file an experiment on the test stand, of format sinew.rig? Throws config::Error where it
+// cannot be read.
+bool is_on_stand(const std::string& path);
+
+}  // namespace sinew::run

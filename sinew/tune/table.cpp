@@ -1,0 +1,131 @@
+#include "sinew/tune/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/run/folder/files.h"
+
+namespace sinew::tune {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A number or a flag as such.
+Json json_cell(const std::string& cell) {
+  if (cell.empty()) return nullptr;
+  return Json::accept(cell) ? Json::parse(cell) : Json(cell);
+}
+
+}  // namespace
+
+std::string csv_line(const std::vector<std::string>& cells) {
+  std::string out;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i > 0) out += ',';
+    if (cells[i].find_first_of(",\"\r\n") == std::string::npos) {
+      out += cells[i];
+      continue;
+    }
+    out += '"';
+    for (const char c : cells[i]) out.append(c == '"' ? 2 : 1, c);
+    out += '"';
+  }
+  return out + "\n";
+}
+
+std::string json_of(const std::vector<std::string>& headings, const std::vector<Row>& rows) {
+  Json out{{"format", "sinew.sweep/1"}, {"rows", Json::array()}};
+  for (const Row& row : rows) {
+    Json entry = Json::object();
+    for (std::size_t i = 0; i < headings.size(); ++i) entry[headings[i]] = json_cell(row.cells[i]);
+    out["rows"].push_back(std::move(entry));
+  }
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+TableFile::TableFile(const std::filesystem::path& file, std::vector<std::string> headings,
+                     bool force, const std::vector<std::filesystem::path>& inputs)
+    : name_(file), headings_(std::move(headings)) {
+  run::refuse_to_overwrite(name_, force, inputs);
+  log::require_free_part(name_);
+}
+
+TableFile::TableFile(std::vector<std::string> headings, std::function<void(std::string_view)> print)
+    : headings_(std::move(headings)), print_(std::move(print)) {}
+
+bool TableFile::add(const std::vector<std::string>& cells) noexcept {
+  if (failure_) return false;
+  try {
+    const std::string text = (begun_ ? "" : csv_line(headings_)) + csv_line(cells);
+    begun_ = true;
+    if (print_) {
+      print_(text);
+      return true;
+    }
+    if (!file_) file_.emplace(name_, log::Replacement::Sync::now, log::Replacement::Part::kept);
+    file_->write(text);
+  } catch (...) {
+    failure_ = std::current_exception();
+  }
+  return !failure_;
+}
+
+void TableFile::throw_failure() const {
+  if (!failure_) return;
+  try {
+    std::rethrow_exception(failure_);
+  } catch (const std::exception& e) {
+    throw std::runtime_error(
+        e.what() + (file_ ? "\n" + part() + ": holds the rows that are done" : std::string()));
+  }
+}
+
+void TableFile::take_place() {
+  if (file_) file_->commit();
+}
+
+std::vector<std::string> warnings(const std::vector<Row>& rows) {
+  std::vector<std::string> out;
+  const auto part = std::ranges::count_if(rows, [](const Row& row) { return !row.lacks.empty(); });
+  if (part > 0)
+    out.push_back(
+        fmt::format("{} of {} rows lack a figure; their status names it", part, rows.size()));
+  const auto bad = std::ranges::count_if(rows, [](const Row& row) { return !row.ok; });
+  if (bad > 0)
+    out.push_back(
+        fmt::format("{} of {} rows have no figures; their status says why", bad, rows.size()));
+  const auto ended = std::ranges::count_if(rows, &Row::stop_reached);
+  if (ended > 0)
+    out.push_back(
+        fmt::format("in {} of {} rows the trolley reaches the end of its track; distance and mean "
+                    "speed are up to there",
+                    ended, rows.size()));
+  return out;
+}
+
+void refuse_empty_columns(const std::vector<Row>& rows, const Sweep& s) {
+  std::vector<config::Problem> problems;
+  for (const std::string& key : keys(s)) {
+    const auto has = [&](const Row& row) {
+      return row.ok && std::ranges::find(row.lacks, key) == row.lacks.end();
+    };
+    const auto lacks = [&](const Row& row) {
+      return std::ranges::find(row.lacks, key) != row.lacks.end();
+    };
+    if (std::ranges::any_of(rows, lacks) && std::ranges::none_of(rows, has))
+      problems.emplace_back(config::Location{key, 0, 0}, "", "no run with it",
+                            "a key of the runs' summary.json",
+                            "sinew run, whose summary.json has them all");
+  }
+  if (!problems.empty()) throw config::Error(problems);
+  if (std::ranges::none_of(rows, &Row::ok))
+    throw std::runtime_error("no row has figures; the first one's status: " +
+                             rows.front().cells.back());
+}
+
+}  // namespace sinew::tune

@@ -1,0 +1,23 @@
+// go_on EXPERIMENT SAVE...   goes on from each save to the end, and prints what was seen there.
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iterator>
+
+#include "tests/simulation/seen.h"
+
+int main(int count, char** words) try {
+  using namespace sinew;
+  const experiment::Experiment e = experiment::load(words[1]);
+  for (int i = 2; i < count; ++i) {
+    std::ifstream file(words[i], std::ios::binary);
+    const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
+    experiment::Simulation s(e);
+    s.restore(std::as_bytes(std::span(bytes)));
+    std::printf("%016llx\n", static_cast<unsigned long long>(test::seen_to_the_end(s)));
+  }
+  return 0;
+} catch (const std::exception& e) {
+  std::fprintf(stderr, "%s\n", e.what());
+  return 1;
+}
