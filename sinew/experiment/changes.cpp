@@ -40,7 +40,7 @@ void Changes::follow(const Steering::Wish& wish) noexcept {
     overrides_.set(wish.setting, wish.value);
 }
 
-void Changes::apply(Tick t, gait::Desired& desired) noexcept {
+void Changes::apply(Tick t, std::span<gait::Desired> legs) noexcept {
   for (; next_ < due_.size() && due_[next_].at <= t; ++next_) follow(due_[next_].wish);
   if (steering_)
     steering_->take([&](const Steering::Wish& wish) {
@@ -56,8 +56,9 @@ void Changes::apply(Tick t, gait::Desired& desired) noexcept {
   }
   waits_ = false;
 
-  overrides_.apply(desired);
-  if (!steering_) return;
+  for (gait::Desired& desired : legs) overrides_.apply(desired);
+  if (!steering_ || legs.empty()) return;
+  const gait::Desired& desired = legs.front();
   for (std::size_t i = 0; i < overrides_.settings().size(); ++i)
     steering_->show(i, gait::value_of(overrides_.settings()[i], desired), overrides_.given(i));
 }

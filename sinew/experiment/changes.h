@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "sinew/control/gait/brain.h"
@@ -20,8 +21,9 @@ class Changes {
   // `steering` may be null and outlives this.
   Changes(const gait::Plan& plan, Steering* steering);
 
-  // At a period start, before the high level's word is passed on.
-  void apply(signals::Tick t, gait::Desired& desired) noexcept;
+  // At a period start, before the high level's word is passed on: what every leg desires, which one
+  // change sets for all of them.
+  void apply(signals::Tick t, std::span<gait::Desired> legs) noexcept;
 
   // A wish of whoever holds the run: followed at the next period start, behind the plan's own
   // changes; a later one of the same setting stands in its place. False, and nothing done, for a

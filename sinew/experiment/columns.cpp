@@ -6,6 +6,7 @@
 #include "sinew/experiment/faults.h"
 #include "sinew/experiment/spinal.h"
 #include "sinew/experiment/supervision.h"
+#include "sinew/robot/legs.h"
 
 namespace sinew::experiment {
 namespace {
@@ -29,6 +30,34 @@ class Columns {
   std::vector<Column> list;
 };
 
+// A leg as its columns need it.
+struct LegAt {
+  std::size_t leg = 0;
+  robot::LegParts parts;
+
+  std::string topic(const std::string& name) const { return robot::topic_of_leg(parts.name, name); }
+};
+
+std::vector<LegAt> legs_at(const robot::Robot& robot) {
+  std::vector<LegAt> out;
+  for (robot::LegParts& parts : robot::legs_of(robot))
+    out.push_back({out.size(), std::move(parts)});
+  return out;
+}
+
+// Which leg's a joint of the robot is, and which of it.
+struct JointAt {
+  std::size_t leg = 0, joint = 0;
+};
+
+// Of a joint that is no leg's, the first leg's first: it has no sensor and desires nothing.
+JointAt place_of(const robot::Robot& robot, std::size_t joint) {
+  for (const LegAt& leg : legs_at(robot))
+    for (std::size_t i = 0; i < leg.parts.joints.size(); ++i)
+      if (leg.parts.joints[i] == static_cast<int>(joint)) return {leg.leg, i};
+  return {};
+}
+
 bool moves(const robot::Cylinder& c) {
   return c.present && c.mode != robot::Cylinder::Mode::locked;
 }
@@ -40,8 +69,8 @@ void joint_columns(const robot::Robot& robot, Columns& out) {
                [s](const Moment& m) { return m.supervised.sensor[s].counts; });
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     if (robot::angle_sensor_of(robot, static_cast<int>(j)) < 0) continue;
-    const std::string& name = robot.joints[j].name;
-    const std::string at = "/joint/" + name, want = "/desired/joint/" + name;
+    const std::string at = robot::topic_of_joint(robot, j), want = "/desired" + at;
+    const auto [leg, i] = place_of(robot, j);
     out.scalar(at + "/angle", "rad", "measured, by the controller's scale",
                [j](const Moment& m) { return m.measured.angle[j]; });
     out.scalar(at + "/stiffness", "N m/rad", "as the controller believes it, [27], [60]",
@@ -49,9 +78,9 @@ void joint_columns(const robot::Robot& robot, Columns& out) {
     out.scalar(at + "/velocity_estimate", "rad/s", "what the velocity gain works on, 6.5",
                [j](const Moment& m) { return m.measured.velocity[j]; });
     out.scalar(want + "/angle", "rad", "desired by the brain",
-               [j](const Moment& m) { return m.desired.joint[j].angle; });
+               [leg, i](const Moment& m) { return m.desired[leg].joint[i].angle; });
     out.scalar(want + "/stiffness", "N m/rad", "desired by the brain",
-               [j](const Moment& m) { return m.desired.joint[j].stiffness; });
+               [leg, i](const Moment& m) { return m.desired[leg].joint[i].stiffness; });
   }
 }
 
@@ -63,7 +92,7 @@ void tension_column(const robot::Robot& robot, std::size_t muscle, Columns& out)
   const double per_volt = robot.converter.counts_per_volt();
   const double believed = 1.0 / (sensor.assumed_scale * per_volt);
   const double own = 1.0 / (sensor.scale * per_volt);
-  out.scalar("/muscle/" + robot.muscles[muscle].name + "/tension", "N",
+  out.scalar(robot::topic_of_muscle(robot, muscle) + "/tension", "N",
              "measured, by its own transducer's scale; clips",
              [=](const Moment& m) { return m.measured.tension[muscle] / believed * own; });
 }
@@ -80,8 +109,9 @@ bool has_duty(const Experiment& e, const robot::Muscle& muscle) {
   return true;
 }
 
-void duty_columns(const robot::Robot& robot, const robot::Muscle& muscle, Columns& out) {
-  const std::string at = "/muscle/" + muscle.name;
+void duty_columns(const robot::Robot& robot, std::size_t index, Columns& out) {
+  const robot::Muscle& muscle = robot.muscles[index];
+  const std::string at = robot::topic_of_muscle(robot, index);
   const auto j = static_cast<std::size_t>(robot::find_joint(robot, muscle.joint));
   const int second = robot::find_joint(robot, muscle.second.joint);
   const auto other = second < 0 ? j : static_cast<std::size_t>(second);
@@ -102,7 +132,7 @@ void duty_columns(const robot::Robot& robot, const robot::Muscle& muscle, Column
 void muscle_columns(const Experiment& e, Columns& out) {
   for (std::size_t i = 0; i < e.robot.muscles.size(); ++i) {
     tension_column(e.robot, i, out);
-    if (has_duty(e, e.robot.muscles[i])) duty_columns(e.robot, e.robot.muscles[i], out);
+    if (has_duty(e, e.robot.muscles[i])) duty_columns(e.robot, i, out);
   }
 }
 
@@ -113,7 +143,7 @@ void cylinder_columns(const robot::Robot& robot, Columns& out) {
   out.scalar("/cylinder/position", "m", "measured travel, up from the extended stop",
              [](const Moment& m) { return m.measured.cylinder; });
   out.scalar("/desired/cylinder/position", "m", "by the plan, up from the extended stop",
-             [](const Moment& m) { return m.desired.cylinder.position; });
+             [](const Moment& m) { return m.desired[0].cylinder.position; });
   const auto duty = [&](const char* name, std::int32_t control::Duties::*which) {
     out.scalar(std::string("/cylinder/") + name, "1", "commanded share of the period",
                [j, which](const Moment& m) {
@@ -152,35 +182,38 @@ void supervision_columns(const Experiment& e, Columns& out) {
              });
 }
 
-void plan_columns(Columns& out) {
-  out.scalar("/plan/phase", "1", "position in the experiment's phases; -1 outside",
-             [](const Moment& m) { return m.desired.phase; });
-  out.scalar("/plan/step", "1", "counts from 0", [](const Moment& m) { return m.desired.step; });
-  out.scalar("/plan/unreachable", "1", "1 while the nearest reachable point is held",
-             [](const Moment& m) { return m.desired.unreachable ? 1.0 : 0.0; });
-  out.vector("/desired/foot/position", "m", "about the first joint; none: not a number",
-             [](const Moment& m, double& x, double& y) {
-               x = m.desired.has_foot ? m.desired.foot.x : std::nan("");
-               y = m.desired.has_foot ? m.desired.foot.y : std::nan("");
+void plan_columns(const LegAt& leg, Columns& out) {
+  const std::size_t l = leg.leg;
+  out.scalar(leg.topic("/plan/phase"), "1", "position in the experiment's phases; -1 outside",
+             [l](const Moment& m) { return m.desired[l].phase; });
+  out.scalar(leg.topic("/plan/step"), "1", "counts from 0",
+             [l](const Moment& m) { return m.desired[l].step; });
+  out.scalar(leg.topic("/plan/unreachable"), "1", "1 while the nearest reachable point is held",
+             [l](const Moment& m) { return m.desired[l].unreachable ? 1.0 : 0.0; });
+  out.vector(leg.topic("/desired/foot/position"), "m", "about the first joint; none: not a number",
+             [l](const Moment& m, double& x, double& y) {
+               const gait::Desired& desired = m.desired[l];
+               x = desired.has_foot ? desired.foot.x : std::nan("");
+               y = desired.has_foot ? desired.foot.y : std::nan("");
              });
 }
 
 // As phases, profiles and changes have made them.
-void gain_columns(const Experiment& e, Columns& out) {
+void gain_columns(const Experiment& e, const LegAt& leg, Columns& out) {
   if (!e.log.gains) return;
   for (const gait::Setting& s : gait::settings(e.plan)) {
     constexpr std::string_view before = "control.gains.";
     if (!s.key.starts_with(before)) continue;  // desired angles and stiffnesses are always there
-    std::string name = "/desired/gain/" + s.key.substr(before.size());
+    std::string name = leg.topic("/desired/gain/" + s.key.substr(before.size()));
     std::ranges::replace(name, '.', '/');
     out.scalar(std::move(name), std::string(s.unit), "in effect",
-               [s](const Moment& m) { return gait::value_of(s, m.desired); });
+               [s, l = leg.leg](const Moment& m) { return gait::value_of(s, m.desired[l]); });
   }
 }
 
 void true_joint_columns(const robot::Robot& robot, Columns& out) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-    const std::string at = "/true/joint/" + robot.joints[j].name;
+    const std::string at = "/true" + robot::topic_of_joint(robot, j);
     out.scalar(at + "/angle", "rad", "of the simulated joint",
                [j](const Moment& m) { return m.truth.angle[j]; });
     out.scalar(at + "/velocity", "rad/s", "of the simulated joint",
@@ -202,7 +235,7 @@ bool leaks(const Experiment& e, const robot::Muscle& m) {
 void true_muscle_columns(const Experiment& e, Columns& out) {
   const robot::Robot& robot = e.robot;
   for (std::size_t i = 0; i < robot.muscles.size(); ++i) {
-    const std::string at = "/true/muscle/" + robot.muscles[i].name;
+    const std::string at = "/true" + robot::topic_of_muscle(robot, i);
     out.scalar(at + "/tension", "N", "at the cord",
                [i](const Moment& m) { return m.truth.tension[i]; });
     out.scalar(at + "/pressure", "Pa", "absolute",
@@ -268,6 +301,28 @@ void true_supply_columns(const gas::Supply& supply, Columns& out) {
              [](const Moment& m) { return m.truth.tank_pressure; });
 }
 
+// `disc` counts those of all feet.
+void true_foot_columns(const robot::Robot& robot, const LegAt& leg, std::size_t& disc,
+                       Columns& out) {
+  const robot::Foot& foot = robot::foot_of(robot, leg.leg);
+  const std::size_t l = leg.leg;
+  if (!foot.present) return;
+  out.vector(leg.topic("/true/foot/position"), "m", "of the ankle, about the first joint",
+             [l](const Moment& m, double& x, double& y) {
+               x = m.truth.foot[l].x;
+               y = m.truth.foot[l].y;
+             });
+  out.vector(leg.topic("/true/foot/force"), "N", "on the foot, by the ground",
+             [l](const Moment& m, double& x, double& y) {
+               x = m.truth.foot[l].force_x;
+               y = m.truth.foot[l].force_y;
+             });
+  for (const robot::Foot::Point& point : foot.points)
+    out.scalar(leg.topic("/true/foot/" + point.name + "/load"), "N", "of the ground, up",
+               [i = disc++](const Moment& m) { return m.truth.disc_force[i]; });
+  if (foot.points.empty()) ++disc;
+}
+
 void true_body_columns(const robot::Robot& robot, Columns& out) {
   if (robot.trolley.present) {
     out.scalar("/true/trolley/position", "m", "along the track",
@@ -275,21 +330,8 @@ void true_body_columns(const robot::Robot& robot, Columns& out) {
     out.scalar("/true/trolley/velocity", "m/s", "along the track",
                [](const Moment& m) { return m.truth.x_rate; });
   }
-  if (robot.foot.present) {
-    out.vector("/true/foot/position", "m", "of the ankle, about the first joint",
-               [](const Moment& m, double& x, double& y) {
-                 x = m.truth.foot_x;
-                 y = m.truth.foot_y;
-               });
-    out.vector("/true/foot/force", "N", "on the foot, by the ground",
-               [](const Moment& m, double& x, double& y) {
-                 x = m.truth.force_x;
-                 y = m.truth.force_y;
-               });
-  }
-  for (std::size_t i = 0; i < robot.foot.points.size(); ++i)
-    out.scalar("/true/foot/" + robot.foot.points[i].name + "/load", "N", "of the ground, up",
-               [i](const Moment& m) { return m.truth.disc_force[i]; });
+  std::size_t disc = 0;
+  for (const LegAt& leg : legs_at(robot)) true_foot_columns(robot, leg, disc, out);
   if (!robot.rollers.present) return;
   out.scalar("/true/roller/front/load", "N", "below 0: it has lifted off",
              [](const Moment& m) { return m.truth.roller_front; });
@@ -303,6 +345,7 @@ void true_cylinder_columns(const robot::Robot& robot, Columns& out) {
              [](const Moment& m) { return m.truth.lift; });
   out.scalar("/true/cylinder/velocity", "m/s", "upwards",
              [](const Moment& m) { return m.truth.lift_rate; });
+  if (robot.cylinder.mode == robot::Cylinder::Mode::free) return;
   for (const auto& [name, c] :
        {std::pair{"up", std::size_t{0}}, std::pair{"down", std::size_t{1}}}) {
     const std::string at = std::string("/true/cylinder/") + name;
@@ -324,8 +367,10 @@ std::vector<Column> columns(const Experiment& e) {
   cylinder_columns(e.robot, out);
   low_level_columns(e.robot, out);
   supervision_columns(e, out);
-  plan_columns(out);
-  gain_columns(e, out);
+  for (const LegAt& leg : legs_at(e.robot)) {
+    plan_columns(leg, out);
+    gain_columns(e, leg, out);
+  }
   true_joint_columns(e.robot, out);
   true_muscle_columns(e, out);
   true_body_columns(e.robot, out);
@@ -339,21 +384,21 @@ std::vector<Column> columns(const Experiment& e) {
 std::vector<Topic> topics(const Experiment& e) {
   std::vector<Topic> out;
   for (Column& c : columns(e)) out.push_back(std::move(c.topic));
-  const auto valve = [&](const std::string& of, const char* which) {
-    out.push_back({"/valve/" + of + "/" + which + "/open",
-                   "electrical edges: 1 opens, 0 shuts",
-                   {{"value", "1"}}});
+  const auto valve = [&](const std::string& valves, const char* which) {
+    out.push_back(
+        {valves + "/" + which + "/open", "electrical edges: 1 opens, 0 shuts", {{"value", "1"}}});
   };
-  for (const robot::Muscle& m : e.robot.muscles) {
-    valve(m.name, "inlet");
-    if (!has_duty(e, m))
-      out.back() = {"/valve/" + m.name + "/inlet/set_point",
+  for (std::size_t i = 0; i < e.robot.muscles.size(); ++i) {
+    const std::string valves = robot::topic_of_valves(e.robot, i);
+    valve(valves, "inlet");
+    if (!has_duty(e, e.robot.muscles[i]))
+      out.back() = {valves + "/inlet/set_point",
                     "of the regulator, as a share of its range",
                     {{"value", "1"}}};
-    valve(m.name, "exhaust");
+    valve(valves, "exhaust");
   }
   if (e.robot.cylinder.present && e.robot.cylinder.mode == robot::Cylinder::Mode::valves)
-    for (const char* chamber : {"cylinder_up", "cylinder_down"})
+    for (const char* chamber : {"/valve/cylinder_up", "/valve/cylinder_down"})
       for (const char* which : {"inlet", "exhaust"}) valve(chamber, which);
   return out;
 }

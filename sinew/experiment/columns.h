@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "sinew/control/gait/brain.h"
@@ -21,7 +22,7 @@ struct Moment {
   const control::Seen& seen;
   const control::Supervised& supervised;
   const gait::Measured& measured;
-  const gait::Desired& desired;
+  std::span<const gait::Desired> desired;  // by leg
   const plant::Truth& truth;
   double time = 0;  // [s]
 };

@@ -53,9 +53,10 @@ HighLevel::HighLevel(const robot::Robot& robot, const gait::Plan& plan, Steering
       cylinder_gain_(static_cast<float>(robot.cylinder.position_gain * 100.0)),
       brain_ticks_(std::llround(plan.brain_period / signals::tick_seconds)),
       scale_(believed(robot)),
-      brain_(robot, plan),
-      changes_(plan, steering),
-      desired_(brain_.desired()) {}
+      legs_(robot, plan),
+      changes_(plan, steering) {
+  for (std::size_t l = 0; l < legs_.count(); ++l) desired_[l] = legs_.desired(l);
+}
 
 // What has no sensor is believed to rest.
 gait::Measured HighLevel::believe(const control::Seen& seen) const noexcept {
@@ -86,7 +87,7 @@ gait::Measured HighLevel::believe(const control::Seen& seen) const noexcept {
 }
 
 void HighLevel::restore(const State& state) noexcept {
-  brain_.restore(state.brain);
+  legs_.restore(state.legs);
   changes_.restore(state.changes);
   desired_ = state.desired;
   measured_ = state.measured;
@@ -95,16 +96,18 @@ void HighLevel::restore(const State& state) noexcept {
 
 const control::Command& HighLevel::update(const control::Seen& seen, signals::Tick t) noexcept {
   measured_ = believe(seen);
-  desired_ = brain_.update(measured_, t / brain_ticks_);
-  changes_.apply(t, desired_);
-  translate(desired_);
+  legs_.update(measured_, t / brain_ticks_);
+  for (std::size_t l = 0; l < legs_.count(); ++l) desired_[l] = legs_.desired(l);
+  changes_.apply(t, {desired_.data(), legs_.count()});
+  for (std::size_t l = 0; l < legs_.count(); ++l) translate(desired_[l], legs_.parts(l));
+  if (has_cylinder_) move_cylinder(desired_[0]);
   return command_;
 }
 
-void HighLevel::translate(const gait::Desired& desired) noexcept {
-  for (int j = 0; j < joints_; ++j) {
-    const auto k = static_cast<std::size_t>(j);
-    const gait::DesiredJoint& want = desired.joint[k];
+void HighLevel::translate(const gait::Desired& desired, const robot::LegParts& leg) noexcept {
+  for (std::size_t i = 0; i < leg.joints.size(); ++i) {
+    const auto k = static_cast<std::size_t>(leg.joints[i]);
+    const gait::DesiredJoint& want = desired.joint[i];
     control::JointCommand& joint = command_.joint[k];
 
     // B.1: thetades = (theta - rest) * 767 + potoffset, cut to an integer.
@@ -121,10 +124,10 @@ void HighLevel::translate(const gait::Desired& desired) noexcept {
                     .extensor_inlet = percent(want.extensor_inlet),
                     .extensor_exhaust = percent(want.extensor_exhaust)};
   }
-  if (has_cylinder_) move_cylinder(desired);
 }
 
-// At its extended stop until the plan asks for another place, as the thesis's runs have it.
+// At its extended stop until the plan asks for another place, as the thesis's runs have it. Of
+// several legs the first one's plan moves it.
 void HighLevel::move_cylinder(const gait::Desired& desired) noexcept {
   control::JointCommand& joint = command_.joint[static_cast<std::size_t>(joints_)];
   const double travel = desired.cylinder.given ? desired.cylinder.position : 0.0;

@@ -1,7 +1,11 @@
-// experiment/high_level.h - joins brain and spinal cord: SI on one side, counts on the other.
+// experiment/high_level.h - joins brains and spinal cord: SI on one side, counts on the other; each
+// leg's joints and muscles on one side, the machine's on the other.
 #pragma once
 
-#include "sinew/control/gait/brain.h"
+#include <array>
+#include <span>
+
+#include "sinew/control/gait/legs.h"
 #include "sinew/control/joint/spine.h"
 #include "sinew/experiment/changes.h"
 #include "sinew/robot/robot.h"
@@ -29,11 +33,13 @@ class HighLevel {
   // At every low-level period; the brain itself thinks once per brain period.
   const control::Command& update(const control::Seen& seen, signals::Tick t) noexcept;
   // Is the body to be vented now? A plan that ends without goes on to the run's end as it is.
-  bool finished() const noexcept { return vents_ && brain_.finished(); }
+  bool finished() const noexcept { return vents_ && legs_.finished(); }
 
-  const gait::Brain& brain() const noexcept { return brain_; }
-  // The brain's word with what stands in place of it, as it was passed on.
-  const gait::Desired& desired() const noexcept { return desired_; }
+  const gait::Legs& legs() const noexcept { return legs_; }
+  // The word of each leg's brain with what stands in place of it, as it was passed on.
+  std::span<const gait::Desired> desired() const noexcept {
+    return {desired_.data(), legs_.count()};
+  }
   const Changes& changes() const noexcept { return changes_; }
   const gait::Measured& measured() const noexcept { return measured_; }
   double newtons_per_count(std::size_t muscle) const noexcept {
@@ -50,19 +56,19 @@ class HighLevel {
 
   // Everything that its next word depends on, beside what it will be told. Copied like bytes.
   struct State {
-    gait::Brain::State brain;
+    gait::Legs::State legs;
     Changes::State changes;
-    gait::Desired desired;
+    std::array<gait::Desired, robot::max_legs> desired;
     gait::Measured measured;
     control::Command command;
   };
   State state() const noexcept {
-    return {brain_.state(), changes_.state(), desired_, measured_, command_};
+    return {legs_.state(), changes_.state(), desired_, measured_, command_};
   }
   void restore(const State& state) noexcept;
 
  private:
-  void translate(const gait::Desired& desired) noexcept;
+  void translate(const gait::Desired& desired, const robot::LegParts& leg) noexcept;
   void move_cylinder(const gait::Desired& desired) noexcept;
 
   int joints_, muscles_;
@@ -71,9 +77,9 @@ class HighLevel {
   float cylinder_gain_;  // [%/count]
   signals::Tick brain_ticks_;
   Believed scale_;
-  gait::Brain brain_;
+  gait::Legs legs_;
   Changes changes_;
-  gait::Desired desired_;
+  std::array<gait::Desired, robot::max_legs> desired_;  // by leg
   gait::Measured measured_;
   control::Command command_;
 };

@@ -79,10 +79,10 @@ Outcome to_the_end(Simulation& simulation, const RunOptions& options, Clock& clo
   out.seen = simulation.spine().seen();
   out.supervised = simulation.spine().supervised();
   out.changes = simulation.high_level().changes().all();
-  out.unreachable_periods = simulation.high_level().brain().unreachable_periods();
+  out.unreachable_periods = simulation.high_level().legs().unreachable_periods();
   out.duration = static_cast<double>(simulation.last()) * signals::tick_seconds;
   for (const signals::Series& s : out.table.series)
-    if (!s.time_ns.empty() && s.topic.name == "/plan/phase")
+    if (!s.time_ns.empty() && s.topic.name.ends_with("/plan/phase"))
       out.duration = 1e-9 * static_cast<double>(s.time_ns.back());
   return out;
 }
@@ -92,7 +92,7 @@ Outcome to_the_end(Simulation& simulation, const RunOptions& options, Clock& clo
 Tick last_tick(const Experiment& e) {
   const double vent = e.plan.finish == gait::Plan::Finish::vent ? e.robot.low_level.vent_time : 0.0;
   const auto brain_ticks = std::llround(e.plan.brain_period / signals::tick_seconds);
-  const Tick plan = gait::periods(e.plan) * brain_ticks;
+  const Tick plan = gait::periods(e.robot, e.plan) * brain_ticks;
   // One period for the last valves to shut, and for a sample of where the plan has led to.
   const Tick last = e.robot.low_level.pwm_ticks;
   return plan + std::llround(vent / signals::tick_seconds) + last;
@@ -110,7 +110,7 @@ const gas::Valve* find_valve(const Experiment& e, const std::string& name) {
 std::optional<muscle::Cylinder> cylinder_of(const Experiment& e) {
   using Mode = robot::Cylinder::Mode;
   const robot::Cylinder& c = e.robot.cylinder;
-  if (!c.present || c.mode == Mode::locked) return {};
+  if (!c.present || c.mode == Mode::locked || c.mode == Mode::free) return {};
   muscle::Cylinder out{.bore = c.bore,
                        .rod_diameter = c.rod_diameter,
                        .stroke = c.stroke,

@@ -86,7 +86,7 @@ void expect_alike(const std::vector<plant::Truth>& large, const std::vector<plan
   expect("distance", n, [](const Truth& t) { return t.x; });
   expect("lift", n, [](const Truth& t) { return t.lift; });
   expect("speed", 1, [](const Truth& t) { return t.x_rate; });
-  expect("ground", n * n, [](const Truth& t) { return t.force_y; });
+  expect("ground", n * n, [](const Truth& t) { return t.foot[0].force_y; });
   expect("tank", 1, [](const Truth& t) { return t.tank_pressure; });
 }
 

@@ -271,6 +271,9 @@ std::string write_out_dat(const signals::Table& table, const experiment::Experim
   const OutDatColumns columns = out_dat_columns(e);
   const TableReader read(table, e.path);
   std::string out = columns.heading() + "\n";
+  if (!e.robot.legs.empty())
+    config::fail({e.path, 0, 0}, "leg", std::to_string(e.robot.legs.size()) + " legs",
+                 "a robot without [leg.*]: out.dat has columns for one", "--format csv");
   const signals::Series* phases = table.find("/plan/phase");
   if (!phases)
     config::fail({e.path, 0, 0}, "/plan/phase", "no such channel in the log", "one, for out.dat");
