@@ -1,6 +1,7 @@
 // Legs of a machine in the log of one run: each has the figures of its own topics.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sinew/analysis/derived.h"

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "sinew/control/supervise/test_fuzz.h"
-#include "sinew/experiment/run.h"
 #include "sinew/experiment/supervision.h"
+#include "sinew/run/simulation/run.h"
 
 namespace sinew::experiment {
 namespace {

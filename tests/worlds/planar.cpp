@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/experiment/run.h"
+#include "sinew/experiment/planar_setup.h"
 #include "sinew/plant/planar/machine.h"
+#include "sinew/run/simulation/run.h"
 #include "tests/worlds/body.h"
 #include "tests/worlds/breaks.h"
 
@@ -257,8 +258,8 @@ Subject of_experiment(const std::string& name, const std::string& file, Sets set
   Experiment once = load(file, sets);
   once.faults = faults;
   out.run = [once](bool every_tick, int extra_readers) {
-    const experiment::Outcome o =
-        experiment::run(once, {.every_tick = every_tick, .extra_readers = extra_readers});
+    const run::Outcome o =
+        run::run(once, {.every_tick = every_tick, .extra_readers = extra_readers});
     return o.status == signals::Status::ok ? o.table : signals::Table{};
   };
   return out;

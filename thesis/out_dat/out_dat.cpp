@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "sinew/config/rows.h"
-#include "sinew/experiment/recorder.h"
+#include "sinew/run/simulation/recorder.h"
 #include "sinew/units/constants.h"
 #include "thesis/out_dat/columns.h"
 
