@@ -176,7 +176,7 @@ TEST(Faults, OnePartOfTheAirBreaksOnceAtATime) {
 
 TEST(Faults, ATestStandSaysThatItTakesNone) {
   const Workspace w;
-  write_text(w / "experiments/rig/x.toml", "format = \"sinew.rig/1\"\nbase = \"feedback.toml\"\n" +
+  write_text(w / "experiments/rig/x.toml", "format = \"sinew.rig/1\"\nbase = \"pwm-25hz-5lb.toml\"\n" +
                                                of_air("inlet", "stuck open"));
   const Result r = w.sinew({"check", "experiments/rig/x.toml"});
   EXPECT_EQ(r.code, 1);
