@@ -33,7 +33,9 @@ test::Log full_walk(double shape) {
   }
   for (const robot::Muscle& muscle : m.robot.muscles) {
     duties(log, muscle.name, 0.1 * shape, 0.1);
-    log.scalar("/muscle/" + muscle.name + "/tension", [=](double t) { return 90 * curve(t); });
+    const double strength = muscle.role == robot::Muscle::Role::flexor ? 90 : 150;
+    log.scalar("/muscle/" + muscle.name + "/tension",
+               [=](double t) { return strength * curve(t); });
     log.scalar("/true/muscle/" + muscle.name + "/air_in",
                [=](double t) { return 1e-4 * shape * t; });
     log.pulses("/valve/" + muscle.name + "/inlet/open", 1e-3 * shape, 2);

@@ -320,11 +320,11 @@ void check_stops(const Robot& robot, List& out) {
     const std::string key = "joint." + joint.name + ".stop";
     if (stop.range.empty()) continue;
     if (!stop.present() || !(stop.range[0] < stop.range[1]))
-      out.push_back({key + ".range",
+      out.push_back({key + ".angles",
                      std::to_string(stop.range.size()) + " angles, or none that rise",
-                     "two: the lowest and the highest", "range = [\"240 deg\", \"330 deg\"]"});
+                     "two: the lowest and the highest", "angles = [\"240 deg\", \"330 deg\"]"});
     else if (joint.rest_angle < stop.range[0] || joint.rest_angle > stop.range[1])
-      out.push_back({key + ".range", "a range without the rest angle",
+      out.push_back({key + ".angles", "a range without the rest angle",
                      "angles about the joint's rest_angle, in the same turn",
                      "add or take 360 deg"});
     if (!(stop.stiffness > 0))

@@ -32,7 +32,7 @@ void driven_fields(Visitor& v, Joint& joint) {
 template <class Visitor>
 void fields(Visitor& v, Stop& stop) {
   constexpr double turns = 12.6;  // two, either way [rad]
-  v.numbers({.name = "range",
+  v.numbers({.name = "angles",
              .unit = "rad",
              .min = -turns,
              .max = turns,

@@ -39,9 +39,9 @@ TEST(Contradictions, StopsHoldTheRestAngle) {
     return keys_after([&](Robot& r) { r.joints[1].stop = {std::move(range), stiffness, 0}; });
   };
   EXPECT_EQ(stop({5.0, 6.0}, 100), Keys{});
-  EXPECT_EQ(stop({6.0, 5.0}, 100), Keys{"joint.knee.stop.range"});
-  EXPECT_EQ(stop({5.0}, 100), Keys{"joint.knee.stop.range"});
-  EXPECT_EQ(stop({0.1, 1.0}, 100), Keys{"joint.knee.stop.range"});
+  EXPECT_EQ(stop({6.0, 5.0}, 100), Keys{"joint.knee.stop.angles"});
+  EXPECT_EQ(stop({5.0}, 100), Keys{"joint.knee.stop.angles"});
+  EXPECT_EQ(stop({0.1, 1.0}, 100), Keys{"joint.knee.stop.angles"});
   EXPECT_EQ(stop({5.0, 6.0}, 0), Keys{"joint.knee.stop.stiffness"});
 }
 

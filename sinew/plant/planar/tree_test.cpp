@@ -44,14 +44,14 @@ Setup twice(const Setup& one, double apart = 0) {
   return s;
 }
 
-// Four links that nothing pulls, each on any of those before it or on the body, anywhere along.
-Setup random_tree(std::mt19937& random) {
+// Links that nothing pulls, each on any of those before it or on the body, anywhere along.
+Setup random_tree(std::mt19937& random, std::size_t links = 4) {
   std::uniform_real_distribution<double> share(0, 1), angle(-3, 3);
   plant::Setup s = leg_without_muscles(0, 0);
   const robot::Link femur = s.robot.links[0];
   s.robot.links.clear(), s.robot.joints.clear();
   s.start.joint_angle.clear(), s.start.blocked.clear();
-  for (std::size_t i = 0; i < 4; ++i) {
+  for (std::size_t i = 0; i < links; ++i) {
     robot::Link link = femur;
     link.name = "link" + std::to_string(i);
     link.length *= 0.5 + share(random);
@@ -79,7 +79,7 @@ double swinging_energy(const BodyConstants& k) {
 TEST(Trees, KeepEnergyAndMomentum) {
   std::mt19937 random(7);
   for (int trial = 0; trial < 12; ++trial) {
-    BodyWorld world(random_tree(random));
+    BodyWorld world(random_tree(random, 3 + trial % 6));
     const double before = energy(world.constants(), world.motion());
     world.advance(2.0);
     const double scale = swinging_energy(world.constants());

@@ -28,6 +28,7 @@ const std::vector<Kind> kinds{
     {"derivative-control", {}},
     {"walk-with-hoses", {}},
     {"walk-with-regulators", {}},
+    {"walk-two-legs", {}},
     {"cylinder-following", {}},
     {"faults/sensor-open", {}},
     {"ground-force", {}},
