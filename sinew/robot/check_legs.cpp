@@ -64,7 +64,7 @@ void check_membership(const Robot& robot, List& out) {
         if (name == joint.name) of.push_back(leg.name);
     if (of.size() == 1 || (of.empty() && joint.kind == Joint::Kind::passive)) continue;
     out.push_back({"joint." + joint.name, of.empty() ? "in no leg" : "in legs " + listed(of),
-                   "one leg that it belongs to", "[leg.<name>] with joints = [… " + joint.name});
+                   "one leg that it belongs to", "its name in the joints of a [leg.<name>]"});
   }
   for (std::size_t m = 0; m < robot.muscles.size(); ++m) {
     const Muscle& muscle = robot.muscles[m];
