@@ -43,7 +43,7 @@ run::RunOptions fed(Feed& feed, const Experiment& e) {
 TEST(Feed, HandsOnWhatTheRunRecords) {
   const Experiment e = in_air();
   Feed feed(run::topics(e), 1 << 20);
-  const Outcome o = run(e, fed(feed, e));
+  const Outcome o = run::run(e, fed(feed, e));
   feed.collect();
   Feed::Position position;
   const signals::Table seen = feed.since(position);
@@ -55,9 +55,9 @@ TEST(Feed, HandsOnWhatTheRunRecords) {
 TEST(Feed, NobodyWhoTakesChangesNothing) {
   const Experiment e = in_air();
   Feed feed(run::topics(e), 64);
-  const Outcome watched = run(e, fed(feed, e));
+  const Outcome watched = run::run(e, fed(feed, e));
   EXPECT_GT(feed.left_out(), 1000u);
-  run::expect_same(run(e).table, watched.table);
+  run::expect_same(run::run(e).table, watched.table);
 }
 
 // One that naps: it gets less, and each row that it gets is whole and true.
@@ -71,11 +71,11 @@ TEST(Feed, ASlowWatcherChangesNothingAndSeesWholeRows) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   });
-  const Outcome watched = run(e, fed(feed, e));
+  const Outcome watched = run::run(e, fed(feed, e));
   over = true;
   watcher.join();
   feed.collect();
-  run::expect_same(run(e).table, watched.table);
+  run::expect_same(run::run(e).table, watched.table);
 
   Feed::Position position;
   const signals::Table seen = feed.since(position);
