@@ -190,7 +190,7 @@ void true_joint_columns(const robot::Robot& robot, Columns& out) {
   }
 }
 
-// By its description, or by a fault.
+// Answers whether a muscle leaks, by its description or by a fault.
 bool leaks(const Experiment& e, const robot::Muscle& m) {
   using What = Fault::What;
   return m.leak.area > 0 || m.leak.conductance > 0 ||
@@ -221,7 +221,8 @@ void true_muscle_columns(const Experiment& e, Columns& out) {
   }
 }
 
-// By the list [[fault]], part by part. What breaks in the air may break for less than a sample.
+// Adds a column for each part that the list [[fault]] names. A part of the air may be broken for
+// less than a sample.
 void true_fault_columns(const Experiment& e, Columns& out) {
   std::vector<std::string> done;
   for (const Fault& first : e.faults) {
@@ -247,7 +248,7 @@ void true_fault_columns(const Experiment& e, Columns& out) {
   }
 }
 
-// All of the machine's air, for its balance: where something may break that lets air in or out.
+// Adds all of the machine's air, for its balance, where something of the air may break.
 void true_air_columns(const Experiment& e, Columns& out) {
   if (std::ranges::all_of(e.faults, [](const Fault& f) { return is_of_sensor(f.what); })) return;
   out.scalar("/true/air/mass", "kg", "in chambers, hoses and tank",

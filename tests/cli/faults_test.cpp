@@ -154,7 +154,9 @@ TEST(Faults, AmountsOfTheAirAreChecked) {
   EXPECT_THAT(refused(of_air("supply", "failed", "pressure = \"3 bar\"\n")),
               HasSubstr("fault[0].pressure"));
   EXPECT_THAT(refused(of_air("flexor", "ruptured", "area = \"2 m2\"\n")),
-              HasSubstr("a hole as wide as a hand"));
+              HasSubstr("no muscle is wider"));
+  EXPECT_THAT(refused(of_air("flexor.inlet", "leaking", "area = \"1 cm2\"\n")),
+              HasSubstr("found 100 mm2; expected at most 10 mm2"));
 }
 
 TEST(Faults, OnePartOfTheAirBreaksOnceAtATime) {
@@ -176,8 +178,9 @@ TEST(Faults, OnePartOfTheAirBreaksOnceAtATime) {
 
 TEST(Faults, ATestStandSaysThatItTakesNone) {
   const Workspace w;
-  write_text(w / "experiments/rig/x.toml", "format = \"sinew.rig/1\"\nbase = \"pwm-25hz-5lb.toml\"\n" +
-                                               of_air("inlet", "stuck open"));
+  write_text(
+      w / "experiments/rig/x.toml",
+      "format = \"sinew.rig/1\"\nbase = \"pwm-25hz-5lb.toml\"\n" + of_air("inlet", "stuck open"));
   const Result r = w.sinew({"check", "experiments/rig/x.toml"});
   EXPECT_EQ(r.code, 1);
   EXPECT_THAT(r.out, AllOf(HasSubstr("x.toml:3:"), HasSubstr("fault: found a list of faults"),
