@@ -13,11 +13,12 @@
 #include "sinew/config/valve_timing.h"
 #include "sinew/experiment/faults.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/experiment/planar_setup.h"
 #include "sinew/experiment/rig/rig.h"
-#include "sinew/experiment/run.h"
 #include "sinew/log/reader.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/runnable.h"
+#include "sinew/run/simulation/run.h"
 #include "sinew/tune/study.h"
 
 namespace sinew::cli {

@@ -74,6 +74,7 @@ void add_endurance(Figures& f) {
 
 double cylinder_air(const Figures& f, std::size_t first, std::size_t last) {
   double all = 0;
+  if (!f.machine.robot.cylinder.present) return all;
   for (const char* chamber : {"up", "down"}) {
     const Column in = f.record.column(std::string("/true/cylinder/") + chamber + "/air_in");
     if (!in.empty()) all += in[last] - in[first];
@@ -138,6 +139,10 @@ void add_machine(Figures& f) {
   if (!tank.empty()) f.summary.add("supply.end_tank_pressure_Pa", tank.back());
   const Column overruns = f.record.column("/low_level/overruns");
   if (!overruns.empty()) f.summary.add("low_level.overruns", overruns.back());
+  if (f.machine.robot.legs.empty()) add_sole(f);
+}
+
+void add_sole(Figures& f) {
   for (const robot::Foot::Point& p : f.machine.robot.foot.points)
     f.add("foot." + p.name + ".peak_load_true_N", largest,
           f.record.column("/true/foot/" + p.name + "/load"), f.record.sequence());

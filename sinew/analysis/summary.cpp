@@ -5,6 +5,7 @@
 
 #include "sinew/analysis/derived.h"
 #include "sinew/analysis/figures.h"
+#include "sinew/analysis/legs.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/config/quantity.h"
 
@@ -84,16 +85,22 @@ Summary summarize(const signals::Table& table, const Machine& machine) {
   Figures figures{machine, record, summary};
   add_run(figures);
   add_trolley(figures);
-  add_joints(figures);
-  add_muscles(figures);
+  const bool one_leg = machine.robot.legs.empty();
+  if (one_leg) {
+    add_joints(figures);
+    add_muscles(figures);
+  }
   add_passiveness(figures);
-  add_foot(figures);
-  add_ground_reaction(figures);
+  if (one_leg) {
+    add_foot(figures);
+    add_ground_reaction(figures);
+  }
   add_air(figures);
   add_air_balance(figures);
   add_valves(figures);
   add_machine(figures);
-  add_phases(figures);
+  if (one_leg) add_phases(figures);
+  add_legs(figures, table, derived);
   add_supervision(figures);
   return summary;
 }

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/experiment/run.h"
+#include "sinew/experiment/planar_setup.h"
 #include "sinew/plant/planar/machine.h"
+#include "sinew/run/simulation/run.h"
 #include "tests/worlds/body.h"
 #include "tests/worlds/breaks.h"
 
@@ -83,10 +84,13 @@ void tell(const Setup& s, const Truth& x, Take take) {
     take("cylinder in", Kind::mass, x.cylinder_in[c]);
     take("cylinder out", Kind::mass, x.cylinder_out[c]);
   }
-  take("foot x", Kind::place, x.foot_x);
-  take("foot y", Kind::place, x.foot_y);
-  take("ground x", Kind::other, x.force_x);
-  take("ground y", Kind::other, x.force_y);
+  for (std::size_t leg = 0; leg < std::max<std::size_t>(1, s.robot.legs.size()); ++leg) {
+    const plant::FootTruth& foot = x.foot[leg];
+    take("foot x", Kind::place, foot.x);
+    take("foot y", Kind::place, foot.y);
+    take("ground x", Kind::other, foot.force_x);
+    take("ground y", Kind::other, foot.force_y);
+  }
   for (const double force : x.disc_force) take("disc", Kind::other, force);
   take("front roller", Kind::other, x.roller_front);
   take("rear roller", Kind::other, x.roller_rear);
@@ -133,10 +137,12 @@ double energy_of(const Setup& s, const Truth& x) {
   m.rate[plant::along_track] = x.x_rate;
   m.at[plant::up] = x.lift;
   m.rate[plant::up] = x.lift_rate;
-  double angle = 0, rate = 0, sum = 0;
+  double sum = 0;
   for (std::size_t j = 0; j < s.robot.joints.size(); ++j) {
-    m.at[plant::first_link + j] = angle += x.angle[j];
-    m.rate[plant::first_link + j] = rate += x.rate[j];
+    const int on = robot::parent_of(s.robot, j);
+    const auto parent = plant::first_link + static_cast<std::size_t>(std::max(on, 0));
+    m.at[plant::first_link + j] = (on < 0 ? 0.0 : m.at[parent]) + x.angle[j];
+    m.rate[plant::first_link + j] = (on < 0 ? 0.0 : m.rate[parent]) + x.rate[j];
     const robot::Joint& joint = s.robot.joints[j];
     const double turn = x.angle[j] - joint.spring_angle;
     if (joint.spring > 0) sum += 0.5 * joint.spring * turn * turn;
@@ -252,8 +258,8 @@ Subject of_experiment(const std::string& name, const std::string& file, Sets set
   Experiment once = load(file, sets);
   once.faults = faults;
   out.run = [once](bool every_tick, int extra_readers) {
-    const experiment::Outcome o =
-        experiment::run(once, {.every_tick = every_tick, .extra_readers = extra_readers});
+    const run::Outcome o =
+        run::run(once, {.every_tick = every_tick, .extra_readers = extra_readers});
     return o.status == signals::Status::ok ? o.table : signals::Table{};
   };
   return out;
@@ -378,6 +384,7 @@ std::vector<Subject> planar_subjects() {
       of_setup("memory", with_memory()),
       of_experiment("failing_valves", "walk-test-1", failing),
       of_experiment("dampers", "damper"),
+      of_experiment("two_legs", "walk-two-legs"),
       of_experiment("breakaway", "walk-test-1", {"trolley.breakaway=3 lbf"}),
       of_experiment("broken_valves", "walk-test-1", {}, of_valves()),
       of_experiment("broken_air", "walk-test-1", {}, of_everything()),

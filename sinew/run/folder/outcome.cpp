@@ -37,7 +37,7 @@ std::string record_text(const signals::Series& s, std::size_t i) {
 }
 
 // Until when the run was one: what is vented after a trip is not what led to it.
-std::int64_t end_of_run(const experiment::Outcome& outcome) {
+std::int64_t end_of_run(const run::Outcome& outcome) {
   const control::Trip& trip = outcome.supervised.trip;
   const std::int64_t end = last_good_time(outcome.table);
   if (trip.cause == control::Trip::Cause::none) return end;
@@ -60,7 +60,7 @@ std::string counted(std::int64_t count, std::string_view one, std::string_view m
 }
 
 // Faults that changed nothing: the run was one without them.
-void add_idle_faults(const experiment::Experiment& e, const experiment::Outcome& outcome,
+void add_idle_faults(const experiment::Experiment& e, const run::Outcome& outcome,
                      std::vector<std::string>& out) {
   const auto end =
       static_cast<signals::Tick>(std::llround(outcome.duration / signals::tick_seconds));
@@ -70,7 +70,7 @@ void add_idle_faults(const experiment::Experiment& e, const experiment::Outcome&
 }
 
 // Sensors whose readings were rejected or stood still, and whose counters the run did not record.
-void add_sensors(const experiment::Experiment& e, const experiment::Outcome& outcome,
+void add_sensors(const experiment::Experiment& e, const run::Outcome& outcome,
                  std::vector<std::string>& out) {
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
     const std::string& name = e.robot.sensors[s].name;
@@ -90,7 +90,7 @@ void add_sensors(const experiment::Experiment& e, const experiment::Outcome& out
 }  // namespace
 
 std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& e,
-                                                 const experiment::Outcome& outcome) {
+                                                 const run::Outcome& outcome) {
   std::vector<std::string> out;
   const control::Seen& seen = outcome.seen;
   const control::Supervised& supervised = outcome.supervised;
@@ -114,7 +114,7 @@ std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& e
   return out;
 }
 
-std::string black_box(const experiment::Experiment& e, const experiment::Outcome& outcome) {
+std::string black_box(const experiment::Experiment& e, const run::Outcome& outcome) {
   std::string text = fmt::format("{}: the run was ended: {}", e.path, cause_of(e, outcome));
   if (outcome.supervised.trip.cause != control::Trip::Cause::none)
     text += "; all muscles were vented";
