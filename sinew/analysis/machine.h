@@ -26,7 +26,7 @@ struct MachineValve {
   double shut = 0;    // from the edge that opens it until the shutter moves [s]
 };
 
-// What was broken on purpose, by the list [[fault]].
+// A part that was broken on purpose, by the list [[fault]].
 struct MachineFault {
   std::string of, what;       // "hip_flexor.inlet", "stuck open"
   double begin = 0, end = 0;  // no end: infinite [s]
