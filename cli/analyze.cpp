@@ -7,7 +7,7 @@
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
 #include "sinew/log/reader.h"
-#include "sinew/report/content.h"
+#include "sinew/report/page/content.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/run_log.h"

@@ -5,7 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
-#include "sinew/report/page.h"
+#include "sinew/report/page/page.h"
 #include "sinew/run/folder/compared.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/run_folder.h"

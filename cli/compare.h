@@ -1,7 +1,7 @@
 // cli/compare.h - what `sinew compare` prints for people.
 #pragma once
 
-#include "sinew/report/comparison.h"
+#include "sinew/report/compare/comparison.h"
 
 namespace sinew::cli {
 

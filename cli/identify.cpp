@@ -16,7 +16,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/identify/fit/report_json.h"
-#include "sinew/report/page.h"
+#include "sinew/report/page/page.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/run_folder.h"
 

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <charconv>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "cli/json_text.h"
 #include "cli/text_table.h"
+#include "sinew/config/lookup.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/experiment/rig/rig.h"
 #include "sinew/run/folder/runnable.h"
@@ -25,27 +25,9 @@ struct Options {
   bool json = false;
 };
 
-// The value under "reported[0].accept" or "joint.hip.damping"; nullptr where the tree has none.
-const config::Node* value_at(const config::Node& root, std::string_view path) {
-  const config::Node* node = &root;
-  while (node && !path.empty()) {
-    const std::size_t end = std::min(path.find('.'), path.size());
-    std::string_view segment = path.substr(0, end);
-    path.remove_prefix(std::min(end + 1, path.size()));
-
-    const std::size_t bracket = segment.find('[');
-    node = node->find(segment.substr(0, bracket));
-    if (!node || bracket == segment.npos) continue;
-    std::size_t index = 0;
-    std::from_chars(segment.data() + bracket + 1, segment.data() + segment.size(), index);
-    node = index < node->children.size() ? &node->children[index] : nullptr;
-  }
-  return node;
-}
-
 std::string si_text(const config::Node& values, const config::Origin& origin) {
   if (origin.unit.empty()) return "";
-  const config::Node* node = value_at(values, origin.path);
+  const config::Node* node = config::value_at(values, origin.path);
   if (!node) return "";
   return config::written(node->is_value_table() ? *node->find("value") : *node);
 }

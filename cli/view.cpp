@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/browser.h"
 #include "cli/run.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/live/browser.h"
 #include "sinew/live/live_run.h"
 #include "sinew/live/runs_pages.h"
 #include "sinew/run/folder/page.h"
@@ -40,7 +40,7 @@ ExitCode view_recorded(const ViewOptions& o) {
   messages.note(fmt::format(
       "{}; Ctrl-C ends{}", runs.front().string(),
       runs.size() > 1 ? fmt::format("; {} runs at {}runs", runs.size(), server.url()) : ""));
-  const Browser browser(o.open ? server.url() : "");
+  const live::Browser browser(o.open ? server.url() : "");
   server.run();
   return ok;
 }
@@ -64,7 +64,7 @@ ExitCode view_live(const ViewOptions& o) {
   else
     fmt::print("{}\n", run.url());
   std::fflush(stdout);
-  const Browser browser(o.open ? run.url() : "");
+  const live::Browser browser(o.open ? run.url() : "");
   run.go();
   return ok;
 }

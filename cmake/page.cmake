@@ -1,4 +1,4 @@
-# The pages of web/, each bundled into one text by esbuild and compiled into sinew_report. Where its npm
+# The pages of web/, each bundled into one text by esbuild and compiled into sinew_report_page. Where its npm
 # packages are missing the program is built without it, and says so when it is asked for a report.
 # The glob is looked at in every build: after `npm ci` the next one has the page.
 
@@ -23,11 +23,11 @@ else()
   set(sinew_has_page OFF)
   set(page_template ${CMAKE_CURRENT_BINARY_DIR}/no_page_template.cpp)
   file(CONFIGURE OUTPUT ${page_template} CONTENT
-"#include \"sinew/report/page_template.h\"
+"#include \"sinew/report/page/page_template.h\"
 std::string_view sinew::report::page_template() { return {}; }
 std::string_view sinew::report::comparison_template() { return {}; }
 std::string_view sinew::report::fit_template() { return {}; }
 ")
   message(STATUS "web/: built without reports; npm ci in web/ brings them")
 endif()
-target_sources(sinew_report PRIVATE ${page_template})
+target_sources(sinew_report_page PRIVATE ${page_template})

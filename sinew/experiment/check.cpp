@@ -8,6 +8,7 @@
 #include "sinew/control/gait/legs.h"
 #include "sinew/control/joint/config.h"
 #include "sinew/experiment/check_motion.h"
+#include "sinew/experiment/faults.h"
 #include "sinew/experiment/spinal.h"
 #include "sinew/signals/tick.h"
 
@@ -163,11 +164,6 @@ void check_measures(const Experiment& e, List& out) {
                        "a measure that has its sensors", "a [sensor.…] of kind = \"tension\""});
     }
   }
-}
-
-void check_faults(const Experiment& e, List& out) {
-  for (std::size_t i = 0; i < e.faults.size(); ++i)
-    need("fault[" + std::to_string(i) + "].of", e.faults[i].of, e.robot.sensors, out);
 }
 
 // Where the machine starts must be a place where it can be.

@@ -7,7 +7,7 @@
 
 #include "sinew/config/quantity.h"
 #include "sinew/control/gait/legs.h"
-#include "sinew/experiment/run.h"
+#include "sinew/experiment/planar_setup.h"
 #include "sinew/muscle/plumbing.h"
 #include "sinew/plant/planar/cords.h"
 #include "sinew/plant/planar/machine.h"

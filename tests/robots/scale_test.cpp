@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "runs.h"
-#include "sinew/experiment/run.h"
+#include "sinew/experiment/planar_setup.h"
 #include "sinew/plant/planar/machine.h"
+#include "sinew/run/simulation/run.h"
 
 namespace sinew {
 namespace {

@@ -9,8 +9,8 @@
 #include "sinew/analysis/machine.h"
 #include "sinew/analysis/record.h"
 #include "sinew/analysis/summary.h"
-#include "sinew/report/channels.h"
-#include "sinew/report/shown_unit.h"
+#include "sinew/report/figures/shown_unit.h"
+#include "sinew/report/page/channels.h"
 #include "thesis/figures/thesis.h"
 
 namespace sinew::thesis {

@@ -16,8 +16,8 @@
 #include "sinew/actuator/actuator.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/valve.h"
-#include "sinew/report/gallery.h"
-#include "sinew/report/measure.h"
+#include "sinew/report/figures/gallery.h"
+#include "sinew/report/figures/measure.h"
 
 namespace sinew::thesis {
 

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "sinew/config/rows.h"
-#include "sinew/experiment/recorder.h"
+#include "sinew/run/simulation/recorder.h"
 #include "sinew/units/constants.h"
 #include "thesis/out_dat/columns.h"
 
@@ -201,7 +201,7 @@ class PlanWalk {
 // Fills one topic after the other, in the order in which they are named first.
 class TableWriter {
  public:
-  explicit TableWriter(const experiment::Experiment& e) : all_(topics(e)) {}
+  explicit TableWriter(const experiment::Experiment& e) : all_(run::topics(e)) {}
 
   void put(const std::string& topic, std::int64_t time_ns, double value) {
     signals::Series& s = series(topic);

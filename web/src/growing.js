@@ -1,4 +1,4 @@
-// Columns that grow: pieces of a run are appended to those of the page (sinew/report/growing.h).
+// Columns that grow: pieces of a run are appended to those of the page (sinew/report/page/growing.h).
 // Those of one clock share their times, as in a page that is whole.
 
 // A typed array with room behind its end.

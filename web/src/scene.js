@@ -1,4 +1,4 @@
-// The machine from the side. Frames say where its parts are (sinew/report/scene.h); here they are
+// The machine from the side. Frames say where its parts are (sinew/report/page/scene.h); here they are
 // only drawn.
 import { between, index_at, open_within } from './samples.js';
 import { pressure_color } from './colors.js';

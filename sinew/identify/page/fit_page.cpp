@@ -10,7 +10,7 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/identify/fit/report_json.h"
-#include "sinew/report/fit_page.h"
+#include "sinew/report/page/fit_page.h"
 
 namespace sinew::identify {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sinew/identify/fit/fit.h"
-#include "sinew/report/charts.h"
+#include "sinew/report/page/charts.h"
 
 namespace sinew::identify {
 

@@ -10,6 +10,7 @@
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
 #include "sinew/muscle/cylinder.h"
+#include "sinew/muscle/fault.h"
 #include "sinew/muscle/muscle.h"
 #include "sinew/robot/legs.h"
 #include "sinew/robot/robot.h"
@@ -47,6 +48,7 @@ struct Setup {
   gas::Air air;
   gas::Supply supply;
   std::optional<muscle::Cylinder> cylinder;  // one that moves
+  std::vector<muscle::AirFault> faults;      // of its air
   Start start;
   Steps steps;
   std::uint64_t seed = 1;  // of the sensors' noise
@@ -70,9 +72,11 @@ struct Truth {
   double roller_front = 0, roller_rear = 0;                  // loads, below 0: lifted off [N]
 
   // These belong to parts that not every machine has, and are 0 without them.
-  std::array<double, robot::max_discs> disc_force{};    // of the ground on each disc, up [N]
-  std::array<double, muscle::capacity> air_leaked{};    // since the start [kg]
-  double supply_pressure = 0, tank_pressure = 0;        // absolute [Pa]
+  std::array<double, robot::max_discs> disc_force{};  // of the ground on each disc, up [N]
+  std::array<double, muscle::capacity> air_leaked{};  // since the start [kg]
+  double supply_pressure = 0, tank_pressure = 0;      // absolute [Pa]
+  double air_mass = 0;                                // in chambers, hoses and tank [kg]
+  double air_past_tank = 0;  // from a line that a fault had cut from its tank, since the start [kg]
   double lift = 0, lift_rate = 0;                       // of the body [m], [m/s]
   std::array<double, 2> cylinder_pressure{};            // up, down; absolute [Pa]
   std::array<double, 2> cylinder_in{}, cylinder_out{};  // since the start [kg]

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/report/comparison.h"
+#include "sinew/report/compare/comparison.h"
 #include "sinew/run/folder/notices.h"
 
 namespace sinew::run {

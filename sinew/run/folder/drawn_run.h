@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/report/run_figures.h"
+#include "sinew/report/figures/run_figures.h"
 #include "sinew/run/folder/figure_files.h"
 #include "sinew/run/folder/notices.h"
 #include "sinew/run/folder/run_folder.h"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "sinew/report/gnuplot.h"
+#include "sinew/report/figures/gnuplot.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/output_folder.h"
 

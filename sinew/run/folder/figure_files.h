@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sinew/report/figure_script.h"
-#include "sinew/report/gallery.h"
+#include "sinew/report/figures/figure_script.h"
+#include "sinew/report/figures/gallery.h"
 #include "sinew/run/folder/notices.h"
 
 namespace sinew::run {

@@ -2,7 +2,7 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/log/reader.h"
-#include "sinew/report/page.h"
+#include "sinew/report/page/page.h"
 #include "sinew/run/folder/run_log.h"
 
 namespace sinew::run {

@@ -1,0 +1,247 @@
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <nlohmann/json.hpp>
+
+#include "sinew/report/compare/comparison.h"
+#include "sinew/report/page/content.h"
+#include "sinew/report/page/page_template.h"
+
+namespace sinew::report {
+namespace {
+
+using Json = nlohmann::ordered_json;  // keys stay in the order in which they come
+
+std::string text_of(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json();
+}
+
+Json runs_of(const Comparison& c) {
+  Json out = Json::array();
+  for (const ComparedRun& run : c.runs)
+    out.push_back({{"label", run.label},
+                   {"title", run.title},
+                   {"reproduces", run.reproduces},
+                   {"robot", run.robot},
+                   {"seed", run.seed},
+                   {"version", run.version},
+                   {"complete", run.logged.complete},
+                   {"shift_s", run.shift},
+                   {"first_s", run.first},
+                   {"last_s", run.last}});
+  return out;
+}
+
+Json figures_of(const Comparison& c) {
+  Json out = Json::array();
+  for (const analysis::FigureRow& row : c.figures) {
+    Json values = Json::array(), differences = Json::array(), relative = Json::array(),
+         verdicts = Json::array();
+    bool judged = false;
+    for (std::size_t i = 0; i < row.values.size(); ++i) {
+      const bool both = row.values.front() && row.values[i] && i > 0;
+      values.push_back(or_null(row.values[i]));
+      differences.push_back(both ? Json(*row.values[i] - *row.values.front()) : Json());
+      relative.push_back(
+          both ? or_null(analysis::relative_difference(*row.values.front(), *row.values[i]))
+               : Json());
+      const std::string verdict = c.runs[i].verdict_of(row.key);
+      judged = judged || !verdict.empty();
+      verdicts.push_back(verdict.empty() ? Json() : Json(verdict));
+    }
+    out.push_back({{"key", row.key},
+                   {"values", std::move(values)},
+                   {"differences", std::move(differences)},
+                   {"relative", std::move(relative)}});
+    if (judged) out.back()["verdicts"] = std::move(verdicts);
+  }
+  return out;
+}
+
+Json parameters_of(const Comparison& c) {
+  Json out = Json::array();
+  for (const ParameterRow& row : c.parameters) {
+    Json values = Json::array();
+    for (const auto& value : row.values) values.push_back(or_null(value));
+    out.push_back({{"key", row.key}, {"values", std::move(values)}});
+  }
+  return out;
+}
+
+Json difference_of(const std::optional<analysis::Difference>& d) {
+  if (!d) return {};
+  return {{"meet", to_text(d->how)}, {"same", d->same},       {"samples", d->samples},
+          {"gaps", d->gaps},         {"rms", finite(d->rms)}, {"largest", finite(d->largest)},
+          {"at_s", finite(d->at)},   {"span", d->span}};
+}
+
+Json channels_of(const Comparison& c) {
+  Json out = Json::array();
+  for (const ChannelRow& row : c.channels) {
+    Json differences = Json::array();
+    for (const auto& d : row.differences) differences.push_back(difference_of(d));
+    out.push_back({{"topic", row.channel.topic},
+                   {"field", row.channel.field},
+                   {"unit", row.unit},
+                   {"differences", std::move(differences)}});
+  }
+  return out;
+}
+
+Json tables_of(const Comparison& c) {
+  return {{"format", "sinew.comparison/1"},
+          {"align", c.align == Align::start ? "start" : "sequence"},
+          {"runs", runs_of(c)},
+          {"figures", figures_of(c)},
+          {"parameters", parameters_of(c)},
+          {"channels", channels_of(c)}};
+}
+
+// --- samples ---
+
+// A column of each run, and of each but the first what it differs by. What is the same as the
+// first one's stands once; where all samples meet, a run's own column is left out: it is the first
+// one's and the difference, which keeps the digits of a small one.
+class RunSamples {
+ public:
+  explicit RunSamples(const Comparison& c) {
+    for (const ComparedRun& run : c.runs) {
+      channels_.emplace_back();
+      channels_.back().add(run.logged);
+      channels_.back().add(run.derived);
+      channels_.back().add(run.drawn);
+    }
+  }
+
+  void put(const Channel& channel, Json& panel) {
+    const Samples first = channels_.front().find(channel);
+    Json columns = {blob_.add(first)}, differences = {nullptr};
+    for (std::size_t i = 1; i < channels_.size(); ++i) {
+      const Samples other = channels_[i].find(channel);
+      Json column, difference;
+      if (other && other.unit == first.unit) put_other(first, other, column, difference);
+      columns.push_back(std::move(column));
+      differences.push_back(std::move(difference));
+    }
+    panel["columns"] = std::move(columns);
+    panel["differences"] = std::move(differences);
+  }
+
+  // A run's own columns.
+  Columns columns(std::size_t run) { return {channels_[run], blob_}; }
+  const Blob& blob() const { return blob_; }
+
+ private:
+  void put_other(const Samples& first, const Samples& other, Json& column, Json& difference) {
+    const analysis::Recording a{first.time_ns, first.values}, b{other.time_ns, other.values};
+    const analysis::Meetings met = analysis::meet(a, b);
+    if (analysis::difference(a, b, met).same) {
+      column = blob_.add(first);
+      return;
+    }
+    // Of one clock, and no number where the other has one is the other's alone.
+    bool sum_is_other = met.time_ns == *first.time_ns && met.time_ns == *other.time_ns;
+    for (std::size_t i = 0; sum_is_other && i < met.difference.size(); ++i)
+      sum_is_other = std::isfinite(met.difference[i]) || std::isnan((*other.values)[i]);
+    if (!sum_is_other) column = blob_.add(other);
+    if (met.time_ns.empty()) return;
+    met_.push_back(met);
+    difference = blob_.add({&met_.back().time_ns, &met_.back().difference, first.unit});
+  }
+
+  std::vector<Channels> channels_;
+  std::deque<analysis::Meetings> met_;  // the blob points into them
+  Blob blob_;
+};
+
+// A plot for every line of the first run's panels that another run has too.
+Json panels_of(const Comparison& c, RunSamples& samples) {
+  Json out = Json::array();
+  for (const Panel& panel : c.runs.front().panels)
+    for (const Line& line : panel.lines) {
+      const bool common = std::ranges::any_of(c.channels, [&](const ChannelRow& row) {
+        return row.channel.topic == line.channel.topic && row.channel.field == line.channel.field;
+      });
+      if (!common) continue;
+      out.push_back({{"group", panel.group},
+                     {"title", panel.title},
+                     {"unit", panel.unit},
+                     {"label", line.label},
+                     {"topic", line.channel.topic},
+                     {"field", line.channel.field},
+                     {"main", line.style == Line::Style::measured}});
+      samples.put(line.channel, out.back());
+    }
+  return out;
+}
+
+// The first run's charts, with the curves of all runs that have such a one.
+Json charts_of(const Comparison& c, RunSamples& samples) {
+  Json out = Json::array();
+  for (const Chart& first : c.runs.front().charts) {
+    Json chart, curves = Json::array();
+    for (std::size_t i = 0; i < c.runs.size(); ++i)
+      for (const Chart& own : c.runs[i].charts) {
+        if (own.title != first.title) continue;
+        Columns columns = samples.columns(i);
+        chart = Json::parse(to_json(std::vector{own}, columns))[0];
+        for (Json& curve : chart["curves"]) {
+          curve["run"] = i;
+          curves.push_back(std::move(curve));
+        }
+      }
+    chart["curves"] = std::move(curves);
+    out.push_back(std::move(chart));
+  }
+  return out;
+}
+
+// Where the foot truly was, if all runs know; else as it was measured.
+std::string foot_of(const Comparison& c) {
+  std::string found;
+  for (const std::string topic : {"/true/foot/position", "/foot/position"})
+    for (const ChannelRow& row : c.channels) {
+      if (row.channel.topic != topic) continue;
+      const auto known = std::ranges::count_if(row.differences, [](const auto& d) { return !!d; });
+      if (known + 1 == std::ssize(c.runs)) return topic;
+      if (found.empty()) found = topic;
+    }
+  return found;
+}
+
+}  // namespace
+
+std::string to_json(const Comparison& comparison) {
+  return text_of(tables_of(comparison), 2) + "\n";
+}
+
+Content content(const Comparison& comparison) {
+  Json out = tables_of(comparison);
+  std::string title = "Compare";
+  for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
+    const ComparedRun& run = comparison.runs[i];
+    out["runs"][i]["phases"] = Json::parse(run.phases);
+    out["runs"][i]["atmosphere"] = run.atmosphere;
+    title += (i > 0 ? " · " : " ") + run.label;
+  }
+  RunSamples samples(comparison);
+  out["panels"] = panels_of(comparison, samples);
+  out["charts"] = charts_of(comparison, samples);
+  out["foot"] = foot_of(comparison);
+  out["samples"] = Json::parse(to_json(samples.blob().layout()));
+  return {title, text_of(out, -1), samples.blob().base64()};
+}
+
+std::string page(const Comparison& comparison) {
+  require_page("compare.html");
+  return fill(comparison_template(), content(comparison));
+}
+
+}  // namespace sinew::report

@@ -1,0 +1,129 @@
+// Verdicts follow from numbers, and from nothing else.
+#include "sinew/report/figures/claim.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace sinew::report {
+namespace {
+
+using enum StatementClass;
+
+Measured half_a_millisecond(double ours) {
+  return {.where = "4.3",
+          .says = "opens in about half a millisecond",
+          .theirs = "0.5 ms",
+          .quantity = "first dip",
+          .ours = ours,
+          .unit = "ms",
+          .accept = analysis::another(0.4, 0.6),
+          .why = "by eye",
+          .because = {}};
+}
+
+TEST(Claim, AgreesInsideOfItsBandAndAtItsEnds) {
+  for (const double ours : {0.4, 0.5, 0.6})
+    EXPECT_EQ(judge(predicted, half_a_millisecond(ours)).verdict, Is::agrees) << ours;
+  for (const double ours : {0.399, 0.601, -0.5, std::nan("")})
+    EXPECT_EQ(judge(predicted, half_a_millisecond(ours)).verdict, Is::differs) << ours;
+}
+
+// What agreement is worth is counted apart; missed, a statement differs whatever its class.
+TEST(Claim, IsCountedByClassAndVerdict) {
+  Measured m = half_a_millisecond(0.5);
+  Tally tally;
+  count(tally, {judge(put_in, m), judge(predicted, m)});
+  EXPECT_EQ(tally.of(put_in, Is::agrees), 1);
+  EXPECT_EQ(tally.of(predicted, Is::agrees), 1);
+  EXPECT_EQ(tally.of(fitted), 0);
+  m.ours = 0.7;
+  count(tally, {judge(put_in, m)});
+  EXPECT_EQ(tally.of(put_in, Is::differs), 1);
+  EXPECT_EQ(tally.of(Is::agrees), 2);
+  EXPECT_EQ(tally.total(), 3);
+}
+
+// A band follows a rule, or tells why it does not.
+TEST(Claim, ABandOfOurOwnNeedsItsReason) {
+  Measured m = half_a_millisecond(0.5);
+  m.why.clear();
+  EXPECT_THROW((void)judge(predicted, m), std::logic_error);
+  m.accept = analysis::about(0.5);
+  EXPECT_EQ(judge(predicted, m).wording, analysis::Wording::about);
+}
+
+TEST(Claim, AKnownDifferenceThatIsNoMoreIsToldToo) {
+  Measured m = half_a_millisecond(0.7);
+  m.because = "our coil is larger";
+  EXPECT_EQ(judge(predicted, m).verdict, Is::differs_as_known);
+  EXPECT_EQ(judge(predicted, m).why, "by eye. Known to differ: our coil is larger");
+  m.ours = 0.5;
+  EXPECT_EQ(judge(predicted, m).verdict, Is::agrees_after_all);
+  Tally tally;
+  count(tally, {judge(predicted, m)});
+  EXPECT_EQ(tally.of(predicted, Is::agrees_after_all), 1);  // somebody has to take the reason away
+}
+
+TEST(Claim, TellsNumbersWithTheirUnits) {
+  const Claim both = judge(predicted, half_a_millisecond(0.47));
+  EXPECT_EQ(both.ours, "0.47 ms");
+  EXPECT_EQ(both.accept, "0.4 to 0.6 ms");
+  Measured m = half_a_millisecond(-1e-9);
+  m.accept = analysis::at_most(2);
+  EXPECT_EQ(judge(predicted, m).accept, "at most 2 ms");
+  EXPECT_EQ(judge(predicted, m).ours, "-1e-09 ms");
+  m.accept = analysis::range(0, 2);
+  EXPECT_EQ(judge(predicted, m).ours, "0 ms");  // rounding, beside such a band
+  m.unit = "";
+  m.accept = analysis::at_least(3);
+  m.ours = 12345.678;
+  EXPECT_EQ(judge(predicted, m).accept, "at least 3");
+  m.ours = std::nan("");
+  EXPECT_EQ(judge(predicted, m).ours, "none");
+}
+
+// Of a verdict that the experiment's file has: its reason stands apart from its source.
+TEST(Claim, TakesAVerdictWithItsReason) {
+  analysis::Verdict v{.key = "trolley.distance_m",
+                      .reported = "5 ft",
+                      .ours = "57.7 in",
+                      .accept = "53 in to 60 in",
+                      .source = "6.3",
+                      .is = Is::agrees};
+  EXPECT_EQ(claim(v).where, "6.3");
+  EXPECT_EQ(claim(v).why, "");
+  EXPECT_EQ(claim(v).ours, "57.7 in");
+  v.source += ". Why: the track ends";
+  v.is = Is::differs_as_known;
+  EXPECT_EQ(claim(v).where, "6.3");
+  EXPECT_EQ(claim(v).why, "Known to differ: the track ends");
+  v.statement_class = StatementClass::fitted;
+  v.band_reason = "two lines of the plot";
+  EXPECT_EQ(claim(v).why, "two lines of the plot. Known to differ: the track ends");
+  EXPECT_EQ(claim(v).statement_class, StatementClass::fitted);
+  EXPECT_EQ(claim(v).verdict, Is::differs_as_known);
+}
+
+// A narrow band shows the digits that lie in it.
+TEST(Claim, ShowsWhyANumberIsOutside) {
+  Measured m = half_a_millisecond(2.8934);
+  m.accept = analysis::range(2.8931, 2.8933);
+  EXPECT_EQ(judge(predicted, m).ours.substr(0, 6), "2.8934");
+}
+
+TEST(Claim, CountsEachVerdictOnce) {
+  Tally tally;
+  count(tally, {judge(predicted, half_a_millisecond(0.5)), judge(predicted, half_a_millisecond(2)),
+                not_applicable("2.3", "a larger actuator", "", "its size is not given")});
+  EXPECT_EQ(tally.of(Is::agrees), 1);
+  EXPECT_EQ(tally.of(Is::differs), 1);
+  EXPECT_EQ(tally.of(none, Is::not_applicable), 1);
+  EXPECT_EQ(tally.of(Is::differs_as_known), 0);
+  EXPECT_EQ(judge(predicted, {.ours = 1000, .unit = "Hz", .accept = analysis::at_least(400)}).ours,
+            "1000 Hz");
+}
+
+}  // namespace
+}  // namespace sinew::report

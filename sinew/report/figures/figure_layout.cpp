@@ -1,0 +1,193 @@
+#include "sinew/report/figures/figure_layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::report {
+namespace {
+
+struct Range {
+  double from = INFINITY, to = -INFINITY;
+  bool empty() const { return !(from <= to); }
+  void add(double value) {
+    from = std::min(from, value);
+    to = std::max(to, value);
+  }
+};
+
+bool within(const Axis& axis, double value) {
+  return std::isfinite(value) && !(value < axis.from) && !(value > axis.to) &&
+         (!axis.logarithmic || value > 0);
+}
+
+// Of the samples that stand within the axes.
+struct Extent {
+  Range x, y;
+
+  void add(const Plot& plot, const Curve& curve) {
+    for (std::size_t i = 0; i < std::min(curve.xs.size(), curve.ys.size()); ++i)
+      if (within(plot.x, curve.xs[i]) && within(plot.y, curve.ys[i])) {
+        x.add(curve.xs[i]);
+        y.add(curve.ys[i]);
+      }
+    if (curve.style == Curve::Style::bars && !y.empty() && !plot.y.logarithmic) y.add(0);
+  }
+};
+
+// 1, 2 or 5 times a power of ten, at least `step`.
+double round_step(double step) {
+  const double power = std::pow(10, std::floor(std::log10(step)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= step * (1 - 1e-9)) return factor * power;
+  return 10 * power;
+}
+
+// A number that is a few steps from 0 exactly, not almost.
+double multiple(double step, double n) { return step < 1 ? n / std::round(1 / step) : n * step; }
+
+Scale logarithmic_scale(const Axis& axis, double least, double greatest) {
+  Scale out{axis.from, axis.to, 10};
+  if (std::isnan(out.from)) out.from = std::pow(10, std::floor(std::log10(least) + 1e-9));
+  if (std::isnan(out.to)) out.to = std::pow(10, std::ceil(std::log10(greatest) - 1e-9));
+  if (!(out.to > out.from)) out.to = 10 * out.from;
+  return out;
+}
+
+struct Axes {
+  Scale x, y;
+  double left = Print::left, right = Print::right, height = Print::plot;
+};
+
+// Room for names of rows.
+void make_room(const std::vector<Axis::Tick>& rows, Axes& axes) {
+  std::size_t longest = 0;
+  for (const Axis::Tick& row : rows) longest = std::max(longest, letters(row.text));
+  if (rows.empty()) return;
+  const double wanted = 6 * Print::gap + Print::letter * static_cast<double>(longest);
+  axes.left = std::clamp(wanted, Print::left, 0.6 * Print::width);
+  axes.height = std::max(Print::lowest, 1.1 * Print::line * static_cast<double>(rows.size()));
+}
+
+// As long in x as in y: first the height, then what has to be shown more of where it has an end.
+void make_equal(Axes& axes) {
+  const double width = Print::width - Print::left - Print::right;
+  const double wanted = width * (axes.y.to - axes.y.from) / (axes.x.to - axes.x.from);
+  axes.height = std::clamp(wanted, Print::lowest, Print::tallest);
+  Scale& more = wanted < axes.height ? axes.y : axes.x;
+  const double by = wanted < axes.height ? axes.height / wanted : wanted / axes.height;
+  const double middle = (more.from + more.to) / 2, half = by * (more.to - more.from) / 2;
+  more.from = middle - half;
+  more.to = middle + half;
+  axes.x.step = round_step((axes.x.to - axes.x.from) / 6);
+  axes.y.step = round_step((axes.y.to - axes.y.from) / std::min(6.0, axes.height / Print::tick));
+}
+
+Axes axes_of(const Plot& plot) {
+  Extent all;
+  for (const Curve& c : plot.curves) all.add(plot, c);
+  const bool nothing = all.x.empty();
+  const bool bars = std::ranges::any_of(
+      plot.curves, [](const Curve& c) { return c.style == Curve::Style::bars; });
+  const double none = plot.y.logarithmic ? 1 : 0;
+  Axes out{scale(plot.x, nothing ? none : all.x.from, nothing ? 1 : all.x.to,
+                 !plot.equal_scale && !bars),
+           scale(plot.y, nothing ? none : all.y.from, nothing ? 1 : all.y.to, false)};
+  if (plot.equal_scale) make_equal(out);
+  make_room(plot.y.ticks, out);
+  if (plot.names == Plot::Names::ends)
+    for (const Curve& c : plot.curves)
+      if (naming(plot, c) == Plot::Names::ends)
+        out.right = std::max(
+            out.right, 3 * Print::gap + Print::letter * static_cast<double>(letters(c.label)));
+  return out;
+}
+
+std::string in_legend(const Curve& curve) {
+  return curve.kind == Curve::Kind::synthetic ? curve.label + " (synthetic)" : curve.label;
+}
+
+// Columns of equal width; returns the height of the legend.
+double add_legend(const Plot& plot, PlotLayout& out, double top) {
+  std::size_t longest = 0;
+  for (const std::size_t c : out.curves) {
+    if (naming(plot, plot.curves[c]) != Plot::Names::legend) continue;
+    out.legend.push_back({c, in_legend(plot.curves[c])});
+    longest = std::max(longest, letters(out.legend.back().text));
+  }
+  if (out.legend.empty()) return 0;
+  const double room = Print::width - Print::left - Print::right;
+  const double entry =
+      Print::sample + 3 * Print::gap + Print::letter * static_cast<double>(longest);
+  const int n = static_cast<int>(out.legend.size());
+  const int most = std::clamp(static_cast<int>(room / entry), 1, 4);
+  const int rows = (n + most - 1) / most, columns = (n + rows - 1) / rows;
+  for (int i = 0; i < n; ++i) {
+    out.legend[static_cast<std::size_t>(i)].x = Print::left + entry * (i % columns);
+    out.legend[static_cast<std::size_t>(i)].y = top + Print::line * (i / columns + 0.5);
+  }
+  return Print::line * rows + Print::gap;
+}
+
+}  // namespace
+
+Plot::Names naming(const Plot& plot, const Curve& curve) {
+  if (curve.label.empty() || !curve.in_legend) return Plot::Names::none;
+  const bool points = curve.style == Curve::Style::points;
+  return plot.names == Plot::Names::ends && points ? Plot::Names::legend : plot.names;
+}
+
+Scale scale(const Axis& axis, double least, double greatest, bool tight) {
+  if (axis.logarithmic) return logarithmic_scale(axis, least, greatest);
+  Scale out{axis.from, axis.to, 1};
+  if (std::isnan(out.from)) out.from = std::isnan(out.to) ? least : std::min(least, out.to);
+  if (std::isnan(out.to)) out.to = std::max(greatest, out.from);
+  if (!(out.to - out.from > 1e-12 * std::max(std::fabs(out.from), std::fabs(out.to)))) {
+    // A constant stands in the middle.
+    const double beside = out.from == 0 ? 1 : 0.1 * std::fabs(out.from);
+    if (std::isnan(axis.from)) out.from -= beside;
+    if (std::isnan(axis.to)) out.to += beside;
+    tight = false;
+  }
+  out.step = round_step((out.to - out.from) / (tight ? 7 : 6));
+  const double first = multiple(out.step, std::floor(out.from / out.step + 1e-9));
+  const double last = multiple(out.step, std::ceil(out.to / out.step - 1e-9));
+  // A tight end that is almost at a tick is there: the first sample of a run may be at 10 ms.
+  const double near = tight ? 0.02 * (out.to - out.from) : INFINITY;
+  if (std::isnan(axis.from) && out.from - first <= near) out.from = first;
+  if (std::isnan(axis.to) && last - out.to <= near) out.to = last;
+  return out;
+}
+
+FigureLayout layout(const Figure& figure) {
+  FigureLayout out;
+  double y = Print::top;
+  for (const Plot& plot : figure.plots) {
+    PlotLayout p;
+    for (std::size_t c = 0; c < plot.curves.size(); ++c) {
+      Extent extent;
+      extent.add(plot, plot.curves[c]);
+      if (!extent.x.empty()) p.curves.push_back(c);
+    }
+    const Axes axes = axes_of(plot);
+    p.x = axes.x;
+    p.y = axes.y;
+    p.left = axes.left;
+    p.right = axes.right;
+    p.title = y + Print::line / 2;
+    if (!plot.title.empty()) y += Print::line + Print::gap / 2;
+    y += add_legend(plot, p, y);
+    p.top = y + Print::gap;
+    p.bottom = y = p.top + axes.height;
+    y += Print::numbers + 1.5 * Print::line + 2 * Print::gap;
+    out.plots.push_back(std::move(p));
+  }
+  out.height = y - 2 * Print::gap + Print::bottom;
+  return out;
+}
+
+std::size_t letters(std::string_view utf8) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(utf8, [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+}  // namespace sinew::report

@@ -1,0 +1,63 @@
+// report/figures/figure_layout.h - where the parts of a printed figure stand: one column of a
+// journal wide, the legend above the data, axes that end at round numbers.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "sinew/report/figures/figure.h"
+
+namespace sinew::report {
+
+// Sizes in points, 72 to the inch.
+struct Print {
+  static constexpr double width = 252;  // 89 mm
+  static constexpr double left = 38, right = 8, top = 6, bottom = 4;
+  static constexpr double font = 7, line = 9;  // from line to line
+  static constexpr double letter = 3.75;       // mean width
+  static constexpr double numbers = 9;         // below the axis, at its ticks
+  static constexpr double plot = 105, lowest = 60, tallest = 290;
+  static constexpr double tick = 14;             // between two numbers above each other
+  static constexpr double sample = 16, gap = 4;  // of a line in the legend; beside it
+};
+
+// Of one axis, as drawn.
+struct Scale {
+  double from = 0, to = 1;
+  double step = 0.5;  // between ticks; logarithmic: a factor
+};
+
+struct LegendEntry {
+  std::size_t curve = 0;
+  std::string text;
+  double x = 0, y = 0;  // middle of its sample's left end, from the left and from the top [pt]
+};
+
+struct PlotLayout {
+  Scale x, y;
+  double left = 0, right = 0;  // of the data, from the picture's edges [pt]
+  double title = 0;            // its middle, from the top [pt]
+  double top = 0, bottom = 0;  // of the data, from the top [pt]
+  std::vector<LegendEntry> legend;
+  std::vector<std::size_t> curves;  // those that have samples within the axes
+};
+
+struct FigureLayout {
+  double height = 0;  // [pt]
+  std::vector<PlotLayout> plots;
+};
+
+FigureLayout layout(const Figure& figure);
+
+// Where that curve has its name: points have no end, so theirs stands above the data.
+Plot::Names naming(const Plot& plot, const Curve& curve);
+
+// Ends at round numbers with at most seven ticks; what the axis prescribes stays. `tight`: ends
+// where the data do.
+Scale scale(const Axis& axis, double least, double greatest, bool tight);
+
+// Letters, not bytes.
+std::size_t letters(std::string_view utf8);
+
+}  // namespace sinew::report

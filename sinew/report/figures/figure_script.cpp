@@ -1,0 +1,266 @@
+#include "sinew/report/figures/figure_script.h"
+
+#include <fmt/format.h>
+
+#include "sinew/config/quantity.h"
+#include "sinew/report/figures/figure_layout.h"
+
+namespace sinew::report {
+namespace {
+
+using Kind = Curve::Kind;
+using Style = Curve::Style;
+using config::format_number;
+
+// The page's colors; dashes tell them apart in grey, dots what was desired.
+struct Look {
+  const char *color, *dash, *dots;
+};
+constexpr Look looks[] = {{"#0072b2", "1", "(1,1.5)"},
+                          {"#d55e00", "(7,2)", "(1,3)"},
+                          {"#009e73", "(7,2,1.5,2)", "(1,1.5,1,4)"},
+                          {"#a8478a", "(3.5,1.5)", "(1,5)"},
+                          {"#c28a00", "(10,2,3,2)", "(1,1.5,1,1.5,1,4)"},
+                          {"#3fa1d9", "(5,1.5,1,1.5,1,1.5)", "(2,3)"},
+                          {"#6b6f76", "(5,4)", "(1,2.2)"},
+                          {"#7a4b12", "(2,1)", "(1,7)"}};
+
+// In single quotes a quote alone means something to gnuplot.
+std::string quoted(std::string_view typed) {
+  std::string out = "'";
+  for (const char c : typed) {
+    if (c == '\'') out += '\'';
+    out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  return out + "'";
+}
+
+std::string rounded(double value) { return fmt::format("{:.4f}", value); }
+
+class Script {
+ public:
+  Script(const Figure& figure, const FigureData& data)
+      : figure_(figure), data_(data), layout_(layout(figure)) {}
+
+  std::string text(const std::vector<Picture>& pictures) {
+    begin(pictures);
+    for (std::size_t p = 0; p < figure_.plots.size(); ++p) draw(p);
+    add("unset multiplot");
+    add("}}");
+    add("set output");
+    return std::move(out_);
+  }
+
+ private:
+  template <class... Parts>
+  void add(fmt::format_string<Parts...> format, Parts&&... parts) {
+    out_ += fmt::format(format, std::forward<Parts>(parts)...) + '\n';
+  }
+  // Parts of the picture, from the left and from below.
+  std::string across(double points) const { return rounded(points / Print::width); }
+  std::string up(double points) const { return rounded(1 - points / layout_.height); }
+
+  void begin(const std::vector<Picture>& pictures);
+  void draw(std::size_t p);
+  void axis(char name, const Axis& axis, const Scale& scale);
+  void titles(const Plot& plot, const PlotLayout& at);
+  void legend(const Plot& plot, const PlotLayout& at);
+  void ends(const Plot& plot, const PlotLayout& at);
+  void spans(const Plot& plot, const Scale& x);
+  void curves(std::size_t p);
+  std::string place(double x, double y) const {
+    return "screen " + across(x) + ", screen " + up(y);
+  }
+
+  const Figure& figure_;
+  const FigureData& data_;
+  const FigureLayout layout_;
+  std::string out_;
+};
+
+// Where a curve has no color of its own, the next one.
+const Look& look_of(const Plot& plot, std::size_t curve) {
+  const int own = plot.curves[curve].color;
+  return looks[(own == Curve::next ? curve : static_cast<std::size_t>(own)) % std::size(looks)];
+}
+
+bool has_points(const Curve& c) { return c.style == Style::points || c.style == Style::marked; }
+
+// As a property of a curve, an arrow or a label's point.
+std::string line_of(const Plot& plot, std::size_t c) {
+  const Look& look = look_of(plot, c);
+  const Curve& curve = plot.curves[c];
+  const bool desired = curve.kind == Kind::desired;
+  return fmt::format("linewidth {} dashtype {} linecolor rgb '{}'", desired ? "1.0" : "0.9",
+                     plot.names == Plot::Names::none ? looks[0].dash
+                     : desired                       ? look.dots
+                                                     : look.dash,
+                     look.color);
+}
+
+std::string point_of(const Plot& plot, std::size_t c) {
+  return fmt::format("pointtype {} pointsize mark", plot.curves[c].kind == Kind::synthetic ? 6 : 7);
+}
+
+std::string drawn_with(const Plot& plot, std::size_t c) {
+  switch (plot.curves[c].style) {
+    case Style::line:
+      return "lines " + line_of(plot, c);
+    case Style::steps:
+      return "steps " + line_of(plot, c);
+    case Style::marked:
+      return "linespoints " + line_of(plot, c) + " " + point_of(plot, c);
+    case Style::points:
+      return "points linewidth 0.6 linecolor rgb '" + std::string(look_of(plot, c).color) + "' " +
+             point_of(plot, c);
+    case Style::bars:
+      return "boxes fillstyle solid 0.45 border " + line_of(plot, c);
+  }
+  return "";
+}
+
+void Script::begin(const std::vector<Picture>& pictures) {
+  std::string formats;
+  for (const Picture p : pictures)
+    formats += std::string(formats.empty() ? "" : " ") + (p == Picture::svg ? "svg" : "png");
+  const auto pixels = [&](double dots, double points) {
+    return fmt::format("{:.0f}", points * dots / 72);
+  };
+  add("# Draws {}.svg and {}.png from the CSV files beside it: gnuplot {}.gp", figure_.name,
+      figure_.name, figure_.name);
+  add("reset");
+  add("set encoding utf8");
+  add("set datafile separator comma");
+  add("set border 3 linewidth 0.5");
+  add("set tics out nomirror scale 0.4");
+  add("set minussign");
+  add("unset key");
+  add("do for [picture in '{}'] {{", formats);
+  add("if (picture eq 'svg') {{");
+  add("set terminal svg size {},{} noenhanced font 'Arial,{:.2f}' linewidth {:.3f} "
+      "background '#ffffff'",
+      pixels(96, Print::width), pixels(96, layout_.height), Print::font * 96 / 72, 96.0 / 72);
+  add("heading = ',{:.2f}'; mark = 0.5", (Print::font + 1) * 96 / 72);
+  add("}} else {{");
+  // Its points are of 96 to the inch.
+  add("set terminal pngcairo size {},{} noenhanced font 'Arial,{}' fontscale {:.3f} "
+      "linewidth {:.3f} pointscale {:.3f} background '#ffffff'",
+      pixels(300, Print::width), pixels(300, layout_.height), Print::font, 300.0 / 96, 300.0 / 72,
+      300.0 / 72);
+  add("heading = ',{}'; mark = 0.3", Print::font + 1);
+  add("}}");
+  add("set output '{}.'.picture", figure_.name);
+  add("set multiplot");
+}
+
+// A tick's text is a format: a percent sign stands for itself when it is doubled.
+std::string named(const std::vector<Axis::Tick>& ticks) {
+  std::string out;
+  for (const Axis::Tick& t : ticks) {
+    std::string text;
+    for (const char c : t.text) text += c == '%' ? "%%" : std::string(1, c);
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", quoted(text), format_number(t.at));
+  }
+  return out;
+}
+
+void Script::axis(char name, const Axis& axis, const Scale& s) {
+  add("{} logscale {}", axis.logarithmic ? "set" : "unset", name);
+  add("set {}range [{}:{}]", name, format_number(s.from), format_number(s.to));
+  if (axis.logarithmic)
+    add("set {}tics 10", name);
+  else if (!axis.ticks.empty())
+    add("set {}tics ({})", name, named(axis.ticks));
+  else
+    add("set {}tics {}", name, format_number(s.step));
+}
+
+void Script::titles(const Plot& plot, const PlotLayout& at) {
+  if (!plot.title.empty())
+    add("set label {} at {} left font heading", quoted(plot.title), place(Print::left, at.title));
+  if (!plot.y.name.empty())
+    add("set label {} at screen {}, graph 0.5 center rotate by 90", quoted(plot.y.title()),
+        across(0.75 * Print::line));
+  add("set label {} at graph 0.5, screen {} center", quoted(plot.x.title()),
+      up(at.bottom + Print::numbers + Print::line));
+  if (at.curves.empty()) add("set label 'no data' at graph 0.5, graph 0.5 center");
+}
+
+void Script::legend(const Plot& plot, const PlotLayout& at) {
+  for (const LegendEntry& e : at.legend) {
+    const Curve& curve = plot.curves[e.curve];
+    if (curve.style != Style::points)
+      add("set arrow from {} to {} nohead {}", place(e.x, e.y), place(e.x + Print::sample, e.y),
+          line_of(plot, e.curve));
+    if (has_points(curve))
+      add("set label '' at {} point {} linecolor rgb '{}'", place(e.x + Print::sample / 2, e.y),
+          point_of(plot, e.curve), look_of(plot, e.curve).color);
+    add("set label {} at {} left", quoted(e.text), place(e.x + Print::sample + Print::gap, e.y));
+  }
+}
+
+// Names where curves leave the plot.
+void Script::ends(const Plot& plot, const PlotLayout& at) {
+  for (const std::size_t c : at.curves) {
+    const Curve& curve = plot.curves[c];
+    if (naming(plot, curve) != Plot::Names::ends) continue;
+    std::size_t last = curve.xs.size();
+    for (std::size_t i = 0; i < curve.xs.size(); ++i)
+      if (!(curve.xs[i] > at.x.to) && std::isfinite(curve.ys[i])) last = i;
+    if (last < curve.xs.size())
+      add("set label {} at first {}, first {} left offset 0.6,0", quoted(curve.label),
+          format_number(curve.xs[last]), format_number(curve.ys[last]));
+  }
+}
+
+void Script::spans(const Plot& plot, const Scale& x) {
+  for (const Span& s : plot.spans) {
+    const double from = std::max(s.from, x.from), to = std::min(s.to, x.to);
+    if (!(from < to)) continue;
+    add("set object rectangle from first {}, graph 0 to first {}, graph 1 behind "
+        "fillcolor rgb '#e8edf3' fillstyle solid noborder",
+        format_number(from), format_number(to));
+  }
+}
+
+void Script::curves(std::size_t p) {
+  const Plot& plot = figure_.plots[p];
+  const std::vector<std::size_t>& list = layout_.plots[p].curves;
+  if (list.empty()) add("plot NaN");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Place at = data_.places[p][list[i]];
+    add("{}'{}.csv' using 1:{} skip 1 with {}{}", i == 0 ? "plot " : "     ",
+        data_.sheets[at.sheet].name, at.column + 1, drawn_with(plot, list[i]),
+        i + 1 < list.size() ? ", \\" : "");
+  }
+}
+
+void Script::draw(std::size_t p) {
+  const Plot& plot = figure_.plots[p];
+  const PlotLayout& at = layout_.plots[p];
+  add("");
+  add("unset label; unset arrow; unset object");
+  add("set lmargin at screen {}; set rmargin at screen {}", across(at.left),
+      across(Print::width - at.right));
+  add("set tmargin at screen {}; set bmargin at screen {}", up(at.top), up(at.bottom));
+  axis('x', plot.x, at.x);
+  axis('y', plot.y, at.y);
+  add("set format '%h'; set xtics offset 0,0.3; set ytics offset 0.4,0");
+  titles(plot, at);
+  legend(plot, at);
+  if (plot.names == Plot::Names::ends) ends(plot, at);
+  spans(plot, at.x);
+  if (at.y.from < 0 && at.y.to > 0)
+    add("set arrow from graph 0, first 0 to graph 1, first 0 nohead back linewidth 0.4 "
+        "linecolor rgb '#9aa4b2'");
+  curves(p);
+}
+
+}  // namespace
+
+std::string script(const Figure& figure, const FigureData& data,
+                   const std::vector<Picture>& pictures) {
+  return Script(figure, data).text(pictures);
+}
+
+}  // namespace sinew::report

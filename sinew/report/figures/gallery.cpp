@@ -1,0 +1,316 @@
+#include "sinew/report/figures/gallery.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sinew/report/figures/gallery_style.h"
+#include "sinew/report/page/html.h"
+
+namespace sinew::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool holds_kind(const Figure& figure, Curve::Kind kind) {
+  for (const Plot& plot : figure.plots)
+    for (const Curve& curve : plot.curves)
+      if (curve.kind == kind) return true;
+  return false;
+}
+
+// A class as a name in the page.
+std::string_view name_of(StatementClass c) {
+  switch (c) {
+    case StatementClass::predicted:
+      return "predicted";
+    case StatementClass::fitted:
+      return "fitted";
+    case StatementClass::put_in:
+      return "put_in";
+    case StatementClass::by_construction:
+      return "by_construction";
+    case StatementClass::code_against_code:
+      return "code_against_code";
+    case StatementClass::none:
+      break;
+  }
+  return "none";
+}
+
+std::string_view class_of(Is verdict) {
+  if (verdict == Is::agrees) return "agrees";
+  if (verdict == Is::not_applicable) return "open";
+  return verdict == Is::differs_as_known ? "known" : "differs";
+}
+
+// What the page's choice looks for.
+std::string properties(const Exhibit& e) {
+  Tally t;
+  count(t, e.claims);
+  std::vector<std::string_view> out;
+  if (t.of(Is::agrees) > 0) out.push_back("agrees");
+  if (t.of(Is::differs) + t.of(Is::differs_as_known) + t.of(Is::agrees_after_all) > 0)
+    out.push_back("differs");
+  if (t.of(Is::not_applicable) > 0) out.push_back("open");
+  for (const StatementClass c : all_classes)
+    if (c != StatementClass::none && t.of(c) > 0) out.push_back(name_of(c));
+  if (holds_kind(e.figure, Curve::Kind::computed)) out.push_back("computed");
+  if (holds_kind(e.figure, Curve::Kind::synthetic)) out.push_back("synthetic");
+  if (!e.figure.missing.empty()) out.push_back("unavailable");
+  return fmt::format("{}", fmt::join(out, ","));
+}
+
+class Page {
+ public:
+  explicit Page(const Gallery& gallery) : gallery_(gallery), claims_(tally(gallery).total() > 0) {}
+  std::string text();
+
+ private:
+  template <class... Parts>
+  void add(fmt::format_string<Parts...> format, Parts&&... parts) {
+    out_ += fmt::format(format, std::forward<Parts>(parts)...) + '\n';
+  }
+  void head();
+  void tally_table();
+  void bar();
+  void exhibit(const Exhibit& e);
+  void files(const Figure& figure, const FigureData& data);
+  void picture(const Exhibit& e);
+  void claims(const std::vector<Claim>& claims);
+  void claim(const Claim& c);
+  void curves(const Figure& figure);
+
+  const Gallery& gallery_;
+  bool claims_;  // are there any? Else figures stand side by side
+  std::string out_;
+};
+
+void Page::head() {
+  add("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">");
+  add("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">");
+  add("<title>{}</title>\n<style>{}</style>\n</head>\n<body>", escaped(gallery_.title),
+      gallery_style);
+  add("<header>\n<h1>{}</h1>", escaped(gallery_.title));
+  if (!gallery_.lead.empty()) add("<p class=\"lead\">{}</p>", escaped(gallery_.lead));
+  if (claims_) tally_table();
+  add("</header>");
+}
+
+// Verdicts by class. What is worth most stands first.
+void Page::tally_table() {
+  const Tally t = tally(gallery_);
+  add("<table class=\"tally\">\n<caption>{} statements about {} "
+      "figures</caption>\n<thead><tr><td></td>",
+      t.total(), gallery_.exhibits.size());
+  for (const Is v : all_verdicts)
+    add("<th scope=\"col\" class=\"{}\">{}</th>", class_of(v), to_text(v));
+  add("<th scope=\"col\">all</th></tr></thead>\n<tbody>");
+  const auto row = [&](std::string_view name, auto of, int all) {
+    add("<tr><th scope=\"row\">{}</th>", name);
+    for (const Is v : all_verdicts) {
+      const int n = of(v);
+      add("<td>{}</td>", n > 0 ? std::to_string(n) : std::string());
+    }
+    add("<td>{}</td></tr>", all);
+  };
+  for (const StatementClass c : all_classes)
+    if (t.of(c) > 0)
+      row(
+          c == StatementClass::none ? "not compared" : to_text(c), [&](Is v) { return t.of(c, v); },
+          t.of(c));
+  row(
+      "all", [&](Is v) { return t.of(v); }, t.total());
+  add("</tbody>\n</table>");
+}
+
+void Page::bar() {
+  add("<div class=\"bar\"><div>\n<nav aria-label=\"figures\">");
+  for (const Exhibit& e : gallery_.exhibits)
+    add("<a href=\"#{0}\">{0}</a>", escaped(e.figure.name));
+  add("</nav>");
+  if (claims_)
+    add("<label hidden>show <select id=\"choice\"><option value=\"\">all</option>"
+        "<option value=\"differs\">what differs</option><option value=\"agrees\">what "
+        "agrees</option><option value=\"open\">what cannot be compared</option>"
+        "<option value=\"predicted\">what is predicted</option>"
+        "<option value=\"fitted\">what was fitted</option>"
+        "<option value=\"put_in\">what was put in</option>"
+        "<option value=\"by_construction\">what is true by construction</option>"
+        "<option value=\"code_against_code\">code against code</option>"
+        "<option value=\"computed\">computed curves</option>"
+        "<option value=\"synthetic\">synthetic curves</option>"
+        "<option value=\"unavailable\">what is lost</option></select></label>");
+  add("</div></div>");
+}
+
+void Page::files(const Figure& figure, const FigureData& data) {
+  add("<div class=\"files\">");
+  for (const std::string& ending : gallery_.pictures)
+    add("<a href=\"{}.{}\">{}</a>", escaped(figure.name), escaped(ending), escaped(ending));
+  if (gallery_.scripts) add("<a href=\"{0}.gp\">gp</a>", escaped(figure.name));
+  for (const Sheet& sheet : data.sheets)
+    add("<a href=\"{0}.csv\">{0}.csv</a>", escaped(sheet.name));
+  add("</div>");
+}
+
+void Page::picture(const Exhibit& e) {
+  add("<figure>");
+  if (!gallery_.pictures.empty())
+    add("<a href=\"{0}.{1}\"><img src=\"{0}.{1}\" alt=\"{2}\"></a>", escaped(e.figure.name),
+        escaped(gallery_.pictures.front()), escaped(e.figure.title));
+  add("<figcaption>{}</figcaption>", escaped(e.figure.caption));
+  add("</figure>");
+}
+
+// "4.3" is a section, "table 4-1" says what it is.
+std::string in_words(const std::string& where) {
+  return where.empty() || where[0] < '0' || where[0] > '9' ? where : "section " + where;
+}
+
+void Page::claim(const Claim& c) {
+  add("<div class=\"claim\">\n<div class=\"says\"><div>{} <span class=\"where\">{}</span></div>"
+      "<span class=\"judged\"><span class=\"class\">{}</span> <span class=\"verdict {}\">{}</span>"
+      "</span></div>",
+      escaped(c.says.empty() ? c.quantity : c.says), escaped(in_words(c.where)),
+      c.statement_class == StatementClass::none ? "" : to_text(c.statement_class),
+      class_of(c.verdict), to_text(c.verdict));
+  std::string numbers;
+  const auto number = [&](std::string_view what, const std::string& value) {
+    if (!value.empty()) numbers += fmt::format("<span>{} <b>{}</b></span>", what, escaped(value));
+  };
+  number("stated", c.theirs);
+  number("ours", c.ours);
+  if (!numbers.empty()) add("<div class=\"numbers\">{}</div>", numbers);
+  std::string rest = c.says.empty() ? "" : c.quantity;
+  if (!c.accept.empty()) {
+    rest += (rest.empty() ? "accepted " : "; accepted ") + c.accept;
+    rest += fmt::format(" ({})", analysis::rule_of(c.wording));
+  }
+  if (!c.why.empty()) rest += (rest.empty() ? "" : ": ") + c.why;
+  if (!rest.empty()) add("<p class=\"why\">{}</p>", escaped(rest));
+  add("</div>");
+}
+
+void Page::claims(const std::vector<Claim>& claims) {
+  for (const Claim& c : claims) claim(c);
+}
+
+// Curves of one kind and one source in one line.
+void Page::curves(const Figure& figure) {
+  struct Group {
+    Curve::Kind kind;
+    std::string source, labels;
+  };
+  std::vector<Group> groups;
+  for (const Plot& plot : figure.plots)
+    for (const Curve& c : plot.curves) {
+      const std::string& name = c.label.empty() ? plot.y.name : c.label;
+      if (groups.empty() || groups.back().kind != c.kind || groups.back().source != c.source)
+        groups.push_back({c.kind, c.source, name});
+      else if ((", " + groups.back().labels + ",").find(", " + name + ",") == std::string::npos)
+        groups.back().labels += ", " + name;
+    }
+  add("<h3>Curves</h3>\n<ul class=\"curves\">");
+  for (const Group& g : groups)
+    add("<li><b>{}</b> {}: <span class=\"quiet\">{}</span></li>", to_text(g.kind),
+        escaped(g.labels), escaped(g.source));
+  for (const Missing& m : figure.missing)
+    add("<li><b>not drawn</b> {}: <span class=\"quiet\">{}</span></li>", escaped(m.what),
+        escaped(m.why));
+  add("</ul>");
+}
+
+void Page::exhibit(const Exhibit& e) {
+  const Figure& figure = e.figure;
+  add("<article id=\"{}\" data-is=\"{}\">\n<div class=\"head\"><h2>", escaped(figure.name),
+      properties(e));
+  if (!gallery_.prefix.empty())
+    add("<span class=\"number\">{}{}</span>", escaped(gallery_.prefix), escaped(figure.name));
+  add("{}</h2>", escaped(figure.title));
+  files(figure, data(figure));
+  add("</div>");
+  picture(e);
+  add("<div>");
+  claims(e.claims);
+  curves(figure);
+  add("</div>\n</article>");
+}
+
+std::string Page::text() {
+  head();
+  bar();
+  add("<main{}>", claims_ ? "" : " class=\"sheet\"");
+  for (const Exhibit& e : gallery_.exhibits) exhibit(e);
+  add("</main>\n<script>{}</script>\n</body>\n</html>", gallery_script);
+  return out_;
+}
+
+Json json_of(const Claim& c) {
+  Json out{{"verdict", to_text(c.verdict)}, {"where", c.where}};
+  if (c.statement_class != StatementClass::none) out["class"] = to_text(c.statement_class);
+  const auto add = [&](const char* key, const std::string& value) {
+    if (!value.empty()) out[key] = value;
+  };
+  add("says", c.says);
+  add("theirs", c.theirs);
+  add("quantity", c.quantity);
+  add("ours", c.ours);
+  add("accepted", c.accept);
+  if (!c.accept.empty()) out["wording"] = to_text(c.wording);
+  add("why", c.why);
+  return out;
+}
+
+Json json_of(const Exhibit& e, const Gallery& gallery) {
+  const Figure& figure = e.figure;
+  Json out{{"figure", figure.name}, {"title", figure.title}, {"caption", figure.caption}};
+  for (const std::string& ending : gallery.pictures) out[ending] = figure.name + "." + ending;
+  if (gallery.scripts) out["script"] = figure.name + ".gp";
+  const FigureData numbers = data(figure);
+  out["curves"] = Json::array();
+  for (std::size_t p = 0; p < figure.plots.size(); ++p)
+    for (std::size_t c = 0; c < figure.plots[p].curves.size(); ++c) {
+      const Curve& curve = figure.plots[p].curves[c];
+      const Place place = numbers.places[p][c];
+      const Sheet& sheet = numbers.sheets[place.sheet];
+      out["curves"].push_back(
+          {{"curve", curve.label.empty() ? figure.plots[p].y.name : curve.label},
+           {"kind", to_text(curve.kind)},
+           {"source", curve.source},
+           {"file", sheet.name + ".csv"},
+           {"x", sheet.headings[0]},
+           {"y", sheet.headings[place.column]}});
+    }
+  for (const Missing& m : figure.missing)
+    out["curves"].push_back({{"curve", m.what}, {"kind", "unavailable"}, {"source", m.why}});
+  if (!e.claims.empty()) out["claims"] = Json::array();
+  for (const Claim& c : e.claims) out["claims"].push_back(json_of(c));
+  return out;
+}
+
+}  // namespace
+
+std::string index_html(const Gallery& gallery) { return Page(gallery).text(); }
+
+std::string index_json(const Gallery& gallery) {
+  Json out{{"format", "sinew.figures/1"}, {"title", gallery.title}, {"page", "index.html"}};
+  const Tally t = tally(gallery);
+  if (t.total() > 0) {
+    for (const Is v : all_verdicts) out["verdicts"][to_text(v)] = t.of(v);
+    for (const StatementClass c : all_classes)
+      for (const Is v : all_verdicts)
+        if (c != StatementClass::none) out["classes"][to_text(c)][to_text(v)] = t.of(c, v);
+  }
+  out["figures"] = Json::array();
+  for (const Exhibit& e : gallery.exhibits) out["figures"].push_back(json_of(e, gallery));
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Tally tally(const Gallery& gallery) {
+  Tally out;
+  for (const Exhibit& e : gallery.exhibits) count(out, e.claims);
+  return out;
+}
+
+}  // namespace sinew::report

@@ -1,0 +1,149 @@
+#include "sinew/report/figures/run_figures.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <set>
+
+#include "sinew/config/compose.h"
+#include "sinew/report/figures/figure_layout.h"
+#include "sinew/report/page/test_run.h"
+
+namespace sinew::report {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Kind = Curve::Kind;
+
+config::Node walk() {
+  return config::compose(std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml", {});
+}
+
+// With the units that a run writes.
+signals::Table logged() {
+  signals::Table table = test::walking(analysis::read_machine(walk()));
+  for (signals::Series& s : table.series)
+    for (const auto& [end, unit] : {std::pair("/angle", "rad"), std::pair("/pressure", "Pa")})
+      if (s.topic.name.ends_with(end)) s.topic.fields[0].unit = unit;
+  return table;
+}
+
+std::vector<Figure> figures(const signals::Table& table, const RunFigureOptions& options = {}) {
+  return run_figures({.table = table, .resolved = walk(), .name = "walk-test-1"}, options);
+}
+
+const Figure& named(const std::vector<Figure>& list, const std::string& name) {
+  const auto at = std::ranges::find(list, name, &Figure::name);
+  if (at == list.end()) throw std::out_of_range(name);
+  return *at;
+}
+
+const Curve& labelled(const Figure& figure, const std::string& label) {
+  for (const Plot& plot : figure.plots)
+    for (const Curve& c : plot.curves)
+      if (c.label == label) return c;
+  throw std::out_of_range(label);
+}
+
+TEST(RunFigures, ShowTheSamplesOfTheLogInTheirUnit) {
+  const signals::Table table = logged();
+  const std::vector<double>& angle = *table.column("/joint/hip/angle");
+  for (const auto& [units, scale] :
+       {std::pair(UnitSystem::si, 1.0), std::pair(UnitSystem::thesis, 180 / M_PI)}) {
+    const std::vector<Figure> list = figures(table, {.units = units});
+    const Curve& hip = labelled(named(list, "joint-angles"), "hip");
+    ASSERT_EQ(hip.ys.size(), angle.size());
+    for (std::size_t i = 0; i < angle.size(); ++i)
+      EXPECT_NEAR(hip.ys[i] / scale, angle[i], 1e-12 * angle[i]);
+  }
+  const std::vector<Figure> list = figures(table, {.units = UnitSystem::thesis});
+  EXPECT_EQ(named(list, "pressure").plots[0].y.unit, "psi gauge");
+  EXPECT_EQ(named(list, "joint-angles").plots[0].y.title(), "joint angles [deg]");
+}
+
+TEST(RunFigures, TellDesiredFromActualAndLeaveOutWhatThePageHides) {
+  const std::vector<Figure> list = figures(logged());
+  const Figure& angles = named(list, "joint-angles");
+  EXPECT_EQ(labelled(angles, "hip").kind, Kind::computed);
+  EXPECT_EQ(labelled(angles, "hip desired").kind, Kind::desired);
+  EXPECT_EQ(labelled(angles, "hip desired").color, labelled(angles, "hip").color);
+  EXPECT_THROW(labelled(angles, "hip true"), std::out_of_range);
+  EXPECT_THAT(angles.caption,
+              AllOf(HasSubstr("Walking, test 1"), HasSubstr("simulated"), HasSubstr("Dotted"),
+                    HasSubstr("Shaded: stance"), HasSubstr("seed 1")));
+}
+
+TEST(RunFigures, OfALogWithoutTruthAreMeasured) {
+  signals::Table table = logged();
+  std::erase_if(table.series,
+                [](const signals::Series& s) { return s.topic.name.starts_with("/true/"); });
+  const std::vector<Figure> list = figures(table);
+  EXPECT_EQ(labelled(named(list, "joint-angles"), "hip").kind, Kind::measured);
+  EXPECT_THAT(named(list, "joint-angles").caption, Not(HasSubstr("simulated,")));
+  EXPECT_EQ(std::ranges::find(list, "pressure", &Figure::name), list.end());
+}
+
+TEST(RunFigures, ShowTheFootsPathAsLongInXAsInY) {
+  const std::vector<Figure> list = figures(logged());
+  const Figure& path = named(list, "foot-path");
+  EXPECT_TRUE(path.plots[0].equal_scale);
+  EXPECT_EQ(path.plots[0].x.unit, path.plots[0].y.unit);
+  EXPECT_EQ(path.plots[0].x.unit, "mm");
+}
+
+TEST(RunFigures, ShowNothingOutsideTheirTime) {
+  const std::vector<Figure> list = figures(logged(), {.from = 0.5, .to = 0.8});
+  for (const Figure& figure : list)
+    for (const Plot& plot : figure.plots)
+      for (const Curve& c : plot.curves) {
+        EXPECT_FALSE(c.xs.empty());
+        if (plot.x.unit != "s") continue;
+        EXPECT_GE(c.xs.front(), 0.5);
+        EXPECT_LE(c.xs.back(), 0.8);
+      }
+  EXPECT_TRUE(figures(logged(), {.from = 1e6}).empty());
+}
+
+TEST(RunFigures, HaveNamesOfTheirOwnAndShadeStance) {
+  std::set<std::string> names;
+  for (const Figure& figure : figures(logged())) {
+    EXPECT_TRUE(names.insert(figure.name).second) << figure.name;
+    EXPECT_EQ(file_name_of(figure.name), figure.name);
+    EXPECT_NO_THROW(data(figure));
+    if (figure.plots[0].x.unit != "s") continue;
+    // Three steps: plant and propulsion join.
+    EXPECT_EQ(figure.plots[0].spans.size(), 3u) << figure.name;
+  }
+}
+
+// --- units ---
+
+TEST(ShownUnit, ChoosesTheFirstOfThoseThatDifferByAThousand) {
+  const auto name = [](std::string_view unit, double largest, UnitSystem system = UnitSystem::si) {
+    return shown_unit(unit, system, largest).name;
+  };
+  EXPECT_EQ(name("m", 0.99), "mm");
+  EXPECT_EQ(name("m", 1.5), "m");
+  EXPECT_EQ(name("m", 5000), "m");
+  EXPECT_EQ(name("kg", 1e-7), "mg");
+  EXPECT_EQ(name("kg", 0.9), "g");
+  EXPECT_EQ(name("kg", 20), "kg");
+  EXPECT_EQ(name("N", 1e9), "N");
+  EXPECT_EQ(name("m", 1.5, UnitSystem::thesis), "in");
+  EXPECT_EQ(name("furlong", 1), "furlong");
+  EXPECT_EQ(name("", 1), "-");
+}
+
+TEST(ShownUnit, IsWhatItsNameSays) {
+  EXPECT_NEAR(shown_unit("Pa", UnitSystem::thesis, 1).of(units::atmosphere + 62 * units::psi), 62,
+              1e-9);
+  EXPECT_NEAR(shown_unit("Pa", UnitSystem::si, 1).of(101325), 101.325, 1e-9);
+  EXPECT_NEAR(shown_unit("N m/rad", UnitSystem::thesis, 1).of(35 * 4.4482216152605 * 0.0254), 35,
+              1e-9);
+  EXPECT_NEAR(shown_unit("share", UnitSystem::si, 1).of(0.55), 55, 1e-12);
+}
+
+}  // namespace
+}  // namespace sinew::report

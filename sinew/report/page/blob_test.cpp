@@ -1,0 +1,138 @@
+#include "sinew/report/page/blob.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "sinew/log/deflate.h"
+
+namespace sinew::report {
+namespace {
+
+std::string from_base64(const std::string& text) {
+  const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<std::uint32_t>(letters.find(c));
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    out += static_cast<char>(bits >> count);
+  }
+  return out;
+}
+
+// As the page reads it.
+struct Read {
+  std::vector<std::vector<std::int64_t>> ticks;
+  std::vector<std::vector<float>> columns;
+};
+Read read(const Blob& blob) {
+  const std::string bytes = log::inflated(from_base64(blob.base64()));
+  std::size_t at = 0;
+  const auto numbers = [&](std::size_t count) {
+    std::vector<std::uint32_t> out(count);
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t rank = 0; rank < 4; ++rank)
+        out[i] |=
+            static_cast<std::uint32_t>(static_cast<unsigned char>(bytes.at(at + rank * count + i)))
+            << (8 * rank);
+    at += 4 * count;
+    return out;
+  };
+  Read out;
+  const Blob::Layout layout = blob.layout();
+  for (const std::size_t count : layout.clocks) {
+    std::int64_t tick = 0;
+    std::vector<std::int64_t> ticks;
+    for (const std::uint32_t step : numbers(count))
+      ticks.push_back(tick += static_cast<std::int32_t>(step));
+    out.ticks.push_back(std::move(ticks));
+  }
+  for (const int clock : layout.columns) {
+    std::vector<float> column;
+    for (const std::uint32_t bits : numbers(layout.clocks[static_cast<std::size_t>(clock)]))
+      column.push_back(std::bit_cast<float>(bits));
+    out.columns.push_back(std::move(column));
+  }
+  EXPECT_EQ(at, bytes.size());
+  return out;
+}
+
+struct Column {
+  std::vector<std::int64_t> time_ns;
+  std::vector<double> values;
+  Samples samples() const { return {&time_ns, &values, "m"}; }
+};
+
+Column random_column(int seed, int count) {
+  std::mt19937 random(static_cast<unsigned>(seed));
+  std::normal_distribution<double> value(0, 1e3);
+  std::uniform_int_distribution<int> step(1, 50000);
+  Column out;
+  std::int64_t tick = 0;
+  for (int i = 0; i < count; ++i) {
+    out.time_ns.push_back((tick += step(random)) * 100000);
+    out.values.push_back(value(random));
+  }
+  return out;
+}
+
+TEST(Blob, ComesBackAsFloatsAtTicks) {
+  for (const int count : {0, 1, 2, 777, 20000}) {
+    const Column a = random_column(count + 1, count), b = random_column(count + 2, count + 5);
+    Blob blob;
+    ASSERT_EQ(blob.add(a.samples()), 0);
+    ASSERT_EQ(blob.add(b.samples()), 1);
+    const Read back = read(blob);
+    ASSERT_EQ(back.columns.size(), 2u);
+    for (const auto& [column, i] : {std::pair{&a, 0u}, std::pair{&b, 1u}})
+      for (std::size_t k = 0; k < column->values.size(); ++k) {
+        EXPECT_EQ(back.columns[i][k], static_cast<float>(column->values[k]));
+        EXPECT_EQ(back.ticks[i][k] * 100000, column->time_ns[k]);
+      }
+  }
+}
+
+TEST(Blob, KeepsWhatIsNoNumberAndRoundsToTheNextTick) {
+  const Column c{{-149999, -50001, 49999, 50000, 1'000'000'049'999},
+                 {std::nan(""), -0.0, std::numeric_limits<double>::infinity(), 1e-50, 3e38}};
+  Blob blob;
+  blob.add(c.samples());
+  const Read back = read(blob);
+  EXPECT_EQ(back.ticks[0], (std::vector<std::int64_t>{-1, -1, 0, 1, 10'000'000}));
+  EXPECT_TRUE(std::isnan(back.columns[0][0]));
+  EXPECT_TRUE(std::signbit(back.columns[0][1]));
+  EXPECT_TRUE(std::isinf(back.columns[0][2]));
+}
+
+TEST(Blob, HoldsEveryColumnAndEveryClockOnce) {
+  const Column a = random_column(1, 100);
+  const Column same_times{a.time_ns, std::vector<double>(100, 2.0)};
+  const Column other_times = random_column(2, 100);
+  Blob blob;
+  EXPECT_EQ(blob.add(a.samples()), 0);
+  EXPECT_EQ(blob.add(same_times.samples()), 1);
+  EXPECT_EQ(blob.add(other_times.samples()), 2);
+  EXPECT_EQ(blob.add(a.samples()), 0);
+  EXPECT_EQ(blob.layout().clocks, (std::vector<std::size_t>{100, 100}));
+  EXPECT_EQ(blob.layout().columns, (std::vector<int>{0, 0, 1}));
+}
+
+TEST(Base64, PadsAsRfc4648Does) {
+  EXPECT_EQ(to_base64(""), "");
+  EXPECT_EQ(to_base64("f"), "Zg==");
+  EXPECT_EQ(to_base64("fo"), "Zm8=");
+  EXPECT_EQ(to_base64("foo"), "Zm9v");
+  EXPECT_EQ(to_base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(to_base64("\xff\xfe\xfd"), "//79");
+}
+
+}  // namespace
+}  // namespace sinew::report

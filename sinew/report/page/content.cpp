@@ -1,0 +1,149 @@
+#include "sinew/report/page/content.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "sinew/analysis/derived.h"
+#include "sinew/analysis/stand.h"
+#include "sinew/analysis/summary.h"
+#include "sinew/config/compose.h"
+#include "sinew/config/quantity.h"
+#include "sinew/report/page/page.h"
+
+namespace sinew::report {
+namespace {
+
+std::string text_at(const config::Node& root, std::string_view key) {
+  const config::Node* node = root.find(key);
+  if (!node) return "";
+  const config::Node* value = node->find("value");
+  return config::written(value ? *value : *node);
+}
+
+double end_of(const Channels& channels) {
+  std::int64_t end = 0;
+  for (const signals::Table* table : channels.tables())
+    for (const signals::Series& s : table->series)
+      if (!s.time_ns.empty()) end = std::max(end, s.time_ns.back());
+  return static_cast<double>(end) / 1e9;
+}
+
+struct About {
+  std::string title, reproduces, robot;
+  double atmosphere = 0;
+};
+
+// A JSON object that grows; its members are JSON.
+class Object {
+ public:
+  void put(std::string_view key, std::string_view json) {
+    text_ += text_.empty() ? "{\"" : ",\"";
+    text_.append(key).append("\":").append(json);
+  }
+  std::string text() const { return text_ + "}"; }
+
+ private:
+  std::string text_;
+};
+
+Object head(const Run& run, const About& about) {
+  Object out;
+  out.put("format", to_json(std::string("sinew.report/1")));
+  out.put("title", to_json(about.title));
+  out.put("reproduces", to_json(about.reproduces));
+  out.put("name", to_json(run.name));
+  out.put("robot", to_json(about.robot));
+  out.put("seed", to_json(text_at(run.resolved, "seed")));
+  out.put("version", to_json(text_at(run.resolved, "sinew_version")));
+  out.put("atmosphere", config::format_number(about.atmosphere));
+  return out;
+}
+
+// What pages of any run end with.
+Content finish(Object json, const Run& run, const analysis::Summary& summary,
+               const std::vector<analysis::Verdict>& verdicts, const Blob& blob) {
+  json.put("verdicts", to_json(verdicts));
+  json.put("summary", analysis::to_json(summary));
+  json.put("parameters", to_json(parameters(run.resolved)));
+  json.put("samples", to_json(blob.layout()));
+  return {summary.title.empty() ? run.name : summary.title, json.text(), blob.base64()};
+}
+
+// Returns the warning at the top of the page of a run that was ended.
+std::vector<analysis::Warning> how_it_ended(const Run& run) {
+  if (run.ended.empty()) return {};
+  return {{"the run was ended: " + run.ended, {}}};
+}
+
+// Only whole runs are held against reported figures.
+bool whole(const Run& run) { return run.ended.empty() && run.table.complete; }
+
+Content of_robot(const Run& run) {
+  analysis::Machine machine = analysis::read_machine(run.resolved);
+  if (!whole(run)) machine.reported.clear();
+  const signals::Table derived = analysis::derive(run.table, machine);
+  const analysis::Record record(run.table, machine, &derived);
+  const analysis::Summary summary = run.ended.empty()
+                                        ? analysis::summarize(run.table, machine)
+                                        : analysis::summarize_trip(run.table, machine);
+
+  Channels channels;
+  channels.add(run.table);
+  channels.add(derived);
+  signals::Table drawn;
+  const Scene scene_of_run = scene(channels, machine, record, drawn);
+  channels.add(drawn);
+
+  Blob blob;
+  Columns columns(channels, blob);
+  Object json =
+      head(run, {machine.title, machine.reproduces, machine.robot.name, machine.atmosphere});
+  json.put("duration", config::format_number(end_of(channels)));
+  json.put("phases", phases_of(record, machine));
+  if (!summary.faults.empty()) json.put("faults", to_json(summary.faults, end_of(channels)));
+  json.put("panels", to_json(panels(channels, machine.robot), columns));
+  json.put("scene", to_json(scene_of_run, columns));
+  std::vector<analysis::Warning> warnings = how_it_ended(run);
+  std::ranges::move(analysis::cut_logs(run.table), std::back_inserter(warnings));
+  std::ranges::move(analysis::warnings(run.table, machine), std::back_inserter(warnings));
+  json.put("warnings", to_json(warnings));
+  return finish(std::move(json), run, summary,
+                compare(summary, machine.reported, machine.atmosphere), blob);
+}
+
+Content of_stand(const Run& run) {
+  analysis::StandFile file = analysis::read_stand(run.resolved);
+  if (!whole(run)) file.reported.clear();
+  analysis::Summary summary;
+  summary.title = file.title;
+  if (run.ended.empty()) summary = analysis::summarize(run.table, file);
+  Channels channels;
+  channels.add(run.table);
+  signals::Table drawn;
+  const Stand stand_of_run = stand(channels, run.resolved, file, drawn);
+  channels.add(drawn);
+
+  Blob blob;
+  Columns columns(channels, blob);
+  Object json = head(run, {file.title, file.reproduces, "", file.atmosphere});
+  json.put("duration", config::format_number(end_of(channels)));
+  json.put("phases", R"({"names":[],"stretches":[]})");
+  json.put("panels", to_json(panels_of_stand(channels, file.element), columns));
+  json.put("scene", "null");
+  json.put("stand", to_json(stand_of_run, columns));
+  json.put("charts", to_json(stand_charts(channels, stand_of_run), columns));
+  std::vector<analysis::Warning> warnings = how_it_ended(run);
+  std::ranges::move(analysis::cut_logs(run.table), std::back_inserter(warnings));
+  std::ranges::move(analysis::warnings(run.table, summary), std::back_inserter(warnings));
+  json.put("warnings", to_json(warnings));
+  return finish(std::move(json), run, summary, compare(summary, file.reported, file.atmosphere),
+                blob);
+}
+
+}  // namespace
+
+Content content(const Run& run) {
+  return config::format_kind(run.resolved) == "rig" ? of_stand(run) : of_robot(run);
+}
+
+}  // namespace sinew::report

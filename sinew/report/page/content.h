@@ -1,0 +1,54 @@
+// report/page/content.h - the parts of a page's JSON, and the columns that they refer to.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sinew/analysis/machine.h"
+#include "sinew/analysis/record.h"
+#include "sinew/analysis/warnings.h"
+#include "sinew/report/page/blob.h"
+#include "sinew/report/page/charts.h"
+#include "sinew/report/page/panels.h"
+#include "sinew/report/page/parameters.h"
+#include "sinew/report/page/scene.h"
+#include "sinew/report/page/stand.h"
+
+namespace sinew::report {
+
+// Numbers of columns in place of channels: each is added to the blob when it is first asked for.
+class Columns {
+ public:
+  static constexpr int none = -1;
+
+  Columns(const Channels& channels, Blob& blob) : channels_(channels), blob_(blob) {}
+  int of(const Channel& channel) {
+    const Samples samples = channels_.find(channel);
+    if (!samples) return none;
+    const int column = blob_.add(samples);
+    if (column == static_cast<int>(list_.size())) list_.push_back(channel);
+    return column;
+  }
+  // Of each column, by its number.
+  const std::vector<Channel>& list() const { return list_; }
+
+ private:
+  const Channels& channels_;
+  Blob& blob_;
+  std::vector<Channel> list_;
+};
+
+// Each as JSON; a channel is the number of its column, or null.
+std::string to_json(const std::vector<Panel>& panels, Columns& columns);
+std::string to_json(const Scene& scene, Columns& columns);  // null: an empty one
+std::string to_json(const Stand& stand, Columns& columns);  // null: an empty one
+std::string to_json(const std::vector<Chart>& charts, Columns& columns);
+std::string to_json(const std::vector<Parameter>& parameters);
+std::string to_json(const std::vector<analysis::Warning>& warnings);
+std::string to_json(const std::vector<analysis::MachineFault>& faults, double end);  // of the run
+std::string to_json(const std::vector<analysis::Verdict>& verdicts);
+std::string to_json(const Blob::Layout& layout);
+std::string to_json(const std::string& text);
+std::string phases_of(const analysis::Record& record, const analysis::Machine& machine);
+
+}  // namespace sinew::report

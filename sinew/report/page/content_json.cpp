@@ -1,0 +1,280 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sinew/report/page/content.h"
+
+namespace sinew::report {
+namespace {
+
+using robot::Point;
+using Json = nlohmann::ordered_json;  // keys stay in the order in which they come
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+Json column_of(const Channel& channel, Columns& columns) {
+  const int column = columns.of(channel);
+  return column == Columns::none ? Json() : Json(column);
+}
+
+Json point(Point p) { return Json::array({p.x, p.y}); }
+
+std::string_view word(Line::Style style) {
+  switch (style) {
+    case Line::Style::measured:
+      return "full";
+    case Line::Style::desired:
+      return "dashed";
+    case Line::Style::hidden:
+      return "hidden";
+  }
+  return "";
+}
+
+std::string_view word(ChartCurve::Style style) {
+  return style == ChartCurve::Style::line     ? "line"
+         : style == ChartCurve::Style::points ? "points"
+                                              : "held out";
+}
+
+std::string_view word(Stand::Load load) {
+  using enum Stand::Load;
+  return load == hanging ? "hanging" : load == driven ? "driven" : "clamped";
+}
+
+std::string_view word(Stand::Air air) {
+  using enum Stand::Air;
+  return air == sealed      ? "sealed"
+         : air == regulated ? "regulated"
+         : air == valves    ? "valves"
+                            : "3-way";
+}
+
+Json axis_of(const ChartAxis& axis) { return {{"label", axis.label}, {"unit", axis.unit}}; }
+
+// Numbers, or the column where they stand. As many digits as a picture can show.
+Json numbers_of(const std::vector<double>& numbers, const Channel& channel, Columns& columns) {
+  if (!channel.none()) return column_of(channel, columns);
+  Json out = Json::array();
+  for (const double x : numbers)
+    out.push_back(std::isfinite(x) ? Json::parse(fmt::format("{:.7g}", x)) : Json());
+  return out;
+}
+
+Json curve_of(const ChartCurve& c, Columns& columns) {
+  Json out = {{"label", c.label}, {"style", word(c.style)}, {"color", c.color}};
+  out["x"] = numbers_of(c.x, c.x_channel, columns);
+  out["y"] = numbers_of(c.y, c.y_channel, columns);
+  if (c.hidden) out["hidden"] = true;
+  return out;
+}
+
+Json frames_of(const Scene& scene, Columns& columns) {
+  Json out = Json::array();
+  for (const Frame& f : scene.frames)
+    out.push_back({{"name", f.name},
+                   {"x", column_of(f.x, columns)},
+                   {"y", column_of(f.y, columns)},
+                   {"heading", column_of(f.heading, columns)}});
+  return out;
+}
+
+Json shapes_of(const Scene& scene) {
+  Json out;
+  out["links"] = Json::array();
+  for (const LinkShape& l : scene.links)
+    out["links"].push_back({{"frame", l.frame}, {"length", l.length}});
+  out["cams"] = Json::array();
+  for (const CamShape& c : scene.cams) {
+    Json outline = Json::array();
+    for (const Point p : c.outline) outline.push_back(point(p));
+    out["cams"].push_back({{"frame", c.frame}, {"outline", std::move(outline)}});
+  }
+  out["cords"] = Json::array();
+  for (const Cord& c : scene.cords)
+    out["cords"].push_back({{"frame", c.frame}, {"from", point(c.from)}, {"to", point(c.to)}});
+  out["discs"] = Json::array();
+  for (const Disc& d : scene.discs)
+    out["discs"].push_back({{"frame", d.frame}, {"center", point(d.center)}, {"radius", d.radius}});
+  return out;
+}
+
+Json muscles_of(const Scene& scene, Columns& columns) {
+  Json out = Json::array();
+  for (const MuscleShape& m : scene.muscles)
+    out.push_back({{"name", m.name},
+                   {"frame", m.frame},
+                   {"anchor", point(m.anchor)},
+                   {"direction", point(m.direction)},
+                   {"touch", point(m.touch)},
+                   {"count", m.count},
+                   {"longest", m.longest},
+                   {"length", column_of(m.length, columns)},
+                   {"diameter", column_of(m.diameter, columns)},
+                   {"pressure", column_of(m.pressure, columns)},
+                   {"inlet", column_of(m.inlet, columns)},
+                   {"exhaust", column_of(m.exhaust, columns)}});
+  return out;
+}
+
+Json cylinder_of(const CylinderShape& c, Columns& columns) {
+  Json out = {{"bore", c.bore},
+              {"stroke", c.stroke},
+              {"up", column_of(c.up, columns)},
+              {"down", column_of(c.down, columns)}};
+  for (const auto& [key, valves] :
+       {std::pair{"valves_up", &c.valves_up}, std::pair{"valves_down", &c.valves_down}}) {
+    out[key] = Json::array();
+    for (const Channel& v : *valves) out[key].push_back(column_of(v, columns));
+  }
+  return out;
+}
+
+// Both components; null where there are none.
+Json vector_of(const Channel& x, Columns& columns) {
+  if (x.none()) return {};
+  return Json::array({column_of(x, columns), column_of({x.topic, "y"}, columns)});
+}
+
+}  // namespace
+
+std::string to_json(const std::vector<Panel>& panels, Columns& columns) {
+  Json out = Json::array();
+  for (const Panel& p : panels) {
+    Json lines = Json::array();
+    for (const Line& l : p.lines)
+      lines.push_back({{"label", l.label},
+                       {"topic", l.channel.topic},
+                       {"column", column_of(l.channel, columns)},
+                       {"color", l.color},
+                       {"style", word(l.style)}});
+    out.push_back(
+        {{"group", p.group}, {"title", p.title}, {"unit", p.unit}, {"lines", std::move(lines)}});
+  }
+  return text_of(out);
+}
+
+std::string to_json(const Scene& scene, Columns& columns) {
+  if (scene.empty()) return "null";
+  Json out = shapes_of(scene);
+  out["frames"] = frames_of(scene, columns);
+  out["muscles"] = muscles_of(scene, columns);
+  out["drawn_from"] = scene.drawn_from;
+  if (scene.surface) out["surface"] = *scene.surface;
+  if (scene.track) {
+    const Track& t = *scene.track;
+    out["track"] = {{"height", t.height}, {"from", t.from},   {"to", t.to},
+                    {"rear", t.rear},     {"front", t.front}, {"rollers", t.rollers}};
+  }
+  if (scene.cylinder) out["cylinder"] = cylinder_of(*scene.cylinder, columns);
+  out["feet"] = Json::array();
+  for (const FootShape& foot : scene.feet)
+    out["feet"].push_back({{"at", foot.at},
+                           {"path", vector_of(foot.path, columns)},
+                           {"desired", vector_of(foot.desired_path, columns)},
+                           {"force", vector_of(foot.force, columns)},
+                           {"contact", column_of(foot.contact, columns)}});
+  return text_of(out);
+}
+
+std::string to_json(const Stand& stand, Columns& columns) {
+  if (stand.empty()) return "null";
+  return text_of({{"element", stand.element},
+                  {"count", stand.count},
+                  {"turns", stand.turns},
+                  {"bore", stand.bore},
+                  {"rod", stand.rod},
+                  {"stroke", stand.stroke},
+                  {"load", word(stand.load)},
+                  {"air", word(stand.air)},
+                  {"shortest", stand.shortest},
+                  {"longest", stand.longest},
+                  {"least", stand.least},
+                  {"most", stand.most},
+                  {"heaviest", stand.heaviest},
+                  {"weight_step", stand.weight_step},
+                  {"length", column_of(stand.length, columns)},
+                  {"diameter", column_of(stand.diameter, columns)},
+                  {"pressure", column_of(stand.pressure, columns)},
+                  {"desired", column_of(stand.desired, columns)},
+                  {"tension", column_of(stand.tension, columns)},
+                  {"weight", column_of(stand.weight, columns)},
+                  {"inlet", column_of(stand.inlet, columns)},
+                  {"exhaust", column_of(stand.exhaust, columns)},
+                  {"drawn_from", stand.drawn_from}});
+}
+
+std::string to_json(const std::vector<Chart>& charts, Columns& columns) {
+  Json out = Json::array();
+  for (const Chart& c : charts) {
+    Json curves = Json::array();
+    for (const ChartCurve& curve : c.curves) curves.push_back(curve_of(curve, columns));
+    out.push_back({{"title", c.title},
+                   {"x", axis_of(c.x)},
+                   {"y", axis_of(c.y)},
+                   {"curves", std::move(curves)},
+                   {"note", c.note}});
+  }
+  return text_of(out);
+}
+
+std::string to_json(const std::vector<Parameter>& parameters) {
+  Json out = Json::array();
+  for (const Parameter& p : parameters)
+    out.push_back(Json::array({p.key, p.value, p.mark, p.range, p.uncertainty, p.source}));
+  return text_of(out);
+}
+
+std::string to_json(const std::vector<analysis::Warning>& warnings) {
+  Json out = Json::array();
+  for (const analysis::Warning& w : warnings) {
+    Json spans = Json::array();
+    for (const analysis::Span& s : w.spans) spans.push_back(Json::array({s.from, s.to}));
+    out.push_back({{"text", w.text}, {"spans", std::move(spans)}});
+  }
+  return text_of(out);
+}
+
+std::string to_json(const std::vector<analysis::MachineFault>& faults, double end) {
+  Json out = Json::array();
+  for (const analysis::MachineFault& f : faults)
+    out.push_back(
+        {{"of", f.of}, {"what", f.what}, {"from", f.begin}, {"to", std::fmin(f.end, end)}});
+  return text_of(out);
+}
+
+std::string to_json(const std::vector<analysis::Verdict>& verdicts) {
+  Json out = Json::array();
+  for (const analysis::Verdict& v : verdicts)
+    out.push_back({{"key", v.key},
+                   {"reported", v.reported},
+                   {"ours", v.ours},
+                   {"accept", v.accept},
+                   {"source", v.source},
+                   {"class", to_text(v.statement_class)},
+                   {"wording", to_text(v.wording)},
+                   {"is", analysis::to_text(v.is)}});
+  return text_of(out);
+}
+
+std::string to_json(const Blob::Layout& layout) {
+  return text_of({{"clocks", layout.clocks}, {"columns", layout.columns}});
+}
+
+std::string to_json(const std::string& text) { return text_of(text); }
+
+std::string phases_of(const analysis::Record& record, const analysis::Machine& machine) {
+  Json stretches = Json::array();
+  for (const analysis::Stretch& s : record.stretches())
+    stretches.push_back({{"phase", s.phase},
+                         {"step", s.step},
+                         {"from", record.time(s.first)},
+                         {"to", record.end_of(s.last - 1)},
+                         {"stance", analysis::is_stance(machine, s.phase)}});
+  return text_of({{"names", machine.phases}, {"stretches", std::move(stretches)}});
+}
+
+}  // namespace sinew::report

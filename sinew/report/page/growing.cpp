@@ -1,0 +1,146 @@
+#include "sinew/report/page/growing.h"
+
+#include <algorithm>
+#include <deque>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "sinew/actuator/braid.h"
+#include "sinew/analysis/derived.h"
+#include "sinew/log/deflate.h"
+#include "sinew/report/page/content.h"
+#include "sinew/report/page/pose.h"
+#include "sinew/robot/actuator_of.h"
+#include "sinew/robot/legs.h"
+
+namespace sinew::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using signals::Series;
+using signals::Table;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t row_ns = 10'000'000;
+
+bool is_edge(const signals::Topic& topic) { return signals::is_of_valve(topic.name); }
+
+// What the page must have room for: the machine at rest, and with every joint turned either way.
+// Edges get a clock each, as they will have.
+class Prototype {
+ public:
+  Prototype(const std::vector<signals::Topic>& topics, const analysis::Machine& machine,
+            bool foot_path) {
+    for (const double turn : {0.0, -0.8, 0.8}) {
+      std::vector<double> angles;
+      for (const robot::Joint& j : machine.robot.joints) angles.push_back(j.rest_angle + turn);
+      poses_.push_back(std::move(angles));
+    }
+    for (const signals::Topic& topic : topics) {
+      Series s{topic, {}, std::vector<std::vector<double>>(topic.fields.size())};
+      if (is_edge(topic))
+        put(s, ++edges_, 0);
+      else
+        for (std::size_t row = 0; row < poses_.size(); ++row)
+          put(s, static_cast<std::int64_t>(row) * row_ns,
+              value(topic.name, row, machine, foot_path));
+      table.series.push_back(std::move(s));
+    }
+  }
+
+  Table table;
+
+ private:
+  static void put(Series& s, std::int64_t time_ns, double v) {
+    s.time_ns.push_back(time_ns);
+    for (auto& column : s.columns) column.push_back(v);
+  }
+  double value(const std::string& topic, std::size_t row, const analysis::Machine& m,
+               bool foot_path) const {
+    if (topic.ends_with("/plan/phase")) return -1;
+    if (topic.starts_with("/desired/") && topic.ends_with("/foot/position") && !foot_path)
+      return none;
+    for (std::size_t j = 0; j < m.robot.joints.size(); ++j)
+      if (topic.ends_with(robot::topic_of_joint(m.robot, j) + "/angle")) return poses_[row][j];
+    for (const robot::Muscle& muscle : m.robot.muscles)
+      if (topic == robot::logged_topic(m.robot, "/true/muscle/" + muscle.name + "/length"))
+        return std::min(length_by_cams(m.robot, muscle, poses_[row]),
+                        robot::actuator_of(muscle, m.actuators).braid.thread_length);
+    return 0;
+  }
+
+  std::vector<std::vector<double>> poses_;
+  std::int64_t edges_ = 0;
+};
+
+Table without_windows(Table derived) {
+  std::erase_if(derived.series, [](const Series& s) { return !is_pointwise(s.topic.name); });
+  return derived;
+}
+
+}  // namespace
+
+bool is_pointwise(std::string_view topic) {
+  return !topic.ends_with("/oscillation") && !topic.starts_with("/trolley/");
+}
+
+struct Growing::Parts {
+  Parts(const Table& table, const analysis::Machine& machine)
+      : derived(without_windows(analysis::derive(table, machine))),
+        record(table, machine, &derived) {
+    channels.add(table);
+    channels.add(derived);
+    scene = report::scene(channels, machine, record, drawn);
+    channels.add(drawn);
+  }
+
+  Table derived, drawn;
+  analysis::Record record;
+  Channels channels;
+  Scene scene;
+};
+
+Growing::Growing(const std::vector<signals::Topic>& topics, Of of)
+    : of_(std::move(of)), machine_(analysis::read_machine(of_.resolved)) {
+  const Prototype prototype(topics, machine_, of_.foot_path);
+  const Parts parts(prototype.table, machine_);
+
+  Blob blob;
+  Columns columns(parts.channels, blob);
+  Json head = Json::parse(
+      report::content({.table = prototype.table, .resolved = of_.resolved, .name = of_.name}).json);
+  head["duration"] = of_.duration;
+  head["phases"]["stretches"] = Json::array();
+  head["panels"] = Json::parse(to_json(panels(parts.channels, machine_.robot), columns));
+  head["scene"] = Json::parse(to_json(parts.scene, columns));
+  head.erase("charts");  // of the whole run
+  head["warnings"] = head["verdicts"] = Json::array();
+  head["summary"] = Json::object();
+  Blob::Layout layout = blob.layout();
+  std::ranges::fill(layout.clocks, 0);
+  head["samples"] = Json::parse(to_json(layout));
+  head_ = head.dump();
+  channels_ = columns.list();
+}
+
+Content Growing::content(const std::string& live) const {
+  return {machine_.title.empty() ? of_.name : machine_.title,
+          head_.substr(0, head_.size() - 1) + ",\"live\":" + live + "}",
+          to_base64(log::deflated(""))};
+}
+
+std::string Growing::piece(const Table& table) const {
+  const Parts parts(table, machine_);
+  Blob blob;
+  std::deque<std::vector<double>> no_values;  // each a place of its own: a column each
+  const std::vector<std::int64_t> no_times;
+  for (const Channel& channel : channels_) {
+    Samples samples = parts.channels.find(channel);
+    if (!samples) samples = {&no_times, &no_values.emplace_back(), ""};
+    blob.add(samples);
+  }
+  return "{\"samples\":" + to_json(blob.layout()) + ",\"data\":\"" + blob.base64() +
+         "\",\"phases\":" + phases_of(parts.record, machine_) + "}";
+}
+
+}  // namespace sinew::report

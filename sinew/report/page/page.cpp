@@ -1,0 +1,75 @@
+#include "sinew/report/page/page.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "sinew/report/page/content.h"
+#include "sinew/report/page/html.h"
+#include "sinew/report/page/page_template.h"
+
+namespace sinew::report {
+namespace {
+
+// JSON that no parser of HTML can take for the end of its script element.
+std::string harmless(std::string_view json) {
+  std::string out;
+  for (const char c : json) {
+    if (c == '<')
+      out += "\\u003c";
+    else
+      out += c;
+  }
+  return out;
+}
+
+}  // namespace
+
+bool has_page() { return !page_template().empty(); }
+
+void require_page(std::string_view file) {
+  if (has_page()) return;
+  throw std::runtime_error(
+      std::string(file) +
+      ": this sinew was built without its page, which npm bundles; try: install npm, then run npm "
+      "ci in web/ and build again");
+}
+
+std::string page(const Run& run) {
+  require_page("report.html");
+  return fill(page_template(), content(run));
+}
+
+std::string fill(std::string_view page_template, const Content& content) {
+  struct Place {
+    std::string_view mark;
+    std::string text;
+    std::size_t at = 0;
+  };
+  std::vector<Place> places = {{"@title@", escaped(content.title)},
+                               {"@run@", harmless(content.json)},
+                               {"@samples@", content.samples}};
+  constexpr std::string_view connect = "@connect@";
+  if (!content.connect.empty() || page_template.find(connect) != page_template.npos)
+    places.push_back({connect, content.connect});
+  std::size_t size = page_template.size();
+  for (Place& p : places) {
+    p.at = page_template.find(p.mark);
+    if (p.at == page_template.npos)
+      throw std::invalid_argument("a page's template without " + std::string(p.mark));
+    size += p.text.size();
+  }
+  std::ranges::sort(places, {}, &Place::at);
+
+  std::string out;
+  out.reserve(size);
+  std::size_t from = 0;
+  for (const Place& p : places) {
+    out += page_template.substr(from, p.at - from);
+    out += p.text;
+    from = p.at + p.mark.size();
+  }
+  out += page_template.substr(from);
+  return out;
+}
+
+}  // namespace sinew::report

@@ -1,0 +1,50 @@
+// report/page/page.h - a run as one self-contained page: report.html, which opens offline.
+//
+//   const std::string html = page({.table = table, .resolved = config::parse_file(...)});
+//
+// The look stands in web/ and is bundled into one template when the program is built; this folder
+// fills it. The page computes nothing: series, poses, figures and verdicts are all made here.
+// The same run gives the same bytes, whether from memory or from its log.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "sinew/config/node.h"
+#include "sinew/signals/table.h"
+
+namespace sinew::report {
+
+struct Run {
+  const signals::Table& table;   // what was logged
+  const config::Node& resolved;  // resolved.toml
+  std::string name;              // of the experiment; empty where nobody knows
+  std::string ended{};           // why it was not finished: then no verdicts; empty where it was
+};
+
+// Was the program built with its page? Without npm there is none.
+bool has_page();
+
+// Throws std::runtime_error, with what to do, where there is none; `file` would have been it.
+void require_page(std::string_view file);
+
+// Throws config::Error for a resolved.toml that cannot be read, and std::runtime_error, with what
+// to do, where the program was built without its page.
+std::string page(const Run& run);
+
+// The run's part of the page: a JSON object and the samples (blob.h).
+struct Content {
+  std::string title;
+  std::string json;
+  std::string samples;
+  std::string connect{};  // ends the page's security policy: "; connect-src ws://127.0.0.1:8080"
+};
+Content content(const Run& run);
+
+// A template has @title@, @run@ and @samples@ once each: in its <title>, in a script element of
+// type application/json and in one of another type. Whatever the texts hold cannot leave its
+// element. Throws std::invalid_argument for a template that lacks one. A page that is to connect to
+// somewhere has @connect@, too, at the end of its policy.
+std::string fill(std::string_view page_template, const Content& content);
+
+}  // namespace sinew::report

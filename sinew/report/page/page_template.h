@@ -1,0 +1,13 @@
+// report/page/page_template.h - the pages that web/ is bundled into, by the build.
+#pragma once
+
+#include <string_view>
+
+namespace sinew::report {
+
+// All are empty where the program was built without npm.
+std::string_view page_template();        // of one run
+std::string_view comparison_template();  // of several
+std::string_view fit_template();         // of an identification
+
+}  // namespace sinew::report

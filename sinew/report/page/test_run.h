@@ -1,0 +1,39 @@
+// report/page/test_run.h - a walk in closed form, with everything that a page can show of it.
+#pragma once
+
+#include <cmath>
+
+#include "sinew/analysis/test_log.h"
+
+namespace sinew::report::test {
+
+// Hip and knee swing, the trolley rolls, muscles breathe: no physics, but all topics of a run.
+inline signals::Table walking(const analysis::Machine& machine, int steps = 3) {
+  using analysis::test::constant;
+  analysis::test::Log log = analysis::test::walk(steps, 0.5, 0.2);
+  const auto swing = [](double middle, double by) {
+    return [=](double t) { return middle + by * std::sin(5 * t); };
+  };
+  for (const std::string prefix : {"/joint/", "/true/joint/", "/desired/joint/"}) {
+    log.scalar(prefix + "hip/angle", swing(5.0, 0.3));
+    log.scalar(prefix + "knee/angle", swing(5.3, -0.4));
+  }
+  log.scalar("/true/trolley/position", [](double t) { return 0.1 * t; });
+  for (const robot::Muscle& m : machine.robot.muscles) {
+    log.scalar("/muscle/" + m.name + "/tension", swing(20, 10));
+    log.scalar("/true/muscle/" + m.name + "/pressure", swing(2e5, 5e4));
+    log.pulses("/valve/" + m.name + "/inlet/open", 0.002, steps);
+  }
+  log.vector("/true/foot/force", constant(3), swing(20, 20));
+  log.vector("/desired/foot/position", swing(0, 0.1), constant(-0.33));
+  return log.table;
+}
+
+// Its machine, with braids, whose diameters are drawn.
+inline analysis::Machine machine() {
+  analysis::Machine m = analysis::test::walking_leg();
+  m.actuators.front().braid = {.thread_length = 0.107, .turns = 1.5};
+  return m;
+}
+
+}  // namespace sinew::report::test
