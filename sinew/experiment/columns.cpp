@@ -204,7 +204,7 @@ void true_muscle_columns(const robot::Robot& robot, Columns& out) {
                [i](const Moment& m) { return m.truth.air_in[i]; });
     out.scalar(at + "/air_out", "kg", "to the atmosphere since the start",
                [i](const Moment& m) { return m.truth.air_out[i]; });
-    const robot::Leak& leak = robot.muscles[i].leak;
+    const gas::Leak& leak = robot.muscles[i].leak;
     if (leak.area > 0 || leak.conductance > 0)
       out.scalar(at + "/air_leaked", "kg", "to the atmosphere, past the valves, since the start",
                  [i](const Moment& m) { return m.truth.air_leaked[i]; });

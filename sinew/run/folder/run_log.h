@@ -11,13 +11,15 @@
 
 namespace sinew::run {
 
-// The experiment that a log says that it is of; empty where it does not.
+// Returns the experiment that a log says that it is of; empty where it does not. Throws log::Error
+// where it cannot be read, as do the next two.
 std::string experiment_in(const std::filesystem::path& log);
 
-// Why its run was ended before it was finished, in the words of cause_of(); empty where it was not.
+// Returns why its run was ended before it was finished, in the words of cause_of(); empty where it
+// was not.
 std::string ended_in(const std::filesystem::path& log);
 
-// For what speaks of whole runs only. Throws std::runtime_error where the log's run was ended.
+// Throws std::runtime_error where the log's run was ended: for what speaks of whole runs only.
 void require_finished(const std::filesystem::path& log);
 
 class RunLog {
@@ -26,10 +28,10 @@ class RunLog {
   RunLog(const std::filesystem::path& file, const std::string& name, int seed,
          const std::string& resolved, experiment::LoggedTopics logged);
 
-  // A table that is there already, in the order of its times.
+  // Writes a table that is there already, in the order of its times.
   void write(const signals::Table& table);
 
-  // The log must outlive the run.
+  // Makes a run of these options write to the log, which must outlive the run.
   void tap(experiment::RunOptions& options);
 
   // Indexes the file. Without it, the file is one that was cut off. `resolved`: what was run after
