@@ -58,8 +58,7 @@ inline double transfer_time(const Flow& flow, const Air& air, double volume, dou
   if (shut || !(side * (to - port) > 0)) return std::numeric_limits<double>::infinity();
 
   // Distances |P - port| of start, kinks and end, descending.
-  const bool iso = flow.law == Flow::Law::iso6358;
-  const double critical = iso ? flow.critical_pressure_ratio : critical_pressure_ratio();
+  const double critical = critical_ratio(flow);
   const double start = side * (from - port), end = side * (to - port);
   const auto kink = [&](double ratio) {
     const double distance = side < 0 ? port * (1.0 - ratio) : port * (1.0 / ratio - 1.0);

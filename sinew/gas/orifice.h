@@ -21,7 +21,8 @@
 // and the maximum is the choking. y is 1/7 of a power whatever the exponent of the chamber (air.h).
 //
 // Departures: exact C_m in SI - the thesis's R = 53.34 in [44] lacks g_c (wrong by 5.67 if taken as
-// printed), its code rounds to .0165 and .064, which jump by .38 % at the limit 1.89. The upstream
+// printed). Its code rounds to .0165 and .064, which jump by .38 % at the limit 1.89, and to 83.66
+// for what is 83.62 in front of them: Law::appendix_a, for whoever repeats its runs. The upstream
 // temperature is the constant `air.temperature`, also for flow out of a chamber, as in appendix A.
 #pragma once
 
@@ -29,6 +30,7 @@
 
 #include "sinew/gas/air.h"
 #include "sinew/gas/valve.h"
+#include "sinew/units/constants.h"
 
 namespace sinew::gas {
 
@@ -50,6 +52,27 @@ inline double choked_parameter(double gas_constant, double gamma = heat_capacity
 // C_m of the free orifice without the root of the pressure ratio, [44] lower line  [sqrt(kg K/J)].
 inline double free_parameter(double gas_constant, double gamma = heat_capacity_ratio) {
   return std::sqrt(2.0 * gamma / (gas_constant * (gamma - 1.0)));
+}
+
+// The orifice as appendix A's code has it: in3/s of its standard air for each C_m and psi, that
+// air, A_p C_q and P_up/P_down from which it is choked; C_m in sqrt(slug degR/(ft lbf)), choked and
+// free. The upstream temperature, 528 degR, is in the first.
+inline constexpr double appendix_factor = 83.66, appendix_density = 1.349e-6;  // [slug/in^3]
+inline constexpr double appendix_area = 1.8e-5, appendix_limit = 1.89;         // [ft^2], [-]
+inline constexpr double appendix_choked = 0.0165, appendix_free = 0.064;
+
+// m'/(A P_up) of one of these coefficients  [s/m].
+constexpr double appendix_gain(double coefficient) {
+  return appendix_factor * coefficient * (appendix_density * units::slug / units::psi) /
+         (appendix_area * (units::foot * units::foot));
+}
+
+// Of Law::appendix_a, for P_down <= P_up; no linear part  [kg/s].
+inline double mass_flow_appendix_a(double effective_area, double upstream, double downstream) {
+  const double scale = effective_area * upstream, ratio = downstream / upstream;
+  if (upstream >= appendix_limit * downstream) return scale * appendix_gain(appendix_choked);
+  return scale * appendix_gain(appendix_free) *
+         std::sqrt(units::power(ratio, 2.0 / 1.4) - units::power(ratio, 2.4 / 1.4));
 }
 
 // [42]-[44] as they stand, for P_down <= P_up and any gamma; no linear part  [kg/s].
@@ -84,6 +107,12 @@ inline double effective_area_of(double sonic_conductance, const Air& air) {
   return sonic_conductance / sonic_conductance_of(1.0, air);  // [m^2]
 }
 
+// P_down/P_up at and below which the flow is choked, by the valve's law  [-].
+constexpr double critical_ratio(const Flow& flow) {
+  if (flow.law == Flow::Law::iso6358) return flow.critical_pressure_ratio;
+  return flow.law == Flow::Law::appendix_a ? 1.0 / appendix_limit : critical_pressure_ratio();
+}
+
 // Are the pressures so near to each other that the flow is the straight line's, not the law's?
 constexpr bool in_linear_part(const Flow& flow, double pressure_a, double pressure_b) {
   const double up = pressure_a > pressure_b ? pressure_a : pressure_b;
@@ -101,6 +130,8 @@ inline double mass_flow(const Flow& flow, const Air& air, double pressure_a, dou
     if (flow.law == Flow::Law::iso6358)
       return mass_flow_iso6358(flow.sonic_conductance, flow.critical_pressure_ratio, up,
                                air.temperature, lower);
+    if (flow.law == Flow::Law::appendix_a)
+      return mass_flow_appendix_a(flow.area * flow.efficiency, up, lower);
     return mass_flow(flow.area * flow.efficiency, up, air.temperature, lower, air);
   };
 
@@ -121,6 +152,7 @@ constexpr double pressure_of_y(const Air& air, double y) {
 // One valve's law with everything constant multiplied out.
 struct FlowConstants {
   double gain = 0;         // of the root [kg/s]
+  double choked_gain = 0;  // the same where it is choked: another one in appendix A alone [kg/s]
   double choke = 1;        // orifice: r_c^(1/7) = sqrt(5/6); ISO: b [-]
   double spread = 0;       // ISO: 1/(1 - b) [-]
   double linear_gain = 0;  // of y_a^7 - y_b^7 [kg/s]
@@ -149,7 +181,8 @@ inline double flow_y(const FlowConstants& c, double y_a, double y_b) {
 
   const double factor = c.iso > 0 ? 1.0 : d2 * d2 * d * up;
   const double inside = c.iso > 0 ? p_up * p_up - share * share : up2 - d2;
-  const double free = c.gain * factor * std::sqrt(inside > 0 ? inside : 0.0);
+  const double gain = down > limit ? c.gain : c.choked_gain;
+  const double free = gain * factor * std::sqrt(inside > 0 ? inside : 0.0);
   const double linear = c.linear_gain * (p_up - p_down);
 
   const double size = down > c.linear_from * up ? linear : free;
@@ -164,11 +197,20 @@ inline FlowConstants flow_constants(const Flow& flow, const Air& air) {
              std::sqrt(iso_temperature / air.temperature);
     c.choke = flow.critical_pressure_ratio;
     c.spread = 1.0 / (1.0 - flow.critical_pressure_ratio);
+  } else if (flow.law == Flow::Law::appendix_a) {
+    const double scale = flow.area * flow.efficiency * air.atmosphere;
+    c.gain = scale * appendix_gain(appendix_free);
+    c.choke = units::power(1.0 / appendix_limit, 1.0 / 7.0);
+    // Choked, the root stands at its value at the limit, which is not .0165 there.
+    const double d2 = c.choke * c.choke;
+    c.choked_gain =
+        scale * appendix_gain(appendix_choked) / (d2 * d2 * c.choke * std::sqrt(1.0 - d2));
   } else {
     c.gain = flow.area * flow.efficiency * air.atmosphere * free_parameter(air.gas_constant) /
              std::sqrt(air.temperature);
     c.choke = std::sqrt(2.0 / (heat_capacity_ratio + 1.0));
   }
+  if (flow.law != Flow::Law::appendix_a) c.choked_gain = c.gain;
 
   // The linear part passes through zero and through the law at linear_below.
   if (flow.linear_below > 0) {

@@ -237,24 +237,28 @@ TEST(Flow, scales_with_area_pressure_and_temperature) {
 TEST(Flow, lanes_have_the_bits_of_the_scalar) {
   constexpr int lanes = 64;
   const Air air;
-  const FlowConstants c[2] = {flow_constants(orifice(), air), flow_constants(iso(), air)};
-  double gain[lanes], choke[lanes], spread[lanes], slope[lanes], from[lanes], is_iso[lanes];
+  Flow rounded = orifice();
+  rounded.law = Flow::Law::appendix_a;
+  const FlowConstants c[3] = {flow_constants(orifice(), air), flow_constants(iso(), air),
+                              flow_constants(rounded, air)};
+  double gain[lanes], choked[lanes], choke[lanes], spread[lanes], slope[lanes], from[lanes],
+      is_iso[lanes];
   double a[lanes], b[lanes], out[lanes];
   std::mt19937_64 random(5);
   for (int i = 0; i < lanes; ++i) {
-    const FlowConstants& k = c[i % 2];
-    gain[i] = k.gain, choke[i] = k.choke, spread[i] = k.spread;
+    const FlowConstants& k = c[i % 3];
+    gain[i] = k.gain, choked[i] = k.choked_gain, choke[i] = k.choke, spread[i] = k.spread;
     slope[i] = k.linear_gain, from[i] = k.linear_from, is_iso[i] = k.iso;
     a[i] = y_of(air, any_pressure(random));
     b[i] = i % 5 ? y_of(air, any_pressure(random)) : a[i] * (1 + 1e-5 * (i - 30));
   }
   for (int i = 0; i < lanes; ++i) {
-    const FlowConstants k{gain[i], choke[i], spread[i], slope[i], from[i], is_iso[i]};
+    const FlowConstants k{gain[i], choked[i], choke[i], spread[i], slope[i], from[i], is_iso[i]};
     out[i] = flow_y(k, a[i], b[i]);
   }
   for (int i = 0; i < lanes; ++i) {
     volatile double ya = a[i], yb = b[i];
-    EXPECT_EQ(out[i], flow_y(c[i % 2], ya, yb));
+    EXPECT_EQ(out[i], flow_y(c[i % 3], ya, yb));
   }
 }
 

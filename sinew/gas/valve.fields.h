@@ -13,10 +13,15 @@ namespace sinew::gas {
 
 template <class Visitor>
 void fields(Visitor& v, Flow& flow) {
-  v.choice({.name = "law", .doc = "orifice [42]-[44], or ISO 6358"}, flow.law,
-           {{"orifice", Flow::Law::orifice}, {"iso6358", Flow::Law::iso6358}});
+  v.choice(
+      {.name = "law",
+       .doc = "orifice [42]-[44], the same with appendix A's rounded coefficients, or ISO 6358"},
+      flow.law,
+      {{"orifice", Flow::Law::orifice},
+       {"appendix-a", Flow::Law::appendix_a},
+       {"iso6358", Flow::Law::iso6358}});
 
-  const bool orifice = flow.law == Flow::Law::orifice;
+  const bool orifice = flow.law != Flow::Law::iso6358;
   v.number({.name = "area",
             .unit = "m2",
             .min = 0,
@@ -50,7 +55,7 @@ void fields(Visitor& v, Flow& flow) {
     units::complain(v, "sonic_conductance", "a key of law = \"iso6358\"", "area and efficiency");
   }
   if (!orifice && flow.area > 0) {
-    units::complain(v, "area", "a key of law = \"orifice\"",
+    units::complain(v, "area", "a key of law = \"orifice\" or \"appendix-a\"",
                     "sonic_conductance and critical_pressure_ratio");
   }
 }

@@ -14,10 +14,10 @@ namespace sinew::gas {
 
 // Mass flow through the open valve.
 struct Flow {
-  enum class Law { orifice, iso6358 };
+  enum class Law { orifice, appendix_a, iso6358 };  // appendix_a: rounded as its code has it
   Law law = Law::orifice;
 
-  // Law::orifice, [42]-[44]
+  // Law::orifice and appendix_a, [42]-[44]
   double area = 0;        // A_p C_q lumped, [43]  [m^2]
   double efficiency = 1;  // times the flow, 3.4 (0.85)  [-]
 

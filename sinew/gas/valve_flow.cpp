@@ -18,7 +18,7 @@ ValveFlow flow_through(const Flow& flow, const Air& air, double upstream, double
   out.linear = upstream != downstream && in_linear_part(flow, upstream, downstream);
   out.normal_flow = out.mass_flow / iso_density;
   out.ratio = low / high;
-  out.critical_ratio = iso ? flow.critical_pressure_ratio : critical_pressure_ratio();
+  out.critical_ratio = critical_ratio(flow);
   out.area = iso ? effective_area_of(flow.sonic_conductance, air) : flow.area * flow.efficiency;
   out.sonic_conductance = iso ? flow.sonic_conductance : sonic_conductance_of(out.area, air);
   return out;
