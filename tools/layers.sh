@@ -12,7 +12,7 @@ layers='
     gas             units
     actuator        units
     muscle          gas actuator signals
-    robot           actuator signals
+    robot           gas actuator signals
     control/joint   signals
     control/supervise  control/joint signals
     control/gait    robot signals
@@ -32,7 +32,7 @@ layers='
     identify/valve  identify/data gas signals
     identify/sensor identify/data robot
     identify/page   identify/fit report
-    analysis        signals robot actuator config
+    analysis        signals robot gas actuator config
     report/page     analysis log robot
     report/figures  report/page
     report/compare  report/page

@@ -25,7 +25,7 @@ double mean_duty(const Figures& f, const robot::Muscle& m, const char* what) {
 struct Switching {
   bool logged = false;
   Edges electrical, delivered;
-  Coil coil;
+  gas::Coil coil;
 };
 
 // `of` is what the valve belongs to, "hip_flexor".

@@ -7,6 +7,7 @@
 #include "sinew/actuator/actuator.fields.h"
 #include "sinew/analysis/reported.fields.h"
 #include "sinew/config/reader.h"
+#include "sinew/gas/delay.h"
 #include "sinew/robot/kinematics.h"
 #include "sinew/robot/robot.fields.h"
 
@@ -23,75 +24,63 @@ struct Named {
   std::string name;
 };
 
-// What of a valve's table says when it opens, and what its coil takes.
-struct ValveTable {
-  enum class Kind { two_way, three_way, regulator };
-  enum class Profile { ideal, dead_time, ramp };
-  enum class Drive { standard, speed_up };
-
-  std::string name;
-  Kind kind = Kind::two_way;
-  Profile profile = Profile::dead_time;
-  Drive drive = Drive::standard;
-  double opening_delay = 0, closing_delay = 0, opening_ramp = 0, closing_ramp = 0;
-  double fast_opening = 0, fast_closing = 0;  // delays with speed-up
-  Coil coil;
-};
-
 template <class Visitor>
 void seconds(Visitor& v, std::string_view name, double& value) {
   v.number({.name = name, .unit = "s", .min = 0, .optional = true}, value);
 }
 
 template <class Visitor>
-void coil_fields(Visitor& v, Coil& coil) {
+void coil_fields(Visitor& v, gas::Coil& coil) {
   v.number({.name = "power", .unit = "W", .min = 0, .optional = true}, coil.power);
   v.number({.name = "boost_power", .unit = "W", .min = 0, .optional = true}, coil.boost_power);
   seconds(v, "boost_time", coil.boost_time);
 }
 
+// What of a valve's table says when it opens, and what its coil takes. Logs from elsewhere need
+// have no more, and no key that the laws of its flow ask for.
 template <class Visitor>
-void fields(Visitor& v, ValveTable& valve) {
+void timing_fields(Visitor& v, gas::Valve& valve) {
+  using gas::Valve;
   v.choice({.name = "kind", .optional = true, .doc = "what it joins"}, valve.kind,
-           {{"2-way", ValveTable::Kind::two_way},
-            {"3-way", ValveTable::Kind::three_way},
-            {"regulator", ValveTable::Kind::regulator}});
+           {{"2-way", Valve::Kind::two_way},
+            {"3-way", Valve::Kind::three_way},
+            {"regulator", Valve::Kind::regulator}});
   v.choice({.name = "profile", .optional = true, .doc = "of the shutter"}, valve.profile,
-           {{"ideal", ValveTable::Profile::ideal},
-            {"dead time", ValveTable::Profile::dead_time},
-            {"ramp", ValveTable::Profile::ramp}});
+           {{"ideal", Valve::Profile::ideal},
+            {"dead time", Valve::Profile::dead_time},
+            {"ramp", Valve::Profile::ramp}});
   seconds(v, "opening_delay", valve.opening_delay);
   seconds(v, "closing_delay", valve.closing_delay);
   seconds(v, "opening_ramp", valve.opening_ramp);
   seconds(v, "closing_ramp", valve.closing_ramp);
   v.choice({.name = "drive", .optional = true, .doc = "of the coil"}, valve.drive,
-           {{"standard", ValveTable::Drive::standard}, {"speed-up", ValveTable::Drive::speed_up}});
+           {{"standard", Valve::Drive::standard}, {"speed-up", Valve::Drive::speed_up}});
   v.group({.name = "speed_up", .optional = true}, [&](auto& g) {
-    seconds(g, "opening_delay", valve.fast_opening);
-    seconds(g, "closing_delay", valve.fast_closing);
+    seconds(g, "opening_delay", valve.speed_up.opening);
+    seconds(g, "closing_delay", valve.speed_up.closing);
   });
   v.group({.name = "coil", .optional = true}, [&](auto& g) { coil_fields(g, valve.coil); });
 }
 
-MachineValve what_matters(const ValveTable& valve) {
+MachineValve what_matters(const gas::Valve& valve) {
   MachineValve out{.name = valve.name, .coil = valve.coil};
-  out.seals = valve.kind != ValveTable::Kind::three_way;
-  const bool fast = valve.drive == ValveTable::Drive::speed_up;
-  if (!fast) out.coil.boost_power = out.coil.boost_time = 0;
-  if (valve.profile == ValveTable::Profile::ideal) return out;
-  out.shut = fast ? valve.fast_opening : valve.opening_delay;
-  out.opening = out.shut + 0.5 * valve.opening_ramp;
-  out.closing = (fast ? valve.fast_closing : valve.closing_delay) + 0.5 * valve.closing_ramp;
+  out.seals = valve.kind != gas::Valve::Kind::three_way;
+  if (valve.drive != gas::Valve::Drive::speed_up) out.coil.boost_power = out.coil.boost_time = 0;
+  if (valve.profile == gas::Valve::Profile::ideal) return out;
+  const gas::Delays delays = gas::delays(valve);
+  out.shut = delays.opening;
+  out.opening = delays.opening + 0.5 * valve.opening_ramp;
+  out.closing = delays.closing + 0.5 * valve.closing_ramp;
   return out;
 }
 
 void read_parts(config::Reader& reader, Machine& m) {
   robot::fields(reader, m.robot);
   actuator::fields(reader, m.actuators);
-  std::vector<ValveTable> valves;
+  std::vector<gas::Valve> valves;
   reader.each({.name = "valve", .optional = true}, valves,
-              [](auto& g, ValveTable& valve) { fields(g, valve); });
-  for (const ValveTable& valve : valves) m.valves.push_back(what_matters(valve));
+              [](auto& g, gas::Valve& valve) { timing_fields(g, valve); });
+  for (const gas::Valve& valve : valves) m.valves.push_back(what_matters(valve));
 }
 
 template <class Visitor>

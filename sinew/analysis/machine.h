@@ -21,7 +21,7 @@ namespace sinew::analysis {
 struct MachineValve {
   std::string name;
   double opening = 0, closing = 0;  // from the edge until half of the way is done; ideal: 0 [s]
-  Coil coil;
+  gas::Coil coil;
   bool seals = true;  // false: a 3-way valve, which joins its muscle to the supply or to the room
   double shut = 0;    // from the edge that opens it until the shutter moves [s]
 };

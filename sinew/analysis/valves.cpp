@@ -51,7 +51,7 @@ double open_time(const Edges& edges, double from, double to) {
   return time_in_pulses(edges, from, to, never);
 }
 
-double coil_energy(const Edges& electrical, const Coil& coil, double from, double to) {
+double coil_energy(const Edges& electrical, const gas::Coil& coil, double from, double to) {
   const double boosted = time_in_pulses(electrical, from, to, coil.boost_time);
   return coil.power * open_time(electrical, from, to) + (coil.boost_power - coil.power) * boosted;
 }

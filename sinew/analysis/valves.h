@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "sinew/gas/valve.h"
+
 namespace sinew::analysis {
 
 struct Edge {
@@ -18,13 +20,6 @@ struct Edge {
 };
 
 using Edges = std::vector<Edge>;
-
-// Electrical power of a valve's coil while it is on; with a boost, for the first boost_time of
-// every pulse, boost_power instead.
-struct Coil {
-  double power = 0, boost_power = 0;  // [W]
-  double boost_time = 0;              // [s]
-};
 
 // Shut before the first one; an edge to where the valve stands already is none.
 Edges edges_of(std::span<const std::int64_t> time_ns, std::span<const double> open);
@@ -36,7 +31,7 @@ double open_time(const Edges&, double from, double to);
 
 // What the coil takes of the battery within [from, to), of electrical edges:
 //   E = P t_on + (P_boost - P) min(t_on, t_boost) for each pulse  [J]
-double coil_energy(const Edges& electrical, const Coil& coil, double from, double to);
+double coil_energy(const Edges& electrical, const gas::Coil& coil, double from, double to);
 
 // Times that it opens within [from, to).
 int openings(const Edges&, double from, double to);

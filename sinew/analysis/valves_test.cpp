@@ -57,7 +57,7 @@ TEST(Valves, CoilEnergyIsPowerByTimeAndTheBoostOfEveryPulse) {
     for (const Edge& e : pulse(edges.empty() ? 0.1 : edges.back().time + 1e-3, length))
       edges.push_back(e);
   EXPECT_NEAR(coil_energy(edges, {.power = 3}, 0, 1), 3 * 8.5e-3, 1e-15);
-  const Coil boosted{.power = 1, .boost_power = 9, .boost_time = 1e-3};
+  const gas::Coil boosted{.power = 1, .boost_power = 9, .boost_time = 1e-3};
   EXPECT_NEAR(coil_energy(edges, boosted, 0, 1), 8.5e-3 + 8 * (0.5e-3 + 1e-3 + 1e-3), 1e-15);
 }
 
@@ -68,7 +68,7 @@ TEST(Valves, CoilEnergyOfPartsAddsUp) {
   Edges edges;
   for (int i = 0; i < 100; ++i)
     for (const Edge& e : pulse(0.01 * i, length(random))) edges.push_back(e);
-  const Coil coil{.power = 1.5, .boost_power = 12, .boost_time = 2e-3};
+  const gas::Coil coil{.power = 1.5, .boost_power = 12, .boost_time = 2e-3};
   const double all = coil_energy(edges, coil, 0, 1);
   for (int i = 0; i < 100; ++i) {
     const double cut = anywhere(random);

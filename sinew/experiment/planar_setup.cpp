@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "sinew/experiment/faults.h"
-#include "sinew/experiment/hose_of.h"
 #include "sinew/robot/actuator_of.h"
 
 namespace sinew::experiment {
@@ -59,8 +58,8 @@ plant::Setup planar_setup(const Experiment& e) {
     out.actuator = robot::actuator_of(m, e.actuators);
     if (const gas::Valve* v = find_valve(e, m.inlet)) out.inlet = *v;
     if (const gas::Valve* v = find_valve(e, m.exhaust)) out.exhaust = *v;
-    out.hose = hose_of(m.hose);
-    out.leak = {.area = m.leak.area, .conductance = m.leak.conductance};
+    out.hose = m.hose;
+    out.leak = m.leak;
     s.muscles.push_back(std::move(out));
   }
   for (const robot::Joint& j : e.robot.joints) {

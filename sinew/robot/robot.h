@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/gas/hose.h"
+#include "sinew/gas/leak.h"
 #include "sinew/robot/control.h"
 
 namespace sinew::robot {
@@ -84,23 +86,6 @@ struct Cam {
   std::vector<double> angle, radii;  // ascending [rad], [m]; empty: round
 };
 
-// Between a muscle and its valves; gas/hose.h has the laws.
-struct Hose {
-  enum class Law { none, iso6358, pipe };
-  Law law = Law::none;
-  double sonic_conductance = 0;        // iso6358: [m^3/(s Pa)]
-  double critical_pressure_ratio = 0;  // iso6358: [-]
-  double length = 0;                   // pipe: [m]
-  double inner_diameter = 0;           // pipe: [m]
-  double volume = 0;  // its air as a chamber of its own, beside external_volume; 0: none [m^3]
-};
-
-// What a muscle loses to the room; gas/leak.h.
-struct Leak {
-  double area = 0;         // effective, of a hole [m^2]
-  double conductance = 0;  // of a porous wall or a seal [kg/(s Pa)]
-};
-
 // Actuators in parallel that pull one joint one way, with their air and valves.
 struct Muscle {
   enum class Role { flexor, extensor };
@@ -125,8 +110,8 @@ struct Muscle {
   double bladder_rest_length = not_set;  // [m]
   std::string inlet, exhaust;            // names in the valves file; no exhaust with a 3-way inlet
   int inlet_bit = 0, exhaust_bit = 8;    // of the output port, B.1
-  Hose hose;
-  Leak leak;
+  gas::Hose hose;                        // between it and its valves
+  gas::Leak leak;                        // to the room
 };
 
 struct Foot {

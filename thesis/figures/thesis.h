@@ -38,8 +38,11 @@ struct Sources {
 // Throws config::Error where root is no folder of the project.
 Sources sources(const std::string& root);
 
-// All of them, in the order of the thesis, made step by step; `done` counts the steps.
+// Returns how many steps gallery() has.
 std::int64_t steps();
+
+// Returns all figures in the order of the thesis, made step by step; `done` counts the steps.
+// Throws config::Error where an experiment cannot be read.
 report::Gallery gallery(const Sources&, std::atomic<std::int64_t>& done);
 
 Exhibits chapter_2(const Sources&);
@@ -66,10 +69,10 @@ class Section {
   std::string where_;
 };
 
-// A verdict on a summary's key, its key in words where we have them.
+// Returns a verdict on a summary's key, its key in words where we have them.
 report::Claim in_words(const analysis::Verdict& verdict);
 
-// "knee flexor" of knee_flexor.
+// Returns "knee flexor" of knee_flexor.
 std::string in_words(std::string name);
 
 inline report::Trace trace(const report::Curve& curve) { return {curve.xs, curve.ys}; }

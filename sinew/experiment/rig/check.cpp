@@ -90,7 +90,7 @@ void check_element(const Experiment& e, Findings& out) {
     out.unused(!e.element.actuator.empty(), "element.actuator", "an element without a cylinder");
     out.unused(e.element.count != 1, "element.count", "a muscle");
     out.unused(e.element.external_volume > 0, "element.external_volume", "a muscle");
-    if (e.element.hose.law != robot::Hose::Law::none || e.element.leak.area > 0 ||
+    if (e.element.hose.law != gas::Hose::Law::none || e.element.leak.area > 0 ||
         e.element.leak.conductance > 0)
       out.add("element.cylinder", "a hose or a leak beside it", "those of a muscle");
     if (!(c.stroke > 0 && c.dead_volume > 0 && c.rod_diameter < c.bore))

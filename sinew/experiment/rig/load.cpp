@@ -2,7 +2,6 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/writer.h"
-#include "sinew/experiment/hose_of.h"
 #include "sinew/experiment/rig/check.h"
 #include "sinew/experiment/rig/rig.fields.h"
 
@@ -52,8 +51,8 @@ plant::StandSetup setup_of(const Experiment& e) {
     s.muscle = {.name = e.element.name,
                 .count = e.element.count,
                 .external_volume = e.element.external_volume,
-                .hose = experiment::hose_of(e.element.hose),
-                .leak = {.area = e.element.leak.area, .conductance = e.element.leak.conductance}};
+                .hose = e.element.hose,
+                .leak = e.element.leak};
     for (const actuator::Actuator& a : e.actuators)
       if (a.name == e.element.actuator) s.muscle.actuator = a;
     if (inlet) s.muscle.inlet = *inlet;

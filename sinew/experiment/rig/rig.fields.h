@@ -72,9 +72,9 @@ void fields(Visitor& v, Element& e) {
          e.inlet);
   v.text({.name = "exhaust", .optional = true, .doc = "of files.valves"}, e.exhaust);
   v.group({.name = "hose", .optional = true, .doc = "between valves and element"},
-          [&](auto& g) { robot::fields(g, e.hose); });
+          [&](auto& g) { gas::fields(g, e.hose); });
   v.group({.name = "leak", .optional = true, .doc = "to the room"},
-          [&](auto& g) { robot::fields(g, e.leak); });
+          [&](auto& g) { gas::fields(g, e.leak); });
   v.group({.name = "cylinder", .optional = true, .doc = "an air cylinder in the muscle's place"},
           [&](auto& g) { fields(g, e.cylinder); });
 }

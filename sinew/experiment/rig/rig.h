@@ -33,8 +33,8 @@ struct Element {
   int count = 1;               // side by side
   double external_volume = 0;  // downstream of the valves [m^3]
   std::string inlet, exhaust;  // of files.valves; a 3-way valve stands at the inlet
-  robot::Hose hose;
-  robot::Leak leak;
+  gas::Hose hose;
+  gas::Leak leak;
   Cylinder cylinder;
 };
 

@@ -26,8 +26,8 @@ struct FigureFiles {
 std::string write_figures(const std::filesystem::path& folder, report::Gallery gallery,
                           const FigureFiles& options, const Notices& notices);
 
-// The files that the folder's index.json lists, and the index, which comes last. None where there
-// is no index of figures.
+// Returns the files that the folder's index.json lists, and the index, which comes last; none where
+// there is no index of figures.
 std::vector<std::string> figures_in(const std::filesystem::path& folder);
 
 }  // namespace sinew::run

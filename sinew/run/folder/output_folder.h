@@ -12,7 +12,8 @@
 
 namespace sinew::run {
 
-// With those above it; there already is fine. Throws config::Error where it cannot be made.
+// Makes a folder with those above it; one that is there already is fine. Throws config::Error where
+// it cannot be made.
 void make_folders(const std::filesystem::path& folder);
 
 class OutputFolder {
@@ -24,16 +25,18 @@ class OutputFolder {
   OutputFolder(OutputFolder&& other) noexcept;
   OutputFolder& operator=(OutputFolder&&) = delete;
 
-  // The folder itself, and where to write: the stage where there is one, else the folder.
+  // Return the folder itself, and where to write: the stage where there is one, else the folder.
   const std::filesystem::path& path() const { return path_; }
   const std::filesystem::path& work() const { return stage_.empty() ? path_ : stage_; }
   bool staged() const { return !stage_.empty(); }
 
-  // From now on a folder within, which must not be there or be empty, is where to write.
+  // Makes a folder within, which must not be there or be empty, the place where to write. Throws
+  // config::Error.
   void stage(const std::string& name);
 
   // Syncs what was written. From a stage it takes the place of what has its names and of
-  // `replaced`, files within the folder; then the stage is gone.
+  // `replaced`, files within the folder; then the stage is gone. Throws config::Error; then either
+  // the old files stand, or the next process that comes to the folder does the rest.
   void commit(const std::vector<std::string>& replaced);
 
  private:
@@ -41,8 +44,8 @@ class OutputFolder {
   int fd_ = -1;
 };
 
-// Where a process was killed while its files took their places: the rest of that. For those who
-// read from a folder; nothing else is touched.
+// Does the rest where a process was killed while its files took their places. For those who read
+// from a folder; nothing else is touched. Throws config::Error.
 void finish_replacing(const std::filesystem::path& folder);
 
 }  // namespace sinew::run

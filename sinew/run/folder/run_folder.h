@@ -19,34 +19,39 @@ inline constexpr std::string_view figures_name = "figures";  // a folder
 
 inline constexpr std::string_view unfinished_name = "unfinished";  // a folder: the next run
 
-// Where a run is kept, locked for this process. `asked` is made where it is missing; one that holds
-// anything is refused, unless `force`. Where a run is in it already, the new one is written into
-// unfinished/ within, until commit_run().
+// Returns the folder where a run is kept, locked for this process. `asked` is made where it is
+// missing; one that holds anything is refused, unless `force`. Where a run is in it already, the
+// new one is written into unfinished/ within, until commit_run().
 //
-// Where `asked` is empty: runs/<experiment>/<n>, n one above the highest there is. No number is
-// ever used again while its folder stands, also when several runs start at once.
+// Where `asked` is empty it is runs/<experiment>/<n>, n one above the highest there is. No number
+// is ever used again while its folder stands, also when several runs start at once. Throws
+// config::Error for a folder that cannot be made, is refused, or that another process writes to.
 OutputFolder run_folder(const std::string& asked, bool force, const std::string& experiment);
 
-// The run is whole: it takes the place of an earlier one's files, and of nothing else.
+// Says that the run is whole: it takes the place of an earlier one's files, and of nothing else.
+// Throws config::Error where a file cannot take its place; the next process that comes to the
+// folder does the rest.
 void commit_run(OutputFolder& folder);
 
-// For the error of a run that did not become whole: what stands where. Empty where nothing was
-// there before it.
+// Returns what stands where, for the error of a run that did not become whole; empty where nothing
+// was there before it.
 std::string where_left(const OutputFolder& folder);
 
-// A file of the run. Throws log::Error.
+// Writes a file of the run. Throws log::Error.
 void write_into(const OutputFolder& folder, std::string_view name, std::string_view text);
 
-// Finds the files of a run that `sinew analyze`, `export` or `replay` is given by its folder or its
-// log. Finishes a replacement that a killed process left half done there.
+// The files of a run that is kept.
 struct RecordedRun {
   std::filesystem::path log;
   std::filesystem::path resolved;  // need not exist
 };
+
+// Finds the files of a run by its folder or its log. Finishes a replacement that a killed process
+// left half done there. Throws config::Error where there is no run, or none with a log.
 RecordedRun recorded_run(const std::filesystem::path& named);
 
-// The run's resolved.toml, or `instead` where it is not empty; throws config::Error where there is
-// no such file.
+// Returns the run's resolved.toml, or `instead` where it is not empty. Throws config::Error where
+// there is no such file.
 std::filesystem::path machine_of(const RecordedRun& run, const std::string& instead);
 
 }  // namespace sinew::run

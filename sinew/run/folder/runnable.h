@@ -10,8 +10,9 @@
 
 namespace sinew::run {
 
-// The experiment, its machine, plan, controller, channels and what is reported of it. Throws
-// config::Error by the files' own lines; with `allow_unreachable` a foot path may leave the reach.
+// Returns an experiment whose machine, plan, controller, channels and what is reported of it were
+// all looked at. `sets` are "key=value" in place of the file's. Throws config::Error by the files'
+// own lines; with `allow_unreachable` a foot path may leave the reach.
 experiment::Experiment runnable(const std::string& path, const std::vector<std::string>& sets,
                                 bool allow_unreachable);
 

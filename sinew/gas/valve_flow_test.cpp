@@ -1,0 +1,100 @@
+// What is told of a valve agrees with its law and with itself.
+#include "sinew/gas/valve_flow.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "sinew/gas/orifice.h"
+
+namespace sinew::gas {
+namespace {
+
+constexpr int trials = 500;
+
+struct Draw {
+  std::mt19937_64 random{7};
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  }
+  Flow flow() {
+    if (between(0, 1) < 0.5) return {.area = between(1e-7, 1e-5), .efficiency = between(0.5, 1)};
+    return {.law = Flow::Law::iso6358,
+            .sonic_conductance = between(1e-9, 1e-7),
+            .critical_pressure_ratio = between(0.1, 0.6)};
+  }
+};
+
+TEST(ValveFlow, swapped_ports_turn_the_flow_around_and_nothing_else) {
+  Draw draw;
+  const Air air;
+  for (int i = 0; i < trials; ++i) {
+    const Flow flow = draw.flow();
+    const double a = draw.between(5e4, 1e6), b = draw.between(5e4, 1e6);
+    const ValveFlow there = flow_through(flow, air, a, b), back = flow_through(flow, air, b, a);
+    EXPECT_EQ(there.mass_flow, -back.mass_flow);
+    EXPECT_EQ(there.mass_flow > 0, a > b);
+    EXPECT_EQ(there.ratio, back.ratio);
+    EXPECT_EQ(there.choked(), back.choked());
+  }
+}
+
+TEST(ValveFlow, what_an_area_equals_as_a_conductance_flows_the_same_when_choked) {
+  Draw draw;
+  const Air air;
+  for (int i = 0; i < trials; ++i) {
+    const Flow flow = draw.flow();
+    const double up = draw.between(4e5, 1e6);
+    const ValveFlow told = flow_through(flow, air, up, 0.05 * up);
+    ASSERT_TRUE(told.choked());
+    const Flow as_area{.area = told.area};
+    const Flow as_conductance{.law = Flow::Law::iso6358,
+                              .sonic_conductance = told.sonic_conductance,
+                              .critical_pressure_ratio = 0.3};
+    for (const Flow& other : {as_area, as_conductance})
+      EXPECT_NEAR(mass_flow(other, air, up, 0.05 * up), told.mass_flow, 1e-12 * told.mass_flow);
+  }
+}
+
+TEST(ValveFlow, the_linear_part_is_below_the_law_itself_and_says_so) {
+  Draw draw;
+  const Air air;
+  int linear = 0;
+  for (int i = 0; i < trials; ++i) {
+    const Flow flow = draw.flow();
+    const double up = draw.between(2e5, 1e6), down = up * (1 - draw.between(1e-6, 4e-3));
+    const ValveFlow told = flow_through(flow, air, up, down);
+    linear += told.linear;
+    if (told.linear) {
+      EXPECT_LT(told.mass_flow, told.law_flow);
+    } else {
+      EXPECT_EQ(told.mass_flow, told.law_flow);
+    }
+  }
+  EXPECT_GT(linear, trials / 20);
+  EXPECT_FALSE(flow_through(Flow{.area = 1e-6}, air, 2e5, 2e5).linear);
+}
+
+TEST(Transfers, take_longer_for_more_of_the_way_and_in_proportion_to_the_volume) {
+  Draw draw;
+  const Air air;
+  for (int i = 0; i < trials / 10; ++i) {
+    const Flow flow = draw.flow();
+    const ValveFlow f = flow_through(flow, air, draw.between(3e5, 9e5), draw.between(9e4, 2e5));
+    const std::vector<Transfer> one = transfers(flow, air, 1e-5, f);
+    const std::vector<Transfer> two = transfers(flow, air, 2e-5, f);
+    ASSERT_EQ(one.size(), two.size());
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      EXPECT_NEAR(two[k].fill, 2 * one[k].fill, 1e-9 * two[k].fill);
+      EXPECT_NEAR(two[k].vent, 2 * one[k].vent, 1e-9 * two[k].vent);
+      if (k == 0) continue;
+      EXPECT_GT(one[k].share, one[k - 1].share);
+      EXPECT_GT(one[k].fill, one[k - 1].fill);
+      EXPECT_GT(one[k].vent, one[k - 1].vent);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sinew::gas
