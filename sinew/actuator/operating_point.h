@@ -9,7 +9,7 @@
 
 namespace sinew::actuator {
 
-// What is around the actuator's air.
+// The surroundings of the actuator's air.
 struct Surroundings {
   double atmosphere = 0;           // that gauges read against [Pa]
   double polytropic_exponent = 0;  // of the air when valves are shut

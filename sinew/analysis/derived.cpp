@@ -194,7 +194,7 @@ std::vector<bool> loaded_rows(const Record& record, const Column& normal) {
   return out;
 }
 
-// What pushes the trolley: the friction forces of [75], as long as they count.
+// The trolley is pushed by the friction forces of [75], as long as they count.
 struct Pushes {
   Column by_plan, loaded;  // [N]
 };

@@ -17,7 +17,7 @@ std::size_t edges(const signals::Series& s, std::int64_t end) {
   return static_cast<std::size_t>(it - s.time_ns.begin());
 }
 
-// Where two trains of edges part.
+// Finds the first edge at which two trains part.
 std::optional<EdgeDifference> difference(const signals::Series& recorded,
                                          std::size_t recorded_edges,
                                          const signals::Series& replayed,

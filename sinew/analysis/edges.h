@@ -10,7 +10,7 @@
 
 namespace sinew::analysis {
 
-// Where two trains of edges part.
+// The first edge at which two trains part.
 struct EdgeDifference {
   std::int64_t time_ns = 0;
   std::string topic;

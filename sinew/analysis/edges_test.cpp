@@ -1,4 +1,4 @@
-// Where two trains of edges part is found, be it a time, a direction or an edge too many.
+// The place where two trains of edges part is found, be it a time, a direction or an edge too many.
 #include "sinew/analysis/edges.h"
 
 #include <gtest/gtest.h>

@@ -116,7 +116,7 @@ TEST(Legs, LoadIsTheShareOfTimeOnTheGround) {
   EXPECT_NEAR(value(s, "legs.left.foot.mean_load_true_N"), 20 * 0.75 / 3, 1e-9);
 }
 
-// What pushes the trolley is the sum of the legs' forces: two equal legs push twice as much.
+// The trolley is pushed by the sum of the legs' forces: two equal legs push twice as much.
 TEST(Legs, ForcesOnTheTrolleyAddUp) {
   const signals::Table one = full_walk(1).table;
   Machine two = walking_on_two(), alone = walking_leg();

@@ -36,8 +36,8 @@ void coil_fields(Visitor& v, gas::Coil& coil) {
   seconds(v, "boost_time", coil.boost_time);
 }
 
-// What of a valve's table says when it opens, and what its coil takes. Logs from elsewhere need
-// have no more, and no key that the laws of its flow ask for.
+// Reads the part of a valve's table that says when it opens, and what its coil takes. Logs from
+// elsewhere need have no more, and no key that the laws of its flow ask for.
 template <class Visitor>
 void timing_fields(Visitor& v, gas::Valve& valve) {
   using gas::Valve;

@@ -17,7 +17,8 @@ namespace {
 
 using List = std::vector<robot::Contradiction>;
 
-// How far a joint is taken: where it starts, and where the plan wants it in one step  [rad].
+// The range that a joint is taken through: where it starts, and where the plan wants it in one step
+// [rad].
 struct Reach {
   double low = 0, high = 0;
 
@@ -27,7 +28,7 @@ struct Reach {
   }
 };
 
-// Where a leg's plan wants its joints now.
+// The angles at which a leg's plan wants its joints now.
 void add_desired(const Experiment& e, const gait::Legs& legs, std::size_t leg,
                  std::vector<Reach>& out) {
   const gait::Desired& desired = legs.desired(leg);

@@ -67,7 +67,7 @@ constexpr double appendix_gain(double coefficient) {
          (appendix_area * (units::foot * units::foot));
 }
 
-// Of Law::appendix_a, for P_down <= P_up; no linear part  [kg/s].
+// Flow by Law::appendix_a, for P_down <= P_up; no linear part  [kg/s].
 inline double mass_flow_appendix_a(double effective_area, double upstream, double downstream) {
   const double scale = effective_area * upstream, ratio = downstream / upstream;
   if (upstream >= appendix_limit * downstream) return scale * appendix_gain(appendix_choked);

@@ -1,4 +1,4 @@
-// What is told of a valve agrees with its law and with itself.
+// The figures of a valve agree with its law and with each other.
 #include "sinew/gas/valve_flow.h"
 
 #include <gtest/gtest.h>

@@ -161,7 +161,7 @@ class LiveRun::Impl {
 
 namespace {
 
-// What can be refused before there is a folder.
+// Refuses what can be refused before there is a folder.
 void require_live(const std::string& experiment, std::uint16_t port) {
   if (run::is_on_stand(experiment))
     config::fail({experiment, 0, 0}, "", "an experiment on the stand",

@@ -27,8 +27,8 @@ class Show {
   // The page without samples. `server`: where it may connect to, "127.0.0.1:8080".
   std::string page(std::string_view server) const;
 
-  // What is new to a page: JSON with `piece` (report/page/growing.h), where there is any, and
-  // `state`.
+  // Returns what is new to a page: JSON with `piece` (report/page/growing.h), where there is any,
+  // and `state`.
   // "" before the first row.
   std::string frame(Position& position);
 

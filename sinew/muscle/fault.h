@@ -46,7 +46,7 @@ inline bool is_share_of_valve(const AirFault& f) {
 // The open share of the area of a valve that does not seal: its shutter covers the rest  [-].
 constexpr double open_share(double seat, double shutter) { return seat + (1.0 - seat) * shutter; }
 
-// Which faults act: the state of a schedule.
+// The faults that act: the state of a schedule.
 struct ActingFaults {
   std::uint64_t acting = 0;  // a bit each
   std::int32_t passed = 0;   // instants of the schedule

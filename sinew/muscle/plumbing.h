@@ -209,7 +209,7 @@ class Plumbing {
                         AirPull& out, AirState& derivative) const noexcept;
   void pull(int i, double length, double rate, double pressure, const AirState& state, AirPull& out,
             AirState& derivative) const noexcept;
-  // What the flows of one look go by, beside the chambers.
+  // The flows of one look go by these, beside the chambers.
   struct Now {
     double t;         // [s]
     double y_supply;  // of the line to the inlets

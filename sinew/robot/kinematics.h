@@ -35,7 +35,8 @@ struct Pose {
 Pose forward(std::span<const double> lengths, std::span<const double> angles);
 Pose forward(const Robot&, std::span<const double> angles);  // of one that is serial
 
-// Where each link of a robot of any shape is, from the body's origin; as many as there are angles.
+// Returns where each link of a robot of any shape is, from the body's origin; as many as there are
+// angles.
 struct LinkPlace {
   Point joint;         // that it hangs at [m]
   double heading = 0;  // of its direction, from +x [rad]

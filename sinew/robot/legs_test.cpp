@@ -21,7 +21,7 @@ std::vector<std::string> names_of(const Parts& parts) {
   return out;
 }
 
-// What contradicts something once `damage` is done to two sound legs: "key: found".
+// Returns what contradicts something once `damage` is done to two sound legs: "key: found".
 std::string first_after(const std::function<void(Robot&)>& damage) {
   Robot robot = test::two_legs();
   damage(robot);

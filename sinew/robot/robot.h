@@ -17,14 +17,14 @@
 
 namespace sinew::robot {
 
-// What the loop's fixed arrays hold.
+// The sizes of the loop's fixed arrays.
 inline constexpr int max_joints = 8;   // of one board of the low level
 inline constexpr int max_muscles = 8;  // with an inlet and an exhaust each: its 16 bits
 inline constexpr int max_discs = 8;    // of all feet together
 
 inline constexpr double not_set = std::numeric_limits<double>::quiet_NaN();
 
-// What a link names as its parent that hangs on the body.
+// The name that a link gives as its parent if it hangs on the body.
 inline constexpr std::string_view body_name = "body";
 
 struct Link {
@@ -45,8 +45,8 @@ struct Gains {
   double velocity = 0;   // G_v [s/count]
 };
 
-// What a joint strikes at the ends of its range: a spring and a damper at either end that only
-// push.
+// A stop, which a joint strikes at the ends of its range: a spring and a damper at either end that
+// only push.
 struct Stop {
   std::vector<double> range;  // lowest and highest angle; empty: none [rad]
   double stiffness = 0;       // [N m/rad]
@@ -303,7 +303,7 @@ bool is_plain(const Robot&);
 // The link that a link hangs on, by its position; -1: the body. A name that leads nowhere: -2.
 int parent_of(const Robot&, std::size_t link);
 
-// Where a link hangs: along its parent, or ahead of the body's origin  [m].
+// Returns where a link hangs: along its parent, or ahead of the body's origin  [m].
 double attachment_of(const Robot&, std::size_t link);
 
 // One link after the other, each at the end of the one before, with one foot: no tree.

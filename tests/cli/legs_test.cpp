@@ -38,7 +38,7 @@ TEST(Legs, RunKeepReplayAndExport) {
   EXPECT_EQ(replay.code, 0) << replay.err;
   EXPECT_THAT(replay.out, HasSubstr("all equal"));
 
-  // What was run runs again, from its own numbers alone.
+  // A resolved run runs again, from its own numbers alone.
   const Result again = w.sinew({"run", "run/resolved.toml", "-o", "again", "--quiet"});
   ASSERT_EQ(again.code, 0) << again.err;
   Json second = Json::parse(read_text(w / "again/summary.json")), first = summary;
@@ -103,7 +103,7 @@ TEST(Legs, KinematicsOfOne) {
   EXPECT_THAT(other.err, HasSubstr("leg has one leg"));
 }
 
-// What cannot be is said in the file's words, with what to do.
+// A contradiction is said in the file's words, with what to do.
 TEST(Legs, WhatCannotBe) {
   const auto says = [](const std::vector<std::string>& sets) {
     const Workspace w;

@@ -42,7 +42,7 @@ TEST_P(Bits, AdvancingInPortionsChangesNoBit) {
               follow(GetParam(), {}, end, 4, {.advances = true}));
 }
 
-// What another body restores from a save is all that the future depends on: some 80 times in a run,
+// A save that another body restores holds all that the future depends on: some 80 times in a run,
 // between nodes too, while edges are on their way.
 TEST_P(Bits, GoesOnFromASave) {
   expect_same(GetParam(), follow(GetParam(), {}, end, 5),

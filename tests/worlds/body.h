@@ -120,6 +120,7 @@ struct Subject {
 // Both kinds together.
 const std::vector<Subject>& subjects();
 std::vector<Subject> planar_subjects();
+Limits planar_limits(const std::string& subject);
 std::vector<Subject> stand_subjects();
 
 }  // namespace sinew::worlds

@@ -67,7 +67,7 @@ class Overrides {
 
   void apply(Desired& desired) const noexcept;
 
-  // What is set of each setting, by its number. Copied like bytes.
+  // The value that is set of each setting, by its number. Copied like bytes.
   struct Slot {
     bool given = false;
     double value = 0;

@@ -215,7 +215,7 @@ void check_reach(const robot::TwoLinks& leg, const Plan& plan, const Phase& phas
 
 namespace {
 
-// What several legs have in common is said once.
+// A contradiction that several legs have in common is said once.
 void add_new(const List& more, List& out) {
   for (const robot::Contradiction& c : more)
     if (std::ranges::none_of(out,

@@ -1,4 +1,4 @@
-// What legs share and what each has of its own.
+// Legs share a plan, and each has a controller of its own.
 #include "sinew/control/gait/legs.h"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ TEST(Legs, OneLegIsItsBrain) {
   }
 }
 
-// What the second leg wants, the first one wants half a step later; both end together.
+// The first leg wants half a step later what the second one wants; both end together.
 TEST(Legs, AntiphaseIsHalfAStepAhead) {
   const robot::Robot robot = antiphase();
   const Plan plan = test::walk(robot);
@@ -72,7 +72,7 @@ TEST(Legs, AntiphaseIsHalfAStepAhead) {
   for (std::size_t leg = 0; leg < 2; ++leg) EXPECT_TRUE(legs.desired(leg).vent);
 }
 
-// What is measured at one leg ends that leg's phase alone; it then stays at the start of the next
+// A measure of one leg ends that leg's phase alone; it then stays at the start of the next
 // until the other one is as far, and the offset is as before.
 TEST(Legs, WhoIsEarlyWaitsForTheOthers) {
   const robot::Robot robot = antiphase();
@@ -146,7 +146,7 @@ TEST(Legs, APlanOfItsOwn) {
   EXPECT_EQ(wrong[1].key + wrong[1].found, "leg.right.plan\"later\"");
 }
 
-// What several legs get wrong is said once.
+// A mistake of several legs is said once.
 TEST(Legs, ContradictionsAreSaidOnce) {
   const robot::Robot robot = antiphase();
   Plan plan = test::walk(robot);

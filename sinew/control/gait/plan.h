@@ -184,7 +184,8 @@ int periods_per_step(const Plan&);
 std::int64_t periods(const Plan&);
 std::int64_t periods(const robot::Robot&, const Plan&);  // of the leg that takes longest
 
-// What a leg follows: the plan, with the order of phases that the leg names in place of the plan's.
+// Returns what a leg follows: the plan, with the order of phases that the leg names in place of the
+// plan's.
 Plan plan_of_leg(const Plan& plan, const robot::LegParts& leg);
 
 // Periods from s = 0 to s = 1, whether or not the last of them is reached.

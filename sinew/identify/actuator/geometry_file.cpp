@@ -11,8 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What a braid leaves open, so that the file can be read: the mesh ends where its threads lie
-// straight, and nothing is lost yet.
+// Fills in what a braid leaves open, so that the file can be read: the mesh ends where its threads
+// lie straight, and nothing is lost yet.
 actuator::Actuator actuator_of(const actuator::Braid& braid, const std::string& name,
                                const std::string& source, const Report* report,
                                Provenance& provenance) {

@@ -11,7 +11,7 @@
 
 namespace sinew::identify {
 
-// How the robot's file calls the joint and its muscles.
+// Names of the joint and its muscles in the robot's file.
 struct JointNames {
   std::string joint = "joint", flexor = "joint_flexor", extensor = "joint_extensor";
   std::string flexion = "raises angle";  // or "lowers angle": what a shorter flexor does

@@ -118,7 +118,7 @@ class Maker {
                             .y = pick(group, [&](std::size_t i) { return best.residuals[i]; })});
   }
 
-  // What the chosen model says against what was measured; right is the diagonal.
+  // The chosen model's answers against the measured values; right is the diagonal.
   Chart against_measured() const {
     Chart out = fit_;
     out.title = "By the model against measured";
@@ -140,7 +140,7 @@ class Maker {
     return out;
   }
 
-  // Of one curve the eye can follow the others too; they wait until they are asked for.
+  // The eye can follow the other curves from one; they wait until they are asked for.
   void add_other_models() {
     int color = 2;
     for (std::size_t k = 0; k < report_.fits.size(); ++k) {

@@ -129,7 +129,7 @@ std::string sensor_file(const Calibration& c, const CountScale& converter, bool 
 Json to_json(const Calibration& c) {
   Json out{{"format", "sinew.identification/1"}, {"subject", "calibration of sensors"}};
   out["average_sensitivity"] = c.average;
-  // What there is of a single one stands where other methods have it.
+  // A single transducer's values stand where other methods have it.
   if (c.sensors.size() == 1) out.update(to_json(c.sensors[0].report));
   out["sensors"] = Json::array();
   for (const SensorResult& r : c.sensors) {

@@ -16,7 +16,7 @@ struct Transducer {
   int bits = 12;
 };
 
-// What it does under its load.
+// The transducer's answer under its load.
 struct TransducerPoint {
   double strain = 0, stress = 0;  // at the gages, and at the mount [Pa]
   double factor_of_safety = 0;

@@ -90,7 +90,7 @@ TEST(Trees, KeepEnergyAndMomentum) {
   }
 }
 
-// Where the masses of a tree are, by its kinematics alone: each link's centre, each foot, the body.
+// The places of a tree's masses, by its kinematics alone: each link's centre, each foot, the body.
 double kinetic_energy(const Setup& s, const std::vector<double>& angle,
                       const std::vector<double>& rate, double slide) {
   constexpr double h = 1e-5;

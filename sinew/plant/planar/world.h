@@ -40,7 +40,7 @@ class World final : public signals::Port {
   using Acceleration = typename Mechanism::Acceleration;
   using Forces = typename Mechanism::Forces;
 
-  // What is integrated.
+  // The part of the state that is integrated.
   struct Moving {
     typename Mechanism::Motion motion;
     typename Air::State air;

@@ -43,7 +43,7 @@ double hanging_length(const StandSetup& setup);
 class Stand final : public signals::Port {
   enum class Rub : signed char { rests = 0, down = 1, up = -1 };
 
-  // What is integrated.
+  // The part of the state that is integrated.
   struct Moving {
     double length = 0, velocity = 0;
     muscle::AirState air{};

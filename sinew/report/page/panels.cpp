@@ -131,7 +131,7 @@ void valves(Panels& p) {
   p.per_muscle("/valve/", "/inlet/set_point");
 }
 
-// Of one leg; with a name, it stands before every line.
+// Lines of one leg; its name, if it has one, stands before every line.
 void foot(Panels& p, const robot::Foot& foot, const std::string& leg) {
   const auto line = [&](const std::string& label, const std::string& topic,
                         const std::string& field, int color, Style style = Style::measured) {

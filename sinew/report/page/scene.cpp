@@ -249,7 +249,7 @@ void add_cylinder(Maker& m) {
   m.out.cylinder = std::move(shape);
 }
 
-// Where the ground's force acts: under the foot, or between its discs by their loads.
+// The place where the ground's force acts: under the foot, or between its discs by their loads.
 Column contact(const Maker& m, const robot::Foot& foot, const std::string& leg,
                std::span<const Disc> discs) {
   std::vector<Column> load;

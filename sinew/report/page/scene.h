@@ -58,7 +58,7 @@ struct Disc {
   double radius = 0;    // [m]
 };
 
-// Of one leg: its paths are about its first joint.
+// The foot of one leg: its paths are about its first joint.
 struct FootShape {
   double at = 0;               // of the leg's first joint, ahead of the body's origin [m]
   Channel path, desired_path;  // topics with fields x and y [m]

@@ -44,7 +44,7 @@ std::vector<std::string> labels_of(const std::vector<std::string>& runs) {
   }
 }
 
-// What was run, as the folder or the log itself says.
+// Returns what was run, as the folder or the log itself says.
 config::Node resolved_of(const RecordedRun& run) {
   if (fs::exists(run.resolved)) return config::parse_file(run.resolved.string());
   for (const auto& [key, value] : log::read_metadata(run.log))

@@ -47,7 +47,7 @@ KeptRun::KeptRun(RunRequest request, Notices notices)
   log_.emplace(folder_->work() / log_name, experiment_.name, experiment_.seed, resolved_, logged_);
 }
 
-// What was steered is a part of what was run, with where it comes from.
+// A change that was steered is a part of what was run, with where it comes from.
 void KeptRun::finish_log(const run::Outcome& outcome) {
   const std::size_t written = experiment_.plan.changes.size();
   const std::string ended = outcome.ended_early() ? cause_of(experiment_, outcome) : "";

@@ -16,7 +16,7 @@
 
 namespace sinew::run {
 
-// What is run, and where it is kept.
+// A request: the experiment, and where its run is kept.
 struct RunRequest {
   std::string experiment;          // its file
   std::string folder;              // empty: runs/<experiment>/<n>, counting up
@@ -26,7 +26,8 @@ struct RunRequest {
   bool report = true;              // leave report.html
 };
 
-// What a run left. Machine is analysis::Machine or, of a stand, analysis::StandFile.
+// The files and figures that a run left. Machine is analysis::Machine or, of a stand,
+// analysis::StandFile.
 template <class Machine>
 struct Kept {
   std::filesystem::path folder;

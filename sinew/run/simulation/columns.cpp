@@ -12,12 +12,12 @@ namespace {
 
 using signals::Topic;
 
-// Which leg's a joint of the robot is, and which of it.
+// The leg that a joint of the robot belongs to, and its number there.
 struct JointAt {
   std::size_t leg = 0, joint = 0;
 };
 
-// Of a joint that is no leg's, the first leg's first: it has no sensor and desires nothing.
+// A joint that is no leg's gets the first leg's first place: it has no sensor and desires nothing.
 JointAt place_of(const robot::Robot& robot, std::size_t joint) {
   for (const LegAt& leg : legs_at(robot))
     for (std::size_t i = 0; i < leg.parts.joints.size(); ++i)
@@ -25,7 +25,7 @@ JointAt place_of(const robot::Robot& robot, std::size_t joint) {
   return {};
 }
 
-// What hardware would log as well, joint by joint.
+// These columns are those that hardware would log as well, joint by joint.
 void joint_columns(const robot::Robot& robot, Columns& out) {
   for (std::size_t s = 0; s < robot.sensors.size(); ++s)
     out.scalar("/sensor/" + robot.sensors[s].name + "/count", "count", "as converted",
@@ -60,7 +60,7 @@ void tension_column(const robot::Robot& robot, std::size_t muscle, Columns& out)
              [=](const Moment& m) { return m.measured.tension[muscle] / believed * own; });
 }
 
-// What a valve is told counts only while its joint is enabled and laws run.
+// A valve's duty counts only while its joint is enabled and laws run.
 bool active(const Moment& m, std::size_t joint) {
   return m.seen.joint[joint].enabled && m.seen.phase == control::Phase::running;
 }

@@ -14,7 +14,7 @@ bool ends_it(Watch& watch) noexcept {
   return false;
 }
 
-// Where a loop stands. Copied like bytes.
+// The place where a loop stands. Copied like bytes.
 struct LoopState {
   signals::Tick at = 0;  // the next tick at which anything happens
   signals::Status status = signals::Status::ok;

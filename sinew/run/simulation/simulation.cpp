@@ -46,7 +46,7 @@ std::uint64_t hash(std::string_view text, std::uint64_t h = 0xcbf29ce484222325) 
   return hash(std::as_bytes(std::span(text.data(), text.size())), h);
 }
 
-// What stands before the state in a save.
+// The header stands before the state in a save.
 struct Header {
   char format[16] = "sinew.save/1";
   std::uint64_t model = 0;     // of the experiment's values and the library's version

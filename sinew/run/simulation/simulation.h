@@ -60,9 +60,9 @@ class Simulation {
 
   // Runs all that happens before the tick; an earlier one changes nothing.
   void advance_to(signals::Tick tick) noexcept;
-  // The same by seconds from where it stands, rounded to ticks.
+  // Advances by seconds from where it stands, rounded to ticks.
   void advance_by(double seconds) noexcept;
-  // The same under a clock, and with somebody who records (loop.h).
+  // Advances under a clock, and with somebody who records (loop.h).
   template <class Clock, class Watch>
   void advance(signals::Tick until, Clock& clock, Watch& watch) noexcept {
     if (tick_ < last_ && until > tick_) {
@@ -89,9 +89,9 @@ class Simulation {
   double read(std::string_view channel);
   std::size_t find(std::string_view channel) const;
 
-  // What only a simulation knows, now. Not for a body that is none.
+  // Returns what only a simulation knows, now. Not for a body that is none.
   plant::Truth truth() noexcept;
-  // What of the machine was no number any more.
+  // Returns what of the machine was no number any more.
   muscle::Failure failure() const noexcept;
 
   // --- changing ---

@@ -17,8 +17,8 @@ using signals::Tick;
 
 const std::string source = SINEW_SOURCE_DIR;
 
-// What a law of this file is tried on: every mechanism, every air, a controller with a memory, and
-// sensors that lie.
+// Every law of this file is tried on these: every mechanism, every air, a controller with a memory,
+// and sensors that lie.
 struct Kind {
   std::string file;
   std::vector<std::string> sets;
