@@ -3,12 +3,13 @@
 
 #include <string>
 
-#include "sinew/experiment/clock.h"
-#include "sinew/experiment/loop.h"
-#include "sinew/experiment/run.h"
+#include "sinew/experiment/planar_setup.h"
 #include "sinew/experiment/spinal.h"
 #include "sinew/experiment/supervision.h"
 #include "sinew/plant/planar/machine.h"
+#include "sinew/run/simulation/clock.h"
+#include "sinew/run/simulation/loop.h"
+#include "sinew/run/simulation/run.h"
 
 namespace {
 
@@ -26,7 +27,7 @@ void closed_loop_walk(benchmark::State& state) {
   double simulated = 0;
   std::int64_t nodes = 0;
   for (auto _ : state) {
-    const experiment::Outcome out = experiment::run(walk());
+    const run::Outcome out = run::run(walk());
     simulated += out.duration;
     nodes += out.nodes;
   }
@@ -51,10 +52,10 @@ void unwatched_walk(benchmark::State& state) {
     plant::ChainWorld<2> world(experiment::planar_setup(walk()));
     control::Supervisor spine(experiment::spine_config(walk()),
                               experiment::supervise_config(walk()));
-    experiment::HighLevel high(walk().robot, walk().plan);
-    experiment::SimulatedClock clock;
+    run::HighLevel high(walk().robot, walk().plan);
+    run::SimulatedClock clock;
     Nothing nobody;
-    benchmark::DoNotOptimize(experiment::loop(spine, high, world, clock, nobody, end));
+    benchmark::DoNotOptimize(run::loop(spine, high, world, clock, nobody, end));
     simulated += static_cast<double>(end) * signals::tick_seconds;
   }
   state.counters["real_time_factor"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);
@@ -79,10 +80,10 @@ void controller_alone(benchmark::State& state) {
     Still body;
     control::Supervisor spine(experiment::spine_config(walk()),
                               experiment::supervise_config(walk()));
-    experiment::HighLevel high(walk().robot, walk().plan);
-    experiment::SimulatedClock clock;
+    run::HighLevel high(walk().robot, walk().plan);
+    run::SimulatedClock clock;
     Nothing nobody;
-    benchmark::DoNotOptimize(experiment::loop(spine, high, body, clock, nobody, end));
+    benchmark::DoNotOptimize(run::loop(spine, high, body, clock, nobody, end));
     simulated += static_cast<double>(end) * signals::tick_seconds;
   }
   state.counters["real_time_factor"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);

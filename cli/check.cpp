@@ -11,11 +11,14 @@
 #include "sinew/config/compose.h"
 #include "sinew/config/gains.h"
 #include "sinew/config/valve_timing.h"
+#include "sinew/experiment/faults.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/experiment/planar_setup.h"
 #include "sinew/experiment/rig/rig.h"
 #include "sinew/log/reader.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/runnable.h"
+#include "sinew/run/simulation/run.h"
 #include "sinew/tune/study.h"
 
 namespace sinew::cli {
@@ -33,6 +36,7 @@ struct Options {
 struct Finding {
   std::string file;
   std::vector<std::string> problems, warnings;
+  std::vector<std::string> faults;  // what the experiment breaks
 
   void add(const Problems& found, std::vector<std::string>& to) {
     for (const config::Problem& problem : found) to.push_back(config::to_text(problem));
@@ -76,12 +80,23 @@ void check_rig(const std::string& path, Finding& out) {
   tell_of_sources(e.unsourced, out);
 }
 
+// What breaks and when; and what breaks only after the run's end.
+void tell_of_faults(const experiment::Experiment& e, Finding& out) {
+  for (std::size_t i = 0; i < e.faults.size(); ++i) {
+    out.faults.push_back(experiment::in_words(e.faults[i]));
+    const std::string why = why_idle(e, e.faults[i], experiment::last_tick(e));
+    if (!why.empty())
+      out.warnings.push_back(fmt::format("{}: fault[{}] never acts: {}", e.path, i, why));
+  }
+}
+
 void check_machine(const std::string& path, Finding& out) {
   const bool runs = config::format_kind(config::parse_file(path)) == "experiment";
   const experiment::Experiment e =
       runs ? run::runnable(path, {}, false) : experiment::load_machine_file(path).experiment;
   out.add(e.warnings, out.warnings);
   tell_of_sources(e.unsourced, out);
+  if (runs) tell_of_faults(e, out);
 }
 
 Finding check(const std::string& path) {
@@ -117,6 +132,9 @@ void print(const Finding& finding) {
   const auto count = [](std::size_t n, std::string_view what) {
     return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
   };
+  if (!finding.faults.empty())
+    fmt::print("{}: {}: {}\n", finding.file, count(finding.faults.size(), "fault"),
+               fmt::join(finding.faults, "; "));
   const bool good = finding.problems.empty();
   std::string line = good ? "ok" : count(finding.problems.size(), "problem");
   if (!finding.warnings.empty()) line += ", " + count(finding.warnings.size(), "warning");
@@ -131,6 +149,7 @@ ExitCode check_all(const Options& options) {
     good = good && finding.problems.empty();
     report.push_back(
         {{"file", finding.file}, {"problems", finding.problems}, {"warnings", finding.warnings}});
+    if (!finding.faults.empty()) report.back()["faults"] = finding.faults;
     if (!options.json) print(finding);
   }
   if (options.json) fmt::print("{}\n", json_text(report, 2));

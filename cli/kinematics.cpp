@@ -21,6 +21,7 @@
 #include "sinew/experiment/machine_file.h"
 #include "sinew/plant/planar/cords.h"
 #include "sinew/robot/actuator_of.h"
+#include "sinew/robot/legs.h"
 
 namespace sinew::cli {
 
@@ -29,7 +30,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string file, foot, angles, force;
+  std::string file, leg, foot, angles, force;
   bool json = false;
 };
 
@@ -206,8 +207,22 @@ void print(const experiment::Experiment& e, const Branch& b, const Shown& units)
                shown(b.torques[j], "N m", units.torque));
 }
 
+// Leaves the one leg that is asked for, its parts named as within it; where it hangs is the origin.
+void choose_leg(experiment::Experiment& e, const std::string& leg) {
+  const std::vector<std::string_view> names = config::names_of(e.robot.legs);
+  if (names.empty() && leg.empty()) return;
+  const auto found = std::ranges::find(names, leg);
+  if (found == names.end())
+    config::fail(
+        {"--leg", 0, 0}, "", leg.empty() ? "none" : config::in_quotes(leg),
+        names.empty() ? "nothing: " + e.robot.name + " has one leg" : config::either(names),
+        names.empty() ? "" : "--leg " + std::string(names.front()));
+  e.robot = robot::only_leg(e.robot, static_cast<std::size_t>(found - names.begin()));
+}
+
 ExitCode run_kinematics(const Options& options) {
-  const auto file = experiment::load_machine_file(options.file);
+  auto file = experiment::load_machine_file(options.file);
+  choose_leg(file.experiment, options.leg);
   const experiment::Experiment& e = file.experiment;
   if (e.robot.joints.empty())
     throw std::invalid_argument(options.file + ": has no joints; try a robot's file");
@@ -217,6 +232,7 @@ ExitCode run_kinematics(const Options& options) {
   if (!options.force.empty()) add_torques(e, options.force, branches);
   if (options.json) {
     Json out{{"robot", e.robot.name}};
+    if (!options.leg.empty()) out["leg"] = options.leg;
     for (const Branch& b : branches) out["branches"].push_back(to_json(e, b));
     fmt::print("{}\n", json_text(out, 2));
     return ok;
@@ -237,6 +253,7 @@ void add_kinematics(CLI::App& app, Action& action) {
                  "sinew kinematics robots/leg/robot.toml --foot \"-2 in, -13 in\" "
                  "--force \"0 lbf, -20 lbf\"");
   sub.add_option("ROBOT", options->file, "robot or experiment file")->required();
+  sub.add_option("--leg", options->leg, "of a robot with several: its name");
   auto& target = *sub.add_option_group("target");
   target.add_option("--foot", options->foot, "x, y about the first joint: all ways to stand there");
   target.add_option("--angles", options->angles, "one per joint, in the robot's order");

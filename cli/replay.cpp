@@ -8,9 +8,9 @@
 #include "cli/json_text.h"
 #include "cli/terminal.h"
 #include "sinew/analysis/edges.h"
-#include "sinew/experiment/run.h"
 #include "sinew/log/reader.h"
 #include "sinew/run/folder/run_folder.h"
+#include "sinew/run/simulation/run.h"
 
 namespace sinew::cli {
 
@@ -50,7 +50,7 @@ ExitCode replay_run(const Options& options) {
   if (!recorded.complete)
     messages.warning(run.log.string() + " was cut off; compared as far as it goes");
 
-  const experiment::Outcome outcome = experiment::replay(experiment, recorded);
+  const run::Outcome outcome = run::replay(experiment, recorded);
   const analysis::EdgeComparison comparison = analysis::compare_edges(recorded, outcome.table);
   print(comparison, options.json);
   return comparison.first ? failed : ok;

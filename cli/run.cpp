@@ -6,6 +6,7 @@
 
 #include "cli/interrupt.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/experiment/planar_setup.h"
 #include "sinew/run/folder/kept_stand_run.h"
 #include "sinew/run/folder/runnable.h"
 
@@ -14,15 +15,14 @@ namespace sinew::cli {
 namespace {
 
 // The run itself, with its log where there is one.
-experiment::Outcome run_logged(const RunOptions& options, run::KeptRun& kept) {
+run::Outcome run_logged(const RunOptions& options, run::KeptRun& kept) {
   std::atomic<std::int64_t> tick{0};
   const Interrupt interrupt;
-  experiment::RunOptions run_options{
-      .pace = options.pace, .progress = &tick, .stop = &interrupt.asked()};
+  run::RunOptions run_options{.pace = options.pace, .progress = &tick, .stop = &interrupt.asked()};
   if (kept.log()) kept.log()->tap(run_options);
   const ProgressBar bar(tick, experiment::last_tick(kept.experiment()),
                         Steps{signals::tick_seconds, "s", 1}, options.quiet);
-  return experiment::run(kept.experiment(), run_options);
+  return run::run(kept.experiment(), run_options);
 }
 
 // A stand has no use for a pace.

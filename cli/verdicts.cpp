@@ -5,6 +5,7 @@
 #include "cli/terminal.h"
 #include "cli/text_table.h"
 #include "sinew/config/quantity.h"
+#include "sinew/robot/legs.h"
 
 namespace sinew::cli {
 
@@ -17,12 +18,18 @@ void print_main_figures(const analysis::Summary& summary, const analysis::Machin
       {"trolley.distance_m", "mm"},
       {"trolley.mean_speed_m_per_s", "mm/s"},
   };
-  for (const robot::Joint& joint : machine.robot.joints) {
-    const std::string at = "joints." + joint.name;
+  for (std::size_t j = 0; j < machine.robot.joints.size(); ++j) {
+    const int leg = robot::leg_of_joint(machine.robot, static_cast<int>(j));
+    const bool named = !machine.robot.legs.empty() && leg >= 0;
+    const std::string of = named ? machine.robot.legs[static_cast<std::size_t>(leg)].name : "";
+    const std::string at = (of.empty() ? "joints." : "legs." + of + ".joints.") +
+                           robot::name_in_leg(of, machine.robot.joints[j].name);
     keys.push_back({at + ".excursion_rad", "deg"});
     keys.push_back({at + ".tracking_rms_rad", "deg"});
     keys.push_back({at + ".passiveness", "%"});
   }
+  for (const robot::Leg& leg : machine.robot.legs)
+    keys.push_back({"legs." + leg.name + ".foot.loaded_share_true", "%"});
   keys.push_back({"air_used_kg", "g"});
 
   TextTable table({"", "Sinew"});

@@ -36,9 +36,11 @@ layers='
     report/page     analysis log robot
     report/figures  report/page
     report/compare  report/page
-    run/folder      experiment log analysis report
-    tune            experiment analysis run/folder
-    live            experiment report run/folder
+    run/simulation  experiment plant control log
+    run/stand       run/simulation experiment
+    run/folder      run/simulation run/stand log analysis report
+    tune            run/folder
+    live            run/folder
 '
 
 # What only the tests of a folder may include besides (*_test.cpp, *_test.h, test_*.h, testing.h).

@@ -1,9 +1,9 @@
 // A walk that the program holds: advanced by periods, looked at, changed, saved and restored.
 #include <cstdio>
 
-#include "sinew/experiment/simulation.h"
+#include "sinew/run/simulation/simulation.h"
 
-using sinew::experiment::Simulation;
+using sinew::run::Simulation;
 
 namespace {
 

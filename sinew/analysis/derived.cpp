@@ -1,17 +1,21 @@
 #include "sinew/analysis/derived.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 
 #include "sinew/actuator/stiffness.h"
 #include "sinew/analysis/foot.h"
 #include "sinew/analysis/laws.h"
+#include "sinew/analysis/legs.h"
 #include "sinew/analysis/record.h"
 #include "sinew/analysis/trolley.h"
 #include "sinew/robot/actuator_of.h"
 #include "sinew/robot/kinematics.h"
+#include "sinew/robot/legs.h"
 
 namespace sinew::analysis {
 namespace {
@@ -23,25 +27,35 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 // Collects the series; what has no column is left out.
 class Series {
  public:
-  explicit Series(const Record& record) : record_(record) {}
+  // Topics as within the leg of that name; empty: the machine's only one.
+  explicit Series(const Record& record, std::string leg = "")
+      : record_(record), leg_(std::move(leg)) {}
 
-  void scalar(std::string topic, std::string unit, std::string description, Column values) {
+  void scalar(const std::string& topic, std::string unit, std::string description, Column values) {
     if (values.empty()) return;
-    table.series.push_back({{std::move(topic), std::move(description), {{"value", unit}}},
+    table.series.push_back({{name(topic), std::move(description), {{"value", unit}}},
                             record_.time_ns(),
                             {std::move(values)}});
   }
-  void vector(std::string topic, std::string unit, std::string description, Column x, Column y) {
+  void vector(const std::string& topic, std::string unit, std::string description, Column x,
+              Column y) {
     if (x.empty() || y.empty()) return;
-    table.series.push_back({{std::move(topic), std::move(description), {{"x", unit}, {"y", unit}}},
+    table.series.push_back({{name(topic), std::move(description), {{"x", unit}, {"y", unit}}},
                             record_.time_ns(),
                             {std::move(x), std::move(y)}});
+  }
+
+  const std::vector<double>* column(std::string_view topic, std::string_view field) const {
+    return table.column(name(topic), field);
   }
 
   signals::Table table;
 
  private:
+  std::string name(std::string_view topic) const { return robot::topic_of_leg(leg_, topic); }
+
   const Record& record_;
+  std::string leg_;
 };
 
 // out[i] = of(i) where every column is there, else empty.
@@ -180,28 +194,43 @@ std::vector<bool> loaded_rows(const Record& record, const Column& normal) {
   return out;
 }
 
-void add_motion(Series& out, const Record& record, const robot::Trolley& trolley, Column push,
-                const std::vector<bool>& counts, const std::string& topic,
-                const std::string& what) {
-  for (std::size_t i = 0; i < push.size(); ++i)
-    if (!counts[i]) push[i] = 0;
+// What pushes the trolley: the friction forces of [75], as long as they count.
+struct Pushes {
+  Column by_plan, loaded;  // [N]
+};
+
+void add_push(Column& sum, const Column& push, const std::vector<bool>& counts) {
+  const bool first = sum.empty();
+  if (first) sum = push;
+  for (std::size_t i = 0; i < push.size(); ++i) {
+    const double now = counts[i] ? push[i] : 0.0;
+    sum[i] = first ? now : sum[i] + now;
+  }
+}
+
+// 6.3: the friction force in stance, nothing but drag otherwise; of several legs the sum.
+void add_pushes(const Series& of_leg, const Record& record, Pushes& sum) {
+  const std::vector<double>* x = of_leg.column("/foot/force", "x");
+  const std::vector<double>* y = of_leg.column("/foot/force", "y");
+  if (!x || !record.has_sequence()) return;
+  add_push(sum.by_plan, *x, stance_rows(record));
+  add_push(sum.loaded, *x, loaded_rows(record, *y));
+}
+
+void add_motion(Series& out, const Record& record, const robot::Trolley& trolley,
+                const Column& push, const std::string& topic, const std::string& what) {
   TrolleyMotion motion =
       integrate(push, record.run(), trolley.drag, trolley.total_mass, record.first_row());
   out.scalar(topic + "/position", "m", what, std::move(motion.position));
   out.scalar(topic + "/velocity", "m/s", what, std::move(motion.velocity));
 }
 
-// 6.3: the friction force in stance, nothing but drag otherwise.
-void add_trolley(Series& out, const Record& record, const Machine& m) {
+void add_trolley(Series& out, const Record& record, const Machine& m, const Pushes& push) {
   const robot::Trolley& trolley = m.robot.trolley;
-  const std::vector<double>* x = out.table.column("/foot/force", "x");
-  const std::vector<double>* y = out.table.column("/foot/force", "y");
-  if (!trolley.present || !(trolley.total_mass > 0) || !x || !record.has_sequence()) return;
-
-  const Column push = *x, normal = *y;  // adding series moves them
-  add_motion(out, record, trolley, push, stance_rows(record), "/trolley/by_plan",
+  if (!trolley.present || !(trolley.total_mass > 0) || push.loaded.empty()) return;
+  add_motion(out, record, trolley, push.by_plan, "/trolley/by_plan",
              "of /foot/force in stance by plan, and drag");
-  add_motion(out, record, trolley, push, loaded_rows(record, normal), "/trolley",
+  add_motion(out, record, trolley, push.loaded, "/trolley",
              "of /foot/force until the foot is unloaded, and drag");
 }
 
@@ -223,18 +252,34 @@ void add_slip(Series& out, const Record& record, const Machine& m) {
              rowwise(record, slip, angle[0], angle[1], rate[0], rate[1], trolley));
 }
 
+// All of one leg but what the trolley does.
+void add_one(Series& out, const Record& record, const Machine& machine) {
+  for (std::size_t j = 0; j < machine.robot.joints.size(); ++j) add_joint(out, record, machine, j);
+  add_passive(out, record, machine);
+  if (has_leg(machine)) add_leg(out, record, machine);
+}
+
 }  // namespace
 
 signals::Table derive(const signals::Table& table, const Machine& machine) {
   const Record record(table, machine);
   Series out(record);
-  for (std::size_t j = 0; j < machine.robot.joints.size(); ++j) add_joint(out, record, machine, j);
-  add_passive(out, record, machine);
-  if (has_leg(machine)) {
-    add_leg(out, record, machine);
-    add_trolley(out, record, machine);
-    add_slip(out, record, machine);
+  Pushes pushes;
+  const auto add = [&](Series& series, const Record& its, const Machine& leg) {
+    add_one(series, its, leg);
+    if (has_leg(leg)) add_pushes(series, its, pushes);
+  };
+  std::vector<MachineLeg> legs = legs_of(machine);
+  if (legs.empty()) add(out, record, machine);
+  for (const MachineLeg& leg : legs) {
+    const Record its(table, leg.machine, nullptr, leg.name);
+    Series series(its, leg.name);
+    add(series, its, leg.machine);
+    if (has_leg(leg.machine)) add_slip(series, its, leg.machine);
+    std::ranges::move(series.table.series, std::back_inserter(out.table.series));
   }
+  add_trolley(out, record, machine, pushes);
+  if (legs.empty() && has_leg(machine)) add_slip(out, record, machine);
   out.table.complete = table.complete;
   return std::move(out.table);
 }

@@ -50,7 +50,7 @@ EdgeComparison compare_edges(const signals::Table& recorded, const signals::Tabl
   const std::int64_t end = end_of(recorded);
   EdgeComparison out;
   for (const signals::Series& now : replayed.series) {
-    if (!now.topic.name.starts_with("/valve/")) continue;
+    if (!signals::is_of_valve(now.topic.name)) continue;
     const signals::Series* then = recorded.find(now.topic.name);
     if (!then) throw std::invalid_argument("the log has no " + now.topic.name + " to compare with");
     const std::size_t a = edges(*then, end), b = edges(now, end);

@@ -53,7 +53,9 @@ void add_foot(Figures&);
 void add_ground_reaction(Figures&);
 void add_air(Figures&);
 void add_valves(Figures&);
+void add_air_balance(Figures&);
 void add_machine(Figures&);
+void add_sole(Figures&);  // the discs of a leg's foot
 void add_phases(Figures&);
 void add_supervision(Figures&);
 

@@ -74,6 +74,7 @@ void add_endurance(Figures& f) {
 
 double cylinder_air(const Figures& f, std::size_t first, std::size_t last) {
   double all = 0;
+  if (!f.machine.robot.cylinder.present) return all;
   for (const char* chamber : {"up", "down"}) {
     const Column in = f.record.column(std::string("/true/cylinder/") + chamber + "/air_in");
     if (!in.empty()) all += in[last] - in[first];
@@ -101,6 +102,32 @@ void add_supervision(Figures& f) {
     f.summary.add("low_level.tripped_time_s", f.record.time(static_cast<std::size_t>(first)));
 }
 
+// Adds what has gone into the machine's air and out of it, and what of that its air does not show:
+// only rounding. Of a run that logs all of its air.
+void add_air_balance(Figures& f) {
+  const auto gained = [&](const std::string& topic) {
+    const Column c = f.record.column(topic);
+    return c.empty() ? 0.0 : c.back() - c.front();
+  };
+  if (f.record.column("/true/air/mass").empty()) return;
+  // What a tank gives stays in the machine, but for what passes it.
+  const bool tank = !f.record.column("/true/supply/tank_pressure").empty();
+  double entered = gained("/true/supply/air_past_tank"), left = 0, leaked = 0;
+  const auto add = [&](const std::string& at) {
+    entered += tank ? 0.0 : gained(at + "/air_in");
+    left += gained(at + "/air_out");
+    leaked += gained(at + "/air_leaked");
+  };
+  for (const robot::Muscle& m : f.machine.robot.muscles) add("/true/muscle/" + m.name);
+  for (const char* chamber : {"up", "down"}) add(std::string("/true/cylinder/") + chamber);
+  const double stored = gained("/true/air/mass");
+  f.summary.add("air_balance.entered_kg", entered);
+  f.summary.add("air_balance.left_kg", left);
+  f.summary.add("air_balance.leaked_kg", leaked);
+  f.summary.add("air_balance.stored_kg", stored);
+  f.summary.add("air_balance.error_kg", stored - (entered - left - leaked));
+}
+
 void add_machine(Figures& f) {
   add_rollers(f);
   add_cylinder(f);
@@ -112,6 +139,10 @@ void add_machine(Figures& f) {
   if (!tank.empty()) f.summary.add("supply.end_tank_pressure_Pa", tank.back());
   const Column overruns = f.record.column("/low_level/overruns");
   if (!overruns.empty()) f.summary.add("low_level.overruns", overruns.back());
+  if (f.machine.robot.legs.empty()) add_sole(f);
+}
+
+void add_sole(Figures& f) {
   for (const robot::Foot::Point& p : f.machine.robot.foot.points)
     f.add("foot." + p.name + ".peak_load_true_N", largest,
           f.record.column("/true/foot/" + p.name + "/load"), f.record.sequence());

@@ -31,7 +31,7 @@ struct Switching {
 // `of` is what the valve belongs to, "hip_flexor".
 Switching switching(const Figures& f, const std::string& of, const char* which,
                     const std::string& valve) {
-  const signals::Series* s = f.record.table().find("/valve/" + of + "/" + which + "/open");
+  const signals::Series* s = f.record.find("/valve/" + of + "/" + which + "/open");
   if (!s || s->columns.empty() || valve.empty()) return {};
   const MachineValve its = valve_of(f.machine, valve);
   Switching out{.logged = true,

@@ -12,6 +12,7 @@
 #include "sinew/analysis/warnings.h"
 #include "sinew/robot/actuator_of.h"
 #include "sinew/robot/kinematics.h"
+#include "sinew/robot/legs.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::analysis {
@@ -49,9 +50,13 @@ void add_unopened(const signals::Table& table, const Machine& machine, const rob
                   bool inlet, std::vector<Warning>& out) {
   const std::string name = inlet ? "inlet" : "exhaust";
   const double shut = valve_of(machine, inlet ? muscle.inlet : muscle.exhaust).shut;
-  const signals::Series* edges = table.find("/valve/" + muscle.name + "/" + name + "/open");
+  const auto logged = [&](const std::string& topic) {
+    return robot::logged_topic(machine.robot, topic);
+  };
+  const signals::Series* edges = table.find(logged("/valve/" + muscle.name + "/" + name + "/open"));
   if (!edges || edges->columns.empty() || shut <= 0) return;
-  const std::string moved = "/true/muscle/" + muscle.name + (inlet ? "/air_in" : "/air_out");
+  const std::string moved =
+      logged("/true/muscle/" + muscle.name + (inlet ? "/air_in" : "/air_out"));
   if (gained(table, moved).value_or(0) > 0) return;
 
   Pulses pulses = pulses_of(*edges, shut);
@@ -92,7 +97,8 @@ std::vector<Warning> unopened_valves(const signals::Table& table, const Machine&
 std::vector<Warning> unused_air(const signals::Table& table, const Machine& machine) {
   bool known = false;
   for (const robot::Muscle& muscle : machine.robot.muscles) {
-    const auto in = gained(table, "/true/muscle/" + muscle.name + "/air_in");
+    const auto in = gained(
+        table, robot::logged_topic(machine.robot, "/true/muscle/" + muscle.name + "/air_in"));
     if (in.value_or(0) > 0) return {};
     known = known || in.has_value();
   }
@@ -158,9 +164,11 @@ std::string what_is_beyond(const Machine& machine, const robot::Joint& joint, do
 }
 
 // The true angle; of hardware the measured one, which knows no whole turns.
-const signals::Series* angles_of(const signals::Table& table, const robot::Joint& joint) {
-  const signals::Series* known = table.find("/true/joint/" + joint.name + "/angle");
-  return known ? known : table.find("/joint/" + joint.name + "/angle");
+const signals::Series* angles_of(const signals::Table& table, const robot::Robot& robot,
+                                 const robot::Joint& joint) {
+  const std::string at = "/joint/" + joint.name + "/angle";
+  const signals::Series* known = table.find(robot::logged_topic(robot, "/true" + at));
+  return known ? known : table.find(robot::logged_topic(robot, at));
 }
 
 // In each sample; of equal angles the log's first is the one next to the rest angle.
@@ -177,7 +185,7 @@ std::vector<double> turned_from_rest(const robot::Joint& joint, std::vector<doub
 std::vector<Warning> overturned_joints(const signals::Table& table, const Machine& machine) {
   std::vector<Warning> out;
   for (const robot::Joint& joint : machine.robot.joints) {
-    const signals::Series* series = angles_of(table, joint);
+    const signals::Series* series = angles_of(table, machine.robot, joint);
     if (!series || series->columns.empty()) continue;
     const std::vector<double> turned = turned_from_rest(joint, series->columns[0]);
     double furthest = 0;

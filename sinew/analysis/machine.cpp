@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "sinew/actuator/actuator.fields.h"
 #include "sinew/analysis/reported.fields.h"
@@ -82,6 +83,16 @@ void read_parts(config::Reader& reader, Machine& m) {
   for (const gas::Valve& valve : valves) m.valves.push_back(what_matters(valve));
 }
 
+template <class Visitor>
+void fields(Visitor& v, MachineFault& fault) {
+  double lasts = std::numeric_limits<double>::infinity();
+  seconds(v, "at", fault.begin);
+  seconds(v, "for", lasts);
+  v.text({.name = "of", .optional = true}, fault.of);
+  v.text({.name = "what", .optional = true}, fault.what);
+  fault.end = fault.begin + lasts;
+}
+
 void read_run(config::Reader& reader, Machine& m) {
   reader.text({.name = "title", .optional = true}, m.title);
   reader.text({.name = "reproduces", .optional = true}, m.reproduces);
@@ -97,6 +108,8 @@ void read_run(config::Reader& reader, Machine& m) {
   });
   reader.list({.name = "reported", .optional = true}, m.reported,
               [&](auto& g, Reported& r) { analysis::fields(g, r, m.atmosphere); });
+  reader.list({.name = "fault", .optional = true}, m.faults,
+              [](auto& g, MachineFault& f) { fields(g, f); });
 }
 
 }  // namespace

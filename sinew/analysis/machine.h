@@ -26,6 +26,12 @@ struct MachineValve {
   double shut = 0;    // from the edge that opens it until the shutter moves [s]
 };
 
+// What was broken on purpose, by the list [[fault]].
+struct MachineFault {
+  std::string of, what;       // "hip_flexor.inlet", "stuck open"
+  double begin = 0, end = 0;  // no end: infinite [s]
+};
+
 struct Machine {
   std::string title;
   std::string reproduces;
@@ -39,6 +45,7 @@ struct Machine {
   std::vector<std::string> sequence;  // of one step
   double period = 0.01;               // between samples [s]
   std::vector<Reported> reported;
+  std::vector<MachineFault> faults;
 };
 
 // Throws config::Error with everything that is wrong in what is read.

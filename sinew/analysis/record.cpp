@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "sinew/robot/legs.h"
+
 namespace sinew::analysis {
 
 Column held(const std::vector<std::int64_t>& times, const std::vector<double>& values,
@@ -20,8 +22,10 @@ Column held(const std::vector<std::int64_t>& times, const std::vector<double>& v
   return out;
 }
 
-Record::Record(const signals::Table& table, const Machine& machine, const signals::Table* more)
-    : table_(&table), more_(more), machine_(&machine) {
+Record::Record(const signals::Table& table, const Machine& machine, const signals::Table* more,
+               std::string leg)
+    : table_(&table), more_(more), machine_(&machine), leg_(std::move(leg)) {
+  if (leg_.empty() && !machine.robot.legs.empty()) leg_ = machine.robot.legs.front().name;
   find_times();
   find_stretches();
   sequence_ = only([](const Stretch&) { return true; });
@@ -30,9 +34,9 @@ Record::Record(const signals::Table& table, const Machine& machine, const signal
 }
 
 void Record::find_times() {
-  const signals::Series* base = table_->find("/plan/phase");
+  const signals::Series* base = logged("/plan/phase");
   if (!base && !machine_->robot.joints.empty())
-    base = table_->find("/joint/" + machine_->robot.joints.front().name + "/angle");
+    base = logged("/joint/" + machine_->robot.joints.front().name + "/angle");
   period_ = machine_->period;
   if (!base) return;
 
@@ -84,11 +88,30 @@ std::vector<double> Record::part(int phase, double from, double to) const {
   return out;
 }
 
+// In one table.
+const signals::Series* Record::find_in(const signals::Table& table, std::string_view topic) const {
+  if (const signals::Series* found = table.find(topic); found || leg_.empty()) return found;
+  if (const signals::Series* found = table.find(robot::logged_topic(machine_->robot, topic)))
+    return found;
+  return table.find(robot::topic_of_leg(leg_, topic));
+}
+
+const signals::Series* Record::logged(std::string_view topic) const {
+  return find_in(*table_, topic);
+}
+
+const signals::Series* Record::find(std::string_view topic) const {
+  const signals::Series* found = logged(topic);
+  return found || !more_ ? found : find_in(*more_, topic);
+}
+
 Column Record::column(std::string_view topic, std::string_view field) const {
   for (const signals::Table* table : {table_, more_}) {
-    if (!table) continue;
-    const std::vector<double>* values = table->column(topic, field);
-    if (values && !values->empty()) return held(table->find(topic)->time_ns, *values, time_ns_);
+    const signals::Series* series = table ? find_in(*table, topic) : nullptr;
+    if (!series) continue;
+    for (std::size_t f = 0; f < series->topic.fields.size(); ++f)
+      if (series->topic.fields[f].name == field && !series->columns[f].empty())
+        return held(series->time_ns, series->columns[f], time_ns_);
   }
   return {};
 }

@@ -1,6 +1,7 @@
 // analysis/record.h - a log as rows: every topic at the same times, and which phase each row is in.
 //
 // Rows stand at the samples of /plan/phase, or of the first joint's angle where a log has no plan.
+// Of a machine with several legs, those of the first leg's plan, or of the leg that is asked for.
 // A topic with other times is held from one of its samples to the next. A row holds until the next
 // one; the last one as long as the one before it.
 #pragma once
@@ -8,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -27,8 +29,10 @@ struct Stretch {
 
 class Record {
  public:
-  // `more` may hold derived series; all three outlive the record.
-  Record(const signals::Table& table, const Machine& machine, const signals::Table* more = nullptr);
+  // `more` may hold derived series; all three outlive the record. `leg`: the name of the leg that
+  // the machine is a part of (only_leg), whose topics are then called as within it.
+  Record(const signals::Table& table, const Machine& machine, const signals::Table* more = nullptr,
+         std::string leg = "");
 
   std::size_t rows() const { return seconds_.size(); }
   const std::vector<std::int64_t>& time_ns() const { return time_ns_; }
@@ -41,6 +45,8 @@ class Record {
   double lasting(const Stretch& s) const { return lasting(s.first, s.last - 1); }
   double period() const { return period_; }  // median [s]
 
+  // Topics by the names of the machine, or as within its leg; nullptr: in none of the tables.
+  const signals::Series* find(std::string_view topic) const;
   Column column(std::string_view topic, std::string_view field = "value") const;
   const signals::Table& table() const { return *table_; }
 
@@ -70,6 +76,8 @@ class Record {
   std::int64_t end_ns(std::size_t row) const {
     return row + 1 < time_ns_.size() ? time_ns_[row + 1] : time_ns_[row] + last_ns_;
   }
+  const signals::Series* find_in(const signals::Table& table, std::string_view topic) const;
+  const signals::Series* logged(std::string_view topic) const;  // in the log itself
   void find_times();
   void find_stretches();
   std::vector<double> only(const std::function<bool(const Stretch&)>& wanted) const;
@@ -77,6 +85,7 @@ class Record {
   const signals::Table* table_;
   const signals::Table* more_;
   const Machine* machine_;
+  std::string leg_;  // whose plan and foot are meant; empty: the machine's only one
   std::vector<std::int64_t> time_ns_;
   std::int64_t last_ns_ = 0;  // how long the last row holds
   std::vector<double> seconds_, sequence_, stance_, swing_;

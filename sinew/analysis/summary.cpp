@@ -5,6 +5,7 @@
 
 #include "sinew/analysis/derived.h"
 #include "sinew/analysis/figures.h"
+#include "sinew/analysis/legs.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/config/quantity.h"
 
@@ -51,6 +52,26 @@ const double* Summary::find(std::string_view key) const {
   return nullptr;
 }
 
+namespace {
+
+std::vector<MachineFault> faults_within(const Record& record, const Machine& machine) {
+  std::vector<MachineFault> out = machine.faults;
+  const double last = record.time(record.rows() - 1);
+  std::erase_if(out, [&](const MachineFault& f) { return f.begin > last; });
+  return out;
+}
+
+Json to_json(const std::vector<MachineFault>& faults) {
+  Json out = Json::array();
+  for (const MachineFault& f : faults) {
+    out.push_back({{"of", f.of}, {"what", f.what}, {"begin_s", f.begin}});
+    if (std::isfinite(f.end)) out.back()["end_s"] = f.end;
+  }
+  return out;
+}
+
+}  // namespace
+
 Summary summarize(const signals::Table& table, const Machine& machine) {
   const signals::Table derived = derive(table, machine);
   const Record record(table, machine, &derived);
@@ -59,19 +80,27 @@ Summary summarize(const signals::Table& table, const Machine& machine) {
   summary.reproduces = machine.reproduces;
   summary.warnings = texts(warnings(table, machine));
   if (record.rows() == 0) return summary;
+  summary.faults = faults_within(record, machine);
 
   Figures figures{machine, record, summary};
   add_run(figures);
   add_trolley(figures);
-  add_joints(figures);
-  add_muscles(figures);
+  const bool one_leg = machine.robot.legs.empty();
+  if (one_leg) {
+    add_joints(figures);
+    add_muscles(figures);
+  }
   add_passiveness(figures);
-  add_foot(figures);
-  add_ground_reaction(figures);
+  if (one_leg) {
+    add_foot(figures);
+    add_ground_reaction(figures);
+  }
   add_air(figures);
+  add_air_balance(figures);
   add_valves(figures);
   add_machine(figures);
-  add_phases(figures);
+  if (one_leg) add_phases(figures);
+  add_legs(figures, table, derived);
   add_supervision(figures);
   return summary;
 }
@@ -82,6 +111,7 @@ Summary summarize_trip(const signals::Table& table, const Machine& machine) {
   summary.title = machine.title;
   summary.warnings = texts(warnings(table, machine));
   if (record.rows() == 0) return summary;
+  summary.faults = faults_within(record, machine);
   Figures figures{machine, record, summary};
   add_supervision(figures);
   return summary;
@@ -94,6 +124,7 @@ std::string to_json(const Summary& summary, const Host& host) {
   if (!summary.reproduces.empty()) root["reproduces"] = summary.reproduces;
   if (summary.cut_off) root["cut_off"] = true;
   for (const Entry& e : summary.entries()) put(root, e.key, e.value);
+  if (!summary.faults.empty()) root["faults"] = to_json(summary.faults);
   if (!summary.warnings.empty()) root["warnings"] = summary.warnings;
   for (const auto& [key, value] : host.numbers)
     if (std::isfinite(value)) put(root, "host." + key, value);

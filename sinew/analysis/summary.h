@@ -26,6 +26,7 @@ class Summary {
   std::string reproduces;
   bool cut_off = false;               // its log was: these are the figures of a part of the run
   std::vector<std::string> warnings;  // what went on that no figure shows, of the log alone
+  std::vector<MachineFault> faults;   // those that began before the log's end
 
   // Keys come in a fixed order. What is not finite is not added.
   void add(std::string key, double value);
@@ -50,9 +51,9 @@ struct Host {
 };
 
 // summary.json: format, title, cut_off where it is true, the keys as nested objects in the
-// summary's order, `warnings` where there are any, `host` last. Numbers have the fewest digits that
-// read back to the same bits. No dates, nothing of the machine that ran but `host`, which
-// comparisons leave out.
+// summary's order, `faults` and `warnings` where there are any, `host` last. Numbers have the
+// fewest digits that read back to the same bits. No dates, nothing of the machine that ran but
+// `host`, which comparisons leave out.
 std::string to_json(const Summary&, const Host& host = {});
 
 }  // namespace sinew::analysis

@@ -6,6 +6,7 @@
 
 #include "sinew/analysis/summary.h"
 #include "sinew/analysis/times.h"
+#include "sinew/robot/legs.h"
 
 namespace sinew::analysis {
 namespace {
@@ -73,8 +74,9 @@ std::vector<Warning> saturated_duties(const signals::Table& table, const robot::
   std::vector<Warning> out;
   for (const robot::Muscle& muscle : robot.muscles)
     for (const std::string which : {"inlet", "exhaust"}) {
-      Times times = times_when(table, "/muscle/" + muscle.name + "/" + which + "_duty",
-                               [](double duty) { return duty >= whole_period; });
+      Times times = times_when(
+          table, robot::logged_topic(robot, "/muscle/" + muscle.name + "/" + which + "_duty"),
+          [](double duty) { return duty >= whole_period; });
       if (10 * times.count <= times.of) continue;
       add(out, std::move(times), muscle.name + ": the " + which + " stays open all the time in",
           "periods: its duty is saturated");
@@ -82,10 +84,14 @@ std::vector<Warning> saturated_duties(const signals::Table& table, const robot::
   return out;
 }
 
-std::vector<Warning> unreachable_targets(const signals::Table& table) {
+std::vector<Warning> unreachable_targets(const signals::Table& table, const robot::Robot& robot) {
   std::vector<Warning> out;
-  add(out, times_when(table, "/plan/unreachable", [](double is) { return is > 0; }),
-      "the foot is out of reach in", "samples: the nearest point was aimed at");
+  for (const robot::LegParts& leg : robot::legs_of(robot))
+    add(out,
+        times_when(table, robot::topic_of_leg(leg.name, "/plan/unreachable"),
+                   [](double is) { return is > 0; }),
+        (leg.name.empty() ? "the foot" : leg.name + ": the foot") + " is out of reach in",
+        "samples: the nearest point was aimed at");
   return out;
 }
 
@@ -158,7 +164,7 @@ std::vector<Warning> warnings(const signals::Table& table, const Machine& machin
   append(all, unopened_valves(table, machine));
   append(all, ended_tracks(table, machine));
   append(all, overturned_joints(table, machine));
-  append(all, unreachable_targets(table));
+  append(all, unreachable_targets(table, machine.robot));
   append(all, overruns(table));
   append(all, disbelieved_sensors(table, machine.robot));
   append(all, rejected_commands(table));

@@ -35,8 +35,8 @@ std::vector<Warning> lifted_rollers(const signals::Table&);
 // for more than there is. A jump of the plan does so for a few periods; that is none.
 std::vector<Warning> saturated_duties(const signals::Table&, const robot::Robot&);
 
-// Times at which the foot was asked to where it cannot go.
-std::vector<Warning> unreachable_targets(const signals::Table&);
+// Times at which a foot was asked to where it cannot go.
+std::vector<Warning> unreachable_targets(const signals::Table&, const robot::Robot&);
 
 // Laws that took longer than their interrupt may, 5.2.
 std::vector<Warning> overruns(const signals::Table&);

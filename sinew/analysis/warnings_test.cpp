@@ -66,7 +66,7 @@ TEST(Warnings, OfTimesLessThanATenthOfASecondApartAreOne) {
     const bool later = t > 1.995 && t < 2.005;
     return first || soon || later ? 1.0 : 0.0;
   });
-  const auto found = unreachable_targets(log.table);
+  const auto found = unreachable_targets(log.table, {});
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(has(found[0].text, "5 of 300 samples")) << found[0].text;
   ASSERT_EQ(found[0].spans.size(), 2u);

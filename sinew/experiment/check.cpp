@@ -1,19 +1,15 @@
 #include "sinew/experiment/check.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 
 #include "sinew/config/quantity.h"
 #include "sinew/config/valve_timing.h"
-#include "sinew/control/gait/brain.h"
+#include "sinew/control/gait/legs.h"
 #include "sinew/control/joint/config.h"
-#include "sinew/experiment/run.h"
+#include "sinew/experiment/check_motion.h"
+#include "sinew/experiment/faults.h"
 #include "sinew/experiment/spinal.h"
-#include "sinew/muscle/plumbing.h"
-#include "sinew/plant/planar/cords.h"
-#include "sinew/plant/planar/machine.h"
 #include "sinew/signals/tick.h"
 
 namespace sinew::experiment {
@@ -143,99 +139,6 @@ void check_cylinder(const Experiment& e, List& out) {
   }
 }
 
-// How far a joint is taken: where it starts, and where the plan wants it in one step  [rad].
-struct Reach {
-  double low = 0, high = 0;
-
-  void add(double angle) {
-    low = std::min(low, angle);
-    high = std::max(high, angle);
-  }
-};
-
-std::vector<Reach> reaches(const Experiment& e) {
-  std::vector<Reach> out;
-  for (const robot::Joint& j : e.robot.joints) {
-    const double start = e.start.joint_angles.at(j.name);
-    out.push_back({start, start});
-  }
-  gait::Brain brain(e.robot, e.plan);
-  gait::Measured still;
-  for (std::size_t j = 0; j < out.size(); ++j) still.angle[j] = e.robot.joints[j].rest_angle;
-  const auto settle = std::llround(e.start.settle / e.plan.brain_period);
-  const auto last = settle + gait::periods_per_step(e.plan);
-  for (std::int64_t k = settle; k <= last; ++k) {
-    const gait::Desired& desired = brain.update(still, k);
-    if (desired.stage != gait::Stage::walking) continue;
-    for (std::size_t j = 0; j < out.size(); ++j) {
-      const robot::Joint& joint = e.robot.joints[j];
-      const double turned = desired.joint[j].angle - joint.rest_angle;  // 0 deg is 360 deg
-      if (joint.kind == robot::Joint::Kind::driven)
-        out[j].add(joint.rest_angle + std::remainder(turned, 2 * std::numbers::pi));
-    }
-  }
-  return out;
-}
-
-// A chamber that vanishes within its joint's reach: no pressure is left to speak of.
-void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
-  const std::vector<Reach> reach = reaches(e);
-  const plant::Cords cords(e.robot);
-  for (const bool high : {false, true}) {
-    std::array<double, robot::max_joints> angle{}, still{};
-    for (std::size_t j = 0; j < reach.size(); ++j) angle[j] = high ? reach[j].high : reach[j].low;
-    muscle::Lanes length{}, rate{};
-    plant::Cords::Pulls pulls{};
-    cords.at(angle.data(), still.data(), length, rate, pulls);
-    for (int i = 0; i < cords.count(); ++i) {
-      const auto m = static_cast<std::size_t>(i);
-      const actuator::Actuator& a = setup.muscles[m].actuator;
-      const bool none = length[i] - a.caps.length <= 0;
-      const bool taut = length[i] - a.caps.length >= a.braid.thread_length;
-      if (!none && !(taut && setup.muscles[m].external_volume <= 0)) continue;
-      const robot::Muscle& muscle = e.robot.muscles[m];
-      const std::string& joint = muscle.joint;
-      const double at = angle[static_cast<std::size_t>(cords.joint(i, 0))];
-      const std::string key = "muscle." + muscle.name;
-      if (std::ranges::any_of(out, [&](const auto& c) { return c.key.starts_with(key + "."); }))
-        continue;
-      out.push_back(
-          {key + (none ? ".mount_length" : ".external_volume"),
-           "a chamber without volume: with joint " + joint + " at " +
-               config::format_quantity(at, "rad", "deg") + " the muscle is " + inches(length[i]) +
-               " long",
-           none ? "a length above 0 wherever the plan takes the joint"
-                : "less than the thread's " + inches(a.braid.thread_length) +
-                      ", or an external volume",
-           none ? "a smaller joint." + joint + ".moment_arm, or another rest_angle"
-                : "an external_volume above 0, or a smaller joint." + joint + ".moment_arm"});
-    }
-  }
-}
-
-// Air or joints that move so quickly that a run would take for ever.
-void check_steps(const plant::Setup& s, List& out) {
-  constexpr double shortest = 2e-6;  // step [s]
-  const double air = muscle::Plumbing(s.muscles, s.air, s.supply, s.cylinder).longest_step();
-  const auto micro = [](double step) { return config::format_number(1e6 * step) + " us"; };
-  if (air < shortest) {
-    out.push_back({"air", "a hose or a cylinder's chamber that fills within " + micro(air),
-                   "at least 2 us", "a larger volume, or a hose without one"});
-    return;
-  }
-  const double step = plant::Machine(s).shortest_step();
-  if (step < shortest && step < s.steps.body)
-    out.push_back({"plant_steps.body", "a machine that needs steps of " + micro(step),
-                   "at least 2 us", "less damping or stiffness, a smaller leak, heavier links"});
-}
-
-// Checks that need the machine and its plan together: volumes within the reach of the motion.
-void check_motion(const Experiment& e, List& out) {
-  const plant::Setup setup = planar_setup(e);
-  check_volumes(e, setup, out);
-  if (out.empty()) check_steps(setup, out);
-}
-
 void check_start(const Experiment& e, List& out) {
   for (const std::string& name : e.start.blocked) need("start.blocked", name, e.robot.joints, out);
   for (const auto& [name, angle] : e.start.joint_angles)
@@ -248,21 +151,19 @@ void check_start(const Experiment& e, List& out) {
 // A phase ends on what is measured.
 void check_measures(const Experiment& e, List& out) {
   using Kind = gait::Measure::Kind;
-  const auto has = [&](int muscle) { return robot::tension_sensor_of(e.robot, muscle) >= 0; };
-  for (const gait::Phase& phase : e.plan.phases) {
-    const gait::Measure m = gait::find_measure(e.robot, phase.until.measure);
-    bool known = m.kind != Kind::tension || has(m.index);
-    if (m.kind == Kind::normal_force || m.kind == Kind::friction_force)
-      for (std::size_t i = 0; i < e.robot.muscles.size(); ++i) known &= has(static_cast<int>(i));
-    if (!known)
-      out.push_back({"phase." + phase.name + ".until", config::in_quotes(phase.until.measure),
-                     "a measure that has its sensors", "a [sensor.…] of kind = \"tension\""});
+  for (std::size_t l = 0; l < robot::legs_of(e.robot).size(); ++l) {
+    const robot::Robot leg = robot::only_leg(e.robot, l);
+    const auto has = [&](int muscle) { return robot::tension_sensor_of(leg, muscle) >= 0; };
+    for (const gait::Phase& phase : e.plan.phases) {
+      const gait::Measure m = gait::find_measure(leg, phase.until.measure);
+      bool known = m.kind != Kind::tension || has(m.index);
+      if (m.kind == Kind::normal_force || m.kind == Kind::friction_force)
+        for (std::size_t i = 0; i < leg.muscles.size(); ++i) known &= has(static_cast<int>(i));
+      if (!known)
+        out.push_back({"phase." + phase.name + ".until", config::in_quotes(phase.until.measure),
+                       "a measure that has its sensors", "a [sensor.…] of kind = \"tension\""});
+    }
   }
-}
-
-void check_faults(const Experiment& e, List& out) {
-  for (std::size_t i = 0; i < e.faults.size(); ++i)
-    need("fault[" + std::to_string(i) + "].of", e.faults[i].of, e.robot.sensors, out);
 }
 
 // Where the machine starts must be a place where it can be.
@@ -279,6 +180,18 @@ void check_place(const Experiment& e, List& out) {
                    "cylinder.mode = \"regulator\" or \"valves\""});
   else if (e.start.lift > top)
     out.push_back({"start.lift", inches(e.start.lift), "0 to the stroke, " + inches(top), ""});
+  for (const robot::Joint& joint : e.robot.joints) {
+    const double angle = e.start.joint_angles.count(joint.name)
+                             ? e.start.joint_angles.at(joint.name)
+                             : joint.rest_angle;
+    const std::vector<double>& range = joint.stop.range;
+    if (joint.stop.present() && (angle < range[0] || angle > range[1]))
+      out.push_back({"start.joint_angles." + joint.name,
+                     config::format_quantity(angle, "rad", "deg"),
+                     "within its stops, " + config::format_quantity(range[0], "rad", "deg") +
+                         " to " + config::format_quantity(range[1], "rad", "deg"),
+                     ""});
+  }
   for (const robot::Link& link : e.robot.links)
     if (link.center_of_mass > link.length)
       out.push_back({"link." + link.name + ".center_of_mass", inches(link.center_of_mass),
@@ -295,9 +208,14 @@ void check_place(const Experiment& e, List& out) {
 void check_size(const Experiment& e, List& out) {
   constexpr double longest = 3600;    // [s]
   constexpr double most = 2'000'000;  // samples
-  double step = 0;
-  for (const gait::Phase& phase : e.plan.phases)
-    step += phase.duration * static_cast<double>(std::ranges::count(e.plan.sequence, phase.name));
+  double step = 0;                    // of the leg whose step takes longest
+  for (const robot::LegParts& leg : robot::legs_of(e.robot)) {
+    const gait::Plan plan = gait::plan_of_leg(e.plan, leg);
+    double sum = 0;
+    for (const gait::Phase& phase : plan.phases)
+      sum += phase.duration * static_cast<double>(std::ranges::count(plan.sequence, phase.name));
+    step = std::max(step, sum);
+  }
   const double lasts = e.start.settle + e.plan.repeat * step + e.robot.low_level.vent_time;
   if (!(lasts <= longest))
     out.push_back({"sequence", config::format_number(lasts) + " s in all", "at most 3600 s", ""});

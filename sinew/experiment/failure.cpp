@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include "sinew/config/quantity.h"
-#include "sinew/experiment/run.h"
-#include "sinew/experiment/supervision.h"
-#include "sinew/robot/actuator_of.h"
 
 namespace sinew::experiment {
 namespace {
@@ -28,13 +25,6 @@ std::string length_in_words(const muscle::Failure& failure, const actuator::Actu
   return {};
 }
 
-std::string_view word(signals::Status status) {
-  using signals::Status;
-  if (status == Status::late) return "a late reading";
-  if (status == Status::invalid) return "an invalid reading";
-  return status == Status::ended ? "the body's end" : "a fault";
-}
-
 }  // namespace
 
 std::string in_words(const muscle::Failure& failure, const std::string& who,
@@ -52,24 +42,6 @@ std::string in_words(const muscle::Failure& failure, const std::string& who,
   if (length.empty()) return what + "the motion ran away; try " + remedy;
   return failure.time > 0 ? what + length + "; or, where the motion ran away, " + remedy
                           : what + length;
-}
-
-std::string cause_of(const Experiment& e, const Outcome& outcome) {
-  const control::Seen& seen = outcome.seen;
-  if (outcome.failure) {
-    const auto m = static_cast<std::size_t>(outcome.failure.muscle);
-    if (m >= e.robot.muscles.size()) return in_words(outcome.failure, "", {}, "plant_steps.body");
-    const robot::Muscle& muscle = e.robot.muscles[m];
-    return in_words(outcome.failure, "muscle " + muscle.name,
-                    robot::actuator_of(muscle, e.actuators), "plant_steps.body");
-  }
-  const std::string tripped = to_text(outcome.supervised.trip, e);
-  if (!tripped.empty()) return tripped;
-  const bool by_sensor = seen.fault != signals::Status::ok;
-  std::string text(word(by_sensor ? seen.fault : outcome.status));
-  if (by_sensor && seen.fault_channel.index < e.robot.sensors.size())
-    text += " of sensor " + e.robot.sensors[seen.fault_channel.index].name;
-  return text + fmt::format(" at {:.4f} s", outcome.duration);
 }
 
 }  // namespace sinew::experiment

@@ -23,6 +23,55 @@ void amount_field(Visitor& v, Fault& fault) {
            fault.amount);
 }
 
+// How much leaks, and where to.
+template <class Visitor>
+void leak_fields(Visitor& v, Fault& fault) {
+  v.number({.name = "area",
+            .unit = "m2",
+            .min = 0,
+            .max = 1e-2,
+            .least = 1e-15,
+            .why = "a hole as wide as a hand",
+            .optional = true,
+            .doc = "of the hole, effective; ruptured, absent: the cross-section of one actuator"},
+           fault.area);
+  if (fault.what == Fault::What::ruptured) return;
+  v.number({.name = "conductance",
+            .unit = "kg/(s Pa)",
+            .min = 0,
+            .max = 1e-5,
+            .why = "beyond it is a hole, which has an area",
+            .optional = true,
+            .doc = "leaking: mass flow per pressure difference, of a seat or a porous wall"},
+           fault.conductance);
+  v.number({.name = "share",
+            .unit = "1",
+            .min = 0,
+            .max = 1,
+            .optional = true,
+            .doc = "leaking: of a valve's area, that stays open"},
+           fault.share);
+  if (!(fault.area > 0 || fault.conductance > 0 || fault.share > 0))
+    units::complain(v, "area", "no leak", "an area, a conductance, or the share of a valve's area",
+                    "area = \"0.1 mm2\"");
+}
+
+// What a fault of the air has beside its part and its times.
+template <class Visitor>
+void air_fields(Visitor& v, Fault& fault) {
+  using What = Fault::What;
+  if (fault.what == What::leaking || fault.what == What::ruptured) leak_fields(v, fault);
+  if (fault.what == What::failed)
+    v.number({.name = "pressure",
+              .unit = "Pa abs",
+              .min = 1e3,
+              .max = 2e6,
+              .why = "air of a line, no vacuum",
+              .optional = true,
+              .doc = "failed: where the supply's line stands; absent: at the room's"},
+             fault.pressure);
+}
+
 template <class Visitor>
 void fields(Visitor& v, Fault& fault) {
   using What = Fault::What;
@@ -33,8 +82,12 @@ void fields(Visitor& v, Fault& fault) {
             .optional = true,
             .doc = "how long it lasts; absent: to the end"},
            fault.lasts);
-  v.text({.name = "of", .doc = "the sensor"}, fault.of);
-  v.choice({.name = "what", .doc = "open: top count; short: 0; slip: an offset that stays"},
+  v.text({.name = "of", .doc = "a sensor; a valve, as in hip_flexor.inlet; a muscle; supply"},
+         fault.of);
+  v.choice({.name = "what",
+            .doc = "sensor: open (top count), short (0), stuck, offset, slip (stays), noise, "
+                   "dropout; valve: stuck open, stuck shut, leaking; muscle: leaking, ruptured, "
+                   "blocked (its hose); supply: failed"},
            fault.what,
            {{"open", What::open},
             {"short", What::shorted},
@@ -42,8 +95,15 @@ void fields(Visitor& v, Fault& fault) {
             {"offset", What::offset},
             {"slip", What::slip},
             {"noise", What::noise},
-            {"dropout", What::dropout}});
+            {"dropout", What::dropout},
+            {"stuck open", What::stuck_open},
+            {"stuck shut", What::stuck_shut},
+            {"leaking", What::leaking},
+            {"ruptured", What::ruptured},
+            {"blocked", What::blocked},
+            {"failed", What::failed}});
   amount_field(v, fault);
+  air_fields(v, fault);
   if (fault.what == What::slip && fault.lasts > 0)
     units::complain(v, "for", "a slip that ends", "a slip, which stays, or an offset",
                     "what = \"offset\"");

@@ -26,6 +26,9 @@
 // are lost (4.3: above 400 Hz for the inlet, 350 Hz for the exhaust at 90 psi). The delays alone do
 // the same: with 1.43 ms of closing delay no gap of a 350 Hz wave is seen.
 //
+// A jammed shutter stays where it is held, whatever its coil says; freed, it goes from there to
+// where the coil then says, after that edge's delay.
+//
 // Valid where the delays do not depend on temperature or how long the coil was off.
 #pragma once
 
@@ -77,6 +80,19 @@ struct Shutter {
   // it is linear; at a node it is the left limit before the advance and the right limit after it.
   double fraction(double t) const noexcept;
 
+  // From t on it stands at `share` and follows no edge; what was to come is forgotten.
+  void jam(double t, double share) noexcept;
+
+  // From t on it follows its coil again, from where it was held: if that is not where the coil
+  // wants it, it sets off after the delay of an edge at t.
+  void free(double t) noexcept { free(t, command_ ? opening_delay_ : closing_delay_); }
+
+  // Sets off after this delay instead. `lifts` false: the coil cannot open it, its command is lost.
+  void free(double t, double delay, bool lifts = true) noexcept;
+
+  bool command() const noexcept { return command_; }  // of the coil: true is on
+  bool jammed() const noexcept { return jammed_; }
+
   // More instants were waiting than fit: the oldest was taken too early.
   bool overrun() const noexcept { return overrun_; }
 
@@ -108,6 +124,7 @@ struct Shutter {
   double shortest_ = 0;  // stay [s]
 
   bool command_ = false;
+  bool jammed_ = false;
   bool overrun_ = false;
   Piece piece_;     // in force
   Piece previous_;  // before the last change that took effect
@@ -131,6 +148,7 @@ inline Shutter::Shutter(const Valve& valve) noexcept {
 inline void Shutter::electrical(double t, bool open, double delay) noexcept {
   if (open == command_) return;
   command_ = open;
+  if (jammed_) return;
 
   // The last change has not happened yet: it never will, and the shutter stays where it is.
   if (count_ > 0 && pending(count_ - 1).instant >= t - simultaneous) {
@@ -155,6 +173,25 @@ inline void Shutter::electrical(double t, bool open, double delay) noexcept {
   if (instant < since + shortest_) instant = since + shortest_;
   queue_[(head_ + count_) % capacity] = {instant, open};
   ++count_;
+}
+
+inline void Shutter::jam(double t, double share) noexcept {
+  jammed_ = true;
+  count_ = 0;
+  moved_ = t;
+  changed_ = -std::numeric_limits<double>::infinity();  // an edge at t undoes nothing
+  piece_ = {.start = t, .from = share, .to = share};
+}
+
+inline void Shutter::free(double t, double delay, bool lifts) noexcept {
+  if (!jammed_) return;
+  jammed_ = false;
+  command_ = command_ && lifts;
+  if (piece_.to != (command_ ? 1.0 : 0.0)) {
+    const double earliest = moved_ + shortest_, instant = t + delay;
+    queue_[head_] = {instant < earliest ? earliest : instant, command_};
+    count_ = 1;
+  }
 }
 
 inline double Shutter::next() const noexcept {

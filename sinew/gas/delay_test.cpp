@@ -253,6 +253,83 @@ TEST(Shutter, delivers_the_duty_cycles_of_the_thesis) {
   EXPECT_NEAR(delivered(25, 0.98), (10 * 40e-3 - 4e-3 - 0.8e-3 + 1e-3) / 0.4, 1e-12);
 }
 
+// Held at `share` from one microsecond to another; from then on the delays count anew. The open
+// time of a clock that knows no events and no queue.
+double held_open(const Train& train, int opening, int closing, int from, int to, double share) {
+  bool command = false, open = false;
+  int since = 0;
+  double total = 0;
+  std::size_t edge = 0;
+  for (int now = 0; now < train.back() + 100000; ++now) {
+    for (; edge < train.size() && train[edge] == now; ++edge) {
+      command = !command;
+      since = now;
+    }
+    const bool jammed = now >= from && now < to;
+    if (now == to) {
+      open = share > 0.5;
+      since = to;
+    }
+    if (!jammed && command != open && now - since >= (command ? opening : closing)) open = command;
+    total += jammed ? share : open ? 1.0 : 0.0;
+  }
+  return total * us;
+}
+
+TEST(Shutter, jammed_it_follows_no_edge_and_freed_it_goes_where_its_coil_says) {
+  std::mt19937_64 random(17);
+  for (int trial = 0; trial < 400; ++trial) {
+    const int opening = 50 + static_cast<int>(random() % 900),
+              closing = 50 + static_cast<int>(random() % 900);
+    const Train train = any_train(random, 2 * (1 + static_cast<int>(random() % 6)), 3000);
+    const int from = static_cast<int>(random() % 8000),
+              to = from + 1 + static_cast<int>(random() % 8000);
+    const double share = random() % 2 == 0 ? 0.0 : 1.0;
+
+    Shutter shutter(valve(Valve::Profile::dead_time, opening, closing));
+    double total = 0, last = 0;
+    const auto go = [&](double until) {
+      while (shutter.next() <= until) {
+        const double node = shutter.next();
+        total += shutter.fraction(last) * (node - last);
+        shutter.advance(last = node);
+      }
+      total += shutter.fraction(last) * (until - last);
+      last = until;
+    };
+    std::size_t edge = 0;
+    const auto edges_until = [&](int now) {
+      for (; edge < train.size() && train[edge] <= now; ++edge) {
+        go(train[edge] * us - 2 * Shutter::simultaneous);
+        shutter.electrical(train[edge] * us, edge % 2 == 0);
+      }
+      go(now * us);
+    };
+    edges_until(from);
+    shutter.jam(from * us, share);
+    EXPECT_TRUE(shutter.jammed());
+    edges_until(to);
+    shutter.free(to * us);
+    edges_until(train.back() + 100000);
+    const double wanted = held_open(train, opening, closing, from, to, share);
+    EXPECT_NEAR(total, wanted, 1e-8) << trial;
+    EXPECT_FALSE(shutter.overrun());
+  }
+}
+
+// The coil cannot open against the pressure: its command is lost, and so is its end.
+TEST(Shutter, freed_where_its_coil_cannot_lift_it_stays_shut) {
+  Shutter shutter(valve(Valve::Profile::dead_time, 400, 100));
+  shutter.jam(0, 0);
+  shutter.electrical(1e-3, true);
+  shutter.free(2e-3, 4e-4, false);
+  EXPECT_EQ(shutter.next(), never);
+  shutter.electrical(3e-3, false);
+  EXPECT_EQ(shutter.next(), never);
+  shutter.electrical(4e-3, true);
+  EXPECT_NEAR(shutter.next(), 4.4e-3, 1e-12);
+}
+
 TEST(Shutter, says_when_too_much_was_told_ahead) {
   Shutter shutter(valve(Valve::Profile::dead_time, 100, 100));
   for (int i = 0; i <= static_cast<int>(Shutter::capacity); ++i) {

@@ -34,4 +34,10 @@ inline double leak_flow_y(const LeakConstants& c, double y) {
   return flow_y(c.hole, y, 1.0) + c.slope * (y3 * y3 * y - 1.0);
 }
 
+// From a chamber at y_a to one at y_b, past a valve's seat  [kg/s]; negative against the arrow.
+inline double leak_flow_y(const LeakConstants& c, double y_a, double y_b) {
+  const double a3 = y_a * y_a * y_a, b3 = y_b * y_b * y_b;
+  return flow_y(c.hole, y_a, y_b) + c.slope * (a3 * a3 * y_a - b3 * b3 * y_b);
+}
+
 }  // namespace sinew::gas

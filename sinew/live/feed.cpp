@@ -7,7 +7,7 @@ namespace sinew::live {
 Feed::Feed(std::vector<signals::Topic> topics, std::size_t ring)
     : ring_(ring), row_(topics.size()) {
   for (std::size_t i = 0; i < topics.size(); ++i) {
-    is_edge_.push_back(topics[i].name.starts_with("/valve/"));
+    is_edge_.push_back(signals::is_of_valve(topics[i].name));
     (is_edge_.back() ? edge_topics_ : row_topics_).push_back(i);
     const std::size_t fields = topics[i].fields.size();
     table_.series.push_back({std::move(topics[i]), {}, std::vector<std::vector<double>>(fields)});

@@ -11,12 +11,12 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/experiment/columns.h"
 #include "sinew/live/server.h"
 #include "sinew/live/show.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/folder/page.h"
 #include "sinew/run/folder/runnable.h"
+#include "sinew/run/simulation/columns.h"
 
 namespace sinew::live {
 
@@ -24,7 +24,7 @@ namespace {
 
 // Into the log what belongs there, everything to the watchers.
 struct Tee {
-  experiment::Tap log;
+  run::Tap log;
   std::vector<std::uint16_t> logged;  // topic in the log of each, or not_tapped
   live::Feed& feed;
 
@@ -32,7 +32,7 @@ struct Tee {
                    std::span<const double> values) noexcept {
     const Tee& tee = *static_cast<Tee*>(self);
     tee.feed.push(topic, time_ns, values);
-    if (tee.log.push && tee.logged[topic] != experiment::not_tapped)
+    if (tee.log.push && tee.logged[topic] != run::not_tapped)
       tee.log.push(tee.log.object, tee.logged[topic], time_ns, values);
   }
 };
@@ -53,7 +53,7 @@ class LiveRun::Impl {
         notices_(std::move(notices)),
         kept_(request, notices_),
         values_(config::parse_text(kept_.resolved(), "resolved.toml")),
-        feed_(experiment::topics(kept_.experiment())),
+        feed_(run::topics(kept_.experiment())),
         show_(kept_.experiment(), values_, steering_, feed_, tick_),
         server_(options_.port, {.get = [this](std::string_view path) { return get(path); },
                                 .tick = [this] { feed_.collect(); },
@@ -84,15 +84,15 @@ class LiveRun::Impl {
   void run() {
     try {
       Tee tee{{}, {}, feed_};
-      experiment::RunOptions o{.steering = &steering_, .progress = &tick_};
+      run::RunOptions o{.steering = &steering_, .progress = &tick_};
       if (kept_.log()) kept_.log()->tap(o);
       tee.log = o.tap;
       tee.logged = std::move(o.tapped);
       o.tap = {&tee, &Tee::push};
       o.tapped.clear();
-      for (std::size_t i = 0; i < experiment::topics(kept_.experiment()).size(); ++i)
+      for (std::size_t i = 0; i < run::topics(kept_.experiment()).size(); ++i)
         o.tapped.push_back(static_cast<std::uint16_t>(i));
-      const auto kept = kept_.keep(experiment::run(kept_.experiment(), o));
+      const auto kept = kept_.keep(run::run(kept_.experiment(), o));
       if (options_.kept) options_.kept(kept);
       page_ = text_of(kept_.folder() / run::report_name);
     } catch (const std::exception& e) {
@@ -145,7 +145,7 @@ class LiveRun::Impl {
   const run::Notices notices_;
   run::KeptRun kept_;
   const config::Node values_;
-  experiment::Steering steering_;
+  run::Steering steering_;
   Feed feed_;
   std::atomic<std::int64_t> tick_{0};
   Show show_;

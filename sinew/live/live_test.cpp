@@ -7,19 +7,19 @@
 #include <thread>
 
 #include "sinew/config/compose.h"
-#include "sinew/experiment/columns.h"
-#include "sinew/experiment/run.h"
-#include "sinew/experiment/test_same.h"
 #include "sinew/live/feed.h"
 #include "sinew/live/request.h"
 #include "sinew/live/show.h"
+#include "sinew/run/simulation/columns.h"
+#include "sinew/run/simulation/run.h"
+#include "sinew/run/simulation/test_same.h"
 
 namespace sinew::live {
 namespace {
 
 using experiment::Experiment;
-using experiment::Outcome;
-using experiment::Steering;
+using run::Outcome;
+using run::Steering;
 using Json = nlohmann::json;
 
 Experiment in_air() {
@@ -27,13 +27,13 @@ Experiment in_air() {
                           {"sequence.repeat=1"});
 }
 
-experiment::RunOptions fed(Feed& feed, const Experiment& e) {
-  experiment::RunOptions o;
+run::RunOptions fed(Feed& feed, const Experiment& e) {
+  run::RunOptions o;
   o.tap = {&feed, [](void* to, std::uint16_t topic, std::int64_t time_ns,
                      std::span<const double> values) noexcept {
              static_cast<Feed*>(to)->push(topic, time_ns, values);
            }};
-  for (std::size_t i = 0; i < experiment::topics(e).size(); ++i)
+  for (std::size_t i = 0; i < run::topics(e).size(); ++i)
     o.tapped.push_back(static_cast<std::uint16_t>(i));
   return o;
 }
@@ -42,28 +42,28 @@ experiment::RunOptions fed(Feed& feed, const Experiment& e) {
 
 TEST(Feed, HandsOnWhatTheRunRecords) {
   const Experiment e = in_air();
-  Feed feed(experiment::topics(e), 1 << 20);
-  const Outcome o = run(e, fed(feed, e));
+  Feed feed(run::topics(e), 1 << 20);
+  const Outcome o = run::run(e, fed(feed, e));
   feed.collect();
   Feed::Position position;
   const signals::Table seen = feed.since(position);
   EXPECT_EQ(feed.left_out(), 0u);
-  experiment::expect_same(o.table, seen);
+  run::expect_same(o.table, seen);
   for (const signals::Series& s : feed.since(position).series) EXPECT_TRUE(s.time_ns.empty());
 }
 
 TEST(Feed, NobodyWhoTakesChangesNothing) {
   const Experiment e = in_air();
-  Feed feed(experiment::topics(e), 64);
-  const Outcome watched = run(e, fed(feed, e));
+  Feed feed(run::topics(e), 64);
+  const Outcome watched = run::run(e, fed(feed, e));
   EXPECT_GT(feed.left_out(), 1000u);
-  experiment::expect_same(run(e).table, watched.table);
+  run::expect_same(run::run(e).table, watched.table);
 }
 
 // One that naps: it gets less, and each row that it gets is whole and true.
 TEST(Feed, ASlowWatcherChangesNothingAndSeesWholeRows) {
   const Experiment e = in_air();
-  Feed feed(experiment::topics(e), 4096);
+  Feed feed(run::topics(e), 4096);
   std::atomic<bool> over{false};
   std::thread watcher([&] {
     while (!over) {
@@ -71,11 +71,11 @@ TEST(Feed, ASlowWatcherChangesNothingAndSeesWholeRows) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
   });
-  const Outcome watched = run(e, fed(feed, e));
+  const Outcome watched = run::run(e, fed(feed, e));
   over = true;
   watcher.join();
   feed.collect();
-  experiment::expect_same(run(e).table, watched.table);
+  run::expect_same(run::run(e).table, watched.table);
 
   Feed::Position position;
   const signals::Table seen = feed.since(position);
@@ -179,15 +179,15 @@ struct Stage {
   explicit Stage(Experiment of)
       : e(std::move(of)),
         resolved(config::parse_text(experiment::resolved(e, "test"), "resolved.toml")),
-        feed(experiment::topics(e), 1 << 20),
+        feed(run::topics(e), 1 << 20),
         show(e, resolved, steering, feed, tick) {
     steering.pace(0);
   }
   Outcome run() {
-    experiment::RunOptions o = fed(feed, e);
+    run::RunOptions o = fed(feed, e);
     o.steering = &steering;
     o.progress = &tick;
-    return experiment::run(e, o);
+    return run::run(e, o);
   }
 
   Experiment e;

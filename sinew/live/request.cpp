@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "sinew/experiment/steering.h"
+#include "sinew/run/simulation/steering.h"
 
 namespace sinew::live {
 namespace {
@@ -65,7 +65,7 @@ Request read_request(std::string_view text, const std::vector<gait::Setting>& se
     if (setting < 0) refuse("an unknown key", "one of the run's gains or desired stiffnesses");
     out.setting = static_cast<std::size_t>(setting);
   }
-  using experiment::Steering;
+  using run::Steering;
   if (form.kind == Kind::pace)
     out.value = number(json["value"], Steering::slowest, Steering::fastest, true);
   if (form.kind == Kind::set) out.value = number(json["value"], 0, gait::Setting::most);

@@ -5,10 +5,11 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "sinew/experiment/columns.h"
-#include "sinew/experiment/run.h"
+#include "sinew/experiment/planar_setup.h"
 #include "sinew/live/request.h"
 #include "sinew/report/page/page_template.h"
+#include "sinew/run/simulation/columns.h"
+#include "sinew/run/simulation/run.h"
 #include "sinew/signals/tick.h"
 
 namespace sinew::live {
@@ -87,17 +88,17 @@ double largest(const gait::Plan& plan, const gait::Setting& s) {
   return out;
 }
 
-Show::Show(const experiment::Experiment& e, const config::Node& resolved,
-           experiment::Steering& steering, Feed& feed, const std::atomic<std::int64_t>& tick)
+Show::Show(const experiment::Experiment& e, const config::Node& resolved, run::Steering& steering,
+           Feed& feed, const std::atomic<std::int64_t>& tick)
     : experiment_(e),
       steering_(steering),
       feed_(feed),
       tick_(tick),
       settings_(gait::settings(e.plan)),
-      growing_(experiment::topics(e), {.resolved = resolved,
-                                       .name = e.name,
-                                       .duration = end_of(e),
-                                       .foot_path = has_foot_path(e.plan)}) {}
+      growing_(run::topics(e), {.resolved = resolved,
+                                .name = e.name,
+                                .duration = end_of(e),
+                                .foot_path = has_foot_path(e.plan)}) {}
 
 std::string Show::controls() const {
   Json out = Json::array();

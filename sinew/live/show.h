@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
-#include "sinew/experiment/steering.h"
 #include "sinew/live/feed.h"
 #include "sinew/report/page/growing.h"
+#include "sinew/run/simulation/steering.h"
 
 namespace sinew::live {
 
@@ -22,7 +22,7 @@ class Show {
 
   // All of them outlive this; `resolved` is what runs.
   Show(const experiment::Experiment& experiment, const config::Node& resolved,
-       experiment::Steering& steering, Feed& feed, const std::atomic<std::int64_t>& tick);
+       run::Steering& steering, Feed& feed, const std::atomic<std::int64_t>& tick);
 
   // The page without samples. `server`: where it may connect to, "127.0.0.1:8080".
   std::string page(std::string_view server) const;
@@ -41,7 +41,7 @@ class Show {
   std::string controls() const;
 
   const experiment::Experiment& experiment_;
-  experiment::Steering& steering_;
+  run::Steering& steering_;
   Feed& feed_;
   const std::atomic<std::int64_t>& tick_;
   std::vector<gait::Setting> settings_;

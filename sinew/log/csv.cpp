@@ -13,7 +13,7 @@ namespace sinew::log {
 namespace {
 
 bool is_edges(const signals::Topic& topic) {
-  return topic.name.starts_with("/valve/") && topic.name.ends_with("/open");
+  return signals::is_of_valve(topic.name) && topic.name.ends_with("/open");
 }
 
 bool is_chosen(const std::string& topic, const std::vector<std::string>& chosen) {

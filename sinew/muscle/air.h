@@ -18,6 +18,7 @@
 
 #include "sinew/muscle/bank.h"
 #include "sinew/muscle/failure.h"
+#include "sinew/muscle/fault.h"
 #include "sinew/muscle/plumbing.h"
 #include "sinew/signals/port.h"
 
@@ -28,9 +29,10 @@ struct Account {
   double mass = 0, in = 0, out = 0, leak = 0;
 };
 
-// Pressures of the supply, absolute  [Pa].
+// Pressures of the supply, absolute  [Pa], and what it has given while a fault had cut it from its
+// tank [kg].
 struct SupplyState {
-  double line = 0, tank = 0;
+  double line = 0, tank = 0, past_tank = 0;
 };
 
 inline double piston_force(const Pull&) { return 0; }  // a bank has no cylinder
@@ -49,8 +51,8 @@ class BankAir {
   };
 
   BankAir(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
-          const std::optional<Cylinder>&)
-      : bank_(muscles, air, supply), supply_(supply.pressure) {}
+          const std::optional<Cylinder>&, std::span<const AirFault> faults = {})
+      : bank_(muscles, air, supply, faults), supply_(supply.pressure) {}
 
   State initial(double pressure, const Lanes& length, double) const {
     State s{};
@@ -65,7 +67,9 @@ class BankAir {
   void command(const signals::Edge& edge, double t, const Answer&, Node& node) const noexcept {
     bank_.electrical(edge.valve.index, t, edge.open, node.valves);
   }
-  void move_valves(double t, Node& node) const noexcept { bank_.node(t, node.valves); }
+  void move_valves(double t, const Answer&, Node& node) const noexcept {
+    bank_.node(t, node.valves);
+  }
   double next_change(const Node& node) const noexcept { return node.valves.next_change; }
   bool flowing(const Node& node) const noexcept { return bank_.any_open(node.valves); }
   double longest_step(const Ends&, const Node&) const noexcept {
@@ -123,7 +127,9 @@ class BankAir {
     for (int i = 0; i < bank_.size(); ++i) sum += s.mass[i];
     return sum;
   }
-  SupplyState supply_state(const Answer&) const noexcept { return {supply_, supply_}; }
+  SupplyState supply_state(const State&, const Answer&) const noexcept {
+    return {supply_, supply_};
+  }
   double cylinder_pressure(const Answer&, int) const noexcept { return 0; }
   Account cylinder_account(const State&, int) const noexcept { return {}; }
 
@@ -154,8 +160,8 @@ class PlumbingAir {
   };
 
   PlumbingAir(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
-              const std::optional<Cylinder>& cylinder)
-      : plumbing_(muscles, air, supply, cylinder), cylinder_(cylinder.has_value()) {}
+              const std::optional<Cylinder>& cylinder, std::span<const AirFault> faults = {})
+      : plumbing_(muscles, air, supply, cylinder, faults), cylinder_(cylinder.has_value()) {}
 
   State initial(double pressure, const Lanes& length, double travel) const {
     State s{};
@@ -172,7 +178,9 @@ class PlumbingAir {
     plumbing_.electrical(edge.valve.index, t, edge.open, at_node, node.valves);
     plumbing_.level(edge.valve.index, t, share, node.valves);
   }
-  void move_valves(double t, Node& node) const noexcept { plumbing_.node(t, node.valves); }
+  void move_valves(double t, const Answer& before, Node& node) const noexcept {
+    plumbing_.node(t, before, node.valves);
+  }
   double next_change(const Node& node) const noexcept { return node.valves.next_change; }
   bool flowing(const Node& node) const noexcept { return !plumbing_.quiet(node.valves); }
   double longest_step(const Ends& ends, const Node& node) const noexcept {
@@ -220,8 +228,8 @@ class PlumbingAir {
   double total_mass(const State& s, double travel) const noexcept {
     return plumbing_.total_mass(s.air, travel);
   }
-  SupplyState supply_state(const Answer& a) const noexcept {
-    return {a.supply_pressure, a.tank_pressure};
+  SupplyState supply_state(const State& s, const Answer& a) const noexcept {
+    return {a.supply_pressure, a.tank_pressure, plumbing_.given_past_tank(s.air)};
   }
   double cylinder_pressure(const Answer& a, int chamber) const noexcept {
     return a.cylinder_pressure[static_cast<std::size_t>(chamber)];

@@ -1,17 +1,22 @@
 #include "sinew/muscle/bank.h"
 
-#include <limits>
+#include <algorithm>
+#include <stdexcept>
 
 #include "sinew/actuator/braid.h"
 
 namespace sinew::muscle {
 
-Bank::Bank(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply)
+Bank::Bank(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
+           std::span<const AirFault> faults)
     : size_(static_cast<int>(muscles.size())),
       air_(air),
       supply_y_(units::power(supply.pressure / air.atmosphere, 1.0 / 7.0)),
       muscles_(muscles.begin(), muscles.end()),
-      braids_(muscles, air) {
+      braids_(muscles, air),
+      faults_(faults) {
+  if (!std::ranges::all_of(faults, is_share_of_valve))
+    throw std::invalid_argument("a bank has no fault but of valves");
   for (const Muscle& m : muscles_) {
     const gas::Valve::Profile ramp = gas::Valve::Profile::ramp;
     ramping_ = ramping_ || m.inlet.profile == ramp || m.exhaust.profile == ramp;
@@ -42,8 +47,12 @@ double Bank::mass_at(int i, double pressure, double length) const {
 
 void Bank::electrical(int valve, double t, bool open, Valves& valves) const noexcept {
   valves.shutter[static_cast<std::size_t>(valve)].electrical(t, open);
-  // A command can also take a pending change back, so look at all of them.
-  valves.next_change = std::numeric_limits<double>::infinity();
+  look_ahead(valves);
+}
+
+// A command can also take a pending change back, so look at all of them.
+void Bank::look_ahead(Valves& valves) const noexcept {
+  valves.next_change = faults_.next(valves.faults);
   for (int v = 0; v < 2 * size_; ++v) {
     const double next = valves.shutter[static_cast<std::size_t>(v)].next();
     valves.next_change = next < valves.next_change ? next : valves.next_change;
@@ -52,37 +61,41 @@ void Bank::electrical(int valve, double t, bool open, Valves& valves) const noex
 
 void Bank::move(double t, Valves& valves) const noexcept {
   for (int v = 0; v < 2 * size_; ++v) valves.shutter[static_cast<std::size_t>(v)].advance(t);
+  faults_.advance(t, valves.faults, [&](const AirFault& f, bool begins) {
+    gas::Shutter& shutter = valves.shutter[static_cast<std::size_t>(f.of)];
+    if (f.what == AirFault::What::seat_leak) return;
+    if (begins)
+      shutter.jam(t, f.what == AirFault::What::stuck_open ? 1.0 : 0.0);
+    else
+      shutter.free(t);
+    shutter.advance(t);  // of a valve without delay
+  });
   refresh(t, valves);
 }
 
-// Shares of area after a change. A 3-way valve that leaves the supply opens to the atmosphere.
+// What the shutter leaves open of the way that it is in. A 3-way valve that leaves the supply opens
+// to the atmosphere.
+double Bank::fraction(int valve, double t, const Valves& valves) const noexcept {
+  const auto v = static_cast<std::size_t>(valve);
+  const bool other_way =
+      valve % 2 == 1 && muscles_[v / 2].inlet.kind == gas::Valve::Kind::three_way;
+  return other_way ? 1.0 - valves.shutter[v - 1].fraction(t) : valves.shutter[v].fraction(t);
+}
+
+// Shares of area after a change.
 void Bank::refresh(double t, Valves& valves) const noexcept {
   valves.open_count = 0;
-  valves.next_change = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < size_; ++i) {
-    const Muscle& m = muscles_[static_cast<std::size_t>(i)];
-    const auto inlet = static_cast<std::size_t>(2 * i), exhaust = inlet + 1;
-    for (std::size_t v : {inlet, exhaust}) {
-      valves.share[v] = valves.shutter[v].fraction(t);
-      const double next = valves.shutter[v].next();
-      valves.next_change = next < valves.next_change ? next : valves.next_change;
-    }
-    if (m.inlet.kind == gas::Valve::Kind::three_way)
-      valves.share[exhaust] = 1.0 - valves.share[inlet];
-    for (std::size_t v : {inlet, exhaust})
-      if (valves.share[v] > 0)
-        valves.open[static_cast<std::size_t>(valves.open_count++)] = {static_cast<int>(v),
-                                                                      valves.share[v]};
+  for (int v = 0; v < 2 * size_; ++v) {
+    double& share = valves.share[static_cast<std::size_t>(v)];
+    share = muscle::open_share(faults_.seat(v, valves.faults), fraction(v, t, valves));
+    if (share > 0) valves.open[static_cast<std::size_t>(valves.open_count++)] = {v, share};
   }
+  look_ahead(valves);
 }
 
 double Bank::open_share(int valve, double t, const Valves& valves) const noexcept {
-  const auto v = static_cast<std::size_t>(valve);
-  if (!ramping_) return valves.share[v];
-  const Muscle& m = muscles_[v / 2];
-  if (m.inlet.kind == gas::Valve::Kind::three_way && valve % 2 == 1)
-    return 1.0 - valves.shutter[v - 1].fraction(t);
-  return valves.shutter[v].fraction(t);
+  if (!ramping_) return valves.share[static_cast<std::size_t>(valve)];
+  return muscle::open_share(faults_.seat(valve, valves.faults), fraction(valve, t, valves));
 }
 
 void Bank::evaluate(double t, const Lanes& length, const Lanes& rate, const Lanes& mass,

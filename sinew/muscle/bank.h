@@ -18,6 +18,7 @@
 #include "sinew/gas/orifice.h"
 #include "sinew/gas/supply.h"
 #include "sinew/muscle/braid_lanes.h"
+#include "sinew/muscle/fault.h"
 #include "sinew/muscle/muscle.h"
 
 namespace sinew::muscle {
@@ -34,11 +35,14 @@ class Bank {
     std::array<double, 2 * capacity> share{};  // of the area that is open
     std::array<Open, 2 * capacity> open{};     // those that let air through
     int open_count = 0;
-    double next_change = 0;  // instant at which a valve really changes, or infinity [s]
+    ActingFaults faults;
+    double next_change = 0;  // instant at which a valve or a fault changes, or infinity [s]
   };
 
-  // Throws std::invalid_argument for more than `capacity` muscles.
-  Bank(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply);
+  // Throws std::invalid_argument for more than `capacity` muscles, and for faults that are not of
+  // a valve's share alone.
+  Bank(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
+       std::span<const AirFault> faults = {});
 
   int size() const { return size_; }
   int padded() const { return braids_.padded(); }  // to whole lanes, which repeat the last muscle
@@ -79,6 +83,8 @@ class Bank {
 
  private:
   void flows(double t, const Lanes& y, const Valves& valves, Pull& out) const noexcept;
+  double fraction(int valve, double t, const Valves& valves) const noexcept;
+  void look_ahead(Valves& valves) const noexcept;
   void move(double t, Valves& valves) const noexcept;
   void refresh(double t, Valves& valves) const noexcept;
 
@@ -88,7 +94,8 @@ class Bank {
   std::vector<Muscle> muscles_;
   BraidLanes braids_;
   std::vector<gas::FlowConstants> flow_;  // of the valves
-  bool ramping_ = false;                  // some valve's area moves gradually
+  FaultSchedule faults_;
+  bool ramping_ = false;  // some valve's area moves gradually
 };
 
 }  // namespace sinew::muscle

@@ -12,7 +12,6 @@
 namespace sinew::muscle {
 namespace {
 
-constexpr double bar = 1e5;
 
 Motion still(double length) {
   Motion m;

@@ -54,13 +54,13 @@ void Plumbing::level(int valve, double t, double share, Valves& valves) const no
 
 // A command can also take a pending change back, so look at all of them.
 void Plumbing::look_ahead(Valves& valves) const noexcept {
-  valves.next_change = never;
+  valves.next_change = faults_.next(valves.faults);
   for (std::size_t v = 0; v < taps_.size(); ++v)
     valves.next_change =
         lesser(valves.next_change, lesser(valves[v].shutter.next(), valves[v].next_set_at));
 }
 
-void Plumbing::move(double t, Valves& valves) const noexcept {
+void Plumbing::move(double t, const AirPull& before, Valves& valves) const noexcept {
   for (std::size_t v = 0; v < taps_.size(); ++v) {
     Valves::Valve& valve = valves[v];
     valve.shutter.advance(t);
@@ -68,28 +68,35 @@ void Plumbing::move(double t, Valves& valves) const noexcept {
     valve.set = valve.next_set;
     valve.next_set_at = never;
   }
+  faults_.advance(t, valves.faults,
+                  [&](const AirFault& f, bool begins) { change(f, begins, t, before, valves); });
   refresh(t, valves);
 }
 
-// Shares of area after a change. A 3-way valve that leaves the supply opens to the atmosphere.
+// What the shutter leaves open of the way that it is in. A 3-way valve that leaves the supply opens
+// to the atmosphere.
+double Plumbing::fraction(std::size_t v, double t, const Valves& valves) const noexcept {
+  const bool other_way = v % 2 == 1 && taps_[v].valve.kind == Kind::three_way;
+  return other_way ? 1.0 - valves[v - 1].shutter.fraction(t) : valves[v].shutter.fraction(t);
+}
+
+// Shares of area after a change.
 void Plumbing::refresh(double t, Valves& valves) const noexcept {
   valves.open_count = 0;
   for (std::size_t v = 0; v < taps_.size(); ++v) {
-    const Kind kind = taps_[v].valve.kind;
-    const bool other_way = v % 2 == 1 && kind == Kind::three_way;
-    valves[v].share = other_way ? 1.0 - valves[v - 1].share : valves[v].shutter.fraction(t);
-    if (kind == Kind::regulator) valves[v].share = 1.0;
+    const bool regulates = taps_[v].valve.kind == Kind::regulator;
+    const double seat = faults_.seat(static_cast<int>(v), valves.faults);
+    valves[v].share = regulates ? 1.0 : muscle::open_share(seat, fraction(v, t, valves));
     if (valves[v].share > 0) ++valves.open_count;
   }
+  valves.leaking = let_through(valves.faults);
   look_ahead(valves);
 }
 
 double Plumbing::open_share(int valve, double t, const Valves& valves) const noexcept {
   const auto v = static_cast<std::size_t>(valve);
-  const Kind kind = taps_[v].valve.kind;
-  if (!ramping_ || kind == Kind::regulator) return valves[v].share;
-  if (valve % 2 == 1 && kind == Kind::three_way) return 1.0 - open_share(valve - 1, t, valves);
-  return valves[v].shutter.fraction(t);
+  if (!ramping_ || taps_[v].valve.kind == Kind::regulator) return valves[v].share;
+  return muscle::open_share(faults_.seat(valve, valves.faults), fraction(v, t, valves));
 }
 
 // Of the air in muscle i  [m^3].
@@ -99,7 +106,7 @@ double Plumbing::volume(int i, double length) const noexcept {
 }
 
 bool Plumbing::shut(int inlet, const Now& now) const noexcept {
-  return !(open_share(inlet, now.t, now.valves) > 0) &&
+  return !now.valves.leaking && !(open_share(inlet, now.t, now.valves) > 0) &&
          !(open_share(inlet + 1, now.t, now.valves) > 0);
 }
 
@@ -130,6 +137,10 @@ Plumbing::Flows Plumbing::through(int inlet, const Now& now, double y) const noe
                out = open_share(inlet + 1, now.t, now.valves);
   if (in > 0) flows.in = in * gas::flow_y(tap.flow, now.y_supply, y);
   if (out > 0) flows.out = out * gas::flow_y(taps_[v + 1].flow, y, 1.0);
+  if (now.valves.leaking) {
+    flows.in += past_seat(inlet, now, now.y_supply, y);
+    flows.out += past_seat(inlet + 1, now, y, 1.0);
+  }
   return flows;
 }
 
@@ -200,9 +211,10 @@ Plumbing::Flows Plumbing::series(int i, const Now& now, const Chamber& c,
                                  AirPull& out) const noexcept {
   const gas::HoseConstants& hose = lines_[static_cast<std::size_t>(i)].hose_flow;
   if (shut(2 * i, now)) return {};
+  const bool passes = !blocked(i, now.valves);
   const auto surplus = [&](double y) {
     const Flows f = through(2 * i, now, y);
-    return f.in - f.out - gas::hose_flow_y(hose, y, c.y);
+    return f.in - f.out - (passes ? gas::hose_flow_y(hose, y, c.y) : 0.0);
   };
   const double low = lesser(1.0, lesser(now.y_supply, c.y)),
                high = greater(1.0, greater(now.y_supply, c.y));
@@ -236,18 +248,20 @@ void Plumbing::line(int i, const Now& now, double length, double rate, const Cha
     return;
   }
   const double room = air_.temperature;
+  const bool passes = !blocked(i, now.valves);
   Flows valves;
   double arrives, there = room;  // in the muscle [kg/s], from air of this temperature
   if (l.hose.mass != none) {
     const Chamber h = chamber(l.hose, muscles_[static_cast<std::size_t>(i)].hose.volume, now.state);
-    arrives = gas::hose_flow_y(l.hose_flow, h.y, c.y);
+    arrives = passes ? gas::hose_flow_y(l.hose_flow, h.y, c.y) : 0.0;
     there = h.temperature;
     valves = buffered(i, now, h, c, arrives, out, derivative);
   } else {
-    valves = l.resists ? series(i, now, c, out) : through(2 * i, now, c.y);
-    arrives = valves.in - valves.out;
+    valves = l.resists || !passes ? series(i, now, c, out) : through(2 * i, now, c.y);
+    arrives = passes ? valves.in - valves.out : 0.0;
   }
-  const double leak = l.leak.tight() ? 0.0 : gas::leak_flow_y(l.leak, c.y);
+  double leak = l.leak.tight() ? 0.0 : gas::leak_flow_y(l.leak, c.y);
+  if (now.valves.leaking) leak += through_holes(i, now, c.y);
   out.inflow[i] = valves.in;
   out.outflow[i] = valves.out;
   out.leak[i] = leak;
@@ -312,8 +326,10 @@ void Plumbing::evaluate(double t, const Lanes& length, const Lanes& rate, double
       tank_ != none ? gas::tank_pressure(supply_, air_, state[tank_]) : supply_.pressure;
   out.supply_pressure =
       tank_ != none ? gas::line_pressure(supply_, out.tank_pressure) : supply_.pressure;
-  const double y_supply =
+  double y_supply =
       out.supply_pressure < supply_.pressure ? gas::y_of(air_, out.supply_pressure) : supply_y_;
+  const double failed = valves.faults.any() ? failed_line(valves, out) : 0.0;
+  if (failed > 0) y_supply = failed;
 
   const Now now{t, y_supply, state, valves};
 
@@ -339,7 +355,8 @@ void Plumbing::evaluate(double t, const Lanes& length, const Lanes& rate, double
   for (std::size_t v = 0; v < taps_.size(); ++v)
     if (const int outlet = taps_[v].outlet; outlet != none)
       derivative[outlet] = gas::outlet_rate(taps_[v].valve.regulator, state[outlet], valves[v].set);
-  if (tank_ != none) derivative[tank_] = -taken;
+  if (tank_ != none) derivative[tank_] = failed > 0 ? 0.0 : -taken;
+  if (cut_ != none) derivative[cut_] = failed > 0 ? taken : 0.0;
 }
 
 }  // namespace sinew::muscle

@@ -29,6 +29,7 @@
 #include "sinew/gas/supply.h"
 #include "sinew/muscle/bank.h"
 #include "sinew/muscle/cylinder.h"
+#include "sinew/muscle/fault.h"
 #include "sinew/muscle/muscle.h"
 
 namespace sinew::muscle {
@@ -60,7 +61,7 @@ struct AirPull : Pull {
 
 // Is there anything that a bank cannot do?
 bool needs_plumbing(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
-                    const std::optional<Cylinder>& cylinder);
+                    const std::optional<Cylinder>& cylinder, std::span<const AirFault> faults = {});
 
 class Plumbing {
  public:
@@ -74,7 +75,10 @@ class Plumbing {
     };
     std::array<Valve, 2 * capacity + 4> of;
     int open_count = 0;
-    double next_change = 0;  // instant at which a valve or a set point changes, or infinity [s]
+    ActingFaults faults;
+    bool leaking = false;    // some fault lets air through although every valve is shut
+    double next_change = 0;  // instant at which a valve, a set point or a fault changes, or
+                             // infinity [s]
 
     Valve& operator[](std::size_t v) { return of[v]; }
     const Valve& operator[](std::size_t v) const { return of[v]; }
@@ -83,7 +87,7 @@ class Plumbing {
   // Throws std::invalid_argument for more than `capacity` muscles, and for a cylinder with valves
   // whose chambers vanish at a stop.
   Plumbing(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
-           const std::optional<Cylinder>& cylinder = {});
+           const std::optional<Cylinder>& cylinder = {}, std::span<const AirFault> faults = {});
 
   int muscles() const { return size_; }
   int states() const { return states_; }
@@ -110,6 +114,10 @@ class Plumbing {
   // or a leak.
   double total_mass(const AirState& state, double travel) const;
 
+  // Air that a supply has given since the start while a fault had cut it from its tank; below 0 it
+  // has taken more  [kg].
+  double given_past_tank(const AirState& state) const { return cut_ == none ? 0.0 : state[cut_]; }
+
   // An electrical edge of a valve at t, not before the last node. `at_node`: the look at that node,
   // for delays and failures that depend on the pressure difference.
   void electrical(int valve, double t, bool open, const AirPull& at_node,
@@ -118,9 +126,10 @@ class Plumbing {
   // Set point of a regulator from t on, as a share 0..1 of its range; not before the last node.
   void level(int valve, double t, double share, Valves& valves) const noexcept;
 
-  // At a node: valves and set points move to t.
-  void node(double t, Valves& valves) const noexcept {
-    if (valves.next_change <= t) move(t, valves);
+  // At a node: valves, set points and faults move to t. `before`: the look at the last node, for
+  // the delay of a shutter that a fault lets go.
+  void node(double t, const AirPull& before, Valves& valves) const noexcept {
+    if (valves.next_change <= t) move(t, before, valves);
   }
 
   // The law itself; t matters only to valves that ramp.
@@ -140,7 +149,7 @@ class Plumbing {
 
   // Nothing flows, warms or creeps: the derivative is all zero until the next change.
   bool quiet(const Valves& valves) const noexcept {
-    return !restless_ && !ramping_ && valves.open_count == 0;
+    return !restless_ && !ramping_ && valves.open_count == 0 && !valves.leaking;
   }
 
   // Share of the valve's area that is open at t  [-].
@@ -220,9 +229,21 @@ class Plumbing {
   void warm(const Slot& slot, const AirState& state, double gained, double work,
             AirState& derivative) const noexcept;
   double difference(int valve, const AirPull& at_node) const noexcept;
+  double fraction(std::size_t valve, double t, const Valves& valves) const noexcept;
   void look_ahead(Valves& valves) const noexcept;
-  void move(double t, Valves& valves) const noexcept;
+  void move(double t, const AirPull& before, Valves& valves) const noexcept;
   void refresh(double t, Valves& valves) const noexcept;
+
+  // plumbing_faults.cpp
+  void add_faults();
+  void change(const AirFault& fault, bool begins, double t, const AirPull& before,
+              Valves& valves) const noexcept;
+  bool let_through(const ActingFaults& faults) const noexcept;
+  double past_seat(int valve, const Now& now, double y_from, double y_to) const noexcept;
+  double through_holes(int i, const Now& now, double y) const noexcept;
+  bool blocked(int i, const Valves& valves) const noexcept;
+  double failed_line(const Valves& valves, AirPull& out) const noexcept;
+  double slope_of_faults(int pair, const ActingFaults& faults) const noexcept;
 
   void muscles_in_lanes(const Lanes& length, const Lanes& rate, const AirState& state, AirPull& out,
                         Lanes& y) const noexcept;
@@ -241,7 +262,15 @@ class Plumbing {
   std::array<Slot, 2> sides_;  // of the cylinder
   int tank_ = none;
   bool ramping_ = false, restless_ = false;
-  double longest_step_ = 0;  // of all that has the same rate wherever the machine stands [s]
+  FaultSchedule faults_;
+  struct Broken {
+    gas::LeakConstants leak;
+    double y = 1;  // of the supply's line
+  };
+  std::vector<Broken> broken_;  // by each fault
+  int cut_ = none;              // state: air from a line that is cut from its tank
+  double spring_ = 0;           // n R T: a chamber of volume V follows a slope G at n R T G/V
+  double longest_step_ = 0;     // of all that has the same rate wherever the machine stands [s]
   std::array<double, 2> side_settling_{};  // of the cylinder's chambers, as a line's [m^3/s]
   bool settles_ = false;                   // a line has `settling`
   bool plays_ = false;                     // a line has a `play`

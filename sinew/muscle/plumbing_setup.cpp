@@ -27,9 +27,10 @@ bool needs_pressures(const gas::Valve& v) {
 }  // namespace
 
 bool needs_plumbing(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
-                    const std::optional<Cylinder>& cylinder) {
-  bool any =
-      cylinder.has_value() || air.wall_time > 0 || supply.kind != gas::Supply::Kind::constant;
+                    const std::optional<Cylinder>& cylinder, std::span<const AirFault> faults) {
+  bool any = cylinder.has_value() || air.wall_time > 0 ||
+             supply.kind != gas::Supply::Kind::constant ||
+             !std::ranges::all_of(faults, is_share_of_valve);
   for (const Muscle& m : muscles) {
     any = any || !lanes_hold(m);
     any = any || m.hose.law != gas::Hose::Law::none || m.leak.area > 0 || m.leak.conductance > 0;
@@ -40,7 +41,7 @@ bool needs_plumbing(std::span<const Muscle> muscles, const gas::Air& air, const 
 }
 
 Plumbing::Plumbing(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
-                   const std::optional<Cylinder>& cylinder)
+                   const std::optional<Cylinder>& cylinder, std::span<const AirFault> faults)
     : size_(static_cast<int>(muscles.size())),
       air_(air),
       supply_(supply),
@@ -48,7 +49,8 @@ Plumbing::Plumbing(std::span<const Muscle> muscles, const gas::Air& air, const g
       muscles_(muscles.begin(), muscles.end()),
       braids_(muscles, air),
       in_lanes_(!(air.wall_time > 0) && std::ranges::all_of(muscles, lanes_hold)),
-      cylinder_(cylinder) {
+      cylinder_(cylinder),
+      faults_(faults) {
   for (const Muscle& m : muscles_) add_muscle(m);
   for (int i = 0; i < size_; ++i) lines_[static_cast<std::size_t>(i)].chamber.mass = states_++;
   if (air_.wall_time > 0)
@@ -62,6 +64,7 @@ Plumbing::Plumbing(std::span<const Muscle> muscles, const gas::Air& air, const g
     if (regulates(tap.valve) && tap.valve.regulator.time_constant > 0) tap.outlet = states_++;
   if (supply_.kind == gas::Supply::Kind::tank) tank_ = states_++;
   for (int i = 0; i < size_; ++i) add_memory(i);
+  add_faults();
 
   // What flows, warms or creeps although every valve is shut.
   restless_ = air_.wall_time > 0 || (cylinder_ && cylinder_->mode == Cylinder::Mode::regulator);
@@ -153,7 +156,7 @@ void Plumbing::limit_step() {
       if (lines_[m].late[k] != none) faster(1.0 / muscles_[m].actuator.creep.time[k]);
   }
   const double exponent = air_.wall_time > 0 ? gas::heat_capacity_ratio : air_.polytropic_exponent;
-  const double spring = exponent * air_.gas_constant * air_.temperature;
+  const double spring = spring_ = exponent * air_.gas_constant * air_.temperature;
   for (int i = 0; i < size_; ++i) {
     Line& l = lines_[static_cast<std::size_t>(i)];
     double slope = (l.leak.hole.linear_gain + l.leak.slope) / air_.atmosphere;
@@ -183,20 +186,30 @@ double Plumbing::longest_step() const noexcept {
 }
 
 // Rates of a hose's chamber and of the muscle behind it add up, at most. A cylinder's chamber with
-// its valves shut has none.
+// its valves shut has none. A fault that leaks may leak from either chamber of a muscle.
 double Plumbing::longest_step(const Lanes& length, double travel,
                               const Valves& valves) const noexcept {
   double fastest = 0;
-  for (int i = 0; i < size_ && settles_; ++i) {
-    const double rate = lines_[static_cast<std::size_t>(i)].settling / volume(i, length[i]);
+  for (int i = 0; i < size_ && (settles_ || valves.leaking); ++i) {
+    const auto m = static_cast<std::size_t>(i);
+    double rate = lines_[m].settling / volume(i, length[i]);
+    if (valves.leaking) {
+      const double broken = spring_ * slope_of_faults(i, valves.faults);
+      rate += broken / volume(i, length[i]);
+      if (lines_[m].hose.mass != none) rate += broken / muscles_[m].hose.volume;
+    }
     fastest = std::max(fastest, rate);
   }
   fastest += stable / longest_step_;
   for (const Side side : {up, down}) {
     if (sides_[side].mass == none) continue;
     const auto inlet = static_cast<std::size_t>(2 * (size_ + side));
-    if (!ramping_ && !(valves[inlet].share > 0) && !(valves[inlet + 1].share > 0)) continue;
-    fastest = std::max(fastest, side_settling_[side] / muscle::volume(*cylinder_, side, travel));
+    const bool open = ramping_ || valves[inlet].share > 0 || valves[inlet + 1].share > 0;
+    const double broken =
+        valves.leaking ? spring_ * slope_of_faults(size_ + side, valves.faults) : 0.0;
+    if (!open && !(broken > 0)) continue;
+    fastest = std::max(fastest,
+                       (side_settling_[side] + broken) / muscle::volume(*cylinder_, side, travel));
   }
   return fastest > 0 ? stable / fastest : never;
 }

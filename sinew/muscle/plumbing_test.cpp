@@ -63,7 +63,7 @@ TEST(Plumbing, PlainMusclesAreTheBanks) {
     EXPECT_EQ(bank.next_change(), valves.next_change);
     const double t = instants(random);
     bank.node(t);
-    plumbing.node(t, valves);
+    plumbing.node(t, {}, valves);
     EXPECT_EQ(bank.next_change(), valves.next_change);
 
     Pull by_bank{};

@@ -73,14 +73,14 @@ struct Hand {
       if (valves.next_change < next) next = valves.next_change;
       if (next > t) step(next - t);
       t = next;
-      plumbing.node(t, valves);
+      plumbing.node(t, now, valves);
     }
     look(t, state, now);
   }
 
   void electrical(int valve, bool open) {
     plumbing.electrical(valve, t, open, now, valves);
-    plumbing.node(t, valves);
+    plumbing.node(t, now, valves);
     look(t, state, now);
   }
 };

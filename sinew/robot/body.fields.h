@@ -101,10 +101,13 @@ void fields(Visitor& v, Cylinder& c) {
     v.number({.name = name, .unit = "m", .min = 0, .doc = doc}, value);
   };
   v.flag({.name = "present", .doc = "false: the first joint keeps its height"}, c.present);
-  v.choice({.name = "mode", .doc = "locked: at the extended stop"}, c.mode,
-           {{"locked", Cylinder::Mode::locked},
-            {"regulator", Cylinder::Mode::regulator},
-            {"valves", Cylinder::Mode::valves}});
+  v.choice(
+      {.name = "mode", .doc = "locked: at the extended stop; free: without air, the body slides"},
+      c.mode,
+      {{"locked", Cylinder::Mode::locked},
+       {"regulator", Cylinder::Mode::regulator},
+       {"valves", Cylinder::Mode::valves},
+       {"free", Cylinder::Mode::free}});
   length("bore", "of the cylinder", c.bore);
   length("rod_diameter", "of its rod, on the side of `up`", c.rod_diameter);
   length("stroke", "upwards from the extended stop", c.stroke);
@@ -147,6 +150,15 @@ void fields(Visitor& v, Link& link) {
             .why = "a link has an inertia, a cricket's too",
             .doc = "about the centre of mass"},
            link.inertia);
+  v.text({.name = "parent",
+          .optional = true,
+          .doc = "link that it hangs on, or body; absent: the one before, the first on the body"},
+         link.parent);
+  v.number({.name = "at",
+            .unit = "m",
+            .optional = true,
+            .doc = "along its parent, absent: at its end; on the body: ahead of its origin"},
+           link.at);
 }
 
 template <class Visitor>
@@ -167,6 +179,25 @@ void fields(Visitor& v, Foot& foot) {
                     p.across);
            g.number({.name = "radius", .unit = "m", .min = 0, .doc = "of the disc"}, p.radius);
          });
+}
+
+template <class Visitor>
+void fields(Visitor& v, Leg& leg) {
+  v.texts({.name = "joints", .doc = "of the leg, from the body outwards; each <leg>_<name>"},
+          leg.joints);
+  v.group({.name = "foot", .optional = true, .doc = "in place of [foot]"},
+          [&](auto& g) { fields(g, leg.foot); });
+  v.text({.name = "plan",
+          .optional = true,
+          .doc = "[plan.<name>] of the experiment, that it follows; absent: [sequence]"},
+         leg.plan);
+  v.number({.name = "offset",
+            .unit = "1",
+            .min = 0,
+            .max = 1,
+            .optional = true,
+            .doc = "by which its sequence is ahead, as a share of a step"},
+           leg.offset);
 }
 
 template <class Visitor>

@@ -5,7 +5,9 @@
 #include <map>
 #include <set>
 
+#include "sinew/robot/check_legs.h"
 #include "sinew/robot/kinematics.h"
+#include "sinew/robot/legs.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::robot {
@@ -35,9 +37,16 @@ void check_sizes(const Robot& robot, List& out) {
     out.push_back({"joint",
                    std::to_string(joints) + " joints and " + std::to_string(links) + " links",
                    "one joint per link", "link k hangs at joint k, in the order of the file"});
-  if (joints == 0 || joints > static_cast<std::size_t>(max_joints))
-    out.push_back({"joint", std::to_string(joints) + " joints",
-                   "1 to " + std::to_string(max_joints), "a smaller robot"});
+  // A cylinder on valves is one more of the low level's.
+  const bool lifts = robot.cylinder.present && robot.cylinder.mode == Cylinder::Mode::valves;
+  const auto most = static_cast<std::size_t>(max_joints - (lifts ? 1 : 0));
+  if (joints == 0 || joints > most)
+    out.push_back({"joint", std::to_string(joints) + " joints", "1 to " + std::to_string(most),
+                   "a smaller robot"});
+  if (robot.muscles.size() > static_cast<std::size_t>(max_muscles))
+    out.push_back({"muscle", std::to_string(robot.muscles.size()) + " muscles",
+                   "at most " + std::to_string(max_muscles),
+                   "actuators in parallel are one muscle with a larger count"});
   check_names(robot.links, "link", out);
   check_names(robot.joints, "joint", out);
   check_names(robot.muscles, "muscle", out);
@@ -273,7 +282,8 @@ void check_controllers(const Robot& robot, List& out) {
 void check_cylinder(const Robot& robot, List& out) {
   const Cylinder& c = robot.cylinder;
   if (!c.present) return;
-  if (!(c.bore > c.rod_diameter && c.stroke > 0))
+  const bool has_air = c.mode != Cylinder::Mode::free;
+  if (has_air && !(c.bore > c.rod_diameter && c.stroke > 0))
     out.push_back({"cylinder", "a bore not above its rod, or no stroke",
                    "bore > rod_diameter and stroke > 0", "0.627 in and 2 in, 4.2"});
   if (!(c.body_mass > 0))
@@ -303,13 +313,39 @@ void check_rollers(const Robot& robot, List& out) {
                    "it is part of trolley.total_mass"});
 }
 
+// Ends of a range with the rest angle between them.
+void check_stops(const Robot& robot, List& out) {
+  for (const Joint& joint : robot.joints) {
+    const Stop& stop = joint.stop;
+    const std::string key = "joint." + joint.name + ".stop";
+    if (stop.range.empty()) continue;
+    if (!stop.present() || !(stop.range[0] < stop.range[1]))
+      out.push_back({key + ".angles",
+                     std::to_string(stop.range.size()) + " angles, or none that rise",
+                     "two: the lowest and the highest", "angles = [\"240 deg\", \"330 deg\"]"});
+    else if (joint.rest_angle < stop.range[0] || joint.rest_angle > stop.range[1])
+      out.push_back({key + ".angles", "a range without the rest angle",
+                     "angles about the joint's rest_angle, in the same turn",
+                     "add or take 360 deg"});
+    if (!(stop.stiffness > 0))
+      out.push_back({key + ".stiffness", "0", "above 0: it holds the joint",
+                     "so that the joint's largest torque bends it by a degree or two"});
+  }
+}
+
 void check_masses(const Robot& robot, List& out) {
   check_names(robot.foot.points, "foot.point", out);
-  if (robot.trolley.present && trolley_own_mass(robot) <= 0)
+  // A body that is free in the plane may have no mass but its links'.
+  const bool free = robot.cylinder.present && robot.cylinder.mode == Cylinder::Mode::free;
+  const double own = trolley_own_mass(robot), least = free ? -1e-9 * robot.trolley.total_mass : 0;
+  if (robot.trolley.present && (free ? own < least : own <= 0))
     out.push_back({"trolley.total_mass", std::to_string(robot.trolley.total_mass) + " kg",
                    "more than links and foot together, " + std::to_string(leg_mass(robot)) + " kg",
                    "the mass of all that moves along the track"});
-  if (robot.ground.present && !robot.foot.present)
+  bool stands = false;
+  for (std::size_t l = 0; l < std::max<std::size_t>(1, robot.legs.size()); ++l)
+    stands = stands || foot_of(robot, l).present;
+  if (robot.ground.present && !stands)
     out.push_back({"ground.present", "true", "a foot to stand on it",
                    "[foot] with present = true, or ground.present = false"});
   for (const Link& link : robot.links)
@@ -323,12 +359,15 @@ void check_masses(const Robot& robot, List& out) {
 std::vector<Contradiction> contradictions(const Robot& robot) {
   List out;
   check_sizes(robot, out);
+  check_tree(robot, out);
+  if (out.empty()) check_legs(robot, out);
   check_pairs(robot, out);
   check_bits(robot, out);
   check_scan(robot, out);
   check_coverage(robot, out);
   check_controllers(robot, out);
   check_masses(robot, out);
+  check_stops(robot, out);
   check_cylinder(robot, out);
   check_rollers(robot, out);
   return out;

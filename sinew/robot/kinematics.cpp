@@ -40,13 +40,14 @@ std::array<double, 2> solve(const TwoLinks& leg, Point p, Knee knee) {
 bool is_leg(const Robot& robot) {
   const std::size_t n = robot.joints.size();
   if (robot.links.size() < 2 || n != robot.links.size()) return false;
+  if (!robot.legs.empty() || parent_of(robot, 1) != 0) return false;
   for (std::size_t j = 0; j < n; ++j)
     if ((robot.joints[j].kind == Joint::Kind::passive) != (j >= 2)) return false;
   return true;
 }
 
 TwoLinks two_links(const Robot& robot) {
-  return {robot.links.at(0).length, robot.links.at(1).length};
+  return {attachment_of(robot, 1), robot.links.at(1).length};
 }
 
 double normalised(double angle) {
@@ -73,8 +74,26 @@ Pose forward(std::span<const double> lengths, std::span<const double> angles) {
 Pose forward(const Robot& robot, std::span<const double> angles) {
   std::array<double, max_joints> lengths{};
   const std::size_t n = std::min(robot.links.size(), lengths.size());
-  for (std::size_t i = 0; i < n; ++i) lengths[i] = robot.links[i].length;
+  for (std::size_t i = 0; i < n; ++i)
+    lengths[i] = i + 1 < n ? attachment_of(robot, i + 1) : robot.links[i].length;
   return forward(std::span(lengths).first(n), angles);
+}
+
+std::vector<LinkPlace> places(const Robot& robot, std::span<const double> angles) {
+  std::vector<LinkPlace> out;
+  for (std::size_t i = 0; i < robot.links.size() && i < angles.size(); ++i) {
+    const int parent = parent_of(robot, i);
+    const double at = attachment_of(robot, i);
+    LinkPlace place{.joint = {at, 0}, .heading = angles[i]};
+    if (parent >= 0) {
+      const LinkPlace& on = out[static_cast<std::size_t>(parent)];
+      place.heading += on.heading;
+      place.joint = {on.joint.x + at * std::cos(on.heading),
+                     on.joint.y + at * std::sin(on.heading)};
+    }
+    out.push_back(place);
+  }
+  return out;
 }
 
 Point foot_position(const TwoLinks& leg, double theta1, double theta2) {

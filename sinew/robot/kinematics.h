@@ -6,6 +6,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "sinew/robot/robot.h"
 
@@ -32,7 +33,15 @@ struct Pose {
 
 // [61], [62] for up to max_joints links; as many angles.
 Pose forward(std::span<const double> lengths, std::span<const double> angles);
-Pose forward(const Robot&, std::span<const double> angles);
+Pose forward(const Robot&, std::span<const double> angles);  // of one that is serial
+
+// Where each link of a robot of any shape is, from the body's origin; as many as there are angles.
+struct LinkPlace {
+  Point joint;         // that it hangs at [m]
+  double heading = 0;  // of its direction, from +x [rad]
+};
+std::vector<LinkPlace> places(const Robot&, std::span<const double> angles);
+
 Point foot_position(const TwoLinks&, double theta1, double theta2);
 
 // The angle in 0 .. 2 pi  [rad].

@@ -32,6 +32,21 @@ void driven_fields(Visitor& v, Joint& joint) {
 }
 
 template <class Visitor>
+void fields(Visitor& v, Stop& stop) {
+  constexpr double turns = 12.6;  // two, either way [rad]
+  v.numbers({.name = "angles",
+             .unit = "rad",
+             .min = -turns,
+             .max = turns,
+             .doc = "lowest and highest angle, about the rest angle"},
+            stop.range);
+  v.number({.name = "stiffness", .unit = "N m/rad", .min = 0, .doc = "of either end"},
+           stop.stiffness);
+  v.number({.name = "damping", .unit = "N m s/rad", .min = 0, .doc = "of either end"},
+           stop.damping);
+}
+
+template <class Visitor>
 void fields(Visitor& v, Joint& joint) {
   constexpr double turn = 6.283185307179586;
 
@@ -61,6 +76,8 @@ void fields(Visitor& v, Joint& joint) {
             .optional = !(joint.spring > 0),
             .doc = "where the spring pulls nothing"},
            joint.spring_angle);
+  v.group({.name = "stop", .optional = true, .doc = "what it strikes at the ends of its range"},
+          [&](auto& g) { fields(g, joint.stop); });
   if (joint.kind == Joint::Kind::driven) driven_fields(v, joint);
 }
 

@@ -1,6 +1,9 @@
 #include "sinew/robot/robot.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "sinew/robot/legs.h"
 
 namespace sinew::robot {
 namespace {
@@ -69,6 +72,29 @@ bool needs_tension(const Robot& robot, int muscle) {
   return false;
 }
 
+int parent_of(const Robot& robot, std::size_t link) {
+  const std::string& name = robot.links[link].parent;
+  if (name.empty()) return static_cast<int>(link) - 1;
+  if (name == body_name) return -1;
+  const int found = find(robot.links, name);
+  return found < 0 ? -2 : found;
+}
+
+double attachment_of(const Robot& robot, std::size_t link) {
+  if (std::isfinite(robot.links[link].at)) return robot.links[link].at;
+  const int parent = parent_of(robot, link);
+  return parent < 0 ? 0.0 : robot.links[static_cast<std::size_t>(parent)].length;
+}
+
+bool is_serial(const Robot& robot) {
+  for (std::size_t i = 0; i < robot.links.size(); ++i) {
+    const double end = i > 0 ? robot.links[i - 1].length : 0.0;
+    if (parent_of(robot, i) != static_cast<int>(i) - 1 || attachment_of(robot, i) != end)
+      return false;
+  }
+  return robot.legs.size() <= 1;
+}
+
 bool is_plain(const Robot& robot) {
   const auto round = [](const Cam& cam) { return cam.angle.empty() && !(cam.radius > 0); };
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
@@ -81,19 +107,22 @@ bool is_plain(const Robot& robot) {
     if (!m.second.joint.empty() || !round(m.cam)) return false;
   for (const Sensor& s : robot.sensors)
     if (s.kind == Sensor::Kind::pressure || s.kind == Sensor::Kind::velocity) return false;
-  return robot.joints.size() <= 2 && robot.foot.points.empty() &&
+  return robot.joints.size() <= 2 && is_serial(robot) && robot.foot.points.empty() &&
          (!robot.cylinder.present || robot.cylinder.mode == Cylinder::Mode::locked);
 }
 
 bool is_chain(const Robot& robot) {
   for (const Muscle& m : robot.muscles)
     if (!m.second.joint.empty() || !m.cam.angle.empty()) return false;
-  return !robot.joints.empty() && robot.joints.size() <= 2 && robot.foot.points.empty() &&
+  return !robot.joints.empty() && robot.joints.size() <= 2 && is_serial(robot) &&
+         robot.foot.points.empty() &&
          (!robot.cylinder.present || robot.cylinder.mode == Cylinder::Mode::locked);
 }
 
 double leg_mass(const Robot& robot) {
-  double mass = robot.foot.present ? robot.foot.mass : 0.0;
+  double mass = 0;
+  for (std::size_t l = 0; l < std::max<std::size_t>(1, robot.legs.size()); ++l)
+    if (const Foot& foot = foot_of(robot, l); foot.present) mass += foot.mass;
   for (const Link& link : robot.links) mass += link.mass;
   return mass;
 }

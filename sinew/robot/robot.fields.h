@@ -134,8 +134,10 @@ void fields(Visitor& v, Robot& robot) {
           [&](auto& g) { fields(g, robot.rollers); });
   v.group({.name = "cylinder", .optional = true, .doc = "joint 0, between trolley and body, 4.2"},
           [&](auto& g) { fields(g, robot.cylinder); });
-  v.each({.name = "link", .doc = "from the first joint outwards"}, robot.links,
-         [](auto& g, Link& link) { fields(g, link); });
+  v.each({.name = "link", .doc = "from the first joint outwards, a parent before its children"},
+         robot.links, [](auto& g, Link& link) { fields(g, link); });
+  v.each({.name = "leg", .optional = true, .doc = "of a robot with several"}, robot.legs,
+         [](auto& g, Leg& leg) { fields(g, leg); });
   v.group({.name = "foot", .optional = true, .doc = "at the end of the last link"},
           [&](auto& g) { fields(g, robot.foot); });
   v.group({.name = "ground", .optional = true, .doc = "the table"},

@@ -2,8 +2,8 @@
 // plants move it, controllers drive it, analysis reads its logs.
 //
 // Plane x forward, y up, origin at the hip axis; angles counter-clockwise, the first joint's from
-// +x, every other joint's from its proximal link's direction. Link k hangs at joint k. SI
-// throughout.
+// +x, every other joint's from its proximal link's direction. Link k hangs at joint k: on the link
+// before it, on another one (a tree), or on the body, which carries the first. SI throughout.
 #pragma once
 
 #include <limits>
@@ -17,10 +17,15 @@
 
 namespace sinew::robot {
 
-inline constexpr int max_joints = 4;                // what the loop's fixed arrays hold
-inline constexpr int max_muscles = 2 * max_joints;  // one pair per joint
+// What the loop's fixed arrays hold.
+inline constexpr int max_joints = 8;   // of one board of the low level
+inline constexpr int max_muscles = 8;  // with an inlet and an exhaust each: its 16 bits
+inline constexpr int max_discs = 8;    // of all feet together
 
 inline constexpr double not_set = std::numeric_limits<double>::quiet_NaN();
+
+// What a link names as its parent that hangs on the body.
+inline constexpr std::string_view body_name = "body";
 
 struct Link {
   std::string name;
@@ -28,6 +33,9 @@ struct Link {
   double mass = 0;            // [kg]
   double center_of_mass = 0;  // from the proximal joint [m]
   double inertia = 0;         // about the centre of mass [kg m^2]
+  std::string parent = {};    // link that it hangs on, or body_name; empty: the one before it
+  double at = not_set;        // along the parent, or ahead of the body's origin; not set: at the
+                              // parent's end, or at the origin [m]
 };
 
 // Gains in the controller's own units; see control/joint/config.h.
@@ -35,6 +43,16 @@ struct Gains {
   double angle = 0;      // G_theta [1/count]
   double stiffness = 0;  // G_k [1/(N m/rad)]
   double velocity = 0;   // G_v [s/count]
+};
+
+// What a joint strikes at the ends of its range: a spring and a damper at either end that only
+// push.
+struct Stop {
+  std::vector<double> range;  // lowest and highest angle; empty: none [rad]
+  double stiffness = 0;       // [N m/rad]
+  double damping = 0;         // [N m s/rad]
+
+  bool present() const { return range.size() == 2; }
 };
 
 struct Joint {
@@ -51,6 +69,7 @@ struct Joint {
   double damper = 0;        // of a rotary damper beside it, 7.3 [N m s/rad]
   double spring = 0;        // [N m/rad]
   double spring_angle = 0;  // where the spring pulls nothing [rad]
+  Stop stop;
   Gains gains;
   Velocity velocity;
   StiffnessSource stiffness_source = StiffnessSource::forces;
@@ -111,6 +130,17 @@ struct Foot {
   std::vector<Point> points;  // in place of the one disc at the link's end; a shoe has two
 };
 
+// One of several legs: a path of joints from the body outwards, with a foot at its end. The names
+// of its joints and muscles begin with its own and "_"; what drives it, and what is logged of it,
+// leaves that out (legs.h).
+struct Leg {
+  std::string name;
+  std::vector<std::string> joints;  // from the body outwards
+  Foot foot;                        // in place of Robot::foot where it is present
+  std::string plan;                 // sequence of the experiment's that it follows; empty: the one
+  double offset = 0;                // by which its sequence is ahead, as a share of a step [-]
+};
+
 struct Ground {
   bool present = false;
   double height = 0;            // of the ankle point at contact [m]
@@ -155,7 +185,7 @@ struct Rollers {
 // Joint 0 of 4.2: an air cylinder between trolley and body moves the first joint up and down.
 // Travel counts upwards from the extended stop, where the first joint is at the origin.
 struct Cylinder {
-  enum class Mode { locked, regulator, valves };
+  enum class Mode { locked, regulator, valves, free };
   struct Chamber {
     double dead_volume = 0;      // with its hoses, at its end of the stroke [m^3]
     std::string inlet, exhaust;  // names in the valves file
@@ -163,8 +193,8 @@ struct Cylinder {
   };
 
   bool present = false;
-  Mode mode =
-      Mode::locked;  // at the extended stop; or behind a regulator; or four valves in a loop
+  Mode mode = Mode::locked;  // at the extended stop; or behind a regulator; or four valves in a
+                             // loop; or free: there is no air in it, the body slides
   double bore = 0, rod_diameter = 0, stroke = 0;  // [m]
   double body_mass = 0;  // what moves up and down, links and foot apart; in the total mass [kg]
   double friction = 0;   // of piston and bearings, dry [N]
@@ -239,6 +269,7 @@ struct Robot {
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Muscle> muscles;
+  std::vector<Leg> legs;  // empty: one, which is all of the robot's links
   Foot foot;
   Ground ground;
   Trolley trolley;
@@ -269,11 +300,20 @@ bool needs_tension(const Robot&, int muscle);
 // sensor but angles and tensions looks: what the thesis's laws of a joint are written for.
 bool is_plain(const Robot&);
 
+// The link that a link hangs on, by its position; -1: the body. A name that leads nowhere: -2.
+int parent_of(const Robot&, std::size_t link);
+
+// Where a link hangs: along its parent, or ahead of the body's origin  [m].
+double attachment_of(const Robot&, std::size_t link);
+
+// One link after the other, each at the end of the one before, with one foot: no tree.
+bool is_serial(const Robot&);
+
 // At most two joints, every muscle over a round cam at one of them, one disc for a foot, the
 // cylinder locked or none: a machine that a planar chain in closed form holds.
 bool is_chain(const Robot&);
 
-// Links and foot together  [kg].
+// Links and feet together  [kg].
 double leg_mass(const Robot&);
 
 // What is left of the total for the trolley itself  [kg]; 0 without a trolley.

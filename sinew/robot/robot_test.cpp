@@ -34,6 +34,17 @@ TEST(Contradictions, NamesThatLeadNowhere) {
             (Keys{"muscle.hip_flexor.inlet"}));
 }
 
+TEST(Contradictions, StopsHoldTheRestAngle) {
+  const auto stop = [](std::vector<double> range, double stiffness) {
+    return keys_after([&](Robot& r) { r.joints[1].stop = {std::move(range), stiffness, 0}; });
+  };
+  EXPECT_EQ(stop({5.0, 6.0}, 100), Keys{});
+  EXPECT_EQ(stop({6.0, 5.0}, 100), Keys{"joint.knee.stop.angles"});
+  EXPECT_EQ(stop({5.0}, 100), Keys{"joint.knee.stop.angles"});
+  EXPECT_EQ(stop({0.1, 1.0}, 100), Keys{"joint.knee.stop.angles"});
+  EXPECT_EQ(stop({5.0, 6.0}, 0), Keys{"joint.knee.stop.stiffness"});
+}
+
 TEST(Contradictions, PairsAndTheirSensors) {
   EXPECT_EQ(keys_after([](Robot& r) { r.muscles[1].role = Muscle::Role::flexor; }),
             (Keys{"joint.hip"}));
@@ -146,6 +157,7 @@ struct Census {
   void integer(const units::Field& f, int&) { note(f, false); }
   void flag(const units::Field& f, bool&) { note(f, false); }
   void text(const units::Field& f, std::string&) { note(f, false); }
+  void texts(const units::Field& f, std::vector<std::string>&) { note(f, false); }
   template <class Enum>
   void choice(const units::Field& f, Enum&,
               std::initializer_list<units::Choice<std::type_identity_t<Enum>>> choices) {

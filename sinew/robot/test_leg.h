@@ -65,4 +65,36 @@ inline Robot leg() {
   return robot;
 }
 
+// The leg twice on one body, both hips on one axis: legs left and right.
+inline Robot two_legs() {
+  const Robot one = leg();
+  Robot robot = one;
+  robot.links.clear(), robot.joints.clear(), robot.muscles.clear(), robot.sensors.clear();
+  for (const std::string name : {"left", "right"}) {
+    const auto named = [&](const std::string& part) { return name + "_" + part; };
+    Leg& leg = robot.legs.emplace_back();
+    leg.name = name;
+    for (Link link : one.links) {
+      link.parent = link.name == "femur" ? std::string(body_name) : "";
+      link.name = named(link.name);
+      robot.links.push_back(link);
+    }
+    for (Joint joint : one.joints) {
+      joint.name = named(joint.name);
+      leg.joints.push_back(joint.name);
+      robot.joints.push_back(joint);
+    }
+    for (Muscle muscle : one.muscles) {
+      muscle.name = named(muscle.name);
+      muscle.joint = named(muscle.joint);
+      muscle.inlet_bit = static_cast<int>(robot.muscles.size());
+      muscle.exhaust_bit = muscle.inlet_bit + 8;
+      robot.muscles.push_back(muscle);
+    }
+    for (const Sensor& sensor : one.sensors) add_sensor(robot, sensor.kind, named(sensor.of));
+  }
+  robot.trolley.total_mass += leg_mass(one);
+  return robot;
+}
+
 }  // namespace sinew::robot::test

@@ -1,6 +1,15 @@
 #include "sinew/signals/table.h"
 
+#include <algorithm>
+
 namespace sinew::signals {
+
+bool is_of_valve(std::string_view topic) {
+  constexpr std::string_view leg = "/leg/";
+  if (topic.starts_with(leg))
+    topic.remove_prefix(std::min(topic.find('/', leg.size()), topic.size()));
+  return topic.starts_with("/valve/");
+}
 
 const Series* Table::find(std::string_view topic) const {
   for (const Series& s : series)

@@ -30,6 +30,9 @@ struct Series {
   std::vector<std::vector<double>> columns;  // [field][sample]
 };
 
+// Is it a valve's, /valve/… or a leg's /leg/<name>/valve/…? Their edges stand one by one.
+bool is_of_valve(std::string_view topic);
+
 struct Table {
   std::vector<Series> series;
   bool complete = true;  // false: read from a log that was cut off

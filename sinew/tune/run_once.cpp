@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "sinew/config/compose.h"
-#include "sinew/experiment/run.h"
+#include "sinew/run/simulation/run.h"
 #include "sinew/tune/sweep.h"
 
 namespace sinew::tune {
@@ -14,7 +14,7 @@ std::string first_problem(const config::Error& e) {
          (more > 0 ? fmt::format(" (and {} more)", more) : "");
 }
 
-std::string status_of(const experiment::Experiment& e, const experiment::Outcome& outcome) {
+std::string status_of(const experiment::Experiment& e, const run::Outcome& outcome) {
   if (outcome.ended_early()) return "ended early: " + cause_of(e, outcome);
   if (!outcome.table.complete) return "more valve edges than there was room for";
   return "ok";
@@ -31,7 +31,7 @@ Ran run_once(const std::string& file, const std::vector<std::string>& sets,
     const analysis::Machine machine = analysis::read_machine(root);
     const experiment::Experiment e = experiment::load(root, file);
     if (!allow_unreachable) experiment::refuse_unreachable(e);
-    const experiment::Outcome outcome = experiment::run(e);
+    const run::Outcome outcome = run::run(e);
     out.status = status_of(e, outcome);
     out.atmosphere = machine.atmosphere;
     if (out.ok()) out.summary = analysis::summarize(outcome.table, machine);

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/experiment/run.h"
+#include "sinew/run/simulation/run.h"
 #include "sinew/tune/study.h"
 #include "sinew/tune/table.h"
 
@@ -45,7 +45,7 @@ std::string message(Act act) {
 analysis::Summary single_run(const std::vector<std::string>& sets) {
   const experiment::Experiment e = experiment::load(leg, sets);
   const auto resolved = config::parse_text(experiment::resolved(e, "test"), "resolved.toml");
-  return analysis::summarize(experiment::run(e).table, analysis::read_machine(resolved));
+  return analysis::summarize(run::run(e).table, analysis::read_machine(resolved));
 }
 
 TEST(Sweep, IsTheSameForAnyNumberOfThreads) {

@@ -32,7 +32,7 @@ const Sets instant_valves = {"valve.inlet.opening_delay=0 s", "valve.inlet.closi
 // stair is near a turn  [count].
 std::vector<double> errors_on_the_stairs(const Sets& sets) {
   const auto e = experiment::load(test::file_of("knee-staircase"), sets);
-  const experiment::Outcome out = experiment::run(e);
+  const run::Outcome out = run::run(e);
   const std::vector<double>&want = *out.table.column("/desired/joint/knee/angle"),
         &is = *out.table.column("/sensor/knee_angle/count"),
         &phase = *out.table.column("/plan/phase");
@@ -104,7 +104,7 @@ Hold hold(const Sets& sets) {
                       "control.brain_period=10 ms", "start.lift=0.7 in",
                       "phase.up.cylinder={ position = [\"0.7 in\"] }"};
   const auto e = experiment::load(test::file_of("cylinder-staircase"), still + sets);
-  const experiment::Outcome out = experiment::run(e);
+  const run::Outcome out = run::run(e);
   const std::vector<double>&travel = *out.table.column("/true/cylinder/position"),
         &phase = *out.table.column("/plan/phase"),
         &up = *out.table.column("/true/cylinder/up/air_in"),

@@ -9,7 +9,7 @@
 #include "sinew/analysis/machine.h"
 #include "sinew/analysis/summary.h"
 #include "sinew/config/compose.h"
-#include "sinew/experiment/run.h"
+#include "sinew/run/simulation/run.h"
 
 namespace sinew::test {
 
@@ -21,7 +21,7 @@ inline std::string file_of(const std::string& name) { return experiments + "/" +
 
 inline analysis::Summary summary_of(const std::string& name, const Sets& sets = {}) {
   const config::Node root = config::compose(file_of(name), sets);
-  const experiment::Outcome out = experiment::run(experiment::load(root, file_of(name)));
+  const run::Outcome out = run::run(experiment::load(root, file_of(name)));
   EXPECT_EQ(out.status, signals::Status::ok) << name;
   return analysis::summarize(out.table, analysis::read_machine(root));
 }

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/experiment/run.h"
+#include "sinew/run/simulation/run.h"
 
 namespace sinew {
 namespace {
@@ -76,7 +76,7 @@ TEST(Bits, OfFirstLightAreKept) {
         experiment::load(SINEW_SOURCE_DIR "/experiments/" + name + ".toml", of_the_first_day(name));
     char found[17];
     std::snprintf(found, sizeof found, "%016llx",
-                  static_cast<unsigned long long>(hash_of(experiment::run(e).table)));
+                  static_cast<unsigned long long>(hash_of(run::run(e).table)));
     EXPECT_EQ(found, wanted) << name;
   }
   EXPECT_EQ(experiments, 8);

@@ -115,6 +115,99 @@ TEST(Faults, WhatCannotBeIsRefused) {
   EXPECT_THAT(refused("at = \"-1 s\"\nof = \"lever_angle\"\nwhat = \"open\"\n"), HasSubstr("at"));
 }
 
+// Returns what `check` says of one-joint with this list, which it refuses or not.
+std::string check_list(const std::string& list, int code) {
+  const Workspace w;
+  write_text(w / "experiments/x.toml",
+             "format = \"sinew.experiment/1\"\nbase = \"one-joint.toml\"\n" + list);
+  const Result r = w.sinew({"check", "experiments/x.toml"});
+  EXPECT_EQ(r.code, code) << list << r.out;
+  return r.out + r.err;
+}
+
+std::string of_air(const std::string& of, const std::string& what, const std::string& more = "") {
+  return "[[fault]]\nat = \"1 s\"\nof = \"" + of + "\"\nwhat = \"" + what + "\"\n" + more;
+}
+
+TEST(Faults, PartsOfTheAirAreNamedOrRefused) {
+  const auto refused = [](const std::string& list) { return check_list(list, 1); };
+  EXPECT_THAT(refused(of_air("flexr.inlet", "stuck open")),
+              AllOf(HasSubstr("fault[0].of: found \"flexr.inlet\"; expected flexor.inlet"),
+                    HasSubstr("try \"flexor.inlet\"")));
+  EXPECT_THAT(refused(of_air("flexor", "stuck open")), HasSubstr("leaking, ruptured or blocked"));
+  EXPECT_THAT(refused(of_air("flexor.inlet", "open")),
+              HasSubstr("stuck open, stuck shut or leaking, as flexor.inlet is a valve"));
+  EXPECT_THAT(refused(of_air("lever_angle", "leaking", "area = \"1 mm2\"\n")),
+              HasSubstr("as lever_angle is a sensor"));
+  EXPECT_THAT(refused(of_air("supply", "blocked")), HasSubstr("failed, as supply is the supply"));
+}
+
+TEST(Faults, AmountsOfTheAirAreChecked) {
+  const auto refused = [](const std::string& list) { return check_list(list, 1); };
+  EXPECT_THAT(refused(of_air("flexor", "leaking")),
+              AllOf(HasSubstr("fault[0].area: found no leak"), HasSubstr("area = \"0.1 mm2\"")));
+  EXPECT_THAT(refused(of_air("flexor", "leaking", "share = \"5 %\"\n")),
+              HasSubstr("flexor is a muscle and has no seat"));
+  EXPECT_THAT(refused(of_air("flexor", "leaking", "area = \"1 psi gauge\"\n")),
+              HasSubstr("fault[0].area"));
+  EXPECT_THAT(refused(of_air("flexor.inlet", "stuck open", "share = 0.5\n")), HasSubstr("share"));
+  EXPECT_THAT(refused(of_air("supply", "failed", "pressure = \"3 bar\"\n")),
+              HasSubstr("fault[0].pressure"));
+  EXPECT_THAT(refused(of_air("flexor", "ruptured", "area = \"2 m2\"\n")),
+              HasSubstr("a hole as wide as a hand"));
+}
+
+TEST(Faults, OnePartOfTheAirBreaksOnceAtATime) {
+  const std::string jam = of_air("flexor.inlet", "stuck open", "for = \"0.5 s\"\n");
+  EXPECT_THAT(check_list(jam + of_air("flexor.inlet", "stuck shut"), 1),
+              AllOf(HasSubstr("fault[1].at: found 1 s; expected a time at which no other fault of "
+                              "flexor.inlet acts: fault[0] is flexor.inlet stuck open from 1 s to "
+                              "1.5 s"),
+                    HasSubstr("try at = \"1.5 s\"")));
+  // A muscle's hose is not its wall, and what ends at an instant leaves it to the next.
+  EXPECT_THAT(
+      check_list(jam + of_air("flexor", "ruptured") + of_air("flexor", "blocked") +
+                     "[[fault]]\nat = \"1.5 s\"\nof = \"flexor.inlet\"\nwhat = \"stuck "
+                     "shut\"\n",
+                 0),
+      HasSubstr("4 faults: flexor.inlet stuck open from 1 s to 1.5 s; flexor ruptured from "
+                "1 s on; flexor blocked from 1 s on; flexor.inlet stuck shut from 1.5 s on"));
+}
+
+TEST(Faults, ATestStandSaysThatItTakesNone) {
+  const Workspace w;
+  write_text(w / "experiments/rig/x.toml", "format = \"sinew.rig/1\"\nbase = \"pwm-25hz-5lb.toml\"\n" +
+                                               of_air("inlet", "stuck open"));
+  const Result r = w.sinew({"check", "experiments/rig/x.toml"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_THAT(r.out, AllOf(HasSubstr("x.toml:3:"), HasSubstr("fault: found a list of faults"),
+                           HasSubstr("nothing of a test stand breaks while it runs")));
+}
+
+TEST(Faults, AValveThatStandsOpenIsListedAndDrawn) {
+  const Workspace w;
+  const Result r = w.sinew({"run", "experiments/faults/valve-stuck-open.toml", "-o", "run"});
+  EXPECT_EQ(r.code, 0);
+  const Json summary = Json::parse(read_text(w / "run/summary.json"));
+  EXPECT_EQ(summary["faults"],
+            Json::parse("[{\"of\": \"knee_extensor.inlet\", \"what\": \"stuck open\", "
+                        "\"begin_s\": 5, \"end_s\": 5.2}]"));
+  const auto& air = summary["air_balance"];
+  EXPECT_GT(air["entered_kg"], 1e-3);
+  EXPECT_EQ(air["leaked_kg"], 0);
+  EXPECT_NEAR(air["error_kg"], 0, 1e-12 * air["entered_kg"].get<double>());
+
+  const signals::Table log = log::read(w / "run/log.mcap");
+  const std::vector<double>& acts = *log.column("/true/valve/knee_extensor/inlet/fault");
+  EXPECT_NEAR(static_cast<double>(std::ranges::count(acts, 1.0)), 21, 1);
+  EXPECT_THAT(w.sinew({"replay", "run"}).out, HasSubstr("all equal"));
+  if (SINEW_HAS_PAGE) {
+    EXPECT_THAT(read_text(w / "run/report.html"),
+                HasSubstr("\"faults\":[{\"of\":\"knee_extensor.inlet\",\"what\":\"stuck open\","
+                          "\"from\":5.0,\"to\":5.2}]"));
+  }
+}
+
 TEST(Faults, ARangeWithoutTheCountAtRestIsRefused) {
   const Workspace w;
   w.edit("robots/one-joint/robot.toml", "[sensor.lever_angle]\n",
@@ -158,11 +251,16 @@ TEST(Faults, OneThatNeverActsIsTold) {
              "at = \"100 s\"\nof = \"lever_angle\"\nwhat = \"open\"\n[[fault]]\n"
              "at = \"1 s\"\nof = \"lever_angle\"\nwhat = \"offset\"\namount = \"0 count\"\n"
              "[[fault]]\nat = \"1 s\"\nof = \"lever_angle\"\nwhat = \"offset\"\n"
-             "amount = \"1 count\"\n");
+             "amount = \"1 count\"\n[[fault]]\nat = \"1.003 s\"\nfor = \"2 ms\"\n"
+             "of = \"lever_angle\"\nwhat = \"open\"\n");
+  EXPECT_THAT(w.sinew({"check", "experiments/x.toml"}).out,
+              HasSubstr("fault[0] never acts: it begins at 100 s"));
   const Result r = w.sinew({"run", "experiments/x.toml", "-o", "run"});
   EXPECT_EQ(r.code, 0);
   EXPECT_THAT(r.err, AllOf(HasSubstr("warning: fault[0] never acted: it begins at 100 s"),
                            HasSubstr("warning: fault[1] never acted: its amount is 0"),
+                           HasSubstr("warning: fault[3] never acted: it falls between two "
+                                     "readings of lever_angle, the later one at 1.0101 s"),
                            Not(HasSubstr("fault[2]"))));
 }
 

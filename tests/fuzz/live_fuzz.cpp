@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "sinew/experiment/experiment.h"
-#include "sinew/experiment/steering.h"
 #include "sinew/live/request.h"
+#include "sinew/run/simulation/steering.h"
 #include "tests/fuzz/law.h"
 
 namespace sinew::fuzz {
@@ -39,7 +39,7 @@ void live(std::string_view input) {
     return law(words.starts_with("found ") && words.find("; expected ") != words.npos,
                "a refusal says what was found and expected");
   }
-  using experiment::Steering;
+  using run::Steering;
   law(r.setting < settings().size(), "a setting that there is");
   if (r.kind == Kind::set) law(r.value >= 0 && r.value <= gait::Setting::most, "a value in bounds");
   if (r.kind == Kind::pace)

@@ -11,12 +11,12 @@
 #include <random>
 
 #include "sinew/config/compose.h"
-#include "sinew/experiment/columns.h"
-#include "sinew/experiment/logged.h"
-#include "sinew/experiment/rig/run.h"
-#include "sinew/experiment/run.h"
 #include "sinew/log/reader.h"
 #include "sinew/log/writer.h"
+#include "sinew/run/simulation/columns.h"
+#include "sinew/run/simulation/logged.h"
+#include "sinew/run/simulation/run.h"
+#include "sinew/run/stand/run.h"
 
 namespace sinew {
 namespace {
@@ -51,8 +51,8 @@ void push(void* writer, std::uint16_t topic, std::int64_t time_ns,
   static_cast<log::Writer*>(writer)->push(topic, time_ns, values);
 }
 
-experiment::LoggedTopics logged(const Recorded& recorded, const Patterns& patterns) {
-  return experiment::logged_topics(recorded.topics, patterns, {}, "a.toml");
+run::LoggedTopics logged(const Recorded& recorded, const Patterns& patterns) {
+  return run::logged_topics(recorded.topics, patterns, {}, "a.toml");
 }
 
 std::vector<std::string> names_of(const std::vector<signals::Topic>& topics) {
@@ -120,11 +120,11 @@ class Channels : public testing::TestWithParam<std::string> {
       return {rig::run(e).table, rig::topics(e)};
     }
     const experiment::Experiment e = experiment::load(GetParam());
-    Recorded out{{}, experiment::topics(e)};
+    Recorded out{{}, run::topics(e)};
     const Patterns patterns = some(names_of(out.topics), out.topics.size() / 2);
-    const experiment::LoggedTopics chosen = logged(out, patterns);
+    const run::LoggedTopics chosen = logged(out, patterns);
     log::Writer writer(file_, chosen.topics);
-    out.table = experiment::run(e, {.tap = {&writer, push}, .tapped = chosen.of_series}).table;
+    out.table = run::run(e, {.tap = {&writer, push}, .tapped = chosen.of_series}).table;
     writer.finish();
     expect_part(log::read(file_), out.table, patterns);
     return out;
@@ -138,9 +138,9 @@ class Channels : public testing::TestWithParam<std::string> {
   }
 
   signals::Table written(const Recorded& recorded, const Patterns& patterns) const {
-    const experiment::LoggedTopics chosen = logged(recorded, patterns);
+    const run::LoggedTopics chosen = logged(recorded, patterns);
     log::Writer writer(file_, chosen.topics, {}, {.period = std::chrono::milliseconds(1)});
-    experiment::write(writer, recorded.table, chosen);
+    run::write(writer, recorded.table, chosen);
     writer.finish();
     return log::read(file_);
   }

@@ -15,8 +15,8 @@
 #include "sinew/experiment/experiment.h"
 #include "sinew/experiment/rig/rig.fields.h"
 #include "sinew/experiment/rig/rig.h"
-#include "sinew/experiment/rig/run.h"
-#include "sinew/experiment/run.h"
+#include "sinew/run/simulation/run.h"
+#include "sinew/run/stand/run.h"
 #include "tests/guards/numeric_fields.h"
 
 namespace sinew::guards {
@@ -89,7 +89,7 @@ inline Ran short_run(experiment::Experiment e, const analysis::Machine& machine)
   e.robot.low_level.vent_time = std::min(e.robot.low_level.vent_time, most);
   for (gait::Phase& phase : e.plan.phases) phase.duration = std::min(phase.duration, most);
   e.log.period = std::max(e.log.period, 1e-3);
-  experiment::Outcome outcome = experiment::run(e);
+  run::Outcome outcome = run::run(e);
   Ran out;
   out.ended = outcome.ended_early();
   if (out.ended) out.cause = cause_of(e, outcome);

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "sinew/control/supervise/test_fuzz.h"
-#include "sinew/experiment/run.h"
 #include "sinew/experiment/supervision.h"
+#include "sinew/run/simulation/run.h"
 
 namespace sinew::experiment {
 namespace {
@@ -88,7 +88,7 @@ Trial any_trial(std::mt19937& random) {
 }
 
 // When all inlets are shut and all exhausts open, by the edges of the log; -1: never.
-Tick vented_at(const Outcome& outcome, const Experiment& e, Tick from) {
+Tick vented_at(const run::Outcome& outcome, const Experiment& e, Tick from) {
   Tick all = from;
   for (const robot::Muscle& m : e.robot.muscles)
     for (const auto& [which, wanted] : {std::pair{"inlet", 0.0}, std::pair{"exhaust", 1.0}}) {
@@ -109,7 +109,7 @@ Tick vented_at(const Outcome& outcome, const Experiment& e, Tick from) {
 
 void expect_vented_in_time(const Trial& trial, const char* what) {
   const Experiment& e = trial.experiment;
-  const Outcome out = run(e);
+  const run::Outcome out = run::run(e);
   const int channel = robot::find_sensor(e.robot, trial.sensor);
   const Trip& trip = out.supervised.trip;
   ASSERT_TRUE(trip.cause == Trip::Cause::range || trip.cause == Trip::Cause::rate)
@@ -166,7 +166,7 @@ TEST(Supervise, NoiseWithinItsFileAndSingleBadSamplesDoNotTrip) {
           {.at = at, .lasts = 0.01, .of = trial.sensor, .what = what, .amount = amount});
       at += in(random, 0.03, 0.3);
     }
-    const Outcome out = run(e);
+    const run::Outcome out = run::run(e);
     EXPECT_EQ(out.supervised.trip.cause, Trip::Cause::none)
         << to_text(out.supervised.trip, e) << ", seed " << e.seed;
     EXPECT_EQ(out.status, signals::Status::ok);
@@ -184,7 +184,7 @@ TEST(Supervise, AStuckPotentiometerIsCountedAndEndsNoRun) {
   for (int i = 0; i < count(); ++i) {
     Trial trial = any_trial(random);
     trial.experiment.faults = {{.at = trial.first_lie, .of = trial.sensor, .what = What::stuck}};
-    const Outcome out = run(trial.experiment);
+    const run::Outcome out = run(trial.experiment);
     EXPECT_EQ(out.supervised.trip.cause, Trip::Cause::none) << trial.experiment.seed;
     const int s = robot::find_sensor(trial.experiment.robot, trial.sensor);
     ++tally.stuck;

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "runs.h"
-#include "sinew/experiment/run.h"
+#include "sinew/experiment/planar_setup.h"
 #include "sinew/plant/planar/machine.h"
+#include "sinew/run/simulation/run.h"
 
 namespace sinew {
 namespace {
@@ -86,7 +87,7 @@ void expect_alike(const std::vector<plant::Truth>& large, const std::vector<plan
   expect("distance", n, [](const Truth& t) { return t.x; });
   expect("lift", n, [](const Truth& t) { return t.lift; });
   expect("speed", 1, [](const Truth& t) { return t.x_rate; });
-  expect("ground", n * n, [](const Truth& t) { return t.force_y; });
+  expect("ground", n * n, [](const Truth& t) { return t.foot[0].force_y; });
   expect("tank", 1, [](const Truth& t) { return t.tank_pressure; });
 }
 

@@ -12,7 +12,7 @@ int main(int count, char** words) try {
   for (int i = 2; i < count; ++i) {
     std::ifstream file(words[i], std::ios::binary);
     const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
-    experiment::Simulation s(e);
+    run::Simulation s(e);
     s.restore(std::as_bytes(std::span(bytes)));
     std::printf("%016llx\n", static_cast<unsigned long long>(test::seen_to_the_end(s)));
   }

@@ -26,7 +26,7 @@ TEST(Save, GoesOnInAnotherProcess) {
   constexpr int saves = 100;
   std::mt19937 random(3);
   std::vector<signals::Tick> instants;
-  experiment::Simulation straight(e);
+  run::Simulation straight(e);
   for (int i = 0; i < saves; ++i)
     instants.push_back(static_cast<signals::Tick>(
         random() % static_cast<unsigned long>(straight.last() - straight.last() / 20)));

@@ -4,12 +4,12 @@
 #include <bit>
 #include <cstdint>
 
-#include "sinew/experiment/simulation.h"
+#include "sinew/run/simulation/simulation.h"
 
 namespace sinew::test {
 
 // FNV-1a of the bits of every channel at ten instants from where it stands to its end.
-inline std::uint64_t seen_to_the_end(experiment::Simulation& s) {
+inline std::uint64_t seen_to_the_end(run::Simulation& s) {
   std::uint64_t h = 0xcbf29ce484222325;
   const signals::Tick from = s.last() - s.last() / 20;
   for (int i = 0; i <= 9; ++i) {

@@ -1,7 +1,7 @@
 // A world has the same bits twice, however often and however it is looked at.
 #include <gtest/gtest.h>
 
-#include "sinew/experiment/test_same.h"
+#include "sinew/run/simulation/test_same.h"
 #include "tests/worlds/drive.h"
 
 namespace sinew::worlds {
@@ -54,7 +54,7 @@ TEST_P(Bits, AClosedLoopSeesNoLooks) {
   if (!GetParam().run) return;
   const signals::Table alone = GetParam().run(false, 0);
   ASSERT_FALSE(alone.series.empty());
-  experiment::expect_same(alone, GetParam().run(true, 2));
+  run::expect_same(alone, GetParam().run(true, 2));
 }
 
 INSTANTIATE_TEST_SUITE_P(Worlds, Bits, ::testing::ValuesIn(subjects()), name_of);

@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/experiment/rig/run.h"
 #include "sinew/plant/rig/stand.h"
+#include "sinew/run/stand/run.h"
 #include "tests/worlds/body.h"
 
 namespace sinew::worlds {

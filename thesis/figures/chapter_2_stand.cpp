@@ -9,7 +9,7 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/experiment/rig/measured.h"
-#include "sinew/experiment/rig/run.h"
+#include "sinew/run/stand/run.h"
 #include "sinew/units/constants.h"
 #include "thesis/figures/chapter_2.h"
 

@@ -7,8 +7,8 @@
 
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
-#include "sinew/experiment/rig/run.h"
 #include "sinew/robot/sensing.h"
+#include "sinew/run/stand/run.h"
 #include "sinew/units/constants.h"
 #include "thesis/figures/thesis.h"
 

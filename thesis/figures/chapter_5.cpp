@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "sinew/experiment/run.h"
 #include "sinew/experiment/spinal.h"
+#include "sinew/run/simulation/run.h"
 #include "thesis/figures/thesis.h"
 
 namespace sinew::thesis {
@@ -77,7 +77,7 @@ Tick busiest(const std::vector<Valve>& valves, Tick period, Tick from, Tick to) 
 Schedule schedule(const Sources& from) {
   Schedule out{.experiment = experiment::load(from.path(file), {"sequence.repeat=1"})};
   out.spine = experiment::spine_config(out.experiment);
-  const signals::Table table = experiment::run(out.experiment).table;
+  const signals::Table table = run::run(out.experiment).table;
   out.valves = valves_of(out.experiment, table);
   const signals::Series& phase = *table.find("/plan/phase");
   for (std::size_t i = 0; i < phase.time_ns.size(); ++i) {

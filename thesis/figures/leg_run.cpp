@@ -7,8 +7,8 @@
 
 #include "sinew/analysis/derived.h"
 #include "sinew/config/compose.h"
-#include "sinew/experiment/run.h"
 #include "sinew/report/figures/run_figures.h"
+#include "sinew/run/simulation/run.h"
 
 namespace sinew::thesis {
 namespace {
@@ -20,7 +20,7 @@ std::string file_of(const std::string& name) { return "experiments/" + name + ".
 LegRun::LegRun(const Sources& from, const std::string& name)
     : file_(file_of(name)),
       machine_(analysis::read_machine(config::compose(from.path(file_), {}))),
-      table_(experiment::run(experiment::load(from.path(file_))).table),
+      table_(run::run(experiment::load(from.path(file_))).table),
       derived_(analysis::derive(table_, machine_)),
       record_(table_, machine_, &derived_),
       summary_(analysis::summarize(table_, machine_)),

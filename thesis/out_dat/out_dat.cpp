@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "sinew/config/rows.h"
-#include "sinew/experiment/recorder.h"
+#include "sinew/run/simulation/recorder.h"
 #include "sinew/units/constants.h"
 #include "thesis/out_dat/columns.h"
 
@@ -201,7 +201,7 @@ class PlanWalk {
 // Fills one topic after the other, in the order in which they are named first.
 class TableWriter {
  public:
-  explicit TableWriter(const experiment::Experiment& e) : all_(topics(e)) {}
+  explicit TableWriter(const experiment::Experiment& e) : all_(run::topics(e)) {}
 
   void put(const std::string& topic, std::int64_t time_ns, double value) {
     signals::Series& s = series(topic);
@@ -271,6 +271,9 @@ std::string write_out_dat(const signals::Table& table, const experiment::Experim
   const OutDatColumns columns = out_dat_columns(e);
   const TableReader read(table, e.path);
   std::string out = columns.heading() + "\n";
+  if (!e.robot.legs.empty())
+    config::fail({e.path, 0, 0}, "leg", std::to_string(e.robot.legs.size()) + " legs",
+                 "a robot without [leg.*]: out.dat has columns for one", "--format csv");
   const signals::Series* phases = table.find("/plan/phase");
   if (!phases)
     config::fail({e.path, 0, 0}, "/plan/phase", "no such channel in the log", "one, for out.dat");

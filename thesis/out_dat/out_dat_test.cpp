@@ -6,7 +6,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "sinew/experiment/run.h"
+#include "sinew/run/simulation/run.h"
 
 namespace sinew::thesis {
 namespace {
@@ -45,7 +45,7 @@ constexpr const char* first =
 // The lines of a run with the code's loops: 151 + 2 + 151 per step, the timers from 0.
 TEST(OutDat, HasTheLinesThatTheCodeWrites) {
   const experiment::Experiment e = walk({"sequence.thesis_timing=true"});
-  const auto lines = lines_of(write_out_dat(experiment::run(e).table, e));
+  const auto lines = lines_of(write_out_dat(run::run(e).table, e));
   ASSERT_EQ(lines.size(), 1U + 2U * (151U + 2U + 151U));
   EXPECT_EQ(lines[0] + "\n", heading);
   EXPECT_EQ(lines[1].find("swing 0 404 0 0 0 0 "), 0U);
@@ -58,8 +58,7 @@ TEST(OutDat, HasTheLinesThatTheCodeWrites) {
 // A finer log has the same lines, but for what moves within a period.
 TEST(OutDat, HasALinePerPeriodWhateverWasLogged) {
   const experiment::Experiment e = walk({"log.period=1 ms"});
-  EXPECT_EQ(lines_of(write_out_dat(experiment::run(e).table, e)).size(),
-            1U + 2U * (150U + 3U + 150U));
+  EXPECT_EQ(lines_of(write_out_dat(run::run(e).table, e)).size(), 1U + 2U * (150U + 3U + 150U));
 }
 
 // B.1: thetades = (theta - 4.858) * 767 + 1895, in whole counts; the rest are counts and percents.
@@ -85,7 +84,7 @@ TEST(OutDat, IsReadByTheControllersScales) {
 // There, back and there again: the same file; and what comes back is what went.
 TEST(OutDat, GoesRoundWithoutChange) {
   const experiment::Experiment e = walk();
-  const signals::Table ran = experiment::run(e).table;
+  const signals::Table ran = run::run(e).table;
   const std::string text = write_out_dat(ran, e);
   const signals::Table back = parse_out_dat(text, "out.dat", e);
 
@@ -149,7 +148,7 @@ TEST(OutDat, SaysInWhichLineItIsWrong) {
 // A line that was lost leaves a gap in time, not a shift.
 TEST(OutDat, KeepsTimeOverALostLine) {
   const experiment::Experiment e = walk();
-  auto lines = lines_of(write_out_dat(experiment::run(e).table, e));
+  auto lines = lines_of(write_out_dat(run::run(e).table, e));
   lines.erase(lines.begin() + 11);
   std::string text;
   for (const std::string& line : lines) text += line + "\n";
@@ -162,7 +161,7 @@ TEST(OutDat, KeepsTimeOverALostLine) {
 
 TEST(OutDat, NeedsAColumnsChannels) {
   const experiment::Experiment e = walk();
-  signals::Table table = experiment::run(e).table;
+  signals::Table table = run::run(e).table;
   std::erase_if(table.series,
                 [](const auto& s) { return s.topic.name == "/sensor/hip_angle/count"; });
   try {

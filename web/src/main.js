@@ -9,7 +9,7 @@ import { Plots } from './plots.js';
 import { held, index_at, open_within, read_samples } from './samples.js';
 import { Scene } from './scene.js';
 import { as_scene, StandScene } from './stand.js';
-import { count_verdicts, counts_in_words, Figures, show_parameters, show_results, show_warnings } from './tables.js';
+import { count_verdicts, counts_in_words, Figures, show_faults, show_parameters, show_results, show_warnings } from './tables.js';
 import { Units } from './units.js';
 
 const paper_scene = 'width: 640px; height: 330px;';  // of the drawing, whatever the screen's is
@@ -56,6 +56,8 @@ class Page {
     }
     if (run.warnings.length)
       out.push(chip('warnings', `${run.warnings.length} warning${run.warnings.length > 1 ? 's' : ''}`, 'warn'));
+    const faults = run.faults?.length ?? 0;
+    if (faults) out.push(chip('faults', `${faults} fault${faults > 1 ? 's' : ''}`, 'bad'));
     out.push(chip('figures', 'Figures', ''), chip('parameters', 'Parameters', ''));
     by_id('chips').append(...out);
   }
@@ -63,10 +65,12 @@ class Page {
   tables() {
     this.chips();
     show_results(this.run);
-    show_warnings(this.run, (t) => {
+    const seek = (t) => {
       this.seek(t);
       by_id('replay').scrollIntoView({ block: 'nearest' });
-    });
+    };
+    show_warnings(this.run, seek);
+    show_faults(this.run, seek);
     this.figures = new Figures(this.run, this.units);
     show_parameters(this.run);
   }
@@ -120,7 +124,7 @@ class Page {
     by_id('legend').replaceChildren(...out);
   }
 
-  // Phases under the slider, warnings above them, what the plots show between two brackets.
+  // Phases under the slider, warnings below them, faults above, what the plots show between two brackets.
   draw_phases() {
     const canvas = by_id('phases'), ratio = window.devicePixelRatio || 1;
     const width = canvas.clientWidth, height = canvas.clientHeight;
@@ -141,6 +145,8 @@ class Page {
     ctx.fillStyle = css.getPropertyValue('--warn');
     for (const w of this.run.warnings)
       for (const [from, to] of w.spans) ctx.fillRect(x(from), height / 2 + 7, Math.max(1.5, x(to) - x(from)), 2.5);
+    ctx.fillStyle = css.getPropertyValue('--bad');
+    for (const f of this.run.faults ?? []) ctx.fillRect(x(f.from), height / 2 - 9.5, Math.max(1.5, x(f.to) - x(f.from)), 2.5);
     const [from, to] = this.plots.view;
     if (to - from < this.run.duration) {
       ctx.strokeStyle = css.getPropertyValue('--accent');
@@ -167,7 +173,8 @@ class Page {
     this.charts?.set_time(t);
     if (this.player?.playing) this.plots.keep_in_view(t);
     const phase = this.phase_at(t);
-    by_id('clock').textContent = `${t.toFixed(2)} s${phase ? '  ·  ' + phase : ''}`;
+    const broken = (this.run.faults ?? []).filter((f) => t >= f.from && t < f.to).map((f) => `${f.of} ${f.what}`);
+    by_id('clock').textContent = [`${t.toFixed(2)} s`, phase, ...broken].filter(Boolean).join('  ·  ');
     this.show_muscles(t);
   }
 

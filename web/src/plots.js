@@ -18,7 +18,7 @@ export class Plots {
     const css = getComputedStyle(document.documentElement);
     const get = (name) => css.getPropertyValue(name).trim();
     this.palette = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => get(`--line-${i}`));
-    this.look = { ink: get('--quiet'), grid: get('--grid'), stance: get('--stance'),
+    this.look = { ink: get('--quiet'), grid: get('--grid'), stance: get('--stance'), fault: get('--fault'), edge: get('--bad'),
                   font: `11px ${get('--sans')}` };
   }
 
@@ -38,18 +38,29 @@ export class Plots {
     this.root.addEventListener('mouseleave', () => this.unhover());
   }
 
-  // Stance is shaded.
+  // Stance is shaded, and what was broken on purpose, between two edges.
   draw_phases(u) {
-    const { ctx, bbox } = u;
+    const { ctx, bbox } = u, px = devicePixelRatio || 1;
     ctx.save();
     ctx.fillStyle = this.look.stance;
-    for (const s of this.run.phases.stretches) {
-      if (!s.stance || s.to < this.view[0] || s.from > this.view[1]) continue;
-      const from = Math.max(bbox.left, u.valToPos(s.from, 'x', true));
-      const to = Math.min(bbox.left + bbox.width, u.valToPos(s.to, 'x', true));
-      ctx.fillRect(from, bbox.top, to - from, bbox.height);
+    for (const s of this.run.phases.stretches) if (s.stance) this.fill(u, s, 0);
+    for (const f of this.run.faults ?? []) {
+      ctx.fillStyle = this.look.fault;
+      this.fill(u, f, px);
+      ctx.fillStyle = this.look.edge;
+      for (const t of [f.from, f.to])
+        if (t >= this.view[0] && t <= this.view[1]) ctx.fillRect(u.valToPos(t, 'x', true) - px / 2, bbox.top, px, bbox.height);
     }
     ctx.restore();
+  }
+
+  // A stretch of time, at least so wide [px].
+  fill(u, { from, to }, least) {
+    const { ctx, bbox } = u;
+    if (to < this.view[0] || from > this.view[1]) return;
+    const left = Math.max(bbox.left, u.valToPos(from, 'x', true));
+    const right = Math.min(bbox.left + bbox.width, u.valToPos(to, 'x', true));
+    ctx.fillRect(left, bbox.top, Math.max(least, right - left), bbox.height);
   }
 
   // --- time ---

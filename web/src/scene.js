@@ -95,18 +95,20 @@ export class Scene {
   }
 
   legend() {
-    const foot = this.spec.foot ?? {};
-    return [foot.path && ['actual', 'foot'], foot.desired && ['desired', 'foot desired'],
-            foot.force && ['force', 'ground reaction']].filter(Boolean);
+    const of = (what) => this.spec.feet?.some((foot) => foot[what]);
+    return [of('path') && ['actual', 'foot'], of('desired') && ['desired', 'foot desired'],
+            of('force') && ['force', 'ground reaction']].filter(Boolean);
   }
 
   // Meters per newton: the greatest force is as long as two thirds of the leg.
   find_force_scale() {
-    const force = this.spec.foot?.force;
-    if (!force) return 0;
-    const [x, y] = force.map((i) => this.columns[i].values);
-    const all = Float32Array.from(x, (v, i) => Math.hypot(v, y[i])).filter(Number.isFinite).sort();
-    const most = all[Math.floor(0.995 * (all.length - 1))];
+    const greatest = (force) => {
+      const [x, y] = force.map((i) => this.columns[i].values);
+      const all = Float32Array.from(x, (v, i) => Math.hypot(v, y[i])).filter(Number.isFinite).sort();
+      return all[Math.floor(0.995 * (all.length - 1))];
+    };
+    const forces = (this.spec.feet ?? []).map((foot) => foot.force).filter(Boolean);
+    const most = Math.max(0, ...forces.map(greatest).filter(Number.isFinite));
     return most > 0 ? (0.5 * this.reach) / most : 0;
   }
 
@@ -219,8 +221,10 @@ export class Scene {
 
   // Where the foot was and was to be. With the trolley held in the middle: about the body.
   draw_paths(ctx, view, t) {
-    const foot = this.spec.foot;
-    if (!foot) return;
+    for (const foot of this.spec.feet ?? []) this.draw_path(ctx, view, t, foot);
+  }
+
+  draw_path(ctx, view, t, foot) {
     const base = this.pose(0, t);
     for (const [path, color, dash] of [[foot.desired, this.look.desired, [5, 4]], [foot.path, this.look.actual, []]]) {
       if (!path) continue;
@@ -229,7 +233,7 @@ export class Scene {
       const points = [];
       for (let i = first; i <= last; ++i) {
         const at = this.follow ? base : this.pose(0, x.time[i]);
-        points.push([at.x + x.values[i], at.y + y.values[i]]);
+        points.push([at.x + foot.at + x.values[i], at.y + y.values[i]]);
       }
       shapes.trail(ctx, view, points, color, dash);
     }
@@ -241,8 +245,11 @@ export class Scene {
   }
 
   draw_force(ctx, view, t) {
-    const foot = this.spec.foot;
-    if (!foot?.force || !this.force_scale || foot.contact === null) return;
+    for (const foot of this.spec.feet ?? []) this.draw_force_on(ctx, view, t, foot);
+  }
+
+  draw_force_on(ctx, view, t, foot) {
+    if (!foot.force || !this.force_scale || foot.contact === null) return;
     const [x, y] = foot.force.map((i) => between(this.columns[i], t));
     if (!(Math.hypot(x, y) * this.force_scale > 6 * view.px)) return;
     const from = [between(this.columns[foot.contact], t), this.spec.surface ?? 0];

@@ -64,13 +64,28 @@ export function show_warnings(run, seek) {
   root.append(heading('Warnings', String(run.warnings.length)), element('ul', { class: 'warnings' }, ...items));
 }
 
+// --- faults ---
+
+// The key of what the plots shade; each leads to where it begins.
+export function show_faults(run, seek) {
+  const root = by_id('faults');
+  root.hidden = !run.faults?.length;
+  if (root.hidden) return;
+  root.append(element('span', { class: 'key' }, 'broken on purpose'), ...run.faults.map((f) => {
+    const button = element('button', { type: 'button', class: 'time' },
+      `${f.of} ${f.what}, ${f.from.toFixed(2)}–${f.to.toFixed(2)} s`);
+    button.addEventListener('click', () => seek(f.from));
+    return button;
+  }));
+}
+
 // --- all figures of the summary ---
 
 function* leaves(object, path = '') {
   for (const [key, value] of Object.entries(object)) {
     const at = path ? `${path}.${key}` : key;
     if (typeof value === 'number') yield [at, value];
-    else if (value && typeof value === 'object') yield* leaves(value, at);
+    else if (value && typeof value === 'object' && !Array.isArray(value)) yield* leaves(value, at);
   }
 }
 

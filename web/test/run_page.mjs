@@ -1,4 +1,5 @@
-// The pages of walk-test-1, one-joint, cylinder-following and long, which lasts ten minutes.
+// The pages of walk-test-1, one-joint, cylinder-following, faults/valve-stuck-open and long, which
+// lasts ten minutes.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { drawing_of, picture, playheads, seek, summary_of, time_of, with_page } from './pages.mjs';
@@ -192,6 +193,33 @@ test('dark and light follow the system and the button', async () => {
     }, { colorScheme: scheme });
   assert.notEqual(seen.light, seen.dark);
 });
+
+test('what was broken on purpose is named, shaded and found', () =>
+  with_page('faults/valve-stuck-open', async (page) => {
+    const [fault] = await page.evaluate(() => window.sinew.run.faults);
+    assert.deepEqual(fault, { of: 'knee_extensor.inlet', what: 'stuck open', from: 5, to: 5.2 });
+    assert.equal(await page.locator('#faults button').textContent(), 'knee_extensor.inlet stuck open, 5.00–5.20 s');
+    await page.locator('#faults button').click();
+    assert.ok(Math.abs((await time_of(page)) - 5) < 1e-6);
+    assert.match(await page.locator('#clock').textContent(), /knee_extensor\.inlet stuck open/);
+    // Its color stands in the plots where it acts, and nowhere else.
+    const shaded = (t) => page.evaluate((at) => {
+      const { plots } = window.sinew.page, { plot } = plots.panels[0];
+      const probe = document.createElement('canvas').getContext('2d');
+      probe.fillStyle = plots.look.fault;
+      probe.fillRect(0, 0, 1, 1);
+      const { ctx, bbox } = plot, x = Math.round(plot.valToPos(at, 'x', true));
+      const column = ctx.getImageData(x, bbox.top, 1, bbox.height).data, wanted = probe.getImageData(0, 0, 1, 1).data;
+      let found = 0;
+      for (let i = 0; i < column.length; i += 4) found += [0, 1, 2].every((k) => Math.abs(column[i + k] - wanted[k]) < 3);
+      return found / bbox.height;
+    }, t);
+    await page.evaluate(() => window.sinew.page.plots.zoom(4, 6));
+    await page.waitForTimeout(100);
+    assert.ok((await shaded(5.13)) > 0.5);
+    assert.equal(await shaded(4.9), 0);
+    assert.equal(await shaded(5.3), 0);
+  }));
 
 test('on paper it is light, without controls, with every plot', () => with_page('walk-test-1', async (page) => {
   await seek(page, 3.3);

@@ -23,7 +23,7 @@ DesiredJoint at_rest(const robot::Joint& joint, const JointPlan& plan) {
 
 }  // namespace
 
-Brain::Brain(const robot::Robot& robot, const Plan& plan)
+Brain::Brain(const robot::Robot& robot, const Plan& plan, double offset)
     : plan_(plan),
       robot_(robot),
       leg_(robot::is_leg(robot)),
@@ -39,6 +39,7 @@ Brain::Brain(const robot::Robot& robot, const Plan& plan)
     const Phase& phase = plan_.phases[static_cast<std::size_t>(slot.phase)];
     slot.periods = periods(plan_, phase);
     slot.steps = steps_of_s(plan_, phase);
+    slot.before = sequence_.empty() ? 0 : sequence_.back().before + sequence_.back().periods;
     slot.measure = find_measure(robot, phase.until.measure);
     for (std::size_t i = 0; i < plan_.joints.size(); ++i) {
       const JointPlan& joint = plan_.joints[i];
@@ -46,14 +47,52 @@ Brain::Brain(const robot::Robot& robot, const Plan& plan)
     }
     sequence_.push_back(slot);
   }
+  if (sequence_.empty()) return;
+  const int step = sequence_.back().before + sequence_.back().periods;
+  const auto ahead = static_cast<int>(std::lround(offset * step)) % step;
+  while (ahead >= sequence_[first_].before + sequence_[first_].periods) ++first_;
+  first_k_ = ahead - sequence_[first_].before;
 }
 
-const Desired& Brain::update(const Measured& measured, std::int64_t period_index) noexcept {
+const Desired& Brain::update(const Measured& measured, std::int64_t period_index,
+                             bool waits) noexcept {
   while (period_ < period_index && !finished()) {
     ++period_;
-    advance(measured);
+    waits ? wait(measured) : advance(measured);
   }
   return desired_;
+}
+
+std::int64_t Brain::planned_periods() const noexcept {
+  if (desired_.stage == Stage::settling || sequence_.empty()) return 0;
+  const Slot &here = sequence_[position_], &last = sequence_.back();
+  const std::int64_t step = last.before + last.periods;
+  return desired_.step * step + here.before + k_ - (sequence_[first_].before + first_k_);
+}
+
+void Brain::wait(const Measured& measured) noexcept {
+  describe(static_cast<double>(k_) / sequence_[position_].steps, measured);
+  if (desired_.unreachable) ++unreachable_periods_;
+}
+
+// Enters the next phase; false: there is none, the last step is over. Who began within a step has
+// a part of another one to go.
+bool Brain::go_on() noexcept {
+  if (position_ + 1 < sequence_.size()) {
+    enter(position_ + 1);
+    return true;
+  }
+  const bool began_within = first_ > 0 || first_k_ > 0;
+  if (desired_.step + 1 >= plan_.repeat + (began_within ? 1 : 0)) return false;
+  ++desired_.step;
+  enter(0);
+  return true;
+}
+
+// Is it, after all its steps, where it began?
+bool Brain::is_back() const noexcept {
+  if (desired_.step < plan_.repeat) return false;
+  return position_ > first_ || (position_ == first_ && k_ >= first_k_);
 }
 
 void Brain::advance(const Measured& measured) noexcept {
@@ -61,22 +100,17 @@ void Brain::advance(const Measured& measured) noexcept {
   if (desired_.stage == Stage::settling) {
     desired_.stage = Stage::walking;
     if (sequence_.empty()) return finish();
-    enter(0);
+    enter(first_);
+    k_ = first_k_;
   } else {
     ++k_;
     const bool over = k_ >= sequence_[position_].periods;
     const bool early = !over && ended(measured);
     if (over || early) {
       leave(early, measured);
-      if (position_ + 1 < sequence_.size()) {
-        enter(position_ + 1);
-      } else if (desired_.step + 1 < plan_.repeat) {
-        ++desired_.step;
-        enter(0);
-      } else {
-        return finish();
-      }
+      if (!go_on()) return finish();
     }
+    if (is_back()) return finish();
   }
   describe(static_cast<double>(k_) / sequence_[position_].steps, measured);
   if (desired_.unreachable) ++unreachable_periods_;

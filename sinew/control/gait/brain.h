@@ -69,12 +69,17 @@ struct Desired {
 
 class Brain {
  public:
-  // contradictions(robot, plan) must be empty.
-  Brain(const robot::Robot&, const Plan&);
+  // contradictions(robot, plan) must be empty. `offset` is the share of a step by which it begins
+  // within the sequence; it ends where it began, after as many whole steps.
+  Brain(const robot::Robot&, const Plan&, double offset = 0);
 
   // At the start of brain period `period_index` (0, 1, 2, ...). The same index again gives the
-  // same.
-  const Desired& update(const Measured&, std::int64_t period_index) noexcept;
+  // same. A leg that waits stays where it is in its phase, whatever ends it.
+  const Desired& update(const Measured&, std::int64_t period_index, bool waits = false) noexcept;
+
+  // How far it is, as if every phase had taken the time that the plan gives it; from where it began
+  // [brain periods].
+  std::int64_t planned_periods() const noexcept;
 
   const Desired& desired() const noexcept { return desired_; }
   bool finished() const noexcept { return desired_.stage == Stage::finished; }
@@ -109,11 +114,15 @@ class Brain {
   struct Slot {
     int phase = 0;    // position in Plan::phases
     int periods = 1;  // at most
+    int before = 0;   // periods of the step before it, at most
     int steps = 1;    // periods from s = 0 to s = 1
     Measure measure;
     std::array<bool, robot::max_joints> enabled{};
   };
   void advance(const Measured&) noexcept;
+  void wait(const Measured&) noexcept;
+  bool go_on() noexcept;
+  bool is_back() const noexcept;
   void enter(std::size_t position) noexcept;
   void leave(bool early, const Measured&) noexcept;
   void finish() noexcept;
@@ -131,6 +140,8 @@ class Brain {
   bool leg_ = false;
   std::vector<Slot> sequence_;
   std::int64_t settle_periods_ = 0;
+  std::size_t first_ = 0;  // position in sequence_ at which it begins
+  int first_k_ = 0;        // period within that phase
 
   std::int64_t period_ = -1;  // the last one answered
   std::size_t position_ = 0;  // in sequence_

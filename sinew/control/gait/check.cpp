@@ -1,10 +1,12 @@
 // control/gait/check.cpp - what is wrong with a plan, before anything moves.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "sinew/control/gait/path.h"
 #include "sinew/control/gait/plan.h"
 #include "sinew/robot/kinematics.h"
+#include "sinew/robot/legs.h"
 
 namespace sinew::gait {
 namespace {
@@ -211,17 +213,55 @@ void check_reach(const robot::TwoLinks& leg, const Plan& plan, const Phase& phas
 
 }  // namespace
 
+namespace {
+
+// What several legs have in common is said once.
+void add_new(const List& more, List& out) {
+  for (const robot::Contradiction& c : more)
+    if (std::ranges::none_of(out,
+                             [&](const auto& o) { return o.key == c.key && o.found == c.found; }))
+      out.push_back(c);
+}
+
+List of_phases(const robot::Robot& leg, const Plan& plan) {
+  List out;
+  for (const Phase& phase : plan.phases) {
+    check_path(leg, phase, out);
+    check_joints(plan, phase, out);
+    check_until(leg, phase, out);
+    check_ground_force(phase, out);
+    check_cylinder(leg, phase, out);
+  }
+  return out;
+}
+
+// The orders of phases that legs name, and what is in them.
+void check_others(const robot::Robot& robot, const Plan& plan, List& out) {
+  for (const Sequence& other : plan.others) {
+    const std::string key = "plan." + other.name + ".phases";
+    if (other.phases.empty())
+      out.push_back({key, "an empty list", "the names of phases", "phases = [\"swing\"]"});
+    for (const std::string& name : other.phases)
+      if (find_phase(plan, name) < 0)
+        out.push_back({key, quoted(name), "the name of a phase", "a table [phase." + name + "]"});
+  }
+  for (const robot::Leg& leg : robot.legs)
+    if (!leg.plan.empty() && std::ranges::none_of(plan.others, [&](const Sequence& other) {
+          return other.name == leg.plan;
+        }))
+      out.push_back({"leg." + leg.name + ".plan", quoted(leg.plan), "the name of a plan",
+                     "a table [plan." + leg.plan + "] with phases"});
+}
+
+}  // namespace
+
 List contradictions(const robot::Robot& robot, const Plan& plan) {
   List out;
   check_times(plan, out);
   check_sequence(plan, out);
-  for (const Phase& phase : plan.phases) {
-    check_path(robot, phase, out);
-    check_joints(plan, phase, out);
-    check_until(robot, phase, out);
-    check_ground_force(phase, out);
-    check_cylinder(robot, phase, out);
-  }
+  check_others(robot, plan, out);
+  for (std::size_t l = 0; l < robot::legs_of(robot).size(); ++l)
+    add_new(of_phases(robot::only_leg(robot, l), plan), out);
   check_ranges(plan, out);
   check_changes(plan, out);
   return out;
@@ -229,10 +269,15 @@ List contradictions(const robot::Robot& robot, const Plan& plan) {
 
 List unreachable(const robot::Robot& robot, const Plan& plan) {
   List out;
-  if (!robot::is_leg(robot) || !(plan.brain_period > 0)) return out;
-  const robot::TwoLinks leg = robot::two_links(robot);
-  for (const Phase& phase : plan.phases)
-    if (phase.has_path()) check_reach(leg, plan, phase, out);
+  if (!(plan.brain_period > 0)) return out;
+  for (std::size_t l = 0; l < robot::legs_of(robot).size(); ++l) {
+    const robot::Robot leg = robot::only_leg(robot, l);
+    if (!robot::is_leg(leg)) continue;
+    List of_leg;
+    for (const Phase& phase : plan.phases)
+      if (phase.has_path()) check_reach(robot::two_links(leg), plan, phase, of_leg);
+    add_new(of_leg, out);
+  }
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "sinew/robot/kinematics.h"
+#include "sinew/robot/legs.h"
 
 namespace sinew::gait {
 namespace {
@@ -28,7 +29,8 @@ int whole_periods(double seconds, double period) {
 
 Plan plan_for(const robot::Robot& robot) {
   Plan plan;
-  for (const robot::Joint& joint : robot.joints)
+  const robot::Robot leg = robot::only_leg(robot, 0);
+  for (const robot::Joint& joint : leg.joints)
     plan.joints.push_back({.name = joint.name,
                            .stiffness = 0,
                            .gains = joint.gains,
@@ -89,6 +91,20 @@ int periods_per_step(const Plan& plan) {
 std::int64_t periods(const Plan& plan) {
   const auto settle = std::llround(plan.settle / plan.brain_period);
   return settle + std::int64_t{plan.repeat} * periods_per_step(plan);
+}
+
+std::int64_t periods(const robot::Robot& robot, const Plan& plan) {
+  std::int64_t longest = 0;
+  for (const robot::LegParts& leg : robot::legs_of(robot))
+    longest = std::max(longest, periods(plan_of_leg(plan, leg)));
+  return longest;
+}
+
+Plan plan_of_leg(const Plan& plan, const robot::LegParts& leg) {
+  Plan out = plan;
+  for (const Sequence& other : plan.others)
+    if (!leg.plan.empty() && other.name == leg.plan) out.sequence = other.phases;
+  return out;
 }
 
 int find_phase(const Plan& plan, std::string_view name) {

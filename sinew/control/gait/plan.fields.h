@@ -293,6 +293,10 @@ void fields(Visitor& v, Plan& plan) {
             .doc = "the code's loops: one more period per phase"},
            plan.thesis_timing);
   });
+  v.each({.name = "plan", .optional = true, .doc = "another order of the phases, for a leg"},
+         plan.others, [](auto& g, Sequence& other) {
+           g.texts({.name = "phases", .doc = "in their order"}, other.phases);
+         });
   v.each({.name = "phase", .doc = "by name"}, plan.phases,
          [&](auto& g, Phase& phase) { fields(g, plan, phase); });
   v.list({.name = "change", .optional = true, .doc = "what is set while it runs"}, plan.changes,

@@ -2,6 +2,7 @@
 //
 //   [control]        what holds until a phase says otherwise
 //   [sequence]       the phases of a step, repeated
+//   [plan.<name>]    another order of them, for a leg that names it
 //   [phase.<name>]   a foot path or joint angles, and what else changes in that phase
 //   [[change]]       what stands in place of all that from a time on (change.h)
 //
@@ -17,6 +18,7 @@
 #include <vector>
 
 #include "sinew/control/gait/change.h"
+#include "sinew/robot/legs.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::gait {
@@ -130,6 +132,12 @@ struct JointPlan {
                               // angle; empty: any [rad]
 };
 
+// Another order of the phases, for a leg that names it.
+struct Sequence {
+  std::string name;
+  std::vector<std::string> phases;
+};
+
 struct Plan {
   enum class Finish { vent, hold };  // vent: all exhausts open, all inlets shut
 
@@ -137,8 +145,9 @@ struct Plan {
   double settle = 0;  // before the first phase, joints left alone [s]; not in the file's tables
   bool thesis_timing = false;  // loops of the code: one more period per phase, s reaches 1
 
-  std::vector<JointPlan> joints;      // the robot's, in its order
+  std::vector<JointPlan> joints;      // the robot's in its order; of several legs, a leg's
   std::vector<std::string> sequence;  // names of phases
+  std::vector<Sequence> others;       // [plan.<name>]
   int repeat = 1;                     // steps
   Finish finish = Finish::vent;
   std::vector<Phase> phases;
@@ -173,6 +182,10 @@ std::vector<robot::Contradiction> unreachable(const robot::Robot&, const Plan&);
 int periods(const Plan&, const Phase&);
 int periods_per_step(const Plan&);
 std::int64_t periods(const Plan&);
+std::int64_t periods(const robot::Robot&, const Plan&);  // of the leg that takes longest
+
+// What a leg follows: the plan, with the order of phases that the leg names in place of the plan's.
+Plan plan_of_leg(const Plan& plan, const robot::LegParts& leg);
 
 // Periods from s = 0 to s = 1, whether or not the last of them is reached.
 int steps_of_s(const Plan&, const Phase&);

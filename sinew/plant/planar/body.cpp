@@ -1,27 +1,52 @@
 #include "sinew/plant/planar/body.h"
 
+#include <algorithm>
+
+#include "sinew/robot/legs.h"
 #include "sinew/units/math.h"
 
 namespace sinew::plant {
+
+std::array<double, most_links> end_masses(const robot::Robot& robot) {
+  std::array<double, most_links> out{};
+  for (std::size_t leg = 0; leg < std::max<std::size_t>(1, robot.legs.size()); ++leg) {
+    const int link = robot::foot_link(robot, leg);
+    const robot::Foot& foot = robot::foot_of(robot, leg);
+    if (foot.present && link >= 0) out[static_cast<std::size_t>(link)] += foot.mass;
+  }
+  return out;
+}
 
 BodyConstants body_of(const robot::Robot& robot) {
   BodyConstants k;
   k.links = robot.links.size();
   k.gravity = robot.gravity;
-
-  // From the tip inwards: what hangs beyond link i.
-  double beyond = robot.foot.present ? robot.foot.mass : 0.0;
-  for (std::size_t i = k.links; i-- > 0;) {
+  k.hanging = end_masses(robot);
+  for (std::size_t i = 0; i < k.links; ++i) {
     const robot::Link& link = robot.links[i];
     const double l = link.length, r = link.center_of_mass;
+    k.parent[i] = robot::parent_of(robot, i);
+    k.attachment[i] = robot::attachment_of(robot, i);
     k.length[i] = l;
-    k.first_moment[i] = link.mass * r + l * beyond;
-    k.inertia[i][i] = link.inertia + link.mass * r * r + l * l * beyond;
-    beyond += link.mass;
+    k.first_moment[i] = link.mass * r + l * k.hanging[i];
+    k.inertia[i][i] = link.inertia + link.mass * r * r + l * l * k.hanging[i];
   }
-  for (std::size_t i = 0; i < k.links; ++i)
-    for (std::size_t j = i + 1; j < k.links; ++j)
-      k.inertia[i][j] = k.inertia[j][i] = k.length[i] * k.first_moment[j];
+  // From the tips inwards: all that hangs on a link is there before it hangs on another.
+  for (std::size_t i = k.links; i-- > 0;) {
+    k.hanging[i] += robot.links[i].mass;
+    if (!k.hangs_on_link(i)) continue;
+    const std::size_t p = k.on(i);
+    const double at = k.attachment[i];
+    k.first_moment[p] += at * k.hanging[i];
+    k.inertia[p][p] += at * at * k.hanging[i];
+    k.hanging[p] += k.hanging[i];
+  }
+  // Each link against all that it hangs on, up to the body.
+  for (std::size_t j = 0; j < k.links; ++j)
+    for (std::size_t child = j; k.hangs_on_link(child); child = k.on(child)) {
+      const std::size_t i = k.on(child);
+      k.inertia[i][j] = k.inertia[j][i] = k.attachment[child] * k.first_moment[j];
+    }
 
   const bool lifts = robot.cylinder.present && robot.cylinder.mode != robot::Cylinder::Mode::locked;
   k.held = {!robot.trolley.present, !lifts};

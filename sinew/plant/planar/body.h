@@ -1,4 +1,4 @@
-// plant/planar/body.h - a planar chain of up to four links under a trolley that slides and a body
+// plant/planar/body.h - a planar tree of up to eight links under a trolley that slides and a body
 // that a cylinder moves up and down: the equations of chain.h with one coordinate more, as a dense
 // system.
 //
@@ -9,9 +9,14 @@
 //   -c_i sin(phi_i) x'' + c_i cos(phi_i) y'' + sum_j A_ij cos(phi_i - phi_j) phi_j''
 //                         = Q_i - g c_i cos(phi_i) - sum_j A_ij sin(phi_i - phi_j) phi_j'^2
 //
-//   c, A  as in chain.h [kg m], [kg m^2]     M  all that slides [kg]    L  all that lifts [kg]
+//   c_i   first moment of link i and all that hangs on it, about its joint           [kg m]
+//   A_ij  d_ij c_j where j hangs on i, d_ij along i up to where the way to j leaves it; 0 where
+//         neither hangs on the other: branches meet at the body alone  [kg m^2]
+//   A_ii  moment of inertia of link i about its joint, with what hangs on it as points [kg m^2]
+//   M     all that slides [kg]    L  all that lifts [kg]
 //
-// A coordinate that is held (no trolley, locked cylinder) keeps its place with the acceleration 0.
+// A chain is the tree whose links hang at each other's ends, with the same bits. A coordinate that
+// is held (no trolley, locked cylinder) keeps its place with the acceleration 0.
 #pragma once
 
 #include <array>
@@ -29,16 +34,31 @@ enum Coordinate : std::size_t { along_track, up, first_link };
 
 struct BodyConstants {
   std::size_t links = 0;
-  std::array<double, most_links> length{}, first_moment{};           // l [m], c [kg m]
+  std::array<int, most_links> parent{};         // the link that it hangs on; -1: the body
+  std::array<double, most_links> attachment{};  // along the parent, or ahead of the origin [m]
+  std::array<double, most_links> length{}, first_moment{};  // l [m], c [kg m]
+  std::array<double, most_links> hanging{};  // mass of the link and all that hangs on it [kg]
   std::array<std::array<double, most_links>, most_links> inertia{};  // A [kg m^2]
   double sliding_mass = 0, lifted_mass = 0;                          // M, L [kg]
   double gravity = 9.80665;                                          // [m/s^2]
   std::array<bool, 2> held{};                                        // of x, y
 
   std::size_t coordinates() const { return first_link + links; }
+  // Position of the parent among the links, for links that have one.
+  std::size_t on(std::size_t link) const { return static_cast<std::size_t>(parent[link]); }
+  bool hangs_on_link(std::size_t link) const { return parent[link] >= 0; }
+  // The link on the body that this one hangs on in the end, or is.
+  std::size_t first_on(std::size_t link) const {
+    while (hangs_on_link(link)) link = on(link);
+    return link;
+  }
 };
 
+// Parents come before their children (robot::contradictions).
 BodyConstants body_of(const robot::Robot& robot);
+
+// Mass at the end of each link: of the feet that are there  [kg].
+std::array<double, most_links> end_masses(const robot::Robot& robot);
 
 struct Motion {
   Coordinates at{}, rate{};

@@ -11,13 +11,13 @@ BodyMechanism::BodyMechanism(const Setup& setup)
       robot_(setup.robot),
       cords_(setup.robot),
       rubs_(constants_, setup.robot) {
-  double absolute = 0;
   for (std::size_t j = 0; j < constants_.links; ++j) {
     const robot::Joint& joint = robot_.joints[j];
     damping_[j] = joint.damping + joint.damper;
+    stop_[j] = JointStop(joint.stop);
     dry_[j] = setup.start.blocked[j] ? blocked_bound : joint.dry_friction;
-    absolute += setup.start.joint_angle[j];
-    start_.at[first_link + j] = absolute;
+    const double on = constants_.hangs_on_link(j) ? start_.at[first_link + constants_.on(j)] : 0.0;
+    start_.at[first_link + j] = on + setup.start.joint_angle[j];
   }
   start_.at[along_track] = setup.start.trolley;
   start_.at[up] = setup.start.lift;
@@ -35,9 +35,10 @@ double BodyMechanism::stable_step(double step) const {
 
 void BodyMechanism::set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
                               double y_rate) const {
-  double absolute = 0;
-  for (std::size_t j = 0; j < constants_.links; ++j)
-    m.rate[first_link + j] = absolute += j < joint_rates.size() ? joint_rates.begin()[j] : 0.0;
+  for (std::size_t j = 0; j < constants_.links; ++j) {
+    const double on = constants_.hangs_on_link(j) ? m.rate[first_link + constants_.on(j)] : 0.0;
+    m.rate[first_link + j] = on + (j < joint_rates.size() ? joint_rates.begin()[j] : 0.0);
+  }
   m.rate[along_track] = x_rate;
   m.rate[up] = y_rate;
 }
@@ -71,11 +72,12 @@ double BodyMechanism::cylinder_stop(const Motion& m) const noexcept {
 void BodyMechanism::load(const Pose& body, const Motion& m, const Arms& arms,
                          const muscle::Lanes& tension, double piston_force,
                          Load& out) const noexcept {
-  std::array<double, most_links + 1> torque{};
+  std::array<double, most_links> torque{};
   for (std::size_t j = 0; j < constants_.links; ++j) {
     const robot::Joint& joint = robot_.joints[j];
     out.passive_torque[j] =
         -damping_[j] * joint_rate(m, j) - joint.spring * (joint_angle(m, j) - joint.spring_angle);
+    out.passive_torque[j] += stop_[j].torque(joint_angle(m, j), joint_rate(m, j));
     torque[j] = out.passive_torque[j];
   }
   for (int i = 0; i < cords_.count(); ++i)
@@ -85,8 +87,10 @@ void BodyMechanism::load(const Pose& body, const Motion& m, const Arms& arms,
             arms[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] * tension[i];
 
   out.force = {};
-  for (std::size_t j = 0; j < constants_.links; ++j)
-    out.force[first_link + j] = torque[j] - torque[j + 1];
+  for (std::size_t j = 0; j < constants_.links; ++j) {
+    out.force[first_link + j] = torque[j];
+    if (constants_.hangs_on_link(j)) out.force[first_link + constants_.on(j)] -= torque[j];
+  }
 
   const double beyond = m.at[along_track] - robot_.trolley.track_length;
   if (robot_.trolley.present && beyond > 0) {
@@ -128,8 +132,8 @@ auto BodyMechanism::prepare(const Pose& body, const Motion& m, const Arms& arms,
             std::abs(arms[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)]) * mesh[i];
   bound[Rubs::trolley] = trolley_bound;
   bound[Rubs::lift] = constants_.held[up] ? 0.0 : robot_.cylinder.friction;
-  for (std::size_t i = 0; i < most_discs; ++i)
-    bound[Rubs::first_disc + i] = robot_.foot.friction * load.normal[i];
+  for (std::size_t i = 0; i < static_cast<std::size_t>(rubs_.discs()); ++i)
+    bound[Rubs::first_disc + i] = rubs_.friction(i) * load.normal[i];
   rubs_.prepare(body, m, free, bound, load.normal);
   return free;
 }
@@ -166,7 +170,7 @@ void BodyMechanism::add_torque(const Arms& arms, int muscle, double tension,
       torque[static_cast<std::size_t>(j)] += arms[static_cast<std::size_t>(muscle)][s] * tension;
 }
 
-// The ankle is the last link's end; the ground's force is that on all discs.
+// A foot is at its leg's last link's end; the ground's force on it is that on all its discs.
 void BodyMechanism::tell(const Motion& m, const Acceleration& a, const Forces& held,
                          const Load& load, Truth& out) const noexcept {
   out.x = m.at[along_track];
@@ -177,28 +181,58 @@ void BodyMechanism::tell(const Motion& m, const Acceleration& a, const Forces& h
   for (std::size_t j = 0; j < constants_.links; ++j) {
     out.angle[j] = joint_angle(m, j);
     out.rate[j] = joint_rate(m, j);
-    out.foot_x += constants_.length[j] * body.cos(j);
-    out.foot_y += constants_.length[j] * body.sin(j);
+  }
+  for (std::size_t f = 0; f < rubs_.feet(); ++f) {
+    const Rubs::Path& path = rubs_.leg(f);
+    for (std::size_t k = path.first; k < path.count; ++k) {
+      out.foot[f].x += path.reach[k] * body.cos(path.link[k]);
+      out.foot[f].y += path.reach[k] * body.sin(path.link[k]);
+    }
   }
   for (int i = 0; i < rubs_.discs(); ++i) {
+    FootTruth& foot = out.foot[rubs_.foot_of(i)];
     const double push = rubs_.push(rubs_.disc(body, m, i), i, m);
     out.disc_force[static_cast<std::size_t>(i)] = push;
-    out.force_y += push;
-    if (push > 0) out.force_x += held[static_cast<std::size_t>(Rubs::first_disc + i)];
+    foot.force_y += push;
+    if (push > 0) foot.force_x += held[static_cast<std::size_t>(Rubs::first_disc + i)];
   }
   if (robot_.rollers.present) tell_rollers(body, m, a, held, load, out);
+}
+
+// The body's upward force on what hangs on it at one of its first links  [N].
+double BodyMechanism::carried(const Body& body, const Motion& m, const Acceleration& a,
+                              std::size_t first, const Truth& truth) const noexcept {
+  double force = constants_.hanging[first] * (a[up] + constants_.gravity);
+  for (std::size_t i = 0; i < constants_.links; ++i) {
+    const double rate = m.rate[first_link + i];
+    if (constants_.first_on(i) == first)
+      force += constants_.first_moment[i] *
+               (body.cos(i) * a[first_link + i] - body.sin(i) * rate * rate);
+  }
+  for (std::size_t f = 0; f < rubs_.feet(); ++f)
+    if (rubs_.leg(f).link[0] == first) force -= truth.foot[f].force_y;
+  return force;
 }
 
 void BodyMechanism::tell_rollers(const Body& body, const Motion& m, const Acceleration& a,
                                  const Forces& held, const Load& load, Truth& out) const noexcept {
   const double hung = constants_.lifted_mass;
+  FootTruth ground;
+  for (const FootTruth& foot : out.foot) {
+    ground.force_x += foot.force_x;
+    ground.force_y += foot.force_y;
+  }
   Hanging h{.acceleration = a[along_track], .lift = m.at[up]};
-  h.force_x = hung * a[along_track] - out.force_x;
-  h.force_y = hung * (a[up] + constants_.gravity) - out.force_y;
-  for (std::size_t i = 0; i < constants_.links; ++i)
+  h.force_x = hung * a[along_track] - ground.force_x;
+  h.force_y = hung * (a[up] + constants_.gravity) - ground.force_y;
+  for (std::size_t i = 0; i < constants_.links; ++i) {
     h.add(constants_.first_moment[i], body.sin(i), body.cos(i), m.rate[first_link + i],
           a[first_link + i]);
-  h.torque = out.torque[0] + load.passive_torque[0] + held[0];
+    if (constants_.hangs_on_link(i)) continue;
+    h.torque += out.torque[i] + load.passive_torque[i] + held[i];
+    if (constants_.attachment[i] != 0)
+      h.torque += constants_.attachment[i] * carried(body, m, a, i, out);
+  }
   const RollerLoads loads = roller_loads(robot_, h);
   out.roller_front = loads.front;
   out.roller_rear = loads.rear;

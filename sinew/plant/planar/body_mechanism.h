@@ -1,5 +1,6 @@
-// plant/planar/body_mechanism.h - any planar machine: up to four joints, driven or passive, a body
-// that a cylinder lifts, cams of any shape, muscles across two joints, a foot of several discs.
+// plant/planar/body_mechanism.h - any planar machine: chains and trees of up to eight joints, driven
+// or passive, a body that a cylinder lifts, cams of any shape, muscles across two joints, feet of
+// several discs.
 //
 //   body.h   equations of motion, dense      rubs.h     friction and the discs on the ground
 //   cords.h  routes of the muscles           rollers.h  what the trolley rests on
@@ -15,6 +16,7 @@
 #include "sinew/plant/planar/cords.h"
 #include "sinew/plant/planar/rubs.h"
 #include "sinew/plant/planar/setup.h"
+#include "sinew/plant/planar/stops.h"
 
 namespace sinew::plant {
 
@@ -44,10 +46,12 @@ class BodyMechanism {
   Pose pose(const Motion& motion) const noexcept { return Pose(constants_, motion); }
 
   double joint_angle(const Motion& m, std::size_t j) const noexcept {
-    return m.at[first_link + j] - (j > 0 ? m.at[first_link + j - 1] : 0.0);
+    return m.at[first_link + j] -
+           (constants_.hangs_on_link(j) ? m.at[first_link + constants_.on(j)] : 0.0);
   }
   double joint_rate(const Motion& m, std::size_t j) const noexcept {
-    return m.rate[first_link + j] - (j > 0 ? m.rate[first_link + j - 1] : 0.0);
+    return m.rate[first_link + j] -
+           (constants_.hangs_on_link(j) ? m.rate[first_link + constants_.on(j)] : 0.0);
   }
   double lift(const Motion& m) const noexcept { return m.at[up]; }
 
@@ -116,12 +120,16 @@ class BodyMechanism {
   void tell_rollers(const Body& body, const Motion& m, const Acceleration& a, const Forces& held,
                     const Load& load, Truth& out) const noexcept;
 
+  double carried(const Body& body, const Motion& m, const Acceleration& a, std::size_t first,
+                 const Truth& truth) const noexcept;
+
   BodyConstants constants_;
   robot::Robot robot_;
   Cords cords_;
   Rubs rubs_;
   Motion start_{};
   std::array<double, most_links> damping_{}, dry_{};
+  std::array<JointStop, most_links> stop_{};
 };
 
 }  // namespace sinew::plant

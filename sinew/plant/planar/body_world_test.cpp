@@ -126,10 +126,10 @@ TYPED_TEST(Alike, MovesAsTheChainWithItsBank) {
     fast.drive(edge);
     other.drive(edge);
     const Truth a = fast.truth(t * 1e-4), b = other.truth(t * 1e-4);
-    touched = touched || a.force_y > 0;
+    touched = touched || a.foot[0].force_y > 0;
     for (std::size_t j = 0; j < 2; ++j) EXPECT_NEAR(a.angle[j], b.angle[j], 2e-6) << t;
     EXPECT_NEAR(a.x, b.x, 1e-6) << t;
-    EXPECT_NEAR(a.force_y, b.force_y, 0.1) << t;
+    EXPECT_NEAR(a.foot[0].force_y, b.foot[0].force_y, 0.1) << t;
     for (std::size_t m = 0; m < 4; ++m) EXPECT_NEAR(a.tension[m], b.tension[m], 2e-2) << t;
   }
   EXPECT_TRUE(touched);
@@ -209,7 +209,7 @@ TEST(BodyWorld, ShoeStandsOnHeelAndToe) {
   const robot::Link& link = s.robot.links[0];
   const double weight = (link.mass + s.robot.cylinder.body_mass) * 9.80665 +
                         2e5 * muscle::area(*s.cylinder, muscle::down);
-  EXPECT_NEAR(truth.force_y, weight, 1e-6 * weight);
+  EXPECT_NEAR(truth.foot[0].force_y, weight, 1e-6 * weight);
   EXPECT_NEAR(truth.disc_force[0] + truth.disc_force[1], weight, 1e-6 * weight);
   const double balance = truth.disc_force[1] * toe - truth.disc_force[0] * heel;
   // To the tilt that heel and toe sink by.
@@ -241,7 +241,7 @@ TEST(BodyWorld, HeldAnkleIsAFixedFoot) {
     a.drive({t, {valve}, t % 300 == 0});
     b.drive({t, {valve}, t % 300 == 0});
     const Truth p = a.truth(t * 1e-4), q = b.truth(t * 1e-4);
-    touched = touched || p.force_y > 0;
+    touched = touched || p.foot[0].force_y > 0;
     EXPECT_NEAR(p.angle[0], q.angle[0], 1e-3) << t;
     EXPECT_NEAR(p.angle[1], q.angle[1], 1e-3) << t;
     EXPECT_NEAR(p.x, q.x, 1e-4) << t;

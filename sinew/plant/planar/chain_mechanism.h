@@ -19,6 +19,7 @@
 #include "sinew/plant/planar/layout.h"
 #include "sinew/plant/planar/rollers.h"
 #include "sinew/plant/planar/setup.h"
+#include "sinew/plant/planar/stops.h"
 
 namespace sinew::plant {
 
@@ -50,6 +51,7 @@ class ChainMechanism {
       rest_[j] = joint.rest_angle;
       damping_[j] = joint.damping + joint.damper;
       spring_[j] = joint.spring;
+      stop_[j] = JointStop(joint.stop);
       spring_angle_[j] = joint.spring_angle;
       dry_[j] = setup.start.blocked[k] ? blocked_bound : joint.dry_friction;
       absolute += setup.start.joint_angle[k];
@@ -82,8 +84,9 @@ class ChainMechanism {
 
   // The body step, or a whole part of it that suits the fastest rate of the machine at its start.
   double stable_step(double step) const {
-    return plant::stable_step(step,
-                              contacts_.stiffest_rate(Pose(chain_, start_), damping_, spring_));
+    std::array<double, N> damping = damping_, spring = spring_;
+    for (int j = 0; j < N; ++j) damping[j] += stop_[j].damping, spring[j] += stop_[j].stiffness;
+    return plant::stable_step(step, contacts_.stiffest_rate(Pose(chain_, start_), damping, spring));
   }
 
   void set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
@@ -122,6 +125,7 @@ class ChainMechanism {
       const auto k = static_cast<std::size_t>(j);
       torque[j] -= damping_[j] * joint_rate(pose, k);
       torque[j] -= spring_[j] * (joint_angle(pose, k) - spring_angle_[j]);
+      torque[j] += stop_[j].torque(joint_angle(pose, k), joint_rate(pose, k));
     }
 
     out.force.x = 0;
@@ -224,10 +228,10 @@ class ChainMechanism {
     Load at{};
     const Chain<N> chain(chain_, pose);
     ground(chain, pose, at);
-    out.foot_x = at.ankle_x;
-    out.foot_y = at.ankle_y;
-    out.force_x = at.normal > 0 ? held[Contacts<N>::foot] : 0.0;
-    out.force_y = out.disc_force[0] = at.normal;
+    out.foot[0].x = at.ankle_x;
+    out.foot[0].y = at.ankle_y;
+    out.foot[0].force_x = at.normal > 0 ? held[Contacts<N>::foot] : 0.0;
+    out.foot[0].force_y = out.disc_force[0] = at.normal;
     if (robot_.rollers.present) tell_rollers(chain, pose, a, held, out);
   }
 
@@ -256,12 +260,13 @@ class ChainMechanism {
                     const Forces& held, Truth& out) const noexcept {
     const double hung = robot::leg_mass(robot_) + robot_.cylinder.body_mass;
     Hanging h{.acceleration = a.x};
-    h.force_x = hung * a.x - out.force_x;
-    h.force_y = hung * chain_.gravity - out.force_y;
+    h.force_x = hung * a.x - out.foot[0].force_x;
+    h.force_y = hung * chain_.gravity - out.foot[0].force_y;
     for (int i = 0; i < N; ++i)
       h.add(chain_.first_moment[i], chain.sin(i), chain.cos(i), pose.rate[i], a.angle[i]);
     h.torque = out.torque[0] - damping_[0] * pose.rate[0] -
-               spring_[0] * (pose.angle[0] - spring_angle_[0]) + held[0];
+               spring_[0] * (pose.angle[0] - spring_angle_[0]) +
+               stop_[0].torque(pose.angle[0], pose.rate[0]) + held[0];
     const RollerLoads loads = roller_loads(robot_, h);
     out.roller_front = loads.front;
     out.roller_rear = loads.rear;
@@ -273,6 +278,7 @@ class ChainMechanism {
   robot::Robot robot_;
   Motion start_{};
   std::array<double, N> rest_{}, damping_{}, spring_{}, spring_angle_{}, dry_{};
+  std::array<JointStop, N> stop_{};
 };
 
 }  // namespace sinew::plant

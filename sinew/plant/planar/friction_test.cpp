@@ -124,8 +124,9 @@ TEST(Friction, TheFootKeepsItsCone) {
   bool touched = false;
   for (int k = 1; k < 1000; ++k) {
     const Truth now = world.truth(k * 1e-3);
-    touched = touched || now.force_y > 0.5;
-    EXPECT_LE(std::abs(now.force_x), 0.3 * now.force_y * 1.2 + 0.1) << k;  // held over a step
+    touched = touched || now.foot[0].force_y > 0.5;
+    EXPECT_LE(std::abs(now.foot[0].force_x), 0.3 * now.foot[0].force_y * 1.2 + 0.1)
+        << k;  // held over a step
   }
   EXPECT_TRUE(touched);
 }

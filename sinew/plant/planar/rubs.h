@@ -1,7 +1,8 @@
 // plant/planar/rubs.h - where a machine of any shape touches and rubs: joints, trolley, lift and
-// the discs of its foot. contacts.h with a list of discs in place of one and a coordinate more.
+// the discs of its feet. contacts.h with a list of discs in place of one and a coordinate more.
 //
-// A disc's centre stands at (along, across) of the last link; its lowest point slips and is pushed.
+// A disc's centre stands at (along, across) of its leg's last link; its lowest point slips and is
+// pushed.
 // Contact c slips with the velocity J_c q' and carries the force f_c; see friction.h for the law.
 //
 // The ground is stiff: within a step of length h the normal forces change by about
@@ -18,11 +19,12 @@
 
 #include "sinew/plant/planar/body.h"
 #include "sinew/plant/planar/friction.h"
+#include "sinew/robot/legs.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::plant {
 
-inline constexpr int most_discs = 4;
+inline constexpr int most_discs = robot::max_discs;
 
 // Where a disc is and how its lowest point moves with the coordinates.
 struct DiscAt {
@@ -38,9 +40,24 @@ class Rubs {
   using Forces = std::array<double, count>;  // [N m] of the joints, [N] of the others
   using Normals = std::array<double, most_discs>;
 
+  // The way from the body to a foot: its links, and how far along each the next one hangs, of the
+  // last one its end  [m].
+  struct Path {
+    std::size_t count = 0;
+    std::size_t first = 0;  // in it: the leg's first link
+    std::array<std::size_t, most_links> link{};
+    std::array<double, most_links> reach{};
+    double start = 0;  // of the first link, ahead of the body's origin [m]
+  };
+
   Rubs(const BodyConstants& body, const robot::Robot& robot);
 
   int discs() const { return disc_count_; }
+  std::size_t feet() const { return foot_count_; }
+  // By leg, also of one whose foot is not present.
+  const Path& leg(std::size_t foot) const { return path_[foot]; }
+  std::size_t foot_of(int disc) const { return disc_[static_cast<std::size_t>(disc)].foot; }
+  double friction(std::size_t disc) const { return disc_[disc].friction; }  // Coulomb [-]
 
   // The fastest rate at which springs, dampers and the ground bring the machine to rest  [1/s], by
   // joint: c w and sqrt(k w) with w, the joint's or disc's acceleration per force.
@@ -73,12 +90,21 @@ class Rubs {
   void soften(double h, FrictionProblem<count>& problem) const;
   Normals solve(Matrix m, Normals b) const;
 
+  struct Disc {
+    std::size_t foot = 0;
+    double along = 0, across = 0, radius = 0;  // of its leg's last link [m]
+    double friction = 0;                       // [-]
+    double surface = 0;                        // of the ground [m]
+  };
+  void add_foot(const robot::Robot& robot, std::size_t leg);
+  std::size_t discs_there() const { return static_cast<std::size_t>(disc_count_); }
+
   BodyConstants k_;
-  robot::Foot foot_;
   robot::Ground ground_;
-  std::array<robot::Foot::Point, most_discs> disc_;
+  std::array<Path, robot::max_legs> path_{};
+  std::size_t foot_count_ = 0;
+  std::array<Disc, most_discs> disc_{};
   int disc_count_ = 0;
-  double surface_ = 0;  // of the ground [m]
 
   // The contacts that can carry something at the node stand here one after the other: only these
   // are solved.

@@ -10,12 +10,14 @@
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
 #include "sinew/muscle/cylinder.h"
+#include "sinew/muscle/fault.h"
 #include "sinew/muscle/muscle.h"
+#include "sinew/robot/legs.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::plant {
 
-inline constexpr int most_joints = 4;
+inline constexpr int most_joints = robot::max_joints;
 
 // Where the machine starts, and what holds it.
 struct Start {
@@ -46,9 +48,16 @@ struct Setup {
   gas::Air air;
   gas::Supply supply;
   std::optional<muscle::Cylinder> cylinder;  // one that moves
+  std::vector<muscle::AirFault> faults;      // of its air
   Start start;
   Steps steps;
   std::uint64_t seed = 1;  // of the sensors' noise
+};
+
+// A foot's ankle from its leg's first joint, and the ground's force on it.
+struct FootTruth {
+  double x = 0, y = 0;              // [m]
+  double force_x = 0, force_y = 0;  // [N]
 };
 
 // What only a simulation knows, at one instant.
@@ -59,14 +68,15 @@ struct Truth {
   std::array<double, muscle::capacity> tension{}, pressure{}, length{},
       mass{};                                                // [N] [Pa] [m] [kg]
   std::array<double, muscle::capacity> air_in{}, air_out{};  // since the start [kg]
-  double foot_x = 0, foot_y = 0;                             // ankle, from the hip [m]
-  double force_x = 0, force_y = 0;                           // on the foot by the ground [N]
+  std::array<FootTruth, robot::max_legs> foot{};             // by leg
   double roller_front = 0, roller_rear = 0;                  // loads, below 0: lifted off [N]
 
   // These belong to parts that not every machine has, and are 0 without them.
-  std::array<double, 4> disc_force{};                   // of the ground on each disc, up [N]
-  std::array<double, muscle::capacity> air_leaked{};    // since the start [kg]
-  double supply_pressure = 0, tank_pressure = 0;        // absolute [Pa]
+  std::array<double, robot::max_discs> disc_force{};  // of the ground on each disc, up [N]
+  std::array<double, muscle::capacity> air_leaked{};  // since the start [kg]
+  double supply_pressure = 0, tank_pressure = 0;      // absolute [Pa]
+  double air_mass = 0;                                // in chambers, hoses and tank [kg]
+  double air_past_tank = 0;  // from a line that a fault had cut from its tank, since the start [kg]
   double lift = 0, lift_rate = 0;                       // of the body [m], [m/s]
   std::array<double, 2> cylinder_pressure{};            // up, down; absolute [Pa]
   std::array<double, 2> cylinder_in{}, cylinder_out{};  // since the start [kg]

@@ -14,7 +14,7 @@ namespace sinew::plant {
 template <class M, class A>
 World<M, A>::World(const Setup& setup)
     : mechanism_(setup),
-      air_(setup.muscles, setup.air, setup.supply, setup.cylinder),
+      air_(setup.muscles, setup.air, setup.supply, setup.cylinder, setup.faults),
       robot_(setup.robot),
       atmosphere_(setup.air.atmosphere),
       step_(mechanism_.stable_step(setup.steps.body)),
@@ -49,7 +49,7 @@ void World<M, A>::look_at(double t, const Moving& state, const Forces& held,
 template <class M, class A>
 void World<M, A>::prepare() noexcept {
   Look& first = state_.first;
-  air_.move_valves(state_.time, state_.valves);
+  air_.move_valves(state_.time, state_.first.air, state_.valves);
   evaluate_air(state_.time, state_.now, first);
   look_for_failure();
   mechanism_.load(mechanism_.pose(state_.now.motion), state_.now.motion, first.arms, first.air,
@@ -288,9 +288,11 @@ Truth World<M, A>::truth(double t) noexcept {
     out.air_leaked[k] = account.leak;
     mechanism_.add_torque(p.look.arms, i, out.tension[k], out.torque);
   }
-  const muscle::SupplyState supply = air_.supply_state(p.look.air);
+  const muscle::SupplyState supply = air_.supply_state(p.state.air, p.look.air);
   out.supply_pressure = supply.line;
   out.tank_pressure = supply.tank;
+  out.air_past_tank = supply.past_tank;
+  out.air_mass = air_.total_mass(p.state.air, p.look.ends.travel);
   for (int c = 0; c < 2; ++c) {
     const auto k = static_cast<std::size_t>(c);
     const muscle::Account account = air_.cylinder_account(p.state.air, c);

@@ -252,7 +252,7 @@ auto Stand::moved(Moving s, double from, double to) const noexcept -> Moving {
 }
 
 void Stand::prepare() noexcept {
-  plumbing_.node(state_.time, state_.valves);
+  plumbing_.node(state_.time, state_.first.pull, state_.valves);
   const Order o = order(state_.time);
   place(state_.time, o, state_.now);
   settle(state_.time, o, state_.now);

@@ -14,6 +14,7 @@
 #include "sinew/config/compose.h"
 #include "sinew/report/page/panels.h"
 #include "sinew/report/page/stand.h"
+#include "sinew/robot/legs.h"
 
 namespace sinew::report {
 namespace {
@@ -217,21 +218,25 @@ void Maker::over(const std::string& name, const std::string& title, const Axis& 
   finish(std::move(figure));
 }
 
-void add_foot_path(Maker& make, const Channels& channels) {
+// `leg`: whose; empty: the machine's only one.
+void add_foot_path(Maker& make, const Channels& channels, const std::string& leg) {
+  const std::string measured = robot::topic_of_leg(leg, "/foot/position");
+  const std::string desired = robot::topic_of_leg(leg, "/desired/foot/position");
   std::string which;
-  for (const char* topic : {"/true/foot/position", "/foot/position"})
+  for (const std::string& topic : {robot::topic_of_leg(leg, "/true/foot/position"), measured})
     if (which.empty() && channels.has({topic, "x"})) which = topic;
   if (which.empty()) return;
-  const std::string desired = "/desired/foot/position";
   const ShownUnit unit =
       make.unit("m", std::max(make.largest({which, "x"}), make.largest({which, "y"})));
   const auto path = [&](const char* label, const std::string& topic, Kind kind) {
     return make.pair(label, {topic, "x"}, {topic, "y"}, unit, unit, kind);
   };
-  make.over("foot-path", "Foot path", {"x forward", unit.name}, {"y up", unit.name},
+  make.over(leg.empty() ? "foot-path" : "foot-path-" + leg,
+            leg.empty() ? "Foot path" : "Foot path of leg " + leg, {"x forward", unit.name},
+            {"y up", unit.name},
             {path("actual", which, make.kind()), once(path("desired", desired, Kind::desired))},
             true,
-            which == "/foot/position"
+            which == measured
                 ? " Of the ankle about the first joint, from measured angles; the desired one once."
                 : " Of the ankle about the first joint, as simulated; the desired one once.");
 }
@@ -278,9 +283,10 @@ std::vector<Figure> of_robot(const Run& run, const RunFigureOptions& options) {
   channels.add(derived);
 
   Maker make(channels, about(run, machine.title, machine.robot.name), options, machine.atmosphere);
-  make.shade(stance_of(record, machine));
+  if (machine.robot.legs.empty()) make.shade(stance_of(record, machine));  // else each has its own
   for (const Panel& panel : panels(channels, machine.robot)) make.panel(panel);
-  add_foot_path(make, channels);
+  for (const robot::LegParts& leg : robot::legs_of(machine.robot))
+    add_foot_path(make, channels, leg.name);
   return std::move(make.list);
 }
 

@@ -100,6 +100,7 @@ Content of_robot(const Run& run) {
       head(run, {machine.title, machine.reproduces, machine.robot.name, machine.atmosphere});
   json.put("duration", config::format_number(end_of(channels)));
   json.put("phases", phases_of(record, machine));
+  if (!summary.faults.empty()) json.put("faults", to_json(summary.faults, end_of(channels)));
   json.put("panels", to_json(panels(channels, machine.robot), columns));
   json.put("scene", to_json(scene_of_run, columns));
   std::vector<analysis::Warning> warnings = how_it_ended(run);

@@ -45,6 +45,7 @@ std::string to_json(const Stand& stand, Columns& columns);  // null: an empty on
 std::string to_json(const std::vector<Chart>& charts, Columns& columns);
 std::string to_json(const std::vector<Parameter>& parameters);
 std::string to_json(const std::vector<analysis::Warning>& warnings);
+std::string to_json(const std::vector<analysis::MachineFault>& faults, double end);  // of the run
 std::string to_json(const std::vector<analysis::Verdict>& verdicts);
 std::string to_json(const Blob::Layout& layout);
 std::string to_json(const std::string& text);

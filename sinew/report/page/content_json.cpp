@@ -170,11 +170,13 @@ std::string to_json(const Scene& scene, Columns& columns) {
                     {"rear", t.rear},     {"front", t.front}, {"rollers", t.rollers}};
   }
   if (scene.cylinder) out["cylinder"] = cylinder_of(*scene.cylinder, columns);
-  if (scene.foot)
-    out["foot"] = {{"path", vector_of(scene.foot_path, columns)},
-                   {"desired", vector_of(scene.desired_path, columns)},
-                   {"force", vector_of(scene.force, columns)},
-                   {"contact", column_of(scene.contact, columns)}};
+  out["feet"] = Json::array();
+  for (const FootShape& foot : scene.feet)
+    out["feet"].push_back({{"at", foot.at},
+                           {"path", vector_of(foot.path, columns)},
+                           {"desired", vector_of(foot.desired_path, columns)},
+                           {"force", vector_of(foot.force, columns)},
+                           {"contact", column_of(foot.contact, columns)}});
   return text_of(out);
 }
 
@@ -233,6 +235,14 @@ std::string to_json(const std::vector<analysis::Warning>& warnings) {
     for (const analysis::Span& s : w.spans) spans.push_back(Json::array({s.from, s.to}));
     out.push_back({{"text", w.text}, {"spans", std::move(spans)}});
   }
+  return text_of(out);
+}
+
+std::string to_json(const std::vector<analysis::MachineFault>& faults, double end) {
+  Json out = Json::array();
+  for (const analysis::MachineFault& f : faults)
+    out.push_back(
+        {{"of", f.of}, {"what", f.what}, {"from", f.begin}, {"to", std::fmin(f.end, end)}});
   return text_of(out);
 }
 

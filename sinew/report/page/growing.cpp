@@ -11,6 +11,7 @@
 #include "sinew/report/page/content.h"
 #include "sinew/report/page/pose.h"
 #include "sinew/robot/actuator_of.h"
+#include "sinew/robot/legs.h"
 
 namespace sinew::report {
 namespace {
@@ -22,7 +23,7 @@ using signals::Table;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t row_ns = 10'000'000;
 
-bool is_edge(const signals::Topic& topic) { return topic.name.starts_with("/valve/"); }
+bool is_edge(const signals::Topic& topic) { return signals::is_of_valve(topic.name); }
 
 // What the page must have room for: the machine at rest, and with every joint turned either way.
 // Edges get a clock each, as they will have.
@@ -56,12 +57,13 @@ class Prototype {
   }
   double value(const std::string& topic, std::size_t row, const analysis::Machine& m,
                bool foot_path) const {
-    if (topic == "/plan/phase") return -1;
-    if (topic == "/desired/foot/position" && !foot_path) return none;
+    if (topic.ends_with("/plan/phase")) return -1;
+    if (topic.starts_with("/desired/") && topic.ends_with("/foot/position") && !foot_path)
+      return none;
     for (std::size_t j = 0; j < m.robot.joints.size(); ++j)
-      if (topic.ends_with("/joint/" + m.robot.joints[j].name + "/angle")) return poses_[row][j];
+      if (topic.ends_with(robot::topic_of_joint(m.robot, j) + "/angle")) return poses_[row][j];
     for (const robot::Muscle& muscle : m.robot.muscles)
-      if (topic == "/true/muscle/" + muscle.name + "/length")
+      if (topic == robot::logged_topic(m.robot, "/true/muscle/" + muscle.name + "/length"))
         return std::min(length_by_cams(m.robot, muscle, poses_[row]),
                         robot::actuator_of(muscle, m.actuators).braid.thread_length);
     return 0;

@@ -147,9 +147,10 @@ TEST(Growing, ThePageHasNoSamplesYetAndAPlaceForAll) {
 
 TEST(Growing, WithoutAFootPathNoneIsDesired) {
   const Table all = table();
-  EXPECT_FALSE(Json::parse(growing(all).content("{}").json)["scene"]["foot"]["desired"].is_null());
+  EXPECT_FALSE(
+      Json::parse(growing(all).content("{}").json)["scene"]["feet"][0]["desired"].is_null());
   EXPECT_TRUE(
-      Json::parse(growing(all, false).content("{}").json)["scene"]["foot"]["desired"].is_null());
+      Json::parse(growing(all, false).content("{}").json)["scene"]["feet"][0]["desired"].is_null());
 }
 
 TEST(Growing, PhasesOfAPieceAreThoseOfItsRows) {

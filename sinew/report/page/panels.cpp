@@ -4,6 +4,8 @@
 #include <map>
 #include <set>
 
+#include "sinew/robot/legs.h"
+
 namespace sinew::report {
 namespace {
 
@@ -17,7 +19,7 @@ std::string words(std::string name) {
 
 class Panels {
  public:
-  Panels(const Channels& channels, const robot::Robot& robot) : channels_(channels) {
+  Panels(const Channels& channels, const robot::Robot& robot) : channels_(channels), robot_(robot) {
     for (const robot::Joint& j : robot.joints) {
       joints_.push_back(j.name);
       if (j.kind == robot::Joint::Kind::passive) passive_.insert(joints_.size() - 1);
@@ -29,7 +31,9 @@ class Panels {
   void open(std::string group, std::string title, std::string unit = "") {
     list.push_back({std::move(group), std::move(title), std::move(unit), {}});
   }
+  // Topics by the robot's names.
   void line(std::string label, Channel channel, int color, Style style = Style::measured) {
+    channel.topic = robot::logged_topic(robot_, channel.topic);
     const Samples samples = channels_.find(channel);
     if (!samples) return;
     claimed_.insert(channel.topic);
@@ -50,7 +54,7 @@ class Panels {
                   Style style = Style::measured) {
     for (std::size_t i = 0; i < joints_.size(); ++i)
       if (passive_.contains(i))
-        claimed_.insert(before + joints_[i] + after);
+        claimed_.insert(robot::logged_topic(robot_, before + joints_[i] + after));
       else
         one_of(joints_, i, before, after, note, style);
   }
@@ -76,6 +80,7 @@ class Panels {
   bool shown_elsewhere(const std::string& topic) const;
 
   const Channels& channels_;
+  const robot::Robot& robot_;
   std::vector<std::string> joints_, muscles_;
   std::set<std::size_t> passive_;  // joints
   std::set<std::string> claimed_;
@@ -126,24 +131,31 @@ void valves(Panels& p) {
   p.per_muscle("/valve/", "/inlet/set_point");
 }
 
-void foot(Panels& p, const robot::Robot& robot) {
-  p.open("Foot", "Foot position");
+// Of one leg; with a name, it stands before every line.
+void foot(Panels& p, const robot::Foot& foot, const std::string& leg) {
+  const auto line = [&](const std::string& label, const std::string& topic,
+                        const std::string& field, int color, Style style = Style::measured) {
+    p.line(leg.empty() ? label : leg + " " + label, {robot::topic_of_leg(leg, topic), field}, color,
+           style);
+  };
+  const std::string of = leg.empty() ? "" : " " + leg;
+  p.open("Foot", "Foot position" + of);
   for (const auto& [axis, color] : {std::pair{"x", 0}, std::pair{"y", 1}}) {
-    p.line(std::string(axis) + " true", {"/true/foot/position", axis}, color);
-    p.line(std::string(axis) + " measured", {"/foot/position", axis}, color, Style::hidden);
-    p.line(std::string(axis) + " desired", {"/desired/foot/position", axis}, color, Style::desired);
+    line(std::string(axis) + " true", "/true/foot/position", axis, color);
+    line(std::string(axis) + " measured", "/foot/position", axis, color, Style::hidden);
+    line(std::string(axis) + " desired", "/desired/foot/position", axis, color, Style::desired);
   }
-  p.open("Foot", "Ground reaction");
+  p.open("Foot", "Ground reaction" + of);
   for (const auto& [axis, color] : {std::pair{"x", 0}, std::pair{"y", 1}}) {
-    p.line(std::string(axis) + " true", {"/true/foot/force", axis}, color);
-    p.line(std::string(axis) + " from torques", {"/foot/force", axis}, color, Style::hidden);
+    line(std::string(axis) + " true", "/true/foot/force", axis, color);
+    line(std::string(axis) + " from torques", "/foot/force", axis, color, Style::hidden);
   }
-  p.open("Foot", "Load of the sole");
+  p.open("Foot", "Load of the sole" + of);
   int color = 0;
-  for (const robot::Foot::Point& point : robot.foot.points)
-    p.line(words(point.name), {"/true/foot/" + point.name + "/load"}, color++);
-  p.open("Foot", "Slip velocity");
-  p.line("slip", {"/true/foot/slip"}, 0);
+  for (const robot::Foot::Point& point : foot.points)
+    line(words(point.name), "/true/foot/" + point.name + "/load", "value", color++);
+  p.open("Foot", "Slip velocity" + of);
+  line("slip", "/true/foot/slip", "value", 0);
 }
 
 void body(Panels& p) {
@@ -232,10 +244,10 @@ void stand_valves(Panels& p, const std::string& element) {
 
 // Edges are lights in the drawing, the plan's phase is the plots' background.
 bool Panels::shown_elsewhere(const std::string& topic) const {
-  return claimed_.contains(topic) || topic.ends_with("/open") || topic.starts_with("/plan/") ||
-         topic.starts_with("/draw/") || topic.starts_with("/trolley/by_plan/") ||
-         topic.starts_with("/sweep/") || topic.starts_with("/true/sweep/") ||
-         topic.ends_with("/air_out");
+  return claimed_.contains(topic) || topic.ends_with("/open") ||
+         topic.find("/plan/") != topic.npos || topic.starts_with("/draw/") ||
+         topic.starts_with("/trolley/by_plan/") || topic.starts_with("/sweep/") ||
+         topic.starts_with("/true/sweep/") || topic.ends_with("/air_out");
 }
 
 std::string title_of(const std::string& unit) {
@@ -280,7 +292,8 @@ std::vector<Panel> panels(const Channels& channels, const robot::Robot& robot) {
   Panels p(channels, robot);
   joints(p);
   muscles(p);
-  foot(p, robot);
+  const std::vector<robot::LegParts> legs = robot::legs_of(robot);
+  for (std::size_t l = 0; l < legs.size(); ++l) foot(p, robot::foot_of(robot, l), legs[l].name);
   body(p);
   valves(p);
   air(p);
@@ -289,7 +302,8 @@ std::vector<Panel> panels(const Channels& channels, const robot::Robot& robot) {
 }
 
 std::vector<Panel> panels_of_stand(const Channels& channels, const std::string& element) {
-  Panels p(channels, {});
+  const robot::Robot none;
+  Panels p(channels, none);
   stand(p, element);
   stand_valves(p, element);
   p.others("Other");

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "sinew/actuator/braid.h"
 #include "sinew/report/page/pose.h"
 #include "sinew/robot/actuator_of.h"
+#include "sinew/robot/legs.h"
 
 namespace sinew::report {
 namespace {
@@ -34,7 +36,9 @@ struct Maker {
   Channel series(const std::string& name, const std::string& unit, Column values) {
     return draw(drawn, record, name, unit, std::move(values));
   }
-  Channel logged(const std::string& topic) const { return channels.first_of({topic}); }
+  Channel logged(const std::string& topic) const {
+    return channels.first_of({robot::logged_topic(robot(), topic)});
+  }
   std::vector<double> angles_at(std::size_t row) const {
     std::vector<double> out_angles;
     for (const Column& c : poses.angle) out_angles.push_back(c[row]);
@@ -53,13 +57,11 @@ void add_frames(Maker& m) {
   std::vector<Column> x(n), y(n), heading(n);
   for (std::size_t row = 0; row < m.record.rows(); ++row) {
     const std::vector<double> angles = m.angles_at(row);
-    const robot::Pose pose = robot::forward(m.robot(), angles);
-    double sum = 0;
+    const std::vector<robot::LinkPlace> places = robot::places(m.robot(), angles);
     for (std::size_t k = 0; k < n; ++k) {
-      sum += angles[k];
-      x[k].push_back(m.poses.trolley[row] + pose.joint[k].x);
-      y[k].push_back(m.poses.lift[row] + pose.joint[k].y);
-      heading[k].push_back(sum);
+      x[k].push_back(m.poses.trolley[row] + places[k].joint.x);
+      y[k].push_back(m.poses.lift[row] + places[k].joint.y);
+      heading[k].push_back(places[k].heading);
     }
   }
   for (std::size_t k = 0; k < n; ++k) {
@@ -129,9 +131,10 @@ struct Seat {
   double room = 0;  // along the link [m]; 0: as much as is needed
 };
 Seat seat_at(const robot::Robot& robot, std::size_t j) {
-  if (j == 0) return {0, {}, {0, 1}, 0};
-  const double length = robot.links[j - 1].length;
-  return {static_cast<int>(j), {length, 0}, {-1, 0}, length};
+  const int parent = robot::parent_of(robot, j);
+  const double at = robot::attachment_of(robot, j);
+  if (parent < 0) return {0, {at, 0}, {0, 1}, 0};
+  return {parent + 1, {at, 0}, {-1, 0}, at};
 }
 
 double rest_pull(const robot::Muscle& muscle, const robot::Joint& joint) {
@@ -183,11 +186,13 @@ void add_muscle(Maker& m, const robot::Muscle& muscle) {
     if (std::isfinite(l)) shape.longest = std::max(shape.longest, l);
     diameter.push_back(actuator::diameter(a.braid, l));
   }
-  if (second < 0 || std::abs(first - second) != 1)
-    place(shape, m.robot(), muscle, static_cast<std::size_t>(first));
+  const auto near = static_cast<std::size_t>(std::max(std::min(first, second), 0));
+  const auto far = static_cast<std::size_t>(std::max(first, second));
+  const bool neighbours = second >= 0 && robot::parent_of(m.robot(), far) == static_cast<int>(near);
+  if (neighbours)
+    place_across(shape, m, muscle, near, far);
   else
-    place_across(shape, m, muscle, static_cast<std::size_t>(std::min(first, second)),
-                 static_cast<std::size_t>(std::max(first, second)));
+    place(shape, m.robot(), muscle, static_cast<std::size_t>(first));
   shape.length = m.series(at.substr(1) + "length", "m", std::move(length));
   shape.diameter = m.series(at.substr(1) + "diameter", "m", std::move(diameter));
   shape.pressure = m.logged("/true" + at + "pressure");
@@ -198,14 +203,17 @@ void add_muscle(Maker& m, const robot::Muscle& muscle) {
 
 // --- what it stands and rolls on ----------------------------------------------------------------
 
-void add_discs(Maker& m) {
-  const robot::Foot& foot = m.robot().foot;
-  if (!foot.present || m.out.links.empty()) return;
-  const LinkShape& last = m.out.links.back();
+// The discs of a leg's foot; its one disc is about the end of the leg, which an ankle may follow.
+void add_discs(Maker& m, std::size_t leg) {
+  const robot::Foot& foot = robot::foot_of(m.robot(), leg);
+  const int last = robot::foot_link(m.robot(), leg);
+  if (!foot.present || last < 0 || m.out.links.empty()) return;
+  const LinkShape& link = m.out.links[static_cast<std::size_t>(last)];
   for (const robot::Foot::Point& p : foot.points)
-    m.out.discs.push_back({last.frame, {p.along, p.across}, p.radius});
-  // The one disc is about the end of the leg, which an ankle may follow.
-  const LinkShape& end = robot::is_leg(m.robot()) ? m.out.links[1] : last;
+    m.out.discs.push_back({link.frame, {p.along, p.across}, p.radius});
+  const bool one = robot::is_leg(robot::only_leg(m.robot(), leg));
+  const robot::LegParts parts = robot::legs_of(m.robot())[leg];
+  const LinkShape& end = one ? m.out.links[static_cast<std::size_t>(parts.joints[1])] : link;
   if (foot.points.empty()) m.out.discs.push_back({end.frame, {end.length, 0}, foot.radius});
   if (m.robot().ground.present) m.out.surface = m.robot().ground.height - foot.radius;
 }
@@ -229,7 +237,8 @@ void add_track(Maker& m) {
 // One that is locked is a part of the body.
 void add_cylinder(Maker& m) {
   const robot::Cylinder& c = m.robot().cylinder;
-  if (!c.present || c.mode == robot::Cylinder::Mode::locked) return;
+  using Mode = robot::Cylinder::Mode;
+  if (!c.present || c.mode == Mode::locked || c.mode == Mode::free) return;
   CylinderShape shape{.bore = c.bore, .stroke = c.stroke};
   shape.up = m.logged("/true/cylinder/up/pressure");
   shape.down = m.logged("/true/cylinder/down/pressure");
@@ -240,24 +249,21 @@ void add_cylinder(Maker& m) {
   m.out.cylinder = std::move(shape);
 }
 
-// Where the ground's force acts: under the foot, or between the discs by their loads.
-Column contact(const Maker& m) {
-  const std::vector<Disc>& discs = m.out.discs;
+// Where the ground's force acts: under the foot, or between its discs by their loads.
+Column contact(const Maker& m, const robot::Foot& foot, const std::string& leg,
+               std::span<const Disc> discs) {
   std::vector<Column> load;
-  for (const robot::Foot::Point& p : m.robot().foot.points)
-    load.push_back(m.record.column("/true/foot/" + p.name + "/load"));
+  for (const robot::Foot::Point& p : foot.points)
+    load.push_back(m.record.column(robot::topic_of_leg(leg, "/true/foot/" + p.name + "/load")));
   Column out;
   for (std::size_t row = 0; row < m.record.rows(); ++row) {
     double sum = 0, moment = 0, plain = 0;
+    const std::vector<robot::LinkPlace> places = robot::places(m.robot(), m.angles_at(row));
     for (std::size_t i = 0; i < discs.size(); ++i) {
-      const auto k = static_cast<std::size_t>(discs[i].frame - 1);
-      const std::vector<double> angles = m.angles_at(row);
-      const robot::Pose pose = robot::forward(m.robot(), angles);
-      double heading = 0;
-      for (std::size_t j = 0; j <= k; ++j) heading += angles[j];
-      const double x = m.poses.trolley[row] + pose.joint[k].x +
-                       discs[i].center.x * std::cos(heading) -
-                       discs[i].center.y * std::sin(heading);
+      const robot::LinkPlace& on = places[static_cast<std::size_t>(discs[i].frame - 1)];
+      const double x = m.poses.trolley[row] + on.joint.x +
+                       discs[i].center.x * std::cos(on.heading) -
+                       discs[i].center.y * std::sin(on.heading);
       const double weight = i < load.size() && !load[i].empty() ? load[i][row] : 0.0;
       sum += weight;
       moment += weight * x;
@@ -268,22 +274,30 @@ Column contact(const Maker& m) {
   return out;
 }
 
-void add_foot(Maker& m) {
-  if (m.out.discs.empty()) return;
+void add_foot(Maker& m, std::size_t leg) {
+  const std::size_t before = m.out.discs.size();
+  add_discs(m, leg);
+  if (m.out.discs.size() == before) return;
+  const robot::LegParts parts = robot::legs_of(m.robot())[leg];
   // With a number in it: a plan without a foot path desires none.
   const auto first_of = [&](std::initializer_list<std::string> topics) {
     const auto is_number = [](double v) { return std::isfinite(v); };
-    for (const std::string& topic : topics)
-      if (const Samples x = m.channels.find({topic, "x"});
-          x && std::ranges::any_of(*x.values, is_number))
-        return Channel{topic, "x"};
+    for (const std::string& topic : topics) {
+      const Channel of_leg{robot::topic_of_leg(parts.name, topic), "x"};
+      if (const Samples x = m.channels.find(of_leg); x && std::ranges::any_of(*x.values, is_number))
+        return of_leg;
+    }
     return Channel{};
   };
-  m.out.foot = true;
-  m.out.foot_path = first_of({"/true/foot/position", "/foot/position"});
-  m.out.desired_path = first_of({"/desired/foot/position"});
-  if (m.robot().ground.present) m.out.force = first_of({"/true/foot/force", "/foot/force"});
-  m.out.contact = m.series("foot/contact", "m", contact(m));
+  FootShape foot;
+  foot.at = robot::attachment_of(m.robot(), static_cast<std::size_t>(parts.joints.front()));
+  foot.path = first_of({"/true/foot/position", "/foot/position"});
+  foot.desired_path = first_of({"/desired/foot/position"});
+  if (m.robot().ground.present) foot.force = first_of({"/true/foot/force", "/foot/force"});
+  const std::span discs = std::span(m.out.discs).subspan(before);
+  foot.contact = m.series((parts.name.empty() ? "" : parts.name + "/") + "foot/contact", "m",
+                          contact(m, robot::foot_of(m.robot(), leg), parts.name, discs));
+  m.out.feet.push_back(std::move(foot));
 }
 
 }  // namespace
@@ -296,10 +310,9 @@ Scene scene(const Channels& channels, const analysis::Machine& machine,
   add_frames(m);
   add_cams(m);
   for (const robot::Muscle& muscle : machine.robot.muscles) add_muscle(m, muscle);
-  add_discs(m);
   add_track(m);
   add_cylinder(m);
-  add_foot(m);
+  for (std::size_t leg = 0; leg < robot::legs_of(machine.robot).size(); ++leg) add_foot(m, leg);
   return std::move(m.out);
 }
 

@@ -58,6 +58,14 @@ struct Disc {
   double radius = 0;    // [m]
 };
 
+// Of one leg: its paths are about its first joint.
+struct FootShape {
+  double at = 0;               // of the leg's first joint, ahead of the body's origin [m]
+  Channel path, desired_path;  // topics with fields x and y [m]
+  Channel force;               // the same, on the foot [N]
+  Channel contact;             // x where the force acts, in the plane [m]
+};
+
 struct Track {
   double height = 0, from = 0, to = 0;  // of the first joint's way, at rest above it [m]
   double rear = 0, front = 0;           // where the rollers are, from the first joint [m]
@@ -81,11 +89,8 @@ struct Scene {
   std::optional<double> surface;  // of the table [m]
   std::optional<Track> track;     // none: the body is fixed
   std::optional<CylinderShape> cylinder;
-  bool foot = false;
-  Channel foot_path, desired_path;  // topics with fields x and y, about the first joint [m]
-  Channel force;                    // the same, on the foot [N]
-  Channel contact;                  // x where the force acts, in the plane [m]
-  std::string drawn_from;           // "true angles" or "measured angles"
+  std::vector<FootShape> feet;  // by leg, of those that have one
+  std::string drawn_from;       // "true angles" or "measured angles"
 
   bool empty() const { return frames.empty(); }  // the log does not say how the machine stood
 };

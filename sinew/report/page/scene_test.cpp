@@ -141,7 +141,7 @@ TEST(Scene, PutsTheForceBetweenDiscsByTheirLoads) {
     const auto x = [&](double across) {
       return d.at(tibia.x, row) + 0.1 * std::cos(h) - across * std::sin(h);
     };
-    EXPECT_NEAR(d.at(d.scene.contact, row), 0.75 * x(-0.04) + 0.25 * x(0.04), 1e-12);
+    EXPECT_NEAR(d.at(d.scene.feet.at(0).contact, row), 0.75 * x(-0.04) + 0.25 * x(0.04), 1e-12);
   }
 }
 

@@ -27,7 +27,7 @@ analysis::Machine machine_in(const std::string& resolved) {
 }
 
 std::string summary_json(const analysis::Summary& summary, const experiment::Experiment& e,
-                         const experiment::Outcome& outcome) {
+                         const run::Outcome& outcome) {
   const double factor = outcome.wall > 0 ? outcome.duration / outcome.wall : 0;
   return to_json(summary, {.numbers = {{"real_time_factor", factor}, {"threads", 1}},
                            .warnings = warnings_beside_the_log(e, outcome)});
@@ -40,7 +40,7 @@ KeptRun::KeptRun(RunRequest request, Notices notices)
       notices_(std::move(notices)),
       experiment_(load(request_, notices_)),
       resolved_(experiment::resolved(experiment_, SINEW_VERSION)),
-      logged_(experiment::logged_topics(experiment_)) {
+      logged_(run::logged_topics(experiment_)) {
   folder_.emplace(run_folder(request_.folder, request_.force, experiment_.name));
   if (!experiment_.log.enabled) return;
   write_into(*folder_, resolved_name, resolved_);
@@ -48,7 +48,7 @@ KeptRun::KeptRun(RunRequest request, Notices notices)
 }
 
 // What was steered is a part of what was run, with where it comes from.
-void KeptRun::finish_log(const experiment::Outcome& outcome) {
+void KeptRun::finish_log(const run::Outcome& outcome) {
   const std::size_t written = experiment_.plan.changes.size();
   const std::string ended = outcome.ended_early() ? cause_of(experiment_, outcome) : "";
   if (outcome.changes.size() == written) {
@@ -67,14 +67,14 @@ void KeptRun::finish_log(const experiment::Outcome& outcome) {
 }
 
 // Who the supervisor did not believe: no other figures of a run that was not finished.
-void KeptRun::keep_trip(const experiment::Outcome& outcome) {
+void KeptRun::keep_trip(const run::Outcome& outcome) {
   if (outcome.supervised.trip.cause == control::Trip::Cause::none) return;
   const analysis::Summary summary = analysis::summarize_trip(outcome.table, machine_in(resolved_));
   write_into(*folder_, summary_name, summary_json(summary, experiment_, outcome));
 }
 
 // Leaves the log without an index, as one that was cut off, and throws with its name.
-void KeptRun::break_off(const experiment::Outcome& outcome) {
+void KeptRun::break_off(const run::Outcome& outcome) {
   const bool logged = log_.has_value();
   log_.reset();
   throw std::runtime_error(
@@ -84,8 +84,7 @@ void KeptRun::break_off(const experiment::Outcome& outcome) {
                          : "it keeps no log"));
 }
 
-Kept<analysis::Machine> KeptRun::keep_files(experiment::Outcome& outcome,
-                                            analysis::Machine machine) {
+Kept<analysis::Machine> KeptRun::keep_files(run::Outcome& outcome, analysis::Machine machine) {
   Kept<analysis::Machine> kept{.folder = folder(),
                                .summary = analysis::summarize(outcome.table, machine),
                                .duration = outcome.duration,
@@ -94,21 +93,20 @@ Kept<analysis::Machine> KeptRun::keep_files(experiment::Outcome& outcome,
   kept.json = summary_json(kept.summary, experiment_, outcome);
   write_into(*folder_, summary_name, kept.json);
   if (log_ && request_.report)
-    kept.page = write_report(*folder_, experiment::logged_part(std::move(outcome.table), logged_),
+    kept.page = write_report(*folder_, run::logged_part(std::move(outcome.table), logged_),
                              resolved_, experiment_.name, notices_);
   commit_run(*folder_);
   kept.machine = std::move(machine);
   return kept;
 }
 
-void KeptRun::warn(const std::vector<std::string>& of_the_log,
-                   const experiment::Outcome& outcome) const {
+void KeptRun::warn(const std::vector<std::string>& of_the_log, const run::Outcome& outcome) const {
   for (const std::string& text : of_the_log) notices_.warning(text);
   for (const std::string& text : warnings_beside_the_log(experiment_, outcome))
     notices_.warning(text);
 }
 
-Kept<analysis::Machine> KeptRun::keep(experiment::Outcome outcome) try {
+Kept<analysis::Machine> KeptRun::keep(run::Outcome outcome) try {
   if (outcome.stopped) break_off(outcome);
   finish_log(outcome);
   analysis::Machine machine = machine_in(resolved_);
@@ -124,9 +122,9 @@ Kept<analysis::Machine> KeptRun::keep(experiment::Outcome outcome) try {
 
 Kept<analysis::Machine> run_and_keep(RunRequest request, Notices notices) {
   KeptRun kept(std::move(request), std::move(notices));
-  experiment::RunOptions options;
+  run::RunOptions options;
   if (kept.log()) kept.log()->tap(options);
-  return kept.keep(experiment::run(kept.experiment(), options));
+  return kept.keep(run::run(kept.experiment(), options));
 }
 
 Kept<analysis::Machine> keep_table(const signals::Table& table, const experiment::Experiment& e,
@@ -139,7 +137,7 @@ Kept<analysis::Machine> keep_table(const signals::Table& table, const experiment
   OutputFolder folder = run_folder(where.folder, where.force, e.name);
   kept.folder = folder.path();
   write_into(folder, resolved_name, resolved);
-  RunLog log(folder.work() / log_name, e.name, e.seed, resolved, experiment::logged_topics(table));
+  RunLog log(folder.work() / log_name, e.name, e.seed, resolved, run::logged_topics(table));
   log.write(table);
   log.finish(resolved, "");
   write_into(folder, summary_name, kept.json);

@@ -9,10 +9,10 @@
 
 #include "sinew/analysis/machine.h"
 #include "sinew/analysis/summary.h"
-#include "sinew/experiment/run.h"
 #include "sinew/run/folder/notices.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/run_log.h"
+#include "sinew/run/simulation/run.h"
 
 namespace sinew::run {
 
@@ -52,20 +52,20 @@ class KeptRun {
   // After the loop: the log's end, summary and page into the folder. What was changed on the way
   // stands in resolved.toml. Only then it takes the place of an older run. Throws where the run
   // ended early, with its last records, and where it was stopped: then its log reads as cut off.
-  Kept<analysis::Machine> keep(experiment::Outcome outcome);
+  Kept<analysis::Machine> keep(run::Outcome outcome);
 
  private:
-  void finish_log(const experiment::Outcome& outcome);
-  [[noreturn]] void break_off(const experiment::Outcome& outcome);
-  Kept<analysis::Machine> keep_files(experiment::Outcome& outcome, analysis::Machine machine);
-  void warn(const std::vector<std::string>& of_the_log, const experiment::Outcome& outcome) const;
-  void keep_trip(const experiment::Outcome& outcome);
+  void finish_log(const run::Outcome& outcome);
+  [[noreturn]] void break_off(const run::Outcome& outcome);
+  Kept<analysis::Machine> keep_files(run::Outcome& outcome, analysis::Machine machine);
+  void warn(const std::vector<std::string>& of_the_log, const run::Outcome& outcome) const;
+  void keep_trip(const run::Outcome& outcome);
 
   RunRequest request_;
   Notices notices_;
   experiment::Experiment experiment_;
   std::string resolved_;
-  experiment::LoggedTopics logged_;
+  run::LoggedTopics logged_;
   std::optional<OutputFolder> folder_;
   std::optional<RunLog> log_;
 };

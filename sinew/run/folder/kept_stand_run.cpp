@@ -4,9 +4,9 @@
 
 #include "sinew/config/node.h"
 #include "sinew/experiment/rig/measured.h"
-#include "sinew/experiment/rig/run.h"
 #include "sinew/run/folder/page.h"
 #include "sinew/run/folder/runnable.h"
+#include "sinew/run/stand/run.h"
 
 namespace sinew::run {
 
@@ -16,7 +16,7 @@ namespace {
 struct What {
   const std::string& resolved;
   const analysis::StandFile& stand;
-  experiment::LoggedTopics logged;
+  run::LoggedTopics logged;
 };
 
 void write_log(const rig::Experiment& e, const What& what, const rig::Outcome& outcome,
@@ -48,7 +48,7 @@ Kept<analysis::StandFile> keep(const rig::Experiment& e, const What& what, Outpu
   write_into(folder, summary_name, kept.json);
   for (const std::string& text : kept.summary.warnings) notices.warning(text);
   if (e.log.enabled && report)
-    kept.page = write_report(folder, experiment::logged_part(std::move(outcome.table), what.logged),
+    kept.page = write_report(folder, run::logged_part(std::move(outcome.table), what.logged),
                              what.resolved, e.name, notices);
   commit_run(folder);
   return kept;

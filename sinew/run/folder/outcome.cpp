@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/experiment/faults.h"
+
 namespace sinew::run {
 
 namespace {
@@ -35,7 +37,7 @@ std::string record_text(const signals::Series& s, std::size_t i) {
 }
 
 // Until when the run was one: what is vented after a trip is not what led to it.
-std::int64_t end_of_run(const experiment::Outcome& outcome) {
+std::int64_t end_of_run(const run::Outcome& outcome) {
   const control::Trip& trip = outcome.supervised.trip;
   const std::int64_t end = last_good_time(outcome.table);
   if (trip.cause == control::Trip::Cause::none) return end;
@@ -57,23 +59,18 @@ std::string counted(std::int64_t count, std::string_view one, std::string_view m
   return fmt::format("{} {}", count, count == 1 ? one : more);
 }
 
-// Faults that changed nothing: the run was one without them. Of one that lasts less than the time
-// between two readings nothing is said.
-void add_idle_faults(const experiment::Experiment& e, const experiment::Outcome& outcome,
+// Faults that changed nothing: the run was one without them.
+void add_idle_faults(const experiment::Experiment& e, const run::Outcome& outcome,
                      std::vector<std::string>& out) {
-  for (std::size_t i = 0; i < e.faults.size(); ++i) {
-    const experiment::Fault& fault = e.faults[i];
-    if (fault.at > outcome.duration)
-      out.push_back(
-          fmt::format("fault[{}] never acted: it begins at {:.6g} s, the run lasted {:.4f} s", i,
-                      fault.at, outcome.duration));
-    else if (fault.amount == 0)
-      out.push_back(fmt::format("fault[{}] never acted: its amount is 0", i));
-  }
+  const auto end =
+      static_cast<signals::Tick>(std::llround(outcome.duration / signals::tick_seconds));
+  for (std::size_t i = 0; i < e.faults.size(); ++i)
+    if (const std::string why = why_idle(e, e.faults[i], end); !why.empty())
+      out.push_back(fmt::format("fault[{}] never acted: {}", i, why));
 }
 
 // Sensors whose readings were rejected or stood still, and whose counters the run did not record.
-void add_sensors(const experiment::Experiment& e, const experiment::Outcome& outcome,
+void add_sensors(const experiment::Experiment& e, const run::Outcome& outcome,
                  std::vector<std::string>& out) {
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
     const std::string& name = e.robot.sensors[s].name;
@@ -93,7 +90,7 @@ void add_sensors(const experiment::Experiment& e, const experiment::Outcome& out
 }  // namespace
 
 std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& e,
-                                                 const experiment::Outcome& outcome) {
+                                                 const run::Outcome& outcome) {
   std::vector<std::string> out;
   const control::Seen& seen = outcome.seen;
   const control::Supervised& supervised = outcome.supervised;
@@ -117,7 +114,7 @@ std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& e
   return out;
 }
 
-std::string black_box(const experiment::Experiment& e, const experiment::Outcome& outcome) {
+std::string black_box(const experiment::Experiment& e, const run::Outcome& outcome) {
   std::string text = fmt::format("{}: the run was ended: {}", e.path, cause_of(e, outcome));
   if (outcome.supervised.trip.cause != control::Trip::Cause::none)
     text += "; all muscles were vented";

@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "sinew/experiment/run.h"
+#include "sinew/run/simulation/run.h"
 
 namespace sinew::run {
 
 // Returns a sentence each for what came late on this computer, for readings without a channel of
 // their own, and for faults that never acted.
 std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& experiment,
-                                                 const experiment::Outcome& outcome);
+                                                 const run::Outcome& outcome);
 
 // Returns why the run ended early, with the last record of every topic.
-std::string black_box(const experiment::Experiment& experiment, const experiment::Outcome& outcome);
+std::string black_box(const experiment::Experiment& experiment, const run::Outcome& outcome);
 
 }  // namespace sinew::run

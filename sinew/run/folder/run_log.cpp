@@ -38,7 +38,7 @@ void require_finished(const std::filesystem::path& log) {
 }
 
 RunLog::RunLog(const std::filesystem::path& file, const std::string& name, int seed,
-               const std::string& resolved, experiment::LoggedTopics logged)
+               const std::string& resolved, run::LoggedTopics logged)
     : name_(name),
       seed_(seed),
       logged_(std::move(logged)),
@@ -52,7 +52,7 @@ std::vector<std::pair<std::string, std::string>> RunLog::metadata(
           {"resolved", resolved}};
 }
 
-void RunLog::write(const signals::Table& table) { experiment::write(writer_, table, logged_); }
+void RunLog::write(const signals::Table& table) { run::write(writer_, table, logged_); }
 
 void RunLog::finish(const std::string& resolved, const std::string& ended) {
   std::vector<std::pair<std::string, std::string>> said = metadata(resolved);
@@ -60,7 +60,7 @@ void RunLog::finish(const std::string& resolved, const std::string& ended) {
   writer_.finish(said);
 }
 
-void RunLog::tap(experiment::RunOptions& options) {
+void RunLog::tap(run::RunOptions& options) {
   options.tap = {&writer_, push};
   options.tapped = logged_.of_series;
 }

@@ -3,8 +3,8 @@
 #include "sinew/analysis/machine.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
-#include "sinew/experiment/logged.h"
-#include "sinew/experiment/rig/run.h"
+#include "sinew/run/simulation/logged.h"
+#include "sinew/run/stand/run.h"
 
 namespace sinew::run {
 

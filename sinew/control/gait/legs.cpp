@@ -1,0 +1,58 @@
+#include "sinew/control/gait/legs.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace sinew::gait {
+
+Legs::Legs(const robot::Robot& robot, const Plan& plan) : parts_(robot::legs_of(robot)) {
+  brains_.reserve(parts_.size());
+  for (std::size_t l = 0; l < parts_.size(); ++l)
+    brains_.emplace_back(robot::only_leg(robot, l), plan_of_leg(plan, parts_[l]), parts_[l].offset);
+}
+
+Measured Legs::of_leg(const Measured& machine, const robot::LegParts& leg) const noexcept {
+  Measured out;
+  out.cylinder = machine.cylinder;
+  for (std::size_t i = 0; i < leg.joints.size(); ++i) {
+    const auto j = static_cast<std::size_t>(leg.joints[i]);
+    out.angle[i] = machine.angle[j];
+    out.velocity[i] = machine.velocity[j];
+    out.stiffness[i] = machine.stiffness[j];
+  }
+  for (std::size_t i = 0; i < leg.muscles.size(); ++i)
+    out.tension[i] = machine.tension[static_cast<std::size_t>(leg.muscles[i])];
+  return out;
+}
+
+void Legs::update(const Measured& machine, std::int64_t period_index) noexcept {
+  std::int64_t slowest = std::numeric_limits<std::int64_t>::max();
+  for (const Brain& brain : brains_)
+    if (!brain.finished()) slowest = std::min(slowest, brain.planned_periods());
+  for (std::size_t l = 0; l < brains_.size(); ++l) {
+    Brain& brain = brains_[l];
+    brain.update(of_leg(machine, parts_[l]), period_index, brain.planned_periods() > slowest);
+  }
+}
+
+Legs::State Legs::state() const noexcept {
+  State out{};
+  for (std::size_t l = 0; l < brains_.size(); ++l) out[l] = brains_[l].state();
+  return out;
+}
+
+void Legs::restore(const State& state) noexcept {
+  for (std::size_t l = 0; l < brains_.size(); ++l) brains_[l].restore(state[l]);
+}
+
+bool Legs::finished() const noexcept {
+  return std::ranges::all_of(brains_, [](const Brain& b) { return b.finished(); });
+}
+
+std::int64_t Legs::unreachable_periods() const noexcept {
+  std::int64_t sum = 0;
+  for (const Brain& b : brains_) sum += b.unreachable_periods();
+  return sum;
+}
+
+}  // namespace sinew::gait

@@ -1,0 +1,126 @@
+#include "sinew/experiment/check_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "sinew/config/quantity.h"
+#include "sinew/control/gait/legs.h"
+#include "sinew/experiment/planar_setup.h"
+#include "sinew/muscle/plumbing.h"
+#include "sinew/plant/planar/cords.h"
+#include "sinew/plant/planar/machine.h"
+
+namespace sinew::experiment {
+namespace {
+
+using List = std::vector<robot::Contradiction>;
+
+// How far a joint is taken: where it starts, and where the plan wants it in one step  [rad].
+struct Reach {
+  double low = 0, high = 0;
+
+  void add(double angle) {
+    low = std::min(low, angle);
+    high = std::max(high, angle);
+  }
+};
+
+// Where a leg's plan wants its joints now.
+void add_desired(const Experiment& e, const gait::Legs& legs, std::size_t leg,
+                 std::vector<Reach>& out) {
+  const gait::Desired& desired = legs.desired(leg);
+  if (desired.stage != gait::Stage::walking) return;
+  const std::vector<int>& joints = legs.parts(leg).joints;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const auto j = static_cast<std::size_t>(joints[i]);
+    const robot::Joint& joint = e.robot.joints[j];
+    const double turned = desired.joint[i].angle - joint.rest_angle;  // 0 deg is 360 deg
+    if (joint.kind == robot::Joint::Kind::driven)
+      out[j].add(joint.rest_angle + std::remainder(turned, 2 * std::numbers::pi));
+  }
+}
+
+std::vector<Reach> reaches(const Experiment& e) {
+  std::vector<Reach> out;
+  for (const robot::Joint& j : e.robot.joints) {
+    const double start = e.start.joint_angles.at(j.name);
+    out.push_back({start, start});
+  }
+  gait::Legs legs(e.robot, e.plan);
+  gait::Measured still;
+  for (std::size_t j = 0; j < out.size(); ++j) still.angle[j] = e.robot.joints[j].rest_angle;
+  const auto settle = std::llround(e.start.settle / e.plan.brain_period);
+  gait::Plan once = e.plan;
+  once.repeat = 1;
+  const auto last = gait::periods(e.robot, once);
+  for (std::int64_t k = settle; k <= last; ++k) {
+    legs.update(still, k);
+    for (std::size_t l = 0; l < legs.count(); ++l) add_desired(e, legs, l, out);
+  }
+  return out;
+}
+
+// A chamber that vanishes within its joint's reach: no pressure is left to speak of.
+void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
+  const std::vector<Reach> reach = reaches(e);
+  const plant::Cords cords(e.robot);
+  for (const bool high : {false, true}) {
+    std::array<double, robot::max_joints> angle{}, still{};
+    for (std::size_t j = 0; j < reach.size(); ++j) angle[j] = high ? reach[j].high : reach[j].low;
+    muscle::Lanes length{}, rate{};
+    plant::Cords::Pulls pulls{};
+    cords.at(angle.data(), still.data(), length, rate, pulls);
+    for (int i = 0; i < cords.count(); ++i) {
+      const auto m = static_cast<std::size_t>(i);
+      const actuator::Actuator& a = setup.muscles[m].actuator;
+      const bool none = length[i] - a.caps.length <= 0;
+      const bool taut = length[i] - a.caps.length >= a.braid.thread_length;
+      if (!none && !(taut && setup.muscles[m].external_volume <= 0)) continue;
+      const robot::Muscle& muscle = e.robot.muscles[m];
+      const std::string& joint = muscle.joint;
+      const double at = angle[static_cast<std::size_t>(cords.joint(i, 0))];
+      const std::string key = "muscle." + muscle.name;
+      if (std::ranges::any_of(out, [&](const auto& c) { return c.key.starts_with(key + "."); }))
+        continue;
+      out.push_back(
+          {key + (none ? ".mount_length" : ".external_volume"),
+           "a chamber without volume: with joint " + joint + " at " +
+               config::format_quantity(at, "rad", "deg") + " the muscle is " +
+               config::format_quantity(length[i], "m", "in") + " long",
+           none ? "a length above 0 wherever the plan takes the joint"
+                : "less than the thread's " +
+                      config::format_quantity(a.braid.thread_length, "m", "in") +
+                      ", or an external volume",
+           none ? "a smaller joint." + joint + ".moment_arm, or another rest_angle"
+                : "an external_volume above 0, or a smaller joint." + joint + ".moment_arm"});
+    }
+  }
+}
+
+// Air or joints that move so quickly that a run would take for ever.
+void check_steps(const plant::Setup& s, List& out) {
+  constexpr double shortest = 2e-6;  // step [s]
+  const double air = muscle::Plumbing(s.muscles, s.air, s.supply, s.cylinder).longest_step();
+  const auto micro = [](double step) { return config::format_number(1e6 * step) + " us"; };
+  if (air < shortest) {
+    out.push_back({"air", "a hose or a cylinder's chamber that fills within " + micro(air),
+                   "at least 2 us", "a larger volume, or a hose without one"});
+    return;
+  }
+  const double step = plant::Machine(s).shortest_step();
+  if (step < shortest && step < s.steps.body)
+    out.push_back({"plant_steps.body", "a machine that needs steps of " + micro(step),
+                   "at least 2 us", "less damping or stiffness, a smaller leak, heavier links"});
+}
+
+}  // namespace
+
+void check_motion(const Experiment& e, List& out) {
+  const plant::Setup setup = planar_setup(e);
+  check_volumes(e, setup, out);
+  if (out.empty()) check_steps(setup, out);
+}
+
+}  // namespace sinew::experiment

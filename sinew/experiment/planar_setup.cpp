@@ -1,0 +1,81 @@
+#include "sinew/experiment/planar_setup.h"
+
+#include <cmath>
+
+#include "sinew/experiment/faults.h"
+#include "sinew/robot/actuator_of.h"
+
+namespace sinew::experiment {
+
+using signals::Tick;
+
+Tick last_tick(const Experiment& e) {
+  const double vent = e.plan.finish == gait::Plan::Finish::vent ? e.robot.low_level.vent_time : 0.0;
+  const auto brain_ticks = std::llround(e.plan.brain_period / signals::tick_seconds);
+  const Tick plan = gait::periods(e.robot, e.plan) * brain_ticks;
+  // One period for the last valves to shut, and for a sample of where the plan has led to.
+  const Tick last = e.robot.low_level.pwm_ticks;
+  return plan + std::llround(vent / signals::tick_seconds) + last;
+}
+
+namespace {
+
+const gas::Valve* find_valve(const Experiment& e, const std::string& name) {
+  for (const gas::Valve& v : e.valves)
+    if (v.name == name) return &v;
+  return nullptr;
+}
+
+// The robot's cylinder with its valves, if it moves.
+std::optional<muscle::Cylinder> cylinder_of(const Experiment& e) {
+  using Mode = robot::Cylinder::Mode;
+  const robot::Cylinder& c = e.robot.cylinder;
+  if (!c.present || c.mode == Mode::locked || c.mode == Mode::free) return {};
+  muscle::Cylinder out{.bore = c.bore,
+                       .rod_diameter = c.rod_diameter,
+                       .stroke = c.stroke,
+                       .dead_volume = {c.up.dead_volume, c.down.dead_volume},
+                       .pressure = c.pressure,
+                       .initial_pressure = {e.start.pressure, e.start.pressure}};
+  if (c.mode == Mode::regulator) {
+    out.mode = muscle::Cylinder::Mode::regulator;
+    return out;
+  }
+  for (const muscle::Side side : {muscle::up, muscle::down}) {
+    const robot::Cylinder::Chamber& chamber = side == muscle::up ? c.up : c.down;
+    if (const gas::Valve* v = find_valve(e, chamber.inlet)) out.inlet[side] = *v;
+    if (const gas::Valve* v = find_valve(e, chamber.exhaust)) out.exhaust[side] = *v;
+  }
+  return out;
+}
+
+}  // namespace
+
+plant::Setup planar_setup(const Experiment& e) {
+  plant::Setup s{.robot = e.robot, .air = e.air, .supply = e.supply};
+  for (const robot::Muscle& m : e.robot.muscles) {
+    muscle::Muscle out{.name = m.name, .count = m.count, .external_volume = m.external_volume};
+    out.actuator = robot::actuator_of(m, e.actuators);
+    if (const gas::Valve* v = find_valve(e, m.inlet)) out.inlet = *v;
+    if (const gas::Valve* v = find_valve(e, m.exhaust)) out.exhaust = *v;
+    out.hose = m.hose;
+    out.leak = m.leak;
+    s.muscles.push_back(std::move(out));
+  }
+  for (const robot::Joint& j : e.robot.joints) {
+    s.start.joint_angle.push_back(e.start.joint_angles.at(j.name));
+    bool blocked = false;
+    for (const std::string& name : e.start.blocked) blocked = blocked || name == j.name;
+    s.start.blocked.push_back(blocked);
+  }
+  s.cylinder = cylinder_of(e);
+  s.faults = air_faults(e);
+  s.start.trolley = e.start.trolley;
+  s.start.lift = e.start.lift;
+  s.start.pressure = e.start.pressure;
+  s.steps.body = e.body_step;
+  s.seed = static_cast<std::uint64_t>(e.seed);
+  return s;
+}
+
+}  // namespace sinew::experiment

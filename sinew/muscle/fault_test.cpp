@@ -1,0 +1,318 @@
+// What breaks in the air: what each fault does, that no air is made or lost by it, and that a
+// machine without one, or before one, is what it was.
+#include "sinew/muscle/fault.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+
+#include "sinew/actuator/braid.h"
+#include "sinew/muscle/test_bank.h"
+#include "sinew/muscle/test_integrator.h"
+#include "sinew/muscle/test_machines.h"
+
+namespace sinew::muscle {
+namespace {
+
+using What = AirFault::What;
+
+Motion at_rest(double) {
+  Motion m;
+  for (int i = 0; i < capacity; ++i) m.length[i] = 3.15 * inch;
+  return m;
+}
+
+TEST(FaultSchedule, WhatEndsEndsBeforeWhatBegins) {
+  const std::vector<AirFault> faults{{.of = 1, .begin = 0.2, .end = 0.3},
+                                     {.of = 2, .begin = 0.1, .end = 0.2},
+                                     {.of = 3, .begin = 0.2}};
+  const FaultSchedule schedule(faults);
+  ActingFaults now;
+  std::vector<int> told;
+  EXPECT_EQ(schedule.next(now), 0.1);
+  schedule.advance(0.25, now,
+                   [&](const AirFault& f, bool begins) { told.push_back(begins ? f.of : -f.of); });
+  EXPECT_EQ(told, (std::vector{2, -2, 1, 3}));
+  EXPECT_EQ(schedule.next(now), 0.3);
+  EXPECT_EQ(now.acting, 0b101u);
+  schedule.advance(10, now, [](const AirFault&, bool) {});
+  EXPECT_EQ(schedule.next(now), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(now.acting, 0b100u);  // to the end
+}
+
+TEST(FaultSchedule, RefusesWhatItCannotHold) {
+  EXPECT_THROW(FaultSchedule(std::vector<AirFault>(65)), std::invalid_argument);
+  EXPECT_THROW(FaultSchedule(std::vector<AirFault>{{.begin = 1, .end = 1}}), std::invalid_argument);
+  const std::vector<AirFault> hole{{.what = What::hole, .leak = {.area = 1e-8}}};
+  EXPECT_THROW(Bank(std::vector{bundle(0)}, {}, {}, hole), std::invalid_argument);
+  EXPECT_TRUE(needs_plumbing(std::vector{bundle(0)}, {}, {}, {}, hole));
+  const std::vector<AirFault> seats{{.what = What::seat_leak, .share = 0.1}, {}};
+  EXPECT_FALSE(needs_plumbing(std::vector{bundle(0)}, {}, {}, {}, seats));
+}
+
+// Some fault of each kind on any part, at any time, for a while or for good, over the plumbing that
+// has everything. Faults of one part may follow each other, or come at once.
+std::vector<AirFault> any_faults(std::mt19937& random) {
+  std::uniform_real_distribution<double> begins(0, 0.5), lasts(1e-3, 0.2);
+  const auto pick = [&](int count) {
+    return static_cast<int>(random() % static_cast<unsigned>(count));
+  };
+  const int sealing[] = {0, 1, 2, 3, 4, 5, 6, 10, 11, 12, 13, 14, 15};  // 8 is a regulator
+  std::vector<AirFault> out;
+  for (int k = 0; k < 24; ++k) {
+    AirFault f{.what = static_cast<What>(k % 6), .begin = begins(random)};
+    f.end = k % 5 == 4 ? f.end : f.begin + lasts(random);
+    f.of = f.of_valve() ? sealing[pick(13)] : f.what == What::supply ? 0 : pick(6);
+    f.share = f.what == What::seat_leak && pick(2) == 0 ? 0.2 : 0.0;
+    f.leak = {.area = 1e-8 * (1 + pick(30)), .conductance = 1e-12 * pick(20)};
+    f.pressure = (1 + 0.5 * pick(12)) * bar;
+    out.push_back(f);
+  }
+  return out;
+}
+
+TEST(Faults, AirIsConservedWhateverBreaks) {
+  const gas::Supply tank{.kind = gas::Supply::Kind::tank,
+                         .pressure = 6 * bar,
+                         .volume = 2e-4,
+                         .initial_pressure = 7 * bar};
+  const auto motion = [](double t) {
+    Motion m = at_rest(0);
+    for (int i = 0; i < capacity; ++i) {
+      m.length[i] += 0.3 * inch * std::sin(9 * t + i);
+      m.rate[i] = 2.7 * inch * std::cos(9 * t + i);
+    }
+    m.travel = 0.5 * inch * (1 + std::sin(5 * t));
+    m.travel_rate = 2.5 * inch * std::cos(5 * t);
+    return m;
+  };
+  std::mt19937 random(3);
+  for (const double wall_time : {0.0, 0.2})
+    for (const gas::Supply& supply : {tank, gas::Supply{.pressure = 6 * bar}}) {
+      const gas::Air air{.polytropic_exponent = 1.1, .wall_time = wall_time};
+      const bool has_tank = supply.kind == gas::Supply::Kind::tank;
+      Plumbing plumbing(everything(), air, supply, thesis_cylinder(), any_faults(random));
+      Hand hand(plumbing, motion, 1.5 * bar);
+      const double before = plumbing.total_mass(hand.state, motion(0).travel);
+      for (int k = 0; k < 300; ++k) {
+        hand.electrical(static_cast<int>(random() % 16u), random() % 2 == 0);
+        plumbing.level(8, hand.t, 0.1 * (k % 10), hand.valves);
+        const Motion m = motion(hand.t);
+        hand.go(hand.t + 2e-3, std::min(plumbing.longest_step(),
+                                        plumbing.longest_step(m.length, m.travel, hand.valves)));
+      }
+      const double given = plumbing.given_past_tank(hand.state);
+      const double entered = has_tank ? given : hand.entered;
+      const double after = plumbing.total_mass(hand.state, motion(hand.t).travel);
+      EXPECT_NE(has_tank, given == 0);
+      EXPECT_GT(hand.left, 0.1 * before);
+      EXPECT_NEAR((after + hand.left) / (before + entered), 1, 1e-12) << wall_time;
+    }
+}
+
+// The two say the same of a valve's shutter and seat, whenever they are asked.
+TEST(Faults, ABankAndAPlumbingOpenTheirValvesAlike) {
+  std::mt19937 random(5);
+  std::vector<Muscle> muscles{bundle(0), bundle(0.5), bundle(1)};
+  muscles[1].inlet.kind = gas::Valve::Kind::three_way;
+  muscles[2].inlet.profile = muscles[2].exhaust.profile = gas::Valve::Profile::ramp;
+  muscles[2].inlet.opening_ramp = muscles[2].exhaust.closing_ramp = 2e-3;
+  std::uniform_real_distribution<double> begins(0, 0.1), lasts(1e-4, 0.03);
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<AirFault> faults;
+    for (const int valve : {0, 1, 2, 4, 5})
+      for (int k = 0; k < 2; ++k) {
+        AirFault f{.what = static_cast<What>(random() % 3), .of = valve, .share = 0.15};
+        f.begin = 0.1 * k + begins(random);
+        f.end = f.begin + lasts(random);
+        faults.push_back(f);
+      }
+    BankByHand bank(muscles, {}, {}, faults);
+    const Plumbing plumbing(muscles, {}, {}, {}, faults);
+    Plumbing::Valves valves = plumbing.valves_at_rest();
+    AirPull level{};  // no pressure difference matters to these valves
+    level.manifold = level.pressure = Lanes{};
+    for (double t = 0; t < 0.25; t += 1e-3) {
+      for (double at; (at = bank.next_change()) <= t;) {
+        ASSERT_EQ(at, valves.next_change);
+        bank.node(at);
+        plumbing.node(at, level, valves);
+      }
+      const int valve = static_cast<int>(random() % 6);
+      if (random() % 3 == 0 && valve != 3) {
+        const bool open = random() % 2 == 0;
+        bank.electrical(valve, t, open);
+        plumbing.electrical(valve, t, open, level, valves);
+      }
+      for (int v = 0; v < 6; ++v)
+        ASSERT_EQ(bank.open_share(v, t), plumbing.open_share(v, t, valves)) << v << " at " << t;
+      ASSERT_EQ(bank.any_open(), !plumbing.quiet(valves));
+    }
+  }
+}
+
+struct Broken {
+  std::vector<Muscle> muscles{bundle(0)};
+  gas::Supply supply{.pressure = 6 * bar};
+  gas::Air air{.polytropic_exponent = 1};
+
+  Plumbing plumbing(const AirFault& f) const { return {muscles, air, supply, {}, std::vector{f}}; }
+};
+
+TEST(Faults, ARupturedMuscleGoesToTheRoomsPressure) {
+  const Broken machine;
+  Plumbing plumbing = machine.plumbing({.what = What::hole, .begin = 0.01, .leak = {.area = 1e-4}});
+  Hand hand(plumbing, at_rest, 5 * bar);
+  hand.go(0.01 - 1e-9, 1e-3);
+  EXPECT_EQ(hand.now.leak[0], 0);
+  EXPECT_NEAR(hand.now.pressure[0], 5 * bar, 1e-6 * bar);
+  hand.go(0.2, 2e-5);
+  EXPECT_NEAR(hand.now.pressure[0], machine.air.atmosphere, 1);
+}
+
+// As gas/leak.h says of a rigid chamber, isothermal and choked: P = P_0 exp(-t K R T/V), m' = K P.
+TEST(Faults, AHoleEmptiesAsItsLawSays) {
+  const Broken machine;
+  const double area = 3e-8, begin = 0.0123456789;
+  Plumbing plumbing =
+      machine.plumbing({.what = What::hole, .begin = begin, .leak = {.area = area}});
+  Hand hand(plumbing, at_rest, 6 * bar);
+  hand.go(0.1, 1e-3);
+  const gas::Air& air = machine.air;
+  const double volume = 2 * actuator::volume(machine.muscles[0].actuator.braid, 3.15 * inch) + 4e-6;
+  const double k = area * gas::choked_parameter(air.gas_constant) / std::sqrt(air.temperature);
+  const double rate = k * air.gas_constant * air.temperature / volume;
+  EXPECT_NEAR(hand.now.pressure[0] / (6 * bar * std::exp(-rate * (0.1 - begin))), 1, 1e-9);
+  EXPECT_LT(hand.now.pressure[0], 5.9 * bar);
+}
+
+// Its commands go on meanwhile, and at its end it opens after the delay of an edge there.
+TEST(Faults, AnInletThatIsStuckShutLetsNoAirIn) {
+  const Broken machine;
+  Plumbing plumbing = machine.plumbing({.what = What::stuck_shut, .begin = 0.01, .end = 0.05});
+  Hand hand(plumbing, at_rest, 1.2 * bar);
+  hand.electrical(0, true);
+  hand.go(0.0099, 1e-4);
+  EXPECT_GT(hand.now.inflow[0], 0);
+  hand.go(0.01, 1e-4);
+  const double held = hand.state[0];
+  hand.electrical(0, false);
+  hand.go(0.02, 1e-4);
+  hand.electrical(0, true);
+  hand.go(0.05 + 0.29e-3, 1e-4);
+  EXPECT_EQ(hand.state[0], held);
+  EXPECT_EQ(hand.now.inflow[0], 0);
+  hand.go(0.05 + 0.31e-3, 1e-4);
+  EXPECT_GT(hand.now.inflow[0], 0);
+}
+
+TEST(Faults, AValveThatIsStuckOpenShutsAfterItsDelay) {
+  const Broken machine;
+  Plumbing plumbing = machine.plumbing({.of = 1, .begin = 0.01, .end = 0.03});
+  Hand hand(plumbing, at_rest, 5 * bar);
+  hand.go(0.03 + 0.49e-3, 1e-4);
+  EXPECT_GT(hand.now.outflow[0], 0);
+  hand.go(0.03 + 0.51e-3, 1e-4);
+  EXPECT_EQ(hand.now.outflow[0], 0);
+}
+
+TEST(Faults, ABlockedHoseKeepsTheMusclesAir) {
+  const gas::Hose pipe{.law = gas::Hose::Law::pipe, .length = 0.5, .inner_diameter = 2.5e-3};
+  for (const gas::Hose& hose : {gas::Hose{}, pipe, iso_hose(3e-9, 3e-6)}) {
+    Broken machine;
+    machine.muscles[0].hose = hose;
+    Plumbing plumbing = machine.plumbing({.what = What::blocked, .begin = 0.01, .end = 0.3});
+    Hand hand(plumbing, at_rest, 3 * bar);
+    hand.go(0.01, 5e-5);
+    const double held = hand.state[0];
+    for (const int valve : {0, 1}) {
+      hand.electrical(valve, true);
+      hand.go(hand.t + 0.14, 5e-5);
+      EXPECT_EQ(hand.state[0], held);
+    }
+    EXPECT_NEAR(hand.now.inflow[0], hand.now.outflow[0], 1e-9);  // both open: straight through
+    EXPECT_GT(hand.now.inflow[0], 1e-5);
+    hand.electrical(1, false);
+    hand.go(0.4, 5e-5);
+    EXPECT_GT(hand.state[0], 1.5 * held);
+  }
+}
+
+// The law of a valve runs both ways: what is above the line's pressure flows back into it.
+TEST(Faults, AFailedSupplyFillsNoFurtherAndTakesBackWhatIsAbove) {
+  const gas::Supply tank{.kind = gas::Supply::Kind::tank,
+                         .pressure = 6 * bar,
+                         .volume = 1e-3,
+                         .initial_pressure = 8 * bar};
+  for (const gas::Supply& supply : {gas::Supply{.pressure = 6 * bar}, tank})
+    for (const double start : {1.2 * bar, 5 * bar}) {
+      Broken machine;
+      machine.supply = supply;
+      Plumbing plumbing = machine.plumbing({.what = What::supply, .pressure = 3 * bar});
+      Hand hand(plumbing, at_rest, start);
+      plumbing.node(0, hand.now, hand.valves);
+      hand.electrical(0, true);
+      double most = 0;
+      for (int k = 1; k <= 100; ++k) {
+        hand.go(0.01 * k, 1e-4);
+        most = std::max(most, hand.now.pressure[0]);
+      }
+      EXPECT_EQ(hand.now.supply_pressure, 3 * bar);
+      EXPECT_NEAR(hand.now.pressure[0], 3 * bar, 1e-5 * bar);
+      EXPECT_EQ(hand.entered<0, start> 3 * bar);
+      if (start < 3 * bar) {
+        EXPECT_LE(most, 3 * bar * (1 + 1e-9));
+      }
+      if (supply.kind == gas::Supply::Kind::tank) {
+        EXPECT_NEAR(hand.now.tank_pressure, 8 * bar, 1e-6);
+      }
+    }
+}
+
+TEST(Faults, ASeatLeaksByItsShareOrByALawOfItsOwn) {
+  const Broken machine;
+  const gas::Air& air = machine.air;
+  const auto inflow = [&](const AirFault& f, bool open) {
+    Plumbing plumbing = machine.plumbing(f);
+    Hand hand(plumbing, at_rest, 2 * bar);
+    plumbing.node(0, hand.now, hand.valves);
+    if (open) hand.electrical(0, true);
+    plumbing.node(1, hand.now, hand.valves);
+    AirPull out{};
+    hand.look(1, hand.state, out);
+    return out.inflow[0];
+  };
+  const double whole = gas::mass_flow(machine.muscles[0].inlet.flow, air, 6 * bar, 2 * bar);
+  const auto shut = [&](double share, gas::Leak leak) {
+    return inflow({.what = What::seat_leak, .share = share, .leak = leak}, false);
+  };
+  EXPECT_NEAR(shut(0.25, {}) / whole, 0.25, 1e-12);
+  EXPECT_NEAR(shut(0, {.area = 2e-8}) / gas::mass_flow({.area = 2e-8}, air, 6 * bar, 2 * bar), 1,
+              1e-12);
+  EXPECT_NEAR(shut(0, {.conductance = 1e-11}) / (1e-11 * 4 * bar), 1, 1e-12);
+  EXPECT_NEAR(inflow({.what = What::seat_leak, .share = 0.25}, true) / whole, 1, 1e-12);
+}
+
+// To the bit, with the lists in the model.
+TEST(Faults, BeforeItsTimeAFaultIsNone) {
+  std::mt19937 random(9);
+  std::vector<AirFault> faults = any_faults(random);
+  for (AirFault& f : faults) f.begin += 10, f.end += 10;
+  Plumbing with(everything(), {}, {.pressure = 6 * bar}, thesis_cylinder(), faults);
+  Plumbing without(everything(), {}, {.pressure = 6 * bar}, thesis_cylinder());
+  Hand a(with, at_rest, 1.5 * bar), b(without, at_rest, 1.5 * bar);
+  for (int k = 0; k < 40; ++k) {
+    const int valve = static_cast<int>(random() % 16u);
+    const bool open = random() % 2 == 0;
+    for (Hand* hand : {&a, &b}) {
+      hand->electrical(valve, open);
+      hand->go(hand->t + 2e-3, 1e-4);
+    }
+    for (int i = 0; i < without.states(); ++i) ASSERT_EQ(a.state[i], b.state[i]) << i;
+  }
+}
+
+}  // namespace
+}  // namespace sinew::muscle

@@ -1,0 +1,42 @@
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+
+#include "sinew/experiment/failure.h"
+#include "sinew/experiment/supervision.h"
+#include "sinew/robot/actuator_of.h"
+#include "sinew/run/simulation/run.h"
+
+namespace sinew::run {
+namespace {
+
+std::string_view word(signals::Status status) {
+  using signals::Status;
+  if (status == Status::late) return "a late reading";
+  if (status == Status::invalid) return "an invalid reading";
+  return status == Status::ended ? "the body's end" : "a fault";
+}
+
+}  // namespace
+
+std::string cause_of(const experiment::Experiment& e, const Outcome& outcome) {
+  const control::Seen& seen = outcome.seen;
+  if (outcome.failure) {
+    const auto m = static_cast<std::size_t>(outcome.failure.muscle);
+    if (m >= e.robot.muscles.size())
+      return experiment::in_words(outcome.failure, "", {}, "plant_steps.body");
+    const robot::Muscle& muscle = e.robot.muscles[m];
+    return experiment::in_words(outcome.failure, "muscle " + muscle.name,
+                                robot::actuator_of(muscle, e.actuators), "plant_steps.body");
+  }
+  const std::string tripped = experiment::to_text(outcome.supervised.trip, e);
+  if (!tripped.empty()) return tripped;
+  const bool by_sensor = seen.fault != signals::Status::ok;
+  std::string text(word(by_sensor ? seen.fault : outcome.status));
+  if (by_sensor && seen.fault_channel.index < e.robot.sensors.size())
+    text += " of sensor " + e.robot.sensors[seen.fault_channel.index].name;
+  return text + fmt::format(" at {:.4f} s", outcome.duration);
+}
+
+}  // namespace sinew::run

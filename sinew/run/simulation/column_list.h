@@ -1,0 +1,53 @@
+// run/simulation/column_list.h - how columns.cpp and true_columns.cpp make their columns.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sinew/robot/legs.h"
+#include "sinew/run/simulation/columns.h"
+
+namespace sinew::run {
+
+// Columns, one behind the other.
+class Columns {
+ public:
+  template <class Value>
+  void scalar(std::string name, std::string unit, std::string description, Value value) {
+    list.push_back({{std::move(name), std::move(description), {{"value", std::move(unit)}}},
+                    [value](const Moment& m, double* out) { *out = value(m); }});
+  }
+
+  template <class Value>
+  void vector(std::string name, std::string unit, std::string description, Value value) {
+    list.push_back({{std::move(name), std::move(description), {{"x", unit}, {"y", unit}}},
+                    [value](const Moment& m, double* out) { value(m, out[0], out[1]); }});
+  }
+
+  std::vector<Column> list;
+};
+
+// A leg as its columns need it.
+struct LegAt {
+  std::size_t leg = 0;
+  robot::LegParts parts;
+
+  std::string topic(const std::string& name) const { return robot::topic_of_leg(parts.name, name); }
+};
+
+inline std::vector<LegAt> legs_at(const robot::Robot& robot) {
+  std::vector<LegAt> out;
+  for (robot::LegParts& parts : robot::legs_of(robot))
+    out.push_back({out.size(), std::move(parts)});
+  return out;
+}
+
+inline bool moves(const robot::Cylinder& c) {
+  return c.present && c.mode != robot::Cylinder::Mode::locked;
+}
+
+// Adds what only a simulation knows: the topics under /true.
+void true_columns(const experiment::Experiment& e, Columns& out);
+
+}  // namespace sinew::run

@@ -1,0 +1,216 @@
+#include "sinew/run/simulation/columns.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/experiment/spinal.h"
+#include "sinew/experiment/supervision.h"
+#include "sinew/run/simulation/column_list.h"
+
+namespace sinew::run {
+namespace {
+
+using signals::Topic;
+
+// Which leg's a joint of the robot is, and which of it.
+struct JointAt {
+  std::size_t leg = 0, joint = 0;
+};
+
+// Of a joint that is no leg's, the first leg's first: it has no sensor and desires nothing.
+JointAt place_of(const robot::Robot& robot, std::size_t joint) {
+  for (const LegAt& leg : legs_at(robot))
+    for (std::size_t i = 0; i < leg.parts.joints.size(); ++i)
+      if (leg.parts.joints[i] == static_cast<int>(joint)) return {leg.leg, i};
+  return {};
+}
+
+// What hardware would log as well, joint by joint.
+void joint_columns(const robot::Robot& robot, Columns& out) {
+  for (std::size_t s = 0; s < robot.sensors.size(); ++s)
+    out.scalar("/sensor/" + robot.sensors[s].name + "/count", "count", "as converted",
+               [s](const Moment& m) { return m.supervised.sensor[s].counts; });
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    if (robot::angle_sensor_of(robot, static_cast<int>(j)) < 0) continue;
+    const std::string at = robot::topic_of_joint(robot, j), want = "/desired" + at;
+    const auto [leg, i] = place_of(robot, j);
+    out.scalar(at + "/angle", "rad", "measured, by the controller's scale",
+               [j](const Moment& m) { return m.measured.angle[j]; });
+    out.scalar(at + "/stiffness", "N m/rad", "as the controller believes it, [27], [60]",
+               [j](const Moment& m) { return m.measured.stiffness[j]; });
+    out.scalar(at + "/velocity_estimate", "rad/s", "what the velocity gain works on, 6.5",
+               [j](const Moment& m) { return m.measured.velocity[j]; });
+    out.scalar(want + "/angle", "rad", "desired by the brain",
+               [leg, i](const Moment& m) { return m.desired[leg].joint[i].angle; });
+    out.scalar(want + "/stiffness", "N m/rad", "desired by the brain",
+               [leg, i](const Moment& m) { return m.desired[leg].joint[i].stiffness; });
+  }
+}
+
+// A gauge's counts by its own scale.
+void tension_column(const robot::Robot& robot, std::size_t muscle, Columns& out) {
+  const int s = robot::tension_sensor_of(robot, static_cast<int>(muscle));
+  if (s < 0) return;
+  const robot::Sensor& sensor = robot.sensors[static_cast<std::size_t>(s)];
+  const double per_volt = robot.converter.counts_per_volt();
+  const double believed = 1.0 / (sensor.assumed_scale * per_volt);
+  const double own = 1.0 / (sensor.scale * per_volt);
+  out.scalar(robot::topic_of_muscle(robot, muscle) + "/tension", "N",
+             "measured, by its own transducer's scale; clips",
+             [=](const Moment& m) { return m.measured.tension[muscle] / believed * own; });
+}
+
+// What a valve is told counts only while its joint is enabled and laws run.
+bool active(const Moment& m, std::size_t joint) {
+  return m.seen.joint[joint].enabled && m.seen.phase == control::Phase::running;
+}
+
+// A regulator has no duty; its set points are in the log of its edges.
+bool has_duty(const experiment::Experiment& e, const robot::Muscle& muscle) {
+  for (const gas::Valve& v : e.valves)
+    if (v.name == muscle.inlet) return v.kind != gas::Valve::Kind::regulator;
+  return true;
+}
+
+void duty_columns(const robot::Robot& robot, std::size_t index, Columns& out) {
+  const robot::Muscle& muscle = robot.muscles[index];
+  const std::string at = robot::topic_of_muscle(robot, index);
+  const auto j = static_cast<std::size_t>(robot::find_joint(robot, muscle.joint));
+  const int second = robot::find_joint(robot, muscle.second.joint);
+  const auto other = second < 0 ? j : static_cast<std::size_t>(second);
+  const bool flexor = muscle.role == robot::Muscle::Role::flexor;
+  const auto share = [j, other](const Moment& m, std::int32_t percent) {
+    return active(m, j) || active(m, other) ? 0.01 * percent : 0.0;
+  };
+  out.scalar(at + "/inlet_duty", "1", "commanded share of the period", [=](const Moment& m) {
+    const control::Duties& d = m.seen.joint[j].duties;
+    return share(m, flexor ? d.flexor_inlet : d.extensor_inlet);
+  });
+  out.scalar(at + "/exhaust_duty", "1", "commanded share of the period", [=](const Moment& m) {
+    const control::Duties& d = m.seen.joint[j].duties;
+    return share(m, flexor ? d.flexor_exhaust : d.extensor_exhaust);
+  });
+}
+
+void muscle_columns(const experiment::Experiment& e, Columns& out) {
+  for (std::size_t i = 0; i < e.robot.muscles.size(); ++i) {
+    tension_column(e.robot, i, out);
+    if (has_duty(e, e.robot.muscles[i])) duty_columns(e.robot, i, out);
+  }
+}
+
+// Up is the low level's flexor of the joint behind the robot's own.
+void cylinder_columns(const robot::Robot& robot, Columns& out) {
+  if (!experiment::has_cylinder_joint(robot)) return;
+  const std::size_t j = robot.joints.size();
+  out.scalar("/cylinder/position", "m", "measured travel, up from the extended stop",
+             [](const Moment& m) { return m.measured.cylinder; });
+  out.scalar("/desired/cylinder/position", "m", "by the plan, up from the extended stop",
+             [](const Moment& m) { return m.desired[0].cylinder.position; });
+  const auto duty = [&](const char* name, std::int32_t control::Duties::*which) {
+    out.scalar(std::string("/cylinder/") + name, "1", "commanded share of the period",
+               [j, which](const Moment& m) {
+                 return active(m, j) ? 0.01 * (m.seen.joint[j].duties.*which) : 0.0;
+               });
+  };
+  duty("up/inlet_duty", &control::Duties::flexor_inlet);
+  duty("up/exhaust_duty", &control::Duties::flexor_exhaust);
+  duty("down/inlet_duty", &control::Duties::extensor_inlet);
+  duty("down/exhaust_duty", &control::Duties::extensor_exhaust);
+}
+
+void low_level_columns(const robot::Robot& robot, Columns& out) {
+  if (!experiment::laws_overrun(robot)) return;
+  out.scalar("/low_level/overruns", "1", "laws so far that took longer than their interrupt may",
+             [](const Moment& m) { return m.seen.overruns; });
+}
+
+// Adds the counters of rejected readings where the experiment gives reason to expect some.
+void supervision_columns(const experiment::Experiment& e, Columns& out) {
+  if (!experiment::is_supervised_closely(e)) return;
+  for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
+    const std::string at = "/sensor/" + e.robot.sensors[s].name;
+    out.scalar(at + "/rejected", "1", "readings so far that were not believed",
+               [s](const Moment& m) { return m.supervised.sensor[s].rejected; });
+    out.scalar(at + "/frozen", "1", "readings so far that repeated themselves while driven",
+               [s](const Moment& m) { return m.supervised.sensor[s].frozen; });
+  }
+  out.scalar("/low_level/rejected_commands", "1", "commands so far that were not followed",
+             [](const Moment& m) { return m.supervised.rejected_commands; });
+  out.scalar("/low_level/gaps", "1", "ticks so far that came later than announced",
+             [](const Moment& m) { return m.supervised.gaps; });
+  out.scalar("/low_level/tripped", "1", "1 from when the supervisor has ended the run",
+             [](const Moment& m) {
+               return m.supervised.trip.cause == control::Trip::Cause::none ? 0.0 : 1.0;
+             });
+}
+
+void plan_columns(const LegAt& leg, Columns& out) {
+  const std::size_t l = leg.leg;
+  out.scalar(leg.topic("/plan/phase"), "1", "position in the experiment's phases; -1 outside",
+             [l](const Moment& m) { return m.desired[l].phase; });
+  out.scalar(leg.topic("/plan/step"), "1", "counts from 0",
+             [l](const Moment& m) { return m.desired[l].step; });
+  out.scalar(leg.topic("/plan/unreachable"), "1", "1 while the nearest reachable point is held",
+             [l](const Moment& m) { return m.desired[l].unreachable ? 1.0 : 0.0; });
+  out.vector(leg.topic("/desired/foot/position"), "m", "about the first joint; none: not a number",
+             [l](const Moment& m, double& x, double& y) {
+               const gait::Desired& desired = m.desired[l];
+               x = desired.has_foot ? desired.foot.x : std::nan("");
+               y = desired.has_foot ? desired.foot.y : std::nan("");
+             });
+}
+
+// As phases, profiles and changes have made them.
+void gain_columns(const experiment::Experiment& e, const LegAt& leg, Columns& out) {
+  if (!e.log.gains) return;
+  for (const gait::Setting& s : gait::settings(e.plan)) {
+    constexpr std::string_view before = "control.gains.";
+    if (!s.key.starts_with(before)) continue;  // desired angles and stiffnesses are always there
+    std::string name = leg.topic("/desired/gain/" + s.key.substr(before.size()));
+    std::ranges::replace(name, '.', '/');
+    out.scalar(std::move(name), std::string(s.unit), "in effect",
+               [s, l = leg.leg](const Moment& m) { return gait::value_of(s, m.desired[l]); });
+  }
+}
+
+}  // namespace
+
+std::vector<Column> columns(const experiment::Experiment& e) {
+  Columns out;
+  joint_columns(e.robot, out);
+  muscle_columns(e, out);
+  cylinder_columns(e.robot, out);
+  low_level_columns(e.robot, out);
+  supervision_columns(e, out);
+  for (const LegAt& leg : legs_at(e.robot)) {
+    plan_columns(leg, out);
+    gain_columns(e, leg, out);
+  }
+  true_columns(e, out);
+  return std::move(out.list);
+}
+
+std::vector<Topic> topics(const experiment::Experiment& e) {
+  std::vector<Topic> out;
+  for (Column& c : columns(e)) out.push_back(std::move(c.topic));
+  const auto valve = [&](const std::string& valves, const char* which) {
+    out.push_back(
+        {valves + "/" + which + "/open", "electrical edges: 1 opens, 0 shuts", {{"value", "1"}}});
+  };
+  for (std::size_t i = 0; i < e.robot.muscles.size(); ++i) {
+    const std::string valves = robot::topic_of_valves(e.robot, i);
+    valve(valves, "inlet");
+    if (!has_duty(e, e.robot.muscles[i]))
+      out.back() = {valves + "/inlet/set_point",
+                    "of the regulator, as a share of its range",
+                    {{"value", "1"}}};
+    valve(valves, "exhaust");
+  }
+  if (e.robot.cylinder.present && e.robot.cylinder.mode == robot::Cylinder::Mode::valves)
+    for (const char* chamber : {"/valve/cylinder_up", "/valve/cylinder_down"})
+      for (const char* which : {"inlet", "exhaust"}) valve(chamber, which);
+  return out;
+}
+
+}  // namespace sinew::run

@@ -1,0 +1,44 @@
+// run/simulation/columns.h - what a run's log holds: every topic with where its numbers come from.
+//
+// What hardware would log as well comes first, what only a simulation knows (/true/...) last, then
+// the valves, whose edges are logged one by one. A topic is there if the machine has the part.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "sinew/control/gait/brain.h"
+#include "sinew/control/joint/seen.h"
+#include "sinew/control/supervise/supervised.h"
+#include "sinew/experiment/experiment.h"
+#include "sinew/plant/planar/setup.h"
+#include "sinew/signals/table.h"
+
+namespace sinew::run {
+
+// Everything that can be recorded at one instant.
+struct Moment {
+  const control::Seen& seen;
+  const control::Supervised& supervised;
+  const gait::Measured& measured;
+  std::span<const gait::Desired> desired;  // by leg
+  const plant::Truth& truth;
+  double time = 0;  // [s]
+};
+
+struct Column {
+  signals::Topic topic;                                   // of one or two fields
+  std::function<void(const Moment&, double* out)> value;  // no heap, no exceptions
+
+  bool of_truth() const { return topic.name.starts_with("/true/"); }
+};
+
+// In the order in which the recorder writes them.
+std::vector<Column> columns(const experiment::Experiment& experiment);
+
+// Of those, and after them of the valves by their index: 2 x muscle + (0 inlet | 1 exhaust), then
+// the four of a cylinder.
+std::vector<signals::Topic> topics(const experiment::Experiment& experiment);
+
+}  // namespace sinew::run

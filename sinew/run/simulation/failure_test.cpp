@@ -1,0 +1,126 @@
+// What cannot run is refused by its key; what runs away all the same ends its run, in every world,
+// with the muscle, the time and the cause.
+#include "sinew/experiment/failure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/run/simulation/run.h"
+
+namespace sinew::run {
+namespace {
+
+const std::string folder = std::string(SINEW_SOURCE_DIR) + "/experiments/";
+
+std::string refusal(const std::string& name, const std::vector<std::string>& sets) {
+  try {
+    experiment::load(folder + name + ".toml", sets);
+  } catch (const config::Error& e) {
+    return e.what();
+  }
+  return "none";
+}
+
+void expect_says(const std::string& text, const std::string& words) {
+  EXPECT_NE(text.find(words), std::string::npos) << text << "\nlacks " << words;
+}
+
+// 524 of 524 rows of its pressure were no number, and the exit 0.
+TEST(Refusal, NamesTheMuscleThatHasNoVolumeAtTheStart) {
+  const std::string text = refusal("cricket", {"joint.knee.moment_arm=0.0335756 m"});
+  expect_says(text, "muscle.knee_");
+  expect_says(text, ".mount_length: found a chamber without volume: with joint knee at ");
+  expect_says(text, "try a smaller joint.knee.moment_arm");
+  EXPECT_EQ(refusal("cricket", {}), "none");
+}
+
+TEST(Refusal, NamesTheMuscleWhoseThreadIsStraightWithoutAVolumeBesides) {
+  const std::vector<std::string> sets = {"joint.knee.moment_arm=4 in",
+                                         "muscle.knee_extensor.external_volume=0 m3"};
+  const std::string text = refusal("walk-test-1", sets);
+  expect_says(text, "muscle.knee_");
+  expect_says(text, "found a chamber without volume: with joint knee at ");
+  // Each alone leaves air everywhere that the plan goes.
+  EXPECT_EQ(refusal("walk-test-1", {sets[1]}), "none");
+}
+
+TEST(Refusal, NamesTheRestAngleThatNoMuscleReaches) {
+  const std::string text = refusal("walk-test-1", {"joint.hip.rest_angle=0 deg"});
+  expect_says(text, "found a chamber without volume: with joint hip at ");
+  expect_says(text, "or another rest_angle");
+}
+
+// What the controller's numbers cannot hold; each was "ok" for check and refused by run without a
+// key, or went through with what 32 bits had left of it.
+TEST(Refusal, NamesWhatTheControllerCannotHold) {
+  const auto says = [](const std::string& set, const std::string& words) {
+    expect_says(refusal("walk-test-1", {set}), words);
+  };
+  says("low_level.assumed_mount_length=315 in",
+       "low_level.assumed_mount_length: found 241605 count");
+  says("low_level.assumed_thread_length=300 in",
+       "low_level.assumed_thread_length: found 230100 count");
+  says("sensor.hip_extensor_tension.assumed.scale=1e-6 V/lbf",
+       "sensor.hip_extensor_tension.assumed.scale: found a count 170000 times as strong");
+  says("sensor.hip_angle.assumed.scale=1e5 count/rad", "count of sensor.hip_angle");
+  says("low_level.output_delay=101", "low_level.output_delay: found 101");
+}
+
+// --- what is noticed in the loop ---
+
+// Past what load() would refuse.
+experiment::Experiment without_volume(const std::string& name) {
+  experiment::Experiment e = experiment::load(folder + name + ".toml", {"sequence.repeat=1"});
+  for (robot::Muscle& m : e.robot.muscles) m.external_volume = 0;
+  for (robot::Joint& j : e.robot.joints)
+    if (j.name == "knee") j.moment_arm *= 8;
+  return e;
+}
+
+TEST(Failure, OfAirEndsTheRunInEveryWorld) {
+  for (const char* name : {"walk-test-1", "walk-with-ankle", "walk-with-hoses"}) {
+    const experiment::Experiment e = without_volume(name);
+    const Outcome out = run(e);
+    EXPECT_TRUE(out.ended_early()) << name;
+    EXPECT_EQ(out.failure.of, muscle::Failure::Of::air) << name;
+    const std::string cause = cause_of(e, out);
+    expect_says(cause, "the air of muscle knee_");
+    expect_says(cause, " was no number any more at 0.0000 s: it was ");
+    // Nothing goes on from there.
+    for (const signals::Series& s : out.table.series) EXPECT_EQ(s.time_ns.size(), 0u) << name;
+  }
+}
+
+// Muscles whose dampers are too strong for the step: the steps are cut for springs, dampers and the
+// ground, not for muscles.
+const std::vector<std::string> runs_away{"actuator.bpa.loss.viscous=5000 N s/m"};
+
+TEST(Failure, OfTheMotionIsToldFromThatOfAir) {
+  const experiment::Experiment e = experiment::load(folder + "walk-test-1.toml", runs_away);
+  const Outcome out = run(e);
+  ASSERT_TRUE(out.failure);
+  EXPECT_GT(out.failure.time, 0.1);  // it has walked for a while
+  const std::string cause = cause_of(e, out);
+  expect_says(cause, "the motion ran away");
+  expect_says(cause, "plant_steps.body");
+}
+
+// The log goes up to the failure, and has nothing but numbers.
+TEST(Failure, LeavesNoNumberThatIsNone) {
+  const Outcome out = run(experiment::load(folder + "walk-test-1.toml", runs_away));
+  ASSERT_TRUE(out.failure);
+  for (const signals::Series& s : out.table.series) {
+    if (s.time_ns.empty()) continue;
+    EXPECT_LE(1e-9 * static_cast<double>(s.time_ns.back()), out.failure.time) << s.topic.name;
+    if (!s.topic.name.starts_with("/true/")) continue;
+    for (const auto& column : s.columns)
+      for (const double x : column) ASSERT_TRUE(std::isfinite(x)) << s.topic.name;
+  }
+  EXPECT_NEAR(1e-9 * static_cast<double>(out.table.series.front().time_ns.back()), out.failure.time,
+              0.03);
+}
+
+}  // namespace
+}  // namespace sinew::run

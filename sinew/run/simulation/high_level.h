@@ -1,0 +1,87 @@
+// run/simulation/high_level.h - joins brains and spinal cord: SI on one side, counts on the other;
+// each leg's joints and muscles on one side, the machine's on the other.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "sinew/control/gait/legs.h"
+#include "sinew/control/joint/spine.h"
+#include "sinew/robot/robot.h"
+#include "sinew/run/simulation/changes.h"
+
+namespace sinew::run {
+
+// What one count, or one of the controller's stiffness units, stands for. A channel is -1 where
+// there is no sensor.
+struct Believed {
+  std::array<double, robot::max_joints> rest{}, counts_per_rad{}, counts_at_rest{};
+  std::array<double, robot::max_muscles> newtons_per_count{}, counts_at_zero{};
+  std::array<int, robot::max_joints> angle_channel{};
+  std::array<int, robot::max_muscles> tension_channel{};
+  double cylinder_counts_per_metre = 0, cylinder_at_rest = 0;
+  int cylinder_channel = -1;
+};
+
+Believed believed(const robot::Robot& robot);
+
+class HighLevel {
+ public:
+  // `steering` may be null.
+  HighLevel(const robot::Robot& robot, const gait::Plan& plan, Steering* steering = nullptr);
+
+  // At every low-level period; the brain itself thinks once per brain period.
+  const control::Command& update(const control::Seen& seen, signals::Tick t) noexcept;
+  // Is the body to be vented now? A plan that ends without goes on to the run's end as it is.
+  bool finished() const noexcept { return vents_ && legs_.finished(); }
+
+  const gait::Legs& legs() const noexcept { return legs_; }
+  // The word of each leg's brain with what stands in place of it, as it was passed on.
+  std::span<const gait::Desired> desired() const noexcept {
+    return {desired_.data(), legs_.count()};
+  }
+  const Changes& changes() const noexcept { return changes_; }
+  const gait::Measured& measured() const noexcept { return measured_; }
+  double newtons_per_count(std::size_t muscle) const noexcept {
+    return scale_.newtons_per_count[muscle];
+  }
+
+  // Readings as the brain gets them.
+  gait::Measured believe(const control::Seen& seen) const noexcept;
+
+  // A wish of whoever holds the run, as Changes has it.
+  bool wish(const Steering::Wish& wish) noexcept { return changes_.wish(wish); }
+
+  const std::vector<gait::Setting>& settings() const noexcept { return changes_.settings(); }
+
+  // Everything that its next word depends on, beside what it will be told. Copied like bytes.
+  struct State {
+    gait::Legs::State legs;
+    Changes::State changes;
+    std::array<gait::Desired, robot::max_legs> desired;
+    gait::Measured measured;
+    control::Command command;
+  };
+  State state() const noexcept {
+    return {legs_.state(), changes_.state(), desired_, measured_, command_};
+  }
+  void restore(const State& state) noexcept;
+
+ private:
+  void translate(const gait::Desired& desired, const robot::LegParts& leg) noexcept;
+  void move_cylinder(const gait::Desired& desired) noexcept;
+
+  int joints_, muscles_;
+  bool vents_;
+  bool has_cylinder_;
+  float cylinder_gain_;  // [%/count]
+  signals::Tick brain_ticks_;
+  Believed scale_;
+  gait::Legs legs_;
+  Changes changes_;
+  std::array<gait::Desired, robot::max_legs> desired_;  // by leg
+  gait::Measured measured_;
+  control::Command command_;
+};
+
+}  // namespace sinew::run

@@ -1,0 +1,86 @@
+#include "sinew/run/simulation/logged.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "sinew/experiment/globs.h"
+#include "sinew/run/simulation/columns.h"
+#include "sinew/run/simulation/recorder.h"
+
+namespace sinew::run {
+
+namespace {
+
+// Throws where the table is not of the topics that were chosen from.
+void refuse_other_topics(const signals::Table& table, const LoggedTopics& logged) {
+  bool same = table.series.size() == logged.of_series.size();
+  for (std::size_t s = 0; same && s < table.series.size(); ++s) {
+    const std::uint16_t topic = logged.of_series[s];
+    same = topic == not_tapped || (topic < logged.topics.size() &&
+                                   logged.topics[topic].name == table.series[s].topic.name);
+  }
+  if (!same) throw std::logic_error("a table of other topics than its log's");
+}
+
+}  // namespace
+
+LoggedTopics logged_topics(const signals::Table& table) {
+  LoggedTopics out;
+  for (const signals::Series& s : table.series) {
+    out.of_series.push_back(static_cast<std::uint16_t>(out.topics.size()));
+    out.topics.push_back(s.topic);
+  }
+  return out;
+}
+
+LoggedTopics logged_topics(const std::vector<signals::Topic>& recorded,
+                           const std::vector<std::string>& patterns, const config::Origins& origins,
+                           const std::string& path) {
+  const config::Origin* origin = config::find_origin(origins, "log.channels");
+  const bool written = origin && !origin->is_default;
+  const std::vector<bool> wanted =
+      experiment::select(patterns, config::names_of(recorded),
+                         written ? origin->where : config::Location{path, 0, 0}, "log.channels");
+  LoggedTopics out;
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    out.of_series.push_back(wanted[i] ? static_cast<std::uint16_t>(out.topics.size()) : not_tapped);
+    if (wanted[i]) out.topics.push_back(recorded[i]);
+  }
+  return out;
+}
+
+LoggedTopics logged_topics(const experiment::Experiment& e) {
+  return logged_topics(topics(e), e.log.channels, e.origins, e.path);
+}
+
+signals::Table logged_part(signals::Table&& table, const LoggedTopics& logged) {
+  refuse_other_topics(table, logged);
+  signals::Table out;
+  out.complete = table.complete;
+  for (std::size_t s = 0; s < table.series.size(); ++s)
+    if (logged.of_series[s] != not_tapped) out.series.push_back(std::move(table.series[s]));
+  return out;
+}
+
+void write(log::Writer& log, const signals::Table& table, const LoggedTopics& logged) {
+  refuse_other_topics(table, logged);
+  struct At {
+    std::int64_t time_ns;
+    std::size_t series, sample;
+  };
+  std::vector<At> all;
+  for (std::size_t s = 0; s < table.series.size(); ++s)
+    for (std::size_t i = 0; logged.of_series[s] != not_tapped && i < table.series[s].time_ns.size();
+         ++i)
+      all.push_back({table.series[s].time_ns[i], s, i});
+  std::ranges::stable_sort(all, {}, &At::time_ns);
+
+  std::vector<double> values;
+  for (const At& at : all) {
+    values.clear();
+    for (const auto& column : table.series[at.series].columns) values.push_back(column[at.sample]);
+    log.push(logged.of_series[at.series], at.time_ns, values);
+  }
+}
+
+}  // namespace sinew::run

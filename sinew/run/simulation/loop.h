@@ -1,0 +1,84 @@
+// run/simulation/loop.h - the one loop. Simulation, replay and hardware run these lines; the spinal
+// cord never sees a port, and the port never sees the brain.
+#pragma once
+
+#include "sinew/control/joint/seen.h"
+#include "sinew/signals/port.h"
+
+namespace sinew::run {
+
+// A watcher that cannot stop the loop says nothing of it.
+template <class Watch>
+bool ends_it(Watch& watch) noexcept {
+  if constexpr (requires { watch.stopped(); }) return watch.stopped();
+  return false;
+}
+
+// Where a loop stands. Copied like bytes.
+struct LoopState {
+  signals::Tick at = 0;  // the next tick at which anything happens
+  signals::Status status = signals::Status::ok;
+  bool started = false;  // the body knows the scan
+};
+
+// Spine   scan(), seen().phase, command(command), edges(t), due(t), take(conversion, reading, t),
+//         next_event(t), missed(t), shut_down(t): control::Supervisor, control::Spine alone,
+//         or a stand's drive
+// Brain   update(seen, t) -> Command, finished()
+// Clock   wait_until(t) -> false when late
+// Watch   command(t), edge(e), sample(t), next(t): whoever records; it changes nothing. It may have
+//         stopped(): true ends the loop
+//
+// Runs the ticks before `until`, in as many calls as one likes: the bits are the same. Ends early
+// when the body ends or fails, or when the spinal cord has shut down.
+template <class Spine, class Brain, class Clock, class Watch>
+void advance(LoopState& loop, Spine& spine, Brain& brain, signals::Port& port, Clock& clock,
+             Watch& watch, signals::Tick until) noexcept {
+  using signals::Status;
+  using signals::Tick;
+
+  if (!loop.started) loop.status = port.start(spine.scan());
+  loop.started = true;
+  Status& status = loop.status;
+  Tick& t = loop.at;
+  while (status == Status::ok && t < until && spine.seen().phase != control::Phase::off &&
+         !ends_it(watch)) {
+    if (!clock.wait_until(t)) spine.missed(t);
+
+    // The high level's word for this period, and its last one.
+    if (t % spine.scan().period == 0) {
+      spine.command(brain.update(spine.seen(), t));
+      watch.command(t);
+      if (brain.finished() && spine.seen().phase == control::Phase::running) spine.shut_down(t);
+    }
+
+    // Edges that were decided earlier, then the conversion that is due.
+    for (const signals::Edge& edge : spine.edges(t)) {
+      const Status driven = port.drive(edge);
+      status = status == Status::ok ? driven : status;
+      watch.edge(edge);
+    }
+    if (const signals::Conversion* c = spine.due(t)) spine.take(*c, port.read(c->channel, t), t);
+    watch.sample(t);
+
+    const Tick next = spine.next_event(t), sample = watch.next(t);
+    t = sample < next ? sample : next;
+  }
+}
+
+// Ends the body's part: it is left safe. Answers the first status of the whole that was not ok.
+inline signals::Status finish(LoopState& loop, signals::Port& port) noexcept {
+  const signals::Status safe = port.stop(loop.at);
+  return loop.status == signals::Status::ok ? safe : loop.status;
+}
+
+// From the first tick to `end`, or to whatever ends it before.
+template <class Spine, class Brain, class Clock, class Watch>
+signals::Status loop(Spine& spine, Brain& brain, signals::Port& port, Clock& clock, Watch& watch,
+                     signals::Tick end) noexcept {
+  LoopState state;
+  advance(state, spine, brain, port, clock, watch, end);
+  return finish(state, port);
+}
+
+}  // namespace sinew::run

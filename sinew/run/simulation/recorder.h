@@ -1,0 +1,82 @@
+// run/simulation/recorder.h - watches a run and fills the channel table.
+//
+// One sample of everything per period, right after the last law has run (or every log period, where
+// that is shorter or longer), and each valve edge by itself. The table is reserved before the run;
+// while it goes, recording is noexcept and allocates nothing. What is recorded can be passed on to
+// a log as it comes (Tap). Looking never changes the run: the world is peeked.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "sinew/control/supervise/supervisor.h"
+#include "sinew/experiment/experiment.h"
+#include "sinew/plant/planar/setup.h"
+#include "sinew/run/simulation/columns.h"
+#include "sinew/run/simulation/high_level.h"
+#include "sinew/signals/table.h"
+
+namespace sinew::run {
+
+// Where else a record goes, for instance log::Writer::push. noexcept, no heap.
+struct Tap {
+  void* object = nullptr;
+  void (*push)(void* object, std::uint16_t topic, std::int64_t time_ns,
+               std::span<const double> values) noexcept = nullptr;
+};
+
+class Recorder {
+ public:
+  // `truth` answers what only a simulation knows, at a tick; empty for a body that is none.
+  using TruthAt = std::function<plant::Truth(signals::Tick)>;
+
+  Recorder(const experiment::Experiment& experiment, const control::Supervisor& spine,
+           const HighLevel& high_level, TruthAt truth, signals::Tick end);
+
+  void tap(Tap t, std::vector<std::uint16_t> topic_of_series) {
+    tap_ = t;
+    tapped_ = std::move(topic_of_series);
+  }
+  void progress(std::atomic<std::int64_t>* tick) { progress_ = tick; }
+
+  // The loop's side.
+  void command(signals::Tick t) noexcept;
+  void edge(const signals::Edge& edge) noexcept;
+  void sample(signals::Tick t) noexcept;
+  signals::Tick next(signals::Tick) const noexcept { return next_; }
+
+  // What was recorded, as series. Once, after the run.
+  signals::Table take();
+
+ private:
+  void put(std::span<const double> values) noexcept;
+
+  const control::Supervisor& spine_;
+  const HighLevel& high_;
+  TruthAt truth_;
+
+  // While the run goes: rows of numbers one behind the other, and the edges. Both are reserved for
+  // all that can come.
+  std::vector<Column> columns_;
+  std::vector<signals::Topic> topics_;  // of the columns, then of the valves
+  std::size_t first_edge_ = 0;          // topic of the first valve
+  std::size_t width_ = 0;               // numbers in a row
+  std::vector<double> rows_;
+  std::vector<std::int64_t> row_time_ns_;
+  std::vector<signals::Edge> edges_;
+  bool complete_ = true;
+
+  std::size_t cursor_ = 0;  // topic that the next put() is of
+  std::int64_t now_ns_ = 0;
+  signals::Tick period_ = 100, next_ = 0;
+  Tap tap_;
+  std::vector<std::uint16_t> tapped_;  // topic in the log of each of ours, or none
+  std::atomic<std::int64_t>* progress_ = nullptr;
+};
+
+inline constexpr std::uint16_t not_tapped = 0xffff;
+
+}  // namespace sinew::run

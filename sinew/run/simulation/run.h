@@ -1,0 +1,62 @@
+// run/simulation/run.h - an experiment from start to finish.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sinew/control/joint/seen.h"
+#include "sinew/control/supervise/supervised.h"
+#include "sinew/experiment/experiment.h"
+#include "sinew/muscle/failure.h"
+#include "sinew/plant/planar/setup.h"
+#include "sinew/run/simulation/recorder.h"
+#include "sinew/run/simulation/steering.h"
+#include "sinew/signals/table.h"
+
+namespace sinew::run {
+
+struct RunOptions {
+  double pace = 0;               // simulated per wall second; 0: as fast as it goes
+  Steering* steering = nullptr;  // in place of pace; outlives the run
+  Tap tap;
+  std::vector<std::uint16_t> tapped;  // topic in the log of each of topics(), or not_tapped
+  std::atomic<std::int64_t>* progress = nullptr;  // the tick that the run has reached
+  const std::atomic<bool>* stop = nullptr;        // true: the run ends there, as it stands
+  bool every_tick = false;                        // visit each tick: slower, the same bits
+  int extra_readers = 0;                          // looks at the world per event: the same bits
+};
+
+struct Outcome {
+  signals::Status status = signals::Status::ok;
+  bool stopped = false;  // by RunOptions::stop
+  signals::Table table;
+  control::Seen seen;                 // the low level's last word
+  control::Supervised supervised;     // what was not believed, and what ended the run
+  muscle::Failure failure;            // what of the machine was no number any more
+  std::vector<gait::Change> changes;  // the plan's, and behind them what was steered
+  std::int64_t unreachable_periods = 0;
+  std::int64_t nodes = 0;  // steps of the integrator
+  double duration = 0;     // simulated [s]
+  double wall = 0;         // [s]
+
+  // It did not come to its end: there is nothing to sum up.
+  bool ended_early() const {
+    return failure || status != signals::Status::ok || seen.fault != signals::Status::ok ||
+           supervised.trip.cause != control::Trip::Cause::none;
+  }
+};
+
+// Why a run ended early, when, and what to do: "the air of muscle knee_flexor was no number any
+// more at 0 s: …".
+std::string cause_of(const experiment::Experiment& experiment, const Outcome& outcome);
+
+// Throws std::invalid_argument for a robot that no plant can hold; nothing once the loop runs.
+Outcome run(const experiment::Experiment& experiment, const RunOptions& options = {});
+
+// The recorded readings of a run through today's controller. Returns the edges it decides, to be
+// compared with the recorded ones.
+Outcome replay(const experiment::Experiment& experiment, const signals::Table& recorded);
+
+}  // namespace sinew::run

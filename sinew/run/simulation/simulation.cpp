@@ -1,0 +1,231 @@
+#include "sinew/run/simulation/simulation.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
+
+#include "sinew/config/writer.h"
+#include "sinew/experiment/machine_file.h"
+#include "sinew/experiment/planar_setup.h"
+#include "sinew/experiment/spinal.h"
+#include "sinew/experiment/supervision.h"
+#include "sinew/run/simulation/clock.h"
+#include "sinew/run/simulation/run.h"
+
+namespace sinew::run {
+
+using signals::Tick;
+
+namespace {
+
+static_assert(std::is_trivially_copyable_v<control::Supervisor>);
+static_assert(std::is_trivially_copyable_v<HighLevel::State>);
+static_assert(std::is_trivially_copyable_v<FaultyPort::State>);
+static_assert(std::is_trivially_copyable_v<LoopState>);
+
+// Nobody looks.
+struct Nobody {
+  void command(Tick) noexcept {}
+  void edge(const signals::Edge&) noexcept {}
+  void sample(Tick) noexcept {}
+  Tick next(Tick) const noexcept { return std::numeric_limits<Tick>::max(); }
+};
+
+// FNV-1a, 64 bits.
+std::uint64_t hash(std::span<const std::byte> bytes, std::uint64_t h = 0xcbf29ce484222325) {
+  for (const std::byte b : bytes) {
+    h ^= std::to_integer<std::uint64_t>(b);
+    h *= 0x100000001b3;
+  }
+  return h;
+}
+
+std::uint64_t hash(std::string_view text, std::uint64_t h = 0xcbf29ce484222325) {
+  return hash(std::as_bytes(std::span(text.data(), text.size())), h);
+}
+
+// What stands before the state in a save.
+struct Header {
+  char format[16] = "sinew.save/1";
+  std::uint64_t model = 0;     // of the experiment's values and the library's version
+  std::uint64_t checksum = 0;  // of all that follows the header
+  std::int64_t tick = 0;
+};
+
+template <class Part>
+void put(std::span<std::byte>& out, const Part& part) {
+  std::memcpy(out.data(), &part, sizeof part);
+  out = out.subspan(sizeof part);
+}
+
+template <class Part>
+void take(std::span<const std::byte>& from, Part& part) {
+  std::memcpy(&part, from.data(), sizeof part);
+  from = from.subspan(sizeof part);
+}
+
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+}  // namespace
+
+Simulation::Simulation(const experiment::Experiment& experiment, Steering* steering)
+    : experiment_(experiment),
+      machine_(std::in_place, experiment::planar_setup(experiment_)),
+      port_(&machine_->port()),
+      spine_(experiment::spine_config(experiment_), experiment::supervise_config(experiment_)),
+      high_level_(experiment_.robot, experiment_.plan, steering),
+      last_(experiment::last_tick(experiment_)) {
+  if (!experiment_.faults.empty()) port_ = &faulty_.emplace(experiment_, *port_);
+  list_channels();
+}
+
+Simulation::Simulation(const experiment::Experiment& experiment, signals::Port& body)
+    : experiment_(experiment),
+      port_(&body),
+      spine_(experiment::spine_config(experiment_), experiment::supervise_config(experiment_)),
+      high_level_(experiment_.robot, experiment_.plan),
+      last_(experiment::last_tick(experiment_)) {
+  list_channels();
+}
+
+bool Simulation::ended() const noexcept {
+  return tick_ >= last_ || loop_.status != signals::Status::ok ||
+         spine_.seen().phase == control::Phase::off;
+}
+
+void Simulation::advance_to(Tick tick) noexcept {
+  SimulatedClock clock;
+  Nobody watch;
+  advance(tick, clock, watch);
+}
+
+void Simulation::advance_by(double seconds) noexcept {
+  advance_to(tick_ + std::llround(seconds / signals::tick_seconds));
+}
+
+// --- looking ---
+
+void Simulation::list_channels() {
+  columns_ = columns(experiment_);
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    if (!machine_ && columns_[c].of_truth()) continue;
+    const signals::Topic& topic = columns_[c].topic;
+    for (std::size_t f = 0; f < topic.fields.size(); ++f) {
+      const std::string behind = topic.fields.size() > 1 ? "." + topic.fields[f].name : "";
+      channels_.push_back({topic.name + behind, topic.fields[f].unit});
+      column_of_.push_back({c, f});
+    }
+  }
+}
+
+std::size_t Simulation::find(std::string_view channel) const {
+  for (std::size_t i = 0; i < channels_.size(); ++i)
+    if (channels_[i].name == channel) return i;
+  refuse("channel: found \"" + std::string(channel) + "\"; expected one of channels(), such as \"" +
+         channels_.front().name + "\"");
+}
+
+double Simulation::read(std::string_view channel) { return read(find(channel)); }
+
+double Simulation::read(std::size_t channel) noexcept {
+  const auto [column, field] = column_of_[channel];
+  const gait::Measured measured = high_level_.believe(spine_.seen());
+  const plant::Truth known = columns_[column].of_truth() ? truth() : plant::Truth{};
+  const Moment now{spine_.seen(), spine_.supervised(), measured, high_level_.desired(), known,
+                   time()};
+  double numbers[2] = {};
+  columns_[column].value(now, numbers);
+  return numbers[field];
+}
+
+plant::Truth Simulation::truth() noexcept {
+  return machine_ ? machine_->truth(time()) : plant::Truth{};
+}
+
+muscle::Failure Simulation::failure() const noexcept {
+  return machine_ ? machine_->failure() : muscle::Failure{};
+}
+
+// --- changing ---
+
+std::size_t Simulation::setting(std::string_view key) const {
+  const int found = gait::find_setting(settings(), key);
+  if (found >= 0) return static_cast<std::size_t>(found);
+  std::string all;
+  for (const gait::Setting& s : settings()) all += (all.empty() ? "" : ", ") + s.key;
+  refuse("setting: found \"" + std::string(key) + "\"; expected one of " + all);
+}
+
+void Simulation::change(std::string_view key, double value) {
+  const std::size_t s = setting(key);
+  if (!(value >= 0 && value <= gait::Setting::most))
+    refuse(std::string(key) + ": found " + std::to_string(value) + "; expected 0 to 1e6 " +
+           std::string(settings()[s].unit));
+  (void)high_level_.wish({s, value, false});
+}
+
+void Simulation::release(std::string_view key) { (void)high_level_.wish({setting(key), 0, true}); }
+
+// --- saving ---
+
+// The values alone: what a file says of them is no part of the machine.
+std::uint64_t Simulation::model() {
+  if (model_) return *model_;
+  const std::string values = config::to_toml(experiment::values_in_si({"experiment", experiment_}));
+  const std::size_t sizes[] = {save_size()};
+  model_ = hash(std::as_bytes(std::span(sizes)), hash(values, hash(SINEW_VERSION)));
+  return *model_;
+}
+
+std::size_t Simulation::save_size() const noexcept {
+  return sizeof(Header) + (machine_ ? machine_->state_size() : 0) + sizeof spine_ +
+         sizeof(HighLevel::State) + sizeof(FaultyPort::State) + sizeof loop_;
+}
+
+std::vector<std::byte> Simulation::save() {
+  if (!machine_) refuse("save: a body that is not simulated has no state to be saved");
+  std::vector<std::byte> out(save_size());
+  const std::span<std::byte> all(out), state = all.subspan(sizeof(Header));
+  std::span<std::byte> rest = state.subspan(machine_->state_size());
+  machine_->save(state.first(machine_->state_size()));
+  put(rest, spine_);
+  put(rest, high_level_.state());
+  put(rest, faulty_ ? faulty_->state() : FaultyPort::State{});
+  put(rest, loop_);
+  std::span<std::byte> head = all.first(sizeof(Header));
+  put(head, Header{.model = model(), .checksum = hash(state), .tick = tick_});
+  return out;
+}
+
+void Simulation::restore(std::span<const std::byte> saved) {
+  if (!machine_) refuse("restore: a body that is not simulated takes no state");
+  Header header;
+  if (saved.size() < sizeof header) refuse("save: found too few bytes for one");
+  take(saved, header);
+  if (std::strncmp(header.format, Header{}.format, sizeof header.format) != 0)
+    refuse("save: found something else; expected what Simulation::save gave");
+  if (header.model != model())
+    refuse(
+        "save: found that of another experiment, or of another version of Sinew; expected one of "
+        "the same values");
+  if (saved.size() != save_size() - sizeof header || hash(saved) != header.checksum)
+    refuse("save: found it cut off or spoilt");
+
+  machine_->restore(saved.first(machine_->state_size()));
+  saved = saved.subspan(machine_->state_size());
+  take(saved, spine_);
+  HighLevel::State high_level;
+  take(saved, high_level);
+  high_level_.restore(high_level);
+  FaultyPort::State faulty;
+  take(saved, faulty);
+  if (faulty_) faulty_->restore(faulty);
+  take(saved, loop_);
+  tick_ = header.tick;
+  // Another machine learns when conversions begin.
+  if (loop_.started) (void)port_->start(spine_.scan());
+}
+
+}  // namespace sinew::run

@@ -1,0 +1,143 @@
+// run/simulation/simulation.h - a run that somebody holds: an experiment's machine and its
+// controllers, advanced by as much as one likes, looked at, changed, saved and restored.
+//
+//   Simulation s(load("experiments/walk-test-1.toml"));
+//   s.advance_by(2.0);
+//   double angle = s.read("/joint/hip/angle");
+//   s.change("control.stiffness.hip", 3.0);       // from the next period start on
+//   std::vector<std::byte> saved = s.save();
+//   s.advance_by(1.0);
+//   s.restore(saved);                             // back where it was, bit for bit
+//
+// However it is cut into advances, read and restored: the same bits as run(), which is written on
+// it. Memory is taken when it is made, not while it advances.
+//
+// A save is the state of the machine, the controllers, the commands on their way and the tick; no
+// log. It can be restored any number of times, also in another process, by the same version of the
+// library on the same kind of computer, into a simulation of an experiment with the same values.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/control/supervise/supervisor.h"
+#include "sinew/experiment/experiment.h"
+#include "sinew/plant/planar/machine.h"
+#include "sinew/run/simulation/columns.h"
+#include "sinew/run/simulation/faulty_port.h"
+#include "sinew/run/simulation/high_level.h"
+#include "sinew/run/simulation/loop.h"
+
+namespace sinew::run {
+
+class Simulation {
+ public:
+  // The experiment at its start. `steering` may be null and outlives this. Throws
+  // std::invalid_argument for a robot that no plant can hold.
+  explicit Simulation(const experiment::Experiment& experiment, Steering* steering = nullptr);
+
+  // The experiment's controllers before another body, which outlives this: a recorded one, for
+  // instance. Nothing is simulated then: no truth, and nothing to save.
+  Simulation(const experiment::Experiment& experiment, signals::Port& body);
+
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  // --- time ---
+
+  // The tick that it has been advanced to: what happens at it has not happened yet.
+  signals::Tick tick() const noexcept { return tick_; }
+  double time() const noexcept { return static_cast<double>(tick_) * signals::tick_seconds; }
+  // The tick at which it ends, if nothing ends it before.
+  signals::Tick last() const noexcept { return last_; }
+  // Is there nothing left to advance? The plan has come to its end, or something has failed.
+  bool ended() const noexcept;
+
+  // Runs all that happens before the tick; an earlier one changes nothing.
+  void advance_to(signals::Tick tick) noexcept;
+  // The same by seconds from where it stands, rounded to ticks.
+  void advance_by(double seconds) noexcept;
+  // The same under a clock, and with somebody who records (loop.h).
+  template <class Clock, class Watch>
+  void advance(signals::Tick until, Clock& clock, Watch& watch) noexcept {
+    if (tick_ < last_ && until > tick_) {
+      until = until < last_ ? until : last_;
+      run::advance(loop_, spine_, high_level_, port(), clock, watch, until);
+      tick_ = loop_.at < until ? loop_.at : until;
+    }
+  }
+  // Leaves the body safe; answers the first status of the whole run that was not ok. Once, when no
+  // more is to come.
+  signals::Status finish() noexcept { return run::finish(loop_, port()); }
+
+  // --- looking: changes nothing ---
+
+  // Names of all that can be read, with their units: the channels of the log but the valves' edges;
+  // "/foot/position.x" of one with two numbers.
+  struct Channel {
+    std::string name, unit;
+  };
+  const std::vector<Channel>& channels() const noexcept { return channels_; }
+  // Value of a channel now, in its unit; by its number in channels(), or by its name. Throws
+  // std::invalid_argument for a channel that there is not.
+  double read(std::size_t channel) noexcept;
+  double read(std::string_view channel);
+  std::size_t find(std::string_view channel) const;
+
+  // What only a simulation knows, now. Not for a body that is none.
+  plant::Truth truth() noexcept;
+  // What of the machine was no number any more.
+  muscle::Failure failure() const noexcept;
+
+  // --- changing ---
+
+  // Sets gain, stiffness or angle in place of the plan's ("control.stiffness.hip", in SI) from the
+  // next period start on, which may be this tick; and gives it back to the plan. Throws
+  // std::invalid_argument for a key that there is not, or a value that it cannot have.
+  void change(std::string_view key, double value);
+  void release(std::string_view key);
+  const std::vector<gait::Setting>& settings() const noexcept { return high_level_.settings(); }
+
+  // --- saving ---
+
+  // Everything that the future depends on, as bytes.
+  std::vector<std::byte> save();
+  std::size_t save_size() const noexcept;
+  // Throws std::invalid_argument, and changes nothing, for what is no save, is cut off or spoilt,
+  // or is of another experiment or another version.
+  void restore(std::span<const std::byte> saved);
+
+  // --- the parts, for whoever records ---
+
+  const experiment::Experiment& experiment() const noexcept { return experiment_; }
+  const control::Supervisor& spine() const noexcept { return spine_; }
+  const HighLevel& high_level() const noexcept { return high_level_; }
+  plant::Machine* machine() noexcept { return machine_ ? &*machine_ : nullptr; }
+
+ private:
+  signals::Port& port() noexcept { return *port_; }
+  void list_channels();
+  std::size_t setting(std::string_view key) const;
+  std::uint64_t model();
+
+  experiment::Experiment experiment_;
+  std::optional<plant::Machine> machine_;
+  std::optional<FaultyPort> faulty_;
+  signals::Port* port_ = nullptr;
+  control::Supervisor spine_;
+  HighLevel high_level_;
+  signals::Tick last_ = 0, tick_ = 0;
+  LoopState loop_;
+
+  std::vector<Column> columns_;
+  std::vector<Channel> channels_;
+  std::vector<std::pair<std::size_t, std::size_t>> column_of_;  // and which of its numbers
+  std::optional<std::uint64_t> model_;                          // once somebody has asked for it
+};
+
+}  // namespace sinew::run

@@ -1,0 +1,77 @@
+// run/stand/drive_laws.h - how long a valve of the stand is opened in one period.
+//
+//   steady duty   d = m'_out/(m'_in + m'_out) at the pressure P          no mean flow, 3-way valve
+//   commanded     d + (opening delay - closing delay)/T                  figure 3-13, backwards
+//   holding P     F(L, P) = load                                         [31], static
+//   dosing        t = (m(L', P') - m(L, P))/m'                           two 2-way valves
+//   on-off        e > dead band: all of the period; within: none
+//   proportional  d = d_hold + K e, in 0 ... 1; two 2-way valves: |K e|, none within the dead band
+//
+//   e = L - desired [m]: a muscle that is too long wants air
+//
+// Pure. What the delivered pulse is stands in signals/pulse.h.
+#pragma once
+
+#include <cmath>
+
+#include "sinew/actuator/bundle.h"
+#include "sinew/gas/orifice.h"
+
+namespace sinew::rig {
+
+// Share of the period for each valve; a 3-way one has an inlet only.
+struct Shares {
+  double inlet = 0, exhaust = 0;
+};
+
+constexpr double within_0_and_1(double x) { return x < 0 ? 0.0 : x > 1 ? 1.0 : x; }
+
+// Of a valve between supply and room that keeps the pressure on the mean  [-].
+inline double steady_duty(const gas::Flow& in, const gas::Flow& out, const gas::Air& air,
+                          double supply, double pressure) {
+  const double filling = gas::mass_flow(in, air, supply, pressure);
+  const double venting = gas::mass_flow(out, air, pressure, air.atmosphere);
+  if (!(filling > 0)) return 1.0;
+  return within_0_and_1(venting / (filling + venting));
+}
+
+// What must be commanded for it; 0 and 1 stay.
+constexpr double commanded_duty(double delivered, double opening_delay, double closing_delay,
+                                double period) {
+  if (delivered <= 0 || delivered >= 1) return within_0_and_1(delivered);
+  return within_0_and_1(delivered + (opening_delay - closing_delay) / period);
+}
+
+// At which the bundle holds a load at a length, no more than `most`  [Pa], absolute.
+inline double holding_pressure(const actuator::Bundle& bundle, double length, double load,
+                               double atmosphere, double most) {
+  double low = atmosphere, high = most;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    const double f = actuator::tension(bundle, length, 0, middle - atmosphere, atmosphere);
+    (f < load ? low : high) = middle;
+  }
+  return high;
+}
+
+// [kg]
+inline double air_at(const actuator::Bundle& bundle, const gas::Air& air, double length,
+                     double pressure) {
+  return gas::density(air, pressure) * actuator::volume(bundle, length);
+}
+
+// Of an error of the length; `hold` is what a 3-way valve needs to stay where it is.
+constexpr Shares on_off(double error, double dead_band, bool three_way, double before) {
+  const bool in = error > dead_band, out = error < -dead_band;
+  if (three_way) return {in ? 1.0 : out ? 0.0 : before, 0.0};
+  return {in ? 1.0 : 0.0, out ? 1.0 : 0.0};
+}
+constexpr Shares proportional(double error, double gain, double dead_band, bool three_way,
+                              double hold) {
+  const double wanted = gain * error;
+  if (three_way) return {within_0_and_1(hold + wanted), 0.0};
+  if (error <= dead_band && error >= -dead_band) return {};
+  return {within_0_and_1(wanted), within_0_and_1(-wanted)};
+}
+
+}  // namespace sinew::rig
