@@ -260,7 +260,8 @@ std::string in_words(const Fault& f) {
 
 std::string why_idle(const Experiment& e, const Fault& f, signals::Tick end) {
   const double ends = static_cast<double>(end) * signals::tick_seconds;
-  if (f.at > ends) return fmt::format("it begins at {:.6g} s, the run ends at {:.4f} s", f.at, ends);
+  if (f.at > ends)
+    return fmt::format("it begins at {:.6g} s, the run ends at {:.4f} s", f.at, ends);
   if (f.amount == 0) return "its amount is 0";
   if (!is_of_sensor(f.what) || robot::find_sensor(e.robot, f.of) < 0) return "";
   const signals::Tick reading = next_reading(e, f.of, f.at);

@@ -1,5 +1,5 @@
-// experiment/planar_setup.h - an experiment as the world that it takes place in, and how long it can
-// last.
+// experiment/planar_setup.h - an experiment as the world that it takes place in, and how long it
+// can last.
 #pragma once
 
 #include "sinew/experiment/experiment.h"

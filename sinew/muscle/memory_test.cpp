@@ -12,7 +12,6 @@
 namespace sinew::muscle {
 namespace {
 
-
 Motion still(double length) {
   Motion m;
   for (int i = 0; i < capacity; ++i) m.length[i] = length;

@@ -176,8 +176,9 @@ TEST(Faults, OnePartOfTheAirBreaksOnceAtATime) {
 
 TEST(Faults, ATestStandSaysThatItTakesNone) {
   const Workspace w;
-  write_text(w / "experiments/rig/x.toml", "format = \"sinew.rig/1\"\nbase = \"pwm-25hz-5lb.toml\"\n" +
-                                               of_air("inlet", "stuck open"));
+  write_text(
+      w / "experiments/rig/x.toml",
+      "format = \"sinew.rig/1\"\nbase = \"pwm-25hz-5lb.toml\"\n" + of_air("inlet", "stuck open"));
   const Result r = w.sinew({"check", "experiments/rig/x.toml"});
   EXPECT_EQ(r.code, 1);
   EXPECT_THAT(r.out, AllOf(HasSubstr("x.toml:3:"), HasSubstr("fault: found a list of faults"),

@@ -184,7 +184,7 @@ TEST(Supervise, AStuckPotentiometerIsCountedAndEndsNoRun) {
   for (int i = 0; i < count(); ++i) {
     Trial trial = any_trial(random);
     trial.experiment.faults = {{.at = trial.first_lie, .of = trial.sensor, .what = What::stuck}};
-    const run::Outcome out = run(trial.experiment);
+    const run::Outcome out = run::run(trial.experiment);
     EXPECT_EQ(out.supervised.trip.cause, Trip::Cause::none) << trial.experiment.seed;
     const int s = robot::find_sensor(trial.experiment.robot, trial.sensor);
     ++tally.stuck;

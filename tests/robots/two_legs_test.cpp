@@ -34,9 +34,8 @@ TEST(TwoLegs, WalkInAntiphase) {
 // A leg that stands in place of walking does not carry the other one along.
 TEST(TwoLegs, BothMakeTheSpeed) {
   const analysis::Summary both = summary_of("walk-two-legs");
-  const analysis::Summary lame =
-      summary_of("walk-two-legs", {"plan={ stand = { phases = [\"propulsion\"] } }",
-                                   "leg.right.plan=stand"});
+  const analysis::Summary lame = summary_of(
+      "walk-two-legs", {"plan={ stand = { phases = [\"propulsion\"] } }", "leg.right.plan=stand"});
   EXPECT_LT(figure(lame, "trolley.distance_m"), 0.5 * figure(both, "trolley.distance_m"));
 }
 

@@ -1,6 +1,6 @@
-// plant/planar/body_mechanism.h - any planar machine: chains and trees of up to eight joints, driven
-// or passive, a body that a cylinder lifts, cams of any shape, muscles across two joints, feet of
-// several discs.
+// plant/planar/body_mechanism.h - any planar machine: chains and trees of up to eight joints,
+// driven or passive, a body that a cylinder lifts, cams of any shape, muscles across two joints,
+// feet of several discs.
 //
 //   body.h   equations of motion, dense      rubs.h     friction and the discs on the ground
 //   cords.h  routes of the muscles           rollers.h  what the trolley rests on
