@@ -80,7 +80,7 @@ void check_rig(const std::string& path, Finding& out) {
   tell_of_sources(e.unsourced, out);
 }
 
-// What breaks and when; and what breaks only after the run's end.
+// Tells what breaks and when, and warns of what breaks only after the run has ended.
 void tell_of_faults(const experiment::Experiment& e, Finding& out) {
   for (std::size_t i = 0; i < e.faults.size(); ++i) {
     out.faults.push_back(experiment::in_words(e.faults[i]));

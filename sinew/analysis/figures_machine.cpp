@@ -102,15 +102,15 @@ void add_supervision(Figures& f) {
     f.summary.add("low_level.tripped_time_s", f.record.time(static_cast<std::size_t>(first)));
 }
 
-// Adds what has gone into the machine's air and out of it, and what of that its air does not show:
-// only rounding. Of a run that logs all of its air.
+// Adds the air that has gone into the machine and out of it, what it has grown by, and the rounding
+// between the two, for a run that logs all of its air.
 void add_air_balance(Figures& f) {
   const auto gained = [&](const std::string& topic) {
     const Column c = f.record.column(topic);
     return c.empty() ? 0.0 : c.back() - c.front();
   };
   if (f.record.column("/true/air/mass").empty()) return;
-  // What a tank gives stays in the machine, but for what passes it.
+  // A tank is a part of the machine: only air that passes it enters.
   const bool tank = !f.record.column("/true/supply/tank_pressure").empty();
   double entered = gained("/true/supply/air_past_tank"), left = 0, leaked = 0;
   const auto add = [&](const std::string& at) {

@@ -23,17 +23,18 @@ void amount_field(Visitor& v, Fault& fault) {
            fault.amount);
 }
 
-// How much leaks, and where to.
+// The size of a leak.
 template <class Visitor>
 void leak_fields(Visitor& v, Fault& fault) {
   v.number({.name = "area",
             .unit = "m2",
             .min = 0,
-            .max = 1e-2,
+            .max = 1e-3,
             .least = 1e-15,
-            .why = "a hole as wide as a hand",
+            .why = "no muscle is wider",
             .optional = true,
-            .doc = "of the hole, effective; ruptured, absent: the cross-section of one actuator"},
+            .doc = "of the hole, effective; ruptured, absent: a tenth of the cross-section of one "
+                   "actuator"},
            fault.area);
   if (fault.what == Fault::What::ruptured) return;
   v.number({.name = "conductance",
@@ -56,7 +57,7 @@ void leak_fields(Visitor& v, Fault& fault) {
                     "area = \"0.1 mm2\"");
 }
 
-// What a fault of the air has beside its part and its times.
+// The keys of a fault of the air beside its part and its times.
 template <class Visitor>
 void air_fields(Visitor& v, Fault& fault) {
   using What = Fault::What;

@@ -36,13 +36,13 @@ struct Fault {
   double amount = robot::not_set;  // offset, slip, noise [count]; dropout: share of them [-]
 
   double area =
-      robot::not_set;      // leaking, ruptured: of the hole; not set: none, or the bore's [m^2]
+      robot::not_set;      // leaking, ruptured: of the hole; not set: none, or its default [m^2]
   double conductance = 0;  // leaking: mass flow per pressure difference [kg/(s Pa)]
   double share = 0;        // leaking: of a valve's area, that stays open [-]
   double pressure = robot::not_set;  // failed: of the line, absolute; not set: the room's [Pa]
 };
 
-// Is it a sensor's?
+// Answers whether a word is one of the sensors'.
 constexpr bool is_of_sensor(Fault::What what) { return what < Fault::What::stuck_open; }
 
 // Does it take an amount, and in which unit? "" : none.

@@ -20,6 +20,8 @@ namespace {
 using What = Fault::What;
 using List = std::vector<robot::Contradiction>;
 
+constexpr double widest_seat = 1e-5;  // [m^2]
+
 struct Word {
   What what;
   std::string_view text;
@@ -96,7 +98,7 @@ std::vector<Part> parts_of(const Experiment& e) {
   return out;
 }
 
-// The part of that name, of several the one that the fault's word is for.
+// Returns the part of that name, of several the one that the fault's word is for.
 std::optional<Part> part_of(const Fault& fault, const std::vector<Part>& parts) {
   std::optional<Part> out;
   for (const Part& p : parts)
@@ -153,11 +155,12 @@ void check_overlaps(const Experiment& e, List& out) {
     }
 }
 
-// The cross-section of one actuator at its mount length  [m^2].
-double bore_of(const Experiment& e, const robot::Muscle& m) {
+// Returns a tenth of the cross-section of one actuator at its mount length: a tear that the braid
+// holds together, a guess  [m^2].
+double tear_of(const Experiment& e, const robot::Muscle& m) {
   const actuator::Actuator a = robot::actuator_of(m, e.actuators);
   const double d = actuator::diameter(a.braid, m.mount_length - a.caps.length);
-  return 0.25 * std::numbers::pi * d * d;
+  return 0.1 * (0.25 * std::numbers::pi * d * d);
 }
 
 double or_none(double x) { return std::isfinite(x) ? x : 0.0; }
@@ -179,7 +182,7 @@ muscle::AirFault air_fault(const Experiment& e, const Fault& f, const Part& part
   if (f.what == What::ruptured) {
     out.what = To::hole;
     if (!(f.area > 0))
-      out.leak.area = bore_of(e, e.robot.muscles[static_cast<std::size_t>(part.index)]);
+      out.leak.area = tear_of(e, e.robot.muscles[static_cast<std::size_t>(part.index)]);
   }
   return out;
 }
@@ -211,6 +214,11 @@ void check_faults(const Experiment& e, List& out) {
       out.push_back({key + ".share", config::format_number(f.share),
                      "no share, as " + f.of + " is a muscle and has no seat",
                      "an area or a conductance"});
+    } else if (part->kind == Part::Kind::valve && f.area > widest_seat) {
+      out.push_back({key + ".area", config::format_quantity(f.area, "m2", "mm2"),
+                     "at most " + config::format_quantity(widest_seat, "m2", "mm2") +
+                         ", as no seat of a valve is wider",
+                     "share = \"100 %\""});
     } else if (part->kind == Part::Kind::supply && e.robot.cylinder.present &&
                e.robot.cylinder.mode == robot::Cylinder::Mode::regulator) {
       out.push_back({key + ".of", "the supply of a cylinder behind a regulator",

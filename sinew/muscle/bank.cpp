@@ -73,8 +73,8 @@ void Bank::move(double t, Valves& valves) const noexcept {
   refresh(t, valves);
 }
 
-// What the shutter leaves open of the way that it is in. A 3-way valve that leaves the supply opens
-// to the atmosphere.
+// Returns the open share of the valve's area, its seat being sound: the shutter's, or of the other
+// way of a 3-way valve, which opens to the atmosphere when it leaves the supply.
 double Bank::fraction(int valve, double t, const Valves& valves) const noexcept {
   const auto v = static_cast<std::size_t>(valve);
   const bool other_way =

@@ -1,4 +1,4 @@
-// muscle/fault.h - what of a machine's air breaks, and when: inputs of the air, as its valves are.
+// muscle/fault.h - faults of a machine's air and their times: inputs of the air, as its valves are.
 //
 //   stuck_open, stuck_shut  the valve stands there, whatever its coil says; a 3-way valve joins its
 //                           muscle to the supply or to the room
@@ -38,7 +38,7 @@ struct AirFault {
   bool of_valve() const { return what <= What::seat_leak; }
 };
 
-// Can a bank hold it? It moves shares of valves' areas, and nothing else.
+// Answers whether a bank holds it: a fault that moves the share of a valve's area, nothing else.
 inline bool is_share_of_valve(const AirFault& f) {
   return f.of_valve() && !(f.leak.area > 0) && !(f.leak.conductance > 0);
 }

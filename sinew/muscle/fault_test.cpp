@@ -1,4 +1,4 @@
-// What breaks in the air: what each fault does, that no air is made or lost by it, and that a
+// Each fault of the air does what it says, no air is made or lost by it, and a
 // machine without one, or before one, is what it was.
 #include "sinew/muscle/fault.h"
 
@@ -52,8 +52,8 @@ TEST(FaultSchedule, RefusesWhatItCannotHold) {
   EXPECT_FALSE(needs_plumbing(std::vector{bundle(0)}, {}, {}, {}, seats));
 }
 
-// Some fault of each kind on any part, at any time, for a while or for good, over the plumbing that
-// has everything. Faults of one part may follow each other, or come at once.
+// Returns faults of each kind on any part, at any time, for a while or for good, of the plumbing
+// that has everything. Faults of one part may follow each other, or come at once.
 std::vector<AirFault> any_faults(std::mt19937& random) {
   std::uniform_real_distribution<double> begins(0, 0.5), lasts(1e-3, 0.2);
   const auto pick = [&](int count) {
@@ -172,7 +172,7 @@ TEST(Faults, ARupturedMuscleGoesToTheRoomsPressure) {
   EXPECT_NEAR(hand.now.pressure[0], machine.air.atmosphere, 1);
 }
 
-// As gas/leak.h says of a rigid chamber, isothermal and choked: P = P_0 exp(-t K R T/V), m' = K P.
+// A rigid chamber, isothermal and choked, empties by gas/leak.h: P = P_0 exp(-t K R T/V), m' = K P.
 TEST(Faults, AHoleEmptiesAsItsLawSays) {
   const Broken machine;
   const double area = 3e-8, begin = 0.0123456789;
@@ -295,7 +295,7 @@ TEST(Faults, ASeatLeaksByItsShareOrByALawOfItsOwn) {
   EXPECT_NEAR(inflow({.what = What::seat_leak, .share = 0.25}, true) / whole, 1, 1e-12);
 }
 
-// To the bit, with the lists in the model.
+// A list in the model changes no bit before its first instant.
 TEST(Faults, BeforeItsTimeAFaultIsNone) {
   std::mt19937 random(9);
   std::vector<AirFault> faults = any_faults(random);

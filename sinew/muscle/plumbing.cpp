@@ -73,8 +73,8 @@ void Plumbing::move(double t, const AirPull& before, Valves& valves) const noexc
   refresh(t, valves);
 }
 
-// What the shutter leaves open of the way that it is in. A 3-way valve that leaves the supply opens
-// to the atmosphere.
+// Returns the open share of the valve's area, its seat being sound: the shutter's, or of the other
+// way of a 3-way valve, which opens to the atmosphere when it leaves the supply.
 double Plumbing::fraction(std::size_t v, double t, const Valves& valves) const noexcept {
   const bool other_way = v % 2 == 1 && taps_[v].valve.kind == Kind::three_way;
   return other_way ? 1.0 - valves[v - 1].shutter.fraction(t) : valves[v].shutter.fraction(t);

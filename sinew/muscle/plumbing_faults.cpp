@@ -1,4 +1,4 @@
-// muscle/plumbing_faults.cpp - what of a plumbing breaks: fault.h has the list.
+// muscle/plumbing_faults.cpp - how a plumbing breaks: fault.h has the list of faults.
 #include "sinew/muscle/plumbing.h"
 
 namespace sinew::muscle {
@@ -6,7 +6,7 @@ namespace {
 
 using What = AirFault::What;
 
-// kg/(s Pa), near equal pressures.
+// Returns the slope of a leak's flow near equal pressures  [kg/(s Pa)].
 double slope_of(const gas::LeakConstants& leak, double atmosphere) {
   return (leak.hole.linear_gain + leak.slope) / atmosphere;
 }
@@ -48,7 +48,7 @@ bool Plumbing::let_through(const ActingFaults& faults) const noexcept {
   return any;
 }
 
-// Beside a valve's shutter  [kg/s].
+// Returns the flow beside a valve's shutter  [kg/s].
 double Plumbing::past_seat(int valve, const Now& now, double y_from, double y_to) const noexcept {
   double flow = 0;
   faults_.each(now.valves.faults, [&](std::size_t k, const AirFault& f) {
@@ -58,7 +58,7 @@ double Plumbing::past_seat(int valve, const Now& now, double y_from, double y_to
   return flow;
 }
 
-// Out of muscle i into the room  [kg/s].
+// Returns the flow out of muscle i into the room, through what is broken  [kg/s].
 double Plumbing::through_holes(int i, const Now& now, double y) const noexcept {
   double flow = 0;
   faults_.each(now.valves.faults, [&](std::size_t k, const AirFault& f) {
@@ -76,8 +76,8 @@ bool Plumbing::blocked(int i, const Valves& valves) const noexcept {
   return is;
 }
 
-// y of the line to the inlets, whose pressure goes into the look, where the supply has failed; 0
-// where it has not  [-].
+// Returns y of the line to the inlets where the supply has failed, whose pressure goes into the
+// look; 0 where it has not  [-].
 double Plumbing::failed_line(const Valves& valves, AirPull& out) const noexcept {
   double y = 0;
   faults_.each(valves.faults, [&](std::size_t k, const AirFault& f) {
@@ -88,8 +88,8 @@ double Plumbing::failed_line(const Valves& valves, AirPull& out) const noexcept 
   return y;
 }
 
-// Of what leaks out of muscle `pair`, and past the seats of a pair of valves, near equal pressures
-// [kg/(s Pa)].
+// Returns the slope of all that leaks out of muscle `pair`, and past the seats of its pair of
+// valves, near equal pressures  [kg/(s Pa)].
 double Plumbing::slope_of_faults(int pair, const ActingFaults& faults) const noexcept {
   double slope = 0;
   faults_.each(faults, [&](std::size_t k, const AirFault& f) {

@@ -154,7 +154,9 @@ TEST(Faults, AmountsOfTheAirAreChecked) {
   EXPECT_THAT(refused(of_air("supply", "failed", "pressure = \"3 bar\"\n")),
               HasSubstr("fault[0].pressure"));
   EXPECT_THAT(refused(of_air("flexor", "ruptured", "area = \"2 m2\"\n")),
-              HasSubstr("a hole as wide as a hand"));
+              HasSubstr("no muscle is wider"));
+  EXPECT_THAT(refused(of_air("flexor.inlet", "leaking", "area = \"1 cm2\"\n")),
+              HasSubstr("found 100 mm2; expected at most 10 mm2"));
 }
 
 TEST(Faults, OnePartOfTheAirBreaksOnceAtATime) {

@@ -64,6 +64,34 @@ TEST(TwoLegs, LawsAreThoseOfTheLeg) {
   EXPECT_EQ(two.truncation, one.truncation);
 }
 
+// Legs of three joints: each with the ankle and the shoe of robots/leg-with-ankle, six joints and
+// four discs in all.
+TEST(TwoLegs, WalkOnAnkles) {
+  std::vector<std::string> sets{
+      "foot.mass=0 lb",
+      "foot.point={ heel = { along = \"-0.8 in\", across = \"-0.495 in\", radius = \"0.25 in\" }, "
+      "toe = { along = \"0.8 in\", across = \"-0.495 in\", radius = \"0.25 in\" } }"};
+  for (const std::string leg : {"left", "right"}) {
+    sets.push_back("link." + leg + "_foot={ parent = \"" + leg +
+                   "_tibia\", length = \"1 in\", mass = \"0.1 lb\", center_of_mass = \"0.3 in\", "
+                   "inertia = \"0.05 lb in2\" }");
+    sets.push_back("joint." + leg +
+                   "_ankle={ kind = \"passive\", rest_angle = \"90 deg\", dry_friction = \"0.1 lbf "
+                   "in\", damping = \"0.1 lbf in s/rad\", spring = \"5 lbf in/rad\", spring_angle "
+                   "= \"90 deg\" }");
+    sets.push_back("leg." + leg + ".joints=[\"" + leg + "_hip\", \"" + leg + "_knee\", \"" + leg +
+                   "_ankle\"]");
+    sets.push_back("start.joint_angles." + leg + "_ankle=125 deg");
+  }
+  const analysis::Summary s = summary_of("walk-two-legs", sets);
+  EXPECT_GT(figure(s, "trolley.mean_speed_m_per_s") / inch, 3.7);
+  for (const char* leg : {"legs.left.foot.", "legs.right.foot."}) {
+    EXPECT_GE(figure(s, (leg + std::string("loaded_share_true")).c_str()), 0.35);
+    EXPECT_GT(figure(s, (leg + std::string("heel.peak_load_true_N")).c_str()), 10);
+    EXPECT_GT(figure(s, (leg + std::string("toe.peak_load_true_N")).c_str()), 10);
+  }
+}
+
 // The air of each leg's muscles beside the other's: the same legs half a step apart use the same.
 TEST(TwoLegs, ShareTheWork) {
   const analysis::Summary s =

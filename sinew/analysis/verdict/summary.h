@@ -17,7 +17,7 @@ struct Entry {
   double value = 0;
 };
 
-// What was broken on purpose, by the list [[fault]].
+// A part that was broken on purpose, by the list [[fault]].
 struct MachineFault {
   std::string of, what;       // "hip_flexor.inlet", "stuck open"
   double begin = 0, end = 0;  // no end: infinite [s]

@@ -8,6 +8,7 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/report/page/pose.h"
 #include "sinew/report/page/test_run.h"
+#include "sinew/robot/legs.h"
 
 namespace sinew::report {
 namespace {
@@ -142,6 +143,44 @@ TEST(Scene, PutsTheForceBetweenDiscsByTheirLoads) {
       return d.at(tibia.x, row) + 0.1 * std::cos(h) - across * std::sin(h);
     };
     EXPECT_NEAR(d.at(d.scene.feet.at(0).contact, row), 0.75 * x(-0.04) + 0.25 * x(0.04), 1e-12);
+  }
+}
+
+// Two legs on one body, the second one 0.2 m ahead: the figures of each leg as if it were alone.
+TEST(Scene, DrawsEveryLeg) {
+  analysis::Machine m = test::machine();
+  m.robot = robot::test::two_legs();
+  m.robot.links[2].at = 0.2;
+  signals::Table table;
+  for (const std::string leg : {"left", "right"})
+    for (signals::Series& s : test::walking(test::machine()).series) {
+      const bool of_body = s.topic.name.find("/trolley/") != s.topic.name.npos;
+      if (of_body && leg == "right") continue;
+      if (!of_body) s.topic.name = robot::topic_of_leg(leg, s.topic.name);
+      if (leg == "right" && s.topic.name.ends_with("hip/angle"))
+        for (double& angle : s.columns[0]) angle += 0.3;
+      table.series.push_back(std::move(s));
+    }
+  const Drawn d(m, table);
+  ASSERT_EQ(d.scene.feet.size(), 2u);
+  ASSERT_EQ(d.scene.frames.size(), 5u);
+  EXPECT_EQ(d.scene.muscles.size(), 8u);
+  EXPECT_EQ(d.scene.discs.size(), 2u);
+  EXPECT_EQ(d.scene.feet[0].at, 0);
+  EXPECT_EQ(d.scene.feet[1].at, 0.2);
+  EXPECT_EQ(d.scene.feet[1].force.topic, "/true/leg/right/foot/force");
+  EXPECT_EQ(d.scene.muscles[4].pressure.topic, "/true/leg/right/muscle/hip_flexor/pressure");
+  const robot::TwoLinks links = robot::two_links(robot::only_leg(m.robot, 1));
+  for (std::size_t row = 0; row < d.record.rows(); row += 11) {
+    const double hip = (*d.table.column("/true/leg/right/joint/hip/angle"))[row];
+    const double knee = (*d.table.column("/true/leg/right/joint/knee/angle"))[row];
+    const double trolley = (*d.table.column("/true/trolley/position"))[row];
+    const Point foot = robot::foot_position(links, hip, knee);
+    const Frame& tibia = d.scene.frames[4];
+    const double heading = d.at(tibia.heading, row);
+    EXPECT_NEAR(d.at(tibia.x, row) + links.l2 * std::cos(heading), trolley + 0.2 + foot.x, 1e-12);
+    EXPECT_NEAR(d.at(tibia.y, row) + links.l2 * std::sin(heading), foot.y, 1e-12);
+    EXPECT_NEAR(d.at(d.scene.feet[1].contact, row), trolley + 0.2 + foot.x, 1e-12);
   }
 }
 

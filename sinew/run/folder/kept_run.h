@@ -65,7 +65,7 @@ class KeptRun {
   Notices notices_;
   experiment::Experiment experiment_;
   std::string resolved_;
-  run::LoggedTopics logged_;
+  LoggedTopics logged_;
   std::optional<OutputFolder> folder_;
   std::optional<RunLog> log_;
 };

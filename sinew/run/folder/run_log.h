@@ -26,13 +26,13 @@ class RunLog {
  public:
   // Throws log::Error where the file cannot be made. `name` and `seed` are the experiment's.
   RunLog(const std::filesystem::path& file, const std::string& name, int seed,
-         const std::string& resolved, run::LoggedTopics logged);
+         const std::string& resolved, LoggedTopics logged);
 
   // Writes a table that is there already, in the order of its times.
   void write(const signals::Table& table);
 
   // Makes a run of these options write to the log, which must outlive the run.
-  void tap(run::RunOptions& options);
+  void tap(RunOptions& options);
 
   // Indexes the file. Without it, the file is one that was cut off. `resolved`: what was run after
   // all, which may be the constructor's. `ended`: why the run was not finished; empty where it was.
@@ -43,7 +43,7 @@ class RunLog {
 
   std::string name_;
   int seed_;
-  run::LoggedTopics logged_;
+  LoggedTopics logged_;
   log::Writer writer_;
 };
 

@@ -20,7 +20,7 @@ void true_joint_columns(const robot::Robot& robot, Columns& out) {
   }
 }
 
-// By its description, or by a fault.
+// Answers whether a muscle leaks, by its description or by a fault.
 bool leaks(const experiment::Experiment& e, const robot::Muscle& m) {
   using What = experiment::Fault::What;
   return m.leak.area > 0 || m.leak.conductance > 0 ||
@@ -51,7 +51,8 @@ void true_muscle_columns(const experiment::Experiment& e, Columns& out) {
   }
 }
 
-// By the list [[fault]], part by part. What breaks in the air may break for less than a sample.
+// Adds a column for each part that the list [[fault]] names. A part of the air may be broken for
+// less than a sample.
 void true_fault_columns(const experiment::Experiment& e, Columns& out) {
   std::vector<std::string> done;
   for (const experiment::Fault& first : e.faults) {
@@ -78,7 +79,7 @@ void true_fault_columns(const experiment::Experiment& e, Columns& out) {
   }
 }
 
-// All of the machine's air, for its balance: where something may break that lets air in or out.
+// Adds all of the machine's air, for its balance, where something of the air may break.
 void true_air_columns(const experiment::Experiment& e, Columns& out) {
   if (std::ranges::all_of(e.faults,
                           [](const experiment::Fault& f) { return is_of_sensor(f.what); }))
