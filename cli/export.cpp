@@ -6,8 +6,8 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
-#include "sinew/analysis/derived.h"
-#include "sinew/analysis/machine.h"
+#include "sinew/analysis/record/derived.h"
+#include "sinew/analysis/record/machine.h"
 #include "sinew/config/compose.h"
 #include "sinew/experiment/globs.h"
 #include "sinew/log/csv.h"

@@ -7,7 +7,7 @@
 #include "cli/command.h"
 #include "cli/json_text.h"
 #include "cli/terminal.h"
-#include "sinew/analysis/edges.h"
+#include "sinew/analysis/measures/edges.h"
 #include "sinew/log/reader.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/simulation/run.h"

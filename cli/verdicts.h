@@ -1,7 +1,7 @@
 // cli/verdicts.h - what is reported of a run beside what came out, for people.
 #pragma once
 
-#include "sinew/analysis/machine.h"
+#include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/analysis/summary.h"
 

@@ -32,7 +32,10 @@ layers='
     identify/valve  identify/data gas signals
     identify/sensor identify/data robot
     identify/page   identify/fit report
-    analysis        signals robot gas actuator config
+    analysis/verdict   signals config
+    analysis/measures  signals robot gas actuator
+    analysis/record    analysis/verdict analysis/measures signals robot gas actuator config
+    analysis           analysis/record
     report/page     analysis log robot
     report/figures  report/page
     report/compare  report/page

@@ -1,11 +1,11 @@
-#include "sinew/analysis/compare.h"
+#include "sinew/analysis/verdict/compare.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "sinew/analysis/test_log.h"
+#include "sinew/analysis/record/test_log.h"
 
 namespace sinew::analysis {
 namespace {

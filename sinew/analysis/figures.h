@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/machine.h"
-#include "sinew/analysis/record.h"
+#include "sinew/analysis/record/machine.h"
+#include "sinew/analysis/record/record.h"
 #include "sinew/analysis/summary.h"
 
 namespace sinew::analysis {
@@ -58,5 +58,9 @@ void add_machine(Figures&);
 void add_sole(Figures&);  // the discs of a leg's foot
 void add_phases(Figures&);
 void add_supervision(Figures&);
+
+// Adds legs.<name>.* of each leg: joints, muscles, passiveness, foot, ground reaction, air and
+// phases as those of a machine with one leg; and what its foot carries.
+void add_legs(Figures& figures, const signals::Table& table, const signals::Table& derived);
 
 }  // namespace sinew::analysis

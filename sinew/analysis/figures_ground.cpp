@@ -4,9 +4,9 @@
 #include <string>
 
 #include "sinew/analysis/figures.h"
-#include "sinew/analysis/foot.h"
-#include "sinew/analysis/laws.h"
-#include "sinew/analysis/statistics.h"
+#include "sinew/analysis/measures/foot.h"
+#include "sinew/analysis/measures/laws.h"
+#include "sinew/analysis/measures/statistics.h"
 
 namespace sinew::analysis {
 namespace {

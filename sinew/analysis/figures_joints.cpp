@@ -3,9 +3,9 @@
 #include <string>
 
 #include "sinew/analysis/figures.h"
-#include "sinew/analysis/laws.h"
-#include "sinew/analysis/oscillation.h"
-#include "sinew/analysis/statistics.h"
+#include "sinew/analysis/measures/laws.h"
+#include "sinew/analysis/measures/oscillation.h"
+#include "sinew/analysis/measures/statistics.h"
 
 namespace sinew::analysis {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "sinew/analysis/figures.h"
-#include "sinew/analysis/statistics.h"
+#include "sinew/analysis/measures/statistics.h"
 
 namespace sinew::analysis {
 namespace {

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "sinew/analysis/figures.h"
-#include "sinew/analysis/laws.h"
-#include "sinew/analysis/statistics.h"
-#include "sinew/analysis/valves.h"
+#include "sinew/analysis/measures/laws.h"
+#include "sinew/analysis/measures/statistics.h"
+#include "sinew/analysis/measures/valves.h"
 
 namespace sinew::analysis {
 namespace {

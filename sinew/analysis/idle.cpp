@@ -6,8 +6,8 @@
 #include <numbers>
 #include <optional>
 
-#include "sinew/analysis/record.h"
-#include "sinew/analysis/statistics.h"
+#include "sinew/analysis/measures/statistics.h"
+#include "sinew/analysis/record/record.h"
 #include "sinew/analysis/times.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/robot/actuator_of.h"

@@ -1,8 +1,8 @@
 // A robot that does nothing, or that stands where it can go no further, is warned of.
 #include <gtest/gtest.h>
 
+#include "sinew/analysis/record/test_log.h"
 #include "sinew/analysis/summary.h"
-#include "sinew/analysis/test_log.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/units/constants.h"
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/analysis/derived.h"
-#include "sinew/analysis/legs.h"
+#include "sinew/analysis/record/derived.h"
+#include "sinew/analysis/record/legs.h"
+#include "sinew/analysis/record/test_log.h"
 #include "sinew/analysis/summary.h"
-#include "sinew/analysis/test_log.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/robot/legs.h"
 

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <span>
 
-#include "sinew/analysis/reported.fields.h"
+#include "sinew/analysis/verdict/reported.fields.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/config/reader.h"
 

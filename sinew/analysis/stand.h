@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/reported.h"
 #include "sinew/analysis/summary.h"
+#include "sinew/analysis/verdict/reported.h"
 #include "sinew/config/node.h"
 #include "sinew/signals/table.h"
 #include "sinew/units/constants.h"

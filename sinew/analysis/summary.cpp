@@ -1,56 +1,12 @@
 #include "sinew/analysis/summary.h"
 
-#include <cmath>
-#include <nlohmann/json.hpp>
+#include <vector>
 
-#include "sinew/analysis/derived.h"
 #include "sinew/analysis/figures.h"
-#include "sinew/analysis/legs.h"
+#include "sinew/analysis/record/derived.h"
 #include "sinew/analysis/warnings.h"
-#include "sinew/config/quantity.h"
 
 namespace sinew::analysis {
-namespace {
-
-using Json = nlohmann::ordered_json;  // keys stay in the order in which they come
-
-// "a.b.c" becomes { a: { b: { c: value } } }.
-void put(Json& root, std::string_view key, double value) {
-  Json* at = &root;
-  for (std::size_t dot; (dot = key.find('.')) != key.npos; key.remove_prefix(dot + 1))
-    at = &(*at)[std::string(key.substr(0, dot))];
-  (*at)[std::string(key)] = value;
-}
-
-// Our own printing, for numbers with the fewest digits; nlohmann's may have one more.
-std::string text_of(const Json& json, const std::string& indent) {
-  if (json.is_number_float()) return config::format_number(json.get<double>());
-  if (!json.is_structured()) return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  const bool list = json.is_array();
-  if (json.empty()) return list ? "[]" : "{}";
-
-  std::string out = list ? "[" : "{";
-  const char* before = "\n";
-  for (const auto& [key, value] : json.items()) {
-    const std::string name = list ? "" : Json(key).dump() + ": ";
-    out += before + indent + "  " + name + text_of(value, indent + "  ");
-    before = ",\n";
-  }
-  return out + "\n" + indent + (list ? "]" : "}");
-}
-
-}  // namespace
-
-void Summary::add(std::string key, double value) {
-  if (!std::isfinite(value)) return;
-  entries_.push_back({std::move(key), value == 0 ? 0.0 : value});  // no -0
-}
-
-const double* Summary::find(std::string_view key) const {
-  for (const Entry& e : entries_)
-    if (e.key == key) return &e.value;
-  return nullptr;
-}
 
 namespace {
 
@@ -58,15 +14,6 @@ std::vector<MachineFault> faults_within(const Record& record, const Machine& mac
   std::vector<MachineFault> out = machine.faults;
   const double last = record.time(record.rows() - 1);
   std::erase_if(out, [&](const MachineFault& f) { return f.begin > last; });
-  return out;
-}
-
-Json to_json(const std::vector<MachineFault>& faults) {
-  Json out = Json::array();
-  for (const MachineFault& f : faults) {
-    out.push_back({{"of", f.of}, {"what", f.what}, {"begin_s", f.begin}});
-    if (std::isfinite(f.end)) out.back()["end_s"] = f.end;
-  }
   return out;
 }
 
@@ -115,21 +62,6 @@ Summary summarize_trip(const signals::Table& table, const Machine& machine) {
   Figures figures{machine, record, summary};
   add_supervision(figures);
   return summary;
-}
-
-std::string to_json(const Summary& summary, const Host& host) {
-  Json root;
-  root["format"] = "sinew.summary/1";
-  root["title"] = summary.title;
-  if (!summary.reproduces.empty()) root["reproduces"] = summary.reproduces;
-  if (summary.cut_off) root["cut_off"] = true;
-  for (const Entry& e : summary.entries()) put(root, e.key, e.value);
-  if (!summary.faults.empty()) root["faults"] = to_json(summary.faults);
-  if (!summary.warnings.empty()) root["warnings"] = summary.warnings;
-  for (const auto& [key, value] : host.numbers)
-    if (std::isfinite(value)) put(root, "host." + key, value);
-  if (!host.warnings.empty()) root["host"]["warnings"] = host.warnings;
-  return text_of(root, "") + "\n";
 }
 
 }  // namespace sinew::analysis

@@ -1,59 +1,17 @@
-// analysis/summary.h - a run in numbers: summary.json.
-//
-// Keys are dotted, "joints.hip.min_angle_rad", values SI with the unit in the key; what each means
-// stands in docs/analysis.md. A key that does not apply, or whose topics the log lacks, is absent.
-// Means, extremes and shares are over the phases of the sequence; settling and finish are left out.
+// analysis/summary.h - from a log to a run in numbers.
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
-#include "sinew/analysis/machine.h"
+#include "sinew/analysis/record/machine.h"
+#include "sinew/analysis/verdict/summary.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::analysis {
 
-struct Entry {
-  std::string key;
-  double value = 0;
-};
-
-class Summary {
- public:
-  std::string title;
-  std::string reproduces;
-  bool cut_off = false;               // its log was: these are the figures of a part of the run
-  std::vector<std::string> warnings;  // what went on that no figure shows, of the log alone
-  std::vector<MachineFault> faults;   // those that began before the log's end
-
-  // Keys come in a fixed order. What is not finite is not added.
-  void add(std::string key, double value);
-  const double* find(std::string_view key) const;  // nullptr: absent
-  const std::vector<Entry>& entries() const { return entries_; }
-
- private:
-  std::vector<Entry> entries_;
-};
-
+// Returns the figures of a whole run, and its warnings.
 Summary summarize(const signals::Table&, const Machine&);
 
 // Returns the counts and the cause of a run that its supervisor ended, without a whole run's
 // figures.
 Summary summarize_trip(const signals::Table&, const Machine&);
-
-// Numbers that depend on the computer that ran, and warnings of what only the run itself saw and
-// its log does not hold.
-struct Host {
-  std::vector<std::pair<std::string, double>> numbers;
-  std::vector<std::string> warnings;
-};
-
-// summary.json: format, title, cut_off where it is true, the keys as nested objects in the
-// summary's order, `faults` and `warnings` where there are any, `host` last. Numbers have the
-// fewest digits that read back to the same bits. No dates, nothing of the machine that ran but
-// `host`, which comparisons leave out.
-std::string to_json(const Summary&, const Host& host = {});
 
 }  // namespace sinew::analysis

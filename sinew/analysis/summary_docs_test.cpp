@@ -4,8 +4,8 @@
 #include <cmath>
 #include <fstream>
 
+#include "sinew/analysis/record/test_log.h"
 #include "sinew/analysis/summary.h"
-#include "sinew/analysis/test_log.h"
 
 namespace sinew::analysis {
 namespace {

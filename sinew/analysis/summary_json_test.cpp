@@ -6,8 +6,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "sinew/analysis/record/test_log.h"
 #include "sinew/analysis/summary.h"
-#include "sinew/analysis/test_log.h"
 
 namespace sinew::analysis {
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "sinew/analysis/test_log.h"
+#include "sinew/analysis/record/test_log.h"
 
 namespace sinew::analysis {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/machine.h"
+#include "sinew/analysis/record/machine.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::analysis {

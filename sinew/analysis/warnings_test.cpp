@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "sinew/analysis/record/test_log.h"
 #include "sinew/analysis/summary.h"
-#include "sinew/analysis/test_log.h"
 
 namespace sinew::analysis {
 namespace {

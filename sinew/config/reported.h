@@ -1,6 +1,6 @@
 // config/reported.h - a figure that a source reports, as an experiment's [[reported]] says it.
-// Experiments carry it, the analysis judges by it (analysis/reported.h). docs/evidence.md defines
-// classes, wordings and verdicts.
+// Experiments carry it, the analysis judges by it (analysis/verdict/reported.h). docs/evidence.md
+// defines classes, wordings and verdicts.
 #pragma once
 
 #include <initializer_list>
@@ -30,7 +30,7 @@ inline const std::initializer_list<units::Choice<StatementClass>> statement_clas
     {"by construction", StatementClass::by_construction},
     {"code against code", StatementClass::code_against_code}};
 
-// How the source speaks of a figure: its band follows from that alone (analysis/band.h).
+// How the source speaks of a figure: its band follows from that alone (analysis/verdict/band.h).
 enum class Wording {
   another,  // a band of our own, with its reason
   measured,

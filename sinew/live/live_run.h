@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "sinew/analysis/machine.h"
+#include "sinew/analysis/record/machine.h"
 #include "sinew/run/folder/kept_run.h"
 
 namespace sinew::live {

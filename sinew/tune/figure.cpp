@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "sinew/analysis/reported.h"
+#include "sinew/analysis/verdict/reported.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/tune/axis.h"

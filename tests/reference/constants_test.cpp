@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/laws.h"
+#include "sinew/analysis/measures/laws.h"
 #include "sinew/config/quantity.h"
 #include "sinew/control/gait/path.h"
 #include "sinew/experiment/experiment.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/machine.h"
+#include "sinew/analysis/record/machine.h"
 #include "sinew/config/quantity.h"
 #include "sinew/control/gait/path.h"
 #include "sinew/experiment/experiment.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/machine.h"
+#include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/summary.h"
 #include "sinew/config/compose.h"
 #include "sinew/run/simulation/run.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/analysis/statistics.h"
+#include "sinew/analysis/measures/statistics.h"
 #include "sinew/units/constants.h"
 #include "thesis/figures/chapter_6.h"
 

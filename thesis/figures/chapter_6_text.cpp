@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/analysis/laws.h"
-#include "sinew/analysis/oscillation.h"
-#include "sinew/analysis/statistics.h"
+#include "sinew/analysis/measures/laws.h"
+#include "sinew/analysis/measures/oscillation.h"
+#include "sinew/analysis/measures/statistics.h"
 #include "thesis/figures/chapter_6.h"
 
 namespace sinew::thesis {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/analysis/statistics.h"
+#include "sinew/analysis/measures/statistics.h"
 #include "thesis/figures/chapter_6.h"
 
 namespace sinew::thesis {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/analysis/derived.h"
+#include "sinew/analysis/record/derived.h"
 #include "sinew/config/compose.h"
 #include "sinew/report/figures/run_figures.h"
 #include "sinew/run/simulation/run.h"

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/analysis/machine.h"
-#include "sinew/analysis/record.h"
+#include "sinew/analysis/record/machine.h"
+#include "sinew/analysis/record/record.h"
 #include "sinew/analysis/summary.h"
 #include "sinew/report/figures/shown_unit.h"
 #include "sinew/report/page/channels.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sinew/analysis/derived.h"
+#include "sinew/analysis/record/derived.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
 #include "sinew/report/page/content.h"

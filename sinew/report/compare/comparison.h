@@ -5,8 +5,8 @@
 //   fill(comparison_template(), content(c))     the page
 //
 // All runs are held against the first one. Of a channel: how far the samples are apart
-// (analysis/compare.h). A run may be of a machine, of hardware or of the test stand; what is
-// compared is what the first one and another have.
+// (analysis/verdict/compare.h). A run may be of a machine, of hardware or of the test stand; what
+// is compared is what the first one and another have.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/compare.h"
-#include "sinew/analysis/reported.h"
+#include "sinew/analysis/verdict/compare.h"
+#include "sinew/analysis/verdict/reported.h"
 #include "sinew/config/node.h"
 #include "sinew/report/page/charts.h"
 #include "sinew/report/page/page.h"

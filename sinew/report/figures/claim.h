@@ -7,7 +7,7 @@
 //
 // A verdict is always computed, from the curves as they are drawn or from a run's summary. What no
 // number can settle says so and why. Its class says what agreement is worth, its band follows from
-// the wording (analysis/band.h); docs/evidence.md defines both.
+// the wording (analysis/verdict/band.h); docs/evidence.md defines both.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/analysis/band.h"
-#include "sinew/analysis/reported.h"
+#include "sinew/analysis/verdict/band.h"
+#include "sinew/analysis/verdict/reported.h"
 
 namespace sinew::report {
 
@@ -55,7 +55,7 @@ Claim judge(StatementClass statement_class, const Measured& measured);
 // What a number cannot settle, and why.
 Claim not_applicable(std::string where, std::string says, std::string theirs, std::string why);
 
-// A key of a summary that its experiment has judged (analysis/reported.h).
+// A key of a summary that its experiment has judged (analysis/verdict/reported.h).
 Claim claim(const analysis::Verdict& verdict);
 
 // Statements by class and verdict.

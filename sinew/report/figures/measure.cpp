@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sinew/analysis/statistics.h"
+#include "sinew/analysis/measures/statistics.h"
 
 namespace sinew::report {
 namespace {

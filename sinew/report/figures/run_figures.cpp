@@ -7,9 +7,9 @@
 #include <cmath>
 #include <map>
 
-#include "sinew/analysis/derived.h"
-#include "sinew/analysis/machine.h"
-#include "sinew/analysis/record.h"
+#include "sinew/analysis/record/derived.h"
+#include "sinew/analysis/record/machine.h"
+#include "sinew/analysis/record/record.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
 #include "sinew/report/page/panels.h"

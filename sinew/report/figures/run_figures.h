@@ -10,8 +10,8 @@
 #include <limits>
 #include <vector>
 
-#include "sinew/analysis/machine.h"
-#include "sinew/analysis/record.h"
+#include "sinew/analysis/record/machine.h"
+#include "sinew/analysis/record/record.h"
 #include "sinew/report/figures/figure.h"
 #include "sinew/report/figures/shown_unit.h"
 #include "sinew/report/page/page.h"

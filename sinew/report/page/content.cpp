@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "sinew/analysis/derived.h"
+#include "sinew/analysis/record/derived.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/analysis/summary.h"
 #include "sinew/config/compose.h"

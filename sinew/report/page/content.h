@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/machine.h"
-#include "sinew/analysis/record.h"
+#include "sinew/analysis/record/machine.h"
+#include "sinew/analysis/record/record.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/report/page/blob.h"
 #include "sinew/report/page/charts.h"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/analysis/derived.h"
+#include "sinew/analysis/record/derived.h"
 #include "sinew/log/deflate.h"
 #include "sinew/report/page/content.h"
 #include "sinew/report/page/pose.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/machine.h"
+#include "sinew/analysis/record/machine.h"
 #include "sinew/config/node.h"
 #include "sinew/report/page/channels.h"
 #include "sinew/report/page/page.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/machine.h"
-#include "sinew/analysis/record.h"
+#include "sinew/analysis/record/machine.h"
+#include "sinew/analysis/record/record.h"
 #include "sinew/report/page/channels.h"
 
 namespace sinew::report {

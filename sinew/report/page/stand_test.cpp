@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/analysis/test_log.h"
+#include "sinew/analysis/record/test_log.h"
 #include "sinew/config/compose.h"
 #include "sinew/report/page/page.h"
 #include "sinew/report/page/panels.h"

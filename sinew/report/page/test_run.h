@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sinew/analysis/test_log.h"
+#include "sinew/analysis/record/test_log.h"
 
 namespace sinew::report::test {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/analysis/machine.h"
+#include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/summary.h"
 #include "sinew/run/folder/notices.h"
 #include "sinew/run/folder/run_folder.h"

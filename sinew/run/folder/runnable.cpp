@@ -1,6 +1,6 @@
 #include "sinew/run/folder/runnable.h"
 
-#include "sinew/analysis/machine.h"
+#include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
 #include "sinew/run/simulation/logged.h"

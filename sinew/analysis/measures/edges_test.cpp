@@ -1,0 +1,94 @@
+// The place where two trains of edges part is found, be it a time, a direction or an edge too many.
+#include "sinew/analysis/measures/edges.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <stdexcept>
+
+namespace sinew::analysis {
+namespace {
+
+signals::Series train(const std::string& topic, std::mt19937_64& random, int edges) {
+  signals::Series s{{topic, "", {{"value", "1"}}}, {}, {{}}};
+  std::int64_t time = 0;
+  for (int i = 0; i < edges; ++i) {
+    time += 1 + static_cast<std::int64_t>(random() % 5'000'000);
+    s.time_ns.push_back(time);
+    s.columns[0].push_back(i % 2 == 0 ? 1 : 0);
+  }
+  return s;
+}
+
+signals::Table machine(std::mt19937_64& random) {
+  signals::Table out;
+  for (const char* valve : {"/valve/a/inlet/open", "/valve/a/exhaust/open", "/valve/b/inlet/open"})
+    out.series.push_back(train(valve, random, 40));
+  return out;
+}
+
+TEST(CompareEdges, equal_trains_are_equal_and_counted) {
+  std::mt19937_64 random(1);
+  const signals::Table table = machine(random);
+  const EdgeComparison c = compare_edges(table, table);
+  EXPECT_EQ(c.recorded, 120u);
+  EXPECT_EQ(c.replayed, 120u);
+  EXPECT_FALSE(c.first);
+}
+
+TEST(CompareEdges, any_one_change_is_found_where_it_is) {
+  std::mt19937_64 random(2);
+  for (int trial = 0; trial < 200; ++trial) {
+    const signals::Table recorded = machine(random);
+    signals::Table replayed = recorded;
+    signals::Series& s = replayed.series[random() % 3];
+    const std::size_t i = random() % 40;
+    const std::int64_t was = s.time_ns[i];
+    switch (trial % 3) {
+      case 0:
+        s.time_ns[i] -= 1;
+        break;
+      case 1:
+        s.columns[0][i] = 1 - s.columns[0][i];
+        break;
+      default:
+        s.time_ns.erase(s.time_ns.begin() + static_cast<std::ptrdiff_t>(i));
+        s.columns[0].erase(s.columns[0].begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    const EdgeComparison c = compare_edges(recorded, replayed);
+    ASSERT_TRUE(c.first);
+    EXPECT_EQ(c.first->topic, s.topic.name);
+    EXPECT_EQ(c.first->time_ns, trial % 3 == 0 ? was - 1 : was);
+    EXPECT_NE(c.first->recorded, c.first->replayed);
+  }
+}
+
+TEST(CompareEdges, a_log_that_was_cut_off_is_compared_as_far_as_all_of_it_goes) {
+  std::mt19937_64 random(3);
+  const signals::Table whole = machine(random);
+  signals::Table cut = whole;
+  cut.complete = false;
+  const std::int64_t end = whole.series[0].time_ns[20];
+  cut.series.push_back({{"/sensor/s/count", "", {{"value", "count"}}}, {0, end}, {{0, 0}}});
+  for (signals::Series& s : cut.series)
+    while (!s.time_ns.empty() && s.time_ns.back() > end) {
+      s.time_ns.pop_back();
+      s.columns[0].pop_back();
+    }
+  EXPECT_FALSE(compare_edges(cut, whole).first);
+  EXPECT_LT(compare_edges(cut, whole).replayed, 120u);
+  cut.complete = true;
+  EXPECT_TRUE(compare_edges(cut, whole).first);
+}
+
+TEST(CompareEdges, a_valve_that_the_log_lacks_is_an_error) {
+  std::mt19937_64 random(4);
+  const signals::Table all = machine(random);
+  signals::Table fewer = all;
+  fewer.series.pop_back();
+  EXPECT_THROW((void)compare_edges(fewer, all), std::invalid_argument);
+  EXPECT_NO_THROW((void)compare_edges(all, fewer));
+}
+
+}  // namespace
+}  // namespace sinew::analysis

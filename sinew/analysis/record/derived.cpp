@@ -1,0 +1,287 @@
+#include "sinew/analysis/record/derived.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string>
+
+#include "sinew/actuator/stiffness.h"
+#include "sinew/analysis/measures/foot.h"
+#include "sinew/analysis/measures/laws.h"
+#include "sinew/analysis/measures/trolley.h"
+#include "sinew/analysis/record/legs.h"
+#include "sinew/analysis/record/record.h"
+#include "sinew/robot/actuator_of.h"
+#include "sinew/robot/kinematics.h"
+#include "sinew/robot/legs.h"
+
+namespace sinew::analysis {
+namespace {
+
+using Role = robot::Muscle::Role;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// Collects the series; what has no column is left out.
+class Series {
+ public:
+  // Topics as within the leg of that name; empty: the machine's only one.
+  explicit Series(const Record& record, std::string leg = "")
+      : record_(record), leg_(std::move(leg)) {}
+
+  void scalar(const std::string& topic, std::string unit, std::string description, Column values) {
+    if (values.empty()) return;
+    table.series.push_back({{name(topic), std::move(description), {{"value", unit}}},
+                            record_.time_ns(),
+                            {std::move(values)}});
+  }
+  void vector(const std::string& topic, std::string unit, std::string description, Column x,
+              Column y) {
+    if (x.empty() || y.empty()) return;
+    table.series.push_back({{name(topic), std::move(description), {{"x", unit}, {"y", unit}}},
+                            record_.time_ns(),
+                            {std::move(x), std::move(y)}});
+  }
+
+  const std::vector<double>* column(std::string_view topic, std::string_view field) const {
+    return table.column(name(topic), field);
+  }
+
+  signals::Table table;
+
+ private:
+  std::string name(std::string_view topic) const { return robot::topic_of_leg(leg_, topic); }
+
+  const Record& record_;
+  std::string leg_;
+};
+
+// out[i] = of(i) where every column is there, else empty.
+template <class Of, class... Columns>
+Column rowwise(const Record& record, Of of, const Columns&... columns) {
+  if ((columns.empty() || ...)) return {};
+  Column out(record.rows());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = of(i);
+  return out;
+}
+
+bool runs_across(const robot::Muscle& muscle, const robot::Joint& joint) {
+  return muscle.joint == joint.name || muscle.second.joint == joint.name;
+}
+
+// Of every muscle that runs across the joint, by its position; false where a topic is missing.
+bool of_muscles(const Record& record, const Machine& m, const robot::Joint& joint,
+                const std::string& prefix, const std::string& what, std::vector<Column>& out) {
+  out.assign(m.robot.muscles.size(), {});
+  bool any = false;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    if (!runs_across(m.robot.muscles[k], joint)) continue;
+    out[k] = record.column(prefix + m.robot.muscles[k].name + what);
+    if (out[k].empty()) return false;
+    any = true;
+  }
+  return any;
+}
+
+// For a cam that is not round; where the angle is not logged, at rest.
+double angle_in(const Column& angle, const robot::Joint& joint, std::size_t row) {
+  return angle.empty() ? joint.rest_angle : angle[row];
+}
+
+Column measured_torque(const Record& record, const Machine& m, std::size_t joint) {
+  const robot::Joint& at = m.robot.joints[joint];
+  const Column angle = record.column("/joint/" + at.name + "/angle");
+  std::vector<Column> tension;
+  if (!of_muscles(record, m, at, "/muscle/", "/tension", tension)) return {};
+  std::vector<double> now(tension.size(), 0.0);
+  Column out(record.rows());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    for (std::size_t k = 0; k < now.size(); ++k)
+      if (!tension[k].empty()) now[k] = tension[k][i];
+    out[i] =
+        robot::torque_of_muscles(m.robot, static_cast<int>(joint), angle_in(angle, at, i), now);
+  }
+  return out;
+}
+
+// Sum of r^2 dF/dL; what a cam that is not round adds by its slope is left out.
+Column true_joint_stiffness(const Record& record, const Machine& m, std::size_t joint) {
+  const robot::Joint& at = m.robot.joints[joint];
+  const Column angle = record.column("/true/joint/" + at.name + "/angle");
+  std::vector<Column> length, pressure, tension;
+  if (!of_muscles(record, m, at, "/true/muscle/", "/length", length) ||
+      !of_muscles(record, m, at, "/true/muscle/", "/pressure", pressure) ||
+      !of_muscles(record, m, at, "/true/muscle/", "/tension", tension))
+    return {};
+  Column sum(record.rows(), 0.0);
+  for (std::size_t k = 0; k < length.size(); ++k) {
+    if (length[k].empty()) continue;
+    const robot::Muscle& muscle = m.robot.muscles[k];
+    const actuator::Actuator a = robot::actuator_of(muscle, m.actuators);
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] += joint_stiffness(
+          robot::pull_at(muscle, at, angle_in(angle, at, i)), muscle.count,
+          true_stiffness(a, length[k][i], pressure[k][i], m.atmosphere, tension[k][i]));
+  }
+  return sum;
+}
+
+void add_joint(Series& out, const Record& record, const Machine& m, std::size_t joint) {
+  const std::string at = "/joint/" + m.robot.joints[joint].name;
+  const Column angle = record.column(at + "/angle");
+  const Column desired = record.column("/desired" + at + "/angle");
+  const Column error = rowwise(
+      record, [&](std::size_t i) { return turn_between(desired[i], angle[i]); }, angle, desired);
+
+  out.scalar(at + "/torque", "N m", "of the measured tensions", measured_torque(record, m, joint));
+  out.scalar(at + "/error", "rad", "measured - desired angle", error);
+  out.scalar(at + "/oscillation", "rad", "the error without its mean over 0.21 s",
+             high_passed(error, half_window(oscillation_window, record.period())));
+  out.scalar("/true" + at + "/stiffness", "N m/rad", "of true lengths and pressures, [26]",
+             true_joint_stiffness(record, m, joint));
+}
+
+void add_passive(Series& out, const Record& record, const Machine& m) {
+  for (const robot::Muscle& muscle : m.robot.muscles) {
+    const std::string at = "/muscle/" + muscle.name;
+    const Column inlet = record.column(at + "/inlet_duty");
+    const Column exhaust = record.column(at + "/exhaust_duty");
+    out.scalar(at + "/passive", "1", "share of the period with both valves shut, as commanded",
+               rowwise(
+                   record, [&](std::size_t i) { return passive(m, muscle, inlet[i], exhaust[i]); },
+                   inlet, exhaust));
+  }
+}
+
+void add_leg(Series& out, const Record& record, const Machine& m) {
+  const robot::TwoLinks links = robot::two_links(m.robot);
+  const Column hip = record.column("/joint/" + m.robot.joints[0].name + "/angle");
+  const Column knee = record.column("/joint/" + m.robot.joints[1].name + "/angle");
+  const Column t1 = measured_torque(record, m, 0), t2 = measured_torque(record, m, 1);
+
+  const auto position = [&](std::size_t i) { return robot::foot_position(links, hip[i], knee[i]); };
+  const auto force = [&](std::size_t i) {
+    const auto f = robot::ground_reaction(links, hip[i], knee[i], {t1[i], t2[i]});
+    return f.singular ? robot::Point{none, none} : f.force;
+  };
+  const auto x = [](const auto& point) { return [&](std::size_t i) { return point(i).x; }; };
+  const auto y = [](const auto& point) { return [&](std::size_t i) { return point(i).y; }; };
+
+  out.vector("/foot/position", "m", "of the ankle, of the measured angles [61], [62]",
+             rowwise(record, x(position), hip, knee), rowwise(record, y(position), hip, knee));
+  out.vector("/foot/force", "N", "on the foot by the ground, of the measured torques [75]",
+             rowwise(record, x(force), hip, knee, t1, t2),
+             rowwise(record, y(force), hip, knee, t1, t2));
+}
+
+// The rows in which the friction force of [75] counts.
+std::vector<bool> stance_rows(const Record& record) {
+  std::vector<bool> out(record.rows());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = record.stance()[i] > 0;
+  return out;
+}
+
+// The same and on into the swing while the normal force of [75] goes on pushing.
+std::vector<bool> loaded_rows(const Record& record, const Column& normal) {
+  std::vector<bool> out(record.rows());
+  bool loaded = true;  // a leg that starts on the ground
+  for (std::size_t i = record.first_row(); i <= record.last_row(); ++i) {
+    loaded = record.stance()[i] > 0 || (loaded && normal[i] > 0);
+    out[i] = loaded;
+  }
+  return out;
+}
+
+// The trolley is pushed by the friction forces of [75], as long as they count.
+struct Pushes {
+  Column by_plan, loaded;  // [N]
+};
+
+void add_push(Column& sum, const Column& push, const std::vector<bool>& counts) {
+  const bool first = sum.empty();
+  if (first) sum = push;
+  for (std::size_t i = 0; i < push.size(); ++i) {
+    const double now = counts[i] ? push[i] : 0.0;
+    sum[i] = first ? now : sum[i] + now;
+  }
+}
+
+// 6.3: the friction force in stance, nothing but drag otherwise; of several legs the sum.
+void add_pushes(const Series& of_leg, const Record& record, Pushes& sum) {
+  const std::vector<double>* x = of_leg.column("/foot/force", "x");
+  const std::vector<double>* y = of_leg.column("/foot/force", "y");
+  if (!x || !record.has_sequence()) return;
+  add_push(sum.by_plan, *x, stance_rows(record));
+  add_push(sum.loaded, *x, loaded_rows(record, *y));
+}
+
+void add_motion(Series& out, const Record& record, const robot::Trolley& trolley,
+                const Column& push, const std::string& topic, const std::string& what) {
+  TrolleyMotion motion =
+      integrate(push, record.run(), trolley.drag, trolley.total_mass, record.first_row());
+  out.scalar(topic + "/position", "m", what, std::move(motion.position));
+  out.scalar(topic + "/velocity", "m/s", what, std::move(motion.velocity));
+}
+
+void add_trolley(Series& out, const Record& record, const Machine& m, const Pushes& push) {
+  const robot::Trolley& trolley = m.robot.trolley;
+  if (!trolley.present || !(trolley.total_mass > 0) || push.loaded.empty()) return;
+  add_motion(out, record, trolley, push.by_plan, "/trolley/by_plan",
+             "of /foot/force in stance by plan, and drag");
+  add_motion(out, record, trolley, push.loaded, "/trolley",
+             "of /foot/force until the foot is unloaded, and drag");
+}
+
+void add_slip(Series& out, const Record& record, const Machine& m) {
+  std::array<Column, 2> angle, rate;
+  for (std::size_t j = 0; j < 2; ++j) {
+    const std::string at = "/true/joint/" + m.robot.joints[j].name;
+    angle[j] = record.column(at + "/angle");
+    rate[j] = record.column(at + "/velocity");
+  }
+  Column trolley = record.column("/true/trolley/velocity");
+  if (!m.robot.trolley.present) trolley.assign(record.rows(), 0.0);
+  const robot::TwoLinks links = robot::two_links(m.robot);
+  const auto slip = [&](std::size_t i) {
+    return slip_velocity(links, {angle[0][i], angle[1][i]}, {rate[0][i], rate[1][i]},
+                         m.robot.foot.radius, trolley[i]);
+  };
+  out.scalar("/true/foot/slip", "m/s", "of the foot's lowest point along the ground",
+             rowwise(record, slip, angle[0], angle[1], rate[0], rate[1], trolley));
+}
+
+// All of one leg but what the trolley does.
+void add_one(Series& out, const Record& record, const Machine& machine) {
+  for (std::size_t j = 0; j < machine.robot.joints.size(); ++j) add_joint(out, record, machine, j);
+  add_passive(out, record, machine);
+  if (has_leg(machine)) add_leg(out, record, machine);
+}
+
+}  // namespace
+
+signals::Table derive(const signals::Table& table, const Machine& machine) {
+  const Record record(table, machine);
+  Series out(record);
+  Pushes pushes;
+  const auto add = [&](Series& series, const Record& its, const Machine& leg) {
+    add_one(series, its, leg);
+    if (has_leg(leg)) add_pushes(series, its, pushes);
+  };
+  std::vector<MachineLeg> legs = legs_of(machine);
+  if (legs.empty()) add(out, record, machine);
+  for (const MachineLeg& leg : legs) {
+    const Record its(table, leg.machine, nullptr, leg.name);
+    Series series(its, leg.name);
+    add(series, its, leg.machine);
+    if (has_leg(leg.machine)) add_slip(series, its, leg.machine);
+    std::ranges::move(series.table.series, std::back_inserter(out.table.series));
+  }
+  add_trolley(out, record, machine, pushes);
+  if (legs.empty() && has_leg(machine)) add_slip(out, record, machine);
+  out.table.complete = table.complete;
+  return std::move(out.table);
+}
+
+}  // namespace sinew::analysis

@@ -1,0 +1,245 @@
+#include "sinew/analysis/verdict/compare.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "sinew/signals/tick.h"
+
+namespace sinew::analysis {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t half_tick = signals::tick_nanoseconds / 2;
+
+std::size_t within(const std::vector<std::int64_t>& times, std::int64_t from, std::int64_t to) {
+  const auto first = std::ranges::lower_bound(times, from);
+  const auto last = std::ranges::upper_bound(times, to);
+  return last > first ? static_cast<std::size_t>(last - first) : 0;
+}
+
+Meetings meet_together(Recording a, Recording b) {
+  Meetings out{Meeting::together, {}, {}};
+  std::size_t i = 0, k = 0;
+  while (i < a.time_ns->size() && k < b.time_ns->size()) {
+    const std::int64_t ta = (*a.time_ns)[i], tb = (*b.time_ns)[k];
+    if (std::abs(tb - ta) > half_tick) {
+      ++(ta < tb ? i : k);
+      continue;
+    }
+    out.time_ns.push_back(ta);
+    out.difference.push_back((*b.values)[k++] - (*a.values)[i++]);
+  }
+  return out;
+}
+
+// At `t`, which lies within `from`'s times; `k` is where the search goes on.
+double straight_at(Recording from, std::int64_t t, std::size_t& k) {
+  const auto& time = *from.time_ns;
+  while (k + 1 < time.size() && time[k + 1] <= t) ++k;
+  const double before = (*from.values)[k];
+  if (time[k] == t || k + 1 == time.size()) return before;
+  const double share =
+      static_cast<double>(t - time[k]) / static_cast<double>(time[k + 1] - time[k]);
+  return before + share * ((*from.values)[k + 1] - before);
+}
+
+Meetings meet_between(Recording sparse, Recording dense, double sign) {
+  Meetings out{Meeting::between, {}, {}};
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < sparse.time_ns->size(); ++i) {
+    const std::int64_t t = (*sparse.time_ns)[i];
+    if (t < dense.time_ns->front() || t > dense.time_ns->back()) continue;
+    out.time_ns.push_back(t);
+    out.difference.push_back(sign * (straight_at(dense, t, k) - (*sparse.values)[i]));
+  }
+  return out;
+}
+
+// An edge's value at `t`; `k` edges are over.
+double held_at(Recording edges, std::int64_t t, std::size_t& k) {
+  while (k < edges.time_ns->size() && (*edges.time_ns)[k] <= t) ++k;
+  return k > 0 ? (*edges.values)[k - 1] : 0.0;
+}
+
+bool same_samples(Recording a, Recording b) {
+  const auto same_bits = [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  };
+  return *a.time_ns == *b.time_ns && std::ranges::equal(*a.values, *b.values, same_bits);
+}
+
+double span_of(Recording a, Recording b) {
+  double low = none, high = none;
+  for (const auto* values : {a.values, b.values})
+    for (const double v : *values) {
+      if (!std::isfinite(v)) continue;
+      if (!(v >= low)) low = v;
+      if (!(v <= high)) high = v;
+    }
+  return high > low ? high - low : 0;
+}
+
+// `weight` of each meeting: 1, or how long it lasts.
+template <class Weight>
+Difference summed(Recording a, Recording b, const Meetings& met, Weight weight) {
+  Difference out{.how = met.how, .same = same_samples(a, b), .span = span_of(a, b)};
+  double sum = 0, all = 0;
+  for (std::size_t i = 0; i < met.difference.size(); ++i) {
+    const double d = met.difference[i];
+    if (!std::isfinite(d)) {
+      ++out.gaps;
+      continue;
+    }
+    ++out.samples;
+    sum += d * d * weight(i);
+    all += weight(i);
+    if (std::abs(d) <= std::abs(out.largest)) continue;
+    out.largest = d == 0 ? 0.0 : d;
+    out.at = static_cast<double>(met.time_ns[i]) / 1e9;
+  }
+  if (all > 0) out.rms = std::sqrt(sum / all);
+  return out;
+}
+
+bool has_field(const signals::Series& series, const signals::Field& like) {
+  return std::ranges::any_of(series.topic.fields, [&](const signals::Field& f) {
+    return f.name == like.name && f.unit == like.unit;
+  });
+}
+
+}  // namespace
+
+std::string_view to_text(Meeting how) {
+  switch (how) {
+    case Meeting::together:
+      return "together";
+    case Meeting::between:
+      return "between";
+    case Meeting::held:
+      return "held";
+    case Meeting::never:
+      break;
+  }
+  return "never";
+}
+
+Meetings meet(Recording a, Recording b) {
+  if (a.time_ns->empty() || b.time_ns->empty()) return {};
+  const std::int64_t from = std::max(a.time_ns->front(), b.time_ns->front());
+  const std::int64_t to = std::min(a.time_ns->back(), b.time_ns->back());
+  const std::size_t of_a = within(*a.time_ns, from, to), of_b = within(*b.time_ns, from, to);
+
+  Meetings out = meet_together(a, b);
+  if (2 * out.time_ns.size() < std::min(of_a, of_b))
+    out = of_a <= of_b ? meet_between(a, b, 1) : meet_between(b, a, -1);
+  return out.time_ns.empty() ? Meetings{} : out;
+}
+
+Meetings meet_edges(Recording a, Recording b, std::int64_t from, std::int64_t to) {
+  if (to <= from) return {};
+  std::vector<std::int64_t> times = {from};
+  for (const auto* of : {a.time_ns, b.time_ns})
+    for (const std::int64_t t : *of)
+      if (t > from && t < to) times.push_back(t);
+  std::ranges::sort(times);
+
+  Meetings out{Meeting::held, {}, {}};
+  std::size_t i = 0, k = 0;
+  for (const std::int64_t t : times) {
+    const double d = held_at(b, t, k) - held_at(a, t, i);
+    // Of several edges at one time the last ones are in d already.
+    if (!out.time_ns.empty() && d == out.difference.back()) continue;
+    out.time_ns.push_back(t);
+    out.difference.push_back(d);
+  }
+  return out;
+}
+
+Difference difference(Recording a, Recording b, const Meetings& met) {
+  return summed(a, b, met, [](std::size_t) { return 1.0; });
+}
+
+Difference difference_of_edges(Recording a, Recording b, std::int64_t from, std::int64_t to) {
+  const Meetings met = meet_edges(a, b, from, to);
+  return summed(a, b, met, [&](std::size_t i) {
+    const std::int64_t end = i + 1 < met.time_ns.size() ? met.time_ns[i + 1] : to;
+    return static_cast<double>(end - met.time_ns[i]);
+  });
+}
+
+bool is_edges(std::string_view topic) { return topic.ends_with("/open"); }
+
+std::optional<Times> times_of(const signals::Table& table) {
+  std::optional<Times> out;
+  for (const signals::Series& s : table.series) {
+    if (s.time_ns.empty() || is_edges(s.topic.name)) continue;
+    if (!out) out = Times{s.time_ns.front(), s.time_ns.back()};
+    out->first = std::min(out->first, s.time_ns.front());
+    out->last = std::max(out->last, s.time_ns.back());
+  }
+  return out;
+}
+
+std::vector<ChannelDifference> differences(const signals::Table& a, const signals::Table& b) {
+  const std::optional<Times> times_a = times_of(a), times_b = times_of(b);
+  const Times both = times_a && times_b ? Times{std::max(times_a->first, times_b->first),
+                                                std::min(times_a->last, times_b->last)}
+                                        : Times{};
+  std::vector<ChannelDifference> out;
+  for (const signals::Series& sa : a.series) {
+    const signals::Series* sb = b.find(sa.topic.name);
+    if (!sb) continue;
+    for (std::size_t f = 0; f < sa.topic.fields.size(); ++f) {
+      const signals::Field& field = sa.topic.fields[f];
+      if (!has_field(*sb, field)) continue;
+      const Recording ra{&sa.time_ns, &sa.columns[f]};
+      const Recording rb{&sb->time_ns, b.column(sb->topic.name, field.name)};
+      out.push_back({sa.topic.name, field.name, field.unit,
+                     is_edges(sa.topic.name) ? difference_of_edges(ra, rb, both.first, both.last)
+                                             : difference(ra, rb, meet(ra, rb))});
+    }
+  }
+  return out;
+}
+
+void shift(signals::Table& table, std::int64_t by) {
+  for (signals::Series& s : table.series)
+    for (std::int64_t& t : s.time_ns) t -= by;
+}
+
+std::vector<FigureRow> figures_beside(const std::vector<const Summary*>& summaries) {
+  std::vector<FigureRow> out;
+  for (std::size_t from = 0; from < summaries.size(); ++from)
+    for (const Entry& e : summaries[from]->entries()) {
+      const bool known = std::any_of(summaries.begin(), summaries.begin() + static_cast<long>(from),
+                                     [&](const Summary* s) { return s->find(e.key); });
+      if (known) continue;
+      FigureRow row{e.key, {}};
+      for (const Summary* s : summaries) {
+        const double* value = s->find(e.key);
+        row.values.push_back(value ? std::optional(*value) : std::nullopt);
+      }
+      out.push_back(std::move(row));
+    }
+  return out;
+}
+
+std::optional<double> relative_difference(double first, double other) {
+  if (other == first) return 0.0;
+  if (first == 0) return std::nullopt;
+  return (other - first) / std::abs(first);
+}
+
+double size_of_change(const FigureRow& row) {
+  double largest = 0;
+  if (row.values.empty() || !row.values.front()) return largest;
+  const double first = *row.values.front();
+  for (const auto& value : row.values) {
+    if (!value || *value == first) continue;
+    largest =
+        std::max(largest, std::abs(*value - first) / std::max(std::abs(first), std::abs(*value)));
+  }
+  return largest;
+}
+
+}  // namespace sinew::analysis

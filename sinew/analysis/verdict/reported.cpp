@@ -1,0 +1,287 @@
+#include "sinew/analysis/verdict/reported.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "sinew/analysis/verdict/summary.h"
+#include "sinew/config/diagnostics.h"
+
+namespace sinew::analysis {
+namespace {
+
+// Longest first: "_m_per_s" ends with "_s" too.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 19> endings = {{
+    {"_Nm_per_rad", "N m/rad"},
+    {"_N_s_per_m", "N s/m"},
+    {"_rad_per_s", "rad/s"},
+    {"_m_per_s", "m/s"},
+    {"_kg_per_m", "kg/m"},
+    {"_s_per_m", "s/m"},
+    {"_J_per_m", "J/m"},
+    {"_per_m", "1/m"},
+    {"_rad", "rad"},
+    {"_Nm", "N m"},
+    {"_kg", "kg"},
+    {"_count", "count"},
+    {"_diff_Pa", "Pa diff"},
+    {"_Pa", "Pa abs"},
+    {"_Hz", "Hz"},
+    {"_N", "N"},
+    {"_J", "J"},
+    {"_m", "m"},
+    {"_s", "s"},
+}};
+
+struct BandOrMistake {
+  Band band;
+  std::optional<config::Mistake> mistake;
+};
+
+// Of an `accept` that is not empty.
+BandOrMistake read_accept(const Reported& r, double atmosphere) {
+  if (r.accept.size() != 2)
+    return {{},
+            config::Mistake{fmt::format("{} values", r.accept.size()),
+                            "two: the lowest and the highest that agrees", ""}};
+  const std::string unit = unit_of_key(r.key);
+  std::array<double, 2> si{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const config::Parsed parsed = config::parse_quantity(r.accept[i], unit, atmosphere);
+    if (parsed.mistake) return {{}, parsed.mistake};
+    si[i] = parsed.si;
+  }
+  if (si[0] > si[1])
+    return {{},
+            config::Mistake{fmt::format("\"{}\" before \"{}\"", r.accept[0], r.accept[1]),
+                            "the lowest first", ""}};
+  return {another(si[0], si[1]), std::nullopt};
+}
+
+// Returns the band that the wording's rule gives for a number, or for a share of the quantity `of`.
+Band band_of(Wording wording, const Spoken& value, double of, double error) {
+  switch (wording) {
+    case Wording::measured:
+      return measured(value.highest, value.last_digit, error);
+    case Wording::percentage:
+      return percentage(value.highest, error);
+    case Wording::about:
+      return about(value.highest, error);
+    case Wording::computed:
+      return computed(value.highest, value.last_digit);
+    case Wording::negligible:
+      return negligible(of);
+    case Wording::noticeable:
+      return noticeable(of);
+    case Wording::small:
+      return small(of);
+    case Wording::substantial:
+      return substantial(of);
+    case Wording::much_less:
+      return much_less(of);
+    case Wording::much_more:
+      return much_more(of);
+    case Wording::range:
+    case Wording::another:
+      break;
+  }
+  return range(value.lowest - error, value.highest + error);
+}
+
+bool is_share(Wording wording) {
+  using enum Wording;
+  return wording == negligible || wording == noticeable || wording == small ||
+         wording == substantial || wording == much_less || wording == much_more;
+}
+
+// Returns the band of a wording in SI; the rule is applied in the unit of the source's own words.
+BandOrMistake read_wording(const Reported& r, double atmosphere) {
+  const auto mistake = [](std::string found, std::string expected) {
+    return BandOrMistake{{}, config::Mistake{std::move(found), std::move(expected), ""}};
+  };
+  const bool share = is_share(r.wording);
+  const Spoken value = spoken(share ? r.of : r.value);
+  if (!value.found)
+    return mistake(fmt::format("\"{}\"", share ? r.of : r.value),
+                   share ? "of = a quantity: what it is a share of" : "a number in `value`");
+  double error = 0;
+  if (!r.reading_error.empty()) {
+    const Spoken read = spoken(r.reading_error);
+    if (!read.found || read.unit != value.unit || read.highest < 0)
+      return mistake(fmt::format("reading_error \"{}\"", r.reading_error),
+                     fmt::format("a quantity in the unit of the value, \"{}\"", value.unit));
+    error = read.highest;
+  }
+  if (r.wording == Wording::percentage && value.unit != "%")
+    return mistake(fmt::format("\"{}\"", r.value), "a value in %");
+  if (r.wording == Wording::range && value.lowest == value.highest)
+    return mistake(
+        fmt::format("\"{}\"", r.value),
+        "two numbers with \"to\" between them, or one with below, above, at most, at least");
+  Band band = band_of(r.wording, value, value.highest, error);
+  for (double* end : {&band.lowest, &band.highest}) {
+    if (std::isinf(*end)) continue;
+    const std::string text = value.unit.empty()
+                                 ? config::format_number(*end)
+                                 : fmt::format("{} {}", config::format_number(*end), value.unit);
+    const config::Parsed parsed = config::parse_quantity(text, unit_of_key(r.key), atmosphere);
+    if (parsed.mistake)
+      return mistake(fmt::format("\"{}\"", share ? r.of : r.value), parsed.mistake->expected);
+    *end = parsed.si;
+  }
+  return {band, std::nullopt};
+}
+
+BandOrMistake read_band(const Reported& r, double atmosphere) {
+  return r.accept.empty() ? read_wording(r, atmosphere) : read_accept(r, atmosphere);
+}
+
+bool is_unit(std::string_view text, const std::string& unit, double atmosphere) {
+  return !config::parse_quantity(fmt::format("1 {}", text), unit, atmosphere).mistake;
+}
+
+// What follows the last number: "in" of "55 to 60 in", "psi gauge" of "100 psi gauge".
+std::string_view after_last_number(std::string_view text) {
+  std::size_t number = text.npos;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool starts_word = i == 0 || text[i - 1] == ' ';
+    if (starts_word && std::string_view("+-.0123456789").find(text[i]) != text.npos) number = i;
+  }
+  if (number == text.npos) return {};
+  const std::size_t end = text.find_first_not_of("+-.0123456789", number);
+  const std::size_t unit = text.find_first_not_of(' ', end);
+  return unit == text.npos ? std::string_view{} : text.substr(unit);
+}
+
+// The unit in which the source speaks; where its text has none, that of `accept`, else SI.
+std::string spoken_unit(const Reported& r, double atmosphere) {
+  const std::string unit = unit_of_key(r.key);
+  std::string_view text = after_last_number(r.value);
+  if (!text.empty() && is_unit(text, unit, atmosphere)) return std::string(text);
+  for (const std::string& other : {r.of, r.accept.empty() ? std::string() : r.accept.back()}) {
+    text = after_last_number(other);
+    if (!text.empty() && is_unit(text, unit, atmosphere)) return std::string(text);
+  }
+  return unit;
+}
+
+// "53 in to 60 in", "at most 6 in"; as the file has it where it has it.
+std::string accept_text(const Reported& r, const Band& band, const std::string& unit,
+                        double atmosphere) {
+  if (!r.accept.empty()) return fmt::format("{} to {}", r.accept[0], r.accept[1]);
+  const auto number = [&](double si) {
+    return config::convert(si, unit_of_key(r.key), unit, atmosphere);
+  };
+  // Digits that tell the ends apart.
+  const double width = number(band.highest) - number(band.lowest);
+  const double size = std::max(std::abs(number(band.lowest)), std::abs(number(band.highest)));
+  int digits = 4;
+  if (std::isfinite(width) && width > 0)
+    digits = std::clamp(2 + static_cast<int>(std::ceil(std::log10(size / width))), 4, 9);
+  const auto end = [&](double si) {
+    return fmt::format("{:.{}g}{}{}", number(si), digits, unit == "1" ? "" : " ",
+                       unit == "1" ? "" : unit);
+  };
+  if (std::isinf(band.lowest)) return "at most " + end(band.highest);
+  if (std::isinf(band.highest)) return "at least " + end(band.lowest);
+  return fmt::format("{} to {}", end(band.lowest), end(band.highest));
+}
+
+Verdict judge(const Summary& summary, const Reported& r, double atmosphere) {
+  Verdict v{.key = r.key, .reported = r.value, .ours = {}, .accept = {}, .source = r.source};
+  v.statement_class = r.statement_class;
+  const std::string unit = spoken_unit(r, atmosphere);
+  std::optional<Band> band;
+  if (config::is_judged(r)) {
+    const BandOrMistake read = read_band(r, atmosphere);
+    if (read.mistake) {
+      const config::Mistake& m = *read.mistake;
+      const char* key = r.accept.empty() ? ": wording" : ": accept";
+      config::fail({"reported", 0, 0}, r.key + key, m.found, m.expected, m.try_this);
+    }
+    band = read.band;
+    v.accept = accept_text(r, *band, unit, atmosphere);
+    v.wording = band->wording;
+    v.band_reason = r.band_reason;
+  }
+
+  const double* ours = summary.find(r.key);
+  if (!ours) return v;
+  // A narrow band asks for digits that lie in it.
+  const auto spoken_in = [&](double si) {
+    return config::convert(si, unit_of_key(r.key), unit, atmosphere);
+  };
+  const double width = band ? spoken_in(band->highest) - spoken_in(band->lowest) : 0;
+  v.ours = show(*ours, r.key, unit, atmosphere, std::isfinite(width) ? width : 0);
+  if (!band) return v;
+  const bool inside = band->holds(*ours);
+  v.is = inside ? Verdict::Is::agrees : Verdict::Is::differs;
+  if (r.because.empty()) return v;
+  v.is = inside ? Verdict::Is::agrees_after_all : Verdict::Is::differs_as_known;
+  v.source += ". Why: " + r.because;
+  return v;
+}
+
+}  // namespace
+
+std::string unit_of_key(std::string_view key) {
+  for (const auto& [ending, unit] : endings)
+    if (key.ends_with(ending)) return std::string(unit);
+  return "1";
+}
+
+std::string_view without_unit(std::string_view key) {
+  for (const auto& [ending, unit] : endings)
+    if (key.ends_with(ending)) return key.substr(0, key.size() - ending.size());
+  return key;
+}
+
+std::optional<config::Mistake> mistake_in_band(const Reported& r, double atmosphere) {
+  if (!config::is_judged(r)) return std::nullopt;
+  return read_band(r, atmosphere).mistake;
+}
+
+std::string_view to_text(Verdict::Is is) {
+  switch (is) {
+    case Verdict::Is::agrees:
+      return "agrees";
+    case Verdict::Is::differs:
+      return "differs";
+    case Verdict::Is::differs_as_known:
+      return "differs as known";
+    case Verdict::Is::agrees_after_all:
+      return "agrees after all";
+    case Verdict::Is::not_applicable:
+      break;
+  }
+  return "not applicable";
+}
+
+std::vector<Verdict> compare(const Summary& summary, const std::vector<Reported>& reported,
+                             double atmosphere) {
+  std::vector<Verdict> out;
+  for (const Reported& r : reported) out.push_back(judge(summary, r, atmosphere));
+  return out;
+}
+
+std::string show(double si, std::string_view key, std::string_view unit, double atmosphere,
+                 double resolution) {
+  const double number = config::convert(si, unit_of_key(key), unit, atmosphere);
+  const double size = std::abs(number);
+  const int wanted = resolution > 0 ? static_cast<int>(std::ceil(-std::log10(resolution))) : 0;
+  std::string text;
+  if (size < 1e-9) {
+    text = "0";  // what conversion left over
+  } else if (size < 0.95) {
+    const int digits = wanted + 1 + static_cast<int>(std::floor(std::log10(size)));
+    text = fmt::format("{:.{}g}", number, std::clamp(digits, 2, 9));
+  } else {
+    text = fmt::format("{:.{}f}", number, std::clamp(wanted, size < 1000 ? 1 : 0, 9));
+  }
+  return unit == "1" ? text : fmt::format("{} {}", text, unit);
+}
+
+}  // namespace sinew::analysis

@@ -1,0 +1,70 @@
+// analysis/verdict/reported.h - what the source reports beside what came out.
+//
+//   [[reported]]
+//   key    = "trolley.distance_m"      of the summary
+//   value  = "55 to 60 in"             as reported
+//   class  = "predicted"               what agreement is worth (config/reported.h)
+//   wording = "range"                  how it is said: the band follows from it (band.h)
+//   accept = ["53 in", "60 in"]        or another band, lowest and highest that agrees,
+//   band_reason = "…"                  and why
+//   source = "6.3"
+//   because = "…"                      why ours is known to differ, where it does
+//
+// The quantity's unit follows from the last part of the key, so "53 lb" for a distance is an error.
+// Our own figure is shown in the unit in which the source speaks.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/analysis/verdict/band.h"
+#include "sinew/config/quantity.h"
+#include "sinew/config/reported.h"
+#include "sinew/units/constants.h"
+
+namespace sinew::analysis {
+
+class Summary;
+
+using config::Reported;
+
+// The SI unit that a key's ending stands for, as config/quantity.h wants it: _m, _m_per_s, _rad,
+// _rad_per_s, _N, _Nm, _Nm_per_rad, _N_s_per_m, _kg, _kg_per_m, _per_m, _count, _Pa (absolute),
+// _diff_Pa, _Hz, _s. "1" for every other ending.
+std::string unit_of_key(std::string_view key);
+std::string_view without_unit(std::string_view key);  // "trolley.distance" of "trolley.distance_m"
+
+// Returns what is wrong with `accept` or with the words that a wording needs, or nothing.
+std::optional<config::Mistake> mistake_in_band(const Reported&,
+                                               double atmosphere = units::atmosphere);
+
+struct Verdict {
+  // differs_as_known: with the reason; agrees_after_all: the reason is no more.
+  enum class Is { agrees, differs, not_applicable, differs_as_known, agrees_after_all };
+
+  std::string key;
+  std::string reported;  // as reported
+  std::string ours;      // "57.7 in", "93.1 %"; empty where the summary has no such key
+  std::string accept;    // "53 in to 60 in"; empty where nothing is judged
+  std::string source;    // and the reason of what is known to differ
+  config::StatementClass statement_class = config::StatementClass::none;
+  Wording wording = Wording::another;  // which rule `accept` follows
+  std::string band_reason;             // of another band
+  Is is = Is::not_applicable;          // no such key in the summary, or nothing to judge by
+};
+
+std::string_view to_text(Verdict::Is is);  // "agrees", "differs as known", …
+
+// One verdict each, in the order of the file. Throws config::Error for an `accept` that cannot be
+// read.
+std::vector<Verdict> compare(const Summary&, const std::vector<Reported>&,
+                             double atmosphere = units::atmosphere);
+
+// For people, in another unit of the key's kind: one decimal from 1 on, two digits below; more
+// where a judgement hangs on them: `resolution` in that unit is a difference that must show.
+std::string show(double si, std::string_view key, std::string_view unit,
+                 double atmosphere = units::atmosphere, double resolution = 0);
+
+}  // namespace sinew::analysis
