@@ -43,7 +43,8 @@ void BodyMechanism::set_rates(Motion& m, std::initializer_list<double> joint_rat
   m.rate[up] = y_rate;
 }
 
-void BodyMechanism::route(const Motion& m, muscle::Ends& ends, Arms& arms) const noexcept {
+void BodyMechanism::route(const Motion& m, muscle::Ends<most_muscles>& ends,
+                          Arms& arms) const noexcept {
   std::array<double, most_links> angle, rate;
   for (std::size_t j = 0; j < constants_.links; ++j) {
     angle[j] = joint_angle(m, j);
@@ -70,7 +71,7 @@ double BodyMechanism::cylinder_stop(const Motion& m) const noexcept {
 }
 
 void BodyMechanism::load(const Pose& body, const Motion& m, const Arms& arms,
-                         const muscle::Lanes& tension, double piston_force,
+                         const muscle::Lanes<most_muscles>& tension, double piston_force,
                          Load& out) const noexcept {
   std::array<double, most_links> torque{};
   for (std::size_t j = 0; j < constants_.links; ++j) {
@@ -120,7 +121,7 @@ auto BodyMechanism::accelerate(const Pose& body, const Motion& m, const Load& lo
 }
 
 auto BodyMechanism::prepare(const Pose& body, const Motion& m, const Arms& arms,
-                            const muscle::Lanes& mesh, double trolley_bound,
+                            const muscle::Lanes<most_muscles>& mesh, double trolley_bound,
                             const Load& load) noexcept -> Acceleration {
   const Acceleration free = body.accelerations(load.force);
   Forces bound{};

@@ -11,7 +11,7 @@
 #include <array>
 #include <initializer_list>
 
-#include "sinew/muscle/bank.h"
+#include "sinew/muscle/lanes.h"
 #include "sinew/plant/planar/body.h"
 #include "sinew/plant/planar/cords.h"
 #include "sinew/plant/planar/rubs.h"
@@ -65,12 +65,12 @@ class BodyMechanism {
                  double y_rate) const;
 
   // Lengths of the muscles, the piston's travel, their rates; the muscles' arms.
-  void route(const Motion& m, muscle::Ends& ends, Arms& arms) const noexcept;
+  void route(const Motion& m, muscle::Ends<most_muscles>& ends, Arms& arms) const noexcept;
 
   template <class Answer>
   void load(const Pose& body, const Motion& m, const Arms& arms, const Answer& air,
             Load& out) const noexcept {
-    load(body, m, arms, air.tension, piston_force(air), out);  // muscle/air.h
+    load(body, m, arms, air.tension, air.cylinder_force, out);
   }
 
   Acceleration accelerate(const Pose& body, const Motion& m, const Load& load,
@@ -85,7 +85,8 @@ class BodyMechanism {
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
   // the mesh's own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& body, const Motion& m, const Arms& arms,
-                       const muscle::Lanes& mesh, double trolley_bound, const Load& load) noexcept;
+                       const muscle::Lanes<most_muscles>& mesh, double trolley_bound,
+                       const Load& load) noexcept;
 
   // Dry friction of a step of length h from the prepared node, and accelerations under it.
   Forces hold(double h, const Forces& last) const noexcept { return rubs_.hold(h, last); }
@@ -114,8 +115,9 @@ class BodyMechanism {
             Truth& out) const noexcept;
 
  private:
-  void load(const Pose& body, const Motion& m, const Arms& arms, const muscle::Lanes& tension,
-            double piston_force, Load& out) const noexcept;
+  void load(const Pose& body, const Motion& m, const Arms& arms,
+            const muscle::Lanes<most_muscles>& tension, double piston_force,
+            Load& out) const noexcept;
   double cylinder_stop(const Motion& m) const noexcept;
   void tell_rollers(const Body& body, const Motion& m, const Acceleration& a, const Forces& held,
                     const Load& load, Truth& out) const noexcept;

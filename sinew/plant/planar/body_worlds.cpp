@@ -4,6 +4,6 @@
 
 namespace sinew::plant {
 
-template class World<BodyMechanism, muscle::PlumbingAir>;
+template class World<BodyMechanism, Air>;
 
 }  // namespace sinew::plant
