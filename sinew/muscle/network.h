@@ -201,9 +201,7 @@ class AirNetwork {
   void finish(State& state, double h, const Answer* const (&look)[4],
               const Valves& valves) const noexcept;
 
-  // Heun's rule, for a peek. In a plain network the masses at the node serve the predictor.
-  void predict(State& out, const State& from, double h, const Answer& before,
-               const Valves& valves) const noexcept;
+  // The second half of Heun's rule, for a peek; move() is the first.
   void correct(State& out, const State& from, double h, const Answer& before, const Answer& after,
                const Valves& valves) const noexcept;
 

@@ -63,12 +63,6 @@ void AirNetwork<Most>::finish(State& state, double h, const Answer* const (&look
 }
 
 template <int Most>
-void AirNetwork<Most>::predict(State& out, const State& from, double h, const Answer& before,
-                               const Valves& valves) const noexcept {
-  if (!plain_ || valves.broken) move(out, from, h, before, valves);
-}
-
-template <int Most>
 void AirNetwork<Most>::correct(State& out, const State& from, double h, const Answer& before,
                                const Answer& after, const Valves& valves) const noexcept {
   const double half = 0.5 * h;

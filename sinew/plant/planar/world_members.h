@@ -186,7 +186,7 @@ auto World<M, A>::peek(const Glance& g, double t) const noexcept -> Peek {
     if (air_.flowing(state_.valves)) {
       const typename A::State from = p.state.air;
       const typename A::Answer before = p.look.air;
-      air_.predict(p.state.air, from, h, before, state_.valves);
+      air_.move(p.state.air, from, h, before, state_.valves);
       evaluate_air(to, p.state, p.look);
       air_.correct(p.state.air, from, h, before, p.look.air, state_.valves);
     }
