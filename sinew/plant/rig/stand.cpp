@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "sinew/actuator/stiffness.h"
+#include "sinew/plant/rig/cut.h"
 #include "sinew/robot/sensing.h"
 
 namespace sinew::plant {
@@ -16,6 +17,7 @@ namespace {
 // Rates times the length of a piece. RK4's error per radian of a swing is the fourth power/120.
 constexpr double longest_swing = 0.08, longest_settling = 0.3;
 constexpr double shortest_piece = 1e-7;  // [s]
+constexpr double cut_within = 1e-11;     // of what breaks off [s]
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -91,27 +93,31 @@ void Stand::look(double t, const Order& o, const Moving& s, Look& out) const noe
   out.acceleration = held ? 0.0 : (out.asks - dry) / mass;
 }
 
-auto Stand::shifted(const Moving& from, double h, const Look& by) const noexcept -> Moving {
-  Moving s = from;
-  s.length += h * by.velocity;
-  s.velocity += h * by.acceleration;
-  for (int i = 0; i < plumbing_.states(); ++i) s.air[i] += h * by.flow[i];
-  s.in += h * by.in;
-  s.out += h * by.out;
-  s.leak += h * by.leak;
-  return s;
+void Stand::shift(Moving& out, const Moving& from, double h, const Look& by) const noexcept {
+  out.length = from.length + h * by.velocity;
+  out.velocity = from.velocity + h * by.acceleration;
+  for (int i = 0; i < plumbing_.states(); ++i) out.air[i] = from.air[i] + h * by.flow[i];
+  out.air.reference = from.air.reference;
+  out.in = from.in + h * by.in;
+  out.out = from.out + h * by.out;
+  out.leak = from.leak + h * by.leak;
+  out.rub = from.rub;
 }
 
-auto Stand::rk4(double t, double h, const Order& o, const Moving& s,
-                const Look& first) const noexcept -> Moving {
+void Stand::rk4(double t, double h, const Order& o, const Moving& s, const Look& first,
+                Moving& out) const noexcept {
   Look second, third, fourth;
-  look(t + 0.5 * h, o, shifted(s, 0.5 * h, first), second);
-  look(t + 0.5 * h, o, shifted(s, 0.5 * h, second), third);
-  look(t + h, o, shifted(s, h, third), fourth);
-  Moving sum = shifted(s, h / 6.0, first);
-  sum = shifted(sum, h / 3.0, second);
-  sum = shifted(sum, h / 3.0, third);
-  return shifted(sum, h / 6.0, fourth);
+  Moving stage;
+  shift(stage, s, 0.5 * h, first);
+  look(t + 0.5 * h, o, stage, second);
+  shift(stage, s, 0.5 * h, second);
+  look(t + 0.5 * h, o, stage, third);
+  shift(stage, s, h, third);
+  look(t + h, o, stage, fourth);
+  shift(out, s, h / 6.0, first);
+  shift(out, out, h / 3.0, second);
+  shift(out, out, h / 3.0, third);
+  shift(out, out, h / 6.0, fourth);
 }
 
 // 0 short of L_min, 1 between the ends, 2 beyond L_max.
@@ -119,16 +125,22 @@ int Stand::region(double length) const noexcept {
   return length < ends_[0] ? 0 : length > ends_[1] ? 2 : 1;
 }
 
-// Is there something between the two states that no smooth piece can hold?
-bool Stand::breaks(double t, const Order& o, const Moving& before,
-                   const Moving& after) const noexcept {
-  if (driven_) return false;
-  if (region(after.length) != region(before.length)) return true;
-  if (!rubs_) return false;
-  if (before.rub != Rub::rests) return after.velocity * static_cast<double>(before.rub) < 0;
+// Returns how far `after` is beyond what a smooth piece from `before` can hold: above 0 where an
+// end was passed [m], where the speed turned against the friction [m/s], or where the load asks for
+// more than the friction holds [N].
+double Stand::gap(double t, const Order& o, const Moving& before,
+                  const Moving& after) const noexcept {
+  if (driven_) return -infinite;
+  const int side = region(before.length);
+  double beyond = -infinite;
+  if (side != 1) beyond = side == 0 ? after.length - ends_[0] : ends_[1] - after.length;
+  if (side == 1) beyond = std::max(after.length - ends_[1], ends_[0] - after.length);
+  if (!rubs_) return beyond;
+  if (before.rub != Rub::rests)
+    return std::max(beyond, -after.velocity * static_cast<double>(before.rub));
   Look l;
   look(t, o, after, l);
-  return std::fabs(l.asks) > l.bound;
+  return std::max(beyond, std::fabs(l.asks) - l.bound);
 }
 
 // What turned back stops; what stands holds, or sets off.
@@ -223,20 +235,17 @@ double Stand::piece(double t, double end, Moving& s) const noexcept {
   const double pieces = std::ceil(whole / longest_piece(o, s, first) - 1e-9);
   double h = pieces > 1 ? whole / pieces : whole;
   double reached = pieces > 1 ? t + h : target;
-  Moving after = rk4(t, h, o, s, first);
-  if (breaks(reached, o, s, after)) {
+  Moving after, there;
+  rk4(t, h, o, s, first, after);
+  const double broken = gap(reached, o, s, after);
+  if (broken > 0) {
     // The end of the piece is put where it breaks, on the far side of it.
-    double before = 0;
-    for (int i = 0; i < 44; ++i) {
-      const double middle = 0.5 * (before + h);
-      const Moving there = rk4(t, middle, o, s, first);
-      if (breaks(t + middle, o, s, there)) {
-        h = middle;
-        after = there;
-      } else {
-        before = middle;
-      }
-    }
+    h = cut(h, gap(t, o, s, s), broken, cut_within, [&](double part) {
+      rk4(t, part, o, s, first, there);
+      const double g = gap(t + part, o, s, there);
+      if (g > 0) after = there;
+      return g;
+    });
     reached = t + h;
     settle(reached, o, after);
   }

@@ -46,7 +46,7 @@ class Stand final : public signals::Port {
   // The part of the state that is integrated.
   struct Moving {
     double length = 0, velocity = 0;
-    muscle::AirState air{};
+    muscle::AirState air;
     double in = 0, out = 0, leak = 0;  // since the start [kg]
     Rub rub = Rub::rests;              // driven: of the last motion
   };
@@ -112,10 +112,11 @@ class Stand final : public signals::Port {
   void look(double t, const Order& o, const Moving& s, Look& out) const noexcept;
   void evaluate(double t, double length, double rate, const muscle::AirState& air,
                 Look& out) const noexcept;
-  Moving shifted(const Moving& from, double h, const Look& by) const noexcept;
-  Moving rk4(double t, double h, const Order& o, const Moving& s, const Look& first) const noexcept;
+  void shift(Moving& out, const Moving& from, double h, const Look& by) const noexcept;
+  void rk4(double t, double h, const Order& o, const Moving& s, const Look& first,
+           Moving& out) const noexcept;
   int region(double length) const noexcept;
-  bool breaks(double t, const Order& o, const Moving& before, const Moving& after) const noexcept;
+  double gap(double t, const Order& o, const Moving& before, const Moving& after) const noexcept;
   void settle(double t, const Order& o, Moving& s) const noexcept;
   double settling_rate(double exponent, const Moving& s, const Look& at) const noexcept;
   double swinging_rate(double exponent, double mass, const Moving& s,
@@ -140,7 +141,7 @@ class Stand final : public signals::Port {
   std::array<double, 2> ends_{};                // L_min, L_max; an air cylinder has none [m]
   double end_stiffness_ = 0, end_damping_ = 0;  // of the stiffer end [N/m], [N s/m]
 
-  State state_;
+  State state_{};
   std::array<signals::Tick, 256> lag_{};
 };
 
