@@ -1,4 +1,4 @@
-// plant/rig/cut.h - where a step has to be cut: the instant at which a law breaks off.
+// plant/world/cut.h - where a step has to be cut: the instant at which a law breaks off.
 #pragma once
 
 namespace sinew::plant {

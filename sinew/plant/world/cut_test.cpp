@@ -1,5 +1,5 @@
 // Laws of where a step is cut: on the far side of the break, near it, and soon found.
-#include "sinew/plant/rig/cut.h"
+#include "sinew/plant/world/cut.h"
 
 #include <gtest/gtest.h>
 
