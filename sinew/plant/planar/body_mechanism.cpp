@@ -29,8 +29,9 @@ double BodyMechanism::sum(const Motion& m) const noexcept {
   return places;
 }
 
-double BodyMechanism::stable_step(double step) const {
-  return plant::stable_step(step, rubs_.stiffest_rate(Body(constants_, start_), start_, robot_));
+double BodyMechanism::node_step(const Setup& setup) const {
+  return stable_step(setup.steps.body,
+                     rubs_.stiffest_rate(Body(constants_, start_), start_, robot_));
 }
 
 void BodyMechanism::set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
@@ -43,7 +44,7 @@ void BodyMechanism::set_rates(Motion& m, std::initializer_list<double> joint_rat
   m.rate[up] = y_rate;
 }
 
-void BodyMechanism::route(const Motion& m, muscle::Ends<most_muscles>& ends,
+void BodyMechanism::route(double, const Motion& m, muscle::Ends<most_muscles>& ends,
                           Arms& arms) const noexcept {
   std::array<double, most_links> angle, rate;
   for (std::size_t j = 0; j < constants_.links; ++j) {

@@ -9,7 +9,7 @@
 #include "sinew/muscle/network.h"
 #include "sinew/plant/planar/body_mechanism.h"
 #include "sinew/plant/planar/chain_mechanism.h"
-#include "sinew/plant/planar/world.h"
+#include "sinew/plant/world/world.h"
 
 namespace sinew::plant {
 
