@@ -73,11 +73,11 @@ template <CutsSteps>
 void World<M, A>::part(double from, double h, const Moving& now, const Memory& memory,
                        const Look& first, const Forces& held, Moving& out) const noexcept {
   stages(from, h, now, memory, first, first.acceleration, held,
-         [&](const auto& motion, const auto& air, const auto& acceleration) {
+         [&](const auto& motion, const auto& air, const auto& acceleration, const auto& course) {
            out.motion = now.motion;
            mechanism_.finish(out.motion, h, motion, acceleration);
            out.air = now.air;
-           air_.finish(out.air, h, air, state_.valves);
+           air_.finish(out.air, h, air, state_.valves, course);
          });
 }
 

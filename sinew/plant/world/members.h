@@ -31,8 +31,8 @@ World<M, A>::World(const Setup& setup)
 // One evaluation of the right-hand side, with the frictions held.
 template <class M, class A>
 void World<M, A>::look_at(double t, const Moving& state, const Memory& memory, const Forces& held,
-                          Look& look) const noexcept {
-  evaluate_air(t, state, memory, look);
+                          Look& look, std::uint64_t ahead) const noexcept {
+  evaluate_air(t, state, memory, look, ahead);
   const typename M::Pose pose = mechanism_.pose(t, state.motion);
   mechanism_.load(pose, state.motion, look.arms, look.air, look.load);
   look.acceleration = mechanism_.accelerate(pose, state.motion, look.load, held);
@@ -47,7 +47,7 @@ void World<M, A>::prepare() noexcept {
     begin_part(state_.time, state_.now, state_.memory, state_.held, first);
     look_for_failure();
   } else {
-    evaluate_air(state_.time, state_.now, state_.memory, first);
+    evaluate_air(state_.time, state_.now, state_.memory, first, air_.always_ahead());
     look_for_failure();
     mechanism_.load(mechanism_.pose(state_.time, state_.now.motion), state_.now.motion, first.arms,
                     first.air, first.load);
@@ -92,7 +92,7 @@ template <class M, class A>
 template <WholeSteps>
 double World<M, A>::pieces_of(double h, const Look& look) const noexcept {
   if (!air_.flowing(state_.valves)) return 1.0;
-  const double longest = air_.longest_step(look.ends, state_.valves);
+  const double longest = air_.longest_step_of_rest(look.ends, state_.valves);
   return h > longest ? std::min(std::ceil(h / longest), most_pieces) : 1.0;
 }
 
@@ -110,7 +110,7 @@ void World<M, A>::step(double to) noexcept {
     for (double k = 0; k < pieces; ++k) {
       const double from = state_.time + k * (h / pieces);
       if (k > 0) {
-        look_at(from, state_.now, state_.memory, state_.held, state_.first);
+        look_at(from, state_.now, state_.memory, state_.held, state_.first, air_.always_ahead());
         air_.remember(state_.first.air, state_.now.air, state_.memory);
         first = state_.first.acceleration;
       }
@@ -127,17 +127,20 @@ void World<M, A>::stages(double from, double h, const Moving& now, const Memory&
                          Finish finish) const noexcept {
   Look later[3];
   Moving stage[3];
+  typename A::Course course;
+  if constexpr (!CutsSteps<M>)
+    air_.plan(from, h, first.ends, now.air, state_.valves, memory, course);
   const Motion* motion[4] = {&now.motion, &stage[0].motion, &stage[1].motion, &stage[2].motion};
   const typename A::Answer* air[4] = {&first.air, &later[0].air, &later[1].air, &later[2].air};
   Acceleration acceleration[4] = {a};
   for (int s = 0; s < 3; ++s) {
     const double part = s == 2 ? h : 0.5 * h;
     mechanism_.move(stage[s].motion, now.motion, part, *motion[s], acceleration[s]);
-    air_.move(stage[s].air, now.air, part, *air[s], state_.valves);
-    look_at(from + part, stage[s], memory, held, later[s]);
+    air_.move(stage[s].air, now.air, part, *air[s], state_.valves, course);
+    look_at(from + part, stage[s], memory, held, later[s], course.muscles);
     acceleration[s + 1] = later[s].acceleration;
   }
-  finish(motion, air, acceleration);
+  finish(motion, air, acceleration, course);
 }
 
 template <class M, class A>
@@ -145,11 +148,11 @@ template <WholeSteps>
 void World<M, A>::piece(double from, double h, const Acceleration& first) noexcept {
   Moving& now = state_.now;
   stages(from, h, now, state_.memory, state_.first, first, state_.held,
-         [&](auto& motion, const auto& air, const auto& acceleration) {
+         [&](auto& motion, const auto& air, const auto& acceleration, const auto& course) {
            const Motion rates = now.motion;  // of the first stage: the state moves
            motion[0] = &rates;
            mechanism_.finish(now.motion, h, motion, acceleration);
-           air_.finish(now.air, h, air, state_.valves);
+           air_.finish(now.air, h, air, state_.valves, course);
          });
 }
 
@@ -212,11 +215,13 @@ auto World<M, A>::peek(double t) noexcept -> Peek {
       if (air_.flowing(state_.valves)) {
         const typename A::State from = p.state.air;
         const typename A::Answer before = p.look.air;
-        air_.move(p.state.air, from, h, before, state_.valves);
-        evaluate_air(to, p.state, state_.memory, p.look);
-        air_.correct(p.state.air, from, h, before, p.look.air, state_.valves);
+        typename A::Course course;
+        air_.plan(to - h, h, p.look.ends, from, state_.valves, state_.memory, course);
+        air_.move(p.state.air, from, h, before, state_.valves, course);
+        evaluate_air(to, p.state, state_.memory, p.look, course.muscles);
+        air_.correct(p.state.air, from, h, before, p.look.air, state_.valves, course);
       }
-      evaluate_air(to, p.state, state_.memory, p.look);
+      evaluate_air(to, p.state, state_.memory, p.look, air_.always_ahead());
     }
     return p;
   }

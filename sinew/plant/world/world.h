@@ -118,7 +118,7 @@ class World final : public signals::Port {
   }
   double time() const noexcept { return state_.time; }
   double shortest_step() const noexcept {  // of body and air, where it starts [s]
-    return std::min(step_, air_.longest_step(state_.first.ends, state_.valves));
+    return std::min(step_, air_.longest_step_of_rest(state_.first.ends, state_.valves));
   }
   std::int64_t nodes() const noexcept { return state_.nodes; }
   const muscle::Failure& failure() const noexcept { return state_.failure; }
@@ -161,13 +161,13 @@ class World final : public signals::Port {
     Acceleration acceleration{};
   };
 
-  void evaluate_air(double t, const Moving& state, const Memory& memory,
-                    Look& look) const noexcept {
+  void evaluate_air(double t, const Moving& state, const Memory& memory, Look& look,
+                    std::uint64_t ahead = 0) const noexcept {
     mechanism_.route(t, state.motion, look.ends, look.arms);
-    air_.evaluate(t, look.ends, state.air, state_.valves, memory, look.air);
+    air_.evaluate(t, look.ends, state.air, state_.valves, memory, look.air, ahead);
   }
-  void look_at(double t, const Moving& state, const Memory& memory, const Forces& held,
-               Look& look) const noexcept;
+  void look_at(double t, const Moving& state, const Memory& memory, const Forces& held, Look& look,
+               std::uint64_t ahead = 0) const noexcept;
   void prepare() noexcept;
   template <WholeSteps = Mechanism>
   Acceleration prepare_friction() noexcept;
