@@ -6,7 +6,5 @@ namespace sinew::plant {
 
 template class World<ChainMechanism<1>, muscle::BankAir>;
 template class World<ChainMechanism<2>, muscle::BankAir>;
-template class World<ChainMechanism<1>, muscle::PlumbingAir>;
-template class World<ChainMechanism<2>, muscle::PlumbingAir>;
 
 }  // namespace sinew::plant

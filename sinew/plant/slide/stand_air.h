@@ -63,14 +63,7 @@ class StandAir : public muscle::PlumbingAir {
     for (int i = 0; i < plumbing_.held_states(); ++i) out.flow[i] = 0;
   }
 
-  // `from`, by RK4's weighted mean of four looks; of what is in use alone.
-  void finish(State& out, const State& from, double h, const Answer* const (&look)[4],
-              const Node& node) const noexcept {
-    move(out, from, h / 6.0, *look[0], node);
-    move(out, out, h / 3.0, *look[1], node);
-    move(out, out, h / 3.0, *look[2], node);
-    move(out, out, h / 6.0, *look[3], node);
-  }
+  // `from`, as far as it is in use.
   void keep(State& out, const State& from) const noexcept {
     for (int i = 0; i < plumbing_.states(); ++i) out.air[i] = from.air[i];
     out.air.reference = from.air.reference;

@@ -138,10 +138,14 @@ class World final : public signals::Port {
   struct Peek {
     Moving state;
     Look look;
-    Forces held;
-    Acceleration acceleration;
   };
   Peek peek(double t) noexcept;
+  // Friction and accelerations that the last peek went by.
+  struct Glance {
+    Forces held{};
+    Acceleration acceleration{};
+  };
+  const Glance& glanced() const noexcept { return glance_; }
   template <WholeSteps = Mechanism>
   Motion peek_motion(double t) noexcept {
     const Glance& g = glance();
@@ -153,30 +157,19 @@ class World final : public signals::Port {
   const Air& air() const noexcept { return air_; }
 
  private:
-  // Friction and accelerations that a look beyond the last node goes by.
-  struct Glance {
-    Forces held{};
-    Acceleration acceleration{};
-  };
-
   void evaluate_air(double t, const Moving& state, Look& look) const noexcept {
     mechanism_.route(t, state.motion, look.ends, look.arms);
     air_.evaluate(t, look.ends, state.air, state_.valves, look.air);
   }
   void look_at(double t, const Moving& state, const Forces& held, Look& look) const noexcept;
   void prepare() noexcept;
-  template <WholeSteps = Mechanism>
   Acceleration prepare_friction() noexcept;
   void look_for_failure() noexcept;
   double next_node() const noexcept;
   void commit() noexcept;
   void step(double to) noexcept;
-  template <class Finish>
-  void stages(double from, double h, const Moving& now, const Look& first, const Acceleration& a,
-              const Forces& held, Finish finish) const noexcept;
-  template <WholeSteps = Mechanism>
-  void piece(double from, double h, const Acceleration& first) noexcept;
-  template <WholeSteps = Mechanism>
+  void piece(double from, double h, Moving& now, const Look& look, const Acceleration& first,
+             const Forces& held) const noexcept;
   double pieces_of(double h, const Look& look) const noexcept;
 
   // Of mechanisms that cut their steps.
@@ -185,16 +178,14 @@ class World final : public signals::Port {
   template <CutsSteps = Mechanism>
   void go(double from, double to, Moving& s, Forces& held, Look& first) noexcept;
   template <CutsSteps = Mechanism>
-  void part(double from, double h, const Moving& now, const Look& first, const Forces& held,
-            Moving& out) const noexcept;
-  template <CutsSteps = Mechanism>
   double gap(double t, const Moving& before, const Moving& after,
              const Forces& held) const noexcept;
   template <CutsSteps = Mechanism>
   double longest_piece(const Moving& s, const Look& look) const noexcept;
 
-  template <WholeSteps = Mechanism>
   const Glance& glance() noexcept;
+  template <WholeSteps = Mechanism>
+  void extrapolate(double t, Peek& p) noexcept;
 
   // A step is cut into at most so many pieces. More are asked for only where a chamber has
   // vanished.
@@ -202,13 +193,13 @@ class World final : public signals::Port {
 
   Mechanism mechanism_;
   Air air_;
-  Senses senses_;
   double step_ = 1e-3;
 
   State state_{};
   Glance glance_{};  // from this node, once somebody has looked
   bool glanced_ = false;
 
+  Senses senses_;
   std::array<signals::Tick, 256> lag_{};  // per channel, from the start of a conversion to its read
 };
 
