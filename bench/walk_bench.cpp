@@ -50,12 +50,11 @@ void unwatched_walk(benchmark::State& state) {
   double simulated = 0;
   for (auto _ : state) {
     plant::ChainWorld<2> world(experiment::planar_setup(walk()));
-    control::Supervisor spine(experiment::spine_config(walk()),
-                              experiment::supervise_config(walk()));
+    run::Boards boards(walk());
     run::HighLevel high(walk().robot, walk().plan);
     run::SimulatedClock clock;
     Nothing nobody;
-    benchmark::DoNotOptimize(run::loop(spine, high, world, clock, nobody, end));
+    benchmark::DoNotOptimize(run::loop(boards, high, world, clock, nobody, end));
     simulated += static_cast<double>(end) * signals::tick_seconds;
   }
   state.counters["real_time_factor"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);
@@ -78,12 +77,11 @@ void controller_alone(benchmark::State& state) {
   double simulated = 0;
   for (auto _ : state) {
     Still body;
-    control::Supervisor spine(experiment::spine_config(walk()),
-                              experiment::supervise_config(walk()));
+    run::Boards boards(walk());
     run::HighLevel high(walk().robot, walk().plan);
     run::SimulatedClock clock;
     Nothing nobody;
-    benchmark::DoNotOptimize(run::loop(spine, high, body, clock, nobody, end));
+    benchmark::DoNotOptimize(run::loop(boards, high, body, clock, nobody, end));
     simulated += static_cast<double>(end) * signals::tick_seconds;
   }
   state.counters["real_time_factor"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);

@@ -6,10 +6,10 @@
 #include "sinew/config/quantity.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/control/gait/legs.h"
-#include "sinew/control/joint/config.h"
 #include "sinew/experiment/check_motion.h"
 #include "sinew/experiment/faults.h"
 #include "sinew/experiment/spinal.h"
+#include "sinew/muscle/muscle.h"
 #include "sinew/signals/tick.h"
 
 namespace sinew::experiment {
@@ -85,13 +85,6 @@ void check_pressure_law(const Experiment& e, List& out) {
   }
 }
 
-void check_scan(const Experiment& e, List& out) {
-  const std::size_t sensors = e.robot.sensors.size();
-  if (sensors > control::max_channels)
-    out.push_back({"sensor", std::to_string(sensors) + " sensors",
-                   "at most " + std::to_string(control::max_channels), "fewer"});
-}
-
 void check_supply(const Experiment& e, List& out) {
   using config::format_quantity;
   if (e.supply.kind == gas::Supply::Kind::tank && !(e.supply.initial_pressure > e.air.atmosphere))
@@ -107,6 +100,10 @@ void check_supply(const Experiment& e, List& out) {
 }
 
 void check_muscles(const Experiment& e, List& out) {
+  if (e.robot.muscles.size() > static_cast<std::size_t>(muscle::capacity))
+    out.push_back({"muscle", std::to_string(e.robot.muscles.size()) + " muscles",
+                   "at most " + std::to_string(muscle::capacity) + " in simulation",
+                   "actuators in parallel are one muscle with a larger count"});
   for (const robot::Muscle& m : e.robot.muscles) {
     const std::string key = "muscle." + m.name;
     need(key + ".actuator", m.actuator, e.actuators, out);
@@ -278,7 +275,6 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
   check_muscles(e, wrong);
   check_valves(e, wrong);
   check_pressure_law(e, wrong);
-  check_scan(e, wrong);
   check_supply(e, wrong);
   check_cylinder(e, wrong);
   if (runs) check_start(e, wrong);

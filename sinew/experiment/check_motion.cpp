@@ -50,7 +50,7 @@ std::vector<Reach> reaches(const Experiment& e) {
     out.push_back({start, start});
   }
   gait::Legs legs(e.robot, e.plan);
-  gait::Measured still;
+  gait::MachineMeasured still;
   for (std::size_t j = 0; j < out.size(); ++j) still.angle[j] = e.robot.joints[j].rest_angle;
   const auto settle = std::llround(e.start.settle / e.plan.brain_period);
   gait::Plan once = e.plan;

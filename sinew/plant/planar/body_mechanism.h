@@ -1,4 +1,4 @@
-// plant/planar/body_mechanism.h - any planar machine: chains and trees of up to eight joints,
+// plant/planar/body_mechanism.h - any planar machine: chains and trees of joints,
 // driven or passive, a body that a cylinder lifts, cams of any shape, muscles across two joints,
 // feet of several discs.
 //
@@ -6,6 +6,7 @@
 //   cords.h  routes of the muscles           rollers.h  what the trolley rests on
 //
 // One of the mechanisms of world.h; chain_mechanism.h is the same for the leg that walks, faster.
+// It is compiled for several sizes: N joints on feet of D discs (body.h, rubs.h).
 #pragma once
 
 #include <array>
@@ -20,23 +21,29 @@
 
 namespace sinew::plant {
 
+template <int N, int D>
 class BodyMechanism {
  public:
-  using Motion = plant::Motion;
-  using Acceleration = Coordinates;
-  using Forces = Rubs::Forces;
+  using Motion = plant::Motion<N>;
+  using Acceleration = Coordinates<N>;
+  using Forces = typename Rubs<N, D>::Forces;
   using Arms = Cords::Pulls;
-  using Pose = Body;
+  using Pose = Body<N>;
 
   struct Load {
-    Coordinates force;                              // all but dry friction
-    std::array<double, most_links> passive_torque;  // dampers and springs [N m]
-    Rubs::Normals normal;                           // of the ground on the discs [N]
+    Coordinates<N> force;                  // all but dry friction
+    std::array<double, N> passive_torque;  // dampers and springs [N m]
+    typename Rubs<N, D>::Normals normal;   // of the ground on the discs [N]
   };
+
+  // Is there room for this robot?
+  static bool holds(const robot::Robot& robot) {
+    return plant::holds<N>(robot) && robot::discs_of(robot) <= D;
+  }
 
   explicit BodyMechanism(const Setup& setup);
 
-  const BodyConstants& constants() const noexcept { return constants_; }
+  const BodyConstants<N>& constants() const noexcept { return constants_; }
   const Motion& start() const noexcept { return start_; }
   int muscles() const noexcept { return cords_.count(); }
   int joint(int muscle) const noexcept { return cords_.joint(muscle, 0); }
@@ -79,7 +86,7 @@ class BodyMechanism {
   // Bound of the trolley's dry friction, from the last step's and what was held in it [N].
   double trolley_bound(const Forces& held, double last) const noexcept {
     if (constants_.held[along_track]) return 0;
-    return robot_.trolley.friction(held[Rubs::trolley], last);
+    return robot_.trolley.friction(held[Rubs<N, D>::trolley], last);
   }
 
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
@@ -117,19 +124,19 @@ class BodyMechanism {
   void load(const Pose& body, const Motion& m, const Arms& arms, const muscle::Lanes& tension,
             double piston_force, Load& out) const noexcept;
   double cylinder_stop(const Motion& m) const noexcept;
-  void tell_rollers(const Body& body, const Motion& m, const Acceleration& a, const Forces& held,
+  void tell_rollers(const Body<N>& body, const Motion& m, const Acceleration& a, const Forces& held,
                     const Load& load, Truth& out) const noexcept;
 
-  double carried(const Body& body, const Motion& m, const Acceleration& a, std::size_t first,
+  double carried(const Body<N>& body, const Motion& m, const Acceleration& a, std::size_t first,
                  const Truth& truth) const noexcept;
 
-  BodyConstants constants_;
+  BodyConstants<N> constants_;
   robot::Robot robot_;
   Cords cords_;
-  Rubs rubs_;
+  Rubs<N, D> rubs_;
   Motion start_{};
-  std::array<double, most_links> damping_{}, dry_{};
-  std::array<JointStop, most_links> stop_{};
+  std::array<double, N> damping_{}, dry_{};
+  std::array<JointStop, N> stop_{};
 };
 
 }  // namespace sinew::plant

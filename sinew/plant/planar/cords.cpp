@@ -18,6 +18,7 @@ CamLaw::CamLaw(const robot::Cam& cam, const robot::Joint& joint)
 }
 
 double CamLaw::radius(double angle) const noexcept {
+  if (angle_.size() == 1) return radius_[0];
   return robot::cam_radius(angle_, radius_, angle);
 }
 

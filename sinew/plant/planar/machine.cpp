@@ -7,6 +7,14 @@ namespace sinew::plant {
 
 namespace {
 
+// The first of these worlds that has room for the robot, or the last.
+template <class First, class... Larger>
+AnyWorld body_world_for(const Setup& s) {
+  if constexpr (sizeof...(Larger) > 0)
+    if (!First::Body::holds(s.robot)) return body_world_for<Larger...>(s);
+  return AnyWorld(std::in_place_type<First>, s);
+}
+
 AnyWorld world_for(const Setup& s) {
   const bool chain = robot::is_chain(s.robot), one = s.robot.joints.size() == 1;
   const bool bank = !muscle::needs_plumbing(s.muscles, s.air, s.supply, s.cylinder, s.faults);
@@ -15,7 +23,8 @@ AnyWorld world_for(const Setup& s) {
   if (chain && bank) return AnyWorld(in_place_type<ChainWorld<2>>, s);
   if (chain && one) return AnyWorld(in_place_type<ChainPlumbingWorld<1>>, s);
   if (chain) return AnyWorld(in_place_type<ChainPlumbingWorld<2>>, s);
-  return AnyWorld(in_place_type<BodyWorld>, s);
+  return body_world_for<SizedBodyWorld<2, 4>, SizedBodyWorld<3, 4>, SizedBodyWorld<4, 4>, BodyWorld,
+                        LargeBodyWorld>(s);
 }
 
 }  // namespace

@@ -18,16 +18,26 @@ template <int N>
 using ChainWorld = World<ChainMechanism<N>, muscle::BankAir>;
 template <int N>
 using ChainPlumbingWorld = World<ChainMechanism<N>, muscle::PlumbingAir>;
-using BodyWorld = World<BodyMechanism, muscle::PlumbingAir>;  // holds every robot
+// By links and discs; up to four links are just so many (body.h).
+template <int N, int D>
+using SizedBodyWorld = World<BodyMechanism<N, D>, muscle::PlumbingAir>;
+using BodyWorld = SizedBodyWorld<8, 8>;
+using LargeBodyWorld = SizedBodyWorld<robot::max_joints, robot::max_discs>;  // holds every robot
 
 extern template class World<ChainMechanism<1>, muscle::BankAir>;
 extern template class World<ChainMechanism<2>, muscle::BankAir>;
 extern template class World<ChainMechanism<1>, muscle::PlumbingAir>;
 extern template class World<ChainMechanism<2>, muscle::PlumbingAir>;
-extern template class World<BodyMechanism, muscle::PlumbingAir>;
+extern template class World<BodyMechanism<2, 4>, muscle::PlumbingAir>;
+extern template class World<BodyMechanism<3, 4>, muscle::PlumbingAir>;
+extern template class World<BodyMechanism<4, 4>, muscle::PlumbingAir>;
+extern template class World<BodyMechanism<8, 8>, muscle::PlumbingAir>;
+extern template class World<BodyMechanism<robot::max_joints, robot::max_discs>,
+                            muscle::PlumbingAir>;
 
 using AnyWorld = std::variant<ChainWorld<1>, ChainWorld<2>, ChainPlumbingWorld<1>,
-                              ChainPlumbingWorld<2>, BodyWorld>;
+                              ChainPlumbingWorld<2>, SizedBodyWorld<2, 4>, SizedBodyWorld<3, 4>,
+                              SizedBodyWorld<4, 4>, BodyWorld, LargeBodyWorld>;
 
 class Machine {
  public:

@@ -56,6 +56,8 @@ class World final : public signals::Port {
   };
 
  public:
+  using Body = Mechanism;
+
   // The state at the last committed node, and the commands since. Copied like bytes; of one build
   // of the library, and for worlds of equal setups.
   struct State {
@@ -128,7 +130,7 @@ class World final : public signals::Port {
   }
   void look_at(double t, const Moving& state, const Forces& held, Look& look) const noexcept;
   void prepare() noexcept;
-  Acceleration prepare_friction() noexcept;
+  Acceleration prepare_friction(const typename Mechanism::Pose& pose) noexcept;
   void look_for_failure() noexcept;
   void step(double h) noexcept;
   void piece(double from, double h, const Acceleration& first) noexcept;

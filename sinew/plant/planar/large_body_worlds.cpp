@@ -1,0 +1,14 @@
+// plant/planar/large_body_worlds.cpp - the worlds of machines of many links, compiled once.
+#include "sinew/plant/planar/body_mechanism_members.h"
+#include "sinew/plant/planar/machine.h"
+#include "sinew/plant/planar/world_members.h"
+
+namespace sinew::plant {
+
+template class BodyMechanism<8, 8>;
+template class BodyMechanism<robot::max_joints, robot::max_discs>;
+
+template class World<BodyMechanism<8, 8>, muscle::PlumbingAir>;
+template class World<BodyMechanism<robot::max_joints, robot::max_discs>, muscle::PlumbingAir>;
+
+}  // namespace sinew::plant
