@@ -9,7 +9,6 @@
 #include "sinew/experiment/check_motion.h"
 #include "sinew/experiment/faults.h"
 #include "sinew/experiment/spinal.h"
-#include "sinew/muscle/muscle.h"
 #include "sinew/signals/tick.h"
 
 namespace sinew::experiment {
@@ -100,10 +99,6 @@ void check_supply(const Experiment& e, List& out) {
 }
 
 void check_muscles(const Experiment& e, List& out) {
-  if (e.robot.muscles.size() > static_cast<std::size_t>(muscle::capacity))
-    out.push_back({"muscle", std::to_string(e.robot.muscles.size()) + " muscles",
-                   "at most " + std::to_string(muscle::capacity) + " in simulation",
-                   "actuators in parallel are one muscle with a larger count"});
   for (const robot::Muscle& m : e.robot.muscles) {
     const std::string key = "muscle." + m.name;
     need(key + ".actuator", m.actuator, e.actuators, out);

@@ -6,13 +6,13 @@
 //   cords.h  routes of the muscles           rollers.h  what the trolley rests on
 //
 // One of the mechanisms of world.h; chain_mechanism.h is the same for the leg that walks, faster.
-// It is compiled for several sizes: N joints on feet of D discs (body.h, rubs.h).
+// It is compiled for several sizes: N joints on feet of D discs (body.h, rubs.h), M muscles.
 #pragma once
 
 #include <array>
 #include <initializer_list>
 
-#include "sinew/muscle/bank.h"
+#include "sinew/muscle/lanes.h"
 #include "sinew/plant/planar/body.h"
 #include "sinew/plant/planar/cords.h"
 #include "sinew/plant/planar/rubs.h"
@@ -21,13 +21,13 @@
 
 namespace sinew::plant {
 
-template <int N, int D>
+template <int N, int D, int M>
 class BodyMechanism {
  public:
   using Motion = plant::Motion<N>;
   using Acceleration = Coordinates<N>;
   using Forces = typename Rubs<N, D>::Forces;
-  using Arms = Cords::Pulls;
+  using Arms = Cords::Pulls<M>;
   using Pose = Body<N>;
 
   struct Load {
@@ -38,7 +38,7 @@ class BodyMechanism {
 
   // Is there room for this robot?
   static bool holds(const robot::Robot& robot) {
-    return plant::holds<N>(robot) && robot::discs_of(robot) <= D;
+    return plant::holds<N>(robot) && robot::discs_of(robot) <= D && robot.muscles.size() <= M;
   }
 
   explicit BodyMechanism(const Setup& setup);
@@ -72,12 +72,12 @@ class BodyMechanism {
                  double y_rate) const;
 
   // Lengths of the muscles, the piston's travel, their rates; the muscles' arms.
-  void route(const Motion& m, muscle::Ends& ends, Arms& arms) const noexcept;
+  void route(const Motion& m, muscle::Ends<M>& ends, Arms& arms) const noexcept;
 
   template <class Answer>
   void load(const Pose& body, const Motion& m, const Arms& arms, const Answer& air,
             Load& out) const noexcept {
-    load(body, m, arms, air.tension, piston_force(air), out);  // muscle/air.h
+    load(body, m, arms, air.tension, air.cylinder_force, out);
   }
 
   Acceleration accelerate(const Pose& body, const Motion& m, const Load& load,
@@ -92,7 +92,8 @@ class BodyMechanism {
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
   // the mesh's own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& body, const Motion& m, const Arms& arms,
-                       const muscle::Lanes& mesh, double trolley_bound, const Load& load) noexcept;
+                       const muscle::Lanes<M>& mesh, double trolley_bound,
+                       const Load& load) noexcept;
 
   // Dry friction of a step of length h from the prepared node, and accelerations under it.
   Forces hold(double h, const Forces& last) const noexcept { return rubs_.hold(h, last); }
@@ -121,7 +122,7 @@ class BodyMechanism {
             Truth& out) const noexcept;
 
  private:
-  void load(const Pose& body, const Motion& m, const Arms& arms, const muscle::Lanes& tension,
+  void load(const Pose& body, const Motion& m, const Arms& arms, const muscle::Lanes<M>& tension,
             double piston_force, Load& out) const noexcept;
   double cylinder_stop(const Motion& m) const noexcept;
   void tell_rollers(const Body<N>& body, const Motion& m, const Acceleration& a, const Forces& held,

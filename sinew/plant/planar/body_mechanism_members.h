@@ -11,8 +11,8 @@
 
 namespace sinew::plant {
 
-template <int N, int D>
-BodyMechanism<N, D>::BodyMechanism(const Setup& setup)
+template <int N, int D, int M>
+BodyMechanism<N, D, M>::BodyMechanism(const Setup& setup)
     : constants_(body_of<N>(setup.robot)),
       robot_(setup.robot),
       cords_(setup.robot),
@@ -29,21 +29,21 @@ BodyMechanism<N, D>::BodyMechanism(const Setup& setup)
   start_.at[up] = setup.start.lift;
 }
 
-template <int N, int D>
-double BodyMechanism<N, D>::sum(const Motion& m) const noexcept {
+template <int N, int D, int M>
+double BodyMechanism<N, D, M>::sum(const Motion& m) const noexcept {
   double places = 0;
   for (std::size_t c = 0; c < constants_.coordinates(); ++c) places += m.at[c];
   return places;
 }
 
-template <int N, int D>
-double BodyMechanism<N, D>::stable_step(double step) const {
+template <int N, int D, int M>
+double BodyMechanism<N, D, M>::stable_step(double step) const {
   return plant::stable_step(step, rubs_.stiffest_rate(Pose(constants_, start_), start_, robot_));
 }
 
-template <int N, int D>
-void BodyMechanism<N, D>::set_rates(Motion& m, std::initializer_list<double> joint_rates,
-                                    double x_rate, double y_rate) const {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::set_rates(Motion& m, std::initializer_list<double> joint_rates,
+                                       double x_rate, double y_rate) const {
   for (std::size_t j = 0; j < constants_.links(); ++j) {
     const double on = constants_.hangs_on_link(j) ? m.rate[first_link + constants_.on(j)] : 0.0;
     m.rate[first_link + j] = on + (j < joint_rates.size() ? joint_rates.begin()[j] : 0.0);
@@ -52,8 +52,9 @@ void BodyMechanism<N, D>::set_rates(Motion& m, std::initializer_list<double> joi
   m.rate[up] = y_rate;
 }
 
-template <int N, int D>
-void BodyMechanism<N, D>::route(const Motion& m, muscle::Ends& ends, Arms& arms) const noexcept {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::route(const Motion& m, muscle::Ends<M>& ends,
+                                   Arms& arms) const noexcept {
   std::array<double, N> angle, rate;
   for (std::size_t j = 0; j < constants_.links(); ++j) {
     angle[j] = joint_angle(m, j);
@@ -65,8 +66,8 @@ void BodyMechanism<N, D>::route(const Motion& m, muscle::Ends& ends, Arms& arms)
 }
 
 // One-sided at both ends of the stroke.
-template <int N, int D>
-double BodyMechanism<N, D>::cylinder_stop(const Motion& m) const noexcept {
+template <int N, int D, int M>
+double BodyMechanism<N, D, M>::cylinder_stop(const Motion& m) const noexcept {
   const robot::Cylinder& c = robot_.cylinder;
   const double below = -m.at[up], above = m.at[up] - c.stroke;
   if (below > 0) {
@@ -80,10 +81,10 @@ double BodyMechanism<N, D>::cylinder_stop(const Motion& m) const noexcept {
   return 0;
 }
 
-template <int N, int D>
-void BodyMechanism<N, D>::load(const Pose& body, const Motion& m, const Arms& arms,
-                               const muscle::Lanes& tension, double piston_force,
-                               Load& out) const noexcept {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::load(const Pose& body, const Motion& m, const Arms& arms,
+                                  const muscle::Lanes<M>& tension, double piston_force,
+                                  Load& out) const noexcept {
   std::array<double, N> torque{};
   for (std::size_t j = 0; j < constants_.links(); ++j) {
     const robot::Joint& joint = robot_.joints[j];
@@ -125,19 +126,19 @@ void BodyMechanism<N, D>::load(const Pose& body, const Motion& m, const Arms& ar
   }
 }
 
-template <int N, int D>
-auto BodyMechanism<N, D>::accelerate(const Pose& body, const Motion& m, const Load& load,
-                                     const Forces& held) const noexcept -> Acceleration {
+template <int N, int D, int M>
+auto BodyMechanism<N, D, M>::accelerate(const Pose& body, const Motion& m, const Load& load,
+                                        const Forces& held) const noexcept -> Acceleration {
   Coordinates<N> force = load.force;
   const Coordinates<N> rub = rubs_.generalised(body, m, held);
   for (std::size_t c = 0; c < constants_.coordinates(); ++c) force[c] += rub[c];
   return body.accelerations(force);
 }
 
-template <int N, int D>
-auto BodyMechanism<N, D>::prepare(const Pose& body, const Motion& m, const Arms& arms,
-                                  const muscle::Lanes& mesh, double trolley_bound,
-                                  const Load& load) noexcept -> Acceleration {
+template <int N, int D, int M>
+auto BodyMechanism<N, D, M>::prepare(const Pose& body, const Motion& m, const Arms& arms,
+                                     const muscle::Lanes<M>& mesh, double trolley_bound,
+                                     const Load& load) noexcept -> Acceleration {
   const Acceleration free = body.accelerations(load.force);
   Forces bound{};
   for (std::size_t j = 0; j < constants_.links(); ++j) bound[j] = dry_[j];
@@ -154,26 +155,26 @@ auto BodyMechanism<N, D>::prepare(const Pose& body, const Motion& m, const Arms&
   return free;
 }
 
-template <int N, int D>
-void BodyMechanism<N, D>::move(Motion& out, const Motion& from, double h, const Motion& rates,
-                               const Acceleration& a) const noexcept {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::move(Motion& out, const Motion& from, double h, const Motion& rates,
+                                  const Acceleration& a) const noexcept {
   for (std::size_t c = 0; c < constants_.coordinates(); ++c) {
     out.at[c] = from.at[c] + h * rates.rate[c];
     out.rate[c] = from.rate[c] + h * a[c];
   }
 }
 
-template <int N, int D>
-void BodyMechanism<N, D>::glide(Motion& m, double h, const Acceleration& a) const noexcept {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::glide(Motion& m, double h, const Acceleration& a) const noexcept {
   for (std::size_t c = 0; c < constants_.coordinates(); ++c) {
     m.at[c] += h * (m.rate[c] + 0.5 * h * a[c]);
     m.rate[c] += h * a[c];
   }
 }
 
-template <int N, int D>
-void BodyMechanism<N, D>::finish(Motion& now, double h, const Motion* const (&stage)[4],
-                                 const Acceleration (&a)[4]) const noexcept {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::finish(Motion& now, double h, const Motion* const (&stage)[4],
+                                    const Acceleration (&a)[4]) const noexcept {
   const double sixth = h / 6.0;
   for (std::size_t c = 0; c < constants_.coordinates(); ++c) {
     now.at[c] += sixth * (stage[0]->rate[c] + 2.0 * stage[1]->rate[c] + 2.0 * stage[2]->rate[c] +
@@ -182,18 +183,18 @@ void BodyMechanism<N, D>::finish(Motion& now, double h, const Motion* const (&st
   }
 }
 
-template <int N, int D>
-void BodyMechanism<N, D>::add_torque(const Arms& arms, int muscle, double tension,
-                                     std::array<double, most_joints>& torque) const noexcept {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::add_torque(const Arms& arms, int muscle, double tension,
+                                        std::array<double, most_joints>& torque) const noexcept {
   for (std::size_t s = 0; s < Cords::most; ++s)
     if (const int j = cords_.joint(muscle, static_cast<int>(s)); j >= 0)
       torque[static_cast<std::size_t>(j)] += arms[static_cast<std::size_t>(muscle)][s] * tension;
 }
 
 // A foot is at its leg's last link's end; the ground's force on it is that on all its discs.
-template <int N, int D>
-void BodyMechanism<N, D>::tell(const Motion& m, const Acceleration& a, const Forces& held,
-                               const Load& load, Truth& out) const noexcept {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::tell(const Motion& m, const Acceleration& a, const Forces& held,
+                                  const Load& load, Truth& out) const noexcept {
   out.x = m.at[along_track];
   out.x_rate = m.rate[along_track];
   out.lift = m.at[up];
@@ -221,9 +222,9 @@ void BodyMechanism<N, D>::tell(const Motion& m, const Acceleration& a, const For
 }
 
 // The body's upward force on what hangs on it at one of its first links  [N].
-template <int N, int D>
-double BodyMechanism<N, D>::carried(const Body<N>& body, const Motion& m, const Acceleration& a,
-                                    std::size_t first, const Truth& truth) const noexcept {
+template <int N, int D, int M>
+double BodyMechanism<N, D, M>::carried(const Body<N>& body, const Motion& m, const Acceleration& a,
+                                       std::size_t first, const Truth& truth) const noexcept {
   double force = constants_.hanging[first] * (a[up] + constants_.gravity);
   for (std::size_t i = 0; i < constants_.links(); ++i) {
     const double rate = m.rate[first_link + i];
@@ -236,10 +237,10 @@ double BodyMechanism<N, D>::carried(const Body<N>& body, const Motion& m, const 
   return force;
 }
 
-template <int N, int D>
-void BodyMechanism<N, D>::tell_rollers(const Body<N>& body, const Motion& m, const Acceleration& a,
-                                       const Forces& held, const Load& load,
-                                       Truth& out) const noexcept {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::tell_rollers(const Body<N>& body, const Motion& m,
+                                          const Acceleration& a, const Forces& held,
+                                          const Load& load, Truth& out) const noexcept {
   const double hung = constants_.lifted_mass;
   FootTruth ground;
   for (const FootTruth& foot : out.foot) {

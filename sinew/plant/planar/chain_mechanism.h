@@ -13,7 +13,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "sinew/muscle/bank.h"
+#include "sinew/muscle/lanes.h"
 #include "sinew/plant/planar/chain.h"
 #include "sinew/plant/planar/contacts.h"
 #include "sinew/plant/planar/layout.h"
@@ -98,7 +98,7 @@ class ChainMechanism {
   }
 
   // Lengths of the muscles and their rates, from the joints' angles.
-  void route(const Motion& pose, muscle::Ends& ends, Arms&) const noexcept {
+  void route(const Motion& pose, muscle::Ends<chain_muscles>& ends, Arms&) const noexcept {
     std::array<double, N> travel, rate;
     for (int j = 0; j < N; ++j) {
       travel[j] = pose.angle[j] - (j > 0 ? pose.angle[j - 1] : 0.0) - rest_[j];
@@ -158,7 +158,8 @@ class ChainMechanism {
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
   // the mesh's own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& chain, const Motion& pose, const Arms&,
-                       const muscle::Lanes& mesh, double trolley_bound, const Load& load) noexcept {
+                       const muscle::Lanes<chain_muscles>& mesh, double trolley_bound,
+                       const Load& load) noexcept {
     const Acceleration free = chain.accelerations(load.force);
     Forces bound;
     for (int j = 0; j < N; ++j) bound[j] = dry_[j];

@@ -4,9 +4,7 @@
 
 namespace sinew::plant {
 
-template class World<ChainMechanism<1>, muscle::BankAir>;
-template class World<ChainMechanism<2>, muscle::BankAir>;
-template class World<ChainMechanism<1>, muscle::PlumbingAir>;
-template class World<ChainMechanism<2>, muscle::PlumbingAir>;
+template class World<ChainMechanism<1>, muscle::AirNetwork<chain_muscles>>;
+template class World<ChainMechanism<2>, muscle::AirNetwork<chain_muscles>>;
 
 }  // namespace sinew::plant

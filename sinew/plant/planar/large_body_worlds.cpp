@@ -5,10 +5,11 @@
 
 namespace sinew::plant {
 
-template class BodyMechanism<8, 8>;
-template class BodyMechanism<robot::max_joints, robot::max_discs>;
+template class BodyMechanism<8, 8, 8>;
+template class BodyMechanism<most_joints, robot::max_discs, most_muscles>;
 
-template class World<BodyMechanism<8, 8>, muscle::PlumbingAir>;
-template class World<BodyMechanism<robot::max_joints, robot::max_discs>, muscle::PlumbingAir>;
+template class World<BodyMechanism<8, 8, 8>, muscle::AirNetwork<8>>;
+template class World<BodyMechanism<most_joints, robot::max_discs, most_muscles>,
+                     muscle::AirNetwork<most_muscles>>;
 
 }  // namespace sinew::plant

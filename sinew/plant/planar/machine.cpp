@@ -17,14 +17,11 @@ AnyWorld body_world_for(const Setup& s) {
 
 AnyWorld world_for(const Setup& s) {
   const bool chain = robot::is_chain(s.robot), one = s.robot.joints.size() == 1;
-  const bool bank = !muscle::needs_plumbing(s.muscles, s.air, s.supply, s.cylinder, s.faults);
   using std::in_place_type;
-  if (chain && bank && one) return AnyWorld(in_place_type<ChainWorld<1>>, s);
-  if (chain && bank) return AnyWorld(in_place_type<ChainWorld<2>>, s);
-  if (chain && one) return AnyWorld(in_place_type<ChainPlumbingWorld<1>>, s);
-  if (chain) return AnyWorld(in_place_type<ChainPlumbingWorld<2>>, s);
-  return body_world_for<SizedBodyWorld<2, 4>, SizedBodyWorld<3, 4>, SizedBodyWorld<4, 4>, BodyWorld,
-                        LargeBodyWorld>(s);
+  if (chain && one) return AnyWorld(in_place_type<ChainWorld<1>>, s);
+  if (chain) return AnyWorld(in_place_type<ChainWorld<2>>, s);
+  return body_world_for<SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 4, 8>, SizedBodyWorld<4, 4, 8>,
+                        BodyWorld, LargeBodyWorld>(s);
 }
 
 }  // namespace

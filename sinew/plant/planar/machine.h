@@ -7,7 +7,7 @@
 #include <span>
 #include <variant>
 
-#include "sinew/muscle/air.h"
+#include "sinew/muscle/network.h"
 #include "sinew/plant/planar/body_mechanism.h"
 #include "sinew/plant/planar/chain_mechanism.h"
 #include "sinew/plant/planar/world.h"
@@ -15,29 +15,25 @@
 namespace sinew::plant {
 
 template <int N>
-using ChainWorld = World<ChainMechanism<N>, muscle::BankAir>;
-template <int N>
-using ChainPlumbingWorld = World<ChainMechanism<N>, muscle::PlumbingAir>;
-// By links and discs; up to four links are just so many (body.h).
-template <int N, int D>
-using SizedBodyWorld = World<BodyMechanism<N, D>, muscle::PlumbingAir>;
-using BodyWorld = SizedBodyWorld<8, 8>;
-using LargeBodyWorld = SizedBodyWorld<robot::max_joints, robot::max_discs>;  // holds every robot
+using ChainWorld = World<ChainMechanism<N>, muscle::AirNetwork<chain_muscles>>;
+// By links, discs and muscles; up to four links are just so many (body.h).
+template <int N, int D, int M>
+using SizedBodyWorld = World<BodyMechanism<N, D, M>, muscle::AirNetwork<M>>;
+using BodyWorld = SizedBodyWorld<8, 8, 8>;
+using LargeBodyWorld = SizedBodyWorld<most_joints, robot::max_discs, most_muscles>;  // holds all
 
-extern template class World<ChainMechanism<1>, muscle::BankAir>;
-extern template class World<ChainMechanism<2>, muscle::BankAir>;
-extern template class World<ChainMechanism<1>, muscle::PlumbingAir>;
-extern template class World<ChainMechanism<2>, muscle::PlumbingAir>;
-extern template class World<BodyMechanism<2, 4>, muscle::PlumbingAir>;
-extern template class World<BodyMechanism<3, 4>, muscle::PlumbingAir>;
-extern template class World<BodyMechanism<4, 4>, muscle::PlumbingAir>;
-extern template class World<BodyMechanism<8, 8>, muscle::PlumbingAir>;
-extern template class World<BodyMechanism<robot::max_joints, robot::max_discs>,
-                            muscle::PlumbingAir>;
+extern template class World<ChainMechanism<1>, muscle::AirNetwork<chain_muscles>>;
+extern template class World<ChainMechanism<2>, muscle::AirNetwork<chain_muscles>>;
+extern template class World<BodyMechanism<2, 4, 8>, muscle::AirNetwork<8>>;
+extern template class World<BodyMechanism<3, 4, 8>, muscle::AirNetwork<8>>;
+extern template class World<BodyMechanism<4, 4, 8>, muscle::AirNetwork<8>>;
+extern template class World<BodyMechanism<8, 8, 8>, muscle::AirNetwork<8>>;
+extern template class World<BodyMechanism<most_joints, robot::max_discs, most_muscles>,
+                            muscle::AirNetwork<most_muscles>>;
 
-using AnyWorld = std::variant<ChainWorld<1>, ChainWorld<2>, ChainPlumbingWorld<1>,
-                              ChainPlumbingWorld<2>, SizedBodyWorld<2, 4>, SizedBodyWorld<3, 4>,
-                              SizedBodyWorld<4, 4>, BodyWorld, LargeBodyWorld>;
+using AnyWorld =
+    std::variant<ChainWorld<1>, ChainWorld<2>, SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 4, 8>,
+                 SizedBodyWorld<4, 4, 8>, BodyWorld, LargeBodyWorld>;
 
 class Machine {
  public:

@@ -27,8 +27,8 @@
 #include <cstdint>
 #include <initializer_list>
 
-#include "sinew/muscle/bank.h"
 #include "sinew/muscle/failure.h"
+#include "sinew/muscle/network.h"
 #include "sinew/plant/planar/setup.h"
 #include "sinew/robot/sensing.h"
 #include "sinew/signals/port.h"
@@ -48,7 +48,7 @@ class World final : public signals::Port {
 
   // Everything that one look at a state yields.
   struct Look {
-    muscle::Ends ends;
+    typename Air::Ends ends;
     typename Mechanism::Arms arms;
     typename Air::Answer air;
     typename Mechanism::Load load;  // all that pushes the coordinates but dry friction
@@ -62,7 +62,8 @@ class World final : public signals::Port {
   // of the library, and for worlds of equal setups.
   struct State {
     Moving now;
-    typename Air::Node valves;
+    typename Air::Valves valves;
+    typename Air::Memory memory;
     Forces held;                   // friction of the last step
     double trolley_bound;          // of the trolley's friction in the next [N]
     Look first;                    // first stage at the node, without friction
@@ -126,7 +127,7 @@ class World final : public signals::Port {
 
   void evaluate_air(double t, const Moving& state, Look& look) const noexcept {
     mechanism_.route(state.motion, look.ends, look.arms);
-    air_.evaluate(t, look.ends, state.air, state_.valves, look.air);
+    air_.evaluate(t, look.ends, state.air, state_.valves, state_.memory, look.air);
   }
   void look_at(double t, const Moving& state, const Forces& held, Look& look) const noexcept;
   void prepare() noexcept;

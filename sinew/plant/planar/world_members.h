@@ -6,7 +6,6 @@
 #include <cmath>
 #include <type_traits>
 
-#include "sinew/muscle/air.h"
 #include "sinew/plant/planar/world.h"
 
 namespace sinew::plant {
@@ -31,7 +30,8 @@ World<M, A>::World(const Setup& setup)
   state_.now.motion = mechanism_.start();
   mechanism_.route(state_.now.motion, first.ends, first.arms);
   state_.now.air = air_.initial(setup.start.pressure, first.ends.length, setup.start.lift);
-  state_.valves = air_.at_rest();
+  state_.valves = air_.valves_at_rest();
+  state_.memory = air_.memory_at_rest(setup.start.pressure, first.ends.length);
   prepare();
 }
 
@@ -76,7 +76,7 @@ void World<M, A>::restore(const State& state) noexcept {
 // Is anything of the look at a node no number? The air also takes from the look what it remembers.
 template <class M, class A>
 void World<M, A>::look_for_failure() noexcept {
-  const muscle::Failure of_air = air_.remember(state_.first.air, state_.now.air, state_.valves);
+  const muscle::Failure of_air = air_.remember(state_.first.air, state_.now.air, state_.memory);
   if (state_.failure) return;
   if (of_air) {
     state_.failure = of_air;
@@ -107,7 +107,7 @@ void World<M, A>::step(double h) noexcept {
     const double from = state_.time + k * (h / pieces);
     if (k > 0) {
       look_at(from, state_.now, state_.held, state_.first);
-      air_.remember(state_.first.air, state_.now.air, state_.valves);
+      air_.remember(state_.first.air, state_.now.air, state_.memory);
       first = state_.first.acceleration;
     }
     piece(from, h / pieces, first);
@@ -142,7 +142,7 @@ void World<M, A>::piece(double from, double h, const Acceleration& first) noexce
 template <class M, class A>
 double World<M, A>::next_node() const noexcept {
   const double multiple = static_cast<double>(state_.multiple + 1) * step_;
-  const double change = air_.next_change(state_.valves);
+  const double change = state_.valves.next_change;
   return change < multiple ? change : multiple;
 }
 
@@ -186,9 +186,9 @@ auto World<M, A>::peek(const Glance& g, double t) const noexcept -> Peek {
     if (air_.flowing(state_.valves)) {
       const typename A::State from = p.state.air;
       const typename A::Answer before = p.look.air;
-      air_.predict(p.state.air, from, h, before);
+      air_.move(p.state.air, from, h, before, state_.valves);
       evaluate_air(to, p.state, p.look);
-      air_.correct(p.state.air, from, h, before, p.look.air);
+      air_.correct(p.state.air, from, h, before, p.look.air, state_.valves);
     }
     evaluate_air(to, p.state, p.look);
   }

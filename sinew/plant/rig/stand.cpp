@@ -24,6 +24,10 @@ double Stand::travel(double length) const noexcept {
   return setup_.cylinder ? setup_.cylinder->stroke - length : 0.0;
 }
 
+double Stand::air_in(const Air::State& s) const noexcept {
+  return setup_.cylinder ? air_.cylinder_mass(s, muscle::up) : s.mass[0];
+}
+
 auto Stand::order(double t) const noexcept -> Order {
   const Schedule* of[] = {&setup_.load.mass, &setup_.load.force, &setup_.load.length,
                           &setup_.charge.pressure};
@@ -45,14 +49,13 @@ auto Stand::order_from(double t, double length) const noexcept -> Order {
 }
 
 // Element and air at a length.
-void Stand::evaluate(double t, double length, double rate, const muscle::AirState& air,
-                     Look& out) const noexcept {
-  muscle::Lanes lengths{}, rates{};
-  lengths[0] = length;
-  rates[0] = rate;
-  plumbing_.evaluate(t, lengths, rates, travel(length), -rate, air, state_.valves, out.pull,
-                     out.flow);
-  const muscle::AirPull& p = out.pull;
+void Stand::evaluate(double t, double length, double rate, const Air::State& air,
+                     const Air::Memory& memory, Look& out) const noexcept {
+  Air::Ends ends{.travel = travel(length), .travel_rate = -rate};
+  ends.length.of.fill(length);
+  ends.rate.of.fill(rate);
+  air_.evaluate(t, ends, air, state_.valves, memory, out.pull);
+  const Air::Answer& p = out.pull;
   if (setup_.cylinder) {
     out.force = p.cylinder_force;
     out.bound = 0;
@@ -64,7 +67,7 @@ void Stand::evaluate(double t, double length, double rate, const muscle::AirStat
     out.bound = p.mesh[0];
     out.in = p.inflow[0];
     out.out = p.outflow[0];
-    out.leak = p.leak[0];
+    out.leak = air_.leak(p, 0, state_.valves);
   }
 }
 
@@ -73,15 +76,15 @@ void Stand::look(double t, const Order& o, const Moving& s, Look& out) const noe
   const double length = driven_ ? o.length.at(t) : std::clamp(s.length, o.shortest, o.longest);
   const double rate = driven_ ? o.length.slope : s.velocity;
   if (regulated_) {
-    muscle::Lanes lengths{};
-    lengths[0] = length;
-    muscle::AirState held = s.air;
-    plumbing_.hold(o.pressure.at(t), lengths, travel(length), held);
-    evaluate(t, length, rate, held, out);
+    Air::Lanes lengths;
+    lengths.of.fill(length);
+    Air::State held = s.air;
+    air_.hold(o.pressure.at(t), lengths, travel(length), held);
+    evaluate(t, length, rate, held, s.memory, out);
     out.in = out.out = out.leak = 0;
-    for (int i = 0; i < plumbing_.held_states(); ++i) out.flow[i] = 0;
+    air_.hold_still(out.pull);
   } else {
-    evaluate(t, length, rate, s.air, out);
+    evaluate(t, length, rate, s.air, s.memory, out);
   }
   const double mass = o.mass.at(t);
   out.asks = mass * setup_.load.gravity + o.force.at(t) - out.force;
@@ -95,7 +98,7 @@ auto Stand::shifted(const Moving& from, double h, const Look& by) const noexcept
   Moving s = from;
   s.length += h * by.velocity;
   s.velocity += h * by.acceleration;
-  for (int i = 0; i < plumbing_.states(); ++i) s.air[i] += h * by.flow[i];
+  air_.move(s.air, from.air, h, by.pull, state_.valves);
   s.in += h * by.in;
   s.out += h * by.out;
   s.leak += h * by.leak;
@@ -151,24 +154,25 @@ void Stand::place(double t, const Order& o, Moving& s) const noexcept {
     if (s.velocity != 0) s.rub = s.velocity > 0 ? Rub::down : Rub::up;
   }
   if (!regulated_) return;
-  muscle::Lanes lengths{};
-  lengths[0] = s.length;
-  const double before = s.air[0];
-  plumbing_.hold(o.pressure.at(t), lengths, travel(s.length), s.air);
-  const double gained = s.air[0] - before;
+  Air::Lanes lengths;
+  lengths.of.fill(s.length);
+  const double before = air_in(s.air);
+  air_.hold(o.pressure.at(t), lengths, travel(s.length), s.air);
+  const double gained = air_in(s.air) - before;
   (gained > 0 ? s.in : s.out) += std::fabs(gained);
 }
 
 // Of a chamber that settles at the pressure behind an open valve: the flow's slope is steep there
 // [1/s].
 double Stand::settling_rate(double exponent, const Moving& s, const Look& at) const noexcept {
-  const muscle::AirPull& p = at.pull;
+  const Air::Answer& p = at.pull;
   const bool cylinder = setup_.cylinder.has_value();
-  const double behind = cylinder ? p.cylinder_pressure[muscle::up] : p.manifold[0];
+  const double behind =
+      cylinder ? p.cylinder_pressure[muscle::up] : air_.manifold(p, 0, state_.valves);
   const double in = std::fabs(at.in / (p.supply_pressure - behind));
   const double out = std::fabs(at.out / (behind - setup_.air.atmosphere));
   const double slope = (std::isfinite(in) ? in : 0.0) + (std::isfinite(out) ? out : 0.0);
-  return exponent * behind * slope / s.air[0];
+  return exponent * behind * slope / air_in(s.air);
 }
 
 // Of the load on its spring, air shut in; of the ends where they act  [1/s].
@@ -199,10 +203,10 @@ double Stand::longest_piece(const Order& o, const Moving& s, const Look& at) con
   const double n =
       setup_.air.wall_time > 0 ? gas::heat_capacity_ratio : setup_.air.polytropic_exponent;
   double longest = setup_.step;
-  if (!plumbing_.quiet(state_.valves)) {
-    muscle::Lanes lengths{};
-    lengths[0] = s.length;
-    longest = std::min({longest, plumbing_.longest_step(lengths, travel(s.length), state_.valves),
+  if (air_.flowing(state_.valves)) {
+    Air::Ends ends{.travel = travel(s.length)};
+    ends.length.of.fill(s.length);
+    longest = std::min({longest, air_.longest_step(ends, state_.valves),
                         longest_settling / settling_rate(n, s, at)});
   }
   if (!driven_) longest = std::min(longest, longest_swing / swinging_rate(n, o.mass.value, s, at));
@@ -217,7 +221,7 @@ double Stand::piece(double t, double end, Moving& s) const noexcept {
   if (s.rub == Rub::rests) settle(t, o, s);
   Look first;
   look(t, o, s, first);
-  plumbing_.remember(first.pull, s.air);
+  air_.remember(first.pull, s.air, s.memory);
 
   const double target = std::min(end, o.corner), whole = target - t;
   const double pieces = std::ceil(whole / longest_piece(o, s, first) - 1e-9);
@@ -252,7 +256,7 @@ auto Stand::moved(Moving s, double from, double to) const noexcept -> Moving {
 }
 
 void Stand::prepare() noexcept {
-  plumbing_.node(state_.time, state_.first.pull, state_.valves);
+  air_.move_valves(state_.time, state_.first.pull, state_.valves);
   const Order o = order(state_.time);
   place(state_.time, o, state_.now);
   settle(state_.time, o, state_.now);
@@ -294,7 +298,7 @@ void Stand::commit() noexcept {
 }
 
 double Stand::air_mass() const noexcept {
-  return plumbing_.total_mass(state_.now.air, travel(state_.now.length));
+  return air_.total_mass(state_.now.air, travel(state_.now.length));
 }
 
 StandTruth Stand::truth(double t) noexcept { return seen(std::max(t, state_.time)); }
@@ -317,12 +321,12 @@ StandTruth Stand::seen(double t) noexcept {
           .sticks = rests,
           .load = driven_ ? 0.0 : o.mass.at(t),
           .pressure = cylinder ? l.pull.cylinder_pressure[muscle::up] : l.pull.pressure[0],
-          .air = s.air[0],
+          .air = air_in(s.air),
           .air_in = s.in,
           .air_out = s.out,
           .air_leaked = s.leak,
-          .inlet = plumbing_.open_share(0, t, state_.valves),
-          .exhaust = plumbing_.open_share(1, t, state_.valves),
+          .inlet = air_.open_share(0, t, state_.valves),
+          .exhaust = air_.open_share(1, t, state_.valves),
           .supply_pressure = l.pull.supply_pressure,
           .tank_pressure = l.pull.tank_pressure};
 }
@@ -343,9 +347,7 @@ Status Stand::drive(signals::Edge edge) noexcept {
   if (t < state_.time) return Status::invalid;  // that node is final
   while (!state_.failure && next_node() < t)
     commit();  // later edges act at t or after: these nodes are final
-  plumbing_.electrical(edge.valve.index, t, edge.open, state_.first.pull, state_.valves);
-  plumbing_.level(edge.valve.index, t, static_cast<double>(edge.level) / signals::max_level,
-                  state_.valves);
+  air_.command(edge, t, state_.first.pull, state_.valves);
   return Status::ok;
 }
 

@@ -7,9 +7,10 @@
 //   L      length of the muscle, grows downwards [m]     F      of the muscle, both ends held [N]
 //   M      hanging mass [kg]                             F_dry  dry friction, |F_dry| <= Q k, [33]
 //
-// The air is muscle::Plumbing's; valves, hoses, leaks, walls, tank and delays all work. A regulated
-// stand holds its air at the prescribed pressure instead. With an air cylinder in the muscle's
-// place L is how far its rod is out, and it pulls as the pressure on the rod's side pushes it in.
+// The air is muscle::AirNetwork's; valves, hoses, leaks, walls, tank and delays all work. A
+// regulated stand holds its air at the prescribed pressure instead. With an air cylinder in the
+// muscle's place L is how far its rod is out, and it pulls as the pressure on the rod's side pushes
+// it in.
 //
 // One RK4 over body and air. Nodes are multiples of the step and where a valve really moves, and
 // nothing else: reads and truth work on a copy and change no bit. Between two nodes the integration
@@ -30,7 +31,7 @@
 #include <cstdint>
 
 #include "sinew/muscle/failure.h"
-#include "sinew/muscle/plumbing.h"
+#include "sinew/muscle/network.h"
 #include "sinew/plant/rig/setup.h"
 #include "sinew/signals/port.h"
 
@@ -41,12 +42,15 @@ namespace sinew::plant {
 double hanging_length(const StandSetup& setup);
 
 class Stand final : public signals::Port {
+  using Air = muscle::AirNetwork<4>;
+
   enum class Rub : signed char { rests = 0, down = 1, up = -1 };
 
   // The part of the state that is integrated.
   struct Moving {
     double length = 0, velocity = 0;
-    muscle::AirState air{};
+    Air::State air{};
+    Air::Memory memory{};
     double in = 0, out = 0, leak = 0;  // since the start [kg]
     Rub rub = Rub::rests;              // driven: of the last motion
   };
@@ -59,11 +63,10 @@ class Stand final : public signals::Port {
   };
 
   struct Look {
-    muscle::AirPull pull;
-    muscle::AirState flow;  // d(air)/dt
-    double force = 0;       // of the element, dry friction apart [N]
-    double bound = 0;       // of the dry friction [N]
-    double asks = 0;        // M g + F_ext - force [N]
+    Air::Answer pull;
+    double force = 0;  // of the element, dry friction apart [N]
+    double bound = 0;  // of the dry friction [N]
+    double asks = 0;   // M g + F_ext - force [N]
     double velocity = 0, acceleration = 0;
     double in = 0, out = 0, leak = 0;  // [kg/s]
   };
@@ -73,7 +76,7 @@ class Stand final : public signals::Port {
   // library, and for stands of equal setups.
   struct State {
     Moving now;
-    muscle::Plumbing::Valves valves;
+    Air::Valves valves;
     Look first;       // at the last node
     double time = 0;  // of the node [s]
     std::int64_t multiple = 0, nodes = 0;
@@ -110,8 +113,8 @@ class Stand final : public signals::Port {
   Order order(double t) const noexcept;
   Order order_from(double t, double length) const noexcept;
   void look(double t, const Order& o, const Moving& s, Look& out) const noexcept;
-  void evaluate(double t, double length, double rate, const muscle::AirState& air,
-                Look& out) const noexcept;
+  void evaluate(double t, double length, double rate, const Air::State& air,
+                const Air::Memory& memory, Look& out) const noexcept;
   Moving shifted(const Moving& from, double h, const Look& by) const noexcept;
   Moving rk4(double t, double h, const Order& o, const Moving& s, const Look& first) const noexcept;
   int region(double length) const noexcept;
@@ -124,8 +127,9 @@ class Stand final : public signals::Port {
   double piece(double t, double end, Moving& s) const noexcept;
   Moving moved(Moving s, double from, double to) const noexcept;
   void place(double t, const Order& o, Moving& s) const noexcept;
-  double travel(double length) const noexcept;  // of the cylinder [m]
-  void prepare() noexcept;                      // at a new node
+  double travel(double length) const noexcept;        // of the cylinder [m]
+  double air_in(const Air::State& s) const noexcept;  // in the element [kg]
+  void prepare() noexcept;                            // at a new node
   void look_for_failure() noexcept;
   double next_node() const noexcept;
   void commit() noexcept;
@@ -134,7 +138,7 @@ class Stand final : public signals::Port {
   double quantity(const Transducer& t, double at) noexcept;
 
   StandSetup setup_;
-  muscle::Plumbing plumbing_;
+  Air air_;
   bool driven_ = false, regulated_ = false;
   bool rubs_ = false;                           // dry friction with a real stick
   std::array<double, 2> ends_{};                // L_min, L_max; an air cylinder has none [m]

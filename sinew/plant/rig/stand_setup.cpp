@@ -77,7 +77,7 @@ void refuse_without_air(const StandSetup& s, double length) {
          " m its muscle has no room for air: give an external_volume above 0, or stay shorter");
 }
 
-muscle::Plumbing plumbing_of(const StandSetup& s) {
+muscle::AirNetwork<4> air_of(const StandSetup& s) {
   if (s.cylinder) return {{}, s.air, s.supply, s.cylinder};
   return {std::span(&s.muscle, 1), s.air, s.supply};
 }
@@ -90,15 +90,17 @@ double hanging_length(const StandSetup& setup) {
   s.muscle.actuator.loss.stick = true;  // the sign of no speed would be a force
   // At one pressure the room for air takes no part; beyond the threads there must be some.
   if (!(s.muscle.external_volume > 0)) s.muscle.external_volume = 1e-6;
-  const muscle::Plumbing plumbing = plumbing_of(s);
-  const muscle::Plumbing::Valves valves = plumbing.valves_at_rest();
+  using Air = muscle::AirNetwork<4>;
+  const Air network = air_of(s);
+  const Air::Valves valves = network.valves_at_rest();
   const double weight = s.load.mass.at(0) * s.load.gravity + s.load.force.at(0);
   const auto surplus = [&](double length) {
-    muscle::Lanes lengths{}, rates{};
-    lengths[0] = length;
-    muscle::AirState air = plumbing.initial(s.start.pressure, lengths, 0), flow{};
-    muscle::AirPull pull{};
-    plumbing.evaluate(0, lengths, rates, 0, 0, air, valves, pull, flow);
+    Air::Ends ends{};
+    ends.length.of.fill(length);
+    const Air::State air = network.initial(s.start.pressure, ends.length, 0);
+    const Air::Memory memory = network.memory_at_rest(s.start.pressure, ends.length);
+    Air::Answer pull;
+    network.evaluate(0, ends, air, valves, memory, pull);
     return pull.clamped[0] - weight;
   };
   auto [low, high] = reach(s);
@@ -115,7 +117,7 @@ static_assert(std::is_trivially_copyable_v<Stand::State>);
 
 Stand::Stand(const StandSetup& setup)
     : setup_(with_valves(setup)),
-      plumbing_(plumbing_of(setup_)),
+      air_(air_of(setup_)),
       driven_(setup.load.mode == Load::Mode::driven),
       regulated_(setup.charge.mode == Charge::Mode::regulated) {
   const actuator::Actuator& a = setup_.muscle.actuator;
@@ -134,13 +136,14 @@ Stand::Stand(const StandSetup& setup)
   else if (!(start.length > 0))
     start.length = hanging_length(setup_);
 
-  muscle::Lanes length{};
-  length[0] = start.length;
+  Air::Lanes length;
+  length.of.fill(start.length);
   if (setup_.cylinder) setup_.cylinder->initial_pressure[muscle::up] = start.pressure;
-  plumbing_ = plumbing_of(setup_);
-  state_.valves = plumbing_.valves_at_rest();
+  air_ = air_of(setup_);
+  state_.valves = air_.valves_at_rest();
   state_.now.length = start.length;
-  state_.now.air = plumbing_.initial(start.pressure, length, travel(start.length));
+  state_.now.memory = air_.memory_at_rest(start.pressure, length);
+  state_.now.air = air_.initial(start.pressure, length, travel(start.length));
   state_.now.length += start.displacement;
   refuse_without_air(setup_, start.length);
   refuse_without_air(setup_, state_.now.length);
