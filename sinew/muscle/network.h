@@ -1,6 +1,6 @@
 // muscle/network.h - the air of a machine: bodies of air (chambers of muscles and of a cylinder,
 // hoses, a tank, the room) joined by restrictions (valves, regulators, hoses, leaks), with the
-// muscles that they fill. The air half of one ODE; plant/planar/world.h integrates it with a body:
+// muscles that they fill. The air half of one ODE; plant/world/world.h integrates it with a body:
 //
 //   lengths, rates, state, valves, memory  ->  tensions, pressures, flows
 //
@@ -217,10 +217,9 @@ class AirNetwork {
   }
   Account cylinder_account(const State& s, int side) const noexcept {
     const auto c = static_cast<std::size_t>(side);
-    return {.in = s.piston_in[c], .out = s.piston_out[c]};
-  }
-  double cylinder_mass(const State& s, Side side) const noexcept {  // of a chamber with valves [kg]
-    return other(s, sides_[side].mass);
+    const int mass = sides_[c].mass;
+    return {
+        .mass = mass != none ? other(s, mass) : 0.0, .in = s.piston_in[c], .out = s.piston_out[c]};
   }
   double cylinder_pressure(const Answer& a, int side) const noexcept {  // [Pa]
     return a.cylinder_pressure[static_cast<std::size_t>(side)];

@@ -5,8 +5,9 @@
 //   body.h   equations of motion, dense      rubs.h     friction and the discs on the ground
 //   cords.h  routes of the muscles           rollers.h  what the trolley rests on
 //
-// One of the mechanisms of world.h; chain_mechanism.h is the same for the leg that walks, faster.
-// It is compiled for several sizes: N joints on feet of D discs (body.h, rubs.h), M muscles.
+// One of the mechanisms of world/world.h; chain_mechanism.h is the same for the leg that walks,
+// faster. It is compiled for several sizes: N joints on feet of D discs (body.h, rubs.h), M
+// muscles.
 #pragma once
 
 #include <array>
@@ -15,6 +16,7 @@
 #include "sinew/muscle/lanes.h"
 #include "sinew/plant/planar/body.h"
 #include "sinew/plant/planar/cords.h"
+#include "sinew/plant/planar/planar_mechanism.h"
 #include "sinew/plant/planar/rubs.h"
 #include "sinew/plant/planar/setup.h"
 #include "sinew/plant/planar/stops.h"
@@ -22,7 +24,7 @@
 namespace sinew::plant {
 
 template <int N, int D, int M>
-class BodyMechanism {
+class BodyMechanism : public PlanarMechanism<M> {
  public:
   using Motion = plant::Motion<N>;
   using Acceleration = Coordinates<N>;
@@ -50,7 +52,7 @@ class BodyMechanism {
   double arm(const Arms& arms, int muscle) const noexcept {  // at its first joint [m]
     return arms[static_cast<std::size_t>(muscle)][0];
   }
-  Pose pose(const Motion& motion) const noexcept { return Pose(constants_, motion); }
+  Pose pose(double, const Motion& motion) const noexcept { return Pose(constants_, motion); }
 
   double joint_angle(const Motion& m, std::size_t j) const noexcept {
     return m.at[first_link + j] -
@@ -66,13 +68,13 @@ class BodyMechanism {
   double sum(const Motion& m) const noexcept;
 
   // The body step, or a whole part of it that suits the fastest rate of the machine at its start.
-  double stable_step(double step) const;
+  double node_step(const Setup& setup) const;
 
   void set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
                  double y_rate) const;
 
   // Lengths of the muscles, the piston's travel, their rates; the muscles' arms.
-  void route(const Motion& m, muscle::Ends<M>& ends, Arms& arms) const noexcept;
+  void route(double, const Motion& m, muscle::Ends<M>& ends, Arms& arms) const noexcept;
 
   template <class Answer>
   void load(const Pose& body, const Motion& m, const Arms& arms, const Answer& air,

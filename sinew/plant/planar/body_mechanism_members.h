@@ -37,8 +37,9 @@ double BodyMechanism<N, D, M>::sum(const Motion& m) const noexcept {
 }
 
 template <int N, int D, int M>
-double BodyMechanism<N, D, M>::stable_step(double step) const {
-  return plant::stable_step(step, rubs_.stiffest_rate(Pose(constants_, start_), start_, robot_));
+double BodyMechanism<N, D, M>::node_step(const Setup& setup) const {
+  return stable_step(setup.steps.body,
+                     rubs_.stiffest_rate(Pose(constants_, start_), start_, robot_));
 }
 
 template <int N, int D, int M>
@@ -53,7 +54,7 @@ void BodyMechanism<N, D, M>::set_rates(Motion& m, std::initializer_list<double> 
 }
 
 template <int N, int D, int M>
-void BodyMechanism<N, D, M>::route(const Motion& m, muscle::Ends<M>& ends,
+void BodyMechanism<N, D, M>::route(double, const Motion& m, muscle::Ends<M>& ends,
                                    Arms& arms) const noexcept {
   std::array<double, N> angle, rate;
   for (std::size_t j = 0; j < constants_.links(); ++j) {

@@ -2,7 +2,7 @@
 // once.
 #include "sinew/plant/planar/body_mechanism_members.h"
 #include "sinew/plant/planar/machine.h"
-#include "sinew/plant/planar/world_members.h"
+#include "sinew/plant/world/members.h"
 
 namespace sinew::plant {
 

@@ -1,6 +1,6 @@
 // plant/planar/chain_worlds.cpp - the worlds of chains, compiled once.
 #include "sinew/plant/planar/machine.h"
-#include "sinew/plant/planar/world_members.h"
+#include "sinew/plant/world/members.h"
 
 namespace sinew::plant {
 

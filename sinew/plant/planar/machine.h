@@ -1,6 +1,6 @@
 // plant/planar/machine.h - a planar machine in simulation: the mechanism and the air that suit its
-// description, behind one face. Robots that a chain holds go by chain_mechanism.h, and what of them
-// has only air that a bank holds by muscle/bank.h.
+// description, behind one face. Robots that a chain holds go by chain_mechanism.h, all others by
+// the first size of body_mechanism.h that has room for them.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include "sinew/muscle/network.h"
 #include "sinew/plant/planar/body_mechanism.h"
 #include "sinew/plant/planar/chain_mechanism.h"
-#include "sinew/plant/planar/world.h"
+#include "sinew/plant/world/world.h"
 
 namespace sinew::plant {
 

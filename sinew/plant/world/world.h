@@ -1,4 +1,4 @@
-// plant/planar/world.h - a machine that its muscles move, as a Port: nodes, steps, peeks and
+// plant/world/world.h - a machine that its muscles move, as a Port: nodes, steps, cuts, peeks and
 // events, written once for every mechanism and every air.
 //
 // One RK4 over body and air. Committed nodes are the multiples of the body step and the instants at
@@ -9,17 +9,23 @@
 //   order of one step:  node (valves, reference of the pressure, first stage)
 //                       -> dry friction for this step -> three more stages -> next node
 //
-// A step is cut into several pieces, under the friction of the whole, where air is quicker than the
-// body.
+// A step is divided in two ways; neither makes a node:
+//
+//   pieces   where air is quicker than the body: equal parts, under the friction of the whole
+//   cuts     a mechanism that CutsSteps has its step end, and another begin, where a law breaks off
+//            (an end stop, rest, breakaway, a corner of a schedule), each part in pieces that suit
+//            its fastest rate, dry friction decided anew at each; a peek integrates as a step does
 //
 // Model, state and scratch are apart: mechanism and air are constant once made, State is everything
 // that the future depends on, one block that is copied like bytes, and all else is worked out from
 // it at a node.
 //
 // Mechanism  what moves: routes of the muscles, forces, equations of motion, contacts
-//            (chain_mechanism.h, body_mechanism.h)
-// Air        what fills the muscles: valves, masses, pressures, tensions (muscle/bank.h,
-//            plumbing.h)
+//            (planar/chain_mechanism.h, planar/body_mechanism.h, slide/slide_mechanism.h)
+// Senses     of the mechanism: what its sensors read and what a simulation tells (planar/senses.h,
+//            slide/senses.h)
+// Air        what fills the muscles: valves, masses, pressures, tensions (muscle/network.h,
+//            slide/stand_air.h)
 #pragma once
 
 #include <algorithm>
@@ -28,17 +34,29 @@
 #include <initializer_list>
 
 #include "sinew/muscle/failure.h"
-#include "sinew/muscle/network.h"
-#include "sinew/plant/planar/setup.h"
-#include "sinew/robot/sensing.h"
 #include "sinew/signals/port.h"
 
 namespace sinew::plant {
+
+// A mechanism whose laws break off within a step says `cuts_steps` and, beside what all have,
+//
+//   begin(t, motion)               a smooth part begins: what is prescribed goes into the motion
+//   corner()                       where that part ends at the latest, by what is prescribed [s]
+//   longest_piece(motion, look)    that suits the fastest rate there [s]
+//   watches(held), gap(...)        how far a state is beyond what the part can hold: cut.h
+//   cut_within()                   how near the break its cut must be [s]
+//   stop(motion, held)             at a cut: what turned back against its friction rests
+//   hold(motion, load, held)       dry friction of the part, by what it was before
+template <class Mechanism>
+concept CutsSteps = Mechanism::cuts_steps;
+template <class Mechanism>
+concept WholeSteps = !Mechanism::cuts_steps;
 
 template <class Mechanism, class Air>
 class World final : public signals::Port {
   using Acceleration = typename Mechanism::Acceleration;
   using Forces = typename Mechanism::Forces;
+  using Memory = typename Air::Memory;
 
   // The part of the state that is integrated.
   struct Moving {
@@ -48,7 +66,7 @@ class World final : public signals::Port {
 
   // Everything that one look at a state yields.
   struct Look {
-    typename Air::Ends ends;
+    typename Mechanism::Ends ends;
     typename Mechanism::Arms arms;
     typename Air::Answer air;
     typename Mechanism::Load load;  // all that pushes the coordinates but dry friction
@@ -57,6 +75,10 @@ class World final : public signals::Port {
 
  public:
   using Body = Mechanism;
+  using Setup = typename Mechanism::Setup;
+  using Senses = typename Mechanism::Senses;
+  using Truth = typename Senses::Truth;
+  using Motion = typename Mechanism::Motion;
 
   // The state at the last committed node, and the commands since. Copied like bytes; of one build
   // of the library, and for worlds of equal setups.
@@ -73,7 +95,8 @@ class World final : public signals::Port {
     muscle::Failure failure;
   };
 
-  // The setup must be free of contradictions (robot::contradictions).
+  // The setup must be free of contradictions (robot::contradictions); a stand's throws
+  // std::invalid_argument if it is not.
   explicit World(const Setup& setup);
 
   signals::Status start(const signals::Scan& scan) noexcept override;
@@ -89,7 +112,6 @@ class World final : public signals::Port {
   // Commits every node up to t.
   void advance(double t) noexcept;
 
-  using Motion = typename Mechanism::Motion;
   const Motion& motion() const noexcept { return state_.now.motion; }
   const auto& constants() const noexcept { return mechanism_.constants(); }
   double air_mass() const noexcept {  // in chambers, hoses and tank [kg]
@@ -108,11 +130,30 @@ class World final : public signals::Port {
 
   // For tests: rates at the last node, of the joints (those not given: 0) [rad/s], of the trolley
   // and of the lift [m/s].
+  template <WholeSteps = Mechanism>
   void set_rates(std::initializer_list<double> joint_rates, double x_rate,
                  double y_rate = 0) noexcept {
     mechanism_.set_rates(state_.now.motion, joint_rates, x_rate, y_rate);
     prepare();
   }
+
+  // For the senses: the machine as somebody sees it at t, who looks from the last node in a copy.
+  struct Peek {
+    Moving state;
+    Look look;
+    Forces held;
+    Acceleration acceleration;
+  };
+  Peek peek(double t) noexcept;
+  template <WholeSteps = Mechanism>
+  Motion peek_motion(double t) noexcept {
+    const Glance& g = glance();
+    Motion motion = state_.now.motion;
+    mechanism_.glide(motion, t - state_.time, g.acceleration);
+    return motion;
+  }
+  const Mechanism& mechanism() const noexcept { return mechanism_; }
+  const Air& air() const noexcept { return air_; }
 
  private:
   // Friction and accelerations that a look beyond the last node goes by.
@@ -120,34 +161,45 @@ class World final : public signals::Port {
     Forces held{};
     Acceleration acceleration{};
   };
-  struct Peek {
-    Moving state;
-    Look look;
-  };
 
-  void evaluate_air(double t, const Moving& state, Look& look) const noexcept {
-    mechanism_.route(state.motion, look.ends, look.arms);
-    air_.evaluate(t, look.ends, state.air, state_.valves, state_.memory, look.air);
+  void evaluate_air(double t, const Moving& state, const Memory& memory,
+                    Look& look) const noexcept {
+    mechanism_.route(t, state.motion, look.ends, look.arms);
+    air_.evaluate(t, look.ends, state.air, state_.valves, memory, look.air);
   }
-  void look_at(double t, const Moving& state, const Forces& held, Look& look) const noexcept;
+  void look_at(double t, const Moving& state, const Memory& memory, const Forces& held,
+               Look& look) const noexcept;
   void prepare() noexcept;
+  template <WholeSteps = Mechanism>
   Acceleration prepare_friction(const typename Mechanism::Pose& pose) noexcept;
   void look_for_failure() noexcept;
-  void step(double h) noexcept;
-  void piece(double from, double h, const Acceleration& first) noexcept;
-  double pieces_of(double h, const Look& look) const noexcept;
   double next_node() const noexcept;
   void commit() noexcept;
+  void step(double to) noexcept;
+  template <class Finish>
+  void stages(double from, double h, const Moving& now, const Memory& memory, const Look& first,
+              const Acceleration& a, const Forces& held, Finish finish) const noexcept;
+  template <WholeSteps = Mechanism>
+  void piece(double from, double h, const Acceleration& first) noexcept;
+  template <WholeSteps = Mechanism>
+  double pieces_of(double h, const Look& look) const noexcept;
 
+  // Of mechanisms that cut their steps.
+  template <CutsSteps = Mechanism>
+  void begin_part(double t, Moving& s, const Memory& memory, Forces& held, Look& look) noexcept;
+  template <CutsSteps = Mechanism>
+  void go(double from, double to, Moving& s, Memory& memory, Forces& held, Look& first) noexcept;
+  template <CutsSteps = Mechanism>
+  void part(double from, double h, const Moving& now, const Memory& memory, const Look& first,
+            const Forces& held, Moving& out) const noexcept;
+  template <CutsSteps = Mechanism>
+  double gap(double t, const Moving& before, const Moving& after, const Memory& memory,
+             const Forces& held) const noexcept;
+  template <CutsSteps = Mechanism>
+  double longest_piece(const Moving& s, const Look& look) const noexcept;
+
+  template <WholeSteps = Mechanism>
   const Glance& glance() noexcept;
-  Motion peek_motion(const Glance& g, double t) const noexcept {
-    Motion motion = state_.now.motion;
-    mechanism_.glide(motion, t - state_.time, g.acceleration);
-    return motion;
-  }
-  Peek peek(const Glance& g, double t) const noexcept;
-  double gauge(const Glance& g, const Peek& p, int muscle) const noexcept;
-  double quantity(std::size_t sensor, double t) noexcept;
 
   // A step is cut into at most so many pieces. More are asked for only where a chamber has
   // vanished.
@@ -155,17 +207,14 @@ class World final : public signals::Port {
 
   Mechanism mechanism_;
   Air air_;
-  robot::Robot robot_;
-  double atmosphere_ = 0;  // [Pa]
+  Senses senses_;
   double step_ = 1e-3;
-  std::uint64_t seed_ = 1;
 
   State state_{};
   Glance glance_{};  // from this node, once somebody has looked
   bool glanced_ = false;
 
   std::array<signals::Tick, 256> lag_{};  // per channel, from the start of a conversion to its read
-  std::array<int, 256> source_{};         // per channel, its joint or muscle
 };
 
 }  // namespace sinew::plant

@@ -1,5 +1,5 @@
-// plant/rig/transducer.h - what the stand's controller reads and what a rig writes down: a quantity
-// by a 12-bit converter, with the errors that a transducer has.
+// plant/slide/transducer.h - what the stand's controller reads and what a rig writes down: a
+// quantity by a 12-bit converter, with the errors that a transducer has.
 //
 //   x'     = scale x + offset + noise
 //   counts = round(4095 (x' - low)/(high - low)),  clipped to 0 ... 4095

@@ -1,4 +1,5 @@
-// plant/rig/schedule.h - a quantity over time: straight lines between points, held after the last.
+// plant/slide/schedule.h - a quantity over time: straight lines between points, held after the
+// last.
 //
 //   x(t) = x_i + (t - t_i) (x_i+1 - x_i)/(t_i+1 - t_i)
 //

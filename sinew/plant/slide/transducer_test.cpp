@@ -1,5 +1,5 @@
 // A transducer's errors, each against its line.
-#include "sinew/plant/rig/transducer.h"
+#include "sinew/plant/slide/transducer.h"
 
 #include <gtest/gtest.h>
 

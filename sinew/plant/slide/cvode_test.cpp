@@ -11,8 +11,8 @@
 #include <numbers>
 #include <vector>
 
-#include "sinew/plant/rig/stand.h"
-#include "sinew/plant/rig/test_stands.h"
+#include "sinew/plant/slide/stand.h"
+#include "sinew/plant/slide/test_stands.h"
 
 namespace sinew::plant {
 namespace {

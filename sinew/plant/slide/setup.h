@@ -1,4 +1,4 @@
-// plant/rig/setup.h - everything that a test stand is made from, and what it knows of itself.
+// plant/slide/setup.h - everything that a test stand is made from, and what it knows of itself.
 //
 //   plant::StandSetup s;
 //   s.muscle.actuator = actuator::thesis_actuator();
@@ -9,6 +9,7 @@
 //   for (double t = 0; t < 4; t += 1e-3) use(stand.truth(t));
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -17,8 +18,8 @@
 #include "sinew/gas/supply.h"
 #include "sinew/muscle/cylinder.h"
 #include "sinew/muscle/muscle.h"
-#include "sinew/plant/rig/schedule.h"
-#include "sinew/plant/rig/transducer.h"
+#include "sinew/plant/slide/schedule.h"
+#include "sinew/plant/slide/transducer.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::plant {
@@ -61,8 +62,18 @@ struct StandSetup {
   StandStart start;
   std::vector<Transducer> transducers;  // the channels of the port, in their order
   double step = 5e-4;                   // between nodes, at most [s]
+  double accuracy = 3.4e-7;             // of a swing, per radian of it, between nodes [-]
   std::uint64_t seed = 1;               // of the transducers' noise
 };
+
+// Rates times the length of a piece, by the accuracy that is asked for: RK4's error per radian of a
+// swing is the fourth power/120. Its limit of stability is far off.
+inline double longest_swing(double accuracy) {
+  return std::fmin(std::sqrt(std::sqrt(120 * accuracy)), 1.0);
+}
+inline double longest_settling(double accuracy) {
+  return 3.75 * longest_swing(accuracy) < 1.5 ? 3.75 * longest_swing(accuracy) : 1.5;
+}
 
 // What only a simulation knows, at one instant.
 struct StandTruth {

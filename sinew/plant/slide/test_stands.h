@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sinew/actuator/thesis_actuator.h"
-#include "sinew/plant/rig/setup.h"
+#include "sinew/plant/slide/setup.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::plant {

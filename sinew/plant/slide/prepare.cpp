@@ -1,4 +1,6 @@
-// plant/rig/stand_setup.cpp - how a stand is put together, and where its load hangs.
+// plant/slide/prepare.cpp - how a stand is put together, and where its load hangs.
+#include "sinew/plant/slide/prepare.h"
+
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -6,7 +8,7 @@
 
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/braid.h"
-#include "sinew/plant/rig/stand.h"
+#include "sinew/plant/slide/stand.h"
 
 namespace sinew::plant {
 namespace {
@@ -31,6 +33,7 @@ void refuse_schedule(const Schedule& s, const char* name, double least) {
 void refuse_contradictions(const StandSetup& s) {
   const bool driven = s.load.mode == Load::Mode::driven;
   if (!(s.step > 0)) refuse("its step must be above 0");
+  if (!(s.accuracy > 0)) refuse("its accuracy must be above 0");
   if (driven && s.load.length.empty()) refuse("a driven load has a length over time");
   if (!driven && s.load.mass.empty()) refuse("a hanging load has a mass");
   refuse_schedule(s.load.mass, "the mass", 0);
@@ -77,11 +80,6 @@ void refuse_without_air(const StandSetup& s, double length) {
          " m its muscle has no room for air: give an external_volume above 0, or stay shorter");
 }
 
-muscle::AirNetwork<4> air_of(const StandSetup& s) {
-  if (s.cylinder) return {{}, s.air, s.supply, s.cylinder};
-  return {std::span(&s.muscle, 1), s.air, s.supply};
-}
-
 }  // namespace
 
 double hanging_length(const StandSetup& setup) {
@@ -113,50 +111,30 @@ double hanging_length(const StandSetup& setup) {
   return 0.5 * (low + high);
 }
 
-static_assert(std::is_trivially_copyable_v<Stand::State>);
-
-Stand::Stand(const StandSetup& setup)
-    : setup_(with_valves(setup)),
-      air_(air_of(setup_)),
-      driven_(setup.load.mode == Load::Mode::driven),
-      regulated_(setup.charge.mode == Charge::Mode::regulated) {
-  const actuator::Actuator& a = setup_.muscle.actuator;
-  ends_ = {-infinite, infinite};
-  if (!setup_.cylinder) {
-    const int count = setup_.muscle.count;
-    rubs_ = a.loss.stick && a.loss.coulomb_length > 0;
-    ends_ = {actuator::shortest_length(a), a.long_end.length};
-    end_stiffness_ = count * std::fmax(a.long_end.stiffness, a.short_end.stiffness);
-    end_damping_ = count * std::fmax(a.long_end.damping, a.short_end.damping);
-  }
-  StandStart& start = setup_.start;
-  if (regulated_) start.pressure = setup_.charge.pressure.at(0);
-  if (driven_)
-    start.length = setup_.load.length.at(0);
+StandSetup prepared(const StandSetup& setup) {
+  StandSetup s = with_valves(setup);
+  const bool driven = s.load.mode == Load::Mode::driven;
+  StandStart& start = s.start;
+  if (s.charge.mode == Charge::Mode::regulated) start.pressure = s.charge.pressure.at(0);
+  if (driven)
+    start.length = s.load.length.at(0);
   else if (!(start.length > 0))
-    start.length = hanging_length(setup_);
+    start.length = hanging_length(s);
+  if (s.cylinder) s.cylinder->initial_pressure[muscle::up] = start.pressure;
 
-  Air::Lanes length;
-  length.of.fill(start.length);
-  if (setup_.cylinder) setup_.cylinder->initial_pressure[muscle::up] = start.pressure;
-  air_ = air_of(setup_);
-  state_.valves = air_.valves_at_rest();
-  state_.now.length = start.length;
-  state_.now.memory = air_.memory_at_rest(start.pressure, length);
-  state_.now.air = air_.initial(start.pressure, length, travel(start.length));
-  state_.now.length += start.displacement;
-  refuse_without_air(setup_, start.length);
-  refuse_without_air(setup_, state_.now.length);
-  for (const Point& p : setup_.load.length.points) {
-    refuse_without_air(setup_, p.value);
-    if (const Reach r = reach(setup_); !setup_.cylinder && (p.value < r.low || p.value > r.high))
+  const double first = start.length + start.displacement;
+  refuse_without_air(s, start.length);
+  refuse_without_air(s, first);
+  const Reach r = reach(s);
+  for (const Point& p : s.load.length.points) {
+    refuse_without_air(s, p.value);
+    if (!s.cylinder && (p.value < r.low || p.value > r.high))
       refuse("a driven length of " + std::to_string(p.value) +
              " m is beyond half the shortest length and 1.5 threads of its muscle");
   }
-  if (const Reach r = reach(setup_);
-      !setup_.cylinder && !driven_ && !(state_.now.length >= r.low && state_.now.length <= r.high))
+  if (!s.cylinder && !driven && !(first >= r.low && first <= r.high))
     refuse("it starts beyond half the shortest length and 1.5 threads");
-  prepare();
+  return s;
 }
 
 }  // namespace sinew::plant

@@ -1,5 +1,5 @@
 // Laws of the stand: statics, energy, sticking, schedules, convergence; and that looking is free.
-#include "sinew/plant/rig/stand.h"
+#include "sinew/plant/slide/stand.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <string>
 
 #include "sinew/actuator/loss.h"
-#include "sinew/plant/rig/test_stands.h"
+#include "sinew/plant/slide/test_stands.h"
 
 namespace sinew::plant {
 namespace {
