@@ -23,8 +23,8 @@ struct SixLegsJoint {
 inline constexpr SixLegsJoint six_legs_joints[] = {
     {"hip", "femur", 278, 1, 8.875, 1.579, 1.53, 2.07, 0.035, 2, true},
     {"knee", "tibia", 314, 1, 6.25, 0.469, 1.53, 2.07, 0.12, 2, false},
-    {"ankle", "foot", 90, 0.4, 1.5, 0.15, 0.3, 0.3, 0.1, 1, true},
-    {"toe", "tip", 20, 0.4, 1, 0.1, 0.3, 0.3, 0.1, 1, true},
+    {"ankle", "foot", 90, 0.4, 1.5, 0.15, 0.3, 0.1, 0.1, 1, true},
+    {"toe", "tip", 20, 0.4, 1, 0.1, 0.3, 0.1, 0.1, 1, true},
 };
 
 // `leg` of 0 to 5: two of them share a board, the second one behind the first.
@@ -107,7 +107,7 @@ radius = "0.25 in"
 present = true
 height = "-14 in"
 normal_stiffness = "300 lbf/in"
-normal_damping = "0.5 lbf s/in"
+normal_damping = "0.25 lbf s/in"
 [air]
 atmosphere = "14.7 psi abs"
 temperature = "528 degR"
@@ -121,7 +121,7 @@ pwm_ticks = 100
 output_delay = 1
 duty_rounding = "truncate each law"
 stiffness_pole_clamp = "10 deg"
-vent_time = "1 s"
+vent_time = "0.4 s"
 )",
       source);
   for (int leg = 0; leg < 6; ++leg) out += six_legs_leg(leg);
@@ -152,11 +152,11 @@ phases = ["swing", "stance"]
 repeat = 2
 finish = "vent"
 [phase.swing]
-duration = "0.8 s"
-joint_angles = { hip = ["270 deg", "305 deg"], knee = ["335 deg", "290 deg", "300 deg"], ankle = ["90 deg"], toe = ["20 deg"] }
+duration = "0.6 s"
+joint_angles = { hip = ["270 deg", "305 deg"], knee = ["335 deg", "290 deg", "300 deg"], ankle = ["80 deg", "110 deg"], toe = ["15 deg", "40 deg"] }
 [phase.stance]
-duration = "0.8 s"
-joint_angles = { hip = ["305 deg", "270 deg"], knee = ["300 deg", "335 deg"], ankle = ["90 deg"], toe = ["20 deg"] }
+duration = "0.6 s"
+joint_angles = { hip = ["305 deg", "270 deg"], knee = ["300 deg", "335 deg"], ankle = ["110 deg", "80 deg"], toe = ["40 deg", "15 deg"] }
 [plant_steps]
 body = "1 ms"
 [log]

@@ -144,13 +144,17 @@ void check_cylinder_bits(const Robot& robot, const Take& take) {
 
 void check_bits(const Robot& robot, List& out) {
   std::map<int, std::string> used;  // of one board
+  std::string on;
   const auto take = [&](int bit, const std::string& key) {
     const auto [at, fresh] = used.emplace(bit, key);
     if (!fresh)
-      out.push_back({key, "bit " + std::to_string(bit), "a bit of its own",
+      out.push_back({key, "bit " + std::to_string(bit) + on, "a bit of its own",
                      "another one; " + at->second + " has it"});
   };
-  for (const Board& board : boards_of(robot)) {
+  const std::vector<Board> boards = boards_of(robot);
+  for (std::size_t b = 0; b < boards.size(); ++b) {
+    const Board& board = boards[b];
+    if (boards.size() > 1) on = " on board " + std::to_string(b + 1);
     used.clear();
     for (const int m : board.muscles) {
       const Muscle& muscle = robot.muscles[static_cast<std::size_t>(m)];

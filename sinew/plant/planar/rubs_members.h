@@ -132,6 +132,15 @@ Coordinates<N> Rubs<N, D>::row(int c) const {
   return j;
 }
 
+template <int N, int D>
+double Rubs<N, D>::along(int c, const Coordinates<N>& row, const Coordinates<N>& v) const {
+  if (c >= first_disc) return dot(k_, row, v);
+  if (c == trolley) return v[along_track];
+  if (c == lift) return v[up];
+  const auto link = static_cast<std::size_t>(c);
+  return v[first_link + link] - (k_.hangs_on_link(link) ? v[first_link + k_.on(link)] : 0.0);
+}
+
 // Only of contacts that carry something; the sum goes over their numbers in ascending order.
 template <int N, int D>
 Coordinates<N> Rubs<N, D>::generalised(const Body<N>& body, const Motion<N>& motion,
@@ -164,8 +173,8 @@ void Rubs<N, D>::prepare(const Body<N>& body, const Motion<N>& motion,
     active_[k] = c;
     rows[k] = row;
     problem_.bound[k] = bound[static_cast<std::size_t>(c)];
-    problem_.slip[k] = dot(k_, rows[k], motion.rate);
-    slip_rate_[k] = dot(k_, rows[k], acceleration) + bias;
+    problem_.slip[k] = along(c, row, motion.rate);
+    slip_rate_[k] = along(c, row, acceleration) + bias;
     column_[k] = body.response(rows[k]);
   };
   const auto rubs = [&](int c) { return bound[static_cast<std::size_t>(c)] > 0; };
@@ -184,8 +193,9 @@ void Rubs<N, D>::prepare(const Body<N>& body, const Motion<N>& motion,
     if (rubs(first_disc + i)) activate(first_disc + i, at.slip, at.slip_bias);
   }
   const auto n = static_cast<std::size_t>(active_count_);
-  for (std::size_t c = 0; c < n; ++c)
-    for (std::size_t d = 0; d < n; ++d) problem_.response[d][c] = dot(k_, rows[d], column_[c]);
+  for (std::size_t d = 0; d < n; ++d)
+    for (std::size_t c = 0; c < n; ++c)
+      problem_.response[d][c] = along(active_[d], rows[d], column_[c]);
 
   for (std::size_t i = 0; i < touching_count_; ++i) {
     const DiscAt<N>& at = discs[i];
