@@ -91,7 +91,8 @@ void tell(const Setup& s, const Truth& x, Take take) {
     take("ground x", Kind::other, foot.force_x);
     take("ground y", Kind::other, foot.force_y);
   }
-  for (const double force : x.disc_force) take("disc", Kind::other, force);
+  for (int d = 0; d < robot::discs_of(s.robot); ++d)
+    take("disc", Kind::other, x.disc_force[static_cast<std::size_t>(d)]);
   take("front roller", Kind::other, x.roller_front);
   take("rear roller", Kind::other, x.roller_rear);
   take("supply", Kind::pressure, x.supply_pressure);
@@ -132,7 +133,7 @@ double air_energy(const Setup& s, double pressure, double volume) {
 }
 
 double energy_of(const Setup& s, const Truth& x) {
-  plant::Motion m;
+  plant::Motion<robot::max_joints> m;
   m.at[plant::along_track] = x.x;
   m.rate[plant::along_track] = x.x_rate;
   m.at[plant::up] = x.lift;
@@ -147,7 +148,7 @@ double energy_of(const Setup& s, const Truth& x) {
     const double turn = x.angle[j] - joint.spring_angle;
     if (joint.spring > 0) sum += 0.5 * joint.spring * turn * turn;
   }
-  sum += energy(plant::body_of(s.robot), m);
+  sum += energy(plant::body_of<robot::max_joints>(s.robot), m);
   for (std::size_t i = 0; i < s.muscles.size(); ++i) {
     const muscle::Muscle& a = s.muscles[i];
     const double volume =

@@ -146,17 +146,17 @@ TEST(Run, TheLastRowStandsAfterTheSequence) {
 template <class World>
 void expect_no_heap(const experiment::Experiment& e, Steering* steering = nullptr) {
   World world(experiment::planar_setup(e));
-  control::Supervisor spine(experiment::spine_config(e), experiment::supervise_config(e));
+  Boards boards(e);
   HighLevel high(e.robot, e.plan, steering);
   const signals::Tick end = experiment::last_tick(e);
   World* body = &world;
   Recorder recorder(
-      e, spine, high, [body](signals::Tick t) { return body->truth(t * 1e-4); }, end);
+      e, boards, high, [body](signals::Tick t) { return body->truth(t * 1e-4); }, end);
   SimulatedClock clock;
 
   allocations = 0;
   counting = true;
-  const signals::Status status = loop(spine, high, world, clock, recorder, end);
+  const signals::Status status = loop(boards, high, world, clock, recorder, end);
   counting = false;
   EXPECT_EQ(status, signals::Status::ok);
   EXPECT_EQ(allocations, 0);
