@@ -107,30 +107,30 @@ void one_peek(benchmark::State& state) {
 BENCHMARK(one_peek);
 
 struct FourMuscles {
+  using Air = plant::Air;
   plant::Setup setup = experiment::planar_setup(walk());
-  muscle::Bank bank{setup.muscles, setup.air, setup.supply};
-  muscle::Bank::Valves valves = bank.valves_at_rest();
-  muscle::Reference reference = bank.reference_at_rest();
-  muscle::Lanes length{}, rate{}, mass{};
+  Air air{setup.muscles, setup.air, setup.supply};
+  Air::Valves valves = air.valves_at_rest();
+  Air::Ends ends{};
+  Air::State state;
+  Air::Memory memory;
+  Air::Answer look;
 
   FourMuscles() {
-    for (int i = 0; i < muscle::capacity; ++i) {
-      length[i] = 0.08;
-      mass[i] = bank.mass_at(i % 4, 3e5, 0.08);
-    }
-    muscle::Pull pull;
-    bank.evaluate(0, length, rate, mass, valves, reference, pull);
-    bank.follow(pull.drift, reference);
+    ends.length.of.fill(0.08);
+    state = air.initial(3e5, ends.length, 0);
+    memory = air.memory_at_rest(3e5, ends.length);
+    air.evaluate(0, ends, state, valves, memory, look);
+    air.remember(look, state, memory);
   }
 };
 
 // Tensions and pressures of four muscles, one evaluation after the other (throughput) ...
 void four_muscles(benchmark::State& state) {
   FourMuscles m;
-  muscle::Pull pull;
   for (auto _ : state) {
-    m.bank.evaluate(0, m.length, m.rate, m.mass, m.valves, m.reference, pull);
-    benchmark::DoNotOptimize(pull);
+    m.air.evaluate(0, m.ends, m.state, m.valves, m.memory, m.look);
+    benchmark::DoNotOptimize(m.look);
   }
 }
 BENCHMARK(four_muscles);
@@ -138,13 +138,11 @@ BENCHMARK(four_muscles);
 // ... and each waiting for the last one's answer, as the stages of a step do.
 void four_muscles_in_sequence(benchmark::State& state) {
   FourMuscles m;
-  muscle::Pull pull;
-  pull.tension[0] = 0;
   for (auto _ : state) {
-    m.length[0] = 0.08 + 1e-12 * pull.tension[0];
-    m.bank.evaluate(0, m.length, m.rate, m.mass, m.valves, m.reference, pull);
+    m.ends.length[0] = 0.08 + 1e-12 * m.look.tension[0];
+    m.air.evaluate(0, m.ends, m.state, m.valves, m.memory, m.look);
   }
-  benchmark::DoNotOptimize(pull);
+  benchmark::DoNotOptimize(m.look);
 }
 BENCHMARK(four_muscles_in_sequence);
 

@@ -18,8 +18,9 @@ layers='
     control/gait    robot signals
     config          units
     log             signals
-    plant/planar    muscle robot signals
-    plant/rig       muscle robot signals
+    plant/world     muscle signals
+    plant/planar    plant/world muscle robot signals
+    plant/slide     plant/world muscle robot signals
     plant/recorded  muscle robot signals log
     plant/mujoco    muscle robot signals
     plant/hardware  muscle robot signals
@@ -50,7 +51,7 @@ layers='
 # Tests of any folder may include config, to read a file of robots/ or experiments/.
 test_layers='
     *               config
-    identify/motion plant/rig
+    identify/motion plant/slide
 '
 
 # Each outside library sits behind one folder.
@@ -59,7 +60,7 @@ libraries='
     zlib[.]h        sinew/log
     mcap/           sinew/log
     mujoco/         sinew/plant/mujoco
-    cvode/          sinew/plant/rig
+    cvode/          sinew/plant/slide
     CLI/            cli
     boost/          sinew/live
     ceres/          sinew/identify/fit
@@ -235,12 +236,12 @@ self_test() {
   expect sinew/control/joint/a.h  '#include "sinew/control/supervise/a.h"'     'may not include control/supervise'
   expect sinew/plant/planar/a.cpp '#include "sinew/log/writer.h"'              'plant/planar may not include log'
   expect sinew/plant/recorded/a.h '#include "sinew/log/reader.h"'              ''
-  expect sinew/experiment/a.h     '#include "sinew/plant/planar/world.h"'      ''  # plant stands for it
+  expect sinew/experiment/a.h     '#include "sinew/plant/world/world.h"'      ''  # plant stands for it
   expect sinew/analysis/a.cpp     '#include "sinew/control/gait/a.h"'          'analysis may not include control/gait'
   expect sinew/gas/a_test.cpp     '#include "sinew/config/reader.h"'           ''
   expect sinew/gas/a.cpp          '#include "sinew/config/reader.h"'           'gas may not include config'
-  expect sinew/identify/motion/a_test.cpp '#include "sinew/plant/rig/rig.h"'          ''
-  expect sinew/identify/motion/a.cpp '#include "sinew/plant/rig/rig.h"'           'identify/motion may not include plant/rig'
+  expect sinew/identify/motion/a_test.cpp '#include "sinew/plant/slide/rig.h"'          ''
+  expect sinew/identify/motion/a.cpp '#include "sinew/plant/slide/rig.h"'           'identify/motion may not include plant/slide'
   expect sinew/novelty/a.h        'int a;'                                     'no row'
   expect sinew/gas/a.h            '#include "sinew/novelty/a.h"'               'no row'
   expect sinew/gas/a.cpp          '#include <toml++/toml.h>'                   'behind sinew/config'

@@ -1,5 +1,5 @@
-// A load hangs on one braided muscle. The integration loop is ours; Sinew's muscle::Bank is the air
-// half of the equations: it takes length, rate and air mass, and gives tension and flows.
+// A load hangs on one braided muscle. The integration loop is ours; Sinew's muscle::AirNetwork is
+// the air half of the equations: it takes length, rate and air mass, and gives tension and flows.
 //
 //   x' = v      M v' = M g - F(x, v, m)      m' = inflow - outflow      x downward, length = x
 #include <algorithm>
@@ -8,13 +8,14 @@
 #include <cstdio>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/muscle/bank.h"
+#include "sinew/muscle/network.h"
 #include "sinew/units/literals.h"
 
 namespace {
 
 using namespace sinew;
 using namespace sinew::units::literals;
+using Air = muscle::AirNetwork<4>;  // for one muscle, or up to four
 
 constexpr double load = 10.0_lb;
 constexpr double step = 0.5_ms;
@@ -50,17 +51,18 @@ struct State {
 class HangingMass {
  public:
   HangingMass(const muscle::Muscle& m, const gas::Air& air, const gas::Supply& supply)
-      : bank_(std::array{m}, air, supply),
-        valves_(bank_.valves_at_rest()),
-        reference_(bank_.reference_at_rest()) {
+      : air_(std::array{m}, air, supply), valves_(air_.valves_at_rest()) {
     // Without air the load hangs in the stretched threads.
     state_.length = m.actuator.long_end.length + weight / m.actuator.long_end.stiffness;
     state_.velocity = 0;
-    state_.mass = bank_.mass_at(0, air.atmosphere, state_.length);
-    bank_.follow(pull().drift, reference_);
+    state_.mass = air_.mass_at(0, air.atmosphere, state_.length);
+    memory_ = air_.memory_at_rest(air.atmosphere, lanes(state_.length));
+    remember();
   }
 
-  void inlet(bool open) { bank_.electrical(0, time_, open, valves_); }
+  void inlet(bool open) {
+    air_.command({.valve = {0}, .open = open}, time_, ask(time_, state_), valves_);
+  }
 
   // Steps of RK4. They end where a valve moves, since the slope jumps there.
   void run_until(double end) {
@@ -68,34 +70,42 @@ class HangingMass {
       const double next = std::min({time_ + step, valves_.next_change, end});
       rk4(next - time_);
       time_ = next;
-      bank_.node(time_, valves_);
-      bank_.follow(pull().drift, reference_);
+      air_.move_valves(time_, ask(time_, state_), valves_);
+      remember();
     }
   }
 
   double time() const { return time_; }
   const State& state() const { return state_; }
-  muscle::Pull pull() const { return ask(time_, state_); }
+  Air::Answer look() const { return ask(time_, state_); }
 
  private:
   static constexpr double weight = load * units::standard_gravity;
 
-  // The bank works in lanes, one per muscle, and fills up with copies of the last.
-  static muscle::Lanes lanes(double value) {
-    muscle::Lanes l;
+  // The network works in lanes, one per muscle, and fills up with copies of the last.
+  static Air::Lanes lanes(double value) {
+    Air::Lanes l;
     l.of.fill(value);
     return l;
   }
 
-  muscle::Pull ask(double t, const State& s) const {
-    muscle::Pull pull{};
-    bank_.evaluate(t, lanes(s.length), lanes(s.velocity), lanes(s.mass), valves_, reference_, pull);
-    return pull;
+  static Air::State air_state(const State& s) {
+    Air::State air{};
+    air.mass = lanes(s.mass);
+    return air;
   }
 
+  Air::Answer ask(double t, const State& s) const {
+    Air::Answer out{};
+    air_.evaluate(t, {lanes(s.length), lanes(s.velocity)}, air_state(s), valves_, memory_, out);
+    return out;
+  }
+
+  void remember() { air_.remember(ask(time_, state_), air_state(state_), memory_); }
+
   State slope(double t, const State& s) const {
-    const muscle::Pull p = ask(t, s);
-    return {s.velocity, (weight - p.tension[0]) / load, p.inflow[0] - p.outflow[0]};
+    const Air::Answer a = ask(t, s);
+    return {s.velocity, (weight - a.tension[0]) / load, a.inflow[0] - a.outflow[0]};
   }
 
   static State add(const State& s, double h, const State& k) {
@@ -111,15 +121,15 @@ class HangingMass {
     state_ = add(add(state_, h / 3, k3), h / 6, k4);
   }
 
-  muscle::Bank bank_;
-  muscle::Bank::Valves valves_;
-  muscle::Reference reference_;
+  Air air_;
+  Air::Valves valves_;
+  Air::Memory memory_;
   State state_{};
   double time_ = 0;
 };
 
 void print(const HangingMass& world, const gas::Air& air) {
-  const muscle::Pull pull = world.pull();
+  const Air::Answer pull = world.look();
   const double gauge = units::gauge(pull.pressure[0], air.atmosphere);
   std::printf("%8.0f %12.2f %14.1f %11.2f %11.3f\n", 1e3 * world.time(), 1e3 * world.state().length,
               gauge / 1e3, pull.tension[0], 1e6 * world.state().mass);

@@ -8,7 +8,7 @@
 #include "sinew/config/quantity.h"
 #include "sinew/control/gait/legs.h"
 #include "sinew/experiment/planar_setup.h"
-#include "sinew/muscle/plumbing.h"
+#include "sinew/muscle/network.h"
 #include "sinew/plant/planar/cords.h"
 #include "sinew/plant/planar/machine.h"
 
@@ -70,7 +70,7 @@ void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
   for (const bool high : {false, true}) {
     std::array<double, robot::max_joints> angle{}, still{};
     for (std::size_t j = 0; j < reach.size(); ++j) angle[j] = high ? reach[j].high : reach[j].low;
-    muscle::Lanes length{}, rate{};
+    muscle::Lanes<plant::most_muscles> length{}, rate{};
     plant::Cords::Pulls pulls{};
     cords.at(angle.data(), still.data(), length, rate, pulls);
     for (int i = 0; i < cords.count(); ++i) {
@@ -103,7 +103,7 @@ void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
 // Air or joints that move so quickly that a run would take for ever.
 void check_steps(const plant::Setup& s, List& out) {
   constexpr double shortest = 2e-6;  // step [s]
-  const double air = muscle::Plumbing(s.muscles, s.air, s.supply, s.cylinder).longest_step();
+  const double air = plant::Air(s.muscles, s.air, s.supply, s.cylinder).longest_step();
   const auto micro = [](double step) { return config::format_number(1e6 * step) + " us"; };
   if (air < shortest) {
     out.push_back({"air", "a hose or a cylinder's chamber that fills within " + micro(air),

@@ -1,4 +1,4 @@
-// Tubes that are more than a braid, in a plumbing: they pull and hold air by actuator/body.h.
+// Tubes that are more than a braid, in a network: they pull and hold air by actuator/body.h.
 #include "sinew/actuator/body.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 
 #include "sinew/actuator/tension.h"
 #include "sinew/gas/air.h"
-#include "sinew/muscle/plumbing.h"
+#include "sinew/muscle/test_integrator.h"
 #include "sinew/muscle/test_machines.h"
 
 namespace sinew::muscle {
@@ -24,27 +24,26 @@ Muscle real_tube() {
   return m;
 }
 
-TEST(RealTube, IsAReasonForAPlumbing) {
-  EXPECT_FALSE(needs_plumbing(std::vector{bundle(0)}, {}, {}, {}));
-  EXPECT_TRUE(needs_plumbing(std::vector{real_tube()}, {}, {}, {}));
+TEST(RealTube, IsNothingThatLanesHold) {
+  EXPECT_TRUE(lanes_hold(bundle(0)));
+  EXPECT_FALSE(lanes_hold(real_tube()));
 }
 
 TEST(RealTube, PullsAndHoldsAirByItsLaws) {
   const Muscle m = real_tube();
-  const Plumbing plumbing(std::vector{m}, {}, {});
+  const Air network(std::vector{m}, {}, {});
   const gas::Air air;
   for (const double inches : {2.8, 3.2, 3.8}) {
-    Lanes length{}, rate{};
-    for (int i = 0; i < capacity; ++i) length[i] = inches * inch;
+    const Motion at = still_at(inches * inch);
     const double p = 5e5, gauge = p - air.atmosphere;
-    const AirState state = plumbing.initial(p, length, 0);
-    AirPull out{};
-    AirState derivative{};
-    plumbing.evaluate(0, length, rate, 0, 0, state, plumbing.valves_at_rest(), out, derivative);
-    const double pull = actuator::tension(m.actuator, length[0], 0, gauge, air.atmosphere);
+    const Air::State state = network.initial(p, at.length, 0);
+    Air::Answer out{};
+    network.evaluate(0, at, state, network.valves_at_rest(), network.memory_at_rest(p, at.length),
+                     out);
+    const double pull = actuator::tension(m.actuator, at.length[0], 0, gauge, air.atmosphere);
     EXPECT_NEAR(out.tension[0], m.count * std::max(pull, 0.0), 1e-9);
-    const double volume = m.count * actuator::volume(m.actuator, length[0]) + m.external_volume;
-    EXPECT_NEAR(plumbing.total_mass(state, 0), gas::density(air, p) * volume, 1e-12 * volume);
+    const double volume = m.count * actuator::volume(m.actuator, at.length[0]) + m.external_volume;
+    EXPECT_NEAR(network.total_mass(state, 0), gas::density(air, p) * volume, 1e-12 * volume);
   }
 }
 

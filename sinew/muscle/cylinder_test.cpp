@@ -22,7 +22,12 @@ Cylinder thesis_cylinder() {
   return c;
 }
 
-Motion at(double travel, double rate = 0) { return {.travel = travel, .travel_rate = rate}; }
+Motion at(double travel, double rate = 0) {
+  Motion m{};
+  m.travel = travel;
+  m.travel_rate = rate;
+  return m;
+}
 
 TEST(Cylinder, GeometryIsThatOfAPistonWithARod) {
   const Cylinder c = thesis_cylinder();
@@ -44,9 +49,9 @@ TEST(Cylinder, GeometryIsThatOfAPistonWithARod) {
 TEST(Cylinder, SealedItIsAGasSpring) {
   const Cylinder c = thesis_cylinder();
   const gas::Air air{.polytropic_exponent = 1.2};
-  Plumbing plumbing({}, air, {}, c);
+  Air network({}, air, {}, c);
   Hand hand(
-      plumbing, [](double) { return at(0.02); }, 1e5);
+      network, [](double) { return at(0.02); }, 1e5);
   for (double s : {0.0, 0.01, 0.03, 0.05}) {
     hand.motion = [s](double) { return at(s); };
     hand.look(0, hand.state, hand.now);
@@ -64,10 +69,10 @@ TEST(Cylinder, SealedItIsAGasSpring) {
 // Moved without heat it is on the adiabat, whatever exponent the air is given.
 TEST(Cylinder, MovedWithoutHeatItDoesItsWork) {
   const Cylinder c = thesis_cylinder();
-  Plumbing plumbing({}, {.polytropic_exponent = 1, .wall_time = 1e7}, {}, c);
-  EXPECT_EQ(plumbing.states(), 4);
+  Air network({}, {.polytropic_exponent = 1, .wall_time = 1e7}, {}, c);
+  EXPECT_EQ(network.others(), 4);
   Hand hand(
-      plumbing, [](double t) { return at(0.01 + 0.2 * t, 0.2); }, 1e5);
+      network, [](double t) { return at(0.01 + 0.2 * t, 0.2); }, 1e5);
   hand.go(0.15, 1e-4);
   for (const Side side : {up, down}) {
     const double ratio = volume(c, side, 0.01) / volume(c, side, 0.04);
@@ -80,10 +85,10 @@ TEST(Cylinder, MovedWithoutHeatItDoesItsWork) {
 TEST(Cylinder, AWeightSwingsOnItAtItsFrequency) {
   const Cylinder c = thesis_cylinder();
   const gas::Air air{.polytropic_exponent = 1.4};
-  Plumbing plumbing({}, air, {}, c);
+  Air network({}, air, {}, c);
   const double rest = 0.02, mass = 2.0;
   Hand hand(
-      plumbing, [&](double) { return at(rest); }, 1e5);
+      network, [&](double) { return at(rest); }, 1e5);
   const double weight = hand.now.cylinder_force;
   double k = 0;
   for (const Side side : {up, down})
@@ -118,28 +123,28 @@ TEST(Cylinder, ARegulatorPushesWithPressureTimesArea) {
   c.mode = Cylinder::Mode::regulator;
   c.pressure = 5e5;
   const gas::Air air;
-  Plumbing plumbing({}, air, {}, c);
-  EXPECT_EQ(plumbing.states(), 0);
+  Air network({}, air, {}, c);
+  EXPECT_EQ(network.others(), 0);
   const double lift = 0.04, speed = 0.1;
   Hand hand(
-      plumbing, [&](double t) { return at(lift - speed * t, -speed); }, 1e5);
+      network, [&](double t) { return at(lift - speed * t, -speed); }, 1e5);
   EXPECT_NEAR(hand.now.cylinder_force, -(5e5 - air.atmosphere) * area(c, down), 1e-10);
-  const double before = plumbing.total_mass(hand.state, lift);
+  const double before = network.total_mass(hand.state, lift);
   hand.go(0.3, 1e-3);
-  EXPECT_NEAR(hand.entered, plumbing.total_mass(hand.state, lift - 0.03) - before, 1e-15);
-  EXPECT_EQ(hand.left, 0);
-  EXPECT_NEAR(hand.entered, gas::density(air, 5e5) * area(c, down) * 0.03, 1e-15);
+  EXPECT_NEAR(hand.entered(), network.total_mass(hand.state, lift - 0.03) - before, 1e-15);
+  EXPECT_EQ(hand.left(), 0);
+  EXPECT_NEAR(hand.entered(), gas::density(air, 5e5) * area(c, down) * 0.03, 1e-15);
 }
 
 // Inlet and exhaust of one chamber open together, B.1: a pressure in between, and air that passes.
 TEST(Cylinder, BothValvesOpenSettleWhereTheirFlowsAgree) {
   const gas::Air air{.polytropic_exponent = 1};
-  Plumbing plumbing({}, air, {}, thesis_cylinder());
+  Air network({}, air, {}, thesis_cylinder());
   Hand hand(
-      plumbing, [](double) { return at(0.02); }, 1e5);
+      network, [](double) { return at(0.02); }, 1e5);
   hand.electrical(2, true);
   hand.electrical(3, true);
-  hand.go(2.0, plumbing.longest_step());
+  hand.go(2.0, network.longest_step());
   EXPECT_NEAR(hand.now.cylinder_inflow[down], hand.now.cylinder_outflow[down],
               1e-9 * hand.now.cylinder_inflow[down]);
   EXPECT_GT(hand.now.cylinder_inflow[down], 1e-4);
@@ -155,7 +160,7 @@ TEST(Cylinder, BothValvesOpenSettleWhereTheirFlowsAgree) {
 TEST(Cylinder, ChambersThatVanishAreRefused) {
   Cylinder c = thesis_cylinder();
   c.dead_volume[up] = 0;
-  EXPECT_THROW(Plumbing({}, {}, {}, c), std::invalid_argument);
+  EXPECT_THROW(Air({}, {}, {}, c), std::invalid_argument);
 }
 
 }  // namespace

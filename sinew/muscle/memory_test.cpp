@@ -1,4 +1,4 @@
-// Meshes that remember, in a plumbing: hysteresis and creep against their laws.
+// Meshes that remember, in a network: hysteresis and creep against their laws.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,11 +12,7 @@
 namespace sinew::muscle {
 namespace {
 
-Motion still(double length) {
-  Motion m;
-  for (int i = 0; i < capacity; ++i) m.length[i] = length;
-  return m;
-}
+Motion still(double length) { return still_at(length); }
 Motion at_rest(double) { return still(3.2 * inch); }
 
 Muscle plain_bundle() {
@@ -31,16 +27,15 @@ double static_tension(const Muscle& m, double length, double gauge) {
   return m.count * actuator::tension(m.actuator, length, 0, gauge, gas::Air{}.atmosphere);
 }
 
-TEST(Memory, IsAReasonForAPlumbing) {
-  const auto needed = [](const Muscle& m) { return needs_plumbing(std::vector{m}, {}, {}, {}); };
+TEST(Memory, IsNothingThatLanesHold) {
   Muscle m = plain_bundle();
   m.actuator.hysteresis.volume_pressure = 5 * bar;  // without a width it is nothing
-  EXPECT_FALSE(needed(m));
+  EXPECT_TRUE(lanes_hold(m));
   m.actuator.hysteresis.half_width = 1;
-  EXPECT_TRUE(needed(m));
+  EXPECT_FALSE(lanes_hold(m));
   m = plain_bundle();
   m.actuator.creep = {.share = {0, 0.01}, .time = {0, 3}};
-  EXPECT_TRUE(needed(m));
+  EXPECT_FALSE(lanes_hold(m));
 }
 
 // A muscle that has stood for long starts without friction, with its creep done.
@@ -48,10 +43,10 @@ TEST(Memory, StartsAtRest) {
   Muscle m = plain_bundle();
   m.actuator.hysteresis = {.half_width = 0.05 * bar, .volume_pressure = 10 * bar};
   m.actuator.creep = {.share = {0.02, 0.03}, .time = {0.5, 5}};
-  Plumbing plumbing(std::vector{m}, {}, {});
-  EXPECT_EQ(plumbing.states(), 4);
-  const Hand hand(plumbing, at_rest, 4 * bar);
-  const double gauge = 4 * bar - plumbing.atmosphere();
+  Air network(std::vector{m}, {}, {});
+  EXPECT_EQ(network.others(), 2);
+  const Hand hand(network, at_rest, 4 * bar);
+  const double gauge = 4 * bar - network.atmosphere();
   EXPECT_NEAR(hand.now.tension[0] / (1.05 * static_tension(m, 3.2 * inch, gauge)), 1, 1e-9);
 }
 
@@ -60,10 +55,10 @@ TEST(Memory, FillAndVentLoop) {
   Muscle m = plain_bundle();
   const double w = 0.06 * bar;
   m.actuator.hysteresis.half_width = w;
-  Plumbing plumbing(std::vector{m}, {}, {});
-  Hand hand(plumbing, at_rest, plumbing.atmosphere());
+  Air network(std::vector{m}, {}, {});
+  Hand hand(network, at_rest, network.atmosphere());
   const auto expect_off = [&](double off) {
-    const double gauge = hand.now.pressure[0] - plumbing.atmosphere();
+    const double gauge = hand.now.pressure[0] - network.atmosphere();
     EXPECT_NEAR(hand.now.tension[0], static_tension(m, 3.2 * inch, gauge + off), 1e-6);
   };
   hand.electrical(0, true);
@@ -82,14 +77,15 @@ TEST(Memory, RatesAreAllSet) {
   Muscle m = plain_bundle();
   m.actuator.hysteresis = {.half_width = 0.05 * bar};
   m.actuator.creep = {.share = {0.02, 0.03}, .time = {0.5, 5}};
-  Plumbing plumbing(std::vector{m}, {}, {});
-  const AirState state = plumbing.initial(4 * bar, still(3.2 * inch).length, 0);
-  AirState rate;
-  rate.of.fill(1e9);
-  AirPull out{};
-  plumbing.evaluate(0, still(3.2 * inch).length, Lanes{}, 0, 0, state, plumbing.valves_at_rest(),
-                    out, rate);
-  for (int i = 0; i < plumbing.states(); ++i) EXPECT_EQ(rate[i], 0) << i;
+  Air network(std::vector{m}, {}, {});
+  const Motion at = still(3.2 * inch);
+  const Air::State state = network.initial(4 * bar, at.length, 0);
+  Air::Answer out{};
+  out.rate.fill(1e9);
+  network.evaluate(0, at, state, network.valves_at_rest(),
+                   network.memory_at_rest(4 * bar, at.length), out);
+  for (int i = 0; i < network.others(); ++i)
+    EXPECT_EQ(out.rate[static_cast<std::size_t>(i)], 0) << i;
 }
 
 // Nodes do not matter: what is remembered depends on the turns of the pressure alone.
@@ -98,8 +94,8 @@ TEST(Memory, TheStepDoesNotMatterToThePlay) {
   m.actuator.hysteresis = {.half_width = 0.05 * bar, .width_per_pressure = 0.01};
   double last[2] = {};
   for (int fine = 0; fine < 2; ++fine) {
-    Plumbing plumbing(std::vector{m}, {}, {});
-    Hand hand(plumbing, at_rest, 1.5 * bar);
+    Air network(std::vector{m}, {}, {});
+    Hand hand(network, at_rest, 1.5 * bar);
     for (int k = 0; k < 6; ++k) {
       const int valve = k % 2;
       hand.electrical(valve, true);
@@ -119,9 +115,9 @@ TEST(Memory, CreepIsExponential) {
   m.actuator.creep = {.share = {0.05, 0}, .time = {0.4, 0}};
   Muscle without = m;
   without.actuator.creep = {};
-  Plumbing plumbing(std::vector{m}, {}, {});
-  Plumbing dry(std::vector{without}, {}, {});
-  Hand hand(plumbing, at_rest, plumbing.atmosphere()), quick(dry, at_rest, dry.atmosphere());
+  Air network(std::vector{m}, {}, {});
+  Air dry(std::vector{without}, {}, {});
+  Hand hand(network, at_rest, network.atmosphere()), quick(dry, at_rest, dry.atmosphere());
   for (Hand* h : {&hand, &quick}) {
     h->electrical(0, true);
     h->go(0.01, 5e-4);
@@ -142,9 +138,9 @@ TEST(Memory, CreepIsExponential) {
 TEST(Memory, QuickCreepShortensTheStep) {
   Muscle m = plain_bundle();
   m.actuator.creep = {.share = {0.05, 0.01}, .time = {10, 1e-4}};
-  Plumbing plumbing(std::vector{m}, {}, {});
-  EXPECT_LT(plumbing.longest_step(), 2.6e-4);
-  EXPECT_FALSE(plumbing.quiet(plumbing.valves_at_rest()));
+  Air network(std::vector{m}, {}, {});
+  EXPECT_LT(network.longest_step(), 2.6e-4);
+  EXPECT_TRUE(network.flowing(network.valves_at_rest()));
 }
 
 // A bundle's work on what moves it, once round a loop of length at nearly one pressure (a large
@@ -157,11 +153,11 @@ TEST(Memory, HysteresisTakesWork) {
   m.actuator.hysteresis = {.half_width = w, .volume_pressure = 400 * bar};
   const auto motion = [](double t) {
     Motion s = still((3.2 - 0.5 * std::cos(2 * M_PI * t)) * inch);
-    for (int i = 0; i < capacity; ++i) s.rate[i] = M_PI * std::sin(2 * M_PI * t) * inch;
+    for (int i = 0; i < 8; ++i) s.rate[i] = M_PI * std::sin(2 * M_PI * t) * inch;
     return s;
   };
-  Plumbing plumbing(std::vector{m}, {}, {});
-  Hand hand(plumbing, motion, 4 * bar);
+  Air network(std::vector{m}, {}, {});
+  Hand hand(network, motion, 4 * bar);
   hand.go(1, 1e-3);
   double taken = 0;
   for (int k = 0; k < 2000; ++k) {

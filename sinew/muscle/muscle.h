@@ -10,8 +10,6 @@
 
 namespace sinew::muscle {
 
-inline constexpr int capacity = 8;  // muscles in a bank
-
 struct Muscle {
   std::string name;
   actuator::Actuator actuator;  // one of the bundle
@@ -19,8 +17,8 @@ struct Muscle {
   double external_volume = 0;   // hoses and fittings of the bundle, downstream of the valves [m^3]
   gas::Valve inlet;             // from the supply; a 3-way valve stands here and serves both ways
   gas::Valve exhaust;           // to the atmosphere
-  gas::Hose hose;               // between the valves and the rest; not in a bank
-  gas::Leak leak;               // of the muscle; not in a bank
+  gas::Hose hose;               // between the valves and the rest
+  gas::Leak leak;               // of the muscle
 };
 
 }  // namespace sinew::muscle

@@ -1,69 +1,71 @@
-// muscle/test_integrator.h - a plumbing moved by hand: RK4 over its state, with what has left it.
+// muscle/test_integrator.h - a network moved by hand: RK4 over its state along a given motion.
 #pragma once
 
 #include <functional>
+#include <utility>
 
-#include "sinew/muscle/plumbing.h"
+#include "sinew/muscle/network.h"
 
 namespace sinew::muscle {
 
-// Lengths and travel as given functions of time, with their rates.
-struct Motion {
-  Lanes length{}, rate{};
-  double travel = 0, travel_rate = 0;
-};
+using Air = AirNetwork<8>;
+using Motion = Air::Ends;  // lengths and travel as given functions of time, with their rates
+
+// All muscles at one length.
+inline Motion still_at(double length) {
+  Motion m{};
+  m.length.of.fill(length);
+  return m;
+}
 
 struct Hand {
-  Plumbing& plumbing;
+  const Air& network;
   std::function<Motion(double)> motion;
-  AirState state{};
+  Air::State state{};
   double t = 0;
-  double entered = 0, left = 0;  // through inlets; through exhausts and leaks [kg]
-  AirPull now{};
-  Plumbing::Valves valves;
+  Air::Answer now{};
+  Air::Valves valves;
+  Air::Memory memory{};
 
-  Hand(Plumbing& p, std::function<Motion(double)> m, double pressure)
-      : plumbing(p), motion(std::move(m)), valves(p.valves_at_rest()) {
+  Hand(const Air& n, std::function<Motion(double)> m, double pressure)
+      : network(n), motion(std::move(m)), valves(n.valves_at_rest()) {
     const Motion start = motion(0);
-    state = p.initial(pressure, start.length, start.travel);
+    memory = n.memory_at_rest(pressure, start.length);
+    state = n.initial(pressure, start.length, start.travel);
+    look(0, state, now);
+    network.remember(now, state, memory);
     look(0, state, now);
   }
 
-  AirState look(double at, const AirState& s, AirPull& out) {
-    const Motion m = motion(at);
-    AirState derivative{};
-    plumbing.evaluate(at, m.length, m.rate, m.travel, m.travel_rate, s, valves, out, derivative);
-    return derivative;
+  void look(double at, const Air::State& s, Air::Answer& out) const {
+    network.evaluate(at, motion(at), s, valves, memory, out);
   }
 
-  // Flows summed over the machine.
-  static void sum(const AirPull& pull, int muscles, double weight, double& in, double& out) {
-    for (int i = 0; i < muscles; ++i) {
-      in += weight * pull.inflow[i];
-      out += weight * (pull.outflow[i] + pull.leak[i]);
-    }
-    for (std::size_t s = 0; s < 2; ++s) {
-      in += weight * pull.cylinder_inflow[s];
-      out += weight * pull.cylinder_outflow[s];
-    }
+  // What has come through inlets, and what has left through exhausts and leaks  [kg].
+  double entered() const {
+    double sum = state.piston_in[0] + state.piston_in[1];
+    for (int i = 0; i < network.muscles(); ++i) sum += state.in[i];
+    return sum;
+  }
+  double left() const {
+    double sum = state.piston_out[0] + state.piston_out[1];
+    for (int i = 0; i < network.muscles(); ++i) sum += state.out[i] + state.leak[i];
+    return sum;
   }
 
   void step(double h) {
-    AirState k[4];
-    const double parts[4] = {0, 0.5 * h, 0.5 * h, h}, weights[4] = {h / 6, h / 3, h / 3, h / 6};
-    AirState sum_of = state;
-    for (int s = 0; s < 4; ++s) {
-      AirState stage = state;
-      for (int i = 0; s > 0 && i < plumbing.states(); ++i) stage[i] += parts[s] * k[s - 1][i];
-      AirPull pull{};
-      k[s] = look(t + parts[s], stage, pull);
-      for (int i = 0; i < plumbing.states(); ++i) sum_of[i] += weights[s] * k[s][i];
-      sum(pull, plumbing.muscles(), weights[s], entered, left);
+    Air::Answer later[3];
+    const Air::Answer* looks[4] = {&now, &later[0], &later[1], &later[2]};
+    Air::State stage = state;
+    for (int s = 0; s < 3; ++s) {
+      const double part = s == 2 ? h : 0.5 * h;
+      network.move(stage, state, part, *looks[s], valves);
+      look(t + part, stage, later[s]);
     }
-    state = sum_of;
+    network.finish(state, h, looks, valves);
     t += h;
     look(t, state, now);
-    plumbing.remember(now, state);
+    network.remember(now, state, memory);
   }
 
   // Nodes at multiples of h and where a valve changes, as a world does it.
@@ -73,15 +75,30 @@ struct Hand {
       if (valves.next_change < next) next = valves.next_change;
       if (next > t) step(next - t);
       t = next;
-      plumbing.node(t, now, valves);
+      node(next);
     }
     look(t, state, now);
   }
 
+  // A node there: valves, set points and faults move on.
+  void node(double at) {
+    network.move_valves(at, now, valves);
+    look(at, state, now);
+  }
+
+  void edge(int valve, double at, bool open) {
+    network.command({.valve = {static_cast<std::uint8_t>(valve)}, .open = open}, at, now, valves);
+  }
+  void level(int valve, double at, double share) {
+    const double level = share * signals::max_level + 0.5;
+    network.command({.valve = {static_cast<std::uint8_t>(valve)},
+                     .level = static_cast<decltype(signals::Edge::level)>(level)},
+                    at, now, valves);
+  }
+
   void electrical(int valve, bool open) {
-    plumbing.electrical(valve, t, open, now, valves);
-    plumbing.node(t, now, valves);
-    look(t, state, now);
+    edge(valve, t, open);
+    node(t);
   }
 };
 

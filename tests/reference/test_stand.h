@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "sinew/actuator/thesis_actuator.h"
-#include "sinew/plant/rig/stand.h"
+#include "sinew/plant/slide/stand.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::reference {

@@ -19,7 +19,7 @@
 #include <set>
 #include <string>
 
-#include "sinew/muscle/test_bank.h"
+#include "sinew/muscle/network.h"
 
 namespace sinew::reference {
 namespace {
@@ -356,19 +356,19 @@ TEST(TestStand, errors_of_the_reference_are_smaller_than_the_tolerances) {
   }
 }
 
-// The stand's force is the bank's own with stick = false, both ways.
-TEST(TestStand, sign_of_the_speed_is_the_banks) {
+// With stick = false a muscle's force has the sign of its speed, both ways.
+TEST(TestStand, friction_without_stick_has_the_sign_of_the_speed) {
   muscle::Muscle sticks = TestStand::muscle({}), slides = sticks;
   slides.actuator.loss.stick = false;
-  muscle::BankByHand bank(std::vector{sticks, slides}, {}, {});
+  using Air = muscle::AirNetwork<4>;
+  const Air air(std::vector{sticks, slides}, {}, {});
   for (double speed : {0.1, -0.1}) {
-    muscle::Lanes length{}, rate{}, mass{};
-    for (int i = 0; i < muscle::lanes; ++i) {
-      length[i] = 0.08, rate[i] = speed;
-      mass[i] = bank.mass_at(0, 5e5, 0.08);
-    }
-    muscle::Pull pull{};
-    bank.evaluate(0, length, rate, mass, pull);
+    Air::Ends ends{};
+    ends.length.of.fill(0.08);
+    ends.rate.of.fill(speed);
+    Air::Answer pull{};
+    air.evaluate(0, ends, air.initial(5e5, ends.length, 0), air.valves_at_rest(),
+                 air.memory_at_rest(5e5, ends.length), pull);
     EXPECT_DOUBLE_EQ(pull.tension[1], pull.tension[0] + (speed > 0 ? pull.mesh[0] : -pull.mesh[0]));
     EXPECT_GT(pull.mesh[0], 0);
   }

@@ -9,8 +9,6 @@ Limits planar_limits(const std::string& name) {
   // A short muscle with little air fills within a few milliseconds (0.19 N, 1240 Pa, 0.11 mg).
   if (name == "one_joint")
     l.peek_place = 2.7e-6, l.peek_tension = 0.22, l.peek_pressure = 1400, l.peek_mass = 1.3e-7;
-  // Its air goes by a bank, whose peeks predict with the node's mass (0.134 N, 650 Pa, 0.106 mg).
-  if (name == "dampers") l.peek_tension = 0.15, l.peek_pressure = 720, l.peek_mass = 1.2e-7;
   // A light foot on a stiff spring: within a millisecond its acceleration turns (1.2e-3 rad, 0.34
   // N; 4e-3 J of 71 J, which fall by 32 with the step's half).
   if (name == "three_joints" || name == "ankle") {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/plant/rig/stand.h"
+#include "sinew/plant/slide/stand.h"
 #include "sinew/run/stand/run.h"
 #include "tests/worlds/body.h"
 

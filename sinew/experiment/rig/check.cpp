@@ -7,7 +7,7 @@
 
 #include "sinew/actuator/body.h"
 #include "sinew/config/quantity.h"
-#include "sinew/plant/rig/stand.h"
+#include "sinew/plant/slide/stand.h"
 
 namespace sinew::rig {
 namespace {
@@ -124,7 +124,7 @@ void check_load(const Experiment& e, Findings& out) {
   out.unused(regulated && e.start_pressure > 0, "start.pressure", "a charge that is not regulated");
 }
 
-// No clamp reaches further than the stand itself takes (plant/rig), and a length at which the
+// No clamp reaches further than the stand itself takes (plant/slide), and a length at which the
 // chamber holds no air has no pressure.
 void check_volumes(const Experiment& e, Findings& out) {
   const auto check = [&](const std::string& key, double length) {

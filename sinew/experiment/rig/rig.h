@@ -15,7 +15,7 @@
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
 #include "sinew/gas/valve.h"
-#include "sinew/plant/rig/setup.h"
+#include "sinew/plant/slide/setup.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::rig {

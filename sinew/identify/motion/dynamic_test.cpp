@@ -11,7 +11,7 @@
 
 #include "sinew/actuator/thesis_actuator.h"
 #include "sinew/identify/fit/refusal.h"
-#include "sinew/plant/rig/stand.h"
+#include "sinew/plant/slide/stand.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::identify {

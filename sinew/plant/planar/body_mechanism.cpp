@@ -29,8 +29,9 @@ double BodyMechanism::sum(const Motion& m) const noexcept {
   return places;
 }
 
-double BodyMechanism::stable_step(double step) const {
-  return plant::stable_step(step, rubs_.stiffest_rate(Body(constants_, start_), start_, robot_));
+double BodyMechanism::node_step(const Setup& setup) const {
+  return stable_step(setup.steps.body,
+                     rubs_.stiffest_rate(Body(constants_, start_), start_, robot_));
 }
 
 void BodyMechanism::set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
@@ -43,7 +44,8 @@ void BodyMechanism::set_rates(Motion& m, std::initializer_list<double> joint_rat
   m.rate[up] = y_rate;
 }
 
-void BodyMechanism::route(const Motion& m, muscle::Ends& ends, Arms& arms) const noexcept {
+void BodyMechanism::route(double, const Motion& m, muscle::Ends<most_muscles>& ends,
+                          Arms& arms) const noexcept {
   std::array<double, most_links> angle, rate;
   for (std::size_t j = 0; j < constants_.links; ++j) {
     angle[j] = joint_angle(m, j);
@@ -70,7 +72,7 @@ double BodyMechanism::cylinder_stop(const Motion& m) const noexcept {
 }
 
 void BodyMechanism::load(const Pose& body, const Motion& m, const Arms& arms,
-                         const muscle::Lanes& tension, double piston_force,
+                         const muscle::Lanes<most_muscles>& tension, double piston_force,
                          Load& out) const noexcept {
   std::array<double, most_links> torque{};
   for (std::size_t j = 0; j < constants_.links; ++j) {
@@ -120,7 +122,7 @@ auto BodyMechanism::accelerate(const Pose& body, const Motion& m, const Load& lo
 }
 
 auto BodyMechanism::prepare(const Pose& body, const Motion& m, const Arms& arms,
-                            const muscle::Lanes& mesh, double trolley_bound,
+                            const muscle::Lanes<most_muscles>& mesh, double trolley_bound,
                             const Load& load) noexcept -> Acceleration {
   const Acceleration free = body.accelerations(load.force);
   Forces bound{};

@@ -5,22 +5,24 @@
 //   body.h   equations of motion, dense      rubs.h     friction and the discs on the ground
 //   cords.h  routes of the muscles           rollers.h  what the trolley rests on
 //
-// One of the mechanisms of world.h; chain_mechanism.h is the same for the leg that walks, faster.
+// One of the mechanisms of world/world.h; chain_mechanism.h is the same for the leg that walks,
+// faster.
 #pragma once
 
 #include <array>
 #include <initializer_list>
 
-#include "sinew/muscle/bank.h"
+#include "sinew/muscle/lanes.h"
 #include "sinew/plant/planar/body.h"
 #include "sinew/plant/planar/cords.h"
+#include "sinew/plant/planar/planar_mechanism.h"
 #include "sinew/plant/planar/rubs.h"
 #include "sinew/plant/planar/setup.h"
 #include "sinew/plant/planar/stops.h"
 
 namespace sinew::plant {
 
-class BodyMechanism {
+class BodyMechanism : public PlanarMechanism {
  public:
   using Motion = plant::Motion;
   using Acceleration = Coordinates;
@@ -43,7 +45,7 @@ class BodyMechanism {
   double arm(const Arms& arms, int muscle) const noexcept {  // at its first joint [m]
     return arms[static_cast<std::size_t>(muscle)][0];
   }
-  Pose pose(const Motion& motion) const noexcept { return Pose(constants_, motion); }
+  Pose pose(double, const Motion& motion) const noexcept { return Pose(constants_, motion); }
 
   double joint_angle(const Motion& m, std::size_t j) const noexcept {
     return m.at[first_link + j] -
@@ -59,18 +61,18 @@ class BodyMechanism {
   double sum(const Motion& m) const noexcept;
 
   // The body step, or a whole part of it that suits the fastest rate of the machine at its start.
-  double stable_step(double step) const;
+  double node_step(const Setup& setup) const;
 
   void set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
                  double y_rate) const;
 
   // Lengths of the muscles, the piston's travel, their rates; the muscles' arms.
-  void route(const Motion& m, muscle::Ends& ends, Arms& arms) const noexcept;
+  void route(double, const Motion& m, muscle::Ends<most_muscles>& ends, Arms& arms) const noexcept;
 
   template <class Answer>
   void load(const Pose& body, const Motion& m, const Arms& arms, const Answer& air,
             Load& out) const noexcept {
-    load(body, m, arms, air.tension, piston_force(air), out);  // muscle/air.h
+    load(body, m, arms, air.tension, air.cylinder_force, out);
   }
 
   Acceleration accelerate(const Pose& body, const Motion& m, const Load& load,
@@ -85,7 +87,8 @@ class BodyMechanism {
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
   // the mesh's own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& body, const Motion& m, const Arms& arms,
-                       const muscle::Lanes& mesh, double trolley_bound, const Load& load) noexcept;
+                       const muscle::Lanes<most_muscles>& mesh, double trolley_bound,
+                       const Load& load) noexcept;
 
   // Dry friction of a step of length h from the prepared node, and accelerations under it.
   Forces hold(double h, const Forces& last) const noexcept { return rubs_.hold(h, last); }
@@ -114,8 +117,9 @@ class BodyMechanism {
             Truth& out) const noexcept;
 
  private:
-  void load(const Pose& body, const Motion& m, const Arms& arms, const muscle::Lanes& tension,
-            double piston_force, Load& out) const noexcept;
+  void load(const Pose& body, const Motion& m, const Arms& arms,
+            const muscle::Lanes<most_muscles>& tension, double piston_force,
+            Load& out) const noexcept;
   double cylinder_stop(const Motion& m) const noexcept;
   void tell_rollers(const Body& body, const Motion& m, const Acceleration& a, const Forces& held,
                     const Load& load, Truth& out) const noexcept;

@@ -104,7 +104,7 @@ TEST(BodyWorld, BodyAgreesWithTheFastChain) {
 // same motion from every mechanism with every air, to what rounding grows to.
 template <class World>
 class Alike : public ::testing::Test {};
-using Others = ::testing::Types<ChainPlumbingWorld<2>, BodyWorld>;
+using Others = ::testing::Types<BodyWorld>;
 TYPED_TEST_SUITE(Alike, Others);
 
 TYPED_TEST(Alike, MovesAsTheChainWithItsBank) {
@@ -278,7 +278,7 @@ TEST(Cords, TorqueIsTheSlopeOfLength) {
   std::uniform_real_distribution<double> hip(4.0, 5.8), knee(5.0, 6.0);
   for (int trial = 0; trial < 100; ++trial) {
     const double angle[2] = {hip(random), knee(random)}, still[2] = {0, 0};
-    muscle::Lanes length, rate, ahead, behind;
+    muscle::Lanes<most_muscles> length, rate, ahead, behind;
     Cords::Pulls pulls, other;
     cords.at(angle, still, length, rate, pulls);
     const double h = 1e-6;

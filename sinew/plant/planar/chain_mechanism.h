@@ -4,8 +4,8 @@
 //   chain.h     equations of motion          contacts.h  friction at joints, trolley and foot
 //   layout.h    routes of the muscles        rollers.h   what the trolley rests on
 //
-// One of the mechanisms of world.h. robot::is_chain says which robots it holds; body_mechanism.h
-// holds all, and both agree where both hold one.
+// One of the mechanisms of world/world.h. robot::is_chain says which robots it holds;
+// body_mechanism.h holds all, and both agree where both hold one.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,11 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "sinew/muscle/bank.h"
+#include "sinew/muscle/lanes.h"
 #include "sinew/plant/planar/chain.h"
 #include "sinew/plant/planar/contacts.h"
 #include "sinew/plant/planar/layout.h"
+#include "sinew/plant/planar/planar_mechanism.h"
 #include "sinew/plant/planar/rollers.h"
 #include "sinew/plant/planar/setup.h"
 #include "sinew/plant/planar/stops.h"
@@ -24,7 +25,7 @@
 namespace sinew::plant {
 
 template <int N>
-class ChainMechanism {
+class ChainMechanism : public PlanarMechanism {
  public:
   using Motion = plant::Pose<N>;
   using Acceleration = Generalised<N>;
@@ -65,7 +66,7 @@ class ChainMechanism {
   int muscles() const noexcept { return routes_.count; }
   int joint(int muscle) const noexcept { return routes_.joint[static_cast<std::size_t>(muscle)]; }
   double arm(const Arms&, int muscle) const noexcept { return routes_.pull[muscle]; }  // [m]
-  Pose pose(const Motion& motion) const noexcept { return Pose(chain_, motion); }
+  Pose pose(double, const Motion& motion) const noexcept { return Pose(chain_, motion); }
 
   double joint_angle(const Motion& m, std::size_t j) const noexcept {
     return m.angle[j] - (j > 0 ? m.angle[j - 1] : 0.0);
@@ -83,10 +84,11 @@ class ChainMechanism {
   }
 
   // The body step, or a whole part of it that suits the fastest rate of the machine at its start.
-  double stable_step(double step) const {
+  double node_step(const Setup& setup) const {
     std::array<double, N> damping = damping_, spring = spring_;
     for (int j = 0; j < N; ++j) damping[j] += stop_[j].damping, spring[j] += stop_[j].stiffness;
-    return plant::stable_step(step, contacts_.stiffest_rate(Pose(chain_, start_), damping, spring));
+    return stable_step(setup.steps.body,
+                       contacts_.stiffest_rate(Pose(chain_, start_), damping, spring));
   }
 
   void set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
@@ -98,7 +100,7 @@ class ChainMechanism {
   }
 
   // Lengths of the muscles and their rates, from the joints' angles.
-  void route(const Motion& pose, muscle::Ends& ends, Arms&) const noexcept {
+  void route(double, const Motion& pose, muscle::Ends<most_muscles>& ends, Arms&) const noexcept {
     std::array<double, N> travel, rate;
     for (int j = 0; j < N; ++j) {
       travel[j] = pose.angle[j] - (j > 0 ? pose.angle[j - 1] : 0.0) - rest_[j];
@@ -158,7 +160,8 @@ class ChainMechanism {
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
   // the mesh's own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& chain, const Motion& pose, const Arms&,
-                       const muscle::Lanes& mesh, double trolley_bound, const Load& load) noexcept {
+                       const muscle::Lanes<most_muscles>& mesh, double trolley_bound,
+                       const Load& load) noexcept {
     const Acceleration free = chain.accelerations(load.force);
     Forces bound;
     for (int j = 0; j < N; ++j) bound[j] = dry_[j];

@@ -56,8 +56,8 @@ Cords::Cords(const robot::Robot& robot) {
   }
 }
 
-void Cords::at(const double* angle, const double* rate, muscle::Lanes& length,
-               muscle::Lanes& length_rate, Pulls& pull) const noexcept {
+void Cords::at(const double* angle, const double* rate, muscle::Lanes<most_muscles>& length,
+               muscle::Lanes<most_muscles>& length_rate, Pulls& pull) const noexcept {
   for (int i = 0; i < count(); ++i) {
     const Cord& cord = cords_[static_cast<std::size_t>(i)];
     double l = cord.mount, v = 0;

@@ -11,7 +11,8 @@
 #include <array>
 #include <vector>
 
-#include "sinew/muscle/bank.h"
+#include "sinew/muscle/lanes.h"
+#include "sinew/plant/planar/setup.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::plant {
@@ -37,7 +38,7 @@ class Cords {
   static constexpr int most = 2;  // joints of a muscle
 
   // s_k r_k of every muscle at the present pose.
-  using Pulls = std::array<std::array<double, most>, muscle::capacity>;
+  using Pulls = std::array<std::array<double, most>, most_muscles>;
 
   explicit Cords(const robot::Robot& robot);
 
@@ -47,8 +48,8 @@ class Cords {
   int joint(int i, int k) const { return cords_[static_cast<std::size_t>(i)].joint[k]; }
 
   // From the joints' angles [rad] and rates [rad/s]. Lanes beyond the last muscle repeat it.
-  void at(const double* angle, const double* rate, muscle::Lanes& length,
-          muscle::Lanes& length_rate, Pulls& pull) const noexcept;
+  void at(const double* angle, const double* rate, muscle::Lanes<most_muscles>& length,
+          muscle::Lanes<most_muscles>& length_rate, Pulls& pull) const noexcept;
 
  private:
   struct Cord {

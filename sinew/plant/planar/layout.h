@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "sinew/muscle/bank.h"
+#include "sinew/muscle/lanes.h"
 #include "sinew/plant/planar/chain.h"
 #include "sinew/plant/planar/setup.h"
 
@@ -14,8 +14,8 @@ namespace sinew::plant {
 struct Strings {
   int count = 0, padded = 0;  // padded to whole lanes by repeating the last
 
-  std::array<int, muscle::capacity> joint{};
-  muscle::Lanes mount{}, pull{};  // [m]
+  std::array<int, most_muscles> joint{};
+  muscle::Lanes<most_muscles> mount{}, pull{};  // [m]
 };
 
 Strings strings_of(const robot::Robot& robot);

@@ -9,12 +9,9 @@ namespace {
 
 AnyWorld world_for(const Setup& s) {
   const bool chain = robot::is_chain(s.robot), one = s.robot.joints.size() == 1;
-  const bool bank = !muscle::needs_plumbing(s.muscles, s.air, s.supply, s.cylinder, s.faults);
   using std::in_place_type;
-  if (chain && bank && one) return AnyWorld(in_place_type<ChainWorld<1>>, s);
-  if (chain && bank) return AnyWorld(in_place_type<ChainWorld<2>>, s);
-  if (chain && one) return AnyWorld(in_place_type<ChainPlumbingWorld<1>>, s);
-  if (chain) return AnyWorld(in_place_type<ChainPlumbingWorld<2>>, s);
+  if (chain && one) return AnyWorld(in_place_type<ChainWorld<1>>, s);
+  if (chain) return AnyWorld(in_place_type<ChainWorld<2>>, s);
   return AnyWorld(in_place_type<BodyWorld>, s);
 }
 

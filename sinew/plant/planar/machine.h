@@ -1,33 +1,28 @@
 // plant/planar/machine.h - a planar machine in simulation: the mechanism and the air that suit its
-// description, behind one face. Robots that a chain holds go by chain_mechanism.h, and what of them
-// has only air that a bank holds by muscle/bank.h.
+// description, behind one face. Robots that a chain holds go by chain_mechanism.h.
 #pragma once
 
 #include <cstddef>
 #include <span>
 #include <variant>
 
-#include "sinew/muscle/air.h"
+#include "sinew/muscle/network.h"
 #include "sinew/plant/planar/body_mechanism.h"
 #include "sinew/plant/planar/chain_mechanism.h"
-#include "sinew/plant/planar/world.h"
+#include "sinew/plant/world/world.h"
 
 namespace sinew::plant {
 
+using Air = muscle::AirNetwork<most_muscles>;
 template <int N>
-using ChainWorld = World<ChainMechanism<N>, muscle::BankAir>;
-template <int N>
-using ChainPlumbingWorld = World<ChainMechanism<N>, muscle::PlumbingAir>;
-using BodyWorld = World<BodyMechanism, muscle::PlumbingAir>;  // holds every robot
+using ChainWorld = World<ChainMechanism<N>, Air>;
+using BodyWorld = World<BodyMechanism, Air>;  // holds every robot
 
-extern template class World<ChainMechanism<1>, muscle::BankAir>;
-extern template class World<ChainMechanism<2>, muscle::BankAir>;
-extern template class World<ChainMechanism<1>, muscle::PlumbingAir>;
-extern template class World<ChainMechanism<2>, muscle::PlumbingAir>;
-extern template class World<BodyMechanism, muscle::PlumbingAir>;
+extern template class World<ChainMechanism<1>, Air>;
+extern template class World<ChainMechanism<2>, Air>;
+extern template class World<BodyMechanism, Air>;
 
-using AnyWorld = std::variant<ChainWorld<1>, ChainWorld<2>, ChainPlumbingWorld<1>,
-                              ChainPlumbingWorld<2>, BodyWorld>;
+using AnyWorld = std::variant<ChainWorld<1>, ChainWorld<2>, BodyWorld>;
 
 class Machine {
  public:

@@ -18,6 +18,7 @@
 namespace sinew::plant {
 
 inline constexpr int most_joints = robot::max_joints;
+inline constexpr int most_muscles = 8;
 
 // Where the machine starts, and what holds it.
 struct Start {
@@ -65,15 +66,14 @@ struct Truth {
   double x = 0, x_rate = 0;                         // trolley [m], [m/s]
   std::array<double, most_joints> angle{}, rate{};  // joints [rad], [rad/s]
   std::array<double, most_joints> torque{};         // of the muscles, friction apart [N m]
-  std::array<double, muscle::capacity> tension{}, pressure{}, length{},
-      mass{};                                                // [N] [Pa] [m] [kg]
-  std::array<double, muscle::capacity> air_in{}, air_out{};  // since the start [kg]
-  std::array<FootTruth, robot::max_legs> foot{};             // by leg
-  double roller_front = 0, roller_rear = 0;                  // loads, below 0: lifted off [N]
+  std::array<double, most_muscles> tension{}, pressure{}, length{}, mass{};  // [N] [Pa] [m] [kg]
+  std::array<double, most_muscles> air_in{}, air_out{};                      // since the start [kg]
+  std::array<FootTruth, robot::max_legs> foot{};                             // by leg
+  double roller_front = 0, roller_rear = 0;  // loads, below 0: lifted off [N]
 
   // These belong to parts that not every machine has, and are 0 without them.
   std::array<double, robot::max_discs> disc_force{};  // of the ground on each disc, up [N]
-  std::array<double, muscle::capacity> air_leaked{};  // since the start [kg]
+  std::array<double, most_muscles> air_leaked{};      // since the start [kg]
   double supply_pressure = 0, tank_pressure = 0;      // absolute [Pa]
   double air_mass = 0;                                // in chambers, hoses and tank [kg]
   double air_past_tank = 0;  // from a line that a fault had cut from its tank, since the start [kg]

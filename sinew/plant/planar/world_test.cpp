@@ -112,13 +112,13 @@ TEST(World, SealedAirStaysOnItsPolytrope) {
   setup.start.pressure = 4e5;
   ChainWorld<2> world(setup);
   const Truth start = world.truth(0);
-  muscle::Bank bank(setup.muscles, setup.air, setup.supply);
+  const Air network(setup.muscles, setup.air, setup.supply);
   for (int k = 1; k <= 300; ++k) {
     const Truth now = world.truth(k * 2.7e-3);
     for (int i = 0; i < 4; ++i) {
       const auto m = static_cast<std::size_t>(i);
       EXPECT_EQ(now.mass[m], start.mass[m]);
-      const double ratio = bank.volume(i, start.length[m]) / bank.volume(i, now.length[m]);
+      const double ratio = network.volume(i, start.length[m]) / network.volume(i, now.length[m]);
       EXPECT_NEAR(now.pressure[m] / (start.pressure[m] * std::pow(ratio, 1.2)), 1.0, 1e-9);
     }
   }

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "sinew/plant/rig/stand.h"
+#include "sinew/plant/slide/stand.h"
 #include "sinew/run/stand/drive.h"
 #include "sinew/signals/table.h"
 

@@ -12,7 +12,7 @@
 
 #include "sinew/actuator/thesis_actuator.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/plant/rig/stand.h"
+#include "sinew/plant/slide/stand.h"
 #include "sinew/run/stand/drive_laws.h"
 #include "sinew/run/stand/run.h"
 #include "sinew/signals/pulse.h"

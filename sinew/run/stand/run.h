@@ -6,7 +6,7 @@
 
 #include "sinew/experiment/rig/rig.h"
 #include "sinew/muscle/failure.h"
-#include "sinew/plant/rig/setup.h"
+#include "sinew/plant/slide/setup.h"
 #include "sinew/run/simulation/logged.h"
 #include "sinew/signals/port.h"
 #include "sinew/signals/table.h"

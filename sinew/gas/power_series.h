@@ -1,0 +1,71 @@
+// gas/power_series.h - a power of a number near one, without exp and log:
+//
+//   (1 + x)^e = 1 + e x + e (e - 1)/2 x^2 + ...   six terms
+//
+// 2e-11 relative while |x| <= 0.05 and 0 <= e <= 1. Only + - x: a number and a vector of numbers
+// have the same bits.
+//
+// Whoever follows a quantity q takes the series about a base, x = q/base - 1, and takes a new base
+// where q has drifted: `Base` is that with the root at the base, y = y_base (1 + x)^e.
+#pragma once
+
+#include <array>
+
+#include "sinew/units/math.h"
+
+namespace sinew::gas {
+
+class PowerSeries {
+ public:
+  static constexpr double reach = 0.05;   // |x| up to which six terms are enough
+  static constexpr double rebase = 0.02;  // |x| from which a new base is worth its power
+
+  constexpr PowerSeries() = default;
+  constexpr explicit PowerSeries(double exponent) : exponent_(exponent) {
+    term_[0] = 1.0;
+    for (int k = 1; k < 7; ++k) term_[k] = term_[k - 1] * (exponent - (k - 1)) / k;
+  }
+
+  constexpr double exponent() const { return exponent_; }
+
+  // Puts (1 + x)^e into `power`, of a number or a vector; the terms go in pairs, which wait less
+  // for one another than Horner's.
+  template <class T>
+  constexpr void raise(const T& x, T& power) const {
+    const auto& c = term_;
+    const T x2 = x * x, low = 1.0 + c[1] * x, middle = c[2] + c[3] * x;
+    const T high = (c[4] + c[5] * x) + c[6] * x2;
+    power = (low + x2 * middle) + (x2 * x2) * high;
+  }
+
+ private:
+  double exponent_ = 1;
+  std::array<double, 7> term_{};
+};
+
+// A base of the series: y there, and one over the quantity there. Made at rest it is no base yet:
+// the first look goes by the power.
+struct Base {
+  double y = 1, inverse = 0;
+};
+
+// Returns y of a quantity that is `at_one` where y is one, by the series or, beyond its reach, by
+// the power [-].
+inline double root(const PowerSeries& series, const Base& base, double quantity, double at_one) {
+  const double x = quantity * base.inverse - 1.0;
+  if (x < PowerSeries::reach && x > -PowerSeries::reach) {
+    double power = 1;
+    series.raise(x, power);
+    return base.y * power;
+  }
+  return units::power(quantity / at_one, series.exponent());
+}
+
+// Takes a new base where the quantity has drifted from the old one.
+inline void follow(const PowerSeries& series, Base& base, double quantity, double at_one) {
+  const double x = quantity * base.inverse - 1.0;
+  if (x < PowerSeries::rebase && x > -PowerSeries::rebase) return;
+  base = {units::power(quantity / at_one, series.exponent()), 1.0 / quantity};
+}
+
+}  // namespace sinew::gas

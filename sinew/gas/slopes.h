@@ -1,0 +1,99 @@
+// gas/slopes.h - the flows of orifice.h, hose.h and leak.h with their slopes, for rules that solve
+// for a chamber instead of stepping past it.
+//
+//   dm'/dy_a, dm'/dy_b   of the flow from a to b, y = (P/P_atm)^(1/7)
+//
+// Exact on each piece of a law; at a kink (choking, the linear part) the slope is one side's.
+#pragma once
+
+#include "sinew/gas/hose.h"
+#include "sinew/gas/leak.h"
+#include "sinew/gas/orifice.h"
+
+namespace sinew::gas {
+
+struct SlopedFlow {
+  double flow = 0;            // from a to b [kg/s]
+  double by_a = 0, by_b = 0;  // its slopes over y_a and y_b [kg/s]
+};
+
+namespace slopes {
+
+// A law between the higher port and the lower one, put the right way round.
+template <class Law>
+SlopedFlow both_ways(double y_a, double y_b, const Law& law) {
+  if (y_a >= y_b) return law(y_a, y_b);
+  const SlopedFlow back = law(y_b, y_a);
+  return {-back.flow, -back.by_b, -back.by_a};
+}
+
+inline double seventh(double y) {
+  const double y3 = y * y * y;
+  return y3 * y3 * y;
+}
+
+// Through a valve with a flow, from y_a down to y_b.
+inline SlopedFlow downhill(const FlowConstants& c, double up, double down) {
+  const double up6 = up * up * up * up * up * up, down6 = down * down * down * down * down * down;
+  const double p_up = up6 * up, p_down = down6 * down;
+  if (down > c.linear_from * up)
+    return {c.linear_gain * (p_up - p_down), 7 * c.linear_gain * up6, -7 * c.linear_gain * down6};
+  if (c.iso > 0) {
+    const double over = p_down - c.choke * p_up, share = (over > 0 ? over : 0.0) * c.spread;
+    const double root = std::sqrt(p_up * p_up - share * share);
+    const double gain = over > 0 ? c.gain : c.choked_gain;
+    if (!(root > 0)) return {};
+    const double by_up = gain * (p_up + share * c.choke * c.spread) / root;
+    const double by_down = -gain * share * c.spread / root;
+    return {gain * root, by_up * 7 * up6, by_down * 7 * down6};
+  }
+  const double limit = c.choke * up;
+  if (down <= limit) {
+    const double flow = flow_y(c, up, down);
+    return {flow, 7 * flow / up, 0.0};
+  }
+  const double inside = up * up - down * down, flow = flow_y(c, up, down);
+  return {flow, flow * (1 / up + up / inside), flow * (5 / down - down / inside)};
+}
+
+// Through a pipe, from y_a down to y_b.
+inline SlopedFlow downhill_pipe(const HoseConstants& c, double up, double down) {
+  const double p_up = seventh(up), p_down = seventh(down);
+  const double squares = (p_up - p_down) * (p_up + p_down);
+  const double of_up = 7 * p_up / up, of_down = 7 * p_down / down;  // dP/dy [-]
+  if (!(squares > 0)) return {0.0, c.laminar * 2 * p_up * of_up, -c.laminar * 2 * p_down * of_down};
+  const double ratio = c.crossover * units::power(squares, 3.0 / 7.0);
+  const double ratio2 = ratio * ratio, ratio4 = ratio2 * ratio2, ratio8 = ratio4 * ratio4;
+  const double blend = std::sqrt(std::sqrt(std::sqrt(1.0 + ratio8)));
+  const double free = c.laminar * squares / blend, most = c.choked * p_up;
+  if (free >= most) return {most, c.choked * of_up, 0.0};
+  const double slope = c.laminar / blend * (1.0 - 3.0 / 7.0 * ratio8 / (1.0 + ratio8));
+  return {free, slope * 2 * p_up * of_up, -slope * 2 * p_down * of_down};
+}
+
+}  // namespace slopes
+
+// flow_y with its slopes.
+inline SlopedFlow sloped_flow_y(const FlowConstants& c, double y_a, double y_b) {
+  return slopes::both_ways(y_a, y_b,
+                           [&](double up, double down) { return slopes::downhill(c, up, down); });
+}
+
+// hose_flow_y with its slopes.
+inline SlopedFlow sloped_hose_flow_y(const HoseConstants& c, double y_a, double y_b) {
+  if (!c.pipe) return sloped_flow_y(c.iso, y_a, y_b);
+  return slopes::both_ways(
+      y_a, y_b, [&](double up, double down) { return slopes::downhill_pipe(c, up, down); });
+}
+
+// leak_flow_y with its slopes.
+inline SlopedFlow sloped_leak_flow_y(const LeakConstants& c, double y_a, double y_b) {
+  SlopedFlow f = c.hole.gain > 0 ? sloped_flow_y(c.hole, y_a, y_b) : SlopedFlow{};
+  const double p_a = slopes::seventh(y_a), p_b = slopes::seventh(y_b);
+  f.flow += c.slope * (p_a - p_b);
+  f.by_a += 7 * c.slope * p_a / y_a;
+  f.by_b -= 7 * c.slope * p_b / y_b;
+  return f;
+}
+
+}  // namespace sinew::gas

@@ -1,0 +1,382 @@
+// muscle/network.h - the air of a machine: bodies of air (chambers of muscles and of a cylinder,
+// hoses, a tank, the room) joined by restrictions (valves, regulators, hoses, leaks), with the
+// muscles that they fill. The air half of one ODE; plant/world/world.h integrates it with a body:
+//
+//   lengths, rates, state, valves, memory  ->  tensions, pressures, flows
+//
+//   State    what is integrated, and what has passed the valves since the start
+//   Valves   until the next node: where valves, set points and faults stand
+//   Memory   until the next node: what the series stand on, where hysteresis stands
+//   Answer   all that one evaluation yields
+//
+//   order    command() at t, from the look at the last node
+//            move_valves(t) at next_change() and wherever the integrator wants a node, then
+//            evaluate, and remember what the look at the node says
+//
+// A network itself is constant: whoever integrates owns the state.
+//
+// The state of a body of air is its mass, [40], and its energy where walls are warm. Muscles go
+// side by side by braid_lanes.h where it holds them and no wall is warm, else one after the other
+// by actuator/tension.h. What a machine does not have costs nothing: a muscle between two valves is
+// lanes and a flow per open valve; only lines with more (a hose, a leak, a regulator, a warm wall),
+// and all of them while something is broken, are asked one by one. The laws: gas/orifice.h,
+// series.h, hose.h, leak.h, heat.h, supply.h, regulator.h, cylinder.h, actuator/hysteresis.h,
+// creep.h.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sinew/gas/air.h"
+#include "sinew/gas/delay.h"
+#include "sinew/gas/orifice.h"
+#include "sinew/gas/supply.h"
+#include "sinew/muscle/braid_lanes.h"
+#include "sinew/muscle/cylinder.h"
+#include "sinew/muscle/failure.h"
+#include "sinew/muscle/fault.h"
+#include "sinew/muscle/muscle.h"
+#include "sinew/signals/port.h"
+
+namespace sinew::muscle {
+
+// Air of one chamber: what is there, and what has passed since the start  [kg].
+struct Account {
+  double mass = 0, in = 0, out = 0, leak = 0;
+};
+
+// Pressures of the supply, absolute  [Pa], and what it has given while a fault had cut it from its
+// tank [kg].
+struct SupplyState {
+  double line = 0, tank = 0, past_tank = 0;
+};
+
+// For at most `Most` muscles: compiled for 4, 8 and 48.
+template <int Most>
+class AirNetwork {
+ public:
+  using Lanes = muscle::Lanes<Most>;
+  using Ends = muscle::Ends<Most>;
+
+  // States beside the muscles' masses: energies, hoses, creep, regulators, cylinder, tank, faults.
+  static constexpr int most_others = 6 * Most + 10;
+
+  struct State {
+    Lanes mass;           // of the muscles [kg]
+    Lanes in, out, leak;  // through their valves and holes since the start [kg]
+    std::array<double, 2> piston_in{}, piston_out{};  // the same of the cylinder: up, down [kg]
+    std::array<double, most_others> other;            // the first others() are used
+  };
+
+  // Where the valves and regulators are.
+  struct Valves {
+    struct Valve {
+      gas::Shutter shutter;
+      double share = 0;                      // of its area that is open
+      double set = 0, set_y = 0;             // set point of a regulator in force [Pa]
+      double next_set = 0, next_set_at = 0;  // and the one to come [Pa], [s]
+    };
+    struct Open {
+      int valve = 0;
+      double share = 0;  // of its area
+    };
+    std::array<Valve, 2 * Most + 4> of;
+    std::array<Open, 2 * Most + 4> open;  // those that let air through: open_count of them
+    int open_count = 0;
+    ActingFaults faults;
+    bool leaking = false;    // some fault lets air through although every valve is shut
+    bool broken = false;     // some fault acts that is more than a share of a valve's area
+    double next_change = 0;  // instant at which a valve, a set point or a fault changes, or
+                             // infinity [s]
+
+    Valve& operator[](std::size_t v) { return of[v]; }
+    const Valve& operator[](std::size_t v) const { return of[v]; }
+  };
+
+  // What looks between two nodes go by, beside the valves.
+  struct Memory {
+    Reference<Most> reference;                   // of the muscles' densities
+    Lanes play;                                  // of the hysteresis, where there is one [Pa]
+    std::array<gas::Base, Most> hose;            // of the hoses' densities
+    std::array<gas::Base, 2> side;               // of the cylinder's chambers
+    std::array<gas::Base, 2 * Most + 4> outlet;  // of the regulators' pressures
+    gas::Base line;                              // of the supply's pressure
+  };
+
+  // Pairs of the cylinder: up, down. Those of a line with more than valves are set only there.
+  struct Answer : Pull<Most> {
+    Lanes inflow;    // from the supply [kg/s]
+    Lanes outflow;   // to the atmosphere [kg/s]
+    Lanes gain;      // d(mass)/dt of a line with more than valves [kg/s]
+    Lanes leak;      // out of the muscle to the atmosphere, of such a line [kg/s]
+    Lanes manifold;  // pressure between valves and hose, of such a line [Pa]
+    Lanes play;      // state of the hysteresis, where there is one [Pa]
+
+    double cylinder_force;  // on the body, up > 0 [N]
+    std::array<double, 2> cylinder_pressure, cylinder_inflow, cylinder_outflow;  // [Pa] [kg/s]
+    std::array<double, 2> cylinder_density;                                      // [kg/m^3]
+
+    double supply_pressure;                // of the line to the inlets, absolute [Pa]
+    double tank_pressure;                  // the line's without a tank [Pa]
+    std::array<double, most_others> rate;  // d(other)/dt
+  };
+
+  // Throws std::invalid_argument for more than `Most` muscles, and for a cylinder with valves whose
+  // chambers vanish at a stop.
+  AirNetwork(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
+             const std::optional<Cylinder>& cylinder = {}, std::span<const AirFault> faults = {});
+
+  int muscles() const noexcept { return size_; }
+  int others() const noexcept { return others_; }
+  double atmosphere() const noexcept { return air_.atmosphere; }  // [Pa]
+
+  // Is there nothing but muscles between valves on a constant supply?
+  bool plain() const noexcept { return plain_; }
+
+  // 2 x muscle + (0 inlet | 1 exhaust), then the cylinder's: up inlet, up exhaust, down inlet, down
+  // exhaust.
+  int valves() const noexcept { return static_cast<int>(taps_.size()); }
+
+  // Volume of the air in muscle i  [m^3], and its mass at this pressure and length [kg].
+  double volume(int i, double length) const noexcept;
+  double mass_at(int i, double pressure, double length) const noexcept {
+    return density(pressure) * volume(i, length);
+  }
+
+  // All muscles at one absolute pressure and at rest, air at the wall's temperature.
+  State initial(double pressure, const Lanes& length, double travel) const;
+
+  // All valves without current since ever, all set points at the atmosphere's pressure.
+  Valves valves_at_rest() const;
+
+  // Meshes that have stood at this pressure and length for long; the series stand on no base yet.
+  Memory memory_at_rest(double pressure, const Lanes& length) const;
+
+  // Chambers and hoses of the muscles, and of a single-acting cylinder, filled to one absolute
+  // pressure, air at the wall's temperature: what an ideal regulator does.
+  void hold(double pressure, const Lanes& length, double travel, State& state) const noexcept;
+
+  // The same of the rates: what hold() sets does not move by itself.
+  void hold_still(Answer& look) const noexcept;
+
+  // Air in the machine: chambers, hoses and tank  [kg]. What it loses has left through an exhaust
+  // or a leak.
+  double total_mass(const State& state, double travel) const noexcept;
+
+  // An electrical edge of a valve at t, or a regulator's set point from t on, not before the last
+  // node. `at_node`: the look at that node, for delays and failures that depend on the pressure
+  // difference.
+  void command(const signals::Edge& edge, double t, const Answer& at_node,
+               Valves& valves) const noexcept;
+
+  // At a node: valves, set points and faults move to t. `before`: the look at the last node, for
+  // the delay of a shutter that a fault lets go.
+  void move_valves(double t, const Answer& before, Valves& valves) const noexcept {
+    if (valves.next_change <= t) move(t, before, valves);
+  }
+
+  // Share of the valve's area that is open at t  [-].
+  double open_share(int valve, double t, const Valves& valves) const noexcept;
+
+  // Does anything flow, warm or creep, or can it without a valve that moves?
+  bool flowing(const Valves& valves) const noexcept {
+    return restless_ || ramping_ || valves.open_count > 0 || valves.leaking;
+  }
+
+  // The law itself; t matters only to valves that ramp.
+  void evaluate(double t, const Ends& ends, const State& state, const Valves& valves,
+                const Memory& memory, Answer& out) const noexcept;
+
+  // At a node, with the look at it: the references of the series follow, the plays of the
+  // hysteresis move on. Looks between two nodes go by the last one, exactly as long as a pressure
+  // does not turn between them. Answers what of the air is no number.
+  Failure remember(const Answer& look, const State& state, Memory& memory) const noexcept;
+
+  // The stages of RK4: the state, h along the rates of one look, what has passed since the start
+  // apart (`out` is another one than `from`); and the state, by the weighted mean of four looks.
+  void move(State& out, const State& from, double h, const Answer& look,
+            const Valves& valves) const noexcept;
+  void finish(State& state, double h, const Answer* const (&look)[4],
+              const Valves& valves) const noexcept;
+
+  // The second half of Heun's rule, for a peek; move() is the first.
+  void correct(State& out, const State& from, double h, const Answer& before, const Answer& after,
+               const Valves& valves) const noexcept;
+
+  Account account(const State& s, int i) const noexcept {
+    return {.mass = s.mass[i], .in = s.in[i], .out = s.out[i], .leak = s.leak[i]};
+  }
+  // Pressure behind the valves of muscle i: its own, or that before a hose  [Pa].
+  double manifold(const Answer& a, int i, const Valves& valves) const noexcept {
+    return line(i).more || valves.broken ? a.manifold[i] : a.pressure[i];
+  }
+  double leak(const Answer& a, int i, const Valves& valves) const noexcept {  // [kg/s]
+    return line(i).more || valves.broken ? a.leak[i] : 0.0;
+  }
+  Account cylinder_account(const State& s, int side) const noexcept {
+    const auto c = static_cast<std::size_t>(side);
+    const int mass = sides_[c].mass;
+    return {.mass = mass != none ? other(s, mass) : 0.0,
+            .in = s.piston_in[c],
+            .out = s.piston_out[c]};
+  }
+  double cylinder_pressure(const Answer& a, int side) const noexcept {  // [Pa]
+    return a.cylinder_pressure[static_cast<std::size_t>(side)];
+  }
+  // `past_tank`: what the supply has given while a fault had cut it from its tank; below 0 it has
+  // taken more.
+  SupplyState supply_state(const State& s, const Answer& a) const noexcept {
+    return {a.supply_pressure, a.tank_pressure, cut_ == none ? 0.0 : other(s, cut_)};
+  }
+
+  // RK4 is stable up to this step: the fastest chamber, lag or wall that an option adds, or
+  // infinity [s]. Without a place, wherever the piston stands. With one, muscles that never seal
+  // are in it too: behind a regulator or a hose's chamber, or with a leak. Muscles behind shutters
+  // are not.
+  double longest_step() const noexcept;
+  double longest_step(const Ends& ends, const Valves& valves) const noexcept;
+
+ private:
+  static constexpr int none = -1;
+
+  // One valve, or regulator, and what it lets through.
+  struct Tap {
+    gas::Valve valve;
+    gas::FlowConstants flow;
+    int outlet = none;    // Kind::regulator: state of its outlet pressure
+    bool listed = false;  // the flow is that of the open share alone
+  };
+  // What lies between a muscle's valves and its air, and where its numbers stand among the others.
+  struct Line {
+    int energy = none, hose = none, hose_energy = none;  // no hose's mass: it holds no air
+    bool resists = false, more = false;                  // a hose; more than valves
+    gas::HoseConstants hose_flow;
+    gas::LeakConstants leak;
+    bool plays = false;                                          // it has hysteresis
+    std::array<int, actuator::Creep::most> late = {none, none};  // of the creep
+    double settling = 0;  // n R T times the slope of what never shuts; 0: all of it does [m^3/s]
+  };
+  struct Slot {
+    int mass = none, energy = none;
+  };
+  struct Chamber {
+    double pressure = 0, y = 0, temperature = 0;
+  };
+  struct Flows {
+    double in = 0, out = 0;  // from the supply, to the room [kg/s]
+  };
+  // The flows of one look go by these, beside the chambers.
+  struct Now {
+    double t;         // [s]
+    double y_supply;  // of the line to the inlets
+    const State& state;
+    const Valves& valves;
+    const Memory& memory;
+  };
+  struct Broken {
+    gas::LeakConstants leak;
+    double y = 1;  // of the supply's line
+  };
+
+  static double other(const State& s, int i) noexcept {
+    return s.other[static_cast<std::size_t>(i)];
+  }
+  static double& other(State& s, int i) noexcept { return s.other[static_cast<std::size_t>(i)]; }
+  static double& rate(Answer& a, int i) noexcept { return a.rate[static_cast<std::size_t>(i)]; }
+  const Muscle& muscle(int i) const noexcept { return muscles_[static_cast<std::size_t>(i)]; }
+  const Line& line(int i) const noexcept { return lines_[static_cast<std::size_t>(i)]; }
+
+  // network_setup.h
+  void add_muscle(const Muscle& muscle);
+  void add_memory(int i);
+  void add_cylinder();
+  void add_tap(const gas::Valve& valve);
+  void classify();
+  void limit_step();
+  double fastest_slope(int inlet) const;
+  double hose_slope(const Line& line) const;
+  double density(double pressure) const noexcept;
+  void fill(const Slot& slot, double mass, State& state) const noexcept;
+
+  // network_valves.h
+  double difference(int valve, const Answer& at_node, const Valves& valves) const noexcept;
+  double fraction(std::size_t valve, double t, const Valves& valves) const noexcept;
+  void look_ahead(Valves& valves) const noexcept;
+  void move(double t, const Answer& before, Valves& valves) const noexcept;
+  void refresh(double t, Valves& valves) const noexcept;
+
+  // network_flows.h
+  double line_of_tank(const State& state, const Memory& memory, Answer& out) const noexcept;
+  void one_by_one(const Ends& ends, const State& state, const Memory& memory, Answer& out,
+                  Lanes& y) const noexcept;
+  double smooth_tension(int i, double length, double rate, double gauge, const State& state,
+                        const Memory& memory, Answer& out) const noexcept;
+  void pull(int i, double length, double rate, double pressure, const State& state,
+            const Memory& memory, Answer& out) const noexcept;
+  void open_taps(double t, double y_supply, const Lanes& y, const Valves& valves,
+                 Answer& out) const noexcept;
+  Flows through(int inlet, const Now& now, double y) const noexcept;
+  bool shut(int inlet, const Now& now) const noexcept;
+  Flows series(int i, const Now& now, const Chamber& c, Answer& out) const noexcept;
+  Chamber hose(int i, const Now& now) const noexcept;
+  void run_line(int i, const Now& now, const Ends& ends, const Chamber& c,
+                Answer& out) const noexcept;
+  void run_options(const Now& now, bool cut, const Ends& ends, const Lanes& y,
+                   Answer& out) const noexcept;
+  void run_cylinder(const Now& now, const Ends& ends, Answer& out) const noexcept;
+  void run_supply(const Now& now, bool cut, Answer& out) const noexcept;
+  double enthalpy(double flow, double from, double to) const noexcept;
+  double warming(int energy, double mass, const State& state, double gained,
+                 double work) const noexcept;
+  template <class Mean>
+  void add(State& out, const State& from, Mean mean, const Valves& valves) const noexcept;
+  template <class Visit>
+  void each_line(const Valves& valves, Visit visit) const noexcept;
+
+  // network_faults.h
+  void add_faults();
+  void change(const AirFault& fault, bool begins, double t, const Answer& before,
+              Valves& valves) const noexcept;
+  bool let_through(const ActingFaults& faults) const noexcept;
+  bool is_broken(const ActingFaults& faults) const noexcept;
+  double past_seat(int valve, const Now& now, double y_from, double y_to) const noexcept;
+  double through_holes(int i, const Now& now, double y) const noexcept;
+  bool blocked(int i, const Valves& valves) const noexcept;
+  double failed_line(const Valves& valves, Answer& out) const noexcept;
+  double slope_of_faults(int pair, const ActingFaults& faults) const noexcept;
+
+  int size_ = 0, others_ = 0;
+  gas::Air air_;
+  gas::Supply supply_;
+  double supply_y_ = 0;                      // of its set pressure
+  gas::PowerSeries of_pressure_{1.0 / 7.0};  // y of a pressure
+  std::vector<Muscle> muscles_;
+  BraidLanes braids_;
+  bool in_lanes_ = false;  // all muscles go by braids_
+  bool plain_ = false;     // there is nothing but muscles between valves on a constant supply
+  std::optional<Cylinder> cylinder_;
+
+  std::vector<Tap> taps_;
+  std::vector<Line> lines_;
+  std::vector<int> more_;      // the muscles whose line is more than valves
+  std::array<Slot, 2> sides_;  // of the cylinder
+  std::vector<int> lagging_;   // regulators whose outlet is a state: their valves
+  std::vector<int> held_;      // the others that hold() sets
+  int tank_ = none;
+  bool ramping_ = false, restless_ = false;
+  FaultSchedule faults_;
+  std::vector<Broken> broken_;  // by each fault
+  int cut_ = none;              // state: air from a line that is cut from its tank
+  double spring_ = 0;           // n R T: a chamber of volume V follows a slope G at n R T G/V
+  double longest_step_ = 0;     // of all that has the same rate wherever the machine stands [s]
+  std::array<double, 2> side_settling_{};  // of the cylinder's chambers, as a line's [m^3/s]
+  bool settles_ = false;                   // a line has `settling`
+};
+
+extern template class AirNetwork<4>;
+extern template class AirNetwork<8>;
+extern template class AirNetwork<48>;
+
+}  // namespace sinew::muscle

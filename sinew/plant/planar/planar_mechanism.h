@@ -1,0 +1,32 @@
+// plant/planar/planar_mechanism.h - what all planar mechanisms are to world/world.h alike.
+#pragma once
+
+#include "sinew/muscle/lanes.h"
+#include "sinew/plant/planar/senses.h"
+#include "sinew/plant/planar/setup.h"
+
+namespace sinew::plant {
+
+struct PlanarMechanism {
+  static constexpr bool cuts_steps = false;
+
+  using Setup = plant::Setup;
+  using Senses = PlanarSenses;
+  using Ends = muscle::Ends<most_muscles>;
+
+  // The air of a machine: muscle/network.h.
+  template <class Air>
+  static Air make_air(const Setup& s) {
+    return Air(s.muscles, s.air, s.supply, s.cylinder, s.faults);
+  }
+  template <class Air>
+  static auto start_air(const Air& air, const Setup& s, const Ends& ends) {
+    return air.initial(s.start.pressure, ends.length, s.start.lift);
+  }
+  template <class Air>
+  static auto start_memory(const Air& air, const Setup& s, const Ends& ends) {
+    return air.memory_at_rest(s.start.pressure, ends.length);
+  }
+};
+
+}  // namespace sinew::plant

@@ -1,0 +1,101 @@
+// plant/world/cuts.h - the members of World that integrate a mechanism which cuts its steps.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sinew/plant/world/cut.h"
+#include "sinew/plant/world/world.h"
+
+namespace sinew::plant {
+
+// A smooth part begins at t: what is prescribed goes into the state, and friction is decided by a
+// look at it.
+template <class M, class A>
+template <CutsSteps>
+void World<M, A>::begin_part(double t, Moving& s, const Memory& memory, Forces& held,
+                             Look& look) noexcept {
+  mechanism_.begin(t, s.motion);
+  mechanism_.route(t, s.motion, look.ends, look.arms);
+  air_.place(look.ends, s.air);
+  air_.evaluate(t, look.ends, s.air, state_.valves, memory, look.air);
+  const typename M::Pose pose = mechanism_.pose(t, s.motion);
+  mechanism_.load(pose, s.motion, look.arms, look.air, look.load);
+  held = mechanism_.hold(s.motion, look.load, held);
+  look.acceleration = mechanism_.accelerate(pose, s.motion, look.load, held);
+}
+
+// Integrates from one instant to another. `first` is the look at the state there, and in the end
+// that at the beginning of the last piece.
+template <class M, class A>
+template <CutsSteps>
+void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& held,
+                     Look& first) noexcept {
+  constexpr double shortest = 1e-7;  // of a piece, unless it is cut [s]
+  Moving others[2];
+  Moving *now = &s, *after = &others[0], *spare = &others[1];
+  for (double t = from; t < to;) {
+    if (t > from) {
+      begin_part(t, *now, memory, held, first);
+      air_.remember(first.air, now->air, memory);
+    } else {
+      mechanism_.begin(t, now->motion);
+    }
+    const double target = std::min(to, mechanism_.corner()), whole = target - t;
+    const double pieces = std::ceil(whole / std::max(longest_piece(*now, first), shortest) - 1e-9);
+    double h = pieces > 1 ? whole / pieces : whole;
+    double reached = pieces > 1 ? t + h : target;
+    part(t, h, *now, memory, first, held, *after);
+    const double broken = gap(reached, *now, *after, memory, held);
+    if (broken > 0) {
+      // The end of the piece is put where it breaks, on the far side of it.
+      const double unbroken = mechanism_.gap(now->motion, now->motion, held, first.load);
+      h = cut(h, unbroken, broken, mechanism_.cut_within(), [&](double within) {
+        part(t, within, *now, memory, first, held, *spare);
+        const double g = gap(t + within, *now, *spare, memory, held);
+        if (g > 0) std::swap(after, spare);
+        return g;
+      });
+      reached = t + h;
+      mechanism_.stop(after->motion, held);
+    }
+    std::swap(now, after);
+    t = reached;
+  }
+  if (now == &s) return;
+  s = *now;
+}
+
+// RK4 over a smooth piece.
+template <class M, class A>
+template <CutsSteps>
+void World<M, A>::part(double from, double h, const Moving& now, const Memory& memory,
+                       const Look& first, const Forces& held, Moving& out) const noexcept {
+  stages(from, h, now, memory, first, first.acceleration, held,
+         [&](const auto& motion, const auto& air, const auto& acceleration) {
+           out.motion = now.motion;
+           mechanism_.finish(out.motion, h, motion, acceleration);
+           out.air = now.air;
+           air_.finish(out.air, h, air, state_.valves);
+         });
+}
+
+// Returns how far `after` is beyond what a smooth piece from `before` can hold.
+template <class M, class A>
+template <CutsSteps>
+double World<M, A>::gap(double t, const Moving& before, const Moving& after, const Memory& memory,
+                        const Forces& held) const noexcept {
+  Look look;
+  if (mechanism_.watches(held)) look_at(t, after, memory, held, look);
+  return mechanism_.gap(before.motion, after.motion, held, look.load);
+}
+
+template <class M, class A>
+template <CutsSteps>
+double World<M, A>::longest_piece(const Moving& s, const Look& look) const noexcept {
+  return std::min(mechanism_.longest_piece(s.motion, look.load, look.air),
+                  air_.longest_piece(look.ends, look.air, s.air, state_.valves));
+}
+
+}  // namespace sinew::plant

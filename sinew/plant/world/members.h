@@ -1,0 +1,270 @@
+// plant/world/members.h - the members of World, for the files that compile its kinds once
+// (planar/chain_worlds.cpp, planar/body_worlds.cpp, slide/stand.cpp); cuts.h has those of
+// mechanisms that cut their steps.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "sinew/plant/world/cuts.h"
+#include "sinew/plant/world/world.h"
+
+namespace sinew::plant {
+
+template <class M, class A>
+World<M, A>::World(const Setup& setup)
+    : mechanism_(setup),
+      air_(mechanism_.template make_air<A>(setup)),
+      senses_(setup),
+      step_(mechanism_.node_step(setup)) {
+  static_assert(std::is_trivially_copyable_v<State>);
+  Look& first = state_.first;
+  state_.now.motion = mechanism_.start();
+  mechanism_.route(0, state_.now.motion, first.ends, first.arms);
+  state_.now.air = mechanism_.start_air(air_, setup, first.ends);
+  state_.valves = air_.valves_at_rest();
+  state_.memory = mechanism_.start_memory(air_, setup, first.ends);
+  prepare();
+}
+
+// One evaluation of the right-hand side, with the frictions held.
+template <class M, class A>
+void World<M, A>::look_at(double t, const Moving& state, const Memory& memory, const Forces& held,
+                          Look& look) const noexcept {
+  evaluate_air(t, state, memory, look);
+  const typename M::Pose pose = mechanism_.pose(t, state.motion);
+  mechanism_.load(pose, state.motion, look.arms, look.air, look.load);
+  look.acceleration = mechanism_.accelerate(pose, state.motion, look.load, held);
+}
+
+// A new node: valves and references, the first stage, and what friction can do about it.
+template <class M, class A>
+void World<M, A>::prepare() noexcept {
+  Look& first = state_.first;
+  air_.move_valves(state_.time, state_.first.air, state_.valves);
+  if constexpr (CutsSteps<M>) {
+    begin_part(state_.time, state_.now, state_.memory, state_.held, first);
+    look_for_failure();
+  } else {
+    evaluate_air(state_.time, state_.now, state_.memory, first);
+    look_for_failure();
+    mechanism_.load(mechanism_.pose(state_.time, state_.now.motion), state_.now.motion, first.arms,
+                    first.air, first.load);
+    state_.trolley_bound = mechanism_.trolley_bound(state_.held, state_.trolley_bound);
+    first.acceleration = prepare_friction();
+  }
+}
+
+// The friction problem of the node, and the accelerations without friction.
+template <class M, class A>
+template <WholeSteps>
+auto World<M, A>::prepare_friction() noexcept -> Acceleration {
+  const Look& first = state_.first;
+  glanced_ = false;
+  return mechanism_.prepare(mechanism_.pose(state_.time, state_.now.motion), state_.now.motion,
+                            first.arms, first.air.mesh, state_.trolley_bound, first.load);
+}
+
+template <class M, class A>
+void World<M, A>::restore(const State& state) noexcept {
+  state_ = state;
+  if constexpr (!CutsSteps<M>) (void)prepare_friction();
+}
+
+// Is anything of the look at a node no number? The air also takes from the look what it remembers.
+template <class M, class A>
+void World<M, A>::look_for_failure() noexcept {
+  const muscle::Failure of_air = air_.remember(state_.first.air, state_.now.air, state_.memory);
+  if (state_.failure) return;
+  if (of_air) {
+    state_.failure = of_air;
+    state_.failure.time = state_.time;
+    if (of_air.of == muscle::Failure::Of::air)
+      state_.failure.length = state_.first.ends.length[of_air.muscle];
+  } else if (!muscle::is_place(mechanism_.sum(state_.now.motion))) {
+    state_.failure = {.of = muscle::Failure::Of::motion, .time = state_.time};
+  }
+}
+
+// While nothing flows there is nothing to be quick.
+template <class M, class A>
+template <WholeSteps>
+double World<M, A>::pieces_of(double h, const Look& look) const noexcept {
+  if (!air_.flowing(state_.valves)) return 1.0;
+  const double longest = air_.longest_step(look.ends, state_.valves);
+  return h > longest ? std::min(std::ceil(h / longest), most_pieces) : 1.0;
+}
+
+// Hoses, walls and lags can be quicker than the body: a step is then made of several pieces, under
+// the friction of the whole.
+template <class M, class A>
+void World<M, A>::step(double to) noexcept {
+  if constexpr (CutsSteps<M>) {
+    go(state_.time, to, state_.now, state_.memory, state_.held, state_.first);
+  } else {
+    const double h = to - state_.time;
+    state_.held = mechanism_.hold(h, state_.held);
+    Acceleration first = mechanism_.accelerate(state_.first.acceleration, state_.held);
+    const double pieces = pieces_of(h, state_.first);
+    for (double k = 0; k < pieces; ++k) {
+      const double from = state_.time + k * (h / pieces);
+      if (k > 0) {
+        look_at(from, state_.now, state_.memory, state_.held, state_.first);
+        air_.remember(state_.first.air, state_.now.air, state_.memory);
+        first = state_.first.acceleration;
+      }
+      piece(from, h / pieces, first);
+    }
+  }
+}
+
+// The four stages of RK4: the first is the look at hand, two to four stand at 1/2, 1/2 and 1.
+template <class M, class A>
+template <class Finish>
+void World<M, A>::stages(double from, double h, const Moving& now, const Memory& memory,
+                         const Look& first, const Acceleration& a, const Forces& held,
+                         Finish finish) const noexcept {
+  Look later[3];
+  Moving stage[3];
+  const Motion* motion[4] = {&now.motion, &stage[0].motion, &stage[1].motion, &stage[2].motion};
+  const typename A::Answer* air[4] = {&first.air, &later[0].air, &later[1].air, &later[2].air};
+  Acceleration acceleration[4] = {a};
+  for (int s = 0; s < 3; ++s) {
+    const double part = s == 2 ? h : 0.5 * h;
+    mechanism_.move(stage[s].motion, now.motion, part, *motion[s], acceleration[s]);
+    air_.move(stage[s].air, now.air, part, *air[s], state_.valves);
+    look_at(from + part, stage[s], memory, held, later[s]);
+    acceleration[s + 1] = later[s].acceleration;
+  }
+  finish(motion, air, acceleration);
+}
+
+template <class M, class A>
+template <WholeSteps>
+void World<M, A>::piece(double from, double h, const Acceleration& first) noexcept {
+  Moving& now = state_.now;
+  stages(from, h, now, state_.memory, state_.first, first, state_.held,
+         [&](auto& motion, const auto& air, const auto& acceleration) {
+           const Motion rates = now.motion;  // of the first stage: the state moves
+           motion[0] = &rates;
+           mechanism_.finish(now.motion, h, motion, acceleration);
+           air_.finish(now.air, h, air, state_.valves);
+         });
+}
+
+// The next multiple of the body step, or the next change of a valve.
+template <class M, class A>
+double World<M, A>::next_node() const noexcept {
+  const double multiple = static_cast<double>(state_.multiple + 1) * step_;
+  const double change = state_.valves.next_change;
+  return change < multiple ? change : multiple;
+}
+
+template <class M, class A>
+void World<M, A>::advance(double t) noexcept {
+  while (!state_.failure && next_node() <= t) commit();
+}
+
+template <class M, class A>
+void World<M, A>::commit() noexcept {
+  const double next = next_node();
+  if (next > state_.time) step(next);
+  state_.time = next > state_.time ? next : state_.time;
+  if (next >= static_cast<double>(state_.multiple + 1) * step_) ++state_.multiple;
+  ++state_.nodes;
+  prepare();
+}
+
+// The friction that a whole body step from the last node would have: what a peek goes by, however
+// far it looks, so that it depends on the node alone.
+template <class M, class A>
+template <WholeSteps>
+auto World<M, A>::glance() noexcept -> const Glance& {
+  if (glanced_) return glance_;
+  glanced_ = true;
+  glance_.held = mechanism_.hold(step_, state_.held);
+  glance_.acceleration = mechanism_.accelerate(state_.first.acceleration, glance_.held);
+  return glance_;
+}
+
+// From the last node to t in a copy: the body by its acceleration, the air by Heun's rule in as
+// many pieces as a step would take. What cuts its steps is integrated, and an instant before the
+// last node sees what was prescribed then.
+template <class M, class A>
+auto World<M, A>::peek(double t) noexcept -> Peek {
+  if constexpr (CutsSteps<M>) {
+    Peek p{.state = state_.now, .look = state_.first, .held = state_.held, .acceleration = {}};
+    Memory memory = state_.memory;
+    if (!state_.failure) go(state_.time, t, p.state, memory, p.held, p.look);
+    begin_part(t, p.state, memory, p.held, p.look);
+    p.acceleration = p.look.acceleration;
+    return p;
+  } else {
+    const Glance& g = glance();
+    Peek p{state_.now, state_.first, g.held, g.acceleration};
+    const double dt = t - state_.time;
+    if (dt <= 0 || state_.failure) return p;
+    const double pieces = pieces_of(dt, state_.first), h = dt / pieces;
+    for (double k = 1; k <= pieces; ++k) {
+      const double to = k < pieces ? state_.time + k * h : t;
+      p.state.motion = peek_motion(to);
+      if (air_.flowing(state_.valves)) {
+        const typename A::State from = p.state.air;
+        const typename A::Answer before = p.look.air;
+        air_.move(p.state.air, from, h, before, state_.valves);
+        evaluate_air(to, p.state, state_.memory, p.look);
+        air_.correct(p.state.air, from, h, before, p.look.air, state_.valves);
+      }
+      evaluate_air(to, p.state, state_.memory, p.look);
+    }
+    return p;
+  }
+}
+
+template <class M, class A>
+signals::Status World<M, A>::start(const signals::Scan& scan) noexcept {
+  for (const signals::Conversion& c : scan.conversions) {
+    if (c.channel.index >= senses_.channels()) return signals::Status::invalid;
+    lag_[c.channel.index] = c.read - c.start;
+  }
+  return signals::Status::ok;
+}
+
+template <class M, class A>
+signals::Status World<M, A>::drive(signals::Edge edge) noexcept {
+  if (state_.ended) return signals::Status::ended;
+  if (state_.failure) return signals::Status::fault;
+  const double t = static_cast<double>(edge.at) * signals::tick_seconds;
+  if (edge.valve.index >= air_.valves() || t < state_.time) return signals::Status::invalid;
+  while (!state_.failure && next_node() < t)
+    commit();  // later edges act at t or after: these nodes are final
+  air_.command(edge, t, state_.first.air, state_.valves);
+  return signals::Status::ok;
+}
+
+template <class M, class A>
+signals::Reading World<M, A>::read(signals::Channel channel, signals::Tick now) noexcept {
+  if (channel.index >= senses_.channels()) return {0, signals::Status::invalid};
+  const signals::Tick sampled = now - lag_[channel.index];
+  const double t = static_cast<double>(sampled) * signals::tick_seconds;
+  const double value = senses_.quantity(*this, channel.index, t);
+  // A state that ran away never comes back: every later reading says so too.
+  if (state_.failure || !std::isfinite(value)) return {0, signals::Status::fault};
+  return {senses_.counts(channel.index, value, sampled),
+          state_.ended ? signals::Status::ended : signals::Status::ok};
+}
+
+template <class M, class A>
+signals::Status World<M, A>::stop(signals::Tick) noexcept {
+  state_.ended = true;  // nothing moves a simulated body after its last tick
+  return state_.failure ? signals::Status::fault : signals::Status::ok;
+}
+
+template <class M, class A>
+auto World<M, A>::truth(double t) noexcept -> Truth {
+  advance(t);
+  return senses_.truth(*this, std::max(t, state_.time));
+}
+
+}  // namespace sinew::plant

@@ -1,0 +1,219 @@
+// plant/world/world.h - a machine that its muscles move, as a Port: nodes, steps, cuts, peeks and
+// events, written once for every mechanism and every air.
+//
+// One RK4 over body and air. Committed nodes are the multiples of the body step and the instants at
+// which valves really open or close, nothing else; a node is committed only when no earlier edge
+// can still arrive. Readings, logs and viewers peek: they extrapolate from the last node in a copy,
+// so that nobody's looking changes a bit.
+//
+//   order of one step:  node (valves, reference of the pressure, first stage)
+//                       -> dry friction for this step -> three more stages -> next node
+//
+// A step is divided in two ways; neither makes a node:
+//
+//   pieces   where air is quicker than the body: equal parts, under the friction of the whole
+//   cuts     a mechanism that CutsSteps has its step end, and another begin, where a law breaks off
+//            (an end stop, rest, breakaway, a corner of a schedule), each part in pieces that suit
+//            its fastest rate, dry friction decided anew at each; a peek integrates as a step does
+//
+// Model, state and scratch are apart: mechanism and air are constant once made, State is everything
+// that the future depends on, one block that is copied like bytes, and all else is worked out from
+// it at a node.
+//
+// Mechanism  what moves: routes of the muscles, forces, equations of motion, contacts
+//            (planar/chain_mechanism.h, planar/body_mechanism.h, slide/slide_mechanism.h)
+// Senses     of the mechanism: what its sensors read and what a simulation tells (planar/senses.h,
+//            slide/senses.h)
+// Air        what fills the muscles: valves, masses, pressures, tensions (muscle/network.h,
+//            slide/stand_air.h)
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+
+#include "sinew/muscle/failure.h"
+#include "sinew/signals/port.h"
+
+namespace sinew::plant {
+
+// A mechanism whose laws break off within a step says `cuts_steps` and, beside what all have,
+//
+//   begin(t, motion)               a smooth part begins: what is prescribed goes into the motion
+//   corner()                       where that part ends at the latest, by what is prescribed [s]
+//   longest_piece(motion, look)    that suits the fastest rate there [s]
+//   watches(held), gap(...)        how far a state is beyond what the part can hold: cut.h
+//   cut_within()                   how near the break its cut must be [s]
+//   stop(motion, held)             at a cut: what turned back against its friction rests
+//   hold(motion, load, held)       dry friction of the part, by what it was before
+template <class Mechanism>
+concept CutsSteps = Mechanism::cuts_steps;
+template <class Mechanism>
+concept WholeSteps = !Mechanism::cuts_steps;
+
+template <class Mechanism, class Air>
+class World final : public signals::Port {
+  using Acceleration = typename Mechanism::Acceleration;
+  using Forces = typename Mechanism::Forces;
+  using Memory = typename Air::Memory;
+
+  // The part of the state that is integrated.
+  struct Moving {
+    typename Mechanism::Motion motion;
+    typename Air::State air;
+  };
+
+  // Everything that one look at a state yields.
+  struct Look {
+    typename Mechanism::Ends ends;
+    typename Mechanism::Arms arms;
+    typename Air::Answer air;
+    typename Mechanism::Load load;  // all that pushes the coordinates but dry friction
+    Acceleration acceleration;      // with the friction of the step
+  };
+
+ public:
+  using Setup = typename Mechanism::Setup;
+  using Senses = typename Mechanism::Senses;
+  using Truth = typename Senses::Truth;
+  using Motion = typename Mechanism::Motion;
+
+  // The state at the last committed node, and the commands since. Copied like bytes; of one build
+  // of the library, and for worlds of equal setups.
+  struct State {
+    Moving now;
+    typename Air::Valves valves;
+    typename Air::Memory memory;
+    Forces held;                   // friction of the last step
+    double trolley_bound;          // of the trolley's friction in the next [N]
+    Look first;                    // first stage at the node, without friction
+    double time;                   // of the node [s]
+    std::int64_t multiple, nodes;  // of the body step that was passed last; so far
+    bool ended;
+    muscle::Failure failure;
+  };
+
+  // The setup must be free of contradictions (robot::contradictions); a stand's throws
+  // std::invalid_argument if it is not.
+  explicit World(const Setup& setup);
+
+  signals::Status start(const signals::Scan& scan) noexcept override;
+  // Answers invalid for an edge before the last node.
+  signals::Status drive(signals::Edge edge) noexcept override;
+  signals::Reading read(signals::Channel channel, signals::Tick now) noexcept override;
+  signals::Status stop(signals::Tick now) noexcept override;
+
+  // The machine at time t [s], at or after every earlier call's; an earlier one is answered with
+  // the last node. Commits what is due, peeks the rest.
+  Truth truth(double t) noexcept;
+
+  // Commits every node up to t.
+  void advance(double t) noexcept;
+
+  const Motion& motion() const noexcept { return state_.now.motion; }
+  const auto& constants() const noexcept { return mechanism_.constants(); }
+  double air_mass() const noexcept {  // in chambers, hoses and tank [kg]
+    return air_.total_mass(state_.now.air, state_.first.ends.travel);
+  }
+  double time() const noexcept { return state_.time; }
+  double shortest_step() const noexcept {  // of body and air, where it starts [s]
+    return std::min(step_, air_.longest_step(state_.first.ends, state_.valves));
+  }
+  std::int64_t nodes() const noexcept { return state_.nodes; }
+  const muscle::Failure& failure() const noexcept { return state_.failure; }
+
+  const State& state() const noexcept { return state_; }
+  // Goes on from there as the world did whose state it was: the same bits.
+  void restore(const State& state) noexcept;
+
+  // For tests: rates at the last node, of the joints (those not given: 0) [rad/s], of the trolley
+  // and of the lift [m/s].
+  template <WholeSteps = Mechanism>
+  void set_rates(std::initializer_list<double> joint_rates, double x_rate,
+                 double y_rate = 0) noexcept {
+    mechanism_.set_rates(state_.now.motion, joint_rates, x_rate, y_rate);
+    prepare();
+  }
+
+  // For the senses: the machine as somebody sees it at t, who looks from the last node in a copy.
+  struct Peek {
+    Moving state;
+    Look look;
+    Forces held;
+    Acceleration acceleration;
+  };
+  Peek peek(double t) noexcept;
+  template <WholeSteps = Mechanism>
+  Motion peek_motion(double t) noexcept {
+    const Glance& g = glance();
+    Motion motion = state_.now.motion;
+    mechanism_.glide(motion, t - state_.time, g.acceleration);
+    return motion;
+  }
+  const Mechanism& mechanism() const noexcept { return mechanism_; }
+  const Air& air() const noexcept { return air_; }
+
+ private:
+  // Friction and accelerations that a look beyond the last node goes by.
+  struct Glance {
+    Forces held{};
+    Acceleration acceleration{};
+  };
+
+  void evaluate_air(double t, const Moving& state, const Memory& memory,
+                    Look& look) const noexcept {
+    mechanism_.route(t, state.motion, look.ends, look.arms);
+    air_.evaluate(t, look.ends, state.air, state_.valves, memory, look.air);
+  }
+  void look_at(double t, const Moving& state, const Memory& memory, const Forces& held,
+               Look& look) const noexcept;
+  void prepare() noexcept;
+  template <WholeSteps = Mechanism>
+  Acceleration prepare_friction() noexcept;
+  void look_for_failure() noexcept;
+  double next_node() const noexcept;
+  void commit() noexcept;
+  void step(double to) noexcept;
+  template <class Finish>
+  void stages(double from, double h, const Moving& now, const Memory& memory, const Look& first,
+              const Acceleration& a, const Forces& held, Finish finish) const noexcept;
+  template <WholeSteps = Mechanism>
+  void piece(double from, double h, const Acceleration& first) noexcept;
+  template <WholeSteps = Mechanism>
+  double pieces_of(double h, const Look& look) const noexcept;
+
+  // Of mechanisms that cut their steps.
+  template <CutsSteps = Mechanism>
+  void begin_part(double t, Moving& s, const Memory& memory, Forces& held, Look& look) noexcept;
+  template <CutsSteps = Mechanism>
+  void go(double from, double to, Moving& s, Memory& memory, Forces& held, Look& first) noexcept;
+  template <CutsSteps = Mechanism>
+  void part(double from, double h, const Moving& now, const Memory& memory, const Look& first,
+            const Forces& held, Moving& out) const noexcept;
+  template <CutsSteps = Mechanism>
+  double gap(double t, const Moving& before, const Moving& after, const Memory& memory,
+             const Forces& held) const noexcept;
+  template <CutsSteps = Mechanism>
+  double longest_piece(const Moving& s, const Look& look) const noexcept;
+
+  template <WholeSteps = Mechanism>
+  const Glance& glance() noexcept;
+
+  // A step is cut into at most so many pieces. More are asked for only where a chamber has
+  // vanished.
+  static constexpr double most_pieces = 1e5;
+
+  Mechanism mechanism_;
+  Air air_;
+  Senses senses_;
+  double step_ = 1e-3;
+
+  State state_{};
+  Glance glance_{};  // from this node, once somebody has looked
+  bool glanced_ = false;
+
+  std::array<signals::Tick, 256> lag_{};  // per channel, from the start of a conversion to its read
+};
+
+}  // namespace sinew::plant
