@@ -29,7 +29,7 @@ class Mapping {
   void forget_before(const char* here) const noexcept;
 
  private:
-  static constexpr std::size_t stride = 1 << 24;  // forgotten at a time [B]
+  static constexpr std::size_t stride = 1 << 22;  // forgotten at a time [B]
 
   void map(int descriptor, const std::filesystem::path& path);
   void forget(std::size_t from, std::size_t count) const noexcept;
