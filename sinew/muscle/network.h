@@ -25,6 +25,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,6 +33,7 @@
 #include "sinew/gas/air.h"
 #include "sinew/gas/delay.h"
 #include "sinew/gas/orifice.h"
+#include "sinew/gas/slopes.h"
 #include "sinew/gas/supply.h"
 #include "sinew/muscle/braid_lanes.h"
 #include "sinew/muscle/cylinder.h"
@@ -185,25 +187,49 @@ class AirNetwork {
     return restless_ || ramping_ || valves.open_count > 0 || valves.leaking;
   }
 
-  // The law itself; t matters only to valves that ramp.
+  // The law itself; t matters only to valves that ramp. `ahead`: muscles that go by a course, a bit
+  // each: their flows are nobody's affair.
   void evaluate(double t, const Ends& ends, const State& state, const Valves& valves,
-                const Memory& memory, Answer& out) const noexcept;
+                const Memory& memory, Answer& out, std::uint64_t ahead = 0) const noexcept;
 
   // At a node, with the look at it: the references of the series follow, the plays of the
   // hysteresis move on. Looks between two nodes go by the last one, exactly as long as a pressure
   // does not turn between them. Answers what of the air is no number.
   Failure remember(const Answer& look, const State& state, Memory& memory) const noexcept;
 
+  // Air that is quicker than a step goes through it ahead of the body: network_quick.h.
+  struct Cell {
+    int of;                // a muscle, or muscles() + a side of the cylinder
+    double half, full;     // its mass at the half and at the end of the step [kg]
+    double hose;           // mass in its hose at the end [kg]
+    double in, out, leak;  // within the step [kg]
+  };
+  struct Course {
+    int count = 0;
+    std::uint64_t muscles = 0;  // among them, a bit each
+    double step = 0;            // [s]
+    bool cut = false;           // a fault has cut the inlets from their tank
+    std::array<Cell, Most + 2> cells;
+  };
+
+  // Muscles that always have a course while air flows: behind hoses that hold air.
+  std::uint64_t always_ahead() const noexcept { return always_ahead_; }
+
+  // At the beginning of a step of length h, or of a look so far ahead.
+  void plan(double t, double h, const Ends& ends, const State& state, const Valves& valves,
+            const Memory& memory, Course& course) const noexcept;
+
   // The stages of RK4: the state, h along the rates of one look, what has passed since the start
   // apart (`out` is another one than `from`); and the state, by the weighted mean of four looks.
-  void move(State& out, const State& from, double h, const Answer& look,
-            const Valves& valves) const noexcept;
-  void finish(State& state, double h, const Answer* const (&look)[4],
-              const Valves& valves) const noexcept;
+  // What has a course goes by it.
+  void move(State& out, const State& from, double h, const Answer& look, const Valves& valves,
+            const Course& course) const noexcept;
+  void finish(State& state, double h, const Answer* const (&look)[4], const Valves& valves,
+              const Course& course) const noexcept;
 
   // The second half of Heun's rule, for a peek; move() is the first.
   void correct(State& out, const State& from, double h, const Answer& before, const Answer& after,
-               const Valves& valves) const noexcept;
+               const Valves& valves, const Course& course) const noexcept;
 
   Account account(const State& s, int i) const noexcept {
     return {.mass = s.mass[i], .in = s.in[i], .out = s.out[i], .leak = s.leak[i]};
@@ -218,9 +244,8 @@ class AirNetwork {
   Account cylinder_account(const State& s, int side) const noexcept {
     const auto c = static_cast<std::size_t>(side);
     const int mass = sides_[c].mass;
-    return {.mass = mass != none ? other(s, mass) : 0.0,
-            .in = s.piston_in[c],
-            .out = s.piston_out[c]};
+    return {
+        .mass = mass != none ? other(s, mass) : 0.0, .in = s.piston_in[c], .out = s.piston_out[c]};
   }
   double cylinder_pressure(const Answer& a, int side) const noexcept {  // [Pa]
     return a.cylinder_pressure[static_cast<std::size_t>(side)];
@@ -237,6 +262,10 @@ class AirNetwork {
   // are not.
   double longest_step() const noexcept;
   double longest_step(const Ends& ends, const Valves& valves) const noexcept;
+
+  // The same of what goes through no step ahead of the body: warm walls, lags, creep, and what
+  // leaks behind a hose that holds no air.
+  double longest_step_of_rest(const Ends& ends, const Valves& valves) const noexcept;
 
  private:
   static constexpr int none = -1;
@@ -274,6 +303,22 @@ class AirNetwork {
     const State& state;
     const Valves& valves;
     const Memory& memory;
+    std::uint64_t ahead = 0;  // muscles whose flows are not asked for
+  };
+  // The flows through a pair of valves, their slopes over y and their drift at one y.
+  struct Openings {
+    double in = 0, out = 0;                  // [kg/s]
+    double in_by = 0, out_by = 0;            // [kg/s]
+    double in_by_time = 0, out_by_time = 0;  // [kg/s^2]
+  };
+  // A volume that changes steadily within a step.
+  struct Room {
+    double volume = 0, rate = 0;  // [m^3], [m^3/s]
+  };
+  // The line to the inlets.
+  struct Inlets {
+    double y = 1;
+    bool cut = false;  // a fault has cut it from its tank
   };
   struct Broken {
     gas::LeakConstants leak;
@@ -308,6 +353,8 @@ class AirNetwork {
   void refresh(double t, Valves& valves) const noexcept;
 
   // network_flows.h
+  Inlets inlets(const State& state, const Valves& valves, const Memory& memory,
+                Answer& out) const noexcept;
   double line_of_tank(const State& state, const Memory& memory, Answer& out) const noexcept;
   void one_by_one(const Ends& ends, const State& state, const Memory& memory, Answer& out,
                   Lanes& y) const noexcept;
@@ -331,9 +378,21 @@ class AirNetwork {
   double warming(int energy, double mass, const State& state, double gained,
                  double work) const noexcept;
   template <class Mean>
-  void add(State& out, const State& from, Mean mean, const Valves& valves) const noexcept;
+  void add(State& out, const State& from, Mean mean, const Valves& valves,
+           const Course& course) const noexcept;
+  template <class Mean>
+  void add_course(State& out, Mean mean, const Course& course) const noexcept;
   template <class Visit>
   void each_line(const Valves& valves, Visit visit) const noexcept;
+
+  // network_quick.h
+  Openings sloped_through(int inlet, const Now& now, double since_node, double y,
+                          bool sloped) const noexcept;
+  gas::SlopedFlow sloped_leak(int i, const Now& now, double y) const noexcept;
+  bool goes_ahead(int cell, double h, const Ends& ends, const Valves& valves) const noexcept;
+  void run_ahead(const Now& node, double h, const Room& room, const gas::Base& base, double mass,
+                 Cell& cell) const noexcept;
+  void run_hose_ahead(const Now& node, double h, const Room& room, Cell& cell) const noexcept;
 
   // network_faults.h
   void add_faults();
@@ -370,9 +429,11 @@ class AirNetwork {
   std::vector<Broken> broken_;  // by each fault
   int cut_ = none;              // state: air from a line that is cut from its tank
   double spring_ = 0;           // n R T: a chamber of volume V follows a slope G at n R T G/V
+  double lag_rate_ = 0;         // of the quickest lag or creep [1/s]
   double longest_step_ = 0;     // of all that has the same rate wherever the machine stands [s]
   std::array<double, 2> side_settling_{};  // of the cylinder's chambers, as a line's [m^3/s]
-  bool settles_ = false;                   // a line has `settling`
+  std::uint64_t always_ahead_ = 0;
+  bool settles_ = false;  // a line has `settling`
 };
 
 extern template class AirNetwork<4>;

@@ -36,15 +36,21 @@ double AirNetwork<Most>::line_of_tank(const State& state, const Memory& memory,
              : supply_y_;
 }
 
+// The pressure before the inlets, by tank and faults.
+template <int Most>
+auto AirNetwork<Most>::inlets(const State& state, const Valves& valves, const Memory& memory,
+                              Answer& out) const noexcept -> Inlets {
+  out.supply_pressure = out.tank_pressure = supply_.pressure;
+  const double y = tank_ != none ? line_of_tank(state, memory, out) : supply_y_;
+  const double failed = valves.broken ? failed_line(valves, out) : 0.0;
+  return failed > 0 ? Inlets{failed, true} : Inlets{y, false};
+}
+
 template <int Most>
 void AirNetwork<Most>::evaluate(double t, const Ends& ends, const State& state,
-                                const Valves& valves, const Memory& memory,
-                                Answer& out) const noexcept {
-  out.supply_pressure = out.tank_pressure = supply_.pressure;
-  double y_supply = tank_ != none ? line_of_tank(state, memory, out) : supply_y_;
-  const double failed = valves.broken ? failed_line(valves, out) : 0.0;
-  if (failed > 0) y_supply = failed;
-
+                                const Valves& valves, const Memory& memory, Answer& out,
+                                std::uint64_t ahead) const noexcept {
+  const Inlets line = inlets(state, valves, memory, out);
   Lanes y;
   if (in_lanes_)
     braids_.evaluate(ends.length, ends.rate, state.mass, memory.reference, out, y);
@@ -52,10 +58,10 @@ void AirNetwork<Most>::evaluate(double t, const Ends& ends, const State& state,
     one_by_one(ends, state, memory, out, y);
   for (int i = 0; i < braids_.padded(); i += lanes)
     out.inflow.four(i) = out.outflow.four(i) = Four{};
-  if (ramping_ || valves.open_count > 0) open_taps(t, y_supply, y, valves, out);
+  if (ramping_ || valves.open_count > 0) open_taps(t, line.y, y, valves, out);
   out.cylinder_force = 0;
   if (!plain_ || valves.broken)
-    run_options({t, y_supply, state, valves, memory}, failed > 0, ends, y, out);
+    run_options({t, line.y, state, valves, memory, ahead}, line.cut, ends, y, out);
 }
 
 // All that a machine has beside muscles between valves.
@@ -254,6 +260,12 @@ void AirNetwork<Most>::run_line(int i, const Now& now, const Ends& ends, const C
   out.manifold[i] = c.pressure;
   out.inflow[i] = out.outflow[i] = out.leak[i] = out.gain[i] = 0;
   if (!flowing(now.valves)) return;
+  if ((now.ahead >> i & 1) != 0) {
+    if (l.hose == none) return;
+    out.manifold[i] = hose(i, now).pressure;
+    rate(out, l.hose) = 0;
+    return;
+  }
   const double room = air_.temperature;
   const bool passes = !blocked(i, now.valves);
   Flows valves;

@@ -116,6 +116,7 @@ void AirNetwork<Most>::classify() {
     restless_ = restless_ || actuator::has_creep(muscle(i).actuator.creep);
     plain_ = plain_ && !l.more;
     if (l.more) more_.push_back(i);
+    if (l.hose != none && l.energy == none) always_ahead_ |= std::uint64_t{1} << i;
     taps_[inlet].listed = taps_[inlet + 1].listed = !l.more;
   }
   for (const Tap& tap : taps_)
@@ -149,12 +150,14 @@ void AirNetwork<Most>::limit_step() {
   const auto faster = [&](double one) { rate = one > rate ? one : rate; };
   for (const int v : lagging_)
     faster(1.0 / taps_[static_cast<std::size_t>(v)].valve.regulator.time_constant);
+  for (const Muscle& m : muscles_)
+    for (std::size_t k = 0; k < m.actuator.creep.share.size(); ++k)
+      if (m.actuator.creep.share[k] != 0) faster(1.0 / m.actuator.creep.time[k]);
+  lag_rate_ = rate;
   const double exponent = air_.wall_time > 0 ? gas::heat_capacity_ratio : air_.polytropic_exponent;
   spring_ = exponent * air_.gas_constant * air_.temperature;
   for (int i = 0; i < size_; ++i) {
     Line& l = lines_[static_cast<std::size_t>(i)];
-    for (std::size_t k = 0; k < l.late.size(); ++k)
-      if (l.late[k] != none) faster(1.0 / muscle(i).actuator.creep.time[k]);
     double slope = (l.leak.hole.linear_gain + l.leak.slope) / air_.atmosphere;
     if (l.hose != none)
       slope += hose_slope(l);
@@ -206,6 +209,20 @@ double AirNetwork<Most>::longest_step(const Ends& ends, const Valves& valves) co
     if (!open && !(broken > 0)) continue;
     fastest = std::max(
         fastest, (side_settling_[side] + broken) / muscle::volume(*cylinder_, side, ends.travel));
+  }
+  return fastest > 0 ? stable / fastest : never;
+}
+
+template <int Most>
+double AirNetwork<Most>::longest_step_of_rest(const Ends& ends,
+                                              const Valves& valves) const noexcept {
+  if (air_.wall_time > 0) return longest_step(ends, valves);
+  double fastest = lag_rate_;
+  for (int i = 0; i < size_ && (settles_ || valves.leaking); ++i) {
+    const bool held_back = line(i).hose == none && (line(i).resists || blocked(i, valves));
+    if (!held_back) continue;
+    const double slope = line(i).settling + spring_ * slope_of_faults(i, valves.faults);
+    fastest = std::max(fastest, slope / volume(i, ends.length[i]));
   }
   return fastest > 0 ? stable / fastest : never;
 }

@@ -36,7 +36,7 @@ template <int N>
 struct QuickStep {
   std::array<double, N> mass{};    // at the end of the step [kg]
   std::array<double, 3> passed{};  // within the step [kg]
-  double error = 0;                // largest estimated error of a mass over that mass [-]
+  std::array<double, N> error{};   // estimated, of a mass [kg]
 };
 
 namespace rodas3 {
@@ -108,8 +108,7 @@ QuickStep<N> rodas3_step(const Rates& rates, double t, const std::array<double, 
   QuickStep<N> out;
   for (std::size_t i = 0; i < n; ++i) {
     out.mass[i] = there[i] + k[3][i];
-    const double error = std::abs(k[3][i]) / x[i];
-    out.error = error > out.error || !(error >= 0) ? error : out.error;
+    out.error[i] = std::abs(k[3][i]);
   }
   for (std::size_t i = 0; i < m; ++i) out.passed[i] = 2.0 * q[0][i] + q[2][i] + q[3][i];
   return out;

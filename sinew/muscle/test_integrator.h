@@ -53,27 +53,30 @@ struct Hand {
     return sum;
   }
 
-  void step(double h) {
+  // Goes through a step of RK4; `ahead`: what is quicker goes ahead of it.
+  void step(double h, bool ahead = false) {
     Air::Answer later[3];
     const Air::Answer* looks[4] = {&now, &later[0], &later[1], &later[2]};
     Air::State stage = state;
+    Air::Course course{};
+    if (ahead) network.plan(t, h, motion(t), state, valves, memory, course);
     for (int s = 0; s < 3; ++s) {
       const double part = s == 2 ? h : 0.5 * h;
-      network.move(stage, state, part, *looks[s], valves);
+      network.move(stage, state, part, *looks[s], valves, course);
       look(t + part, stage, later[s]);
     }
-    network.finish(state, h, looks, valves);
+    network.finish(state, h, looks, valves, course);
     t += h;
     look(t, state, now);
     network.remember(now, state, memory);
   }
 
   // Nodes at multiples of h and where a valve changes, as a world does it.
-  void go(double until, double h) {
+  void go(double until, double h, bool ahead = false) {
     while (t < until - 1e-12) {
       double next = t + h < until ? t + h : until;
       if (valves.next_change < next) next = valves.next_change;
-      if (next > t) step(next - t);
+      if (next > t) step(next - t, ahead);
       t = next;
       node(next);
     }

@@ -88,7 +88,8 @@ class PlanarSenses {
       out.cylinder_in[k] = account.in;
       out.cylinder_out[k] = account.out;
     }
-    mechanism.tell(p.state.motion, p.acceleration, p.held, world.state().first.load, out);
+    const auto& g = world.glanced();
+    mechanism.tell(p.state.motion, g.acceleration, g.held, world.state().first.load, out);
     return out;
   }
 
@@ -103,7 +104,7 @@ class PlanarSenses {
     double f = p.look.air.tension[muscle];
     const double mesh = first.air.mesh[muscle], bound = mechanism.bound(static_cast<int>(j));
     if (mesh > 0 && bound > 0) {
-      const double share = p.held[j] * mesh / bound;
+      const double share = world.glanced().held[j] * mesh / bound;
       f += mechanism.arm(first.arms, muscle) > 0 ? share : -share;
     }
     return f < 0 ? 0.0 : f;  // not a number stays what it is

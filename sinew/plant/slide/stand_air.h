@@ -50,7 +50,7 @@ class StandAir : public ElementAir {
   }
 
   void evaluate(double t, const StandEnds& ends, const State& state, const Valves& valves,
-                const Memory& memory, Answer& out) const noexcept {
+                const Memory& memory, Answer& out, std::uint64_t = 0) const noexcept {
     if (!(ends.pressure > 0)) {
       ElementAir::evaluate(t, ends, state, valves, memory, out);
       return;

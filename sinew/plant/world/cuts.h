@@ -46,13 +46,17 @@ void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& 
     const double pieces = std::ceil(whole / std::max(longest_piece(*now, first), shortest) - 1e-9);
     double h = pieces > 1 ? whole / pieces : whole;
     double reached = pieces > 1 ? t + h : target;
-    part(t, h, *now, memory, first, held, *after);
+    const auto integrate = [&](Moving& out, double within) {
+      out = *now;
+      piece(t, within, out, memory, first, first.acceleration, held);
+    };
+    integrate(*after, h);
     const double broken = gap(reached, *now, *after, memory, held);
     if (broken > 0) {
       // The end of the piece is put where it breaks, on the far side of it.
       const double unbroken = mechanism_.gap(now->motion, now->motion, held, first.load);
       h = cut(h, unbroken, broken, mechanism_.cut_within(), [&](double within) {
-        part(t, within, *now, memory, first, held, *spare);
+        integrate(*spare, within);
         const double g = gap(t + within, *now, *spare, memory, held);
         if (g > 0) std::swap(after, spare);
         return g;
@@ -65,20 +69,6 @@ void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& 
   }
   if (now == &s) return;
   s = *now;
-}
-
-// RK4 over a smooth piece.
-template <class M, class A>
-template <CutsSteps>
-void World<M, A>::part(double from, double h, const Moving& now, const Memory& memory,
-                       const Look& first, const Forces& held, Moving& out) const noexcept {
-  stages(from, h, now, memory, first, first.acceleration, held,
-         [&](const auto& motion, const auto& air, const auto& acceleration) {
-           out.motion = now.motion;
-           mechanism_.finish(out.motion, h, motion, acceleration);
-           out.air = now.air;
-           air_.finish(out.air, h, air, state_.valves);
-         });
 }
 
 // Returns how far `after` is beyond what a smooth piece from `before` can hold.

@@ -16,8 +16,8 @@ template <class M, class A>
 World<M, A>::World(const Setup& setup)
     : mechanism_(setup),
       air_(mechanism_.template make_air<A>(setup)),
-      senses_(setup),
-      step_(mechanism_.node_step(setup)) {
+      step_(mechanism_.node_step(setup)),
+      senses_(setup) {
   static_assert(std::is_trivially_copyable_v<State>);
   Look& first = state_.first;
   state_.now.motion = mechanism_.start();
@@ -31,8 +31,8 @@ World<M, A>::World(const Setup& setup)
 // One evaluation of the right-hand side, with the frictions held.
 template <class M, class A>
 void World<M, A>::look_at(double t, const Moving& state, const Memory& memory, const Forces& held,
-                          Look& look) const noexcept {
-  evaluate_air(t, state, memory, look);
+                          Look& look, std::uint64_t ahead) const noexcept {
+  evaluate_air(t, state, memory, look, ahead);
   const typename M::Pose pose = mechanism_.pose(t, state.motion);
   mechanism_.load(pose, state.motion, look.arms, look.air, look.load);
   look.acceleration = mechanism_.accelerate(pose, state.motion, look.load, held);
@@ -47,7 +47,7 @@ void World<M, A>::prepare() noexcept {
     begin_part(state_.time, state_.now, state_.memory, state_.held, first);
     look_for_failure();
   } else {
-    evaluate_air(state_.time, state_.now, state_.memory, first);
+    evaluate_air(state_.time, state_.now, state_.memory, first, air_.always_ahead());
     look_for_failure();
     mechanism_.load(mechanism_.pose(state_.time, state_.now.motion), state_.now.motion, first.arms,
                     first.air, first.load);
@@ -58,18 +58,20 @@ void World<M, A>::prepare() noexcept {
 
 // The friction problem of the node, and the accelerations without friction.
 template <class M, class A>
-template <WholeSteps>
 auto World<M, A>::prepare_friction() noexcept -> Acceleration {
   const Look& first = state_.first;
   glanced_ = false;
-  return mechanism_.prepare(mechanism_.pose(state_.time, state_.now.motion), state_.now.motion,
-                            first.arms, first.air.mesh, state_.trolley_bound, first.load);
+  if constexpr (CutsSteps<M>)
+    return first.acceleration;  // each part has its own
+  else
+    return mechanism_.prepare(mechanism_.pose(state_.time, state_.now.motion), state_.now.motion,
+                              first.arms, first.air.mesh, state_.trolley_bound, first.load);
 }
 
 template <class M, class A>
 void World<M, A>::restore(const State& state) noexcept {
   state_ = state;
-  if constexpr (!CutsSteps<M>) (void)prepare_friction();
+  (void)prepare_friction();
 }
 
 // Is anything of the look at a node no number? The air also takes from the look what it remembers.
@@ -89,10 +91,9 @@ void World<M, A>::look_for_failure() noexcept {
 
 // While nothing flows there is nothing to be quick.
 template <class M, class A>
-template <WholeSteps>
 double World<M, A>::pieces_of(double h, const Look& look) const noexcept {
   if (!air_.flowing(state_.valves)) return 1.0;
-  const double longest = air_.longest_step(look.ends, state_.valves);
+  const double longest = air_.longest_step_of_rest(look.ends, state_.valves);
   return h > longest ? std::min(std::ceil(h / longest), most_pieces) : 1.0;
 }
 
@@ -110,47 +111,40 @@ void World<M, A>::step(double to) noexcept {
     for (double k = 0; k < pieces; ++k) {
       const double from = state_.time + k * (h / pieces);
       if (k > 0) {
-        look_at(from, state_.now, state_.memory, state_.held, state_.first);
+        look_at(from, state_.now, state_.memory, state_.held, state_.first, air_.always_ahead());
         air_.remember(state_.first.air, state_.now.air, state_.memory);
         first = state_.first.acceleration;
       }
-      piece(from, h / pieces, first);
+      piece(from, h / pieces, state_.now, state_.memory, state_.first, first, state_.held);
     }
   }
 }
 
-// The four stages of RK4: the first is the look at hand, two to four stand at 1/2, 1/2 and 1.
+// RK4 in place. The first stage is the look at hand; two to four stand at 1/2, 1/2 and 1. Air that
+// is quicker goes ahead.
 template <class M, class A>
-template <class Finish>
-void World<M, A>::stages(double from, double h, const Moving& now, const Memory& memory,
-                         const Look& first, const Acceleration& a, const Forces& held,
-                         Finish finish) const noexcept {
+void World<M, A>::piece(double from, double h, Moving& now, const Memory& memory, const Look& look,
+                        const Acceleration& first, const Forces& held) const noexcept {
   Look later[3];
   Moving stage[3];
+  typename A::Course course;
+  if constexpr (!CutsSteps<M>)
+    air_.plan(from, h, look.ends, now.air, state_.valves, memory, course);
   const Motion* motion[4] = {&now.motion, &stage[0].motion, &stage[1].motion, &stage[2].motion};
-  const typename A::Answer* air[4] = {&first.air, &later[0].air, &later[1].air, &later[2].air};
-  Acceleration acceleration[4] = {a};
+  const typename A::Answer* air[4] = {&look.air, &later[0].air, &later[1].air, &later[2].air};
+  Acceleration acceleration[4] = {first};
   for (int s = 0; s < 3; ++s) {
     const double part = s == 2 ? h : 0.5 * h;
     mechanism_.move(stage[s].motion, now.motion, part, *motion[s], acceleration[s]);
-    air_.move(stage[s].air, now.air, part, *air[s], state_.valves);
-    look_at(from + part, stage[s], memory, held, later[s]);
+    air_.move(stage[s].air, now.air, part, *air[s], state_.valves, course);
+    look_at(from + part, stage[s], memory, held, later[s], course.muscles);
     acceleration[s + 1] = later[s].acceleration;
   }
-  finish(motion, air, acceleration);
-}
 
-template <class M, class A>
-template <WholeSteps>
-void World<M, A>::piece(double from, double h, const Acceleration& first) noexcept {
-  Moving& now = state_.now;
-  stages(from, h, now, state_.memory, state_.first, first, state_.held,
-         [&](auto& motion, const auto& air, const auto& acceleration) {
-           const Motion rates = now.motion;  // of the first stage: the state moves
-           motion[0] = &rates;
-           mechanism_.finish(now.motion, h, motion, acceleration);
-           air_.finish(now.air, h, air, state_.valves);
-         });
+  const Motion rates = now.motion;  // of the first stage: the state moves
+  motion[0] = &rates;
+  mechanism_.finish(now.motion, h, motion, acceleration);
+  air_.finish(now.air, h, air, state_.valves, course);
 }
 
 // The next multiple of the body step, or the next change of a valve.
@@ -179,12 +173,13 @@ void World<M, A>::commit() noexcept {
 // The friction that a whole body step from the last node would have: what a peek goes by, however
 // far it looks, so that it depends on the node alone.
 template <class M, class A>
-template <WholeSteps>
 auto World<M, A>::glance() noexcept -> const Glance& {
   if (glanced_) return glance_;
   glanced_ = true;
-  glance_.held = mechanism_.hold(step_, state_.held);
-  glance_.acceleration = mechanism_.accelerate(state_.first.acceleration, glance_.held);
+  if constexpr (!CutsSteps<M>) {
+    glance_.held = mechanism_.hold(step_, state_.held);
+    glance_.acceleration = mechanism_.accelerate(state_.first.acceleration, glance_.held);
+  }
   return glance_;
 }
 
@@ -193,32 +188,38 @@ auto World<M, A>::glance() noexcept -> const Glance& {
 // last node sees what was prescribed then.
 template <class M, class A>
 auto World<M, A>::peek(double t) noexcept -> Peek {
+  Peek p{.state = state_.now, .look = state_.first};
   if constexpr (CutsSteps<M>) {
-    Peek p{.state = state_.now, .look = state_.first, .held = state_.held, .acceleration = {}};
     Memory memory = state_.memory;
-    if (!state_.failure) go(state_.time, t, p.state, memory, p.held, p.look);
-    begin_part(t, p.state, memory, p.held, p.look);
-    p.acceleration = p.look.acceleration;
-    return p;
+    glance_.held = state_.held;
+    if (!state_.failure) go(state_.time, t, p.state, memory, glance_.held, p.look);
+    begin_part(t, p.state, memory, glance_.held, p.look);
+    glance_.acceleration = p.look.acceleration;
   } else {
-    const Glance& g = glance();
-    Peek p{state_.now, state_.first, g.held, g.acceleration};
-    const double dt = t - state_.time;
-    if (dt <= 0 || state_.failure) return p;
-    const double pieces = pieces_of(dt, state_.first), h = dt / pieces;
-    for (double k = 1; k <= pieces; ++k) {
-      const double to = k < pieces ? state_.time + k * h : t;
-      p.state.motion = peek_motion(to);
-      if (air_.flowing(state_.valves)) {
-        const typename A::State from = p.state.air;
-        const typename A::Answer before = p.look.air;
-        air_.move(p.state.air, from, h, before, state_.valves);
-        evaluate_air(to, p.state, state_.memory, p.look);
-        air_.correct(p.state.air, from, h, before, p.look.air, state_.valves);
-      }
-      evaluate_air(to, p.state, state_.memory, p.look);
+    (void)glance();
+    if (t > state_.time && !state_.failure) extrapolate(t, p);
+  }
+  return p;
+}
+
+template <class M, class A>
+template <WholeSteps>
+void World<M, A>::extrapolate(double t, Peek& p) noexcept {
+  const double dt = t - state_.time;
+  const double pieces = pieces_of(dt, state_.first), h = dt / pieces;
+  for (double k = 1; k <= pieces; ++k) {
+    const double to = k < pieces ? state_.time + k * h : t;
+    p.state.motion = peek_motion(to);
+    if (air_.flowing(state_.valves)) {
+      const typename A::State from = p.state.air;
+      const typename A::Answer before = p.look.air;
+      typename A::Course course;
+      air_.plan(to - h, h, p.look.ends, from, state_.valves, state_.memory, course);
+      air_.move(p.state.air, from, h, before, state_.valves, course);
+      evaluate_air(to, p.state, state_.memory, p.look, course.muscles);
+      air_.correct(p.state.air, from, h, before, p.look.air, state_.valves, course);
     }
-    return p;
+    evaluate_air(to, p.state, state_.memory, p.look, air_.always_ahead());
   }
 }
 

@@ -118,7 +118,7 @@ class World final : public signals::Port {
   }
   double time() const noexcept { return state_.time; }
   double shortest_step() const noexcept {  // of body and air, where it starts [s]
-    return std::min(step_, air_.longest_step(state_.first.ends, state_.valves));
+    return std::min(step_, air_.longest_step_of_rest(state_.first.ends, state_.valves));
   }
   std::int64_t nodes() const noexcept { return state_.nodes; }
   const muscle::Failure& failure() const noexcept { return state_.failure; }
@@ -140,10 +140,14 @@ class World final : public signals::Port {
   struct Peek {
     Moving state;
     Look look;
-    Forces held;
-    Acceleration acceleration;
   };
   Peek peek(double t) noexcept;
+  // Friction and accelerations that the last peek went by.
+  struct Glance {
+    Forces held{};
+    Acceleration acceleration{};
+  };
+  const Glance& glanced() const noexcept { return glance_; }
   template <WholeSteps = Mechanism>
   Motion peek_motion(double t) noexcept {
     const Glance& g = glance();
@@ -155,32 +159,21 @@ class World final : public signals::Port {
   const Air& air() const noexcept { return air_; }
 
  private:
-  // Friction and accelerations that a look beyond the last node goes by.
-  struct Glance {
-    Forces held{};
-    Acceleration acceleration{};
-  };
-
-  void evaluate_air(double t, const Moving& state, const Memory& memory,
-                    Look& look) const noexcept {
+  void evaluate_air(double t, const Moving& state, const Memory& memory, Look& look,
+                    std::uint64_t ahead = 0) const noexcept {
     mechanism_.route(t, state.motion, look.ends, look.arms);
-    air_.evaluate(t, look.ends, state.air, state_.valves, memory, look.air);
+    air_.evaluate(t, look.ends, state.air, state_.valves, memory, look.air, ahead);
   }
-  void look_at(double t, const Moving& state, const Memory& memory, const Forces& held,
-               Look& look) const noexcept;
+  void look_at(double t, const Moving& state, const Memory& memory, const Forces& held, Look& look,
+               std::uint64_t ahead = 0) const noexcept;
   void prepare() noexcept;
-  template <WholeSteps = Mechanism>
   Acceleration prepare_friction() noexcept;
   void look_for_failure() noexcept;
   double next_node() const noexcept;
   void commit() noexcept;
   void step(double to) noexcept;
-  template <class Finish>
-  void stages(double from, double h, const Moving& now, const Memory& memory, const Look& first,
-              const Acceleration& a, const Forces& held, Finish finish) const noexcept;
-  template <WholeSteps = Mechanism>
-  void piece(double from, double h, const Acceleration& first) noexcept;
-  template <WholeSteps = Mechanism>
+  void piece(double from, double h, Moving& now, const Memory& memory, const Look& look,
+             const Acceleration& first, const Forces& held) const noexcept;
   double pieces_of(double h, const Look& look) const noexcept;
 
   // Of mechanisms that cut their steps.
@@ -189,16 +182,14 @@ class World final : public signals::Port {
   template <CutsSteps = Mechanism>
   void go(double from, double to, Moving& s, Memory& memory, Forces& held, Look& first) noexcept;
   template <CutsSteps = Mechanism>
-  void part(double from, double h, const Moving& now, const Memory& memory, const Look& first,
-            const Forces& held, Moving& out) const noexcept;
-  template <CutsSteps = Mechanism>
   double gap(double t, const Moving& before, const Moving& after, const Memory& memory,
              const Forces& held) const noexcept;
   template <CutsSteps = Mechanism>
   double longest_piece(const Moving& s, const Look& look) const noexcept;
 
-  template <WholeSteps = Mechanism>
   const Glance& glance() noexcept;
+  template <WholeSteps = Mechanism>
+  void extrapolate(double t, Peek& p) noexcept;
 
   // A step is cut into at most so many pieces. More are asked for only where a chamber has
   // vanished.
@@ -206,13 +197,13 @@ class World final : public signals::Port {
 
   Mechanism mechanism_;
   Air air_;
-  Senses senses_;
   double step_ = 1e-3;
 
   State state_{};
   Glance glance_{};  // from this node, once somebody has looked
   bool glanced_ = false;
 
+  Senses senses_;
   std::array<signals::Tick, 256> lag_{};  // per channel, from the start of a conversion to its read
 };
 
