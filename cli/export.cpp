@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include <filesystem>
-#include <sstream>
+#include <iostream>
 
 #include "cli/command.h"
 #include "cli/terminal.h"
@@ -76,18 +76,29 @@ std::string ports_text(const signals::Table& table, const experiment::Experiment
   return out;
 }
 
-std::string text_of(const run::RecordedRun& run, const Options& options, signals::Table table) {
-  if (options.format == "out.dat") return thesis::write_out_dat(table, experiment_of(run, options));
-  if (options.format == "ports") return ports_text(table, experiment_of(run, options));
-
+// Line by line, since a long run's text is longer than memory.
+void put_csv(const run::RecordedRun& run, const Options& options, signals::Table table) {
   if (options.derived) {
     const config::Node root = config::compose(run::machine_of(run, options.machine).string());
     signals::Table derived = analysis::derive(table, analysis::read_machine(root));
     for (signals::Series& s : derived.series) table.series.push_back(std::move(s));
   }
-  std::ostringstream out;
-  log::write_csv(table, out, chosen_topics(options, table));
-  return std::move(out).str();
+  const std::vector<std::string> topics = chosen_topics(options, table);
+  if (!options.out.empty()) {
+    run::require_folder_of(options.out);
+    return log::write_csv(table, options.out, topics);
+  }
+  log::write_csv(table, std::cout, topics);
+  std::cout.flush();
+}
+
+void put(const run::RecordedRun& run, const Options& options, signals::Table table) {
+  if (options.format == "csv") return put_csv(run, options, std::move(table));
+  const experiment::Experiment e = experiment_of(run, options);
+  const std::string text =
+      options.format == "ports" ? ports_text(table, e) : thesis::write_out_dat(table, e);
+  if (!options.out.empty()) return run::write_file(options.out, text);
+  fmt::print("{}", text);
 }
 
 ExitCode export_run(const Options& options) {
@@ -101,13 +112,8 @@ ExitCode export_run(const Options& options) {
   if (!table.complete)
     messages.warning(
         fmt::format("{} was cut off; what stands before is exported", run.log.string()));
-  const std::string text = text_of(run, options, std::move(table));
-  if (options.out.empty()) {
-    fmt::print("{}", text);
-  } else {
-    run::write_file(options.out, text);
-    messages.note(options.out);
-  }
+  put(run, options, std::move(table));
+  if (!options.out.empty()) messages.note(options.out);
   return ok;
 }
 

@@ -10,8 +10,8 @@
 namespace sinew::analysis {
 namespace {
 
-using Times_ns = std::vector<std::int64_t>;
-using Values_of = std::vector<double>;
+using Times_ns = signals::Times;
+using Values_of = signals::Column;
 constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t ms = 1'000'000;
 
@@ -40,7 +40,7 @@ const auto wave = [](double t) { return 3 + std::sin(5 * t); };
 
 TEST(Compare, ARecordingAgainstItselfIsTheSame) {
   Recorded a = every(10 * ms, 0, 200, wave);
-  a.values[7] = gap;
+  a.values.set(7, gap);
   const Difference d = of(a, a);
   EXPECT_TRUE(d.same);
   EXPECT_TRUE(d.equal());
@@ -53,7 +53,7 @@ TEST(Compare, ARecordingAgainstItselfIsTheSame) {
 TEST(Compare, OneBitIsADifference) {
   const Recorded a = every(10 * ms, 0, 200, wave);
   Recorded b = a;
-  b.values[150] = std::nextafter(b.values[150], 10);
+  b.values.set(150, std::nextafter(b.values[150], 10));
   const Difference d = of(a, b);
   EXPECT_FALSE(d.same);
   EXPECT_EQ(d.largest, b.values[150] - a.values[150]);
@@ -88,7 +88,8 @@ TEST(Compare, ExchangeChangesTheSignAndNothingElse) {
 TEST(Compare, GapsAreCountedAndNeverCrossed) {
   const Recorded a = every(10 * ms, 0, 100, test::constant(1));
   Recorded b = every(10 * ms, 0, 100, test::constant(1));
-  b.values[3] = b.values[4] = gap;
+  b.values.set(3, gap);
+  b.values.set(4, gap);
   const Difference d = of(a, b);
   EXPECT_EQ(d.gaps, 2u);
   EXPECT_EQ(d.samples, 98u);
@@ -97,7 +98,7 @@ TEST(Compare, GapsAreCountedAndNeverCrossed) {
 
   // Between two samples of which one is none there is no value.
   Recorded dense = every(1 * ms, 500'000, 1000, test::constant(1));
-  dense.values[19] = gap;  // 19.5 ms, just before the sample at 20 ms
+  dense.values.set(19, gap);  // 19.5 ms, just before the sample at 20 ms
   const Difference between = of(a, dense);
   EXPECT_EQ(between.how, Meeting::between);
   EXPECT_EQ(between.gaps, 1u);

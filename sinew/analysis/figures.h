@@ -19,8 +19,7 @@ struct Figures {
 
   // Absent where the topic is: a statistic of no samples is not a number.
   template <class Statistic>
-  void add(std::string key, Statistic statistic, const Column& column,
-           const std::vector<double>& seconds) {
+  void add(std::string key, Statistic statistic, const Column& column, const Column& seconds) {
     if (!column.empty()) summary.add(std::move(key), statistic(column, seconds));
   }
 };

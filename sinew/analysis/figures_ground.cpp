@@ -1,7 +1,9 @@
 // The run itself, trolley.*, foot.*, ground_reaction.*: what the leg does on the table.
+#include <algorithm>
 #include <cmath>
-#include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "sinew/analysis/figures.h"
 #include "sinew/analysis/measures/foot.h"
@@ -53,22 +55,40 @@ std::vector<int> repeated_steps(const Figures& f) {
   return steps;
 }
 
-// Steps by their place in the sequence; every phase of a step by its share of the time.
-std::vector<Path> step_paths(const Record& record, const std::vector<int>& steps, const Column& x,
-                             const Column& y) {
-  std::map<int, Path> paths;
-  for (const int step : steps) paths[step];
-  for (const Stretch& s : record.stretches()) {
-    const auto path = paths.find(s.step);
-    if (path == paths.end()) continue;
-    const auto px = at_progress(x, s.first, s.last, points_per_phase);
-    const auto py = at_progress(y, s.first, s.last, points_per_phase);
-    for (std::size_t k = 0; k < px.size(); ++k) path->second.push_back({px[k], py[k]});
+// One step's path: every phase by its share of the time.
+class StepPaths {
+ public:
+  StepPaths(const Record& record, const Column& x, const Column& y)
+      : record_(record), x_(x), y_(y) {
+    in_order_ = std::ranges::is_sorted(record.stretches(), {}, &Stretch::step);
   }
-  std::vector<Path> out;
-  for (auto& [step, path] : paths) out.push_back(std::move(path));
-  return out;
-}
+
+  Path of(int step) const {
+    Path out;
+    const auto& all = record_.stretches();
+    const auto first = std::ranges::lower_bound(all, step, {}, &Stretch::step);
+    for (auto at = in_order_ ? first : all.begin(); at != all.end(); ++at) {
+      const Stretch s = *at;
+      if (s.step == step)
+        add(s, out);
+      else if (in_order_)
+        break;
+    }
+    return out;
+  }
+
+ private:
+  void add(const Stretch& s, Path& out) const {
+    const auto px = at_progress(x_, s.first, s.last, points_per_phase);
+    const auto py = at_progress(y_, s.first, s.last, points_per_phase);
+    for (std::size_t k = 0; k < px.size(); ++k) out.push_back({px[k], py[k]});
+  }
+
+  const Record& record_;
+  const Column& x_;
+  const Column& y_;
+  bool in_order_ = false;
+};
 
 // The time that each point of a path stands for, of the first step that is compared.
 std::vector<double> point_weights(const Record& record, const std::vector<int>& steps) {
@@ -83,7 +103,10 @@ double step_repeat(const Figures& f, const std::string& topic) {
   const Column x = f.record.column(topic, "x"), y = f.record.column(topic, "y");
   if (x.empty() || y.empty()) return no_figure;
   const std::vector<int> steps = repeated_steps(f);
-  return repeat_rms(step_paths(f.record, steps, x, y), point_weights(f.record, steps));
+  const StepPaths paths(f.record, x, y);
+  return repeat_rms(
+      steps.size(), [&](std::size_t i) { return paths.of(steps[i]); },
+      point_weights(f.record, steps));
 }
 
 // Distance of the foot from where it should be, row by row.
@@ -92,8 +115,9 @@ Column foot_error(const Record& record) {
   const Column wx = record.column("/desired/foot/position", "x");
   const Column wy = record.column("/desired/foot/position", "y");
   if (x.empty() || y.empty() || wx.empty() || wy.empty()) return {};
-  Column out(record.rows());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::hypot(x[i] - wx[i], y[i] - wy[i]);
+  Column out = record.new_column();
+  for (std::size_t i = 0; i < record.rows(); ++i)
+    out.push_back(std::hypot(x[i] - wx[i], y[i] - wy[i]));
   return out;
 }
 
@@ -106,7 +130,7 @@ Contact contact(const Record& record) {
   const Column normal = record.column("/true/foot/force", "y");
   const Column slip = record.column("/true/foot/slip");
   if (normal.empty() || slip.empty()) return {};
-  Contact out;
+  Contact out{record.new_column(), record.new_column()};
   for (std::size_t i = 0; i < record.rows(); ++i) {
     const bool stands = normal[i] > 0;
     const double speed = std::abs(slip[i]);
@@ -147,11 +171,11 @@ std::size_t end_of_hold(const Record& record, const Stretch& kick) {
 // beyond.
 void add_kick(Figures& f) {
   const int kick = find_phase(f.machine, "kick");
-  const Stretch* s = kick >= 0 ? f.record.last_of(kick) : nullptr;
+  const std::optional<Stretch> s = kick >= 0 ? f.record.last_of(kick) : std::nullopt;
   const Column x = f.record.column("/foot/position", "x");
   if (!s || x.empty()) return;
   const std::size_t end = end_of_hold(f.record, *s);
-  const Values moves = Values(x).subspan(s->first, end - s->first);
+  const std::vector<double> moves = x.slice(s->first, end);
   const Column wanted = f.record.column("/desired/foot/position", "x");
   if (!wanted.empty())
     f.summary.add("foot.extension_time_s",
@@ -172,10 +196,10 @@ Components force(const Record& record, const std::string& topic) {
 }
 
 void add_force_errors(Figures& f, const Components& estimate, const Components& real) {
-  Column both(f.record.rows()), normal(f.record.rows());
-  for (std::size_t i = 0; i < both.size(); ++i) {
-    normal[i] = estimate.y[i] - real.y[i];
-    both[i] = std::hypot(estimate.x[i] - real.x[i], normal[i]);
+  Column both = f.record.new_column(), normal = f.record.new_column();
+  for (std::size_t i = 0; i < f.record.rows(); ++i) {
+    normal.push_back(estimate.y[i] - real.y[i]);
+    both.push_back(std::hypot(estimate.x[i] - real.x[i], normal[i]));
   }
   const std::string key = "ground_reaction.";
   f.add(key + "estimate_rms_error_N", rms, both, f.record.stance());
@@ -237,7 +261,7 @@ void add_foot(Figures& f) {
 
 void add_ground_reaction(Figures& f) {
   if (!f.machine.robot.ground.present) return;
-  const std::vector<double>& stance = f.record.stance();
+  const Column& stance = f.record.stance();
   const Components estimate = force(f.record, "/foot/force");
   const Components real = force(f.record, "/true/foot/force");
   const std::string key = "ground_reaction.";

@@ -1,5 +1,6 @@
 // joints.<j>.*, and phases.<p>.*: angles, tracking, stiffness, torque.
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "sinew/analysis/figures.h"
@@ -14,8 +15,10 @@ constexpr std::string_view relaxed = "relaxed";  // how such a phase's name begi
 
 // The row at which a relaxed joint is looked at; rows() where there is none.
 std::size_t relaxed_row(const Figures& f) {
-  for (auto s = f.record.stretches().rbegin(); s != f.record.stretches().rend(); ++s)
-    if (phase_name(f.machine, s->phase).substr(0, relaxed.size()) == relaxed) return s->last - 1;
+  for (std::size_t i = f.record.stretches().size(); i-- > 0;) {
+    const Stretch s = f.record.stretches()[i];
+    if (phase_name(f.machine, s.phase).substr(0, relaxed.size()) == relaxed) return s.last - 1;
+  }
 
   // Settling leaves the exhausts open: in the air, where nothing else holds the joints.
   const bool settled = f.record.has_sequence() && f.record.first_row() > 0;
@@ -24,7 +27,7 @@ std::size_t relaxed_row(const Figures& f) {
 }
 
 void add_angles(Figures& f, const std::string& joint, const std::string& key) {
-  const std::vector<double>& sequence = f.record.sequence();
+  const Column& sequence = f.record.sequence();
   const Column angle = f.record.column("/joint/" + joint + "/angle");
   const Column real = f.record.column("/true/joint/" + joint + "/angle");
   f.add(key + "min_angle_rad", smallest, angle, sequence);
@@ -41,12 +44,14 @@ void add_angles(Figures& f, const std::string& joint, const std::string& key) {
 }
 
 // The swings of all steps but the first, which comes from wherever the machine was put.
-std::vector<double> later_swings(const Figures& f) {
-  std::vector<double> out = f.record.swing();
-  for (const Stretch& s : f.record.stretches())
-    if (s.step == 0)
-      std::fill(out.begin() + static_cast<std::ptrdiff_t>(s.first),
-                out.begin() + static_cast<std::ptrdiff_t>(s.last), 0.0);
+Column later_swings(const Figures& f) {
+  const Column& swing = f.record.swing();
+  Column out = f.record.new_column();
+  for (const Stretch& s : f.record.stretches()) {
+    while (out.size() < s.first) out.push_back(swing[out.size()]);
+    while (out.size() < s.last) out.push_back(s.step == 0 ? 0.0 : swing[out.size()]);
+  }
+  while (out.size() < swing.size()) out.push_back(swing[out.size()]);
   return out;
 }
 
@@ -54,15 +59,16 @@ std::vector<double> later_swings(const Figures& f) {
 void add_velocity_jumps(Figures& f, const std::string& joint, const std::string& key) {
   const Column velocity = f.record.column("/joint/" + joint + "/velocity_estimate");
   if (velocity.empty()) return;
-  Column jump(velocity.size(), no_figure);
-  for (std::size_t i = 1; i < jump.size(); ++i) jump[i] = velocity[i] - velocity[i - 1];
-  const std::vector<double>& sequence = f.record.sequence();
+  Column jump = f.record.new_column();
+  for (std::size_t i = 0; i < velocity.size(); ++i)
+    jump.push_back(i > 0 ? velocity[i] - velocity[i - 1] : no_figure);
+  const Column& sequence = f.record.sequence();
   f.add(key + "velocity_jump_rms_rad_per_s", rms, jump, sequence);
   f.add(key + "velocity_jump_largest_rad_per_s", largest_magnitude, jump, sequence);
 }
 
 void add_control(Figures& f, const std::string& joint, const std::string& key) {
-  const std::vector<double>& sequence = f.record.sequence();
+  const Column& sequence = f.record.sequence();
   const std::string at = "/joint/" + joint;
   f.add(key + "tracking_rms_rad", rms, f.record.column(at + "/error"), sequence);
   const Column oscillation = f.record.column(at + "/oscillation");
@@ -115,7 +121,7 @@ Turns turns_of(const Record& record, int phase, const Column& error) {
   Turns out;
   for (const Stretch& s : record.stretches()) {
     if (s.phase != phase) continue;
-    const auto points = turning_points(Values(error).subspan(s.first, s.last - s.first), turn_back);
+    const auto points = turning_points(error.slice(s.first, s.last), turn_back);
     const int n = static_cast<int>(points.size());
     out.sum += n;
     out.fewest = out.times > 0 ? std::min(out.fewest, n) : n;
@@ -174,7 +180,7 @@ void add_joints(Figures& f) {
 
 void add_phases(Figures& f) {
   for (std::size_t i = 0; i < f.machine.phases.size(); ++i) {
-    const Stretch* stretch = f.record.last_of(static_cast<int>(i));
+    const std::optional<Stretch> stretch = f.record.last_of(static_cast<int>(i));
     if (!stretch) continue;
     const std::string key = "phases." + f.machine.phases[i] + ".";
     f.summary.add(key + "mean_duration_s", mean_duration(f.record, static_cast<int>(i)));

@@ -9,8 +9,8 @@ namespace {
 void add_load(Figures& f) {
   const Column load = f.record.column("/true/foot/force", "y");
   if (load.empty() || !f.machine.robot.ground.present) return;
-  Column loaded(load.size());
-  for (std::size_t i = 0; i < load.size(); ++i) loaded[i] = load[i] > 0 ? 1.0 : 0.0;
+  Column loaded = f.record.new_column();
+  for (const double newton : load) loaded.push_back(newton > 0 ? 1.0 : 0.0);
   f.add("foot.loaded_share_true", mean, loaded, f.record.sequence());
   f.add("foot.mean_load_true_N", mean, load, f.record.sequence());
 }

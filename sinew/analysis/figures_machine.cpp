@@ -10,9 +10,9 @@ namespace sinew::analysis {
 namespace {
 
 // Share of the time in which a load is below zero.
-double lifted_share(const Column& load, const std::vector<double>& seconds) {
-  Column lifted(load.size());
-  for (std::size_t i = 0; i < load.size(); ++i) lifted[i] = load[i] < 0 ? 1.0 : 0.0;
+double lifted_share(const Column& load, const Column& seconds) {
+  Column lifted(load.file());
+  for (const double newton : load) lifted.push_back(newton < 0 ? 1.0 : 0.0);
   return mean(lifted, seconds);
 }
 
@@ -33,8 +33,8 @@ void add_cylinder(Figures& f) {
   f.add("cylinder.mean_position_true_m", mean, travel, f.record.sequence());
   const Column wanted = f.record.column("/desired/cylinder/position");
   if (!wanted.empty()) {
-    Column error(travel.size());
-    for (std::size_t i = 0; i < error.size(); ++i) error[i] = travel[i] - wanted[i];
+    Column error = f.record.new_column();
+    for (std::size_t i = 0; i < travel.size(); ++i) error.push_back(travel[i] - wanted[i]);
     f.add("cylinder.tracking_rms_m", rms, error, f.record.sequence());
   }
   f.summary.add("cylinder.air_used_kg", cylinder_air(f, 0, f.record.rows() - 1));

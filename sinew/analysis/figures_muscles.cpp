@@ -94,10 +94,11 @@ Reading reading(const Figures& f, std::size_t muscle) {
 }
 
 // Share of the sequence at the converter's ceiling.
-double clipped(const Figures& f, Reading r) {
-  for (double& c : r.counts)
-    if (std::isfinite(c)) c = c >= f.machine.robot.converter.top() ? 1.0 : 0.0;
-  return mean(r.counts, f.record.sequence());
+double clipped(const Figures& f, const Reading& r) {
+  Column is_clipped = f.record.new_column();
+  for (const double c : r.counts)
+    is_clipped.push_back(!std::isfinite(c) ? c : c >= f.machine.robot.converter.top() ? 1.0 : 0.0);
+  return mean(is_clipped, f.record.sequence());
 }
 
 // The largest tension that the controller believes: one scale for all transducers  [N].
@@ -141,7 +142,7 @@ double delivered_passiveness(const Figures& f, const robot::Muscle& m) {
 }
 
 void add_muscles(Figures& f) {
-  const std::vector<double>& sequence = f.record.sequence();
+  const Column& sequence = f.record.sequence();
   for (std::size_t i = 0; i < f.machine.robot.muscles.size(); ++i) {
     const robot::Muscle& m = f.machine.robot.muscles[i];
     const std::string key = "muscles." + m.name + ".";

@@ -172,12 +172,14 @@ const signals::Series* angles_of(const signals::Table& table, const robot::Robot
 }
 
 // In each sample; of equal angles the log's first is the one next to the rest angle.
-std::vector<double> turned_from_rest(const robot::Joint& joint, std::vector<double> angle) {
-  if (angle.empty()) return angle;
+Column turned_from_rest(const robot::Joint& joint, const Column& angle) {
+  Column out(angle.file());
+  if (angle.empty()) return out;
   constexpr double turn = 2 * std::numbers::pi;
   const double whole = turn * std::round((angle.front() - joint.rest_angle) / turn);
-  for (double& a : angle) a -= joint.rest_angle + (std::isfinite(whole) ? whole : 0.0);
-  return angle;
+  const double rest = joint.rest_angle + (std::isfinite(whole) ? whole : 0.0);
+  for (const double a : angle) out.push_back(a - rest);
+  return out;
 }
 
 }  // namespace
@@ -187,7 +189,7 @@ std::vector<Warning> overturned_joints(const signals::Table& table, const Machin
   for (const robot::Joint& joint : machine.robot.joints) {
     const signals::Series* series = angles_of(table, machine.robot, joint);
     if (!series || series->columns.empty()) continue;
-    const std::vector<double> turned = turned_from_rest(joint, series->columns[0]);
+    const Column turned = turned_from_rest(joint, series->columns[0]);
     double furthest = 0;
     for (const double t : turned)
       if (std::abs(t) > std::abs(furthest)) furthest = t;

@@ -123,7 +123,7 @@ TEST(Legs, ForcesOnTheTrolleyAddUp) {
   two.robot.trolley.drag = alone.robot.trolley.drag = 0;
   two.robot.trolley.total_mass = 2 * alone.robot.trolley.total_mass;
   const signals::Table a = derive(one, alone), b = derive(on_two(one, one), two);
-  const std::vector<double>*x = a.column("/trolley/position"), *y = b.column("/trolley/position");
+  const signals::Column *x = a.column("/trolley/position"), *y = b.column("/trolley/position");
   ASSERT_TRUE(x && y);
   for (std::size_t i = 0; i < x->size(); ++i) EXPECT_NEAR((*x)[i], (*y)[i], 1e-12);
   EXPECT_GT(std::abs(x->back()), 1e-3);

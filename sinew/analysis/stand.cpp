@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <span>
+#include <vector>
 
 #include "sinew/analysis/verdict/reported.fields.h"
 #include "sinew/analysis/warnings.h"
@@ -14,7 +14,7 @@
 namespace sinew::analysis {
 namespace {
 
-using Column = std::vector<double>;
+using signals::Column;
 
 constexpr double seconds_per_ns = 1e-9;
 
@@ -22,7 +22,7 @@ struct Log {
   const signals::Table& table;
   const StandFile& file;
   Summary& summary;
-  std::vector<double> time;  // [s]
+  Column time;  // [s]
 
   const Column* find(const std::string& topic) const { return table.column(topic); }
   const Column* muscle(const std::string& what) const {
@@ -59,7 +59,7 @@ void add_stand(Log& log) {
 struct Turn {
   double at = 0, value = 0;
 };
-std::vector<Turn> tops(const std::vector<double>& time, const Column& x) {
+std::vector<Turn> tops(const Column& time, const Column& x) {
   std::vector<Turn> out;
   for (std::size_t i = 1; i + 1 < x.size(); ++i) {
     if (!(x[i] >= x[i - 1] && x[i] > x[i + 1])) continue;
@@ -132,7 +132,7 @@ Window last_periods(const Log& log) {
 void add_ripple(Log& log, const Window& w, const Column* values, const std::string& mean_key,
                 const std::string& ripple_key) {
   if (!values || w.end <= w.begin) return;
-  const std::span<const double> last(values->data() + w.begin, w.end - w.begin);
+  const std::vector<double> last = values->slice(w.begin, w.end);
   double sum = 0;
   for (const double x : last) sum += x;
   const auto [least, most] = std::ranges::minmax(last);
@@ -212,7 +212,7 @@ Summary summarize(const signals::Table& table, const StandFile& file) {
   const signals::Series* rows = table.find("/true/stand/length");
   summary.warnings = texts(warnings(table, summary));
   if (!rows || rows->time_ns.empty()) return summary;
-  Log log{table, file, summary, {}};
+  Log log{table, file, summary, Column(rows->time_ns.file())};
   for (const std::int64_t ns : rows->time_ns)
     log.time.push_back(seconds_per_ns * static_cast<double>(ns));
   add_stand(log);

@@ -31,7 +31,7 @@ inline Times times_when(const signals::Table& table, const std::string& topic,
   Times out;
   const signals::Series* series = table.find(topic);
   if (!series || series->columns.empty()) return out;
-  const std::vector<double>& values = series->columns.front();
+  const signals::Column& values = series->columns.front();
   out.of = values.size();
   for (std::size_t i = 0; i < values.size(); ++i)
     if (is(values[i])) out.add(series->time_ns[i]);

@@ -10,7 +10,8 @@ Feed::Feed(std::vector<signals::Topic> topics, std::size_t ring)
     is_edge_.push_back(signals::is_of_valve(topics[i].name));
     (is_edge_.back() ? edge_topics_ : row_topics_).push_back(i);
     const std::size_t fields = topics[i].fields.size();
-    table_.series.push_back({std::move(topics[i]), {}, std::vector<std::vector<double>>(fields)});
+    table_.series.push_back({std::move(topics[i]), signals::Times(pages_),
+                             std::vector<signals::Column>(fields, signals::Column(pages_))});
   }
 }
 
@@ -57,9 +58,9 @@ signals::Table Feed::since(Position& position) const {
     const signals::Series& s = table_.series[i];
     std::size_t& from = is_edge_[i] ? position.edges[edge++] : position.rows;
     const auto first = static_cast<std::ptrdiff_t>(from);
-    signals::Series part{s.topic, {s.time_ns.begin() + first, s.time_ns.end()}, {}};
-    for (const auto& column : s.columns)
-      part.columns.emplace_back(column.begin() + first, column.end());
+    signals::Series part{s.topic, {s.time_ns.begin() + first, s.time_ns.end(), pages_}, {}};
+    for (const signals::Column& column : s.columns)
+      part.columns.emplace_back(column.begin() + first, column.end(), pages_);
     if (is_edge_[i]) from = s.time_ns.size();
     out.series.push_back(std::move(part));
   }

@@ -46,6 +46,7 @@ class Feed {
   void take(const log::Sample& sample);
   void keep_row();
 
+  const signals::PageFile pages_ = signals::PageFile::make();
   signals::Table table_;
   std::vector<std::size_t> row_topics_, edge_topics_;
   std::vector<bool> is_edge_;

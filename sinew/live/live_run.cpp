@@ -52,7 +52,7 @@ class LiveRun::Impl {
       : options_(std::move(options)),
         notices_(std::move(notices)),
         kept_(request, notices_),
-        values_(config::parse_text(kept_.resolved(), "resolved.toml")),
+        values_(kept_.values()),
         feed_(run::topics(kept_.experiment())),
         show_(kept_.experiment(), values_, steering_, feed_, tick_),
         server_(options_.port, {.get = [this](std::string_view path) { return get(path); },

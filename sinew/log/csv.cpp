@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ostream>
-#include <sstream>
 #include <string_view>
 
 #include "sinew/log/message.h"
@@ -55,7 +54,7 @@ class Walker {
 
   void append_cells(std::string& line) const {
     char room[32];
-    for (const std::vector<double>& column : series_.columns) {
+    for (const signals::Column& column : series_.columns) {
       line += ',';
       const double value = here_ ? column[next_ - 1] : edges_ ? 0.0 : NAN;
       if (std::isfinite(value)) line += digits(value, room);
@@ -69,26 +68,24 @@ class Walker {
   bool here_ = false;
 };
 
-std::vector<std::int64_t> row_times(const std::vector<Walker>& walkers) {
+signals::Times row_times(const std::vector<Walker>& walkers) {
   const bool all = std::all_of(walkers.begin(), walkers.end(), [](auto& w) { return w.edges(); });
-  std::vector<std::int64_t> times;
+  signals::Times times;
   for (const Walker& walker : walkers) {
     if (walker.edges() && !all) continue;
     // Topics that share their times, as most do, add nothing.
-    const std::vector<std::int64_t>& more = walker.series().time_ns;
+    const signals::Times& more = walker.series().time_ns;
     if (more == times) continue;
-    std::vector<std::int64_t> both;
+    signals::Times both(more.file());
     std::set_union(times.begin(), times.end(), more.begin(), more.end(), std::back_inserter(both));
     times = std::move(both);
   }
-  times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
 }
 
-}  // namespace
-
-void write_csv(const signals::Table& table, std::ostream& out,
-               const std::vector<std::string>& topics) {
+// Puts the table line by line.
+template <class Put>
+void put_lines(const signals::Table& table, const std::vector<std::string>& topics, Put put) {
   std::vector<Walker> walkers;
   std::string line = "time [s]";
   for (const signals::Series& series : table.series) {
@@ -99,25 +96,42 @@ void write_csv(const signals::Table& table, std::ostream& out,
       line += heading(series.topic, field);
     }
   }
-  out << line << '\n';
+  put(line + '\n');
 
   char room[32];
-  for (const std::int64_t time_ns : row_times(walkers)) {
+  const signals::Times times = row_times(walkers);
+  for (std::size_t row = 0; row < times.size(); ++row) {
+    const std::int64_t time_ns = times[row];
+    if (row > 0 && time_ns == times[row - 1]) continue;
     line = digits(static_cast<double>(time_ns) / 1e9, room);
     for (Walker& walker : walkers) {
       walker.go_to(time_ns);
       walker.append_cells(line);
     }
-    out << line << '\n';
+    line += '\n';
+    put(line);
   }
+}
+
+}  // namespace
+
+void write_csv(const signals::Table& table, std::ostream& out,
+               const std::vector<std::string>& topics) {
+  put_lines(table, topics, [&](const std::string& line) { out << line; });
 }
 
 void write_csv(const signals::Table& table, const std::filesystem::path& file,
                const std::vector<std::string>& topics) {
   Replacement out(file);
-  std::ostringstream text;
-  write_csv(table, text, topics);
-  out.write(text.view());
+  constexpr std::size_t piece = 1 << 20;  // written at a time
+  std::string text;
+  put_lines(table, topics, [&](const std::string& line) {
+    text += line;
+    if (text.size() < piece) return;
+    out.write(text);
+    text.clear();
+  });
+  out.write(text);
   out.commit();
 }
 

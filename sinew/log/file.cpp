@@ -6,6 +6,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
@@ -58,6 +59,24 @@ void Mapping::map(int fd, const std::filesystem::path& path) {
   if (at == MAP_FAILED)
     throw Error(path, "cannot read the log: " + system_words(error), "copy it to a local disk");
   data_ = static_cast<const char*>(at);
+}
+
+void Mapping::forget(std::size_t from, std::size_t count) const noexcept {
+  (void)::madvise(const_cast<char*>(data_) + from, count, MADV_DONTNEED);
+}
+
+void Mapping::forget_before(const char* here) const noexcept {
+  const auto read = static_cast<std::size_t>(here - data_);
+  for (; forgotten_ + stride <= read; forgotten_ += stride) forget(forgotten_, stride);
+}
+
+std::uint32_t Mapping::crc(std::size_t bytes) const {
+  std::uint32_t out = 0;
+  for (std::size_t at = 0; at < bytes; at += stride) {
+    out = crc32(this->bytes().substr(at, std::min(stride, bytes - at)), out);
+    if (bytes - at > stride) forget(at, stride);
+  }
+  return out;
 }
 
 Mapping::~Mapping() { ::munmap(const_cast<char*>(data_), size_); }

@@ -21,11 +21,22 @@ class Mapping {
 
   std::string_view bytes() const { return {data_, size_}; }
 
+  // CRC-32 of its first bytes.
+  std::uint32_t crc(std::size_t bytes) const;
+
+  // Says that it was read up to there, so that a long log takes up no memory behind the reader.
+  // What is read again comes from the file again.
+  void forget_before(const char* here) const noexcept;
+
  private:
+  static constexpr std::size_t stride = 1 << 22;  // forgotten at a time [B]
+
   void map(int descriptor, const std::filesystem::path& path);
+  void forget(std::size_t from, std::size_t count) const noexcept;
 
   const char* data_ = nullptr;
   std::size_t size_ = 0;
+  mutable std::size_t forgotten_ = 0;  // up to there, a multiple of the stride
 };
 
 // A new file that is only appended to. The first failure is final: it is kept, and nothing more is

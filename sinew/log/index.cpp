@@ -13,7 +13,8 @@
 namespace sinew::log {
 namespace {
 
-constexpr std::size_t kChunkBytes = 1 << 20;
+// Of a long log chunks are longer, so that little has to be kept of each of them until the end.
+constexpr std::size_t kChunkBytes = 1 << 20, kLongChunkBytes = 1 << 23, kLong = 1 << 24;
 
 struct Span {  // of time; as the format wants it, zero to zero without messages
   std::uint64_t first = 0, last = 0;
@@ -30,18 +31,19 @@ class Indexer {
  public:
   Indexer(Output& output, const Pairs& metadata) : output_(output), run_(metadata) {}
 
-  bool copy(std::string_view source);
+  bool copy(const Mapping& source);
 
  private:
   void copy(const Record& record);
   void copy_metadata(const Record& record);
   void add_message(const Record& record);
   void end_chunk();
-  void put_message_indexes(Bytes& out);
+  void put_message_indexes(Bytes& out, std::uint64_t at);
   void put_statistics(Bytes& out) const;
   void put_summary();
 
   Output& output_;
+  std::size_t chunk_bytes_ = kChunkBytes;
   const Pairs& run_;  // what was run, in place of what the file says; empty: that
 
   // The chunk being filled: its records, and per channel (time, offset) of each message.
@@ -59,12 +61,14 @@ class Indexer {
   Span time_;
 };
 
-bool Indexer::copy(std::string_view source) {
+bool Indexer::copy(const Mapping& source) {
+  if (source.bytes().size() >= kLong) chunk_bytes_ = kLongChunkBytes;
   output_.write(kMagic);
-  Records records(source.substr(kMagic.size()));
+  Records records(source.bytes().substr(kMagic.size()));
   while (const auto record = records.next()) {
     if (record->op == Op::data_end) break;
     copy(*record);
+    source.forget_before(record->whole.data());
   }
   end_chunk();
   Bytes end;
@@ -118,7 +122,7 @@ void Indexer::add_message(const Record& record) {
   ++message_counts_[message->channel];
   places_[message->channel].emplace_back(message->log_time, chunk_.size());
   chunk_.raw(record.whole);
-  if (chunk_.size() >= kChunkBytes) end_chunk();
+  if (chunk_.size() >= chunk_bytes_) end_chunk();
 }
 
 void Indexer::end_chunk() {
@@ -132,10 +136,13 @@ void Indexer::end_chunk() {
   out.u32(crc32(chunk_.view()));
   out.text("");  // not compressed
   out.u64(chunk_.size());
-  out.raw(chunk_.view());
-  out.close(record);
-  const std::uint64_t chunk_length = out.size();
-  put_message_indexes(out);
+  // The chunk stands behind its head, and is not copied for that.
+  out.close(record, chunk_.size());
+  const std::uint64_t chunk_length = out.size() + chunk_.size();
+  output_.write(out.view());
+  output_.write(chunk_.view());
+  out.clear();
+  put_message_indexes(out, chunk_length);
   output_.write(out.view());
 
   const std::size_t index = chunk_indexes_.open(Op::chunk_index);
@@ -149,7 +156,7 @@ void Indexer::end_chunk() {
     chunk_indexes_.u64(start + place);
   }
   chunk_indexes_.close_list(list);
-  chunk_indexes_.u64(out.size() - chunk_length);
+  chunk_indexes_.u64(out.size());
   chunk_indexes_.text("");
   chunk_indexes_.u64(chunk_.size());
   chunk_indexes_.u64(chunk_.size());
@@ -159,12 +166,13 @@ void Indexer::end_chunk() {
   chunk_time_ = {};
 }
 
-// One per channel, behind the chunk; sorted by time, whatever order the messages came in.
-void Indexer::put_message_indexes(Bytes& out) {
+// One per channel, behind the chunk, `at` bytes from its beginning; sorted by time, whatever order
+// the messages came in.
+void Indexer::put_message_indexes(Bytes& out, std::uint64_t at) {
   index_places_.clear();
   for (auto& [channel, places] : places_) {
     std::sort(places.begin(), places.end());
-    index_places_.emplace_back(channel, out.size());
+    index_places_.emplace_back(channel, at + out.size());
     const std::size_t record = out.open(Op::message_index);
     out.u16(channel);
     const std::size_t list = out.open_list();
@@ -202,25 +210,24 @@ void Indexer::put_summary() {
   const std::uint64_t start = output_.position();
   Bytes statistics;
   put_statistics(statistics);
-  Bytes out;
-  Bytes offsets;
+  Bytes out;  // where the groups are, and the footer
+  std::uint32_t crc = 0;
   const auto group = [&](Op op, const Bytes& records) {
     if (records.size() == 0) return;
-    const std::size_t record = offsets.open(Op::summary_offset);
-    offsets.u8(static_cast<std::uint8_t>(op));
-    offsets.u64(start + out.size());
-    offsets.u64(records.size());
-    offsets.close(record);
-    out.raw(records.view());
+    const std::size_t record = out.open(Op::summary_offset);
+    out.u8(static_cast<std::uint8_t>(op));
+    out.u64(output_.position());
+    out.u64(records.size());
+    out.close(record);
+    crc = crc32(records.view(), crc);
+    output_.write(records.view());
   };
   group(Op::schema, schemas_);
   group(Op::channel, channels_);
   group(Op::statistics, statistics);
   group(Op::chunk_index, chunk_indexes_);
   group(Op::metadata_index, metadata_indexes_);
-  const std::uint64_t offsets_start = start + out.size();
-  out.raw(offsets.view());
-  put_footer(out, start, offsets_start);
+  put_footer(out, start, output_.position(), crc);
   output_.write(out.view());
 }
 
@@ -236,7 +243,7 @@ void make_indexed(const Output& row, const std::filesystem::path& file, const Me
   };
   const Mapping source(row.descriptor(), file);
   Output output(beside);
-  if (!Indexer(output, run).copy(source.bytes()) || !output.sync())
+  if (!Indexer(output, run).copy(source) || !output.sync())
     fail(output.error() ? system_words(output.error()) : "the file is damaged");
 
   // By their names both could be somebody else's by now.

@@ -15,8 +15,8 @@ std::size_t Bytes::open(Op op) {
   return data_.size();
 }
 
-void Bytes::close(std::size_t opened) {
-  const std::uint64_t length = data_.size() - opened;
+void Bytes::close(std::size_t opened, std::size_t behind) {
+  const std::uint64_t length = data_.size() - opened + behind;
   for (std::size_t i = 0; i < 8; ++i) data_[opened - 8 + i] = static_cast<char>(length >> (8 * i));
 }
 
@@ -177,7 +177,8 @@ void put_data_end(Bytes& out, std::uint32_t crc) {
   out.close(record);
 }
 
-void put_footer(Bytes& out, std::uint64_t summary_start, std::uint64_t summary_offset_start) {
+void put_footer(Bytes& out, std::uint64_t summary_start, std::uint64_t summary_offset_start,
+                std::uint32_t before) {
   const std::size_t record = out.open(Op::footer);
   out.u64(summary_start);
   out.u64(summary_offset_start);
@@ -185,7 +186,7 @@ void put_footer(Bytes& out, std::uint64_t summary_start, std::uint64_t summary_o
   out.u32(0);
   out.close(record);
   out.data().resize(out.size() - 4);
-  out.u32(crc32(out.view()));
+  out.u32(crc32(out.view(), before));
   out.raw(kMagic);
 }
 

@@ -47,9 +47,10 @@ class Bytes {
   void raw(std::string_view v) { data_.append(v); }
   void text(std::string_view v);
 
-  // Opens a record, and closes it by filling in its length; likewise a list (arrays and maps).
+  // Opens a record, and closes it by filling in its length, with so many bytes that will be written
+  // behind these; likewise a list (arrays and maps).
   std::size_t open(Op op);
-  void close(std::size_t opened);
+  void close(std::size_t opened, std::size_t behind = 0);
   std::size_t open_list();
   void close_list(std::size_t opened);
 
@@ -138,8 +139,10 @@ void put_channel(Bytes& out, const Channel& channel);
 void put_metadata(Bytes& out, std::string_view name, const Pairs& pairs);
 void put_data_end(Bytes& out, std::uint32_t crc);
 
-// Footer and closing magic. `out` must begin where the summary begins, for its checksum.
-void put_footer(Bytes& out, std::uint64_t summary_start, std::uint64_t summary_offset_start);
+// Footer and closing magic. The summary's checksum needs all of it: `out` begins where the summary
+// does, or behind what was written of it, which has the checksum `before`.
+void put_footer(Bytes& out, std::uint64_t summary_start, std::uint64_t summary_offset_start,
+                std::uint32_t before = 0);
 
 // Opens a message: fill in the data, then out.close(opened).
 std::size_t open_message(Bytes& out, std::uint16_t channel, std::uint32_t sequence,

@@ -32,7 +32,8 @@ void check_magic(const path& file, std::string_view bytes) {
 // Takes a file's records, one after the other, into a table.
 class Collector {
  public:
-  Collector(const path& file, std::string_view bytes) : file_(file), bytes_(bytes) {}
+  Collector(const path& file, const Mapping& mapping)
+      : file_(file), mapping_(mapping), bytes_(mapping.bytes()) {}
 
   signals::Table table();
 
@@ -52,10 +53,12 @@ class Collector {
   };
 
   const path& file_;
+  const Mapping& mapping_;
   const std::string_view bytes_;
   std::map<std::uint16_t, Schema> schemas_;
   // By channel number; null for a channel that is passed over.
   std::map<std::uint16_t, std::unique_ptr<Source>> sources_;
+  const signals::PageFile pages_ = signals::PageFile::make();
   std::vector<signals::Series> series_;
   std::vector<double> values_;
   bool whole_ = true;  // no message was damaged
@@ -70,6 +73,7 @@ signals::Table Collector::table() {
       break;
     }
     if (!take(*record)) break;
+    mapping_.forget_before(record->whole.data());
   }
   return {std::move(series_), ended && whole_};
 }
@@ -111,7 +115,8 @@ bool Collector::take_channel(std::string_view content) {
     if (series.topic.name == topic->name) return true;
   source->second = std::make_unique<Source>(Source{series_.size(), MessageFormat(*topic)});
   const std::size_t fields = topic->fields.size();
-  series_.push_back({std::move(*topic), {}, std::vector<std::vector<double>>(fields)});
+  series_.push_back({std::move(*topic), signals::Times(pages_),
+                     std::vector<signals::Column>(fields, signals::Column(pages_))});
   return true;
 }
 
@@ -159,7 +164,7 @@ bool Collector::ends_properly(const Record& last) const {
   if (last.op == Op::data_end) {
     Fields fields(last.content);
     const std::uint32_t crc = fields.u32();
-    if (!fields.ok() || (crc != 0 && crc != crc32(bytes_.substr(0, at)))) return false;
+    if (!fields.ok() || (crc != 0 && crc != mapping_.crc(at))) return false;
     if (bytes_.size() < at + last.whole.size() + tail) return false;
   } else if (bytes_.size() != at + tail) {
     return false;
@@ -178,8 +183,8 @@ void sort_by_time(signals::Series& series) {
     return series.time_ns[a] < series.time_ns[b];
   });
   const auto reorder = [&](auto& values) {
-    auto sorted = values;
-    for (std::size_t i = 0; i < order.size(); ++i) sorted[i] = values[order[i]];
+    std::decay_t<decltype(values)> sorted(values.file());
+    for (const std::size_t i : order) sorted.push_back(values[i]);
     values = std::move(sorted);
   };
   reorder(series.time_ns);
@@ -191,7 +196,7 @@ void sort_by_time(signals::Series& series) {
 signals::Table read(const path& file) {
   const Mapping mapping(file);
   check_magic(file, mapping.bytes());
-  signals::Table table = Collector(file, mapping.bytes()).table();
+  signals::Table table = Collector(file, mapping).table();
   for (signals::Series& series : table.series) sort_by_time(series);
   return table;
 }

@@ -17,7 +17,7 @@ const Series* Table::find(std::string_view topic) const {
   return nullptr;
 }
 
-const std::vector<double>* Table::column(std::string_view topic, std::string_view field) const {
+const Column* Table::column(std::string_view topic, std::string_view field) const {
   const Series* s = find(topic);
   if (!s) return nullptr;
   for (std::size_t i = 0; i < s->topic.fields.size(); ++i)

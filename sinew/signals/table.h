@@ -1,8 +1,9 @@
-// signals/table.h - the channel table: what a run recorded, in memory.
+// signals/table.h - the channel table: what a run recorded, however long it was.
 //
 // A *topic* is one line of conventions.md's list of channels, for instance /true/foot/force with
 // the fields x and y. Every topic has its own times, so samples every 10 ms and single valve edges
-// live side by side. `log` writes and reads tables, `analysis` reads them.
+// live side by side. `log` writes and reads tables, `analysis` reads them. Of a long run memory
+// holds the newest samples, a temporary file the others (paged_vector.h).
 // Not part of the embedded core.
 #pragma once
 
@@ -11,7 +12,12 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/signals/paged_vector.h"
+
 namespace sinew::signals {
+
+using Times = PagedVector<std::int64_t>;  // since the start of the run [ns]
+using Column = PagedVector<double>;
 
 struct Field {
   std::string name;  // "value" for a topic with one field
@@ -26,8 +32,8 @@ struct Topic {
 
 struct Series {
   Topic topic;
-  std::vector<std::int64_t> time_ns;         // since the start of the run
-  std::vector<std::vector<double>> columns;  // [field][sample]
+  Times time_ns;
+  std::vector<Column> columns;  // [field][sample]
 };
 
 // Is it a valve's, /valve/… or a leg's /leg/<name>/valve/…? Their edges stand one by one.
@@ -40,7 +46,7 @@ struct Table {
   const Series* find(std::string_view topic) const;
 
   // Column `field` of `topic`; nullptr where the table has no such thing.
-  const std::vector<double>* column(std::string_view topic, std::string_view field = "value") const;
+  const Column* column(std::string_view topic, std::string_view field = "value") const;
 };
 
 }  // namespace sinew::signals

@@ -33,9 +33,9 @@ const Sets instant_valves = {"valve.inlet.opening_delay=0 s", "valve.inlet.closi
 std::vector<double> errors_on_the_stairs(const Sets& sets) {
   const auto e = experiment::load(test::file_of("knee-staircase"), sets);
   const run::Outcome out = run::run(e);
-  const std::vector<double>&want = *out.table.column("/desired/joint/knee/angle"),
-        &is = *out.table.column("/sensor/knee_angle/count"),
-        &phase = *out.table.column("/plan/phase");
+  const signals::Column &want = *out.table.column("/desired/joint/knee/angle"),
+                        &is = *out.table.column("/sensor/knee_angle/count"),
+                        &phase = *out.table.column("/plan/phase");
   const robot::Sensor& sensor =
       *std::ranges::find(e.robot.sensors, "knee_angle", &robot::Sensor::name);
   std::vector<double> errors;
@@ -105,10 +105,10 @@ Hold hold(const Sets& sets) {
                       "phase.up.cylinder={ position = [\"0.7 in\"] }"};
   const auto e = experiment::load(test::file_of("cylinder-staircase"), still + sets);
   const run::Outcome out = run::run(e);
-  const std::vector<double>&travel = *out.table.column("/true/cylinder/position"),
-        &phase = *out.table.column("/plan/phase"),
-        &up = *out.table.column("/true/cylinder/up/air_in"),
-        &down = *out.table.column("/true/cylinder/down/air_in");
+  const auto column = [&](const char* topic) { return out.table.column(topic)->in_memory(); };
+  const std::vector<double> travel = column("/true/cylinder/position"),
+                            phase = column("/plan/phase"), up = column("/true/cylinder/up/air_in"),
+                            down = column("/true/cylinder/down/air_in");
   const auto after = std::find(phase.rbegin(), phase.rend(), 0.0);
   const auto end = travel.begin() + (phase.rend() - after), begin = end - 50;
   double sum = 0;

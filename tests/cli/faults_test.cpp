@@ -201,7 +201,7 @@ TEST(Faults, AValveThatStandsOpenIsListedAndDrawn) {
   EXPECT_NEAR(air["error_kg"], 0, 1e-12 * air["entered_kg"].get<double>());
 
   const signals::Table log = log::read(w / "run/log.mcap");
-  const std::vector<double>& acts = *log.column("/true/valve/knee_extensor/inlet/fault");
+  const signals::Column& acts = *log.column("/true/valve/knee_extensor/inlet/fault");
   EXPECT_NEAR(static_cast<double>(std::ranges::count(acts, 1.0)), 21, 1);
   EXPECT_THAT(w.sinew({"replay", "run"}).out, HasSubstr("all equal"));
   if (SINEW_HAS_PAGE) {

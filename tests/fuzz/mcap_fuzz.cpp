@@ -26,7 +26,7 @@ std::filesystem::path file_of(std::string_view input) {
 void law_of_series(const signals::Series& s) {
   law(std::ranges::is_sorted(s.time_ns), "times ascend: " + s.topic.name);
   law(s.columns.size() == s.topic.fields.size(), "a column for each field: " + s.topic.name);
-  for (const std::vector<double>& column : s.columns)
+  for (const signals::Column& column : s.columns)
     law(column.size() == s.time_ns.size(), "a value for each time: " + s.topic.name);
 }
 
@@ -56,7 +56,7 @@ void law_of_writing(const signals::Table& table) {
       const signals::Series& s = table.series[t];
       for (std::size_t i = 0; i < s.time_ns.size(); ++i) {
         std::vector<double> values;
-        for (const std::vector<double>& column : s.columns) values.push_back(column[i]);
+        for (const signals::Column& column : s.columns) values.push_back(column[i]);
         law(writer.push(static_cast<std::uint16_t>(t), s.time_ns[i], values), "a sample is taken");
       }
     }

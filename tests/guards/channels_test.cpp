@@ -61,7 +61,7 @@ std::vector<std::string> names_of(const std::vector<signals::Topic>& topics) {
   return out;
 }
 
-bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+bool same_bits(const signals::Column& a, const signals::Column& b) {
   return std::ranges::equal(a, b, [](double x, double y) {
     return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y) ||
            (x != x && y != y);  // a log knows one kind of it
@@ -92,13 +92,13 @@ void expect_part(const signals::Table& log, const signals::Table& full, const Pa
 void thin(signals::Table& table) {
   for (signals::Series& s : table.series) {
     const std::size_t step = s.time_ns.size() / 50 + 1;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < s.time_ns.size(); i += step, ++kept) {
-      s.time_ns[kept] = s.time_ns[i];
-      for (std::vector<double>& column : s.columns) column[kept] = column[i];
-    }
-    s.time_ns.resize(kept);
-    for (std::vector<double>& column : s.columns) column.resize(kept);
+    const auto thinned = [step](const auto& samples) {
+      std::decay_t<decltype(samples)> out;
+      for (std::size_t i = 0; i < samples.size(); i += step) out.push_back(samples[i]);
+      return out;
+    };
+    s.time_ns = thinned(s.time_ns);
+    for (signals::Column& column : s.columns) column = thinned(column);
   }
 }
 

@@ -13,15 +13,15 @@ using enum config::StatementClass;
 
 using analysis::Column;
 using report::Claim, report::Curve, report::judge;
-using Weights = std::vector<double>;
+using Weights = analysis::Column;
 
 constexpr const char* foot = "/foot/position";
 constexpr const char* desired_foot = "/desired/foot/position";
 
 // Rows as they are, less others.
 Column difference(const Column& a, const Column& b) {
-  Column out(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) out[i] = a[i] - b[i];
+  Column out;
+  for (std::size_t i = 0; i < a.size(); ++i) out.push_back(a[i] - b[i]);
   return out;
 }
 
@@ -105,7 +105,7 @@ Weights in_the_air(const LegRun& run) {
   const Column load = run.rows({"/true/foot/force", "y"});
   Weights out = run.record().swing();
   for (std::size_t i = 0; i < out.size(); ++i)
-    if (load[i] > 0) out[i] = 0;
+    if (load[i] > 0) out.set(i, 0);
   return out;
 }
 
@@ -136,8 +136,8 @@ Exhibit figure_6_4(const LegRun& run) {
   const Column error =
       difference(run.rows({"/joint/hip/angle"}), run.rows({"/desired/joint/hip/angle"}));
   const Column wanted = run.rows({"/desired/joint/knee/angle"});
-  Column beyond(wanted.size());
-  std::ranges::transform(wanted, beyond.begin(), [](double a) { return a < 289 ? 100.0 : 0.0; });
+  Column beyond;
+  for (const double a : wanted) beyond.push_back(a < 289 ? 100.0 : 0.0);
   out.claims = {
       judge(predicted, {.where = "6.3",
                         .says = "The joints do not come to their limits",

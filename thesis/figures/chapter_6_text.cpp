@@ -63,10 +63,10 @@ double stands_for(const LegRun& run) {
 // over the walk  [%]: by the straight line through it.
 double change_of(const LegRun& run, const std::string& topic) {
   const Column torque = run.rows({topic});
-  const std::vector<double>& walk = run.record().sequence();
+  const Column& walk = run.record().sequence();
   double least = 1e300;
   for (const Stretch& s : stretches(run, "swing")) {
-    Column time, part;
+    std::vector<double> time, part;
     for (std::size_t i = (s.first + s.last) / 2; i < s.last; ++i) {
       time.push_back(run.record().time(i));
       part.push_back(torque[i]);
@@ -93,8 +93,9 @@ double spike(const LegRun& run) {
 
 // Share of propulsion in which a muscle is as good as empty  [%].
 double empty_for(const LegRun& run, const std::string& muscle) {
-  Column low = run.rows({"/true/muscle/" + muscle + "/pressure"});
-  for (double& p : low) p = p < 5 ? 100 : 0;
+  Column low;
+  for (const double p : run.rows({"/true/muscle/" + muscle + "/pressure"}))
+    low.push_back(p < 5 ? 100 : 0);
   const int propulsion = analysis::find_phase(run.machine(), "propulsion");
   return analysis::mean(low, run.record().part(propulsion, 0, 1));
 }
@@ -108,9 +109,8 @@ struct SwingTurns {
 SwingTurns turns_in(const LegRun& run, const std::string& joint, const Stretch& s) {
   const Column error = run.rows({"/joint/" + joint + "/error"});
   const double back = analysis::turn_back * 180 / M_PI;
-  return {
-      analysis::turning_points(analysis::Values(error).subspan(s.first, s.last - s.first), back),
-      static_cast<double>(s.last - s.first)};
+  return {analysis::turning_points(error.slice(s.first, s.last), back),
+          static_cast<double>(s.last - s.first)};
 }
 
 // Share of swing after which the hip turns no more, the mean of the steps  [%].
@@ -123,9 +123,9 @@ double last_turn(const LegRun& run) {
 
 // From the first propulsion on: before, empty muscles are filled with all that the valves give.
 double largest_duty(const LegRun& run, const std::string& valve) {
-  std::vector<double> walking = run.record().sequence();
+  Column walking = run.record().sequence();
   const std::size_t first = stretches(run, "propulsion").at(0).first;
-  std::fill_n(walking.begin(), first, 0.0);
+  for (std::size_t i = 0; i < first; ++i) walking.set(i, 0.0);
   return analysis::largest(run.rows({"/muscle/" + valve + "_duty"}), walking);
 }
 

@@ -103,9 +103,9 @@ report::Curve LegRun::path(const std::string& label, const std::string& topic,
 }
 
 analysis::Column LegRun::rows(const report::Channel& channel) const {
-  analysis::Column out = record_.column(channel.topic, channel.field);
+  analysis::Column out;
   const report::ShownUnit unit = unit_of(channel);
-  for (double& value : out) value = unit.of(value);
+  for (const double si : record_.column(channel.topic, channel.field)) out.push_back(unit.of(si));
   return out;
 }
 

@@ -65,7 +65,7 @@ TEST(OutDat, HasALinePerPeriodWhateverWasLogged) {
 TEST(OutDat, IsReadByTheControllersScales) {
   const experiment::Experiment e = walk();
   const signals::Table t = parse_out_dat(std::string(heading) + first, "out.dat", e);
-  const auto at = [&](const char* topic) { return t.column(topic)->at(0); };
+  const auto at = [&](const char* topic) { return t.column(topic)->front(); };
   const double degree = std::acos(-1.0) / 180;
   EXPECT_NEAR(at("/desired/joint/hip/angle"), 278 * degree + (2185 - 1895) / 767.0, 1e-12);
   EXPECT_NEAR(at("/joint/knee/angle"), 314 * degree + (920 - 1175) / 767.0, 1e-12);
@@ -95,13 +95,13 @@ TEST(OutDat, GoesRoundWithoutChange) {
   const auto* phase = ran.column("/plan/phase");
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < phase->size(); ++i)
-    if (phase->at(i) >= 0) rows.push_back(i);
+    if ((*phase)[i] >= 0) rows.push_back(i);
   const auto compare = [&](const char* topic, double tolerance) {
     const auto *a = ran.column(topic), *b = back.column(topic);
     ASSERT_TRUE(a && b) << topic;
     ASSERT_EQ(b->size(), rows.size()) << topic;
     for (std::size_t i = 0; i < rows.size(); ++i)
-      ASSERT_NEAR(b->at(i), a->at(rows[i]), tolerance) << topic << " in row " << i;
+      ASSERT_NEAR((*b)[i], (*a)[rows[i]], tolerance) << topic << " in row " << i;
   };
   const double count = 1 / 767.0, percent = 1e-12;
   for (const char* exact :

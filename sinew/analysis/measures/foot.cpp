@@ -10,22 +10,6 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double come_back = 0.1;  // of the way, that makes a peak [-]
 
-// Sum over the paths of the squared distance from their mean at point k; NaN as soon as one is.
-double spread(std::span<const Path> paths, std::size_t k) {
-  const double n = static_cast<double>(paths.size());
-  robot::Point middle;
-  for (const Path& path : paths) {
-    middle.x += path[k].x / n;
-    middle.y += path[k].y / n;
-  }
-  double sum = 0;
-  for (const Path& path : paths) {
-    const double dx = path[k].x - middle.x, dy = path[k].y - middle.y;
-    sum += dx * dx + dy * dy;
-  }
-  return sum;
-}
-
 // Where `values` first reach `level` on their way from `from` on, in rows, straight between them.
 double crossing(std::span<const double> values, double level, double direction) {
   for (std::size_t i = 0; i + 1 < values.size(); ++i) {
@@ -44,18 +28,41 @@ double slip_velocity(const robot::TwoLinks& links, std::array<double, 2> angle,
 }
 
 double repeat_rms(std::span<const Path> paths, std::span<const double> weights) {
-  if (paths.size() < 2) return none;
-  double sum = 0, weight = 0;
-  for (std::size_t k = 0; k < weights.size(); ++k) {
-    const double s = spread(paths, k);
-    if (!std::isfinite(s)) continue;
-    sum += weights[k] * s;
-    weight += weights[k];
-  }
-  return weight > 0 ? std::sqrt(sum / (weight * static_cast<double>(paths.size()))) : none;
+  return repeat_rms(
+      paths.size(), [&](std::size_t i) { return paths[i]; }, weights);
 }
 
-std::vector<double> at_progress(std::span<const double> values, std::size_t first, std::size_t last,
+double repeat_rms(std::size_t paths, const PathOf& path_of, std::span<const double> weights) {
+  if (paths < 2) return none;
+  const double n = static_cast<double>(paths);
+  Path middle(weights.size());
+  for (std::size_t i = 0; i < paths; ++i) {
+    const Path path = path_of(i);
+    for (std::size_t k = 0; k < middle.size(); ++k) {
+      middle[k].x += path[k].x / n;
+      middle[k].y += path[k].y / n;
+    }
+  }
+
+  // Of each point the squared distances from the mean; not a number as soon as one path has none.
+  std::vector<double> spread(weights.size(), 0.0);
+  for (std::size_t i = 0; i < paths; ++i) {
+    const Path path = path_of(i);
+    for (std::size_t k = 0; k < middle.size(); ++k) {
+      const double dx = path[k].x - middle[k].x, dy = path[k].y - middle[k].y;
+      spread[k] += dx * dx + dy * dy;
+    }
+  }
+  double sum = 0, weight = 0;
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    if (!std::isfinite(spread[k])) continue;
+    sum += weights[k] * spread[k];
+    weight += weights[k];
+  }
+  return weight > 0 ? std::sqrt(sum / (weight * n)) : none;
+}
+
+std::vector<double> at_progress(const signals::Column& values, std::size_t first, std::size_t last,
                                 int points) {
   std::vector<double> out;
   for (int k = 0; k < points; ++k) {

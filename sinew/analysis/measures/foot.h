@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "sinew/robot/kinematics.h"
+#include "sinew/signals/table.h"
 
 namespace sinew::analysis {
 
@@ -28,8 +30,12 @@ using Path = std::vector<robot::Point>;
 // Points of which a path has no number are left out. Not a number for fewer than two paths.
 double repeat_rms(std::span<const Path> paths, std::span<const double> weights);
 
+// The same of so many paths, each asked for twice, in their order: they need not be there at once.
+using PathOf = std::function<Path(std::size_t path)>;
+double repeat_rms(std::size_t paths, const PathOf& path_of, std::span<const double> weights);
+
 // Values at the progress (k + 1/2)/points of rows first .. last, straight between rows.
-std::vector<double> at_progress(std::span<const double> values, std::size_t first, std::size_t last,
+std::vector<double> at_progress(const signals::Column& values, std::size_t first, std::size_t last,
                                 int points);
 
 // From 10 to 90 % of the way from the first value to `target`, straight between rows  [s]. Not a

@@ -4,7 +4,7 @@
 
 namespace sinew::analysis {
 
-std::vector<TurningPoint> turning_points(Values values, double back) {
+std::vector<TurningPoint> turning_points(std::span<const double> values, double back) {
   std::vector<TurningPoint> out;
   TurningPoint top, bottom;  // the extremes since the last turning point
   int direction = 0;         // in which the values go: up, down, 0 before they have gone anywhere

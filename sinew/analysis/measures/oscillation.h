@@ -12,9 +12,8 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
-
-#include "sinew/analysis/measures/statistics.h"
 
 namespace sinew::analysis {
 
@@ -25,7 +24,7 @@ struct TurningPoint {
 
 // In ascending rows, maxima and minima by turns. `back` > 0, in the unit of the values; values that
 // are not a number are passed over.
-std::vector<TurningPoint> turning_points(Values values, double back);
+std::vector<TurningPoint> turning_points(std::span<const double> values, double back);
 
 // Amplitudes of the half swings between turning points, in their order; one fewer than there are
 // points, and none for fewer than two.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 
 namespace sinew::analysis {
@@ -61,29 +62,47 @@ double largest_magnitude(Values values, Seconds seconds) {
 }
 
 // Running sums of what differs from the first reading, which keeps them small.
-std::vector<double> moving_mean(Values values, std::size_t half) {
+signals::Column moving_mean(Values values, std::size_t half) {
   const std::size_t n = values.size();
-  std::vector<double> out(n, none);
   const auto first =
       std::find_if(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-  if (first == values.end()) return out;
+  const double offset = first == values.end() ? none : *first;
 
-  std::vector<double> sum(n + 1, 0.0), count(n + 1, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
+  // Up to a row, as far as it was summed up.
+  struct Sum {
+    double sum = 0, count = 0;
+  };
+  const auto add = [&](Sum& s, std::size_t i) {
     const bool given = std::isfinite(values[i]);
-    sum[i + 1] = sum[i] + (given ? values[i] - *first : 0.0);
-    count[i + 1] = count[i] + (given ? 1.0 : 0.0);
+    s.sum += given ? values[i] - offset : 0.0;
+    s.count += given ? 1.0 : 0.0;
+  };
+  signals::Column out(values.file());
+  std::deque<Sum> sums{{}};  // those within the window
+  for (std::size_t i = 0; i < std::min(half, n); ++i) {
+    sums.push_back(sums.back());
+    add(sums.back(), i);
   }
-  for (std::size_t i = half; i + half < n; ++i) {
-    const double samples = count[i + half + 1] - count[i - half];
-    if (samples > 0) out[i] = *first + (sum[i + half + 1] - sum[i - half]) / samples;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i + half < n) {
+      sums.push_back(sums.back());
+      add(sums.back(), i + half);
+    }
+    double mean = none;
+    if (i >= half && i + half < n) {
+      if (i > half) sums.pop_front();
+      const double samples = sums.back().count - sums.front().count;
+      if (samples > 0) mean = offset + (sums.back().sum - sums.front().sum) / samples;
+    }
+    out.push_back(mean);
   }
   return out;
 }
 
-std::vector<double> high_passed(Values values, std::size_t half) {
-  std::vector<double> out = moving_mean(values, half);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = values[i] - out[i];
+signals::Column high_passed(Values values, std::size_t half) {
+  const signals::Column mean = moving_mean(values, half);
+  signals::Column out(values.file());
+  for (std::size_t i = 0; i < mean.size(); ++i) out.push_back(values[i] - mean[i]);
   return out;
 }
 

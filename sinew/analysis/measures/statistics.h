@@ -9,13 +9,13 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
-#include <vector>
+
+#include "sinew/signals/table.h"
 
 namespace sinew::analysis {
 
-using Values = std::span<const double>;
-using Seconds = std::span<const double>;
+using Values = const signals::Column&;
+using Seconds = const signals::Column&;
 
 double mean(Values values, Seconds seconds);
 double rms(Values values, Seconds seconds);
@@ -25,12 +25,12 @@ double largest(Values values, Seconds seconds);
 double largest_magnitude(Values values, Seconds seconds);
 
 // Mean of the 2 half + 1 samples about each one; not a number nearer than `half` to either end.
-std::vector<double> moving_mean(Values values, std::size_t half);
+signals::Column moving_mean(Values values, std::size_t half);
 
 // What is left when that is removed: a high pass without phase shift. A sine of period T sampled
 // every dt keeps 1 - sin((2 half + 1) pi dt/T) / ((2 half + 1) sin(pi dt/T)) of its amplitude;
 // constants and ramps vanish.
-std::vector<double> high_passed(Values values, std::size_t half);
+signals::Column high_passed(Values values, std::size_t half);
 
 // Samples on each side of a window of `width` seconds, sampled every `period`.
 std::size_t half_window(double width, double period);

@@ -13,17 +13,17 @@ TrolleyState pushed(TrolleyState state, double push, double drag, double mass, d
           .velocity = velocity};
 }
 
-TrolleyMotion integrate(std::span<const double> push, std::span<const double> seconds, double drag,
+TrolleyMotion integrate(const signals::Column& push, const signals::Column& seconds, double drag,
                         double mass, std::size_t start) {
   const std::size_t n = std::min(push.size(), seconds.size());
   const auto given = [&](std::size_t i) { return std::isfinite(push[i]) ? push[i] : 0.0; };
 
-  TrolleyMotion out{std::vector<double>(n, 0.0), std::vector<double>(n, 0.0)};
+  TrolleyMotion out{signals::Column(push.file()), signals::Column(push.file())};
   TrolleyState now;
-  for (std::size_t i = start; i + 1 < n; ++i) {
-    now = pushed(now, 0.5 * (given(i) + given(i + 1)), drag, mass, seconds[i]);
-    out.position[i + 1] = now.position;
-    out.velocity[i + 1] = now.velocity;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i > start) now = pushed(now, 0.5 * (given(i - 1) + given(i)), drag, mass, seconds[i - 1]);
+    out.position.push_back(now.position);
+    out.velocity.push_back(now.velocity);
   }
   return out;
 }

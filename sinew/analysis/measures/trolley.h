@@ -10,8 +10,9 @@
 // which the trolley stops.
 #pragma once
 
-#include <span>
-#include <vector>
+#include <cstddef>
+
+#include "sinew/signals/table.h"
 
 namespace sinew::analysis {
 
@@ -24,11 +25,11 @@ struct TrolleyState {
 TrolleyState pushed(TrolleyState state, double push, double drag, double mass, double dt);
 
 struct TrolleyMotion {
-  std::vector<double> position, velocity;  // [m], [m/s]
+  signals::Column position, velocity;  // [m], [m/s]
 };
 
 // From rest at row `start`; rows before it stay at 0. A push that is not a number counts as none.
-TrolleyMotion integrate(std::span<const double> push, std::span<const double> seconds, double drag,
+TrolleyMotion integrate(const signals::Column& push, const signals::Column& seconds, double drag,
                         double mass, std::size_t start);
 
 }  // namespace sinew::analysis

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace sinew::analysis {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-Edges edges_of(std::span<const std::int64_t> time_ns, std::span<const double> open) {
-  Edges out;
+Edges edges_of(const signals::Times& time_ns, const signals::Column& open) {
+  Edges out(time_ns.file());
+  bool before = false;
   for (std::size_t i = 0; i < time_ns.size() && i < open.size(); ++i) {
-    const bool now = open[i] > 0.5, before = !out.empty() && out.back().open;
-    if (now != before) out.push_back({static_cast<double>(time_ns[i]) / 1e9, now});
+    const bool now = open[i] > 0.5;
+    if (now != std::exchange(before, now))
+      out.push_back({static_cast<double>(time_ns[i]) / 1e9, now});
   }
   return out;
 }
@@ -19,7 +22,7 @@ Edges edges_of(std::span<const std::int64_t> time_ns, std::span<const double> op
 Edges delivered(const Edges& electrical, double opening_delay, double closing_delay) {
   // Edge and instant count as simultaneous within this  [s].
   constexpr double simultaneous = 1e-9;
-  Edges out;
+  Edges out(electrical.file());
   for (const Edge& e : electrical) {
     const bool too_early = !out.empty() && out.back().time >= e.time - simultaneous;
     if (too_early) {

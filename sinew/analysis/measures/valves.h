@@ -6,11 +6,8 @@
 // nothing if D <= t_o.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "sinew/gas/valve.h"
+#include "sinew/signals/table.h"
 
 namespace sinew::analysis {
 
@@ -19,10 +16,10 @@ struct Edge {
   bool open = false;
 };
 
-using Edges = std::vector<Edge>;
+using Edges = signals::PagedVector<Edge>;
 
 // Shut before the first one; an edge to where the valve stands already is none.
-Edges edges_of(std::span<const std::int64_t> time_ns, std::span<const double> open);
+Edges edges_of(const signals::Times& time_ns, const signals::Column& open);
 
 Edges delivered(const Edges& electrical, double opening_delay, double closing_delay);
 

@@ -45,7 +45,7 @@ class Series {
                             {std::move(x), std::move(y)}});
   }
 
-  const std::vector<double>* column(std::string_view topic, std::string_view field) const {
+  const Column* column(std::string_view topic, std::string_view field) const {
     return table.column(name(topic), field);
   }
 
@@ -62,8 +62,8 @@ class Series {
 template <class Of, class... Columns>
 Column rowwise(const Record& record, Of of, const Columns&... columns) {
   if ((columns.empty() || ...)) return {};
-  Column out(record.rows());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = of(i);
+  Column out = record.new_column();
+  for (std::size_t i = 0; i < record.rows(); ++i) out.push_back(of(i));
   return out;
 }
 
@@ -96,12 +96,12 @@ Column measured_torque(const Record& record, const Machine& m, std::size_t joint
   std::vector<Column> tension;
   if (!of_muscles(record, m, at, "/muscle/", "/tension", tension)) return {};
   std::vector<double> now(tension.size(), 0.0);
-  Column out(record.rows());
-  for (std::size_t i = 0; i < out.size(); ++i) {
+  Column out = record.new_column();
+  for (std::size_t i = 0; i < record.rows(); ++i) {
     for (std::size_t k = 0; k < now.size(); ++k)
       if (!tension[k].empty()) now[k] = tension[k][i];
-    out[i] =
-        robot::torque_of_muscles(m.robot, static_cast<int>(joint), angle_in(angle, at, i), now);
+    out.push_back(
+        robot::torque_of_muscles(m.robot, static_cast<int>(joint), angle_in(angle, at, i), now));
   }
   return out;
 }
@@ -115,17 +115,22 @@ Column true_joint_stiffness(const Record& record, const Machine& m, std::size_t 
       !of_muscles(record, m, at, "/true/muscle/", "/pressure", pressure) ||
       !of_muscles(record, m, at, "/true/muscle/", "/tension", tension))
     return {};
-  Column sum(record.rows(), 0.0);
-  for (std::size_t k = 0; k < length.size(); ++k) {
-    if (length[k].empty()) continue;
-    const robot::Muscle& muscle = m.robot.muscles[k];
-    const actuator::Actuator a = robot::actuator_of(muscle, m.actuators);
-    for (std::size_t i = 0; i < sum.size(); ++i)
-      sum[i] += joint_stiffness(
+  std::vector<actuator::Actuator> actuators;
+  for (const robot::Muscle& muscle : m.robot.muscles)
+    actuators.push_back(robot::actuator_of(muscle, m.actuators));
+  Column out = record.new_column();
+  for (std::size_t i = 0; i < record.rows(); ++i) {
+    double sum = 0;
+    for (std::size_t k = 0; k < length.size(); ++k) {
+      if (length[k].empty()) continue;
+      const robot::Muscle& muscle = m.robot.muscles[k];
+      sum += joint_stiffness(
           robot::pull_at(muscle, at, angle_in(angle, at, i)), muscle.count,
-          true_stiffness(a, length[k][i], pressure[k][i], m.atmosphere, tension[k][i]));
+          true_stiffness(actuators[k], length[k][i], pressure[k][i], m.atmosphere, tension[k][i]));
+    }
+    out.push_back(sum);
   }
-  return sum;
+  return out;
 }
 
 void add_joint(Series& out, const Record& record, const Machine& m, std::size_t joint) {
@@ -176,45 +181,35 @@ void add_leg(Series& out, const Record& record, const Machine& m) {
              rowwise(record, y(force), hip, knee, t1, t2));
 }
 
-// The rows in which the friction force of [75] counts.
-std::vector<bool> stance_rows(const Record& record) {
-  std::vector<bool> out(record.rows());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = record.stance()[i] > 0;
-  return out;
-}
-
-// The same and on into the swing while the normal force of [75] goes on pushing.
-std::vector<bool> loaded_rows(const Record& record, const Column& normal) {
-  std::vector<bool> out(record.rows());
-  bool loaded = true;  // a leg that starts on the ground
-  for (std::size_t i = record.first_row(); i <= record.last_row(); ++i) {
-    loaded = record.stance()[i] > 0 || (loaded && normal[i] > 0);
-    out[i] = loaded;
-  }
-  return out;
-}
-
 // The trolley is pushed by the friction forces of [75], as long as they count.
 struct Pushes {
   Column by_plan, loaded;  // [N]
 };
 
-void add_push(Column& sum, const Column& push, const std::vector<bool>& counts) {
-  const bool first = sum.empty();
-  if (first) sum = push;
+// Adds the push in those rows in which it counts, asked for in their order.
+template <class Counts>
+void add_push(const Record& record, Column& sum, const Column& push, Counts counts) {
+  Column out = record.new_column();
   for (std::size_t i = 0; i < push.size(); ++i) {
-    const double now = counts[i] ? push[i] : 0.0;
-    sum[i] = first ? now : sum[i] + now;
+    const double now = counts(i) ? push[i] : 0.0;
+    out.push_back(sum.empty() ? now : sum[i] + now);
   }
+  sum = std::move(out);
 }
 
 // 6.3: the friction force in stance, nothing but drag otherwise; of several legs the sum.
 void add_pushes(const Series& of_leg, const Record& record, Pushes& sum) {
-  const std::vector<double>* x = of_leg.column("/foot/force", "x");
-  const std::vector<double>* y = of_leg.column("/foot/force", "y");
+  const Column* x = of_leg.column("/foot/force", "x");
+  const Column* normal = of_leg.column("/foot/force", "y");
   if (!x || !record.has_sequence()) return;
-  add_push(sum.by_plan, *x, stance_rows(record));
-  add_push(sum.loaded, *x, loaded_rows(record, *y));
+  add_push(record, sum.by_plan, *x, [&](std::size_t i) { return record.stance()[i] > 0; });
+  // And on into the swing while the normal force of [75] goes on pushing.
+  bool loaded = true;  // a leg that starts on the ground
+  add_push(record, sum.loaded, *x, [&](std::size_t i) {
+    if (i < record.first_row() || i > record.last_row()) return false;
+    loaded = record.stance()[i] > 0 || (loaded && (*normal)[i] > 0);
+    return loaded;
+  });
 }
 
 void add_motion(Series& out, const Record& record, const robot::Trolley& trolley,
@@ -242,7 +237,10 @@ void add_slip(Series& out, const Record& record, const Machine& m) {
     rate[j] = record.column(at + "/velocity");
   }
   Column trolley = record.column("/true/trolley/velocity");
-  if (!m.robot.trolley.present) trolley.assign(record.rows(), 0.0);
+  if (!m.robot.trolley.present) {
+    trolley = record.new_column();
+    trolley.assign(record.rows(), 0.0);
+  }
   const robot::TwoLinks links = robot::two_links(m.robot);
   const auto slip = [&](std::size_t i) {
     return slip_velocity(links, {angle[0][i], angle[1][i]}, {rate[0][i], rate[1][i]},

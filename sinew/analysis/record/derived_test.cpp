@@ -84,7 +84,7 @@ TEST(Derived, LiftoffIsWhereTheNormalForceEnds) {
   // From 0.2 s of the swing on the tensions are equal: no force.
   for (signals::Series& s : log.table.series)
     if (s.topic.name.ends_with("tension"))
-      for (std::size_t i = 20; i < 40; ++i) s.columns[0][i] = 200;
+      for (std::size_t i = 20; i < 40; ++i) s.columns[0].set(i, 200);
   EXPECT_NEAR(derive(log.table, m).column("/trolley/velocity")->back(), (0.8 - 0.005) * a, 1e-9);
 }
 
@@ -98,8 +98,8 @@ TEST(Derived, ErrorGoesTheShorterWayRound) {
 TEST(Derived, SingularPosesAndMissingReadingsGiveNoForce) {
   test::Log log = standing({9, 25});
   for (signals::Series& s : log.table.series) {
-    if (s.topic.name == "/joint/knee/angle") s.columns[0][10] = 0;  // straight
-    if (s.topic.name == "/joint/hip/angle") s.columns[0][20] = std::nan("");
+    if (s.topic.name == "/joint/knee/angle") s.columns[0].set(10, 0);  // straight
+    if (s.topic.name == "/joint/hip/angle") s.columns[0].set(20, std::nan(""));
   }
   const signals::Table out = derive(log.table, walking_leg());
   const auto& y = *out.column("/foot/force", "y");

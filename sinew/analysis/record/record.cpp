@@ -9,16 +9,26 @@
 
 namespace sinew::analysis {
 
-Column held(const std::vector<std::int64_t>& times, const std::vector<double>& values,
-            const std::vector<std::int64_t>& at) {
+Column held(const signals::Times& times, const Column& values, const signals::Times& at) {
   if (times == at) return values;
-  Column out;
-  out.reserve(at.size());
+  Column out(at.file());
   std::size_t next = 0;
   for (const std::int64_t t : at) {
     while (next < times.size() && times[next] <= t) ++next;
     out.push_back(next > 0 ? values[next - 1] : std::numeric_limits<double>::quiet_NaN());
   }
+  return out;
+}
+
+template <class Wanted>
+Column Record::only(Wanted wanted) const {
+  Column out = new_column();
+  for (const Stretch& s : stretches_) {
+    while (out.size() < s.first) out.push_back(0);
+    const auto is_wanted = wanted(s);
+    for (std::size_t i = s.first; i < s.last; ++i) out.push_back(is_wanted(i) ? seconds_[i] : 0);
+  }
+  while (out.size() < rows()) out.push_back(0);
   return out;
 }
 
@@ -28,9 +38,10 @@ Record::Record(const signals::Table& table, const Machine& machine, const signal
   if (leg_.empty() && !machine.robot.legs.empty()) leg_ = machine.robot.legs.front().name;
   find_times();
   find_stretches();
-  sequence_ = only([](const Stretch&) { return true; });
-  stance_ = only([&](const Stretch& s) { return is_stance(machine, s.phase); });
-  swing_ = only([&](const Stretch& s) { return is_swing(machine, s.phase); });
+  const auto all_or_none = [](bool is) { return [is](std::size_t) { return is; }; };
+  sequence_ = only([&](const Stretch&) { return all_or_none(true); });
+  stance_ = only([&](const Stretch& s) { return all_or_none(is_stance(machine, s.phase)); });
+  swing_ = only([&](const Stretch& s) { return all_or_none(is_swing(machine, s.phase)); });
 }
 
 void Record::find_times() {
@@ -43,49 +54,54 @@ void Record::find_times() {
   time_ns_ = base->time_ns;
   const std::size_t n = time_ns_.size();
   last_ns_ = n > 1 ? time_ns_[n - 1] - time_ns_[n - 2] : std::llround(1e9 * period_);
-  for (std::size_t i = 0; i < n; ++i) seconds_.push_back(lasting(i, i));
-  if (n == 0) return;
-
-  std::vector<double> sorted = seconds_;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(n / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  period_ = *middle;
+  // Few differ, so that the median is counted out.
+  seconds_ = new_column();
+  std::map<double, std::size_t> of_length;
+  for (std::size_t i = 0; i < n; ++i) {
+    seconds_.push_back(lasting(i, i));
+    ++of_length[seconds_.back()];
+  }
+  std::size_t up_to = 0;
+  for (const auto& [length, count] : of_length) {
+    up_to += count;
+    period_ = length;
+    if (up_to > n / 2) break;
+  }
 }
 
 void Record::find_stretches() {
-  const Column phase = column("/plan/phase");
-  Column step = column("/plan/step");
-  if (step.empty()) step.assign(phase.size(), 0.0);
-
+  const Column phase = column("/plan/phase"), step = column("/plan/step");
+  stretches_ = signals::PagedVector<Stretch>(time_ns_.file());
+  Stretch now;
+  const auto end = [&] {
+    if (now.last > now.first) stretches_.push_back(now);
+    now = {};
+  };
   for (std::size_t i = 0; i < phase.size(); ++i) {
-    if (!(phase[i] >= 0) || !(step[i] >= 0)) continue;
-    const int p = static_cast<int>(phase[i]), s = static_cast<int>(step[i]);
-    const bool goes_on = !stretches_.empty() && stretches_.back().last == i &&
-                         stretches_.back().phase == p && stretches_.back().step == s;
-    if (!goes_on) stretches_.push_back({.phase = p, .step = s, .first = i, .last = i});
-    stretches_.back().last = i + 1;
-  }
-}
-
-std::vector<double> Record::only(const std::function<bool(const Stretch&)>& wanted) const {
-  std::vector<double> out(rows(), 0.0);
-  for (const Stretch& s : stretches_)
-    if (wanted(s))
-      for (std::size_t i = s.first; i < s.last; ++i) out[i] = seconds_[i];
-  return out;
-}
-
-std::vector<double> Record::part(int phase, double from, double to) const {
-  std::vector<double> out(rows(), 0.0);
-  for (const Stretch& s : stretches_) {
-    if (phase >= 0 && s.phase != phase) continue;
-    const double start = time(s.first), duration = lasting(s);
-    for (std::size_t i = s.first; i < s.last; ++i) {
-      const double progress = (time(i) - start) / duration;
-      if (progress >= from && progress < to) out[i] = seconds_[i];
+    const double its_step = step.empty() ? 0.0 : step[i];
+    if (!(phase[i] >= 0) || !(its_step >= 0)) {
+      end();
+      continue;
     }
+    const int p = static_cast<int>(phase[i]), s = static_cast<int>(its_step);
+    if (now.last == now.first || now.phase != p || now.step != s) {
+      end();
+      now = {.phase = p, .step = s, .first = i, .last = i};
+    }
+    now.last = i + 1;
   }
-  return out;
+  end();
+}
+
+Column Record::part(int phase, double from, double to) const {
+  return only([&](const Stretch& s) {
+    const bool is_it = phase < 0 || s.phase == phase;
+    const double start = time(s.first), duration = lasting(s);
+    return [=, this](std::size_t i) {
+      const double progress = (time(i) - start) / duration;
+      return is_it && progress >= from && progress < to;
+    };
+  });
 }
 
 // In one table.
@@ -116,10 +132,10 @@ Column Record::column(std::string_view topic, std::string_view field) const {
   return {};
 }
 
-const Stretch* Record::last_of(int phase) const {
-  for (auto s = stretches_.rbegin(); s != stretches_.rend(); ++s)
-    if (s->phase == phase) return &*s;
-  return nullptr;
+std::optional<Stretch> Record::last_of(int phase) const {
+  for (std::size_t i = stretches_.size(); i-- > 0;)
+    if (const Stretch s = stretches_[i]; s.phase == phase) return s;
+  return std::nullopt;
 }
 
 std::vector<int> Record::complete_steps() const {

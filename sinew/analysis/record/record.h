@@ -9,7 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +20,7 @@
 
 namespace sinew::analysis {
 
-using Column = std::vector<double>;  // a value per row; empty: the log has no such topic
+using signals::Column;  // a value per row; empty: the log has no such topic
 
 // One phase of one step: rows first .. last - 1.
 struct Stretch {
@@ -36,7 +36,7 @@ class Record {
          std::string leg = "");
 
   std::size_t rows() const { return seconds_.size(); }
-  const std::vector<std::int64_t>& time_ns() const { return time_ns_; }
+  const signals::Times& time_ns() const { return time_ns_; }
   double time(std::size_t row) const { return static_cast<double>(time_ns_[row]) / 1e9; }
   double end_of(std::size_t row) const { return static_cast<double>(end_ns(row)) / 1e9; }  // [s]
   // From the start of row `first` to the end of row `last`  [s].
@@ -51,16 +51,19 @@ class Record {
   Column column(std::string_view topic, std::string_view field = "value") const;
   const signals::Table& table() const { return *table_; }
 
-  // How long each row holds; 0 where it does not belong  [s].
-  const std::vector<double>& run() const { return seconds_; }
-  const std::vector<double>& sequence() const { return sequence_; }
-  const std::vector<double>& stance() const { return stance_; }
-  const std::vector<double>& swing() const { return swing_; }
-  // Rows of that phase (-1: any), with progress in [from, to) of its time.
-  std::vector<double> part(int phase, double from, double to) const;
+  // A column for a value per row, to be filled row by row: it goes where the log's own are.
+  Column new_column() const { return Column(time_ns_.file()); }
 
-  const std::vector<Stretch>& stretches() const { return stretches_; }
-  const Stretch* last_of(int phase) const;  // nullptr: the phase never was
+  // How long each row holds; 0 where it does not belong  [s].
+  const Column& run() const { return seconds_; }
+  const Column& sequence() const { return sequence_; }
+  const Column& stance() const { return stance_; }
+  const Column& swing() const { return swing_; }
+  // Rows of that phase (-1: any), with progress in [from, to) of its time.
+  Column part(int phase, double from, double to) const;
+
+  const signals::PagedVector<Stretch>& stretches() const { return stretches_; }
+  std::optional<Stretch> last_of(int phase) const;  // none: the phase never was
   bool has_sequence() const { return !stretches_.empty(); }
   std::size_t first_row() const { return stretches_.front().first; }
   std::size_t last_row() const { return stretches_.back().last - 1; }
@@ -81,21 +84,22 @@ class Record {
   const signals::Series* logged(std::string_view topic) const;  // in the log itself
   void find_times();
   void find_stretches();
-  std::vector<double> only(const std::function<bool(const Stretch&)>& wanted) const;
+  // How long each row holds for which a stretch is wanted; 0 for the others.
+  template <class Wanted>
+  Column only(Wanted wanted) const;  // wanted(stretch)(row)
 
   const signals::Table* table_;
   const signals::Table* more_;
   const Machine* machine_;
   std::string leg_;  // whose plan and foot are meant; empty: the machine's only one
-  std::vector<std::int64_t> time_ns_;
+  signals::Times time_ns_;
   std::int64_t last_ns_ = 0;  // how long the last row holds
-  std::vector<double> seconds_, sequence_, stance_, swing_;
+  Column seconds_, sequence_, stance_, swing_;
   double period_ = 0;
-  std::vector<Stretch> stretches_;
+  signals::PagedVector<Stretch> stretches_;
 };
 
 // Values at `at`, each held until the next one; not a number before the first.
-Column held(const std::vector<std::int64_t>& times, const std::vector<double>& values,
-            const std::vector<std::int64_t>& at);
+Column held(const signals::Times& times, const Column& values, const signals::Times& at);
 
 }  // namespace sinew::analysis

@@ -11,14 +11,20 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t half_tick = signals::tick_nanoseconds / 2;
 
-std::size_t within(const std::vector<std::int64_t>& times, std::int64_t from, std::int64_t to) {
+std::size_t within(const signals::Times& times, std::int64_t from, std::int64_t to) {
   const auto first = std::ranges::lower_bound(times, from);
   const auto last = std::ranges::upper_bound(times, to);
   return last > first ? static_cast<std::size_t>(last - first) : 0;
 }
 
+// None yet; they will stand where `like` does.
+Meetings meetings(Meeting how, Recording like) {
+  const signals::PageFile file = like.time_ns->file();
+  return {how, signals::Times(file), signals::Column(file)};
+}
+
 Meetings meet_together(Recording a, Recording b) {
-  Meetings out{Meeting::together, {}, {}};
+  Meetings out = meetings(Meeting::together, a);
   std::size_t i = 0, k = 0;
   while (i < a.time_ns->size() && k < b.time_ns->size()) {
     const std::int64_t ta = (*a.time_ns)[i], tb = (*b.time_ns)[k];
@@ -44,7 +50,7 @@ double straight_at(Recording from, std::int64_t t, std::size_t& k) {
 }
 
 Meetings meet_between(Recording sparse, Recording dense, double sign) {
-  Meetings out{Meeting::between, {}, {}};
+  Meetings out = meetings(Meeting::between, sparse);
   std::size_t k = 0;
   for (std::size_t i = 0; i < sparse.time_ns->size(); ++i) {
     const std::int64_t t = (*sparse.time_ns)[i];
@@ -137,20 +143,19 @@ Meetings meet(Recording a, Recording b) {
 
 Meetings meet_edges(Recording a, Recording b, std::int64_t from, std::int64_t to) {
   if (to <= from) return {};
-  std::vector<std::int64_t> times = {from};
-  for (const auto* of : {a.time_ns, b.time_ns})
-    for (const std::int64_t t : *of)
-      if (t > from && t < to) times.push_back(t);
-  std::ranges::sort(times);
-
-  Meetings out{Meeting::held, {}, {}};
+  Meetings out = meetings(Meeting::held, a);
   std::size_t i = 0, k = 0;
-  for (const std::int64_t t : times) {
+  for (std::int64_t t = from; t < to;) {
     const double d = held_at(b, t, k) - held_at(a, t, i);
-    // Of several edges at one time the last ones are in d already.
-    if (!out.time_ns.empty() && d == out.difference.back()) continue;
-    out.time_ns.push_back(t);
-    out.difference.push_back(d);
+    if (out.time_ns.empty() || d != out.difference.back()) {
+      out.time_ns.push_back(t);
+      out.difference.push_back(d);
+    }
+    // On to the next edge of either; those up to here are over.
+    const auto next = [&](Recording of, std::size_t over) {
+      return over < of.time_ns->size() ? (*of.time_ns)[over] : to;
+    };
+    t = std::min(next(a, i), next(b, k));
   }
   return out;
 }
@@ -203,8 +208,11 @@ std::vector<ChannelDifference> differences(const signals::Table& a, const signal
 }
 
 void shift(signals::Table& table, std::int64_t by) {
-  for (signals::Series& s : table.series)
-    for (std::int64_t& t : s.time_ns) t -= by;
+  for (signals::Series& s : table.series) {
+    signals::Times shifted(s.time_ns.file());
+    for (const std::int64_t t : s.time_ns) shifted.push_back(t - by);
+    s.time_ns = std::move(shifted);
+  }
 }
 
 std::vector<FigureRow> figures_beside(const std::vector<const Summary*>& summaries) {

@@ -32,14 +32,14 @@ std::string_view to_text(Meeting how);
 
 // A channel's samples, in ascending time; points into a table.
 struct Recording {
-  const std::vector<std::int64_t>* time_ns = nullptr;
-  const std::vector<double>* values = nullptr;
+  const signals::Times* time_ns = nullptr;
+  const signals::Column* values = nullptr;
 };
 
 struct Meetings {
   Meeting how = Meeting::never;
-  std::vector<std::int64_t> time_ns;  // of the first; of the sparser one where it is `between`
-  std::vector<double> difference;     // b - a
+  signals::Times time_ns;      // of the first; of the sparser one where it is `between`
+  signals::Column difference;  // b - a
 };
 
 Meetings meet(Recording a, Recording b);

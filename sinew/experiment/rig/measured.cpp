@@ -22,7 +22,7 @@ std::vector<const signals::Series*> counts_of(const Experiment& e, const signals
 }
 
 // The rows that are written down: the first at or after each instant.
-std::vector<std::size_t> rows_of(const Experiment& e, const std::vector<std::int64_t>& time_ns) {
+std::vector<std::size_t> rows_of(const Experiment& e, const signals::Times& time_ns) {
   const double period = e.measured.period > 0 ? e.measured.period : e.log.period;
   std::vector<std::size_t> out;
   std::size_t row = 0;
@@ -40,7 +40,7 @@ Notes notes(const Experiment& e, const signals::Table& table) {
   Notes out;
   const std::vector<const signals::Series*> counts = counts_of(e, table);
   if (counts.empty() || e.sweep.step > 0) return out;
-  const std::vector<std::int64_t>& time_ns = counts[0]->time_ns;
+  const signals::Times& time_ns = counts[0]->time_ns;
   const std::vector<std::size_t> rows = rows_of(e, time_ns);
   for (const std::size_t row : rows) out.time.push_back(static_cast<double>(time_ns[row]) * 1e-9);
   for (std::size_t s = 0; s < counts.size(); ++s) {

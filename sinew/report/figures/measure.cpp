@@ -133,9 +133,10 @@ double first_dip(const Trace& t, double from) {
 
 double amplitude(const Trace& t, double width) {
   if (t.x.size() < 3) return nothing;
+  const signals::Column y(t.y.begin(), t.y.end());
   const std::vector<double> seconds(t.x.size(), 1.0);
   const std::size_t half = analysis::half_window(width, t.x[1] - t.x[0]);
-  return std::sqrt(2.0) * analysis::rms(analysis::high_passed(t.y, half), seconds);
+  return std::sqrt(2.0) * analysis::rms(analysis::high_passed(y, half), seconds);
 }
 
 }  // namespace sinew::report

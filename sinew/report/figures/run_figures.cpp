@@ -108,7 +108,7 @@ Curve Maker::curve(const Line& line, const ShownUnit& unit, bool steps) const {
   return out;
 }
 
-double size_of(const std::vector<double>& values) {
+double size_of(const signals::Column& values) {
   double out = 0;
   for (const double v : values)
     if (std::isfinite(v)) out = std::max(out, std::fabs(v));

@@ -49,7 +49,7 @@ const Curve& labelled(const Figure& figure, const std::string& label) {
 
 TEST(RunFigures, ShowTheSamplesOfTheLogInTheirUnit) {
   const signals::Table table = logged();
-  const std::vector<double>& angle = *table.column("/joint/hip/angle");
+  const signals::Column& angle = *table.column("/joint/hip/angle");
   for (const auto& [units, scale] :
        {std::pair(UnitSystem::si, 1.0), std::pair(UnitSystem::thesis, 180 / M_PI)}) {
     const std::vector<Figure> list = figures(table, {.units = units});

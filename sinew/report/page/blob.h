@@ -4,6 +4,11 @@
 // every column its values as float32. Each of these arrays stands byte by byte: the lowest bytes of
 // all its numbers, then the next ones, since bytes of one rank are alike and shrink better. A time
 // between ticks is rounded to the next one.
+//
+// Of a clock with more samples than a screen can show the page gets two of every few: of a column
+// that is drawn as a line the least value and the greatest one, in the order in which they come, so
+// that no peak is lost; of one that belongs to a pose the values of the first sample and of the
+// middle one, so that a pose is one that was.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +16,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sinew/report/page/channels.h"
@@ -19,8 +25,15 @@ namespace sinew::report {
 
 class Blob {
  public:
+  static constexpr std::size_t most = 8192;  // samples of a clock
+
+  enum class As { line, pose };
+
   // Position of its column; that of the first time, where it was added before.
-  int add(const Samples& samples);
+  int add(const Samples& samples, As as = As::line);
+
+  // Samples that two stand for, of the clock with the most; 0 where all of them are there.
+  std::size_t thinned() const;
 
   struct Layout {
     std::vector<std::size_t> clocks;  // samples of each
@@ -30,15 +43,16 @@ class Blob {
   std::string base64() const;
 
  private:
-  int clock_of(const std::vector<std::int64_t>& time_ns);
+  int clock_of(const signals::Times& time_ns);
 
-  std::vector<const std::vector<std::int64_t>*> clocks_;
+  std::vector<const signals::Times*> clocks_;
   struct Column {
     int clock = 0;
-    const std::vector<double>* values = nullptr;
+    const signals::Column* values = nullptr;
+    As as = As::line;
   };
   std::vector<Column> columns_;
-  std::map<const void*, int> known_;  // columns by their values
+  std::map<std::pair<const void*, As>, int> known_;  // columns by their values
 };
 
 std::string to_base64(std::string_view bytes);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -66,8 +67,8 @@ Read read(const Blob& blob) {
 }
 
 struct Column {
-  std::vector<std::int64_t> time_ns;
-  std::vector<double> values;
+  signals::Times time_ns;
+  signals::Column values;
   Samples samples() const { return {&time_ns, &values, "m"}; }
 };
 
@@ -85,7 +86,7 @@ Column random_column(int seed, int count) {
 }
 
 TEST(Blob, ComesBackAsFloatsAtTicks) {
-  for (const int count : {0, 1, 2, 777, 20000}) {
+  for (const int count : {0, 1, 2, 777, 8187}) {
     const Column a = random_column(count + 1, count), b = random_column(count + 2, count + 5);
     Blob blob;
     ASSERT_EQ(blob.add(a.samples()), 0);
@@ -123,6 +124,51 @@ TEST(Blob, HoldsEveryColumnAndEveryClockOnce) {
   EXPECT_EQ(blob.add(a.samples()), 0);
   EXPECT_EQ(blob.layout().clocks, (std::vector<std::size_t>{100, 100}));
   EXPECT_EQ(blob.layout().columns, (std::vector<int>{0, 0, 1}));
+}
+
+// Every peak is there, no more than that, and no later than the share of the samples that it is of.
+TEST(Blob, OfALongRunKeepsTheExtremesOfALine) {
+  for (const int count : {8193, 8200, 100'000, 720'000}) {
+    Column c = random_column(count, count);
+    c.values.set(static_cast<std::size_t>(count) / 3, 1e9);
+    c.values.set(static_cast<std::size_t>(count) / 2, std::nan(""));
+    Blob blob;
+    blob.add(c.samples());
+    const Read back = read(blob);
+    ASSERT_LE(back.columns[0].size(), Blob::most) << count;
+    const std::size_t share = blob.thinned();
+    ASSERT_GT(share, 0u);
+    for (std::size_t k = 0; k < back.columns[0].size(); k += 2) {
+      const std::size_t from = k / 2 * share;
+      std::vector<double> part = c.values.slice(from, std::min(from + share, c.values.size()));
+      std::erase_if(part, [](double x) { return std::isnan(x); });
+      const auto [least, most] = std::ranges::minmax(part);
+      const auto [a, b] = std::minmax(back.columns[0][k], back.columns[0][k + 1]);
+      ASSERT_EQ(a, static_cast<float>(least));
+      ASSERT_EQ(b, static_cast<float>(most));
+      ASSERT_EQ(back.ticks[0][k] * 100000, c.time_ns[from]);
+    }
+  }
+}
+
+// A pose is one that was: all its columns are of one and the same sample.
+TEST(Blob, OfALongRunKeepsWholePoses) {
+  const Column x = random_column(3, 100'000);
+  Column y{x.time_ns, {}};
+  for (const double value : x.values) y.values.push_back(2 * static_cast<float>(value));
+  Blob blob;
+  const int line = blob.add(x.samples()), pose = blob.add(x.samples(), Blob::As::pose);
+  EXPECT_NE(line, pose);
+  const auto other = static_cast<std::size_t>(blob.add(y.samples(), Blob::As::pose));
+  const Read back = read(blob);
+  const std::vector<float>& a = back.columns[static_cast<std::size_t>(pose)];
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    ASSERT_EQ(back.columns[other][k], 2 * a[k]);
+    const auto row = std::ranges::lower_bound(x.time_ns, back.ticks[0][k] * 100000);
+    ASSERT_EQ(a[k],
+              static_cast<float>(x.values[static_cast<std::size_t>(row - x.time_ns.begin())]));
+  }
+  EXPECT_EQ(blob.layout().clocks.size(), 1u);
 }
 
 TEST(Base64, PadsAsRfc4648Does) {

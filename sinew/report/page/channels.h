@@ -20,8 +20,8 @@ struct Channel {
 
 // A channel's samples. Points into a table.
 struct Samples {
-  const std::vector<std::int64_t>* time_ns = nullptr;
-  const std::vector<double>* values = nullptr;
+  const signals::Times* time_ns = nullptr;
+  const signals::Column* values = nullptr;
   std::string unit;
 
   explicit operator bool() const { return values && !values->empty(); }

@@ -1,5 +1,7 @@
 #include "sinew/report/page/content.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -75,6 +77,22 @@ std::vector<analysis::Warning> how_it_ended(const Run& run) {
   return {{"the run was ended: " + run.ended, {}}};
 }
 
+// Returns what the page says where it cannot show all of a long run.
+std::vector<analysis::Warning> what_is_left_out(const Blob& blob, const Channels& channels,
+                                                std::size_t stretches) {
+  if (blob.thinned() == 0) return {};
+  std::size_t samples = 0;
+  for (const signals::Table* table : channels.tables())
+    for (const signals::Series& s : table->series)
+      if (!signals::is_of_valve(s.topic.name)) samples = std::max(samples, s.time_ns.size());
+  const double each = end_of(channels) * static_cast<double>(blob.thinned()) /
+                      static_cast<double>(std::max<std::size_t>(samples, 1));
+  return {{fmt::format("the run is longer than a page can show: of every {:.2g} s a line has its "
+                       "least and its greatest value, the drawing two instants{}; the log has all",
+                       each, stretches > most_stretches ? ", and phases are not marked" : ""),
+           {}}};
+}
+
 // Only whole runs are held against reported figures.
 bool whole(const Run& run) { return run.ended.empty() && run.table.complete; }
 
@@ -104,6 +122,8 @@ Content of_robot(const Run& run) {
   json.put("panels", to_json(panels(channels, machine.robot), columns));
   json.put("scene", to_json(scene_of_run, columns));
   std::vector<analysis::Warning> warnings = how_it_ended(run);
+  std::ranges::move(what_is_left_out(blob, channels, record.stretches().size()),
+                    std::back_inserter(warnings));
   std::ranges::move(analysis::cut_logs(run.table), std::back_inserter(warnings));
   std::ranges::move(analysis::warnings(run.table, machine), std::back_inserter(warnings));
   json.put("warnings", to_json(warnings));
@@ -133,6 +153,7 @@ Content of_stand(const Run& run) {
   json.put("stand", to_json(stand_of_run, columns));
   json.put("charts", to_json(stand_charts(channels, stand_of_run), columns));
   std::vector<analysis::Warning> warnings = how_it_ended(run);
+  std::ranges::move(what_is_left_out(blob, channels, 0), std::back_inserter(warnings));
   std::ranges::move(analysis::cut_logs(run.table), std::back_inserter(warnings));
   std::ranges::move(analysis::warnings(run.table, summary), std::back_inserter(warnings));
   json.put("warnings", to_json(warnings));

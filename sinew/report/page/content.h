@@ -22,20 +22,24 @@ class Columns {
   static constexpr int none = -1;
 
   Columns(const Channels& channels, Blob& blob) : channels_(channels), blob_(blob) {}
-  int of(const Channel& channel) {
+  int of(const Channel& channel, Blob::As as) {
     const Samples samples = channels_.find(channel);
     if (!samples) return none;
-    const int column = blob_.add(samples);
-    if (column == static_cast<int>(list_.size())) list_.push_back(channel);
+    const int column = blob_.add(samples, as);
+    if (column == static_cast<int>(list_.size())) list_.push_back({channel, as});
     return column;
   }
   // Of each column, by its number.
-  const std::vector<Channel>& list() const { return list_; }
+  struct Asked {
+    Channel channel;
+    Blob::As as = Blob::As::line;
+  };
+  const std::vector<Asked>& list() const { return list_; }
 
  private:
   const Channels& channels_;
   Blob& blob_;
-  std::vector<Channel> list_;
+  std::vector<Asked> list_;
 };
 
 // Each as JSON; a channel is the number of its column, or null.
@@ -49,6 +53,9 @@ std::string to_json(const std::vector<analysis::MachineFault>& faults, double en
 std::string to_json(const std::vector<analysis::Verdict>& verdicts);
 std::string to_json(const Blob::Layout& layout);
 std::string to_json(const std::string& text);
+// Without the stretches where there are more than a screen can show.
 std::string phases_of(const analysis::Record& record, const analysis::Machine& machine);
+
+inline constexpr std::size_t most_stretches = 4000;
 
 }  // namespace sinew::report

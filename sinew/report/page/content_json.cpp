@@ -15,8 +15,9 @@ std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-Json column_of(const Channel& channel, Columns& columns) {
-  const int column = columns.of(channel);
+// Of what is seen together with others of the same instant, unless it is said to be a line.
+Json column_of(const Channel& channel, Columns& columns, Blob::As as = Blob::As::pose) {
+  const int column = columns.of(channel, as);
   return column == Columns::none ? Json() : Json(column);
 }
 
@@ -148,7 +149,7 @@ std::string to_json(const std::vector<Panel>& panels, Columns& columns) {
     for (const Line& l : p.lines)
       lines.push_back({{"label", l.label},
                        {"topic", l.channel.topic},
-                       {"column", column_of(l.channel, columns)},
+                       {"column", column_of(l.channel, columns, Blob::As::line)},
                        {"color", l.color},
                        {"style", word(l.style)}});
     out.push_back(
@@ -228,11 +229,29 @@ std::string to_json(const std::vector<Parameter>& parameters) {
   return text_of(out);
 }
 
+namespace {
+
+// Those so near that no screen can tell them apart are one.
+std::vector<analysis::Span> shown(const std::vector<analysis::Span>& spans) {
+  constexpr std::size_t most = 2000;
+  if (spans.size() <= most) return spans;
+  const double apart = (spans.back().to - spans.front().from) / static_cast<double>(most);
+  std::vector<analysis::Span> out{spans.front()};
+  for (const analysis::Span& s : spans)
+    if (s.from - out.back().to > apart)
+      out.push_back(s);
+    else
+      out.back().to = s.to;
+  return out;
+}
+
+}  // namespace
+
 std::string to_json(const std::vector<analysis::Warning>& warnings) {
   Json out = Json::array();
   for (const analysis::Warning& w : warnings) {
     Json spans = Json::array();
-    for (const analysis::Span& s : w.spans) spans.push_back(Json::array({s.from, s.to}));
+    for (const analysis::Span& s : shown(w.spans)) spans.push_back(Json::array({s.from, s.to}));
     out.push_back({{"text", w.text}, {"spans", std::move(spans)}});
   }
   return text_of(out);
@@ -268,12 +287,15 @@ std::string to_json(const std::string& text) { return text_of(text); }
 
 std::string phases_of(const analysis::Record& record, const analysis::Machine& machine) {
   Json stretches = Json::array();
-  for (const analysis::Stretch& s : record.stretches())
+  const bool all = record.stretches().size() <= most_stretches;
+  for (std::size_t i = 0; all && i < record.stretches().size(); ++i) {
+    const analysis::Stretch s = record.stretches()[i];
     stretches.push_back({{"phase", s.phase},
                          {"step", s.step},
                          {"from", record.time(s.first)},
                          {"to", record.end_of(s.last - 1)},
                          {"stance", analysis::is_stance(machine, s.phase)}});
+  }
   return text_of({{"names", machine.phases}, {"stretches", std::move(stretches)}});
 }
 

@@ -37,7 +37,7 @@ class Prototype {
       poses_.push_back(std::move(angles));
     }
     for (const signals::Topic& topic : topics) {
-      Series s{topic, {}, std::vector<std::vector<double>>(topic.fields.size())};
+      Series s{topic, {}, std::vector<signals::Column>(topic.fields.size())};
       if (is_edge(topic))
         put(s, ++edges_, 0);
       else
@@ -120,7 +120,7 @@ Growing::Growing(const std::vector<signals::Topic>& topics, Of of)
   std::ranges::fill(layout.clocks, 0);
   head["samples"] = Json::parse(to_json(layout));
   head_ = head.dump();
-  channels_ = columns.list();
+  columns_ = columns.list();
 }
 
 Content Growing::content(const std::string& live) const {
@@ -132,12 +132,12 @@ Content Growing::content(const std::string& live) const {
 std::string Growing::piece(const Table& table) const {
   const Parts parts(table, machine_);
   Blob blob;
-  std::deque<std::vector<double>> no_values;  // each a place of its own: a column each
-  const std::vector<std::int64_t> no_times;
-  for (const Channel& channel : channels_) {
-    Samples samples = parts.channels.find(channel);
+  std::deque<signals::Column> no_values;  // each a place of its own: a column each
+  const signals::Times no_times;
+  for (const Columns::Asked& asked : columns_) {
+    Samples samples = parts.channels.find(asked.channel);
     if (!samples) samples = {&no_times, &no_values.emplace_back(), ""};
-    blob.add(samples);
+    blob.add(samples, asked.as);
   }
   return "{\"samples\":" + to_json(blob.layout()) + ",\"data\":\"" + blob.base64() +
          "\",\"phases\":" + phases_of(parts.record, machine_) + "}";

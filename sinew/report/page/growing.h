@@ -14,7 +14,7 @@
 
 #include "sinew/analysis/record/machine.h"
 #include "sinew/config/node.h"
-#include "sinew/report/page/channels.h"
+#include "sinew/report/page/content.h"
 #include "sinew/report/page/page.h"
 #include "sinew/signals/table.h"
 
@@ -47,8 +47,8 @@ class Growing {
 
   Of of_;
   analysis::Machine machine_;
-  std::string head_;               // JSON of the page
-  std::vector<Channel> channels_;  // of its columns
+  std::string head_;                     // JSON of the page
+  std::vector<Columns::Asked> columns_;  // of the page
 };
 
 // Whether a derived series needs no sample but its own.

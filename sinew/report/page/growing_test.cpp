@@ -39,7 +39,7 @@ Growing growing(const Table& table, bool foot_path = true) {
 Table part(const Table& all, std::int64_t from, std::int64_t to) {
   Table out;
   for (const signals::Series& s : all.series) {
-    signals::Series cut{s.topic, {}, std::vector<std::vector<double>>(s.columns.size())};
+    signals::Series cut{s.topic, {}, std::vector<signals::Column>(s.columns.size())};
     for (std::size_t i = 0; i < s.time_ns.size(); ++i) {
       if (s.time_ns[i] < from || s.time_ns[i] >= to) continue;
       cut.time_ns.push_back(s.time_ns[i]);

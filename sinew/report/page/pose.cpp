@@ -10,9 +10,14 @@ namespace {
 using analysis::Column;
 using analysis::Record;
 
+Column constant(double value, const Record& record) {
+  Column out = record.new_column();
+  out.assign(record.rows(), value);
+  return out;
+}
+
 Column or_zeros(Column values, const Record& record) {
-  if (values.empty()) values.assign(record.rows(), 0.0);
-  return values;
+  return values.empty() ? constant(0, record) : values;
 }
 
 Column first_of(const Record& record, std::initializer_list<const char*> topics) {
@@ -45,7 +50,7 @@ Poses poses(const analysis::Machine& machine, const Record& record) {
     if (!at.empty()) out.is_true = true;
     if (at.empty()) at = record.column(measured);
     any = any || !at.empty();
-    if (at.empty()) at.assign(record.rows(), joint.rest_angle);
+    if (at.empty()) at = constant(joint.rest_angle, record);
     angle.push_back(std::move(at));
   }
   if (!any) return {};

@@ -54,7 +54,7 @@ void add_frames(Maker& m) {
                           m.series("body/y", "m", m.poses.lift),
                           {}});
   const std::size_t n = std::min(m.robot().links.size(), m.robot().joints.size());
-  std::vector<Column> x(n), y(n), heading(n);
+  std::vector<Column> x(n, m.record.new_column()), y = x, heading = x;
   for (std::size_t row = 0; row < m.record.rows(); ++row) {
     const std::vector<double> angles = m.angles_at(row);
     const std::vector<robot::LinkPlace> places = robot::places(m.robot(), angles);
@@ -110,7 +110,7 @@ void add_cams(Maker& m) {
 Column lengths(const Maker& m, const robot::Muscle& muscle) {
   Column logged = m.record.column("/true/muscle/" + muscle.name + "/length");
   if (!logged.empty()) return logged;
-  Column out;
+  Column out = m.record.new_column();
   for (std::size_t row = 0; row < m.record.rows(); ++row)
     out.push_back(length_by_cams(m.robot(), muscle, m.angles_at(row)));
   return out;
@@ -180,7 +180,7 @@ void add_muscle(Maker& m, const robot::Muscle& muscle) {
   const std::string at = "/muscle/" + muscle.name + "/", valve = "/valve/" + muscle.name + "/";
   const actuator::Actuator a = robot::actuator_of(muscle, m.machine.actuators);
 
-  Column length = lengths(m, muscle), diameter;
+  Column length = lengths(m, muscle), diameter = m.record.new_column();
   MuscleShape shape{.name = muscle.name, .count = std::max(1, muscle.count)};
   for (const double l : length) {
     if (std::isfinite(l)) shape.longest = std::max(shape.longest, l);
@@ -255,7 +255,7 @@ Column contact(const Maker& m, const robot::Foot& foot, const std::string& leg,
   std::vector<Column> load;
   for (const robot::Foot::Point& p : foot.points)
     load.push_back(m.record.column(robot::topic_of_leg(leg, "/true/foot/" + p.name + "/load")));
-  Column out;
+  Column out = m.record.new_column();
   for (std::size_t row = 0; row < m.record.rows(); ++row) {
     double sum = 0, moment = 0, plain = 0;
     const std::vector<robot::LinkPlace> places = robot::places(m.robot(), m.angles_at(row));

@@ -158,7 +158,8 @@ TEST(Scene, DrawsEveryLeg) {
       if (of_body && leg == "right") continue;
       if (!of_body) s.topic.name = robot::topic_of_leg(leg, s.topic.name);
       if (leg == "right" && s.topic.name.ends_with("hip/angle"))
-        for (double& angle : s.columns[0]) angle += 0.3;
+        for (std::size_t i = 0; i < s.columns[0].size(); ++i)
+          s.columns[0].set(i, s.columns[0][i] + 0.3);
       table.series.push_back(std::move(s));
     }
   const Drawn d(m, table);

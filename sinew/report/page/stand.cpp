@@ -12,7 +12,7 @@
 namespace sinew::report {
 namespace {
 
-using Column = std::vector<double>;
+using signals::Column;
 
 // What of the stand's file the drawing needs beside StandFile.
 struct Point {
@@ -151,7 +151,7 @@ class Maker {
     out_.turns = a.braid.turns;
     out_.shortest = actuator::shortest_length(a.braid);
     out_.longest = a.long_end.length;
-    Column diameter;
+    Column diameter(length_.values->file());
     for (const double l : *length_.values) diameter.push_back(actuator::diameter(a.braid, l));
     out_.diameter = draw("stand/diameter", "m", length_, std::move(diameter));
   }
@@ -172,7 +172,7 @@ class Maker {
   Channel absolute(const Channel& pressure) {
     if (!pressure.topic.starts_with("/sensor/")) return pressure;
     const Samples read = channels_.find(pressure);
-    Column values;
+    Column values(read.values->file());
     for (const double p : *read.values) values.push_back(p + stand_.atmosphere);
     return draw("stand/pressure", "Pa", read, std::move(values));
   }
@@ -186,7 +186,7 @@ class Maker {
       if (file_.lengths.empty()) out_.load = Stand::Load::clamped;
       return;
     }
-    Column weight;
+    Column weight(length_.time_ns->file());
     for (const std::int64_t ns : *length_.time_ns) weight.push_back(pull(1e-9 * double(ns)));
     out_.heaviest = std::ranges::max(weight);
     out_.weight_step = smallest_step();

@@ -29,9 +29,9 @@ void add_sweep(const Channels& channels, const std::string& title, const std::st
                const std::string& unit, std::vector<Chart>& out) {
   const Samples duty = channels.find({"/sweep/duty"}), values = channels.find({what});
   if (!duty || !values) return;
-  ChartCurve line{.label = "settled", .x = *duty.values, .y = *values.values};
-  ChartCurve points{
-      .label = "", .style = ChartCurve::Style::points, .x = *duty.values, .y = *values.values};
+  ChartCurve line{
+      .label = "settled", .x = duty.values->in_memory(), .y = values.values->in_memory()};
+  ChartCurve points{.label = "", .style = ChartCurve::Style::points, .x = line.x, .y = line.y};
   out.push_back({title, {"delivered duty", "share"}, {title, unit}, {line, points}, ""});
 }
 

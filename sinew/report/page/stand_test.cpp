@@ -38,7 +38,7 @@ struct Drawn {
     stand = report::stand(channels, resolved, file, drawn);
     channels.add(drawn);
   }
-  const std::vector<double>& values(const Channel& c) const { return *channels.find(c).values; }
+  const signals::Column& values(const Channel& c) const { return *channels.find(c).values; }
 };
 
 // 60 s at 10 ms, the length goes up and down.
@@ -53,7 +53,7 @@ analysis::test::Log hanging() {
 TEST(Stand, SwellsTheActuatorAsTheBraidDoes) {
   const Drawn d("weights-60.toml", hanging());
   const actuator::Braid braid{.thread_length = 4.218 * 0.0254, .turns = 2.3125};
-  const std::vector<double>& length = d.values(d.stand.length);
+  const signals::Column& length = d.values(d.stand.length);
   for (std::size_t i = 0; i < length.size(); i += 97)
     EXPECT_NEAR(d.values(d.stand.diameter)[i], actuator::diameter(braid, length[i]), 1e-6);
   EXPECT_NEAR(d.stand.shortest, actuator::shortest_length(braid), 1e-6);
@@ -65,7 +65,7 @@ TEST(Stand, SwellsTheActuatorAsTheBraidDoes) {
 // A hook of 0.1 lb; 1 lb more from second 1 to 2 of every two, up to 15 lb.
 TEST(Stand, HangsWhatTheFileHangs) {
   const Drawn d("weights-60.toml", hanging());
-  const std::vector<double>& weight = d.values(d.stand.weight);
+  const signals::Column& weight = d.values(d.stand.weight);
   for (const auto& [seconds, pounds] : std::map<double, double>{
            {0, 0}, {0.5, 0}, {1, 0.5}, {2, 1}, {3, 1.5}, {30, 15}, {31, 14.5}, {59.9, 0}})
     EXPECT_NEAR(weight[static_cast<std::size_t>(std::lround(100 * seconds))],
@@ -78,7 +78,7 @@ TEST(Stand, HangsWhatTheFileHangs) {
 TEST(Stand, TakesWeightsFromTheirInstantsOn) {
   const Drawn d("trapped-60-6.toml", hanging(),
                 {"load.weights=[{at=\"0 s\",mass=\"2 kg\"},{at=\"5 s\",mass=\"3 kg\"}]"});
-  const std::vector<double>& weight = d.values(d.stand.weight);
+  const signals::Column& weight = d.values(d.stand.weight);
   EXPECT_NEAR(weight[499], 2 * 9.80665, 1e-9);
   EXPECT_NEAR(weight[500], 3 * 9.80665, 1e-9);
   EXPECT_NEAR(d.stand.weight_step, 9.80665, 1e-9);

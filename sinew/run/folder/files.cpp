@@ -35,10 +35,14 @@ void refuse_to_overwrite(const fs::path& file, bool force, const std::vector<fs:
   refuse(file, "a file", "a name that is free", "another one, or force=true to replace it");
 }
 
-void write_file(const fs::path& file, std::string_view text, log::Replacement::Sync sync) {
+void require_folder_of(const fs::path& file) {
   const fs::path folder = file.parent_path();
   if (!folder.empty() && !fs::is_directory(folder))
     refuse(file, "no folder " + folder.string(), "one that exists", "mkdir -p " + folder.string());
+}
+
+void write_file(const fs::path& file, std::string_view text, log::Replacement::Sync sync) {
+  require_folder_of(file);
   std::fflush(stdout);  // it may be /dev/stdout
   log::Replacement out(file, sync);
   out.write(text);

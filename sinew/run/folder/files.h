@@ -17,6 +17,9 @@ void refuse_to_overwrite(const std::filesystem::path& file, bool force,
                          const std::vector<std::filesystem::path>& inputs = {},
                          std::string_view own = "");
 
+// Throws config::Error where the folder that the file is to stand in is missing.
+void require_folder_of(const std::filesystem::path& file);
+
 // Takes the place of an older file when it is whole. Throws config::Error or log::Error; then the
 // older one stands.
 void write_file(const std::filesystem::path& file, std::string_view text,

@@ -21,11 +21,6 @@ experiment::Experiment load(const RunRequest& request, const Notices& notices) {
   return e;
 }
 
-// As `analyze` will read it: so both come to the same bits.
-analysis::Machine machine_in(const std::string& resolved) {
-  return analysis::read_machine(config::parse_text(resolved, std::string(resolved_name)));
-}
-
 std::string summary_json(const analysis::Summary& summary, const experiment::Experiment& e,
                          const run::Outcome& outcome) {
   const double factor = outcome.wall > 0 ? outcome.duration / outcome.wall : 0;
@@ -39,12 +34,18 @@ KeptRun::KeptRun(RunRequest request, Notices notices)
     : request_(std::move(request)),
       notices_(std::move(notices)),
       experiment_(load(request_, notices_)),
-      resolved_(experiment::resolved(experiment_, SINEW_VERSION)),
       logged_(run::logged_topics(experiment_)) {
+  resolve();
   folder_.emplace(run_folder(request_.folder, request_.force, experiment_.name));
   if (!experiment_.log.enabled) return;
   write_into(*folder_, resolved_name, resolved_);
   log_.emplace(folder_->work() / log_name, experiment_.name, experiment_.seed, resolved_, logged_);
+}
+
+// The figures are made of what `analyze` will read, so that both come to the same bits.
+void KeptRun::resolve() {
+  resolved_ = experiment::resolved(experiment_, SINEW_VERSION);
+  values_ = config::parse_text(resolved_, std::string(resolved_name));
 }
 
 // A change that was steered is a part of what was run, with where it comes from.
@@ -60,7 +61,7 @@ void KeptRun::finish_log(const run::Outcome& outcome) {
     for (const char* key : {"time", "value"})
       experiment_.origins.push_back(
           {.path = fmt::format("change[{}].{}", i, key), .source = "set while it ran"});
-  resolved_ = experiment::resolved(experiment_, SINEW_VERSION);
+  resolve();
   if (!log_) return;
   write_into(*folder_, resolved_name, resolved_);
   log_->finish(resolved_, ended);
@@ -69,7 +70,8 @@ void KeptRun::finish_log(const run::Outcome& outcome) {
 // Who the supervisor did not believe: no other figures of a run that was not finished.
 void KeptRun::keep_trip(const run::Outcome& outcome) {
   if (outcome.supervised.trip.cause == control::Trip::Cause::none) return;
-  const analysis::Summary summary = analysis::summarize_trip(outcome.table, machine_in(resolved_));
+  const analysis::Summary summary =
+      analysis::summarize_trip(outcome.table, analysis::read_machine(values_));
   write_into(*folder_, summary_name, summary_json(summary, experiment_, outcome));
 }
 
@@ -93,8 +95,8 @@ Kept<analysis::Machine> KeptRun::keep_files(run::Outcome& outcome, analysis::Mac
   kept.json = summary_json(kept.summary, experiment_, outcome);
   write_into(*folder_, summary_name, kept.json);
   if (log_ && request_.report)
-    kept.page = write_report(*folder_, run::logged_part(std::move(outcome.table), logged_),
-                             resolved_, experiment_.name, notices_);
+    kept.page = write_report(*folder_, run::logged_part(std::move(outcome.table), logged_), values_,
+                             experiment_.name, notices_);
   commit_run(*folder_);
   kept.machine = std::move(machine);
   return kept;
@@ -109,7 +111,7 @@ void KeptRun::warn(const std::vector<std::string>& of_the_log, const run::Outcom
 Kept<analysis::Machine> KeptRun::keep(run::Outcome outcome) try {
   if (outcome.stopped) break_off(outcome);
   finish_log(outcome);
-  analysis::Machine machine = machine_in(resolved_);
+  analysis::Machine machine = analysis::read_machine(values_);
   if (outcome.ended_early()) {
     warn(analysis::texts(analysis::warnings(outcome.table, machine)), outcome);
     keep_trip(outcome);
@@ -130,7 +132,8 @@ Kept<analysis::Machine> run_and_keep(RunRequest request, Notices notices) {
 Kept<analysis::Machine> keep_table(const signals::Table& table, const experiment::Experiment& e,
                                    const RunRequest& where, const Notices& notices) {
   const std::string resolved = experiment::resolved(e, SINEW_VERSION);
-  Kept<analysis::Machine> kept{.machine = machine_in(resolved)};
+  const config::Node values = config::parse_text(resolved, std::string(resolved_name));
+  Kept<analysis::Machine> kept{.machine = analysis::read_machine(values)};
   kept.summary = analysis::summarize(table, kept.machine);
   kept.json = to_json(kept.summary);
 
@@ -141,7 +144,7 @@ Kept<analysis::Machine> keep_table(const signals::Table& table, const experiment
   log.write(table);
   log.finish(resolved, "");
   write_into(folder, summary_name, kept.json);
-  kept.page = write_report(folder, table, resolved, e.name, notices);
+  kept.page = write_report(folder, table, values, e.name, notices);
   commit_run(folder);
   return kept;
 }

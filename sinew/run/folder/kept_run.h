@@ -9,6 +9,7 @@
 
 #include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/summary.h"
+#include "sinew/config/node.h"
 #include "sinew/run/folder/notices.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/run_log.h"
@@ -47,6 +48,7 @@ class KeptRun {
 
   const experiment::Experiment& experiment() const { return experiment_; }
   const std::string& resolved() const { return resolved_; }  // the text of resolved.toml
+  const config::Node& values() const { return values_; }     // what it says
   const std::filesystem::path& folder() const { return folder_->path(); }
   RunLog* log() { return log_ ? &*log_ : nullptr; }  // nullptr where the experiment wants none
 
@@ -56,6 +58,7 @@ class KeptRun {
   Kept<analysis::Machine> keep(run::Outcome outcome);
 
  private:
+  void resolve();
   void finish_log(const run::Outcome& outcome);
   [[noreturn]] void break_off(const run::Outcome& outcome);
   Kept<analysis::Machine> keep_files(run::Outcome& outcome, analysis::Machine machine);
@@ -66,6 +69,7 @@ class KeptRun {
   Notices notices_;
   experiment::Experiment experiment_;
   std::string resolved_;
+  config::Node values_;  // what resolved_ says, as `sinew analyze` will read it
   LoggedTopics logged_;
   std::optional<OutputFolder> folder_;
   std::optional<RunLog> log_;

@@ -15,6 +15,7 @@ namespace {
 // The texts and channels that go into the folder of a stand's run, beside the experiment itself.
 struct What {
   const std::string& resolved;
+  const config::Node& values;  // what it says
   const analysis::StandFile& stand;
   run::LoggedTopics logged;
 };
@@ -49,7 +50,7 @@ Kept<analysis::StandFile> keep(const rig::Experiment& e, const What& what, Outpu
   for (const std::string& text : kept.summary.warnings) notices.warning(text);
   if (e.log.enabled && report)
     kept.page = write_report(folder, run::logged_part(std::move(outcome.table), what.logged),
-                             what.resolved, e.name, notices);
+                             what.values, e.name, notices);
   commit_run(folder);
   return kept;
 }
@@ -61,11 +62,12 @@ Kept<analysis::StandFile> run_on_stand(const RunRequest& request, const Notices&
   for (const config::Problem& warning : e.warnings) notices.warning(config::to_text(warning));
   const std::string resolved = rig::resolved(e, SINEW_VERSION);
   // As `analyze` will read it: so both come to the same bits.
-  const analysis::StandFile stand =
-      analysis::read_stand(config::parse_text(resolved, std::string(resolved_name)));
+  const config::Node values = config::parse_text(resolved, std::string(resolved_name));
+  const analysis::StandFile stand = analysis::read_stand(values);
   OutputFolder folder = run_folder(request.folder, request.force, e.name);
   try {
-    return keep(e, {resolved, stand, rig::logged_topics(e)}, folder, request.report, notices);
+    return keep(e, {resolved, values, stand, rig::logged_topics(e)}, folder, request.report,
+                notices);
   } catch (const std::exception& problem) {
     throw std::runtime_error(problem.what() + where_left(folder));
   }

@@ -110,7 +110,9 @@ std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& e
   tell(seen.missed, "tick", "ticks",
        "came late by more than a tick: this machine cannot keep the pace that finely");
   if (!outcome.table.complete)
-    out.emplace_back("more valve edges than there was room for; the table lacks the last ones");
+    out.push_back(outcome.no_room.empty()
+                      ? "more valve edges than there was room for; the table lacks the last ones"
+                      : outcome.no_room + "; the figures are those up to there");
   return out;
 }
 

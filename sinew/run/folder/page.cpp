@@ -18,12 +18,11 @@ std::string page_of(const RecordedRun& run, const std::string& machine, bool* cu
 }
 
 bool write_report(const OutputFolder& folder, const signals::Table& logged,
-                  const std::string& resolved, const std::string& name, const Notices& notices) {
+                  const config::Node& values, const std::string& name, const Notices& notices) {
   if (!report::has_page()) {
     notices.note("no report.html: this sinew was built without npm; docs/dependencies.md");
     return false;
   }
-  const config::Node values = config::parse_text(resolved, std::string(resolved_name));
   write_into(folder, report_name,
              report::page({.table = logged, .resolved = values, .name = name}));
   return true;

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "sinew/config/node.h"
 #include "sinew/run/folder/notices.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/signals/table.h"
@@ -13,10 +14,10 @@ namespace sinew::run {
 inline constexpr std::string_view report_name = "report.html";
 
 // Writes the page of a run of that name beside its log, of what the log holds: the same bytes as
-// page_of() makes of the folder. `resolved`: the text of resolved.toml. Returns false, with a note
-// and no file, where the library was built without its page. Throws log::Error.
+// page_of() makes of the folder. `values`: what resolved.toml says. Returns false, with a note and
+// no file, where the library was built without its page. Throws log::Error.
 bool write_report(const OutputFolder& folder, const signals::Table& logged,
-                  const std::string& resolved, const std::string& name, const Notices& notices);
+                  const config::Node& values, const std::string& name, const Notices& notices);
 
 // Returns the page of a recorded run, by `machine` where it is not empty, else by its
 // resolved.toml. Throws where there is no such run, or no page in the library; `cut` says whether

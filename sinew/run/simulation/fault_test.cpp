@@ -267,7 +267,7 @@ TEST(AirFault, IsInTheLogWithTheAirsBalance) {
   EXPECT_EQ(table.find("/true/sensor/lever_angle/fault"), nullptr);
 
   const auto gained = [&](const std::string& topic) {
-    const std::vector<double> c = column(topic.c_str());
+    const signals::Column c = column(topic.c_str());
     return c.back() - c.front();
   };
   double in = 0, out = 0;

@@ -64,22 +64,25 @@ signals::Table logged_part(signals::Table&& table, const LoggedTopics& logged) {
 
 void write(log::Writer& log, const signals::Table& table, const LoggedTopics& logged) {
   refuse_other_topics(table, logged);
-  struct At {
-    std::int64_t time_ns;
-    std::size_t series, sample;
-  };
-  std::vector<At> all;
-  for (std::size_t s = 0; s < table.series.size(); ++s)
-    for (std::size_t i = 0; logged.of_series[s] != not_tapped && i < table.series[s].time_ns.size();
-         ++i)
-      all.push_back({table.series[s].time_ns[i], s, i});
-  std::ranges::stable_sort(all, {}, &At::time_ns);
-
+  std::vector<std::size_t> next(table.series.size(), 0);  // sample of each series
   std::vector<double> values;
-  for (const At& at : all) {
+  for (;;) {
+    // The earliest; of those at one time the first series' samples.
+    std::int64_t now = 0;
+    std::size_t of = next.size();
+    for (std::size_t s = 0; s < next.size(); ++s) {
+      const signals::Times& times = table.series[s].time_ns;
+      if (logged.of_series[s] == not_tapped || next[s] == times.size()) continue;
+      if (of < next.size() && times[next[s]] >= now) continue;
+      now = times[next[s]];
+      of = s;
+    }
+    if (of == next.size()) return;
     values.clear();
-    for (const auto& column : table.series[at.series].columns) values.push_back(column[at.sample]);
-    log.push(logged.of_series[at.series], at.time_ns, values);
+    for (const signals::Column& column : table.series[of].columns)
+      values.push_back(column[next[of]]);
+    log.push(logged.of_series[of], now, values);
+    ++next[of];
   }
 }
 

@@ -15,6 +15,13 @@ double logged(const signals::Edge& edge) noexcept {
   return edge.open ? 1.0 : 0.0;
 }
 
+template <class Samples>
+Samples room(const signals::PageFile& pages, std::size_t most) {
+  Samples out(pages);
+  out.reserve(most);
+  return out;
+}
+
 }  // namespace
 
 Recorder::Recorder(const experiment::Experiment& e, const Boards& spine,
@@ -30,14 +37,21 @@ Recorder::Recorder(const experiment::Experiment& e, const Boards& spine,
   columns_ = columns(e);
   topics_ = topics(e);
   first_edge_ = columns_.size();
+  std::size_t width = 0;  // numbers in a row
   for (const Column& c : columns_)
-    if (truth_ || !c.of_truth()) width_ += c.topic.fields.size();
+    if (truth_ || !c.of_truth()) width += c.topic.fields.size();
 
   // Room for everything that can come: samples, and four edges per valve and period.
   const auto samples = static_cast<std::size_t>(end / period_ + 2);
-  rows_.reserve(samples * width_);
-  row_time_ns_.reserve(samples);
-  edges_.reserve(4 * (topics_.size() - first_edge_) * static_cast<std::size_t>(end / scan + 2));
+  const auto edges = 4 * static_cast<std::size_t>(end / scan + 2);
+  if (samples > signals::Column::page_size || edges > signals::Column::page_size) {
+    pages_ = signals::PageFile::make();
+    if (!pages_.open(0)) pages_ = {};  // then memory has to hold all of it
+  }
+  row_time_ns_ = room<signals::Times>(pages_, samples);
+  for (std::size_t i = 0; i < width; ++i) values_.push_back(room<signals::Column>(pages_, samples));
+  for (std::size_t i = first_edge_; i < topics_.size(); ++i)
+    edges_.push_back({room<signals::Times>(pages_, edges), room<signals::Column>(pages_, edges)});
 }
 
 void Recorder::command(Tick t) noexcept {
@@ -46,45 +60,51 @@ void Recorder::command(Tick t) noexcept {
 
 // The numbers of the topic at the cursor.
 void Recorder::put(std::span<const double> values) noexcept {
-  rows_.insert(rows_.end(), values.begin(), values.end());
+  for (const double value : values) keep(values_[number_++], value);
   if (tap_.push && tapped_[cursor_] != not_tapped)
     tap_.push(tap_.object, tapped_[cursor_], now_ns_, values);
   ++cursor_;
 }
 
 void Recorder::edge(const signals::Edge& edge) noexcept {
-  if (edges_.size() == edges_.capacity()) {
-    complete_ = false;
-    return;
-  }
-  edges_.push_back(edge);
-  const std::size_t topic = first_edge_ + edge.valve.index;
   const double value = logged(edge);
+  const std::size_t topic = first_edge_ + edge.valve.index;
+  Edges& of_valve = edges_[edge.valve.index];
+  keep(of_valve.time_ns, edge.at * signals::tick_nanoseconds);
+  keep(of_valve.values, value);
   if (tap_.push && tapped_[topic] != not_tapped)
     tap_.push(tap_.object, tapped_[topic], edge.at * signals::tick_nanoseconds, {&value, 1});
 }
 
+// Where the room ended within a row, or an edge, what came of it goes.
+void Recorder::leave_out_parts() {
+  std::size_t rows = row_time_ns_.size();
+  for (const signals::Column& values : values_) rows = std::min(rows, values.size());
+  const auto cut = [](auto& samples, std::size_t size) {
+    while (samples.size() > size) samples.pop_back();
+  };
+  cut(row_time_ns_, rows);
+  for (signals::Column& values : values_) cut(values, rows);
+  for (Edges& of_valve : edges_) cut(of_valve.time_ns, of_valve.values.size());
+}
+
 signals::Table Recorder::take() {
+  if (!complete_) leave_out_parts();
   signals::Table table;
   table.complete = complete_;
   std::size_t column = 0;  // of a row
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     signals::Series s{std::move(topics_[i]), {}, {}};
     s.columns.resize(s.topic.fields.size());
-    if (i < first_edge_ && column < width_) {
+    if (i >= first_edge_) {
+      Edges& of_valve = edges_[i - first_edge_];
+      s.time_ns = std::move(of_valve.time_ns);
+      s.columns[0] = std::move(of_valve.values);
+    } else if (column < values_.size()) {
       s.time_ns = row_time_ns_;
-      for (std::vector<double>& values : s.columns) {
-        values.reserve(row_time_ns_.size());
-        for (std::size_t at = column; at < rows_.size(); at += width_) values.push_back(rows_[at]);
-        ++column;
-      }
+      for (signals::Column& values : s.columns) values = std::move(values_[column++]);
     }
     table.series.push_back(std::move(s));
-  }
-  for (const signals::Edge& edge : edges_) {
-    signals::Series& s = table.series[first_edge_ + edge.valve.index];
-    s.time_ns.push_back(edge.at * signals::tick_nanoseconds);
-    s.columns[0].push_back(logged(edge));
   }
   return table;
 }
@@ -92,13 +112,9 @@ signals::Table Recorder::take() {
 void Recorder::sample(Tick t) noexcept {
   if (t < next_) return;
   next_ += period_;
-  if (rows_.capacity() - rows_.size() < width_) {
-    complete_ = false;
-    return;
-  }
-  row_time_ns_.push_back(t * signals::tick_nanoseconds);
   now_ns_ = t * signals::tick_nanoseconds;
-  cursor_ = 0;
+  keep(row_time_ns_, now_ns_);
+  cursor_ = number_ = 0;
   const MachineSeen seen = spine_.seen();
   const gait::MachineMeasured measured = high_.believe(seen);
   plant::Truth truth;

@@ -1,15 +1,18 @@
 // run/simulation/recorder.h - watches a run and fills the channel table.
 //
 // One sample of everything per period, right after the last law has run (or every log period, where
-// that is shorter or longer), and each valve edge by itself. The table is reserved before the run;
-// while it goes, recording is noexcept and allocates nothing. What is recorded can be passed on to
-// a log as it comes (Tap). Looking never changes the run: the world is peeked.
+// that is shorter or longer), and each valve edge by itself. Memory is reserved before the run and
+// does not depend on its duration: what is more than a page per column goes to a temporary file
+// (signals/paged_vector.h). While it goes, recording is noexcept and allocates nothing. What is
+// recorded can be passed on to a log as it comes (Tap). Looking never changes the run: the world is
+// peeked.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
@@ -48,8 +51,10 @@ class Recorder {
   void sample(signals::Tick t) noexcept;
   signals::Tick next(signals::Tick) const noexcept { return next_; }
 
-  // What was recorded, as series. Once, after the run.
+  // What was recorded, as series. Once, after the run. The table is not complete where there was no
+  // more room for it: problem() then says what to do.
   signals::Table take();
+  std::string problem() const { return complete_ ? "" : pages_.problem(); }
 
  private:
   void put(std::span<const double> values) noexcept;
@@ -58,18 +63,28 @@ class Recorder {
   const HighLevel& high_;
   TruthAt truth_;
 
-  // While the run goes: rows of numbers one behind the other, and the edges. Both are reserved for
-  // all that can come.
+  // Once there is no more room, nothing is kept any more; the tap still gets it.
+  template <class Samples>
+  void keep(Samples& samples, typename Samples::value_type value) noexcept {
+    complete_ = complete_ && samples.try_push_back(value);
+  }
+  void leave_out_parts();
+
+  struct Edges {  // of one valve
+    signals::Times time_ns;
+    signals::Column values;
+  };
+
   std::vector<Column> columns_;
-  std::vector<signals::Topic> topics_;  // of the columns, then of the valves
-  std::size_t first_edge_ = 0;          // topic of the first valve
-  std::size_t width_ = 0;               // numbers in a row
-  std::vector<double> rows_;
-  std::vector<std::int64_t> row_time_ns_;
-  std::vector<signals::Edge> edges_;
+  std::vector<signals::Topic> topics_;   // of the columns, then of the valves
+  std::size_t first_edge_ = 0;           // topic of the first valve
+  signals::PageFile pages_;              // where a long run's samples go
+  signals::Times row_time_ns_;           // of all numbers below
+  std::vector<signals::Column> values_;  // each number of a row
+  std::vector<Edges> edges_;             // by valve
   bool complete_ = true;
 
-  std::size_t cursor_ = 0;  // topic that the next put() is of
+  std::size_t cursor_ = 0, number_ = 0;  // topic, and number of the row, that the next put() is of
   std::int64_t now_ns_ = 0;
   signals::Tick period_ = 100, next_ = 0;
   Tap tap_;

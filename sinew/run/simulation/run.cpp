@@ -71,6 +71,7 @@ Outcome to_the_end(Simulation& simulation, const RunOptions& options, Clock& clo
   out.stopped = watch.was_stopped;
   out.failure = simulation.failure();
   out.table = recorder.take();
+  out.no_room = recorder.problem();
   out.seen = simulation.boards().seen_totals();
   out.supervised = simulation.boards().supervised_totals();
   out.changes = simulation.high_level().changes().all();

@@ -31,6 +31,7 @@ struct Outcome {
   signals::Status status = signals::Status::ok;
   bool stopped = false;  // by RunOptions::stop
   signals::Table table;
+  std::string no_room;                // why the table is not complete, and what to do; empty: it is
   SeenTotals seen;                    // the low level's last word
   SupervisedTotals supervised;        // what was not believed, and what ended the run
   muscle::Failure failure;            // what of the machine was no number any more

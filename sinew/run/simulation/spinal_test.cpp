@@ -70,7 +70,7 @@ TEST(Spinal, AThreeWayLegMovesAndSpendsMoreAir) {
   };
   const Outcome two = run(sealed), three = run(e);
   EXPECT_EQ(three.status, signals::Status::ok);
-  const std::vector<double>& angle = *three.table.column("/true/joint/hip/angle");
+  const signals::Column& angle = *three.table.column("/true/joint/hip/angle");
   EXPECT_GT(*std::ranges::max_element(angle) - *std::ranges::min_element(angle), 0.3);
   EXPECT_GT(air(three), 2 * air(two));
   EXPECT_TRUE(three.table.find("/valve/hip_flexor/exhaust/open")->time_ns.empty());
@@ -108,9 +108,9 @@ experiment::Experiment regulated_hip(double angle_integral) {
 
 // Mean of |desired - actual| of the hip over the second half of the swing  [rad].
 double error_in_swing(const Outcome& out) {
-  const std::vector<double>&is = *out.table.column("/joint/hip/angle"),
-        &want = *out.table.column("/desired/joint/hip/angle"),
-        &phase = *out.table.column("/plan/phase");
+  const signals::Column &is = *out.table.column("/joint/hip/angle"),
+                        &want = *out.table.column("/desired/joint/hip/angle"),
+                        &phase = *out.table.column("/plan/phase");
   std::vector<double> errors;
   for (std::size_t i = 0; i < is.size(); ++i)
     if (phase[i] == 0) errors.push_back(std::abs(want[i] - is[i]));
@@ -130,7 +130,7 @@ TEST(Spinal, RegulatorsFollowTheirSetPoints) {
 
   const signals::Series* set = out.table.find("/valve/hip_flexor/inlet/set_point");
   ASSERT_NE(set, nullptr);
-  const std::vector<double>& share = set->columns[0];
+  const signals::Column& share = set->columns[0];
   EXPECT_GT(share.size(), 300u);  // one per period
   EXPECT_GT(*std::ranges::max_element(share), 0.4);
   EXPECT_LE(*std::ranges::max_element(share), 1.0);
@@ -154,9 +154,9 @@ TEST(Spinal, TheCylinderGoesWhereThePlanWantsIt) {
   EXPECT_EQ(c.joint[2].law_tick, 1);
 
   const Outcome out = run(e);
-  const std::vector<double>&is = *out.table.column("/cylinder/position"),
-        &want = *out.table.column("/desired/cylinder/position"),
-        &phase = *out.table.column("/plan/phase");
+  const signals::Column &is = *out.table.column("/cylinder/position"),
+                        &want = *out.table.column("/desired/cylinder/position"),
+                        &phase = *out.table.column("/plan/phase");
   double last_error = 1, lowest = 1;
   for (std::size_t i = 0; i < is.size(); ++i) {
     if (phase[i] >= 0) last_error = want[i] - is[i];
@@ -245,7 +245,7 @@ TEST(Spinal, InterruptsOverrunAbove100Hz) {
 TEST(Spinal, OverrunsAreCounted) {
   const Outcome out = run(one_step({"low_level.interrupt_time=101 us"}));
   EXPECT_GT(out.seen.overruns, 2 * 250u);  // two laws per period of 10 ms, more than 2.5 s
-  const std::vector<double>* logged = out.table.column("/low_level/overruns");
+  const signals::Column* logged = out.table.column("/low_level/overruns");
   ASSERT_NE(logged, nullptr);
   EXPECT_EQ(logged->back(), out.seen.overruns);
   const Outcome in_time = run(one_step());

@@ -128,7 +128,7 @@ TEST(RigRun, ASweepIsItsRuns) {
   e.drive.duty = 0.4;
   e.log.period = 1e-4;
   const signals::Table table = run(e).table;
-  const std::vector<double>& length = *table.column("/true/stand/length");
+  const signals::Column& length = *table.column("/true/stand/length");
   double sum = 0;
   for (std::size_t i = 8000; i < 10000; ++i) sum += length[i];
   EXPECT_NEAR(swept, sum / 2000, 1e-12);
@@ -157,9 +157,9 @@ TEST(RigRun, CommandedDutyThroughDelaysIsTheDeliveredOne) {
 TEST(RigRun, FeedbackGoesBackAfterATug) {
   const Experiment e = load(folder + "feedback.toml");
   const signals::Table table = run(e).table;
-  const std::vector<double>& length = *table.column("/true/stand/length");
-  const std::vector<double>& desired = *table.column("/desired/length");
-  const std::vector<double>& counts = *table.column("/sensor/length/count");
+  const signals::Column& length = *table.column("/true/stand/length");
+  const signals::Column& desired = *table.column("/desired/length");
+  const signals::Column& counts = *table.column("/sensor/length/count");
   EXPECT_NEAR(length.back(), desired.back(), 0.05 * 0.0254);
   EXPECT_NEAR(plant::quantity(e.sensors[0], counts.back()), length.back(), 0.005 * 0.0254);
   // Two pounds more stretch it where the valves rest.

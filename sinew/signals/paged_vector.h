@@ -1,0 +1,239 @@
+// signals/paged_vector.h - a vector that may be longer than memory: the samples of hours.
+//
+// Its newest elements, at most a page of them, stand in memory, the full pages before them in a
+// PageFile. Without a file all of them stay in memory, as in a std::vector. Elements are added at
+// the end and read anywhere: one after the other costs as much as in memory, up and down a page
+// each time. The values read are the bits that were put in, wherever they stood meanwhile.
+//
+// Copies share their elements until one of them is changed, so copying costs nothing. One object
+// whose pages stand in a file is read by one thread at a time, since it remembers the last page;
+// a copy for each thread is free. Reading throws std::runtime_error where the disk fails.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+#include <iterator>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "sinew/signals/page_file.h"
+
+namespace sinew::signals {
+
+template <class T>
+class PagedVector {
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= PageFile::page_bytes);
+
+ public:
+  using value_type = T;
+  using size_type = std::size_t;
+  static constexpr std::size_t page_size = PageFile::page_bytes / sizeof(T);  // elements
+
+  class const_iterator;
+  using iterator = const_iterator;
+
+  PagedVector() = default;
+  explicit PagedVector(const PageFile& file) : store_(std::make_shared<Store>(file)) {}
+  PagedVector(std::vector<T> values) : store_(std::make_shared<Store>(std::move(values))) {}
+  PagedVector(std::initializer_list<T> values) : PagedVector(std::vector<T>(values)) {}
+  template <std::input_iterator It>
+  PagedVector(It first, It last, const PageFile& file = {}) : PagedVector(file) {
+    for (; first != last; ++first) push_back(*first);
+  }
+
+  PagedVector(const PagedVector& other) : store_(other.store_) {}  // without the page it has read
+  PagedVector(PagedVector&& other) noexcept { swap(other); }
+  PagedVector& operator=(PagedVector other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~PagedVector() = default;
+
+  void swap(PagedVector& other) noexcept {
+    store_.swap(other.store_);
+    seen_.swap(other.seen_);
+    std::swap(seen_page_, other.seen_page_);
+  }
+
+  // The file of its pages; none: it stays in memory. What is made of these elements, and is as
+  // long, takes the same.
+  PageFile file() const { return store_ ? store_->file : PageFile(); }
+
+  std::size_t size() const { return store_ ? store_->paged() + store_->tail.size() : 0; }
+  bool empty() const { return size() == 0; }
+  T operator[](std::size_t i) const {
+    const std::size_t paged = store_->paged();
+    return i >= paged ? store_->tail[i - paged] : seen(i / page_size)[i % page_size];
+  }
+  T front() const { return (*this)[0]; }
+  T back() const { return (*this)[size() - 1]; }
+  const_iterator begin() const { return {this, 0}; }
+  const_iterator end() const { return {this, size()}; }
+  std::vector<T> slice(std::size_t first, std::size_t last) const;  // in memory
+  std::vector<T> in_memory() const { return slice(0, size()); }
+
+  void push_back(T value) {
+    own();
+    if (!store_->push(value)) fail(store_->file);
+  }
+
+  // For the loop: takes nothing from the heap after prepare(), and throws nothing. False where
+  // there is no room, on the disk or of what was reserved; then nothing is added.
+  bool try_push_back(T value) noexcept { return store_->room() && store_->push(value); }
+  // Room for so many elements; of a vector with a file for the places of their pages alone.
+  void reserve(std::size_t elements) {
+    own();
+    store_->reserve(elements);
+  }
+
+  void pop_back();
+  void set(std::size_t i, T value);
+  void clear() { *this = PagedVector(file()); }
+  void assign(std::size_t n, T value) {
+    clear();
+    for (std::size_t i = 0; i < n; ++i) push_back(value);
+  }
+
+  friend bool operator==(const PagedVector& a, const PagedVector& b) {
+    if (a.store_ == b.store_) return true;
+    return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
+  }
+
+ private:
+  struct Store {
+    explicit Store(const PageFile& its) : file(its) {}
+    explicit Store(std::vector<T> values) : tail(std::move(values)) {}
+    ~Store() {
+      for (const std::uint32_t page : pages) file.release(page);
+    }
+    Store(const Store&) = delete;
+    Store& operator=(const Store&) = delete;
+
+    std::size_t paged() const noexcept { return pages.size() * page_size; }
+    bool room() const noexcept {
+      const bool turns = file && tail.size() == page_size;
+      return turns ? pages.size() < pages.capacity() : tail.size() < tail.capacity();
+    }
+    bool push(T value) {
+      if (file && tail.size() == page_size) {
+        const std::uint32_t page = file.write(tail.data(), page_size * sizeof(T));
+        if (page == PageFile::no_page) return false;
+        pages.push_back(page);
+        tail.clear();
+      }
+      tail.push_back(value);
+      return true;
+    }
+    void reserve(std::size_t elements) {
+      tail.reserve(file ? std::min(elements, page_size) : elements);
+      if (file) pages.reserve(elements / page_size + 1);
+    }
+
+    PageFile file;
+    std::vector<std::uint32_t> pages;  // full ones
+    std::vector<T> tail;               // behind them
+  };
+
+  // No copy may see what follows.
+  void own() {
+    if (!store_) store_ = std::make_shared<Store>(PageFile());
+    if (store_.use_count() > 1) *this = PagedVector(begin(), end(), file());
+  }
+  const T* seen(std::size_t page) const {
+    if (page != seen_page_) {
+      if (!seen_) seen_ = std::make_unique_for_overwrite<T[]>(page_size);
+      seen_page_ = none;
+      if (!store_->file.read(store_->pages[page], seen_.get(), page_size * sizeof(T)))
+        fail(store_->file);
+      seen_page_ = page;
+    }
+    return seen_.get();
+  }
+
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::shared_ptr<Store> store_;
+  mutable std::unique_ptr<T[]> seen_;  // the page that was read last
+  mutable std::size_t seen_page_ = none;
+};
+
+template <class T>
+class PagedVector<T>::const_iterator {
+ public:
+  using iterator_category = std::random_access_iterator_tag;
+  using value_type = T;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const T*;
+  using reference = T;
+
+  const_iterator() = default;
+  const_iterator(const PagedVector* of, std::size_t at) : of_(of), at_(at) {}
+
+  T operator*() const { return (*of_)[at_]; }
+  T operator[](difference_type n) const { return *(*this + n); }
+  const_iterator& operator+=(difference_type n) {
+    at_ += static_cast<std::size_t>(n);
+    return *this;
+  }
+  const_iterator& operator-=(difference_type n) { return *this += -n; }
+  const_iterator& operator++() { return *this += 1; }
+  const_iterator& operator--() { return *this += -1; }
+  const_iterator operator++(int) { return std::exchange(*this, *this + 1); }
+  const_iterator operator--(int) { return std::exchange(*this, *this - 1); }
+  friend const_iterator operator+(const_iterator i, difference_type n) { return i += n; }
+  friend const_iterator operator+(difference_type n, const_iterator i) { return i += n; }
+  friend const_iterator operator-(const_iterator i, difference_type n) { return i -= n; }
+  friend difference_type operator-(const const_iterator& a, const const_iterator& b) {
+    return static_cast<difference_type>(a.at_) - static_cast<difference_type>(b.at_);
+  }
+  friend bool operator==(const const_iterator& a, const const_iterator& b) {
+    return a.at_ == b.at_;
+  }
+  friend auto operator<=>(const const_iterator& a, const const_iterator& b) {
+    return a.at_ <=> b.at_;
+  }
+
+ private:
+  const PagedVector* of_ = nullptr;
+  std::size_t at_ = 0;
+};
+
+template <class T>
+std::vector<T> PagedVector<T>::slice(std::size_t first, std::size_t last) const {
+  std::vector<T> out;
+  out.reserve(last - first);
+  for (std::size_t i = first; i < last; ++i) out.push_back((*this)[i]);
+  return out;
+}
+
+template <class T>
+void PagedVector<T>::pop_back() {
+  own();
+  Store& s = *store_;
+  if (s.tail.empty()) {  // the last page comes back
+    const T* values = seen(s.pages.size() - 1);
+    s.tail.assign(values, values + page_size);
+    s.file.release(s.pages.back());
+    s.pages.pop_back();
+    seen_page_ = none;
+  }
+  s.tail.pop_back();
+}
+
+template <class T>
+void PagedVector<T>::set(std::size_t i, T value) {
+  own();
+  Store& s = *store_;
+  const std::size_t paged = s.paged();
+  if (i >= paged) {
+    s.tail[i - paged] = value;
+    return;
+  }
+  const std::size_t page = i / page_size, at = i % page_size;
+  if (!s.file.rewrite(s.pages[page], at * sizeof(T), &value, sizeof(T))) fail(s.file);
+  if (page == seen_page_) seen_[at] = value;
+}
+
+}  // namespace sinew::signals
