@@ -1,6 +1,8 @@
 // Where the time of a walk goes. Goals (bench/README.md) are ratios of one run of this program.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <chrono>
 #include <string>
 
 #include "sinew/experiment/planar_setup.h"
@@ -43,6 +45,33 @@ struct Nothing {
   void sample(signals::Tick) noexcept {}
   signals::Tick next(signals::Tick t) const noexcept { return t + 1'000'000; }
 };
+
+// What a part of a machine costs: an experiment and the plain walk by turns, each per simulated
+// second.
+void against_the_plain_walk(benchmark::State& state, const char* name) {
+  using Clock = std::chrono::steady_clock;
+  const experiment::Experiment other =
+      experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name);
+  const auto cost = [](const experiment::Experiment& e) {  // [s] per simulated second
+    const Clock::time_point start = Clock::now();
+    const double simulated = run::run(e).duration;
+    return std::chrono::duration<double>(Clock::now() - start).count() / simulated;
+  };
+  double least = 1e9, least_plain = 1e9;  // the least disturbed of each
+  for (auto _ : state) {
+    least_plain = std::min(least_plain, cost(walk()));
+    least = std::min(least, cost(other));
+  }
+  state.counters["times_the_plain_walk"] = least / least_plain;
+}
+BENCHMARK_CAPTURE(against_the_plain_walk, pressure_sensors, "walk-with-pressures.toml");
+BENCHMARK_CAPTURE(against_the_plain_walk, tank, "endurance.toml");
+BENCHMARK_CAPTURE(against_the_plain_walk, regulators, "walk-with-regulators.toml");
+BENCHMARK_CAPTURE(against_the_plain_walk, hoses_with_air, "walk-with-hoses.toml");
+BENCHMARK_CAPTURE(against_the_plain_walk, three_muscles, "three-muscles.toml");
+BENCHMARK_CAPTURE(against_the_plain_walk, ankle, "walk-with-ankle.toml");
+BENCHMARK_CAPTURE(against_the_plain_walk, moving_cylinder, "cylinder-staircase.toml");
+BENCHMARK_CAPTURE(against_the_plain_walk, two_legs, "walk-two-legs.toml");
 
 // The same, nobody recording.
 void unwatched_walk(benchmark::State& state) {
