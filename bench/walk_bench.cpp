@@ -5,8 +5,8 @@
 #include <chrono>
 #include <string>
 
+#include "sinew/experiment/joint_controllers.h"
 #include "sinew/experiment/planar_setup.h"
-#include "sinew/experiment/spinal.h"
 #include "sinew/experiment/supervision.h"
 #include "sinew/plant/planar/machine.h"
 #include "sinew/run/simulation/clock.h"

@@ -19,7 +19,7 @@
 #include "sinew/actuator/body.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/plant/planar/cords.h"
+#include "sinew/plant/planar/muscle_routing.h"
 #include "sinew/robot/actuator_of.h"
 #include "sinew/robot/legs.h"
 
@@ -95,8 +95,8 @@ Branch stand(const experiment::Experiment& e, const std::vector<double>& angles)
   for (std::size_t j = 0; j < angles.size(); ++j)
     turned[j] = next_to_rest(e.robot.joints[j], angles[j]);
   muscle::Lanes<plant::most_muscles> length, rate;
-  plant::Cords::Pulls<plant::most_muscles> pulls;
-  plant::Cords(e.robot).at(turned.data(), still.data(), length, rate, pulls);
+  plant::MuscleRouting::MomentArms<plant::most_muscles> pulls;
+  plant::MuscleRouting(e.robot).at(turned.data(), still.data(), length, rate, pulls);
   for (std::size_t i = 0; i < e.robot.muscles.size(); ++i) {
     const actuator::Actuator a = robot::actuator_of(e.robot.muscles[i], e.actuators);
     out.muscles.push_back({.name = e.robot.muscles[i].name,

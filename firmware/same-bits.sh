@@ -31,7 +31,7 @@ board=$(timeout 120 qemu-system-arm -M mps2-an386 -nographic -monitor none -seri
 for level in -O0 -O3; do
   ${CXX:-g++} -std=c++20 $level -ffp-contract=off -fno-math-errno -I"$root" -o "$build/same-bits-host" \
     "$here/same_bits.cpp" "$root"/sinew/control/joint/config.cpp \
-    "$root"/sinew/control/joint/spine.cpp "$root"/sinew/control/joint/spine_laws.cpp \
+    "$root"/sinew/control/joint/joint_controller.cpp "$root"/sinew/control/joint/joint_controller_laws.cpp \
     "$root"/sinew/control/supervise/supervisor.cpp
   host=$("$build/same-bits-host")
   if [ -z "$host" ] || [ "$host" != "$board" ]; then

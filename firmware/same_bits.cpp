@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "sinew/control/joint/spine.h"
+#include "sinew/control/joint/joint_controller.h"
 #include "sinew/control/joint/test_leg.h"
 #include "sinew/control/supervise/supervisor.h"
 #include "sinew/signals/timing.h"
@@ -17,8 +17,8 @@ void print(const char* text);  // the board's, or the host's below
 namespace {
 
 using control::Command;
-using control::Spine;
-using control::SpineConfig;
+using control::JointController;
+using control::JointControllerConfig;
 using control::Truncation;
 using signals::Tick;
 
@@ -67,8 +67,8 @@ void random_command(Random& random, Command& command) {
 }
 
 // One run; now and then a reading is late.
-void run(const SpineConfig& config, std::uint32_t seed, Hash& hash) {
-  Spine spine(config);
+void run(const JointControllerConfig& config, std::uint32_t seed, Hash& hash) {
+  JointController spine(config);
   Random random(seed);
   Command command = control::rest_command(config);
   for (Tick t = 0; t < periods * config.period; t = spine.next_event(t)) {
@@ -140,8 +140,8 @@ void print_hex(std::uint64_t x) {
 }
 
 // One source of stiffness and one estimator per joint: hip, knee.
-SpineConfig other_sensors(control::Estimator hip, control::Estimator knee) {
-  SpineConfig config = control::test_leg();
+JointControllerConfig other_sensors(control::Estimator hip, control::Estimator knee) {
+  JointControllerConfig config = control::test_leg();
   const auto set = [&](control::JointConfig& joint, control::Estimator estimator) {
     joint.velocity = {.estimator = estimator,
                       .samples = 5,
@@ -173,7 +173,7 @@ SpineConfig other_sensors(control::Estimator hip, control::Estimator knee) {
 // 3-way valves at the hip, regulators at the knee; a muscle over both joints.
 void other_machines(Hash& hash) {
   using enum control::Estimator;
-  SpineConfig config = other_sensors(weighted_average, kalman);
+  JointControllerConfig config = other_sensors(weighted_average, kalman);
   run(config, 3, hash);
   control::JointConfig &hip = config.joint[control::hip], &knee = config.joint[control::knee];
   knee.extensor.inlet = hip.extensor.inlet;
@@ -192,7 +192,7 @@ void other_machines(Hash& hash) {
 
 void same_bits() {
   Hash hash;
-  SpineConfig config = control::test_leg();
+  JointControllerConfig config = control::test_leg();
   config.joint[control::cylinder].feedforward = {55, 55, 45, 45};
   for (const Truncation mode : {Truncation::each_law, Truncation::sum, Truncation::none}) {
     config.truncation = mode;

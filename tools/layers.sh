@@ -13,10 +13,12 @@ layers='
     actuator        units
     muscle          gas actuator signals
     robot           gas actuator signals
+    robot/wiring    robot
     control/joint   signals
     control/supervise  control/joint signals
     control/gait    robot signals
     config          units
+    config/write    config
     log             signals
     plant/world     muscle signals
     plant/planar    plant/world muscle robot signals

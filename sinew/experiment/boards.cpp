@@ -1,6 +1,6 @@
 #include "sinew/experiment/boards.h"
 
-#include "sinew/experiment/spinal.h"
+#include "sinew/experiment/joint_controllers.h"
 #include "sinew/experiment/supervision.h"
 
 namespace sinew::experiment {
@@ -26,7 +26,7 @@ std::vector<Board> boards(const Experiment& e) {
   Experiment of_board = e;
   for (std::size_t b = 0; b < parts.size(); ++b) {
     of_board.robot = robot::only_board(e.robot, parts, b);
-    Board board{.spine = spine_config(of_board), .limits = supervise_config(of_board)};
+    Board board{.spine = joint_controller_config(of_board), .limits = supervise_config(of_board)};
     board.joint = numbers(parts[b].joints);
     board.channel = numbers(parts[b].sensors);
     for (const int muscle : parts[b].muscles)

@@ -12,7 +12,7 @@
 namespace sinew::experiment {
 
 struct Board {
-  control::SpineConfig spine;
+  control::JointControllerConfig spine;
   control::SuperviseConfig limits;
 
   // By the board's own numbers, those of the machine: joints in the robot's order, with the

@@ -8,7 +8,7 @@
 #include "sinew/control/gait/legs.h"
 #include "sinew/experiment/check_motion.h"
 #include "sinew/experiment/faults.h"
-#include "sinew/experiment/spinal.h"
+#include "sinew/experiment/joint_controllers.h"
 #include "sinew/signals/tick.h"
 
 namespace sinew::experiment {

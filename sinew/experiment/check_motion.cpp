@@ -9,8 +9,8 @@
 #include "sinew/control/gait/legs.h"
 #include "sinew/experiment/planar_setup.h"
 #include "sinew/muscle/network.h"
-#include "sinew/plant/planar/cords.h"
 #include "sinew/plant/planar/machine.h"
+#include "sinew/plant/planar/muscle_routing.h"
 
 namespace sinew::experiment {
 namespace {
@@ -66,12 +66,12 @@ std::vector<Reach> reaches(const Experiment& e) {
 // A chamber that vanishes within its joint's reach: no pressure is left to speak of.
 void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
   const std::vector<Reach> reach = reaches(e);
-  const plant::Cords cords(e.robot);
+  const plant::MuscleRouting cords(e.robot);
   for (const bool high : {false, true}) {
     std::array<double, robot::max_joints> angle{}, still{};
     for (std::size_t j = 0; j < reach.size(); ++j) angle[j] = high ? reach[j].high : reach[j].low;
     muscle::Lanes<plant::most_muscles> length{}, rate{};
-    plant::Cords::Pulls<plant::most_muscles> pulls{};
+    plant::MuscleRouting::MomentArms<plant::most_muscles> pulls{};
     cords.at(angle.data(), still.data(), length, rate, pulls);
     for (int i = 0; i < cords.count(); ++i) {
       const auto m = static_cast<std::size_t>(i);

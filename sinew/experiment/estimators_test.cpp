@@ -10,7 +10,7 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/experiment/spinal.h"
+#include "sinew/experiment/joint_controllers.h"
 
 namespace sinew::experiment {
 namespace {
@@ -124,12 +124,12 @@ TEST(Kalman, FindsTheSpeedOfASimulatedJointAsTheRiccatiEquationSays) {
 const std::string walk = std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml";
 
 control::JointConfig hip_of(const std::vector<std::string>& sets) {
-  return spine_config(load(walk, sets)).joint[0];
+  return joint_controller_config(load(walk, sets)).joint[0];
 }
 
 std::string refusal(const std::vector<std::string>& sets) {
   try {
-    spine_config(load(walk, sets));
+    joint_controller_config(load(walk, sets));
   } catch (const std::exception& error) {
     return error.what();
   }
@@ -190,13 +190,14 @@ TEST(StiffnessSourceKey, SaysWhichSensorsTheLawWaitsFor) {
 }
 
 TEST(LowLevelKeys, ReachTheLowLevel) {
-  const control::SpineConfig c =
-      spine_config(load(walk, {"low_level.dead_band=3 %", "low_level.hold_limit=7",
-                               "low_level.interrupt_time=101 us"}));
+  const control::JointControllerConfig c =
+      joint_controller_config(load(walk, {"low_level.dead_band=3 %", "low_level.hold_limit=7",
+                                          "low_level.interrupt_time=101 us"}));
   EXPECT_EQ(c.dead_band, 3);
   EXPECT_EQ(c.hold_limit, 7u);
   EXPECT_TRUE(c.laws_overrun);
-  EXPECT_FALSE(spine_config(load(walk, {"low_level.interrupt_time=100 us"})).laws_overrun);
+  EXPECT_FALSE(
+      joint_controller_config(load(walk, {"low_level.interrupt_time=100 us"})).laws_overrun);
   EXPECT_NE(refusal({"low_level.dead_band=2.5 %"}).find("whole percents"), std::string::npos);
 }
 

@@ -12,7 +12,7 @@
 #include "sinew/gas/air.fields.h"
 #include "sinew/gas/valve.fields.h"
 #include "sinew/robot/robot.fields.h"
-#include "sinew/robot/wiring.fields.h"
+#include "sinew/robot/wiring/wiring.fields.h"
 #include "sinew/units/field.h"
 
 namespace sinew::experiment {

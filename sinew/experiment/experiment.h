@@ -17,7 +17,7 @@
 #include "sinew/gas/supply.h"
 #include "sinew/gas/valve.h"
 #include "sinew/robot/robot.h"
-#include "sinew/robot/wiring.h"
+#include "sinew/robot/wiring/wiring.h"
 #include "sinew/signals/timing.h"
 
 namespace sinew::experiment {

@@ -11,7 +11,7 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
-#include "sinew/experiment/spinal.h"
+#include "sinew/experiment/joint_controllers.h"
 #include "sinew/robot/actuator_of.h"
 
 namespace sinew::experiment {

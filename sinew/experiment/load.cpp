@@ -2,7 +2,7 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/valve_timing.h"
-#include "sinew/config/writer.h"
+#include "sinew/config/write/writer.h"
 #include "sinew/experiment/check.h"
 #include "sinew/experiment/experiment.fields.h"
 #include "sinew/experiment/machine_file.h"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sinew/experiment/spinal.h"
+#include "sinew/experiment/joint_controllers.h"
 #include "sinew/robot/actuator_of.h"
 
 namespace sinew::experiment {
@@ -131,7 +131,7 @@ void set_rate(const Experiment& e, const robot::Sensor& s, control::SensorLimits
 
 // The valves that move it; what regulators hold moves without any. A cylinder's work all the time,
 // also at its stop: its position is judged only where the file asks for it.
-void set_driver(const robot::Robot& robot, const control::SpineConfig& spine,
+void set_driver(const robot::Robot& robot, const control::JointControllerConfig& spine,
                 const robot::Sensor& s, control::SensorLimits& out) {
   int joint = -1;
   if (s.kind == Kind::angle) joint = robot::find_joint(robot, s.of);
@@ -192,7 +192,7 @@ std::string sensor_text(const control::Trip& trip) {
 
 control::SuperviseConfig supervise_config(const Experiment& e) {
   control::SuperviseConfig out;
-  const control::SpineConfig spine = spine_config(e);
+  const control::JointControllerConfig spine = joint_controller_config(e);
   for (std::size_t i = 0; i < e.robot.sensors.size() && i < out.sensor.size(); ++i) {
     set_plausible(e, e.robot.sensors[i], out.sensor[i]);
     set_rate(e, e.robot.sensors[i], out.sensor[i]);

@@ -152,10 +152,10 @@ SINEW_WIDE void BraidLanes::evaluate(const Given& in, const Filled& out) const n
     const Four nothing = squeeze < zero ? k.short_zero : zero;  // [31] as printed
     const Four all = nothing > zero ? zero : pull;
     const Four rub = drive * secant + k.mesh_constant;
-    const Four mesh = nothing > zero ? zero : rub;
+    const Four friction_bound = nothing > zero ? zero : rub;
     four(out.tension + i) = all > zero ? all : zero;
     four(out.clamped + i) = all;
-    four(out.mesh + i) = mesh > zero ? mesh : zero;
+    four(out.friction_bound + i) = friction_bound > zero ? friction_bound : zero;
     four(out.pressure + i) = p;
   }
 
@@ -180,7 +180,7 @@ void BraidLanes::sealed_mesh(const Given& in, const Filled& out) const noexcept 
     const double sealed =
         actuator::stiffness_sealed(m.actuator, in.length[i], p, air_.atmosphere,
                                    m.external_volume / m.count, air_.polytropic_exponent);
-    out.mesh[i] =
+    out.friction_bound[i] =
         m.count * actuator::coulomb_bound(m.actuator, in.length[i], gauge, air_.atmosphere, sealed);
   }
 }
@@ -189,11 +189,11 @@ void BraidLanes::sealed_mesh(const Given& in, const Filled& out) const noexcept 
 void BraidLanes::loose_signs(const Given& in, const Filled& out) const noexcept {
   for (int i = 0; i < size_; ++i) {
     if (muscles_[static_cast<std::size_t>(i)].actuator.loss.stick) continue;
-    const double rub = in.rate[i] >= 0 ? out.mesh[i] : -out.mesh[i];
+    const double rub = in.rate[i] >= 0 ? out.friction_bound[i] : -out.friction_bound[i];
     const double f = out.tension[i] + rub;
     out.tension[i] = f > 0 ? f : 0.0;
     out.clamped[i] += rub;
-    out.mesh[i] = 0;
+    out.friction_bound[i] = 0;
   }
 }
 

@@ -54,7 +54,7 @@ class BraidLanes {
     evaluate({length.of.data(), rate.of.data(), mass.of.data(), reference.y.of.data(),
               reference.inverse_sigma.of.data()},
              {out.tension.of.data(), out.clamped.of.data(), out.pressure.of.data(),
-              out.mesh.of.data(), out.drift.of.data(), y.of.data()});
+              out.friction_bound.of.data(), out.drift.of.data(), y.of.data()});
   }
 
   // At a node, after its evaluation: the reference follows where the density has drifted. Answers
@@ -83,7 +83,7 @@ class BraidLanes {
     const double *length, *rate, *mass, *y_ref, *inverse_sigma;
   };
   struct Filled {
-    double *tension, *clamped, *pressure, *mesh, *drift, *y;
+    double *tension, *clamped, *pressure, *friction_bound, *drift, *y;
   };
 
   void evaluate(const Given& in, const Filled& out) const noexcept;

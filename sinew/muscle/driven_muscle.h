@@ -58,7 +58,9 @@ class DrivenMuscle {
   // the muscle and what it pulls sees up to friction() more where the muscle gives way, and less
   // where it pulls: who integrates decides whether it sticks.
   double tension() const noexcept { return state_.look.tension[0]; }
-  double friction() const noexcept { return state_.look.mesh[0]; }  // bound of the dry part [N]
+  double friction() const noexcept {
+    return state_.look.friction_bound[0];
+  }  // bound of the dry part [N]
 
   double pressure() const noexcept { return state_.look.pressure[0]; }  // absolute [Pa]
   double length() const noexcept { return state_.length; }              // [m]

@@ -39,8 +39,9 @@ struct Pull {
   Lanes<Most> tension;  // of the bundle, static and viscous, never negative: a cord cannot push [N]
   Lanes<Most> clamped;  // the same of a muscle that is held at both ends: it may push [N]
   Lanes<Most> pressure;  // absolute [Pa]
-  Lanes<Most> mesh;      // bound of the bundle's dry friction, [33], [34]; 0 if not `stick` [N]
-  Lanes<Most> drift;     // x, how far the density is from the pressure's reference [-]
+  Lanes<Most>
+      friction_bound;  // bound of the bundle's dry friction, [33], [34]; 0 if not `stick` [N]
+  Lanes<Most> drift;   // x, how far the density is from the pressure's reference [-]
 };
 
 // The series are taken about this density of each muscle: y_ref and 1/sigma_ref [m^3/kg].

@@ -170,7 +170,7 @@ void AirNetwork<Most>::pull(int i, double length, double rate, double pressure, 
   const double cord = std::max(smooth, 0.0);
   out.tension[i] = stick ? cord : std::max(cord + (rate >= 0 ? bound : -bound), 0.0);
   out.clamped[i] = stick ? smooth : smooth + (rate >= 0 ? bound : -bound);
-  out.mesh[i] = stick ? bound : 0.0;
+  out.friction_bound[i] = stick ? bound : 0.0;
   out.pressure[i] = pressure;
 }
 

@@ -77,9 +77,9 @@ TEST(AirInLanes, TensionAndPressureAreTheLawsInWords) {
       const double f =
           m.count * actuator::tension(m.actuator, length[i], rate[i], gauge, k.air.atmosphere);
       EXPECT_NEAR(pull.tension[i], std::max(f, 0.0), 1e-6 * (1 + std::abs(f)));
-      const double mesh =
+      const double friction_bound =
           m.count * actuator::coulomb_bound(m.actuator, length[i], gauge, k.air.atmosphere, 0);
-      EXPECT_NEAR(pull.mesh[i], mesh, 1e-8 * (1 + mesh));
+      EXPECT_NEAR(pull.friction_bound[i], friction_bound, 1e-8 * (1 + friction_bound));
     }
   }
 }
@@ -126,7 +126,7 @@ TEST(AirInLanes, SwitchesAreTheLawsInWords) {
       // [33] as printed adds sign(v) times the bound and leaves nothing to stick.
       const double printed = std::max(smooth + (rate[i] >= 0 ? bound : -bound), 0.0);
       EXPECT_NEAR(pull.tension[i], a.loss.stick ? smooth : printed, 1e-6 * (1 + smooth)) << i;
-      EXPECT_NEAR(pull.mesh[i], a.loss.stick ? bound : 0.0, 1e-7 * (1 + bound)) << i;
+      EXPECT_NEAR(pull.friction_bound[i], a.loss.stick ? bound : 0.0, 1e-7 * (1 + bound)) << i;
     }
   }
 }
@@ -180,7 +180,7 @@ TEST(AirInLanes, AMuscleHasTheSameBitsAloneAndAmongOthers) {
       alone.evaluate(0, l, v, m, pull);
       EXPECT_EQ(pull.tension[0], all.tension[i]);
       EXPECT_EQ(pull.pressure[0], all.pressure[i]);
-      EXPECT_EQ(pull.mesh[0], all.mesh[i]);
+      EXPECT_EQ(pull.friction_bound[0], all.friction_bound[i]);
     }
   }
 }

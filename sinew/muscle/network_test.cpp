@@ -75,12 +75,12 @@ TEST(AirNetwork, MusclesAreTheSameWhateverStandsBeside) {
     for (int i = 0; i < 8; ++i) {
       EXPECT_EQ(a.pressure[i], b.pressure[i]);
       EXPECT_EQ(a.tension[i], b.tension[i]);
-      EXPECT_EQ(a.mesh[i], b.mesh[i]);
+      EXPECT_EQ(a.friction_bound[i], b.friction_bound[i]);
       EXPECT_EQ(a.inflow[i], b.inflow[i]);
       EXPECT_EQ(a.outflow[i], b.outflow[i]);
       EXPECT_NEAR(c.pressure[i] / a.pressure[i], 1, 1e-12);
       EXPECT_NEAR(c.tension[i], a.tension[i], 1e-12 * (1000 + a.tension[i])) << i;
-      EXPECT_NEAR(c.mesh[i], a.mesh[i], 1e-12 * (1 + a.mesh[i])) << i;
+      EXPECT_NEAR(c.friction_bound[i], a.friction_bound[i], 1e-12 * (1 + a.friction_bound[i])) << i;
       EXPECT_NEAR(c.inflow[i], a.inflow[i], 1e-12 * (1e-3 + a.inflow[i]));
       EXPECT_NEAR(c.outflow[i], a.outflow[i], 1e-12 * (1e-3 + a.outflow[i]));
     }

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "sinew/config/node.h"
-#include "sinew/config/writer.h"
+#include "sinew/config/write/writer.h"
 #include "tests/fuzz/law.h"
 
 namespace sinew::fuzz {

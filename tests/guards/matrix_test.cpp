@@ -14,7 +14,7 @@
 #include <map>
 #include <sstream>
 
-#include "sinew/config/writer.h"
+#include "sinew/config/write/writer.h"
 #include "tests/cli/program.h"
 #include "tests/guards/subjects.h"
 

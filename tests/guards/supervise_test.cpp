@@ -201,7 +201,7 @@ TEST(Supervise, ValvesObeyWhateverComes) {
   control::FuzzCount& all = tally.fuzz;
   for (int i = 0; i < count(); ++i)
     for (int part = 0; part < 10; ++part) {
-      const control::SpineConfig config = control::any_leg(random);
+      const control::JointControllerConfig config = control::any_leg(random);
       control::SuperviseConfig limits;
       const bool trips = random() % 4 == 0;  // else it goes on, so that there is something to see
       if (!trips) limits.gap_vent = limits.vent_commands = limits.bad_readings = 1'000'000;

@@ -14,7 +14,7 @@
 #include "sinew/config/quantity.h"
 #include "sinew/control/gait/path.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/experiment/spinal.h"
+#include "sinew/experiment/joint_controllers.h"
 #include "sinew/signals/tick.h"
 #include "sinew/units/constants.h"
 #include "tests/reference/reference.h"

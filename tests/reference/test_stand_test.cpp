@@ -369,8 +369,9 @@ TEST(TestStand, friction_without_stick_has_the_sign_of_the_speed) {
     Air::Answer pull{};
     air.evaluate(0, ends, air.initial(5e5, ends.length, 0), air.valves_at_rest(),
                  air.memory_at_rest(5e5, ends.length), pull);
-    EXPECT_DOUBLE_EQ(pull.tension[1], pull.tension[0] + (speed > 0 ? pull.mesh[0] : -pull.mesh[0]));
-    EXPECT_GT(pull.mesh[0], 0);
+    EXPECT_DOUBLE_EQ(pull.tension[1], pull.tension[0] + (speed > 0 ? pull.friction_bound[0]
+                                                                   : -pull.friction_bound[0]));
+    EXPECT_GT(pull.friction_bound[0], 0);
   }
 }
 

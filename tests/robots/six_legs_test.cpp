@@ -76,13 +76,13 @@ TEST_F(SixLegs, MoveInAClosedLoop) {
   const run::Outcome out = run::run(e);
   ASSERT_EQ(out.status, signals::Status::ok) << run::cause_of(e, out);
   EXPECT_GT(out.duration, 3);
-  const auto column = [&](const std::string& topic) -> const std::vector<double>& {
-    const std::vector<double>* found = out.table.column(topic);
+  const auto column = [&](const std::string& topic) -> const signals::Column& {
+    const signals::Column* found = out.table.column(topic);
     EXPECT_NE(found, nullptr) << topic;
-    static const std::vector<double> none(1);
+    static const signals::Column none{0.0};
     return found ? *found : none;
   };
-  const auto range = [](const std::vector<double>& v) {
+  const auto range = [](const signals::Column& v) {
     const auto [low, high] = std::ranges::minmax_element(v);
     return *high - *low;
   };

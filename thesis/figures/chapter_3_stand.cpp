@@ -42,8 +42,8 @@ Curve recorded(const rig::Experiment& e, const signals::Table& table,
     double l = length.columns[0][row];
     if (potentiometer) {
       const signals::Tick tick = length.time_ns[row] / signals::tick_nanoseconds;
-      const double hiss = robot::noise(static_cast<std::uint64_t>(e.seed), 0, tick);
-      l = plant::shown(*potentiometer, plant::counts(*potentiometer, l, hiss));
+      const double added_noise = robot::noise(static_cast<std::uint64_t>(e.seed), 0, tick);
+      l = plant::shown(*potentiometer, plant::counts(*potentiometer, l, added_noise));
     }
     out.xs.push_back(static_cast<double>(length.time_ns[row]) * 1e-9);
     out.ys.push_back(l / inch);

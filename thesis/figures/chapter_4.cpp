@@ -157,8 +157,9 @@ identify::SensorData hung(const robot::Robot& robot) {
     const robot::Sensor& sensor = config::named(robot.sensors, transducers[t], "4-14", "sensor");
     identify::SensorReadings readings{.name = transducers[t]};
     for (std::size_t i = 0; i < out.known.size(); ++i) {
-      const double hiss = robot::noise(1, static_cast<int>(t), static_cast<signals::Tick>(i));
-      readings.volts.push_back(robot::counts(sensor, robot.converter, out.known[i], hiss) /
+      const double added_noise =
+          robot::noise(1, static_cast<int>(t), static_cast<signals::Tick>(i));
+      readings.volts.push_back(robot::counts(sensor, robot.converter, out.known[i], added_noise) /
                                robot.converter.counts_per_volt());
     }
     out.sensors.push_back(std::move(readings));

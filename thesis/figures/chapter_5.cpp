@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "sinew/experiment/spinal.h"
+#include "sinew/experiment/joint_controllers.h"
 #include "sinew/run/simulation/run.h"
 #include "thesis/figures/thesis.h"
 
@@ -34,7 +34,7 @@ struct Valve {
 
 struct Schedule {
   experiment::Experiment experiment;
-  control::SpineConfig spine;
+  control::JointControllerConfig spine;
   std::vector<Valve> valves;
   Tick begin = 0, end = 0;  // of the plan's phases
   Tick period = 0;          // that is drawn: its first tick
@@ -76,7 +76,7 @@ Tick busiest(const std::vector<Valve>& valves, Tick period, Tick from, Tick to) 
 
 Schedule schedule(const Sources& from) {
   Schedule out{.experiment = experiment::load(from.path(file), {"sequence.repeat=1"})};
-  out.spine = experiment::spine_config(out.experiment);
+  out.spine = experiment::joint_controller_config(out.experiment);
   const signals::Table table = run::run(out.experiment).table;
   out.valves = valves_of(out.experiment, table);
   const signals::Series& phase = *table.find("/plan/phase");

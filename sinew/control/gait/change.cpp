@@ -1,6 +1,6 @@
 #include "sinew/control/gait/change.h"
 
-#include "sinew/control/gait/brain.h"
+#include "sinew/control/gait/gait_controller.h"
 #include "sinew/control/gait/plan.h"
 
 namespace sinew::gait {

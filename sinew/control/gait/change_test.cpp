@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sinew/control/gait/brain.h"
+#include "sinew/control/gait/gait_controller.h"
 #include "sinew/control/gait/test_walk.h"
 
 namespace sinew::gait {

@@ -27,10 +27,10 @@ Measured Legs::of_leg(const MachineMeasured& machine, const robot::LegParts& leg
 
 void Legs::update(const MachineMeasured& machine, std::int64_t period_index) noexcept {
   std::int64_t slowest = std::numeric_limits<std::int64_t>::max();
-  for (const Brain& brain : brains_)
+  for (const GaitController& brain : brains_)
     if (!brain.finished()) slowest = std::min(slowest, brain.planned_periods());
   for (std::size_t l = 0; l < brains_.size(); ++l) {
-    Brain& brain = brains_[l];
+    GaitController& brain = brains_[l];
     brain.update(of_leg(machine, parts_[l]), period_index, brain.planned_periods() > slowest);
   }
 }
@@ -46,12 +46,12 @@ void Legs::restore(const State& state) noexcept {
 }
 
 bool Legs::finished() const noexcept {
-  return std::ranges::all_of(brains_, [](const Brain& b) { return b.finished(); });
+  return std::ranges::all_of(brains_, [](const GaitController& b) { return b.finished(); });
 }
 
 std::int64_t Legs::unreachable_periods() const noexcept {
   std::int64_t sum = 0;
-  for (const Brain& b : brains_) sum += b.unreachable_periods();
+  for (const GaitController& b : brains_) sum += b.unreachable_periods();
   return sum;
 }
 

@@ -5,14 +5,14 @@
 // leg that has ended a phase early stays at the start of its next one until all others are as far,
 // so that the offsets last, whatever ends the phases.
 //
-// A robot without [leg.*] has one leg, which is all of it: nothing but its Brain.
+// A robot without [leg.*] has one leg, which is all of it: nothing but its GaitController.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "sinew/control/gait/brain.h"
+#include "sinew/control/gait/gait_controller.h"
 #include "sinew/control/gait/plan.h"
 #include "sinew/robot/legs.h"
 #include "sinew/robot/robot.h"
@@ -32,12 +32,12 @@ class Legs {
 
   std::size_t count() const noexcept { return brains_.size(); }
   const robot::LegParts& parts(std::size_t leg) const noexcept { return parts_[leg]; }
-  const Brain& brain(std::size_t leg) const noexcept { return brains_[leg]; }
+  const GaitController& brain(std::size_t leg) const noexcept { return brains_[leg]; }
   const Desired& desired(std::size_t leg) const noexcept { return brains_[leg].desired(); }
 
   // Everything that their next words depend on, beside the plan and what they will be told; of legs
   // that are not there, the default. Copied like bytes.
-  using State = std::array<Brain::State, robot::max_legs>;
+  using State = std::array<GaitController::State, robot::max_legs>;
   State state() const noexcept;
   void restore(const State& state) noexcept;  // of legs with an equal plan
 
@@ -49,7 +49,7 @@ class Legs {
   Measured of_leg(const MachineMeasured& machine, const robot::LegParts& leg) const noexcept;
 
   std::vector<robot::LegParts> parts_;
-  std::vector<Brain> brains_;
+  std::vector<GaitController> brains_;
 };
 
 }  // namespace sinew::gait

@@ -32,7 +32,7 @@ TEST(Legs, OneLegIsItsBrain) {
   const robot::Robot robot = robot::test::leg();
   const Plan plan = test::walk(robot);
   Legs legs(robot, plan);
-  Brain brain(robot, plan);
+  GaitController brain(robot, plan);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(0, 6);
   ASSERT_EQ(legs.count(), 1u);
@@ -113,7 +113,7 @@ TEST(Legs, WhoIsEarlyWaitsForTheOthers) {
 TEST(Legs, GroundReactionOfEachLeg) {
   const robot::Robot robot = antiphase(), one = robot::test::leg();
   Legs legs(robot, test::walk(robot));
-  const Brain brain(one, test::walk(one));
+  const GaitController brain(one, test::walk(one));
   MachineMeasured m;
   Measured left, right;
   m.angle = {5.2, 5.0, 4.9, 5.3};

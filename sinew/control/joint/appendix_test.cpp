@@ -1,7 +1,7 @@
-// Class Spine against the thesis's interrupt routine (appendix B, pwm_isr), told again here with
-// the thesis's types: `short` outputs, float gains, expressions in the x87's extended precision, a
-// state machine that looks at every valve in every tick. Same random readings, commands and enable
-// switches: same duties, same edges.
+// Class JointController against the thesis's interrupt routine (appendix B, pwm_isr), told again
+// here with the thesis's types: `short` outputs, float gains, expressions in the x87's extended
+// precision, a state machine that looks at every valve in every tick. Same random readings,
+// commands and enable switches: same duties, same edges.
 //
 // Where the reference departs from the code, as the laws do (laws.h): conversions to `short`
 // saturate at +-16000, the first law sees no speed, and a length of 0 keeps the last stiffness.
@@ -16,7 +16,7 @@
 #include <set>
 #include <utility>
 
-#include "sinew/control/joint/spine.h"
+#include "sinew/control/joint/joint_controller.h"
 #include "sinew/control/joint/test_leg.h"
 
 namespace sinew::control {
@@ -158,7 +158,7 @@ constexpr std::array<int, 3> thesis_joint = {1, 2, 0};  // of the test leg's hip
 
 class Duel {
  public:
-  Duel(const SpineConfig& config, std::uint32_t seed, bool open_loop = false)
+  Duel(const JointControllerConfig& config, std::uint32_t seed, bool open_loop = false)
       : spine_(config), random_(seed), open_loop_(open_loop) {
     isr_.timing = config.timing;
     isr_.forward_flexor = static_cast<short>(config.joint[cylinder].feedforward.flexor_inlet);
@@ -272,7 +272,7 @@ class Duel {
     }
   }
 
-  Spine spine_;
+  JointController spine_;
   Interrupt isr_;
   Command command_;
   std::array<int, 7> reading_{};
@@ -282,13 +282,13 @@ class Duel {
 
 // --- the tests ----------------------------------------------------------------------------------
 
-SpineConfig as_printed() {
-  SpineConfig config = test_leg();
+JointControllerConfig as_printed() {
+  JointControllerConfig config = test_leg();
   for (JointConfig& joint : config.joint) joint.pole_clamp = -10'000;  // the code knows no pole
   return config;
 }
 
-void expect_same(const SpineConfig& config, std::uint32_t seed, bool open_loop = false) {
+void expect_same(const JointControllerConfig& config, std::uint32_t seed, bool open_loop = false) {
   constexpr int periods = 3000;
   Duel duel(config, seed, open_loop);
   duel.run(periods);
@@ -303,7 +303,7 @@ TEST(Appendix, IdentityTiming) {
 }
 
 TEST(Appendix, CompensatedTiming) {
-  SpineConfig config = as_printed();
+  JointControllerConfig config = as_printed();
   config.timing = signals::compensated_timing(5, 12);
   expect_same(config, 11);
   config.timing = signals::compensated_timing(40, 10);
@@ -314,7 +314,7 @@ TEST(Appendix, CompensatedTiming) {
 TEST(Appendix, AnyTiming) {
   std::mt19937 random(7);
   std::uniform_int_distribution<std::uint16_t> ticks(0, 101);
-  SpineConfig config = as_printed();
+  JointControllerConfig config = as_printed();
   for (std::uint32_t seed = 21; seed <= 24; ++seed) {
     for (std::uint16_t& t : config.timing.closing) t = ticks(random);
     for (std::uint16_t& t : config.timing.opening) t = ticks(random);
@@ -323,14 +323,14 @@ TEST(Appendix, AnyTiming) {
 }
 
 TEST(Appendix, CylinderWithFeedforward) {
-  SpineConfig config = as_printed();
+  JointControllerConfig config = as_printed();
   config.joint[cylinder].feedforward = {55, 55, 45, 45};
   expect_same(config, 31);
 }
 
 // The blocks that appendix B keeps as comments: duties from outside, of the cylinder as well.
 TEST(Appendix, OpenLoopDutiesOfAllJoints) {
-  SpineConfig config = as_printed();
+  JointControllerConfig config = as_printed();
   config.joint[cylinder].feedforward = {55, 55, 45, 45};
   for (std::uint32_t seed = 41; seed <= 43; ++seed) expect_same(config, seed, true);
 }

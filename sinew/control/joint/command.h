@@ -39,7 +39,7 @@ struct JointCommand {
 };
 
 struct Command {
-  std::array<JointCommand, max_joints> joint;  // in the order of SpineConfig::joint
+  std::array<JointCommand, max_joints> joint;  // in the order of JointControllerConfig::joint
 };
 
 }  // namespace sinew::control

@@ -3,19 +3,19 @@
 namespace sinew::control {
 namespace {
 
-bool read_at(const SpineConfig& config, std::uint16_t tick) noexcept {
+bool read_at(const JointControllerConfig& config, std::uint16_t tick) noexcept {
   for (std::size_t i = 0; i < config.conversions; ++i)
     if (config.conversion[i].read == tick) return true;
   return false;
 }
 
-bool converted(const SpineConfig& config, signals::Channel channel) noexcept {
+bool converted(const JointControllerConfig& config, signals::Channel channel) noexcept {
   for (std::size_t i = 0; i < config.conversions; ++i)
     if (config.conversion[i].channel.index == channel.index) return true;
   return false;
 }
 
-const char* problem_of_scan(const SpineConfig& config) noexcept {
+const char* problem_of_scan(const JointControllerConfig& config) noexcept {
   if (config.conversions > max_conversions) return "more conversions than max_conversions";
   std::uint16_t last = 0;
   for (std::size_t i = 0; i < config.conversions; ++i) {
@@ -65,7 +65,8 @@ bool source_without_muscle(const JointConfig& joint) noexcept {
          (joint.stiffness_source == StiffnessSource::extensor_force && !joint.extensor.present);
 }
 
-const char* problem_of_joint(const SpineConfig& config, const JointConfig& joint) noexcept {
+const char* problem_of_joint(const JointControllerConfig& config,
+                             const JointConfig& joint) noexcept {
   if (joint.kind == JointKind::passive)
     return joint.flexor.present || joint.extensor.present ? "a passive joint has no muscles"
                                                           : nullptr;
@@ -95,8 +96,8 @@ struct Owner {
   const MuscleConfig* muscle = nullptr;  // as an inlet
 };
 
-const char* problem_of_inlet(const SpineConfig& config, std::size_t j, const MuscleConfig& m,
-                             Owner& owner) noexcept {
+const char* problem_of_inlet(const JointControllerConfig& config, std::size_t j,
+                             const MuscleConfig& m, Owner& owner) noexcept {
   if (!owner.taken) {
     owner = {true, 1, static_cast<std::uint8_t>(j), &m};
     return nullptr;
@@ -109,7 +110,7 @@ const char* problem_of_inlet(const SpineConfig& config, std::size_t j, const Mus
   return nullptr;
 }
 
-const char* problem_of_valves(const SpineConfig& config) noexcept {
+const char* problem_of_valves(const JointControllerConfig& config) noexcept {
   std::array<Owner, 256> owner{};
   for (std::size_t j = 0; j < config.joints; ++j) {
     const JointConfig& joint = config.joint[j];
@@ -153,7 +154,7 @@ Readings readings_of(const JointConfig& joint) noexcept {
   return out;
 }
 
-const char* problem(const SpineConfig& config) noexcept {
+const char* problem(const JointControllerConfig& config) noexcept {
   if (config.joints > max_joints) return "more joints than max_joints";
   if (config.period == 0) return "the period must not be 0";
   if (config.output_delay < 1 || config.output_delay > config.period)
@@ -168,7 +169,7 @@ const char* problem(const SpineConfig& config) noexcept {
   return problem_of_valves(config);
 }
 
-Command rest_command(const SpineConfig& config) noexcept {
+Command rest_command(const JointControllerConfig& config) noexcept {
   Command command;
   for (std::size_t j = 0; j < max_joints; ++j) {
     const JointConfig& joint = config.joint[j];

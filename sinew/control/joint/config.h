@@ -113,7 +113,7 @@ struct Readings {
 };
 Readings readings_of(const JointConfig&) noexcept;
 
-struct SpineConfig {
+struct JointControllerConfig {
   std::array<JointConfig, max_joints> joint;
   std::size_t joints = 0;
 
@@ -135,10 +135,11 @@ struct SpineConfig {
   bool laws_overrun = false;
 };
 
-// nullptr, or what is wrong, for a message. A Spine must not be made from a config with a problem.
-const char* problem(const SpineConfig&) noexcept;
+// nullptr, or what is wrong, for a message. A JointController must not be made from a config with a
+// problem.
+const char* problem(const JointControllerConfig&) noexcept;
 
 // What holds until the brain's first command: rest angles, no stiffness, joints disabled.
-Command rest_command(const SpineConfig&) noexcept;
+Command rest_command(const JointControllerConfig&) noexcept;
 
 }  // namespace sinew::control

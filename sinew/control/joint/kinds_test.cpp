@@ -76,7 +76,7 @@ TEST(StiffnessSource, TransducersOfDifferentScales) {
 
 // No sensor of tension is scanned, and the laws run: with the angle alone.
 TEST(StiffnessSource, NoneNeedsNoTension) {
-  SpineConfig config = leg_with([](SpineConfig& c) {
+  JointControllerConfig config = leg_with([](JointControllerConfig& c) {
     c.conversions = 3;
     c.joints = 2;
     for (std::size_t j = 0; j < 2; ++j) {
@@ -100,7 +100,7 @@ TEST(StiffnessSource, NoneNeedsNoTension) {
 
 TEST(Velocity, IsSeenAndCountsInTheLaw) {
   for (const bool sensor : {false, true}) {
-    Bench bench(leg_with([&](SpineConfig& c) {
+    Bench bench(leg_with([&](JointControllerConfig& c) {
       c.joint[hip].gains = {.velocity = 0.02f};
       c.joint[hip].stiffness_source = StiffnessSource::none;
       c.joint[hip].velocity = {
@@ -129,7 +129,7 @@ TEST(DeadBand, ShutsWhatIsBelowIt) {
     EXPECT_EQ(d.flexor_exhaust, -duty >= 10 ? -duty : 0);
     EXPECT_EQ(to_duties({duty, 0}, 0), to_duties({duty, 0}, 1));  // as in B.1
   }
-  Bench bench(leg_with([](SpineConfig& c) {
+  Bench bench(leg_with([](JointControllerConfig& c) {
     c.dead_band = 15;
     c.joint[hip].stiffness_source = StiffnessSource::none;
   }));
@@ -139,7 +139,7 @@ TEST(DeadBand, ShutsWhatIsBelowIt) {
 }
 
 TEST(Overruns, AreTheLawsThatTakeTooLong) {
-  Bench bench(leg_with([](SpineConfig& c) { c.laws_overrun = true; }));
+  Bench bench(leg_with([](JointControllerConfig& c) { c.laws_overrun = true; }));
   bench.run(10);
   EXPECT_EQ(bench.spine.seen().overruns, 30u);  // three joints
   Bench quick(test_leg());
@@ -150,7 +150,7 @@ TEST(Overruns, AreTheLawsThatTakeTooLong) {
 // The same edges, but the levels of the exhausts.
 TEST(Exhaust, InvertedIsTheSameWithTheOtherLevel) {
   const auto edges = [](bool inverted) {
-    Bench bench(leg_with([&](SpineConfig& c) {
+    Bench bench(leg_with([&](JointControllerConfig& c) {
       c.startup_vent = 200;
       for (JointConfig& joint : c.joint)
         joint.flexor.exhaust_inverted = joint.extensor.exhaust_inverted = inverted;
@@ -169,15 +169,15 @@ TEST(Exhaust, InvertedIsTheSameWithTheOtherLevel) {
     ASSERT_EQ(plain[i].at, inverted[i].at);
     ASSERT_EQ(plain[i].open, inverted[i].open != (plain[i].valve.index % 2 == 1));
   }
-  SpineConfig config = test_leg();
+  JointControllerConfig config = test_leg();
   config.joint[hip].flexor.exhaust_inverted = true;
   EXPECT_NE(problem(config), nullptr);  // nothing would shut it at the start
 }
 
 // --- 3-way valves -------------------------------------------------------------------------------
 
-SpineConfig three_way_leg() {
-  return leg_with([](SpineConfig& c) {
+JointControllerConfig three_way_leg() {
+  return leg_with([](JointControllerConfig& c) {
     c.joints = 1;
     c.joint[hip].kind = JointKind::three_way;
     c.joint[hip].bias = 40;
@@ -215,8 +215,8 @@ TEST(ThreeWay, NeverDrivesAnExhaustAndVentsByShutting) {
 
 // --- regulators ---------------------------------------------------------------------------------
 
-SpineConfig regulated_leg(float angle_integral) {
-  return leg_with([&](SpineConfig& c) {
+JointControllerConfig regulated_leg(float angle_integral) {
+  return leg_with([&](JointControllerConfig& c) {
     c.joints = 1;
     c.joint[hip].kind = JointKind::regulated;
     c.joint[hip].stiffness_source = StiffnessSource::none;

@@ -12,7 +12,7 @@
 namespace sinew::control {
 namespace {
 
-constexpr SpineConfig leg = test_leg();
+constexpr JointControllerConfig leg = test_leg();
 constexpr double counts_per_lbf = 0.17 * 4096 / 5;  // 4.4
 constexpr double counts_per_rad = 767;              // B.1
 

@@ -18,7 +18,7 @@ using signals::Edge;
 // --- one muscle, and one for two joints ---------------------------------------------------------
 
 TEST(SingleMuscle, LeavesTheOtherSideAlone) {
-  Bench bench(leg_with([](SpineConfig& c) {
+  Bench bench(leg_with([](JointControllerConfig& c) {
     c.joints = 1;
     c.joint[hip].extensor = {.present = false};
   }));
@@ -37,8 +37,8 @@ TEST(SingleMuscle, LeavesTheOtherSideAlone) {
 }
 
 // Hip flexor and knee flexor are one muscle.
-SpineConfig biarticular(float hip_share, float travel = 0) {
-  return leg_with([&](SpineConfig& c) {
+JointControllerConfig biarticular(float hip_share, float travel = 0) {
+  return leg_with([&](JointControllerConfig& c) {
     c.joints = 2;
     MuscleConfig &at_hip = c.joint[hip].flexor, &at_knee = c.joint[knee].flexor;
     at_knee.inlet = at_hip.inlet, at_knee.exhaust = at_hip.exhaust,
@@ -92,7 +92,7 @@ TEST(SharedMuscle, IsDrivenOnce) {
 }
 
 TEST(SharedMuscle, ItsLengthFollowsBothJoints) {
-  SpineConfig config = biarticular(0.5f, -0.5f);
+  JointControllerConfig config = biarticular(0.5f, -0.5f);
   config.joint[hip].stiffness_source = StiffnessSource::force;
   Bench bench(config);
   bench.reading[1] = 1895;
@@ -107,35 +107,37 @@ TEST(SharedMuscle, ItsLengthFollowsBothJoints) {
 
 // --- configurations that cannot be --------------------------------------------------------------
 
-TEST(SpineConfig, ProblemsOfTheKinds) {
-  const auto of = [](const std::function<void(SpineConfig&)>& change) {
-    const SpineConfig config = leg_with(change);
+TEST(JointControllerConfig, ProblemsOfTheKinds) {
+  const auto of = [](const std::function<void(JointControllerConfig&)>& change) {
+    const JointControllerConfig config = leg_with(change);
     const char* p = problem(config);
     return std::string(p ? p : "");
   };
-  EXPECT_NE(of([](SpineConfig& c) {
+  EXPECT_NE(of([](JointControllerConfig& c) {
               c.joint[hip].velocity.estimator = Estimator::sensor,
               c.joint[hip].velocity.channel = {20};
             }).find("not converted"),
             std::string::npos);
-  EXPECT_NE(of([](SpineConfig& c) {
+  EXPECT_NE(of([](JointControllerConfig& c) {
               c.joint[hip].velocity = {.estimator = Estimator::weighted_average, .samples = 17};
             }).find("2 to 16 samples"),
             std::string::npos);
-  EXPECT_NE(of([](SpineConfig& c) {
+  EXPECT_NE(of([](JointControllerConfig& c) {
               c.joint[hip].stiffness_source = StiffnessSource::extensor_force;
               c.joint[hip].extensor.present = false;
             }).find("not there"),
             std::string::npos);
-  EXPECT_NE(of([](SpineConfig& c) { c.dead_band = 101; }).find("dead_band"), std::string::npos);
-  EXPECT_NE(of([](SpineConfig& c) { c.joint[hip].kind = JointKind::passive; }).find("passive"),
+  EXPECT_NE(of([](JointControllerConfig& c) { c.dead_band = 101; }).find("dead_band"),
             std::string::npos);
+  EXPECT_NE(
+      of([](JointControllerConfig& c) { c.joint[hip].kind = JointKind::passive; }).find("passive"),
+      std::string::npos);
   // The inlet alone is not a shared muscle; nor can both sides of a joint be one.
-  EXPECT_NE(of([](SpineConfig& c) {
+  EXPECT_NE(of([](JointControllerConfig& c) {
               c.joint[knee].flexor.inlet = c.joint[hip].flexor.inlet;
             }).find("same valve"),
             std::string::npos);
-  EXPECT_NE(of([](SpineConfig& c) {
+  EXPECT_NE(of([](JointControllerConfig& c) {
               c.joint[hip].extensor.inlet = c.joint[hip].flexor.inlet;
               c.joint[hip].extensor.exhaust = c.joint[hip].flexor.exhaust;
             }).find("same valve"),

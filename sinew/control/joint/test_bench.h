@@ -8,14 +8,14 @@
 #include <functional>
 #include <vector>
 
-#include "sinew/control/joint/spine.h"
+#include "sinew/control/joint/joint_controller.h"
 #include "sinew/control/joint/test_leg.h"
 
 namespace sinew::control {
 
 // Readings by channel, held; commands of all joints alike.
 struct Bench {
-  explicit Bench(const SpineConfig& config) : spine(config) {
+  explicit Bench(const JointControllerConfig& config) : spine(config) {
     EXPECT_EQ(problem(config), nullptr);
     command = rest_command(config);
     for (JointCommand& c : command.joint) c.enabled = true;
@@ -47,15 +47,15 @@ struct Bench {
     return open / static_cast<double>(now - from);
   }
 
-  Spine spine;
+  JointController spine;
   Command command;
   std::array<std::uint16_t, max_channels> reading{};
   std::vector<signals::Edge> edges;
   signals::Tick now = 0;
 };
 
-inline SpineConfig leg_with(const std::function<void(SpineConfig&)>& change) {
-  SpineConfig config = test_leg();
+inline JointControllerConfig leg_with(const std::function<void(JointControllerConfig&)>& change) {
+  JointControllerConfig config = test_leg();
   change(config);
   return config;
 }

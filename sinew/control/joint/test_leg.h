@@ -13,8 +13,8 @@ enum TestLegJoint : std::size_t { hip, knee, cylinder };
 
 // Channels 0..6 as scanned: cylinder, hip and knee position, then the tensions of hip flexor and
 // extensor, knee flexor and extensor. Valves 4 x joint + (0..3 in the order of Duties).
-constexpr SpineConfig test_leg() noexcept {
-  SpineConfig leg;
+constexpr JointControllerConfig test_leg() noexcept {
+  JointControllerConfig leg;
   leg.joints = 3;
   leg.conversions = 7;
   for (std::uint8_t i = 0; i < 7; ++i)

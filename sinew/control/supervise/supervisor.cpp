@@ -57,7 +57,7 @@ const char* problem(const SuperviseConfig& config) noexcept {
   return nullptr;
 }
 
-Supervisor::Supervisor(const SpineConfig& spine, const SuperviseConfig& limits) noexcept
+Supervisor::Supervisor(const JointControllerConfig& spine, const SuperviseConfig& limits) noexcept
     : spine_(spine), limits_(limits), good_(rest_command(spine)) {}
 
 // While something can still be ended.

@@ -1,8 +1,9 @@
 // control/supervise/supervisor.h - a spinal cord that does not believe everything.
 //
-// Stands before control::Spine with the same functions, so that the loop cannot tell. It looks at
-// what comes in, readings, commands and the clock, and changes what goes on to the spinal cord only
-// where something is wrong; where nothing is, the edges are the spinal cord's, bit for bit.
+// Stands before control::JointController with the same functions, so that the loop cannot tell. It
+// looks at what comes in, readings, commands and the clock, and changes what goes on to the spinal
+// cord only where something is wrong; where nothing is, the edges are the spinal cord's, bit for
+// bit.
 //
 //   what is wrong                   at once                         going on
 //   a reading outside its range,    the last good one is kept       the third in a row: vent
@@ -25,7 +26,7 @@
 #include <cstdint>
 #include <span>
 
-#include "sinew/control/joint/spine.h"
+#include "sinew/control/joint/joint_controller.h"
 #include "sinew/control/supervise/limits.h"
 #include "sinew/control/supervise/supervised.h"
 
@@ -34,9 +35,10 @@ namespace sinew::control {
 class Supervisor {
  public:
   // problem() of both must be nullptr.
-  Supervisor(const SpineConfig& spine, const SuperviseConfig& limits) noexcept;
+  Supervisor(const JointControllerConfig& spine, const SuperviseConfig& limits) noexcept;
 
-  // As of Spine; a tick that is later than announced is noticed by the first of its calls.
+  // As of JointController; a tick that is later than announced is noticed by the first of its
+  // calls.
   signals::Scan scan() const noexcept { return spine_.scan(); }
   signals::Tick next_event(signals::Tick t) noexcept;
   bool starts_period(signals::Tick t) noexcept;
@@ -45,7 +47,7 @@ class Supervisor {
   const signals::Conversion* due(signals::Tick t) noexcept;
   void take(const signals::Conversion&, signals::Reading, signals::Tick t) noexcept;
   const Seen& seen() const noexcept { return spine_.seen(); }
-  const SpineConfig& config() const noexcept { return spine_.config(); }
+  const JointControllerConfig& config() const noexcept { return spine_.config(); }
   void missed(signals::Tick t) noexcept { spine_.missed(t); }
   void shut_down(signals::Tick t) noexcept { spine_.shut_down(t); }
 
@@ -82,7 +84,7 @@ class Supervisor {
   bool possible(std::size_t joint, const JointCommand&) const noexcept;
   void reject_command(std::uint8_t joint) noexcept;
 
-  Spine spine_;
+  JointController spine_;
   SuperviseConfig limits_;
   Supervised supervised_;
 

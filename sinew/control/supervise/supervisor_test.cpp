@@ -35,7 +35,7 @@ TEST(Supervisor, ThreeReadingsOutOfRangeVentWithinHalfAMillisecond) {
 }
 
 TEST(Supervisor, EvenWhereALawsOutputTakesAPeriod) {
-  SpineConfig leg = test_leg();
+  JointControllerConfig leg = test_leg();
   leg.output_delay = 100;
   Stand stand(limits(), leg);
   stand.lie = lying(hip_angle, 4095, 20);
@@ -45,7 +45,7 @@ TEST(Supervisor, EvenWhereALawsOutputTakesAPeriod) {
 }
 
 TEST(Supervisor, AMachineWithoutAVentTimeIsVentedForASecond) {
-  SpineConfig leg = test_leg();
+  JointControllerConfig leg = test_leg();
   leg.shutdown_vent = 0;
   Stand stand(limits(), leg);
   stand.lie = lying(hip_angle, 4095, 20);
@@ -173,7 +173,7 @@ TEST(Supervisor, AFrozenReadingEndsARunOnlyByItsLimit) {
 TEST(Supervisor, WhereNothingIsWrongTheEdgesAreTheSpines) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 30; ++trial) {
-    const SpineConfig leg = any_leg(random);
+    const JointControllerConfig leg = any_leg(random);
     const auto seed = static_cast<unsigned>(random());
     const bool every_tick = random() % 2;
     const auto edges = [&](auto&& controller) {
@@ -190,7 +190,7 @@ TEST(Supervisor, WhereNothingIsWrongTheEdgesAreTheSpines) {
       }
       return out;
     };
-    const auto alone = edges(Spine(leg)), supervised = edges(Supervisor(leg, {}));
+    const auto alone = edges(JointController(leg)), supervised = edges(Supervisor(leg, {}));
     EXPECT_GT(alone.size(), 500u);
     EXPECT_EQ(alone, supervised);
   }
@@ -203,8 +203,8 @@ TEST(Supervisor, NeverBothOpenAmongSkippedTicks) {
   FuzzCount alone, supervised;
   const FuzzOptions options{.gap_every = 40, .late_every = 50};
   for (int trial = 0; trial < 60; ++trial) {
-    const SpineConfig leg = any_leg(random);
-    Spine spine(leg);
+    const JointControllerConfig leg = any_leg(random);
+    JointController spine(leg);
     fuzz(spine, 300, options, random, alone);
     SuperviseConfig config;
     config.gap_vent = 1'000'000;
@@ -225,7 +225,7 @@ TEST(Supervisor, WhatShouldHaveShutInAGapShutsAtTheFirstTickAfterIt) {
   std::mt19937 random(11);
   SuperviseConfig config;
   config.gap_vent = 1'000'000;
-  const SpineConfig leg = test_leg();
+  const JointControllerConfig leg = test_leg();
   Command command = rest_command(leg);
   for (JointCommand& c : command.joint) {
     c.enabled = c.open_loop = true;

@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "sinew/control/joint/spine.h"
+#include "sinew/control/joint/joint_controller.h"
 #include "sinew/control/joint/test_leg.h"
 #include "sinew/control/supervise/supervisor.h"
 
@@ -18,7 +18,9 @@ namespace sinew::control {
 // ValveWatch follows the edges that a machine's valves were sent, and tells which of them are open.
 class ValveWatch {
  public:
-  explicit ValveWatch(const SpineConfig& config) : config_(config) { inverted_exhausts(); }
+  explicit ValveWatch(const JointControllerConfig& config) : config_(config) {
+    inverted_exhausts();
+  }
 
   void drive(const signals::Edge& e) { open_[e.valve.index] = e.open != inverted_[e.valve.index]; }
 
@@ -61,12 +63,13 @@ class ValveWatch {
         inverted_[m->exhaust.index] = m->exhaust_inverted;
   }
 
-  SpineConfig config_;
+  JointControllerConfig config_;
   std::array<bool, 256> open_{}, inverted_{};
 };
 
 // Any command, now and then one that cannot be.
-inline Command any_command(std::mt19937& random, const SpineConfig& config, bool impossible) {
+inline Command any_command(std::mt19937& random, const JointControllerConfig& config,
+                           bool impossible) {
   std::uniform_real_distribution<float> unit(0, 1);
   const auto below = [&](unsigned n) { return static_cast<std::int32_t>(random() % n); };
   Command command = rest_command(config);
@@ -124,11 +127,11 @@ inline bool finite(const JointSeen& s) {
          std::isfinite(s.angle_output) && std::isfinite(s.velocity);
 }
 
-// `Controller` is a Spine or a Supervisor; readings are any counts.
+// `Controller` is a JointController or a Supervisor; readings are any counts.
 template <class Controller>
 void fuzz(Controller& controller, int periods, const FuzzOptions& options, std::mt19937& random,
           FuzzCount& count) {
-  const SpineConfig& config = controller.config();
+  const JointControllerConfig& config = controller.config();
   ValveWatch valves(config);
   const auto one_in = [&](unsigned n) { return n > 0 && random() % n == 0; };
   const signals::Tick end = static_cast<signals::Tick>(periods) * config.period;
@@ -157,8 +160,8 @@ void fuzz(Controller& controller, int periods, const FuzzOptions& options, std::
 }
 
 // Different joints, delays and timings.
-inline SpineConfig any_leg(std::mt19937& random) {
-  SpineConfig config = test_leg();
+inline JointControllerConfig any_leg(std::mt19937& random) {
+  JointControllerConfig config = test_leg();
   config.joint[cylinder].feedforward = {55, 55, 45, 45};
   if (random() % 2) config.timing = signals::compensated_timing(5, 12);
   config.output_delay = static_cast<std::uint16_t>(random() % 4 ? 1 : 1 + random() % 100);

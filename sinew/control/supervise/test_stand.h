@@ -35,7 +35,8 @@ inline SuperviseConfig limits() {
 
 // A supervised leg at its rest angles. Its readings lie where a test sets `lie`.
 struct Stand {
-  explicit Stand(const SuperviseConfig& config = limits(), const SpineConfig& leg = test_leg())
+  explicit Stand(const SuperviseConfig& config = limits(),
+                 const JointControllerConfig& leg = test_leg())
       : spine(leg, config), valves(leg) {
     EXPECT_EQ(problem(config), nullptr);
     command = rest_command(leg);

@@ -1,7 +1,7 @@
 #include <filesystem>
 
 #include "sinew/config/compose.h"
-#include "sinew/config/writer.h"
+#include "sinew/config/write/writer.h"
 #include "sinew/experiment/rig/check.h"
 #include "sinew/experiment/rig/rig.fields.h"
 

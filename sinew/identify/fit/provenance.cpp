@@ -6,7 +6,7 @@
 
 #include "sinew/actuator/actuator.fields.h"
 #include "sinew/config/quantity.h"
-#include "sinew/config/writer.h"
+#include "sinew/config/write/writer.h"
 
 namespace sinew::identify {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/writer.h"
+#include "sinew/config/write/writer.h"
 
 namespace sinew::identify {
 

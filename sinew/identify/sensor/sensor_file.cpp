@@ -5,7 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "sinew/config/writer.h"
+#include "sinew/config/write/writer.h"
 #include "sinew/identify/fit/provenance.h"
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/robot/sensor.fields.h"

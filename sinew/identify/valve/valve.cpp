@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "sinew/config/writer.h"
+#include "sinew/config/write/writer.h"
 #include "sinew/gas/valve.fields.h"
 #include "sinew/identify/fit/refusal.h"
 

@@ -15,9 +15,9 @@
 
 #include "sinew/muscle/lanes.h"
 #include "sinew/plant/planar/body.h"
-#include "sinew/plant/planar/cords.h"
+#include "sinew/plant/planar/friction_contacts.h"
+#include "sinew/plant/planar/muscle_routing.h"
 #include "sinew/plant/planar/planar_mechanism.h"
-#include "sinew/plant/planar/rubs.h"
 #include "sinew/plant/planar/setup.h"
 #include "sinew/plant/planar/stops.h"
 
@@ -28,14 +28,14 @@ class BodyMechanism : public PlanarMechanism<M> {
  public:
   using Motion = plant::Motion<N>;
   using Acceleration = Coordinates<N>;
-  using Forces = typename Rubs<N, D>::Forces;
-  using Arms = Cords::Pulls<M>;
+  using Forces = typename FrictionContacts<N, D>::Forces;
+  using Arms = MuscleRouting::MomentArms<M>;
   using Pose = Body<N>;
 
   struct Load {
-    Coordinates<N> force;                  // all but dry friction
-    std::array<double, N> passive_torque;  // dampers and springs [N m]
-    typename Rubs<N, D>::Normals normal;   // of the ground on the discs [N]
+    Coordinates<N> force;                             // all but dry friction
+    std::array<double, N> passive_torque;             // dampers and springs [N m]
+    typename FrictionContacts<N, D>::Normals normal;  // of the ground on the discs [N]
   };
 
   // Is there room for this robot?
@@ -88,13 +88,13 @@ class BodyMechanism : public PlanarMechanism<M> {
   // Bound of the trolley's dry friction, from the last step's and what was held in it [N].
   double trolley_bound(const Forces& held, double last) const noexcept {
     if (constants_.held[along_track]) return 0;
-    return robot_.trolley.friction(held[Rubs<N, D>::trolley], last);
+    return robot_.trolley.friction(held[FrictionContacts<N, D>::trolley], last);
   }
 
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
   // the mesh's own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& body, const Motion& m, const Arms& arms,
-                       const muscle::Lanes<M>& mesh, double trolley_bound,
+                       const muscle::Lanes<M>& friction_bound, double trolley_bound,
                        const Load& load) noexcept;
 
   // Dry friction of a step of length h from the prepared node, and accelerations under it.
@@ -135,8 +135,8 @@ class BodyMechanism : public PlanarMechanism<M> {
 
   BodyConstants<N> constants_;
   robot::Robot robot_;
-  Cords cords_;
-  Rubs<N, D> rubs_;
+  MuscleRouting cords_;
+  FrictionContacts<N, D> rubs_;
   Motion start_{};
   std::array<double, N> damping_{}, dry_{};
   std::array<JointStop, N> stop_{};

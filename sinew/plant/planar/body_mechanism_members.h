@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "sinew/plant/planar/body_mechanism.h"
+#include "sinew/plant/planar/friction_contacts_members.h"
 #include "sinew/plant/planar/rollers.h"
-#include "sinew/plant/planar/rubs_members.h"
 
 namespace sinew::plant {
 
@@ -95,7 +95,7 @@ void BodyMechanism<N, D, M>::load(const Pose& body, const Motion& m, const Arms&
     torque[j] = out.passive_torque[j];
   }
   for (int i = 0; i < cords_.count(); ++i)
-    for (int k = 0; k < Cords::most; ++k)
+    for (int k = 0; k < MuscleRouting::most; ++k)
       if (const int j = cords_.joint(i, k); j >= 0)
         torque[static_cast<std::size_t>(j)] +=
             arms[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] * tension[i];
@@ -138,20 +138,21 @@ auto BodyMechanism<N, D, M>::accelerate(const Pose& body, const Motion& m, const
 
 template <int N, int D, int M>
 auto BodyMechanism<N, D, M>::prepare(const Pose& body, const Motion& m, const Arms& arms,
-                                     const muscle::Lanes<M>& mesh, double trolley_bound,
+                                     const muscle::Lanes<M>& friction_bound, double trolley_bound,
                                      const Load& load) noexcept -> Acceleration {
   const Acceleration free = body.accelerations(load.force);
   Forces bound{};
   for (std::size_t j = 0; j < constants_.links(); ++j) bound[j] = dry_[j];
   for (int i = 0; i < cords_.count(); ++i)
-    for (int k = 0; k < Cords::most; ++k)
+    for (int k = 0; k < MuscleRouting::most; ++k)
       if (const int j = cords_.joint(i, k); j >= 0)
         bound[static_cast<std::size_t>(j)] +=
-            std::abs(arms[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)]) * mesh[i];
-  bound[Rubs<N, D>::trolley] = trolley_bound;
-  bound[Rubs<N, D>::lift] = constants_.held[up] ? 0.0 : robot_.cylinder.friction;
+            std::abs(arms[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)]) *
+            friction_bound[i];
+  bound[FrictionContacts<N, D>::trolley] = trolley_bound;
+  bound[FrictionContacts<N, D>::lift] = constants_.held[up] ? 0.0 : robot_.cylinder.friction;
   for (std::size_t i = 0; i < static_cast<std::size_t>(rubs_.discs()); ++i)
-    bound[Rubs<N, D>::first_disc + i] = rubs_.friction(i) * load.normal[i];
+    bound[FrictionContacts<N, D>::first_disc + i] = rubs_.friction(i) * load.normal[i];
   rubs_.prepare(body, m, free, bound, load.normal);
   return free;
 }
@@ -187,7 +188,7 @@ void BodyMechanism<N, D, M>::finish(Motion& now, double h, const Motion* const (
 template <int N, int D, int M>
 void BodyMechanism<N, D, M>::add_torque(const Arms& arms, int muscle, double tension,
                                         std::array<double, most_joints>& torque) const noexcept {
-  for (std::size_t s = 0; s < Cords::most; ++s)
+  for (std::size_t s = 0; s < MuscleRouting::most; ++s)
     if (const int j = cords_.joint(muscle, static_cast<int>(s)); j >= 0)
       torque[static_cast<std::size_t>(j)] += arms[static_cast<std::size_t>(muscle)][s] * tension;
 }
@@ -206,7 +207,7 @@ void BodyMechanism<N, D, M>::tell(const Motion& m, const Acceleration& a, const 
     out.rate[j] = joint_rate(m, j);
   }
   for (std::size_t f = 0; f < rubs_.feet(); ++f) {
-    const typename Rubs<N, D>::Path& path = rubs_.leg(f);
+    const typename FrictionContacts<N, D>::Path& path = rubs_.leg(f);
     for (std::size_t k = path.first; k < path.count; ++k) {
       out.foot[f].x += path.reach[k] * body.cos(path.link[k]);
       out.foot[f].y += path.reach[k] * body.sin(path.link[k]);
@@ -217,7 +218,8 @@ void BodyMechanism<N, D, M>::tell(const Motion& m, const Acceleration& a, const 
     const double push = rubs_.push(rubs_.depth(body, m, i), rubs_.disc(body, m, i), m);
     out.disc_force[static_cast<std::size_t>(i)] = push;
     foot.force_y += push;
-    if (push > 0) foot.force_x += held[static_cast<std::size_t>(Rubs<N, D>::first_disc + i)];
+    if (push > 0)
+      foot.force_x += held[static_cast<std::size_t>(FrictionContacts<N, D>::first_disc + i)];
   }
   if (robot_.rollers.present) tell_rollers(body, m, a, held, load, out);
 }

@@ -266,20 +266,20 @@ TEST(BodyWorld, StrongDamperIsStable) {
 
 // Virtual work: what the cord pulls with is what its length gives per angle, for any cam and for
 // muscles across two joints.
-TEST(Cords, TorqueIsTheSlopeOfLength) {
+TEST(MuscleRouting, TorqueIsTheSlopeOfLength) {
   plant::Setup s = leg_with_muscles(4.95, 5.40);
   robot::Muscle& m = s.robot.muscles[1];
   m.cam.angle = {4.2, 4.8, 5.5};
   m.cam.radii = {0.02, 0.03, 0.015};
   m.second = {"knee", robot::Muscle::Role::flexor, {}};
   m.second.cam.radius = 0.018;
-  const Cords cords(s.robot);
+  const MuscleRouting cords(s.robot);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> hip(4.0, 5.8), knee(5.0, 6.0);
   for (int trial = 0; trial < 100; ++trial) {
     const double angle[2] = {hip(random), knee(random)}, still[2] = {0, 0};
     muscle::Lanes<most_muscles> length, rate, ahead, behind;
-    Cords::Pulls<most_muscles> pulls, other;
+    MuscleRouting::MomentArms<most_muscles> pulls, other;
     cords.at(angle, still, length, rate, pulls);
     const double h = 1e-6;
     for (int k = 0; k < 2; ++k) {

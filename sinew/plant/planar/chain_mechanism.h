@@ -42,7 +42,7 @@ class ChainMechanism : public PlanarMechanism<chain_muscles> {
 
   explicit ChainMechanism(const Setup& setup)
       : chain_(chain_of<N>(setup.robot)),
-        routes_(strings_of(setup.robot)),
+        routes_(chain_routing_of(setup.robot)),
         contacts_(chain_, setup.robot),
         robot_(setup.robot) {
     double absolute = 0;
@@ -65,7 +65,7 @@ class ChainMechanism : public PlanarMechanism<chain_muscles> {
   const Motion& start() const noexcept { return start_; }
   int muscles() const noexcept { return routes_.count; }
   int joint(int muscle) const noexcept { return routes_.joint[static_cast<std::size_t>(muscle)]; }
-  double arm(const Arms&, int muscle) const noexcept { return routes_.pull[muscle]; }  // [m]
+  double arm(const Arms&, int muscle) const noexcept { return routes_.moment_arm[muscle]; }  // [m]
   Pose pose(double, const Motion& motion) const noexcept { return Pose(chain_, motion); }
 
   double joint_angle(const Motion& m, std::size_t j) const noexcept {
@@ -109,7 +109,7 @@ class ChainMechanism : public PlanarMechanism<chain_muscles> {
     // In whole lanes from the start: a wide load would have to wait for narrow stores.
     for (int i = 0; i < routes_.padded; i += muscle::lanes) {
       const int* j = &routes_.joint[i];
-      const muscle::Four pull = routes_.pull.four(i);
+      const muscle::Four pull = routes_.moment_arm.four(i);
       const muscle::Four turn = {travel[j[0]], travel[j[1]], travel[j[2]], travel[j[3]]};
       const muscle::Four speed = {rate[j[0]], rate[j[1]], rate[j[2]], rate[j[3]]};
       ends.length.four(i) = routes_.mount.four(i) - pull * turn;
@@ -122,7 +122,7 @@ class ChainMechanism : public PlanarMechanism<chain_muscles> {
             Load& out) const noexcept {
     std::array<double, N + 1> torque{};
     for (int i = 0; i < routes_.count; ++i)
-      torque[routes_.joint[i]] += routes_.pull[i] * air.tension[i];
+      torque[routes_.joint[i]] += routes_.moment_arm[i] * air.tension[i];
     for (int j = 0; j < N; ++j) {
       const auto k = static_cast<std::size_t>(j);
       torque[j] -= damping_[j] * joint_rate(pose, k);
@@ -160,13 +160,13 @@ class ChainMechanism : public PlanarMechanism<chain_muscles> {
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
   // the mesh's own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& chain, const Motion& pose, const Arms&,
-                       const muscle::Lanes<chain_muscles>& mesh, double trolley_bound,
+                       const muscle::Lanes<chain_muscles>& friction_bound, double trolley_bound,
                        const Load& load) noexcept {
     const Acceleration free = chain.accelerations(load.force);
     Forces bound;
     for (int j = 0; j < N; ++j) bound[j] = dry_[j];
     for (int i = 0; i < routes_.count; ++i)
-      bound[routes_.joint[i]] += std::abs(routes_.pull[i]) * mesh[i];
+      bound[routes_.joint[i]] += std::abs(routes_.moment_arm[i]) * friction_bound[i];
     bound[Contacts<N>::trolley] = trolley_bound;
     bound[Contacts<N>::foot] = robot_.foot.friction * load.normal;
     contacts_.prepare(chain, pose, free, bound, load.normal);
@@ -215,7 +215,7 @@ class ChainMechanism : public PlanarMechanism<chain_muscles> {
 
   void add_torque(const Arms&, int muscle, double tension,
                   std::array<double, most_joints>& torque) const noexcept {
-    torque[static_cast<std::size_t>(joint(muscle))] += routes_.pull[muscle] * tension;
+    torque[static_cast<std::size_t>(joint(muscle))] += routes_.moment_arm[muscle] * tension;
   }
 
   // Fills in what only a simulation knows of the body at a motion; the muscles' torques are there
@@ -276,7 +276,7 @@ class ChainMechanism : public PlanarMechanism<chain_muscles> {
   }
 
   ChainConstants<N> chain_;
-  Strings routes_;
+  ChainRouting routes_;
   Contacts<N> contacts_;
   robot::Robot robot_;
   Motion start_{};

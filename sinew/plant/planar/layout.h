@@ -11,16 +11,16 @@ namespace sinew::plant {
 
 inline constexpr int chain_muscles = 4;  // a pair at each of at most two joints
 
-// Muscle i pulls joint `joint[i]` with a constant moment arm; pull[i] = arm, positive where tension
-// raises the angle:  L = mount - pull (theta - rest),  torque = pull * tension.
-struct Strings {
+// Muscle i pulls joint `joint[i]` with a constant moment arm; moment_arm[i] = arm, positive where
+// tension raises the angle:  L = mount - moment_arm (theta - rest),  torque = moment_arm * tension.
+struct ChainRouting {
   int count = 0, padded = 0;  // padded to whole lanes by repeating the last
 
   std::array<int, chain_muscles> joint{};
-  muscle::Lanes<chain_muscles> mount{}, pull{};  // [m]
+  muscle::Lanes<chain_muscles> mount{}, moment_arm{};  // [m]
 };
 
-Strings strings_of(const robot::Robot& robot);
+ChainRouting chain_routing_of(const robot::Robot& robot);
 
 template <int N>
 ChainConstants<N> chain_of(const robot::Robot& robot) {

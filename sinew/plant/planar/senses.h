@@ -53,8 +53,8 @@ class PlanarSenses {
   std::uint16_t counts(std::size_t index, double value, signals::Tick sampled) const noexcept {
     const robot::Sensor& sensor = robot_.sensors[index];
     const auto channel = static_cast<std::uint8_t>(index);
-    const double hiss = sensor.noise > 0 ? robot::noise(seed_, channel, sampled) : 0.0;
-    return robot::counts(sensor, robot_.converter, value, hiss);
+    const double added_noise = sensor.noise > 0 ? robot::noise(seed_, channel, sampled) : 0.0;
+    return robot::counts(sensor, robot_.converter, value, added_noise);
   }
 
   template <class World>
@@ -102,9 +102,10 @@ class PlanarSenses {
     const auto& first = world.state().first;
     const auto j = static_cast<std::size_t>(mechanism.joint(muscle));
     double f = p.look.air.tension[muscle];
-    const double mesh = first.air.mesh[muscle], bound = mechanism.bound(static_cast<int>(j));
-    if (mesh > 0 && bound > 0) {
-      const double share = world.glanced().held[j] * mesh / bound;
+    const double friction_bound = first.air.friction_bound[muscle],
+                 bound = mechanism.bound(static_cast<int>(j));
+    if (friction_bound > 0 && bound > 0) {
+      const double share = world.glanced().held[j] * friction_bound / bound;
       f += mechanism.arm(first.arms, muscle) > 0 ? share : -share;
     }
     return f < 0 ? 0.0 : f;  // not a number stays what it is

@@ -43,8 +43,8 @@ class StandSenses {
   std::uint16_t counts(std::size_t index, double value, signals::Tick sampled) const noexcept {
     const Transducer& t = transducers_[index];
     const auto channel = static_cast<std::uint8_t>(index);
-    const double hiss = t.noise > 0 ? robot::noise(seed_, channel, sampled) : 0.0;
-    return plant::counts(t, value, hiss);
+    const double added_noise = t.noise > 0 ? robot::noise(seed_, channel, sampled) : 0.0;
+    return plant::counts(t, value, added_noise);
   }
 
   template <class World>

@@ -114,7 +114,7 @@ class SlideMechanism {
   void load(const Pose& at, const Motion&, const Arms&, const Answer& air,
             Load& out) const noexcept {
     out.force = cylinder_ ? air.cylinder_force : air.clamped[0];
-    out.bound = cylinder_ ? 0.0 : air.mesh[0];
+    out.bound = cylinder_ ? 0.0 : air.friction_bound[0];
     out.asks = at.pull - out.force;
     out.mass = at.mass;
   }

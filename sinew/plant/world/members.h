@@ -64,7 +64,7 @@ auto World<M, A>::prepare_friction(const typename M::Pose& pose) noexcept -> Acc
   if constexpr (CutsSteps<M>)
     return first.acceleration;  // each part has its own
   else
-    return mechanism_.prepare(pose, state_.now.motion, first.arms, first.air.mesh,
+    return mechanism_.prepare(pose, state_.now.motion, first.arms, first.air.friction_bound,
                               state_.trolley_bound, first.load);
 }
 

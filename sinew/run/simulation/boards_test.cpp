@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "sinew/experiment/spinal.h"
+#include "sinew/experiment/joint_controllers.h"
 #include "sinew/experiment/supervision.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/simulation.h"
@@ -75,7 +75,7 @@ TEST(Boards, TwoLegsWithTheSameTicksAndBits) {
   ASSERT_EQ(boards.size(), 2u);
   EXPECT_EQ(boards[1].joint, (std::vector<std::uint8_t>{2, 3}));
   EXPECT_EQ(boards[1].valve, (std::vector<std::uint8_t>{8, 9, 10, 11, 12, 13, 14, 15}));
-  const control::SpineConfig &left = boards[0].spine, &right = boards[1].spine;
+  const control::JointControllerConfig &left = boards[0].spine, &right = boards[1].spine;
   ASSERT_EQ(left.conversions, right.conversions);
   for (std::size_t c = 0; c < left.conversions; ++c)
     EXPECT_EQ(left.conversion[c].read, right.conversion[c].read);

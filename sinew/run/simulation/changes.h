@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "sinew/control/gait/brain.h"
 #include "sinew/control/gait/change.h"
+#include "sinew/control/gait/gait_controller.h"
 #include "sinew/control/gait/plan.h"
 #include "sinew/run/simulation/steering.h"
 #include "sinew/signals/tick.h"

@@ -16,13 +16,13 @@ class Columns {
   template <class Value>
   void scalar(std::string name, std::string unit, std::string description, Value value) {
     list.push_back({{std::move(name), std::move(description), {{"value", std::move(unit)}}},
-                    [value](const Moment& m, double* out) { *out = value(m); }});
+                    [value](const Snapshot& m, double* out) { *out = value(m); }});
   }
 
   template <class Value>
   void vector(std::string name, std::string unit, std::string description, Value value) {
     list.push_back({{std::move(name), std::move(description), {{"x", unit}, {"y", unit}}},
-                    [value](const Moment& m, double* out) { value(m, out[0], out[1]); }});
+                    [value](const Snapshot& m, double* out) { value(m, out[0], out[1]); }});
   }
 
   std::vector<Column> list;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/experiment/spinal.h"
+#include "sinew/experiment/joint_controllers.h"
 #include "sinew/experiment/supervision.h"
 #include "sinew/run/simulation/column_list.h"
 
@@ -29,21 +29,21 @@ JointAt place_of(const robot::Robot& robot, std::size_t joint) {
 void joint_columns(const robot::Robot& robot, Columns& out) {
   for (std::size_t s = 0; s < robot.sensors.size(); ++s)
     out.scalar("/sensor/" + robot.sensors[s].name + "/count", "count", "as converted",
-               [s](const Moment& m) { return m.seen.supervised(s).counts; });
+               [s](const Snapshot& m) { return m.seen.supervised(s).counts; });
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     if (robot::angle_sensor_of(robot, static_cast<int>(j)) < 0) continue;
     const std::string at = robot::topic_of_joint(robot, j), want = "/desired" + at;
     const auto [leg, i] = place_of(robot, j);
     out.scalar(at + "/angle", "rad", "measured, by the controller's scale",
-               [j](const Moment& m) { return m.measured.angle[j]; });
+               [j](const Snapshot& m) { return m.measured.angle[j]; });
     out.scalar(at + "/stiffness", "N m/rad", "as the controller believes it, [27], [60]",
-               [j](const Moment& m) { return m.measured.stiffness[j]; });
+               [j](const Snapshot& m) { return m.measured.stiffness[j]; });
     out.scalar(at + "/velocity_estimate", "rad/s", "what the velocity gain works on, 6.5",
-               [j](const Moment& m) { return m.measured.velocity[j]; });
+               [j](const Snapshot& m) { return m.measured.velocity[j]; });
     out.scalar(want + "/angle", "rad", "desired by the brain",
-               [leg, i](const Moment& m) { return m.desired[leg].joint[i].angle; });
+               [leg, i](const Snapshot& m) { return m.desired[leg].joint[i].angle; });
     out.scalar(want + "/stiffness", "N m/rad", "desired by the brain",
-               [leg, i](const Moment& m) { return m.desired[leg].joint[i].stiffness; });
+               [leg, i](const Snapshot& m) { return m.desired[leg].joint[i].stiffness; });
   }
 }
 
@@ -57,11 +57,11 @@ void tension_column(const robot::Robot& robot, std::size_t muscle, Columns& out)
   const double own = 1.0 / (sensor.scale * per_volt);
   out.scalar(robot::topic_of_muscle(robot, muscle) + "/tension", "N",
              "measured, by its own transducer's scale; clips",
-             [=](const Moment& m) { return m.measured.tension[muscle] / believed * own; });
+             [=](const Snapshot& m) { return m.measured.tension[muscle] / believed * own; });
 }
 
 // A valve's duty counts only while its joint is enabled and laws run.
-bool active(const Moment& m, std::size_t joint) {
+bool active(const Snapshot& m, std::size_t joint) {
   return m.seen.joint(joint).enabled && m.seen.phase == control::Phase::running;
 }
 
@@ -79,14 +79,14 @@ void duty_columns(const robot::Robot& robot, std::size_t index, Columns& out) {
   const int second = robot::find_joint(robot, muscle.second.joint);
   const auto other = second < 0 ? j : static_cast<std::size_t>(second);
   const bool flexor = muscle.role == robot::Muscle::Role::flexor;
-  const auto share = [j, other](const Moment& m, std::int32_t percent) {
+  const auto share = [j, other](const Snapshot& m, std::int32_t percent) {
     return active(m, j) || active(m, other) ? 0.01 * percent : 0.0;
   };
-  out.scalar(at + "/inlet_duty", "1", "commanded share of the period", [=](const Moment& m) {
+  out.scalar(at + "/inlet_duty", "1", "commanded share of the period", [=](const Snapshot& m) {
     const control::Duties& d = m.seen.joint(j).duties;
     return share(m, flexor ? d.flexor_inlet : d.extensor_inlet);
   });
-  out.scalar(at + "/exhaust_duty", "1", "commanded share of the period", [=](const Moment& m) {
+  out.scalar(at + "/exhaust_duty", "1", "commanded share of the period", [=](const Snapshot& m) {
     const control::Duties& d = m.seen.joint(j).duties;
     return share(m, flexor ? d.flexor_exhaust : d.extensor_exhaust);
   });
@@ -104,12 +104,12 @@ void cylinder_columns(const robot::Robot& robot, Columns& out) {
   if (!experiment::has_cylinder_joint(robot)) return;
   const std::size_t j = robot.joints.size();
   out.scalar("/cylinder/position", "m", "measured travel, up from the extended stop",
-             [](const Moment& m) { return m.measured.cylinder; });
+             [](const Snapshot& m) { return m.measured.cylinder; });
   out.scalar("/desired/cylinder/position", "m", "by the plan, up from the extended stop",
-             [](const Moment& m) { return m.desired[0].cylinder.position; });
+             [](const Snapshot& m) { return m.desired[0].cylinder.position; });
   const auto duty = [&](const char* name, std::int32_t control::Duties::*which) {
     out.scalar(std::string("/cylinder/") + name, "1", "commanded share of the period",
-               [j, which](const Moment& m) {
+               [j, which](const Snapshot& m) {
                  return active(m, j) ? 0.01 * (m.seen.joint(j).duties.*which) : 0.0;
                });
   };
@@ -122,7 +122,7 @@ void cylinder_columns(const robot::Robot& robot, Columns& out) {
 void low_level_columns(const robot::Robot& robot, Columns& out) {
   if (!experiment::laws_overrun(robot)) return;
   out.scalar("/low_level/overruns", "1", "laws so far that took longer than their interrupt may",
-             [](const Moment& m) { return m.seen.overruns(); });
+             [](const Snapshot& m) { return m.seen.overruns(); });
 }
 
 // Adds the counters of rejected readings where the experiment gives reason to expect some.
@@ -131,28 +131,28 @@ void supervision_columns(const experiment::Experiment& e, Columns& out) {
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
     const std::string at = "/sensor/" + e.robot.sensors[s].name;
     out.scalar(at + "/rejected", "1", "readings so far that were not believed",
-               [s](const Moment& m) { return m.seen.supervised(s).rejected; });
+               [s](const Snapshot& m) { return m.seen.supervised(s).rejected; });
     out.scalar(at + "/frozen", "1", "readings so far that repeated themselves while driven",
-               [s](const Moment& m) { return m.seen.supervised(s).frozen; });
+               [s](const Snapshot& m) { return m.seen.supervised(s).frozen; });
   }
   out.scalar("/low_level/rejected_commands", "1", "commands so far that were not followed",
-             [](const Moment& m) { return m.seen.rejected_commands(); });
+             [](const Snapshot& m) { return m.seen.rejected_commands(); });
   out.scalar("/low_level/gaps", "1", "ticks so far that came later than announced",
-             [](const Moment& m) { return m.seen.gaps(); });
+             [](const Snapshot& m) { return m.seen.gaps(); });
   out.scalar("/low_level/tripped", "1", "1 from when the supervisor has ended the run",
-             [](const Moment& m) { return m.seen.tripped() ? 1.0 : 0.0; });
+             [](const Snapshot& m) { return m.seen.tripped() ? 1.0 : 0.0; });
 }
 
 void plan_columns(const LegAt& leg, Columns& out) {
   const std::size_t l = leg.leg;
   out.scalar(leg.topic("/plan/phase"), "1", "position in the experiment's phases; -1 outside",
-             [l](const Moment& m) { return m.desired[l].phase; });
+             [l](const Snapshot& m) { return m.desired[l].phase; });
   out.scalar(leg.topic("/plan/step"), "1", "counts from 0",
-             [l](const Moment& m) { return m.desired[l].step; });
+             [l](const Snapshot& m) { return m.desired[l].step; });
   out.scalar(leg.topic("/plan/unreachable"), "1", "1 while the nearest reachable point is held",
-             [l](const Moment& m) { return m.desired[l].unreachable ? 1.0 : 0.0; });
+             [l](const Snapshot& m) { return m.desired[l].unreachable ? 1.0 : 0.0; });
   out.vector(leg.topic("/desired/foot/position"), "m", "about the first joint; none: not a number",
-             [l](const Moment& m, double& x, double& y) {
+             [l](const Snapshot& m, double& x, double& y) {
                const gait::Desired& desired = m.desired[l];
                x = desired.has_foot ? desired.foot.x : std::nan("");
                y = desired.has_foot ? desired.foot.y : std::nan("");
@@ -168,7 +168,7 @@ void gain_columns(const experiment::Experiment& e, const LegAt& leg, Columns& ou
     std::string name = leg.topic("/desired/gain/" + s.key.substr(before.size()));
     std::ranges::replace(name, '.', '/');
     out.scalar(std::move(name), std::string(s.unit), "in effect",
-               [s, l = leg.leg](const Moment& m) { return gait::value_of(s, m.desired[l]); });
+               [s, l = leg.leg](const Snapshot& m) { return gait::value_of(s, m.desired[l]); });
   }
 }
 

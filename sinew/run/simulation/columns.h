@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "sinew/control/gait/brain.h"
+#include "sinew/control/gait/gait_controller.h"
 #include "sinew/control/gait/legs.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/plant/planar/setup.h"
@@ -18,7 +18,7 @@
 namespace sinew::run {
 
 // Everything that can be recorded at one instant.
-struct Moment {
+struct Snapshot {
   const MachineSeen& seen;
   const gait::MachineMeasured& measured;
   std::span<const gait::Desired> desired;  // by leg
@@ -27,8 +27,8 @@ struct Moment {
 };
 
 struct Column {
-  signals::Topic topic;                                   // of one or two fields
-  std::function<void(const Moment&, double* out)> value;  // no heap, no exceptions
+  signals::Topic topic;                                     // of one or two fields
+  std::function<void(const Snapshot&, double* out)> value;  // no heap, no exceptions
 
   bool of_truth() const { return topic.name.starts_with("/true/"); }
 };

@@ -24,27 +24,28 @@ struct LoopState {
 };
 
 // The boards of a low level: of one controller, itself.
-template <class Spine>
-auto each_board(Spine& spine) noexcept {
+template <class JointController>
+auto each_board(JointController& spine) noexcept {
   if constexpr (requires { spine.each(); })
     return spine.each();
   else
-    return std::span<Spine, 1>(&spine, 1);
+    return std::span<JointController, 1>(&spine, 1);
 }
 
-// Spine   scan(), seen().phase, command(command), edges(t), due(t), take(conversion, reading, t),
-//         next_event(t), missed(t), shut_down(t): control::Supervisor, control::Spine alone,
-//         a stand's drive; or Boards, of which each() has edges(t), due(t) and take()
-// Brain   update(seen, t) -> Command, finished()
+// JointController   scan(), seen().phase, command(command), edges(t), due(t), take(conversion,
+// reading, t),
+//         next_event(t), missed(t), shut_down(t): control::Supervisor, control::JointController
+//         alone, a stand's drive; or Boards, of which each() has edges(t), due(t) and take()
+// GaitController   update(seen, t) -> Command, finished()
 // Clock   wait_until(t) -> false when late
 // Watch   command(t), edge(e), sample(t), next(t): whoever records; it changes nothing. It may have
 //         stopped(): true ends the loop
 //
 // Runs the ticks before `until`, in as many calls as one likes: the bits are the same. Ends early
 // when the body ends or fails, or when the spinal cord has shut down.
-template <class Spine, class Brain, class Clock, class Watch>
-void advance(LoopState& loop, Spine& spine, Brain& brain, signals::Port& port, Clock& clock,
-             Watch& watch, signals::Tick until) noexcept {
+template <class JointController, class GaitController, class Clock, class Watch>
+void advance(LoopState& loop, JointController& spine, GaitController& brain, signals::Port& port,
+             Clock& clock, Watch& watch, signals::Tick until) noexcept {
   using signals::Status;
   using signals::Tick;
 
@@ -86,9 +87,9 @@ inline signals::Status finish(LoopState& loop, signals::Port& port) noexcept {
 }
 
 // From the first tick to `end`, or to whatever ends it before.
-template <class Spine, class Brain, class Clock, class Watch>
-signals::Status loop(Spine& spine, Brain& brain, signals::Port& port, Clock& clock, Watch& watch,
-                     signals::Tick end) noexcept {
+template <class JointController, class GaitController, class Clock, class Watch>
+signals::Status loop(JointController& spine, GaitController& brain, signals::Port& port,
+                     Clock& clock, Watch& watch, signals::Tick end) noexcept {
   LoopState state;
   advance(state, spine, brain, port, clock, watch, end);
   return finish(state, port);

@@ -119,8 +119,8 @@ void Recorder::sample(Tick t) noexcept {
   const gait::MachineMeasured measured = high_.believe(seen);
   plant::Truth truth;
   if (truth_) truth = truth_(t);
-  const Moment now{seen, measured, high_.desired(), truth,
-                   static_cast<double>(t) * signals::tick_seconds};
+  const Snapshot now{seen, measured, high_.desired(), truth,
+                     static_cast<double>(t) * signals::tick_seconds};
   for (const Column& c : columns_) {
     if (!truth_ && c.of_truth()) break;  // they come last
     std::array<double, 2> values{};

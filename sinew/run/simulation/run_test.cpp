@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/experiment/joint_controllers.h"
 #include "sinew/experiment/planar_setup.h"
-#include "sinew/experiment/spinal.h"
 #include "sinew/experiment/supervision.h"
 #include "sinew/plant/planar/machine.h"
 #include "sinew/run/simulation/clock.h"
@@ -172,15 +172,14 @@ TEST(Run, TakesNoMemoryForItsDuration) {
   const experiment::Experiment e = walk_for(80);  // some pages of each column
   expect_no_heap<plant::ChainWorld<2>>(e);
 
-  plant::ChainWorld<2> world(experiment::planar_setup(e));
-  const control::Supervisor spine(experiment::spine_config(e), experiment::supervise_config(e));
+  const Boards boards(e);
   const HighLevel high(e.robot, e.plan);
   const auto taken_for = [&](double hours) {
     const auto end = std::llround(3600 * hours / signals::tick_seconds);
     test::bytes = 0;
     counting = true;
     const Recorder recorder(
-        e, spine, high, [](signals::Tick) { return plant::Truth{}; }, end);
+        e, boards, high, [](signals::Tick) { return plant::Truth{}; }, end);
     counting = false;
     return static_cast<double>(test::bytes);
   };

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "sinew/config/writer.h"
+#include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/experiment/planar_setup.h"
 #include "sinew/run/simulation/clock.h"
@@ -131,7 +131,7 @@ double Simulation::read(std::size_t channel) noexcept {
   const MachineSeen seen = boards_.seen();
   const gait::MachineMeasured measured = high_level_.believe(seen);
   const plant::Truth known = columns_[column].of_truth() ? truth() : plant::Truth{};
-  const Moment now{seen, measured, high_level_.desired(), known, time()};
+  const Snapshot now{seen, measured, high_level_.desired(), known, time()};
   double numbers[2] = {};
   columns_[column].value(now, numbers);
   return numbers[field];

@@ -12,11 +12,11 @@ void true_joint_columns(const robot::Robot& robot, Columns& out) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     const std::string at = "/true" + robot::topic_of_joint(robot, j);
     out.scalar(at + "/angle", "rad", "of the simulated joint",
-               [j](const Moment& m) { return m.truth.angle[j]; });
+               [j](const Snapshot& m) { return m.truth.angle[j]; });
     out.scalar(at + "/velocity", "rad/s", "of the simulated joint",
-               [j](const Moment& m) { return m.truth.rate[j]; });
+               [j](const Snapshot& m) { return m.truth.rate[j]; });
     out.scalar(at + "/torque", "N m", "of its muscles",
-               [j](const Moment& m) { return m.truth.torque[j]; });
+               [j](const Snapshot& m) { return m.truth.torque[j]; });
   }
 }
 
@@ -34,20 +34,20 @@ void true_muscle_columns(const experiment::Experiment& e, Columns& out) {
   for (std::size_t i = 0; i < robot.muscles.size(); ++i) {
     const std::string at = "/true" + robot::topic_of_muscle(robot, i);
     out.scalar(at + "/tension", "N", "at the cord",
-               [i](const Moment& m) { return m.truth.tension[i]; });
+               [i](const Snapshot& m) { return m.truth.tension[i]; });
     out.scalar(at + "/pressure", "Pa", "absolute",
-               [i](const Moment& m) { return m.truth.pressure[i]; });
+               [i](const Snapshot& m) { return m.truth.pressure[i]; });
     out.scalar(at + "/length", "m", "of the actuators",
-               [i](const Moment& m) { return m.truth.length[i]; });
+               [i](const Snapshot& m) { return m.truth.length[i]; });
     out.scalar(at + "/mass", "kg", "of the air in the bundle",
-               [i](const Moment& m) { return m.truth.mass[i]; });
+               [i](const Snapshot& m) { return m.truth.mass[i]; });
     out.scalar(at + "/air_in", "kg", "from the supply since the start",
-               [i](const Moment& m) { return m.truth.air_in[i]; });
+               [i](const Snapshot& m) { return m.truth.air_in[i]; });
     out.scalar(at + "/air_out", "kg", "to the atmosphere since the start",
-               [i](const Moment& m) { return m.truth.air_out[i]; });
+               [i](const Snapshot& m) { return m.truth.air_out[i]; });
     if (leaks(e, robot.muscles[i]))
       out.scalar(at + "/air_leaked", "kg", "to the atmosphere, past the valves, since the start",
-                 [i](const Moment& m) { return m.truth.air_leaked[i]; });
+                 [i](const Snapshot& m) { return m.truth.air_leaked[i]; });
   }
 }
 
@@ -64,14 +64,14 @@ void true_fault_columns(const experiment::Experiment& e, Columns& out) {
       if (experiment::topic_of(f) == topic) faults.push_back(f);
     if (is_of_sensor(first.what))
       out.scalar(
-          topic, "1", "1 while one of the experiment's acts on it", [faults](const Moment& m) {
+          topic, "1", "1 while one of the experiment's acts on it", [faults](const Snapshot& m) {
             return std::ranges::any_of(
                 faults, [&](const experiment::Fault& f) { return experiment::acts(f, m.time); });
           });
     else
       out.scalar(topic, "1",
                  "1 where one of the experiment's acts or has acted since the last sample",
-                 [faults, period = e.log.period](const Moment& m) {
+                 [faults, period = e.log.period](const Snapshot& m) {
                    return std::ranges::any_of(faults, [&](const experiment::Fault& f) {
                      return f.at <= m.time && !(m.time - period >= f.at + f.lasts);
                    });
@@ -85,22 +85,22 @@ void true_air_columns(const experiment::Experiment& e, Columns& out) {
                           [](const experiment::Fault& f) { return is_of_sensor(f.what); }))
     return;
   out.scalar("/true/air/mass", "kg", "in chambers, hoses and tank",
-             [](const Moment& m) { return m.truth.air_mass; });
+             [](const Snapshot& m) { return m.truth.air_mass; });
   const bool fails = std::ranges::any_of(e.faults, [](const experiment::Fault& f) {
     return f.what == experiment::Fault::What::failed;
   });
   if (fails && e.supply.kind == gas::Supply::Kind::tank)
     out.scalar("/true/supply/air_past_tank", "kg",
                "from the line while a fault had cut it from its tank, since the start",
-               [](const Moment& m) { return m.truth.air_past_tank; });
+               [](const Snapshot& m) { return m.truth.air_past_tank; });
 }
 
 void true_supply_columns(const gas::Supply& supply, Columns& out) {
   if (supply.kind != gas::Supply::Kind::tank) return;
   out.scalar("/true/supply/pressure", "Pa", "of the line to the inlets, absolute",
-             [](const Moment& m) { return m.truth.supply_pressure; });
+             [](const Snapshot& m) { return m.truth.supply_pressure; });
   out.scalar("/true/supply/tank_pressure", "Pa", "before the regulator, absolute",
-             [](const Moment& m) { return m.truth.tank_pressure; });
+             [](const Snapshot& m) { return m.truth.tank_pressure; });
 }
 
 // `disc` counts those of all feet.
@@ -110,53 +110,53 @@ void true_foot_columns(const robot::Robot& robot, const LegAt& leg, std::size_t&
   const std::size_t l = leg.leg;
   if (!foot.present) return;
   out.vector(leg.topic("/true/foot/position"), "m", "of the ankle, about the first joint",
-             [l](const Moment& m, double& x, double& y) {
+             [l](const Snapshot& m, double& x, double& y) {
                x = m.truth.foot[l].x;
                y = m.truth.foot[l].y;
              });
   out.vector(leg.topic("/true/foot/force"), "N", "on the foot, by the ground",
-             [l](const Moment& m, double& x, double& y) {
+             [l](const Snapshot& m, double& x, double& y) {
                x = m.truth.foot[l].force_x;
                y = m.truth.foot[l].force_y;
              });
   for (const robot::Foot::Point& point : foot.points)
     out.scalar(leg.topic("/true/foot/" + point.name + "/load"), "N", "of the ground, up",
-               [i = disc++](const Moment& m) { return m.truth.disc_force[i]; });
+               [i = disc++](const Snapshot& m) { return m.truth.disc_force[i]; });
   if (foot.points.empty()) ++disc;
 }
 
 void true_body_columns(const robot::Robot& robot, Columns& out) {
   if (robot.trolley.present) {
     out.scalar("/true/trolley/position", "m", "along the track",
-               [](const Moment& m) { return m.truth.x; });
+               [](const Snapshot& m) { return m.truth.x; });
     out.scalar("/true/trolley/velocity", "m/s", "along the track",
-               [](const Moment& m) { return m.truth.x_rate; });
+               [](const Snapshot& m) { return m.truth.x_rate; });
   }
   std::size_t disc = 0;
   for (const LegAt& leg : legs_at(robot)) true_foot_columns(robot, leg, disc, out);
   if (!robot.rollers.present) return;
   out.scalar("/true/roller/front/load", "N", "below 0: it has lifted off",
-             [](const Moment& m) { return m.truth.roller_front; });
+             [](const Snapshot& m) { return m.truth.roller_front; });
   out.scalar("/true/roller/rear/load", "N", "below 0: it has lifted off",
-             [](const Moment& m) { return m.truth.roller_rear; });
+             [](const Snapshot& m) { return m.truth.roller_rear; });
 }
 
 void true_cylinder_columns(const robot::Robot& robot, Columns& out) {
   if (!moves(robot.cylinder)) return;
   out.scalar("/true/cylinder/position", "m", "up from the extended stop",
-             [](const Moment& m) { return m.truth.lift; });
+             [](const Snapshot& m) { return m.truth.lift; });
   out.scalar("/true/cylinder/velocity", "m/s", "upwards",
-             [](const Moment& m) { return m.truth.lift_rate; });
+             [](const Snapshot& m) { return m.truth.lift_rate; });
   if (robot.cylinder.mode == robot::Cylinder::Mode::free) return;
   for (const auto& [name, c] :
        {std::pair{"up", std::size_t{0}}, std::pair{"down", std::size_t{1}}}) {
     const std::string at = std::string("/true/cylinder/") + name;
     out.scalar(at + "/pressure", "Pa", "absolute",
-               [c = c](const Moment& m) { return m.truth.cylinder_pressure[c]; });
+               [c = c](const Snapshot& m) { return m.truth.cylinder_pressure[c]; });
     out.scalar(at + "/air_in", "kg", "from the supply since the start",
-               [c = c](const Moment& m) { return m.truth.cylinder_in[c]; });
+               [c = c](const Snapshot& m) { return m.truth.cylinder_in[c]; });
     out.scalar(at + "/air_out", "kg", "to the atmosphere since the start",
-               [c = c](const Moment& m) { return m.truth.cylinder_out[c]; });
+               [c = c](const Snapshot& m) { return m.truth.cylinder_out[c]; });
   }
 }
 

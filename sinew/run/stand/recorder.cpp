@@ -19,7 +19,7 @@ class Columns {
   void truth(const std::string& name, std::string unit, std::string description,
              double plant::StandTruth::*which) {
     add("/true/" + name, std::move(unit), std::move(description),
-        [which](const Moment& m) { return m.truth.*which; });
+        [which](const Snapshot& m) { return m.truth.*which; });
   }
 
   std::vector<Column> list;
@@ -42,20 +42,20 @@ void measured_columns(const Experiment& e, Columns& out) {
   for (std::size_t s = 0; s < e.sensors.size(); ++s) {
     const plant::Transducer& t = e.sensors[s];
     out.add("/sensor/" + t.name + "/count", "count", "as converted",
-            [s](const Moment& m) { return double(m.seen.reading[s].counts); });
+            [s](const Snapshot& m) { return double(m.seen.reading[s].counts); });
     out.add("/sensor/" + t.name + "/value", unit_of(t.of), "by its own scale; pressure is gauge",
-            [s, t](const Moment& m) { return plant::quantity(t, m.seen.reading[s].counts); });
+            [s, t](const Snapshot& m) { return plant::quantity(t, m.seen.reading[s].counts); });
   }
   if (has_law(e))
     out.add("/desired/length", "m", "of the element",
-            [](const Moment& m) { return m.seen.wish.length; });
+            [](const Snapshot& m) { return m.seen.wish.length; });
   if (!is_periodic(e)) return;
   const std::string at = "/muscle/" + e.element.name;
   out.add(at + "/inlet_duty", "1", "commanded share of the period",
-          [](const Moment& m) { return m.seen.shares.inlet; });
+          [](const Snapshot& m) { return m.seen.shares.inlet; });
   if (!e.element.exhaust.empty())
     out.add(at + "/exhaust_duty", "1", "commanded share of the period",
-            [](const Moment& m) { return m.seen.shares.exhaust; });
+            [](const Snapshot& m) { return m.seen.shares.exhaust; });
 }
 
 void true_columns(const Experiment& e, Columns& out) {
@@ -134,7 +134,7 @@ void Recorder::sample(Tick t) noexcept {
   const plant::StandTruth truth = stand_.truth(static_cast<double>(t) * signals::tick_seconds);
   if (stand_.failure()) return;  // no number of a stand that has failed is kept
   row_time_ns_.push_back(t * signals::tick_nanoseconds);
-  const Moment now{controller_.seen(), truth};
+  const Snapshot now{controller_.seen(), truth};
   for (const Column& c : columns_) rows_.push_back(c.value(now));
 }
 

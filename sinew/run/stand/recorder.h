@@ -13,14 +13,14 @@
 
 namespace sinew::rig {
 
-struct Moment {
+struct Snapshot {
   const DriveSeen& seen;
   const plant::StandTruth& truth;
 };
 
 struct Column {
-  signals::Topic topic;                        // of one field
-  std::function<double(const Moment&)> value;  // no heap, no exceptions
+  signals::Topic topic;                          // of one field
+  std::function<double(const Snapshot&)> value;  // no heap, no exceptions
 };
 
 std::vector<Column> columns(const Experiment& experiment);

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "sinew/control/gait/brain.h"
+#include "sinew/control/gait/gait_controller.h"
 #include "sinew/control/gait/path.h"
 #include "sinew/control/gait/test_walk.h"
 
@@ -41,12 +41,12 @@ TEST(Within, AnAngleInsideStaysAndOneOutsideGoesToTheNearerEnd) {
   EXPECT_EQ(within({}, 4), 4);
 }
 
-TEST(Brain, DesiredAnglesKeepToTheirRange) {
+TEST(GaitController, DesiredAnglesKeepToTheirRange) {
   const robot::Robot robot = robot::test::leg();
   Plan free = test::walk(robot), kept = free;
   kept.joints[0].range = {260 * degree, 290 * degree};
   kept.joints[1].range = {300 * degree, 330 * degree};
-  Brain any(robot, free), brain(robot, kept);
+  GaitController any(robot, free), brain(robot, kept);
   bool lower = false, inside = false;
   for (std::int64_t p = 0; p < 303; ++p) {
     any.update({}, p);
@@ -87,11 +87,11 @@ Measured standing(const robot::Robot& robot, double normal) {
   return m;
 }
 
-TEST(Brain, TheMeasuredForceMovesThePathOfItsPhaseAlone) {
+TEST(GaitController, TheMeasuredForceMovesThePathOfItsPhaseAlone) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.phases[2].ground_force = {.desired = 20, .gain = 1e-3, .limit = 0.02};
-  Brain brain(robot, plan);
+  GaitController brain(robot, plan);
   const Measured light = standing(robot, 12);
   brain.update(light, 100);
   EXPECT_DOUBLE_EQ(brain.desired().foot.y, foot_at(plan.phases[0], 100.0 / 150).y);
@@ -103,12 +103,12 @@ TEST(Brain, TheMeasuredForceMovesThePathOfItsPhaseAlone) {
 }
 
 // B.1, commented out: thetades[0] = 400 + 800 (y + 13.5), in counts and inches.
-TEST(Brain, TheCylinderFollowsTheFootsHeight) {
+TEST(GaitController, TheCylinderFollowsTheFootsHeight) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.phases[0].cylinder = {
       .position = {}, .polynomial = {13.5 * inch, 1}, .of = CylinderPhase::Of::foot_y};
-  Brain brain(robot, plan);
+  GaitController brain(robot, plan);
   for (std::int64_t p = 0; p < 150; ++p) {
     brain.update({}, p);
     ASSERT_TRUE(brain.desired().cylinder.given);
@@ -121,21 +121,21 @@ TEST(Brain, TheCylinderFollowsTheFootsHeight) {
   EXPECT_NEAR(brain.desired().cylinder.position, left, 1e-15);
 }
 
-TEST(Brain, TheCylinderGoesThroughAProfile) {
+TEST(GaitController, TheCylinderGoesThroughAProfile) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.phases[2].cylinder.position = {0, 0.05};
-  Brain brain(robot, plan);
+  GaitController brain(robot, plan);
   EXPECT_FALSE(brain.update({}, 100).cylinder.given);
   EXPECT_NEAR(brain.update({}, 153 + 75).cylinder.position, 0.025, 1e-15);
 }
 
 // Open loop lasts as long as its phase; inlet and exhaust of a chamber may be open together.
-TEST(Brain, TheCylinderOpenLoop) {
+TEST(GaitController, TheCylinderOpenLoop) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.phases[0].cylinder.feedforward = {.flexor_inlet = {0.2, 0.6}, .flexor_exhaust = {0.5}};
-  Brain brain(robot, plan);
+  GaitController brain(robot, plan);
   const DesiredCylinder& c = brain.update({}, 75).cylinder;
   EXPECT_TRUE(c.open_loop);
   EXPECT_FALSE(c.given);
@@ -160,12 +160,12 @@ robot::Robot odd_machine() {
   return robot;
 }
 
-TEST(Brain, APassiveJointIsLeftAlone) {
+TEST(GaitController, APassiveJointIsLeftAlone) {
   const robot::Robot robot = odd_machine();
   Plan plan = test::walk(robot);
   for (Phase& phase : plan.phases) phase.joints.clear();
   ASSERT_TRUE(contradictions(robot, plan).empty());
-  Brain brain(robot, plan), leg(robot::test::leg(), test::walk(robot::test::leg()));
+  GaitController brain(robot, plan), leg(robot::test::leg(), test::walk(robot::test::leg()));
   for (std::int64_t p = 0; p < 303; ++p) {
     const Desired& want = brain.update({}, p);
     leg.update({}, p);
@@ -178,9 +178,9 @@ TEST(Brain, APassiveJointIsLeftAlone) {
 }
 
 // Virtual work: what the tensions do over a small turn is what the force does over the foot's way.
-TEST(Brain, GroundReactionOfAnyMuscles) {
+TEST(GaitController, GroundReactionOfAnyMuscles) {
   const robot::Robot robot = odd_machine();
-  const Brain brain(robot, test::walk(robot));
+  const GaitController brain(robot, test::walk(robot));
   std::mt19937 random(11);
   std::uniform_real_distribution<double> pull(0, 150), bend(0.3, 2.5), any(0, turn);
   for (int i = 0; i < 200; ++i) {

@@ -1,4 +1,4 @@
-// plant/planar/cords.h - muscles over cams of any shape, across one joint or two.
+// plant/planar/muscle_routing.h - muscles over cams of any shape, across one joint or two.
 //
 //   L = mount - sum_k s_k S_k(theta_k),   S_k = integral of r_k from the rest angle to theta_k
 //   torque_k = s_k r_k(theta_k) F         the same r: virtual work
@@ -34,15 +34,15 @@ class CamLaw {
   double rest_ = 0, area_at_rest_ = 0;
 };
 
-class Cords {
+class MuscleRouting {
  public:
   static constexpr int most = 2;  // joints of a muscle
 
   // s_k r_k of every muscle at the present pose, of M at most.
   template <int M>
-  using Pulls = std::array<std::array<double, most>, M>;
+  using MomentArms = std::array<std::array<double, most>, M>;
 
-  explicit Cords(const robot::Robot& robot);
+  explicit MuscleRouting(const robot::Robot& robot);
 
   int count() const { return static_cast<int>(cords_.size()); }
 
@@ -52,23 +52,24 @@ class Cords {
   // From the joints' angles [rad] and rates [rad/s]. Lanes beyond the last muscle repeat it.
   template <int M>
   void at(const double* angle, const double* rate, muscle::Lanes<M>& length,
-          muscle::Lanes<M>& length_rate, std::type_identity_t<Pulls<M>>& pull) const noexcept;
+          muscle::Lanes<M>& length_rate, std::type_identity_t<MomentArms<M>>& pull) const noexcept;
 
  private:
-  struct Cord {
+  struct Route {
     double mount = 0;
     std::array<int, most> joint{-1, -1};
     std::array<double, most> sign{};
     std::array<CamLaw, most> cam;
   };
-  std::vector<Cord> cords_;
+  std::vector<Route> cords_;
 };
 
 template <int M>
-void Cords::at(const double* angle, const double* rate, muscle::Lanes<M>& length,
-               muscle::Lanes<M>& length_rate, std::type_identity_t<Pulls<M>>& pull) const noexcept {
+void MuscleRouting::at(const double* angle, const double* rate, muscle::Lanes<M>& length,
+                       muscle::Lanes<M>& length_rate,
+                       std::type_identity_t<MomentArms<M>>& pull) const noexcept {
   for (int i = 0; i < count(); ++i) {
-    const Cord& cord = cords_[static_cast<std::size_t>(i)];
+    const Route& cord = cords_[static_cast<std::size_t>(i)];
     double l = cord.mount, v = 0;
     for (std::size_t k = 0; k < most; ++k) {
       double& p = pull[static_cast<std::size_t>(i)][k];

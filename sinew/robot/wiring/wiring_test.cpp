@@ -1,5 +1,5 @@
 // Pins, channels and bits, and the bytes that go to the ports.
-#include "sinew/robot/wiring.h"
+#include "sinew/robot/wiring/wiring.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "sinew/config/compose.h"
 #include "sinew/config/reader.h"
 #include "sinew/robot/robot.fields.h"
-#include "sinew/robot/wiring.fields.h"
+#include "sinew/robot/wiring/wiring.fields.h"
 
 namespace sinew::robot {
 namespace {

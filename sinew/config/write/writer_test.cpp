@@ -1,13 +1,13 @@
 // What the writer prints, the reader reads back to the same bits.
-#include "sinew/config/writer.h"
+#include "sinew/config/write/writer.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "sinew/config/documenter.h"
 #include "sinew/config/reader.h"
+#include "sinew/config/write/documenter.h"
 
 namespace sinew::config {
 namespace {

@@ -1,5 +1,5 @@
-// robot/wiring.h - which wire goes where: the terminal block, the converter's channels and the two
-// output ports that switch the valves (B.1, table C-1).
+// robot/wiring/wiring.h - which wire goes where: the terminal block, the converter's channels and
+// the two output ports that switch the valves (B.1, table C-1).
 //
 // Valves take bits 0 to 7 of port 0, and 8 to 15, which is port 1. Two sources number them: B.1's
 // masks, which are the `bit`s of the robot's muscles and cylinder, and the table's, which are the

@@ -1,4 +1,4 @@
-#include "sinew/robot/wiring.h"
+#include "sinew/robot/wiring/wiring.h"
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,7 @@
-// robot/wiring.fields.h - the keys of [wiring] in robots/*/wiring.toml.
+// robot/wiring/wiring.fields.h - the keys of [wiring] in robots/*/wiring.toml.
 #pragma once
 
-#include "sinew/robot/wiring.h"
+#include "sinew/robot/wiring/wiring.h"
 #include "sinew/units/field.h"
 
 namespace sinew::robot {

@@ -1,5 +1,5 @@
 // The laws of a joint, run when the last of its readings is there.
-#include "sinew/control/joint/spine.h"
+#include "sinew/control/joint/joint_controller.h"
 
 namespace sinew::control {
 
@@ -13,7 +13,7 @@ constexpr float ticks_per_second = 10'000.0f;
 }  // namespace
 
 // Never a law on a channel that has not answered yet, nor twice in a period.
-bool Spine::ready(std::size_t j, Tick t) const noexcept {
+bool JointController::ready(std::size_t j, Tick t) const noexcept {
   const JointConfig& joint = config_.joint[j];
   const Tick last = seen_.joint[j].law_at;
   if (joint.kind == JointKind::passive) return false;
@@ -27,7 +27,7 @@ bool Spine::ready(std::size_t j, Tick t) const noexcept {
   return true;
 }
 
-void Spine::run_law(std::size_t j, Tick t) noexcept {
+void JointController::run_law(std::size_t j, Tick t) noexcept {
   if (!ready(j, t)) return;
   const JointConfig& joint = config_.joint[j];
   const JointCommand& command = command_.joint[j];
@@ -53,7 +53,7 @@ void Spine::run_law(std::size_t j, Tick t) noexcept {
   schedule(j, t);
 }
 
-float Spine::speed(std::size_t j) noexcept {
+float JointController::speed(std::size_t j) noexcept {
   const JointConfig& joint = config_.joint[j];
   Motion now{.angle = counts(joint.angle),
              .rate = ticks_per_second / static_cast<float>(config_.period)};
@@ -69,7 +69,7 @@ float Spine::speed(std::size_t j) noexcept {
 }
 
 // By the joint's own angle and, of a muscle over two joints, by the other's.
-Pair Spine::lengths(std::size_t j) const noexcept {
+Pair JointController::lengths(std::size_t j) const noexcept {
   const JointConfig& joint = config_.joint[j];
   Pair length = muscle_lengths(joint, counts(joint.angle));
   const auto other = [&](Side side) -> std::int32_t {
@@ -84,7 +84,7 @@ Pair Spine::lengths(std::size_t j) const noexcept {
   return length;
 }
 
-Stiffness Spine::measured_stiffness(std::size_t j) const noexcept {
+Stiffness JointController::measured_stiffness(std::size_t j) const noexcept {
   const JointConfig& joint = config_.joint[j];
   if (joint.stiffness_source == StiffnessSource::pressure)
     return {
@@ -96,7 +96,7 @@ Stiffness Spine::measured_stiffness(std::size_t j) const noexcept {
 }
 
 // U_k, from a new stiffness or, near the pole of [27], from the last one.
-Exact Spine::stiffness_output(std::size_t j) noexcept {
+Exact JointController::stiffness_output(std::size_t j) noexcept {
   const JointConfig& joint = config_.joint[j];
   const JointCommand& command = command_.joint[j];
   JointSeen& seen = seen_.joint[j];
@@ -113,7 +113,7 @@ Exact Spine::stiffness_output(std::size_t j) noexcept {
 }
 
 // What is not there is asked for nothing.
-void Spine::set_duties(std::size_t j, Exact u_k, Exact u_theta) noexcept {
+void JointController::set_duties(std::size_t j, Exact u_k, Exact u_theta) noexcept {
   const JointConfig& joint = config_.joint[j];
   asked_[j] = asked(u_k, u_theta, config_.truncation);
   Duties& duties = seen_.joint[j].duties;
@@ -124,7 +124,7 @@ void Spine::set_duties(std::size_t j, Exact u_k, Exact u_theta) noexcept {
 }
 
 // While a joint is disabled its integrals wait at zero.
-void Spine::set_levels(std::size_t j, Exact u_k, Exact u_theta) noexcept {
+void JointController::set_levels(std::size_t j, Exact u_k, Exact u_theta) noexcept {
   const JointConfig& joint = config_.joint[j];
   const JointCommand& command = command_.joint[j];
   JointSeen& seen = seen_.joint[j];
@@ -146,7 +146,7 @@ void Spine::set_levels(std::size_t j, Exact u_k, Exact u_theta) noexcept {
   if (!joint.extensor.present) seen.levels.extensor = 0;
 }
 
-void Spine::open_loop(std::size_t j) noexcept {
+void JointController::open_loop(std::size_t j) noexcept {
   const JointConfig& joint = config_.joint[j];
   JointSeen& seen = seen_.joint[j];
   seen.duties = open_loop_duties(command_.joint[j].duties, joint.kind);
@@ -160,7 +160,7 @@ void Spine::open_loop(std::size_t j) noexcept {
 }
 
 // A muscle over two joints: the later law puts together what both of them ask.
-void Spine::share_duties(std::size_t j) noexcept {
+void JointController::share_duties(std::size_t j) noexcept {
   for (const Side side : sides) {
     const Partner& partner = partner_[j][side];
     if (partner.joint < 0 || !partner.drives) continue;

@@ -1,4 +1,4 @@
-#include "sinew/plant/planar/cords.h"
+#include "sinew/plant/planar/muscle_routing.h"
 
 #include "sinew/robot/kinematics.h"
 
@@ -38,8 +38,8 @@ double CamLaw::travel(double angle) const noexcept {
   return area(angle) - area_at_rest_;
 }
 
-Cords::Cords(const robot::Robot& robot) {
-  const auto attach = [&](Cord& cord, int k, const std::string& name, robot::Muscle::Role role,
+MuscleRouting::MuscleRouting(const robot::Robot& robot) {
+  const auto attach = [&](Route& cord, int k, const std::string& name, robot::Muscle::Role role,
                           const robot::Cam& cam) {
     if (name.empty()) return;
     const auto at = static_cast<std::size_t>(k);
@@ -50,7 +50,7 @@ Cords::Cords(const robot::Robot& robot) {
     cord.cam[at] = CamLaw(cam, joint);
   };
   for (const robot::Muscle& m : robot.muscles) {
-    Cord cord{.mount = m.mount_length};
+    Route cord{.mount = m.mount_length};
     attach(cord, 0, m.joint, m.role, m.cam);
     attach(cord, 1, m.second.joint, m.second.role, m.second.cam);
     cords_.push_back(cord);

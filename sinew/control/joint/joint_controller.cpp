@@ -1,4 +1,4 @@
-#include "sinew/control/joint/spine.h"
+#include "sinew/control/joint/joint_controller.h"
 
 namespace sinew::control {
 
@@ -23,7 +23,8 @@ bool seals(JointKind kind) noexcept {
 
 }  // namespace
 
-Spine::Spine(const SpineConfig& config) noexcept : config_(config), command_(rest_command(config)) {
+JointController::JointController(const JointControllerConfig& config) noexcept
+    : config_(config), command_(rest_command(config)) {
   find_partners();
   if (config.startup_vent > 0)
     vent(0, config.startup_vent, Phase::startup, Phase::running);
@@ -31,7 +32,7 @@ Spine::Spine(const SpineConfig& config) noexcept : config_(config), command_(res
     seen_.phase = Phase::running;
 }
 
-Scan Spine::scan() const noexcept {
+Scan JointController::scan() const noexcept {
   return {config_.period, {config_.conversion.data(), config_.conversions}};
 }
 
@@ -39,7 +40,7 @@ Scan Spine::scan() const noexcept {
 
 // Moves the cursor to the first conversion not before t. The loop visits every period's start, so
 // the search is short.
-void Spine::locate(Tick t) noexcept {
+void JointController::locate(Tick t) noexcept {
   while (t - period_start_ >= config_.period) {
     period_start_ += config_.period;
     cursor_ = 0;
@@ -48,7 +49,7 @@ void Spine::locate(Tick t) noexcept {
     ++cursor_;
 }
 
-Tick Spine::next_event(Tick t) noexcept {
+Tick JointController::next_event(Tick t) noexcept {
   locate(t + 1);
   Tick next = period_start_ > t ? period_start_ : period_start_ + config_.period;
   if (cursor_ < config_.conversions) {
@@ -59,23 +60,23 @@ Tick Spine::next_event(Tick t) noexcept {
   return next > t ? next : t + 1;
 }
 
-bool Spine::starts_period(Tick t) noexcept {
+bool JointController::starts_period(Tick t) noexcept {
   locate(t);
   return period_start_ == t;
 }
 
-const Conversion* Spine::due(Tick t) noexcept {
+const Conversion* JointController::due(Tick t) noexcept {
   locate(t);
   if (cursor_ == config_.conversions) return nullptr;
   const Conversion& c = config_.conversion[cursor_];
   return period_start_ + c.read == t ? &c : nullptr;
 }
 
-void Spine::missed(Tick) noexcept { ++seen_.missed; }
+void JointController::missed(Tick) noexcept { ++seen_.missed; }
 
 // --- readings -----------------------------------------------------------------------------------
 
-void Spine::take(const Conversion& conversion, Reading reading, Tick t) noexcept {
+void JointController::take(const Conversion& conversion, Reading reading, Tick t) noexcept {
   store(conversion.channel, reading, t);
   for (std::size_t j = 0; j < config_.joints; ++j)
     if (config_.joint[j].law_tick == conversion.read && seen_.phase == Phase::running)
@@ -83,7 +84,7 @@ void Spine::take(const Conversion& conversion, Reading reading, Tick t) noexcept
 }
 
 // A bad reading leaves the last good counts in place.
-void Spine::store(Channel channel, Reading reading, Tick t) noexcept {
+void JointController::store(Channel channel, Reading reading, Tick t) noexcept {
   const std::size_t i = channel.index;
   if (i >= max_channels) return;
   seen_.reading[i].status = reading.status;
@@ -109,17 +110,17 @@ void Spine::store(Channel channel, Reading reading, Tick t) noexcept {
 
 // --- valves -------------------------------------------------------------------------------------
 
-const MuscleConfig& Spine::muscle(std::size_t j, Side side) const noexcept {
+const MuscleConfig& JointController::muscle(std::size_t j, Side side) const noexcept {
   return side == flexor ? config_.joint[j].flexor : config_.joint[j].extensor;
 }
 
 // Is there a muscle, and is it this joint's business to open its valves?
-bool Spine::drives(std::size_t j, Side side) const noexcept {
+bool JointController::drives(std::size_t j, Side side) const noexcept {
   return muscle(j, side).present && partner_[j][side].drives;
 }
 
 // Two joints that name the same inlet share its muscle.
-void Spine::find_partners() noexcept {
+void JointController::find_partners() noexcept {
   for (std::size_t a = 0; a < config_.joints; ++a)
     for (std::size_t b = a + 1; b < config_.joints; ++b)
       for (const Side x : sides)
@@ -132,7 +133,7 @@ void Spine::find_partners() noexcept {
         }
 }
 
-void Spine::schedule(std::size_t j, Tick t) noexcept {
+void JointController::schedule(std::size_t j, Tick t) noexcept {
   const JointSeen& seen = seen_.joint[j];
   const auto cycle = [&](std::size_t valve, std::int32_t duty, bool enabled) {
     const std::size_t d = static_cast<std::size_t>(duty);
@@ -160,19 +161,19 @@ void Spine::schedule(std::size_t j, Tick t) noexcept {
   find_next_edge();
 }
 
-void Spine::schedule_level(std::size_t j, Side side, Tick t) noexcept {
+void JointController::schedule_level(std::size_t j, Side side, Tick t) noexcept {
   const JointSeen& seen = seen_.joint[j];
   const std::uint16_t level = side == flexor ? seen.levels.flexor : seen.levels.extensor;
   levels_[j][side] = {t + config_.output_delay, seen.enabled ? level : std::uint16_t{0}};
 }
 
-void Spine::shut_down(Tick t) noexcept {
+void JointController::shut_down(Tick t) noexcept {
   if (seen_.phase == Phase::venting || seen_.phase == Phase::off) return;
   vent(t + config_.output_delay, config_.shutdown_vent, Phase::venting, Phase::off);
 }
 
 // A law's edges are given up, a vent that has not begun is not.
-void Spine::skip_to(Tick t) noexcept {
+void JointController::skip_to(Tick t) noexcept {
   for (std::size_t j = 0; j < config_.joints; ++j)
     for (PulseTrain& train : valves_[j]) {
       if (train.next() >= t) continue;
@@ -187,7 +188,7 @@ void Spine::skip_to(Tick t) noexcept {
   find_next_edge();
 }
 
-void Spine::shut_inlets(Tick t) noexcept {
+void JointController::shut_inlets(Tick t) noexcept {
   for (std::size_t j = 0; j < config_.joints; ++j) {
     if (!seals(config_.joint[j].kind)) continue;
     valves_[j][flexor_inlet].shut(t);
@@ -196,13 +197,13 @@ void Spine::shut_inlets(Tick t) noexcept {
   find_next_edge();
 }
 
-void Spine::shut_valves(std::size_t j, Tick t) noexcept {
+void JointController::shut_valves(std::size_t j, Tick t) noexcept {
   if (!seals(config_.joint[j].kind)) return;
   for (PulseTrain& train : valves_[j]) train.shut(t);
   find_next_edge();
 }
 
-void Spine::trip(Status status, Channel channel, Tick t) noexcept {
+void JointController::trip(Status status, Channel channel, Tick t) noexcept {
   if (seen_.phase == Phase::venting || seen_.phase == Phase::off) return;
   seen_.fault = status;
   seen_.fault_channel = channel;
@@ -212,7 +213,7 @@ void Spine::trip(Status status, Channel channel, Tick t) noexcept {
 
 // Also the muscles of disabled joints, as in the thesis's hardware_start_up. A 3-way valve that is
 // off vents for good; so does a regulator set to nothing.
-void Spine::vent(Tick from, std::uint32_t ticks, Phase during, Phase after) noexcept {
+void JointController::vent(Tick from, std::uint32_t ticks, Phase during, Phase after) noexcept {
   for (std::size_t j = 0; j < config_.joints; ++j)
     for (const Side side : sides) {
       if (!drives(j, side)) continue;
@@ -233,7 +234,7 @@ void Spine::vent(Tick from, std::uint32_t ticks, Phase during, Phase after) noex
 }
 
 // The first call of a tick: here the phase changes.
-std::span<const Edge> Spine::edges(Tick t) noexcept {
+std::span<const Edge> JointController::edges(Tick t) noexcept {
   if (t >= phase_end_) seen_.phase = next_phase_;
   out_count_ = 0;
   if (next_edge_ <= t) {
@@ -246,7 +247,7 @@ std::span<const Edge> Spine::edges(Tick t) noexcept {
 }
 
 // Closing edges go first, so that no muscle is open to both sides even for an instant.
-void Spine::hand_out(Tick t, bool open) noexcept {
+void JointController::hand_out(Tick t, bool open) noexcept {
   for (std::size_t j = 0; j < config_.joints; ++j) {
     const JointConfig& joint = config_.joint[j];
     const signals::Valve index[] = {joint.flexor.inlet, joint.flexor.exhaust, joint.extensor.inlet,
@@ -262,7 +263,7 @@ void Spine::hand_out(Tick t, bool open) noexcept {
   }
 }
 
-void Spine::hand_out_levels(Tick t) noexcept {
+void JointController::hand_out_levels(Tick t) noexcept {
   for (std::size_t j = 0; j < config_.joints; ++j)
     for (const Side side : sides) {
       PendingLevel& pending = levels_[j][side];
@@ -272,7 +273,7 @@ void Spine::hand_out_levels(Tick t) noexcept {
     }
 }
 
-void Spine::find_next_edge() noexcept {
+void JointController::find_next_edge() noexcept {
   next_edge_ = PulseTrain::never;
   for (std::size_t j = 0; j < config_.joints; ++j) {
     for (const PulseTrain& train : valves_[j])

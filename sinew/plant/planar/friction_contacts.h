@@ -1,5 +1,6 @@
-// plant/planar/rubs.h - where a machine of any shape touches and rubs: joints, trolley, lift and
-// the discs of its feet. contacts.h with a list of discs in place of one and a coordinate more.
+// plant/planar/friction_contacts.h - where a machine of any shape touches and rubs: joints,
+// trolley, lift and the discs of its feet. contacts.h with a list of discs in place of one and a
+// coordinate more.
 //
 // A disc's centre stands at (along, across) of its leg's last link; its lowest point slips and is
 // pushed.
@@ -33,7 +34,7 @@ struct DiscAt {
 
 // Of a body with room for N links (body.h), on feet with room for D discs.
 template <int N, int D>
-class Rubs {
+class FrictionContacts {
  public:
   static constexpr int trolley = N, lift = trolley + 1, first_disc = lift + 1;
   static constexpr int count = first_disc + D;
@@ -50,7 +51,7 @@ class Rubs {
     double start = 0;  // of the first link, ahead of the body's origin [m]
   };
 
-  Rubs(const BodyConstants<N>& body, const robot::Robot& robot);
+  FrictionContacts(const BodyConstants<N>& body, const robot::Robot& robot);
 
   int discs() const { return disc_count_; }
   std::size_t feet() const { return foot_count_; }

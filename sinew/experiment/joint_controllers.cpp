@@ -1,4 +1,4 @@
-#include "sinew/experiment/spinal.h"
+#include "sinew/experiment/joint_controllers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -320,7 +320,7 @@ control::Truncation truncation(robot::LowLevel::Rounding rounding) {
   return control::Truncation::each_law;
 }
 
-void set_scan(const robot::Robot& robot, control::SpineConfig& c) {
+void set_scan(const robot::Robot& robot, control::JointControllerConfig& c) {
   if (robot.sensors.size() > c.conversion.size())
     throw std::invalid_argument("the low level scans at most " +
                                 std::to_string(c.conversion.size()) + " sensors");
@@ -370,7 +370,7 @@ std::vector<robot::Contradiction> misfits(const Experiment& e) {
   return out;
 }
 
-control::SpineConfig spine_config(const Experiment& e) {
+control::JointControllerConfig joint_controller_config(const Experiment& e) {
   const robot::Robot& robot = e.robot;
   const robot::LowLevel& low = robot.low_level;
   const auto ticks = [](double seconds) {
@@ -379,7 +379,7 @@ control::SpineConfig spine_config(const Experiment& e) {
 
   if (robot.joints.size() + has_cylinder_joint(robot) > control::max_joints)
     throw std::invalid_argument("one board has at most 8 joints");
-  control::SpineConfig c;
+  control::JointControllerConfig c;
   for (std::size_t j = 0; j < robot.joints.size(); ++j)
     c.joint[c.joints++] = joint_config(e, static_cast<int>(j));
   if (has_cylinder_joint(robot)) c.joint[c.joints++] = cylinder_config(robot);

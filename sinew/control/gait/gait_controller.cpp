@@ -1,4 +1,4 @@
-#include "sinew/control/gait/brain.h"
+#include "sinew/control/gait/gait_controller.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ DesiredJoint at_rest(const robot::Joint& joint, const JointPlan& plan) {
 
 }  // namespace
 
-Brain::Brain(const robot::Robot& robot, const Plan& plan, double offset)
+GaitController::GaitController(const robot::Robot& robot, const Plan& plan, double offset)
     : plan_(plan),
       robot_(robot),
       leg_(robot::is_leg(robot)),
@@ -54,8 +54,8 @@ Brain::Brain(const robot::Robot& robot, const Plan& plan, double offset)
   first_k_ = ahead - sequence_[first_].before;
 }
 
-const Desired& Brain::update(const Measured& measured, std::int64_t period_index,
-                             bool waits) noexcept {
+const Desired& GaitController::update(const Measured& measured, std::int64_t period_index,
+                                      bool waits) noexcept {
   while (period_ < period_index && !finished()) {
     ++period_;
     waits ? wait(measured) : advance(measured);
@@ -63,21 +63,21 @@ const Desired& Brain::update(const Measured& measured, std::int64_t period_index
   return desired_;
 }
 
-std::int64_t Brain::planned_periods() const noexcept {
+std::int64_t GaitController::planned_periods() const noexcept {
   if (desired_.stage == Stage::settling || sequence_.empty()) return 0;
   const Slot &here = sequence_[position_], &last = sequence_.back();
   const std::int64_t step = last.before + last.periods;
   return desired_.step * step + here.before + k_ - (sequence_[first_].before + first_k_);
 }
 
-void Brain::wait(const Measured& measured) noexcept {
+void GaitController::wait(const Measured& measured) noexcept {
   describe(static_cast<double>(k_) / sequence_[position_].steps, measured);
   if (desired_.unreachable) ++unreachable_periods_;
 }
 
 // Enters the next phase; false: there is none, the last step is over. Who began within a step has
 // a part of another one to go.
-bool Brain::go_on() noexcept {
+bool GaitController::go_on() noexcept {
   if (position_ + 1 < sequence_.size()) {
     enter(position_ + 1);
     return true;
@@ -90,12 +90,12 @@ bool Brain::go_on() noexcept {
 }
 
 // Is it, after all its steps, where it began?
-bool Brain::is_back() const noexcept {
+bool GaitController::is_back() const noexcept {
   if (desired_.step < plan_.repeat) return false;
   return position_ > first_ || (position_ == first_ && k_ >= first_k_);
 }
 
-void Brain::advance(const Measured& measured) noexcept {
+void GaitController::advance(const Measured& measured) noexcept {
   if (period_ < settle_periods_) return;
   if (desired_.stage == Stage::settling) {
     desired_.stage = Stage::walking;
@@ -116,7 +116,7 @@ void Brain::advance(const Measured& measured) noexcept {
   if (desired_.unreachable) ++unreachable_periods_;
 }
 
-void Brain::enter(std::size_t position) noexcept {
+void GaitController::enter(std::size_t position) noexcept {
   position_ = position;
   k_ = 0;
   desired_.phase = sequence_[position].phase;
@@ -125,11 +125,11 @@ void Brain::enter(std::size_t position) noexcept {
 }
 
 // A phase that took its time has reached s = 1, also where no period showed it.
-void Brain::leave(bool early, const Measured& measured) noexcept {
+void GaitController::leave(bool early, const Measured& measured) noexcept {
   if (!early) describe(1.0, measured);
 }
 
-void Brain::finish() noexcept {
+void GaitController::finish() noexcept {
   desired_.stage = Stage::finished;
   desired_.vent = plan_.finish == Plan::Finish::vent;
   desired_.phase = -1;
@@ -141,7 +141,7 @@ void Brain::finish() noexcept {
   desired_.cylinder.open_loop = false;
 }
 
-bool Brain::ended(const Measured& measured) const noexcept {
+bool GaitController::ended(const Measured& measured) const noexcept {
   const Slot& slot = sequence_[position_];
   if (slot.measure.kind == Measure::Kind::none) return false;
   const Until& until = plan_.phases[static_cast<std::size_t>(slot.phase)].until;
@@ -149,7 +149,7 @@ bool Brain::ended(const Measured& measured) const noexcept {
   return until.is == Until::Is::above ? now > until.level : now < until.level;
 }
 
-double Brain::value(const Measure& measure, const Measured& measured) const noexcept {
+double GaitController::value(const Measure& measure, const Measured& measured) const noexcept {
   const auto i = static_cast<std::size_t>(std::max(measure.index, 0));
   switch (measure.kind) {
     case Measure::Kind::normal_force:
@@ -170,7 +170,7 @@ double Brain::value(const Measure& measure, const Measured& measured) const noex
 }
 
 // Everything that is desired at progress s of the present phase.
-void Brain::describe(double s, const Measured& measured) noexcept {
+void GaitController::describe(double s, const Measured& measured) noexcept {
   const Phase& phase = plan_.phases[static_cast<std::size_t>(desired_.phase)];
   desired_.progress = s;
   desired_.has_foot = phase.has_path() && leg_;
@@ -184,7 +184,7 @@ void Brain::describe(double s, const Measured& measured) noexcept {
   set_cylinder(phase.cylinder, s);
 }
 
-void Brain::follow_path(const Phase& phase, double s, const Measured& measured) noexcept {
+void GaitController::follow_path(const Phase& phase, double s, const Measured& measured) noexcept {
   desired_.foot = foot_at(phase, s);
   if (phase.ground_force.given())
     desired_.foot.y += correction(phase.ground_force, ground_reaction(measured).y);
@@ -195,7 +195,7 @@ void Brain::follow_path(const Phase& phase, double s, const Measured& measured) 
 }
 
 // What has been reached last holds where a phase asks for nothing.
-void Brain::set_cylinder(const CylinderPhase& phase, double s) noexcept {
+void GaitController::set_cylinder(const CylinderPhase& phase, double s) noexcept {
   DesiredCylinder& cylinder = desired_.cylinder;
   cylinder.open_loop = phase.feedforward.given();
   cylinder.up_inlet = value_at(phase.feedforward.flexor_inlet, s, 0);
@@ -213,7 +213,8 @@ void Brain::set_cylinder(const CylinderPhase& phase, double s) noexcept {
   }
 }
 
-void Brain::set_joint(const JointPhase& phase, DesiredJoint& joint, double s) const noexcept {
+void GaitController::set_joint(const JointPhase& phase, DesiredJoint& joint,
+                               double s) const noexcept {
   if (!phase.angle.empty()) joint.angle = robot::normalised(value_at(phase.angle, s, 0));
   joint.stiffness = value_at(phase.stiffness, s, joint.stiffness);
   joint.gains.angle = value_at(phase.gains.angle, s, joint.gains.angle);
@@ -227,7 +228,7 @@ void Brain::set_joint(const JointPhase& phase, DesiredJoint& joint, double s) co
   joint.extensor_exhaust = value_at(phase.feedforward.extensor_exhaust, s, 0);
 }
 
-robot::Point Brain::ground_reaction(const Measured& measured) const noexcept {
+robot::Point GaitController::ground_reaction(const Measured& measured) const noexcept {
   if (!leg_) return {};
   std::array<double, 2> torque{};
   for (std::size_t i = 0; i < torque.size(); ++i)

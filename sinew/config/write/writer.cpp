@@ -1,4 +1,4 @@
-#include "sinew/config/writer.h"
+#include "sinew/config/write/writer.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// config/documenter.h - the visitor that turns field tables into a Markdown table.
+// config/write/documenter.h - the visitor that turns field tables into a Markdown table.
 //
 //   config::Documenter documenter;
 //   Robot robot;

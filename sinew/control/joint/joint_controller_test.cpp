@@ -1,5 +1,5 @@
 // The spinal cord as a whole: events, safety, states, readings that fail, no heap.
-#include "sinew/control/joint/spine.h"
+#include "sinew/control/joint/joint_controller.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ struct World {
   std::uint32_t seed = 1;
   int bad_per_thousand = 0;
   bool commands = true;  // false: the first one holds
-  std::function<void(Spine&, Tick)> interfere = [](Spine&, Tick) {};
+  std::function<void(JointController&, Tick)> interfere = [](JointController&, Tick) {};
 
   std::uint32_t random(Tick t, std::uint32_t what) const {
     std::uint64_t x =
@@ -57,7 +57,7 @@ struct World {
                                                                        : Status::invalid};
   }
 
-  Command command(const SpineConfig& config, Tick t) const {
+  Command command(const JointControllerConfig& config, Tick t) const {
     Command command = rest_command(config);
     if (!commands) t = 0;
     for (std::uint32_t j = 0; j < max_joints; ++j) {
@@ -88,7 +88,7 @@ struct Trace {
   int visited = 0;
 };
 
-Trace run(Spine& spine, const World& world, Tick end, bool every_tick = false) {
+Trace run(JointController& spine, const World& world, Tick end, bool every_tick = false) {
   Trace trace;
   for (Tick t = 0; t < end; t = every_tick ? t + 1 : spine.next_event(t)) {
     ++trace.visited;
@@ -106,13 +106,14 @@ Trace run(Spine& spine, const World& world, Tick end, bool every_tick = false) {
   return trace;
 }
 
-Trace run(const SpineConfig& config, const World& world, Tick end, bool every_tick = false) {
-  Spine spine(config);
+Trace run(const JointControllerConfig& config, const World& world, Tick end,
+          bool every_tick = false) {
+  JointController spine(config);
   return run(spine, world, end, every_tick);
 }
 
-SpineConfig leg_with(const signals::ValveTiming& timing, std::uint16_t delay = 1) {
-  SpineConfig config = test_leg();
+JointControllerConfig leg_with(const signals::ValveTiming& timing, std::uint16_t delay = 1) {
+  JointControllerConfig config = test_leg();
   config.timing = timing;
   config.output_delay = delay;
   return config;
@@ -128,15 +129,16 @@ bool same(const Seen& a, const Seen& b) {
 
 // --- events -------------------------------------------------------------------------------------
 
-TEST(Spine, NextEventSkipsOnlyEmptyTicks) {
+TEST(JointController, NextEventSkipsOnlyEmptyTicks) {
   for (const std::uint16_t delay : {1, 3, 99, 100})
     for (std::uint32_t seed = 1; seed <= 5; ++seed) {
-      SpineConfig config = leg_with(
+      JointControllerConfig config = leg_with(
           seed % 2 ? signals::identity_timing() : signals::compensated_timing(5, 12), delay);
       config.startup_vent = 37 * seed;
-      const World world{.seed = seed, .bad_per_thousand = 20, .interfere = [](Spine& s, Tick t) {
-                          if (t == 40'013) s.shut_down(t);
-                        }};
+      const World world{
+          .seed = seed, .bad_per_thousand = 20, .interfere = [](JointController& s, Tick t) {
+            if (t == 40'013) s.shut_down(t);
+          }};
       const Trace jumps = run(config, world, 60'000), all = run(config, world, 60'000, true);
       ASSERT_EQ(jumps.edges, all.edges);
       ASSERT_GT(jumps.edges.size(), 300u);
@@ -147,10 +149,10 @@ TEST(Spine, NextEventSkipsOnlyEmptyTicks) {
     }
 }
 
-TEST(Spine, VisitsPeriodsAndConversionsWithoutValves) {
-  SpineConfig config = test_leg();
+TEST(JointController, VisitsPeriodsAndConversionsWithoutValves) {
+  JointControllerConfig config = test_leg();
   config.joints = 0;
-  Spine spine(config);
+  JointController spine(config);
   std::vector<Tick> ticks;
   for (Tick t = 0; t < 200; t = spine.next_event(t)) ticks.push_back(t);
   EXPECT_EQ(ticks,
@@ -160,7 +162,7 @@ TEST(Spine, VisitsPeriodsAndConversionsWithoutValves) {
 // --- safety -------------------------------------------------------------------------------------
 
 // Not even for an instant: edges are followed one by one.
-void expect_never_both(const SpineConfig& config, const World& world, Tick end) {
+void expect_never_both(const JointControllerConfig& config, const World& world, Tick end) {
   std::array<bool, 12> open{};
   for (const Event& e : run(config, world, end).edges) {
     ASSERT_NE(open[e.valve], e.open) << "an edge changes its valve";
@@ -172,7 +174,7 @@ void expect_never_both(const SpineConfig& config, const World& world, Tick end) 
   }
 }
 
-TEST(Spine, InletAndExhaustAreNeverOpenTogether) {
+TEST(JointController, InletAndExhaustAreNeverOpenTogether) {
   std::mt19937 random(3);
   for (std::uint32_t seed = 1; seed <= 12; ++seed) {
     signals::ValveTiming timing = signals::identity_timing();
@@ -180,20 +182,21 @@ TEST(Spine, InletAndExhaustAreNeverOpenTogether) {
     if (seed % 3 == 2)
       for (std::size_t d = 1; d <= 100; ++d)
         timing.closing[d] = random() % 102, timing.opening[d] = random() % 102;
-    SpineConfig config = leg_with(timing, seed % 4 == 0 ? 60 : 1);
+    JointControllerConfig config = leg_with(timing, seed % 4 == 0 ? 60 : 1);
     config.startup_vent = seed % 2 ? 250 : 0;
     ASSERT_EQ(problem(config), nullptr);
-    const World world{.seed = seed, .bad_per_thousand = 10, .interfere = [](Spine& s, Tick t) {
-                        if (t == 200'003) s.shut_down(t);
-                      }};
+    const World world{
+        .seed = seed, .bad_per_thousand = 10, .interfere = [](JointController& s, Tick t) {
+          if (t == 200'003) s.shut_down(t);
+        }};
     expect_never_both(config, world, 220'000);
   }
 }
 
-TEST(Spine, StartupVentsThenRuns) {
-  SpineConfig config = test_leg();
+TEST(JointController, StartupVentsThenRuns) {
+  JointControllerConfig config = test_leg();
   config.startup_vent = 250;
-  Spine spine(config);
+  JointController spine(config);
   const Trace trace = run(spine, {.commands = false}, 1000);
   const std::vector<Event> vent = {{0, 1, true},    {0, 3, true},    {0, 5, true},
                                    {0, 7, true},    {0, 9, true},    {0, 11, true},
@@ -227,14 +230,14 @@ void expect_safe_after(const Trace& trace, Tick at, Tick vent) {
   }
 }
 
-TEST(Spine, ShutDownVentsThenShuts) {
-  SpineConfig config = test_leg();
+TEST(JointController, ShutDownVentsThenShuts) {
+  JointControllerConfig config = test_leg();
   config.shutdown_vent = 3000;
   for (const std::uint32_t startup : {0, 6000})
     for (const Tick at : {0, 5009, 5010, 5050, 5108, 7313}) {
       config.startup_vent = startup;
-      Spine spine(config);
-      const World world{.interfere = [at](Spine& s, Tick t) {
+      JointController spine(config);
+      const World world{.interfere = [at](JointController& s, Tick t) {
         if (t >= at && t < at + 1000) s.shut_down(t);  // asking again changes nothing
       }};
       const Trace trace = run(spine, world, 20'000, true);
@@ -244,9 +247,9 @@ TEST(Spine, ShutDownVentsThenShuts) {
     }
 }
 
-TEST(Spine, FaultAndEndLeadToTheSafeState) {
+TEST(JointController, FaultAndEndLeadToTheSafeState) {
   for (const Status status : {Status::fault, Status::ended}) {
-    Spine spine(test_leg());
+    JointController spine(test_leg());
     const World world{.commands = false};
     const Trace before = run(spine, world, 5000);
     EXPECT_EQ(spine.seen().phase, Phase::running);
@@ -263,8 +266,8 @@ TEST(Spine, FaultAndEndLeadToTheSafeState) {
 
 // --- readings -----------------------------------------------------------------------------------
 
-TEST(Spine, BadReadingsHoldTheLastGoodOnes) {
-  Spine spine(test_leg());
+TEST(JointController, BadReadingsHoldTheLastGoodOnes) {
+  JointController spine(test_leg());
   run(spine, {.commands = false}, 1000);
   const std::uint16_t good = spine.seen().reading[1].counts;
   spine.take({{1}, 2, 3}, {7, Status::late}, 1003);
@@ -280,10 +283,10 @@ TEST(Spine, BadReadingsHoldTheLastGoodOnes) {
   EXPECT_EQ(spine.seen().missed, 1u);
 }
 
-TEST(Spine, HoldLimitEndsTheRun) {
-  SpineConfig config = test_leg();
+TEST(JointController, HoldLimitEndsTheRun) {
+  JointControllerConfig config = test_leg();
   config.hold_limit = 3;
-  Spine spine(config);
+  JointController spine(config);
   run(spine, {.commands = false}, 1000);
   for (const Tick t : {1003, 1103}) spine.take({{1}, 2, 3}, {0, Status::late}, t);
   spine.take({{1}, 2, 3}, {0, Status::ok}, 1203);
@@ -294,8 +297,8 @@ TEST(Spine, HoldLimitEndsTheRun) {
   EXPECT_EQ(spine.seen().fault, Status::late);
 }
 
-TEST(Spine, NoLawBeforeItsChannelsAnswered) {
-  Spine spine(test_leg());
+TEST(JointController, NoLawBeforeItsChannelsAnswered) {
+  JointController spine(test_leg());
   for (Tick t = 0; t < 1000; t = spine.next_event(t)) {
     spine.edges(t);
     const signals::Conversion* c = spine.due(t);
@@ -305,8 +308,8 @@ TEST(Spine, NoLawBeforeItsChannelsAnswered) {
   EXPECT_EQ(spine.seen().joint[knee].law_at, 913);
 }
 
-TEST(Spine, StiffnessIsHeldNearThePole) {
-  Spine spine(test_leg());
+TEST(JointController, StiffnessIsHeldNearThePole) {
+  JointController spine(test_leg());
   const auto period = [&](Tick start, std::uint16_t angle) {
     for (Tick t = start; t < start + 100; t = spine.next_event(t)) {
       spine.edges(t);
@@ -329,10 +332,10 @@ TEST(Spine, StiffnessIsHeldNearThePole) {
 
 // --- commands -----------------------------------------------------------------------------------
 
-TEST(Spine, EachJointIsEnabledOnItsOwn) {
-  SpineConfig config = test_leg();
+TEST(JointController, EachJointIsEnabledOnItsOwn) {
+  JointControllerConfig config = test_leg();
   config.joint[cylinder].enabled = false;  // for good
-  Spine spine(config);
+  JointController spine(config);
   Command command = rest_command(config);
   command.joint[knee].enabled = command.joint[cylinder].enabled = true;
   for (JointCommand& c : command.joint) c.open_loop = true, c.duties = {30, 0, 0, 40};
@@ -352,31 +355,35 @@ TEST(Spine, EachJointIsEnabledOnItsOwn) {
 
 // --- configuration, heap ------------------------------------------------------------------------
 
-TEST(SpineConfig, ProblemsAreNamed) {
-  const auto with = [](void (*change)(SpineConfig&)) {
-    SpineConfig config = test_leg();
+TEST(JointControllerConfig, ProblemsAreNamed) {
+  const auto with = [](void (*change)(JointControllerConfig&)) {
+    JointControllerConfig config = test_leg();
     change(config);
     const char* p = problem(config);
     return std::string(p ? p : "");
   };
   EXPECT_EQ(problem(test_leg()), nullptr);
-  EXPECT_NE(with([](SpineConfig& c) { c.joint[hip].law_tick = 10; }), "");
-  EXPECT_NE(with([](SpineConfig& c) { c.joint[knee].flexion = 0; }), "");
-  EXPECT_NE(with([](SpineConfig& c) { c.joint[knee].flexor.inlet = c.joint[hip].flexor.inlet; }),
+  EXPECT_NE(with([](JointControllerConfig& c) { c.joint[hip].law_tick = 10; }), "");
+  EXPECT_NE(with([](JointControllerConfig& c) { c.joint[knee].flexion = 0; }), "");
+  EXPECT_NE(with([](JointControllerConfig& c) {
+              c.joint[knee].flexor.inlet = c.joint[hip].flexor.inlet;
+            }),
             "");
-  EXPECT_NE(with([](SpineConfig& c) { c.conversion[3].start = c.conversion[3].read; }), "");
-  EXPECT_NE(with([](SpineConfig& c) { std::swap(c.conversion[3], c.conversion[4]); }), "");
-  EXPECT_NE(with([](SpineConfig& c) { c.output_delay = 0; }), "");
-  EXPECT_NE(with([](SpineConfig& c) { c.timing.closing[0] = 5; }), "");
-  EXPECT_NE(with([](SpineConfig& c) { c.joint[hip].flexor.tension = {12}; }), "");
+  EXPECT_NE(with([](JointControllerConfig& c) { c.conversion[3].start = c.conversion[3].read; }),
+            "");
+  EXPECT_NE(with([](JointControllerConfig& c) { std::swap(c.conversion[3], c.conversion[4]); }),
+            "");
+  EXPECT_NE(with([](JointControllerConfig& c) { c.output_delay = 0; }), "");
+  EXPECT_NE(with([](JointControllerConfig& c) { c.timing.closing[0] = 5; }), "");
+  EXPECT_NE(with([](JointControllerConfig& c) { c.joint[hip].flexor.tension = {12}; }), "");
 }
 
-TEST(Spine, NeverAllocates) {
+TEST(JointController, NeverAllocates) {
   const World world{.bad_per_thousand = 5};
-  SpineConfig config = test_leg();
+  JointControllerConfig config = test_leg();
   config.startup_vent = 300;
   const std::size_t before = allocations;
-  Spine spine(config);
+  JointController spine(config);
   std::size_t edges = 0;
   for (Tick t = 0; t < 100'000; t = spine.next_event(t)) {
     if (spine.starts_period(t)) spine.command(world.command(config, t));

@@ -1,4 +1,4 @@
-#include "sinew/config/documenter.h"
+#include "sinew/config/write/documenter.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,5 @@
-// config/writer.h - the visitor that prints structs as TOML, in the namespace that Reader reads.
+// config/write/writer.h - the visitor that prints structs as TOML, in the namespace that Reader
+// reads.
 //
 //   config::Writer writer(&reader.origins());
 //   writer.format("experiment");

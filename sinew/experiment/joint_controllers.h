@@ -1,4 +1,5 @@
-// experiment/spinal.h - a robot's description turned into the low level's constants, in its counts.
+// experiment/joint_controllers.h - a robot's description turned into the low level's constants, in
+// its counts.
 #pragma once
 
 #include <vector>
@@ -20,6 +21,6 @@ std::vector<robot::Contradiction> misfits(const Experiment& experiment);
 
 // Returns the constants of a machine of one board, or of one board of it (boards.h). Throws
 // std::invalid_argument where the low level cannot be built so (control::problem).
-control::SpineConfig spine_config(const Experiment& experiment);
+control::JointControllerConfig joint_controller_config(const Experiment& experiment);
 
 }  // namespace sinew::experiment

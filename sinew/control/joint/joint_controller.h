@@ -1,4 +1,5 @@
-// control/joint/spine.h - the low-level controller, the leg's "spinal cord" [thesis 5.1, 5.2].
+// control/joint/joint_controller.h - the low-level controller, the leg's "spinal cord"
+// [thesis 5.1, 5.2].
 //
 // Reads the sensors in a fixed scan, runs each joint's two laws once per period and turns their
 // duties into valve edges. It never sees a port and owns no time: a loop asks what is next,
@@ -35,10 +36,10 @@
 
 namespace sinew::control {
 
-class Spine {
+class JointController {
  public:
   // problem(config) must be nullptr.
-  explicit Spine(const SpineConfig& config) noexcept;
+  explicit JointController(const JointControllerConfig& config) noexcept;
 
   // The spans point into this object.
   signals::Scan scan() const noexcept;
@@ -63,7 +64,7 @@ class Spine {
   void take(const signals::Conversion&, signals::Reading, signals::Tick t) noexcept;
 
   const Seen& seen() const noexcept { return seen_; }
-  const SpineConfig& config() const noexcept { return config_; }
+  const JointControllerConfig& config() const noexcept { return config_; }
 
   // The clock came too late for tick t, which is worked off all the same.
   void missed(signals::Tick t) noexcept;
@@ -135,7 +136,7 @@ class Spine {
   void hand_out_levels(signals::Tick t) noexcept;
   void find_next_edge() noexcept;
 
-  SpineConfig config_;
+  JointControllerConfig config_;
   Command command_;
   Seen seen_;
 

@@ -1,4 +1,4 @@
-#include "sinew/control/gait/brain.h"
+#include "sinew/control/gait/gait_controller.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ using test::inch;
 const robot::TwoLinks links{8.875 * inch, 6.25 * inch};
 
 // Periods that the brain spent in each phase, by name, until it had finished.
-std::map<std::string, int> spent(Brain& brain, const Measured& measured = {}) {
+std::map<std::string, int> spent(GaitController& brain, const Measured& measured = {}) {
   std::map<std::string, int> count;
   for (std::int64_t p = 0; p < 100000; ++p) {
     const Desired& want = brain.update(measured, p);
@@ -43,9 +43,9 @@ std::map<std::string, int> spent(Brain& brain, const Measured& measured = {}) {
   return count;
 }
 
-TEST(Brain, FourStepsOfTheText) {
+TEST(GaitController, FourStepsOfTheText) {
   const robot::Robot robot = robot::test::leg();
-  Brain brain(robot, test::walk(robot));
+  GaitController brain(robot, test::walk(robot));
   const auto count = spent(brain);
   EXPECT_EQ(count.at("swing"), 4 * 150);
   EXPECT_EQ(count.at("foot_plant"), 4 * 3);
@@ -57,12 +57,12 @@ TEST(Brain, FourStepsOfTheText) {
 }
 
 // B.1: p[0] = -6.5 + timer * 0.01 * 9.5/1.5 for timer = 0 ... 150, and so on.
-TEST(Brain, LoopsOfTheCode) {
+TEST(GaitController, LoopsOfTheCode) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.thesis_timing = true;
   plan.repeat = 1;
-  Brain brain(robot, plan);
+  GaitController brain(robot, plan);
 
   std::int64_t p = 0;
   const auto expect_x = [&](double inches) {
@@ -74,9 +74,9 @@ TEST(Brain, LoopsOfTheCode) {
   EXPECT_EQ(brain.update({}, p).stage, Stage::finished);
 }
 
-TEST(Brain, AnglesPutTheFootOnThePathWithTheThesissKnee) {
+TEST(GaitController, AnglesPutTheFootOnThePathWithTheThesissKnee) {
   const robot::Robot robot = robot::test::leg();
-  Brain brain(robot, test::walk(robot));
+  GaitController brain(robot, test::walk(robot));
   for (std::int64_t p = 0; p < 303; ++p) {
     const Desired& want = brain.update({}, p);
     const robot::Point foot = robot::foot_position(links, want.joint[0].angle, want.joint[1].angle);
@@ -87,23 +87,23 @@ TEST(Brain, AnglesPutTheFootOnThePathWithTheThesissKnee) {
   }
 }
 
-TEST(Brain, TheSamePeriodAgainGivesTheSame) {
+TEST(GaitController, TheSamePeriodAgainGivesTheSame) {
   const robot::Robot robot = robot::test::leg();
-  Brain once(robot, test::walk(robot)), thrice(robot, test::walk(robot));
+  GaitController once(robot, test::walk(robot)), thrice(robot, test::walk(robot));
   for (std::int64_t p = 0; p < 400; ++p) {
     for (int i = 0; i < 3; ++i) thrice.update({}, p);
     EXPECT_EQ(once.update({}, p).joint[0].angle, thrice.desired().joint[0].angle);
   }
   // Periods that were not asked for have passed all the same.
-  Brain jumps(robot, test::walk(robot));
+  GaitController jumps(robot, test::walk(robot));
   EXPECT_EQ(jumps.update({}, 399).joint[1].angle, once.desired().joint[1].angle);
 }
 
-TEST(Brain, SettlesWithItsJointsLeftAlone) {
+TEST(GaitController, SettlesWithItsJointsLeftAlone) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.settle = 0.6;
-  Brain brain(robot, plan);
+  GaitController brain(robot, plan);
   for (std::int64_t p = 0; p < 60; ++p) {
     const Desired& want = brain.update({}, p);
     ASSERT_EQ(want.stage, Stage::settling);
@@ -115,11 +115,11 @@ TEST(Brain, SettlesWithItsJointsLeftAlone) {
   EXPECT_TRUE(brain.desired().joint[0].enabled);
 }
 
-TEST(Brain, HoldsAtTheEndIfToldTo) {
+TEST(GaitController, HoldsAtTheEndIfToldTo) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.finish = Plan::Finish::hold;
-  Brain brain(robot, plan);
+  GaitController brain(robot, plan);
   brain.update({}, 5000);
   EXPECT_TRUE(brain.finished());
   EXPECT_FALSE(brain.desired().vent);
@@ -142,25 +142,25 @@ Measured standing(const robot::Robot& robot, robot::Point force) {
   return m;
 }
 
-TEST(Brain, GroundReactionFromTensions) {
+TEST(GaitController, GroundReactionFromTensions) {
   const robot::Robot robot = robot::test::leg();
-  const Brain brain(robot, test::walk(robot));
+  const GaitController brain(robot, test::walk(robot));
   const robot::Point force = brain.ground_reaction(standing(robot, {1.5, 5}));
   EXPECT_NEAR(force.x, 1.5, 1e-12);
   EXPECT_NEAR(force.y, 5, 1e-12);
 }
 
-TEST(Brain, APhaseEndsWhereTheFootStands) {
+TEST(GaitController, APhaseEndsWhereTheFootStands) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.phases[1].duration = 0.3;
   plan.phases[1].until = {.measure = "foot.normal_force", .is = Until::Is::above, .level = 4};
   plan.repeat = 1;
 
-  Brain never(robot, plan);
+  GaitController never(robot, plan);
   EXPECT_EQ(spent(never, standing(robot, {0, 3})).at("foot_plant"), 30);  // at the latest
 
-  Brain brain(robot, plan);
+  GaitController brain(robot, plan);
   std::int64_t p = 0;
   for (; p < 150 + 7; ++p) brain.update(standing(robot, {0, 0}), p);
   EXPECT_EQ(brain.desired().phase, 1);
@@ -169,23 +169,23 @@ TEST(Brain, APhaseEndsWhereTheFootStands) {
   EXPECT_EQ(brain.desired().progress, 0);
 }
 
-TEST(Brain, APhaseLastsAtLeastOnePeriod) {
+TEST(GaitController, APhaseLastsAtLeastOnePeriod) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   for (Phase& phase : plan.phases)
     phase.until = {.measure = "joint.hip.angle", .is = Until::Is::below, .level = 1};
-  Brain brain(robot, plan);
+  GaitController brain(robot, plan);
   const auto count = spent(brain);  // measured: 0 rad
   EXPECT_EQ(count.at("swing"), 4);
   EXPECT_EQ(count.at("foot_plant"), 4);
 }
 
-TEST(Brain, OutOfReachItAimsAtTheNearestPointAndCounts) {
+TEST(GaitController, OutOfReachItAimsAtTheNearestPointAndCounts) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.phases[2].x.to = -9 * inch;
   plan.repeat = 2;
-  Brain brain(robot, plan);
+  GaitController brain(robot, plan);
   std::int64_t flagged = 0;
   for (std::int64_t p = 0; p < 606; ++p) {
     const Desired& want = brain.update({}, p);
@@ -199,13 +199,13 @@ TEST(Brain, OutOfReachItAimsAtTheNearestPointAndCounts) {
   EXPECT_EQ(brain.unreachable_periods(), flagged);
 }
 
-TEST(Brain, WhatAPhaseChangesHoldsFromThenOn) {
+TEST(GaitController, WhatAPhaseChangesHoldsFromThenOn) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.phases[0].joints[0].stiffness = {4, 2};     // a ramp
   plan.phases[1].joints[1].gains.angle = {0.002};  // from the plant on
   plan.phases[2].joints[1].gains.angle = {0.0015};
-  Brain brain(robot, plan);
+  GaitController brain(robot, plan);
   EXPECT_EQ(brain.update({}, 0).joint[1].gains.angle, robot.joints[1].gains.angle);
   EXPECT_DOUBLE_EQ(brain.update({}, 75).joint[0].stiffness, 3);
   EXPECT_DOUBLE_EQ(brain.update({}, 150).joint[0].stiffness, 2);  // s = 1 was reached
@@ -214,12 +214,12 @@ TEST(Brain, WhatAPhaseChangesHoldsFromThenOn) {
   EXPECT_DOUBLE_EQ(brain.desired().joint[0].stiffness, 4);
 }
 
-TEST(Brain, OpenLoopAndDisabledLastAsLongAsTheirPhase) {
+TEST(GaitController, OpenLoopAndDisabledLastAsLongAsTheirPhase) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.phases[0].joints[0].feedforward.flexor_inlet = {1};
   plan.phases[0].disabled = {"knee"};
-  Brain brain(robot, plan);
+  GaitController brain(robot, plan);
   brain.update({}, 10);
   EXPECT_TRUE(brain.desired().joint[0].open_loop);
   EXPECT_EQ(brain.desired().joint[0].flexor_inlet, 1);
@@ -230,21 +230,21 @@ TEST(Brain, OpenLoopAndDisabledLastAsLongAsTheirPhase) {
   EXPECT_TRUE(brain.desired().joint[1].enabled);
 }
 
-TEST(Brain, JointAnglesNeedNoFoot) {
+TEST(GaitController, JointAnglesNeedNoFoot) {
   robot::Robot robot = robot::test::leg();
   Plan plan = plan_for(robot);
   Phase turn = test::phase("turn", 1);
   turn.joints[0].angle = {278 * degree, 298 * degree};
   plan.phases = {turn};
   plan.sequence = {"turn"};
-  Brain brain(robot, plan);
+  GaitController brain(robot, plan);
   brain.update({}, 50);
   EXPECT_NEAR(brain.desired().joint[0].angle, 288 * degree, 1e-14);
   EXPECT_EQ(brain.desired().joint[1].angle, robot.joints[1].rest_angle);
   EXPECT_FALSE(brain.desired().has_foot);
 }
 
-TEST(Brain, NoHeapInUpdate) {
+TEST(GaitController, NoHeapInUpdate) {
   const robot::Robot robot = robot::test::leg();
   Plan plan = test::walk(robot);
   plan.phases[1].until = {.measure = "foot.normal_force", .is = Until::Is::above, .level = 4};
@@ -253,7 +253,7 @@ TEST(Brain, NoHeapInUpdate) {
   plan.phases[2].ground_force = {.desired = 20, .gain = 1e-3, .limit = 0.01};
   plan.phases[2].cylinder = {{}, {0.3, 1}, CylinderPhase::Of::foot_y};
   plan.joints[1].range = {5, 6};
-  Brain brain(robot, plan);
+  GaitController brain(robot, plan);
   const Measured measured = standing(robot, {0, 0});
   const long before = allocations;
   for (std::int64_t p = 0; p < 2000; ++p) brain.update(measured, p);

@@ -1,10 +1,11 @@
-// plant/planar/rubs_members.h - the members of Rubs, for the files that compile its sizes once.
+// plant/planar/friction_contacts_members.h - the members of FrictionContacts, for the files that
+// compile its sizes once.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/plant/planar/rubs.h"
+#include "sinew/plant/planar/friction_contacts.h"
 
 namespace sinew::plant {
 
@@ -17,14 +18,14 @@ double dot(const BodyConstants<N>& k, const Coordinates<N>& a, const Coordinates
 }
 
 template <int N, int D>
-Rubs<N, D>::Rubs(const BodyConstants<N>& body, const robot::Robot& robot)
+FrictionContacts<N, D>::FrictionContacts(const BodyConstants<N>& body, const robot::Robot& robot)
     : k_(body), ground_(robot.ground) {
   const std::size_t legs = std::max<std::size_t>(1, robot.legs.size());
   for (std::size_t leg = 0; leg < legs && leg < path_.size(); ++leg) add_foot(robot, leg);
 }
 
 template <int N, int D>
-void Rubs<N, D>::add_foot(const robot::Robot& robot, std::size_t leg) {
+void FrictionContacts<N, D>::add_foot(const robot::Robot& robot, std::size_t leg) {
   foot_count_ = leg + 1;
   const robot::Foot& foot = robot::foot_of(robot, leg);
   const int last = robot::foot_link(robot, leg);
@@ -58,8 +59,8 @@ void Rubs<N, D>::add_foot(const robot::Robot& robot, std::size_t leg) {
 }
 
 template <int N, int D>
-double Rubs<N, D>::stiffest_rate(const Body<N>& body, const Motion<N>& motion,
-                                 const robot::Robot& robot) const {
+double FrictionContacts<N, D>::stiffest_rate(const Body<N>& body, const Motion<N>& motion,
+                                             const robot::Robot& robot) const {
   double fastest = 0;
   const auto consider = [&](const Coordinates<N>& row, double damping, double stiffness) {
     const double w = dot(k_, row, body.response(row));
@@ -76,7 +77,7 @@ double Rubs<N, D>::stiffest_rate(const Body<N>& body, const Motion<N>& motion,
 }
 
 template <int N, int D>
-DiscAt<N> Rubs<N, D>::disc(const Body<N>& body, const Motion<N>& motion, int i) const {
+DiscAt<N> FrictionContacts<N, D>::disc(const Body<N>& body, const Motion<N>& motion, int i) const {
   const Disc& d = disc_[static_cast<std::size_t>(i)];
   const Path& path = path_[d.foot];
   DiscAt<N> at{};
@@ -98,7 +99,7 @@ DiscAt<N> Rubs<N, D>::disc(const Body<N>& body, const Motion<N>& motion, int i) 
 }
 
 template <int N, int D>
-double Rubs<N, D>::depth(const Body<N>& body, const Motion<N>& motion, int i) const {
+double FrictionContacts<N, D>::depth(const Body<N>& body, const Motion<N>& motion, int i) const {
   if (!ground_.present) return 0;
   const Disc& d = disc_[static_cast<std::size_t>(i)];
   const Path& path = path_[d.foot];
@@ -113,7 +114,8 @@ double Rubs<N, D>::depth(const Body<N>& body, const Motion<N>& motion, int i) co
 }
 
 template <int N, int D>
-double Rubs<N, D>::push(double depth, const DiscAt<N>& disc, const Motion<N>& motion) const {
+double FrictionContacts<N, D>::push(double depth, const DiscAt<N>& disc,
+                                    const Motion<N>& motion) const {
   if (depth <= 0) return 0;
   const double rate = dot(k_, disc.rise, motion.rate);
   const double force = ground_.normal_stiffness * depth - ground_.normal_damping * rate;
@@ -121,7 +123,7 @@ double Rubs<N, D>::push(double depth, const DiscAt<N>& disc, const Motion<N>& mo
 }
 
 template <int N, int D>
-Coordinates<N> Rubs<N, D>::row(int c) const {
+Coordinates<N> FrictionContacts<N, D>::row(int c) const {
   Coordinates<N> j{};
   if (c == trolley) j[along_track] = 1;
   if (c == lift) j[up] = 1;
@@ -133,7 +135,8 @@ Coordinates<N> Rubs<N, D>::row(int c) const {
 }
 
 template <int N, int D>
-double Rubs<N, D>::along(int c, const Coordinates<N>& row, const Coordinates<N>& v) const {
+double FrictionContacts<N, D>::along(int c, const Coordinates<N>& row,
+                                     const Coordinates<N>& v) const {
   if (c >= first_disc) return dot(k_, row, v);
   if (c == trolley) return v[along_track];
   if (c == lift) return v[up];
@@ -143,8 +146,8 @@ double Rubs<N, D>::along(int c, const Coordinates<N>& row, const Coordinates<N>&
 
 // Only of contacts that carry something; the sum goes over their numbers in ascending order.
 template <int N, int D>
-Coordinates<N> Rubs<N, D>::generalised(const Body<N>& body, const Motion<N>& motion,
-                                       const Forces& f) const {
+Coordinates<N> FrictionContacts<N, D>::generalised(const Body<N>& body, const Motion<N>& motion,
+                                                   const Forces& f) const {
   Coordinates<N> sum{};
   const auto add = [&](int c, const Coordinates<N>& j) {
     const double force = f[static_cast<std::size_t>(c)];
@@ -161,9 +164,9 @@ Coordinates<N> Rubs<N, D>::generalised(const Body<N>& body, const Motion<N>& mot
 }
 
 template <int N, int D>
-void Rubs<N, D>::prepare(const Body<N>& body, const Motion<N>& motion,
-                         const Coordinates<N>& acceleration, const Forces& bound,
-                         const Normals& normal) {
+void FrictionContacts<N, D>::prepare(const Body<N>& body, const Motion<N>& motion,
+                                     const Coordinates<N>& acceleration, const Forces& bound,
+                                     const Normals& normal) {
   bound_ = bound;
   active_count_ = 0;
   touching_count_ = 0;
@@ -211,7 +214,7 @@ void Rubs<N, D>::prepare(const Body<N>& body, const Motion<N>& motion,
 // Gaussian elimination of the discs that touch; the matrix is a unit matrix plus a positive one.
 // What is below the diagonal are the shares by which rows were taken from others.
 template <int N, int D>
-void Rubs<N, D>::eliminate(Matrix& m) const {
+void FrictionContacts<N, D>::eliminate(Matrix& m) const {
   const std::size_t n = touching_count_;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = i + 1; k < n; ++k) {
@@ -222,7 +225,7 @@ void Rubs<N, D>::eliminate(Matrix& m) const {
 }
 
 template <int N, int D>
-void Rubs<N, D>::solve(const Matrix& m, Normals& b) const {
+void FrictionContacts<N, D>::solve(const Matrix& m, Normals& b) const {
   const std::size_t n = touching_count_;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = i + 1; k < n; ++k) b[k] -= m[k][i] * b[i];
@@ -234,7 +237,7 @@ void Rubs<N, D>::solve(const Matrix& m, Normals& b) const {
 
 // The ground's give within the step, put into slips, responses and bounds.
 template <int N, int D>
-void Rubs<N, D>::soften(double h, FrictionProblem<count>& p) const {
+void FrictionContacts<N, D>::soften(double h, FrictionProblem<count>& p) const {
   const auto n = static_cast<std::size_t>(active_count_);
   const std::size_t touching = touching_count_;
   const double k = ground_.normal_stiffness;
@@ -270,7 +273,7 @@ void Rubs<N, D>::soften(double h, FrictionProblem<count>& p) const {
 }
 
 template <int N, int D>
-auto Rubs<N, D>::hold(double h, const Forces& last) const -> Forces {
+auto FrictionContacts<N, D>::hold(double h, const Forces& last) const -> Forces {
   const auto n = static_cast<std::size_t>(active_count_);
   FrictionProblem<count> p;
   Forces before;
@@ -288,7 +291,8 @@ auto Rubs<N, D>::hold(double h, const Forces& last) const -> Forces {
 }
 
 template <int N, int D>
-Coordinates<N> Rubs<N, D>::accelerations(Coordinates<N> without, const Forces& f) const {
+Coordinates<N> FrictionContacts<N, D>::accelerations(Coordinates<N> without,
+                                                     const Forces& f) const {
   for (std::size_t c = 0; c < static_cast<std::size_t>(active_count_); ++c) {
     const double force = f[static_cast<std::size_t>(active_[c])];
     for (std::size_t i = 0; i < k_.coordinates(); ++i) without[i] += column_[c][i] * force;

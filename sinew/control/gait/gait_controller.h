@@ -1,4 +1,4 @@
-// control/gait/brain.h - the high-level controller, the "brain" of 5.1.
+// control/gait/gait_controller.h - the high-level controller, the "brain" of 5.1.
 //
 // Once per brain period it reads what the low level believes and says what it wants: joint angles
 // from the foot path by [63], [64], stiffnesses, gains, or open-loop duties, and the cylinder's
@@ -70,11 +70,11 @@ struct Desired {
   bool unreachable = false;  // the angles are those of the nearest point that can be reached
 };
 
-class Brain {
+class GaitController {
  public:
   // contradictions(robot, plan) must be empty. `offset` is the share of a step by which it begins
   // within the sequence; it ends where it began, after as many whole steps.
-  Brain(const robot::Robot&, const Plan&, double offset = 0);
+  GaitController(const robot::Robot&, const Plan&, double offset = 0);
 
   // At the start of brain period `period_index` (0, 1, 2, ...). The same index again gives the
   // same. A leg that waits stays where it is in its phase, whatever ends it.
