@@ -1,6 +1,8 @@
 // Where the time of a walk goes. Goals (bench/README.md) are ratios of one run of this program.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <chrono>
 #include <string>
 
 #include "sinew/experiment/planar_setup.h"
@@ -44,18 +46,44 @@ struct Nothing {
   signals::Tick next(signals::Tick t) const noexcept { return t + 1'000'000; }
 };
 
+// What a part of a machine costs: an experiment and the plain walk by turns, each per simulated
+// second.
+void against_the_plain_walk(benchmark::State& state, const char* name) {
+  using Clock = std::chrono::steady_clock;
+  const experiment::Experiment other =
+      experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name);
+  const auto cost = [](const experiment::Experiment& e) {  // [s] per simulated second
+    const Clock::time_point start = Clock::now();
+    const double simulated = run::run(e).duration;
+    return std::chrono::duration<double>(Clock::now() - start).count() / simulated;
+  };
+  double least = 1e9, least_plain = 1e9;  // the least disturbed of each
+  for (auto _ : state) {
+    least_plain = std::min(least_plain, cost(walk()));
+    least = std::min(least, cost(other));
+  }
+  state.counters["times_the_plain_walk"] = least / least_plain;
+}
+BENCHMARK_CAPTURE(against_the_plain_walk, pressure_sensors, "walk-with-pressures.toml");
+BENCHMARK_CAPTURE(against_the_plain_walk, tank, "endurance.toml");
+BENCHMARK_CAPTURE(against_the_plain_walk, regulators, "walk-with-regulators.toml");
+BENCHMARK_CAPTURE(against_the_plain_walk, hoses_with_air, "walk-with-hoses.toml");
+BENCHMARK_CAPTURE(against_the_plain_walk, three_muscles, "three-muscles.toml");
+BENCHMARK_CAPTURE(against_the_plain_walk, ankle, "walk-with-ankle.toml");
+BENCHMARK_CAPTURE(against_the_plain_walk, moving_cylinder, "cylinder-staircase.toml");
+BENCHMARK_CAPTURE(against_the_plain_walk, two_legs, "walk-two-legs.toml");
+
 // The same, nobody recording.
 void unwatched_walk(benchmark::State& state) {
   const signals::Tick end = experiment::last_tick(walk());
   double simulated = 0;
   for (auto _ : state) {
     plant::ChainWorld<2> world(experiment::planar_setup(walk()));
-    control::Supervisor spine(experiment::spine_config(walk()),
-                              experiment::supervise_config(walk()));
+    run::Boards boards(walk());
     run::HighLevel high(walk().robot, walk().plan);
     run::SimulatedClock clock;
     Nothing nobody;
-    benchmark::DoNotOptimize(run::loop(spine, high, world, clock, nobody, end));
+    benchmark::DoNotOptimize(run::loop(boards, high, world, clock, nobody, end));
     simulated += static_cast<double>(end) * signals::tick_seconds;
   }
   state.counters["real_time_factor"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);
@@ -78,12 +106,11 @@ void controller_alone(benchmark::State& state) {
   double simulated = 0;
   for (auto _ : state) {
     Still body;
-    control::Supervisor spine(experiment::spine_config(walk()),
-                              experiment::supervise_config(walk()));
+    run::Boards boards(walk());
     run::HighLevel high(walk().robot, walk().plan);
     run::SimulatedClock clock;
     Nothing nobody;
-    benchmark::DoNotOptimize(run::loop(spine, high, body, clock, nobody, end));
+    benchmark::DoNotOptimize(run::loop(boards, high, body, clock, nobody, end));
     simulated += static_cast<double>(end) * signals::tick_seconds;
   }
   state.counters["real_time_factor"] = benchmark::Counter(simulated, benchmark::Counter::kIsRate);
@@ -107,7 +134,7 @@ void one_peek(benchmark::State& state) {
 BENCHMARK(one_peek);
 
 struct FourMuscles {
-  using Air = plant::Air;
+  using Air = muscle::AirNetwork<plant::chain_muscles>;
   plant::Setup setup = experiment::planar_setup(walk());
   Air air{setup.muscles, setup.air, setup.supply};
   Air::Valves valves = air.valves_at_rest();

@@ -1,6 +1,8 @@
 // cli/export.cpp - `sinew export`: a run's log for everything that reads columns.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <filesystem>
 #include <iostream>
 
@@ -49,13 +51,28 @@ experiment::Experiment experiment_of(const run::RecordedRun& run, const Options&
   return experiment::load(run::machine_of(run, options.machine).string());
 }
 
-// What B.1 writes to its two ports, and when.
+// What B.1 writes to its two ports, and when; of a board whose valves have more bits, all of its
+// ports. One board after the other, where there are several.
 std::string ports_text(const signals::Table& table, const experiment::Experiment& e) {
-  std::string out = "time [s],port 0 [1],port 1 [1]\n";
   const auto bits = robot::bits_of(e.robot, e.wiring);
-  for (const robot::PortBytes& b : robot::port_bytes(table, bits, e.wiring.polarity))
-    out +=
-        fmt::format("{:.4f},{},{}\n", 1e-9 * static_cast<double>(b.time_ns), b.port[0], b.port[1]);
+  int boards = 1, highest = 15;
+  for (const robot::ValveBit& b : bits)
+    boards = std::max(boards, b.board), highest = std::max(highest, b.bit);
+  const auto ports = static_cast<std::size_t>(highest / 8 + 1);
+
+  std::string out = boards > 1 ? "time [s],board [1]" : "time [s]";
+  for (std::size_t p = 0; p < ports; ++p) out += fmt::format(",port {} [1]", p);
+  out += "\n";
+  for (int board = 1; board <= boards; ++board) {
+    auto its = bits;
+    std::erase_if(its, [&](const robot::ValveBit& b) { return b.board != board; });
+    for (const robot::PortBytes& b : robot::port_bytes(table, its, e.wiring.polarity)) {
+      out += fmt::format("{:.4f}", 1e-9 * static_cast<double>(b.time_ns));
+      if (boards > 1) out += fmt::format(",{}", board);
+      for (std::size_t p = 0; p < ports; ++p) out += fmt::format(",{}", b.port[p]);
+      out += "\n";
+    }
+  }
   return out;
 }
 

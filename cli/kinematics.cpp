@@ -95,7 +95,7 @@ Branch stand(const experiment::Experiment& e, const std::vector<double>& angles)
   for (std::size_t j = 0; j < angles.size(); ++j)
     turned[j] = next_to_rest(e.robot.joints[j], angles[j]);
   muscle::Lanes<plant::most_muscles> length, rate;
-  plant::Cords::Pulls pulls;
+  plant::Cords::Pulls<plant::most_muscles> pulls;
   plant::Cords(e.robot).at(turned.data(), still.data(), length, rate, pulls);
   for (std::size_t i = 0; i < e.robot.muscles.size(); ++i) {
     const actuator::Actuator a = robot::actuator_of(e.robot.muscles[i], e.actuators);

@@ -6,7 +6,6 @@
 #include "sinew/config/quantity.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/control/gait/legs.h"
-#include "sinew/control/joint/config.h"
 #include "sinew/experiment/check_motion.h"
 #include "sinew/experiment/faults.h"
 #include "sinew/experiment/spinal.h"
@@ -83,13 +82,6 @@ void check_pressure_law(const Experiment& e, List& out) {
       out.push_back(
           {key + "stiffness_integral", "a joint without regulators", "regulators", "leave it out"});
   }
-}
-
-void check_scan(const Experiment& e, List& out) {
-  const std::size_t sensors = e.robot.sensors.size();
-  if (sensors > control::max_channels)
-    out.push_back({"sensor", std::to_string(sensors) + " sensors",
-                   "at most " + std::to_string(control::max_channels), "fewer"});
 }
 
 void check_supply(const Experiment& e, List& out) {
@@ -280,7 +272,6 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
   check_muscles(e, wrong);
   check_valves(e, wrong);
   check_pressure_law(e, wrong);
-  check_scan(e, wrong);
   check_supply(e, wrong);
   check_cylinder(e, wrong);
   if (runs) check_start(e, wrong);

@@ -50,7 +50,7 @@ std::vector<Reach> reaches(const Experiment& e) {
     out.push_back({start, start});
   }
   gait::Legs legs(e.robot, e.plan);
-  gait::Measured still;
+  gait::MachineMeasured still;
   for (std::size_t j = 0; j < out.size(); ++j) still.angle[j] = e.robot.joints[j].rest_angle;
   const auto settle = std::llround(e.start.settle / e.plan.brain_period);
   gait::Plan once = e.plan;
@@ -71,7 +71,7 @@ void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
     std::array<double, robot::max_joints> angle{}, still{};
     for (std::size_t j = 0; j < reach.size(); ++j) angle[j] = high ? reach[j].high : reach[j].low;
     muscle::Lanes<plant::most_muscles> length{}, rate{};
-    plant::Cords::Pulls pulls{};
+    plant::Cords::Pulls<plant::most_muscles> pulls{};
     cords.at(angle.data(), still.data(), length, rate, pulls);
     for (int i = 0; i < cords.count(); ++i) {
       const auto m = static_cast<std::size_t>(i);
@@ -103,7 +103,8 @@ void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
 // Air or joints that move so quickly that a run would take for ever.
 void check_steps(const plant::Setup& s, List& out) {
   constexpr double shortest = 2e-6;  // step [s]
-  const double air = plant::Air(s.muscles, s.air, s.supply, s.cylinder).longest_step();
+  const double air = muscle::AirNetwork<plant::most_muscles>(s.muscles, s.air, s.supply, s.cylinder)
+                         .longest_step();
   const auto micro = [](double step) { return config::format_number(1e6 * step) + " us"; };
   if (s.air.wall_time > 0 && air < shortest) {  // without walls air goes ahead of a step
     out.push_back({"air", "a hose or a cylinder's chamber that fills within " + micro(air),

@@ -6,6 +6,7 @@
 
 #include "sinew/actuator/braid.h"
 #include "sinew/config/quantity.h"
+#include "sinew/experiment/boards.h"
 #include "sinew/experiment/estimators.h"
 #include "sinew/robot/actuator_of.h"
 #include "sinew/robot/kinematics.h"
@@ -362,7 +363,7 @@ std::vector<robot::Contradiction> misfits(const Experiment& e) {
                    "at most pwm_ticks, " + std::to_string(robot.low_level.pwm_ticks), "1"});
   if (!out.empty()) return out;
   try {
-    (void)spine_config(e);
+    (void)boards(e);
   } catch (const std::invalid_argument& refused) {
     out.push_back({"low_level", refused.what(), "what the low level can work with", ""});
   }
@@ -376,11 +377,12 @@ control::SpineConfig spine_config(const Experiment& e) {
     return static_cast<std::uint32_t>(std::lround(seconds / signals::tick_seconds));
   };
 
+  if (robot.joints.size() + has_cylinder_joint(robot) > control::max_joints)
+    throw std::invalid_argument("one board has at most 8 joints");
   control::SpineConfig c;
   for (std::size_t j = 0; j < robot.joints.size(); ++j)
     c.joint[c.joints++] = joint_config(e, static_cast<int>(j));
   if (has_cylinder_joint(robot)) c.joint[c.joints++] = cylinder_config(robot);
-
   set_scan(robot, c);
   c.period = static_cast<std::uint16_t>(low.pwm_ticks);
   c.output_delay = static_cast<std::uint16_t>(low.output_delay);

@@ -5,13 +5,11 @@
 
 #include "sinew/control/joint/config.h"
 #include "sinew/experiment/experiment.h"
+#include "sinew/robot/boards.h"
 
 namespace sinew::experiment {
 
-// Is there an air cylinder in a loop? It is then the low level's last joint, behind the robot's.
-inline bool has_cylinder_joint(const robot::Robot& robot) {
-  return robot.cylinder.present && robot.cylinder.mode == robot::Cylinder::Mode::valves;
-}
+using robot::has_cylinder_joint;
 
 // Does an interrupt that runs a law take longer than the thesis's program has for it (5.2)?
 bool laws_overrun(const robot::Robot& robot);
@@ -20,7 +18,8 @@ bool laws_overrun(const robot::Robot& robot);
 // without other contradictions.
 std::vector<robot::Contradiction> misfits(const Experiment& experiment);
 
-// Throws std::invalid_argument where the low level cannot be built so (control::problem).
+// Returns the constants of a machine of one board, or of one board of it (boards.h). Throws
+// std::invalid_argument where the low level cannot be built so (control::problem).
 control::SpineConfig spine_config(const Experiment& experiment);
 
 }  // namespace sinew::experiment

@@ -211,26 +211,28 @@ bool is_supervised_closely(const Experiment& e) {
          });
 }
 
-std::string to_text(const control::Trip& trip, const Experiment& e) {
+std::string to_text(const control::Trip& trip, const Experiment& e, int board) {
   using enum control::Trip::Cause;
   const double at = static_cast<double>(trip.at) * signals::tick_seconds;
+  const bool several = robot::boards_of(e.robot).size() > 1;
+  const std::string on = several ? fmt::format(" on board {}", board) : "";
   if (trip.cause == none) return "";
   if (trip.cause == gap)
-    return fmt::format("the clock at {:.4f} s: a tick came {} ticks or more too late", at,
+    return fmt::format("the clock{} at {:.4f} s: a tick came {} ticks or more too late", on, at,
                        trip.high);
   if (trip.cause == command) {
     const std::size_t j = trip.joint;
     const std::string name =
         j < e.robot.joints.size() ? "joint " + e.robot.joints[j].name : "the cylinder";
     return fmt::format(
-        "the commands for {} at {:.4f} s: {} in a row were not numbers, out of "
+        "the commands for {}{} at {:.4f} s: {} in a row were not numbers, out of "
         "range or faster than low_level.command_rate",
-        name, at, trip.high);
+        name, on, at, trip.high);
   }
   const std::string name = trip.channel.index < e.robot.sensors.size()
                                ? e.robot.sensors[trip.channel.index].name
                                : fmt::format("{}", trip.channel.index);
-  return fmt::format("sensor {} at {:.4f} s: {}", name, at, sensor_text(trip));
+  return fmt::format("sensor {}{} at {:.4f} s: {}", name, on, at, sensor_text(trip));
 }
 
 }  // namespace sinew::experiment

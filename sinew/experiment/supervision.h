@@ -16,14 +16,16 @@
 
 namespace sinew::experiment {
 
-// Throws std::invalid_argument where the limits cannot be so (control::problem).
+// Returns the limits of a machine of one board, or of one board of it (boards.h). Throws
+// std::invalid_argument where the limits cannot be so (control::problem).
 control::SuperviseConfig supervise_config(const Experiment& experiment);
 
 // Has a reason to record what was rejected: a fault, or a limit in the robot's file.
 bool is_supervised_closely(const Experiment& experiment);
 
 // "sensor hip_angle at 2.0103 s: 4095 count three times in a row, outside its plausible 1075 to
-// 2715 count"; "" where the run was not ended.
-std::string to_text(const control::Trip& trip, const Experiment& experiment);
+// 2715 count"; "" where the run was not ended. Channel and joint are the machine's; the board, from
+// 1, is named where the machine has several.
+std::string to_text(const control::Trip& trip, const Experiment& experiment, int board = 1);
 
 }  // namespace sinew::experiment

@@ -127,7 +127,7 @@ SINEW_WIDE void BraidLanes::evaluate(const Given& in, const Filled& out) const n
     four(out.drift + i) = x;
     const auto outside = (x > PowerSeries::reach) | (x < -PowerSeries::reach);
     if ((outside[0] | outside[1] | outside[2] | outside[3]) != 0)
-      far_roots(x, in.inverse_sigma + i, root);
+      far_roots(size_ - i, x, in.inverse_sigma + i, root);
     four(out.y + i) = root;
 
     // These terms do not depend on the pressure.
@@ -163,10 +163,10 @@ SINEW_WIDE void BraidLanes::evaluate(const Given& in, const Filled& out) const n
   if (!all_stick_) loose_signs(in, out);
 }
 
-// Beyond the reach of the series.
-void BraidLanes::far_roots(const Four& drift, const double* inverse_sigma,
+// Beyond the reach of the series. Lanes beyond the last muscle go anywhere between two nodes.
+void BraidLanes::far_roots(int muscles, const Four& drift, const double* inverse_sigma,
                            Four& root) const noexcept {
-  for (int k = 0; k < lanes; ++k)
+  for (int k = 0; k < lanes && k < muscles; ++k)
     if (drift[k] > PowerSeries::reach || drift[k] < -PowerSeries::reach)
       root[k] = exact_y((drift[k] + 1.0) / inverse_sigma[k]);
 }

@@ -90,7 +90,8 @@ class BraidLanes {
   int follow(const double* drift, double* y_ref, double* inverse_sigma) const noexcept;
   void set_constants(int lane, const Muscle& muscle);
   double exact_y(double density) const noexcept;
-  void far_roots(const Four& drift, const double* inverse_sigma, Four& root) const noexcept;
+  void far_roots(int muscles, const Four& drift, const double* inverse_sigma,
+                 Four& root) const noexcept;
   void sealed_mesh(const Given& in, const Filled& out) const noexcept;
   void loose_signs(const Given& in, const Filled& out) const noexcept;
 

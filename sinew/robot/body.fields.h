@@ -2,6 +2,7 @@
 // foot and ground.
 #pragma once
 
+#include "sinew/robot/control.fields.h"
 #include "sinew/robot/robot.h"
 #include "sinew/units/field.h"
 
@@ -57,7 +58,7 @@ void fields(Visitor& v, Rollers& rollers) {
 template <class Visitor>
 void fields(Visitor& v, Cylinder::Chamber& chamber) {
   const auto bit = units::Field{
-      .name = "bit", .min = 0, .max = 15, .optional = true, .doc = "of the output port"};
+      .name = "bit", .min = 0, .max = 31, .optional = true, .doc = "of its board's output ports"};
   v.number({.name = "dead_volume",
             .unit = "m3",
             .min = 0,
@@ -79,6 +80,7 @@ void mode_fields(Visitor& v, Cylinder& c) {
   const auto share = [&](std::string_view name, std::string_view doc, double& value) {
     v.number({.name = name, .unit = "1", .min = 0, .max = 1, .optional = true, .doc = doc}, value);
   };
+  board_field(v, c.board);
   v.number({.name = "pressure",
             .unit = "Pa abs",
             .min = 0,

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "sinew/robot/boards.h"
 #include "sinew/robot/check_legs.h"
 #include "sinew/robot/kinematics.h"
 #include "sinew/robot/legs.h"
@@ -37,12 +38,9 @@ void check_sizes(const Robot& robot, List& out) {
     out.push_back({"joint",
                    std::to_string(joints) + " joints and " + std::to_string(links) + " links",
                    "one joint per link", "link k hangs at joint k, in the order of the file"});
-  // A cylinder on valves is one more of the low level's.
-  const bool lifts = robot.cylinder.present && robot.cylinder.mode == Cylinder::Mode::valves;
-  const auto most = static_cast<std::size_t>(max_joints - (lifts ? 1 : 0));
-  if (joints == 0 || joints > most)
-    out.push_back({"joint", std::to_string(joints) + " joints", "1 to " + std::to_string(most),
-                   "a smaller robot"});
+  if (joints == 0 || joints > static_cast<std::size_t>(max_joints))
+    out.push_back({"joint", std::to_string(joints) + " joints",
+                   "1 to " + std::to_string(max_joints), "a smaller robot"});
   if (robot.muscles.size() > static_cast<std::size_t>(max_muscles))
     out.push_back({"muscle", std::to_string(robot.muscles.size()) + " muscles",
                    "at most " + std::to_string(max_muscles),
@@ -134,23 +132,37 @@ void check_pairs(const Robot& robot, List& out) {
   }
 }
 
-void check_bits(const Robot& robot, List& out) {
-  std::map<int, std::string> used;
-  const auto take = [&](int bit, const std::string& key) {
-    const auto [at, fresh] = used.emplace(bit, key);
-    if (!fresh)
-      out.push_back({key, "bit " + std::to_string(bit), "a bit of its own",
-                     "another one; " + at->second + " has it"});
-  };
-  for (const Muscle& muscle : robot.muscles) {
-    take(muscle.inlet_bit, "muscle." + muscle.name + ".inlet.bit");
-    if (!muscle.exhaust.empty()) take(muscle.exhaust_bit, "muscle." + muscle.name + ".exhaust.bit");
-  }
-  if (!robot.cylinder.present || robot.cylinder.mode != Cylinder::Mode::valves) return;
+template <class Take>
+void check_cylinder_bits(const Robot& robot, const Take& take) {
+  if (!has_cylinder_joint(robot)) return;
   for (const auto& [word, chamber] :
        {std::pair{"up", &robot.cylinder.up}, std::pair{"down", &robot.cylinder.down}}) {
     take(chamber->inlet_bit, std::string("cylinder.") + word + ".inlet.bit");
     take(chamber->exhaust_bit, std::string("cylinder.") + word + ".exhaust.bit");
+  }
+}
+
+void check_bits(const Robot& robot, List& out) {
+  std::map<int, std::string> used;  // of one board
+  std::string on;
+  const auto take = [&](int bit, const std::string& key) {
+    const auto [at, fresh] = used.emplace(bit, key);
+    if (!fresh)
+      out.push_back({key, "bit " + std::to_string(bit) + on, "a bit of its own",
+                     "another one; " + at->second + " has it"});
+  };
+  const std::vector<Board> boards = boards_of(robot);
+  for (std::size_t b = 0; b < boards.size(); ++b) {
+    const Board& board = boards[b];
+    if (boards.size() > 1) on = " on board " + std::to_string(b + 1);
+    used.clear();
+    for (const int m : board.muscles) {
+      const Muscle& muscle = robot.muscles[static_cast<std::size_t>(m)];
+      take(muscle.inlet_bit, "muscle." + muscle.name + ".inlet.bit");
+      if (!muscle.exhaust.empty())
+        take(muscle.exhaust_bit, "muscle." + muscle.name + ".exhaust.bit");
+    }
+    if (board.cylinder) check_cylinder_bits(robot, take);
   }
 }
 
@@ -209,10 +221,11 @@ void check_plausible(const Robot& robot, const Sensor& sensor, List& out) {
 }
 
 // One converter reads one channel after the other: the result of one before the start of the next.
-void check_scan(const Robot& robot, List& out) {
+void check_scan(const Robot& robot, const Board& board, List& out) {
   int previous = 0;
   std::set<int> channels;
-  for (const Sensor& sensor : robot.sensors) {
+  for (const int s : board.sensors) {
+    const Sensor& sensor = robot.sensors[static_cast<std::size_t>(s)];
     const std::string key = "sensor." + sensor.name;
     if (sensor.tick <= previous || sensor.tick >= robot.low_level.pwm_ticks)
       out.push_back({key + ".tick", std::to_string(sensor.tick),
@@ -363,7 +376,8 @@ std::vector<Contradiction> contradictions(const Robot& robot) {
   if (out.empty()) check_legs(robot, out);
   check_pairs(robot, out);
   check_bits(robot, out);
-  check_scan(robot, out);
+  check_boards(robot, out);
+  for (const Board& board : boards_of(robot)) check_scan(robot, board, out);
   check_coverage(robot, out);
   check_controllers(robot, out);
   check_masses(robot, out);

@@ -116,14 +116,26 @@ void check_likeness(const Robot& robot, List& out) {
 }
 
 void check_discs(const Robot& robot, List& out) {
-  std::size_t discs = 0;
-  for (std::size_t l = 0; l < std::max<std::size_t>(1, robot.legs.size()); ++l) {
-    const Foot& foot = foot_of(robot, l);
-    if (foot.present) discs += std::max<std::size_t>(1, foot.points.size());
-  }
-  if (discs > static_cast<std::size_t>(max_discs))
+  const int discs = discs_of(robot);
+  if (discs > max_discs)
     out.push_back({"foot.point", std::to_string(discs) + " discs on all feet",
                    "at most " + std::to_string(max_discs), "fewer points per foot"});
+}
+
+// One gait controller drives a leg.
+void check_leg_sizes(const Robot& robot, List& out) {
+  for (const LegParts& leg : legs_of(robot)) {
+    const std::string of = leg.name.empty() ? " in one leg" : " in leg " + leg.name;
+    const std::string key = leg.name.empty() ? "leg" : "leg." + leg.name + ".joints";
+    if (leg.joints.size() > static_cast<std::size_t>(max_leg_joints))
+      out.push_back({key, std::to_string(leg.joints.size()) + " joints" + of,
+                     "at most " + std::to_string(max_leg_joints) + " joints in a leg",
+                     "several legs, [leg.<name>] with joints = [...]"});
+    if (leg.muscles.size() > static_cast<std::size_t>(max_leg_muscles))
+      out.push_back({key, std::to_string(leg.muscles.size()) + " muscles" + of,
+                     "at most " + std::to_string(max_leg_muscles) + " muscles in a leg",
+                     "several legs, [leg.<name>] with joints = [...]"});
+  }
 }
 
 }  // namespace
@@ -142,6 +154,7 @@ void check_tree(const Robot& robot, List& out) {
 
 void check_legs(const Robot& robot, List& out) {
   check_discs(robot, out);
+  check_leg_sizes(robot, out);
   if (robot.legs.empty()) return;
   if (robot.legs.size() > static_cast<std::size_t>(max_legs))
     out.push_back({"leg", std::to_string(robot.legs.size()) + " legs",

@@ -102,6 +102,17 @@ void fields(Visitor& v, PressureLaw& law) {
            law.stiffness_integral);
 }
 
+// Of a joint, of an air cylinder and of a sensor that belongs to neither.
+template <class Visitor>
+void board_field(Visitor& v, int& board) {
+  v.integer({.name = "board",
+             .min = 0,
+             .max = max_boards,
+             .optional = true,
+             .doc = "of the low level that it is on, from 1; 0: the next that has room"},
+            board);
+}
+
 // Beside a joint's gains.
 template <class Visitor>
 void controller_fields(Visitor& v, Velocity& velocity, StiffnessSource& source, PressureLaw& law) {

@@ -70,6 +70,15 @@ const Foot& foot_of(const Robot& robot, std::size_t leg) {
   return own ? robot.legs[leg].foot : robot.foot;
 }
 
+int discs_of(const Robot& robot) {
+  std::size_t discs = 0;
+  for (std::size_t l = 0; l < std::max<std::size_t>(1, robot.legs.size()); ++l) {
+    const Foot& foot = foot_of(robot, l);
+    if (foot.present) discs += std::max<std::size_t>(1, foot.points.size());
+  }
+  return static_cast<int>(discs);
+}
+
 int foot_link(const Robot& robot, std::size_t leg) {
   if (leg < robot.legs.size() && !robot.legs[leg].joints.empty())
     return find_joint(robot, robot.legs[leg].joints.back());

@@ -19,7 +19,7 @@
 
 namespace sinew::robot {
 
-inline constexpr int max_legs = 4;
+inline constexpr int max_legs = 8;
 
 // One leg's joints and muscles, by their positions in the robot's lists.
 struct LegParts {
@@ -39,6 +39,9 @@ int leg_of_muscle(const Robot&, int muscle);
 
 // The foot of a leg: its own, or the robot's.
 const Foot& foot_of(const Robot&, std::size_t leg);
+
+// Discs of all feet together, one of a foot without points.
+int discs_of(const Robot&);
 
 // The link that carries a leg's foot, its last; -1 where the robot has no links.
 int foot_link(const Robot&, std::size_t leg);

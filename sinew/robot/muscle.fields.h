@@ -29,6 +29,7 @@ void driven_fields(Visitor& v, Joint& joint) {
   v.flag(
       {.name = "enabled", .optional = true, .doc = "false: the low level leaves the joint alone"},
       joint.enabled);
+  board_field(v, joint.board);
 }
 
 template <class Visitor>
@@ -132,7 +133,8 @@ void fields(Visitor& v, Muscle& muscle) {
             .doc = "where the bladder pulls nothing; absent: as in the actuator's file"},
            muscle.bladder_rest_length);
 
-  const auto bit = units::Field{.name = "bit", .min = 0, .max = 15, .doc = "of the output port"};
+  const auto bit =
+      units::Field{.name = "bit", .min = 0, .max = 31, .doc = "of its board's output ports"};
   v.group({.name = "inlet", .doc = "the valve that fills"}, [&](auto& g) {
     g.text({.name = "valve", .doc = "name in the valves file"}, muscle.inlet);
     g.integer(bit, muscle.inlet_bit);

@@ -149,7 +149,7 @@ void fields(Visitor& v, Robot& robot) {
 
   v.group({.name = "converter", .doc = "analogue to digital"},
           [&](auto& g) { fields(g, robot.converter); });
-  v.each({.name = "sensor", .doc = "ascending in tick"}, robot.sensors,
+  v.each({.name = "sensor", .doc = "on each board ascending in tick"}, robot.sensors,
          [](auto& g, Sensor& sensor) { fields(g, sensor); });
   v.group({.name = "low_level", .doc = "timing and rounding of the joint controller"},
           [&](auto& g) { fields(g, robot.low_level); });

@@ -18,9 +18,16 @@
 namespace sinew::robot {
 
 // The sizes of the loop's fixed arrays.
-inline constexpr int max_joints = 8;   // of one board of the low level
-inline constexpr int max_muscles = 8;  // with an inlet and an exhaust each: its 16 bits
-inline constexpr int max_discs = 8;    // of all feet together
+inline constexpr int max_joints = 24;
+inline constexpr int max_muscles = 48;  // with an inlet and an exhaust each
+inline constexpr int max_discs = 24;    // of all feet together
+
+// One leg's, which one gait controller drives.
+inline constexpr int max_leg_joints = 8, max_leg_muscles = 16;
+
+// One board's of the low level; all boards' channels are numbered by one byte.
+inline constexpr int board_joints = 8, board_channels = 32, board_bits = 32;
+inline constexpr int max_boards = 6, max_sensors = max_boards * board_channels;
 
 inline constexpr double not_set = std::numeric_limits<double>::quiet_NaN();
 
@@ -75,6 +82,7 @@ struct Joint {
   StiffnessSource stiffness_source = StiffnessSource::forces;
   PressureLaw pressure_law;
   bool enabled = true;  // the low level may leave a joint alone
+  int board = 0;        // of the low level, from 1; 0: the next that has room (boards.h)
 
   double sign() const { return flexion == Flexion::raises_angle ? 1.0 : -1.0; }
 };
@@ -109,7 +117,7 @@ struct Muscle {
   double bladder_stiffness = not_set;    // per actuator; not set: the actuator file's [N/m]
   double bladder_rest_length = not_set;  // [m]
   std::string inlet, exhaust;            // names in the valves file; no exhaust with a 3-way inlet
-  int inlet_bit = 0, exhaust_bit = 8;    // of the output port, B.1
+  int inlet_bit = 0, exhaust_bit = 8;    // of its board's output ports, B.1
   gas::Hose hose;                        // between it and its valves
   gas::Leak leak;                        // to the room
 };
@@ -203,6 +211,7 @@ struct Cylinder {
   double stop_damping = 0;    // [N s/m]
   double pressure = 0;  // Mode::regulator: in `down`, which pushes the body down, absolute [Pa]
   Chamber up, down;     // the chambers that push the body up (rod side) and down
+  int board = 0;        // as a joint's
   double position_gain = 0;                         // Mode::valves, B.1: 0.9 % per count [1/count]
   double up_feedforward = 0, down_feedforward = 0;  // duties of inlet and exhaust alike, B.1 [-]
 };
@@ -223,7 +232,8 @@ struct Sensor {
   std::string name;
   Kind kind = Kind::angle;
   std::string of;   // joint or muscle
-  int channel = 0;  // of the converter board
+  int board = 0;    // of a fixed one, as a joint's; any other is on that of what it measures
+  int channel = 0;  // of its board's converter
   int tick = 1;     // of the period, when the result is read; the conversion starts a tick earlier
 
   double scale = 0;    // real: [rad/V], [V/N], [V/Pa], [V s/rad] or [m/V]
@@ -277,7 +287,7 @@ struct Robot {
   Cylinder cylinder;
   double gravity = 9.80665;  // [m/s^2]
   Converter converter;
-  std::vector<Sensor> sensors;  // ascending in tick
+  std::vector<Sensor> sensors;  // on each board ascending in tick
   LowLevel low_level;
   Thesis thesis;
 };

@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "sinew/robot/control.fields.h"
 #include "sinew/robot/robot.h"
 #include "sinew/units/field.h"
 
@@ -115,7 +116,8 @@ void fields(Visitor& v, Sensor& sensor) {
           .optional = true,
           .doc = "joint of an angle or velocity, muscle of a tension or pressure"},
          sensor.of);
-  v.integer({.name = "channel", .min = 0, .max = 255, .doc = "of the converter board"},
+  if (sensor.kind == Sensor::Kind::fixed) board_field(v, sensor.board);
+  v.integer({.name = "channel", .min = 0, .max = 255, .doc = "of its board's converter"},
             sensor.channel);
   v.integer({.name = "tick",
              .min = 1,

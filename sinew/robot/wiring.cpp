@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <map>
 
+#include "sinew/robot/boards.h"
+#include "sinew/robot/legs.h"
+
 namespace sinew::robot {
 namespace {
 
@@ -62,22 +65,31 @@ void check_signals(const Wiring& w, const Robot& robot, List& out) {
 // The robot's own bits: B.1's masks.
 std::vector<ValveBit> robot_bits(const Robot& robot) {
   std::vector<ValveBit> out;
-  for (const Muscle& m : robot.muscles) {
-    out.push_back({m.name, "inlet", m.inlet_bit});
-    if (!m.exhaust.empty()) out.push_back({m.name, "exhaust", m.exhaust_bit});
-  }
-  if (!robot.cylinder.present) return out;
-  for (const auto& [of, chamber] :
-       {std::pair{up, &robot.cylinder.up}, std::pair{down, &robot.cylinder.down}}) {
-    if (!chamber->inlet.empty()) out.push_back({std::string(of), "inlet", chamber->inlet_bit});
-    if (!chamber->exhaust.empty())
-      out.push_back({std::string(of), "exhaust", chamber->exhaust_bit});
+  const auto add = [&](const std::string& of, const char* which, int bit, std::size_t board) {
+    const std::string topic = "/valve/" + of + "/" + which + "/open";
+    out.push_back({of, which, bit, static_cast<int>(board) + 1, logged_topic(robot, topic)});
+  };
+  const std::vector<Board> boards = boards_of(robot);
+  for (std::size_t b = 0; b < boards.size(); ++b) {
+    for (const int i : boards[b].muscles) {
+      const Muscle& m = robot.muscles[static_cast<std::size_t>(i)];
+      add(m.name, "inlet", m.inlet_bit, b);
+      if (!m.exhaust.empty()) add(m.name, "exhaust", m.exhaust_bit, b);
+    }
+    const bool here = boards.size() == 1 || boards[b].cylinder;
+    if (!robot.cylinder.present || !here) continue;
+    for (const auto& [of, chamber] :
+         {std::pair{up, &robot.cylinder.up}, std::pair{down, &robot.cylinder.down}}) {
+      if (!chamber->inlet.empty()) add(std::string(of), "inlet", chamber->inlet_bit, b);
+      if (!chamber->exhaust.empty()) add(std::string(of), "exhaust", chamber->exhaust_bit, b);
+    }
   }
   return out;
 }
 
 void check_bits(const Wiring& w, const Robot& robot, List& out) {
-  Taken by_table("bit"), by_robot("bit");
+  Taken by_table("bit");
+  std::map<int, Taken> by_robot;  // by board
   for (const Wiring::Valve& v : w.valves) {
     const std::string key = "wiring.valve." + v.name;
     by_table.take(v.inlet.bit, key + ".inlet.bit", out);
@@ -90,7 +102,7 @@ void check_bits(const Wiring& w, const Robot& robot, List& out) {
     const bool muscle = find_muscle(robot, b.of) >= 0;
     const std::string chamber = b.of == up ? "cylinder.up" : "cylinder.down";
     const std::string key = (muscle ? "muscle." + b.of : chamber) + "." + b.which + ".bit";
-    by_robot.take(b.bit, key, out);
+    by_robot.try_emplace(b.board, "bit").first->second.take(b.bit, key, out);
     if (w.present && !by_table.has(b.bit))
       out.push_back({key, std::to_string(b.bit), "a bit that a pin of [wiring] carries", ""});
   }
@@ -101,6 +113,10 @@ void check_bits(const Wiring& w, const Robot& robot, List& out) {
 std::vector<Contradiction> contradictions(const Wiring& w, const Robot& robot) {
   List out;
   if (w.present) {
+    const std::size_t boards = boards_of(robot).size();
+    if (boards > 1)
+      out.push_back({"wiring", "a machine of " + std::to_string(boards) + " boards",
+                     "one board, whose terminals it lists", "no [wiring]"});
     check_pins(w, out);
     check_signals(w, robot, out);
   }
@@ -129,7 +145,7 @@ std::vector<PortBytes> port_bytes(const signals::Table& table, const std::vector
   };
   std::vector<Edge> edges;
   for (const ValveBit& b : bits) {
-    const signals::Series* s = table.find("/valve/" + b.of + "/" + b.which + "/open");
+    const signals::Series* s = table.find(b.topic);
     for (std::size_t i = 0; s && i < s->time_ns.size(); ++i)
       edges.push_back({s->time_ns[i], b.bit, s->columns[0][i] > 0.5});
   }
@@ -137,7 +153,8 @@ std::vector<PortBytes> port_bytes(const signals::Table& table, const std::vector
 
   const bool low = polarity == Wiring::Polarity::low_opens;
   const std::uint8_t shut = low ? 0xFF : 0x00;
-  std::vector<PortBytes> out = {{0, {shut, shut}}};
+  std::vector<PortBytes> out(1);
+  out.front().port.fill(shut);
   for (const Edge& e : edges) {
     if (e.time_ns > out.back().time_ns) out.push_back({e.time_ns, out.back().port});
     std::uint8_t& byte = out.back().port[static_cast<std::size_t>(e.bit / 8)];

@@ -57,22 +57,24 @@ struct Wiring {
 // otherwise. Empty for a robot without wiring, but for two valves on one bit.
 std::vector<Contradiction> contradictions(const Wiring&, const Robot&);
 
-// The valve of a log's topic /valve/<of>/<which>/open and its bit.
+// A valve, its topic in a log and its bit.
 struct ValveBit {
   std::string of;
   std::string which;  // "inlet" or "exhaust"
-  int bit = 0;
+  int bit = 0;        // of its board's ports
+  int board = 1;
+  std::string topic;  // /valve/<of>/<which>/open, behind /leg/<name> where it is a leg's
 };
 std::vector<ValveBit> bits_of(const Robot&, const Wiring&);
 
-// Both ports from one tick until the next entry.
+// One board's ports from one tick until the next entry.
 struct PortBytes {
   std::int64_t time_ns = 0;
-  std::array<std::uint8_t, 2> port{};
+  std::array<std::uint8_t, board_bits / 8> port{};
 };
 
-// The bytes that a run's valve edges wrote, first at time 0 with all valves shut; an entry where a
-// byte changes. Edges of valves without a bit are left out.
+// The bytes that the edges of these valves wrote in a run, first at time 0 with all valves shut; an
+// entry where a byte changes. The valves are those of one board.
 std::vector<PortBytes> port_bytes(const signals::Table& table, const std::vector<ValveBit>& bits,
                                   Wiring::Polarity polarity);
 

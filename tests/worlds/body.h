@@ -23,7 +23,7 @@ struct Quantity {
   Kind kind = Kind::other;
 };
 
-inline constexpr std::size_t most_quantities = 160;
+inline constexpr std::size_t most_quantities = 640;
 
 // One closed balance of air: held(t) - held(0) = entered - left - leaked  [kg].
 struct Account {

@@ -17,14 +17,16 @@ using signals::Tick;
 
 inline double seconds(double ticks) { return ticks * signals::tick_seconds; }
 
-// Edges of any valve, one each 0.1 to 6 ms. A generator's raw numbers: the same on every system.
+// Edges of any valve, one each 0.1 to 6 ms, of many valves more often. A generator's raw numbers:
+// the same on every system.
 inline std::vector<signals::Edge> random_edges(const std::vector<Tap>& taps, Tick end,
                                                unsigned seed) {
   std::vector<signals::Edge> out;
   if (taps.empty()) return out;
   std::mt19937 random(seed);
   std::vector<bool> open(taps.size(), false);
-  for (Tick t = 3; t < end; t += 1 + random() % 60) {
+  const std::size_t longest = taps.size() > 16 ? 16 * 60 / taps.size() : 60;  // [ticks]
+  for (Tick t = 3; t < end; t += 1 + static_cast<Tick>(random() % longest)) {
     const std::size_t i = random() % taps.size();
     open[i] = !open[i];
     signals::Edge edge{.at = t, .valve = {taps[i].valve}, .open = open[i]};
@@ -42,7 +44,7 @@ class Channels {
  public:
   explicit Channels(Body& body) : count_(body.channels()) {
     for (std::size_t i = 0; i < count_; ++i) {
-      const auto start = static_cast<std::uint16_t>(2 * i);
+      const auto start = static_cast<std::uint16_t>(2 * (i % 49));
       all_[i] = {{static_cast<std::uint8_t>(i)}, start, static_cast<std::uint16_t>(start + 1)};
     }
     start(body);
@@ -62,7 +64,7 @@ class Channels {
  private:
   Body* body_ = nullptr;
   std::size_t count_ = 0;
-  std::array<signals::Conversion, 40> all_{};
+  std::array<signals::Conversion, 192> all_{};  // six boards full
 };
 
 // Who looks at a world beside what is recorded of it.

@@ -1,12 +1,16 @@
 // tests/worlds/planar.cpp - planar machines as subjects: every mechanism with every air, each for
 // what it exists for.
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "sinew/actuator/braid.h"
 #include "sinew/experiment/planar_setup.h"
 #include "sinew/plant/planar/machine.h"
 #include "sinew/run/simulation/run.h"
+#include "tests/six_legs.h"
 #include "tests/worlds/body.h"
 #include "tests/worlds/breaks.h"
 
@@ -91,7 +95,8 @@ void tell(const Setup& s, const Truth& x, Take take) {
     take("ground x", Kind::other, foot.force_x);
     take("ground y", Kind::other, foot.force_y);
   }
-  for (const double force : x.disc_force) take("disc", Kind::other, force);
+  for (int d = 0; d < robot::discs_of(s.robot); ++d)
+    take("disc", Kind::other, x.disc_force[static_cast<std::size_t>(d)]);
   take("front roller", Kind::other, x.roller_front);
   take("rear roller", Kind::other, x.roller_rear);
   take("supply", Kind::pressure, x.supply_pressure);
@@ -132,7 +137,7 @@ double air_energy(const Setup& s, double pressure, double volume) {
 }
 
 double energy_of(const Setup& s, const Truth& x) {
-  plant::Motion m;
+  plant::Motion<robot::max_joints> m;
   m.at[plant::along_track] = x.x;
   m.rate[plant::along_track] = x.x_rate;
   m.at[plant::up] = x.lift;
@@ -147,7 +152,7 @@ double energy_of(const Setup& s, const Truth& x) {
     const double turn = x.angle[j] - joint.spring_angle;
     if (joint.spring > 0) sum += 0.5 * joint.spring * turn * turn;
   }
-  sum += energy(plant::body_of(s.robot), m);
+  sum += energy(plant::body_of<robot::max_joints>(s.robot), m);
   for (std::size_t i = 0; i < s.muscles.size(); ++i) {
     const muscle::Muscle& a = s.muscles[i];
     const double volume =
@@ -228,7 +233,9 @@ bool all_seal(const Setup& s) {
 
 using Sets = std::vector<std::string>;
 
+// A shipped experiment by its name, or any by its path.
 Experiment load(const std::string& name, const Sets& sets) {
+  if (name.starts_with("/")) return experiment::load(name, sets);
   return experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml", sets);
 }
 
@@ -292,6 +299,15 @@ Setup with_memory() {
   return s;
 }
 
+// The largest machine, from files that are made here.
+Subject six_legs() {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("sinew-worlds-" + std::to_string(getpid()));
+  Subject out = of_experiment("six_legs", test::write_six_legs(folder, SINEW_SOURCE_DIR));
+  std::filesystem::remove_all(folder);
+  return out;
+}
+
 // Below what its regulator would hold from the start on: the line falls with every pulse.
 const Sets tank{"air.supply.kind=tank", "air.supply.volume=0.2 L",
                 "air.supply.initial_pressure=80 psi gauge"};
@@ -332,6 +348,7 @@ std::vector<Subject> planar_subjects() {
       of_experiment("failing_valves", "walk-test-1", failing),
       of_experiment("dampers", "damper"),
       of_experiment("two_legs", "walk-two-legs"),
+      six_legs(),
       of_experiment("breakaway", "walk-test-1", {"trolley.breakaway=3 lbf"}),
       of_experiment("broken_valves", "walk-test-1", {}, of_valves()),
       of_experiment("broken_air", "walk-test-1", {}, of_everything()),

@@ -22,14 +22,17 @@
 
 namespace sinew::gait {
 
-// What the low level believes, in the robot's order of joints and muscles.
-struct Measured {
-  std::array<double, robot::max_joints> angle{};      // [rad]
-  std::array<double, robot::max_joints> velocity{};   // as the low level estimates it [rad/s]
-  std::array<double, robot::max_joints> stiffness{};  // [N m/rad]
-  std::array<double, robot::max_muscles> tension{};   // [N]
-  double cylinder = 0;                                // travel, by its sensor [m]
+// What the low level believes of so many joints and muscles, in the robot's order.
+template <int Joints, int Muscles>
+struct MeasuredOf {
+  std::array<double, Joints> angle{};      // [rad]
+  std::array<double, Joints> velocity{};   // as the low level estimates it [rad/s]
+  std::array<double, Joints> stiffness{};  // [N m/rad]
+  std::array<double, Muscles> tension{};   // [N]
+  double cylinder = 0;                     // travel, by its sensor [m]
 };
+
+using Measured = MeasuredOf<robot::max_leg_joints, robot::max_leg_muscles>;
 
 struct DesiredJoint {
   double angle = 0;      // [rad] 0 .. 2 pi
@@ -53,7 +56,7 @@ struct DesiredCylinder {
 enum class Stage : std::uint8_t { settling, walking, finished };
 
 struct Desired {
-  std::array<DesiredJoint, robot::max_joints> joint;
+  std::array<DesiredJoint, robot::max_leg_joints> joint;
   DesiredCylinder cylinder;
 
   Stage stage = Stage::settling;
@@ -117,7 +120,7 @@ class Brain {
     int before = 0;   // periods of the step before it, at most
     int steps = 1;    // periods from s = 0 to s = 1
     Measure measure;
-    std::array<bool, robot::max_joints> enabled{};
+    std::array<bool, robot::max_leg_joints> enabled{};
   };
   void advance(const Measured&) noexcept;
   void wait(const Measured&) noexcept;

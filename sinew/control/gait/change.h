@@ -54,7 +54,7 @@ double value_of(const Setting& setting, const Desired& desired) noexcept;
 // What stands in place of the plan's. No heap after construction.
 class Overrides {
  public:
-  static constexpr std::size_t most = 5 * robot::max_joints;
+  static constexpr std::size_t most = 5 * robot::max_leg_joints;
 
   explicit Overrides(const Plan& plan);
 

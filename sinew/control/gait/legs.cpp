@@ -11,7 +11,7 @@ Legs::Legs(const robot::Robot& robot, const Plan& plan) : parts_(robot::legs_of(
     brains_.emplace_back(robot::only_leg(robot, l), plan_of_leg(plan, parts_[l]), parts_[l].offset);
 }
 
-Measured Legs::of_leg(const Measured& machine, const robot::LegParts& leg) const noexcept {
+Measured Legs::of_leg(const MachineMeasured& machine, const robot::LegParts& leg) const noexcept {
   Measured out;
   out.cylinder = machine.cylinder;
   for (std::size_t i = 0; i < leg.joints.size(); ++i) {
@@ -25,7 +25,7 @@ Measured Legs::of_leg(const Measured& machine, const robot::LegParts& leg) const
   return out;
 }
 
-void Legs::update(const Measured& machine, std::int64_t period_index) noexcept {
+void Legs::update(const MachineMeasured& machine, std::int64_t period_index) noexcept {
   std::int64_t slowest = std::numeric_limits<std::int64_t>::max();
   for (const Brain& brain : brains_)
     if (!brain.finished()) slowest = std::min(slowest, brain.planned_periods());

@@ -19,6 +19,8 @@
 
 namespace sinew::gait {
 
+using MachineMeasured = MeasuredOf<robot::max_joints, robot::max_muscles>;
+
 class Legs {
  public:
   // contradictions(robot, plan) must be empty.
@@ -26,7 +28,7 @@ class Legs {
 
   // At the start of brain period `period_index` (0, 1, 2, ...), with what the machine measures, in
   // the robot's order.
-  void update(const Measured& machine, std::int64_t period_index) noexcept;
+  void update(const MachineMeasured& machine, std::int64_t period_index) noexcept;
 
   std::size_t count() const noexcept { return brains_.size(); }
   const robot::LegParts& parts(std::size_t leg) const noexcept { return parts_[leg]; }
@@ -44,7 +46,7 @@ class Legs {
   std::int64_t unreachable_periods() const noexcept;
 
  private:
-  Measured of_leg(const Measured& machine, const robot::LegParts& leg) const noexcept;
+  Measured of_leg(const MachineMeasured& machine, const robot::LegParts& leg) const noexcept;
 
   std::vector<robot::LegParts> parts_;
   std::vector<Brain> brains_;

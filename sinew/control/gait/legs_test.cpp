@@ -16,8 +16,8 @@ robot::Robot antiphase() {
   return robot;
 }
 
-Measured at_rest(const robot::Robot& robot) {
-  Measured out;
+MachineMeasured at_rest(const robot::Robot& robot) {
+  MachineMeasured out;
   for (std::size_t j = 0; j < robot.joints.size(); ++j) out.angle[j] = robot.joints[j].rest_angle;
   return out;
 }
@@ -38,9 +38,10 @@ TEST(Legs, OneLegIsItsBrain) {
   ASSERT_EQ(legs.count(), 1u);
   for (std::int64_t k = 0; k <= periods(plan) + 2; ++k) {
     Measured m;
-    for (double& angle : m.angle) angle = any(random);
-    for (double& tension : m.tension) tension = 20 * any(random);
-    legs.update(m, k);
+    MachineMeasured machine;
+    for (std::size_t j = 0; j < 2; ++j) m.angle[j] = machine.angle[j] = any(random);
+    for (std::size_t i = 0; i < 4; ++i) m.tension[i] = machine.tension[i] = 20 * any(random);
+    legs.update(machine, k);
     const Desired& want = brain.update(m, k);
     for (std::size_t j = 0; j < 2; ++j)
       ASSERT_EQ(legs.desired(0).joint[j].angle, want.joint[j].angle);
@@ -55,7 +56,7 @@ TEST(Legs, AntiphaseIsHalfAStepAhead) {
   const Plan plan = test::walk(robot);
   Legs legs(robot, plan);
   const int step = periods_per_step(plan), half = (step + 1) / 2;
-  const Measured still = at_rest(robot);
+  const MachineMeasured still = at_rest(robot);
   std::vector<double> left, right;
   std::int64_t k = 0;
   for (; !legs.finished(); ++k) {
@@ -80,7 +81,7 @@ TEST(Legs, WhoIsEarlyWaitsForTheOthers) {
   plan.phases[0].until = {.measure = "joint.knee.angle", .is = Until::Is::above, .level = 6};
   Legs legs(robot, plan);
   const int step = periods_per_step(plan);
-  Measured m = at_rest(robot);
+  MachineMeasured m = at_rest(robot);
   for (std::int64_t k = 0; k < 100; ++k) legs.update(m, k);
   EXPECT_EQ(phase_of(legs, 0), "swing");
   EXPECT_EQ(phase_of(legs, 1), "propulsion");
@@ -113,7 +114,8 @@ TEST(Legs, GroundReactionOfEachLeg) {
   const robot::Robot robot = antiphase(), one = robot::test::leg();
   Legs legs(robot, test::walk(robot));
   const Brain brain(one, test::walk(one));
-  Measured m, left, right;
+  MachineMeasured m;
+  Measured left, right;
   m.angle = {5.2, 5.0, 4.9, 5.3};
   m.tension = {10, 60, 20, 40, 15, 90, 30, 35};
   left.angle = {5.2, 5.0}, right.angle = {4.9, 5.3};

@@ -74,6 +74,7 @@ plant::StandSetup setup_of(const Experiment& e) {
              .displacement = e.displacement};
   s.transducers = e.sensors;
   s.step = e.step;
+  s.accuracy = e.accuracy;
   s.seed = static_cast<std::uint64_t>(e.seed);
   return s;
 }

@@ -238,10 +238,17 @@ void fields(Visitor& v, Experiment& e) {
   v.number({.name = "step",
             .unit = "s",
             .min = 1e-6,
-            .max = 5e-3,
+            .max = 1e-2,
             .optional = true,
             .doc = "between committed nodes"},
            e.step);
+  v.number({.name = "accuracy",
+            .unit = "1",
+            .min = 1e-12,
+            .max = 1e-3,
+            .optional = true,
+            .doc = "of a swing, per radian of it: shorter pieces between nodes"},
+           e.accuracy);
   v.group({.name = "element", .doc = "what is tried"}, [&](auto& g) { fields(g, e.element); });
   v.group({.name = "load", .doc = "what pulls it"}, [&](auto& g) { fields(g, e.load); });
   v.group({.name = "charge", .doc = "its air"}, [&](auto& g) { fields(g, e.charge); });

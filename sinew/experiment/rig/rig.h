@@ -91,8 +91,9 @@ struct Experiment {
   std::string path, name;  // of the file; without its ending
   std::string title, reproduces;
   int seed = 1;
-  double duration = 0;  // [s]
-  double step = 5e-4;   // between nodes, at most [s]
+  double duration = 0;       // [s]
+  double step = 5e-4;        // between nodes, at most [s]
+  double accuracy = 3.4e-7;  // of a swing, per radian of it, between nodes [-]
 
   Element element;
   Load load;

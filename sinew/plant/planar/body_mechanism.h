@@ -1,4 +1,4 @@
-// plant/planar/body_mechanism.h - any planar machine: chains and trees of up to eight joints,
+// plant/planar/body_mechanism.h - any planar machine: chains and trees of joints,
 // driven or passive, a body that a cylinder lifts, cams of any shape, muscles across two joints,
 // feet of several discs.
 //
@@ -6,7 +6,8 @@
 //   cords.h  routes of the muscles           rollers.h  what the trolley rests on
 //
 // One of the mechanisms of world/world.h; chain_mechanism.h is the same for the leg that walks,
-// faster.
+// faster. It is compiled for several sizes: N joints on feet of D discs (body.h, rubs.h), M
+// muscles.
 #pragma once
 
 #include <array>
@@ -22,23 +23,29 @@
 
 namespace sinew::plant {
 
-class BodyMechanism : public PlanarMechanism {
+template <int N, int D, int M>
+class BodyMechanism : public PlanarMechanism<M> {
  public:
-  using Motion = plant::Motion;
-  using Acceleration = Coordinates;
-  using Forces = Rubs::Forces;
-  using Arms = Cords::Pulls;
-  using Pose = Body;
+  using Motion = plant::Motion<N>;
+  using Acceleration = Coordinates<N>;
+  using Forces = typename Rubs<N, D>::Forces;
+  using Arms = Cords::Pulls<M>;
+  using Pose = Body<N>;
 
   struct Load {
-    Coordinates force;                              // all but dry friction
-    std::array<double, most_links> passive_torque;  // dampers and springs [N m]
-    Rubs::Normals normal;                           // of the ground on the discs [N]
+    Coordinates<N> force;                  // all but dry friction
+    std::array<double, N> passive_torque;  // dampers and springs [N m]
+    typename Rubs<N, D>::Normals normal;   // of the ground on the discs [N]
   };
+
+  // Is there room for this robot?
+  static bool holds(const robot::Robot& robot) {
+    return plant::holds<N>(robot) && robot::discs_of(robot) <= D && robot.muscles.size() <= M;
+  }
 
   explicit BodyMechanism(const Setup& setup);
 
-  const BodyConstants& constants() const noexcept { return constants_; }
+  const BodyConstants<N>& constants() const noexcept { return constants_; }
   const Motion& start() const noexcept { return start_; }
   int muscles() const noexcept { return cords_.count(); }
   int joint(int muscle) const noexcept { return cords_.joint(muscle, 0); }
@@ -67,7 +74,7 @@ class BodyMechanism : public PlanarMechanism {
                  double y_rate) const;
 
   // Lengths of the muscles, the piston's travel, their rates; the muscles' arms.
-  void route(double, const Motion& m, muscle::Ends<most_muscles>& ends, Arms& arms) const noexcept;
+  void route(double, const Motion& m, muscle::Ends<M>& ends, Arms& arms) const noexcept;
 
   template <class Answer>
   void load(const Pose& body, const Motion& m, const Arms& arms, const Answer& air,
@@ -81,13 +88,13 @@ class BodyMechanism : public PlanarMechanism {
   // Bound of the trolley's dry friction, from the last step's and what was held in it [N].
   double trolley_bound(const Forces& held, double last) const noexcept {
     if (constants_.held[along_track]) return 0;
-    return robot_.trolley.friction(held[Rubs::trolley], last);
+    return robot_.trolley.friction(held[Rubs<N, D>::trolley], last);
   }
 
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
   // the mesh's own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& body, const Motion& m, const Arms& arms,
-                       const muscle::Lanes<most_muscles>& mesh, double trolley_bound,
+                       const muscle::Lanes<M>& mesh, double trolley_bound,
                        const Load& load) noexcept;
 
   // Dry friction of a step of length h from the prepared node, and accelerations under it.
@@ -117,23 +124,22 @@ class BodyMechanism : public PlanarMechanism {
             Truth& out) const noexcept;
 
  private:
-  void load(const Pose& body, const Motion& m, const Arms& arms,
-            const muscle::Lanes<most_muscles>& tension, double piston_force,
-            Load& out) const noexcept;
+  void load(const Pose& body, const Motion& m, const Arms& arms, const muscle::Lanes<M>& tension,
+            double piston_force, Load& out) const noexcept;
   double cylinder_stop(const Motion& m) const noexcept;
-  void tell_rollers(const Body& body, const Motion& m, const Acceleration& a, const Forces& held,
+  void tell_rollers(const Body<N>& body, const Motion& m, const Acceleration& a, const Forces& held,
                     const Load& load, Truth& out) const noexcept;
 
-  double carried(const Body& body, const Motion& m, const Acceleration& a, std::size_t first,
+  double carried(const Body<N>& body, const Motion& m, const Acceleration& a, std::size_t first,
                  const Truth& truth) const noexcept;
 
-  BodyConstants constants_;
+  BodyConstants<N> constants_;
   robot::Robot robot_;
   Cords cords_;
-  Rubs rubs_;
+  Rubs<N, D> rubs_;
   Motion start_{};
-  std::array<double, most_links> damping_{}, dry_{};
-  std::array<JointStop, most_links> stop_{};
+  std::array<double, N> damping_{}, dry_{};
+  std::array<JointStop, N> stop_{};
 };
 
 }  // namespace sinew::plant

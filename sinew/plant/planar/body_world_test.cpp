@@ -58,9 +58,9 @@ void give_cylinder(Setup& s, robot::Cylinder::Mode mode) {
                       .stop_damping = 100};
 }
 
-double swinging_energy(const BodyConstants& k) {
+double swinging_energy(const BodyConstants<8>& k) {
   double e = 0;
-  for (std::size_t i = 0; i < k.links; ++i) e += k.gravity * k.first_moment[i];
+  for (std::size_t i = 0; i < k.links(); ++i) e += k.gravity * k.first_moment[i];
   return e;
 }
 
@@ -80,17 +80,17 @@ INSTANTIATE_TEST_SUITE_P(OneToFour, Chains, ::testing::Values(1u, 2u, 3u, 4u));
 // Two derivations of the same equations: eliminated trolley, and dense with a held lift.
 TEST(BodyWorld, BodyAgreesWithTheFastChain) {
   const plant::Setup s = leg_without_muscles(0.6, -0.9);
-  const BodyConstants whole = body_of(s.robot);
+  const BodyConstants<8> whole = body_of<8>(s.robot);
   const ChainConstants<2> fast = chain_of<2>(s.robot);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-3, 3);
   for (int trial = 0; trial < 200; ++trial) {
     Pose<2> pose{any(random), any(random), {any(random), any(random)}, {any(random), any(random)}};
-    const Motion motion{{pose.x, 0, pose.angle[0], pose.angle[1]},
-                        {pose.x_rate, 0, pose.rate[0], pose.rate[1]}};
+    const Motion<8> motion{{pose.x, 0, pose.angle[0], pose.angle[1]},
+                           {pose.x_rate, 0, pose.rate[0], pose.rate[1]}};
     const Generalised<2> force{any(random), {any(random), any(random)}};
     const Generalised<2> a = Chain<2>(fast, pose).accelerations(force);
-    const Coordinates b =
+    const Coordinates<8> b =
         Body(whole, motion).accelerations({force.x, any(random), force.angle[0], force.angle[1]});
     const double scale = 1 + std::abs(a.x) + std::abs(a.angle[0]) + std::abs(a.angle[1]);
     EXPECT_NEAR(a.x, b[along_track], 1e-11 * scale);
@@ -279,7 +279,7 @@ TEST(Cords, TorqueIsTheSlopeOfLength) {
   for (int trial = 0; trial < 100; ++trial) {
     const double angle[2] = {hip(random), knee(random)}, still[2] = {0, 0};
     muscle::Lanes<most_muscles> length, rate, ahead, behind;
-    Cords::Pulls pulls, other;
+    Cords::Pulls<most_muscles> pulls, other;
     cords.at(angle, still, length, rate, pulls);
     const double h = 1e-6;
     for (int k = 0; k < 2; ++k) {

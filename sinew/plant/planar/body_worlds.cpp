@@ -1,9 +1,17 @@
-// plant/planar/body_worlds.cpp - the worlds of machines that are no chain, compiled once.
+// plant/planar/body_worlds.cpp - the worlds of machines that are no chain, of few links, compiled
+// once.
+#include "sinew/plant/planar/body_mechanism_members.h"
 #include "sinew/plant/planar/machine.h"
 #include "sinew/plant/world/members.h"
 
 namespace sinew::plant {
 
-template class World<BodyMechanism, Air>;
+template class BodyMechanism<2, 4, 8>;
+template class BodyMechanism<3, 4, 8>;
+template class BodyMechanism<4, 4, 8>;
+
+template class World<BodyMechanism<2, 4, 8>, muscle::AirNetwork<8>>;
+template class World<BodyMechanism<3, 4, 8>, muscle::AirNetwork<8>>;
+template class World<BodyMechanism<4, 4, 8>, muscle::AirNetwork<8>>;
 
 }  // namespace sinew::plant

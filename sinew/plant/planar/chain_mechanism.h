@@ -25,7 +25,7 @@
 namespace sinew::plant {
 
 template <int N>
-class ChainMechanism : public PlanarMechanism {
+class ChainMechanism : public PlanarMechanism<chain_muscles> {
  public:
   using Motion = plant::Pose<N>;
   using Acceleration = Generalised<N>;
@@ -100,7 +100,7 @@ class ChainMechanism : public PlanarMechanism {
   }
 
   // Lengths of the muscles and their rates, from the joints' angles.
-  void route(double, const Motion& pose, muscle::Ends<most_muscles>& ends, Arms&) const noexcept {
+  void route(double, const Motion& pose, muscle::Ends<chain_muscles>& ends, Arms&) const noexcept {
     std::array<double, N> travel, rate;
     for (int j = 0; j < N; ++j) {
       travel[j] = pose.angle[j] - (j > 0 ? pose.angle[j - 1] : 0.0) - rest_[j];
@@ -160,7 +160,7 @@ class ChainMechanism : public PlanarMechanism {
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
   // the mesh's own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& chain, const Motion& pose, const Arms&,
-                       const muscle::Lanes<most_muscles>& mesh, double trolley_bound,
+                       const muscle::Lanes<chain_muscles>& mesh, double trolley_bound,
                        const Load& load) noexcept {
     const Acceleration free = chain.accelerations(load.force);
     Forces bound;

@@ -18,6 +18,7 @@ CamLaw::CamLaw(const robot::Cam& cam, const robot::Joint& joint)
 }
 
 double CamLaw::radius(double angle) const noexcept {
+  if (angle_.size() == 1) return radius_[0];
   return robot::cam_radius(angle_, radius_, angle);
 }
 
@@ -53,29 +54,6 @@ Cords::Cords(const robot::Robot& robot) {
     attach(cord, 0, m.joint, m.role, m.cam);
     attach(cord, 1, m.second.joint, m.second.role, m.second.cam);
     cords_.push_back(cord);
-  }
-}
-
-void Cords::at(const double* angle, const double* rate, muscle::Lanes<most_muscles>& length,
-               muscle::Lanes<most_muscles>& length_rate, Pulls& pull) const noexcept {
-  for (int i = 0; i < count(); ++i) {
-    const Cord& cord = cords_[static_cast<std::size_t>(i)];
-    double l = cord.mount, v = 0;
-    for (std::size_t k = 0; k < most; ++k) {
-      double& p = pull[static_cast<std::size_t>(i)][k];
-      p = 0;
-      const int j = cord.joint[k];
-      if (j < 0) continue;
-      p = cord.sign[k] * cord.cam[k].radius(angle[j]);
-      l -= cord.sign[k] * cord.cam[k].travel(angle[j]);
-      v -= p * rate[j];
-    }
-    length[i] = l;
-    length_rate[i] = v;
-  }
-  for (int i = count(); i % muscle::lanes != 0; ++i) {
-    length[i] = length[count() - 1];
-    length_rate[i] = length_rate[count() - 1];
   }
 }
 

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 #include <vector>
 
 #include "sinew/muscle/lanes.h"
@@ -37,8 +38,9 @@ class Cords {
  public:
   static constexpr int most = 2;  // joints of a muscle
 
-  // s_k r_k of every muscle at the present pose.
-  using Pulls = std::array<std::array<double, most>, most_muscles>;
+  // s_k r_k of every muscle at the present pose, of M at most.
+  template <int M>
+  using Pulls = std::array<std::array<double, most>, M>;
 
   explicit Cords(const robot::Robot& robot);
 
@@ -48,8 +50,9 @@ class Cords {
   int joint(int i, int k) const { return cords_[static_cast<std::size_t>(i)].joint[k]; }
 
   // From the joints' angles [rad] and rates [rad/s]. Lanes beyond the last muscle repeat it.
-  void at(const double* angle, const double* rate, muscle::Lanes<most_muscles>& length,
-          muscle::Lanes<most_muscles>& length_rate, Pulls& pull) const noexcept;
+  template <int M>
+  void at(const double* angle, const double* rate, muscle::Lanes<M>& length,
+          muscle::Lanes<M>& length_rate, std::type_identity_t<Pulls<M>>& pull) const noexcept;
 
  private:
   struct Cord {
@@ -60,5 +63,29 @@ class Cords {
   };
   std::vector<Cord> cords_;
 };
+
+template <int M>
+void Cords::at(const double* angle, const double* rate, muscle::Lanes<M>& length,
+               muscle::Lanes<M>& length_rate, std::type_identity_t<Pulls<M>>& pull) const noexcept {
+  for (int i = 0; i < count(); ++i) {
+    const Cord& cord = cords_[static_cast<std::size_t>(i)];
+    double l = cord.mount, v = 0;
+    for (std::size_t k = 0; k < most; ++k) {
+      double& p = pull[static_cast<std::size_t>(i)][k];
+      p = 0;
+      const int j = cord.joint[k];
+      if (j < 0) continue;
+      p = cord.sign[k] * cord.cam[k].radius(angle[j]);
+      l -= cord.sign[k] * cord.cam[k].travel(angle[j]);
+      v -= p * rate[j];
+    }
+    length[i] = l;
+    length_rate[i] = v;
+  }
+  for (int i = count(); i % muscle::lanes != 0; ++i) {
+    length[i] = length[count() - 1];
+    length_rate[i] = length_rate[count() - 1];
+  }
+}
 
 }  // namespace sinew::plant

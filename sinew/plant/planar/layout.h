@@ -9,13 +9,15 @@
 
 namespace sinew::plant {
 
+inline constexpr int chain_muscles = 4;  // a pair at each of at most two joints
+
 // Muscle i pulls joint `joint[i]` with a constant moment arm; pull[i] = arm, positive where tension
 // raises the angle:  L = mount - pull (theta - rest),  torque = pull * tension.
 struct Strings {
   int count = 0, padded = 0;  // padded to whole lanes by repeating the last
 
-  std::array<int, most_muscles> joint{};
-  muscle::Lanes<most_muscles> mount{}, pull{};  // [m]
+  std::array<int, chain_muscles> joint{};
+  muscle::Lanes<chain_muscles> mount{}, pull{};  // [m]
 };
 
 Strings strings_of(const robot::Robot& robot);

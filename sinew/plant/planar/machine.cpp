@@ -7,12 +7,21 @@ namespace sinew::plant {
 
 namespace {
 
+// The first of these worlds that has room for the robot, or the last.
+template <class First, class... Larger>
+AnyWorld body_world_for(const Setup& s) {
+  if constexpr (sizeof...(Larger) > 0)
+    if (!First::Body::holds(s.robot)) return body_world_for<Larger...>(s);
+  return AnyWorld(std::in_place_type<First>, s);
+}
+
 AnyWorld world_for(const Setup& s) {
   const bool chain = robot::is_chain(s.robot), one = s.robot.joints.size() == 1;
   using std::in_place_type;
   if (chain && one) return AnyWorld(in_place_type<ChainWorld<1>>, s);
   if (chain) return AnyWorld(in_place_type<ChainWorld<2>>, s);
-  return AnyWorld(in_place_type<BodyWorld>, s);
+  return body_world_for<SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 4, 8>, SizedBodyWorld<4, 4, 8>,
+                        BodyWorld, LargeBodyWorld>(s);
 }
 
 }  // namespace

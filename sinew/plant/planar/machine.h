@@ -1,5 +1,6 @@
 // plant/planar/machine.h - a planar machine in simulation: the mechanism and the air that suit its
-// description, behind one face. Robots that a chain holds go by chain_mechanism.h.
+// description, behind one face. Robots that a chain holds go by chain_mechanism.h, all others by
+// the first size of body_mechanism.h that has room for them.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +14,26 @@
 
 namespace sinew::plant {
 
-using Air = muscle::AirNetwork<most_muscles>;
 template <int N>
-using ChainWorld = World<ChainMechanism<N>, Air>;
-using BodyWorld = World<BodyMechanism, Air>;  // holds every robot
+using ChainWorld = World<ChainMechanism<N>, muscle::AirNetwork<chain_muscles>>;
+// By links, discs and muscles; up to four links are just so many (body.h).
+template <int N, int D, int M>
+using SizedBodyWorld = World<BodyMechanism<N, D, M>, muscle::AirNetwork<M>>;
+using BodyWorld = SizedBodyWorld<8, 8, 8>;
+using LargeBodyWorld = SizedBodyWorld<most_joints, robot::max_discs, most_muscles>;  // holds all
 
-extern template class World<ChainMechanism<1>, Air>;
-extern template class World<ChainMechanism<2>, Air>;
-extern template class World<BodyMechanism, Air>;
+extern template class World<ChainMechanism<1>, muscle::AirNetwork<chain_muscles>>;
+extern template class World<ChainMechanism<2>, muscle::AirNetwork<chain_muscles>>;
+extern template class World<BodyMechanism<2, 4, 8>, muscle::AirNetwork<8>>;
+extern template class World<BodyMechanism<3, 4, 8>, muscle::AirNetwork<8>>;
+extern template class World<BodyMechanism<4, 4, 8>, muscle::AirNetwork<8>>;
+extern template class World<BodyMechanism<8, 8, 8>, muscle::AirNetwork<8>>;
+extern template class World<BodyMechanism<most_joints, robot::max_discs, most_muscles>,
+                            muscle::AirNetwork<most_muscles>>;
 
-using AnyWorld = std::variant<ChainWorld<1>, ChainWorld<2>, BodyWorld>;
+using AnyWorld =
+    std::variant<ChainWorld<1>, ChainWorld<2>, SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 4, 8>,
+                 SizedBodyWorld<4, 4, 8>, BodyWorld, LargeBodyWorld>;
 
 class Machine {
  public:

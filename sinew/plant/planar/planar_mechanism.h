@@ -7,12 +7,14 @@
 
 namespace sinew::plant {
 
+// For at most M muscles.
+template <int M>
 struct PlanarMechanism {
   static constexpr bool cuts_steps = false;
 
   using Setup = plant::Setup;
   using Senses = PlanarSenses;
-  using Ends = muscle::Ends<most_muscles>;
+  using Ends = muscle::Ends<M>;
 
   // The air of a machine: muscle/network.h.
   template <class Air>

@@ -24,33 +24,33 @@
 
 namespace sinew::plant {
 
-inline constexpr int most_discs = robot::max_discs;
-
-// Where a disc is and how its lowest point moves with the coordinates.
+// How a disc's lowest point moves with the coordinates.
+template <int N>
 struct DiscAt {
-  double x = 0, y = 0;                  // of its centre, from the origin of the trolley [m]
-  Coordinates slip{}, rise{};           // d(slip velocity)/dq', d(y')/dq'
-  double slip_bias = 0, rise_bias = 0;  // of the accelerations, from the rates [m/s^2]
+  Coordinates<N> slip, rise;    // d(slip velocity)/dq', d(y')/dq'
+  double slip_bias, rise_bias;  // of the accelerations, from the rates [m/s^2]
 };
 
+// Of a body with room for N links (body.h), on feet with room for D discs.
+template <int N, int D>
 class Rubs {
  public:
-  static constexpr int trolley = most_links, lift = trolley + 1, first_disc = lift + 1;
-  static constexpr int count = first_disc + most_discs;
+  static constexpr int trolley = N, lift = trolley + 1, first_disc = lift + 1;
+  static constexpr int count = first_disc + D;
   using Forces = std::array<double, count>;  // [N m] of the joints, [N] of the others
-  using Normals = std::array<double, most_discs>;
+  using Normals = std::array<double, D>;
 
   // The way from the body to a foot: its links, and how far along each the next one hangs, of the
   // last one its end  [m].
   struct Path {
     std::size_t count = 0;
     std::size_t first = 0;  // in it: the leg's first link
-    std::array<std::size_t, most_links> link{};
-    std::array<double, most_links> reach{};
+    std::array<std::size_t, N> link{};
+    std::array<double, N> reach{};
     double start = 0;  // of the first link, ahead of the body's origin [m]
   };
 
-  Rubs(const BodyConstants& body, const robot::Robot& robot);
+  Rubs(const BodyConstants<N>& body, const robot::Robot& robot);
 
   int discs() const { return disc_count_; }
   std::size_t feet() const { return foot_count_; }
@@ -61,34 +61,41 @@ class Rubs {
 
   // The fastest rate at which springs, dampers and the ground bring the machine to rest  [1/s], by
   // joint: c w and sqrt(k w) with w, the joint's or disc's acceleration per force.
-  double stiffest_rate(const Body& body, const Motion& motion, const robot::Robot& robot) const;
-  DiscAt disc(const Body& body, const Motion& motion, int i) const;
+  double stiffest_rate(const Body<N>& body, const Motion<N>& motion,
+                       const robot::Robot& robot) const;
+  DiscAt<N> disc(const Body<N>& body, const Motion<N>& motion, int i) const;
 
-  // Compliant force of the ground on a disc, never pulling  [N].
-  double push(const DiscAt& disc, int i, const Motion& motion) const;
+  // How deep a disc is in the ground; above 0 where they touch  [m].
+  double depth(const Body<N>& body, const Motion<N>& motion, int i) const;
+
+  // Compliant force of the ground on a disc that is so deep in it, never pulling  [N].
+  double push(double depth, const DiscAt<N>& disc, const Motion<N>& motion) const;
 
   // J^T f.
-  Coordinates generalised(const Body& body, const Motion& motion, const Forces& f) const;
+  Coordinates<N> generalised(const Body<N>& body, const Motion<N>& motion, const Forces& f) const;
 
   // At a node: accelerations without friction, bounds, and the ground's forces on the discs.
-  void prepare(const Body& body, const Motion& motion, const Coordinates& acceleration,
+  void prepare(const Body<N>& body, const Motion<N>& motion, const Coordinates<N>& acceleration,
                const Forces& bound, const Normals& normal);
 
   // Dry friction of a step of length h; `last` is the last step's.
   Forces hold(double h, const Forces& last) const;
 
   // Accelerations under the friction f, given those without any.
-  Coordinates accelerations(Coordinates without, const Forces& f) const;
+  Coordinates<N> accelerations(Coordinates<N> without, const Forces& f) const;
 
   double bound(int c) const { return bound_[static_cast<std::size_t>(c)]; }
 
  private:
-  using Matrix = std::array<Normals, most_discs>;
+  using Matrix = std::array<Normals, D>;
 
-  // J of contact c, as a row.
-  Coordinates row(int c, const std::array<DiscAt, most_discs>& discs) const;
+  // J of a joint, of the trolley or of the lift, as a row.
+  Coordinates<N> row(int c) const;
+  // The product of contact c's row with rates or accelerations.
+  double along(int c, const Coordinates<N>& row, const Coordinates<N>& v) const;
   void soften(double h, FrictionProblem<count>& problem) const;
-  Normals solve(Matrix m, Normals b) const;
+  void eliminate(Matrix& m) const;
+  void solve(const Matrix& m, Normals& b) const;  // of an eliminated one
 
   struct Disc {
     std::size_t foot = 0;
@@ -97,27 +104,30 @@ class Rubs {
     double surface = 0;                        // of the ground [m]
   };
   void add_foot(const robot::Robot& robot, std::size_t leg);
-  std::size_t discs_there() const { return static_cast<std::size_t>(disc_count_); }
 
-  BodyConstants k_;
+  BodyConstants<N> k_;
   robot::Ground ground_;
   std::array<Path, robot::max_legs> path_{};
   std::size_t foot_count_ = 0;
-  std::array<Disc, most_discs> disc_{};
+  std::array<Disc, D> disc_{};
   int disc_count_ = 0;
 
   // The contacts that can carry something at the node stand here one after the other: only these
   // are solved.
   int active_count_ = 0;
-  std::array<int, count> active_{};          // their numbers
-  std::array<Coordinates, count> column_{};  // M^-1 J^T
-  FrictionProblem<count> problem_{};         // slips at the node, responses per second
-  Forces slip_rate_{};                       // of the slips, without friction
-  Forces bound_{};                           // of every contact
-  Normals normal_{};                         // at the node; 0: no contact [N]
-  Normals rise_{}, rise_rate_{};             // of the discs, without friction
-  Matrix response_{};                        // R
-  std::array<Forces, most_discs> along_{};   // A, of the active contacts
+  std::array<int, count> active_{};             // their numbers
+  std::array<Coordinates<N>, count> column_{};  // M^-1 J^T
+  FrictionProblem<count> problem_{};            // slips at the node, responses per second
+  Forces slip_rate_{};                          // of the slips, without friction
+  Forces bound_{};                              // of every contact
+
+  // Likewise the discs that touch the ground at the node.
+  std::size_t touching_count_ = 0;
+  std::array<int, D> touching_{};  // their numbers
+  Normals normal_{};               // of the ground on them [N]
+  Normals rise_{}, rise_rate_{};   // without friction
+  Matrix response_{};              // R
+  std::array<Forces, D> along_{};  // A, of the active contacts
 };
 
 }  // namespace sinew::plant

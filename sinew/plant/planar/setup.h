@@ -17,8 +17,7 @@
 
 namespace sinew::plant {
 
-inline constexpr int most_joints = robot::max_joints;
-inline constexpr int most_muscles = 8;
+inline constexpr int most_joints = robot::max_joints, most_muscles = robot::max_muscles;
 
 // Where the machine starts, and what holds it.
 struct Start {

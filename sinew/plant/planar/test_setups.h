@@ -1,6 +1,9 @@
 // plant/planar/test_setups.h - small machines for the tests of this folder, stated in SI.
 #pragma once
 
+#include <random>
+#include <string>
+
 #include "sinew/actuator/thesis_actuator.h"
 #include "sinew/plant/planar/setup.h"
 #include "sinew/units/constants.h"
@@ -37,6 +40,32 @@ inline Setup leg_without_muscles(double hip, double knee) {
   s.start.joint_angle = {hip, knee};
   s.start.blocked = {false, false};
   s.start.pressure = s.air.atmosphere;
+  return s;
+}
+
+// Links that nothing pulls, each on any of those before it or on the body, anywhere along.
+inline Setup random_tree(std::mt19937& random, std::size_t links = 4) {
+  std::uniform_real_distribution<double> share(0, 1), angle(-3, 3);
+  Setup s = leg_without_muscles(0, 0);
+  const robot::Link femur = s.robot.links[0];
+  s.robot.links.clear(), s.robot.joints.clear();
+  s.start.joint_angle.clear(), s.start.blocked.clear();
+  for (std::size_t i = 0; i < links; ++i) {
+    robot::Link link = femur;
+    link.name = "link" + std::to_string(i);
+    link.length *= 0.5 + share(random);
+    link.mass *= 0.5 + share(random);
+    const std::size_t on = random() % (i + 1);
+    link.parent = on == i ? std::string(robot::body_name) : s.robot.links[on].name;
+    link.at = on == i ? share(random) - 0.5 : s.robot.links[on].length * share(random);
+    s.robot.links.push_back(link);
+    robot::Joint joint;
+    joint.name = "joint" + std::to_string(i);
+    joint.kind = robot::Joint::Kind::passive;
+    s.robot.joints.push_back(joint);
+    s.start.joint_angle.push_back(angle(random));
+    s.start.blocked.push_back(false);
+  }
   return s;
 }
 

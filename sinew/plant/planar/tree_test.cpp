@@ -44,35 +44,9 @@ Setup twice(const Setup& one, double apart = 0) {
   return s;
 }
 
-// Links that nothing pulls, each on any of those before it or on the body, anywhere along.
-Setup random_tree(std::mt19937& random, std::size_t links = 4) {
-  std::uniform_real_distribution<double> share(0, 1), angle(-3, 3);
-  plant::Setup s = leg_without_muscles(0, 0);
-  const robot::Link femur = s.robot.links[0];
-  s.robot.links.clear(), s.robot.joints.clear();
-  s.start.joint_angle.clear(), s.start.blocked.clear();
-  for (std::size_t i = 0; i < links; ++i) {
-    robot::Link link = femur;
-    link.name = "link" + std::to_string(i);
-    link.length *= 0.5 + share(random);
-    link.mass *= 0.5 + share(random);
-    const std::size_t on = random() % (i + 1);
-    link.parent = on == i ? std::string(robot::body_name) : s.robot.links[on].name;
-    link.at = on == i ? share(random) - 0.5 : s.robot.links[on].length * share(random);
-    s.robot.links.push_back(link);
-    robot::Joint joint;
-    joint.name = "joint" + std::to_string(i);
-    joint.kind = robot::Joint::Kind::passive;
-    s.robot.joints.push_back(joint);
-    s.start.joint_angle.push_back(angle(random));
-    s.start.blocked.push_back(false);
-  }
-  return s;
-}
-
-double swinging_energy(const BodyConstants& k) {
+double swinging_energy(const BodyConstants<8>& k) {
   double e = 0;
-  for (std::size_t i = 0; i < k.links; ++i) e += k.gravity * std::abs(k.first_moment[i]);
+  for (std::size_t i = 0; i < k.links(); ++i) e += k.gravity * std::abs(k.first_moment[i]);
   return e;
 }
 
@@ -128,7 +102,7 @@ TEST(Trees, EnergyIsThatOfTheirMasses) {
     BodyWorld world(s);
     const double slide = any(random);
     world.set_rates({rate[0], rate[1], rate[2], rate[3]}, slide);
-    Motion still = world.motion();
+    Motion<8> still = world.motion();
     still.rate = {};
     const double moving = energy(world.constants(), world.motion());
     const double kinetic = kinetic_energy(s, s.start.joint_angle, rate, slide);
@@ -140,17 +114,17 @@ TEST(Trees, EnergyIsThatOfTheirMasses) {
 TEST(Trees, MassMatrixIsSymmetricAndPositive) {
   std::mt19937 random(9);
   std::normal_distribution<double> any;
-  const auto dot = [](const Coordinates& a, const Coordinates& b) {
+  const auto dot = [](const Coordinates<8>& a, const Coordinates<8>& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
     return sum;
   };
   for (int trial = 0; trial < 100; ++trial) {
     const plant::Setup s = random_tree(random);
-    const BodyConstants k = body_of(s.robot);
+    const BodyConstants<8> k = body_of<8>(s.robot);
     BodyWorld world(s);
     const Body body(k, world.motion());
-    Coordinates f{}, g{};
+    Coordinates<8> f{}, g{};
     for (std::size_t i = 0; i < k.coordinates(); ++i) f[i] = any(random), g[i] = any(random);
     const double fg = dot(f, body.response(g)), gf = dot(g, body.response(f));
     const double scale = std::sqrt(dot(f, body.response(f)) * dot(g, body.response(g)));
@@ -264,7 +238,7 @@ TEST(Trees, FreeBodyFliesAParabola) {
   const plant::Setup s = free_in_the_plane(0.3);
   BodyWorld world(s);
   world.set_rates({2, -3, 4, 1, -2}, 0.7, 3);
-  const BodyConstants& k = world.constants();
+  const BodyConstants<8>& k = world.constants();
   const double mass = k.sliding_mass, before = energy(k, world.motion());
   const std::array<double, 2> thrown = momentum(k, world.motion());
   world.advance(0.5);

@@ -112,7 +112,7 @@ TEST(World, SealedAirStaysOnItsPolytrope) {
   setup.start.pressure = 4e5;
   ChainWorld<2> world(setup);
   const Truth start = world.truth(0);
-  const Air network(setup.muscles, setup.air, setup.supply);
+  const muscle::AirNetwork<chain_muscles> network(setup.muscles, setup.air, setup.supply);
   for (int k = 1; k <= 300; ++k) {
     const Truth now = world.truth(k * 2.7e-3);
     for (int i = 0; i < 4; ++i) {

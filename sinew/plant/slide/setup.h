@@ -72,7 +72,7 @@ inline double longest_swing(double accuracy) {
   return std::fmin(std::sqrt(std::sqrt(120 * accuracy)), 1.0);
 }
 inline double longest_settling(double accuracy) {
-  return 3.75 * longest_swing(accuracy) < 1.5 ? 3.75 * longest_swing(accuracy) : 1.5;
+  return std::fmin(3.75 * longest_swing(accuracy), 1.5);
 }
 
 // What only a simulation knows, at one instant.

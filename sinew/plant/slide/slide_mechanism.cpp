@@ -23,7 +23,7 @@ SlideMechanism::SlideMechanism(const Setup& setup)
   beyond_longest_ = std::nextafter(ends_[1], infinite);
   exponent_ = setup_.air.wall_time > 0 ? gas::heat_capacity_ratio : setup_.air.polytropic_exponent;
   longest_swing_ = longest_swing(setup_.accuracy);
-  cut_within_ = 3e-5 * setup_.accuracy;
+  cut_within_ = std::fmax(3e-5 * setup_.accuracy, 1e-15);
   start_.length = setup_.start.length + setup_.start.displacement;
   begin(0, start_);
 }

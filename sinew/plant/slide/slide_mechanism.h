@@ -204,8 +204,9 @@ class SlideMechanism {
     return length < ends_[0] ? 0 : length > ends_[1] ? 2 : 1;
   }
   void put(Ends& ends, double length, double rate) const noexcept {
-    ends.length.of.fill(length);
-    ends.rate.of.fill(rate);
+    // In whole lanes: a wide load would have to wait for narrow stores.
+    ends.length.four(0) = muscle::Four{length, length, length, length};
+    ends.rate.four(0) = muscle::Four{rate, rate, rate, rate};
     if (!cylinder_) return;
     ends.travel = setup_.cylinder->stroke - length;
     ends.travel_rate = -rate;

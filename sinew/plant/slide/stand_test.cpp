@@ -8,6 +8,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "sinew/actuator/loss.h"
 #include "sinew/plant/slide/test_stands.h"
@@ -156,6 +157,34 @@ TEST(Stand, StepHalvingMovesNothing) {
   EXPECT_LT(worst(trapped(80, 11), 1, 0), 1e-6);
   for (const double pounds : {5.0, 15.0}) EXPECT_LT(worst(pulsed(pounds), 25, 0.017), 1e-5);
   for (const double pounds : {1.0, 5.0, 15.0}) EXPECT_LT(worst(pulsed(pounds), 50, 0.007), 1e-5);
+}
+
+// The pieces between two nodes are as long as the accuracy allows: 3 s of trapped air in nodes of
+// 10 ms, against pieces a hundred times shorter than needed.
+TEST(Stand, IsAsExactAsItIsAsked) {
+  const auto lengths = [](double accuracy) {
+    StandSetup s = trapped(60, 6);
+    s.step = 1e-2;
+    s.accuracy = accuracy;
+    Stand stand(s);
+    std::vector<double> out;
+    for (int i = 1; i <= 300; ++i) out.push_back(stand.truth(1e-2 * i).length);
+    return out;
+  };
+  const std::vector<double> exact = lengths(1e-11);
+  const auto error = [&](double accuracy) {
+    const std::vector<double> found = lengths(accuracy);
+    double most = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i)
+      most = std::max(most, std::fabs(found[i] - exact[i]));
+    return most / (0.2 * inch);
+  };
+  const double coarse = error(1e-4), middle = error(1e-6), fine = error(1e-8);
+  EXPECT_LT(coarse, 100 * 1e-4);  // of some hundred radians
+  EXPECT_LT(middle, 100 * 1e-6);
+  EXPECT_LT(fine, 100 * 1e-8);
+  EXPECT_LT(fine, 0.1 * middle);
+  EXPECT_LT(middle, 0.1 * coarse);
 }
 
 TEST(Stand, LooksAndStrayEdgesChangeNoBit) {

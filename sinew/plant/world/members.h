@@ -49,29 +49,29 @@ void World<M, A>::prepare() noexcept {
   } else {
     evaluate_air(state_.time, state_.now, state_.memory, first, air_.always_ahead());
     look_for_failure();
-    mechanism_.load(mechanism_.pose(state_.time, state_.now.motion), state_.now.motion, first.arms,
-                    first.air, first.load);
+    const typename M::Pose pose = mechanism_.pose(state_.time, state_.now.motion);
+    mechanism_.load(pose, state_.now.motion, first.arms, first.air, first.load);
     state_.trolley_bound = mechanism_.trolley_bound(state_.held, state_.trolley_bound);
-    first.acceleration = prepare_friction();
+    first.acceleration = prepare_friction(pose);
   }
 }
 
 // The friction problem of the node, and the accelerations without friction.
 template <class M, class A>
-auto World<M, A>::prepare_friction() noexcept -> Acceleration {
+auto World<M, A>::prepare_friction(const typename M::Pose& pose) noexcept -> Acceleration {
   const Look& first = state_.first;
   glanced_ = false;
   if constexpr (CutsSteps<M>)
     return first.acceleration;  // each part has its own
   else
-    return mechanism_.prepare(mechanism_.pose(state_.time, state_.now.motion), state_.now.motion,
-                              first.arms, first.air.mesh, state_.trolley_bound, first.load);
+    return mechanism_.prepare(pose, state_.now.motion, first.arms, first.air.mesh,
+                              state_.trolley_bound, first.load);
 }
 
 template <class M, class A>
 void World<M, A>::restore(const State& state) noexcept {
   state_ = state;
-  (void)prepare_friction();
+  (void)prepare_friction(mechanism_.pose(state_.time, state_.now.motion));
 }
 
 // Is anything of the look at a node no number? The air also takes from the look what it remembers.

@@ -74,6 +74,7 @@ class World final : public signals::Port {
   };
 
  public:
+  using Body = Mechanism;
   using Setup = typename Mechanism::Setup;
   using Senses = typename Mechanism::Senses;
   using Truth = typename Senses::Truth;
@@ -167,7 +168,7 @@ class World final : public signals::Port {
   void look_at(double t, const Moving& state, const Memory& memory, const Forces& held, Look& look,
                std::uint64_t ahead = 0) const noexcept;
   void prepare() noexcept;
-  Acceleration prepare_friction() noexcept;
+  Acceleration prepare_friction(const typename Mechanism::Pose& pose) noexcept;
   void look_for_failure() noexcept;
   double next_node() const noexcept;
   void commit() noexcept;

@@ -92,8 +92,8 @@ void add_sensors(const experiment::Experiment& e, const run::Outcome& outcome,
 std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& e,
                                                  const run::Outcome& outcome) {
   std::vector<std::string> out;
-  const control::Seen& seen = outcome.seen;
-  const control::Supervised& supervised = outcome.supervised;
+  const run::SeenTotals& seen = outcome.seen;
+  const run::SupervisedTotals& supervised = outcome.supervised;
   const bool logged = outcome.table.find("/low_level/gaps") != nullptr;
   const auto tell = [&](std::int64_t count, std::string_view one, std::string_view more,
                         std::string_view what) {

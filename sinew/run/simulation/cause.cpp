@@ -21,7 +21,7 @@ std::string_view word(signals::Status status) {
 }  // namespace
 
 std::string cause_of(const experiment::Experiment& e, const Outcome& outcome) {
-  const control::Seen& seen = outcome.seen;
+  const SeenTotals& seen = outcome.seen;
   if (outcome.failure) {
     const auto m = static_cast<std::size_t>(outcome.failure.muscle);
     if (m >= e.robot.muscles.size())
@@ -30,7 +30,8 @@ std::string cause_of(const experiment::Experiment& e, const Outcome& outcome) {
     return experiment::in_words(outcome.failure, "muscle " + muscle.name,
                                 robot::actuator_of(muscle, e.actuators), "plant_steps.body");
   }
-  const std::string tripped = experiment::to_text(outcome.supervised.trip, e);
+  const std::string tripped =
+      experiment::to_text(outcome.supervised.trip, e, outcome.supervised.board);
   if (!tripped.empty()) return tripped;
   const bool by_sensor = seen.fault != signals::Status::ok;
   std::string text(word(by_sensor ? seen.fault : outcome.status));

@@ -29,7 +29,7 @@ JointAt place_of(const robot::Robot& robot, std::size_t joint) {
 void joint_columns(const robot::Robot& robot, Columns& out) {
   for (std::size_t s = 0; s < robot.sensors.size(); ++s)
     out.scalar("/sensor/" + robot.sensors[s].name + "/count", "count", "as converted",
-               [s](const Moment& m) { return m.supervised.sensor[s].counts; });
+               [s](const Moment& m) { return m.seen.supervised(s).counts; });
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     if (robot::angle_sensor_of(robot, static_cast<int>(j)) < 0) continue;
     const std::string at = robot::topic_of_joint(robot, j), want = "/desired" + at;
@@ -62,7 +62,7 @@ void tension_column(const robot::Robot& robot, std::size_t muscle, Columns& out)
 
 // A valve's duty counts only while its joint is enabled and laws run.
 bool active(const Moment& m, std::size_t joint) {
-  return m.seen.joint[joint].enabled && m.seen.phase == control::Phase::running;
+  return m.seen.joint(joint).enabled && m.seen.phase == control::Phase::running;
 }
 
 // A regulator has no duty; its set points are in the log of its edges.
@@ -83,11 +83,11 @@ void duty_columns(const robot::Robot& robot, std::size_t index, Columns& out) {
     return active(m, j) || active(m, other) ? 0.01 * percent : 0.0;
   };
   out.scalar(at + "/inlet_duty", "1", "commanded share of the period", [=](const Moment& m) {
-    const control::Duties& d = m.seen.joint[j].duties;
+    const control::Duties& d = m.seen.joint(j).duties;
     return share(m, flexor ? d.flexor_inlet : d.extensor_inlet);
   });
   out.scalar(at + "/exhaust_duty", "1", "commanded share of the period", [=](const Moment& m) {
-    const control::Duties& d = m.seen.joint[j].duties;
+    const control::Duties& d = m.seen.joint(j).duties;
     return share(m, flexor ? d.flexor_exhaust : d.extensor_exhaust);
   });
 }
@@ -110,7 +110,7 @@ void cylinder_columns(const robot::Robot& robot, Columns& out) {
   const auto duty = [&](const char* name, std::int32_t control::Duties::*which) {
     out.scalar(std::string("/cylinder/") + name, "1", "commanded share of the period",
                [j, which](const Moment& m) {
-                 return active(m, j) ? 0.01 * (m.seen.joint[j].duties.*which) : 0.0;
+                 return active(m, j) ? 0.01 * (m.seen.joint(j).duties.*which) : 0.0;
                });
   };
   duty("up/inlet_duty", &control::Duties::flexor_inlet);
@@ -122,7 +122,7 @@ void cylinder_columns(const robot::Robot& robot, Columns& out) {
 void low_level_columns(const robot::Robot& robot, Columns& out) {
   if (!experiment::laws_overrun(robot)) return;
   out.scalar("/low_level/overruns", "1", "laws so far that took longer than their interrupt may",
-             [](const Moment& m) { return m.seen.overruns; });
+             [](const Moment& m) { return m.seen.overruns(); });
 }
 
 // Adds the counters of rejected readings where the experiment gives reason to expect some.
@@ -131,18 +131,16 @@ void supervision_columns(const experiment::Experiment& e, Columns& out) {
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
     const std::string at = "/sensor/" + e.robot.sensors[s].name;
     out.scalar(at + "/rejected", "1", "readings so far that were not believed",
-               [s](const Moment& m) { return m.supervised.sensor[s].rejected; });
+               [s](const Moment& m) { return m.seen.supervised(s).rejected; });
     out.scalar(at + "/frozen", "1", "readings so far that repeated themselves while driven",
-               [s](const Moment& m) { return m.supervised.sensor[s].frozen; });
+               [s](const Moment& m) { return m.seen.supervised(s).frozen; });
   }
   out.scalar("/low_level/rejected_commands", "1", "commands so far that were not followed",
-             [](const Moment& m) { return m.supervised.rejected_commands; });
+             [](const Moment& m) { return m.seen.rejected_commands(); });
   out.scalar("/low_level/gaps", "1", "ticks so far that came later than announced",
-             [](const Moment& m) { return m.supervised.gaps; });
+             [](const Moment& m) { return m.seen.gaps(); });
   out.scalar("/low_level/tripped", "1", "1 from when the supervisor has ended the run",
-             [](const Moment& m) {
-               return m.supervised.trip.cause == control::Trip::Cause::none ? 0.0 : 1.0;
-             });
+             [](const Moment& m) { return m.seen.tripped() ? 1.0 : 0.0; });
 }
 
 void plan_columns(const LegAt& leg, Columns& out) {

@@ -9,19 +9,18 @@
 #include <vector>
 
 #include "sinew/control/gait/brain.h"
-#include "sinew/control/joint/seen.h"
-#include "sinew/control/supervise/supervised.h"
+#include "sinew/control/gait/legs.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/plant/planar/setup.h"
+#include "sinew/run/simulation/boards.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::run {
 
 // Everything that can be recorded at one instant.
 struct Moment {
-  const control::Seen& seen;
-  const control::Supervised& supervised;
-  const gait::Measured& measured;
+  const MachineSeen& seen;
+  const gait::MachineMeasured& measured;
   std::span<const gait::Desired> desired;  // by leg
   const plant::Truth& truth;
   double time = 0;  // [s]

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "sinew/control/joint/config.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/signals/port.h"
 
@@ -27,8 +26,8 @@ class FaultyPort final : public signals::Port {
 
   // The last counts of each channel that were handed out. Copied like bytes.
   struct State {
-    std::array<std::uint16_t, control::max_channels> before{};
-    std::array<bool, control::max_channels> answered{};
+    std::array<std::uint16_t, robot::max_sensors> before{};
+    std::array<bool, robot::max_sensors> answered{};
   };
   State state() const noexcept { return {before_, answered_}; }
   void restore(const State& state) noexcept {
@@ -49,9 +48,9 @@ class FaultyPort final : public signals::Port {
   signals::Port& body_;
   std::vector<Acting> faults_;
   std::uint64_t seed_;
-  double top_;                                                 // of the converter [count]
-  std::array<std::uint16_t, control::max_channels> before_{};  // last counts handed out
-  std::array<bool, control::max_channels> answered_{};
+  double top_;                                              // of the converter [count]
+  std::array<std::uint16_t, robot::max_sensors> before_{};  // last counts handed out
+  std::array<bool, robot::max_sensors> answered_{};
 };
 
 }  // namespace sinew::run

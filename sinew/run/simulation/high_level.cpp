@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sinew/experiment/spinal.h"
+#include "sinew/robot/boards.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::run {
@@ -49,7 +49,7 @@ HighLevel::HighLevel(const robot::Robot& robot, const gait::Plan& plan, Steering
     : joints_(static_cast<int>(robot.joints.size())),
       muscles_(static_cast<int>(robot.muscles.size())),
       vents_(plan.finish == gait::Plan::Finish::vent && robot.low_level.vent_time > 0),
-      has_cylinder_(experiment::has_cylinder_joint(robot)),
+      has_cylinder_(robot::has_cylinder_joint(robot)),
       cylinder_gain_(static_cast<float>(robot.cylinder.position_gain * 100.0)),
       brain_ticks_(std::llround(plan.brain_period / signals::tick_seconds)),
       scale_(believed(robot)),
@@ -59,10 +59,10 @@ HighLevel::HighLevel(const robot::Robot& robot, const gait::Plan& plan, Steering
 }
 
 // What has no sensor is believed to rest.
-gait::Measured HighLevel::believe(const control::Seen& seen) const noexcept {
-  gait::Measured measured;
+gait::MachineMeasured HighLevel::believe(const MachineSeen& seen) const noexcept {
+  gait::MachineMeasured measured;
   const auto counts = [&](int channel) -> double {
-    return seen.reading[static_cast<std::size_t>(channel)].counts;
+    return seen.reading(static_cast<std::size_t>(channel)).counts;
   };
   for (int j = 0; j < joints_; ++j) {
     const auto k = static_cast<std::size_t>(j);
@@ -71,8 +71,8 @@ gait::Measured HighLevel::believe(const control::Seen& seen) const noexcept {
     measured.angle[k] =
         scale_.rest[k] +
         (counts(scale_.angle_channel[k]) - scale_.counts_at_rest[k]) / scale_.counts_per_rad[k];
-    measured.velocity[k] = static_cast<double>(seen.joint[k].velocity) / scale_.counts_per_rad[k];
-    measured.stiffness[k] = static_cast<double>(seen.joint[k].stiffness) * stiffness_unit;
+    measured.velocity[k] = static_cast<double>(seen.joint(k).velocity) / scale_.counts_per_rad[k];
+    measured.stiffness[k] = static_cast<double>(seen.joint(k).stiffness) * stiffness_unit;
   }
   for (int m = 0; m < muscles_; ++m) {
     const auto k = static_cast<std::size_t>(m);
@@ -94,7 +94,7 @@ void HighLevel::restore(const State& state) noexcept {
   command_ = state.command;
 }
 
-const control::Command& HighLevel::update(const control::Seen& seen, signals::Tick t) noexcept {
+const MachineCommand& HighLevel::update(const MachineSeen& seen, signals::Tick t) noexcept {
   measured_ = believe(seen);
   legs_.update(measured_, t / brain_ticks_);
   for (std::size_t l = 0; l < legs_.count(); ++l) desired_[l] = legs_.desired(l);
@@ -108,7 +108,7 @@ void HighLevel::translate(const gait::Desired& desired, const robot::LegParts& l
   for (std::size_t i = 0; i < leg.joints.size(); ++i) {
     const auto k = static_cast<std::size_t>(leg.joints[i]);
     const gait::DesiredJoint& want = desired.joint[i];
-    control::JointCommand& joint = command_.joint[k];
+    control::JointCommand& joint = command_[k];
 
     // B.1: thetades = (theta - rest) * 767 + potoffset, cut to an integer.
     joint.angle = static_cast<std::int32_t>(
@@ -129,7 +129,7 @@ void HighLevel::translate(const gait::Desired& desired, const robot::LegParts& l
 // At its extended stop until the plan asks for another place, as the thesis's runs have it. Of
 // several legs the first one's plan moves it.
 void HighLevel::move_cylinder(const gait::Desired& desired) noexcept {
-  control::JointCommand& joint = command_.joint[static_cast<std::size_t>(joints_)];
+  control::JointCommand& joint = command_[static_cast<std::size_t>(joints_)];
   const double travel = desired.cylinder.given ? desired.cylinder.position : 0.0;
   joint.angle = static_cast<std::int32_t>(
       std::lround(scale_.cylinder_at_rest + travel * scale_.cylinder_counts_per_metre));

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "sinew/control/gait/legs.h"
-#include "sinew/control/joint/spine.h"
 #include "sinew/robot/robot.h"
+#include "sinew/run/simulation/boards.h"
 #include "sinew/run/simulation/changes.h"
 
 namespace sinew::run {
@@ -31,7 +31,7 @@ class HighLevel {
   HighLevel(const robot::Robot& robot, const gait::Plan& plan, Steering* steering = nullptr);
 
   // At every low-level period; the brain itself thinks once per brain period.
-  const control::Command& update(const control::Seen& seen, signals::Tick t) noexcept;
+  const MachineCommand& update(const MachineSeen& seen, signals::Tick t) noexcept;
   // Is the body to be vented now? A plan that ends without goes on to the run's end as it is.
   bool finished() const noexcept { return vents_ && legs_.finished(); }
 
@@ -41,13 +41,13 @@ class HighLevel {
     return {desired_.data(), legs_.count()};
   }
   const Changes& changes() const noexcept { return changes_; }
-  const gait::Measured& measured() const noexcept { return measured_; }
+  const gait::MachineMeasured& measured() const noexcept { return measured_; }
   double newtons_per_count(std::size_t muscle) const noexcept {
     return scale_.newtons_per_count[muscle];
   }
 
   // Readings as the brain gets them.
-  gait::Measured believe(const control::Seen& seen) const noexcept;
+  gait::MachineMeasured believe(const MachineSeen& seen) const noexcept;
 
   // A wish of whoever holds the run, as Changes has it.
   bool wish(const Steering::Wish& wish) noexcept { return changes_.wish(wish); }
@@ -59,8 +59,8 @@ class HighLevel {
     gait::Legs::State legs;
     Changes::State changes;
     std::array<gait::Desired, robot::max_legs> desired;
-    gait::Measured measured;
-    control::Command command;
+    gait::MachineMeasured measured;
+    MachineCommand command;
   };
   State state() const noexcept {
     return {legs_.state(), changes_.state(), desired_, measured_, command_};
@@ -80,8 +80,8 @@ class HighLevel {
   gait::Legs legs_;
   Changes changes_;
   std::array<gait::Desired, robot::max_legs> desired_;  // by leg
-  gait::Measured measured_;
-  control::Command command_;
+  gait::MachineMeasured measured_;
+  MachineCommand command_;
 };
 
 }  // namespace sinew::run

@@ -2,6 +2,8 @@
 // cord never sees a port, and the port never sees the brain.
 #pragma once
 
+#include <span>
+
 #include "sinew/control/joint/seen.h"
 #include "sinew/signals/port.h"
 
@@ -21,9 +23,18 @@ struct LoopState {
   bool started = false;  // the body knows the scan
 };
 
+// The boards of a low level: of one controller, itself.
+template <class Spine>
+auto each_board(Spine& spine) noexcept {
+  if constexpr (requires { spine.each(); })
+    return spine.each();
+  else
+    return std::span<Spine, 1>(&spine, 1);
+}
+
 // Spine   scan(), seen().phase, command(command), edges(t), due(t), take(conversion, reading, t),
 //         next_event(t), missed(t), shut_down(t): control::Supervisor, control::Spine alone,
-//         or a stand's drive
+//         a stand's drive; or Boards, of which each() has edges(t), due(t) and take()
 // Brain   update(seen, t) -> Command, finished()
 // Clock   wait_until(t) -> false when late
 // Watch   command(t), edge(e), sample(t), next(t): whoever records; it changes nothing. It may have
@@ -52,13 +63,15 @@ void advance(LoopState& loop, Spine& spine, Brain& brain, signals::Port& port, C
       if (brain.finished() && spine.seen().phase == control::Phase::running) spine.shut_down(t);
     }
 
-    // Edges that were decided earlier, then the conversion that is due.
-    for (const signals::Edge& edge : spine.edges(t)) {
-      const Status driven = port.drive(edge);
-      status = status == Status::ok ? driven : status;
-      watch.edge(edge);
-    }
-    if (const signals::Conversion* c = spine.due(t)) spine.take(*c, port.read(c->channel, t), t);
+    // Edges that were decided earlier, then the conversions that are due, one of each board.
+    for (auto& board : each_board(spine))
+      for (const signals::Edge& edge : board.edges(t)) {
+        const Status driven = port.drive(edge);
+        status = status == Status::ok ? driven : status;
+        watch.edge(edge);
+      }
+    for (auto& board : each_board(spine))
+      if (const signals::Conversion* c = board.due(t)) board.take(*c, port.read(c->channel, t), t);
     watch.sample(t);
 
     const Tick next = spine.next_event(t), sample = watch.next(t);

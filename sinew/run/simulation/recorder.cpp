@@ -24,7 +24,7 @@ Samples room(const signals::PageFile& pages, std::size_t most) {
 
 }  // namespace
 
-Recorder::Recorder(const experiment::Experiment& e, const control::Supervisor& spine,
+Recorder::Recorder(const experiment::Experiment& e, const Boards& spine,
                    const HighLevel& high_level, TruthAt truth, Tick end)
     : spine_(spine), high_(high_level), truth_(std::move(truth)) {
   // Sample where the last law of a period has run; other periods keep that offset.
@@ -115,12 +115,12 @@ void Recorder::sample(Tick t) noexcept {
   now_ns_ = t * signals::tick_nanoseconds;
   keep(row_time_ns_, now_ns_);
   cursor_ = number_ = 0;
-  const gait::Measured measured = high_.believe(spine_.seen());
+  const MachineSeen seen = spine_.seen();
+  const gait::MachineMeasured measured = high_.believe(seen);
   plant::Truth truth;
   if (truth_) truth = truth_(t);
-  const Moment now{spine_.seen(), spine_.supervised(),
-                   measured,      high_.desired(),
-                   truth,         static_cast<double>(t) * signals::tick_seconds};
+  const Moment now{seen, measured, high_.desired(), truth,
+                   static_cast<double>(t) * signals::tick_seconds};
   for (const Column& c : columns_) {
     if (!truth_ && c.of_truth()) break;  // they come last
     std::array<double, 2> values{};

@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "sinew/control/supervise/supervisor.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/plant/planar/setup.h"
+#include "sinew/run/simulation/boards.h"
 #include "sinew/run/simulation/columns.h"
 #include "sinew/run/simulation/high_level.h"
 #include "sinew/signals/table.h"
@@ -36,7 +36,7 @@ class Recorder {
   // `truth` answers what only a simulation knows, at a tick; empty for a body that is none.
   using TruthAt = std::function<plant::Truth(signals::Tick)>;
 
-  Recorder(const experiment::Experiment& experiment, const control::Supervisor& spine,
+  Recorder(const experiment::Experiment& experiment, const Boards& spine,
            const HighLevel& high_level, TruthAt truth, signals::Tick end);
 
   void tap(Tap t, std::vector<std::uint16_t> topic_of_series) {
@@ -59,7 +59,7 @@ class Recorder {
  private:
   void put(std::span<const double> values) noexcept;
 
-  const control::Supervisor& spine_;
+  const Boards& spine_;
   const HighLevel& high_;
   TruthAt truth_;
 

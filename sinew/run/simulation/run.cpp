@@ -55,7 +55,7 @@ Outcome to_the_end(Simulation& simulation, const RunOptions& options, Clock& clo
     truth = [machine](Tick t) {
       return machine->truth(static_cast<double>(t) * signals::tick_seconds);
     };
-  Recorder recorder(simulation.experiment(), simulation.spine(), simulation.high_level(), truth,
+  Recorder recorder(simulation.experiment(), simulation.boards(), simulation.high_level(), truth,
                     simulation.last());
   if (options.tap.push) recorder.tap(options.tap, options.tapped);
   recorder.progress(options.progress);
@@ -72,8 +72,8 @@ Outcome to_the_end(Simulation& simulation, const RunOptions& options, Clock& clo
   out.failure = simulation.failure();
   out.table = recorder.take();
   out.no_room = recorder.problem();
-  out.seen = simulation.spine().seen();
-  out.supervised = simulation.spine().supervised();
+  out.seen = simulation.boards().seen_totals();
+  out.supervised = simulation.boards().supervised_totals();
   out.changes = simulation.high_level().changes().all();
   out.unreachable_periods = simulation.high_level().legs().unreachable_periods();
   out.duration = static_cast<double>(simulation.last()) * signals::tick_seconds;

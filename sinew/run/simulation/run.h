@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "sinew/control/joint/seen.h"
-#include "sinew/control/supervise/supervised.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/muscle/failure.h"
 #include "sinew/plant/planar/setup.h"
+#include "sinew/run/simulation/boards.h"
 #include "sinew/run/simulation/recorder.h"
 #include "sinew/run/simulation/steering.h"
 #include "sinew/signals/table.h"
@@ -33,8 +32,8 @@ struct Outcome {
   bool stopped = false;  // by RunOptions::stop
   signals::Table table;
   std::string no_room;                // why the table is not complete, and what to do; empty: it is
-  control::Seen seen;                 // the low level's last word
-  control::Supervised supervised;     // what was not believed, and what ended the run
+  SeenTotals seen;                    // the low level's last word
+  SupervisedTotals supervised;        // what was not believed, and what ended the run
   muscle::Failure failure;            // what of the machine was no number any more
   std::vector<gait::Change> changes;  // the plan's, and behind them what was steered
   std::int64_t unreachable_periods = 0;

@@ -146,17 +146,17 @@ TEST(Run, TheLastRowStandsAfterTheSequence) {
 template <class World>
 void expect_no_heap(const experiment::Experiment& e, Steering* steering = nullptr) {
   World world(experiment::planar_setup(e));
-  control::Supervisor spine(experiment::spine_config(e), experiment::supervise_config(e));
+  Boards boards(e);
   HighLevel high(e.robot, e.plan, steering);
   const signals::Tick end = experiment::last_tick(e);
   World* body = &world;
   Recorder recorder(
-      e, spine, high, [body](signals::Tick t) { return body->truth(t * 1e-4); }, end);
+      e, boards, high, [body](signals::Tick t) { return body->truth(t * 1e-4); }, end);
   SimulatedClock clock;
 
   allocations = 0;
   counting = true;
-  const signals::Status status = loop(spine, high, world, clock, recorder, end);
+  const signals::Status status = loop(boards, high, world, clock, recorder, end);
   counting = false;
   EXPECT_EQ(status, signals::Status::ok);
   EXPECT_EQ(allocations, 0);
@@ -172,15 +172,14 @@ TEST(Run, TakesNoMemoryForItsDuration) {
   const experiment::Experiment e = walk_for(80);  // some pages of each column
   expect_no_heap<plant::ChainWorld<2>>(e);
 
-  plant::ChainWorld<2> world(experiment::planar_setup(e));
-  const control::Supervisor spine(experiment::spine_config(e), experiment::supervise_config(e));
+  const Boards boards(e);
   const HighLevel high(e.robot, e.plan);
   const auto taken_for = [&](double hours) {
     const auto end = std::llround(3600 * hours / signals::tick_seconds);
     test::bytes = 0;
     counting = true;
     const Recorder recorder(
-        e, spine, high, [](signals::Tick) { return plant::Truth{}; }, end);
+        e, boards, high, [](signals::Tick) { return plant::Truth{}; }, end);
     counting = false;
     return static_cast<double>(test::bytes);
   };

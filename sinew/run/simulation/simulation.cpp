@@ -9,8 +9,6 @@
 #include "sinew/config/writer.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/experiment/planar_setup.h"
-#include "sinew/experiment/spinal.h"
-#include "sinew/experiment/supervision.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/run.h"
 
@@ -20,7 +18,6 @@ using signals::Tick;
 
 namespace {
 
-static_assert(std::is_trivially_copyable_v<control::Supervisor>);
 static_assert(std::is_trivially_copyable_v<HighLevel::State>);
 static_assert(std::is_trivially_copyable_v<FaultyPort::State>);
 static_assert(std::is_trivially_copyable_v<LoopState>);
@@ -74,7 +71,7 @@ Simulation::Simulation(const experiment::Experiment& experiment, Steering* steer
     : experiment_(experiment),
       machine_(std::in_place, experiment::planar_setup(experiment_)),
       port_(&machine_->port()),
-      spine_(experiment::spine_config(experiment_), experiment::supervise_config(experiment_)),
+      boards_(experiment_),
       high_level_(experiment_.robot, experiment_.plan, steering),
       last_(experiment::last_tick(experiment_)) {
   if (!experiment_.faults.empty()) port_ = &faulty_.emplace(experiment_, *port_);
@@ -84,7 +81,7 @@ Simulation::Simulation(const experiment::Experiment& experiment, Steering* steer
 Simulation::Simulation(const experiment::Experiment& experiment, signals::Port& body)
     : experiment_(experiment),
       port_(&body),
-      spine_(experiment::spine_config(experiment_), experiment::supervise_config(experiment_)),
+      boards_(experiment_),
       high_level_(experiment_.robot, experiment_.plan),
       last_(experiment::last_tick(experiment_)) {
   list_channels();
@@ -92,7 +89,7 @@ Simulation::Simulation(const experiment::Experiment& experiment, signals::Port& 
 
 bool Simulation::ended() const noexcept {
   return tick_ >= last_ || loop_.status != signals::Status::ok ||
-         spine_.seen().phase == control::Phase::off;
+         boards_.seen().phase == control::Phase::off;
 }
 
 void Simulation::advance_to(Tick tick) noexcept {
@@ -131,10 +128,10 @@ double Simulation::read(std::string_view channel) { return read(find(channel)); 
 
 double Simulation::read(std::size_t channel) noexcept {
   const auto [column, field] = column_of_[channel];
-  const gait::Measured measured = high_level_.believe(spine_.seen());
+  const MachineSeen seen = boards_.seen();
+  const gait::MachineMeasured measured = high_level_.believe(seen);
   const plant::Truth known = columns_[column].of_truth() ? truth() : plant::Truth{};
-  const Moment now{spine_.seen(), spine_.supervised(), measured, high_level_.desired(), known,
-                   time()};
+  const Moment now{seen, measured, high_level_.desired(), known, time()};
   double numbers[2] = {};
   columns_[column].value(now, numbers);
   return numbers[field];
@@ -180,7 +177,7 @@ std::uint64_t Simulation::model() {
 }
 
 std::size_t Simulation::save_size() const noexcept {
-  return sizeof(Header) + (machine_ ? machine_->state_size() : 0) + sizeof spine_ +
+  return sizeof(Header) + (machine_ ? machine_->state_size() : 0) + boards_.state_size() +
          sizeof(HighLevel::State) + sizeof(FaultyPort::State) + sizeof loop_;
 }
 
@@ -190,7 +187,8 @@ std::vector<std::byte> Simulation::save() {
   const std::span<std::byte> all(out), state = all.subspan(sizeof(Header));
   std::span<std::byte> rest = state.subspan(machine_->state_size());
   machine_->save(state.first(machine_->state_size()));
-  put(rest, spine_);
+  boards_.save(rest.first(boards_.state_size()));
+  rest = rest.subspan(boards_.state_size());
   put(rest, high_level_.state());
   put(rest, faulty_ ? faulty_->state() : FaultyPort::State{});
   put(rest, loop_);
@@ -215,7 +213,8 @@ void Simulation::restore(std::span<const std::byte> saved) {
 
   machine_->restore(saved.first(machine_->state_size()));
   saved = saved.subspan(machine_->state_size());
-  take(saved, spine_);
+  boards_.restore(saved.first(boards_.state_size()));
+  saved = saved.subspan(boards_.state_size());
   HighLevel::State high_level;
   take(saved, high_level);
   high_level_.restore(high_level);
@@ -225,7 +224,7 @@ void Simulation::restore(std::span<const std::byte> saved) {
   take(saved, loop_);
   tick_ = header.tick;
   // Another machine learns when conversions begin.
-  if (loop_.started) (void)port_->start(spine_.scan());
+  if (loop_.started) (void)port_->start(boards_.scan());
 }
 
 }  // namespace sinew::run

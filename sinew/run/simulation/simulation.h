@@ -25,9 +25,9 @@
 #include <string_view>
 #include <vector>
 
-#include "sinew/control/supervise/supervisor.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/plant/planar/machine.h"
+#include "sinew/run/simulation/boards.h"
 #include "sinew/run/simulation/columns.h"
 #include "sinew/run/simulation/faulty_port.h"
 #include "sinew/run/simulation/high_level.h"
@@ -67,7 +67,7 @@ class Simulation {
   void advance(signals::Tick until, Clock& clock, Watch& watch) noexcept {
     if (tick_ < last_ && until > tick_) {
       until = until < last_ ? until : last_;
-      run::advance(loop_, spine_, high_level_, port(), clock, watch, until);
+      run::advance(loop_, boards_, high_level_, port(), clock, watch, until);
       tick_ = loop_.at < until ? loop_.at : until;
     }
   }
@@ -115,7 +115,7 @@ class Simulation {
   // --- the parts, for whoever records ---
 
   const experiment::Experiment& experiment() const noexcept { return experiment_; }
-  const control::Supervisor& spine() const noexcept { return spine_; }
+  const Boards& boards() const noexcept { return boards_; }
   const HighLevel& high_level() const noexcept { return high_level_; }
   plant::Machine* machine() noexcept { return machine_ ? &*machine_ : nullptr; }
 
@@ -129,7 +129,7 @@ class Simulation {
   std::optional<plant::Machine> machine_;
   std::optional<FaultyPort> faulty_;
   signals::Port* port_ = nullptr;
-  control::Supervisor spine_;
+  Boards boards_;
   HighLevel high_level_;
   signals::Tick last_ = 0, tick_ = 0;
   LoopState loop_;

@@ -29,6 +29,7 @@ const std::vector<Kind> kinds{
     {"walk-with-hoses", {}},
     {"walk-with-regulators", {}},
     {"walk-two-legs", {}},
+    {"walk-two-legs", {"joint.right_hip.board=2", "joint.right_knee.board=2"}},
     {"cylinder-following", {}},
     {"faults/sensor-open", {}},
     {"ground-force", {}},

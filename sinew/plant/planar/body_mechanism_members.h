@@ -1,17 +1,23 @@
-#include "sinew/plant/planar/body_mechanism.h"
+// plant/planar/body_mechanism_members.h - the members of BodyMechanism, for the files that compile
+// its sizes once (body_worlds.cpp).
+#pragma once
 
+#include <algorithm>
 #include <cmath>
 
+#include "sinew/plant/planar/body_mechanism.h"
 #include "sinew/plant/planar/rollers.h"
+#include "sinew/plant/planar/rubs_members.h"
 
 namespace sinew::plant {
 
-BodyMechanism::BodyMechanism(const Setup& setup)
-    : constants_(body_of(setup.robot)),
+template <int N, int D, int M>
+BodyMechanism<N, D, M>::BodyMechanism(const Setup& setup)
+    : constants_(body_of<N>(setup.robot)),
       robot_(setup.robot),
       cords_(setup.robot),
       rubs_(constants_, setup.robot) {
-  for (std::size_t j = 0; j < constants_.links; ++j) {
+  for (std::size_t j = 0; j < constants_.links(); ++j) {
     const robot::Joint& joint = robot_.joints[j];
     damping_[j] = joint.damping + joint.damper;
     stop_[j] = JointStop(joint.stop);
@@ -23,20 +29,23 @@ BodyMechanism::BodyMechanism(const Setup& setup)
   start_.at[up] = setup.start.lift;
 }
 
-double BodyMechanism::sum(const Motion& m) const noexcept {
+template <int N, int D, int M>
+double BodyMechanism<N, D, M>::sum(const Motion& m) const noexcept {
   double places = 0;
   for (std::size_t c = 0; c < constants_.coordinates(); ++c) places += m.at[c];
   return places;
 }
 
-double BodyMechanism::node_step(const Setup& setup) const {
+template <int N, int D, int M>
+double BodyMechanism<N, D, M>::node_step(const Setup& setup) const {
   return stable_step(setup.steps.body,
-                     rubs_.stiffest_rate(Body(constants_, start_), start_, robot_));
+                     rubs_.stiffest_rate(Pose(constants_, start_), start_, robot_));
 }
 
-void BodyMechanism::set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
-                              double y_rate) const {
-  for (std::size_t j = 0; j < constants_.links; ++j) {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::set_rates(Motion& m, std::initializer_list<double> joint_rates,
+                                       double x_rate, double y_rate) const {
+  for (std::size_t j = 0; j < constants_.links(); ++j) {
     const double on = constants_.hangs_on_link(j) ? m.rate[first_link + constants_.on(j)] : 0.0;
     m.rate[first_link + j] = on + (j < joint_rates.size() ? joint_rates.begin()[j] : 0.0);
   }
@@ -44,10 +53,11 @@ void BodyMechanism::set_rates(Motion& m, std::initializer_list<double> joint_rat
   m.rate[up] = y_rate;
 }
 
-void BodyMechanism::route(double, const Motion& m, muscle::Ends<most_muscles>& ends,
-                          Arms& arms) const noexcept {
-  std::array<double, most_links> angle, rate;
-  for (std::size_t j = 0; j < constants_.links; ++j) {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::route(double, const Motion& m, muscle::Ends<M>& ends,
+                                   Arms& arms) const noexcept {
+  std::array<double, N> angle, rate;
+  for (std::size_t j = 0; j < constants_.links(); ++j) {
     angle[j] = joint_angle(m, j);
     rate[j] = joint_rate(m, j);
   }
@@ -57,7 +67,8 @@ void BodyMechanism::route(double, const Motion& m, muscle::Ends<most_muscles>& e
 }
 
 // One-sided at both ends of the stroke.
-double BodyMechanism::cylinder_stop(const Motion& m) const noexcept {
+template <int N, int D, int M>
+double BodyMechanism<N, D, M>::cylinder_stop(const Motion& m) const noexcept {
   const robot::Cylinder& c = robot_.cylinder;
   const double below = -m.at[up], above = m.at[up] - c.stroke;
   if (below > 0) {
@@ -71,11 +82,12 @@ double BodyMechanism::cylinder_stop(const Motion& m) const noexcept {
   return 0;
 }
 
-void BodyMechanism::load(const Pose& body, const Motion& m, const Arms& arms,
-                         const muscle::Lanes<most_muscles>& tension, double piston_force,
-                         Load& out) const noexcept {
-  std::array<double, most_links> torque{};
-  for (std::size_t j = 0; j < constants_.links; ++j) {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::load(const Pose& body, const Motion& m, const Arms& arms,
+                                  const muscle::Lanes<M>& tension, double piston_force,
+                                  Load& out) const noexcept {
+  std::array<double, N> torque{};
+  for (std::size_t j = 0; j < constants_.links(); ++j) {
     const robot::Joint& joint = robot_.joints[j];
     out.passive_torque[j] =
         -damping_[j] * joint_rate(m, j) - joint.spring * (joint_angle(m, j) - joint.spring_angle);
@@ -89,7 +101,7 @@ void BodyMechanism::load(const Pose& body, const Motion& m, const Arms& arms,
             arms[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] * tension[i];
 
   out.force = {};
-  for (std::size_t j = 0; j < constants_.links; ++j) {
+  for (std::size_t j = 0; j < constants_.links(); ++j) {
     out.force[first_link + j] = torque[j];
     if (constants_.hangs_on_link(j)) out.force[first_link + constants_.on(j)] -= torque[j];
   }
@@ -105,58 +117,65 @@ void BodyMechanism::load(const Pose& body, const Motion& m, const Arms& arms,
 
   out.normal = {};
   for (int i = 0; i < rubs_.discs(); ++i) {
-    const DiscAt disc = rubs_.disc(body, m, i);
-    const double push = rubs_.push(disc, i, m);
+    const double depth = rubs_.depth(body, m, i);
+    if (depth <= 0) continue;
+    const DiscAt<N> disc = rubs_.disc(body, m, i);
+    const double push = rubs_.push(depth, disc, m);
     out.normal[static_cast<std::size_t>(i)] = push;
     if (push <= 0) continue;
     for (std::size_t c = 0; c < constants_.coordinates(); ++c) out.force[c] += push * disc.rise[c];
   }
 }
 
-auto BodyMechanism::accelerate(const Pose& body, const Motion& m, const Load& load,
-                               const Forces& held) const noexcept -> Acceleration {
-  Coordinates force = load.force;
-  const Coordinates rub = rubs_.generalised(body, m, held);
+template <int N, int D, int M>
+auto BodyMechanism<N, D, M>::accelerate(const Pose& body, const Motion& m, const Load& load,
+                                        const Forces& held) const noexcept -> Acceleration {
+  Coordinates<N> force = load.force;
+  const Coordinates<N> rub = rubs_.generalised(body, m, held);
   for (std::size_t c = 0; c < constants_.coordinates(); ++c) force[c] += rub[c];
   return body.accelerations(force);
 }
 
-auto BodyMechanism::prepare(const Pose& body, const Motion& m, const Arms& arms,
-                            const muscle::Lanes<most_muscles>& mesh, double trolley_bound,
-                            const Load& load) noexcept -> Acceleration {
+template <int N, int D, int M>
+auto BodyMechanism<N, D, M>::prepare(const Pose& body, const Motion& m, const Arms& arms,
+                                     const muscle::Lanes<M>& mesh, double trolley_bound,
+                                     const Load& load) noexcept -> Acceleration {
   const Acceleration free = body.accelerations(load.force);
   Forces bound{};
-  for (std::size_t j = 0; j < constants_.links; ++j) bound[j] = dry_[j];
+  for (std::size_t j = 0; j < constants_.links(); ++j) bound[j] = dry_[j];
   for (int i = 0; i < cords_.count(); ++i)
     for (int k = 0; k < Cords::most; ++k)
       if (const int j = cords_.joint(i, k); j >= 0)
         bound[static_cast<std::size_t>(j)] +=
             std::abs(arms[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)]) * mesh[i];
-  bound[Rubs::trolley] = trolley_bound;
-  bound[Rubs::lift] = constants_.held[up] ? 0.0 : robot_.cylinder.friction;
+  bound[Rubs<N, D>::trolley] = trolley_bound;
+  bound[Rubs<N, D>::lift] = constants_.held[up] ? 0.0 : robot_.cylinder.friction;
   for (std::size_t i = 0; i < static_cast<std::size_t>(rubs_.discs()); ++i)
-    bound[Rubs::first_disc + i] = rubs_.friction(i) * load.normal[i];
+    bound[Rubs<N, D>::first_disc + i] = rubs_.friction(i) * load.normal[i];
   rubs_.prepare(body, m, free, bound, load.normal);
   return free;
 }
 
-void BodyMechanism::move(Motion& out, const Motion& from, double h, const Motion& rates,
-                         const Acceleration& a) const noexcept {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::move(Motion& out, const Motion& from, double h, const Motion& rates,
+                                  const Acceleration& a) const noexcept {
   for (std::size_t c = 0; c < constants_.coordinates(); ++c) {
     out.at[c] = from.at[c] + h * rates.rate[c];
     out.rate[c] = from.rate[c] + h * a[c];
   }
 }
 
-void BodyMechanism::glide(Motion& m, double h, const Acceleration& a) const noexcept {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::glide(Motion& m, double h, const Acceleration& a) const noexcept {
   for (std::size_t c = 0; c < constants_.coordinates(); ++c) {
     m.at[c] += h * (m.rate[c] + 0.5 * h * a[c]);
     m.rate[c] += h * a[c];
   }
 }
 
-void BodyMechanism::finish(Motion& now, double h, const Motion* const (&stage)[4],
-                           const Acceleration (&a)[4]) const noexcept {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::finish(Motion& now, double h, const Motion* const (&stage)[4],
+                                    const Acceleration (&a)[4]) const noexcept {
   const double sixth = h / 6.0;
   for (std::size_t c = 0; c < constants_.coordinates(); ++c) {
     now.at[c] += sixth * (stage[0]->rate[c] + 2.0 * stage[1]->rate[c] + 2.0 * stage[2]->rate[c] +
@@ -165,27 +184,29 @@ void BodyMechanism::finish(Motion& now, double h, const Motion* const (&stage)[4
   }
 }
 
-void BodyMechanism::add_torque(const Arms& arms, int muscle, double tension,
-                               std::array<double, most_joints>& torque) const noexcept {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::add_torque(const Arms& arms, int muscle, double tension,
+                                        std::array<double, most_joints>& torque) const noexcept {
   for (std::size_t s = 0; s < Cords::most; ++s)
     if (const int j = cords_.joint(muscle, static_cast<int>(s)); j >= 0)
       torque[static_cast<std::size_t>(j)] += arms[static_cast<std::size_t>(muscle)][s] * tension;
 }
 
 // A foot is at its leg's last link's end; the ground's force on it is that on all its discs.
-void BodyMechanism::tell(const Motion& m, const Acceleration& a, const Forces& held,
-                         const Load& load, Truth& out) const noexcept {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::tell(const Motion& m, const Acceleration& a, const Forces& held,
+                                  const Load& load, Truth& out) const noexcept {
   out.x = m.at[along_track];
   out.x_rate = m.rate[along_track];
   out.lift = m.at[up];
   out.lift_rate = m.rate[up];
-  const Body body(constants_, m);
-  for (std::size_t j = 0; j < constants_.links; ++j) {
+  const Pose body(constants_, m);
+  for (std::size_t j = 0; j < constants_.links(); ++j) {
     out.angle[j] = joint_angle(m, j);
     out.rate[j] = joint_rate(m, j);
   }
   for (std::size_t f = 0; f < rubs_.feet(); ++f) {
-    const Rubs::Path& path = rubs_.leg(f);
+    const typename Rubs<N, D>::Path& path = rubs_.leg(f);
     for (std::size_t k = path.first; k < path.count; ++k) {
       out.foot[f].x += path.reach[k] * body.cos(path.link[k]);
       out.foot[f].y += path.reach[k] * body.sin(path.link[k]);
@@ -193,19 +214,20 @@ void BodyMechanism::tell(const Motion& m, const Acceleration& a, const Forces& h
   }
   for (int i = 0; i < rubs_.discs(); ++i) {
     FootTruth& foot = out.foot[rubs_.foot_of(i)];
-    const double push = rubs_.push(rubs_.disc(body, m, i), i, m);
+    const double push = rubs_.push(rubs_.depth(body, m, i), rubs_.disc(body, m, i), m);
     out.disc_force[static_cast<std::size_t>(i)] = push;
     foot.force_y += push;
-    if (push > 0) foot.force_x += held[static_cast<std::size_t>(Rubs::first_disc + i)];
+    if (push > 0) foot.force_x += held[static_cast<std::size_t>(Rubs<N, D>::first_disc + i)];
   }
   if (robot_.rollers.present) tell_rollers(body, m, a, held, load, out);
 }
 
 // The body's upward force on what hangs on it at one of its first links  [N].
-double BodyMechanism::carried(const Body& body, const Motion& m, const Acceleration& a,
-                              std::size_t first, const Truth& truth) const noexcept {
+template <int N, int D, int M>
+double BodyMechanism<N, D, M>::carried(const Body<N>& body, const Motion& m, const Acceleration& a,
+                                       std::size_t first, const Truth& truth) const noexcept {
   double force = constants_.hanging[first] * (a[up] + constants_.gravity);
-  for (std::size_t i = 0; i < constants_.links; ++i) {
+  for (std::size_t i = 0; i < constants_.links(); ++i) {
     const double rate = m.rate[first_link + i];
     if (constants_.first_on(i) == first)
       force += constants_.first_moment[i] *
@@ -216,8 +238,10 @@ double BodyMechanism::carried(const Body& body, const Motion& m, const Accelerat
   return force;
 }
 
-void BodyMechanism::tell_rollers(const Body& body, const Motion& m, const Acceleration& a,
-                                 const Forces& held, const Load& load, Truth& out) const noexcept {
+template <int N, int D, int M>
+void BodyMechanism<N, D, M>::tell_rollers(const Body<N>& body, const Motion& m,
+                                          const Acceleration& a, const Forces& held,
+                                          const Load& load, Truth& out) const noexcept {
   const double hung = constants_.lifted_mass;
   FootTruth ground;
   for (const FootTruth& foot : out.foot) {
@@ -227,7 +251,7 @@ void BodyMechanism::tell_rollers(const Body& body, const Motion& m, const Accele
   Hanging h{.acceleration = a[along_track], .lift = m.at[up]};
   h.force_x = hung * a[along_track] - ground.force_x;
   h.force_y = hung * (a[up] + constants_.gravity) - ground.force_y;
-  for (std::size_t i = 0; i < constants_.links; ++i) {
+  for (std::size_t i = 0; i < constants_.links(); ++i) {
     h.add(constants_.first_moment[i], body.sin(i), body.cos(i), m.rate[first_link + i],
           a[first_link + i]);
     if (constants_.hangs_on_link(i)) continue;

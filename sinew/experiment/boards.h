@@ -1,0 +1,28 @@
+// experiment/boards.h - the low level as it is built: one controller per board, each with its own
+// constants, limits and scan in its own numbers, and what these numbers are in the machine.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sinew/control/joint/config.h"
+#include "sinew/control/supervise/limits.h"
+#include "sinew/experiment/experiment.h"
+
+namespace sinew::experiment {
+
+struct Board {
+  control::SpineConfig spine;
+  control::SuperviseConfig limits;
+
+  // By the board's own numbers, those of the machine: joints in the robot's order, with the
+  // cylinder's behind them; sensors; valves, 2 x muscle + (0 inlet | 1 exhaust), and the four of a
+  // cylinder behind them.
+  std::vector<std::uint8_t> joint, channel, valve;
+};
+
+// Returns the boards by their numbers, which count from 1. Throws std::invalid_argument where the
+// low level cannot be built so.
+std::vector<Board> boards(const Experiment& experiment);
+
+}  // namespace sinew::experiment

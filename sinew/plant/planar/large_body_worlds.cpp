@@ -1,0 +1,15 @@
+// plant/planar/large_body_worlds.cpp - the worlds of machines of many links, compiled once.
+#include "sinew/plant/planar/body_mechanism_members.h"
+#include "sinew/plant/planar/machine.h"
+#include "sinew/plant/world/members.h"
+
+namespace sinew::plant {
+
+template class BodyMechanism<8, 8, 8>;
+template class BodyMechanism<most_joints, robot::max_discs, most_muscles>;
+
+template class World<BodyMechanism<8, 8, 8>, muscle::AirNetwork<8>>;
+template class World<BodyMechanism<most_joints, robot::max_discs, most_muscles>,
+                     muscle::AirNetwork<most_muscles>>;
+
+}  // namespace sinew::plant

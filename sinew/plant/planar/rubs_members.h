@@ -1,0 +1,299 @@
+// plant/planar/rubs_members.h - the members of Rubs, for the files that compile its sizes once.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/plant/planar/rubs.h"
+
+namespace sinew::plant {
+
+// Over the coordinates that the machine has.
+template <int N>
+double dot(const BodyConstants<N>& k, const Coordinates<N>& a, const Coordinates<N>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < k.coordinates(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+template <int N, int D>
+Rubs<N, D>::Rubs(const BodyConstants<N>& body, const robot::Robot& robot)
+    : k_(body), ground_(robot.ground) {
+  const std::size_t legs = std::max<std::size_t>(1, robot.legs.size());
+  for (std::size_t leg = 0; leg < legs && leg < path_.size(); ++leg) add_foot(robot, leg);
+}
+
+template <int N, int D>
+void Rubs<N, D>::add_foot(const robot::Robot& robot, std::size_t leg) {
+  foot_count_ = leg + 1;
+  const robot::Foot& foot = robot::foot_of(robot, leg);
+  const int last = robot::foot_link(robot, leg);
+  if (last < 0) return;
+
+  // From the foot inwards, then turned round.
+  Path& path = path_[leg];
+  const auto foot_link = static_cast<std::size_t>(last);
+  double reach = k_.length[foot_link];
+  for (std::size_t link = foot_link;; link = k_.on(link)) {
+    path.link[path.count] = link;
+    path.reach[path.count++] = reach;
+    reach = k_.attachment[link];
+    if (!k_.hangs_on_link(link)) break;
+  }
+  path.start = reach;
+  const std::vector<robot::LegParts> legs = robot::legs_of(robot);
+  path.first = path.count - std::min(path.count, legs[leg].joints.size());
+  const auto n = static_cast<std::ptrdiff_t>(path.count);
+  std::reverse(path.link.begin(), path.link.begin() + n);
+  std::reverse(path.reach.begin(), path.reach.begin() + n);
+
+  if (!foot.present) return;
+  const auto add = [&](double along, double across, double radius) {
+    if (disc_count_ < D)
+      disc_[static_cast<std::size_t>(disc_count_++)] = {
+          leg, along, across, radius, foot.friction, robot.ground.height - foot.radius};
+  };
+  if (foot.points.empty()) add(k_.length[foot_link], 0, foot.radius);
+  for (const robot::Foot::Point& p : foot.points) add(p.along, p.across, p.radius);
+}
+
+template <int N, int D>
+double Rubs<N, D>::stiffest_rate(const Body<N>& body, const Motion<N>& motion,
+                                 const robot::Robot& robot) const {
+  double fastest = 0;
+  const auto consider = [&](const Coordinates<N>& row, double damping, double stiffness) {
+    const double w = dot(k_, row, body.response(row));
+    fastest = std::max({fastest, damping * w, std::sqrt(stiffness * w)});
+  };
+  for (std::size_t j = 0; j < k_.links(); ++j) {
+    const robot::Joint& joint = robot.joints[j];
+    consider(row(static_cast<int>(j)), joint.damping + joint.damper + joint.stop.damping,
+             joint.spring + joint.stop.stiffness);
+  }
+  for (int i = 0; i < disc_count_ && ground_.present; ++i)
+    consider(disc(body, motion, i).rise, ground_.normal_damping, ground_.normal_stiffness);
+  return fastest;
+}
+
+template <int N, int D>
+DiscAt<N> Rubs<N, D>::disc(const Body<N>& body, const Motion<N>& motion, int i) const {
+  const Disc& d = disc_[static_cast<std::size_t>(i)];
+  const Path& path = path_[d.foot];
+  DiscAt<N> at{};
+  at.slip[along_track] = 1;
+  at.rise[up] = 1;
+  for (std::size_t k = 0; k < path.count; ++k) {
+    const std::size_t link = path.link[k];
+    const bool last = k + 1 == path.count;
+    const double a = last ? d.along : path.reach[k], b = last ? d.across : 0.0;
+    const double dx = a * body.cos(link) - b * body.sin(link);
+    const double dy = a * body.sin(link) + b * body.cos(link);
+    const double rate = motion.rate[first_link + link];
+    at.slip[first_link + link] = (last ? d.radius : 0.0) - dy;
+    at.rise[first_link + link] = dx;
+    at.slip_bias -= dx * rate * rate;
+    at.rise_bias -= dy * rate * rate;
+  }
+  return at;
+}
+
+template <int N, int D>
+double Rubs<N, D>::depth(const Body<N>& body, const Motion<N>& motion, int i) const {
+  if (!ground_.present) return 0;
+  const Disc& d = disc_[static_cast<std::size_t>(i)];
+  const Path& path = path_[d.foot];
+  double y = motion.at[up];
+  for (std::size_t k = 0; k < path.count; ++k) {
+    const std::size_t link = path.link[k];
+    const bool last = k + 1 == path.count;
+    const double a = last ? d.along : path.reach[k], b = last ? d.across : 0.0;
+    y += a * body.sin(link) + b * body.cos(link);
+  }
+  return d.surface + d.radius - y;
+}
+
+template <int N, int D>
+double Rubs<N, D>::push(double depth, const DiscAt<N>& disc, const Motion<N>& motion) const {
+  if (depth <= 0) return 0;
+  const double rate = dot(k_, disc.rise, motion.rate);
+  const double force = ground_.normal_stiffness * depth - ground_.normal_damping * rate;
+  return force > 0 ? force : 0.0;
+}
+
+template <int N, int D>
+Coordinates<N> Rubs<N, D>::row(int c) const {
+  Coordinates<N> j{};
+  if (c == trolley) j[along_track] = 1;
+  if (c == lift) j[up] = 1;
+  if (c >= N || c >= static_cast<int>(k_.links())) return j;
+  const auto link = static_cast<std::size_t>(c);
+  j[first_link + link] = 1;
+  if (k_.hangs_on_link(link)) j[first_link + k_.on(link)] = -1;
+  return j;
+}
+
+template <int N, int D>
+double Rubs<N, D>::along(int c, const Coordinates<N>& row, const Coordinates<N>& v) const {
+  if (c >= first_disc) return dot(k_, row, v);
+  if (c == trolley) return v[along_track];
+  if (c == lift) return v[up];
+  const auto link = static_cast<std::size_t>(c);
+  return v[first_link + link] - (k_.hangs_on_link(link) ? v[first_link + k_.on(link)] : 0.0);
+}
+
+// Only of contacts that carry something; the sum goes over their numbers in ascending order.
+template <int N, int D>
+Coordinates<N> Rubs<N, D>::generalised(const Body<N>& body, const Motion<N>& motion,
+                                       const Forces& f) const {
+  Coordinates<N> sum{};
+  const auto add = [&](int c, const Coordinates<N>& j) {
+    const double force = f[static_cast<std::size_t>(c)];
+    for (std::size_t i = 0; i < k_.coordinates(); ++i) sum[i] += j[i] * force;
+  };
+  const auto carries = [&](int c) { return f[static_cast<std::size_t>(c)] != 0; };
+  for (int c = 0; c < static_cast<int>(k_.links()); ++c)
+    if (carries(c)) add(c, row(c));
+  for (const int c : {trolley, lift})
+    if (carries(c)) add(c, row(c));
+  for (int i = 0; i < disc_count_; ++i)
+    if (carries(first_disc + i)) add(first_disc + i, disc(body, motion, i).slip);
+  return sum;
+}
+
+template <int N, int D>
+void Rubs<N, D>::prepare(const Body<N>& body, const Motion<N>& motion,
+                         const Coordinates<N>& acceleration, const Forces& bound,
+                         const Normals& normal) {
+  bound_ = bound;
+  active_count_ = 0;
+  touching_count_ = 0;
+  std::array<Coordinates<N>, count> rows;
+  const auto activate = [&](int c, const Coordinates<N>& row, double bias) {
+    const auto k = static_cast<std::size_t>(active_count_++);
+    active_[k] = c;
+    rows[k] = row;
+    problem_.bound[k] = bound[static_cast<std::size_t>(c)];
+    problem_.slip[k] = along(c, row, motion.rate);
+    slip_rate_[k] = along(c, row, acceleration) + bias;
+    column_[k] = body.response(rows[k]);
+  };
+  const auto rubs = [&](int c) { return bound[static_cast<std::size_t>(c)] > 0; };
+  for (int c = 0; c < static_cast<int>(k_.links()); ++c)
+    if (rubs(c)) activate(c, row(c), 0);
+  for (const int c : {trolley, lift})
+    if (rubs(c)) activate(c, row(c), 0);
+  std::array<DiscAt<N>, D> discs;  // of those that touch
+  for (int i = 0; i < disc_count_; ++i) {
+    const double force = normal[static_cast<std::size_t>(i)];
+    if (force <= 0) continue;
+    DiscAt<N>& at = discs[touching_count_];
+    at = disc(body, motion, i);
+    touching_[touching_count_] = i;
+    normal_[touching_count_++] = force;
+    if (rubs(first_disc + i)) activate(first_disc + i, at.slip, at.slip_bias);
+  }
+  const auto n = static_cast<std::size_t>(active_count_);
+  for (std::size_t d = 0; d < n; ++d)
+    for (std::size_t c = 0; c < n; ++c)
+      problem_.response[d][c] = along(active_[d], rows[d], column_[c]);
+
+  for (std::size_t i = 0; i < touching_count_; ++i) {
+    const DiscAt<N>& at = discs[i];
+    const Coordinates<N> column = body.response(at.rise);
+    rise_[i] = dot(k_, at.rise, motion.rate);
+    rise_rate_[i] = dot(k_, at.rise, acceleration) + at.rise_bias;
+    for (std::size_t k = 0; k < touching_count_; ++k)
+      response_[k][i] = dot(k_, discs[k].rise, column);
+    for (std::size_t c = 0; c < n; ++c) along_[i][c] = dot(k_, at.rise, column_[c]);
+  }
+}
+
+// Gaussian elimination of the discs that touch; the matrix is a unit matrix plus a positive one.
+// What is below the diagonal are the shares by which rows were taken from others.
+template <int N, int D>
+void Rubs<N, D>::eliminate(Matrix& m) const {
+  const std::size_t n = touching_count_;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = i + 1; k < n; ++k) {
+      const double share = m[k][i] / m[i][i];
+      for (std::size_t j = i + 1; j < n; ++j) m[k][j] -= share * m[i][j];
+      m[k][i] = share;
+    }
+}
+
+template <int N, int D>
+void Rubs<N, D>::solve(const Matrix& m, Normals& b) const {
+  const std::size_t n = touching_count_;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = i + 1; k < n; ++k) b[k] -= m[k][i] * b[i];
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t j = i + 1; j < n; ++j) b[i] -= m[i][j] * b[j];
+    b[i] /= m[i][i];
+  }
+}
+
+// The ground's give within the step, put into slips, responses and bounds.
+template <int N, int D>
+void Rubs<N, D>::soften(double h, FrictionProblem<count>& p) const {
+  const auto n = static_cast<std::size_t>(active_count_);
+  const std::size_t touching = touching_count_;
+  const double k = ground_.normal_stiffness;
+  const double beta = h * (h / 6.0 * k + 0.5 * ground_.normal_damping);
+  Matrix m{};
+  Normals change{};
+  for (std::size_t i = 0; i < touching; ++i) {
+    for (std::size_t j = 0; j < touching; ++j)
+      m[i][j] = (i == j ? 1.0 : 0.0) + beta * response_[i][j];
+    change[i] = -(0.5 * h * k * rise_[i] + beta * rise_rate_[i]);
+  }
+  eliminate(m);
+  solve(m, change);
+
+  std::array<bool, D> bears{};
+  for (std::size_t i = 0; i < touching; ++i) {
+    const double mean = normal_[i] + change[i];
+    bears[i] = mean > 0;
+    for (std::size_t c = 0; c < n; ++c)
+      if (active_[c] == first_disc + touching_[i])
+        p.bound[c] = bears[i] ? friction(static_cast<std::size_t>(touching_[i])) * mean : 0.0;
+  }
+  for (std::size_t c = 0; c < n; ++c) {
+    Normals give{};  // change of the normal forces per friction force c, divided by -beta
+    for (std::size_t i = 0; i < touching; ++i) give[i] = bears[i] ? along_[i][c] : 0.0;
+    solve(m, give);
+    for (std::size_t i = 0; i < touching; ++i) {
+      if (!bears[i]) continue;
+      p.slip[c] += h * along_[i][c] * change[i];
+      for (std::size_t d = 0; d < n; ++d) p.response[d][c] -= h * beta * along_[i][d] * give[i];
+    }
+  }
+}
+
+template <int N, int D>
+auto Rubs<N, D>::hold(double h, const Forces& last) const -> Forces {
+  const auto n = static_cast<std::size_t>(active_count_);
+  FrictionProblem<count> p;
+  Forces before;
+  for (std::size_t c = 0; c < n; ++c) {
+    before[c] = last[static_cast<std::size_t>(active_[c])];
+    p.bound[c] = problem_.bound[c];
+    p.slip[c] = problem_.slip[c] + h * slip_rate_[c];
+    for (std::size_t d = 0; d < n; ++d) p.response[c][d] = h * problem_.response[c][d];
+  }
+  if (touching_count_ > 0) soften(h, p);
+  const Forces solved = solve_friction<count>(p, before, active_count_);
+  Forces all{};
+  for (std::size_t c = 0; c < n; ++c) all[static_cast<std::size_t>(active_[c])] = solved[c];
+  return all;
+}
+
+template <int N, int D>
+Coordinates<N> Rubs<N, D>::accelerations(Coordinates<N> without, const Forces& f) const {
+  for (std::size_t c = 0; c < static_cast<std::size_t>(active_count_); ++c) {
+    const double force = f[static_cast<std::size_t>(active_[c])];
+    for (std::size_t i = 0; i < k_.coordinates(); ++i) without[i] += column_[c][i] * force;
+  }
+  return without;
+}
+
+}  // namespace sinew::plant
