@@ -59,7 +59,8 @@ void DrivenMuscle::set_point(double share) noexcept {
 void DrivenMuscle::node() noexcept {
   air_.move_valves(state_.time, state_.look, state_.valves);
   look(state_.time, state_.air, state_.look);
-  state_.failed = state_.failed || static_cast<bool>(air_.remember(state_.look, state_.air, state_.memory));
+  state_.failed =
+      state_.failed || static_cast<bool>(air_.remember(state_.look, state_.air, state_.memory));
 }
 
 void DrivenMuscle::step(double h) noexcept {

@@ -151,6 +151,15 @@ std::string board_key(const Robot& robot, const Board& board, std::size_t joints
   return "cylinder.board";
 }
 
+// The first part that names a board beyond this one, as a key.
+std::string key_beyond(const Robot& robot, int board) {
+  for (const Joint& j : robot.joints)
+    if (j.board > board) return "joint." + j.name + ".board";
+  for (const Sensor& s : robot.sensors)
+    if (s.board > board) return "sensor." + s.name + ".board";
+  return "cylinder.board";
+}
+
 }  // namespace
 
 std::vector<Board> boards_of(const Robot& robot) { return Split(robot).boards(); }
@@ -202,7 +211,7 @@ void check_boards(const Robot& robot, std::vector<Contradiction>& out) {
     const bool loop = board.cylinder && has_cylinder_joint(robot);
     const std::size_t joints = board.joints.size() + (loop ? 1 : 0);
     if (board.empty() && boards.size() > 1)
-      out.push_back({"board",
+      out.push_back({key_beyond(robot, static_cast<int>(i) + 1),
                      "a board " + std::to_string(boards.size()) + " and no board " + number,
                      "numbers from 1 on with none left out", "board = " + number});
     if (joints > static_cast<std::size_t>(board_joints))

@@ -161,7 +161,7 @@ TEST(Boards, SayWhatCannotBe) {
   Robot gap = machine(2);
   gap.joints[1].board = 3;
   EXPECT_EQ(first_wrong(gap),
-            "board: a board 3 and no board 2; numbers from 1 on with none left out");
+            "joint.joint1.board: a board 3 and no board 2; numbers from 1 on with none left out");
 
   Robot crowded = machine(8);
   for (int k = 0; k < 9; ++k) {
