@@ -42,7 +42,7 @@ Actuator full(std::mt19937_64& random) {
   return a;
 }
 
-TEST(Body, neutral_is_the_braid_to_the_bit) {
+TEST(Body, NeutralIsTheBraidToTheBit) {
   std::mt19937_64 random(1);
   const Actuator a = thesis_actuator();
   ASSERT_TRUE(is_plain(a));
@@ -57,7 +57,7 @@ TEST(Body, neutral_is_the_braid_to_the_bit) {
   EXPECT_EQ(shortest_length(a), shortest_length(a.braid));
 }
 
-TEST(Body, each_term_is_no_longer_plain) {
+TEST(Body, EachTermIsNoLongerPlain) {
   for (int term = 0; term < 8; ++term) {
     Actuator a = thesis_actuator();
     if (term == 0) a.effectiveness.threshold = 1;
@@ -72,7 +72,7 @@ TEST(Body, each_term_is_no_longer_plain) {
   }
 }
 
-TEST(Body, volume_is_that_inside_the_wall) {
+TEST(Body, VolumeIsThatInsideTheWall) {
   Actuator a = thesis_actuator();
   a.wall.thickness = 8e-4;
   a.caps.length = 0.005;
@@ -83,7 +83,7 @@ TEST(Body, volume_is_that_inside_the_wall) {
 }
 
 // [10] for the whole tube: caps and wall change the volume, and the tension with it.
-TEST(Body, tension_is_the_virtual_work_of_the_air_within) {
+TEST(Body, TensionIsTheVirtualWorkOfTheAirWithin) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 300; ++i) {
     Actuator a = full(random);
@@ -96,7 +96,7 @@ TEST(Body, tension_is_the_virtual_work_of_the_air_within) {
   }
 }
 
-TEST(Body, caps_move_the_braid_along) {
+TEST(Body, CapsMoveTheBraidAlong) {
   std::mt19937_64 random(3);
   const Actuator a = thesis_actuator();
   Actuator capped = a;
@@ -109,7 +109,7 @@ TEST(Body, caps_move_the_braid_along) {
   EXPECT_DOUBLE_EQ(shortest_length(capped), shortest_length(a) + 0.007);
 }
 
-TEST(Body, taper_ends_the_pull_at_a_longer_length) {
+TEST(Body, TaperEndsThePullAtALongerLength) {
   Actuator a = thesis_actuator();
   a.taper = {.gain = 1.25, .rest_length = 0.098};
   const double shortest = shortest_length(a), p = 4e5;
@@ -119,7 +119,7 @@ TEST(Body, taper_ends_the_pull_at_a_longer_length) {
                    braid_tension(thesis_actuator(), 0.098, p, atmosphere));
 }
 
-TEST(Body, threshold_takes_from_the_pressure_and_leaves_vacuum) {
+TEST(Body, ThresholdTakesFromThePressureAndLeavesVacuum) {
   Effectiveness e;
   e.threshold = 3e4;
   EXPECT_EQ(acting_pressure(e, 5e5), 4.7e5);
@@ -128,7 +128,7 @@ TEST(Body, threshold_takes_from_the_pressure_and_leaves_vacuum) {
   EXPECT_EQ(acting_pressure(e, -2e4), -2e4);
 }
 
-TEST(Bladder, slope_is_the_derivative) {
+TEST(Bladder, SlopeIsTheDerivative) {
   std::mt19937_64 random(4);
   for (int i = 0; i < 500; ++i) {
     Bladder b = full(random).bladder;
@@ -141,7 +141,7 @@ TEST(Bladder, slope_is_the_derivative) {
   }
 }
 
-TEST(Bladder, saturates_and_is_held_outside_its_lengths) {
+TEST(Bladder, SaturatesAndIsHeldOutsideItsLengths) {
   const Bladder b{.rest_length = 0.1,
                   .saturating_tension = 50,
                   .saturation_length = 0.002,
@@ -155,7 +155,7 @@ TEST(Bladder, saturates_and_is_held_outside_its_lengths) {
 }
 
 // Every term at once: both stiffnesses are slopes of the tension.
-TEST(Body, stiffness_is_the_slope_of_the_whole_tension) {
+TEST(Body, StiffnessIsTheSlopeOfTheWholeTension) {
   std::mt19937_64 random(5);
   for (int i = 0; i < 500; ++i) {
     Actuator a = full(random);
@@ -179,7 +179,7 @@ TEST(Body, stiffness_is_the_slope_of_the_whole_tension) {
 }
 
 // Whatever the parameters, within the lengths at which the braid pulls.
-TEST(Body, tension_grows_with_pressure) {
+TEST(Body, TensionGrowsWithPressure) {
   std::mt19937_64 random(6);
   for (int i = 0; i < 200; ++i) {
     Actuator a = full(random);

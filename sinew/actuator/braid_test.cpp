@@ -19,7 +19,7 @@ double any_length(std::mt19937_64& random) {
   return std::uniform_real_distribution<>(0.02, 0.106)(random);
 }
 
-TEST(Braid, volume_is_that_of_a_cylinder) {
+TEST(Braid, VolumeIsThatOfACylinder) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 100; ++i) {
     const double length = any_length(random);
@@ -29,7 +29,7 @@ TEST(Braid, volume_is_that_of_a_cylinder) {
   }
 }
 
-TEST(Braid, thread_is_as_long_as_its_helix) {
+TEST(Braid, ThreadIsAsLongAsItsHelix) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 100; ++i) {
     const double length = any_length(random);
@@ -39,7 +39,7 @@ TEST(Braid, thread_is_as_long_as_its_helix) {
   }
 }
 
-TEST(Braid, volume_slope_is_the_derivative) {
+TEST(Braid, VolumeSlopeIsTheDerivative) {
   std::mt19937_64 random(3);
   const double h = 1e-6;
   for (int i = 0; i < 100; ++i) {
@@ -49,7 +49,7 @@ TEST(Braid, volume_slope_is_the_derivative) {
   }
 }
 
-TEST(Braid, volume_is_largest_at_the_shortest_length) {
+TEST(Braid, VolumeIsLargestAtTheShortestLength) {
   const double shortest = shortest_length(braid);
   EXPECT_NEAR(volume_slope(braid, shortest), 0, 1e-18);
   EXPECT_NEAR(braid_angle(braid, shortest) * 180 / std::numbers::pi, 54.7356, 1e-4);
@@ -58,13 +58,13 @@ TEST(Braid, volume_is_largest_at_the_shortest_length) {
   }
 }
 
-TEST(Braid, has_no_volume_beyond_its_thread) {
+TEST(Braid, HasNoVolumeBeyondItsThread) {
   EXPECT_EQ(volume(braid, braid.thread_length), 0);
   EXPECT_EQ(volume(braid, 2 * braid.thread_length), 0);
   EXPECT_EQ(volume_slope(braid, 2 * braid.thread_length), 0);
 }
 
-TEST(Braid, does_not_depend_on_how_the_mesh_is_counted) {
+TEST(Braid, DoesNotDependOnHowTheMeshIsCounted) {
   // Finer mesh, same thread: twice as many trapezoids of half the side.
   const Braid coarse = braid_from_trapezoids(37, 16, 0.0014478);
   const Braid fine = braid_from_trapezoids(74, 32, 0.0007239);
@@ -73,7 +73,7 @@ TEST(Braid, does_not_depend_on_how_the_mesh_is_counted) {
 }
 
 // [10]: what the air does at constant gauge pressure, the tension takes up.
-TEST(Braid, ideal_tension_is_the_virtual_work_of_the_air) {
+TEST(Braid, IdealTensionIsTheVirtualWorkOfTheAir) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<> pressure(-1e5, 8e5);
   for (int i = 0; i < 1000; ++i) {
@@ -83,7 +83,7 @@ TEST(Braid, ideal_tension_is_the_virtual_work_of_the_air) {
 }
 
 // [13] = [22].
-TEST(Braid, tension_by_angle_and_by_length_agree) {
+TEST(Braid, TensionByAngleAndByLengthAgree) {
   std::mt19937_64 random(5);
   const double p = 4e5;
   for (int i = 0; i < 100; ++i) {
@@ -96,7 +96,7 @@ TEST(Braid, tension_by_angle_and_by_length_agree) {
 }
 
 // Work over a stroke is P times the change of volume.
-TEST(Braid, work_of_a_stroke_is_pressure_times_volume) {
+TEST(Braid, WorkOfAStrokeIsPressureTimesVolume) {
   const double p = 5e5, from = 0.065, to = 0.099;
   const int steps = 1000;
   double work = 0;

@@ -57,7 +57,7 @@ FieldVisitor leg() {
   return v;
 }
 
-TEST(ActuatorFields, fill_every_member) {
+TEST(ActuatorFields, FillEveryMember) {
   FieldVisitor v = leg();
   Actuator a;
   fields(v, a);
@@ -92,7 +92,7 @@ TEST(ActuatorFields, fill_every_member) {
   EXPECT_EQ(a.creep.time, (std::array{0.5, 10.0}));
 }
 
-TEST(ActuatorFields, ask_for_what_was_given_and_a_few_more) {
+TEST(ActuatorFields, AskForWhatWasGivenAndAFewMore) {
   FieldVisitor v = leg();
   Actuator a;
   fields(v, a);
@@ -106,7 +106,7 @@ TEST(ActuatorFields, ask_for_what_was_given_and_a_few_more) {
   for (const auto& [key, value] : v.words_given) EXPECT_TRUE(asked.count(key)) << key;
 }
 
-TEST(ActuatorFields, leave_the_defaults_where_nothing_is_given) {
+TEST(ActuatorFields, LeaveTheDefaultsWhereNothingIsGiven) {
   FieldVisitor v;
   Actuator a = thesis_actuator();
   fields(v, a);
@@ -116,7 +116,7 @@ TEST(ActuatorFields, leave_the_defaults_where_nothing_is_given) {
   EXPECT_TRUE(v.complaints.empty());
 }
 
-TEST(ActuatorFields, trapezoids_stand_for_thread_and_turns) {
+TEST(ActuatorFields, TrapezoidsStandForThreadAndTurns) {
   FieldVisitor v = leg();
   v.numbers_given.erase("braid.thread_length");
   v.numbers_given.erase("braid.turns");
@@ -136,7 +136,7 @@ std::vector<std::string> complaints(FieldVisitor v) {
   return v.complaints;
 }
 
-TEST(ActuatorFields, complain_about_what_does_not_go_together) {
+TEST(ActuatorFields, ComplainAboutWhatDoesNotGoTogether) {
   using Strings = std::vector<std::string>;
 
   FieldVisitor v = leg();
@@ -189,7 +189,7 @@ TEST(ActuatorFields, complain_about_what_does_not_go_together) {
   }
 }
 
-TEST(ActuatorFields, a_shorter_polynomial_ends_in_zeros) {
+TEST(ActuatorFields, AShorterPolynomialEndsInZeros) {
   FieldVisitor v = leg();
   v.numbers_given["effectiveness.polynomial"] = {0.95};
   Actuator a;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Surroundings around{thesis_atmosphere, 1.4, 1e-6};
 
-TEST(OperatingPoint, drawn_out_it_pulls_with_its_losses_and_contracting_without_them) {
+TEST(OperatingPoint, DrawnOutItPullsWithItsLossesAndContractingWithoutThem) {
   std::mt19937_64 random(3);
   const Actuator a = thesis_actuator();
   std::uniform_real_distribution<double> length(0.065, 0.095), gauge(2e5, 7e5), speed(1e-3, 0.3);
@@ -38,7 +38,7 @@ TEST(OperatingPoint, drawn_out_it_pulls_with_its_losses_and_contracting_without_
   }
 }
 
-TEST(OperatingPoint, says_where_the_model_ends_and_only_there) {
+TEST(OperatingPoint, SaysWhereTheModelEndsAndOnlyThere) {
   Actuator a = thesis_actuator();
   EXPECT_TRUE(operating_point(a, 0.085, 4e5, around).beyond.empty());
   EXPECT_EQ(operating_point(a, 0.99 * shortest_length(a), 4e5, around).beyond.size(), 1u);

@@ -31,7 +31,7 @@ const json& reference() {
 double printed(const std::string& name) { return reference()["constants"][name]["value"]; }
 double si(const std::string& name) { return reference()["constants"][name]["si"]; }
 
-TEST(ReferenceActuator, constants_are_their_printed_values_in_si) {
+TEST(ReferenceActuator, ConstantsAreTheirPrintedValuesInSi) {
   const double lbf_per_in = pound_force / inch;
   EXPECT_DOUBLE_EQ(si("trapezoid_side"), printed("trapezoid_side") * inch);
   EXPECT_DOUBLE_EQ(si("L_max"), printed("L_max") * inch);
@@ -50,7 +50,7 @@ TEST(ReferenceActuator, constants_are_their_printed_values_in_si) {
   EXPECT_DOUBLE_EQ(eff["si"][2].get<double>(), eff["value"][2].get<double>());
 }
 
-TEST(ReferenceActuator, ready_made_actuator_has_these_constants) {
+TEST(ReferenceActuator, ReadyMadeActuatorHasTheseConstants) {
   const Actuator a = thesis_actuator();
   EXPECT_DOUBLE_EQ(thesis_atmosphere, si("P_atm"));
   EXPECT_DOUBLE_EQ(a.braid.thread_length, si("b_thread"));
@@ -66,7 +66,7 @@ TEST(ReferenceActuator, ready_made_actuator_has_these_constants) {
   EXPECT_DOUBLE_EQ(a.effectiveness.c0, eff[2].get<double>());
 }
 
-TEST(ReferenceActuator, braid_follows_from_the_mesh) {
+TEST(ReferenceActuator, BraidFollowsFromTheMesh) {
   const Braid braid = braid_from_trapezoids(
       si("trapezoids_lengthwise_A"), si("trapezoids_circumferential_B"), si("trapezoid_side"));
   EXPECT_NEAR(braid.thread_length, si("b_thread"), 1e-15);
@@ -83,7 +83,7 @@ TEST(ReferenceActuator, braid_follows_from_the_mesh) {
 }
 
 // All rows, to the four decimals printed there.
-TEST(ReferenceActuator, figure_2_6) {
+TEST(ReferenceActuator, Figure26) {
   const Braid braid = thesis_actuator().braid;
   int points = 0;
   for (const auto& [length_text, row] : reference()["fig_2_6"]["rows"].items()) {
@@ -101,7 +101,7 @@ TEST(ReferenceActuator, figure_2_6) {
   EXPECT_EQ(points, 180);
 }
 
-TEST(ReferenceActuator, effectiveness_by_gauge_and_by_absolute_pressure) {
+TEST(ReferenceActuator, EffectivenessByGaugeAndByAbsolutePressure) {
   Effectiveness gauge = thesis_actuator().effectiveness;
   Effectiveness absolute = gauge;
   absolute.argument = Effectiveness::Argument::absolute;
@@ -114,7 +114,7 @@ TEST(ReferenceActuator, effectiveness_by_gauge_and_by_absolute_pressure) {
 }
 
 // 4.2: "about 15 lb", and what two of them reach at full length.
-TEST(ReferenceActuator, greatest_tension) {
+TEST(ReferenceActuator, GreatestTension) {
   const Actuator a = thesis_actuator();
   const double gauge = 100 * psi;
   const double middle = tension(a, si("free_length"), 0, gauge, atmosphere) / pound_force;
@@ -137,7 +137,7 @@ double hanging_length(const Actuator& a, double load, double gauge) {
 
 // Section 3.4, air trapped: the "nominal pressure" is the gauge pressure with the load at rest, so
 // neither the air's exponent nor the external volume decides where it hangs.
-TEST(ReferenceActuator, equilibria_of_the_trapped_air_tests) {
+TEST(ReferenceActuator, EquilibriaOfTheTrappedAirTests) {
   struct Setup {
     const char* name;
     double pressure, load;
@@ -155,7 +155,7 @@ TEST(ReferenceActuator, equilibria_of_the_trapped_air_tests) {
 }
 
 // docs/departures.md on [33] with [45]: secant over sealed stiffness at these equilibria.
-TEST(ReferenceActuator, secant_is_well_below_the_sealed_stiffness) {
+TEST(ReferenceActuator, SecantIsWellBelowTheSealedStiffness) {
   const double pressure[] = {60, 80, 60}, load[] = {6, 11, 11}, ratio[] = {.82, .74, .62};
   for (int i = 0; i < 3; ++i) {
     const Actuator a = thesis_actuator();

@@ -43,7 +43,7 @@ double trapped(const Braid& braid, const Point& at, double length) {
   return at.pressure * std::pow(ratio, at.exponent);
 }
 
-TEST(Stiffness, at_constant_pressure_is_the_slope_of_tension) {
+TEST(Stiffness, AtConstantPressureIsTheSlopeOfTension) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 500; ++i) {
     const Actuator a = some_actuator(i % 2);
@@ -56,7 +56,7 @@ TEST(Stiffness, at_constant_pressure_is_the_slope_of_tension) {
   }
 }
 
-TEST(Stiffness, sealed_is_the_slope_of_tension_with_the_air_trapped) {
+TEST(Stiffness, SealedIsTheSlopeOfTensionWithTheAirTrapped) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 500; ++i) {
     const Actuator a = some_actuator(i % 2);
@@ -73,7 +73,7 @@ TEST(Stiffness, sealed_is_the_slope_of_tension_with_the_air_trapped) {
   }
 }
 
-TEST(Stiffness, sealed_pressure_slope_is_that_of_trapped_air) {
+TEST(Stiffness, SealedPressureSlopeIsThatOfTrappedAir) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 200; ++i) {
     const Braid braid = thesis_actuator().braid;
@@ -86,7 +86,7 @@ TEST(Stiffness, sealed_pressure_slope_is_that_of_trapped_air) {
   }
 }
 
-TEST(Stiffness, sealed_exceeds_constant_pressure_by_a_square) {
+TEST(Stiffness, SealedExceedsConstantPressureByASquare) {
   // F = -P_g V' Eff: with Eff held, the difference is n P Eff V'^2/(V + V_ext), never negative.
   std::mt19937_64 random(4);
   for (int i = 0; i < 500; ++i) {
@@ -104,7 +104,7 @@ TEST(Stiffness, sealed_exceeds_constant_pressure_by_a_square) {
   }
 }
 
-TEST(Stiffness, both_agree_at_the_shortest_length_and_with_endless_volume) {
+TEST(Stiffness, BothAgreeAtTheShortestLengthAndWithEndlessVolume) {
   const Actuator a = some_actuator(false);
   const double p = 5e5, shortest = shortest_length(a.braid);
   EXPECT_NEAR(stiffness_sealed(a, shortest, p, atmosphere, 0, 1.4),
@@ -114,7 +114,7 @@ TEST(Stiffness, both_agree_at_the_shortest_length_and_with_endless_volume) {
 }
 
 // docs/departures.md, [25]: adiabatic, without Eff, hoses of both set-ups of chapter 3.
-TEST(Stiffness, sealed_is_1_23_to_1_85_of_the_thesis_stiffness) {
+TEST(Stiffness, SealedIs123To185OfTheThesisStiffness) {
   Actuator a = thesis_actuator();
   a.effectiveness = {};
   const auto ratio = [&](double length_in, double external_in3) {
@@ -127,7 +127,7 @@ TEST(Stiffness, sealed_is_1_23_to_1_85_of_the_thesis_stiffness) {
   EXPECT_NEAR(ratio(3.40, 0.114), 1.85, 0.006);
 }
 
-TEST(Stiffness, from_tension_is_that_of_the_pressure_whatever_the_effectiveness) {
+TEST(Stiffness, FromTensionIsThatOfThePressureWhateverTheEffectiveness) {
   std::mt19937_64 random(5);
   for (int i = 0; i < 500; ++i) {
     const Actuator a = some_actuator(i % 2);
@@ -140,7 +140,7 @@ TEST(Stiffness, from_tension_is_that_of_the_pressure_whatever_the_effectiveness)
   }
 }
 
-TEST(Stiffness, from_tension_has_a_pole_at_the_shortest_length) {
+TEST(Stiffness, FromTensionHasAPoleAtTheShortestLength) {
   const Braid braid = thesis_actuator().braid;
   const double shortest = shortest_length(braid), tension = 20;
 
@@ -154,7 +154,7 @@ TEST(Stiffness, from_tension_has_a_pole_at_the_shortest_length) {
                    2 * stiffness_from_tension(braid, 0.08, tension));
 }
 
-TEST(Stiffness, passive_part_completes_the_slope) {
+TEST(Stiffness, PassivePartCompletesTheSlope) {
   Actuator a = thesis_actuator();
   a.bladder = {.stiffness = 364, .rest_length = 0.08};
   const double p = 3e5, h = 1e-6;
@@ -166,7 +166,7 @@ TEST(Stiffness, passive_part_completes_the_slope) {
   }
 }
 
-TEST(Stiffness, scales_with_length_and_pressure) {
+TEST(Stiffness, ScalesWithLengthAndPressure) {
   const double k = 2.5, p = 3;
   Actuator a = thesis_actuator();
   a.effectiveness = {.scale = 0.9};
@@ -183,7 +183,7 @@ TEST(Stiffness, scales_with_length_and_pressure) {
   }
 }
 
-TEST(Bundle, is_that_many_single_actuators) {
+TEST(Bundle, IsThatManySingleActuators) {
   std::mt19937_64 random(7);
   for (int count : {1, 2, 5}) {
     const Point at = any_point(random);

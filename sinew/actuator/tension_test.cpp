@@ -15,13 +15,13 @@ namespace {
 
 const double atmosphere = thesis_atmosphere;
 
-TEST(Effectiveness, is_held_outside_the_fitted_pressures) {
+TEST(Effectiveness, IsHeldOutsideTheFittedPressures) {
   const Effectiveness e = thesis_actuator().effectiveness;
   EXPECT_EQ(effectiveness(e, -5e4, atmosphere), e.c0);
   EXPECT_EQ(effectiveness(e, 2e6, atmosphere), effectiveness(e, e.valid_to, atmosphere));
 }
 
-TEST(Effectiveness, absolute_argument_is_the_gauge_one_shifted) {
+TEST(Effectiveness, AbsoluteArgumentIsTheGaugeOneShifted) {
   Effectiveness gauge = thesis_actuator().effectiveness;
   Effectiveness absolute = gauge;
   absolute.argument = Effectiveness::Argument::absolute;
@@ -31,21 +31,21 @@ TEST(Effectiveness, absolute_argument_is_the_gauge_one_shifted) {
   }
 }
 
-TEST(Effectiveness, scale_is_a_factor) {
+TEST(Effectiveness, ScaleIsAFactor) {
   Effectiveness e = thesis_actuator().effectiveness;
   const double whole = effectiveness(e, 4e5, atmosphere);
   e.scale = 0.9;
   EXPECT_DOUBLE_EQ(effectiveness(e, 4e5, atmosphere), 0.9 * whole);
 }
 
-TEST(Tension, vacuum_pushes) {
+TEST(Tension, VacuumPushes) {
   const Actuator a = thesis_actuator();
   EXPECT_LT(tension(a, 0.08, 0, -3e4, atmosphere), 0);
   EXPECT_GT(tension(a, 0.08, 0, 3e4, atmosphere), 0);
   EXPECT_EQ(tension(a, 0.08, 0, 0, atmosphere), 0);
 }
 
-TEST(Tension, is_continuous_at_both_ends) {
+TEST(Tension, IsContinuousAtBothEnds) {
   const Actuator a = thesis_actuator();
   for (double end : {shortest_length(a.braid), a.long_end.length}) {
     const double below = tension(a, end - 1e-10, 0, 6e5, atmosphere);
@@ -54,7 +54,7 @@ TEST(Tension, is_continuous_at_both_ends) {
   }
 }
 
-TEST(Tension, long_end_is_a_spring_and_damper_in_parallel) {
+TEST(Tension, LongEndIsASpringAndDamperInParallel) {
   const Actuator a = thesis_actuator();
   const double beyond = a.long_end.length + 1e-3, v = 0.2;
   const double rest =
@@ -64,7 +64,7 @@ TEST(Tension, long_end_is_a_spring_and_damper_in_parallel) {
               rest + a.long_end.stiffness * 1e-3 + a.long_end.damping * v, 1e-9);
 }
 
-TEST(Tension, short_end_stops_or_lets_go) {
+TEST(Tension, ShortEndStopsOrLetsGo) {
   Actuator a = thesis_actuator();
   const double below = shortest_length(a.braid) - 1e-3;
   const double braid_alone =
@@ -78,7 +78,7 @@ TEST(Tension, short_end_stops_or_lets_go) {
 }
 
 // Appendix A's commented line: 5 F + 10 F_damping, F with the damping in it.
-TEST(Tension, empirical_short_end_is_appendix_As_other_line) {
+TEST(Tension, EmpiricalShortEndIsAppendixAsOtherLine) {
   Actuator a = thesis_actuator();
   Actuator open = a;  // as if there were no end
   a.short_end = {.law = ShortEnd::Law::empirical};
@@ -95,7 +95,7 @@ TEST(Tension, empirical_short_end_is_appendix_As_other_line) {
   }
 }
 
-TEST(Tension, losses_take_power_away) {
+TEST(Tension, LossesTakePowerAway) {
   Actuator a = thesis_actuator();
   a.bladder = {.stiffness = 300, .rest_length = 0.08};
   std::mt19937_64 random(1);
@@ -108,7 +108,7 @@ TEST(Tension, losses_take_power_away) {
 }
 
 // Lengths times k, pressures times p: forces go as p k^2.
-TEST(Tension, scales_with_length_squared_and_pressure) {
+TEST(Tension, ScalesWithLengthSquaredAndPressure) {
   const double k = 2.5, p = 3;
   const Actuator a = thesis_actuator();
   Actuator big = a;
@@ -132,7 +132,7 @@ TEST(Tension, scales_with_length_squared_and_pressure) {
   }
 }
 
-TEST(Loss, secant_is_tension_over_what_is_left_to_contract) {
+TEST(Loss, SecantIsTensionOverWhatIsLeftToContract) {
   const Actuator a = thesis_actuator();
   std::mt19937_64 random(3);
   std::uniform_real_distribution<> length(0.065, 0.099), pressure(0, 7e5);
@@ -145,7 +145,7 @@ TEST(Loss, secant_is_tension_over_what_is_left_to_contract) {
   }
 }
 
-TEST(Loss, secant_is_finite_where_the_thesis_has_0_over_0) {
+TEST(Loss, SecantIsFiniteWhereTheThesisHas0Over0) {
   const Actuator a = thesis_actuator();
   const double shortest = shortest_length(a.braid), p = 4e5;
   // Secant and tangent meet there.
@@ -155,7 +155,7 @@ TEST(Loss, secant_is_finite_where_the_thesis_has_0_over_0) {
       1e-9);
 }
 
-TEST(Loss, bound_follows_its_scale_and_is_never_negative) {
+TEST(Loss, BoundFollowsItsScaleAndIsNeverNegative) {
   Actuator a = thesis_actuator();
   const double l = 0.08, p = 4e5, sealed = 5000;
   const double q = a.loss.coulomb_length;
@@ -170,7 +170,7 @@ TEST(Loss, bound_follows_its_scale_and_is_never_negative) {
 }
 
 // [33]: losses take from what moves, and the tension at rest lies halfway between in and out.
-TEST(SlidingTension, loses_both_ways_and_only_while_it_moves) {
+TEST(SlidingTension, LosesBothWaysAndOnlyWhileItMoves) {
   const Actuator a = thesis_actuator();
   std::mt19937 random(33);
   std::uniform_real_distribution<double> lengths(0.064, 0.095), pressures(1e5, 6e5), speeds(0, 1);

@@ -63,7 +63,7 @@ bool contains(const std::string& text, std::string_view part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST_F(Compose, an_experiment_holds_its_robot_and_the_robots_files) {
+TEST_F(Compose, AnExperimentHoldsItsRobotAndTheRobotsFiles) {
   const Node root = compose(path("tests/walk.toml"));
   EXPECT_EQ(format_kind(root), "experiment");
   EXPECT_TRUE(root.find("format")->used);
@@ -80,14 +80,14 @@ TEST_F(Compose, an_experiment_holds_its_robot_and_the_robots_files) {
   EXPECT_EQ(at(root, "actuator.bpa.braid.turns")->where.file, path("leg/actuator.toml"));
 }
 
-TEST_F(Compose, robot_actuator_and_valves_files_compose_alone) {
+TEST_F(Compose, RobotActuatorAndValvesFilesComposeAlone) {
   EXPECT_EQ(at(compose(path("leg/robot.toml")), "actuator.bpa.braid.turns")->integer, 2);
   EXPECT_EQ(at(compose(path("leg/robot.toml")), "robot_name")->text, "leg");
   EXPECT_EQ(at(compose(path("leg/actuator.toml")), "actuator.bpa.braid.turns")->integer, 2);
   EXPECT_EQ(at(compose(path("leg/valves.toml")), "valve.inlet.kind")->text, "2-way");
 }
 
-TEST_F(Compose, several_actuators_stand_side_by_side) {
+TEST_F(Compose, SeveralActuatorsStandSideBySide) {
   write("leg/thin.toml", "format = \"sinew.actuator/1\"\n[braid]\nturns = 3\n");
   write("leg/two.toml",
         "format = \"sinew.robot/1\"\nfiles = { actuator = [\"actuator.toml\", \"thin.toml\"] }\n");
@@ -99,7 +99,7 @@ TEST_F(Compose, several_actuators_stand_side_by_side) {
   EXPECT_TRUE(contains(message("leg/two.toml"), "found \"bpa\"; expected a name that"));
 }
 
-TEST_F(Compose, a_base_lies_under_the_file) {
+TEST_F(Compose, ABaseLiesUnderTheFile) {
   write("heavy/robot.toml",
         "format = \"sinew.robot/1\"\nname = \"heavy\"\nbase = \"../leg/robot.toml\"\n"
         "[joint.hip]\ndamping = \"2 N m s/rad\"\n");
@@ -111,7 +111,7 @@ TEST_F(Compose, a_base_lies_under_the_file) {
   EXPECT_EQ(at(root, "actuator.bpa.braid.turns")->integer, 2);
 }
 
-TEST_F(Compose, a_base_has_no_base) {
+TEST_F(Compose, ABaseHasNoBase) {
   write("a.toml", "format = \"sinew.robot/1\"\n");
   write("b.toml", "format = \"sinew.robot/1\"\nbase = \"a.toml\"\n");
   write("c.toml", "format = \"sinew.robot/1\"\nbase = \"b.toml\"\n");
@@ -121,7 +121,7 @@ TEST_F(Compose, a_base_has_no_base) {
   EXPECT_TRUE(contains(message("d.toml"), "expected a file of kind experiment"));
 }
 
-TEST_F(Compose, an_experiment_may_change_its_robot) {
+TEST_F(Compose, AnExperimentMayChangeItsRobot) {
   write("tests/derived.toml",
         "format = \"sinew.experiment/1\"\nbase = \"walk.toml\"\nseed = 2\n"
         "[muscle.hip_flexor]\nmount_length = \"3.1 in\"\n");
@@ -131,13 +131,13 @@ TEST_F(Compose, an_experiment_may_change_its_robot) {
   EXPECT_EQ(at(root, "phase.swing.duration")->text, "1.5 s");
 }
 
-TEST_F(Compose, a_resolved_file_composes_as_it_is) {
+TEST_F(Compose, AResolvedFileComposesAsItIs) {
   write("resolved.toml",
         "format = \"sinew.experiment/1\"\nrobot_name = \"leg\"\n[actuator.bpa.braid]\nturns = 2\n");
   EXPECT_EQ(at(compose(path("resolved.toml")), "actuator.bpa.braid.turns")->integer, 2);
 }
 
-TEST_F(Compose, set_has_the_last_word_and_its_own_type) {
+TEST_F(Compose, SetHasTheLastWordAndItsOwnType) {
   const Node root =
       compose(path("tests/walk.toml"),
               {"muscle.hip_flexor.mount_length=3.2 in", "seed = 3", "log.enabled=false",
@@ -151,7 +151,7 @@ TEST_F(Compose, set_has_the_last_word_and_its_own_type) {
   EXPECT_EQ(root.find("title")->kind, Node::Kind::text);
 }
 
-TEST_F(Compose, set_can_name_another_robot) {
+TEST_F(Compose, SetCanNameAnotherRobot) {
   write("other/robot.toml", "format = \"sinew.robot/1\"\nname = \"other\"\n[joint.hip]\nx = 1\n");
   const Node root =
       compose(path("tests/walk.toml"), {"joint.hip.x=2", "robot=" + path("other/robot.toml")});
@@ -159,7 +159,7 @@ TEST_F(Compose, set_can_name_another_robot) {
   EXPECT_EQ(at(root, "joint.hip.x")->integer, 2);
 }
 
-TEST_F(Compose, set_reports_slips) {
+TEST_F(Compose, SetReportsSlips) {
   EXPECT_EQ(message("tests/walk.toml", {"seed"}),
             "--set: found \"seed\"; expected key=value; try "
             "\"muscle.hip_flexor.mount_length=3.2 in\"");
@@ -172,7 +172,7 @@ TEST_F(Compose, set_reports_slips) {
   EXPECT_NE(message("tests/walk.toml", {"a=[1"}), "no error");
 }
 
-TEST_F(Compose, the_format_line_is_checked) {
+TEST_F(Compose, TheFormatLineIsChecked) {
   write("x.toml", "seed = 1\n");
   EXPECT_TRUE(contains(message("x.toml"), "x.toml:1:1: format: found nothing; expected \"sinew."));
   write("x.toml", "format = \"sinew.robt/1\"\n");
@@ -188,7 +188,7 @@ TEST_F(Compose, the_format_line_is_checked) {
   }
 }
 
-TEST_F(Compose, a_named_file_must_exist_and_be_of_its_kind) {
+TEST_F(Compose, ANamedFileMustExistAndBeOfItsKind) {
   write("x.toml", "format = \"sinew.experiment/1\"\nrobot = \"nowhere.toml\"\n");
   EXPECT_EQ(message("x.toml"), path("x.toml") +
                                    ":2:1: robot: found \"nowhere.toml\"; expected a file that "
@@ -202,7 +202,7 @@ TEST_F(Compose, a_named_file_must_exist_and_be_of_its_kind) {
   EXPECT_TRUE(contains(message("x.toml"), "files: found 3; expected a table"));
 }
 
-TEST(ComposeLeg, the_shipped_files_compose) {
+TEST(ComposeLeg, TheShippedFilesCompose) {
   const fs::path source = SINEW_SOURCE_DIR;
   int composed = 0;
   for (const char* folder : {"robots", "experiments"}) {

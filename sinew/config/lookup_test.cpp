@@ -9,7 +9,7 @@
 namespace sinew::config {
 namespace {
 
-TEST(ValueAt, finds_tables_values_and_places_of_lists_and_nothing_else) {
+TEST(ValueAt, FindsTablesValuesAndPlacesOfListsAndNothingElse) {
   const Node root = parse_text(
       "[joint.hip]\ndamping = \"1 N m s/rad\"\n[[reported]]\naccept = [\"1 m\", \"2 m\"]\n", "t");
   ASSERT_TRUE(value_at(root, "joint.hip.damping"));
@@ -26,7 +26,7 @@ struct Item {
   std::string name;
 };
 
-TEST(Named, the_only_item_needs_no_name_and_a_slip_is_told) {
+TEST(Named, TheOnlyItemNeedsNoNameAndASlipIsTold) {
   const std::vector<Item> one{{"inlet"}}, two{{"inlet"}, {"exhaust"}};
   EXPECT_EQ(&named(one, "", "file", "valve"), &one[0]);
   EXPECT_EQ(&named(two, "exhaust", "file", "valve"), &two[1]);

@@ -15,7 +15,7 @@ std::string message(std::string_view toml) {
   return "no error";
 }
 
-TEST(Node, keeps_order_kind_and_place) {
+TEST(Node, KeepsOrderKindAndPlace) {
   const Node root = parse_text(
       "zebra = 1\napple = \"two\"\n[muscle.b]\nx = 0.5\n[muscle.a]\ny = true\n", "file.toml");
   EXPECT_EQ(keys_of(root), (std::vector<std::string_view>{"zebra", "apple", "muscle"}));
@@ -30,7 +30,7 @@ TEST(Node, keeps_order_kind_and_place) {
   EXPECT_FALSE(x.used);
 }
 
-TEST(Node, lists_have_no_keys) {
+TEST(Node, ListsHaveNoKeys) {
   const Node root = parse_text("range = [\"1 in\", 2, [true]]", "file.toml");
   const Node& range = *root.find("range");
   ASSERT_EQ(range.children.size(), 3u);
@@ -38,33 +38,33 @@ TEST(Node, lists_have_no_keys) {
   EXPECT_EQ(range.find(""), nullptr);
 }
 
-TEST(Node, a_syntax_error_has_a_place) {
+TEST(Node, ASyntaxErrorHasAPlace) {
   const std::string text = message("a = 1\nb = [1, 2\n");
   EXPECT_EQ(text.substr(0, 10), "file.toml:");
   EXPECT_NE(text.find("found a syntax error"), std::string::npos);
   EXPECT_NE(text.find("; expected TOML"), std::string::npos);
 }
 
-TEST(Node, a_quantity_without_quotes_gets_the_hint) {
+TEST(Node, AQuantityWithoutQuotesGetsTheHint) {
   const std::string said = message("mount_length = 7.2 mm  # of the hip\n");
   EXPECT_NE(said.find("try quotes around a quantity: mount_length = \"7.2 mm\""), std::string::npos)
       << said;
 }
 
-TEST(Node, a_number_that_nothing_holds_is_no_quantity_without_quotes) {
+TEST(Node, ANumberThatNothingHoldsIsNoQuantityWithoutQuotes) {
   for (const char* number : {"9223372036854775808", "-9223372036854775809", "1e400"}) {
     const std::string said = message("seed = " + std::string(number) + "\n");
     EXPECT_NE(said.find("try a number of another size"), std::string::npos) << said;
   }
 }
 
-TEST(Node, a_key_given_twice_is_an_error) { EXPECT_NE(message("a = 1\na = 2\n"), "no error"); }
+TEST(Node, AKeyGivenTwiceIsAnError) { EXPECT_NE(message("a = 1\na = 2\n"), "no error"); }
 
-TEST(Node, a_date_is_an_error) {
+TEST(Node, ADateIsAnError) {
   EXPECT_NE(message("a = 2000-05-01\n").find("found a date"), std::string::npos);
 }
 
-TEST(Node, a_missing_file_is_an_error) {
+TEST(Node, AMissingFileIsAnError) {
   try {
     parse_file("no/such/file.toml");
     FAIL();
@@ -73,7 +73,7 @@ TEST(Node, a_missing_file_is_an_error) {
   }
 }
 
-TEST(Node, merging_goes_into_tables_and_replaces_values) {
+TEST(Node, MergingGoesIntoTablesAndReplacesValues) {
   Node base = parse_text("[t]\na = 1\nb = { value = \"1 m\", source = \"old\" }\n", "base.toml");
   merge(base, parse_text("[t]\nb = { value = \"2 m\" }\nc = 3\n", "own.toml"));
   const Node& t = *base.find("t");
@@ -82,7 +82,7 @@ TEST(Node, merging_goes_into_tables_and_replaces_values) {
   EXPECT_EQ(t.find("b")->where.file, "own.toml");
 }
 
-TEST(Diagnostics, a_problem_is_one_line) {
+TEST(Diagnostics, AProblemIsOneLine) {
   Problem problem;
   problem.where = {"a.toml", 3, 7};
   problem.key = "x.y";
@@ -94,12 +94,12 @@ TEST(Diagnostics, a_problem_is_one_line) {
 }
 
 // A file may hold what moves a terminal's cursor.
-TEST(Diagnostics, bytes_that_are_no_text_are_shown_as_numbers) {
+TEST(Diagnostics, BytesThatAreNoTextAreShownAsNumbers) {
   const Problem problem{{"a.toml", 1, 1}, "x", in_quotes("1\n2\x1b[31m\x7f"), "a number"};
   EXPECT_EQ(to_text(problem), "a.toml:1:1: x: found \"1\\x0A2\\x1B[31m\\x7F\"; expected a number");
 }
 
-TEST(Diagnostics, suggests_only_what_is_near) {
+TEST(Diagnostics, SuggestsOnlyWhatIsNear) {
   EXPECT_EQ(closest("mount_lenght", {"mount_length", "moment_arm"}), "mount_length");
   EXPECT_EQ(closest("hip_flexr", {"hip_flexor", "knee_flexor"}), "hip_flexor");
   EXPECT_EQ(closest("x", {"y"}), "");

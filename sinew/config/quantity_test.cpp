@@ -25,7 +25,7 @@ std::string message(std::string_view text, std::string_view unit) {
   return "no error";
 }
 
-TEST(Quantity, reads_what_the_leg_files_write) {
+TEST(Quantity, ReadsWhatTheLegFilesWrite) {
   EXPECT_EQ(read("3.250 in", "m"), 3.25_in);
   EXPECT_EQ(read("5.724e-6 ft2", "m2"), 5.724e-6_ft2);
   EXPECT_EQ(read("0.240 in3", "m3"), 0.24_in3);
@@ -42,7 +42,7 @@ TEST(Quantity, reads_what_the_leg_files_write) {
   EXPECT_EQ(read(" +3mm ", "m"), 0.003);
 }
 
-TEST(Quantity, gauge_and_absolute_convert_with_the_atmosphere) {
+TEST(Quantity, GaugeAndAbsoluteConvertWithTheAtmosphere) {
   EXPECT_EQ(read("62 psi gauge", "Pa abs"), 62.0_psi + units::atmosphere);
   EXPECT_EQ(read("14.7 psi abs", "Pa abs"), units::atmosphere);
   EXPECT_DOUBLE_EQ(read("14.7 psi abs", "Pa gauge"), 0);
@@ -50,7 +50,7 @@ TEST(Quantity, gauge_and_absolute_convert_with_the_atmosphere) {
   EXPECT_EQ(read("2 psi diff", "Pa diff"), 2.0_psi);
 }
 
-TEST(Quantity, a_pressure_without_its_reference_is_refused) {
+TEST(Quantity, APressureWithoutItsReferenceIsRefused) {
   EXPECT_EQ(message("62 psi", "Pa abs"),
             "text: key: found \"62 psi\", a pressure without its reference; expected Pa abs "
             "(pressure); try \"62 psi gauge\" or \"62 psi abs\"");
@@ -60,7 +60,7 @@ TEST(Quantity, a_pressure_without_its_reference_is_refused) {
   EXPECT_NE(message("3 in abs", "m").find("try \"3 in\""), std::string::npos);
 }
 
-TEST(Quantity, mass_is_not_force) {
+TEST(Quantity, MassIsNotForce) {
   EXPECT_EQ(message("2 lb", "N"),
             "text: key: found \"2 lb\", kg (mass); expected N (force); "
             "try lbf: lb is mass, lbf is force");
@@ -70,13 +70,13 @@ TEST(Quantity, mass_is_not_force) {
   EXPECT_NE(message("35 lb in/rad", "N m/rad").find("try lbf"), std::string::npos);
 }
 
-TEST(Quantity, an_angle_is_a_dimension) {
+TEST(Quantity, AnAngleIsADimension) {
   EXPECT_EQ(message("35 lbf in", "N m/rad"),
             "text: key: found \"35 lbf in\", N m (torque or energy); expected N m/rad (joint "
             "stiffness); try \"lbf in/rad\" or \"N m/rad\": rad counts as a dimension here");
 }
 
-TEST(Quantity, other_mistakes_say_what_to_do) {
+TEST(Quantity, OtherMistakesSayWhatToDo) {
   EXPECT_EQ(message("3.15", "m"),
             "text: key: found 3.15 without a unit; expected m (length); try \"3.15 in\" or "
             "\"3.15 m\"");
@@ -95,7 +95,7 @@ TEST(Quantity, other_mistakes_say_what_to_do) {
 
 // What a hint proposes is read, and what stood there decides its unit: 0.07 behind 0.035 %/count is
 // no 0.07 1/count, which is a hundred times as much.
-TEST(Quantity, the_unit_that_is_proposed_is_the_one_that_was_meant) {
+TEST(Quantity, TheUnitThatIsProposedIsTheOneThatWasMeant) {
   const auto hint = [](const char* unit, const char* before) {
     return parse_quantity("0.07", unit, units::atmosphere, before).mistake->try_this;
   };
@@ -107,7 +107,7 @@ TEST(Quantity, the_unit_that_is_proposed_is_the_one_that_was_meant) {
   EXPECT_EQ(hint("m", "not set"), "\"0.07 in\" or \"0.07 m\"");
 }
 
-TEST(Quantity, every_usual_unit_is_read_as_the_fields_own) {
+TEST(Quantity, EveryUsualUnitIsReadAsTheFieldsOwn) {
   for (const char* unit : {"m",       "s",        "N/m",         "rad",
                            "N s/m",   "kg",       "Pa diff",     "Pa abs",
                            "N",       "m3",       "count",       "1/count",
@@ -128,7 +128,7 @@ TEST(Quantity, every_usual_unit_is_read_as_the_fields_own) {
   }
 }
 
-TEST(Quantity, hints_of_other_slips_are_read_too) {
+TEST(Quantity, HintsOfOtherSlipsAreReadToo) {
   EXPECT_NE(message("60 psig", "Pa abs").find("try \"psi gauge\""), std::string::npos);
   EXPECT_NE(message("60 bara", "Pa abs").find("try \"bar abs\""), std::string::npos);
   EXPECT_NE(message("1,000 Pa abs", "Pa abs").find("\"1.000 Pa abs\"; or \"1000 Pa abs\""),
@@ -136,7 +136,7 @@ TEST(Quantity, hints_of_other_slips_are_read_too) {
   EXPECT_NE(message("2 kg", "N").find("try N: kg and g are mass"), std::string::npos);
 }
 
-TEST(Quantity, is_finite) {
+TEST(Quantity, IsFinite) {
   EXPECT_EQ(message("nan m", "m"),
             "text: key: found \"nan m\"; expected a finite number of m (length)");
   EXPECT_NE(message("inf", "1").find("a finite number"), std::string::npos);
@@ -144,11 +144,11 @@ TEST(Quantity, is_finite) {
     EXPECT_NE(message(text, "m").find("from 1e-307 to 1e308, or 0"), std::string::npos) << text;
 }
 
-TEST(Quantity, a_wrong_unit_in_a_field_is_our_bug) {
+TEST(Quantity, AWrongUnitInAFieldIsOurBug) {
   EXPECT_THROW(parse_quantity("1 m", "metre"), std::logic_error);
 }
 
-TEST(Quantity, printing_and_reading_bring_back_the_same_bits) {
+TEST(Quantity, PrintingAndReadingBringBackTheSameBits) {
   std::mt19937_64 random(17);
   std::uniform_real_distribution<double> mantissa(-10, 10);
   std::uniform_int_distribution<int> exponent(-12, 12);
@@ -161,14 +161,14 @@ TEST(Quantity, printing_and_reading_bring_back_the_same_bits) {
   EXPECT_TRUE(std::signbit(read(format_quantity(-0.0, "m"), "m")));
 }
 
-TEST(Quantity, shows_in_the_unit_a_person_wants) {
+TEST(Quantity, ShowsInTheUnitAPersonWants) {
   EXPECT_EQ(format_quantity(3.15_in, "m", "in"), "3.15 in");
   EXPECT_EQ(format_quantity(62.0_psi + units::atmosphere, "Pa abs", "psi gauge"), "62 psi gauge");
   EXPECT_EQ(format_quantity(0.94, "1", "%"), "94 %");
   EXPECT_THROW(convert(1, "m", "s"), std::logic_error);
 }
 
-TEST(Quantity, coefficients_of_a_polynomial_have_falling_units) {
+TEST(Quantity, CoefficientsOfAPolynomialHaveFallingUnits) {
   EXPECT_EQ(coefficient_unit("1", "Pa", 0), "1");
   EXPECT_EQ(coefficient_unit("1", "Pa", 2), "1/Pa2");
   EXPECT_EQ(coefficient_unit("m", "m", 0), "m");

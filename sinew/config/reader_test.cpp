@@ -87,7 +87,7 @@ bool contains(const std::string& text, std::string_view part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(Reader, fills_a_struct) {
+TEST(Reader, FillsAStruct) {
   const Reading r(R"(
 length = "3.15 in"
 stiffness = { value = "500 lbf/in", source = "appendix A" }
@@ -119,7 +119,7 @@ angles = { hip = "300 deg", knee = "292 deg" }
   EXPECT_EQ(r.spring.angles.at("knee"), 292.0_deg);
 }
 
-TEST(Reader, an_optional_value_keeps_its_default) {
+TEST(Reader, AnOptionalValueKeepsItsDefault) {
   const Reading r("length = \"1 m\"");
   EXPECT_EQ(r.message, "");
   EXPECT_EQ(r.spring.stiffness, 7);
@@ -128,17 +128,17 @@ TEST(Reader, an_optional_value_keeps_its_default) {
   EXPECT_EQ(r.origin("law").text, "zero");
 }
 
-TEST(Reader, the_callers_atmosphere_counts) {
+TEST(Reader, TheCallersAtmosphereCounts) {
   const Reading r("length = \"1 m\"\npressure = \"0 psi gauge\"", {.atmosphere = 9e4});
   EXPECT_EQ(r.spring.pressure, 9e4);
 }
 
-TEST(Reader, a_missing_key_is_reported_with_its_meaning) {
+TEST(Reader, AMissingKeyIsReportedWithItsMeaning) {
   EXPECT_EQ(Reading("ratio = 1").message,
             "a.toml:1:1: length: found nothing; expected m (length): at rest");
 }
 
-TEST(Reader, a_wrong_type_is_reported) {
+TEST(Reader, AWrongTypeIsReported) {
   EXPECT_TRUE(contains(Reading("length = 3.15").message,
                        "a.toml:1:1: length: found 3.15 without a unit; expected m (length); try "
                        "\"3.15 in\" or \"3.15 m\""));
@@ -153,14 +153,14 @@ TEST(Reader, a_wrong_type_is_reported) {
   EXPECT_TRUE(contains(also("ratio = { vale = 3 }"), "ratio: found a table; expected a number"));
 }
 
-TEST(Reader, a_value_out_of_bounds_is_reported_in_si) {
+TEST(Reader, AValueOutOfBoundsIsReportedInSi) {
   EXPECT_EQ(Reading("length = \"5 ft\"").message,
             "a.toml:1:1: length: found \"5 ft\", which is 1.524 m; expected 0 m to 1 m");
   EXPECT_EQ(Reading("length = \"1 m\"\nstiffness = \"-1 N/m\"").message,
             "a.toml:2:1: stiffness: found \"-1 N/m\"; expected at least 0 N/m");
 }
 
-TEST(Reader, a_whole_number_that_no_integer_holds_is_out_of_bounds) {
+TEST(Reader, AWholeNumberThatNoIntegerHoldsIsOutOfBounds) {
   const auto of = [](const Node& count) {
     Node root = parse_text("length = \"1 m\"", "a.toml");
     root.put(count);
@@ -177,7 +177,7 @@ TEST(Reader, a_whole_number_that_no_integer_holds_is_out_of_bounds) {
 }
 
 // A default that is no number stands for "nothing was said".
-TEST(Reader, a_default_that_is_none_is_not_set) {
+TEST(Reader, ADefaultThatIsNoneIsNotSet) {
   const Node root = parse_text("", "a.toml");
   Reader reader(root);
   double arm = std::numeric_limits<double>::quiet_NaN();
@@ -187,7 +187,7 @@ TEST(Reader, a_default_that_is_none_is_not_set) {
 }
 
 // No field says it: its unit does.
-TEST(Reader, no_machine_is_as_large_as_that) {
+TEST(Reader, NoMachineIsAsLargeAsThat) {
   EXPECT_EQ(Reading("length = \"1 m\"\nstiffness = \"1e300 N/m\"").message,
             "a.toml:2:1: stiffness: found \"1e300 N/m\", which is 1e+300 N/m; expected at most "
             "1e+10 N/m: steel of a robot's size is not stiffer");
@@ -198,7 +198,7 @@ TEST(Reader, no_machine_is_as_large_as_that) {
                        "curve: found \"1e300 1/Pa\""));
 }
 
-TEST(Reader, the_reason_of_a_range_is_told) {
+TEST(Reader, TheReasonOfARangeIsTold) {
   double share = 0, period = 0;
   const Node root = parse_text("share = 1.2\nperiod = \"1 us\"\n", "a.toml");
   Reader reader(root);
@@ -211,7 +211,7 @@ TEST(Reader, the_reason_of_a_range_is_told) {
 }
 
 // A unit without a row would have the widest range of all.
-TEST(Reader, every_range_is_of_a_unit) {
+TEST(Reader, EveryRangeIsOfAUnit) {
   for (const units::Range& range : units::ranges) {
     EXPECT_FALSE(parse_quantity("1 " + std::string(range.unit), range.unit).mistake) << range.unit;
     EXPECT_GT(range.most, 0) << range.unit;
@@ -219,17 +219,17 @@ TEST(Reader, every_range_is_of_a_unit) {
   }
 }
 
-TEST(Reader, nan_is_reported) {
+TEST(Reader, NanIsReported) {
   EXPECT_EQ(Reading("length = \"1 m\"\nratio = nan").message,
             "a.toml:2:1: ratio: found nan; expected a finite number");
 }
 
-TEST(Reader, a_choice_lists_its_words) {
+TEST(Reader, AChoiceListsItsWords) {
   EXPECT_EQ(Reading("length = \"1 m\"\nlaw = \"stpo\"").message,
             "a.toml:2:1: law: found \"stpo\"; expected \"stop\" or \"zero\"; try \"stop\"");
 }
 
-TEST(Reader, an_unknown_key_gets_a_suggestion) {
+TEST(Reader, AnUnknownKeyGetsASuggestion) {
   EXPECT_TRUE(contains(Reading("length = \"1 m\"\nstifness = \"1 N/m\"").message,
                        "a.toml:2:1: stifness: found an unknown key; expected "));
   EXPECT_TRUE(contains(Reading("length = \"1 m\"\nstifness = \"1 N/m\"").message,
@@ -238,7 +238,7 @@ TEST(Reader, an_unknown_key_gets_a_suggestion) {
                        "length.sorce: found an unknown key"));
 }
 
-TEST(Reader, an_unknown_key_has_its_path_in_tables_and_lists) {
+TEST(Reader, AnUnknownKeyHasItsPathInTablesAndLists) {
   const Node root = parse_text(
       "[spring.a]\nlength = \"1 m\"\nlenght = 1\n[[test]]\nlength = \"1 m\"\ncuont = 2\n",
       "a.toml");
@@ -252,13 +252,13 @@ TEST(Reader, an_unknown_key_has_its_path_in_tables_and_lists) {
   EXPECT_TRUE(contains(text, "a.toml:6:1: test[0].cuont: found an unknown key")) << text;
 }
 
-TEST(Reader, all_problems_come_at_once) {
+TEST(Reader, AllProblemsComeAtOnce) {
   const Reading r("length = 1\ncount = 9\nnoise = 1\n");
   EXPECT_EQ(std::count(r.message.begin(), r.message.end(), '\n'), 2);
   EXPECT_EQ(r.reader.problems().size(), 3u);
 }
 
-TEST(Reader, provenance_is_what_the_file_says) {
+TEST(Reader, ProvenanceIsWhatTheFileSays) {
   const Reading r(R"(source = "table 6-1"
 length = { value = "3.1 in", fit = true, range = ["3.05 in", "3.25 in"], uncertainty = "0.01 in", source = "calibration" }
 stiffness = "3 N/m"
@@ -279,7 +279,7 @@ ratio = { value = 0.3, guess = true }
   EXPECT_TRUE(r.reader.warnings().empty());
 }
 
-TEST(Reader, a_tables_range_covers_what_has_its_unit) {
+TEST(Reader, ATablesRangeCoversWhatHasItsUnit) {
   const Reading r("fit = true\nrange = [\"1 in\", \"2 in\"]\nlength = \"3 in\"\nratio = 0.85\n");
   EXPECT_EQ(r.message, "");
   EXPECT_TRUE(r.origin("length").fit);
@@ -291,7 +291,7 @@ TEST(Reader, a_tables_range_covers_what_has_its_unit) {
             "try a wider range, or a look at the fit");
 }
 
-TEST(Reader, a_source_does_not_reach_into_another_file) {
+TEST(Reader, ASourceDoesNotReachIntoAnotherFile) {
   Node root = parse_text("source = \"base\"\nlength = \"1 m\"\nratio = 1\n", "base.toml");
   merge(root, parse_text("ratio = 2\n", "own.toml"));
   Reader reader(root);
@@ -302,7 +302,7 @@ TEST(Reader, a_source_does_not_reach_into_another_file) {
   EXPECT_EQ(find_origin(reader.origins(), "ratio")->source, "");
 }
 
-TEST(Reader, a_damaged_range_or_uncertainty_is_reported) {
+TEST(Reader, ADamagedRangeOrUncertaintyIsReported) {
   EXPECT_TRUE(contains(Reading("length = { value = \"1 m\", range = [\"2 m\", \"1 m\"] }").message,
                        "length.range: found 2 m, 1 m; expected two quantities, the lower"));
   EXPECT_TRUE(contains(Reading("length = { value = \"1 m\", range = [\"2 s\", \"3 s\"] }").message,
@@ -314,7 +314,7 @@ TEST(Reader, a_damaged_range_or_uncertainty_is_reported) {
                        "found both fit and guess"));
 }
 
-TEST(Reader, a_number_without_a_source_is_as_bad_as_the_caller_says) {
+TEST(Reader, ANumberWithoutASourceIsAsBadAsTheCallerSays) {
   const auto needed = [](bool is) {
     return ReaderOptions{.needs_source = [is](const std::string&) { return is; }};
   };
@@ -328,7 +328,7 @@ TEST(Reader, a_number_without_a_source_is_as_bad_as_the_caller_says) {
             "from; try { value = \"1 m\", source = \"…\" }");
 }
 
-TEST(Reader, named_tables_keep_their_order) {
+TEST(Reader, NamedTablesKeepTheirOrder) {
   const Node root = parse_text(
       "[spring.z]\nlength = \"1 m\"\n[spring.a]\nlength = \"2 m\"\n[ground]\nheight = \"-13 in\"\n"
       "[[test]]\nlength = \"0.1 m\"\n[[test]]\nlength = \"0.2 m\"\n",
@@ -349,7 +349,7 @@ TEST(Reader, named_tables_keep_their_order) {
   EXPECT_EQ(machine.tests[1].length, 0.2);
 }
 
-TEST(Reader, a_missing_table_is_reported_once) {
+TEST(Reader, AMissingTableIsReportedOnce) {
   const Node root = parse_text("spring = 3\n", "a.toml");
   Reader reader(root);
   Machine machine;
@@ -358,7 +358,7 @@ TEST(Reader, a_missing_table_is_reported_once) {
   EXPECT_EQ(to_text(reader.problems()), "a.toml:1:1: spring: found 3; expected a table");
 }
 
-TEST(Reader, a_visitor_may_complain_and_a_part_may_be_read) {
+TEST(Reader, AVisitorMayComplainAndAPartMayBeRead) {
   const Node root = parse_text("length = \"1 m\"\nother = 1\n", "a.toml");
   Reader reader(root);
   Spring spring;

@@ -40,14 +40,14 @@ std::string message_with_row(std::size_t index, std::string row) {
   return message(rows);
 }
 
-TEST(ValveTiming, reads_a_whole_file) {
+TEST(ValveTiming, ReadsAWholeFile) {
   const ValveTiming timing = parse_valve_timing(joined(good_rows()), "predict.dat");
   EXPECT_EQ(timing.opening[0], ValveTiming::never);
   EXPECT_EQ(timing.opening[1], 3);
   EXPECT_EQ(timing.closing[100], 100);
 }
 
-TEST(ValveTiming, says_how_much_of_a_cut_file_is_there) {
+TEST(ValveTiming, SaysHowMuchOfACutFileIsThere) {
   auto rows = good_rows();
   rows.resize(40);
   EXPECT_EQ(message(rows),
@@ -56,7 +56,7 @@ TEST(ValveTiming, says_how_much_of_a_cut_file_is_there) {
   EXPECT_NE(message({}).find("0 rows of 101"), std::string::npos);
 }
 
-TEST(ValveTiming, refuses_what_is_not_a_table_of_ticks) {
+TEST(ValveTiming, RefusesWhatIsNotATableOfTicks) {
   EXPECT_EQ(
       message_with_row(5, "6,5,3"),
       "predict.dat:6:1: duty: found 6; expected 5; try one row per percent, 0 to 100 in order");
@@ -78,7 +78,7 @@ TEST(ValveTiming, refuses_what_is_not_a_table_of_ticks) {
   EXPECT_NE(message(rows).find("found a row more"), std::string::npos);
 }
 
-TEST(ValveTiming, reports_several_rows_at_once) {
+TEST(ValveTiming, ReportsSeveralRowsAtOnce) {
   auto rows = good_rows();
   rows[3] = "3,x,0";
   rows[9] = "9,9,900";
@@ -87,7 +87,7 @@ TEST(ValveTiming, reports_several_rows_at_once) {
   EXPECT_NE(text.find("predict.dat:10:1"), std::string::npos);
 }
 
-TEST(ValveTiming, a_missing_file_is_an_error) {
+TEST(ValveTiming, AMissingFileIsAnError) {
   EXPECT_THROW(read_valve_timing("no/such/predict.dat"), Error);
 }
 

@@ -10,7 +10,7 @@
 namespace sinew::gas {
 namespace {
 
-TEST(Air, density_is_the_inverse_of_pressure) {
+TEST(Air, DensityIsTheInverseOfPressure) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<> pressures(5e4, 9e5), exponents(1, 1.4);
   for (int i = 0; i < 1000; ++i) {
@@ -20,20 +20,20 @@ TEST(Air, density_is_the_inverse_of_pressure) {
   }
 }
 
-TEST(Air, at_the_atmosphere_is_ideal_gas) {
+TEST(Air, AtTheAtmosphereIsIdealGas) {
   const Air air;
   const double rho = density_at_atmosphere(air);
   EXPECT_DOUBLE_EQ(rho * air.gas_constant * air.temperature, air.atmosphere);
   EXPECT_NEAR(pressure(air, rho), air.atmosphere, 1e-9);
 }
 
-TEST(Air, isothermal_pressure_is_proportional_to_density) {
+TEST(Air, IsothermalPressureIsProportionalToDensity) {
   const Air air{.polytropic_exponent = 1};
   EXPECT_NEAR(pressure(air, 5 * density_at_atmosphere(air)), 5 * air.atmosphere, 1e-8);
 }
 
 // [40], dP/dt = n P (m'/m - V'/V), through a chamber that fills and moves: P (V/m)^n stays.
-TEST(Air, rate_of_pressure_integrates_to_the_closed_form) {
+TEST(Air, RateOfPressureIntegratesToTheClosedForm) {
   for (double n : {1.0, 1.089, 1.4}) {
     const Air air{.polytropic_exponent = n};
     const auto mass = [](double t) { return 1e-5 * (1 + 0.5 * t + 0.2 * std::sin(9 * t)); };
@@ -56,7 +56,7 @@ TEST(Air, rate_of_pressure_integrates_to_the_closed_form) {
   }
 }
 
-TEST(Air, scaling_all_pressures_leaves_the_law) {
+TEST(Air, ScalingAllPressuresLeavesTheLaw) {
   const Air air, thrice{.atmosphere = 3 * Air{}.atmosphere};
   const double rho = 4.2;
   EXPECT_NEAR(pressure(thrice, 3 * rho), 3 * pressure(air, rho), 1e-8);

@@ -77,7 +77,7 @@ double open_time(const Valve& v, const Train& train, int told_ahead = 0) {
   return total;
 }
 
-TEST(Shutter, one_pulse_in_closed_form) {
+TEST(Shutter, OnePulseInClosedForm) {
   const Valve v = valve(Valve::Profile::dead_time, 4000, 1000);
   for (int pulse : {1, 500, 3999, 4000, 4001, 5000, 20000}) {
     const int delivered = pulse > 4000 ? pulse - 4000 + 1000 : 0;
@@ -85,7 +85,7 @@ TEST(Shutter, one_pulse_in_closed_form) {
   }
 }
 
-TEST(Shutter, one_gap_in_closed_form) {
+TEST(Shutter, OneGapInClosedForm) {
   const Valve v = valve(Valve::Profile::dead_time, 4000, 1000);
   for (int gap : {1, 999, 1000, 1001, 3000, 9000}) {
     const int delivered_gap = gap > 1000 ? gap - 1000 + 4000 : 0;
@@ -96,7 +96,7 @@ TEST(Shutter, one_gap_in_closed_form) {
   }
 }
 
-TEST(Shutter, random_trains_deliver_what_the_clock_counts) {
+TEST(Shutter, RandomTrainsDeliverWhatTheClockCounts) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 400; ++i) {
     const int opening = std::uniform_int_distribution<>(0, 600)(random);
@@ -107,7 +107,7 @@ TEST(Shutter, random_trains_deliver_what_the_clock_counts) {
   }
 }
 
-TEST(Shutter, does_not_care_how_far_ahead_edges_are_told) {
+TEST(Shutter, DoesNotCareHowFarAheadEdgesAreTold) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 100; ++i) {
     const Valve v =
@@ -118,7 +118,7 @@ TEST(Shutter, does_not_care_how_far_ahead_edges_are_told) {
   }
 }
 
-TEST(Shutter, instants_never_go_back) {
+TEST(Shutter, InstantsNeverGoBack) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 200; ++i) {
     Shutter shutter(valve(Valve::Profile::ramp, 500, 100, 300, 200));
@@ -138,7 +138,7 @@ TEST(Shutter, instants_never_go_back) {
 }
 
 // Ramps against a shutter that is moved by hand, microsecond by microsecond.
-TEST(Shutter, ramps_move_at_their_own_rates) {
+TEST(Shutter, RampsMoveAtTheirOwnRates) {
   std::mt19937_64 random(4);
   for (int i = 0; i < 30; ++i) {
     const int opening = 300, closing = 200, up = 350, down = 240;
@@ -167,7 +167,7 @@ TEST(Shutter, ramps_move_at_their_own_rates) {
   }
 }
 
-TEST(Shutter, ramp_has_nodes_where_it_starts_and_ends) {
+TEST(Shutter, RampHasNodesWhereItStartsAndEnds) {
   Shutter shutter(valve(Valve::Profile::ramp, 300, 40, 100, 50));
   shutter.electrical(0, true);
   EXPECT_NEAR(shutter.next(), 300 * us, 1e-15);
@@ -186,7 +186,7 @@ TEST(Shutter, ramp_has_nodes_where_it_starts_and_ends) {
   EXPECT_EQ(shutter.next(), never);
 }
 
-TEST(Shutter, dead_time_holds_the_old_share_up_to_the_node) {
+TEST(Shutter, DeadTimeHoldsTheOldShareUpToTheNode) {
   Shutter shutter(valve(Valve::Profile::dead_time, 300, 200));
   shutter.electrical(0, true);
   const double node = shutter.next();
@@ -195,7 +195,7 @@ TEST(Shutter, dead_time_holds_the_old_share_up_to_the_node) {
   EXPECT_EQ(shutter.fraction(node), 1);
 }
 
-TEST(Shutter, ideal_valve_follows_the_coil) {
+TEST(Shutter, IdealValveFollowsTheCoil) {
   Shutter shutter(valve(Valve::Profile::ideal, 300, 200));
   shutter.electrical(0.5, true);
   EXPECT_EQ(shutter.next(), 0.5);
@@ -205,7 +205,7 @@ TEST(Shutter, ideal_valve_follows_the_coil) {
   EXPECT_EQ(shutter.next(), never);
 }
 
-TEST(Shutter, a_pulse_of_just_the_delay_never_opens_whatever_was_advanced) {
+TEST(Shutter, APulseOfJustTheDelayNeverOpensWhateverWasAdvanced) {
   for (bool advanced : {false, true}) {
     for (int start = 1; start < 5000; start += 7) {  // sums that round up and down
       Shutter shutter(valve(Valve::Profile::dead_time, 400, 100));
@@ -221,7 +221,7 @@ TEST(Shutter, a_pulse_of_just_the_delay_never_opens_whatever_was_advanced) {
 }
 
 // 3.4 and figure 3-13: what a 50 % duty cycle delivers through 4 ms and 1 ms.
-TEST(Shutter, delivers_the_duty_cycles_of_the_thesis) {
+TEST(Shutter, DeliversTheDutyCyclesOfTheThesis) {
   const auto delivered = [](double frequency, double duty) {
     Shutter shutter(valve(Valve::Profile::dead_time, 4000, 1000));
     const double period = 1 / frequency;
@@ -276,7 +276,7 @@ double held_open(const Train& train, int opening, int closing, int from, int to,
   return total * us;
 }
 
-TEST(Shutter, jammed_it_follows_no_edge_and_freed_it_goes_where_its_coil_says) {
+TEST(Shutter, JammedItFollowsNoEdgeAndFreedItGoesWhereItsCoilSays) {
   std::mt19937_64 random(17);
   for (int trial = 0; trial < 400; ++trial) {
     const int opening = 50 + static_cast<int>(random() % 900),
@@ -318,7 +318,7 @@ TEST(Shutter, jammed_it_follows_no_edge_and_freed_it_goes_where_its_coil_says) {
 }
 
 // The coil cannot open against the pressure: its command is lost, and so is its end.
-TEST(Shutter, freed_where_its_coil_cannot_lift_it_stays_shut) {
+TEST(Shutter, FreedWhereItsCoilCannotLiftItStaysShut) {
   Shutter shutter(valve(Valve::Profile::dead_time, 400, 100));
   shutter.jam(0, 0);
   shutter.electrical(1e-3, true);
@@ -330,7 +330,7 @@ TEST(Shutter, freed_where_its_coil_cannot_lift_it_stays_shut) {
   EXPECT_NEAR(shutter.next(), 4.4e-3, 1e-12);
 }
 
-TEST(Shutter, says_when_too_much_was_told_ahead) {
+TEST(Shutter, SaysWhenTooMuchWasToldAhead) {
   Shutter shutter(valve(Valve::Profile::dead_time, 100, 100));
   for (int i = 0; i <= static_cast<int>(Shutter::capacity); ++i) {
     EXPECT_FALSE(shutter.overrun());

@@ -49,7 +49,7 @@ void expect_each_key_once_with_a_line(const FieldVisitor& v) {
   for (const auto& [key, value] : v.words_given) EXPECT_TRUE(asked.count(key)) << key;
 }
 
-TEST(ValveFields, fill_every_member) {
+TEST(ValveFields, FillEveryMember) {
   FieldVisitor v = orifice_valve();
   const Valve valve = read(v);
   EXPECT_TRUE(v.complaints.empty());
@@ -67,7 +67,7 @@ TEST(ValveFields, fill_every_member) {
   EXPECT_EQ(valve.closing_ramp, 6e-4);
 }
 
-TEST(ValveFields, law_decides_which_keys_are_needed) {
+TEST(ValveFields, LawDecidesWhichKeysAreNeeded) {
   FieldVisitor v = iso_valve();
   const Valve valve = read(v);
   EXPECT_TRUE(v.complaints.empty());
@@ -83,7 +83,7 @@ TEST(ValveFields, law_decides_which_keys_are_needed) {
   EXPECT_TRUE(w.find("valve.x.flow.sonic_conductance")->optional);
 }
 
-TEST(ValveFields, complain_about_what_does_not_go_together) {
+TEST(ValveFields, ComplainAboutWhatDoesNotGoTogether) {
   FieldVisitor v = orifice_valve();
   v.numbers_given["valve.x.flow.sonic_conductance"] = {1e-9};
   read(v);
@@ -113,7 +113,7 @@ FieldVisitor driven_valve() {
   return v;
 }
 
-TEST(ValveFields, fill_drive_coil_and_limits) {
+TEST(ValveFields, FillDriveCoilAndLimits) {
   FieldVisitor v = driven_valve();
   const Valve valve = read(v);
   EXPECT_TRUE(v.complaints.empty());
@@ -135,7 +135,7 @@ TEST(ValveFields, fill_drive_coil_and_limits) {
     EXPECT_TRUE(v.find(std::string("valve.x.") + key)->optional) << key;
 }
 
-TEST(ValveFields, a_regulator_has_a_range_and_nothing_else_has) {
+TEST(ValveFields, ARegulatorHasARangeAndNothingElseHas) {
   FieldVisitor v = iso_valve();
   v.words_given["valve.x.kind"] = "regulator";
   v.numbers_given["valve.x.regulator.range"] = {6e5};
@@ -158,14 +158,14 @@ TEST(ValveFields, a_regulator_has_a_range_and_nothing_else_has) {
   EXPECT_EQ(v.complaints, Strings{"valve.x.regulator"});
 }
 
-TEST(ValveFields, a_boost_wants_its_drive) {
+TEST(ValveFields, ABoostWantsItsDrive) {
   FieldVisitor v = iso_valve();
   v.numbers_given["valve.x.coil.boost_time"] = {1e-3};
   read(v);
   EXPECT_EQ(v.complaints, Strings{"valve.x.coil"});
 }
 
-TEST(ValveFields, a_circuit_has_both_resistance_and_inductance) {
+TEST(ValveFields, ACircuitHasBothResistanceAndInductance) {
   FieldVisitor v = driven_valve();
   for (const auto& [key, value] :
        {std::pair{"resistance", 12.0}, std::pair{"inductance", 6e-3},
@@ -189,7 +189,7 @@ TEST(ValveFields, a_circuit_has_both_resistance_and_inductance) {
   EXPECT_EQ(v.complaints, Strings{"valve.x.circuit.resistance"});
 }
 
-TEST(AirFields, a_tank_has_a_volume_and_nothing_else_has) {
+TEST(AirFields, ATankHasAVolumeAndNothingElseHas) {
   FieldVisitor v;
   v.words_given = {{"kind", "tank"}};
   v.numbers_given = {{"pressure", {7e5}}, {"volume", {0.3785}}, {"initial_pressure", {9e5}}};
@@ -210,7 +210,7 @@ TEST(AirFields, a_tank_has_a_volume_and_nothing_else_has) {
   EXPECT_EQ(v.complaints, Strings{"volume"});
 }
 
-TEST(AirFields, walls_that_are_quicker_than_a_run_can_be_are_isothermal) {
+TEST(AirFields, WallsThatAreQuickerThanARunCanBeAreIsothermal) {
   FieldVisitor v;
   v.numbers_given = {{"wall_time", {1e-5}}};
   Air air;
@@ -219,7 +219,7 @@ TEST(AirFields, walls_that_are_quicker_than_a_run_can_be_are_isothermal) {
   EXPECT_TRUE(v.find("wall_time")->optional);
 }
 
-TEST(AirFields, fill_every_member) {
+TEST(AirFields, FillEveryMember) {
   FieldVisitor v;
   v.numbers_given = {{"atmosphere", {1e5}},
                      {"temperature", {290}},

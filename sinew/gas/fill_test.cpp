@@ -22,7 +22,7 @@ double choked_gain(const Flow& flow, const Air& air) {
   return mass_flow(flow, air, 1e6, 1.0) / 1e6;
 }
 
-TEST(Fill, choked_at_constant_flow) {
+TEST(Fill, ChokedAtConstantFlow) {
   for (double n : {1.0, 1.2, 1.4}) {
     const Air air{.polytropic_exponent = n};
     for (const Flow& flow : {orifice(), iso()}) {
@@ -34,7 +34,7 @@ TEST(Fill, choked_at_constant_flow) {
   }
 }
 
-TEST(Fill, venting_choked_isothermal_air_is_exponential) {
+TEST(Fill, VentingChokedIsothermalAirIsExponential) {
   const Air air{.polytropic_exponent = 1};
   const double from = 8e5, to = 3e5;
   const double exact = volume / (choked_gain(orifice(), air) * air.gas_constant * air.temperature) *
@@ -42,7 +42,7 @@ TEST(Fill, venting_choked_isothermal_air_is_exponential) {
   EXPECT_NEAR(vent_time(orifice(), air, volume, from, to) / exact, 1, 1e-9);
 }
 
-TEST(Fill, venting_choked_polytropic_air_in_closed_form) {
+TEST(Fill, VentingChokedPolytropicAirInClosedForm) {
   const Air air{.polytropic_exponent = 1.4};
   const double from = 8e5, to = 3e5, power = 1 / 1.4 - 1;
   const double exact =
@@ -51,7 +51,7 @@ TEST(Fill, venting_choked_polytropic_air_in_closed_form) {
   EXPECT_NEAR(vent_time(orifice(), air, volume, from, to) / exact, 1, 1e-9);
 }
 
-TEST(Fill, last_part_is_exponential) {
+TEST(Fill, LastPartIsExponential) {
   const Air air{.polytropic_exponent = 1};
   const Flow flow = orifice();
   const double from = supply * (1 - 0.9 * flow.linear_below);
@@ -61,7 +61,7 @@ TEST(Fill, last_part_is_exponential) {
               1, 1e-9);
 }
 
-TEST(Fill, is_the_sum_of_its_parts) {
+TEST(Fill, IsTheSumOfItsParts) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<> inside(1.02e5, 7.89e5);
   const Air air{.polytropic_exponent = 1.1};
@@ -81,7 +81,7 @@ TEST(Fill, is_the_sum_of_its_parts) {
 }
 
 // The same by time steps on the mass, RK4.
-TEST(Fill, agrees_with_a_simulation) {
+TEST(Fill, AgreesWithASimulation) {
   const Air air{.polytropic_exponent = 1.3};
   const Flow flow = orifice();
   const double to = 0.95 * supply, h = 1e-6;
@@ -103,7 +103,7 @@ TEST(Fill, agrees_with_a_simulation) {
   EXPECT_NEAR(fill_time(flow, air, volume, supply, air.atmosphere, to), time, 1e-6 * time);
 }
 
-TEST(Fill, goes_with_volume_and_against_area) {
+TEST(Fill, GoesWithVolumeAndAgainstArea) {
   const Air air;
   Flow wide = orifice();
   wide.area *= 4;
@@ -112,7 +112,7 @@ TEST(Fill, goes_with_volume_and_against_area) {
   EXPECT_NEAR(fill_time(wide, air, volume, supply, 1.1e5, 7e5), one / 4, 1e-12);
 }
 
-TEST(Fill, knows_what_cannot_be) {
+TEST(Fill, KnowsWhatCannotBe) {
   const Air air;
   const double never = std::numeric_limits<double>::infinity();
   EXPECT_EQ(fill_time(orifice(), air, volume, supply, 1e5, supply), never);
@@ -124,7 +124,7 @@ TEST(Fill, knows_what_cannot_be) {
   EXPECT_EQ(fill_time(orifice(), air, volume, supply, 2e5, 2e5), 0);
 }
 
-TEST(Fill, does_without_a_linear_part) {
+TEST(Fill, DoesWithoutALinearPart) {
   Flow flow = orifice();
   flow.linear_below = 0;
   const Air air;

@@ -33,7 +33,7 @@ double fast(const Flow& flow, const Air& air, double a, double b) {
   return flow_y(flow_constants(flow, air), y_of(air, a), y_of(air, b));
 }
 
-TEST(Orifice, is_choked_where_its_flow_is_greatest) {
+TEST(Orifice, IsChokedWhereItsFlowIsGreatest) {
   const Air air;
   const double critical = critical_pressure_ratio();
   const auto free_flow = [](double r) {
@@ -47,7 +47,7 @@ TEST(Orifice, is_choked_where_its_flow_is_greatest) {
   for (double r : {0.0, 0.1, 0.5}) EXPECT_EQ(mass_flow(area, up, 293, r * up, air), choked);
 }
 
-TEST(Orifice, choked_flow_is_the_free_law_at_the_critical_ratio) {
+TEST(Orifice, ChokedFlowIsTheFreeLawAtTheCriticalRatio) {
   for (double gamma : {1.1, 1.3, 1.4, 1.6667}) {
     const double r = critical_pressure_ratio(gamma);
     const double root = std::sqrt(std::pow(r, 2 / gamma) - std::pow(r, (gamma + 1) / gamma));
@@ -56,7 +56,7 @@ TEST(Orifice, choked_flow_is_the_free_law_at_the_critical_ratio) {
 }
 
 // Isentropic nozzle by its own route: throat temperature and speed of sound.
-TEST(Orifice, choked_flow_is_density_times_sound_at_the_throat) {
+TEST(Orifice, ChokedFlowIsDensityTimesSoundAtTheThroat) {
   const Air air;
   const double up = 7e5, temperature = 293;
   const double throat_temperature = temperature / 1.2, throat_pressure = up * std::pow(1.2, -3.5);
@@ -65,12 +65,12 @@ TEST(Orifice, choked_flow_is_density_times_sound_at_the_throat) {
   EXPECT_NEAR(mass_flow(area, up, temperature, 1e5, air) / (area * density * sound), 1, 1e-14);
 }
 
-TEST(Iso6358, at_the_reference_air_is_volume_flow_per_pressure) {
+TEST(Iso6358, AtTheReferenceAirIsVolumeFlowPerPressure) {
   // m' = C rho_0 P at T_0, choked.
   EXPECT_DOUBLE_EQ(mass_flow_iso6358(2e-9, 0.3, 7e5, 293.15, 1e5), 2e-9 * 1.185 * 7e5);
 }
 
-TEST(Iso6358, is_a_quarter_ellipse_above_the_critical_ratio) {
+TEST(Iso6358, IsAQuarterEllipseAboveTheCriticalRatio) {
   const double up = 7e5, b = 0.3, choked = mass_flow_iso6358(2e-9, b, up, 300, b * up);
   for (double x : {0.0, 0.2, 0.6, 0.9, 1.0}) {
     const double flow = mass_flow_iso6358(2e-9, b, up, 300, (b + x * (1 - b)) * up) / choked;
@@ -78,12 +78,12 @@ TEST(Iso6358, is_a_quarter_ellipse_above_the_critical_ratio) {
   }
 }
 
-TEST(Flow, conductance_and_area_convert_both_ways) {
+TEST(Flow, ConductanceAndAreaConvertBothWays) {
   const Air air;
   EXPECT_NEAR(effective_area_of(sonic_conductance_of(area, air), air), area, 1e-20);
 }
 
-TEST(Flow, iso_valve_of_the_same_conductance_is_the_choked_orifice) {
+TEST(Flow, IsoValveOfTheSameConductanceIsTheChokedOrifice) {
   const Air air;
   const Flow valve = {.law = Flow::Law::iso6358,
                       .sonic_conductance = sonic_conductance_of(0.85 * area, air),
@@ -103,7 +103,7 @@ TEST(Flow, iso_valve_of_the_same_conductance_is_the_choked_orifice) {
   }
 }
 
-TEST(Flow, fast_form_is_the_general_one) {
+TEST(Flow, FastFormIsTheGeneralOne) {
   std::mt19937_64 random(2);
   const Air air;
   for (const Flow& flow : both_laws) {
@@ -122,14 +122,14 @@ TEST(Flow, fast_form_is_the_general_one) {
 }
 
 // The fast form has nothing to do with the exponent of the air in the chamber.
-TEST(Flow, does_not_depend_on_the_polytropic_exponent) {
+TEST(Flow, DoesNotDependOnThePolytropicExponent) {
   Air air;
   const double adiabatic = fast(orifice(), air, 6e5, 4e5);
   air.polytropic_exponent = 1.05;
   EXPECT_EQ(fast(orifice(), air, 6e5, 4e5), adiabatic);
 }
 
-TEST(Flow, back_is_the_negative_of_forth_to_the_bit) {
+TEST(Flow, BackIsTheNegativeOfForthToTheBit) {
   std::mt19937_64 random(3);
   const Air air;
   for (const Flow& flow : both_laws) {
@@ -143,7 +143,7 @@ TEST(Flow, back_is_the_negative_of_forth_to_the_bit) {
   }
 }
 
-TEST(Flow, is_continuous_where_the_law_changes) {
+TEST(Flow, IsContinuousWhereTheLawChanges) {
   const Air air;
   for (const Flow& flow : both_laws) {
     const double up = 6e5;
@@ -155,7 +155,7 @@ TEST(Flow, is_continuous_where_the_law_changes) {
   }
 }
 
-TEST(Flow, is_linear_in_the_difference_near_equal_pressures) {
+TEST(Flow, IsLinearInTheDifferenceNearEqualPressures) {
   const Air air;
   for (const Flow& flow : both_laws) {
     const double up = 5e5;
@@ -171,7 +171,7 @@ TEST(Flow, is_linear_in_the_difference_near_equal_pressures) {
 
 // A flow says which of the two it is: the straight line is below the law, and meets it where it
 // ends.
-TEST(Flow, says_whether_it_is_in_the_linear_part) {
+TEST(Flow, SaysWhetherItIsInTheLinearPart) {
   const Air air;
   for (const Flow& flow : both_laws) {
     Flow law = flow;
@@ -189,7 +189,7 @@ TEST(Flow, says_whether_it_is_in_the_linear_part) {
   }
 }
 
-TEST(Flow, without_a_linear_part_is_the_bare_law) {
+TEST(Flow, WithoutALinearPartIsTheBareLaw) {
   const Air air;
   for (Flow flow : both_laws) {
     flow.linear_below = 0;
@@ -201,7 +201,7 @@ TEST(Flow, without_a_linear_part_is_the_bare_law) {
   }
 }
 
-TEST(Flow, never_falls_when_the_difference_grows) {
+TEST(Flow, NeverFallsWhenTheDifferenceGrows) {
   const Air air;
   for (const Flow& flow : both_laws) {
     double last = 0;
@@ -214,7 +214,7 @@ TEST(Flow, never_falls_when_the_difference_grows) {
 }
 
 // Pressures times p, lengths times k: mass flow goes as p k^2, and as 1/sqrt(T).
-TEST(Flow, scales_with_area_pressure_and_temperature) {
+TEST(Flow, ScalesWithAreaPressureAndTemperature) {
   const double k = 2.5, p = 3;
   std::mt19937_64 random(4);
   for (int i = 0; i < 1000; ++i) {
@@ -234,7 +234,7 @@ TEST(Flow, scales_with_area_pressure_and_temperature) {
 }
 
 // A loop over lanes gives each lane the scalar's bits.
-TEST(Flow, lanes_have_the_bits_of_the_scalar) {
+TEST(Flow, LanesHaveTheBitsOfTheScalar) {
   constexpr int lanes = 64;
   const Air air;
   Flow rounded = orifice();
@@ -262,7 +262,7 @@ TEST(Flow, lanes_have_the_bits_of_the_scalar) {
   }
 }
 
-TEST(Flow, shut_valve_passes_nothing) {
+TEST(Flow, ShutValvePassesNothing) {
   const Flow shut;
   EXPECT_EQ(fast(shut, Air{}, 8e5, 1e5), 0);
 }

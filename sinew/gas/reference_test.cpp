@@ -29,7 +29,7 @@ double si(const std::string& name) { return reference()["constants"][name]["si"]
 // C_m in appendix A's unit, sqrt(slug degR/(ft lbf)).
 const double slug_unit = std::sqrt(slug * rankine / (foot * pound_force));
 
-TEST(ReferenceGas, constants_are_their_printed_values_in_si) {
+TEST(ReferenceGas, ConstantsAreTheirPrintedValuesInSi) {
   EXPECT_DOUBLE_EQ(si("ApCq"), printed("ApCq") * foot * foot);
   EXPECT_NEAR(si("R_air"), printed("R_air") * foot * pound_force / (pound_mass * rankine), 1e-10);
   EXPECT_DOUBLE_EQ(si("T_up"), printed("T_up") * rankine);
@@ -43,7 +43,7 @@ TEST(ReferenceGas, constants_are_their_printed_values_in_si) {
   EXPECT_DOUBLE_EQ(si("g"), printed("g") * inch);
 }
 
-TEST(ReferenceGas, defaults_are_the_constants_of_the_thesis) {
+TEST(ReferenceGas, DefaultsAreTheConstantsOfTheThesis) {
   const Air air;
   EXPECT_DOUBLE_EQ(air.atmosphere, si("P_atm"));
   EXPECT_DOUBLE_EQ(air.temperature, si("T_up"));
@@ -53,13 +53,13 @@ TEST(ReferenceGas, defaults_are_the_constants_of_the_thesis) {
   EXPECT_DOUBLE_EQ(Supply{}.pressure, si("supply_text"));
 }
 
-TEST(ReferenceGas, critical_ratio_exact_in_the_text_and_in_the_code) {
+TEST(ReferenceGas, CriticalRatioExactInTheTextAndInTheCode) {
   EXPECT_NEAR(critical_pressure_ratio(), si("critical_ratio_exact"), 1e-15);
   EXPECT_NEAR(critical_pressure_ratio(), printed("critical_ratio_text"), 5e-4);
   EXPECT_DOUBLE_EQ(si("critical_ratio_code"), 1 / 1.89);
 }
 
-TEST(ReferenceGas, coefficients_of_the_orifice) {
+TEST(ReferenceGas, CoefficientsOfTheOrifice) {
   const Air air;
   EXPECT_NEAR(choked_parameter(air.gas_constant) / slug_unit, 0.016529, 5e-7);
   EXPECT_NEAR(free_parameter(air.gas_constant) / slug_unit, 0.063866, 5e-7);
@@ -71,7 +71,7 @@ TEST(ReferenceGas, coefficients_of_the_orifice) {
 }
 
 // Appendix A's factor between C_m P and in3/s of its standard air.
-TEST(ReferenceGas, flow_factor_83_62) {
+TEST(ReferenceGas, FlowFactor8362) {
   const double in3_per_second =
       printed("ApCq") * 144 / std::sqrt(printed("T_up")) / printed("density");
   EXPECT_NEAR(in3_per_second, 83.62, 5e-3);
@@ -84,7 +84,7 @@ TEST(ReferenceGas, flow_factor_83_62) {
 }
 
 // docs/departures.md: .38 % jump at the limit in the code; none with the exact coefficients.
-TEST(ReferenceGas, rounded_coefficients_jump_where_the_code_switches) {
+TEST(ReferenceGas, RoundedCoefficientsJumpWhereTheCodeSwitches) {
   const double r = si("critical_ratio_code");
   const double free = 0.064 * std::sqrt(std::pow(r, 2 / 1.4) - std::pow(r, 2.4 / 1.4));
   EXPECT_NEAR(free / 0.0165 - 1, 0.0038, 5e-5);
@@ -92,7 +92,7 @@ TEST(ReferenceGas, rounded_coefficients_jump_where_the_code_switches) {
 
 // The listing line by line, in its own units, against the law that bears its name; and that law in
 // the integrator's form.
-TEST(ReferenceGas, law_of_appendix_a_is_its_listing) {
+TEST(ReferenceGas, LawOfAppendixAIsItsListing) {
   const Air air;
   const Flow flow{.law = Flow::Law::appendix_a, .area = 0.6 * si("ApCq"), .efficiency = 0.85};
   const FlowConstants fast = flow_constants(flow, air);
@@ -118,13 +118,13 @@ TEST(ReferenceGas, law_of_appendix_a_is_its_listing) {
 }
 
 // docs/departures.md: R = 53.34 as printed lacks g_c = 32.174 under the root.
-TEST(ReferenceGas, gas_constant_as_printed_is_wrong_by_5_67) {
+TEST(ReferenceGas, GasConstantAsPrintedIsWrongBy567) {
   const double slug_constant = si("R_air") * slug * rankine / (foot * pound_force);
   EXPECT_NEAR(slug_constant, 1716, 0.5);
   EXPECT_NEAR(std::sqrt(slug_constant / printed("R_air")), 5.67, 5e-3);
 }
 
-TEST(ReferenceGas, density_of_the_code_is_air_at_529_degR) {
+TEST(ReferenceGas, DensityOfTheCodeIsAirAt529DegR) {
   Air air;
   air.temperature = 529.1 * rankine;
   EXPECT_NEAR(density_at_atmosphere(air), si("density"), 2e-4);
@@ -133,7 +133,7 @@ TEST(ReferenceGas, density_of_the_code_is_air_at_529_degR) {
 
 // docs/departures.md: on the adiabat through the atmosphere, air at 100 psi gauge would be at 950
 // degR.
-TEST(ReferenceGas, adiabatic_supply_would_be_hot) {
+TEST(ReferenceGas, AdiabaticSupplyWouldBeHot) {
   const Air air;
   const double p = si("supply_text");
   const double temperature = p / (density(air, p) * air.gas_constant) / rankine;

@@ -26,7 +26,7 @@ struct Draw {
   }
 };
 
-TEST(ValveFlow, swapped_ports_turn_the_flow_around_and_nothing_else) {
+TEST(ValveFlow, SwappedPortsTurnTheFlowAroundAndNothingElse) {
   Draw draw;
   const Air air;
   for (int i = 0; i < trials; ++i) {
@@ -40,7 +40,7 @@ TEST(ValveFlow, swapped_ports_turn_the_flow_around_and_nothing_else) {
   }
 }
 
-TEST(ValveFlow, what_an_area_equals_as_a_conductance_flows_the_same_when_choked) {
+TEST(ValveFlow, WhatAnAreaEqualsAsAConductanceFlowsTheSameWhenChoked) {
   Draw draw;
   const Air air;
   for (int i = 0; i < trials; ++i) {
@@ -57,7 +57,7 @@ TEST(ValveFlow, what_an_area_equals_as_a_conductance_flows_the_same_when_choked)
   }
 }
 
-TEST(ValveFlow, the_linear_part_is_below_the_law_itself_and_says_so) {
+TEST(ValveFlow, TheLinearPartIsBelowTheLawItselfAndSaysSo) {
   Draw draw;
   const Air air;
   int linear = 0;
@@ -76,7 +76,7 @@ TEST(ValveFlow, the_linear_part_is_below_the_law_itself_and_says_so) {
   EXPECT_FALSE(flow_through(Flow{.area = 1e-6}, air, 2e5, 2e5).linear);
 }
 
-TEST(Transfers, take_longer_for_more_of_the_way_and_in_proportion_to_the_volume) {
+TEST(Transfers, TakeLongerForMoreOfTheWayAndInProportionToTheVolume) {
   Draw draw;
   const Air air;
   for (int i = 0; i < trials / 10; ++i) {

@@ -29,7 +29,7 @@ double relative(double value, long double truth) {
   return static_cast<double>(std::fabs((value - truth) / truth));
 }
 
-TEST(Math, sine_and_cosine_are_good_to_1_8e_16) {
+TEST(Math, SineAndCosineAreGoodTo18e16) {
   Random random(1);
   for (double range : {0.8, 10.0, 1e3, 1e6}) {
     for (int i = 0; i < samples / 4; ++i) {
@@ -42,7 +42,7 @@ TEST(Math, sine_and_cosine_are_good_to_1_8e_16) {
   }
 }
 
-TEST(Math, sine_and_cosine_hold_where_the_quadrant_changes) {
+TEST(Math, SineAndCosineHoldWhereTheQuadrantChanges) {
   Random random(2);
   for (int k = -4000; k <= 4000; ++k) {
     const double edge = (k + 0.5) * (std::numbers::pi / 2);
@@ -54,7 +54,7 @@ TEST(Math, sine_and_cosine_hold_where_the_quadrant_changes) {
   }
 }
 
-TEST(Math, sine_is_odd_and_cosine_even_to_the_bit) {
+TEST(Math, SineIsOddAndCosineEvenToTheBit) {
   Random random(3);
   for (int i = 0; i < 10000; ++i) {
     const double x = random.between(0, 100);
@@ -65,7 +65,7 @@ TEST(Math, sine_is_odd_and_cosine_even_to_the_bit) {
   EXPECT_EQ(sin_cos(0.0).cos, 1.0);
 }
 
-TEST(Math, logarithm_is_good_to_3_5e_16) {
+TEST(Math, LogarithmIsGoodTo35e16) {
   Random random(4);
   for (int i = 0; i < samples; ++i) {
     const double x = std::exp(random.between(-700, 700));
@@ -78,7 +78,7 @@ TEST(Math, logarithm_is_good_to_3_5e_16) {
   EXPECT_EQ(log(1.0), 0.0);
 }
 
-TEST(Math, exponential_is_good_to_2e_16) {
+TEST(Math, ExponentialIsGoodTo2e16) {
   Random random(5);
   for (int i = 0; i < samples; ++i) {
     for (double range : {1.0, 700.0}) {
@@ -89,7 +89,7 @@ TEST(Math, exponential_is_good_to_2e_16) {
   EXPECT_EQ(exp(0.0), 1.0);
 }
 
-TEST(Math, power_loses_in_proportion_to_the_logarithm_of_its_result) {
+TEST(Math, PowerLosesInProportionToTheLogarithmOfItsResult) {
   Random random(6);
   for (int i = 0; i < samples; ++i) {
     const double base = std::exp(random.between(-30, 30));
@@ -101,7 +101,7 @@ TEST(Math, power_loses_in_proportion_to_the_logarithm_of_its_result) {
   }
 }
 
-TEST(Math, power_of_a_gas_is_good_to_1e_15) {
+TEST(Math, PowerOfAGasIsGoodTo1e15) {
   Random random(7);
   for (int i = 0; i < samples; ++i) {
     const double ratio = random.between(0.5, 10);
@@ -112,7 +112,7 @@ TEST(Math, power_of_a_gas_is_good_to_1e_15) {
 }
 
 // All of it can be evaluated while compiling, to the bits of the running program.
-TEST(Math, compiler_and_program_agree) {
+TEST(Math, CompilerAndProgramAgree) {
   constexpr double at_compile_time =
       sin_cos(1.25).sin + log(7.5) + exp(-2.5) + power(3.0, 1.0 / 7.0);
   volatile double a = 1.25, b = 7.5, c = -2.5, d = 3.0;

@@ -12,19 +12,19 @@ namespace {
 
 using namespace literals;
 
-TEST(Constants, agree_with_each_other) {
+TEST(Constants, AgreeWithEachOther) {
   EXPECT_DOUBLE_EQ(pound_force, pound_mass * standard_gravity);
   EXPECT_DOUBLE_EQ(psi, pound_force / (inch * inch));
   EXPECT_NEAR(slug, 14.593903, 1e-6);
 }
 
-TEST(Constants, gauge_and_absolute_are_inverse) {
+TEST(Constants, GaugeAndAbsoluteAreInverse) {
   static_assert(absolute(0) == atmosphere);
   EXPECT_DOUBLE_EQ(gauge(absolute(62.0_psi)), 62.0_psi);
   EXPECT_DOUBLE_EQ(absolute(10.0_psi, 1e5), 1e5 + 10.0_psi);
 }
 
-TEST(Literals, equal_the_units_of_files) {
+TEST(Literals, EqualTheUnitsOfFiles) {
   EXPECT_EQ(3.15_in, read_unit("in").unit.to_si(3.15));
   EXPECT_EQ(0.24_in3, read_unit("in3").unit.to_si(0.24));
   EXPECT_EQ(1.8e-5_ft2, read_unit("ft2").unit.to_si(1.8e-5));
@@ -40,7 +40,7 @@ static_assert(read_unit("lb in2").unit.dimension == Dimension{.mass = 1, .length
 static_assert(read_unit("1/psi2").unit.denominator == psi * psi);
 static_assert(read_unit("").ok == false);
 
-TEST(Unit, every_unit_of_the_table_is_its_own_inverse) {
+TEST(Unit, EveryUnitOfTheTableIsItsOwnInverse) {
   for (const Unit& unit : known_units) {
     for (double x : {-3.15, 0.0, 1.0, 62.0, 1e6}) {
       const double tolerance = 1e-12 * (std::abs(x) + std::abs(unit.offset));
@@ -50,7 +50,7 @@ TEST(Unit, every_unit_of_the_table_is_its_own_inverse) {
   }
 }
 
-TEST(Unit, compounds_have_the_dimension_they_say) {
+TEST(Unit, CompoundsHaveTheDimensionTheySay) {
   const Dimension joint_stiffness{.mass = 1, .length = 2, .time = -2, .angle = -1};
   EXPECT_EQ(read_unit("N m/rad").unit.dimension, joint_stiffness);
   EXPECT_EQ(read_unit("lbf in/rad").unit.dimension, joint_stiffness);
@@ -61,7 +61,7 @@ TEST(Unit, compounds_have_the_dimension_they_say) {
   EXPECT_EQ(read_unit("psi2").unit.dimension, (Dimension{.mass = 2, .length = -2, .time = -4}));
 }
 
-TEST(Unit, compounds_have_the_size_they_say) {
+TEST(Unit, CompoundsHaveTheSizeTheySay) {
   EXPECT_DOUBLE_EQ(read_unit("lbf in/rad").unit.to_si(35), 35 * pound_force * inch);
   EXPECT_DOUBLE_EQ(read_unit("%/(lbf in/rad)").unit.to_si(6.5), 0.065 / (pound_force * inch));
   EXPECT_DOUBLE_EQ(read_unit("L/(s bar)").unit.to_si(2), 2e-8);
@@ -69,12 +69,12 @@ TEST(Unit, compounds_have_the_size_they_say) {
   EXPECT_DOUBLE_EQ(read_unit("degC").unit.to_si(20), 293.15);
 }
 
-TEST(Unit, pound_of_mass_and_of_force_differ) {
+TEST(Unit, PoundOfMassAndOfForceDiffer) {
   EXPECT_EQ(find_unit("lb")->dimension, dimension::mass);
   EXPECT_EQ(find_unit("lbf")->dimension, dimension::force);
 }
 
-TEST(Unit, names_the_piece_it_does_not_know) {
+TEST(Unit, NamesThePieceItDoesNotKnow) {
   EXPECT_EQ(read_unit("lbf inch/rad").trouble, "inch");
   EXPECT_EQ(read_unit("N m/rad s").trouble, "s");  // a/b c is ambiguous
   EXPECT_EQ(read_unit("W/degC").trouble, "degC");  // a scale with an offset

@@ -46,7 +46,7 @@ std::string filling() {
   return text;
 }
 
-TEST(IdentifyValve, a_chart_becomes_a_valve_that_sinew_valve_reads) {
+TEST(IdentifyValve, AChartBecomesAValveThatSinewValveReads) {
   const Workspace w;
   write_text(w / "chart.csv", chart());
   const Result found =
@@ -65,7 +65,7 @@ TEST(IdentifyValve, a_chart_becomes_a_valve_that_sinew_valve_reads) {
   EXPECT_EQ(w.sinew({"check", "mine.toml"}).code, 0);
 }
 
-TEST(IdentifyValve, a_map_of_duties_becomes_delays_and_predict_dat) {
+TEST(IdentifyValve, AMapOfDutiesBecomesDelaysAndPredictDat) {
   const Workspace w;
   write_text(w / "duty.csv", duties());
   const Result found = w.sinew({"identify", "valve", "duty.csv", "--frequency", "25 Hz", "--base",
@@ -83,7 +83,7 @@ TEST(IdentifyValve, a_map_of_duties_becomes_delays_and_predict_dat) {
   EXPECT_GT(out["effective_area_m2"], 1e-6);  // as before
 }
 
-TEST(IdentifyValve, a_filling_without_a_volume_fails_and_says_what_is_missing) {
+TEST(IdentifyValve, AFillingWithoutAVolumeFailsAndSaysWhatIsMissing) {
   const Workspace w;
   write_text(w / "fill.csv", filling());
   const Result without = w.sinew({"identify", "valve", "fill.csv"});
@@ -97,7 +97,7 @@ TEST(IdentifyValve, a_filling_without_a_volume_fails_and_says_what_is_missing) {
   EXPECT_EQ(w.sinew({"check", "v.toml"}).code, 0);
 }
 
-TEST(IdentifyValve, wrong_units_and_times_that_run_backwards_are_told_with_their_line) {
+TEST(IdentifyValve, WrongUnitsAndTimesThatRunBackwardsAreToldWithTheirLine) {
   const Workspace w;
   std::string text = filling();
   write_text(w / "unit.csv", "time [s],pressure [N]" + text.substr(text.find('\n')));
@@ -111,7 +111,7 @@ TEST(IdentifyValve, wrong_units_and_times_that_run_backwards_are_told_with_their
   EXPECT_THAT(back.err, HasSubstr("back.csv:202:"));
 }
 
-TEST(IdentifyValve, what_cannot_be_is_told_before_anything_is_fitted) {
+TEST(IdentifyValve, WhatCannotBeIsToldBeforeAnythingIsFitted) {
   const Workspace w;
   write_text(w / "fill.csv", filling());
   const auto refused = [&](const Words& more) {
@@ -128,7 +128,7 @@ TEST(IdentifyValve, what_cannot_be_is_told_before_anything_is_fitted) {
   EXPECT_THAT(refused({"--predict-dat", "fill.csv", "--force"}), HasSubstr("another file"));
 }
 
-TEST(IdentifyValve, delays_alone_make_no_file) {
+TEST(IdentifyValve, DelaysAloneMakeNoFile) {
   const Workspace w;
   write_text(w / "duty.csv", duties());
   const Result found =

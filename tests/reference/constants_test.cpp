@@ -52,7 +52,7 @@ double converted(double value, const std::string& unit, const std::string& si_un
   return config::quantity(unit == "1" ? number : number + " " + unit, si_unit, "constant");
 }
 
-TEST(Reference, every_constant_is_its_printed_value_in_si) {
+TEST(Reference, EveryConstantIsItsPrintedValueInSi) {
   // Lists, an angle cut for print, roots of units, and counts, which the reference has without a
   // dimension; below.
   const std::set<std::string> exceptions = {"eff_poly",           "theta_max",  "Cm_choked_code",
@@ -70,7 +70,7 @@ TEST(Reference, every_constant_is_its_printed_value_in_si) {
   EXPECT_EQ(converted_ones + exceptions.size(), reference()["constants"].size());
 }
 
-TEST(Reference, constants_with_several_values_or_counts) {
+TEST(Reference, ConstantsWithSeveralValuesOrCounts) {
   const json& c = reference()["constants"];
   const char* from[] = {"1/psi2", "1/psi", "1"};
   const char* to[] = {"1/Pa2", "1/Pa", "1"};
@@ -98,7 +98,7 @@ TEST(Reference, constants_with_several_values_or_counts) {
 
 // Not modelled, so held as numbers only: the hip's cylinder and its potentiometer (it stays at its
 // stop), the counterweight, the force transducer's beam and amplifier.
-TEST(Reference, constants_of_what_is_not_modelled) {
+TEST(Reference, ConstantsOfWhatIsNotModelled) {
   const std::map<std::string, double> values = {{"cylinder_bore", 0.627}, {"cylinder_stroke", 2},
                                                 {"counterweight", 10},    {"lin_pot_scale", 0.57},
                                                 {"amp_gain", 800},        {"E_6061", 1e7}};

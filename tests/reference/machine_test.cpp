@@ -25,7 +25,7 @@ namespace {
 
 // --- the leg ------------------------------------------------------------------------------------
 
-TEST(Reference, leg_has_the_printed_dimensions) {
+TEST(Reference, LegHasThePrintedDimensions) {
   for (const experiment::Experiment* e : {&leg(), &as_printed()}) {
     const robot::Robot& r = e->robot;
     SCOPED_TRACE(r.name);
@@ -46,7 +46,7 @@ TEST(Reference, leg_has_the_printed_dimensions) {
   EXPECT_NEAR(si("range_of_motion"), si("L_max") - si("L_min"), 0.06 * si("range_of_motion"));
 }
 
-TEST(Reference, leg_as_printed_has_the_printed_valves) {
+TEST(Reference, LegAsPrintedHasThePrintedValves) {
   int valves = 0;
   for (const gas::Valve& v : as_printed().valves) {
     EXPECT_DOUBLE_EQ(v.flow.efficiency, si("valve_eff")) << v.name;
@@ -59,7 +59,7 @@ TEST(Reference, leg_as_printed_has_the_printed_valves) {
   EXPECT_GE(valves, 2);
 }
 
-TEST(Reference, clocks) {
+TEST(Reference, Clocks) {
   EXPECT_DOUBLE_EQ(signals::tick_seconds, si("isr_period"));
   EXPECT_DOUBLE_EQ(1 / (si("isr_period") * si("pwm_ticks")), si("pwm_leg"));
   EXPECT_DOUBLE_EQ(as_printed().body_step, si("dt_code"));  // ours by choice; appendix A's step
@@ -67,7 +67,7 @@ TEST(Reference, clocks) {
 }
 
 // Chapter 3's average; its own model stays below in every swing: "under-damped".
-TEST(Reference, damping_ratio) {
+TEST(Reference, DampingRatio) {
   EXPECT_DOUBLE_EQ(printed("zeta"), 0.035);
   for (const char* name : {"A 60psi 6lb", "B 80psi 11lb", "C 60psi 11lb"})
     EXPECT_LT(reference()["verification_summary"][name]["equations"]["zeta_eq1"].get<double>(),
@@ -76,7 +76,7 @@ TEST(Reference, damping_ratio) {
 
 // --- controller ---------------------------------------------------------------------------------
 
-TEST(Reference, gains) {
+TEST(Reference, Gains) {
   const json& gains = reference()["gains"];
   const double lbf_in = pound_force * inch;
   for (const experiment::Experiment* e : {&leg(), &as_printed()}) {
@@ -108,7 +108,7 @@ TEST(Reference, gains) {
   EXPECT_EQ(gains["gain_dat_rows"][2][2], 0);
 }
 
-TEST(Reference, channels_bits_and_ticks) {
+TEST(Reference, ChannelsBitsAndTicks) {
   const json& code = reference()["code_constants"];
   const std::map<std::string, std::string> channels = {{"lin", "cylinder_position"},
                                                        {"hip", "hip_angle"},
@@ -156,7 +156,7 @@ TEST(Reference, channels_bits_and_ticks) {
   EXPECT_EQ(code["port_polarity"], "active low");
 }
 
-TEST(Reference, low_levels_constants) {
+TEST(Reference, LowLevelsConstants) {
   const json& code = reference()["code_constants"];
   const control::JointControllerConfig config = experiment::joint_controller_config(as_printed());
   ASSERT_EQ(config.joints, 2u);
@@ -189,7 +189,7 @@ TEST(Reference, low_levels_constants) {
   EXPECT_NEAR(counts_per_volt * printed("force_scale_avg"), 139.264, 1e-9);
 }
 
-TEST(Reference, scales_of_the_sensors) {
+TEST(Reference, ScalesOfTheSensors) {
   const robot::Robot& r = leg().robot;
   for (const char* name : {"hip_angle", "knee_angle"}) {
     EXPECT_DOUBLE_EQ(sensor(r, name).scale, si("angle_scale"));
@@ -229,7 +229,7 @@ const gait::Phase& phase(const gait::Plan& plan, const char* name) {
   return plan.phases.at(static_cast<std::size_t>(gait::find_phase(plan, name)));
 }
 
-TEST(Reference, foot_path) {
+TEST(Reference, FootPath) {
   const json& t = reference()["trajectory"];
   const auto swing = numbers(t["swing"]), plant = numbers(t["plant"]),
              propulsion = numbers(t["propulsion"]);
@@ -256,7 +256,7 @@ TEST(Reference, foot_path) {
   }
 }
 
-TEST(Reference, timing) {
+TEST(Reference, Timing) {
   const json& t = reference()["trajectory"];
   const char* names[] = {"swing", "foot_plant", "propulsion"};
   for (int test : {1, 2}) {
@@ -276,7 +276,7 @@ TEST(Reference, timing) {
 }
 
 // No experiment kicks yet; the gait's path holds the printed formula, which joins both poses.
-TEST(Reference, kick) {
+TEST(Reference, Kick) {
   const json& kick = reference()["trajectory"]["kick"];
   const auto n = numbers(kick["kick"]);
   ASSERT_EQ(n.size(), 8u);  // the last two: 0 <= t <= 0.1
@@ -308,7 +308,7 @@ const config::Reported& reported(const experiment::Experiment& e, const std::str
   throw std::out_of_range(key);
 }
 
-TEST(Reference, table_6_1) {
+TEST(Reference, Table61) {
   const auto limits = load("joint-limits");
   const std::map<std::string, std::string> phases = {{"relaxed_from_flexion", "relaxed"},
                                                      {"relaxed_from_extension", "relaxed"},
@@ -335,7 +335,7 @@ TEST(Reference, table_6_1) {
 }
 
 // A joint is as passive as the busier of its muscles, the robot as its busiest joint.
-TEST(Reference, table_6_4) {
+TEST(Reference, Table64) {
   const json& table = reference()["tables"]["t6_4_pct"];
   analysis::Machine machine;
   machine.robot = leg().robot;
@@ -360,7 +360,7 @@ TEST(Reference, table_6_4) {
 
 // --- predict.dat --------------------------------------------------------------------------------
 
-TEST(Reference, predict_dat) {
+TEST(Reference, PredictDat) {
   const json& p = reference()["predict_dat"];
   EXPECT_EQ(p["identity"], "0,0,101 / d,d,100 / 100,101,100");
   for (const experiment::Experiment* e : {&leg(), &as_printed()}) {
@@ -387,7 +387,7 @@ TEST(Reference, predict_dat) {
 }
 
 // A section that is added to the file must be added here.
-TEST(Reference, no_section_is_without_a_test) {
+TEST(Reference, NoSectionIsWithoutATest) {
   std::set<std::string> sections;
   for (const auto& [name, section] : reference().items()) sections.insert(name);
   EXPECT_EQ(sections,

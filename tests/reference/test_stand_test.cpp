@@ -145,7 +145,7 @@ void expect_swing(const Trapped& set_up, const Swing& s, const json& e, double l
   EXPECT_NEAR(stopped, e["stop_s"].get<double>(), looser > 1 ? 0.01 : 5e-4);
 }
 
-TEST(TestStand, trapped_air) {
+TEST(TestStand, TrappedAir) {
   for (const Trapped& set_up : trapped_set_ups) {
     const json& row = summary()[set_up.name];
     const Swing text = swing(set_up, false), code = swing(set_up, true);
@@ -281,7 +281,7 @@ void expect_pulsed(const Pulsed& set_up, const std::vector<Sample>& samples, con
 
 // The equations are ours but for rounding of the reference's grid: means to 1e-4, ripples, which
 // are small differences, to 1 %.
-TEST(TestStand, pulsed_valve_by_the_equations) {
+TEST(TestStand, PulsedValveByTheEquations) {
   for (const Pulsed& set_up : pulsed_set_ups)
     expect_pulsed(set_up, pulse(set_up, by_equations()), summary()[set_up.name]["equations"],
                   {.length = 1e-4,
@@ -295,7 +295,7 @@ TEST(TestStand, pulsed_valve_by_the_equations) {
 
 // By the code: its .0165 and .064 are what the bank's exact orifice leaves; ripples and peaks feel
 // them and, at 1 ms, the coarse steps.
-TEST(TestStand, pulsed_valve_by_the_code) {
+TEST(TestStand, PulsedValveByTheCode) {
   for (const Pulsed& set_up : pulsed_set_ups) {
     const std::vector<Sample> samples = pulse(set_up, by_code());
     const json& row = summary()[set_up.name];
@@ -314,7 +314,7 @@ TEST(TestStand, pulsed_valve_by_the_code) {
 }
 
 // One constant of the code at a time.
-TEST(TestStand, sensitivities) {
+TEST(TestStand, Sensitivities) {
   for (const Pulsed& set_up : pulsed_set_ups) {
     int columns = 0;
     for (const auto& [what, expected] : summary()[set_up.name]["sens"].items()) {
@@ -337,7 +337,7 @@ TEST(TestStand, sensitivities) {
 
 // A 1 lb load at 25 Hz falls through b/sqrt 3 again and again (to -3 in), where [31] has no force:
 // chaotic, three ways of calculating it give three answers. Held: that it does leave the range.
-TEST(TestStand, one_pound_at_25_Hz_leaves_the_range) {
+TEST(TestStand, OnePoundAt25HzLeavesTheRange) {
   const json& row = summary()["E 25Hz 1lb"];
   for (const char* column : {"thesis_1ms", "code_conv", "equations"})
     EXPECT_LT(row[column]["L_min"].get<double>(), 0);
@@ -347,7 +347,7 @@ TEST(TestStand, one_pound_at_25_Hz_leaves_the_range) {
 }
 
 // How far the reference's own coarser steps are from its converged run: below what is held above.
-TEST(TestStand, errors_of_the_reference_are_smaller_than_the_tolerances) {
+TEST(TestStand, ErrorsOfTheReferenceAreSmallerThanTheTolerances) {
   for (const auto& [name, row] : summary().items()) {
     ASSERT_TRUE(row.contains("err_1ms") && row.contains("err_10us")) << name;
     if (name[0] == 'E' && name[1] == ' ') continue;  // chaotic
@@ -357,7 +357,7 @@ TEST(TestStand, errors_of_the_reference_are_smaller_than_the_tolerances) {
 }
 
 // With stick = false a muscle's force has the sign of its speed, both ways.
-TEST(TestStand, friction_without_stick_has_the_sign_of_the_speed) {
+TEST(TestStand, FrictionWithoutStickHasTheSignOfTheSpeed) {
   muscle::Muscle sticks = TestStand::muscle({}), slides = sticks;
   slides.actuator.loss.stick = false;
   using Air = muscle::AirNetwork<4>;
@@ -375,7 +375,7 @@ TEST(TestStand, friction_without_stick_has_the_sign_of_the_speed) {
   }
 }
 
-TEST(TestStand, every_set_up_has_a_test) {
+TEST(TestStand, EverySetUpHasATest) {
   std::set<std::string> held{"E 25Hz 1lb"}, all;
   for (const Trapped& s : trapped_set_ups) held.insert(s.name);
   for (const Pulsed& s : pulsed_set_ups) held.insert(s.name);

@@ -35,7 +35,7 @@ Samples without(const Samples& samples, std::size_t left_out) {
   return out;
 }
 
-TEST(CompareEdges, equal_trains_are_equal_and_counted) {
+TEST(CompareEdges, EqualTrainsAreEqualAndCounted) {
   std::mt19937_64 random(1);
   const signals::Table table = machine(random);
   const EdgeComparison c = compare_edges(table, table);
@@ -44,7 +44,7 @@ TEST(CompareEdges, equal_trains_are_equal_and_counted) {
   EXPECT_FALSE(c.first);
 }
 
-TEST(CompareEdges, any_one_change_is_found_where_it_is) {
+TEST(CompareEdges, AnyOneChangeIsFoundWhereItIs) {
   std::mt19937_64 random(2);
   for (int trial = 0; trial < 200; ++trial) {
     const signals::Table recorded = machine(random);
@@ -71,7 +71,7 @@ TEST(CompareEdges, any_one_change_is_found_where_it_is) {
   }
 }
 
-TEST(CompareEdges, a_log_that_was_cut_off_is_compared_as_far_as_all_of_it_goes) {
+TEST(CompareEdges, ALogThatWasCutOffIsComparedAsFarAsAllOfItGoes) {
   std::mt19937_64 random(3);
   const signals::Table whole = machine(random);
   signals::Table cut = whole;
@@ -89,7 +89,7 @@ TEST(CompareEdges, a_log_that_was_cut_off_is_compared_as_far_as_all_of_it_goes) 
   EXPECT_TRUE(compare_edges(cut, whole).first);
 }
 
-TEST(CompareEdges, a_valve_that_the_log_lacks_is_an_error) {
+TEST(CompareEdges, AValveThatTheLogLacksIsAnError) {
   std::mt19937_64 random(4);
   const signals::Table all = machine(random);
   signals::Table fewer = all;

@@ -103,7 +103,7 @@ Whole read_back(const std::string& toml, Origins* origins = nullptr) {
   return whole;
 }
 
-TEST(Writer, brings_back_the_same_bits) {
+TEST(Writer, BringsBackTheSameBits) {
   Random random;
   for (int i = 0; i < 50; ++i) {
     Whole whole{{random.part("b"), random.part("a.dot"), random.part("758")},
@@ -120,7 +120,7 @@ TEST(Writer, brings_back_the_same_bits) {
   }
 }
 
-TEST(Writer, prints_si_and_plain_toml) {
+TEST(Writer, PrintsSiAndPlainToml) {
   Whole whole{{Part{.name = "a"}}, {}, {}};
   Writer writer;
   writer.format("robot");
@@ -132,7 +132,7 @@ TEST(Writer, prints_si_and_plain_toml) {
   EXPECT_NE(text.find("[part.a.inner]\nlength = \"0.5 m\""), std::string::npos) << text;
 }
 
-TEST(Writer, keeps_where_values_came_from) {
+TEST(Writer, KeepsWhereValuesCameFrom) {
   Whole whole{{Part{.name = "a"}}, {}, {}};
   Origins origins(2);
   origins[0].path = "part.a.inner.length";
@@ -157,7 +157,7 @@ TEST(Writer, keeps_where_values_came_from) {
   EXPECT_EQ(find_origin(back, "ratio")->source, "default");
 }
 
-TEST(Documenter, renders_a_table) {
+TEST(Documenter, RendersATable) {
   Documenter documenter;
   Whole whole;
   fields(documenter, whole);

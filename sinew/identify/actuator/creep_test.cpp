@@ -35,7 +35,7 @@ Measured hold(double share, double tau, double rising, double noise, unsigned se
   return m;
 }
 
-TEST(Creep, share_and_time_come_back) {
+TEST(Creep, ShareAndTimeComeBack) {
   for (const double tau : {2.0, 8.0}) {
     const CreepResult found = identify_creep(hold(0.08, tau, 0, 0.2, 1));
     EXPECT_EQ(found.report.best().model, "one");
@@ -48,17 +48,17 @@ TEST(Creep, share_and_time_come_back) {
   }
 }
 
-TEST(Creep, none_is_found_where_there_is_none) {
+TEST(Creep, NoneIsFoundWhereThereIsNone) {
   EXPECT_EQ(identify_creep(hold(0, 1, 0, 0.2, 2)).report.best().model, "none");
 }
 
-TEST(Creep, a_pressure_that_rises_on_is_told) {
+TEST(Creep, APressureThatRisesOnIsTold) {
   const CreepResult found = identify_creep(hold(0.08, 8, 0.02, 0.2, 3));
   ASSERT_EQ(found.report.warnings.size(), 1u);
   EXPECT_NE(found.report.warnings[0].find("confounded"), std::string::npos);
 }
 
-TEST(Creep, a_few_rows_are_refused) {
+TEST(Creep, AFewRowsAreRefused) {
   Measured m = hold(0.1, 5, 0, 0.1, 4);
   const std::vector<std::size_t> few{0, 1, 2, 3};
   EXPECT_THROW(identify_creep(m.subset(few)), Refusal);

@@ -28,7 +28,7 @@ Measured pairs(unsigned seed, double noise, int count, double thickness = 0) {
   return m;
 }
 
-TEST(Geometry, without_noise_the_braid_comes_back) {
+TEST(Geometry, WithoutNoiseTheBraidComesBack) {
   for (const double thickness : {0.0, 4e-4}) {
     const GeometryResult g = identify_geometry(pairs(1, 0, 5, thickness), thickness);
     EXPECT_NEAR(g.braid.thread_length, truth.thread_length, 1e-9);
@@ -36,7 +36,7 @@ TEST(Geometry, without_noise_the_braid_comes_back) {
   }
 }
 
-TEST(Geometry, intervals_cover_the_truth) {
+TEST(Geometry, IntervalsCoverTheTruth) {
   int covered = 0;
   double bias = 0;
   for (unsigned seed = 0; seed < 200; ++seed) {
@@ -50,7 +50,7 @@ TEST(Geometry, intervals_cover_the_truth) {
   EXPECT_LT(std::abs(bias), 0.01);
 }
 
-TEST(Geometry, one_wrong_diameter_is_told_and_hardly_heard) {
+TEST(Geometry, OneWrongDiameterIsToldAndHardlyHeard) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     Measured m = pairs(seed, 3e-5, 10);
     m.columns[1].values[seed % 10] *= seed % 2 == 0 ? 1.3 : 0.6;
@@ -65,7 +65,7 @@ TEST(Geometry, one_wrong_diameter_is_told_and_hardly_heard) {
 
 // The outside of the threads, a caliper's, is wider than the circle they lie on. Untold it makes a
 // braid of fewer turns.
-TEST(Geometry, the_outside_taken_for_the_mesh_loses_turns) {
+TEST(Geometry, TheOutsideTakenForTheMeshLosesTurns) {
   const Measured outside = pairs(1, 0, 8, 5e-4);
   EXPECT_LT(identify_geometry(outside).braid.turns, 0.98 * truth.turns);
   EXPECT_NEAR(identify_geometry(outside, 5e-4).braid.turns, truth.turns, 1e-6);
@@ -73,7 +73,7 @@ TEST(Geometry, the_outside_taken_for_the_mesh_loses_turns) {
   EXPECT_THROW(identify_geometry(outside, -1e-4), Refusal);
 }
 
-TEST(Geometry, two_pairs_are_enough_and_one_is_not) {
+TEST(Geometry, TwoPairsAreEnoughAndOneIsNot) {
   const GeometryResult g = identify_geometry(pairs(1, 0, 2));
   EXPECT_NEAR(g.braid.turns, truth.turns, 1e-7);
   EXPECT_TRUE(std::isinf(g.report.best().parameters[0].high)) << "no error can be seen";
@@ -81,7 +81,7 @@ TEST(Geometry, two_pairs_are_enough_and_one_is_not) {
   EXPECT_THROW(identify_geometry(pairs(1, 0, 2).subset(first)), Refusal);
 }
 
-TEST(Geometry, one_length_and_swapped_columns_are_refused) {
+TEST(Geometry, OneLengthAndSwappedColumnsAreRefused) {
   Measured one = pairs(1, 0, 5);
   for (double& x : one.columns[0].values) x = 0.08;
   EXPECT_THROW(identify_geometry(one), Refusal);

@@ -64,7 +64,7 @@ std::string refusal_of(const std::string& text, const StaticInput& input = {}) {
   return "";
 }
 
-TEST(StaticData, branches_and_zeros_of_a_recording_are_found) {
+TEST(StaticData, BranchesAndZerosOfARecordingAreFound) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> force(-30, 30), pressure(-10, 10);
   for (unsigned trial = 0; trial < 10; ++trial) {
@@ -84,7 +84,7 @@ TEST(StaticData, branches_and_zeros_of_a_recording_are_found) {
 }
 
 // The same law, whatever the sensors' zeros.
-TEST(StaticData, zeros_do_not_matter_to_the_parameters) {
+TEST(StaticData, ZerosDoNotMatterToTheParameters) {
   const auto identify = [](double f0, double p0) {
     StaticData data;
     unsigned seed = 7;
@@ -111,7 +111,7 @@ std::string table(double newton, double pascal, double zero = 0) {
   return out;
 }
 
-TEST(StaticData, units_change_nothing) {
+TEST(StaticData, UnitsChangeNothing) {
   StaticData metric, inch;
   add_points(read(table(1, 1e3)), {.rest_length = rest}, metric);
   add_points(read(table(4.4482216152605, 6894.757293168361)), {.rest_length = rest}, inch);
@@ -122,7 +122,7 @@ TEST(StaticData, units_change_nothing) {
   }
 }
 
-TEST(StaticData, slack_rows_of_a_table_tell_the_zero_of_the_force) {
+TEST(StaticData, SlackRowsOfATableTellTheZeroOfTheForce) {
   for (const double zero : {-30.0, 0.0, 20.0}) {
     StaticData data;
     EXPECT_NEAR(add_points(read(table(1, 1e3, zero)), {.rest_length = rest}, data).force, zero,
@@ -131,13 +131,13 @@ TEST(StaticData, slack_rows_of_a_table_tell_the_zero_of_the_force) {
 }
 
 // What hangs on the muscle pulls with its weight.
-TEST(StaticData, masses_are_weighed) {
+TEST(StaticData, MassesAreWeighed) {
   StaticData data;
   add_points(read("load [kg],length [mm],pressure [kPa gauge]\n1,200,100\n2,210,200\n"), {}, data);
   EXPECT_NEAR(data.points[1].force, 19.6133, 1e-9);
 }
 
-TEST(StaticData, a_column_may_say_the_branch_in_words_and_rows_may_be_chosen) {
+TEST(StaticData, AColumnMaySayTheBranchInWordsAndRowsMayBeChosen) {
   Source source{.path = "bins.csv"};
   const std::string text =
       "length [mm],force [N],pressure [kPa gauge],branch,muscle\n"
@@ -150,7 +150,7 @@ TEST(StaticData, a_column_may_say_the_branch_in_words_and_rows_may_be_chosen) {
   EXPECT_EQ(data.points[1].branch, Branch::vent);
 }
 
-TEST(StaticData, groups_follow_gaps_and_else_steps) {
+TEST(StaticData, GroupsFollowGapsAndElseSteps) {
   EXPECT_EQ(groups_of(std::vector{3.0, 1.0, 1.1, 2.9}, 0.5, 1), (std::vector{1, 0, 0, 1}));
   const std::vector<int> even = groups_of(std::vector{0.0, 0.4, 0.8, 1.2, 1.6}, 0.5, 1);
   EXPECT_EQ(even, (std::vector{0, 0, 1, 2, 3}));
@@ -163,31 +163,31 @@ void expect_refused(const std::string& message, std::initializer_list<const char
     EXPECT_NE(message.find(word), message.npos) << "\"" << word << "\" in: " << message;
 }
 
-TEST(StaticRefusal, constant_pressure) {
+TEST(StaticRefusal, ConstantPressure) {
   expect_refused(refusal_of("length [mm],force [N],pressure [kPa gauge]\n"
                             "250,100,300\n240,80,300\n230,50,301\n"),
                  {"pressure", "throughout", "several pressures"});
 }
 
-TEST(StaticRefusal, one_length_and_no_geometry) {
+TEST(StaticRefusal, OneLengthAndNoGeometry) {
   std::string text = "length [mm],force [N],pressure [kPa gauge]\n";
   for (int p = 50; p <= 600; p += 25)
     text += fmt::format("240,{},{}\n", force_at(0.24, 1e3 * p), p);
   expect_refused(refusal_of(text), {"one length only", "--actuator"});
 }
 
-TEST(StaticRefusal, too_few_points) {
+TEST(StaticRefusal, TooFewPoints) {
   expect_refused(refusal_of("length [mm],force [N],pressure [kPa gauge]\n"
                             "250,100,300\n240,80,400\n230,50,500\n"),
                  {"3 points", "at least", "more measurements"});
 }
 
-TEST(StaticRefusal, no_length) {
+TEST(StaticRefusal, NoLength) {
   expect_refused(refusal_of("force [N],pressure [kPa gauge]\n1,100\n2,200\n"),
                  {"no length", "--length"});
 }
 
-TEST(StaticRefusal, swapped_columns) {
+TEST(StaticRefusal, SwappedColumns) {
   expect_refused(refusal_of("length [mm],pressure [kPa gauge],force [N]\n"
                             "250,0.9,300\n240,0.8,400\n230,0.5,500\n"),
                  {"pressure", "wrong unit, or another column"});
@@ -197,13 +197,13 @@ TEST(StaticRefusal, swapped_columns) {
   expect_refused(refusal_of(falling), {"falls while the pressure rises", "sign"});
 }
 
-TEST(StaticRefusal, wrong_unit) {
+TEST(StaticRefusal, WrongUnit) {
   expect_refused(refusal_of("length [m],force [N],pressure [kPa gauge]\n"
                             "250,100,300\n240,80,400\n230,50,500\n"),
                  {"length", "wrong unit", "--unit length=", "mm"});
 }
 
-TEST(StaticRefusal, a_sensor_at_its_end) {
+TEST(StaticRefusal, ASensorAtItsEnd) {
   StaticData data;
   try {
     add_points(read(recording(0.25, 0, 0, 3, 300)), {.length = 0.25}, data);
@@ -213,13 +213,13 @@ TEST(StaticRefusal, a_sensor_at_its_end) {
   }
 }
 
-TEST(StaticRefusal, a_recording_whose_length_changes) {
+TEST(StaticRefusal, ARecordingWhoseLengthChanges) {
   std::string text = "time [s],length [mm],force [N],pressure [kPa gauge]\n";
   for (int i = 0; i < 100; ++i) text += fmt::format("{},{},{},{}\n", i, 250 - i % 30, i, 5 * i);
   expect_refused(refusal_of(text), {"length changes"});
 }
 
-TEST(StaticRefusal, a_model_that_there_is_not) {
+TEST(StaticRefusal, AModelThatThereIsNot) {
   StaticData data;
   add_points(read(table(1, 1e3)), {.rest_length = rest}, data);
   try {

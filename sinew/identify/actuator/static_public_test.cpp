@@ -21,7 +21,7 @@ StaticData dmsp() {
 }
 
 // Every second pressure was not seen: 0.5 % of the largest force. All models are tried.
-TEST(PublicData, dmsp_by_pressure) {
+TEST(PublicData, DmspByPressure) {
   const StaticResult found = identify_static(dmsp(), {.hold_out = HoldOut::pressure});
   EXPECT_LE(found.report.best().held_out->rmse_percent, 0.5) << found.report.rule;
   EXPECT_LE(found.report.best().held_out->max_percent, 2.5);
@@ -29,7 +29,7 @@ TEST(PublicData, dmsp_by_pressure) {
 
 // Each length on its own, the longest and the shortest too, was not seen. Its authors' model, which
 // saw them all, is off by up to 4.4 %.
-TEST(PublicData, dmsp_by_length) {
+TEST(PublicData, DmspByLength) {
   const StaticResult found = identify_static(dmsp(), {.hold_out = HoldOut::length});
   EXPECT_LT(found.report.best().held_out->max_percent, 4.4) << found.report.rule;
   EXPECT_LT(found.report.best().held_out->rmse_percent, 1.2);
@@ -63,7 +63,7 @@ StaticResult bins(const std::string& path, const std::string& muscles, bool all)
   return identify_static(data, {.model = all ? "saturating" : ""});
 }
 
-TEST(PublicData, muscles_of_20_mm_by_pressure) {
+TEST(PublicData, MusclesOf20MmByPressure) {
   const std::string path = shared("psu_20mm/isometric_bins.csv");
   if (path.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no psu_20mm";
   const auto held_out = [&](const char* muscle) {
@@ -75,7 +75,7 @@ TEST(PublicData, muscles_of_20_mm_by_pressure) {
 }
 
 // Three rest lengths, one law: the ends take a length of 3 cm from each.
-TEST(PublicData, muscles_of_20_mm_are_of_one_make) {
+TEST(PublicData, MusclesOf20MmAreOfOneMake) {
   const std::string path = shared("psu_20mm/isometric_bins.csv");
   if (path.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no psu_20mm";
   const StaticResult found = bins(path, "98,225,398", true);
@@ -85,7 +85,7 @@ TEST(PublicData, muscles_of_20_mm_are_of_one_make) {
 }
 
 // Three mounts, recorded at 600 Hz: branches, zeros and bins are found.
-TEST(PublicData, recordings_of_20_mm_need_no_hand) {
+TEST(PublicData, RecordingsOf20MmNeedNoHand) {
   const std::string first = shared("psu_20mm/raw/20mm_23cm_Unkinked_Test10.csv");
   if (first.empty()) GTEST_SKIP() << "SINEW_DATA_DIR has no psu_20mm";
   StaticData data;

@@ -69,7 +69,7 @@ std::vector<Knob> knobs_named(const std::string& name) {
 
 // --- what comes back ---
 
-TEST(Static, without_noise_the_law_comes_back) {
+TEST(Static, WithoutNoiseTheLawComesBack) {
   const std::vector<StaticPoint> points = measured(truth(), 1, {}, many);
   const StaticFit fit = fit_static(knobs_named("saturating-elastic"), points, scales_for(points));
   StaticSetting found = fit.setting, right = truth();
@@ -80,7 +80,7 @@ TEST(Static, without_noise_the_law_comes_back) {
 
 // Force 0.3 % of full scale, pressure 0.5 kPa, length 0.1 mm: 95 % intervals of what is
 // identifiable hold the truth in 90 to 99 % of 200 trials, and the mean is right within 1 %.
-TEST(Static, intervals_cover_the_truth) {
+TEST(Static, IntervalsCoverTheTruth) {
   const std::vector<Knob> knobs = knobs_named("saturating-elastic");
   std::vector<int> covered(knobs.size()), seen(knobs.size());
   std::vector<double> sum(knobs.size());
@@ -108,7 +108,7 @@ TEST(Static, intervals_cover_the_truth) {
 
 // Two lengths do not tell how a bladder saturates: it stays where other muscles put it, and says
 // so.
-TEST(Static, what_the_data_do_not_say_is_not_identifiable) {
+TEST(Static, WhatTheDataDoNotSayIsNotIdentifiable) {
   const auto points = measured(truth(), 3, real_noise(), {0.08, 0.12, 0.16});
   const StaticFit fit = fit_static(knobs_named("saturating-elastic"), points, scales_for(points));
   const auto at = std::find(fit.knobs.begin(), fit.knobs.end(), Knob::saturation_length);
@@ -126,7 +126,7 @@ StaticResult identify(const std::vector<StaticPoint>& points, const std::string&
   return identify_static({.points = points}, options);
 }
 
-TEST(Static, order_of_the_rows_does_not_matter) {
+TEST(Static, OrderOfTheRowsDoesNotMatter) {
   std::vector<StaticPoint> points = measured(truth(), 4, real_noise(), many);
   const StaticResult before = identify(points, "saturating");
   std::mt19937_64 random(5);
@@ -136,7 +136,7 @@ TEST(Static, order_of_the_rows_does_not_matter) {
   EXPECT_EQ(before.report.best().cross_validated->rmse, after.report.best().cross_validated->rmse);
 }
 
-TEST(Static, slack_points_say_no_more_than_that) {
+TEST(Static, SlackPointsSayNoMoreThanThat) {
   std::vector<StaticPoint> points = measured(truth(), 6, real_noise(), many);
   const auto fit = [&] {
     return fit_static(knobs_named("saturating-elastic"), points, scales_for(points)).setting;
@@ -149,7 +149,7 @@ TEST(Static, slack_points_say_no_more_than_that) {
     EXPECT_NEAR(value_of(after, knob) / value_of(before, knob), 1, 0.01) << key_of(knob);
 }
 
-TEST(Static, outliers_count_little) {
+TEST(Static, OutliersCountLittle) {
   std::vector<StaticPoint> points = measured(truth(), 7, real_noise(), many);
   const StaticFit clean = fit_static(knobs_named("saturating-elastic"), points, scales_for(points));
   for (std::size_t i = 5; i < points.size(); i += 12) points[i].force += 80;
@@ -162,7 +162,7 @@ TEST(Static, outliers_count_little) {
 }
 
 // A slipped decimal in few points must not decide for a law that is wrong for all others.
-TEST(Static, wild_points_do_not_change_the_choice) {
+TEST(Static, WildPointsDoNotChangeTheChoice) {
   std::vector<StaticPoint> points = measured(truth(), 11, real_noise(), many);
   const StaticResult clean = identify(points);
   EXPECT_TRUE(clean.report.warnings.empty());
@@ -176,7 +176,7 @@ TEST(Static, wild_points_do_not_change_the_choice) {
       << wild.report.warnings[0];
 }
 
-TEST(Static, held_out_points_have_no_part_in_the_fit) {
+TEST(Static, HeldOutPointsHaveNoPartInTheFit) {
   std::vector<StaticPoint> points = measured(truth(), 8, real_noise(), many);
   for (std::size_t i = 0; i < points.size(); i += 2) points[i].fitted = false;
   const StaticResult before = identify(points, "saturating");
@@ -190,7 +190,7 @@ TEST(Static, held_out_points_have_no_part_in_the_fit) {
 // --- which model ---
 
 // Data of a simple law are not explained by a rich one.
-TEST(Static, the_law_that_made_the_data_is_simple_enough) {
+TEST(Static, TheLawThatMadeTheDataIsSimpleEnough) {
   StaticSetting s = truth();
   s.actuator.bladder = {};
   s.actuator.effectiveness.threshold = 0;
@@ -199,7 +199,7 @@ TEST(Static, the_law_that_made_the_data_is_simple_enough) {
   EXPECT_LT(found.report.best().cross_validated->rmse_percent, 0.6);
 }
 
-TEST(Static, a_saturating_bladder_is_found) {
+TEST(Static, ASaturatingBladderIsFound) {
   const StaticResult found = identify(measured(truth(), 10, real_noise(), many));
   EXPECT_TRUE(found.report.best().model.starts_with("saturating")) << found.report.rule;
   EXPECT_GE(found.report.fits.size(), 6u);
@@ -210,7 +210,7 @@ TEST(Static, a_saturating_bladder_is_found) {
 }
 
 // Filling and venting are 2 w apart.
-TEST(Static, half_width_of_the_hysteresis_comes_back) {
+TEST(Static, HalfWidthOfTheHysteresisComesBack) {
   for (const Noise& noise : {Noise{}, real_noise()}) {
     std::vector<StaticPoint> points;
     for (const Branch branch : {Branch::fill, Branch::vent})
@@ -227,7 +227,7 @@ TEST(Static, half_width_of_the_hysteresis_comes_back) {
 }
 
 // Three muscles of one make: what the ends take from each alike.
-TEST(Static, the_rest_lengths_effect_comes_back) {
+TEST(Static, TheRestLengthsEffectComesBack) {
   StaticSetting s = truth();
   s.end_loss = 0.02;
   const StaticScales scales{.rest_length = rest};
@@ -247,7 +247,7 @@ TEST(Static, the_rest_lengths_effect_comes_back) {
 }
 
 // Beyond what was measured: bounded, and never less force with more pressure.
-TEST(Static, outside_the_data_it_stays_bounded_and_monotone) {
+TEST(Static, OutsideTheDataItStaysBoundedAndMonotone) {
   const auto points = measured(truth(), 13, real_noise(), many);
   for (const char* model : {"effectiveness-quadratic", "taper", "elastic-cubic", "saturating"}) {
     const StaticResult found = identify(points, model);

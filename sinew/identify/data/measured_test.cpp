@@ -34,7 +34,7 @@ std::string problem(std::string_view text, Source source = {}) {
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
-TEST(Measured, units_change_nothing) {
+TEST(Measured, UnitsChangeNothing) {
   const Measured a = read("pressure [kPa gauge],force [N]\n100,44.4822161526\n200,88.9644323052\n");
   const Measured b = read("force [lbf],pressure [bar gauge]\n10,1\n20,2\n");
   const Measured c =
@@ -46,7 +46,7 @@ TEST(Measured, units_change_nothing) {
   }
 }
 
-TEST(Measured, a_foreign_file_is_read_by_saying_what_its_columns_are) {
+TEST(Measured, AForeignFileIsReadBySayingWhatItsColumnsAre) {
   Source source{.names = {{"pressure", "p_raw"}, {"force", "F"}},
                 .units = {{"p_raw", "kPa gauge"}, {"F", "N"}}};
   const Measured m = read("n;F;p_raw\n# comment\n1;12.5;300\n\n2;+13;310\n", source);
@@ -56,14 +56,14 @@ TEST(Measured, a_foreign_file_is_read_by_saying_what_its_columns_are) {
   EXPECT_EQ(m.lines, (std::vector<int>{3, 5}));
 }
 
-TEST(Measured, a_file_without_a_header_is_read_by_its_columns) {
+TEST(Measured, AFileWithoutAHeaderIsReadByItsColumns) {
   Source source{.columns = {"force [N]", "pressure [kPa gauge]", "time [s]"}};
   const Measured m = read("14.5,8.9,0\n14.6,9.0,0.001\n", source);
   ASSERT_EQ(m.rows(), 2u);
   EXPECT_EQ(m["time"][1], 0.001);
 }
 
-TEST(Measured, a_makers_table_becomes_rows) {
+TEST(Measured, AMakersTableBecomesRows) {
   const Measured m = read(
       "length [mm],force [N] @ pressure = 1 bar gauge,force [N] @ pressure = 2 bar gauge\n"
       "250,100,210\n240,,150\n");
@@ -73,7 +73,7 @@ TEST(Measured, a_makers_table_becomes_rows) {
   EXPECT_EQ(m["length"], (std::vector<double>{0.25, 0.25, 0.24}));
 }
 
-TEST(Measured, rows_that_are_not_complete_are_left_out_on_request_only) {
+TEST(Measured, RowsThatAreNotCompleteAreLeftOutOnRequestOnly) {
   const std::string text = "pressure [kPa gauge],force [N]\n100,10\n,20\n300,nan\n400,40\n";
   const std::string said = problem(text);
   EXPECT_TRUE(says(said, "rig.csv:3:1: pressure: found an empty cell")) << said;
@@ -86,7 +86,7 @@ TEST(Measured, rows_that_are_not_complete_are_left_out_on_request_only) {
   EXPECT_TRUE(says(m.notes[0], "2 of 4 rows")) << m.notes[0];
 }
 
-TEST(Measured, what_is_wrong_is_told) {
+TEST(Measured, WhatIsWrongIsTold) {
   struct Case {
     const char* text;
     const char* part;
@@ -118,14 +118,14 @@ TEST(Measured, what_is_wrong_is_told) {
                    "--unit: found \"x\""));
 }
 
-TEST(Measured, two_columns_of_one_name_are_refused_unless_an_at_tells_them_apart) {
+TEST(Measured, TwoColumnsOfOneNameAreRefusedUnlessAnAtTellsThemApart) {
   const std::string said = problem("pressure [kPa gauge],force [N],force [lbf]\n100,20,30\n");
   EXPECT_TRUE(says(said, "rig.csv:1:32: force: found a second column of this name")) << said;
   const std::string unread = "n [mm],n [s],pressure [kPa gauge],force [N]\n1,2,100,20\n";
   EXPECT_EQ(problem(unread), "none");  // nobody asked for it
 }
 
-TEST(Quality, a_sensor_at_its_end_repeats_itself_and_noise_does_not) {
+TEST(Quality, ASensorAtItsEndRepeatsItselfAndNoiseDoesNot) {
   std::vector<double> noisy, clipped;
   unsigned state = 1;
   for (int i = 0; i < 500; ++i) {
@@ -145,7 +145,7 @@ TEST(Quality, a_sensor_at_its_end_repeats_itself_and_noise_does_not) {
   EXPECT_FALSE(clipping(steps).clipped);
 }
 
-TEST(Quality, an_outlier_is_one_among_many_and_noise_has_none) {
+TEST(Quality, AnOutlierIsOneAmongManyAndNoiseHasNone) {
   std::vector<double> r;
   unsigned state = 7;
   for (int i = 0; i < 200; ++i) {
@@ -159,7 +159,7 @@ TEST(Quality, an_outlier_is_one_among_many_and_noise_has_none) {
   EXPECT_TRUE(outliers(std::vector<double>{0, 0, 0, 9}, 0).empty()) << "too few to tell";
 }
 
-TEST(Quality, constants_are_refused_with_the_reason) {
+TEST(Quality, ConstantsAreRefusedWithTheReason) {
   const Measured m = read("pressure [kPa gauge],force [N]\n100,10\n100.1,20\n");
   EXPECT_NO_THROW(refuse_constant(m, "force", 1, "", ""));
   try {

@@ -26,7 +26,7 @@ std::string message(const Report& report, double percent) {
   return "none";
 }
 
-TEST(Choice, is_the_fewest_parameters_among_the_good_ones) {
+TEST(Choice, IsTheFewestParametersAmongTheGoodOnes) {
   Report r{.fits = {model("one", 1, 2.0), model("two", 2, 1.05), model("five", 5, 1.0)}};
   choose(r);
   EXPECT_EQ(r.best().model, "two");
@@ -39,7 +39,7 @@ TEST(Choice, is_the_fewest_parameters_among_the_good_ones) {
   EXPECT_EQ(r.best().model, "five");
 }
 
-TEST(Choice, refuses_when_nothing_is_left_and_says_each_reason_once) {
+TEST(Choice, RefusesWhenNothingIsLeftAndSaysEachReasonOnce) {
   Report r{.subject = "law", .fits = {model("a", 1, 1), model("b", 2, 1), model("c", 3, 1)}};
   r.fits[0].refused = r.fits[2].refused = "one length only";
   r.fits[1].refused = "no mesh";
@@ -48,7 +48,7 @@ TEST(Choice, refuses_when_nothing_is_left_and_says_each_reason_once) {
             "expected data that determine the simplest of them");
 }
 
-TEST(Choice, refuses_what_no_model_explains) {
+TEST(Choice, RefusesWhatNoModelExplains) {
   const Report r{
       .subject = "law", .full_scale_is = "the largest force", .fits = {model("a", 1, 20)}};
   EXPECT_EQ(message(r, 25), "none");

@@ -35,7 +35,7 @@ struct Line {
   }
 };
 
-TEST(LeastSquares, a_straight_line_has_its_closed_form) {
+TEST(LeastSquares, AStraightLineHasItsClosedForm) {
   const Line line(3);
   const Solution s = least_squares(line.residuals(), line.x.size(), line_parameters);
   const auto n = static_cast<double>(line.x.size());
@@ -60,7 +60,7 @@ TEST(LeastSquares, a_straight_line_has_its_closed_form) {
   EXPECT_NEAR(s["b"].high - s["b"].value, 2.10092 * s["b"].standard_error, 1e-4);
 }
 
-TEST(LeastSquares, intervals_cover_the_truth_as_often_as_they_say) {
+TEST(LeastSquares, IntervalsCoverTheTruthAsOftenAsTheySay) {
   int covered = 0;
   double bias = 0;
   for (unsigned seed = 0; seed < 200; ++seed) {
@@ -74,7 +74,7 @@ TEST(LeastSquares, intervals_cover_the_truth_as_often_as_they_say) {
   EXPECT_LT(std::abs(bias), 0.02);
 }
 
-TEST(LeastSquares, a_product_does_not_tell_its_factors) {
+TEST(LeastSquares, AProductDoesNotTellItsFactors) {
   const Line line(5);
   const Residuals product = [&line](std::span<const double> p, std::span<double> r) {
     for (std::size_t i = 0; i < line.x.size(); ++i)
@@ -93,7 +93,7 @@ TEST(LeastSquares, a_product_does_not_tell_its_factors) {
   EXPECT_NE(s.unseen[0].find("arm"), std::string::npos) << s.unseen[0];
 }
 
-TEST(LeastSquares, outliers_do_not_move_a_robust_fit) {
+TEST(LeastSquares, OutliersDoNotMoveARobustFit) {
   Line line(7);
   for (const std::size_t i : {2u, 9u, 15u}) line.y[i] += 30;
   const Solution plain = least_squares(line.residuals(), line.x.size(), line_parameters);
@@ -105,7 +105,7 @@ TEST(LeastSquares, outliers_do_not_move_a_robust_fit) {
   EXPECT_LT(robust.standard_deviation, 0.3);
 }
 
-TEST(LeastSquares, a_bound_holds_and_says_so) {
+TEST(LeastSquares, ABoundHoldsAndSaysSo) {
   const Line line(9);
   Parameter parameters[] = {line_parameters[0], line_parameters[1]};
   parameters[1].low = -1;
@@ -116,7 +116,7 @@ TEST(LeastSquares, a_bound_holds_and_says_so) {
   EXPECT_EQ(s.freedom, 19);
 }
 
-TEST(LeastSquares, noise_that_remembers_widens_the_intervals) {
+TEST(LeastSquares, NoiseThatRemembersWidensTheIntervals) {
   // x_i = 0.8 x_{i-1} + e: the variance of a mean grows by (1 + 0.8)/(1 - 0.8) = 9.
   double inflation = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {
@@ -131,12 +131,12 @@ TEST(LeastSquares, noise_that_remembers_widens_the_intervals) {
   EXPECT_NEAR(inflation, 9, 1.5);
 }
 
-TEST(LeastSquares, fewer_points_than_parameters_are_refused) {
+TEST(LeastSquares, FewerPointsThanParametersAreRefused) {
   const Line line(1, 0.1, 1);
   EXPECT_THROW(least_squares(line.residuals(), 1, line_parameters), Refusal);
 }
 
-TEST(LeastSquares, quantiles_of_students_t) {
+TEST(LeastSquares, QuantilesOfStudentsT) {
   for (const auto& [freedom, t] : {std::pair{1, 12.7062},
                                    {5, 2.57058},
                                    {6, 2.44691},
@@ -147,7 +147,7 @@ TEST(LeastSquares, quantiles_of_students_t) {
     EXPECT_NEAR(t_quantile(freedom), t, 2e-3) << freedom;
 }
 
-TEST(Choice, the_simplest_model_that_is_nearly_best) {
+TEST(Choice, TheSimplestModelThatIsNearlyBest) {
   Report report{.subject = "test"};
   const auto add = [&](const char* name, std::size_t parameters, double error, double held_out) {
     Fit fit{.model = name};

@@ -88,7 +88,7 @@ std::string refused(const Measured& m, const JointSetup& s, std::string_view mod
   return "not refused";
 }
 
-TEST(Hinge, arm_is_the_slope_of_the_shortening) {
+TEST(Hinge, ArmIsTheSlopeOfTheShortening) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> angle(0.4, 2.5), q(-0.4, 0.4), ratio(1.05, 20);
   for (int i = 0; i < 200; ++i) {
@@ -102,12 +102,12 @@ TEST(Hinge, arm_is_the_slope_of_the_shortening) {
 }
 
 // From far away the cosine rule's points give a hinge whose arm goes with the sine alone.
-TEST(Hinge, from_far_away_the_arm_is_the_insertion_times_the_sine) {
+TEST(Hinge, FromFarAwayTheArmIsTheInsertionTimesTheSine) {
   const Hinge h = Hinge::points(0.02, 1e6, pi / 2);
   for (const double q : {-0.5, 0.0, 0.5}) EXPECT_NEAR(h.arm(q), 0.02 * std::sin(pi / 2 - q), 1e-6);
 }
 
-TEST(Joint, without_noise_everything_comes_back) {
+TEST(Joint, WithoutNoiseEverythingComesBack) {
   for (const bool pair : {false, true})
     for (const double sign : {1.0, -1.0}) {
       const Truth t{.sign = sign};
@@ -123,7 +123,7 @@ TEST(Joint, without_noise_everything_comes_back) {
     }
 }
 
-TEST(Joint, the_model_is_chosen_by_what_it_did_not_see) {
+TEST(Joint, TheModelIsChosenByWhatItDidNotSee) {
   const std::pair<Truth, const char*> cases[] = {{Truth{.c1 = 0}, "round"},
                                                  {Truth{}, "round_pressure"}};
   for (const auto& [t, name] : cases) {
@@ -136,7 +136,7 @@ TEST(Joint, the_model_is_chosen_by_what_it_did_not_see) {
 
 // An arm that changes with the angle and an unknown force law are too much for torques; with the
 // force law known the points come out.
-TEST(Joint, attachment_points_need_a_known_force_law) {
+TEST(Joint, AttachmentPointsNeedAKnownForceLaw) {
   const Truth t{.c1 = 0, .origin = 0.06, .origin_angle = 1.2};
   JointSetup s = setup_of(t);
   EXPECT_NE(refused(poses(t, false, 0.002, 5), s).find("cannot be told apart"), std::string::npos);
@@ -151,7 +151,7 @@ TEST(Joint, attachment_points_need_a_known_force_law) {
   EXPECT_EQ(r.effectiveness.c0, t.c0);
 }
 
-TEST(Joint, intervals_cover_the_truth_in_200_trials) {
+TEST(Joint, IntervalsCoverTheTruthIn200Trials) {
   const Truth t;
   int covered[4] = {};
   double bias[4] = {};
@@ -173,7 +173,7 @@ TEST(Joint, intervals_cover_the_truth_in_200_trials) {
 }
 
 // A small excursion at one length: torque is arm times force, and that is all.
-TEST(Joint, small_excursions_determine_a_product_only_and_it_says_so) {
+TEST(Joint, SmallExcursionsDetermineAProductOnlyAndItSaysSo) {
   const Truth t{.half_range = 0.06};
   const std::string text = refused(poses(t, false, 0.05, 2), setup_of(t), "round");
   EXPECT_NE(text.find("cannot be told apart"), std::string::npos) << text;
@@ -196,7 +196,7 @@ TEST(Joint, small_excursions_determine_a_product_only_and_it_says_so) {
   EXPECT_NEAR(with_force.moment_arm, t.arm, 0.1 * t.arm);
 }
 
-TEST(Joint, what_is_well_determined_comes_first) {
+TEST(Joint, WhatIsWellDeterminedComesFirst) {
   const Truth t;
   const JointResult r =
       identify_joint(poses(t, false, 0.005, 9), {}, setup_of(t), "round_pressure");
@@ -205,7 +205,7 @@ TEST(Joint, what_is_well_determined_comes_first) {
 }
 
 // A hanging mass is a torque like any other.
-TEST(Joint, a_mass_on_a_lever_says_the_same_as_its_torque) {
+TEST(Joint, AMassOnALeverSaysTheSameAsItsTorque) {
   const Truth t{.rest = 1.5 * pi + 0.9};
   Measured by_torque = poses(t, false, 0, 4), by_load = by_torque;
   JointSetup s = setup_of(t);
@@ -225,7 +225,7 @@ TEST(Joint, a_mass_on_a_lever_says_the_same_as_its_torque) {
   EXPECT_NEAR(a.effectiveness.c0, b.effectiveness.c0, 1e-6);
 }
 
-TEST(Joint, what_cannot_be_used_is_told) {
+TEST(Joint, WhatCannotBeUsedIsTold) {
   const Truth t;
   const Measured good = poses(t, false, 0.001, 1);
   const auto says = [](const Measured& m, const JointSetup& s, const char* text) {

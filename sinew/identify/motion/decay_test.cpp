@@ -66,7 +66,7 @@ std::string refused(const Samples& s) {
   return "not refused";
 }
 
-TEST(TwoPoint, as_printed_it_gives_chapter_3s_constants) {
+TEST(TwoPoint, AsPrintedItGivesChapter3sConstants) {
   const auto data = nlohmann::json::parse(
       std::ifstream(SINEW_SOURCE_DIR "/data/reference.json"))["verification_summary"];
   const std::pair<const char*, double> tests[] = {
@@ -87,7 +87,7 @@ TEST(TwoPoint, as_printed_it_gives_chapter_3s_constants) {
 }
 
 // Amplitudes that fall by 4 Q per period and nothing else: both forms agree.
-TEST(TwoPoint, dry_friction_alone_takes_four_Q_per_period) {
+TEST(TwoPoint, DryFrictionAloneTakesFourQPerPeriod) {
   const double q = 1.3e-4, x1 = 5e-3, x2 = x1 - 12 * q;
   for (const DecayForm form : {DecayForm::printed, DecayForm::exact}) {
     const Damping d = two_point(x1, 4 * q, x2, 4 * q, 3, 0.2, form);
@@ -96,7 +96,7 @@ TEST(TwoPoint, dry_friction_alone_takes_four_Q_per_period) {
   }
 }
 
-TEST(TwoPoint, viscous_damping_alone_leaves_a_constant_share) {
+TEST(TwoPoint, ViscousDampingAloneLeavesAConstantShare) {
   const double zeta = 0.04, kept = std::exp(-2 * pi * zeta / std::sqrt(1 - zeta * zeta));
   const double x1 = 5e-3, x2 = x1 * std::pow(kept, 3), mass = 3, period = 0.2;
   for (const DecayForm form : {DecayForm::printed, DecayForm::exact}) {
@@ -110,7 +110,7 @@ TEST(TwoPoint, viscous_damping_alone_leaves_a_constant_share) {
 }
 
 // The errata's number: [49] is low by (1 + sqrt b)^2/4.
-TEST(TwoPoint, the_printed_form_has_Q_a_tenth_low_at_chapter_3s_damping) {
+TEST(TwoPoint, ThePrintedFormHasQATenthLowAtChapter3sDamping) {
   const double zeta = 0.035, s = std::exp(-pi * zeta / std::sqrt(1 - zeta * zeta)), q = 1.1e-4;
   const auto next = [&](double a) { return s * (s * a - q * (1 + s)) - q * (1 + s); };
   const double x1 = 5e-3, x2 = next(next(x1));
@@ -123,7 +123,7 @@ TEST(TwoPoint, the_printed_form_has_Q_a_tenth_low_at_chapter_3s_damping) {
 }
 
 // Three ways through the whole chain: samples, turns, damping.
-TEST(Decay, turns_of_clean_records_give_both_constants_back) {
+TEST(Decay, TurnsOfCleanRecordsGiveBothConstantsBack) {
   for (const double decrement : {0.0, 0.02, 0.1})
     for (const double q : {0.0, 5e-5, 1.5e-4}) {
       if (decrement == 0 && q == 0) continue;
@@ -140,7 +140,7 @@ TEST(Decay, turns_of_clean_records_give_both_constants_back) {
     }
 }
 
-TEST(Decay, the_turns_stand_where_they_should) {
+TEST(Decay, TheTurnsStandWhereTheyShould) {
   const Linear truth;
   const auto amplitude = [&](int k) {
     double a = truth.first;
@@ -166,7 +166,7 @@ TEST(Decay, the_turns_stand_where_they_should) {
   }
 }
 
-TEST(Decay, spikes_make_no_turns) {
+TEST(Decay, SpikesMakeNoTurns) {
   Samples s = sampled({}, 1e-5, 3);
   const Oscillation clean = turns_of(s);
   for (const std::size_t i : {40u, 133u, 310u, 420u}) s.value[i] += 0.02;
@@ -176,7 +176,7 @@ TEST(Decay, spikes_make_no_turns) {
     EXPECT_NEAR(spiked.turns[i].value, clean.turns[i].value, 2e-5);
 }
 
-TEST(Decay, intervals_of_both_constants_cover_the_truth) {
+TEST(Decay, IntervalsOfBothConstantsCoverTheTruth) {
   int friction = 0, viscous = 0;
   double bias_friction = 0, bias_viscous = 0;
   const Linear truth;
@@ -196,7 +196,7 @@ TEST(Decay, intervals_of_both_constants_cover_the_truth) {
   EXPECT_LT(std::abs(bias_viscous), 0.01);
 }
 
-TEST(Decay, records_that_cannot_be_used_are_told) {
+TEST(Decay, RecordsThatCannotBeUsedAreTold) {
   Samples constant = sampled({}, 0);
   for (double& x : constant.value) x = 0.08;
   EXPECT_NE(refused(constant).find("0 turning points; expected at least 5"), std::string::npos)
@@ -216,7 +216,7 @@ TEST(Decay, records_that_cannot_be_used_are_told) {
 }
 
 // Rounding repeats values at every turn, which is no clipping.
-TEST(Decay, a_coarse_converter_is_not_taken_for_a_clipped_one) {
+TEST(Decay, ACoarseConverterIsNotTakenForAClippedOne) {
   Samples s = sampled({}, 5e-6);
   for (double& x : s.value) x = std::round(x / 2e-5) * 2e-5;
   const Oscillation o = turns_of(s);

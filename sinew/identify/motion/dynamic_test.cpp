@@ -82,7 +82,7 @@ DynamicResult identified(const Loss& truth, double noise_of_length, unsigned see
   return identify_dynamic(records);
 }
 
-TEST(Dynamic, without_noise_law_and_constants_come_back) {
+TEST(Dynamic, WithoutNoiseLawAndConstantsComeBack) {
   const DynamicResult r = identified(secant_loss, 0, 1);
   EXPECT_EQ(r.report.best().model, "secant") << r.report.rule;
   EXPECT_NEAR(r.loss.viscous, secant_loss.viscous, 1e-3 * secant_loss.viscous);
@@ -91,7 +91,7 @@ TEST(Dynamic, without_noise_law_and_constants_come_back) {
 }
 
 // Two records of three, so that it takes no longer than it must.
-TEST(Dynamic, the_law_is_told_from_the_others_by_what_it_did_not_see) {
+TEST(Dynamic, TheLawIsToldFromTheOthersByWhatItDidNotSee) {
   const std::pair<Loss, const char*> cases[] = {{secant_loss, "secant"},
                                                 {sealed_loss, "sealed"},
                                                 {viscous_loss, "viscous"},
@@ -106,7 +106,7 @@ TEST(Dynamic, the_law_is_told_from_the_others_by_what_it_did_not_see) {
   }
 }
 
-TEST(Dynamic, intervals_cover_the_truth_in_200_trials) {
+TEST(Dynamic, IntervalsCoverTheTruthIn200Trials) {
   int viscous = 0, friction = 0;
   double bias_viscous = 0, bias_friction = 0;
   const DecayRecord clean = record({60, 6}, secant_loss, 1.2);
@@ -129,7 +129,7 @@ TEST(Dynamic, intervals_cover_the_truth_in_200_trials) {
 }
 
 // [49]'s friction is low by (1 + sqrt b)^2/4, whatever the record; a trajectory's is not.
-TEST(Dynamic, the_thesiss_method_stands_beside_the_exact_one) {
+TEST(Dynamic, TheThesissMethodStandsBesideTheExactOne) {
   const DecayRecord r = record({60, 6}, sealed_loss, 4);
   const DynamicResult found = identify_dynamic({&r, 1}, "sealed");
   const DecaySummary& s = found.records[0];
@@ -144,7 +144,7 @@ TEST(Dynamic, the_thesiss_method_stands_beside_the_exact_one) {
   EXPECT_NEAR(s.all.damping.viscous, sealed_loss.viscous, 0.1 * sealed_loss.viscous);
 }
 
-TEST(Dynamic, a_static_model_that_is_a_little_wrong_does_not_spoil_the_losses) {
+TEST(Dynamic, AStaticModelThatIsALittleWrongDoesNotSpoilTheLosses) {
   DecayRecord r = record({60, 6}, secant_loss, 2.4);
   for (double& x : r.data.columns[1].values) x += 1e-3;  // the sensor's zero
   r.stand.actuator.effectiveness.scale = 0.95;
@@ -158,7 +158,7 @@ TEST(Dynamic, a_static_model_that_is_a_little_wrong_does_not_spoil_the_losses) {
   EXPECT_EQ(found.report.warnings.size(), 1u);
 }
 
-TEST(Dynamic, a_measured_pressure_gives_what_was_shut_in_and_the_exponent) {
+TEST(Dynamic, AMeasuredPressureGivesWhatWasShutInAndTheExponent) {
   DecayRecord r = record({60, 6}, secant_loss, 1.6);
   const double pressure = r.stand.pressure;
   r.stand.pressure = r.stand.polytropic_exponent = std::numeric_limits<double>::quiet_NaN();
@@ -173,7 +173,7 @@ TEST(Dynamic, a_measured_pressure_gives_what_was_shut_in_and_the_exponent) {
   EXPECT_THROW(identify_dynamic({&r, 1}, "secant"), Refusal);
 }
 
-TEST(Dynamic, a_record_that_is_held_out_does_not_move_the_losses) {
+TEST(Dynamic, ARecordThatIsHeldOutDoesNotMoveTheLosses) {
   DecayRecord records[] = {record({60, 6}, secant_loss, 1.6), record({80, 11}, viscous_loss, 1.6)};
   records[1].held_out = true;
   const DynamicResult found = identify_dynamic(records, "secant");
@@ -193,7 +193,7 @@ std::string refused(const DecayRecord& r) {
   return "not refused";
 }
 
-TEST(Dynamic, what_cannot_be_used_is_told) {
+TEST(Dynamic, WhatCannotBeUsedIsTold) {
   const DecayRecord good = record({60, 6}, secant_loss, 1.6);
   const auto says = [](const DecayRecord& r, const char* text) {
     EXPECT_NE(refused(r).find(text), std::string::npos) << refused(r);
@@ -224,7 +224,7 @@ TEST(Dynamic, what_cannot_be_used_is_told) {
   says(out, "every record held out");
 }
 
-TEST(Dynamic, time_that_runs_backwards_is_told_with_its_line) {
+TEST(Dynamic, TimeThatRunsBackwardsIsToldWithItsLine) {
   const char* text = "time [s],length [mm]\n0.0,80\n0.1,79\n0.05,78\n";
   try {
     parse_measured(text, {.path = "a.csv"}, decay_columns());

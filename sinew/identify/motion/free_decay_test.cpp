@@ -43,7 +43,7 @@ std::vector<double> lengths(const Hanging& h, double length, double velocity,
   return out;
 }
 
-TEST(FreeDecay, has_the_peaks_and_periods_of_the_three_trapped_air_tests) {
+TEST(FreeDecay, HasThePeaksAndPeriodsOfTheThreeTrappedAirTests) {
   const auto data = nlohmann::json::parse(
       std::ifstream(SINEW_SOURCE_DIR "/data/reference.json"))["verification_summary"];
   struct Case {
@@ -64,7 +64,7 @@ TEST(FreeDecay, has_the_peaks_and_periods_of_the_three_trapped_air_tests) {
   }
 }
 
-TEST(FreeDecay, converges_in_fourth_order_through_friction_that_changes_sides) {
+TEST(FreeDecay, ConvergesInFourthOrderThroughFrictionThatChangesSides) {
   for (const auto scale : {actuator::Loss::Scale::secant, actuator::Loss::Scale::sealed}) {
     Hanging h = trapped();
     h.actuator.loss.coulomb_scale = scale;
@@ -83,7 +83,7 @@ TEST(FreeDecay, converges_in_fourth_order_through_friction_that_changes_sides) {
 }
 
 // Small oscillations of a muscle without losses keep their amplitude and have sealed_frequency.
-TEST(FreeDecay, without_losses_it_swings_for_ever_with_the_sealed_stiffness) {
+TEST(FreeDecay, WithoutLossesItSwingsForEverWithTheSealedStiffness) {
   Hanging h = trapped();
   h.actuator.loss = {};
   const double rest = *rest_length(h), w = sealed_frequency(h, rest), small = 1e-6;
@@ -93,7 +93,7 @@ TEST(FreeDecay, without_losses_it_swings_for_ever_with_the_sealed_stiffness) {
     EXPECT_NEAR(x[i], rest + small * std::cos(w * t[i]), 2e-3 * small);
 }
 
-TEST(FreeDecay, friction_holds_what_the_load_does_not_move) {
+TEST(FreeDecay, FrictionHoldsWhatTheLoadDoesNotMove) {
   Hanging h = trapped();
   const double rest = *rest_length(h);
   const double bound =
@@ -110,7 +110,7 @@ TEST(FreeDecay, friction_holds_what_the_load_does_not_move) {
   EXPECT_EQ(falls.back(), falls[falls.size() - 10]);
 }
 
-TEST(FreeDecay, what_leaves_the_braid_is_no_trajectory) {
+TEST(FreeDecay, WhatLeavesTheBraidIsNoTrajectory) {
   Hanging h = trapped();
   h.mass = 100;  // beyond the thread's length at any pressure the muscle has
   h.actuator.long_end.stiffness = 0;

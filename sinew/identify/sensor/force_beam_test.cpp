@@ -30,7 +30,7 @@ double volts_per_pound(const ForceBeam& beam, const Bridge& bridge) {
   return sensitivity(beam, bridge) * 1.0_lbf;
 }
 
-TEST(ForceBeam, the_thesis_beam_has_its_stress_its_safety_and_its_strain) {
+TEST(ForceBeam, TheThesisBeamHasItsStressItsSafetyAndItsStrain) {
   const ForceBeam beam = thesis_beam();
   EXPECT_NEAR(mount_stress(beam, 30.0_lbf) / 1.0_psi, 20e3, 1);
   EXPECT_NEAR(factor_of_safety(beam, 30.0_lbf), 2, 1e-4);
@@ -41,7 +41,7 @@ TEST(ForceBeam, the_thesis_beam_has_its_stress_its_safety_and_its_strain) {
 
 // Of the four ways to wire gages one gives what was measured. At the strain that was wanted it
 // gives 0.177 V/lb, within the transducers' own 0.161 to 0.181; 0.4 mm nearer the load, 0.17.
-TEST(ForceBeam, gain_800_and_the_bridge_give_a_sixth_of_a_volt_per_pound) {
+TEST(ForceBeam, Gain800AndTheBridgeGiveASixthOfAVoltPerPound) {
   ForceBeam beam = thesis_beam();
   EXPECT_NEAR(volts_per_pound(beam, thesis_bridge), 0.17, 0.05 * 0.17);
 
@@ -57,7 +57,7 @@ TEST(ForceBeam, gain_800_and_the_bridge_give_a_sixth_of_a_volt_per_pound) {
   }
 }
 
-TEST(ForceBeam, the_strain_energy_is_the_work_of_the_load) {
+TEST(ForceBeam, TheStrainEnergyIsTheWorkOfTheLoad) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> size(0.5, 2);
   for (int trial = 0; trial < 50; ++trial) {
@@ -78,7 +78,7 @@ TEST(ForceBeam, the_strain_energy_is_the_work_of_the_load) {
   }
 }
 
-TEST(ForceBeam, opposite_gages_add_and_a_notch_weakens) {
+TEST(ForceBeam, OppositeGagesAddAndANotchWeakens) {
   const double nu = 0.3;
   EXPECT_EQ(bridge_factor(Bridge::Arms::half, nu), 2 * bridge_factor(Bridge::Arms::quarter, nu));
   EXPECT_EQ(bridge_factor(Bridge::Arms::bending, nu), 2 * bridge_factor(Bridge::Arms::half, nu));

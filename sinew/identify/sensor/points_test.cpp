@@ -32,7 +32,7 @@ Readings readings(unsigned seed, int levels, int repeats, double noise, double s
   return r;
 }
 
-TEST(SensorPoints, are_the_means_of_each_way) {
+TEST(SensorPoints, AreTheMeansOfEachWay) {
   const Readings r = readings(1, 6, 4, 0.01, 0);
   const std::vector<Point> points = points_of(r.known, r.output);
   ASSERT_EQ(points.size(), 11u);
@@ -49,7 +49,7 @@ TEST(SensorPoints, are_the_means_of_each_way) {
 
 double step(const Readings& r) { return step_of(points_of(r.known, r.output), r.output); }
 
-TEST(SensorPoints, steps_are_found_and_nothing_is_found_where_there_are_none) {
+TEST(SensorPoints, StepsAreFoundAndNothingIsFoundWhereThereAreNone) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const double truth = 5.0 / 4096;
     Readings r = readings(seed, 10, 20, 0.004, truth);
@@ -63,7 +63,7 @@ TEST(SensorPoints, steps_are_found_and_nothing_is_found_where_there_are_none) {
   EXPECT_NEAR(step(readings(1, 200, 1, 0, 1)), 1, 1e-9) << "a coarse one shows on many loads";
 }
 
-TEST(SensorPoints, noise_is_the_noise_without_the_steps) {
+TEST(SensorPoints, NoiseIsTheNoiseWithoutTheSteps) {
   for (const double size : {0.0, 0.004, 0.01}) {
     double mean = 0;
     for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -76,7 +76,7 @@ TEST(SensorPoints, noise_is_the_noise_without_the_steps) {
   EXPECT_TRUE(std::isnan(noise_of(points_of(once.known, once.output), once.output, 0)));
 }
 
-TEST(SensorPoints, hysteresis_is_the_difference_of_the_ways) {
+TEST(SensorPoints, HysteresisIsTheDifferenceOfTheWays) {
   const Readings plain = readings(1, 8, 1, 0, 0, 0.02);
   const Hysteresis h = hysteresis_of(points_of(plain.known, plain.output), NAN);
   EXPECT_NEAR(h.largest, 0.02, 1e-12);
@@ -95,7 +95,7 @@ TEST(SensorPoints, hysteresis_is_the_difference_of_the_ways) {
   EXPECT_TRUE(std::isnan(hysteresis_of(points_of(one_way.known, one_way.output), 0).largest));
 }
 
-TEST(SensorPoints, an_end_is_where_readings_stay_although_they_should_differ) {
+TEST(SensorPoints, AnEndIsWhereReadingsStayAlthoughTheyShouldDiffer) {
   for (unsigned seed = 1; seed <= 10; ++seed) {
     const Readings whole = readings(seed, 20, 5, 0.005, 5.0 / 4096);
     const Ends none = ends_of(points_of(whole.known, whole.output), whole.output, 5.0 / 4096, 5.0);
@@ -114,7 +114,7 @@ TEST(SensorPoints, an_end_is_where_readings_stay_although_they_should_differ) {
   EXPECT_TRUE(steps.at_top.empty() && steps.at_bottom.empty());
 }
 
-TEST(SensorPoints, zero_is_an_end_only_where_the_others_lead_below_it) {
+TEST(SensorPoints, ZeroIsAnEndOnlyWhereTheOthersLeadBelowIt) {
   std::vector<double> known, through, cut;
   for (int i = 0; i < 10; ++i) {
     known.push_back(i);

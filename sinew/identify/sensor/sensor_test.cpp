@@ -53,7 +53,7 @@ SensorData weights(unsigned seed, double noise, const std::function<double(doubl
 
 // --- table 4-1; its data are lost, so these are synthetic ---
 
-TEST(Sensor, table_4_1_comes_back_with_its_errors_from_the_average) {
+TEST(Sensor, Table41ComesBackWithItsErrorsFromTheAverage) {
   std::string text = "load [lb],one [V],two [V],three [V],four [V]\n";
   for (int load = 0; load <= 16; ++load)
     text += std::to_string(load) + "," + std::to_string(0.1689 * load) + "," +
@@ -71,7 +71,7 @@ TEST(Sensor, table_4_1_comes_back_with_its_errors_from_the_average) {
   EXPECT_NEAR(c.average * 1.0_lbf, 0.1700, 0.0001);
 }
 
-TEST(Sensor, two_points_give_the_angle_sensors_scale_and_no_interval) {
+TEST(Sensor, TwoPointsGiveTheAngleSensorsScaleAndNoInterval) {
   // 4.5: the joint is turned by 90 degrees.
   const double turned = 1.0 + 90.0_deg / 1.147;
   const Calibration c = calibrate("angle [deg],hip [V]\n0,1\n90," + std::to_string(turned) + "\n");
@@ -83,7 +83,7 @@ TEST(Sensor, two_points_give_the_angle_sensors_scale_and_no_interval) {
 
 // --- laws ---
 
-TEST(Sensor, intervals_cover_the_truth) {
+TEST(Sensor, IntervalsCoverTheTruth) {
   const double truth = 0.17 / 1.0_lbf;
   int covered = 0;
   double bias = 0;
@@ -98,7 +98,7 @@ TEST(Sensor, intervals_cover_the_truth) {
   EXPECT_LT(std::abs(bias), 0.001);
 }
 
-TEST(Sensor, the_simplest_law_that_predicts_is_chosen) {
+TEST(Sensor, TheSimplestLawThatPredictsIsChosen) {
   const struct {
     const char* name;
     std::function<double(double)> law;
@@ -113,7 +113,7 @@ TEST(Sensor, the_simplest_law_that_predicts_is_chosen) {
           << noise;
 }
 
-TEST(Sensor, rest_moves_the_offset_and_not_the_scale) {
+TEST(Sensor, RestMovesTheOffsetAndNotTheScale) {
   const SensorData data = weights(1, 0.01, [](double x) { return 0.3 + 0.04 * x; });
   const SensorResult a = identify_sensors(data, converter).sensors[0];
   const SensorResult b = identify_sensors(data, converter, 20).sensors[0];
@@ -121,7 +121,7 @@ TEST(Sensor, rest_moves_the_offset_and_not_the_scale) {
   EXPECT_NEAR(b.at_rest, a.at_rest + 20 * a.sensitivity, 1e-6);
 }
 
-TEST(Sensor, counts_and_volts_are_the_same_sensor) {
+TEST(Sensor, CountsAndVoltsAreTheSameSensor) {
   std::string volts = "load [N],gage [V]\n", counts = "load [N],gage [count]\n";
   for (int i = 0; i < 20; ++i) {
     const int count = 100 + 190 * i + i % 3;
@@ -133,7 +133,7 @@ TEST(Sensor, counts_and_volts_are_the_same_sensor) {
   EXPECT_EQ(b.step, 5.0 / 4096);
 }
 
-TEST(Sensor, masses_hang_with_their_weight) {
+TEST(Sensor, MassesHangWithTheirWeight) {
   const SensorData kg = parse("load [kg],gage [V]\n0,0\n2,1\n");
   EXPECT_NEAR(kg.known[1], 2 * 9.80665, 1e-12);
   const SensorData lb = parse("load [lb],gage [V]\n0,0\n2,1\n");
@@ -142,7 +142,7 @@ TEST(Sensor, masses_hang_with_their_weight) {
 }
 
 // A sensor that clips is as good as the part of it that does not.
-TEST(Sensor, readings_at_the_end_are_left_out) {
+TEST(Sensor, ReadingsAtTheEndAreLeftOut) {
   const auto law = [](double x) { return 0.1 + 0.05 * x; };
   for (unsigned seed = 1; seed <= 10; ++seed) {
     SensorData data = weights(seed, 0.01, law);
@@ -155,7 +155,7 @@ TEST(Sensor, readings_at_the_end_are_left_out) {
   }
 }
 
-TEST(Sensor, a_second_calibration_scores_the_first) {
+TEST(Sensor, ASecondCalibrationScoresTheFirst) {
   const auto law = [](double x) { return 0.1 + 0.05 * x; };
   const SensorData first = weights(1, 0.01, law), second = weights(2, 0.01, law);
   const Fit line = identify_sensors(first, converter, 0, &second).sensors[0].report.fits[1];
@@ -165,7 +165,7 @@ TEST(Sensor, a_second_calibration_scores_the_first) {
   EXPECT_NEAR(off.held_out->rmse, 0.1, 0.01);
 }
 
-TEST(Sensor, a_slip_of_the_pen_is_told_by_its_line) {
+TEST(Sensor, ASlipOfThePenIsToldByItsLine) {
   SensorData data = weights(1, 0.005, [](double x) { return 0.05 * x; });
   data.sensors[0].volts[7] += 0.9;
   const Calibration c = identify_sensors(data, converter);
@@ -177,7 +177,7 @@ TEST(Sensor, a_slip_of_the_pen_is_told_by_its_line) {
 
 // --- what is refused ---
 
-TEST(Sensor, what_cannot_be_calibrated_is_refused) {
+TEST(Sensor, WhatCannotBeCalibratedIsRefused) {
   const struct {
     const char* text;
     const char* part;
@@ -195,7 +195,7 @@ TEST(Sensor, what_cannot_be_calibrated_is_refused) {
   }
 }
 
-TEST(Sensor, what_is_wrong_with_a_file_is_told) {
+TEST(Sensor, WhatIsWrongWithAFileIsTold) {
   const struct {
     const char* text;
     const char* part;

@@ -19,7 +19,7 @@ Transducer thesis_transducer() {
           .full_scale = 5};
 }
 
-TEST(Transducer, output_is_sensitivity_times_load_and_clips_at_full_scale) {
+TEST(Transducer, OutputIsSensitivityTimesLoadAndClipsAtFullScale) {
   Transducer t = thesis_transducer();
   for (const double load : {1.0, 20.0, 60.0, 130.0}) {
     t.load = load;
@@ -32,7 +32,7 @@ TEST(Transducer, output_is_sensitivity_times_load_and_clips_at_full_scale) {
   }
 }
 
-TEST(Transducer, each_doubt_comes_with_its_cause) {
+TEST(Transducer, EachDoubtComesWithItsCause) {
   Transducer t = thesis_transducer();
   t.beam.length = 6 * t.beam.height;
   EXPECT_TRUE(doubts(t).empty());

@@ -34,7 +34,7 @@ Measured duty_map(double opening, double closing, std::initializer_list<double> 
                 {"frequency", "Hz", frequency}});
 }
 
-TEST(ValveDuty, both_delays_come_back_within_their_brackets) {
+TEST(ValveDuty, BothDelaysComeBackWithinTheirBrackets) {
   for (const bool flow : {false, true}) {
     int covered = 0;
     for (unsigned seed = 0; seed < 200; ++seed) {
@@ -53,14 +53,14 @@ TEST(ValveDuty, both_delays_come_back_within_their_brackets) {
 }
 
 // 3.4: 4 ms and 1 ms; 50 % becomes 42.5 % and 35 %.
-TEST(ValveDuty, the_straight_part_alone_tells_the_difference_only) {
+TEST(ValveDuty, TheStraightPartAloneTellsTheDifferenceOnly) {
   const ValveResult r =
       identify_duty(duty_map(4e-3, 1e-3, {25, 50}, 1e-3, 1, false, 0.3, 0.8), ValveOptions());
   expect_says(r.refused, "the straight part of the map does not tell the delays apart");
   EXPECT_NEAR(parameter(r, "delay_difference").value, 3e-3, 0.05e-3);
 }
 
-TEST(ValveDuty, a_missing_frequency_and_a_constant_delivery_are_refused) {
+TEST(ValveDuty, AMissingFrequencyAndAConstantDeliveryAreRefused) {
   Measured m = duty_map(4e-3, 1e-3, {25}, 0, 1, false);
   Measured without = m;
   without.columns.pop_back();
@@ -105,7 +105,7 @@ double delivered_by(const config::ValveTiming& timing, unsigned duty, const gas:
   return open_time / ((periods - from) * period);
 }
 
-TEST(ValveTiming, a_compensated_table_delivers_the_duty_through_the_delays) {
+TEST(ValveTiming, ACompensatedTableDeliversTheDutyThroughTheDelays) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> delay(0, 2e-3);
   for (int trial = 0; trial < 30; ++trial) {
@@ -128,7 +128,7 @@ TEST(ValveTiming, a_compensated_table_delivers_the_duty_through_the_delays) {
   }
 }
 
-TEST(ValveTiming, without_delays_it_is_the_identity) {
+TEST(ValveTiming, WithoutDelaysItIsTheIdentity) {
   const signals::ValveTiming t = compensated(0, 0, 100).timing,
                              identity = signals::identity_timing();
   EXPECT_EQ(t.closing, identity.closing);

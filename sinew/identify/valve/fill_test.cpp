@@ -60,7 +60,7 @@ Chamber filling(gas::Flow::Law law, double exponent) {
 // --- the chamber ---
 
 // Two ways: steps in time here, an integral over pressure in gas/fill.h.
-TEST(ValveChamber, agrees_with_the_integral_over_pressure) {
+TEST(ValveChamber, AgreesWithTheIntegralOverPressure) {
   const gas::Air base;
   for (const gas::Flow::Law law : {orifice, iso6358})
     for (const double n : {1.0, 1.2, 1.4})
@@ -83,7 +83,7 @@ TEST(ValveChamber, agrees_with_the_integral_over_pressure) {
 }
 
 // Choked and isothermal, dP/dt = R T m'/V is constant.
-TEST(ValveChamber, choked_filling_is_linear_in_time) {
+TEST(ValveChamber, ChokedFillingIsLinearInTime) {
   const gas::Air air;
   const Chamber c = filling(orifice, 1);
   const double slope =
@@ -97,7 +97,7 @@ TEST(ValveChamber, choked_filling_is_linear_in_time) {
 }
 
 // Choked and isothermal, P falls by a constant share per time.
-TEST(ValveChamber, choked_venting_is_exponential) {
+TEST(ValveChamber, ChokedVentingIsExponential) {
   const gas::Air air;
   Chamber c = filling(orifice, 1);
   std::swap(c.port, c.start);
@@ -111,7 +111,7 @@ TEST(ValveChamber, choked_venting_is_exponential) {
     EXPECT_NEAR(p[i], c.start * std::exp(-rate * t[i]), 1e-4 * c.start);
 }
 
-TEST(ValveChamber, time_and_conductance_are_one_number) {
+TEST(ValveChamber, TimeAndConductanceAreOneNumber) {
   const gas::Air air;
   for (const Chamber::Shape shape : {rigid, soft, hose}) {
     Chamber slow = filling(iso6358, 1.2);
@@ -126,7 +126,7 @@ TEST(ValveChamber, time_and_conductance_are_one_number) {
 }
 
 // The limits in which a hose and a soft wall are none.
-TEST(ValveChamber, a_wide_hose_and_a_hard_wall_change_nothing) {
+TEST(ValveChamber, AWideHoseAndAHardWallChangeNothing) {
   const gas::Air air;
   const std::vector<double> t = at_steps(0.02, 60);
   const std::vector<double> p = pressures(filling(iso6358, 1), air, 0.1, t);
@@ -189,18 +189,18 @@ void expect_honest(const Trials& t) {
   EXPECT_EQ(t.identifiable, 200);
 }
 
-TEST(ValveFill, intervals_of_the_conductance_cover_the_truth) {
+TEST(ValveFill, IntervalsOfTheConductanceCoverTheTruth) {
   expect_honest(trials_of(model_called("iso isothermal"), filling(iso6358, 1),
                           "conductance_per_volume", conductance, 2e3, {}));
 }
 
-TEST(ValveFill, intervals_of_an_orifices_exponent_cover_the_truth_where_the_supply_is_known) {
+TEST(ValveFill, IntervalsOfAnOrificesExponentCoverTheTruthWhereTheSupplyIsKnown) {
   expect_honest(trials_of(model_called("orifice polytropic"), filling(orifice, 1.2),
                           "polytropic_exponent", 1.2, 2e3, 7e5));
 }
 
 // With b free as well, one curve at this noise does not tell the exponent, and it is said.
-TEST(ValveFill, exponent_and_b_together_are_declared_unidentifiable) {
+TEST(ValveFill, ExponentAndBTogetherAreDeclaredUnidentifiable) {
   const Trials t = trials_of(model_called("iso polytropic"), filling(iso6358, 1.2),
                              "polytropic_exponent", 1.2, 1e4, {}, 20);
   EXPECT_LT(t.identifiable, 10);
@@ -211,7 +211,7 @@ ValveResult identified(const std::vector<double>& t, const std::vector<double>& 
   return identify_fill(table(t, p), options);
 }
 
-TEST(ValveFill, the_model_that_made_the_data_is_chosen) {
+TEST(ValveFill, TheModelThatMadeTheDataIsChosen) {
   ValveOptions options;
   options.volume = 5e-4;
   options.exponent = 1;
@@ -231,7 +231,7 @@ TEST(ValveFill, the_model_that_made_the_data_is_chosen) {
 }
 
 // A known valve is a volume meter.
-TEST(ValveFill, with_the_conductance_the_volume_is_found) {
+TEST(ValveFill, WithTheConductanceTheVolumeIsFound) {
   ValveOptions options;
   options.conductance = 1e-8;
   options.exponent = 1;
@@ -244,7 +244,7 @@ TEST(ValveFill, with_the_conductance_the_volume_is_found) {
   EXPECT_FALSE(r.flow_known);
 }
 
-TEST(ValveFill, without_either_C_is_refused_and_C_over_V_told) {
+TEST(ValveFill, WithoutEitherCIsRefusedAndCOverVTold) {
   ValveOptions options;
   options.exponent = 1;
   const std::vector<double> t = at_steps(0.01, 160);
@@ -256,7 +256,7 @@ TEST(ValveFill, without_either_C_is_refused_and_C_over_V_told) {
 }
 
 // An exponent that no named model has: what is said of C/V is true all the same.
-TEST(ValveFill, an_interval_covers_the_truth_whatever_the_chamber_is_taken_for) {
+TEST(ValveFill, AnIntervalCoversTheTruthWhateverTheChamberIsTakenFor) {
   ValveOptions options;
   const std::vector<double> t = at_steps(0.02, 80);
   int covered = 0;
@@ -280,7 +280,7 @@ std::string refusal_of(const std::vector<double>& t, const std::vector<double>& 
   return "none";
 }
 
-TEST(ValveFill, broken_curves_are_refused_with_their_reason) {
+TEST(ValveFill, BrokenCurvesAreRefusedWithTheirReason) {
   const gas::Air air;
   const auto says = [](const std::string& text, const char* part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
@@ -312,7 +312,7 @@ TEST(ValveFill, broken_curves_are_refused_with_their_reason) {
 // --- measured elsewhere ---
 
 // Portland State University's eight fillings of an unknown volume from an unknown supply.
-TEST(ValveFill, each_of_eight_measured_fillings_is_met_within_3_percent) {
+TEST(ValveFill, EachOfEightMeasuredFillingsIsMetWithin3Percent) {
   const char* data = std::getenv("SINEW_DATA_DIR");
   if (!data) GTEST_SKIP() << "SINEW_DATA_DIR is not set: psu_dynamic/fill_exp1..8.csv are not here";
   for (int i = 1; i <= 8; ++i) {

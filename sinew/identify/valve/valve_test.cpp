@@ -38,7 +38,7 @@ const gas::Flow iso{
     .law = gas::Flow::Law::iso6358, .sonic_conductance = 3e-9, .critical_pressure_ratio = 0.3};
 const gas::Flow orifice{.area = 1.67e-6};
 
-TEST(ValveChart, intervals_cover_the_truth) {
+TEST(ValveChart, IntervalsCoverTheTruth) {
   const ValveOptions options;
   int conductance = 0, ratio = 0, area = 0;
   double bias = 0;
@@ -61,7 +61,7 @@ TEST(ValveChart, intervals_cover_the_truth) {
   EXPECT_LT(std::abs(bias), 0.01);
 }
 
-TEST(ValveChart, order_of_rows_and_kind_of_flow_change_nothing) {
+TEST(ValveChart, OrderOfRowsAndKindOfFlowChangeNothing) {
   const ValveOptions options;
   Measured a = chart(iso, options.air, 3e-5, 1), b = a;
   for (Column& c : b.columns) std::reverse(c.values.begin(), c.values.end());
@@ -72,7 +72,7 @@ TEST(ValveChart, order_of_rows_and_kind_of_flow_change_nothing) {
   EXPECT_NEAR(ra.valve.flow.sonic_conductance / rb.valve.flow.sonic_conductance, 1, 1e-6);
 }
 
-TEST(ValveChart, choked_points_alone_give_an_area_and_no_b) {
+TEST(ValveChart, ChokedPointsAloneGiveAnAreaAndNoB) {
   const ValveOptions options;
   Values up, flow;
   for (int i = 0; i < 8; ++i) {
@@ -89,7 +89,7 @@ TEST(ValveChart, choked_points_alone_give_an_area_and_no_b) {
   expect_says(r.report.fits[1].refused, "b ");
 }
 
-TEST(ValveChart, swapped_ports_and_a_constant_flow_are_refused) {
+TEST(ValveChart, SwappedPortsAndAConstantFlowAreRefused) {
   const ValveOptions options;
   Measured swapped = chart(iso, options.air, 0, 1);
   std::swap(swapped.columns[0].values, swapped.columns[1].values);
@@ -136,7 +136,7 @@ Measured table_of(const Train& t) {
       {{"time", "s", t.time}, {"pressure", "Pa abs", t.pressure}, {"command", "1", t.command}});
 }
 
-TEST(ValvePulses, delays_come_back_from_a_sealed_and_from_a_venting_chamber) {
+TEST(ValvePulses, DelaysComeBackFromASealedAndFromAVentingChamber) {
   for (const double vent : {0.0, 1.5}) {
     ValveOptions options;
     options.port = 7e5;
@@ -153,14 +153,14 @@ TEST(ValvePulses, delays_come_back_from_a_sealed_and_from_a_venting_chamber) {
   }
 }
 
-TEST(ValvePulses, a_command_that_is_never_switched_is_refused) {
+TEST(ValvePulses, ACommandThatIsNeverSwitchedIsRefused) {
   Train t = train(4e-3, 1e-3, 0, 1);
   std::fill(t.command.begin(), t.command.end(), 0.0);
   expect_says(refusal_of([&] { identify_pulses(table_of(t), ValveOptions()); }),
               "a coil that is switched");
 }
 
-TEST(ValvePulses, delayed_edges_are_the_shutters) {
+TEST(ValvePulses, DelayedEdgesAreTheShutters) {
   const std::vector<Opening> edges{{0.1, true}, {0.102, false}, {0.2, true}, {0.26, false}};
   const std::vector<Opening> out = delayed(edges, 4e-3, 1e-3);
   ASSERT_EQ(out.size(), 2u);  // 2 ms do not open a valve of 4 ms
@@ -203,7 +203,7 @@ Measured trace(const gas::Valve& valve, double noise, unsigned seed, bool comman
   return table(columns);
 }
 
-TEST(ValveCoil, the_dip_tells_the_opening_delay_and_the_closing_one_is_not_claimed) {
+TEST(ValveCoil, TheDipTellsTheOpeningDelayAndTheClosingOneIsNotClaimed) {
   for (const bool boosted : {false, true})
     for (const bool commanded : {true, false}) {
       const ValveResult r =
@@ -216,7 +216,7 @@ TEST(ValveCoil, the_dip_tells_the_opening_delay_and_the_closing_one_is_not_claim
 }
 
 // The second pulse begins 0.1 ms before the file ends.
-TEST(ValveCoil, a_pulse_that_the_file_cuts_off_is_left_out) {
+TEST(ValveCoil, APulseThatTheFileCutsOffIsLeftOut) {
   Measured m = trace(coil_valve(true, 0.5e-3), 5e-3, 3, true);
   const std::size_t rows = 455;
   for (Column& c : m.columns) c.values.resize(rows);
@@ -228,7 +228,7 @@ TEST(ValveCoil, a_pulse_that_the_file_cuts_off_is_left_out) {
   expect_says(r.report.notes.front(), "the last pulse is left out");
 }
 
-TEST(ValveCoil, intervals_cover_the_truth) {
+TEST(ValveCoil, IntervalsCoverTheTruth) {
   int covered = 0;
   double bias = 0;
   for (unsigned seed = 0; seed < 40; ++seed) {
@@ -242,7 +242,7 @@ TEST(ValveCoil, intervals_cover_the_truth) {
   EXPECT_LT(std::abs(bias), 0.01);
 }
 
-TEST(ValveCoil, a_stuck_shutter_and_a_clipped_trace_are_refused) {
+TEST(ValveCoil, AStuckShutterAndAClippedTraceAreRefused) {
   gas::Valve stuck = coil_valve(false, 0.5e-3);
   stuck.circuit.motion_voltage = 0;
   expect_says(refusal_of([&] { identify_coil(trace(stuck, 5e-3, 1, true), ValveOptions()); }),
@@ -255,7 +255,7 @@ TEST(ValveCoil, a_stuck_shutter_and_a_clipped_trace_are_refused) {
 
 // --- the file's kind ---
 
-TEST(Valve, columns_decide_what_was_measured) {
+TEST(Valve, ColumnsDecideWhatWasMeasured) {
   const auto with = [](std::initializer_list<const char*> names,
                        std::optional<ValveData> wanted = {}) {
     std::vector<Column> columns;

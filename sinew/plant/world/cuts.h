@@ -12,7 +12,7 @@ namespace sinew::plant {
 
 // A smooth part begins at t: what is prescribed goes into the state, and friction is decided by a
 // look at it.
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 template <CutsSteps>
 void World<M, A>::begin_part(double t, Moving& s, const Memory& memory, Forces& held,
                              Look& look) noexcept {
@@ -28,7 +28,7 @@ void World<M, A>::begin_part(double t, Moving& s, const Memory& memory, Forces& 
 
 // Integrates from one instant to another. `first` is the look at the state there, and in the end
 // that at the beginning of the last piece.
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 template <CutsSteps>
 void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& held,
                      Look& first) noexcept {
@@ -72,7 +72,7 @@ void World<M, A>::go(double from, double to, Moving& s, Memory& memory, Forces& 
 }
 
 // Returns how far `after` is beyond what a smooth piece from `before` can hold.
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 template <CutsSteps>
 double World<M, A>::gap(double t, const Moving& before, const Moving& after, const Memory& memory,
                         const Forces& held) const noexcept {
@@ -81,7 +81,7 @@ double World<M, A>::gap(double t, const Moving& before, const Moving& after, con
   return mechanism_.gap(before.motion, after.motion, held, look.load);
 }
 
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 template <CutsSteps>
 double World<M, A>::longest_piece(const Moving& s, const Look& look) const noexcept {
   return std::min(mechanism_.longest_piece(s.motion, look.load, look.air),

@@ -12,7 +12,7 @@
 
 namespace sinew::plant {
 
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 World<M, A>::World(const Setup& setup)
     : mechanism_(setup),
       air_(mechanism_.template make_air<A>(setup)),
@@ -29,7 +29,7 @@ World<M, A>::World(const Setup& setup)
 }
 
 // One evaluation of the right-hand side, with the frictions held.
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::look_at(double t, const Moving& state, const Memory& memory, const Forces& held,
                           Look& look, std::uint64_t ahead) const noexcept {
   evaluate_air(t, state, memory, look, ahead);
@@ -39,7 +39,7 @@ void World<M, A>::look_at(double t, const Moving& state, const Memory& memory, c
 }
 
 // A new node: valves and references, the first stage, and what friction can do about it.
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::prepare() noexcept {
   Look& first = state_.first;
   air_.move_valves(state_.time, state_.first.air, state_.valves);
@@ -57,7 +57,7 @@ void World<M, A>::prepare() noexcept {
 }
 
 // The friction problem of the node, and the accelerations without friction.
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 auto World<M, A>::prepare_friction(const typename M::Pose& pose) noexcept -> Acceleration {
   const Look& first = state_.first;
   glanced_ = false;
@@ -68,14 +68,14 @@ auto World<M, A>::prepare_friction(const typename M::Pose& pose) noexcept -> Acc
                               state_.trolley_bound, first.load);
 }
 
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::restore(const State& state) noexcept {
   state_ = state;
   (void)prepare_friction(mechanism_.pose(state_.time, state_.now.motion));
 }
 
 // Is anything of the look at a node no number? The air also takes from the look what it remembers.
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::look_for_failure() noexcept {
   const muscle::Failure of_air = air_.remember(state_.first.air, state_.now.air, state_.memory);
   if (state_.failure) return;
@@ -90,7 +90,7 @@ void World<M, A>::look_for_failure() noexcept {
 }
 
 // While nothing flows there is nothing to be quick.
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 double World<M, A>::pieces_of(double h, const Look& look) const noexcept {
   if (!air_.flowing(state_.valves)) return 1.0;
   const double longest = air_.longest_step_of_rest(look.ends, state_.valves);
@@ -99,7 +99,7 @@ double World<M, A>::pieces_of(double h, const Look& look) const noexcept {
 
 // Hoses, walls and lags can be quicker than the body: a step is then made of several pieces, under
 // the friction of the whole.
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::step(double to) noexcept {
   if constexpr (CutsSteps<M>) {
     go(state_.time, to, state_.now, state_.memory, state_.held, state_.first);
@@ -122,7 +122,7 @@ void World<M, A>::step(double to) noexcept {
 
 // RK4 in place. The first stage is the look at hand; two to four stand at 1/2, 1/2 and 1. Air that
 // is quicker goes ahead.
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::piece(double from, double h, Moving& now, const Memory& memory, const Look& look,
                         const Acceleration& first, const Forces& held) const noexcept {
   Look later[3];
@@ -148,19 +148,19 @@ void World<M, A>::piece(double from, double h, Moving& now, const Memory& memory
 }
 
 // The next multiple of the body step, or the next change of a valve.
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 double World<M, A>::next_node() const noexcept {
   const double multiple = static_cast<double>(state_.multiple + 1) * step_;
   const double change = state_.valves.next_change;
   return change < multiple ? change : multiple;
 }
 
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::advance(double t) noexcept {
   while (!state_.failure && next_node() <= t) commit();
 }
 
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::commit() noexcept {
   const double next = next_node();
   if (next > state_.time) step(next);
@@ -172,7 +172,7 @@ void World<M, A>::commit() noexcept {
 
 // The friction that a whole body step from the last node would have: what a peek goes by, however
 // far it looks, so that it depends on the node alone.
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 auto World<M, A>::glance() noexcept -> const Glance& {
   if (glanced_) return glance_;
   glanced_ = true;
@@ -186,7 +186,7 @@ auto World<M, A>::glance() noexcept -> const Glance& {
 // From the last node to t in a copy: the body by its acceleration, the air by Heun's rule in as
 // many pieces as a step would take. What cuts its steps is integrated, and an instant before the
 // last node sees what was prescribed then.
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 auto World<M, A>::peek(double t) noexcept -> Peek {
   Peek p{.state = state_.now, .look = state_.first};
   if constexpr (CutsSteps<M>) {
@@ -202,7 +202,7 @@ auto World<M, A>::peek(double t) noexcept -> Peek {
   return p;
 }
 
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 template <WholeSteps>
 void World<M, A>::extrapolate(double t, Peek& p) noexcept {
   const double dt = t - state_.time;
@@ -223,7 +223,7 @@ void World<M, A>::extrapolate(double t, Peek& p) noexcept {
   }
 }
 
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 signals::Status World<M, A>::start(const signals::Scan& scan) noexcept {
   for (const signals::Conversion& c : scan.conversions) {
     if (c.channel.index >= senses_.channels()) return signals::Status::invalid;
@@ -232,7 +232,7 @@ signals::Status World<M, A>::start(const signals::Scan& scan) noexcept {
   return signals::Status::ok;
 }
 
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 signals::Status World<M, A>::drive(signals::Edge edge) noexcept {
   if (state_.ended) return signals::Status::ended;
   if (state_.failure) return signals::Status::fault;
@@ -244,7 +244,7 @@ signals::Status World<M, A>::drive(signals::Edge edge) noexcept {
   return signals::Status::ok;
 }
 
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 signals::Reading World<M, A>::read(signals::Channel channel, signals::Tick now) noexcept {
   if (channel.index >= senses_.channels()) return {0, signals::Status::invalid};
   const signals::Tick sampled = now - lag_[channel.index];
@@ -256,13 +256,13 @@ signals::Reading World<M, A>::read(signals::Channel channel, signals::Tick now) 
           state_.ended ? signals::Status::ended : signals::Status::ok};
 }
 
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 signals::Status World<M, A>::stop(signals::Tick) noexcept {
   state_.ended = true;  // nothing moves a simulated body after its last tick
   return state_.failure ? signals::Status::fault : signals::Status::ok;
 }
 
-template <class M, class A>
+template <IsMechanism M, IsAirOf<M> A>
 auto World<M, A>::truth(double t) noexcept -> Truth {
   advance(t);
   return senses_.truth(*this, std::max(t, state_.time));

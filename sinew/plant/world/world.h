@@ -20,8 +20,8 @@
 // that the future depends on, one block that is copied like bytes, and all else is worked out from
 // it at a node.
 //
-// Mechanism  what moves: routes of the muscles, forces, equations of motion, contacts
-//            (planar/chain_mechanism.h, planar/body_mechanism.h, slide/slide_mechanism.h)
+// Mechanism  what moves: routes of the muscles, forces, equations of motion, contacts; contract.h
+//            says what it has to have, and what the air
 // Senses     of the mechanism: what its sensors read and what a simulation tells (planar/senses.h,
 //            slide/senses.h)
 // Air        what fills the muscles: valves, masses, pressures, tensions (muscle/network.h,
@@ -34,25 +34,12 @@
 #include <initializer_list>
 
 #include "sinew/muscle/failure.h"
+#include "sinew/plant/world/contract.h"
 #include "sinew/signals/port.h"
 
 namespace sinew::plant {
 
-// A mechanism whose laws break off within a step says `cuts_steps` and, beside what all have,
-//
-//   begin(t, motion)               a smooth part begins: what is prescribed goes into the motion
-//   corner()                       where that part ends at the latest, by what is prescribed [s]
-//   longest_piece(motion, look)    that suits the fastest rate there [s]
-//   watches(held), gap(...)        how far a state is beyond what the part can hold: cut.h
-//   cut_within()                   how near the break its cut must be [s]
-//   stop(motion, held)             at a cut: what turned back against its friction rests
-//   hold(motion, load, held)       dry friction of the part, by what it was before
-template <class Mechanism>
-concept CutsSteps = Mechanism::cuts_steps;
-template <class Mechanism>
-concept WholeSteps = !Mechanism::cuts_steps;
-
-template <class Mechanism, class Air>
+template <IsMechanism Mechanism, IsAirOf<Mechanism> Air>
 class World final : public signals::Port {
   using Acceleration = typename Mechanism::Acceleration;
   using Forces = typename Mechanism::Forces;
