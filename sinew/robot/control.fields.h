@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sinew/robot/control.h"
+#include "sinew/robot/robot.h"
 #include "sinew/units/complain.h"
 #include "sinew/units/field.h"
 
