@@ -1,5 +1,5 @@
 // Memory does not grow with a run: of a walk of SINEW_GUARD_COUNT simulated seconds the program
-// takes as much at its peak as of one of a sixth of them, with a log and without, and so do the
+// takes as much at its peak as of one of half of them, with a log and without, and so do the
 // commands that read the log.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double step = 3.03;            // of the walk [s]
 constexpr double growth_per_hour = 1e6;  // at most [B]
-constexpr double noise = 4e6;            // of a peak: a stride of a log that is read [B]
+constexpr double noise = 8e6;            // of a short run, whose page is not yet full of edges [B]
 
 double seconds() {
   const char* asked = std::getenv("SINEW_GUARD_COUNT");
@@ -45,8 +45,8 @@ test::Words walk(double lasts, const std::string& folder, const test::Words& mor
 
 // Prints what it found, as a line of ./check, and judges it.
 void expect_no_growth(const std::string& what, double lasts, double before, double after) {
-  const double growth = (after - before) / (lasts * 5 / 6) * 3600;
-  fmt::print("guard: {:.0f} s of {}: {:.1f} MB, of a sixth of them {:.1f} MB\n", lasts, what,
+  const double growth = (after - before) / (lasts / 2) * 3600;
+  fmt::print("guard: {:.0f} s of {}: {:.1f} MB, of half of them {:.1f} MB\n", lasts, what,
              1e-6 * after, 1e-6 * before);
   if (lasts >= 3600)
     EXPECT_LT(growth, growth_per_hour) << what;
@@ -60,7 +60,7 @@ TEST(Memory, DoesNotGrowWithARun) {
   const test::Words no_log{"--set", "log.enabled=false"};
   const test::Words some{"--set", "log.channels=[\"/joint\", \"/valve\", \"/plan\"]"};
   const auto peaks = [&](const auto& words_for) {
-    const double before = peak_of(at, words_for(lasts / 6, "a"));
+    const double before = peak_of(at, words_for(lasts / 2, "a"));
     return std::pair{before, peak_of(at, words_for(lasts, "b"))};
   };
   auto [before, after] =
@@ -70,7 +70,7 @@ TEST(Memory, DoesNotGrowWithARun) {
   std::tie(before, after) =
       peaks([&](double of, const std::string& run) { return walk(of, run, some); });
   expect_no_growth("a walk with log and page", lasts, before, after);
-  EXPECT_LT(std::filesystem::file_size(at / "b/report.html"), 16e6);
+  EXPECT_LT(std::filesystem::file_size(at / "b/report.html"), 64e6);
 
   std::tie(before, after) = peaks([&](double, const std::string& run) {
     return test::Words{"analyze", run, "--json"};

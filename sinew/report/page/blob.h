@@ -25,7 +25,7 @@ namespace sinew::report {
 
 class Blob {
  public:
-  static constexpr std::size_t most = 8192;  // samples of a clock
+  static constexpr std::size_t most = 65536;  // samples of a clock
 
   enum class As { line, pose };
 
