@@ -46,8 +46,8 @@ struct Nothing {
   signals::Tick next(signals::Tick t) const noexcept { return t + 1'000'000; }
 };
 
-// What a part of a machine costs: an experiment and the plain walk by turns, each per simulated
-// second.
+// Measures what a part of a machine costs: an experiment and the plain walk by turns, each per
+// simulated second.
 void against_the_plain_walk(benchmark::State& state, const char* name) {
   using Clock = std::chrono::steady_clock;
   const experiment::Experiment other =

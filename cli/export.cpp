@@ -51,8 +51,8 @@ experiment::Experiment experiment_of(const run::RecordedRun& run, const Options&
   return experiment::load(run::machine_of(run, options.machine).string());
 }
 
-// What B.1 writes to its two ports, and when; of a board whose valves have more bits, all of its
-// ports. One board after the other, where there are several.
+// Prints what B.1 writes to its two ports, and when; of a board whose valves have more bits, all of
+// its ports. One board after the other, where there are several.
 std::string ports_text(const signals::Table& table, const experiment::Experiment& e) {
   const auto bits = robot::bits_of(e.robot, e.wiring);
   int boards = 1, highest = 15;

@@ -13,7 +13,7 @@
 namespace sinew::log {
 namespace {
 
-// Of a long log chunks are longer, so that little has to be kept of each of them until the end.
+// The chunks of a long log are longer, so that little has to be kept of each of them until the end.
 constexpr std::size_t kChunkBytes = 1 << 20, kLongChunkBytes = 1 << 23, kLong = 1 << 24;
 
 struct Span {  // of time; as the format wants it, zero to zero without messages

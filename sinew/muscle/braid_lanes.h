@@ -78,7 +78,7 @@ class BraidLanes {
     Four mesh_secant, mesh_constant;                    // Q for [34], or the bound itself
   };
 
-  // What evaluate() goes by and what it fills: whole lanes of each.
+  // evaluate() goes by the one and fills the other: whole lanes of each.
   struct Given {
     const double *length, *rate, *mass, *y_ref, *inverse_sigma;
   };

@@ -92,7 +92,7 @@ class AirNetwork {
   // pressure, air at the wall's temperature: what an ideal regulator does.
   void hold(double pressure, const Lanes& length, double travel, State& state) const noexcept;
 
-  // The same of the rates: what hold() sets does not move by itself.
+  // Sets the rates of what hold() sets to 0: it does not move by itself.
   void hold_still(Answer& look) const noexcept;
 
   // Air in the machine: chambers, hoses and tank  [kg]. What it loses has left through an exhaust
@@ -180,8 +180,8 @@ class AirNetwork {
   double longest_step() const noexcept;
   double longest_step(const Ends& ends, const Valves& valves) const noexcept;
 
-  // The same of what goes through no step ahead of the body: warm walls, lags, creep, and what
-  // leaks behind a hose that holds no air.
+  // Returns the same for what goes through no step ahead of the body: warm walls, lags, creep, and
+  // what leaks behind a hose that holds no air.
   double longest_step_of_rest(const Ends& ends, const Valves& valves) const noexcept;
 
  private:
@@ -195,7 +195,7 @@ class AirNetwork {
     int outlet = none;    // Kind::regulator: state of its outlet pressure
     bool listed = false;  // the flow is that of the open share alone
   };
-  // What lies between a muscle's valves and its air, and where its numbers stand among the others.
+  // A line lies between a muscle's valves and its air; its numbers stand among the others there.
   struct Line {
     int energy = none, hose = none, hose_energy = none;  // no hose's mass: it holds no air
     bool resists = false, more = false;                  // a hose; more than valves

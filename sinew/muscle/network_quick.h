@@ -149,7 +149,7 @@ auto AirNetwork<Most>::sloped_through(int inlet, const Now& now, double since_no
   return o;
 }
 
-// What leaves muscle i for the room but through its valves.
+// Returns what leaves muscle i for the room but through its valves  [kg/s].
 template <int Most>
 gas::SlopedFlow AirNetwork<Most>::sloped_leak(int i, const Now& now, double y) const noexcept {
   gas::SlopedFlow leak;

@@ -76,7 +76,7 @@ void AirNetwork<Most>::add_muscle(const Muscle& m) {
   lines_.push_back(line);
 }
 
-// What the mesh of muscle i remembers.
+// Makes room for what the mesh of muscle i remembers.
 template <int Most>
 void AirNetwork<Most>::add_memory(int i) {
   const actuator::Actuator& a = muscle(i).actuator;
@@ -104,7 +104,8 @@ void AirNetwork<Most>::add_cylinder() {
   }
 }
 
-// What flows, warms or creeps although every valve is shut, and what is no muscle between valves.
+// Finds what flows, warms or creeps although every valve is shut, and the lines with more than
+// valves.
 template <int Most>
 void AirNetwork<Most>::classify() {
   restless_ = air_.wall_time > 0 || (cylinder_ && cylinder_->mode == Cylinder::Mode::regulator);
@@ -136,7 +137,7 @@ double AirNetwork<Most>::fastest_slope(int inlet) const {
   return (taps_[v].flow.linear_gain + taps_[v + 1].flow.linear_gain) / air_.atmosphere;
 }
 
-// The same through a hose  [kg/(s Pa)].
+// Returns the slope of the flow through a hose  [kg/(s Pa)].
 template <int Most>
 double AirNetwork<Most>::hose_slope(const Line& line) const {
   const double p = supply_.pressure, y = gas::y_of(air_, p), y_less = gas::y_of(air_, 0.999 * p);

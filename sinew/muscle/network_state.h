@@ -60,7 +60,7 @@ struct AirValves {
   const Valve& operator[](std::size_t v) const { return of[v]; }
 };
 
-// What looks between two nodes go by, beside the valves.
+// Looks between two nodes go by this, beside the valves.
 template <int Most>
 struct AirMemory {
   Reference<Most> reference;                   // of the muscles' densities

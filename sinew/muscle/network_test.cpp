@@ -34,8 +34,8 @@ std::vector<Muscle> any_muscles(std::mt19937& random) {
   return muscles;
 }
 
-// What stands beside them changes no bit of muscles between valves; and where one of them goes by
-// its law in words, all do, to rounding.
+// Parts that stand beside them change no bit of muscles between valves; and where one of them goes
+// by its law in words, all do, to rounding.
 TEST(AirNetwork, MusclesAreTheSameWhateverStandsBeside) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> lengths(2.2 * inch, 4.0 * inch), rates(-0.3, 0.3);

@@ -41,7 +41,7 @@ struct Hand {
     network.evaluate(at, motion(at), s, valves, memory, out);
   }
 
-  // What has come through inlets, and what has left through exhausts and leaks  [kg].
+  // Return what has come through inlets, and what has left through exhausts and leaks  [kg].
   double entered() const {
     double sum = state.piston_in[0] + state.piston_in[1];
     for (int i = 0; i < network.muscles(); ++i) sum += state.in[i];

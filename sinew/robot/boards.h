@@ -43,7 +43,8 @@ int board_of_sensor(const std::vector<Board>& boards, int sensor);
 // it is where it has one board. It is what one board is told, and no machine that could move.
 Robot only_board(const Robot&, const std::vector<Board>& boards, std::size_t board);
 
-// What cannot be: a board that is too full, numbers that are left out, one muscle on two boards.
+// Finds what cannot be: a board that is too full, numbers that are left out, one muscle on two
+// boards.
 void check_boards(const Robot&, std::vector<Contradiction>& out);
 
 }  // namespace sinew::robot

@@ -103,7 +103,7 @@ void fields(Visitor& v, PressureLaw& law) {
            law.stiffness_integral);
 }
 
-// Of a joint, of an air cylinder and of a sensor that belongs to neither.
+// The board of a joint, of an air cylinder and of a sensor that belongs to neither.
 template <class Visitor>
 void board_field(Visitor& v, int& board) {
   v.integer({.name = "board",

@@ -42,8 +42,8 @@ class PageFile {
 
   std::size_t pages() const noexcept;  // that the file has, in use or not
 
-  // What failed, where, and what to do: "/var/tmp: cannot keep …: No space left on device; make
-  // room there, …". Empty where nothing did.
+  // Says what failed, where, and what to do: "/var/tmp: cannot keep …: No space left on device;
+  // make room there, …". Empty where nothing did.
   std::string problem() const;
 
  private:

@@ -70,7 +70,7 @@ TEST(PagedVector, IsSearchedAndSlicedAsAVector) {
   EXPECT_EQ(ascending, other);
 }
 
-// What the loop relies on: nothing is added where there is no room, and nothing before is lost.
+// The loop relies on this: nothing is added where there is no room, and nothing before is lost.
 TEST(PagedVector, AddsWithinWhatWasReserved) {
   Numbers in_memory;
   in_memory.reserve(3);

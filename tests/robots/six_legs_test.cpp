@@ -109,7 +109,7 @@ TEST_F(SixLegs, MoveInAClosedLoop) {
       }
   }
 
-  // What reads a log knows all of it.
+  // Every reader of a log knows all of it.
   const config::Node root = config::compose(path);
   const analysis::Summary summary = analysis::summarize(out.table, analysis::read_machine(root));
   double used = 0;

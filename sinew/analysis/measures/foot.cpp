@@ -44,7 +44,8 @@ double repeat_rms(std::size_t paths, const PathOf& path_of, std::span<const doub
     }
   }
 
-  // Of each point the squared distances from the mean; not a number as soon as one path has none.
+  // Sums of each point the squared distances from the mean; not a number as soon as one path has
+  // none.
   std::vector<double> spread(weights.size(), 0.0);
   for (std::size_t i = 0; i < paths; ++i) {
     const Path path = path_of(i);

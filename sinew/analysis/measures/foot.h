@@ -30,7 +30,8 @@ using Path = std::vector<robot::Point>;
 // Points of which a path has no number are left out. Not a number for fewer than two paths.
 double repeat_rms(std::span<const Path> paths, std::span<const double> weights);
 
-// The same of so many paths, each asked for twice, in their order: they need not be there at once.
+// Does the same for so many paths, each asked for twice, in their order: they need not be there at
+// once.
 using PathOf = std::function<Path(std::size_t path)>;
 double repeat_rms(std::size_t paths, const PathOf& path_of, std::span<const double> weights);
 

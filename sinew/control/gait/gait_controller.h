@@ -22,7 +22,7 @@
 
 namespace sinew::gait {
 
-// What the low level believes of so many joints and muscles, in the robot's order.
+// Holds what the low level believes of so many joints and muscles, in the robot's order.
 template <int Joints, int Muscles>
 struct MeasuredOf {
   std::array<double, Joints> angle{};      // [rad]

@@ -32,7 +32,7 @@ struct DiscAt {
   double slip_bias, rise_bias;  // of the accelerations, from the rates [m/s^2]
 };
 
-// Of a body with room for N links (body.h), on feet with room for D discs.
+// They are of a body with room for N links (body.h), on feet with room for D discs.
 template <int N, int D>
 class FrictionContacts {
  public:

@@ -49,7 +49,7 @@ class PlanarSenses {
     return gauge(world, p, of);
   }
 
-  // What the converter makes of it.
+  // Returns what the converter makes of it.
   std::uint16_t counts(std::size_t index, double value, signals::Tick sampled) const noexcept {
     const robot::Sensor& sensor = robot_.sensors[index];
     const auto channel = static_cast<std::uint8_t>(index);

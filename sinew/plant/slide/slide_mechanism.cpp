@@ -36,7 +36,7 @@ auto SlideMechanism::prescribed(double t) const noexcept -> Prescribed {
   return p;
 }
 
-// Of the load on its spring, air shut in; of the ends where they act  [1/s].
+// Returns the rate of the load on its spring, air shut in; of the ends where they act  [1/s].
 double SlideMechanism::swinging_rate(double length, double pressure, double mass) const noexcept {
   double stiffness = 0, damping = 0;
   if (cylinder_) {

@@ -190,7 +190,7 @@ class SlideMechanism {
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
-  // What is prescribed, from one point of a schedule to the next.
+  // Holds what is prescribed, from one point of a schedule to the next.
   struct Prescribed {
     Line mass, force, length, pressure;
     double begin = 0, end = -infinite;  // [s]

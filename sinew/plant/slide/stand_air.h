@@ -26,7 +26,7 @@ inline ElementAir air_of(const StandSetup& s) {
 
 class StandAir : public ElementAir {
  public:
-  // Of a set-up that the mechanism has prepared.
+  // Takes a set-up that the mechanism has prepared.
   explicit StandAir(const StandSetup& s)
       : ElementAir(air_of(s)),
         cylinder_(s.cylinder.has_value()),
@@ -81,8 +81,8 @@ class StandAir : public ElementAir {
     return air.wall_time > 0 ? gas::heat_capacity_ratio : air.polytropic_exponent;
   }
 
-  // Of a chamber that settles at the pressure behind an open valve: the flow's slope is steep there
-  // [1/s].
+  // Returns the rate of a chamber that settles at the pressure behind an open valve: the flow's
+  // slope is steep there [1/s].
   double settling_rate(const Answer& at, const State& s, const Valves& valves) const noexcept {
     const double behind = cylinder_ ? at.cylinder_pressure[muscle::up] : manifold(at, 0, valves);
     const double flow_in = cylinder_ ? at.cylinder_inflow[muscle::up] : at.inflow[0];

@@ -44,7 +44,7 @@ TEST(Cut, EndsJustBeyondTheBreak) {
   }
 }
 
-// What just turned begins with no gap at all, and turns again within the step.
+// A load that just turned begins with no gap at all, and turns again within the step.
 TEST(Cut, LeavesAStartOnTheEdge) {
   const double h = 1e-3;
   for (const double root : {1e-7, 3e-4, 9.99e-4}) {

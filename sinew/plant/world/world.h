@@ -164,7 +164,7 @@ class World final : public signals::Port {
              const Acceleration& first, const Forces& held) const noexcept;
   double pieces_of(double h, const Look& look) const noexcept;
 
-  // Of mechanisms that cut their steps.
+  // These serve mechanisms that cut their steps.
   template <CutsSteps = Mechanism>
   void begin_part(double t, Moving& s, const Memory& memory, Forces& held, Look& look) noexcept;
   template <CutsSteps = Mechanism>

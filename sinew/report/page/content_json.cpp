@@ -15,7 +15,8 @@ std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-// Of what is seen together with others of the same instant, unless it is said to be a line.
+// Returns the place of the column of a channel, which is seen together with others of the same
+// instant unless it is said to be a line.
 Json column_of(const Channel& channel, Columns& columns, Blob::As as = Blob::As::pose) {
   const int column = columns.of(channel, as);
   return column == Columns::none ? Json() : Json(column);

@@ -1,4 +1,4 @@
-// Of a run of many pages per column, most of which stand in a file, everything that is made is as
+// For a run of many pages per column, most of which stand in a file, everything that is made is as
 // if the run were in memory: the summary, the page, the table as CSV, and what its log says.
 #include <gtest/gtest.h>
 #include <unistd.h>

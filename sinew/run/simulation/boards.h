@@ -45,13 +45,13 @@ class Board {
   std::array<signals::Edge, 4 * control::max_joints> out_;
 };
 
-// What is desired of every joint of the machine, in the robot's order, and of the cylinder's behind
-// them.
+// A command says what is desired of every joint of the machine, in the robot's order, and of the
+// cylinder's behind them.
 using MachineCommand = std::array<control::JointCommand, robot::max_joints + 1>;
 
 class Boards;
 
-// What all boards know, by the machine's numbers. It looks at the boards, which outlive it.
+// Answers what all boards know, by the machine's numbers. It looks at the boards, which outlive it.
 class MachineSeen {
  public:
   explicit MachineSeen(const Boards& boards) noexcept;
@@ -96,8 +96,8 @@ class Boards {
 
   // --- for the loop ---
 
-  // Of all boards, ascending in `read`; at one tick in the boards' order. The span points into this
-  // object.
+  // Returns the scan of all boards, ascending in `read`; at one tick in the boards' order. The span
+  // points into this object.
   signals::Scan scan() const noexcept { return {period_, conversion_}; }
   std::span<Board> each() noexcept { return boards_; }
   MachineSeen seen() const noexcept { return MachineSeen(*this); }

@@ -113,8 +113,8 @@ TEST(Boards, OneScanOfAll) {
   for (std::size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i], static_cast<int>(i));
 }
 
-// What ends one board's run ends the other's in the same tick: all muscles are vented, and the
-// report names sensor and board.
+// A fault that ends one board's run ends the other's in the same tick: all muscles are vented, and
+// the report names sensor and board.
 TEST(Boards, OneThatTripsEndsAll) {
   for (const auto& [sensor, board] : {std::pair{"hip_angle", 1}, std::pair{"knee_angle", 2}}) {
     experiment::Experiment e = load("walk-test-1", split);

@@ -51,8 +51,8 @@ class Recorder {
   void sample(signals::Tick t) noexcept;
   signals::Tick next(signals::Tick) const noexcept { return next_; }
 
-  // What was recorded, as series. Once, after the run. The table is not complete where there was no
-  // more room for it: problem() then says what to do.
+  // Returns what was recorded, as series. Once, after the run. The table is not complete where
+  // there was no more room for it: problem() then says what to do.
   signals::Table take();
   std::string problem() const { return complete_ ? "" : pages_.problem(); }
 
