@@ -134,7 +134,7 @@ void one_peek(benchmark::State& state) {
 BENCHMARK(one_peek);
 
 struct FourMuscles {
-  using Air = muscle::AirNetwork<plant::chain_muscles>;
+  using Air = air::AirNetwork<plant::chain_muscles>;
   plant::Setup setup = experiment::planar_setup(walk());
   Air air{setup.muscles, setup.air, setup.supply};
   Air::Valves valves = air.valves_at_rest();

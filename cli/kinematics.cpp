@@ -94,7 +94,7 @@ Branch stand(const experiment::Experiment& e, const std::vector<double>& angles)
   std::array<double, robot::max_joints> turned{}, still{};
   for (std::size_t j = 0; j < angles.size(); ++j)
     turned[j] = next_to_rest(e.robot.joints[j], angles[j]);
-  muscle::Lanes<plant::most_muscles> length, rate;
+  air::Lanes<plant::most_muscles> length, rate;
   plant::MuscleRouting::MomentArms<plant::most_muscles> pulls;
   plant::MuscleRouting(e.robot).at(turned.data(), still.data(), length, rate, pulls);
   for (std::size_t i = 0; i < e.robot.muscles.size(); ++i) {

@@ -1,5 +1,5 @@
 # cmake --install gives find_package(sinew) and one target for everything, sinew::sinew; each folder
-# of sinew/ is a target too: sinew::muscle, sinew::control_joint, …
+# of sinew/ is a target too: sinew::air, sinew::control_joint, …
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)

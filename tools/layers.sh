@@ -11,7 +11,7 @@ layers='
     signals
     gas             units
     actuator        units
-    muscle          gas actuator signals
+    air             gas actuator signals
     robot           gas actuator signals
     robot/wiring    robot
     control/joint   signals
@@ -20,12 +20,12 @@ layers='
     config          units
     config/write    config
     log             signals
-    plant/world     muscle signals
-    plant/planar    plant/world muscle robot signals
-    plant/slide     plant/world muscle robot signals
-    plant/recorded  muscle robot signals log
-    plant/mujoco    muscle robot signals
-    plant/hardware  muscle robot signals
+    plant/world     air signals
+    plant/planar    plant/world air robot signals
+    plant/slide     plant/world air robot signals
+    plant/recorded  air robot signals log
+    plant/mujoco    air robot signals
+    plant/hardware  air robot signals
     experiment      plant control config
     identify/fit    actuator config
     identify/data   identify/fit config
@@ -231,7 +231,7 @@ self_test() {
   }
 
   expect sinew/units/a.h          '#include "sinew/gas/air.h"'                 'units may not include gas'
-  expect sinew/muscle/a.h         '#include "sinew/units/unit.h"'              ''  # through gas
+  expect sinew/air/a.h         '#include "sinew/units/unit.h"'              ''  # through gas
   expect sinew/control/joint/a.h  '#include "sinew/units/unit.h"'              'control/joint may not include units'
   expect sinew/control/joint/a.h  '#include "sinew/control/gait/a.h"'          'may not include control/gait'
   expect sinew/control/supervise/a.h '#include "sinew/control/joint/a.h"'      ''

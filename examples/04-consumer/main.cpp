@@ -1,4 +1,4 @@
-// A load hangs on one braided muscle. The integration loop is ours; Sinew's muscle::AirNetwork is
+// A load hangs on one braided muscle. The integration loop is ours; Sinew's air::AirNetwork is
 // the air half of the equations: it takes length, rate and air mass, and gives tension and flows.
 //
 //   x' = v      M v' = M g - F(x, v, m)      m' = inflow - outflow      x downward, length = x
@@ -8,14 +8,14 @@
 #include <cstdio>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/muscle/network.h"
+#include "sinew/air/network.h"
 #include "sinew/units/literals.h"
 
 namespace {
 
 using namespace sinew;
 using namespace sinew::units::literals;
-using Air = muscle::AirNetwork<4>;  // for one muscle, or up to four
+using Air = air::AirNetwork<4>;  // for one muscle, or up to four
 
 constexpr double load = 10.0_lb;
 constexpr double step = 0.5_ms;
@@ -31,8 +31,8 @@ gas::Valve valve(double area) {
   return v;
 }
 
-muscle::Muscle one_muscle() {
-  muscle::Muscle m;
+air::Muscle one_muscle() {
+  air::Muscle m;
   m.actuator.braid = {.thread_length = 4.2_in, .turns = 2.3};
   m.actuator.effectiveness = {.c0 = 0.95};
   m.actuator.long_end = {.length = 3.9_in, .stiffness = 8.8e4, .damping = 120};
@@ -50,7 +50,7 @@ struct State {
 
 class HangingMass {
  public:
-  HangingMass(const muscle::Muscle& m, const gas::Air& air, const gas::Supply& supply)
+  HangingMass(const air::Muscle& m, const gas::Air& air, const gas::Supply& supply)
       : air_(std::array{m}, air, supply), valves_(air_.valves_at_rest()) {
     // Without air the load hangs in the stretched threads.
     state_.length = m.actuator.long_end.length + weight / m.actuator.long_end.stiffness;

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <exception>
 
+#include "sinew/air/driven_muscle.h"
 #include "sinew/experiment/rig/rig.h"
-#include "sinew/muscle/driven_muscle.h"
 
 namespace {
 
@@ -20,7 +20,7 @@ constexpr double weight = 1.2, damping = 0.3;  // torque of the load [N m]; [N m
 void walk_through(const char* file) {
   const plant::StandSetup read = rig::setup_of(rig::load(file));
   const double rest = 0.0864;  // length at angle 0 [m]
-  muscle::DrivenMuscle pull(read.muscle, read.air, read.supply, rest);
+  air::DrivenMuscle pull(read.muscle, read.air, read.supply, rest);
 
   double angle = 0, rate = 0;
   std::printf("time [ms]  angle [deg]  gauge [kPa]  tension [N]  air [mg]\n");

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "sinew/air/network.h"
 #include "sinew/config/quantity.h"
 #include "sinew/control/gait/legs.h"
 #include "sinew/experiment/planar_setup.h"
-#include "sinew/muscle/network.h"
 #include "sinew/plant/planar/machine.h"
 #include "sinew/plant/planar/muscle_routing.h"
 
@@ -70,7 +70,7 @@ void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
   for (const bool high : {false, true}) {
     std::array<double, robot::max_joints> angle{}, still{};
     for (std::size_t j = 0; j < reach.size(); ++j) angle[j] = high ? reach[j].high : reach[j].low;
-    muscle::Lanes<plant::most_muscles> length{}, rate{};
+    air::Lanes<plant::most_muscles> length{}, rate{};
     plant::MuscleRouting::MomentArms<plant::most_muscles> pulls{};
     cords.at(angle.data(), still.data(), length, rate, pulls);
     for (int i = 0; i < cords.count(); ++i) {
@@ -103,8 +103,8 @@ void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
 // Air or joints that move so quickly that a run would take for ever.
 void check_steps(const plant::Setup& s, List& out) {
   constexpr double shortest = 2e-6;  // step [s]
-  const double air = muscle::AirNetwork<plant::most_muscles>(s.muscles, s.air, s.supply, s.cylinder)
-                         .longest_step();
+  const double air =
+      air::AirNetwork<plant::most_muscles>(s.muscles, s.air, s.supply, s.cylinder).longest_step();
   const auto micro = [](double step) { return config::format_number(1e6 * step) + " us"; };
   if (s.air.wall_time > 0 && air < shortest) {  // without walls air goes ahead of a step
     out.push_back({"air", "a hose or a cylinder's chamber that fills within " + micro(air),

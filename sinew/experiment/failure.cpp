@@ -10,7 +10,7 @@ namespace {
 std::string inches(double metres) { return config::format_quantity(metres, "m", "in"); }
 
 // Where a braid's chamber has no volume, if that is why.
-std::string length_in_words(const muscle::Failure& failure, const actuator::Actuator& actuator) {
+std::string length_in_words(const air::Failure& failure, const actuator::Actuator& actuator) {
   const double thread = actuator.braid.thread_length, caps = actuator.caps.length;
   if (failure.length <= caps)
     return fmt::format(
@@ -27,9 +27,9 @@ std::string length_in_words(const muscle::Failure& failure, const actuator::Actu
 
 }  // namespace
 
-std::string in_words(const muscle::Failure& failure, const std::string& who,
+std::string in_words(const air::Failure& failure, const std::string& who,
                      const actuator::Actuator& actuator, const std::string& step) {
-  using Of = muscle::Failure::Of;
+  using Of = air::Failure::Of;
   std::string what = "the motion";
   if (failure.of == Of::air) what = "the air of " + who;
   if (failure.of == Of::cylinder) what = "the air of the cylinder";

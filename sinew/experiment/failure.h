@@ -4,13 +4,13 @@
 #include <string>
 
 #include "sinew/actuator/actuator.h"
-#include "sinew/muscle/failure.h"
+#include "sinew/air/failure.h"
 
 namespace sinew::experiment {
 
 // "the air of muscle knee_flexor was no number any more at 0.012 s: …; try …". `who` is the muscle
 // as its file calls it, `step` the key of the step's length.
-std::string in_words(const muscle::Failure& failure, const std::string& who,
+std::string in_words(const air::Failure& failure, const std::string& who,
                      const actuator::Actuator& actuator, const std::string& step);
 
 }  // namespace sinew::experiment

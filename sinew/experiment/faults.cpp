@@ -165,13 +165,13 @@ double tear_of(const Experiment& e, const robot::Muscle& m) {
 
 double or_none(double x) { return std::isfinite(x) ? x : 0.0; }
 
-muscle::AirFault air_fault(const Experiment& e, const Fault& f, const Part& part) {
-  using To = muscle::AirFault::What;
-  muscle::AirFault out{.of = part.index,
-                       .begin = f.at,
-                       .end = end_of(f),
-                       .share = f.share,
-                       .leak = {.area = or_none(f.area), .conductance = f.conductance}};
+air::AirFault air_fault(const Experiment& e, const Fault& f, const Part& part) {
+  using To = air::AirFault::What;
+  air::AirFault out{.of = part.index,
+                    .begin = f.at,
+                    .end = end_of(f),
+                    .share = f.share,
+                    .leak = {.area = or_none(f.area), .conductance = f.conductance}};
   if (f.what == What::stuck_shut) out.what = To::stuck_shut;
   if (f.what == What::leaking) out.what = part.kind == Part::Kind::valve ? To::seat_leak : To::hole;
   if (f.what == What::blocked) out.what = To::blocked;
@@ -227,15 +227,15 @@ void check_faults(const Experiment& e, List& out) {
     }
     of_air += is_of_sensor(f.what) ? 0 : 1;
   }
-  if (of_air > muscle::FaultSchedule::capacity)
+  if (of_air > air::FaultSchedule::capacity)
     out.push_back({"fault", std::to_string(of_air) + " faults of the air",
-                   fmt::format("at most {}", muscle::FaultSchedule::capacity), "fewer"});
+                   fmt::format("at most {}", air::FaultSchedule::capacity), "fewer"});
   if (out.empty()) check_overlaps(e, out);
 }
 
-std::vector<muscle::AirFault> air_faults(const Experiment& e) {
+std::vector<air::AirFault> air_faults(const Experiment& e) {
   const std::vector<Part> parts = parts_of(e);
-  std::vector<muscle::AirFault> out;
+  std::vector<air::AirFault> out;
   for (const Fault& f : e.faults)
     if (const auto part = part_of(f, parts); part && !is_of_sensor(f.what))
       out.push_back(air_fault(e, f, *part));

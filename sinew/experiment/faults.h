@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "sinew/air/fault.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/muscle/fault.h"
 #include "sinew/robot/robot.h"
 #include "sinew/signals/tick.h"
 
@@ -17,7 +17,7 @@ namespace sinew::experiment {
 void check_faults(const Experiment& experiment, std::vector<robot::Contradiction>& out);
 
 // The faults of the air, in their order, for a plant. Expects a list without contradictions.
-std::vector<muscle::AirFault> air_faults(const Experiment& experiment);
+std::vector<air::AirFault> air_faults(const Experiment& experiment);
 
 // Returns where the log has whether a fault acts, "/true/valve/hip_flexor/inlet/fault".
 std::string topic_of(const Fault& fault);

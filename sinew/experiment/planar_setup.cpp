@@ -27,22 +27,22 @@ const gas::Valve* find_valve(const Experiment& e, const std::string& name) {
 }
 
 // The robot's cylinder with its valves, if it moves.
-std::optional<muscle::Cylinder> cylinder_of(const Experiment& e) {
+std::optional<air::Cylinder> cylinder_of(const Experiment& e) {
   using Mode = robot::Cylinder::Mode;
   const robot::Cylinder& c = e.robot.cylinder;
   if (!c.present || c.mode == Mode::locked || c.mode == Mode::free) return {};
-  muscle::Cylinder out{.bore = c.bore,
-                       .rod_diameter = c.rod_diameter,
-                       .stroke = c.stroke,
-                       .dead_volume = {c.up.dead_volume, c.down.dead_volume},
-                       .pressure = c.pressure,
-                       .initial_pressure = {e.start.pressure, e.start.pressure}};
+  air::Cylinder out{.bore = c.bore,
+                    .rod_diameter = c.rod_diameter,
+                    .stroke = c.stroke,
+                    .dead_volume = {c.up.dead_volume, c.down.dead_volume},
+                    .pressure = c.pressure,
+                    .initial_pressure = {e.start.pressure, e.start.pressure}};
   if (c.mode == Mode::regulator) {
-    out.mode = muscle::Cylinder::Mode::regulator;
+    out.mode = air::Cylinder::Mode::regulator;
     return out;
   }
-  for (const muscle::Side side : {muscle::up, muscle::down}) {
-    const robot::Cylinder::Chamber& chamber = side == muscle::up ? c.up : c.down;
+  for (const air::Side side : {air::up, air::down}) {
+    const robot::Cylinder::Chamber& chamber = side == air::up ? c.up : c.down;
     if (const gas::Valve* v = find_valve(e, chamber.inlet)) out.inlet[side] = *v;
     if (const gas::Valve* v = find_valve(e, chamber.exhaust)) out.exhaust[side] = *v;
   }
@@ -54,7 +54,7 @@ std::optional<muscle::Cylinder> cylinder_of(const Experiment& e) {
 plant::Setup planar_setup(const Experiment& e) {
   plant::Setup s{.robot = e.robot, .air = e.air, .supply = e.supply};
   for (const robot::Muscle& m : e.robot.muscles) {
-    muscle::Muscle out{.name = m.name, .count = m.count, .external_volume = m.external_volume};
+    air::Muscle out{.name = m.name, .count = m.count, .external_volume = m.external_volume};
     out.actuator = robot::actuator_of(m, e.actuators);
     if (const gas::Valve* v = find_valve(e, m.inlet)) out.inlet = *v;
     if (const gas::Valve* v = find_valve(e, m.exhaust)) out.exhaust = *v;

@@ -37,9 +37,9 @@ class TestStand {
  public:
   explicit TestStand(const Stand& stand) : stand_(stand) {}
 
-  static muscle::Muscle muscle(const Stand& stand) {
+  static air::Muscle muscle(const Stand& stand) {
     const Reading& r = stand.reading;
-    muscle::Muscle m;
+    air::Muscle m;
     m.actuator = actuator::thesis_actuator();
     auto& e = m.actuator.effectiveness;
     if (r.absolute_effectiveness) e.argument = actuator::Effectiveness::Argument::absolute;

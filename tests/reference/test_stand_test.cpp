@@ -19,7 +19,7 @@
 #include <set>
 #include <string>
 
-#include "sinew/muscle/network.h"
+#include "sinew/air/network.h"
 
 namespace sinew::reference {
 namespace {
@@ -358,9 +358,9 @@ TEST(TestStand, ErrorsOfTheReferenceAreSmallerThanTheTolerances) {
 
 // With stick = false a muscle's force has the sign of its speed, both ways.
 TEST(TestStand, FrictionWithoutStickHasTheSignOfTheSpeed) {
-  muscle::Muscle sticks = TestStand::muscle({}), slides = sticks;
+  air::Muscle sticks = TestStand::muscle({}), slides = sticks;
   slides.actuator.loss.stick = false;
-  using Air = muscle::AirNetwork<4>;
+  using Air = air::AirNetwork<4>;
   const Air air(std::vector{sticks, slides}, {}, {});
   for (double speed : {0.1, -0.1}) {
     Air::Ends ends{};

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "sinew/muscle/failure.h"
+#include "sinew/air/failure.h"
 #include "sinew/signals/port.h"
 #include "sinew/signals/table.h"
 
@@ -41,7 +41,7 @@ class Body {
   virtual void advance(double t) = 0;  // commits every node up to t
   virtual double time() const = 0;     // of the last node [s]
   virtual std::int64_t nodes() const = 0;
-  virtual muscle::Failure failure() const = 0;
+  virtual air::Failure failure() const = 0;
 
   // The state at the last node and the commands since, as bytes; and a body that goes on from it.
   virtual std::vector<std::byte> save() const = 0;

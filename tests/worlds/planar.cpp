@@ -29,7 +29,7 @@ void make_smooth(Setup& s) {
   s.robot.trolley.drag = s.robot.trolley.breakaway = 0;
   s.robot.cylinder.friction = 0;
   s.robot.ground.present = false;
-  for (muscle::Muscle& m : s.muscles) m.actuator.loss.coulomb_length = 0;
+  for (air::Muscle& m : s.muscles) m.actuator.loss.coulomb_length = 0;
 }
 
 void make_lossless(Setup& s) {
@@ -37,7 +37,7 @@ void make_lossless(Setup& s) {
   s.air.polytropic_exponent = 1.4;
   for (robot::Joint& j : s.robot.joints) j.damping = j.damper = 0;
   s.robot.cylinder.damping = s.robot.cylinder.stop_damping = 0;
-  for (muscle::Muscle& m : s.muscles) {
+  for (air::Muscle& m : s.muscles) {
     m.actuator.loss = {};
     m.actuator.effectiveness = {};
     m.actuator.bladder = {};
@@ -59,7 +59,7 @@ Setup varied(Setup s, const Variant& v) {
 }
 
 bool has_cylinder(const Setup& s) {
-  return s.cylinder && s.cylinder->mode == muscle::Cylinder::Mode::valves;
+  return s.cylinder && s.cylinder->mode == air::Cylinder::Mode::valves;
 }
 
 // All numbers of a truth, in the order of `quantities`.
@@ -154,14 +154,14 @@ double energy_of(const Setup& s, const Truth& x) {
   }
   sum += energy(plant::body_of<robot::max_joints>(s.robot), m);
   for (std::size_t i = 0; i < s.muscles.size(); ++i) {
-    const muscle::Muscle& a = s.muscles[i];
+    const air::Muscle& a = s.muscles[i];
     const double volume =
         a.count * actuator::volume(a.actuator.braid, x.length[i]) + a.external_volume;
     sum += air_energy(s, x.pressure[i], volume);
   }
-  for (const muscle::Side side : {muscle::up, muscle::down})
+  for (const air::Side side : {air::up, air::down})
     if (has_cylinder(s))
-      sum += air_energy(s, x.cylinder_pressure[side], muscle::volume(*s.cylinder, side, x.lift));
+      sum += air_energy(s, x.cylinder_pressure[side], air::volume(*s.cylinder, side, x.lift));
   return sum;
 }
 
@@ -178,7 +178,7 @@ class Planar final : public Body {
   void advance(double t) override { machine_.advance(t); }
   double time() const override { return machine_.time(); }
   std::int64_t nodes() const override { return machine_.nodes(); }
-  muscle::Failure failure() const override { return machine_.failure(); }
+  air::Failure failure() const override { return machine_.failure(); }
   std::vector<std::byte> save() const override {
     std::vector<std::byte> out(machine_.state_size());
     machine_.save(out);
@@ -223,7 +223,7 @@ std::vector<Tap> taps_of(const Setup& s) {
 }
 
 bool all_seal(const Setup& s) {
-  return std::ranges::all_of(s.muscles, [](const muscle::Muscle& m) {
+  return std::ranges::all_of(s.muscles, [](const air::Muscle& m) {
     return m.inlet.kind == gas::Valve::Kind::two_way && m.leak.area == 0 && m.leak.conductance == 0;
   });
 }
@@ -246,8 +246,8 @@ Subject of_setup(const std::string& name, const Setup& s) {
               .step = s.steps.body};
   // Between hose and muscle, and at walls, what flows by itself is lost; memory of the mesh too.
   out.conserves = s.faults.empty() && all_seal(s) && !(s.air.wall_time > 0) &&
-                  (!s.cylinder || s.cylinder->mode == muscle::Cylinder::Mode::valves);
-  for (const muscle::Muscle& m : s.muscles)
+                  (!s.cylinder || s.cylinder->mode == air::Cylinder::Mode::valves);
+  for (const air::Muscle& m : s.muscles)
     out.conserves = out.conserves && !(m.hose.volume > 0) &&
                     !(m.actuator.hysteresis.half_width > 0) && m.actuator.creep.share[0] == 0;
   return out;
@@ -291,7 +291,7 @@ Setup three_driven_joints() {
 
 Setup with_memory() {
   Setup s = experiment::planar_setup(load("walk-test-1", {}));
-  for (muscle::Muscle& m : s.muscles) {
+  for (air::Muscle& m : s.muscles) {
     m.actuator.hysteresis = {
         .half_width = 700, .width_per_contraction = 35e3, .volume_pressure = 7e5};
     m.actuator.creep = {.share = {0.05, 0.035}, .time = {0.9, 20}};

@@ -63,7 +63,7 @@ class OnStand final : public Body {
   void advance(double t) override { stand_.advance(t); }
   double time() const override { return stand_.time(); }
   std::int64_t nodes() const override { return stand_.nodes(); }
-  muscle::Failure failure() const override { return stand_.failure(); }
+  air::Failure failure() const override { return stand_.failure(); }
   std::vector<std::byte> save() const override {
     const auto bytes = std::as_bytes(std::span(&stand_.state(), 1));
     return {bytes.begin(), bytes.end()};
@@ -96,7 +96,7 @@ class OnStand final : public Body {
     double volume = setup_.muscle.external_volume +
                     setup_.muscle.count * actuator::volume(setup_.muscle.actuator.braid, x.length);
     if (setup_.cylinder)
-      volume = muscle::volume(*setup_.cylinder, muscle::up, setup_.cylinder->stroke - x.length);
+      volume = air::volume(*setup_.cylinder, air::up, setup_.cylinder->stroke - x.length);
     const double air = x.pressure * volume / (setup_.air.polytropic_exponent - 1.0);
     return 0.5 * x.load * x.velocity * x.velocity - x.load * setup_.load.gravity * x.length + air +
            setup_.air.atmosphere * volume;
@@ -114,7 +114,7 @@ Subject of_setup(const std::string& name, const StandSetup& s) {
   Subject out{.name = "stand_" + name,
               .make = [s](const Variant& v) { return std::make_unique<OnStand>(varied(s, v)); },
               .step = s.step};
-  const gas::Valve& inlet = s.cylinder ? s.cylinder->inlet[muscle::up] : s.muscle.inlet;
+  const gas::Valve& inlet = s.cylinder ? s.cylinder->inlet[air::up] : s.muscle.inlet;
   const bool valves = s.charge.mode == plant::Charge::Mode::valves;
   if (valves) out.taps = {{0, inlet.kind == gas::Valve::Kind::regulator}};
   if (valves && inlet.kind == gas::Valve::Kind::two_way) out.taps.push_back({1});
@@ -147,12 +147,12 @@ StandSetup hanging_cylinder() {
       rig::load(std::string(SINEW_SOURCE_DIR) + "/experiments/rig/sealed-cylinder.toml", {}));
   const StandSetup valves = rig::setup_of(
       rig::load(std::string(SINEW_SOURCE_DIR) + "/experiments/rig/feedback.toml", {}));
-  s.cylinder->inlet[muscle::up] = valves.muscle.inlet;
-  s.cylinder->exhaust[muscle::up] = valves.muscle.exhaust;
+  s.cylinder->inlet[air::up] = valves.muscle.inlet;
+  s.cylinder->exhaust[air::up] = valves.muscle.exhaust;
   s.load = valves.load;
   s.charge.mode = plant::Charge::Mode::valves;
   s.air.polytropic_exponent = 1.4;
-  const double ring = muscle::area(*s.cylinder, muscle::up);
+  const double ring = air::area(*s.cylinder, air::up);
   s.start = {.pressure = s.air.atmosphere + s.load.mass.at(0) * s.load.gravity / ring,
              .length = 0.5 * s.cylinder->stroke};
   return s;

@@ -18,15 +18,14 @@ const gas::Valve* find_valve(const Experiment& e, const std::string& name) {
   return nullptr;
 }
 
-muscle::Cylinder cylinder_of(const Element::Cylinder& c, const gas::Valve* in,
-                             const gas::Valve* out) {
-  muscle::Cylinder cylinder{.mode = muscle::Cylinder::Mode::single_acting,
-                            .bore = c.bore,
-                            .rod_diameter = c.rod_diameter,
-                            .stroke = c.stroke,
-                            .dead_volume = {c.dead_volume, 0}};
-  if (in) cylinder.inlet[muscle::up] = *in;
-  if (out) cylinder.exhaust[muscle::up] = *out;
+air::Cylinder cylinder_of(const Element::Cylinder& c, const gas::Valve* in, const gas::Valve* out) {
+  air::Cylinder cylinder{.mode = air::Cylinder::Mode::single_acting,
+                         .bore = c.bore,
+                         .rod_diameter = c.rod_diameter,
+                         .stroke = c.stroke,
+                         .dead_volume = {c.dead_volume, 0}};
+  if (in) cylinder.inlet[air::up] = *in;
+  if (out) cylinder.exhaust[air::up] = *out;
   return cylinder;
 }
 

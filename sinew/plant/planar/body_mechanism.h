@@ -13,7 +13,7 @@
 #include <array>
 #include <initializer_list>
 
-#include "sinew/muscle/lanes.h"
+#include "sinew/air/lanes.h"
 #include "sinew/plant/planar/body.h"
 #include "sinew/plant/planar/friction_contacts.h"
 #include "sinew/plant/planar/muscle_routing.h"
@@ -74,7 +74,7 @@ class BodyMechanism : public PlanarMechanism<M> {
                  double y_rate) const;
 
   // Lengths of the muscles, the piston's travel, their rates; the muscles' arms.
-  void route(double, const Motion& m, muscle::Ends<M>& ends, Arms& arms) const noexcept;
+  void route(double, const Motion& m, air::Ends<M>& ends, Arms& arms) const noexcept;
 
   template <class Answer>
   void load(const Pose& body, const Motion& m, const Arms& arms, const Answer& air,
@@ -94,7 +94,7 @@ class BodyMechanism : public PlanarMechanism<M> {
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
   // the mesh's own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& body, const Motion& m, const Arms& arms,
-                       const muscle::Lanes<M>& friction_bound, double trolley_bound,
+                       const air::Lanes<M>& friction_bound, double trolley_bound,
                        const Load& load) noexcept;
 
   // Dry friction of a step of length h from the prepared node, and accelerations under it.
@@ -124,7 +124,7 @@ class BodyMechanism : public PlanarMechanism<M> {
             Truth& out) const noexcept;
 
  private:
-  void load(const Pose& body, const Motion& m, const Arms& arms, const muscle::Lanes<M>& tension,
+  void load(const Pose& body, const Motion& m, const Arms& arms, const air::Lanes<M>& tension,
             double piston_force, Load& out) const noexcept;
   double cylinder_stop(const Motion& m) const noexcept;
   void tell_rollers(const Body<N>& body, const Motion& m, const Acceleration& a, const Forces& held,

@@ -54,7 +54,7 @@ void BodyMechanism<N, D, M>::set_rates(Motion& m, std::initializer_list<double> 
 }
 
 template <int N, int D, int M>
-void BodyMechanism<N, D, M>::route(double, const Motion& m, muscle::Ends<M>& ends,
+void BodyMechanism<N, D, M>::route(double, const Motion& m, air::Ends<M>& ends,
                                    Arms& arms) const noexcept {
   std::array<double, N> angle, rate;
   for (std::size_t j = 0; j < constants_.links(); ++j) {
@@ -84,7 +84,7 @@ double BodyMechanism<N, D, M>::cylinder_stop(const Motion& m) const noexcept {
 
 template <int N, int D, int M>
 void BodyMechanism<N, D, M>::load(const Pose& body, const Motion& m, const Arms& arms,
-                                  const muscle::Lanes<M>& tension, double piston_force,
+                                  const air::Lanes<M>& tension, double piston_force,
                                   Load& out) const noexcept {
   std::array<double, N> torque{};
   for (std::size_t j = 0; j < constants_.links(); ++j) {
@@ -138,7 +138,7 @@ auto BodyMechanism<N, D, M>::accelerate(const Pose& body, const Motion& m, const
 
 template <int N, int D, int M>
 auto BodyMechanism<N, D, M>::prepare(const Pose& body, const Motion& m, const Arms& arms,
-                                     const muscle::Lanes<M>& friction_bound, double trolley_bound,
+                                     const air::Lanes<M>& friction_bound, double trolley_bound,
                                      const Load& load) noexcept -> Acceleration {
   const Acceleration free = body.accelerations(load.force);
   Forces bound{};

@@ -37,8 +37,8 @@ Setup chain_setup(std::size_t links) {
 }
 
 // The body hangs on a spring of air alone: a cylinder whose valves stay shut.
-muscle::Cylinder thesis_cylinder() {
-  muscle::Cylinder c;
+air::Cylinder thesis_cylinder() {
+  air::Cylinder c;
   c.bore = 0.627 * inch;
   c.rod_diameter = 0.1875 * inch;
   c.stroke = 2 * inch;
@@ -140,13 +140,13 @@ TYPED_TEST(Alike, MovesAsTheChainWithItsBank) {
 TEST(BodyWorld, RegulatorPushesWithAKnownForce) {
   plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0);
   give_cylinder(s, robot::Cylinder::Mode::regulator);
-  s.cylinder->mode = muscle::Cylinder::Mode::regulator;
+  s.cylinder->mode = air::Cylinder::Mode::regulator;
   s.cylinder->pressure = s.air.atmosphere + 1e5;
   s.start.lift = 2 * inch;
   BodyWorld world(s);
   world.advance(0.05);
   const double mass = robot::leg_mass(s.robot) + s.robot.cylinder.body_mass;
-  const double push = 1e5 * muscle::area(*s.cylinder, muscle::down);
+  const double push = 1e5 * air::area(*s.cylinder, air::down);
   EXPECT_GT(push, mass * 1.0);
   EXPECT_NEAR(world.motion().at[up] - 2 * inch, -0.5 * (9.80665 + push / mass) * 0.05 * 0.05, 1e-9);
 }
@@ -155,17 +155,17 @@ TEST(BodyWorld, RegulatorPushesWithAKnownForce) {
 TEST(BodyWorld, SealedCylinderIsAGasSpring) {
   plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0);
   give_cylinder(s, robot::Cylinder::Mode::valves);
-  s.cylinder->mode = muscle::Cylinder::Mode::valves;
+  s.cylinder->mode = air::Cylinder::Mode::valves;
   s.air.polytropic_exponent = 1.4;
   const double mass = robot::leg_mass(s.robot) + s.robot.cylinder.body_mass;
-  const double area_up = muscle::area(*s.cylinder, muscle::up);
+  const double area_up = air::area(*s.cylinder, air::up);
   const double lifting = s.air.atmosphere + mass * 9.80665 / area_up;
   s.cylinder->initial_pressure = {lifting, s.air.atmosphere};
   s.start.lift = 1 * inch;
   const double stiffness =
-      1.4 * (lifting * area_up * area_up / muscle::volume(*s.cylinder, muscle::up, s.start.lift) +
-             s.air.atmosphere * std::pow(muscle::area(*s.cylinder, muscle::down), 2) /
-                 muscle::volume(*s.cylinder, muscle::down, s.start.lift));
+      1.4 * (lifting * area_up * area_up / air::volume(*s.cylinder, air::up, s.start.lift) +
+             s.air.atmosphere * std::pow(air::area(*s.cylinder, air::down), 2) /
+                 air::volume(*s.cylinder, air::down, s.start.lift));
   const double omega = std::sqrt(stiffness / mass), rate = 0.005;
 
   BodyWorld world(s);
@@ -181,7 +181,7 @@ TEST(BodyWorld, SealedCylinderIsAGasSpring) {
 TEST(BodyWorld, LiftedMassFallsFreely) {
   plant::Setup s = leg_without_muscles(1.5 * std::numbers::pi, 0.4);
   give_cylinder(s, robot::Cylinder::Mode::regulator);
-  s.cylinder->mode = muscle::Cylinder::Mode::regulator;
+  s.cylinder->mode = air::Cylinder::Mode::regulator;
   s.cylinder->pressure = s.air.atmosphere;
   s.start.lift = 2 * inch;
   BodyWorld world(s);
@@ -193,7 +193,7 @@ TEST(BodyWorld, LiftedMassFallsFreely) {
 TEST(BodyWorld, ShoeStandsOnHeelAndToe) {
   plant::Setup s = chain_setup(1);
   give_cylinder(s, robot::Cylinder::Mode::regulator);
-  s.cylinder->mode = muscle::Cylinder::Mode::regulator;
+  s.cylinder->mode = air::Cylinder::Mode::regulator;
   s.cylinder->pressure = s.air.atmosphere + 2e5;
   s.robot.trolley.present = false;
   s.start.joint_angle = {0};
@@ -207,8 +207,8 @@ TEST(BodyWorld, ShoeStandsOnHeelAndToe) {
   const Truth truth = world.truth(4.0);
 
   const robot::Link& link = s.robot.links[0];
-  const double weight = (link.mass + s.robot.cylinder.body_mass) * 9.80665 +
-                        2e5 * muscle::area(*s.cylinder, muscle::down);
+  const double weight =
+      (link.mass + s.robot.cylinder.body_mass) * 9.80665 + 2e5 * air::area(*s.cylinder, air::down);
   EXPECT_NEAR(truth.foot[0].force_y, weight, 1e-6 * weight);
   EXPECT_NEAR(truth.disc_force[0] + truth.disc_force[1], weight, 1e-6 * weight);
   const double balance = truth.disc_force[1] * toe - truth.disc_force[0] * heel;
@@ -278,7 +278,7 @@ TEST(MuscleRouting, TorqueIsTheSlopeOfLength) {
   std::uniform_real_distribution<double> hip(4.0, 5.8), knee(5.0, 6.0);
   for (int trial = 0; trial < 100; ++trial) {
     const double angle[2] = {hip(random), knee(random)}, still[2] = {0, 0};
-    muscle::Lanes<most_muscles> length, rate, ahead, behind;
+    air::Lanes<most_muscles> length, rate, ahead, behind;
     MuscleRouting::MomentArms<most_muscles> pulls, other;
     cords.at(angle, still, length, rate, pulls);
     const double h = 1e-6;
@@ -356,7 +356,7 @@ TEST(BodyWorld, CreepEndsWhereStrongerMusclesHoldTheLeg) {
   const auto settled = [](double creep, double scale, double half_width) {
     plant::Setup s = leg_with_muscles(4.85, 5.48);
     s.start.pressure = 2e5;
-    for (muscle::Muscle& m : s.muscles) {
+    for (air::Muscle& m : s.muscles) {
       m.actuator.loss = {.viscous = 60};
       m.actuator.effectiveness.scale = scale;
       m.actuator.creep = {.share = {creep, 0}, .time = {0.2, 0}};

@@ -10,8 +10,8 @@ template class BodyMechanism<2, 4, 8>;
 template class BodyMechanism<3, 4, 8>;
 template class BodyMechanism<4, 4, 8>;
 
-template class World<BodyMechanism<2, 4, 8>, muscle::AirNetwork<8>>;
-template class World<BodyMechanism<3, 4, 8>, muscle::AirNetwork<8>>;
-template class World<BodyMechanism<4, 4, 8>, muscle::AirNetwork<8>>;
+template class World<BodyMechanism<2, 4, 8>, air::AirNetwork<8>>;
+template class World<BodyMechanism<3, 4, 8>, air::AirNetwork<8>>;
+template class World<BodyMechanism<4, 4, 8>, air::AirNetwork<8>>;
 
 }  // namespace sinew::plant

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "sinew/muscle/lanes.h"
+#include "sinew/air/lanes.h"
 #include "sinew/plant/planar/chain.h"
 #include "sinew/plant/planar/contacts.h"
 #include "sinew/plant/planar/layout.h"
@@ -100,18 +100,18 @@ class ChainMechanism : public PlanarMechanism<chain_muscles> {
   }
 
   // Lengths of the muscles and their rates, from the joints' angles.
-  void route(double, const Motion& pose, muscle::Ends<chain_muscles>& ends, Arms&) const noexcept {
+  void route(double, const Motion& pose, air::Ends<chain_muscles>& ends, Arms&) const noexcept {
     std::array<double, N> travel, rate;
     for (int j = 0; j < N; ++j) {
       travel[j] = pose.angle[j] - (j > 0 ? pose.angle[j - 1] : 0.0) - rest_[j];
       rate[j] = pose.rate[j] - (j > 0 ? pose.rate[j - 1] : 0.0);
     }
     // In whole lanes from the start: a wide load would have to wait for narrow stores.
-    for (int i = 0; i < routes_.padded; i += muscle::lanes) {
+    for (int i = 0; i < routes_.padded; i += air::lanes) {
       const int* j = &routes_.joint[i];
-      const muscle::Four pull = routes_.moment_arm.four(i);
-      const muscle::Four turn = {travel[j[0]], travel[j[1]], travel[j[2]], travel[j[3]]};
-      const muscle::Four speed = {rate[j[0]], rate[j[1]], rate[j[2]], rate[j[3]]};
+      const air::Four pull = routes_.moment_arm.four(i);
+      const air::Four turn = {travel[j[0]], travel[j[1]], travel[j[2]], travel[j[3]]};
+      const air::Four speed = {rate[j[0]], rate[j[1]], rate[j[2]], rate[j[3]]};
       ends.length.four(i) = routes_.mount.four(i) - pull * turn;
       ends.rate.four(i) = -pull * speed;
     }
@@ -160,7 +160,7 @@ class ChainMechanism : public PlanarMechanism<chain_muscles> {
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
   // the mesh's own friction acts through the cams and is part of the joint's.
   Acceleration prepare(const Pose& chain, const Motion& pose, const Arms&,
-                       const muscle::Lanes<chain_muscles>& friction_bound, double trolley_bound,
+                       const air::Lanes<chain_muscles>& friction_bound, double trolley_bound,
                        const Load& load) noexcept {
     const Acceleration free = chain.accelerations(load.force);
     Forces bound;

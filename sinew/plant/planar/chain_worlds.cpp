@@ -4,7 +4,7 @@
 
 namespace sinew::plant {
 
-template class World<ChainMechanism<1>, muscle::AirNetwork<chain_muscles>>;
-template class World<ChainMechanism<2>, muscle::AirNetwork<chain_muscles>>;
+template class World<ChainMechanism<1>, air::AirNetwork<chain_muscles>>;
+template class World<ChainMechanism<2>, air::AirNetwork<chain_muscles>>;
 
 }  // namespace sinew::plant

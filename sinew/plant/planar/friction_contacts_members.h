@@ -276,7 +276,7 @@ template <int N, int D>
 auto FrictionContacts<N, D>::hold(double h, const Forces& last) const -> Forces {
   const auto n = static_cast<std::size_t>(active_count_);
   FrictionProblem<count> p;
-  Forces before;
+  Forces before{};
   for (std::size_t c = 0; c < n; ++c) {
     before[c] = last[static_cast<std::size_t>(active_[c])];
     p.bound[c] = problem_.bound[c];

@@ -8,8 +8,8 @@ namespace sinew::plant {
 template class BodyMechanism<8, 8, 8>;
 template class BodyMechanism<most_joints, robot::max_discs, most_muscles>;
 
-template class World<BodyMechanism<8, 8, 8>, muscle::AirNetwork<8>>;
+template class World<BodyMechanism<8, 8, 8>, air::AirNetwork<8>>;
 template class World<BodyMechanism<most_joints, robot::max_discs, most_muscles>,
-                     muscle::AirNetwork<most_muscles>>;
+                     air::AirNetwork<most_muscles>>;
 
 }  // namespace sinew::plant

@@ -14,7 +14,7 @@ ChainRouting chain_routing_of(const robot::Robot& robot) {
     s.mount[i] = m.mount_length;
     s.moment_arm[i] = role * joint.sign() * robot::cam_radius(m.cam, joint, joint.rest_angle);
   }
-  s.padded = (s.count + muscle::lanes - 1) / muscle::lanes * muscle::lanes;
+  s.padded = (s.count + air::lanes - 1) / air::lanes * air::lanes;
   for (int i = s.count; i < s.padded; ++i) {
     s.joint[i] = s.joint[s.count - 1];
     s.mount[i] = s.mount[s.count - 1];

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "sinew/muscle/lanes.h"
+#include "sinew/air/lanes.h"
 #include "sinew/plant/planar/chain.h"
 #include "sinew/plant/planar/setup.h"
 
@@ -17,7 +17,7 @@ struct ChainRouting {
   int count = 0, padded = 0;  // padded to whole lanes by repeating the last
 
   std::array<int, chain_muscles> joint{};
-  muscle::Lanes<chain_muscles> mount{}, moment_arm{};  // [m]
+  air::Lanes<chain_muscles> mount{}, moment_arm{};  // [m]
 };
 
 ChainRouting chain_routing_of(const robot::Robot& robot);

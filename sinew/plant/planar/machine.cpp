@@ -74,7 +74,7 @@ void Machine::restore(std::span<const std::byte> saved) noexcept {
   std::visit(from_bytes, world_);
 }
 
-const muscle::Failure& Machine::failure() const noexcept {
+const air::Failure& Machine::failure() const noexcept {
   return *std::visit([](const auto& world) { return &world.failure(); }, world_);
 }
 

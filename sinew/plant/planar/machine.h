@@ -7,7 +7,7 @@
 #include <span>
 #include <variant>
 
-#include "sinew/muscle/network.h"
+#include "sinew/air/network.h"
 #include "sinew/plant/planar/body_mechanism.h"
 #include "sinew/plant/planar/chain_mechanism.h"
 #include "sinew/plant/world/world.h"
@@ -15,21 +15,21 @@
 namespace sinew::plant {
 
 template <int N>
-using ChainWorld = World<ChainMechanism<N>, muscle::AirNetwork<chain_muscles>>;
+using ChainWorld = World<ChainMechanism<N>, air::AirNetwork<chain_muscles>>;
 // By links, discs and muscles; up to four links are just so many (body.h).
 template <int N, int D, int M>
-using SizedBodyWorld = World<BodyMechanism<N, D, M>, muscle::AirNetwork<M>>;
+using SizedBodyWorld = World<BodyMechanism<N, D, M>, air::AirNetwork<M>>;
 using BodyWorld = SizedBodyWorld<8, 8, 8>;
 using LargeBodyWorld = SizedBodyWorld<most_joints, robot::max_discs, most_muscles>;  // holds all
 
-extern template class World<ChainMechanism<1>, muscle::AirNetwork<chain_muscles>>;
-extern template class World<ChainMechanism<2>, muscle::AirNetwork<chain_muscles>>;
-extern template class World<BodyMechanism<2, 4, 8>, muscle::AirNetwork<8>>;
-extern template class World<BodyMechanism<3, 4, 8>, muscle::AirNetwork<8>>;
-extern template class World<BodyMechanism<4, 4, 8>, muscle::AirNetwork<8>>;
-extern template class World<BodyMechanism<8, 8, 8>, muscle::AirNetwork<8>>;
+extern template class World<ChainMechanism<1>, air::AirNetwork<chain_muscles>>;
+extern template class World<ChainMechanism<2>, air::AirNetwork<chain_muscles>>;
+extern template class World<BodyMechanism<2, 4, 8>, air::AirNetwork<8>>;
+extern template class World<BodyMechanism<3, 4, 8>, air::AirNetwork<8>>;
+extern template class World<BodyMechanism<4, 4, 8>, air::AirNetwork<8>>;
+extern template class World<BodyMechanism<8, 8, 8>, air::AirNetwork<8>>;
 extern template class World<BodyMechanism<most_joints, robot::max_discs, most_muscles>,
-                            muscle::AirNetwork<most_muscles>>;
+                            air::AirNetwork<most_muscles>>;
 
 using AnyWorld =
     std::variant<ChainWorld<1>, ChainWorld<2>, SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 4, 8>,
@@ -49,7 +49,7 @@ class Machine {
   std::int64_t nodes() const noexcept;
   double air_mass() const noexcept;
   double shortest_step() const noexcept;
-  const muscle::Failure& failure() const noexcept;
+  const air::Failure& failure() const noexcept;
 
   // The machine's state at the last node, with the commands since, as bytes of one build of the
   // library; state_size() of them. A machine of an equal setup goes on from there: the same bits.

@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "sinew/muscle/lanes.h"
+#include "sinew/air/lanes.h"
 #include "sinew/plant/planar/setup.h"
 #include "sinew/robot/robot.h"
 
@@ -51,8 +51,8 @@ class MuscleRouting {
 
   // From the joints' angles [rad] and rates [rad/s]. Lanes beyond the last muscle repeat it.
   template <int M>
-  void at(const double* angle, const double* rate, muscle::Lanes<M>& length,
-          muscle::Lanes<M>& length_rate, std::type_identity_t<MomentArms<M>>& pull) const noexcept;
+  void at(const double* angle, const double* rate, air::Lanes<M>& length,
+          air::Lanes<M>& length_rate, std::type_identity_t<MomentArms<M>>& pull) const noexcept;
 
  private:
   struct Route {
@@ -65,8 +65,8 @@ class MuscleRouting {
 };
 
 template <int M>
-void MuscleRouting::at(const double* angle, const double* rate, muscle::Lanes<M>& length,
-                       muscle::Lanes<M>& length_rate,
+void MuscleRouting::at(const double* angle, const double* rate, air::Lanes<M>& length,
+                       air::Lanes<M>& length_rate,
                        std::type_identity_t<MomentArms<M>>& pull) const noexcept {
   for (int i = 0; i < count(); ++i) {
     const Route& cord = cords_[static_cast<std::size_t>(i)];
@@ -83,7 +83,7 @@ void MuscleRouting::at(const double* angle, const double* rate, muscle::Lanes<M>
     length[i] = l;
     length_rate[i] = v;
   }
-  for (int i = count(); i % muscle::lanes != 0; ++i) {
+  for (int i = count(); i % air::lanes != 0; ++i) {
     length[i] = length[count() - 1];
     length_rate[i] = length_rate[count() - 1];
   }

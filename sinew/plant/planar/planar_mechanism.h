@@ -1,7 +1,7 @@
 // plant/planar/planar_mechanism.h - what all planar mechanisms are to world/world.h alike.
 #pragma once
 
-#include "sinew/muscle/lanes.h"
+#include "sinew/air/lanes.h"
 #include "sinew/plant/planar/senses.h"
 #include "sinew/plant/planar/setup.h"
 
@@ -14,9 +14,9 @@ struct PlanarMechanism {
 
   using Setup = plant::Setup;
   using Senses = PlanarSenses;
-  using Ends = muscle::Ends<M>;
+  using Ends = air::Ends<M>;
 
-  // The air of a machine: muscle/network.h.
+  // The air of a machine: air/network.h.
   template <class Air>
   static Air make_air(const Setup& s) {
     return Air(s.muscles, s.air, s.supply, s.cylinder, s.faults);

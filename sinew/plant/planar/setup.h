@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
+#include "sinew/air/cylinder.h"
+#include "sinew/air/fault.h"
+#include "sinew/air/muscle.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
-#include "sinew/muscle/cylinder.h"
-#include "sinew/muscle/fault.h"
-#include "sinew/muscle/muscle.h"
 #include "sinew/robot/legs.h"
 #include "sinew/robot/robot.h"
 
@@ -44,11 +44,11 @@ inline double stable_step(double step, double rate) {
 
 struct Setup {
   robot::Robot robot;
-  std::vector<muscle::Muscle> muscles;  // in the order of robot.muscles
+  std::vector<air::Muscle> muscles;  // in the order of robot.muscles
   gas::Air air;
   gas::Supply supply;
-  std::optional<muscle::Cylinder> cylinder;  // one that moves
-  std::vector<muscle::AirFault> faults;      // of its air
+  std::optional<air::Cylinder> cylinder;  // one that moves
+  std::vector<air::AirFault> faults;      // of its air
   Start start;
   Steps steps;
   std::uint64_t seed = 1;  // of the sensors' noise

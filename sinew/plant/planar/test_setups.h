@@ -89,7 +89,7 @@ inline Setup leg_with_muscles(double hip, double knee) {
       m.count = 2;
       m.mount_length = 3.15 * inch;
       s.robot.muscles.push_back(m);
-      muscle::Muscle out{.name = m.name, .actuator = actuator::thesis_actuator(), .count = 2};
+      air::Muscle out{.name = m.name, .actuator = actuator::thesis_actuator(), .count = 2};
       out.external_volume = 4e-6;
       out.inlet = test_valve(5e-7);
       out.exhaust = test_valve(2e-6);

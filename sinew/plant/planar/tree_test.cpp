@@ -37,7 +37,7 @@ Setup twice(const Setup& one, double apart = 0) {
       muscle.joint = leg + "_" + muscle.joint;
       s.robot.muscles.push_back(muscle);
     }
-    for (const muscle::Muscle& muscle : one.muscles) s.muscles.push_back(muscle);
+    for (const air::Muscle& muscle : one.muscles) s.muscles.push_back(muscle);
     for (const double angle : one.start.joint_angle) s.start.joint_angle.push_back(angle);
     for (const bool blocked : one.start.blocked) s.start.blocked.push_back(blocked);
   }

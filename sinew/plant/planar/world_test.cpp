@@ -68,7 +68,7 @@ TEST(World, OneLinkIsAPhysicalPendulum) {
 TEST(World, SealedMusclesConvergeWithTheFourthOrder) {
   const auto swing = [](double step) {
     plant::Setup setup = leg_with_muscles(4.95, 5.40);
-    for (muscle::Muscle& m : setup.muscles) m.actuator.loss.coulomb_length = 0;
+    for (air::Muscle& m : setup.muscles) m.actuator.loss.coulomb_length = 0;
     setup.start.pressure = 3e5;
     setup.steps.body = step;
     ChainWorld<2> world(setup);
@@ -112,7 +112,7 @@ TEST(World, SealedAirStaysOnItsPolytrope) {
   setup.start.pressure = 4e5;
   ChainWorld<2> world(setup);
   const Truth start = world.truth(0);
-  const muscle::AirNetwork<chain_muscles> network(setup.muscles, setup.air, setup.supply);
+  const air::AirNetwork<chain_muscles> network(setup.muscles, setup.air, setup.supply);
   for (int k = 1; k <= 300; ++k) {
     const Truth now = world.truth(k * 2.7e-3);
     for (int i = 0; i < 4; ++i) {
@@ -129,7 +129,7 @@ TEST(World, PeeksAgreeWithNodes) {
   constexpr double counts_per_rad = 714, counts_per_newton = 0.17 * 819.2 / 4.4482216152605;
   plant::Setup setup = leg_with_muscles(4.87, 5.46);
   setup.start.pressure = 2.5e5;
-  for (muscle::Muscle& m : setup.muscles) m.actuator.loss.coulomb_length = 0;
+  for (air::Muscle& m : setup.muscles) m.actuator.loss.coulomb_length = 0;
   ChainWorld<2> coarse(setup);
   setup.steps.body = 2e-5;
   ChainWorld<2> fine(setup);

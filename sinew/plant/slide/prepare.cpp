@@ -45,7 +45,7 @@ void refuse_contradictions(const StandSetup& s) {
   if (!(s.start.pressure > 0)) refuse("the pressure at the start must be above 0");
   if (driven && (s.start.displacement != 0 || s.start.length != 0))
     refuse("a driven load starts where its length says");
-  if (s.cylinder && s.cylinder->mode != muscle::Cylinder::Mode::single_acting)
+  if (s.cylinder && s.cylinder->mode != air::Cylinder::Mode::single_acting)
     refuse("its cylinder is single-acting");
   if (!s.cylinder && !(s.muscle.actuator.braid.turns > 0)) refuse("its muscle has no braid");
   for (const Transducer& t : s.transducers)
@@ -57,7 +57,7 @@ StandSetup with_valves(StandSetup s) {
   refuse_contradictions(s);
   if (s.charge.mode == Charge::Mode::valves) return s;
   s.muscle.inlet = s.muscle.exhaust = gas::Valve{};
-  if (s.cylinder) s.cylinder->inlet[muscle::up] = s.cylinder->exhaust[muscle::up] = gas::Valve{};
+  if (s.cylinder) s.cylinder->inlet[air::up] = s.cylinder->exhaust[air::up] = gas::Valve{};
   return s;
 }
 
@@ -88,7 +88,7 @@ double hanging_length(const StandSetup& setup) {
   s.muscle.actuator.loss.stick = true;  // the sign of no speed would be a force
   // At one pressure the room for air takes no part; beyond the threads there must be some.
   if (!(s.muscle.external_volume > 0)) s.muscle.external_volume = 1e-6;
-  using Air = muscle::AirNetwork<4>;
+  using Air = air::AirNetwork<4>;
   const Air network = air_of(s);
   const Air::Valves valves = network.valves_at_rest();
   const double weight = s.load.mass.at(0) * s.load.gravity + s.load.force.at(0);
@@ -120,7 +120,7 @@ StandSetup prepared(const StandSetup& setup) {
     start.length = s.load.length.at(0);
   else if (!(start.length > 0))
     start.length = hanging_length(s);
-  if (s.cylinder) s.cylinder->initial_pressure[muscle::up] = start.pressure;
+  if (s.cylinder) s.cylinder->initial_pressure[air::up] = start.pressure;
 
   const double first = start.length + start.displacement;
   refuse_without_air(s, start.length);

@@ -14,10 +14,10 @@
 #include <optional>
 #include <vector>
 
+#include "sinew/air/cylinder.h"
+#include "sinew/air/muscle.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
-#include "sinew/muscle/cylinder.h"
-#include "sinew/muscle/muscle.h"
 #include "sinew/plant/slide/schedule.h"
 #include "sinew/plant/slide/transducer.h"
 #include "sinew/units/constants.h"
@@ -53,8 +53,8 @@ struct StandStart {
 };
 
 struct StandSetup {
-  muscle::Muscle muscle;                     // a bundle with its valves, hose and leak
-  std::optional<muscle::Cylinder> cylinder;  // single-acting, in the muscle's place
+  air::Muscle muscle;                     // a bundle with its valves, hose and leak
+  std::optional<air::Cylinder> cylinder;  // single-acting, in the muscle's place
   gas::Air air;
   gas::Supply supply;
   Load load;

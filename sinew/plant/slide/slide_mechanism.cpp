@@ -40,12 +40,11 @@ auto SlideMechanism::prescribed(double t) const noexcept -> Prescribed {
 double SlideMechanism::swinging_rate(double length, double pressure, double mass) const noexcept {
   double stiffness = 0, damping = 0;
   if (cylinder_) {
-    const muscle::Cylinder& c = *setup_.cylinder;
-    const double area = muscle::area(c, muscle::up);
-    stiffness =
-        exponent_ * pressure * area * area / muscle::volume(c, muscle::up, c.stroke - length);
+    const air::Cylinder& c = *setup_.cylinder;
+    const double area = air::area(c, air::up);
+    stiffness = exponent_ * pressure * area * area / air::volume(c, air::up, c.stroke - length);
   } else {
-    const muscle::Muscle& m = setup_.muscle;
+    const air::Muscle& m = setup_.muscle;
     stiffness =
         m.count * actuator::stiffness_sealed(m.actuator, length, pressure, setup_.air.atmosphere,
                                              m.external_volume / m.count, exponent_);

@@ -28,7 +28,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sinew/muscle/lanes.h"
+#include "sinew/air/lanes.h"
 #include "sinew/plant/slide/senses.h"
 #include "sinew/plant/slide/setup.h"
 #include "sinew/plant/slide/stand_air.h"
@@ -167,7 +167,7 @@ class SlideMechanism {
   template <class Answer>
   double longest_piece(const Motion& m, const Load& load, const Answer& air) const noexcept {
     if (driven_) return infinite;
-    const double pressure = cylinder_ ? air.cylinder_pressure[muscle::up] : air.pressure[0];
+    const double pressure = cylinder_ ? air.cylinder_pressure[air::up] : air.pressure[0];
     return longest_swing_ / swinging_rate(m.length, pressure, load.mass);
   }
 
@@ -205,8 +205,8 @@ class SlideMechanism {
   }
   void put(Ends& ends, double length, double rate) const noexcept {
     // In whole lanes: a wide load would have to wait for narrow stores.
-    ends.length.four(0) = muscle::Four{length, length, length, length};
-    ends.rate.four(0) = muscle::Four{rate, rate, rate, rate};
+    ends.length.four(0) = air::Four{length, length, length, length};
+    ends.rate.four(0) = air::Four{rate, rate, rate, rate};
     if (!cylinder_) return;
     ends.travel = setup_.cylinder->stroke - length;
     ends.travel_rate = -rate;

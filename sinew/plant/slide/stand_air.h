@@ -7,12 +7,12 @@
 #include <limits>
 #include <span>
 
-#include "sinew/muscle/network.h"
+#include "sinew/air/network.h"
 #include "sinew/plant/slide/setup.h"
 
 namespace sinew::plant {
 
-using ElementAir = muscle::AirNetwork<4>;
+using ElementAir = air::AirNetwork<4>;
 
 // The element's one end, as the air feels it, and the pressure that a regulator holds.
 struct StandEnds : ElementAir::Ends {
@@ -43,7 +43,7 @@ class StandAir : public ElementAir {
     const double before = element(s).mass;
     hold(ends.pressure, ends.length, ends.travel, s);
     const double gained = element(s).mass - before;
-    double& passed = cylinder_    ? (gained > 0 ? s.piston_in : s.piston_out)[muscle::up]
+    double& passed = cylinder_    ? (gained > 0 ? s.piston_in : s.piston_out)[air::up]
                      : gained > 0 ? s.in[0]
                                   : s.out[0];
     passed += std::fabs(gained);
@@ -70,10 +70,10 @@ class StandAir : public ElementAir {
   }
 
   double pressure(const Answer& look) const noexcept {
-    return cylinder_ ? look.cylinder_pressure[muscle::up] : look.pressure[0];
+    return cylinder_ ? look.cylinder_pressure[air::up] : look.pressure[0];
   }
-  muscle::Account element(const State& s) const noexcept {
-    return cylinder_ ? cylinder_account(s, muscle::up) : account(s, 0);
+  air::Account element(const State& s) const noexcept {
+    return cylinder_ ? cylinder_account(s, air::up) : account(s, 0);
   }
 
  private:
@@ -84,9 +84,9 @@ class StandAir : public ElementAir {
   // Returns the rate of a chamber that settles at the pressure behind an open valve: the flow's
   // slope is steep there [1/s].
   double settling_rate(const Answer& at, const State& s, const Valves& valves) const noexcept {
-    const double behind = cylinder_ ? at.cylinder_pressure[muscle::up] : manifold(at, 0, valves);
-    const double flow_in = cylinder_ ? at.cylinder_inflow[muscle::up] : at.inflow[0];
-    const double flow_out = cylinder_ ? at.cylinder_outflow[muscle::up] : at.outflow[0];
+    const double behind = cylinder_ ? at.cylinder_pressure[air::up] : manifold(at, 0, valves);
+    const double flow_in = cylinder_ ? at.cylinder_inflow[air::up] : at.inflow[0];
+    const double flow_out = cylinder_ ? at.cylinder_outflow[air::up] : at.outflow[0];
     const double in = std::fabs(flow_in / (at.supply_pressure - behind));
     const double out = std::fabs(flow_out / (behind - atmosphere()));
     const double slope = (std::isfinite(in) ? in : 0.0) + (std::isfinite(out) ? out : 0.0);

@@ -276,7 +276,7 @@ TEST(Stand, WeightsMayBeAddedAndTakenAway) {
 
 StandSetup with_cylinder() {
   StandSetup s;
-  s.cylinder = {.mode = muscle::Cylinder::Mode::single_acting,
+  s.cylinder = {.mode = air::Cylinder::Mode::single_acting,
                 .bore = 0.02,
                 .rod_diameter = 0.006,
                 .stroke = 0.05,
@@ -291,7 +291,7 @@ StandSetup with_cylinder() {
 TEST(Stand, ASealedCylinderIsAPolytropicSpring) {
   const StandSetup s = with_cylinder();
   Stand stand(s);
-  const double ring = muscle::area(*s.cylinder, muscle::up);
+  const double ring = air::area(*s.cylinder, air::up);
   const auto volume = [&](double out) { return 2e-6 + ring * (0.05 - out); };
   for (double t : {0.0, 0.3, 1.0, 1.7}) {
     const StandTruth x = stand.truth(t);
@@ -304,7 +304,7 @@ TEST(Stand, ASealedCylinderIsAPolytropicSpring) {
 TEST(Stand, ACylinderOscillatesAsItsStiffnessSays) {
   StandSetup s = with_cylinder();
   s.load = {.mass = 5 * pound};
-  const double ring = muscle::area(*s.cylinder, muscle::up);
+  const double ring = air::area(*s.cylinder, air::up);
   s.start = {.pressure = s.air.atmosphere + weight(s) / ring, .length = 0.02, .displacement = 1e-5};
   const double stiffness = 1.4 * s.start.pressure * ring * ring / (2e-6 + ring * (0.05 - 0.02));
   const double period = 2 * std::numbers::pi * std::sqrt(5 * pound / stiffness);
@@ -363,7 +363,7 @@ TEST(Stand, RefusesWhatIsNoStand) {
             "test stand: the force goes back in time");
   EXPECT_EQ(refusal([](StandSetup& s) { s.charge.mode = Charge::Mode::regulated; }),
             "test stand: a regulated stand has a pressure over time");
-  EXPECT_EQ(refusal([](StandSetup& s) { s.cylinder = muscle::Cylinder{}; }),
+  EXPECT_EQ(refusal([](StandSetup& s) { s.cylinder = air::Cylinder{}; }),
             "test stand: its cylinder is single-acting");
   EXPECT_EQ(refusal([](StandSetup& s) {
               s.muscle.actuator.long_end.stiffness = 0;

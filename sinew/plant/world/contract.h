@@ -36,7 +36,7 @@
 //   stop(motion, held)             at a cut: what turned back against its friction rests
 //   hold(motion, load, held)       dry friction of the part, by what it was before
 //
-// Air (muscle/network.h) has State, what is integrated; Valves and Memory, what holds until the
+// Air (air/network.h) has State, what is integrated; Valves and Memory, what holds until the
 // next node; Answer, all that one look says; Course, what goes through a step ahead of the body.
 // All that lasts from node to node is copied like bytes.
 #pragma once

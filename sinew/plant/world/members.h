@@ -77,15 +77,15 @@ void World<M, A>::restore(const State& state) noexcept {
 // Is anything of the look at a node no number? The air also takes from the look what it remembers.
 template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::look_for_failure() noexcept {
-  const muscle::Failure of_air = air_.remember(state_.first.air, state_.now.air, state_.memory);
+  const air::Failure of_air = air_.remember(state_.first.air, state_.now.air, state_.memory);
   if (state_.failure) return;
   if (of_air) {
     state_.failure = of_air;
     state_.failure.time = state_.time;
-    if (of_air.of == muscle::Failure::Of::air)
+    if (of_air.of == air::Failure::Of::air)
       state_.failure.length = state_.first.ends.length[of_air.muscle];
-  } else if (!muscle::is_place(mechanism_.sum(state_.now.motion))) {
-    state_.failure = {.of = muscle::Failure::Of::motion, .time = state_.time};
+  } else if (!air::is_place(mechanism_.sum(state_.now.motion))) {
+    state_.failure = {.of = air::Failure::Of::motion, .time = state_.time};
   }
 }
 

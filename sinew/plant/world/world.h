@@ -24,7 +24,7 @@
 //            says what it has to have, and what the air
 // Senses     of the mechanism: what its sensors read and what a simulation tells (planar/senses.h,
 //            slide/senses.h)
-// Air        what fills the muscles: valves, masses, pressures, tensions (muscle/network.h,
+// Air        what fills the muscles: valves, masses, pressures, tensions (air/network.h,
 //            slide/stand_air.h)
 #pragma once
 
@@ -33,7 +33,7 @@
 #include <cstdint>
 #include <initializer_list>
 
-#include "sinew/muscle/failure.h"
+#include "sinew/air/failure.h"
 #include "sinew/plant/world/contract.h"
 #include "sinew/signals/port.h"
 
@@ -79,7 +79,7 @@ class World final : public signals::Port {
     double time;                   // of the node [s]
     std::int64_t multiple, nodes;  // of the body step that was passed last; so far
     bool ended;
-    muscle::Failure failure;
+    air::Failure failure;
   };
 
   // The setup must be free of contradictions (robot::contradictions); a stand's throws
@@ -109,7 +109,7 @@ class World final : public signals::Port {
     return std::min(step_, air_.longest_step_of_rest(state_.first.ends, state_.valves));
   }
   std::int64_t nodes() const noexcept { return state_.nodes; }
-  const muscle::Failure& failure() const noexcept { return state_.failure; }
+  const air::Failure& failure() const noexcept { return state_.failure; }
 
   const State& state() const noexcept { return state_; }
   // Goes on from there as the world did whose state it was: the same bits.

@@ -37,7 +37,7 @@ const Sets pipe{"muscle.hip_flexor.hose.law=pipe", "muscle.hip_flexor.hose.lengt
 
 bool plain(const experiment::Experiment& e) {
   const plant::Setup s = experiment::planar_setup(e);
-  return muscle::AirNetwork<plant::most_muscles>(s.muscles, s.air, s.supply, s.cylinder).plain();
+  return air::AirNetwork<plant::most_muscles>(s.muscles, s.air, s.supply, s.cylinder).plain();
 }
 
 double last(const signals::Table& table, const std::string& topic) {

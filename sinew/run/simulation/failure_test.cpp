@@ -84,7 +84,7 @@ TEST(Failure, OfAirEndsTheRunInEveryWorld) {
     const experiment::Experiment e = without_volume(name);
     const Outcome out = run(e);
     EXPECT_TRUE(out.ended_early()) << name;
-    EXPECT_EQ(out.failure.of, muscle::Failure::Of::air) << name;
+    EXPECT_EQ(out.failure.of, air::Failure::Of::air) << name;
     const std::string cause = cause_of(e, out);
     expect_says(cause, "the air of muscle knee_");
     expect_says(cause, " was no number any more at 0.0000 s: it was ");

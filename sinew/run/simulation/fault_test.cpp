@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "sinew/air/fault.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/node.h"
 #include "sinew/experiment/faults.h"
 #include "sinew/experiment/supervision.h"
-#include "sinew/muscle/fault.h"
 #include "sinew/robot/actuator_of.h"
 #include "sinew/run/simulation/faulty_port.h"
 #include "sinew/run/simulation/run.h"
@@ -237,9 +237,9 @@ TEST(AirFault, ComesToPartsOfThePlant) {
   experiment::Experiment e = bench();
   e.faults = {of_air("extensor.exhaust", What::stuck_shut, 1, 0.5), of_lever(What::open),
               of_air("extensor", What::ruptured, 1), of_air("supply", What::failed, 2)};
-  const std::vector<muscle::AirFault> air = experiment::air_faults(e);
+  const std::vector<air::AirFault> air = experiment::air_faults(e);
   ASSERT_EQ(air.size(), 3u);
-  EXPECT_EQ(air[0].what, muscle::AirFault::What::stuck_shut);
+  EXPECT_EQ(air[0].what, air::AirFault::What::stuck_shut);
   EXPECT_EQ(air[0].of, 3);
   EXPECT_EQ(air[0].begin, 1);
   EXPECT_EQ(air[0].end, 1.5);

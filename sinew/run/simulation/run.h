@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "sinew/air/failure.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/muscle/failure.h"
 #include "sinew/plant/planar/setup.h"
 #include "sinew/run/simulation/boards.h"
 #include "sinew/run/simulation/recorder.h"
@@ -34,7 +34,7 @@ struct Outcome {
   std::string no_room;                // why the table is not complete, and what to do; empty: it is
   SeenTotals seen;                    // the low level's last word
   SupervisedTotals supervised;        // what was not believed, and what ended the run
-  muscle::Failure failure;            // what of the machine was no number any more
+  air::Failure failure;               // what of the machine was no number any more
   std::vector<gait::Change> changes;  // the plan's, and behind them what was steered
   std::int64_t unreachable_periods = 0;
   std::int64_t nodes = 0;  // steps of the integrator

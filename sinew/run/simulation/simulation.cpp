@@ -141,8 +141,8 @@ plant::Truth Simulation::truth() noexcept {
   return machine_ ? machine_->truth(time()) : plant::Truth{};
 }
 
-muscle::Failure Simulation::failure() const noexcept {
-  return machine_ ? machine_->failure() : muscle::Failure{};
+air::Failure Simulation::failure() const noexcept {
+  return machine_ ? machine_->failure() : air::Failure{};
 }
 
 // --- changing ---

@@ -92,7 +92,7 @@ class Simulation {
   // Returns what only a simulation knows, now. Not for a body that is none.
   plant::Truth truth() noexcept;
   // Returns what of the machine was no number any more.
-  muscle::Failure failure() const noexcept;
+  air::Failure failure() const noexcept;
 
   // --- changing ---
 

@@ -82,7 +82,7 @@ TEST(RigRun, AirThatVanishesEndsTheRun) {
   e.element.external_volume = 0;
   e.load.mass = 45;
   const Outcome out = run(e);
-  ASSERT_EQ(out.failure.of, muscle::Failure::Of::air);
+  ASSERT_EQ(out.failure.of, air::Failure::Of::air);
   EXPECT_GT(out.failure.time, 0.01);
   EXPECT_LT(out.failure.time, 0.2);
   const std::string cause = cause_of(e, out);

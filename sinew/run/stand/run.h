@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "sinew/air/failure.h"
 #include "sinew/experiment/rig/rig.h"
-#include "sinew/muscle/failure.h"
 #include "sinew/plant/slide/setup.h"
 #include "sinew/run/simulation/logged.h"
 #include "sinew/signals/port.h"
@@ -16,7 +16,7 @@ namespace sinew::rig {
 struct Outcome {
   signals::Status status = signals::Status::ok;
   signals::Table table;
-  muscle::Failure failure;  // what of the stand was no number any more
+  air::Failure failure;  // what of the stand was no number any more
   std::int64_t nodes = 0;
   double duration = 0;  // simulated [s]
   double wall = 0;      // [s]
@@ -45,7 +45,7 @@ struct Settled {
   double length = 0, ripple = 0;  // mean, greatest less smallest [m]
   double pressure = 0;            // mean, absolute [Pa]
   double force = 0;               // mean [N]
-  muscle::Failure failure;
+  air::Failure failure;
 };
 std::vector<Settled> sweep(const Experiment& experiment, int threads);
 

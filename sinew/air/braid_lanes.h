@@ -1,0 +1,107 @@
+// air/braid_lanes.h - pressures and tensions of all muscles of a machine, side by side:
+// [31]-[34] and [40] in lanes of four.
+//
+// State per muscle: the mass of its air. With sigma = m/V and x = sigma/sigma_ref - 1 the pressure
+// comes from
+//
+//   y = (P/P_atm)^(1/7) = y_ref (1 + x)^(n/7)
+//
+// by gas/power_series.h while x is small (the reference is taken anew, exactly, at a node from
+// |x| > 0.02 on), else by units::power. No libm, no branches between lanes: one muscle alone and
+// among others has the same bits. The reference belongs to the state: who restores a state restores
+// its reference with it.
+//
+// For muscles that lanes_hold: the thesis's law of a braid with a linear bladder. Others go by
+// actuator/tension.h, which has the same laws in words; a test holds them together.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sinew/air/lanes.h"
+#include "sinew/air/muscle.h"
+#include "sinew/gas/air.h"
+#include "sinew/gas/power_series.h"
+
+namespace sinew::air {
+
+// Is there nothing of this muscle's law that lanes leave out?
+bool lanes_hold(const Muscle& muscle);
+
+class BraidLanes {
+ public:
+  BraidLanes(std::span<const Muscle> muscles, const gas::Air& air);
+
+  int size() const { return size_; }
+  int padded() const { return padded_; }  // to whole lanes, which repeat the last muscle
+
+  const gas::PowerSeries& series() const { return series_; }  // y of the density
+
+  template <int Most>
+  Reference<Most> reference() const {  // at the atmosphere
+    Reference<Most> r{};
+    for (int i = 0; i < padded_; ++i) {
+      r.y[i] = 1.0;
+      r.inverse_sigma[i] = inverse_reference_density_;
+    }
+    return r;
+  }
+
+  // Lengths [m], rates [m/s] and masses [kg] give all of `out`, and y. Pure.
+  template <int Most>
+  void evaluate(const Lanes<Most>& length, const Lanes<Most>& rate, const Lanes<Most>& mass,
+                const Reference<Most>& reference, Pull<Most>& out, Lanes<Most>& y) const noexcept {
+    evaluate({length.of.data(), rate.of.data(), mass.of.data(), reference.y.of.data(),
+              reference.inverse_sigma.of.data()},
+             {out.tension.of.data(), out.clamped.of.data(), out.pressure.of.data(),
+              out.friction_bound.of.data(), out.drift.of.data(), y.of.data()});
+  }
+
+  // At a node, after its evaluation: the reference follows where the density has drifted. Answers
+  // the first muscle whose density is none, or -1.
+  template <int Most>
+  int follow(const Lanes<Most>& drift, Reference<Most>& reference) const noexcept {
+    return follow(drift.of.data(), reference.y.of.data(), reference.inverse_sigma.of.data());
+  }
+
+ private:
+  // Constants of four bundles, the count of actuators and what can be multiplied beforehand folded
+  // in; lanes beyond the last muscle repeat it. Aligned for wide registers, whatever the file that
+  // makes it is compiled for.
+  struct alignas(64) Constants {
+    Four thread2, cubic, linear, external;  // b^2; volume: external + l (linear - cubic l^2)
+    Four c0, c1, c2, low, high;             // effectiveness, of the gauge pressure
+    Four viscous, bladder, bladder_rest;    // passive
+    Four long_length, long_stiffness, long_damping;     // [32], [35]
+    Four short_length, short_stiffness, short_damping;  // end stop
+    Four short_zero;                                    // 1 where [31]'s zero holds, else 0
+    Four mesh_secant, mesh_constant;                    // Q for [34], or the bound itself
+  };
+
+  // evaluate() goes by the one and fills the other: whole lanes of each.
+  struct Given {
+    const double *length, *rate, *mass, *y_ref, *inverse_sigma;
+  };
+  struct Filled {
+    double *tension, *clamped, *pressure, *friction_bound, *drift, *y;
+  };
+
+  void evaluate(const Given& in, const Filled& out) const noexcept;
+  int follow(const double* drift, double* y_ref, double* inverse_sigma) const noexcept;
+  void set_constants(int lane, const Muscle& muscle);
+  double exact_y(double density) const noexcept;
+  void far_roots(int muscles, const Four& drift, const double* inverse_sigma,
+                 Four& root) const noexcept;
+  void sealed_mesh(const Given& in, const Filled& out) const noexcept;
+  void loose_signs(const Given& in, const Filled& out) const noexcept;
+
+  int size_ = 0, padded_ = 0;
+  gas::Air air_;
+  gas::PowerSeries series_;
+  double inverse_reference_density_ = 0;
+  std::vector<Muscle> muscles_;
+  std::vector<Constants> constants_;  // of each four lanes
+  bool all_stick_ = true, any_sealed_ = false;
+};
+
+}  // namespace sinew::air

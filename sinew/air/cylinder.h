@@ -1,0 +1,62 @@
+// air/cylinder.h - a double-acting air cylinder between trolley and body, 4.2.
+//
+//   V_up   = dead_volume[up]   + A_up s         A_up = pi (bore^2 - rod^2)/4
+//   V_down = dead_volume[down] + A_down (S - s)      A_down = pi bore^2/4
+//   F = (P_up - P_atm) A_up - (P_down - P_atm) A_down
+//
+//   s  travel upwards from the extended stop, 0 ... S, the stroke [m]
+//   F  of the air on the body, up > 0; the atmosphere's push on the rod is in it [N]
+//
+// Chambers are named after the way in which they push the body; the rod is in `up`. Friction, end
+// stops and weights are not in here. Valid within 0 <= s <= S; stops that give way a little are
+// what the dead volumes have to spare.
+#pragma once
+
+#include <array>
+#include <numbers>
+
+#include "sinew/gas/valve.h"
+
+namespace sinew::air {
+
+enum Side : int { up = 0, down = 1 };
+
+struct Cylinder {
+  // regulator:     `down` is held at `pressure`, `up` is open to the room.
+  // valves:        four valves; inlet and exhaust of a chamber may be open together.
+  // single_acting: `up` has its two valves, `down` is open to the room.
+  enum class Mode { regulator, valves, single_acting };
+
+  Mode mode = Mode::valves;
+  double bore = 0;                           // diameter of the piston [m]
+  double rod_diameter = 0;                   // [m]
+  double stroke = 0;                         // S [m]
+  std::array<double, 2> dead_volume{};       // up, down; with hoses, above 0 [m^3]
+  double pressure = 0;                       // regulator: held in `down`, absolute [Pa]
+  std::array<double, 2> initial_pressure{};  // of chambers with valves; 0: the atmosphere [Pa]
+  std::array<gas::Valve, 2> inlet, exhaust;  // valves: up, down
+};
+
+// Of the piston, facing the chamber  [m^2].
+constexpr double area(const Cylinder& c, Side side) {
+  const double rod = side == up ? c.rod_diameter : 0.0;
+  return 0.25 * std::numbers::pi * (c.bore * c.bore - rod * rod);
+}
+
+// Of the air in a chamber  [m^3].
+constexpr double volume(const Cylinder& c, Side side, double travel) {
+  return c.dead_volume[side] + area(c, side) * (side == up ? travel : c.stroke - travel);
+}
+
+// dV/ds  [m^2].
+constexpr double volume_slope(const Cylinder& c, Side side) {
+  return side == up ? area(c, up) : -area(c, down);
+}
+
+// F  [N], from absolute pressures.
+constexpr double force(const Cylinder& c, double pressure_up, double pressure_down,
+                       double atmosphere) {
+  return (pressure_up - atmosphere) * area(c, up) - (pressure_down - atmosphere) * area(c, down);
+}
+
+}  // namespace sinew::air

@@ -1,0 +1,91 @@
+// air/driven_muscle.h - one muscle with its valves, hose and leak on a supply, moved by a loop
+// that is not ours: somebody else's robot, simulator or controller.
+//
+//   air::DrivenMuscle m(muscle, air, supply, 0.08);   // 80 mm long, at the atmosphere's
+//   pressure for (;;) {
+//     m.inlet(now_open);
+//     m.advance(1e-4, your_length());                    // 0.1 ms later it is so long
+//     pull_with(m.tension());
+//   }
+//
+// Within a step the length runs straight to where it will be. Valves move at their own instants,
+// delays included, whatever the steps; hoses and what else is quicker go ahead of a step
+// (network_quick.h), so that a loop may be as slow as 1 ms.
+//
+// State is one block, copied like bytes: two muscles of equal description go on alike from it.
+// After it is made a muscle allocates nothing and throws nothing.
+#pragma once
+
+#include "sinew/air/muscle.h"
+#include "sinew/air/network.h"
+#include "sinew/gas/air.h"
+#include "sinew/gas/supply.h"
+
+namespace sinew::air {
+
+class DrivenMuscle {
+  using Air = AirNetwork<4>;
+
+ public:
+  struct State {
+    double time = 0;              // since it was made [s]
+    double length = 0, rate = 0;  // [m], [m/s]
+    Air::State air;
+    Air::Valves valves;
+    Air::Memory memory;
+    Air::Answer look;
+    bool failed = false;
+  };
+
+  // `length` at the start [m]; `pressure` of its air there, absolute [Pa]. Throws
+  // std::invalid_argument for a length at which it has no room for air.
+  DrivenMuscle(const Muscle& muscle, const gas::Air& air, const gas::Supply& supply, double length,
+               double pressure);
+  DrivenMuscle(const Muscle& muscle, const gas::Air& air, const gas::Supply& supply, double length)
+      : DrivenMuscle(muscle, air, supply, length, air.atmosphere) {}
+
+  // Current of the valves' coils from now on. The inlet is also a 3-way valve's.
+  void inlet(bool on) noexcept { command(0, on, 0); }
+  void exhaust(bool on) noexcept { command(1, on, 0); }
+
+  // Set point of a regulator in the inlet's place from now on, 0 to 1 of its range.
+  void set_point(double share) noexcept;
+
+  // Lets `step` [s] pass, in which the muscle comes to be `length` [m] long.
+  void advance(double step, double length) noexcept;
+
+  // Force on both ends [N]: static and viscous; a cord, so that it never pushes. A sensor between
+  // the muscle and what it pulls sees up to friction() more where the muscle gives way, and less
+  // where it pulls: who integrates decides whether it sticks.
+  double tension() const noexcept { return state_.look.tension[0]; }
+  double friction() const noexcept {
+    return state_.look.friction_bound[0];
+  }  // bound of the dry part [N]
+
+  double pressure() const noexcept { return state_.look.pressure[0]; }  // absolute [Pa]
+  double length() const noexcept { return state_.length; }              // [m]
+  double time() const noexcept { return state_.time; }                  // [s]
+
+  // Air in the muscle, and what has passed its valves and leaks since the start [kg]. What it holds
+  // and its hose holds together is air_mass().
+  Account account() const noexcept { return air_.account(state_.air, 0); }
+  double air_mass() const noexcept { return air_.total_mass(state_.air, 0); }
+
+  // Is its state no number any more? From then on it stands still.
+  bool failed() const noexcept { return state_.failed; }
+
+  const State& state() const noexcept { return state_; }
+  void restore(const State& state) noexcept { state_ = state; }
+
+ private:
+  void command(int valve, bool on, std::uint16_t level) noexcept;
+  Air::Ends ends(double t) const noexcept;
+  void look(double t, const Air::State& air, Air::Answer& out) const noexcept;
+  void step(double h) noexcept;
+  void node() noexcept;
+
+  Air air_;
+  State state_;
+};
+
+}  // namespace sinew::air

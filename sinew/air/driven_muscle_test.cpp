@@ -1,0 +1,92 @@
+// A muscle in somebody's loop is the network's, whatever the loop's steps.
+#include "sinew/air/driven_muscle.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sinew/air/test_machines.h"
+
+namespace sinew::air {
+namespace {
+
+double swinging(double t) { return (3.2 + 0.3 * std::sin(9 * t)) * inch; }
+
+// 0.4 s along a swing, valves by a fixed pattern of tens of milliseconds.
+DrivenMuscle after(const Muscle& m, double step) {
+  DrivenMuscle driven(m, {.polytropic_exponent = 1.2}, {}, swinging(0));
+  const int steps = static_cast<int>(std::lround(0.4 / step));
+  const int per_command = static_cast<int>(std::lround(0.01 / step));
+  for (int k = 0; k < steps; ++k) {
+    if (k % per_command == 0) {
+      const int at = k / per_command;
+      driven.inlet(at % 5 == 0);
+      driven.exhaust(at % 7 == 3);
+    }
+    driven.advance(step, swinging((k + 1) * step));
+  }
+  return driven;
+}
+
+TEST(DrivenMuscle, TheLoopsStepHardlyMatters) {
+  for (const gas::Hose& hose : {gas::Hose{}, iso_hose(3e-9, 1e-6)}) {
+    Muscle m = bundle(0);
+    m.hose = hose;
+    const DrivenMuscle fine = after(m, 2e-5), tenth = after(m, 1e-4), slow = after(m, 1e-3);
+    EXPECT_GT(fine.account().in, 5e-5);
+    EXPECT_NEAR(tenth.pressure() / fine.pressure(), 1, 2e-4);
+    EXPECT_NEAR(slow.pressure() / fine.pressure(), 1, 1e-3);
+    EXPECT_NEAR(slow.tension() / fine.tension(), 1, 3e-3);
+  }
+}
+
+TEST(DrivenMuscle, AirIsNeitherMadeNorLost) {
+  Muscle m = bundle(0.1);
+  m.hose = iso_hose(3e-9, 2e-6);
+  m.leak = {.area = 1e-8};
+  const DrivenMuscle start(m, {.polytropic_exponent = 1.2}, {}, swinging(0));
+  const DrivenMuscle driven = after(m, 1e-4);
+  const Account a = driven.account();
+  EXPECT_GT(a.leak, 0);
+  EXPECT_NEAR(driven.air_mass(), start.air_mass() + a.in - a.out - a.leak, 1e-12 * a.in);
+}
+
+TEST(DrivenMuscle, GoesOnFromItsState) {
+  Muscle m = bundle(0);
+  m.hose = iso_hose(3e-9, 1e-6);
+  DrivenMuscle one(m, {}, {}, swinging(0)), other(m, {}, {}, 0.07, 3e5);
+  one.inlet(true);
+  for (int k = 1; k <= 57; ++k) one.advance(1e-4, swinging(k * 1e-4));
+  one.inlet(false);  // on its way
+  other.restore(one.state());
+  for (int k = 58; k <= 300; ++k) {
+    one.advance(1e-4, swinging(k * 1e-4));
+    other.advance(1e-4, swinging(k * 1e-4));
+    ASSERT_EQ(one.tension(), other.tension());
+    ASSERT_EQ(one.pressure(), other.pressure());
+  }
+}
+
+// A regulator's set point is reached and held.
+TEST(DrivenMuscle, FollowsASetPoint) {
+  Muscle m = bundle(0);
+  m.inlet.kind = gas::Valve::Kind::regulator;
+  m.inlet.regulator = {.range = 5 * bar, .time_constant = 0.01};
+  m.inlet.flow.area = 5e-6;
+  const gas::Air air;
+  DrivenMuscle driven(m, air, {}, 3.2 * inch);
+  driven.set_point(0.6);
+  for (int k = 0; k < 5000; ++k) driven.advance(1e-4, 3.2 * inch);
+  EXPECT_NEAR(driven.pressure(), air.atmosphere + 3 * bar, 1e-3 * bar);
+  EXPECT_FALSE(driven.failed());
+}
+
+TEST(DrivenMuscle, NeedsRoomForAir) {
+  Muscle m = bundle(0);
+  m.external_volume = 0;
+  EXPECT_THROW(DrivenMuscle(m, {}, {}, 1.2 * m.actuator.braid.thread_length),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace sinew::air

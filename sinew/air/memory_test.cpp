@@ -1,0 +1,178 @@
+// Meshes that remember, in a network: hysteresis and creep against their laws.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sinew/actuator/braid.h"
+#include "sinew/actuator/hysteresis.h"
+#include "sinew/actuator/tension.h"
+#include "sinew/air/test_integrator.h"
+#include "sinew/air/test_machines.h"
+
+namespace sinew::air {
+namespace {
+
+Motion still(double length) { return still_at(length); }
+Motion at_rest(double) { return still(3.2 * inch); }
+
+Muscle plain_bundle() {
+  Muscle m = bundle(0);
+  m.inlet.profile = m.exhaust.profile = gas::Valve::Profile::ideal;
+  m.inlet.opening_delay = m.inlet.closing_delay = 0;
+  m.exhaust.opening_delay = m.exhaust.closing_delay = 0;
+  return m;
+}
+
+double static_tension(const Muscle& m, double length, double gauge) {
+  return m.count * actuator::tension(m.actuator, length, 0, gauge, gas::Air{}.atmosphere);
+}
+
+TEST(Memory, IsNothingThatLanesHold) {
+  Muscle m = plain_bundle();
+  m.actuator.hysteresis.volume_pressure = 5 * bar;  // without a width it is nothing
+  EXPECT_TRUE(lanes_hold(m));
+  m.actuator.hysteresis.half_width = 1;
+  EXPECT_FALSE(lanes_hold(m));
+  m = plain_bundle();
+  m.actuator.creep = {.share = {0, 0.01}, .time = {0, 3}};
+  EXPECT_FALSE(lanes_hold(m));
+}
+
+// A muscle that has stood for long starts without friction, with its creep done.
+TEST(Memory, StartsAtRest) {
+  Muscle m = plain_bundle();
+  m.actuator.hysteresis = {.half_width = 0.05 * bar, .volume_pressure = 10 * bar};
+  m.actuator.creep = {.share = {0.02, 0.03}, .time = {0.5, 5}};
+  Air network(std::vector{m}, {}, {});
+  EXPECT_EQ(network.others(), 2);
+  const Hand hand(network, at_rest, 4 * bar);
+  const double gauge = 4 * bar - network.atmosphere();
+  EXPECT_NEAR(hand.now.tension[0] / (1.05 * static_tension(m, 3.2 * inch, gauge)), 1, 1e-9);
+}
+
+// Fill and vent at one length: each tension is the static one at the pressure w below and above.
+TEST(Memory, FillAndVentLoop) {
+  Muscle m = plain_bundle();
+  const double w = 0.06 * bar;
+  m.actuator.hysteresis.half_width = w;
+  Air network(std::vector{m}, {}, {});
+  Hand hand(network, at_rest, network.atmosphere());
+  const auto expect_off = [&](double off) {
+    const double gauge = hand.now.pressure[0] - network.atmosphere();
+    EXPECT_NEAR(hand.now.tension[0], static_tension(m, 3.2 * inch, gauge + off), 1e-6);
+  };
+  hand.electrical(0, true);
+  hand.go(0.03, 1e-3);
+  ASSERT_GT(hand.now.pressure[0], 3 * bar);
+  expect_off(-w);
+  hand.electrical(0, false);
+  hand.electrical(1, true);
+  hand.go(0.035, 1e-4);
+  ASSERT_GT(hand.now.pressure[0], 1.5 * bar);
+  expect_off(w);
+}
+
+// Every state's rate is set, whatever stood there before.
+TEST(Memory, RatesAreAllSet) {
+  Muscle m = plain_bundle();
+  m.actuator.hysteresis = {.half_width = 0.05 * bar};
+  m.actuator.creep = {.share = {0.02, 0.03}, .time = {0.5, 5}};
+  Air network(std::vector{m}, {}, {});
+  const Motion at = still(3.2 * inch);
+  const Air::State state = network.initial(4 * bar, at.length, 0);
+  Air::Answer out{};
+  out.rate.fill(1e9);
+  network.evaluate(0, at, state, network.valves_at_rest(),
+                   network.memory_at_rest(4 * bar, at.length), out);
+  for (int i = 0; i < network.others(); ++i)
+    EXPECT_EQ(out.rate[static_cast<std::size_t>(i)], 0) << i;
+}
+
+// Nodes do not matter: what is remembered depends on the turns of the pressure alone.
+TEST(Memory, TheStepDoesNotMatterToThePlay) {
+  Muscle m = plain_bundle();
+  m.actuator.hysteresis = {.half_width = 0.05 * bar, .width_per_pressure = 0.01};
+  double last[2] = {};
+  for (int fine = 0; fine < 2; ++fine) {
+    Air network(std::vector{m}, {}, {});
+    Hand hand(network, at_rest, 1.5 * bar);
+    for (int k = 0; k < 6; ++k) {
+      const int valve = k % 2;
+      hand.electrical(valve, true);
+      hand.go(hand.t + (valve == 0 ? 0.008 : 0.0015), fine ? 1e-5 : 5e-4);
+      hand.electrical(valve, false);
+      hand.go(hand.t + 0.01, fine ? 1e-4 : 2e-3);
+    }
+    last[fine] = hand.now.tension[0];
+  }
+  EXPECT_NEAR(last[0] / last[1], 1, 1e-6);
+}
+
+// Pressure held: the tension's last part comes exponentially. Air and the valves do not notice.
+TEST(Memory, CreepIsExponential) {
+  Muscle m = plain_bundle();
+  m.actuator.effectiveness = {.c0 = 0.9};
+  m.actuator.creep = {.share = {0.05, 0}, .time = {0.4, 0}};
+  Muscle without = m;
+  without.actuator.creep = {};
+  Air network(std::vector{m}, {}, {});
+  Air dry(std::vector{without}, {}, {});
+  Hand hand(network, at_rest, network.atmosphere()), quick(dry, at_rest, dry.atmosphere());
+  for (Hand* h : {&hand, &quick}) {
+    h->electrical(0, true);
+    h->go(0.01, 5e-4);
+    h->electrical(0, false);
+  }
+  // One by a power, the other in lanes by its series.
+  EXPECT_NEAR(hand.now.pressure[0] / quick.now.pressure[0], 1, 1e-11);
+  const double start = quick.now.tension[0];
+  const double gap = 1.05 * start - hand.now.tension[0];
+  ASSERT_GT(gap, 0.045 * start);
+  for (const double t : {0.2, 0.4, 0.8, 4.0}) {
+    hand.go(0.01 + t, 1e-2);
+    EXPECT_NEAR(1.05 * start - hand.now.tension[0], gap * std::exp(-t / 0.4), 1e-7 * start);
+  }
+}
+
+// An element quicker than the steps is found in the longest step.
+TEST(Memory, QuickCreepShortensTheStep) {
+  Muscle m = plain_bundle();
+  m.actuator.creep = {.share = {0.05, 0.01}, .time = {10, 1e-4}};
+  Air network(std::vector{m}, {}, {});
+  EXPECT_LT(network.longest_step(), 2.6e-4);
+  EXPECT_TRUE(network.flowing(network.valves_at_rest()));
+}
+
+// A bundle's work on what moves it, once round a loop of length at nearly one pressure (a large
+// vessel), with the friction of pressure turned by length: what is taken is near 2 w DV.
+TEST(Memory, HysteresisTakesWork) {
+  Muscle m = plain_bundle();
+  m.actuator.loss = {};
+  m.external_volume = 1;
+  const double w = 0.1 * bar;
+  m.actuator.hysteresis = {.half_width = w, .volume_pressure = 400 * bar};
+  const auto motion = [](double t) {
+    Motion s = still((3.2 - 0.5 * std::cos(2 * M_PI * t)) * inch);
+    for (int i = 0; i < 8; ++i) s.rate[i] = M_PI * std::sin(2 * M_PI * t) * inch;
+    return s;
+  };
+  Air network(std::vector{m}, {}, {});
+  Hand hand(network, motion, 4 * bar);
+  hand.go(1, 1e-3);
+  double taken = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const double before = hand.now.tension[0], l = motion(hand.t).length[0];
+    hand.go(hand.t + 5e-4, 5e-4);
+    taken += 0.5 * (before + hand.now.tension[0]) * (motion(hand.t).length[0] - l);
+  }
+  const double dv = m.count * (actuator::volume(m.actuator.braid, 2.7 * inch) -
+                               actuator::volume(m.actuator.braid, 3.7 * inch));
+  // The friction is w of pressure, so Eff of it arrives.
+  const double eff = actuator::effectiveness(m.actuator.effectiveness, 4 * bar - 101325, 101325) +
+                     (4 * bar - 101325) * (m.actuator.effectiveness.c1 +
+                                           2 * m.actuator.effectiveness.c2 * (4 * bar - 101325));
+  EXPECT_NEAR(taken / (2 * w * dv * eff), 1, 0.03);
+}
+
+}  // namespace
+}  // namespace sinew::air

@@ -1,0 +1,324 @@
+// air/network_quick.h - members of AirNetwork: air that is quicker than a step of the body.
+//
+// A hose's small volume settles within 0.1 ms, a muscle behind a wide regulator or with a burst
+// wall within less; RK4 of the whole machine would have to take such steps. Instead such a body of
+// air, or two in a row (hose and muscle), goes ahead through the step on its own, by the linearly
+// implicit rodas3.h in steps that its error chooses, and the body's stages see its masses at the
+// half and at the end.
+//
+// What is held while it goes ahead: the muscle's length runs on at the node's rate (V is straight
+// over the step: an error of l'' h^2/2, 1e-4 of the volume at 20 m/s^2 and 1 ms), the supply's
+// pressure stands. docs/theory/gas-and-valves.md has what this costs against steps of 5 us.
+//
+// Asleep: with all valves shut and equal densities, hose and muscle are one chamber that shares its
+// air by volume, and no law of the hose is asked.
+#pragma once
+
+#include <cmath>
+
+#include "sinew/air/network.h"
+#include "sinew/air/network_flows.h"
+#include "sinew/air/network_setup.h"
+#include "sinew/air/rodas3.h"
+#include "sinew/gas/slopes.h"
+
+namespace sinew::air {
+
+namespace quick {
+
+inline constexpr double from_rate = 2.5;      // rate times step from which a body goes ahead
+inline constexpr double muscle_error = 1e-4;  // of a muscle's mass in one of its steps
+inline constexpr double hose_error = 5e-4;    // of a hose's
+inline constexpr double equal = 3e-3;         // relative difference of densities: asleep
+inline constexpr double little = 1e-3;        // change of a mass within a calm step
+inline constexpr double shortest = 1e-7;      // step, whatever its error [s]
+
+// Integrates x from t to `until`, which is not long. `pace` is the step that suited last.
+template <int N, class Rates>
+void go(const Rates& rates, double t, double until, const std::array<double, N>& error,
+        std::array<double, N>& x, std::array<double, 3>& passed, double& pace) {
+  while (t < until) {
+    const double left = until - t;
+    const bool last = !(pace < left);
+    const double h = last ? left : pace;
+    const QuickStep<N> step = rodas3_step<N>(rates, t, x, h);
+    double worst = 0;
+    for (std::size_t i = 0; i < N; ++i) {
+      const double one = step.error[i] / (x[i] * error[i]);
+      worst = one > worst || !(one >= 0) ? one : worst;
+    }
+    if (!(worst <= 1.0) && h > shortest) {
+      pace = 0.25 * h;
+      continue;
+    }
+    x = step.mass;
+    for (std::size_t k = 0; k < 3; ++k) passed[k] += step.passed[k];
+    t = last ? until : t + h;
+    if (worst < 0.03) pace = 3.0 * h;
+  }
+}
+
+// Masses at the half and at the end of a step of length h, and what has passed in it.
+template <int N>
+struct Ahead {
+  std::array<double, N> half{}, full{};
+  std::array<double, 3> passed{};
+};
+
+// Integrates through a step. Where little happens within it one step of the rule serves, and the
+// half lies between its ends.
+template <int N, class Rates>
+Ahead<N> through(const Rates& rates, double t, double h, const std::array<double, N>& error,
+                 const std::array<double, N>& start) {
+  Ahead<N> out;
+  const QuickStep<N> whole = rodas3_step<N>(rates, t, start, h);
+  bool calm = true;
+  for (std::size_t i = 0; i < N; ++i) {
+    const double moved = std::abs(whole.mass[i] - start[i]);
+    calm = calm && moved < little * start[i] && whole.error[i] < error[i] * start[i];
+    out.half[i] = 0.5 * (start[i] + whole.mass[i]);
+  }
+  if (calm) {
+    out.full = whole.mass;
+    out.passed = whole.passed;
+    return out;
+  }
+  double pace = 0.5 * h;
+  out.full = start;
+  go<N>(rates, t, t + 0.5 * h, error, out.full, out.passed, pace);
+  out.half = out.full;
+  go<N>(rates, t + 0.5 * h, t + h, error, out.full, out.passed, pace);
+  return out;
+}
+
+// e^-x of a lag that has run for a small part of its time: five terms, 3e-9 at 0.1.
+inline double decay(double x) {
+  if (x > 0.1) return units::exp(-x);
+  return 1.0 - x * (1.0 - x * (0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x / 120.0))));
+}
+
+// A valve's flow, its slopes only where a step needs them.
+inline gas::SlopedFlow flow(bool sloped, const gas::FlowConstants& c, double y_a, double y_b) {
+  return sloped ? gas::sloped_flow_y(c, y_a, y_b) : gas::SlopedFlow{gas::flow_y(c, y_a, y_b)};
+}
+
+}  // namespace quick
+
+// A pair of valves that ends at y, with its slopes. Regulators follow their lag meanwhile.
+template <int Most>
+auto AirNetwork<Most>::sloped_through(int inlet, const Now& now, double since_node, double y,
+                                      bool sloped) const noexcept -> Openings {
+  const auto v = static_cast<std::size_t>(inlet);
+  const Tap& tap = taps_[v];
+  const Valves& valves = now.valves;
+  Openings o;
+  if (regulates(tap.valve)) {
+    double outlet = valves[v].set_y, outlet_rate = 0;
+    if (tap.outlet != none) {
+      const double tau = tap.valve.regulator.time_constant, set = valves[v].set;
+      const double off = (other(now.state, tap.outlet) - set) * quick::decay(since_node / tau);
+      outlet = gas::root(of_pressure_, now.memory.outlet[v], set + off, air_.atmosphere);
+      outlet_rate = -off / tau * outlet / (7.0 * (set + off));
+    }
+    if (outlet > now.y_supply) outlet = now.y_supply, outlet_rate = 0;
+    const gas::SlopedFlow f = quick::flow(sloped, tap.flow, outlet, y);
+    const bool gives = f.flow > 0;
+    (gives ? o.in : o.out) = gives ? f.flow : -f.flow;
+    (gives ? o.in_by : o.out_by) = gives ? f.by_b : -f.by_b;
+    (gives ? o.in_by_time : o.out_by_time) = (gives ? f.by_a : -f.by_a) * outlet_rate;
+    return o;
+  }
+  const auto add = [&](const gas::SlopedFlow& in, double in_share, const gas::SlopedFlow& out,
+                       double out_share) {
+    o.in += in_share * in.flow;
+    o.in_by += in_share * in.by_b;
+    o.out += out_share * out.flow;
+    o.out_by += out_share * out.by_a;
+  };
+  const double in = open_share(inlet, now.t, valves), out = open_share(inlet + 1, now.t, valves);
+  if (in > 0) add(quick::flow(sloped, tap.flow, now.y_supply, y), in, {}, 0);
+  if (out > 0) add({}, 0, quick::flow(sloped, taps_[v + 1].flow, y, 1.0), out);
+  if (valves.leaking)
+    faults_.each(valves.faults, [&](std::size_t k, const AirFault& f) {
+      if (f.what != AirFault::What::seat_leak || f.of / 2 != inlet / 2) return;
+      if (f.of == inlet)
+        add(gas::sloped_leak_flow_y(broken_[k].leak, now.y_supply, y), 1, {}, 0);
+      else
+        add({}, 0, gas::sloped_leak_flow_y(broken_[k].leak, y, 1.0), 1);
+    });
+  return o;
+}
+
+// Returns what leaves muscle i for the room but through its valves  [kg/s].
+template <int Most>
+gas::SlopedFlow AirNetwork<Most>::sloped_leak(int i, const Now& now, double y) const noexcept {
+  gas::SlopedFlow leak;
+  const auto add = [&](const gas::LeakConstants& c) {
+    const gas::SlopedFlow one = gas::sloped_leak_flow_y(c, y, 1.0);
+    leak.flow += one.flow;
+    leak.by_a += one.by_a;
+  };
+  if (!line(i).leak.tight()) add(line(i).leak);
+  if (now.valves.leaking)
+    faults_.each(now.valves.faults, [&](std::size_t k, const AirFault& f) {
+      if (f.what == AirFault::What::hole && f.of == i) add(broken_[k].leak);
+    });
+  return leak;
+}
+
+// Does the air of muscle i, or of a chamber of the cylinder, go ahead in a step of h?
+template <int Most>
+bool AirNetwork<Most>::goes_ahead(int cell, double h, const Ends& ends,
+                                  const Valves& valves) const noexcept {
+  if (air_.wall_time > 0) return false;
+  if (cell < size_ && line(cell).hose != none) return true;
+  double slope = valves.leaking ? spring_ * slope_of_faults(cell, valves.faults) : 0.0, room = 0;
+  if (cell < size_) {
+    if (line(cell).resists || (valves.broken && blocked(cell, valves))) return false;
+    slope += line(cell).settling;
+    if (!(slope > 0)) return false;
+    room = volume(cell, ends.length[cell]);
+  } else {
+    const Side side = static_cast<Side>(cell - size_);
+    if (sides_[side].mass == none) return false;
+    const auto inlet = static_cast<std::size_t>(2 * cell);
+    const bool open = ramping_ || valves[inlet].share > 0 || valves[inlet + 1].share > 0;
+    slope += open ? side_settling_[side] : 0.0;
+    room = air::volume(*cylinder_, side, ends.travel);
+  }
+  return slope * h > quick::from_rate * room;
+}
+
+// One body of air at its valves: a muscle without a hose, or a chamber of the cylinder.
+template <int Most>
+void AirNetwork<Most>::run_ahead(const Now& node, double h, const Room& room, const gas::Base& base,
+                                 double mass, Cell& cell) const noexcept {
+  const double at_one = gas::density_at_atmosphere(air_), n7 = braids_.series().exponent();
+  const auto rates = [&](double t, const std::array<double, 1>& x, bool sloped) {
+    Now now = node;
+    now.t = t;
+    const double v = room.volume + room.rate * (t - node.t);
+    const double y = gas::root(braids_.series(), base, x[0] / v, at_one);
+    const Openings o = sloped_through(2 * cell.of, now, t - node.t, y, sloped);
+    const gas::SlopedFlow leak = cell.of < size_ ? sloped_leak(cell.of, now, y) : gas::SlopedFlow{};
+    const double by_mass = n7 * y / x[0], by_time = -n7 * y * room.rate / v;
+    QuickRates<1> r;
+    r.passed = {o.in, o.out, leak.flow};
+    r.passed_by = {{{o.in_by * by_mass}, {o.out_by * by_mass}, {leak.by_a * by_mass}}};
+    r.passed_by_time = {o.in_by * by_time + o.in_by_time, o.out_by * by_time + o.out_by_time,
+                        leak.by_a * by_time};
+    r.mass[0] = o.in - o.out - leak.flow;
+    r.mass_by[0][0] = r.passed_by[0][0] - r.passed_by[1][0] - r.passed_by[2][0];
+    r.mass_by_time[0] = r.passed_by_time[0] - r.passed_by_time[1] - r.passed_by_time[2];
+    return r;
+  };
+  const quick::Ahead<1> ahead = quick::through<1>(rates, node.t, h, {quick::muscle_error}, {mass});
+  cell.half = ahead.half[0];
+  cell.full = ahead.full[0];
+  cell.in = ahead.passed[0];
+  cell.out = ahead.passed[1];
+  cell.leak = ahead.passed[2];
+}
+
+// Valves, hose, muscle.
+template <int Most>
+void AirNetwork<Most>::run_hose_ahead(const Now& node, double h, const Room& room,
+                                      Cell& cell) const noexcept {
+  const int i = cell.of;
+  const Line& l = line(i);
+  const double at_one = gas::density_at_atmosphere(air_), n7 = braids_.series().exponent();
+  const double in_hose = muscle(i).hose.volume;
+  const bool passes = !blocked(i, node.valves);
+  const std::array<double, 2> x{other(node.state, l.hose), node.state.mass[i]};
+  const double sum = x[0] + x[1];
+
+  const double apart = (x[0] / in_hose) / (x[1] / room.volume) - 1.0;
+  const double evens = l.settling * (1.0 / in_hose + 1.0 / room.volume);  // [1/s]
+  if (passes && l.leak.tight() && shut(2 * i, node) && std::abs(apart) < quick::equal &&
+      std::abs(room.rate) < quick::equal * evens * room.volume) {
+    const double half = room.volume + 0.5 * h * room.rate, full = room.volume + h * room.rate;
+    cell.half = sum * half / (half + in_hose);
+    cell.full = sum * full / (full + in_hose);
+    cell.hose = sum - cell.full;
+    cell.in = cell.out = cell.leak = 0;
+    return;
+  }
+
+  const gas::Base base{node.memory.reference.y[i], node.memory.reference.inverse_sigma[i]};
+  const gas::Base& of_hose = node.memory.hose[static_cast<std::size_t>(i)];
+  const auto rates = [&](double t, const std::array<double, 2>& m, bool sloped) {
+    Now now = node;
+    now.t = t;
+    const double v = room.volume + room.rate * (t - node.t);
+    const double y_hose = gas::root(braids_.series(), of_hose, m[0] / in_hose, at_one);
+    const double y = gas::root(braids_.series(), base, m[1] / v, at_one);
+    const Openings o = sloped_through(2 * i, now, t - node.t, y_hose, sloped);
+    const gas::SlopedFlow pass = !passes ? gas::SlopedFlow{}
+                                 : sloped
+                                     ? gas::sloped_hose_flow_y(l.hose_flow, y_hose, y)
+                                     : gas::SlopedFlow{gas::hose_flow_y(l.hose_flow, y_hose, y)};
+    const gas::SlopedFlow leak = sloped_leak(i, now, y);
+    const double hose_by = n7 * y_hose / m[0], by_mass = n7 * y / m[1];
+    const double by_time = -n7 * y * room.rate / v;
+    QuickRates<2> r;
+    r.passed = {o.in, o.out, leak.flow};
+    r.passed_by = {
+        {{o.in_by * hose_by, 0.0}, {o.out_by * hose_by, 0.0}, {0.0, leak.by_a * by_mass}}};
+    r.passed_by_time = {o.in_by_time, o.out_by_time, leak.by_a * by_time};
+    r.mass = {o.in - o.out - pass.flow, pass.flow - leak.flow};
+    r.mass_by = {{{(o.in_by - o.out_by - pass.by_a) * hose_by, -pass.by_b * by_mass},
+                  {pass.by_a * hose_by, (pass.by_b - leak.by_a) * by_mass}}};
+    r.mass_by_time = {o.in_by_time - o.out_by_time - pass.by_b * by_time,
+                      (pass.by_b - leak.by_a) * by_time};
+    return r;
+  };
+  const quick::Ahead<2> ahead =
+      quick::through<2>(rates, node.t, h, {quick::hose_error, quick::muscle_error}, x);
+  cell.half = ahead.half[1];
+  cell.full = ahead.full[1];
+  cell.hose = ahead.full[0];
+  cell.in = ahead.passed[0];
+  cell.out = ahead.passed[1];
+  cell.leak = ahead.passed[2];
+}
+
+template <int Most>
+void AirNetwork<Most>::plan(double t, double h, const Ends& ends, const State& state,
+                            const Valves& valves, const Memory& memory,
+                            Course& course) const noexcept {
+  course.count = 0;
+  course.step = h;
+  course.muscles = 0;
+  if ((plain_ && !valves.broken) || !flowing(valves)) return;
+  Answer scratch;
+  const Inlets before = inlets(state, valves, memory, scratch);
+  course.cut = before.cut;
+  const Now now{t, before.y, state, valves, memory};
+  const auto add = [&](int of) -> Cell& {
+    Cell& cell = course.cells[static_cast<std::size_t>(course.count++)];
+    cell.of = of;
+    if (of < size_) course.muscles |= std::uint64_t{1} << of;
+    cell.hose = 0;
+    return cell;
+  };
+  each_line(valves, [&](int i) {
+    if (!goes_ahead(i, h, ends, valves)) return;
+    const Muscle& m = muscle(i);
+    const Room room{volume(i, ends.length[i]),
+                    m.count * actuator::volume_slope(m.actuator, ends.length[i]) * ends.rate[i]};
+    Cell& cell = add(i);
+    if (line(i).hose != none)
+      run_hose_ahead(now, h, room, cell);
+    else
+      run_ahead(now, h, room, {memory.reference.y[i], memory.reference.inverse_sigma[i]},
+                state.mass[i], cell);
+  });
+  for (const Side side : {up, down}) {
+    if (!cylinder_ || !goes_ahead(size_ + side, h, ends, valves)) continue;
+    const Room room{air::volume(*cylinder_, side, ends.travel),
+                    volume_slope(*cylinder_, side) * ends.travel_rate};
+    run_ahead(now, h, room, memory.side[side], other(state, sides_[side].mass), add(size_ + side));
+  }
+}
+
+}  // namespace sinew::air

@@ -1,0 +1,108 @@
+// air/test_integrator.h - a network moved by hand: RK4 over its state along a given motion.
+#pragma once
+
+#include <functional>
+#include <utility>
+
+#include "sinew/air/network.h"
+
+namespace sinew::air {
+
+using Air = AirNetwork<8>;
+using Motion = Air::Ends;  // lengths and travel as given functions of time, with their rates
+
+// All muscles at one length.
+inline Motion still_at(double length) {
+  Motion m{};
+  m.length.of.fill(length);
+  return m;
+}
+
+struct Hand {
+  const Air& network;
+  std::function<Motion(double)> motion;
+  Air::State state{};
+  double t = 0;
+  Air::Answer now{};
+  Air::Valves valves;
+  Air::Memory memory{};
+
+  Hand(const Air& n, std::function<Motion(double)> m, double pressure)
+      : network(n), motion(std::move(m)), valves(n.valves_at_rest()) {
+    const Motion start = motion(0);
+    memory = n.memory_at_rest(pressure, start.length);
+    state = n.initial(pressure, start.length, start.travel);
+    look(0, state, now);
+    network.remember(now, state, memory);
+    look(0, state, now);
+  }
+
+  void look(double at, const Air::State& s, Air::Answer& out) const {
+    network.evaluate(at, motion(at), s, valves, memory, out);
+  }
+
+  // Return what has come through inlets, and what has left through exhausts and leaks  [kg].
+  double entered() const {
+    double sum = state.piston_in[0] + state.piston_in[1];
+    for (int i = 0; i < network.muscles(); ++i) sum += state.in[i];
+    return sum;
+  }
+  double left() const {
+    double sum = state.piston_out[0] + state.piston_out[1];
+    for (int i = 0; i < network.muscles(); ++i) sum += state.out[i] + state.leak[i];
+    return sum;
+  }
+
+  // Goes through a step of RK4; `ahead`: what is quicker goes ahead of it.
+  void step(double h, bool ahead = false) {
+    Air::Answer later[3];
+    const Air::Answer* looks[4] = {&now, &later[0], &later[1], &later[2]};
+    Air::State stage = state;
+    Air::Course course{};
+    if (ahead) network.plan(t, h, motion(t), state, valves, memory, course);
+    for (int s = 0; s < 3; ++s) {
+      const double part = s == 2 ? h : 0.5 * h;
+      network.move(stage, state, part, *looks[s], valves, course);
+      look(t + part, stage, later[s]);
+    }
+    network.finish(state, h, looks, valves, course);
+    t += h;
+    look(t, state, now);
+    network.remember(now, state, memory);
+  }
+
+  // Nodes at multiples of h and where a valve changes, as a world does it.
+  void go(double until, double h, bool ahead = false) {
+    while (t < until - 1e-12) {
+      double next = t + h < until ? t + h : until;
+      if (valves.next_change < next) next = valves.next_change;
+      if (next > t) step(next - t, ahead);
+      t = next;
+      node(next);
+    }
+    look(t, state, now);
+  }
+
+  // A node there: valves, set points and faults move on.
+  void node(double at) {
+    network.move_valves(at, now, valves);
+    look(at, state, now);
+  }
+
+  void edge(int valve, double at, bool open) {
+    network.command({.valve = {static_cast<std::uint8_t>(valve)}, .open = open}, at, now, valves);
+  }
+  void level(int valve, double at, double share) {
+    const double level = share * signals::max_level + 0.5;
+    network.command({.valve = {static_cast<std::uint8_t>(valve)},
+                     .level = static_cast<decltype(signals::Edge::level)>(level)},
+                    at, now, valves);
+  }
+
+  void electrical(int valve, bool open) {
+    edge(valve, t, open);
+    node(t);
+  }
+};
+
+}  // namespace sinew::air
