@@ -230,7 +230,7 @@ class AirNetwork {
     std::uint64_t ahead = 0;  // muscles whose flows are not asked for
   };
   // The flows through a pair of valves, their slopes over y and their drift at one y.
-  struct Openings {
+  struct Flowing {
     double in = 0, out = 0;                  // [kg/s]
     double in_by = 0, out_by = 0;            // [kg/s]
     double in_by_time = 0, out_by_time = 0;  // [kg/s^2]
@@ -311,10 +311,11 @@ class AirNetwork {
   void each_line(const Valves& valves, Visit visit) const noexcept;
 
   // network_quick.h
-  Openings sloped_through(int inlet, const Now& now, double since_node, double y,
-                          bool sloped) const noexcept;
+  Flowing sloped_through(int inlet, const Now& now, double since_node, double y,
+                         bool sloped) const noexcept;
   gas::SlopedFlow sloped_leak(int i, const Now& now, double y) const noexcept;
   bool goes_ahead(int cell, double h, const Ends& ends, const Valves& valves) const noexcept;
+  template <int Openings>
   void run_ahead(const Now& node, double h, const Room& room, const gas::Base& base, double mass,
                  Cell& cell) const noexcept;
   void run_hose_ahead(const Now& node, double h, const Room& room, Cell& cell) const noexcept;

@@ -69,6 +69,11 @@ template <int Most>
 void AirNetwork<Most>::run_options(const Now& now, bool cut, const Ends& ends, const Lanes& y,
                                    Answer& out) const noexcept {
   each_line(now.valves, [&](int i) {
+    if ((now.ahead >> i & 1) != 0 && line(i).hose == none) {  // flows are its course's affair
+      out.manifold[i] = out.pressure[i];
+      out.inflow[i] = out.outflow[i] = out.leak[i] = out.gain[i] = 0;
+      return;
+    }
     Chamber c{out.pressure[i], y[i], air_.temperature};
     if (const int energy = line(i).energy; energy != none)
       c.temperature = gas::temperature(air_, other(now.state, energy), now.state.mass[i]);
@@ -261,7 +266,6 @@ void AirNetwork<Most>::run_line(int i, const Now& now, const Ends& ends, const C
   out.inflow[i] = out.outflow[i] = out.leak[i] = out.gain[i] = 0;
   if (!flowing(now.valves)) return;
   if ((now.ahead >> i & 1) != 0) {
-    if (l.hose == none) return;
     out.manifold[i] = hose(i, now).pressure;
     rate(out, l.hose) = 0;
     return;

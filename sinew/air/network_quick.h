@@ -107,11 +107,11 @@ inline gas::SlopedFlow flow(bool sloped, const gas::FlowConstants& c, double y_a
 // A pair of valves that ends at y, with its slopes. Regulators follow their lag meanwhile.
 template <int Most>
 auto AirNetwork<Most>::sloped_through(int inlet, const Now& now, double since_node, double y,
-                                      bool sloped) const noexcept -> Openings {
+                                      bool sloped) const noexcept -> Flowing {
   const auto v = static_cast<std::size_t>(inlet);
   const Tap& tap = taps_[v];
   const Valves& valves = now.valves;
-  Openings o;
+  Flowing o;
   if (regulates(tap.valve)) {
     double outlet = valves[v].set_y, outlet_rate = 0;
     if (tap.outlet != none) {
@@ -189,28 +189,38 @@ bool AirNetwork<Most>::goes_ahead(int cell, double h, const Ends& ends,
   return slope * h > quick::from_rate * room;
 }
 
-// One body of air at its valves: a muscle without a hose, or a chamber of the cylinder.
+// One body of air at its valves: a muscle without a hose, or a chamber of the cylinder; the third
+// of its openings is what it leaks by.
 template <int Most>
+template <int Openings>
 void AirNetwork<Most>::run_ahead(const Now& node, double h, const Room& room, const gas::Base& base,
                                  double mass, Cell& cell) const noexcept {
+  constexpr bool leaks = Openings == 3;
   const double at_one = gas::density_at_atmosphere(air_), n7 = braids_.series().exponent();
-  const bool leaks = cell.of < size_ && (!line(cell.of).leak.tight() || node.valves.leaking);
   const auto rates = [&](double t, const std::array<double, 1>& x, bool sloped) {
     Now now = node;
     now.t = t;
     const double v = room.volume + room.rate * (t - node.t);
     const double y = gas::root(braids_.series(), base, x[0] / v, at_one);
-    const Openings o = sloped_through(2 * cell.of, now, t - node.t, y, sloped);
-    const gas::SlopedFlow leak = leaks ? sloped_leak(cell.of, now, y) : gas::SlopedFlow{};
+    const Flowing o = sloped_through(2 * cell.of, now, t - node.t, y, sloped);
     const double by_mass = n7 * y / x[0], by_time = -n7 * y * room.rate / v;
-    QuickRates<1> r;
-    r.passed = {o.in, o.out, leak.flow};
-    r.passed_by = {{{o.in_by * by_mass}, {o.out_by * by_mass}, {leak.by_a * by_mass}}};
-    r.passed_by_time = {o.in_by * by_time + o.in_by_time, o.out_by * by_time + o.out_by_time,
-                        leak.by_a * by_time};
-    r.mass[0] = o.in - o.out - leak.flow;
-    r.mass_by[0][0] = r.passed_by[0][0] - r.passed_by[1][0] - r.passed_by[2][0];
-    r.mass_by_time[0] = r.passed_by_time[0] - r.passed_by_time[1] - r.passed_by_time[2];
+    QuickRates<1, Openings> r;
+    r.passed[0] = o.in, r.passed[1] = o.out;
+    r.passed_by[0][0] = o.in_by * by_mass, r.passed_by[1][0] = o.out_by * by_mass;
+    r.passed_by_time[0] = o.in_by * by_time + o.in_by_time;
+    r.passed_by_time[1] = o.out_by * by_time + o.out_by_time;
+    r.mass[0] = o.in - o.out;
+    r.mass_by[0][0] = r.passed_by[0][0] - r.passed_by[1][0];
+    r.mass_by_time[0] = r.passed_by_time[0] - r.passed_by_time[1];
+    if constexpr (leaks) {
+      const gas::SlopedFlow leak = sloped_leak(cell.of, now, y);
+      r.passed[2] = leak.flow;
+      r.passed_by[2][0] = leak.by_a * by_mass;
+      r.passed_by_time[2] = leak.by_a * by_time;
+      r.mass[0] -= r.passed[2];
+      r.mass_by[0][0] -= r.passed_by[2][0];
+      r.mass_by_time[0] -= r.passed_by_time[2];
+    }
     return r;
   };
   const quick::Ahead<1> ahead = quick::through<1>(rates, node.t, h, {quick::muscle_error}, {mass});
@@ -254,7 +264,7 @@ void AirNetwork<Most>::run_hose_ahead(const Now& node, double h, const Room& roo
     const double v = room.volume + room.rate * (t - node.t);
     const double y_hose = gas::root(braids_.series(), of_hose, m[0] / in_hose, at_one);
     const double y = gas::root(braids_.series(), base, m[1] / v, at_one);
-    const Openings o = sloped_through(2 * i, now, t - node.t, y_hose, sloped);
+    const Flowing o = sloped_through(2 * i, now, t - node.t, y_hose, sloped);
     const gas::SlopedFlow pass = !passes ? gas::SlopedFlow{}
                                  : sloped
                                      ? gas::sloped_hose_flow_y(l.hose_flow, y_hose, y)
@@ -311,15 +321,20 @@ void AirNetwork<Most>::plan(double t, double h, const Ends& ends, const State& s
     Cell& cell = add(i);
     if (line(i).hose != none)
       run_hose_ahead(now, h, room, cell);
-    else
-      run_ahead(now, h, room, {memory.reference.y[i], memory.reference.inverse_sigma[i]},
-                state.mass[i], cell);
+    else {
+      const gas::Base base{memory.reference.y[i], memory.reference.inverse_sigma[i]};
+      if (line(i).leak.tight() && !valves.leaking)
+        run_ahead<2>(now, h, room, base, state.mass[i], cell);
+      else
+        run_ahead<3>(now, h, room, base, state.mass[i], cell);
+    }
   });
   for (const Side side : {up, down}) {
     if (!cylinder_ || !goes_ahead(size_ + side, h, ends, valves)) continue;
     const Room room{air::volume(*cylinder_, side, ends.travel),
                     volume_slope(*cylinder_, side) * ends.travel_rate};
-    run_ahead(now, h, room, memory.side[side], other(state, sides_[side].mass), add(size_ + side));
+    run_ahead<2>(now, h, room, memory.side[side], other(state, sides_[side].mass),
+                 add(size_ + side));
   }
 }
 

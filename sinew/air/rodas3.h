@@ -16,13 +16,14 @@
 
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 namespace sinew::air {
 
-// Rates at one instant, and their slopes.
-template <int N>
+// Rates at one instant, and their slopes. A body that does not leak has two openings.
+template <int N, int Openings = 3>
 struct QuickRates {
-  static constexpr int openings = 3;
+  static constexpr int openings = Openings;
 
   std::array<double, N> mass{};                             // r [kg/s]
   std::array<double, openings> passed{};                    // p [kg/s]
@@ -71,20 +72,20 @@ class Solver {
 
 }  // namespace rodas3
 
-// One step of length h from the masses x at time t. rates(t, x, slopes) answers QuickRates, the
+// One step of length h from the masses x at time t. rates(t, x, slopes) answers QuickRates<N>, the
 // slopes only where it is asked for them.
 template <int N, class Rates>
 QuickStep<N> rodas3_step(const Rates& rates, double t, const std::array<double, N>& x, double h) {
-  constexpr std::size_t n = N, m = QuickRates<N>::openings;
+  using At = std::decay_t<decltype(rates(t, x, true))>;
+  constexpr std::size_t n = N, m = At::openings;
   const double inverse = 1.0 / h, half = 0.5 * h;
-  const QuickRates<N> first = rates(t, x, true);
+  const At first = rates(t, x, true);
   const rodas3::Solver<N> solver(inverse, first.mass_by);
 
   // K of stage s: c1, c2, c3 weigh the earlier stages, g the slope over time.
   std::array<std::array<double, N>, 4> k{};
   std::array<std::array<double, m>, 4> q{};
-  const auto stage = [&](std::size_t s, const QuickRates<N>& at, std::array<double, 3> c,
-                         double g) {
+  const auto stage = [&](std::size_t s, const At& at, std::array<double, 3> c, double g) {
     std::array<double, N> b{};
     for (std::size_t i = 0; i < n; ++i) {
       b[i] = at.mass[i] + g * h * first.mass_by_time[i];
@@ -104,7 +105,7 @@ QuickStep<N> rodas3_step(const Rates& rates, double t, const std::array<double, 
   for (std::size_t i = 0; i < n; ++i) there[i] = x[i] + 2.0 * k[0][i];
   stage(2, rates(t + h, there, false), {1.0, -1.0, 0}, 0.0);
   for (std::size_t i = 0; i < n; ++i) there[i] += k[2][i];
-  const QuickRates<N> last = rates(t + h, there, false);
+  const At last = rates(t + h, there, false);
   stage(3, last, {1.0, -1.0, -8.0 / 3.0}, 0.0);
 
   QuickStep<N> out;
