@@ -189,6 +189,10 @@ function check_file(file,   text, line, code, name, folder) {
       check_include(file, line, text)
       continue
     }
+    # "--set" is what show and resolved.toml call the place where a value came from.
+    if (file ~ /^sinew\// && !is_test && text !~ /^[ \t]*\/\// && text !~ /"--set"/ &&
+        text ~ /"([^"\\]|\\.)*--[a-z]/)
+      say(file, line, "an option in a message: the library names settings, `key=value`")
     code = code_of(text)
     if (code ~ /(^|[^A-Za-z0-9_])virtual($|[^A-Za-z0-9_])/ && file != "sinew/signals/port.h" && !is_test)
       say(file, line, "virtual: the port is the one virtual class")
@@ -268,6 +272,11 @@ self_test() {
   expect sinew/gas/a.cpp          'void f() { printf("a"); }'                  'does not print'
   expect sinew/gas/a.cpp          'void f() { std::snprintf(b, 3, "a"); }'     ''
   expect cli/a.cpp                'void f() { std::cout << 1; }'               ''
+  expect sinew/gas/a.cpp          'auto t = "or --map force=NAME";'             'names settings'
+  expect sinew/gas/a.cpp          'auto t = "or names.force=NAME";'             ''
+  expect sinew/gas/a.cpp          '// "--map" of the program'                   ''
+  expect sinew/gas/a_test.cpp     'auto t = "--map";'                           ''
+  expect cli/a.cpp                'auto t = "--map";'                           ''
   expect sinew/gas/a.cpp          "$(printf '\\n%.0s' {1..401})"               'more than 400'
   expect sinew/gas/a.fields.h     "$(printf '\\n%.0s' {1..401})"               ''
 
