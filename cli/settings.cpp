@@ -24,7 +24,8 @@ constexpr std::string_view settings[] = {
     "names",    "per_volume", "port",   "pressure",  "rest_length",     "root",
     "sensors",  "units",      "volume", "where"};
 
-// Settings that can be the subject of a problem, at the begin of a line.
+// Settings that can be the subject of a problem: at the begin of a line, or behind a file without a
+// line of it. What has a line is a key of that file.
 constexpr std::string_view subjects[] = {"known", "model", "names", "sensors", "units", "where"};
 
 bool is_one_of(std::string_view word, const auto& words) {
@@ -42,14 +43,23 @@ std::string option_of(std::string_view setting) {
   return out;
 }
 
-// A setting at the begin of `text`, in a line of its own or not, as its option; empty: none is
-// there. `taken` is how many letters it stands for.
-std::string option_at(std::string_view text, bool begins_line, std::size_t& taken) {
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool can_be_subject(std::string_view before) {
+  if (before.empty() || before.ends_with('\n')) return true;
+  return before.size() > 2 && before.ends_with(": ") && !is_digit(before[before.size() - 3]);
+}
+
+// Returns the setting that begins at `at` as its option; empty: none does. `taken` is how many
+// letters it stands for.
+std::string option_at(std::string_view whole, std::size_t at, std::size_t& taken) {
+  const std::string_view text = whole.substr(at);
   const std::size_t end =
       static_cast<std::size_t>(std::ranges::find_if_not(text, is_letter_of_a_name) - text.begin());
   const std::string_view name = text.substr(0, end), rest = text.substr(end);
   taken = end;
-  if (begins_line && is_one_of(name, subjects) && rest.starts_with(": found "))
+  if (is_one_of(name, subjects) && rest.starts_with(": found ") &&
+      can_be_subject(whole.substr(0, at)))
     return option_of(name);
   if (!is_one_of(name, settings) || rest.size() < 2) return "";
   const bool named = std::ranges::count(renamed, name, &Renamed::setting) > 0;
@@ -65,23 +75,21 @@ std::string option_at(std::string_view text, bool begins_line, std::size_t& take
 
 std::string as_options(std::string_view text) {
   std::string out;
-  bool quoted = false, begins_line = true, begins_word = true;
+  bool quoted = false, begins_word = true;
   for (std::size_t at = 0; at < text.size();) {
-    std::size_t taken = 0;
-    if (begins_word && !quoted) {
-      const std::string option = option_at(text.substr(at), begins_line, taken);
-      if (!option.empty()) {
-        out += option;
-        at += taken;
-        begins_line = begins_word = false;
-        continue;
-      }
+    std::size_t taken = 1;
+    std::string option;
+    if (begins_word && !quoted) option = option_at(text, at, taken);
+    if (option.empty()) {
+      const char c = text[at++];
+      out += c;
+      if (c == '"' || c == '\n') quoted = c == '"' && !quoted;
+      begins_word = c == ' ' || c == '(' || c == '\n';
+      continue;
     }
-    const char c = text[at++];
-    out += c;
-    begins_line = c == '\n';
-    quoted = !begins_line && (c == '"' ? !quoted : quoted);
-    begins_word = c == ' ' || c == '(' || c == '\n';
+    out += option;
+    at += taken;
+    begins_word = false;
   }
   return out;
 }

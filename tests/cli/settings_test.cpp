@@ -27,7 +27,8 @@ TEST(Settings, AreToldAsOptions) {
 TEST(Settings, BeginAProblemOrDoNot) {
   EXPECT_EQ(as_options("names: found \"froce\"; expected force\nunits: found \"x\"; expected y"),
             "--map: found \"froce\"; expected force\n--unit: found \"x\"; expected y");
-  EXPECT_EQ(as_options("a.csv: names: found one"), "a.csv: names: found one");
+  EXPECT_EQ(as_options("a.csv: names: found \"x\""), "a.csv: --map: found \"x\"");
+  EXPECT_EQ(as_options("a.toml:3:1: where: found \"x\""), "a.toml:3:1: where: found \"x\"");
   EXPECT_EQ(as_options("the model: found none"), "the model: found none");
 }
 
