@@ -17,6 +17,7 @@ layers='
     control/joint   signals
     control/supervise  control/joint signals
     control/gait    robot signals
+    control/setup   control robot config
     config          units
     config/write    config
     log             signals
@@ -26,7 +27,8 @@ layers='
     plant/recorded  air robot signals log
     plant/mujoco    air robot signals
     plant/hardware  air robot signals
-    experiment      plant control config
+    experiment      robot config control/gait
+    experiment/rig  experiment plant/slide
     identify/fit    actuator config
     identify/data   identify/fit config
     identify/actuator  identify/data
@@ -42,8 +44,9 @@ layers='
     report/page     analysis log robot
     report/figures  report/page
     report/compare  report/page
-    run/simulation  experiment plant control log
-    run/stand       run/simulation experiment
+    run/setup       experiment control plant
+    run/simulation  run/setup log
+    run/stand       run/simulation experiment/rig
     run/folder      run/simulation run/stand log analysis report
     tune            run/folder
     live            run/folder
@@ -242,7 +245,11 @@ self_test() {
   expect sinew/control/joint/a.h  '#include "sinew/control/supervise/a.h"'     'may not include control/supervise'
   expect sinew/plant/planar/a.cpp '#include "sinew/log/writer.h"'              'plant/planar may not include log'
   expect sinew/plant/recorded/a.h '#include "sinew/log/reader.h"'              ''
-  expect sinew/experiment/a.h     '#include "sinew/plant/world/world.h"'      ''  # plant stands for it
+  expect sinew/run/setup/a.h      '#include "sinew/plant/world/world.h"'       ''  # plant stands for it
+  expect sinew/experiment/a.h     '#include "sinew/plant/world/world.h"'       'experiment may not include plant/world'
+  expect sinew/experiment/a.h     '#include "sinew/control/setup/a.h"'         'experiment may not include control/setup'
+  expect sinew/control/setup/a.h  '#include "sinew/control/supervise/a.h"'     ''
+  expect sinew/control/setup/a.h  '#include "sinew/experiment/a.h"'            'control/setup may not include experiment'
   expect sinew/analysis/a.cpp     '#include "sinew/control/gait/a.h"'          'analysis may not include control/gait'
   expect sinew/gas/a_test.cpp     '#include "sinew/config/reader.h"'           ''
   expect sinew/gas/a.cpp          '#include "sinew/config/reader.h"'           'gas may not include config'

@@ -9,8 +9,8 @@
 #include <random>
 #include <string>
 
+#include "sinew/control/setup/supervision.h"
 #include "sinew/control/supervise/test_fuzz.h"
-#include "sinew/experiment/supervision.h"
 #include "sinew/run/simulation/run.h"
 
 namespace sinew::experiment {

@@ -8,7 +8,7 @@
 
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/experiment/planar_setup.h"
+#include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/run.h"
 
@@ -69,7 +69,7 @@ void take(std::span<const std::byte>& from, Part& part) {
 
 Simulation::Simulation(const experiment::Experiment& experiment, Steering* steering)
     : experiment_(experiment),
-      machine_(std::in_place, experiment::planar_setup(experiment_)),
+      machine_(std::in_place, planar_setup(experiment_)),
       port_(&machine_->port()),
       boards_(experiment_),
       high_level_(experiment_.robot, experiment_.plan, steering),
