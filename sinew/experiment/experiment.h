@@ -67,7 +67,8 @@ struct Experiment {
 };
 
 // Reads the file and everything it names, with --set overrides. Throws config::Error with all that
-// is wrong, also what contradicts itself, such as names that lead nowhere.
+// is wrong, also what contradicts itself, such as names that lead nowhere. What contradicts nothing
+// and can still not be built, run/setup/buildable.h refuses.
 Experiment load(const std::string& path, const std::vector<std::string>& sets = {});
 
 // The same from a tree that is composed already.
