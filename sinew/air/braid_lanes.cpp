@@ -1,5 +1,7 @@
 #include "sinew/air/braid_lanes.h"
 
+#include <limits>
+
 #include "sinew/actuator/braid.h"
 #include "sinew/actuator/creep.h"
 #include "sinew/actuator/hysteresis.h"
@@ -54,6 +56,7 @@ BraidLanes::BraidLanes(std::span<const Muscle> muscles, const gas::Air& air)
 void BraidLanes::set_constants(int i, const Muscle& m) {
   Constants& k = constants_[static_cast<std::size_t>(i / lanes)];
   const int at = i % lanes;
+  k.reach[at] = i < size_ ? PowerSeries::reach : std::numeric_limits<double>::infinity();
   const actuator::Actuator& a = m.actuator;
   const double factor = actuator::braid_factor(a.braid);
   k.thread2[at] = a.braid.thread_length * a.braid.thread_length;
@@ -90,7 +93,8 @@ void BraidLanes::set_constants(int i, const Muscle& m) {
 }
 
 double BraidLanes::exact_y(double density) const noexcept {
-  return units::power(density * inverse_reference_density_, air_.polytropic_exponent / 7.0);
+  const double ratio = density * inverse_reference_density_;
+  return table_ ? (*table_)(ratio) : units::power(ratio, air_.polytropic_exponent / 7.0);
 }
 
 int BraidLanes::follow(const double* drift, double* y_ref, double* inverse_sigma) const noexcept {
@@ -125,9 +129,13 @@ SINEW_WIDE void BraidLanes::evaluate(const Given& in, const Filled& out) const n
     series_.raise(x, root);
     root = four(in.y_ref + i) * root;
     four(out.drift + i) = x;
-    const auto outside = (x > PowerSeries::reach) | (x < -PowerSeries::reach);
-    if ((outside[0] | outside[1] | outside[2] | outside[3]) != 0)
-      far_roots(size_ - i, x, in.inverse_sigma + i, root);
+    const auto outside = (x > k.reach) | (x < -k.reach);
+    if ((outside[0] | outside[1] | outside[2] | outside[3]) != 0) {
+      // One by one out and in: a wide load would have to wait for narrow stores.
+      double one[lanes] = {root[0], root[1], root[2], root[3]};
+      far_roots(x, k.reach, in.inverse_sigma + i, one);
+      root = Four{one[0], one[1], one[2], one[3]};
+    }
     four(out.y + i) = root;
 
     // These terms do not depend on the pressure.
@@ -163,12 +171,15 @@ SINEW_WIDE void BraidLanes::evaluate(const Given& in, const Filled& out) const n
   if (!all_stick_) loose_signs(in, out);
 }
 
-// Beyond the reach of the series. Lanes beyond the last muscle go anywhere between two nodes.
-void BraidLanes::far_roots(int muscles, const Four& drift, const double* inverse_sigma,
-                           Four& root) const noexcept {
-  for (int k = 0; k < lanes && k < muscles; ++k)
-    if (drift[k] > PowerSeries::reach || drift[k] < -PowerSeries::reach)
-      root[k] = exact_y((drift[k] + 1.0) / inverse_sigma[k]);
+// Puts y beyond the reach of the series. Lanes beyond the last muscle go anywhere between two
+// nodes.
+void BraidLanes::far_roots(const Four& drift, const Four& reach, const double* inverse_sigma,
+                           double* root) const noexcept {
+  for (int k = 0; k < lanes; ++k) {
+    if (!(drift[k] > reach[k] || drift[k] < -reach[k])) continue;
+    root[k] = table_ ? (*table_)((drift[k] + 1.0) * (inverse_reference_density_ / inverse_sigma[k]))
+                     : exact_y((drift[k] + 1.0) / inverse_sigma[k]);
+  }
 }
 
 // Loss::Scale::sealed: Q times the stiffness that it was identified with.

@@ -7,14 +7,15 @@
 //   y = (P/P_atm)^(1/7) = y_ref (1 + x)^(n/7)
 //
 // by gas/power_series.h while x is small (the reference is taken anew, exactly, at a node from
-// |x| > 0.02 on), else by units::power. No libm, no branches between lanes: one muscle alone and
-// among others has the same bits. The reference belongs to the state: who restores a state restores
-// its reference with it.
+// |x| > 0.02 on), else by units::power, or by gas/power_table.h where that is the rule. No libm, no
+// branches between lanes: one muscle alone and among others has the same bits. The reference
+// belongs to the state: who restores a state restores its reference with it.
 //
 // For muscles that lanes_hold: the thesis's law of a braid with a linear bladder. Others go by
 // actuator/tension.h, which has the same laws in words; a test holds them together.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,7 @@
 #include "sinew/air/muscle.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/power_series.h"
+#include "sinew/gas/power_table.h"
 
 namespace sinew::air {
 
@@ -36,6 +38,9 @@ class BraidLanes {
   int padded() const { return padded_; }  // to whole lanes, which repeat the last muscle
 
   const gas::PowerSeries& series() const { return series_; }  // y of the density
+
+  // From now on a table answers beyond the reach of the series: for steps that go there often.
+  void go_by_table() { table_.emplace(air_.polytropic_exponent / 7.0); }
 
   template <int Most>
   Reference<Most> reference() const {  // at the atmosphere
@@ -76,6 +81,7 @@ class BraidLanes {
     Four short_length, short_stiffness, short_damping;  // end stop
     Four short_zero;                                    // 1 where [31]'s zero holds, else 0
     Four mesh_secant, mesh_constant;                    // Q for [34], or the bound itself
+    Four reach;                                         // of the series; none of a lane to spare
   };
 
   // evaluate() goes by the one and fills the other: whole lanes of each.
@@ -90,14 +96,15 @@ class BraidLanes {
   int follow(const double* drift, double* y_ref, double* inverse_sigma) const noexcept;
   void set_constants(int lane, const Muscle& muscle);
   double exact_y(double density) const noexcept;
-  void far_roots(int muscles, const Four& drift, const double* inverse_sigma,
-                 Four& root) const noexcept;
+  void far_roots(const Four& drift, const Four& reach, const double* inverse_sigma,
+                 double* root) const noexcept;
   void sealed_mesh(const Given& in, const Filled& out) const noexcept;
   void loose_signs(const Given& in, const Filled& out) const noexcept;
 
   int size_ = 0, padded_ = 0;
   gas::Air air_;
   gas::PowerSeries series_;
+  std::optional<gas::PowerTable> table_;
   double inverse_reference_density_ = 0;
   std::vector<Muscle> muscles_;
   std::vector<Constants> constants_;  // of each four lanes

@@ -66,6 +66,9 @@ class AirNetwork {
   int others() const noexcept { return others_; }
   double atmosphere() const noexcept { return air_.atmosphere; }  // [Pa]
 
+  // For steps in which densities leave the reach of their series as a rule.
+  void take_long_steps() { braids_.go_by_table(); }
+
   // Is there nothing but muscles between valves on a constant supply?
   bool plain() const noexcept { return plain_; }
 
