@@ -13,6 +13,9 @@
 //   S        double       Pack<W>
 //   mask     bool         PackMask<W>     of comparisons; joined by & | ^, negated by !
 //
+// All functions are inlined, also where nothing is optimised: how a wide vector is handed over
+// depends on what a function is compiled for.
+//
 // Packs are GCC's and Clang's vectors, as wide as the machine has them: two lanes are native to
 // every x86-64, four to AVX2, eight to AVX-512. Where they are wider than its registers GCC takes
 // comparisons apart lane by lane: correct and slow.
@@ -69,13 +72,19 @@ struct PackMask {
 
   Bits bits;  // of a lane all are set, or none
 
-  bool operator[](int lane) const { return bits[lane] != 0; }
-  void set(int lane, bool to) { bits[lane] = to ? -1 : 0; }
+  [[gnu::always_inline]] bool operator[](int lane) const { return bits[lane] != 0; }
+  [[gnu::always_inline]] void set(int lane, bool to) { bits[lane] = to ? -1 : 0; }
 
-  friend PackMask operator&(const PackMask& a, const PackMask& b) { return {a.bits & b.bits}; }
-  friend PackMask operator|(const PackMask& a, const PackMask& b) { return {a.bits | b.bits}; }
-  friend PackMask operator^(const PackMask& a, const PackMask& b) { return {a.bits ^ b.bits}; }
-  friend PackMask operator!(const PackMask& a) { return {~a.bits}; }
+  [[gnu::always_inline]] friend PackMask operator&(const PackMask& a, const PackMask& b) {
+    return {a.bits & b.bits};
+  }
+  [[gnu::always_inline]] friend PackMask operator|(const PackMask& a, const PackMask& b) {
+    return {a.bits | b.bits};
+  }
+  [[gnu::always_inline]] friend PackMask operator^(const PackMask& a, const PackMask& b) {
+    return {a.bits ^ b.bits};
+  }
+  [[gnu::always_inline]] friend PackMask operator!(const PackMask& a) { return {~a.bits}; }
 };
 
 template <int W>
@@ -90,58 +99,79 @@ struct Pack {
   // Not set when made, as a double is not; `Pack x{}` is zero.
   Pack() = default;
   // Every lane gets the number. Less nothing: plus nothing would lose the sign of a zero.
-  Pack(double x) : lanes(x - Lanes{}) {}
-  explicit Pack(const Lanes& of) : lanes(of) {}
+  [[gnu::always_inline]] Pack(double x) : lanes(x - Lanes{}) {}
+  [[gnu::always_inline]] explicit Pack(const Lanes& of) : lanes(of) {}
 
-  double operator[](int lane) const { return lanes[lane]; }
-  void set(int lane, double to) { lanes[lane] = to; }
+  [[gnu::always_inline]] double operator[](int lane) const { return lanes[lane]; }
+  [[gnu::always_inline]] void set(int lane, double to) { lanes[lane] = to; }
 
-  Pack& operator+=(const Pack& b) { return *this = *this + b; }
-  Pack& operator-=(const Pack& b) { return *this = *this - b; }
-  Pack& operator*=(const Pack& b) { return *this = *this * b; }
-  Pack& operator/=(const Pack& b) { return *this = *this / b; }
+  [[gnu::always_inline]] Pack& operator+=(const Pack& b) { return *this = *this + b; }
+  [[gnu::always_inline]] Pack& operator-=(const Pack& b) { return *this = *this - b; }
+  [[gnu::always_inline]] Pack& operator*=(const Pack& b) { return *this = *this * b; }
+  [[gnu::always_inline]] Pack& operator/=(const Pack& b) { return *this = *this / b; }
 
-  friend Pack operator+(const Pack& a, const Pack& b) { return Pack(a.lanes + b.lanes); }
-  friend Pack operator-(const Pack& a, const Pack& b) { return Pack(a.lanes - b.lanes); }
-  friend Pack operator*(const Pack& a, const Pack& b) { return Pack(a.lanes * b.lanes); }
-  friend Pack operator/(const Pack& a, const Pack& b) { return Pack(a.lanes / b.lanes); }
-  friend Pack operator-(const Pack& a) { return Pack(-a.lanes); }
+  [[gnu::always_inline]] friend Pack operator+(const Pack& a, const Pack& b) {
+    return Pack(a.lanes + b.lanes);
+  }
+  [[gnu::always_inline]] friend Pack operator-(const Pack& a, const Pack& b) {
+    return Pack(a.lanes - b.lanes);
+  }
+  [[gnu::always_inline]] friend Pack operator*(const Pack& a, const Pack& b) {
+    return Pack(a.lanes * b.lanes);
+  }
+  [[gnu::always_inline]] friend Pack operator/(const Pack& a, const Pack& b) {
+    return Pack(a.lanes / b.lanes);
+  }
+  [[gnu::always_inline]] friend Pack operator-(const Pack& a) { return Pack(-a.lanes); }
 
-  friend Mask operator<(const Pack& a, const Pack& b) { return {a.lanes < b.lanes}; }
-  friend Mask operator>(const Pack& a, const Pack& b) { return {a.lanes > b.lanes}; }
-  friend Mask operator<=(const Pack& a, const Pack& b) { return {a.lanes <= b.lanes}; }
-  friend Mask operator>=(const Pack& a, const Pack& b) { return {a.lanes >= b.lanes}; }
-  friend Mask operator==(const Pack& a, const Pack& b) { return {a.lanes == b.lanes}; }
-  friend Mask operator!=(const Pack& a, const Pack& b) { return {a.lanes != b.lanes}; }
+  [[gnu::always_inline]] friend Mask operator<(const Pack& a, const Pack& b) {
+    return {a.lanes < b.lanes};
+  }
+  [[gnu::always_inline]] friend Mask operator>(const Pack& a, const Pack& b) {
+    return {a.lanes > b.lanes};
+  }
+  [[gnu::always_inline]] friend Mask operator<=(const Pack& a, const Pack& b) {
+    return {a.lanes <= b.lanes};
+  }
+  [[gnu::always_inline]] friend Mask operator>=(const Pack& a, const Pack& b) {
+    return {a.lanes >= b.lanes};
+  }
+  [[gnu::always_inline]] friend Mask operator==(const Pack& a, const Pack& b) {
+    return {a.lanes == b.lanes};
+  }
+  [[gnu::always_inline]] friend Mask operator!=(const Pack& a, const Pack& b) {
+    return {a.lanes != b.lanes};
+  }
 };
 
 // Either may be a double, for all lanes.
 template <int W>
-Pack<W> select(const PackMask<W>& mask, const std::type_identity_t<Pack<W>>& a,
-               const std::type_identity_t<Pack<W>>& b) {
+[[gnu::always_inline]] inline Pack<W> select(const PackMask<W>& mask,
+                                             const std::type_identity_t<Pack<W>>& a,
+                                             const std::type_identity_t<Pack<W>>& b) {
   return Pack<W>(mask.bits ? a.lanes : b.lanes);
 }
 
 template <int W>
-PackMask<W> bit(const Pack<W>& x, int k) {
+[[gnu::always_inline]] inline PackMask<W> bit(const Pack<W>& x, int k) {
   const auto bits = reinterpret_cast<typename PackMask<W>::Bits>(x.lanes);
   return {-(bits >> k & 1)};
 }
 
 template <int W>
-bool any(const PackMask<W>& mask) {
+[[gnu::always_inline]] inline bool any(const PackMask<W>& mask) {
   std::int64_t some = 0;
   for (int k = 0; k < W; ++k) some |= mask.bits[k];
   return some != 0;
 }
 
 template <int W>
-bool all(const PackMask<W>& mask) {
+[[gnu::always_inline]] inline bool all(const PackMask<W>& mask) {
   return !any(!mask);
 }
 
 template <int W>
-Pack<W> abs(const Pack<W>& x) {
+[[gnu::always_inline]] inline Pack<W> abs(const Pack<W>& x) {
   using Bits = typename PackMask<W>::Bits;
   constexpr std::int64_t all_but_sign = ~(std::int64_t{1} << 63);
   const Bits size = reinterpret_cast<Bits>(x.lanes) & all_but_sign;
@@ -149,8 +179,8 @@ Pack<W> abs(const Pack<W>& x) {
 }
 
 template <int W>
-Pack<W> sqrt(const Pack<W>& x) {
-  const auto each = [&]<int... k>(std::integer_sequence<int, k...>) {
+[[gnu::always_inline]] inline Pack<W> sqrt(const Pack<W>& x) {
+  const auto each = [&]<int... k>(std::integer_sequence<int, k...>) __attribute__((always_inline)) {
     return Pack<W>(typename Pack<W>::Lanes{std::sqrt(x.lanes[k])...});
   };
   return each(std::make_integer_sequence<int, W>{});
@@ -158,11 +188,11 @@ Pack<W> sqrt(const Pack<W>& x) {
 
 // The greater and the lesser; `a` if neither is, as std::max and std::min.
 template <class S>
-S max(const S& a, const std::type_identity_t<S>& b) {
+[[gnu::always_inline]] inline S max(const S& a, const std::type_identity_t<S>& b) {
   return units::select(a < b, b, a);
 }
 template <class S>
-S min(const S& a, const std::type_identity_t<S>& b) {
+[[gnu::always_inline]] inline S min(const S& a, const std::type_identity_t<S>& b) {
   return units::select(b < a, b, a);
 }
 
