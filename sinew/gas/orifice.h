@@ -168,7 +168,7 @@ using FlowConstants = FlowConstantsOf<double>;
 // Flow from a to b out of y at both ports  [kg/s]. + - x sqrt and selections only, one root: loops
 // over lanes that keep each constant in an array vectorise, and every lane has the scalar's bits.
 template <class S>
-S flow_y(const FlowConstantsOf<S>& c, const std::type_identity_t<S>& y_a,
+inline S flow_y(const FlowConstantsOf<S>& c, const std::type_identity_t<S>& y_a,
          const std::type_identity_t<S>& y_b) {
   const S up = units::select(y_a > y_b, y_a, y_b);
   const S down = units::select(y_a > y_b, y_b, y_a);

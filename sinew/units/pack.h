@@ -221,4 +221,15 @@ One lane_of(const Packed& packed, int lane) {
   return std::bit_cast<One>(one);
 }
 
+// Puts a struct of doubles into one lane of a struct of packs.
+template <class One, class Packed>
+void put_lane(const One& one, int lane, Packed& packed) {
+  static_assert(sizeof(Packed) % sizeof(One) == 0 && std::is_trivially_copyable_v<Packed>);
+  constexpr std::size_t width = sizeof(Packed) / sizeof(One), count = sizeof(One) / sizeof(double);
+  auto rows = std::bit_cast<std::array<std::array<double, width>, count>>(packed);
+  const auto numbers = std::bit_cast<std::array<double, count>>(one);
+  for (std::size_t i = 0; i < count; ++i) rows[i][static_cast<std::size_t>(lane)] = numbers[i];
+  packed = std::bit_cast<Packed>(rows);
+}
+
 }  // namespace sinew::units

@@ -143,7 +143,9 @@ TYPED_TEST(PackOf, StructsLieSideBySide) {
   Numbers numbers(41);
   std::array<One, W> each;
   for (One& one : each) one = {numbers.one(), {numbers.one(), numbers.one(), numbers.one()}};
-  const auto packed = side_by_side<Packed>(each);
+  auto packed = side_by_side<Packed>(each);
+  each[W - 1] = {7, {8, 9, 10}};
+  put_lane(each[W - 1], W - 1, packed);
   for (int k = 0; k < W; ++k) {
     const One& one = each[static_cast<std::size_t>(k)];
     EXPECT_EQ(bits(packed.x, k), bits(one.x));
