@@ -84,6 +84,35 @@ TEST(AirInLanes, TensionAndPressureAreTheLawsInWords) {
   }
 }
 
+// Beyond the reach of the series, in any lane, and a new base of the series there.
+TEST(AirInLanes, ATableAnswersAsThePowerDoes) {
+  const Machine k;
+  std::vector<Muscle> muscles;
+  for (int i = 0; i < 5; ++i) muscles.push_back(bundle(0.1 * i));
+  ByHand power(muscles, k.air, k.supply), table(muscles, k.air, k.supply);
+  table.take_long_steps();
+
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> lengths(2.3 * inch, 4.0 * inch), densities(0.8, 8.0);
+  for (int trial = 0; trial < 1000; ++trial) {
+    Air::Lanes length{}, mass{};
+    for (int i = 0; i < 5; ++i) {
+      length[i] = lengths(random);
+      mass[i] = densities(random) * power.volume(i, length[i]);
+    }
+    Air::Answer one, other;
+    for (int look = 0; look < 2; ++look) {
+      power.evaluate(0, length, {}, mass, one);
+      table.evaluate(0, length, {}, mass, other);
+      for (int i = 0; i < 5; ++i)  // seven times what y is off
+        EXPECT_NEAR(other.pressure[i], one.pressure[i], 2e-14 * one.pressure[i]) << look;
+      if (trial % 10 != 0) continue;
+      power.follow(one);
+      table.follow(other);
+    }
+  }
+}
+
 // Every switch of the losses and of the short end, against the laws in words.
 TEST(AirInLanes, SwitchesAreTheLawsInWords) {
   using Scale = actuator::Loss::Scale;

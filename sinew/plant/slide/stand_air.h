@@ -32,7 +32,9 @@ class StandAir : public ElementAir {
         cylinder_(s.cylinder.has_value()),
         by_valves_(s.charge.mode == Charge::Mode::valves),
         exponent_(exponent_of(s.air)),
-        longest_settling_(longest_settling(s.accuracy)) {}
+        longest_settling_(longest_settling(s.accuracy)) {
+    take_long_steps();
+  }
 
   // Valve 0 is the inlet or a 3-way valve, 1 the exhaust.
   int valves() const noexcept { return by_valves_ ? 2 : 0; }
