@@ -19,6 +19,7 @@
 #include <span>
 #include <vector>
 
+#include "sinew/air/braid_law.h"
 #include "sinew/air/lanes.h"
 #include "sinew/air/muscle.h"
 #include "sinew/gas/air.h"
@@ -26,9 +27,6 @@
 #include "sinew/gas/power_table.h"
 
 namespace sinew::air {
-
-// Is there nothing of this muscle's law that lanes leave out?
-bool lanes_hold(const Muscle& muscle);
 
 class BraidLanes {
  public:
@@ -62,6 +60,19 @@ class BraidLanes {
               out.friction_bound.of.data(), out.drift.of.data(), y.of.data()});
   }
 
+  // Of muscle i: its numbers, is its dry friction bound by its sealed stiffness, does it stick?
+  BraidConstants<double> constants(int i) const {
+    return units::lane_of<BraidConstants<double>>(
+        constants_[static_cast<std::size_t>(i / lanes)].law, i % lanes);
+  }
+  bool bound_by_sealed(int i) const;
+  bool sticks(int i) const;
+
+  // Returns y of a density by the power itself, for whoever is beyond the series  [-].
+  double exact_y(double density) const noexcept;
+  // Returns the bound of muscle i's dry friction by its sealed stiffness  [N].
+  double sealed_bound(int i, double length, double pressure) const noexcept;
+
   // At a node, after its evaluation: the reference follows where the density has drifted. Answers
   // the first muscle whose density is none, or -1.
   template <int Most>
@@ -70,18 +81,11 @@ class BraidLanes {
   }
 
  private:
-  // Constants of four bundles, the count of actuators and what can be multiplied beforehand folded
-  // in; lanes beyond the last muscle repeat it. Aligned for wide registers, whatever the file that
-  // makes it is compiled for.
+  // Four bundles; lanes beyond the last muscle repeat it. Aligned for wide registers, whatever the
+  // file that makes it is compiled for.
   struct alignas(64) Constants {
-    Four thread2, cubic, linear, external;  // b^2; volume: external + l (linear - cubic l^2)
-    Four c0, c1, c2, low, high;             // effectiveness, of the gauge pressure
-    Four viscous, bladder, bladder_rest;    // passive
-    Four long_length, long_stiffness, long_damping;     // [32], [35]
-    Four short_length, short_stiffness, short_damping;  // end stop
-    Four short_zero;                                    // 1 where [31]'s zero holds, else 0
-    Four mesh_secant, mesh_constant;                    // Q for [34], or the bound itself
-    Four reach;                                         // of the series; none of a lane to spare
+    BraidConstants<units::Pack<lanes>> law;
+    Four reach;  // of the series; none of a lane to spare
   };
 
   // evaluate() goes by the one and fills the other: whole lanes of each.
@@ -94,8 +98,6 @@ class BraidLanes {
 
   void evaluate(const Given& in, const Filled& out) const noexcept;
   int follow(const double* drift, double* y_ref, double* inverse_sigma) const noexcept;
-  void set_constants(int lane, const Muscle& muscle);
-  double exact_y(double density) const noexcept;
   void far_roots(const Four& drift, const Four& reach, const double* inverse_sigma,
                  double* root) const noexcept;
   void sealed_mesh(const Given& in, const Filled& out) const noexcept;

@@ -28,7 +28,7 @@ struct AirFault {
   enum class What { stuck_open, stuck_shut, seat_leak, hole, blocked, supply };
 
   What what = What::stuck_open;
-  int of = 0;        // a valve, numbered as Plumbing's are, or a muscle; 0 of the supply
+  int of = 0;        // a valve, as AirNetwork numbers them, or a muscle; 0 of the supply
   double begin = 0;  // [s]
   double end = std::numeric_limits<double>::infinity();  // [s]
   double share = 0;                                      // seat_leak: of the valve's area [-]
@@ -38,7 +38,7 @@ struct AirFault {
   bool of_valve() const { return what <= What::seat_leak; }
 };
 
-// Answers whether a bank holds it: a fault that moves the share of a valve's area, nothing else.
+// Returns whether the fault moves the share of a valve's area and nothing else.
 inline bool is_share_of_valve(const AirFault& f) {
   return f.of_valve() && !(f.leak.area > 0) && !(f.leak.conductance > 0);
 }

@@ -71,6 +71,14 @@ class AirNetwork {
 
   // Is there nothing but muscles between valves on a constant supply?
   bool plain() const noexcept { return plain_; }
+  // And nothing of it will ever break, nor do valves open by and by: plain_air.h then has its law,
+  // which goes by these.
+  bool plain_for_good() const noexcept { return plain_ && !ramping_ && faults_.empty(); }
+  const BraidLanes& braids() const noexcept { return braids_; }
+  const gas::FlowConstants& flow(int valve) const noexcept {
+    return taps_[static_cast<std::size_t>(valve)].flow;
+  }
+  double supply_y() const noexcept { return supply_y_; }  // (P/P_atm)^(1/7) of the supply [-]
 
   // 2 x muscle + (0 inlet | 1 exhaust), then the cylinder's: up inlet, up exhaust, down inlet, down
   // exhaust.

@@ -27,10 +27,12 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "sinew/gas/air.h"
 #include "sinew/gas/valve.h"
 #include "sinew/units/constants.h"
+#include "sinew/units/pack.h"
 
 namespace sinew::gas {
 
@@ -149,44 +151,49 @@ constexpr double pressure_of_y(const Air& air, double y) {
   return air.atmosphere * (y3 * y3 * y);
 }
 
-// One valve's law with everything constant multiplied out.
-struct FlowConstants {
-  double gain = 0;         // of the root [kg/s]
-  double choked_gain = 0;  // the same where it is choked: another one in appendix A alone [kg/s]
-  double choke = 1;        // orifice: r_c^(1/7) = sqrt(5/6); ISO: b [-]
-  double spread = 0;       // ISO: 1/(1 - b) [-]
-  double linear_gain = 0;  // of y_a^7 - y_b^7 [kg/s]
-  double linear_from = 1;  // y_down/y_up above which the law is linear [-]
-  double iso = 0;          // 1: ISO 6358 (a double: a bool per lane would stop vectorisation)
+// One valve's law with everything constant multiplied out. S is a double; or a pack of them
+// (units/pack.h), of machines side by side.
+template <class S>
+struct FlowConstantsOf {
+  S gain = 0;         // of the root [kg/s]
+  S choked_gain = 0;  // the same where it is choked: another one in appendix A alone [kg/s]
+  S choke = 1;        // orifice: r_c^(1/7) = sqrt(5/6); ISO: b [-]
+  S spread = 0;       // ISO: 1/(1 - b) [-]
+  S linear_gain = 0;  // of y_a^7 - y_b^7 [kg/s]
+  S linear_from = 1;  // y_down/y_up above which the law is linear [-]
+  S iso = 0;          // 1: ISO 6358 (a double: a bool per lane would stop vectorisation)
 };
+using FlowConstants = FlowConstantsOf<double>;
 
 // Flow from a to b out of y at both ports  [kg/s]. + - x sqrt and selections only, one root: loops
 // over lanes that keep each constant in an array vectorise, and every lane has the scalar's bits.
-inline double flow_y(const FlowConstants& c, double y_a, double y_b) {
-  const double up = y_a > y_b ? y_a : y_b;
-  const double down = y_a > y_b ? y_b : y_a;
+template <class S>
+inline S flow_y(const FlowConstantsOf<S>& c, const std::type_identity_t<S>& y_a,
+                const std::type_identity_t<S>& y_b) {
+  const S up = units::select(y_a > y_b, y_a, y_b);
+  const S down = units::select(y_a > y_b, y_b, y_a);
 
   // P/P_atm of both ports.
-  const double up2 = up * up, down2 = down * down;
-  const double p_up = up2 * up2 * up2 * up, p_down = down2 * down2 * down2 * down;
+  const S up2 = up * up, down2 = down * down;
+  const S p_up = up2 * up2 * up2 * up, p_down = down2 * down2 * down2 * down;
 
   // Orifice: d^5 u sqrt(u^2 - d^2).
-  const double limit = c.choke * up;
-  const double d = down > limit ? down : limit;
-  const double d2 = d * d;
+  const S limit = c.choke * up;
+  const S d = units::select(down > limit, down, limit);
+  const S d2 = d * d;
 
   // ISO 6358: sqrt(p_up^2 - ((p_down - b p_up)/(1 - b))^2).
-  const double over = p_down - c.choke * p_up;
-  const double share = (over > 0 ? over : 0.0) * c.spread;
+  const S over = p_down - c.choke * p_up;
+  const S share = units::select(over > 0.0, over, 0.0) * c.spread;
 
-  const double factor = c.iso > 0 ? 1.0 : d2 * d2 * d * up;
-  const double inside = c.iso > 0 ? p_up * p_up - share * share : up2 - d2;
-  const double gain = down > limit ? c.gain : c.choked_gain;
-  const double free = gain * factor * std::sqrt(inside > 0 ? inside : 0.0);
-  const double linear = c.linear_gain * (p_up - p_down);
+  const S factor = units::select(c.iso > 0.0, 1.0, d2 * d2 * d * up);
+  const S inside = units::select(c.iso > 0.0, p_up * p_up - share * share, up2 - d2);
+  const S gain = units::select(down > limit, c.gain, c.choked_gain);
+  const S free = gain * factor * units::sqrt(units::select(inside > 0.0, inside, 0.0));
+  const S linear = c.linear_gain * (p_up - p_down);
 
-  const double size = down > c.linear_from * up ? linear : free;
-  return y_a >= y_b ? size : -size;
+  const S size = units::select(down > c.linear_from * up, linear, free);
+  return units::select(y_a >= y_b, size, -size);
 }
 
 inline FlowConstants flow_constants(const Flow& flow, const Air& air) {

@@ -258,7 +258,7 @@ TEST(Flow, LanesHaveTheBitsOfTheScalar) {
   }
   for (int i = 0; i < lanes; ++i) {
     volatile double ya = a[i], yb = b[i];
-    EXPECT_EQ(out[i], flow_y(c[i % 3], ya, yb));
+    EXPECT_EQ(out[i], flow_y(c[i % 3], double{ya}, double{yb}));
   }
 }
 

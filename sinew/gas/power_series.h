@@ -15,18 +15,20 @@
 
 namespace sinew::gas {
 
-class PowerSeries {
+// S is a double; or a pack of them (units/pack.h), of machines side by side.
+template <class S>
+class PowerSeriesOf {
  public:
   static constexpr double reach = 0.05;   // |x| up to which six terms are enough
   static constexpr double rebase = 0.02;  // |x| from which a new base is worth its power
 
-  constexpr PowerSeries() = default;
-  constexpr explicit PowerSeries(double exponent) : exponent_(exponent) {
+  constexpr PowerSeriesOf() = default;
+  constexpr explicit PowerSeriesOf(const S& exponent) : exponent_(exponent) {
     term_[0] = 1.0;
     for (int k = 1; k < 7; ++k) term_[k] = term_[k - 1] * (exponent - (k - 1)) / k;
   }
 
-  constexpr double exponent() const { return exponent_; }
+  constexpr S exponent() const { return exponent_; }
 
   // Puts (1 + x)^e into `power`, of a number or a vector; the terms go in pairs, which wait less
   // for one another than Horner's.
@@ -39,9 +41,10 @@ class PowerSeries {
   }
 
  private:
-  double exponent_ = 1;
-  std::array<double, 7> term_{};
+  S exponent_ = 1;
+  std::array<S, 7> term_{};
 };
+using PowerSeries = PowerSeriesOf<double>;
 
 // A base of the series: y there, and one over the quantity there. Made at rest it is no base yet:
 // the first look goes by the power.

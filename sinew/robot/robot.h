@@ -14,6 +14,7 @@
 #include "sinew/gas/hose.h"
 #include "sinew/gas/leak.h"
 #include "sinew/robot/control.h"
+#include "sinew/units/pack.h"
 
 namespace sinew::robot {
 
@@ -172,9 +173,13 @@ struct Trolley {
   // Bound of its dry friction, from what the last step held and could have held  [N]: less than
   // the bound is rest.
   double friction(double held, double bound) const {
-    if (!present) return 0;
-    const bool rests = (held < bound && held > -bound) || bound == 0;
-    return rests && breakaway > drag ? breakaway : drag;
+    return present ? friction(held, bound, drag, breakaway) : 0.0;
+  }
+  // The law itself, of a double or a pack: the bound while it rolls, and that of rest.
+  template <class S>
+  static S friction(const S& held, const S& bound, const S& rolling, const S& at_rest) {
+    const auto rests = ((held < bound) & (held > -bound)) | (bound == 0.0);
+    return units::select(rests & (at_rest > rolling), at_rest, rolling);
   }
 };
 
@@ -243,7 +248,7 @@ struct Sensor {
   double assumed_scale = 0;    // [count/rad], [V/N], [V/Pa], [V s/rad] or [count/m]
   double assumed_at_rest = 0;  // [count]
 
-  // The limits of a reading that is believed; experiment/supervision.h derives those not given.
+  // The limits of a reading that is believed; control/setup/supervision.h derives those not given.
   std::vector<double> plausible;  // lowest, highest [count]
   double max_rate = not_set;      // [count/s]
   double frozen_limit = not_set;  // the same counts while driven end the run; not set: never [s]

@@ -8,48 +8,54 @@
 //   log        3.5e-16 relative      positive, normal numbers
 //   exp        2e-16 relative        |x| < 700
 //   power      2e-16 + 4e-16 |log result| relative: 1e-15 for a gas, 1e-14 at 1e12
+//
+// sin and cos are also those of a pack (pack.h).
 #pragma once
 
 #include <bit>
 #include <cstdint>
 #include <numbers>
 
+#include "sinew/units/pack.h"
+
 namespace sinew::units {
 
-struct SinCos {
-  double sin, cos;
+template <class S>
+struct SinCosOf {
+  S sin, cos;
 };
+using SinCos = SinCosOf<double>;
 
 // sin and cos by reduction to |r| <= pi/4 (pi/2 in two parts) and their Taylor series: the first
 // terms left out are 5e-17 and 2e-18.
-constexpr SinCos sin_cos(double x) {
+template <class S>
+constexpr SinCosOf<S> sin_cos(const S& x) {
   constexpr double half_pi_high = 1.57079632673412561417e+00;  // 33 bits of pi/2
   constexpr double half_pi_low = 6.07710050650619224932e-11;   // pi/2 - half_pi_high
 
   // Nearest multiple of pi/2 through the rounding of a large addition.
   constexpr double round_magic = 6755399441055744.0;  // 1.5 * 2^52
-  const double shifted = x * (2.0 / std::numbers::pi) + round_magic;
-  const double quarter = shifted - round_magic;
-  const double r = (x - quarter * half_pi_high) - quarter * half_pi_low;
-  const double z = r * r;
+  const S shifted = x * (2.0 / std::numbers::pi) + round_magic;
+  const S quarter = shifted - round_magic;
+  const S r = (x - quarter * half_pi_high) - quarter * half_pi_low;
+  const S z = r * r;
 
   // Taylor, terms in pairs (they wait less for one another than Horner's).
-  const double z2 = z * z, z4 = z2 * z2;
-  const double s_low = -1.0 / 6 + z * (1.0 / 120);
-  const double s_middle = -1.0 / 5040 + z * (1.0 / 362880);
-  const double s_high = (-1.0 / 39916800 + z * (1.0 / 6227020800)) + z2 * (-1.0 / 1307674368000);
-  const double s = r + (r * z) * ((s_low + z2 * s_middle) + z4 * s_high);
+  const S z2 = z * z, z4 = z2 * z2;
+  const S s_low = -1.0 / 6 + z * (1.0 / 120);
+  const S s_middle = -1.0 / 5040 + z * (1.0 / 362880);
+  const S s_high = (-1.0 / 39916800 + z * (1.0 / 6227020800)) + z2 * (-1.0 / 1307674368000);
+  const S s = r + (r * z) * ((s_low + z2 * s_middle) + z4 * s_high);
 
-  const double c_low = 1.0 / 24 + z * (-1.0 / 720);
-  const double c_middle = 1.0 / 40320 + z * (-1.0 / 3628800);
-  const double c_high = (1.0 / 479001600 + z * (-1.0 / 87178291200)) + z2 * (1.0 / 20922789888000);
-  const double c = (1.0 - 0.5 * z) + z2 * ((c_low + z2 * c_middle) + z4 * c_high);
+  const S c_low = 1.0 / 24 + z * (-1.0 / 720);
+  const S c_middle = 1.0 / 40320 + z * (-1.0 / 3628800);
+  const S c_high = (1.0 / 479001600 + z * (-1.0 / 87178291200)) + z2 * (1.0 / 20922789888000);
+  const S c = (1.0 - 0.5 * z) + z2 * ((c_low + z2 * c_middle) + z4 * c_high);
 
-  // sin(r + q pi/2), cos(r + q pi/2) by the quadrant q mod 4.
-  const auto quadrant = std::bit_cast<std::uint64_t>(shifted) & 3u;
-  const double sine = (quadrant & 1u) ? c : s;
-  const double cosine = (quadrant & 1u) ? s : c;
-  return {(quadrant & 2u) ? -sine : sine, ((quadrant + 1u) & 2u) ? -cosine : cosine};
+  // sin(r + q pi/2), cos(r + q pi/2) by the last two bits of q.
+  const auto odd = bit(shifted, 0), second = bit(shifted, 1);
+  const S sine = select(odd, c, s), cosine = select(odd, s, c);
+  return {select(second, -sine, sine), select(odd ^ second, -cosine, cosine)};
 }
 
 // Natural logarithm of a positive, normal number: x = 2^k f, log f = 2 atanh((f - 1)/(f + 1)).

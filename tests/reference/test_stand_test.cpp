@@ -1,4 +1,4 @@
-// Chapter 3 in numbers: every set-up of verification_summary, by the muscle bank's air and [37].
+// Chapter 3 in numbers: every set-up of verification_summary, by the network's air and [37].
 //
 // The readings that nobody printed are those of reference.json: trapped air is sealed at the
 // hanging equilibrium and let go 0.2 in below it; the valve is open from the start of each period;
@@ -293,8 +293,8 @@ TEST(TestStand, PulsedValveByTheEquations) {
                   "equations");
 }
 
-// By the code: its .0165 and .064 are what the bank's exact orifice leaves; ripples and peaks feel
-// them and, at 1 ms, the coarse steps.
+// By the code: its .0165 and .064 are what the network's exact orifice leaves; ripples and peaks
+// feel them and, at 1 ms, the coarse steps.
 TEST(TestStand, PulsedValveByTheCode) {
   for (const Pulsed& set_up : pulsed_set_ups) {
     const std::vector<Sample> samples = pulse(set_up, by_code());

@@ -11,7 +11,7 @@ namespace sinew::worlds {
 using Fault = experiment::Fault;
 using Breaks = std::vector<Fault>;
 
-// Faults of shutters and seats alone, which a bank holds.
+// Faults of shutters and seats alone: they only move the shares of the valves' areas.
 inline Breaks of_valves() {
   using What = Fault::What;
   return {
@@ -22,7 +22,7 @@ inline Breaks of_valves() {
   };
 }
 
-// Faults of the rest, most of which need a plumbing. The supply fails below and at the room's
+// Faults of the rest, most of which need more than valves. The supply fails below and at the room's
 // pressure: a muscle whose inlet is open then empties through it.
 inline Breaks of_everything() {
   using What = Fault::What;

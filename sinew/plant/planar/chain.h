@@ -16,6 +16,8 @@
 //
 // Solved by eliminating the trolley and an LDL^T of the N x N rest; for N = 2 by Cramer's rule,
 // which has one division to wait for in place of two. Without trolley 1/M = 0.
+//
+// S is a double, or a pack of them: chains of equal N side by side (units/pack.h).
 #pragma once
 
 #include <array>
@@ -24,36 +26,45 @@
 
 namespace sinew::plant {
 
-template <int N>
+template <int N, class S = double>
 struct ChainConstants {
-  std::array<double, N> length{}, first_moment{};  // l [m], c [kg m]
-  std::array<std::array<double, N>, N> inertia{};  // A [kg m^2]
-  double total_mass = 0;                           // M [kg]
-  double inverse_total_mass = 0;                   // 0 for a fixed base [1/kg]
-  double gravity = 9.80665;                        // [m/s^2]
+  std::array<S, N> length{}, first_moment{};  // l [m], c [kg m]
+  std::array<std::array<S, N>, N> inertia{};  // A [kg m^2]
+  S total_mass = 0;                           // M [kg]
+  S inverse_total_mass = 0;                   // 0 for a fixed base [1/kg]
+  S gravity = 9.80665;                        // [m/s^2]
 };
 
 // Coordinates and their rates.
-template <int N>
+template <int N, class S = double>
 struct Pose {
-  double x = 0, x_rate = 0;               // trolley [m], [m/s]
-  std::array<double, N> angle{}, rate{};  // of the links, from +x [rad], [rad/s]
+  S x = 0, x_rate = 0;               // trolley [m], [m/s]
+  std::array<S, N> angle{}, rate{};  // of the links, from +x [rad], [rad/s]
 };
 
 // A force on each coordinate, or an acceleration of each.
-template <int N>
+template <int N, class S = double>
 struct Generalised {
-  double x = 0;
-  std::array<double, N> angle{};
+  S x = 0;
+  std::array<S, N> angle{};
 };
 
+// Returns `a` where the mask is set, else `b`.
+template <class Mask, int N, class S>
+Generalised<N, S> select(const Mask& mask, const Generalised<N, S>& a, const Generalised<N, S>& b) {
+  Generalised<N, S> out{.x = units::select(mask, a.x, b.x)};
+  for (int i = 0; i < N; ++i) out.angle[i] = units::select(mask, a.angle[i], b.angle[i]);
+  return out;
+}
+
 // What of the equations depends on the pose: evaluated once, used for several right-hand sides.
-template <int N>
+template <int N, class S = double>
 class Chain {
  public:
-  Chain(const ChainConstants<N>& constants, const Pose<N>& pose) : k_(constants), pose_(pose) {
+  Chain(const ChainConstants<N, S>& constants, const Pose<N, S>& pose)
+      : k_(constants), pose_(pose) {
     for (int i = 0; i < N; ++i) {
-      const units::SinCos sc = units::sin_cos(pose.angle[i]);
+      const auto sc = units::sin_cos(pose.angle[i]);
       sin_[i] = sc.sin;
       cos_[i] = sc.cos;
       lever_[i] = k_.first_moment[i] * sin_[i];
@@ -61,18 +72,19 @@ class Chain {
     factor();
   }
 
-  double sin(int i) const { return sin_[i]; }
-  double cos(int i) const { return cos_[i]; }
+  S sin(int i) const { return sin_[i]; }
+  S cos(int i) const { return cos_[i]; }
 
   // Accelerations under the given forces, gravity and the velocities' own terms.
-  Generalised<N> accelerations(Generalised<N> force) const {
+  Generalised<N, S> accelerations(const Generalised<N, S>& given) const {
+    Generalised<N, S> force = given;
     for (int i = 0; i < N; ++i) {
-      const double rate2 = pose_.rate[i] * pose_.rate[i];
+      const S rate2 = pose_.rate[i] * pose_.rate[i];
       force.x += k_.first_moment[i] * cos_[i] * rate2;
       force.angle[i] -= k_.gravity * k_.first_moment[i] * cos_[i];
       for (int j = 0; j < N; ++j) {
         if (j == i) continue;
-        const double sine = sin_[i] * cos_[j] - cos_[i] * sin_[j];
+        const S sine = sin_[i] * cos_[j] - cos_[i] * sin_[j];
         force.angle[i] -= k_.inertia[i][j] * sine * (pose_.rate[j] * pose_.rate[j]);
       }
     }
@@ -80,24 +92,24 @@ class Chain {
   }
 
   // Accelerations that the forces alone cause: the inverse mass matrix times `force`.
-  Generalised<N> response(const Generalised<N>& force) const {
-    const double push = force.x * k_.inverse_total_mass;
-    std::array<double, N> a;
+  Generalised<N, S> response(const Generalised<N, S>& force) const {
+    const S push = force.x * k_.inverse_total_mass;
+    std::array<S, N> a;
     for (int i = 0; i < N; ++i) a[i] = force.angle[i] + lever_[i] * push;
     if constexpr (N == 2) {
-      const double first = (pivot_[1] * a[0] - lower_[1][0] * a[1]) * inverse_pivot_[0];
+      const S first = (pivot_[1] * a[0] - lower_[1][0] * a[1]) * inverse_pivot_[0];
       a[1] = (pivot_[0] * a[1] - lower_[1][0] * a[0]) * inverse_pivot_[0];
       a[0] = first;
     } else {
       substitute(a);
     }
-    Generalised<N> out{.x = push, .angle = a};
+    Generalised<N, S> out{.x = push, .angle = a};
     for (int i = 0; i < N; ++i) out.x += k_.inverse_total_mass * lever_[i] * a[i];
     return out;
   }
 
  private:
-  void substitute(std::array<double, N>& a) const {
+  void substitute(std::array<S, N>& a) const {
     for (int i = 0; i < N; ++i)
       for (int j = 0; j < i; ++j) a[i] -= lower_[i][j] * a[j];
     for (int i = N - 1; i >= 0; --i) {
@@ -106,8 +118,8 @@ class Chain {
     }
   }
 
-  double reduced(int i, int j) const {
-    const double cosine = i == j ? 1.0 : cos_[i] * cos_[j] + sin_[i] * sin_[j];
+  S reduced(int i, int j) const {
+    const S cosine = i == j ? S(1.0) : cos_[i] * cos_[j] + sin_[i] * sin_[j];
     return k_.inertia[i][j] * cosine - lever_[i] * lever_[j] * k_.inverse_total_mass;
   }
 
@@ -122,7 +134,7 @@ class Chain {
     }
     for (int i = 0; i < N; ++i) {
       for (int j = 0; j <= i; ++j) {
-        double a = reduced(i, j);
+        S a = reduced(i, j);
         for (int k = 0; k < j; ++k) a -= lower_[i][k] * lower_[j][k] * pivot_[k];
         if (i == j) {
           pivot_[i] = a;
@@ -134,24 +146,24 @@ class Chain {
     }
   }
 
-  const ChainConstants<N>& k_;
-  const Pose<N>& pose_;
-  std::array<double, N> sin_, cos_, lever_;
-  std::array<double, N> pivot_, inverse_pivot_;
-  std::array<std::array<double, N>, N> lower_;
+  const ChainConstants<N, S>& k_;
+  const Pose<N, S>& pose_;
+  std::array<S, N> sin_, cos_, lever_;
+  std::array<S, N> pivot_, inverse_pivot_;
+  std::array<std::array<S, N>, N> lower_;
 };
 
 // Kinetic plus potential energy [J], zero potential at the height of the first joint.
-template <int N>
-double energy(const ChainConstants<N>& k, const Pose<N>& pose) {
-  double e = 0.5 * k.total_mass * pose.x_rate * pose.x_rate;
+template <int N, class S>
+S energy(const ChainConstants<N, S>& k, const Pose<N, S>& pose) {
+  S e = 0.5 * k.total_mass * pose.x_rate * pose.x_rate;
   for (int i = 0; i < N; ++i) {
-    const units::SinCos a = units::sin_cos(pose.angle[i]);
+    const auto a = units::sin_cos(pose.angle[i]);
     e += k.gravity * k.first_moment[i] * a.sin;
     e -= pose.x_rate * k.first_moment[i] * a.sin * pose.rate[i];
     for (int j = 0; j < N; ++j) {
-      const units::SinCos b = units::sin_cos(pose.angle[j]);
-      const double cosine = a.cos * b.cos + a.sin * b.sin;
+      const auto b = units::sin_cos(pose.angle[j]);
+      const S cosine = a.cos * b.cos + a.sin * b.sin;
       e += 0.5 * k.inertia[i][j] * cosine * pose.rate[i] * pose.rate[j];
     }
   }
@@ -159,9 +171,9 @@ double energy(const ChainConstants<N>& k, const Pose<N>& pose) {
 }
 
 // Momentum along the track [N s].
-template <int N>
-double momentum(const ChainConstants<N>& k, const Pose<N>& pose) {
-  double p = k.total_mass * pose.x_rate;
+template <int N, class S>
+S momentum(const ChainConstants<N, S>& k, const Pose<N, S>& pose) {
+  S p = k.total_mass * pose.x_rate;
   for (int i = 0; i < N; ++i)
     p -= k.first_moment[i] * units::sin_cos(pose.angle[i]).sin * pose.rate[i];
   return p;

@@ -3,45 +3,67 @@
 // Contact c slips with the velocity J_c v and carries the force f_c, whose generalised force is
 // J_c^T f_c. At a node everything that the friction of a step needs is made once (prepare); the
 // forces for a step of any length then follow from it (hold). See friction.h for the law.
+//
+// S is a double; or a pack of them, of machines side by side. What only some of those do is
+// calculated where one does it, and selected.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "sinew/plant/planar/chain.h"
 #include "sinew/plant/planar/friction.h"
+#include "sinew/plant/planar/friction_lanes.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::plant {
 
-template <int N>
+// The ground and the foot on it, in numbers; where one is missing the ground is out of reach.
+template <class S>
+struct Footing {
+  S height = -std::numeric_limits<double>::infinity();  // of the ankle at contact [m]
+  S stiffness = 0, damping = 0;                         // of the ground [N/m], [N s/m]
+  S friction = 0, radius = 0;                           // of the foot [-], [m]
+};
+
+inline Footing<double> footing_of(const robot::Robot& robot) {
+  Footing<double> f{.friction = robot.foot.friction, .radius = robot.foot.radius};
+  if (!robot.ground.present || !robot.foot.present) return f;
+  f.height = robot.ground.height;
+  f.stiffness = robot.ground.normal_stiffness;
+  f.damping = robot.ground.normal_damping;
+  return f;
+}
+
+template <int N, class S = double>
 class Contacts {
  public:
   static constexpr int count = N + 2;  // the joints, the trolley, the foot
   static constexpr int trolley = N, foot = N + 1;
-  using Forces = std::array<double, count>;  // [N m] of the joints, [N] of the others
+  using Forces = std::array<S, count>;  // [N m] of the joints, [N] of the others
 
-  Contacts(const ChainConstants<N>& chain, const robot::Robot& robot)
-      : k_(chain), foot_(robot.foot), ground_(robot.ground) {}
+  Contacts(const ChainConstants<N, S>& chain, const Footing<S>& footing)
+      : k_(chain), footing_(footing) {}
 
   // J^T f.
-  Generalised<N> generalised(const Chain<N>& chain, const Forces& f) const {
-    Generalised<N> out;
+  Generalised<N, S> generalised(const Chain<N, S>& chain, const Forces& f) const {
+    Generalised<N, S> out;
     out.x = f[trolley] + f[foot];
     for (int i = 0; i < N; ++i)
-      out.angle[i] = f[i] - (i + 1 < N ? f[i + 1] : 0.0) - f[foot] * k_.length[i] * chain.sin(i);
-    out.angle[N - 1] += f[foot] * foot_.radius;
+      out.angle[i] = f[i] - (i + 1 < N ? f[i + 1] : S(0.0)) - f[foot] * k_.length[i] * chain.sin(i);
+    out.angle[N - 1] += f[foot] * footing_.radius;
     return out;
   }
 
   // J v, or J a. The foot slips at its lowest point, a radius below the ankle.
-  Forces slips(const Chain<N>& chain, const Generalised<N>& v) const {
+  Forces slips(const Chain<N, S>& chain, const Generalised<N, S>& v) const {
     Forces s;
     s[trolley] = v.x;
-    s[foot] = v.x + foot_.radius * v.angle[N - 1];
+    s[foot] = v.x + footing_.radius * v.angle[N - 1];
     for (int i = 0; i < N; ++i) {
-      s[i] = v.angle[i] - (i > 0 ? v.angle[i - 1] : 0.0);
+      s[i] = v.angle[i] - (i > 0 ? v.angle[i - 1] : S(0.0));
       s[foot] -= k_.length[i] * chain.sin(i) * v.angle[i];
     }
     return s;
@@ -49,35 +71,37 @@ class Contacts {
 
   // The fastest rate at which springs, dampers and the ground bring the machine to rest  [1/s]: c w
   // and sqrt(k w) with w, the acceleration per force of the joint or of the ankle.
-  double stiffest_rate(const Chain<N>& chain, const std::array<double, N>& damping,
-                       const std::array<double, N>& spring) const {
+  double stiffest_rate(const Chain<N, S>& chain, const std::array<S, N>& damping,
+                       const std::array<S, N>& spring) const {
     double fastest = 0;
     const auto consider = [&](double w, double c, double k) {
       fastest = std::max({fastest, c * w, std::sqrt(k * w)});
     };
-    Generalised<N> up;
+    Generalised<N, S> up;
     for (int i = 0; i < N; ++i) {
       Forces unit{};
       unit[i] = 1.0;
       consider(slips(chain, chain.response(generalised(chain, unit)))[i], damping[i], spring[i]);
       up.angle[i] = k_.length[i] * chain.cos(i);
     }
-    if (!ground_.present || !foot_.present) return fastest;
-    const Generalised<N> column = chain.response(up);
+    if (std::isinf(footing_.height)) return fastest;
+    const Generalised<N, S> column = chain.response(up);
     double w = 0;
     for (int i = 0; i < N; ++i) w += up.angle[i] * column.angle[i];
-    consider(w, ground_.normal_damping, ground_.normal_stiffness);
+    consider(w, footing_.damping, footing_.stiffness);
     return fastest;
   }
 
   // At a node: accelerations without friction, bounds, and the ground's force on the foot.
-  void prepare(const Chain<N>& chain, const Pose<N>& pose, const Generalised<N>& acceleration,
-               const Forces& bound, double normal) {
+  void prepare(const Chain<N, S>& chain, const Pose<N, S>& pose,
+               const Generalised<N, S>& acceleration, const Forces& bound, const S& normal) {
     problem_.bound = bound;
     for (int c = 0; c < count; ++c) {
       Forces unit{};
       unit[c] = 1.0;
-      column_[c] = bound[c] > 0 ? chain.response(generalised(chain, unit)) : Generalised<N>{};
+      column_[c] = {};
+      if (const auto rubs = bound[c] > 0.0; units::any(rubs))
+        column_[c] = select(rubs, chain.response(generalised(chain, unit)), column_[c]);
       const Forces response = slips(chain, column_[c]);
       for (int d = 0; d < count; ++d) problem_.response[d][c] = response[d];
     }
@@ -88,7 +112,7 @@ class Contacts {
       slip_rate_[foot] -= k_.length[i] * chain.cos(i) * pose.rate[i] * pose.rate[i];
 
     normal_.force = normal;
-    if (normal > 0) prepare_normal(chain, pose, acceleration);
+    if (units::any(normal > 0.0)) prepare_normal(chain, pose, acceleration);
   }
 
   // Dry friction of a step of length h; `last` is the last step's.
@@ -99,56 +123,68 @@ class Contacts {
   //
   // and so do the slips. Solving for dF adds a rank-one term to W; without it the joints would slip
   // a little where they should stick, and the walk would converge with the first order only.
-  Forces hold(double h, const Forces& last) const {
-    FrictionProblem<count> p = problem_;
+  Forces hold(const S& h, const Forces& last) const {
+    FrictionProblem<count, S> p = problem_;
     for (int c = 0; c < count; ++c) {
       p.slip[c] += h * slip_rate_[c];
       for (int d = 0; d < count; ++d) p.response[c][d] *= h;
     }
-    if (normal_.force > 0) {
-      const double k = ground_.normal_stiffness;
-      const double beta = h * (h / 6.0 * k + 0.5 * ground_.normal_damping);
-      const double share = 1.0 / (1.0 + beta * normal_.response);
-      const double change = -(0.5 * h * k * normal_.rate + beta * normal_.acceleration) * share;
-      const double mean = normal_.force + change;
-      p.bound[foot] = mean > 0 ? foot_.friction * mean : 0.0;
-      for (int c = 0; c < count && mean > 0; ++c) {
-        p.slip[c] += h * normal_.along[c] * change;
-        for (int d = 0; d < count; ++d)
-          p.response[c][d] -= h * beta * share * normal_.along[c] * normal_.along[d];
-      }
-    }
+    if (const auto stands = normal_.force > 0.0; units::any(stands)) add_normal(h, stands, p);
     return solve_friction<count>(p, last);
   }
 
   // Accelerations under the friction f, given those without any.
-  Generalised<N> accelerations(Generalised<N> without, const Forces& f) const {
+  Generalised<N, S> accelerations(const Generalised<N, S>& without, const Forces& f) const {
+    Generalised<N, S> a = without;
     for (int c = 0; c < count; ++c) {
-      without.x += column_[c].x * f[c];
-      for (int i = 0; i < N; ++i) without.angle[i] += column_[c].angle[i] * f[c];
+      a.x += column_[c].x * f[c];
+      for (int i = 0; i < N; ++i) a.angle[i] += column_[c].angle[i] * f[c];
     }
-    return without;
+    return a;
   }
 
-  double bound(int c) const { return problem_.bound[c]; }
+  S bound(int c) const { return problem_.bound[c]; }
 
  private:
   // The ground's normal force as one more direction.
   struct Normal {
-    double force = 0;                   // at the node [N]
-    double response = 0;                // upward acceleration of the ankle per force [1/kg]
-    double rate = 0, acceleration = 0;  // of the ankle, upwards [m/s], [m/s^2]
-    Forces along{};                     // upward acceleration per friction force
+    S force = 0;                   // at the node [N]
+    S response = 0;                // upward acceleration of the ankle per force [1/kg]
+    S rate = 0, acceleration = 0;  // of the ankle, upwards [m/s], [m/s^2]
+    Forces along{};                // upward acceleration per friction force
   };
 
-  void prepare_normal(const Chain<N>& chain, const Pose<N>& pose,
-                      const Generalised<N>& acceleration) {
-    Generalised<N> up;
+  // The ground's answer within the step, for those that stand on it.
+  template <class Mask>
+  void add_normal(const S& h, const Mask& stands, FrictionProblem<count, S>& p) const {
+    const S k = footing_.stiffness;
+    const S beta = h * (h / 6.0 * k + 0.5 * footing_.damping);
+    const S share = 1.0 / (1.0 + beta * normal_.response);
+    const S change = -(0.5 * h * k * normal_.rate + beta * normal_.acceleration) * share;
+    const S mean = normal_.force + change;
+    const auto stays = stands & (mean > 0.0);
+    p.bound[foot] = units::select(stands, units::select(mean > 0.0, footing_.friction * mean, 0.0),
+                                  p.bound[foot]);
+    if (!units::any(stays)) return;
+    for (int c = 0; c < count; ++c) {
+      const S slip = p.slip[c] + h * normal_.along[c] * change;
+      p.slip[c] = units::select(stays, slip, p.slip[c]);
+      for (int d = 0; d < count; ++d) {
+        const S response =
+            p.response[c][d] - h * beta * share * normal_.along[c] * normal_.along[d];
+        p.response[c][d] = units::select(stays, response, p.response[c][d]);
+      }
+    }
+  }
+
+  void prepare_normal(const Chain<N, S>& chain, const Pose<N, S>& pose,
+                      const Generalised<N, S>& acceleration) {
+    Generalised<N, S> up;
     for (int i = 0; i < N; ++i) up.angle[i] = k_.length[i] * chain.cos(i);
-    const Generalised<N> column = chain.response(up);
+    const Generalised<N, S> column = chain.response(up);
     normal_ = {.force = normal_.force};
     for (int i = 0; i < N; ++i) {
-      const double rate = pose.rate[i];
+      const S rate = pose.rate[i];
       normal_.response += up.angle[i] * column.angle[i];
       normal_.rate += up.angle[i] * rate;
       normal_.acceleration +=
@@ -157,13 +193,12 @@ class Contacts {
     }
   }
 
-  ChainConstants<N> k_;
-  robot::Foot foot_;
-  robot::Ground ground_;
+  ChainConstants<N, S> k_;
+  Footing<S> footing_;
 
-  std::array<Generalised<N>, count> column_{};  // M^-1 J^T
-  FrictionProblem<count> problem_{};            // slips at the node, responses per second
-  Forces slip_rate_{};                          // of the slips, without friction
+  std::array<Generalised<N, S>, count> column_{};  // M^-1 J^T
+  FrictionProblem<count, S> problem_{};            // slips at the node, responses per second
+  Forces slip_rate_{};                             // of the slips, without friction
   Normal normal_;
 };
 

@@ -11,17 +11,19 @@
 // standing leg); their shares of the load are then not determined by rigid bodies. The forces
 // change as little as they must from the last step's, so that the shares are a matter of history
 // and not of the step.
+//
+// friction_lanes.h solves the problems of machines side by side.
 #pragma once
 
 #include <array>
 
 namespace sinew::plant {
 
-template <int C>
+template <int C, class S = double>
 struct FrictionProblem {
-  std::array<double, C> slip;                     // s0, without friction
-  std::array<std::array<double, C>, C> response;  // W, symmetric, slip per force
-  std::array<double, C> bound;                    // >= 0; a contact with bound 0 carries nothing
+  std::array<S, C> slip;                     // s0, without friction
+  std::array<std::array<S, C>, C> response;  // W, symmetric, slip per force
+  std::array<S, C> bound;                    // >= 0; a contact with bound 0 carries nothing
 };
 
 namespace detail {

@@ -13,12 +13,15 @@ inline constexpr int chain_muscles = 4;  // a pair at each of at most two joints
 
 // Muscle i pulls joint `joint[i]` with a constant moment arm; moment_arm[i] = arm, positive where
 // tension raises the angle:  L = mount - moment_arm (theta - rest),  torque = moment_arm * tension.
-struct ChainRouting {
+// S is a double; or a pack of them, of machines whose muscles pull the same joints.
+template <class S>
+struct ChainRoutingOf {
   int count = 0, padded = 0;  // padded to whole lanes by repeating the last
 
   std::array<int, chain_muscles> joint{};
-  air::Lanes<chain_muscles> mount{}, moment_arm{};  // [m]
+  air::Lanes<chain_muscles, S> mount{}, moment_arm{};  // [m]
 };
+using ChainRouting = ChainRoutingOf<double>;
 
 ChainRouting chain_routing_of(const robot::Robot& robot);
 

@@ -7,16 +7,18 @@
 #include <limits>
 
 #include "sinew/robot/robot.h"
+#include "sinew/units/pack.h"
 
 namespace sinew::plant {
 
-struct JointStop {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();  // [rad]
-  double stiffness = 0, damping = 0;                      // [N m/rad], [N m s/rad]
+template <class S>
+struct JointStopOf {
+  S low = -std::numeric_limits<double>::infinity();
+  S high = std::numeric_limits<double>::infinity();  // [rad]
+  S stiffness = 0, damping = 0;                      // [N m/rad], [N m s/rad]
 
-  JointStop() = default;
-  explicit JointStop(const robot::Stop& stop) {
+  JointStopOf() = default;
+  explicit JointStopOf(const robot::Stop& stop) {
     if (!stop.present()) return;
     low = stop.range[0];
     high = stop.range[1];
@@ -25,17 +27,15 @@ struct JointStop {
   }
 
   // > 0 raises the angle  [N m].
-  double torque(double angle, double rate) const noexcept {
-    if (angle > high) {
-      const double push = stiffness * (angle - high) + damping * rate;
-      return push > 0 ? -push : 0.0;
-    }
-    if (angle < low) {
-      const double push = stiffness * (low - angle) - damping * rate;
-      return push > 0 ? push : 0.0;
-    }
-    return 0;
+  S torque(const S& angle, const S& rate) const noexcept {
+    const auto above = angle > high, below = angle < low;
+    if (!units::any(above | below)) return 0;
+    const S down = stiffness * (angle - high) + damping * rate;
+    const S up = stiffness * (low - angle) - damping * rate;
+    return units::select(above, units::select(down > 0.0, -down, 0.0),
+                         units::select(below & (up > 0.0), up, 0.0));
   }
 };
+using JointStop = JointStopOf<double>;
 
 }  // namespace sinew::plant

@@ -71,7 +71,7 @@ auto World<M, A>::prepare_friction(const typename M::Pose& pose) noexcept -> Acc
 template <IsMechanism M, IsAirOf<M> A>
 void World<M, A>::restore(const State& state) noexcept {
   state_ = state;
-  (void)prepare_friction(mechanism_.pose(state_.time, state_.now.motion));
+  resume();
 }
 
 // Is anything of the look at a node no number? The air also takes from the look what it remembers.

@@ -114,6 +114,13 @@ class World final : public signals::Port {
   const State& state() const noexcept { return state_; }
   // Goes on from there as the world did whose state it was: the same bits.
   void restore(const State& state) noexcept;
+  // For whoever integrates in this world's place (planar/chain_batch.h): the state, to be brought
+  // to another node; and then the world goes on from there.
+  State& borrow() noexcept { return state_; }
+  void resume() noexcept {
+    (void)prepare_friction(mechanism_.pose(state_.time, state_.now.motion));
+  }
+  double body_step() const noexcept { return step_; }  // between nodes [s]
 
   // For tests: rates at the last node, of the joints (those not given: 0) [rad/s], of the trolley
   // and of the lift [m/s].

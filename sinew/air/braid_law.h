@@ -1,0 +1,81 @@
+// air/braid_law.h - what a bundle of braided actuators holds and pulls, [31]-[34], by its length
+// and y = (P/P_atm)^(1/7) of its air.
+//
+// actuator/tension.h and loss.h have the same laws in words, and a test holds them together. Here
+// is what can be multiplied beforehand multiplied out, and nothing branches: S is a pack
+// (units/pack.h), of a machine's muscles or of a muscle of machines side by side, or a double.
+//
+// For muscles that lanes_hold. Where the bound of the dry friction goes by the sealed stiffness
+// (Loss::Scale::sealed), and where nothing sticks, whoever asks finishes.
+#pragma once
+
+#include "sinew/air/muscle.h"
+#include "sinew/gas/air.h"
+#include "sinew/units/pack.h"
+
+namespace sinew::air {
+
+// Is there nothing of this muscle's law that lanes leave out?
+bool lanes_hold(const Muscle& muscle);
+
+// The count of actuators is folded in.
+template <class S>
+struct BraidConstants {
+  S thread2, cubic, linear, external;              // b^2; volume: external + l (linear - cubic l^2)
+  S c0, c1, c2, low, high;                         // effectiveness, of the gauge pressure
+  S viscous, bladder, bladder_rest;                // passive
+  S long_length, long_stiffness, long_damping;     // [32], [35]
+  S short_length, short_stiffness, short_damping;  // end stop
+  S short_zero;                                    // 1 where [31]'s zero holds, else 0
+  S mesh_secant, mesh_constant;                    // Q for [34], or the bound itself
+};
+
+BraidConstants<double> braid_constants(const Muscle& muscle, const gas::Air& air);
+
+// Absolute pressure [Pa]; tension of the bundle, and that of one held at both ends, which may push
+// [N]; bound of its dry friction [N].
+template <class S>
+struct BraidPull {
+  S pressure, tension, clamped, friction_bound;
+};
+
+// Returns the volume of the bundle's air  [m^3].
+template <class S>
+[[gnu::always_inline]] inline S braid_volume(const BraidConstants<S>& k, const S& length) {
+  const S inside = length * (k.linear - k.cubic * (length * length));
+  return units::select(inside > 0.0, inside, 0.0) + k.external;
+}
+
+template <class S>
+[[gnu::always_inline]] inline BraidPull<S> braid_pull(const BraidConstants<S>& k,
+                                                      const S& atmosphere, const S& length,
+                                                      const S& rate, const S& y) {
+  // These terms do not depend on the pressure.
+  const S lever = k.cubic * (3.0 * (length * length) - k.thread2);
+  const S stretch = length - k.long_length, squeeze = length - k.short_length;
+  const S braid = k.long_stiffness * stretch + k.long_damping * rate;
+  const S passive = (k.bladder * (length - k.bladder_rest) + k.viscous * rate) +
+                    units::select(stretch > 0.0, braid, 0.0);
+  const S stop = k.short_stiffness * squeeze + k.short_damping * rate;
+  const S squeezed = units::select(squeeze < 0.0, stop, 0.0);
+  const S secant = k.mesh_secant * (length + k.short_length);
+
+  // Gauge pressure times effectiveness, and what it pulls with.
+  const S y2 = y * y, y4 = y2 * y2;
+  const S pressure = (atmosphere * y4) * (y2 * y);
+  const S gauge = pressure - atmosphere;
+  const S raised = units::select(gauge < k.low, k.low, gauge);
+  const S bounded = units::select(raised > k.high, k.high, raised);
+  const S share = k.c0 + bounded * (k.c1 + bounded * k.c2);
+  const S drive = gauge * share;
+  const S pull = drive * lever + (passive + squeezed);
+  const auto nothing = units::select(squeeze < 0.0, k.short_zero, 0.0) > 0.0;  // [31] as printed
+  const S all = units::select(nothing, 0.0, pull);
+  const S rub = units::select(nothing, 0.0, drive * secant + k.mesh_constant);
+  return {.pressure = pressure,
+          .tension = units::select(all > 0.0, all, 0.0),
+          .clamped = all,
+          .friction_bound = units::select(rub > 0.0, rub, 0.0)};
+}
+
+}  // namespace sinew::air

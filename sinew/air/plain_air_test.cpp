@@ -1,0 +1,247 @@
+// Machines side by side: the air of each has the bits that it has alone.
+#include "sinew/air/plain_air.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <random>
+#include <vector>
+
+#include "sinew/air/test_machines.h"
+
+namespace sinew::air {
+namespace {
+
+constexpr int most = 4;
+using Network = AirNetwork<most>;
+
+double between(std::mt19937& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+// Machines of other muscles, gas, supply and laws.
+Network random_machine(std::mt19937& random, int muscles) {
+  std::vector<Muscle> all;
+  for (int i = 0; i < muscles; ++i) {
+    Muscle m = bundle(between(random, 0, 1));
+    m.actuator.loss.stick = random() % 4 != 0;
+    if (random() % 3 == 0) m.actuator.loss.coulomb_scale = actuator::Loss::Scale::sealed;
+    if (random() % 3 == 0) m.actuator.short_end.law = actuator::ShortEnd::Law::zero;
+    for (gas::Valve* v : {&m.inlet, &m.exhaust})
+      if (random() % 3 == 0) {
+        v->flow.law = gas::Flow::Law::iso6358;
+        v->flow.sonic_conductance = 2e-9;
+        v->flow.critical_pressure_ratio = 0.4;
+      }
+    all.push_back(m);
+  }
+  const gas::Air air{.polytropic_exponent = between(random, 1.0, 1.4)};
+  const gas::Supply supply{.pressure = between(random, 5e5, 8e5)};
+  return {all, air, supply};
+}
+
+// One of them, as it goes by itself.
+struct Alone {
+  Network::State state;
+  Network::Valves valves;
+  Network::Memory memory;
+  Network::Answer look;
+  Network::Ends ends;
+  double t = 0;
+};
+
+// The same motion for all looks of a step, a little further each time: as a body's stages would.
+template <class Ends>
+Ends further(const Ends& ends, double by) {
+  Ends out = ends;
+  for (int i = 0; i < most; ++i) out.length[i] = ends.length[i] + by * ends.rate[i];
+  return out;
+}
+
+void step_alone(const Network& network, double h, Alone& a) {
+  Network::Answer later[3];
+  Network::State stage = a.state;
+  Network::Course course{};
+  const Network::Answer* looks[4] = {&a.look, &later[0], &later[1], &later[2]};
+  for (int s = 0; s < 3; ++s) {
+    network.move(stage, a.state, s == 2 ? h : 0.5 * h, *looks[s], a.valves, course);
+    network.evaluate(a.t, further(a.ends, 1e-4 * (s + 1)), stage, a.valves, a.memory, later[s]);
+  }
+  network.finish(a.state, h, looks, a.valves, course);
+}
+
+template <int W>
+struct Together {
+  using Air = PlainAir<most, W>;
+  typename Air::State state{};
+  typename Air::Shares shares{};
+  typename Air::Memory memory{};
+  typename Air::Answer look{};
+  typename Air::Ends ends{};
+};
+
+template <int W>
+void step_together(const PlainAir<most, W>& air, const units::Pack<W>& h, Together<W>& t) {
+  typename PlainAir<most, W>::Answer later[3];
+  typename PlainAir<most, W>::State stage;
+  const typename PlainAir<most, W>::Answer* looks[4] = {&t.look, &later[0], &later[1], &later[2]};
+  for (int s = 0; s < 3; ++s) {
+    air.move(stage, t.state, s == 2 ? h : 0.5 * h, *looks[s]);
+    air.evaluate(further(t.ends, 1e-4 * (s + 1)), stage, t.shares, t.memory, later[s]);
+  }
+  air.finish(t.state, h, looks);
+}
+
+template <class One, class Packed>
+void expect_lane(const char* what, const Packed& packed, int lane, const One& one, int muscles) {
+  for (int i = 0; i < muscles; ++i)
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(packed[i][lane]), std::bit_cast<std::uint64_t>(one[i]))
+        << what << " of muscle " << i << " in lane " << lane << ": " << packed[i][lane] << ", "
+        << one[i];
+}
+
+template <int W>
+void expect_alone(const Together<W>& t, int lane, const Alone& a, int muscles) {
+  expect_lane("tension", t.look.tension, lane, a.look.tension, muscles);
+  expect_lane("clamped", t.look.clamped, lane, a.look.clamped, muscles);
+  expect_lane("pressure", t.look.pressure, lane, a.look.pressure, muscles);
+  expect_lane("friction", t.look.friction_bound, lane, a.look.friction_bound, muscles);
+  expect_lane("drift", t.look.drift, lane, a.look.drift, muscles);
+  expect_lane("inflow", t.look.inflow, lane, a.look.inflow, muscles);
+  expect_lane("outflow", t.look.outflow, lane, a.look.outflow, muscles);
+  expect_lane("mass", t.state.mass, lane, a.state.mass, muscles);
+  expect_lane("in", t.state.in, lane, a.state.in, muscles);
+  expect_lane("out", t.state.out, lane, a.state.out, muscles);
+  expect_lane("reference", t.memory.y, lane, a.memory.reference.y, muscles);
+}
+
+template <int W>
+void put(int lane, const Alone& a, Together<W>& t, const PlainAir<most, W>& air) {
+  for (int i = 0; i < most; ++i) {
+    t.ends.length[i].set(lane, a.ends.length[i]);
+    t.ends.rate[i].set(lane, a.ends.rate[i]);
+  }
+  air.set_shares(lane, a.valves, t.shares);
+}
+
+// Muscles that are filled, vented, stretched and let go at random; each machine has steps of its
+// own, or none.
+template <int W>
+void expect_machines_alone(std::mt19937& random, int& open, int& far) {
+  const int muscles = 1 + static_cast<int>(random() % most);
+  std::vector<Network> networks;
+  std::array<const Network*, W> each;
+  std::array<Alone, W> alone;
+  networks.reserve(W);
+  for (std::size_t k = 0; k < W; ++k) {
+    each[k] = &networks.emplace_back(random_machine(random, muscles));
+    ASSERT_TRUE(each[k]->plain_for_good());
+    Alone& a = alone[k];
+    a.ends = {};
+    for (int i = 0; i < most; ++i) a.ends.length[i] = between(random, 2.4, 3.8) * inch;
+    a.state = each[k]->initial(between(random, 1.0, 5.0) * bar, a.ends.length, 0);
+    a.valves = each[k]->valves_at_rest();
+    a.memory = each[k]->memory_at_rest(1e5, a.ends.length);
+  }
+  const PlainAir<most, W> air(each);
+  Together<W> t;
+  for (std::size_t k = 0; k < W; ++k)
+    for (int i = 0; i < muscles; ++i) {
+      t.state.mass[i].set(static_cast<int>(k), alone[k].state.mass[i]);
+      t.memory.y[i].set(static_cast<int>(k), alone[k].memory.reference.y[i]);
+      t.memory.inverse_sigma[i].set(static_cast<int>(k),
+                                    alone[k].memory.reference.inverse_sigma[i]);
+    }
+
+  for (int node = 0; node < 120; ++node) {
+    units::Pack<W> h = 0;
+    units::PackMask<W> goes = h > 0.0;
+    for (std::size_t k = 0; k < W; ++k) {
+      Alone& a = alone[k];
+      const int lane = static_cast<int>(k);
+      for (int i = 0; i < muscles; ++i) {
+        const double jump = random() % 50 == 0 ? 0.3 : 0.002;
+        a.ends.length[i] += between(random, -jump, jump) * inch;
+        a.ends.length[i] = std::clamp(a.ends.length[i], 2.3 * inch, 4.0 * inch);
+        a.ends.rate[i] = between(random, -0.3, 0.3);
+      }
+      each[k]->move_valves(a.t, a.look, a.valves);
+      each[k]->evaluate(a.t, a.ends, a.state, a.valves, a.memory, a.look);
+      put(lane, a, t, air);
+      goes.set(lane, random() % 4 != 0);
+      for (int i = 0; i < muscles; ++i) {
+        open += a.look.inflow[i] != 0 || a.look.outflow[i] != 0;
+        far += std::abs(a.look.drift[i]) > gas::PowerSeries::reach;
+      }
+    }
+    air.evaluate(t.ends, t.state, t.shares, t.memory, t.look);
+    for (int k = 0; k < W; ++k)
+      ASSERT_NO_FATAL_FAILURE(expect_alone(t, k, alone[static_cast<std::size_t>(k)], muscles));
+
+    // Those that wait neither remember nor step.
+    const std::array<int, W> failed = air.remember(goes, t.look, t.memory);
+    for (std::size_t k = 0; k < W; ++k) {
+      EXPECT_EQ(failed[k], -1);
+      if (!goes[static_cast<int>(k)]) continue;
+      Alone& a = alone[k];
+      each[k]->remember(a.look, a.state, a.memory);
+      const double step = between(random, 1e-6, 1e-3);
+      h.set(static_cast<int>(k), step);
+      step_alone(*each[k], step, a);
+      a.t += step;
+      const auto valve = static_cast<std::uint8_t>(random() % static_cast<unsigned>(2 * muscles));
+      if (random() % 4 == 0)
+        each[k]->command({.valve = {valve}, .open = random() % 2 == 0}, a.t, a.look, a.valves);
+    }
+    step_together(air, h, t);
+  }
+}
+
+template <int W>
+void expect_all_machines_alone() {
+  std::mt19937 random(W);
+  int open = 0, far = 0;
+  for (int trial = 0; trial < 60; ++trial)
+    ASSERT_NO_FATAL_FAILURE(expect_machines_alone<W>(random, open, far));
+  EXPECT_GT(open, 1000 * W);
+  EXPECT_GT(far, 100 * W);
+}
+
+TEST(PlainAir, MachinesSideBySideAreThoseAlone) {
+  expect_all_machines_alone<2>();
+  expect_all_machines_alone<4>();
+  expect_all_machines_alone<8>();
+}
+
+// A chamber whose air is gone is told of the machine that has it, and of no other.
+TEST(PlainAir, ADensityThatIsNoneIsTold) {
+  std::mt19937 random(3);
+  const Network a = random_machine(random, 2), b = random_machine(random, 2);
+  const PlainAir<most, 2> air({&a, &b});
+  Together<2> t;
+  for (int i = 0; i < 2; ++i) {
+    t.memory.y[i] = t.memory.inverse_sigma[i] = 1;
+    t.look.drift[i] = 0;
+  }
+  t.look.drift[1].set(1, -1.5);
+  const auto both = t.look.drift[0] == 0.0;
+  EXPECT_EQ(air.remember(both, t.look, t.memory), (std::array<int, 2>{-1, 1}));
+}
+
+// What its law leaves out keeps a machine from standing side by side with others.
+TEST(PlainAir, OnlyPlainNetworksAreFit) {
+  std::vector<Muscle> muscles{bundle(0.1)};
+  const gas::Air air;
+  const gas::Supply supply;
+  EXPECT_TRUE(Network(muscles, air, supply).plain_for_good());
+  const AirFault fault{.what = AirFault::What::stuck_open, .begin = 1, .end = 2};
+  EXPECT_FALSE(Network(muscles, air, supply, {}, std::array{fault}).plain_for_good());
+  std::vector<Muscle> ramps = muscles, leaks = muscles;
+  ramps[0].inlet.profile = gas::Valve::Profile::ramp;
+  leaks[0].leak = {.area = 1e-8};
+  EXPECT_FALSE(Network(ramps, air, supply).plain_for_good());
+  EXPECT_FALSE(Network(leaks, air, supply).plain_for_good());
+}
+
+}  // namespace
+}  // namespace sinew::air
