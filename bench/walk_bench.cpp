@@ -5,10 +5,10 @@
 #include <chrono>
 #include <string>
 
-#include "sinew/experiment/joint_controllers.h"
-#include "sinew/experiment/planar_setup.h"
-#include "sinew/experiment/supervision.h"
+#include "sinew/control/setup/joint_controllers.h"
+#include "sinew/control/setup/supervision.h"
 #include "sinew/plant/planar/machine.h"
+#include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/loop.h"
 #include "sinew/run/simulation/run.h"
@@ -78,7 +78,7 @@ void unwatched_walk(benchmark::State& state) {
   const signals::Tick end = experiment::last_tick(walk());
   double simulated = 0;
   for (auto _ : state) {
-    plant::ChainWorld<2> world(experiment::planar_setup(walk()));
+    plant::ChainWorld<2> world(run::planar_setup(walk()));
     run::Boards boards(walk());
     run::HighLevel high(walk().robot, walk().plan);
     run::SimulatedClock clock;
@@ -119,7 +119,7 @@ BENCHMARK(controller_alone)->Unit(benchmark::kMillisecond);
 
 // One 1 ms step of the standing leg: four stages, friction, contact.
 void one_node(benchmark::State& state) {
-  plant::ChainWorld<2> world(experiment::planar_setup(walk()));
+  plant::ChainWorld<2> world(run::planar_setup(walk()));
   double t = 0.5;
   world.advance(t);
   for (auto _ : state) world.advance(t += 1e-3);
@@ -128,14 +128,14 @@ BENCHMARK(one_node);
 
 // One look between two nodes.
 void one_peek(benchmark::State& state) {
-  plant::ChainWorld<2> world(experiment::planar_setup(walk()));
+  plant::ChainWorld<2> world(run::planar_setup(walk()));
   for (auto _ : state) benchmark::DoNotOptimize(world.truth(0.5005));
 }
 BENCHMARK(one_peek);
 
 struct FourMuscles {
   using Air = air::AirNetwork<plant::chain_muscles>;
-  plant::Setup setup = experiment::planar_setup(walk());
+  plant::Setup setup = run::planar_setup(walk());
   Air air{setup.muscles, setup.air, setup.supply};
   Air::Valves valves = air.valves_at_rest();
   Air::Ends ends{};

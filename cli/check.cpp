@@ -13,11 +13,11 @@
 #include "sinew/config/valve_timing.h"
 #include "sinew/experiment/faults.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/experiment/planar_setup.h"
 #include "sinew/experiment/rig/rig.h"
 #include "sinew/log/reader.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/runnable.h"
+#include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/tune/study.h"
 
@@ -92,8 +92,14 @@ void tell_of_faults(const experiment::Experiment& e, Finding& out) {
 
 void check_machine(const std::string& path, Finding& out) {
   const bool runs = config::format_kind(config::parse_file(path)) == "experiment";
-  const experiment::Experiment e =
-      runs ? run::runnable(path, {}, false) : experiment::load_machine_file(path).experiment;
+  experiment::MachineFile file;
+  if (runs) {
+    file = {"experiment", run::runnable(path, {}, false)};
+  } else {
+    file = experiment::load_machine_file(path);
+    run::refuse_unbuildable(file);
+  }
+  const experiment::Experiment& e = file.experiment;
   out.add(e.warnings, out.warnings);
   tell_of_sources(e.unsourced, out);
   if (runs) tell_of_faults(e, out);

@@ -11,6 +11,7 @@
 #include "cli/arguments.h"
 #include "cli/identify_page.h"
 #include "cli/json_text.h"
+#include "cli/settings.h"
 #include "cli/terminal.h"
 #include "cli/text_table.h"
 #include "sinew/config/diagnostics.h"
@@ -64,7 +65,7 @@ void print_models(const identify::Report& report) {
   for (std::size_t i = 0; i < report.fits.size(); ++i) {
     const identify::Fit& f = report.fits[i];
     if (!f.refused.empty()) {
-      table.add({f.model, "-", "-", "-", "-", "-", "-", f.refused});
+      table.add({f.model, "-", "-", "-", "-", "-", "-", as_options(f.refused)});
       continue;
     }
     table.add({f.model, std::to_string(f.parameters.size()), percent(f.fit.rmse_percent),
@@ -101,7 +102,7 @@ void print(const identify::Report& report) {
   if (report.fits.size() > 1) fmt::print("chosen: {}\n", report.rule);
   fmt::print("\n{}: {}  {}\n", report.best().model, report.best().law, report.best().source);
   print_parameters(report.best());
-  for (const std::string& note : report.best().notes) fmt::print("note: {}\n", note);
+  for (const std::string& note : report.best().notes) fmt::print("note: {}\n", as_options(note));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "sinew/analysis/measures/edges.h"
 #include "sinew/log/reader.h"
 #include "sinew/run/folder/run_folder.h"
+#include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
 
 namespace sinew::cli {
@@ -45,7 +46,7 @@ void print(const analysis::EdgeComparison& c, bool json) {
 ExitCode replay_run(const Options& options) {
   const Messages messages(options.quiet);
   const run::RecordedRun run = run::recorded_run(options.run);
-  const auto experiment = experiment::load(run::machine_of(run, options.machine).string());
+  const auto experiment = run::buildable(run::machine_of(run, options.machine).string());
   const signals::Table recorded = log::read(run.log);
   if (!recorded.complete)
     messages.warning(run.log.string() + " was cut off; compared as far as it goes");

@@ -6,7 +6,6 @@
 
 #include "cli/interrupt.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/experiment/planar_setup.h"
 #include "sinew/run/folder/kept_stand_run.h"
 #include "sinew/run/folder/runnable.h"
 

@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "cli/settings.h"
+
 namespace sinew::cli {
 
 namespace {
@@ -33,19 +35,6 @@ std::string in_color(int stream, std::string_view text, std::string_view code) {
 // of.
 void to_stderr(std::string_view text) noexcept { std::fwrite(text.data(), 1, text.size(), stderr); }
 
-// The library's settings as the options of this program.
-std::string as_options(std::string_view text) {
-  constexpr std::pair<std::string_view, std::string_view> all[] = {{"force=true", "--force"},
-                                                                   {"machine=", "--machine "},
-                                                                   {"root=", "--root "},
-                                                                   {"port=", "--port "}};
-  std::string out(text);
-  for (const auto& [setting, option] : all)
-    for (std::size_t at = 0; (at = out.find(setting, at)) != out.npos; at += option.size())
-      out.replace(at, setting.size(), option);
-  return out;
-}
-
 }  // namespace
 
 // Else the next file that is opened would be taken for the stream. Nothing can be written to the
@@ -62,11 +51,12 @@ void error(std::string_view text) {
 }
 
 void Messages::warning(std::string_view text) const {
-  if (!quiet_) to_stderr(fmt::format("{} {}\n", in_color(STDERR_FILENO, "warning:", "33"), text));
+  if (!quiet_)
+    to_stderr(fmt::format("{} {}\n", in_color(STDERR_FILENO, "warning:", "33"), as_options(text)));
 }
 
 void Messages::note(std::string_view text) const {
-  if (!quiet_) to_stderr(fmt::format("{}\n", text));
+  if (!quiet_) to_stderr(fmt::format("{}\n", as_options(text)));
 }
 
 run::Notices Messages::notices() const {

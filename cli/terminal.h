@@ -19,8 +19,8 @@ namespace sinew::cli {
 // gets their numbers. Call it before any file is opened.
 void fill_closed_streams();
 
-// An error's words. What the library says of its settings is said of the options they come from:
-// force=true is --force.
+// An error's words. What the library says of its settings, here and in the messages below, is said
+// of the options they come from (cli/settings.h).
 void error(std::string_view text);
 
 // Everything but errors, unless it is to be quiet.

@@ -17,6 +17,7 @@ layers='
     control/joint   signals
     control/supervise  control/joint signals
     control/gait    robot signals
+    control/setup   control robot config
     config          units
     config/write    config
     log             signals
@@ -26,7 +27,8 @@ layers='
     plant/recorded  air robot signals log
     plant/mujoco    air robot signals
     plant/hardware  air robot signals
-    experiment      plant control config
+    experiment      robot config control/gait
+    experiment/rig  experiment plant/slide
     identify/fit    actuator config
     identify/data   identify/fit config
     identify/actuator  identify/data
@@ -42,8 +44,9 @@ layers='
     report/page     analysis log robot
     report/figures  report/page
     report/compare  report/page
-    run/simulation  experiment plant control log
-    run/stand       run/simulation experiment
+    run/setup       experiment control plant
+    run/simulation  run/setup log
+    run/stand       run/simulation experiment/rig
     run/folder      run/simulation run/stand log analysis report
     tune            run/folder
     live            run/folder
@@ -189,6 +192,10 @@ function check_file(file,   text, line, code, name, folder) {
       check_include(file, line, text)
       continue
     }
+    # "--set" is what show and resolved.toml call the place where a value came from.
+    if (file ~ /^sinew\// && !is_test && text !~ /^[ \t]*\/\// && text !~ /"--set"/ &&
+        text ~ /"([^"\\]|\\.)*--[a-z]/)
+      say(file, line, "an option in a message: the library names settings, `key=value`")
     code = code_of(text)
     if (code ~ /(^|[^A-Za-z0-9_])virtual($|[^A-Za-z0-9_])/ && file != "sinew/signals/port.h" && !is_test)
       say(file, line, "virtual: the port is the one virtual class")
@@ -238,7 +245,11 @@ self_test() {
   expect sinew/control/joint/a.h  '#include "sinew/control/supervise/a.h"'     'may not include control/supervise'
   expect sinew/plant/planar/a.cpp '#include "sinew/log/writer.h"'              'plant/planar may not include log'
   expect sinew/plant/recorded/a.h '#include "sinew/log/reader.h"'              ''
-  expect sinew/experiment/a.h     '#include "sinew/plant/world/world.h"'      ''  # plant stands for it
+  expect sinew/run/setup/a.h      '#include "sinew/plant/world/world.h"'       ''  # plant stands for it
+  expect sinew/experiment/a.h     '#include "sinew/plant/world/world.h"'       'experiment may not include plant/world'
+  expect sinew/experiment/a.h     '#include "sinew/control/setup/a.h"'         'experiment may not include control/setup'
+  expect sinew/control/setup/a.h  '#include "sinew/control/supervise/a.h"'     ''
+  expect sinew/control/setup/a.h  '#include "sinew/experiment/a.h"'            'control/setup may not include experiment'
   expect sinew/analysis/a.cpp     '#include "sinew/control/gait/a.h"'          'analysis may not include control/gait'
   expect sinew/gas/a_test.cpp     '#include "sinew/config/reader.h"'           ''
   expect sinew/gas/a.cpp          '#include "sinew/config/reader.h"'           'gas may not include config'
@@ -268,6 +279,11 @@ self_test() {
   expect sinew/gas/a.cpp          'void f() { printf("a"); }'                  'does not print'
   expect sinew/gas/a.cpp          'void f() { std::snprintf(b, 3, "a"); }'     ''
   expect cli/a.cpp                'void f() { std::cout << 1; }'               ''
+  expect sinew/gas/a.cpp          'auto t = "or --map force=NAME";'             'names settings'
+  expect sinew/gas/a.cpp          'auto t = "or names.force=NAME";'             ''
+  expect sinew/gas/a.cpp          '// "--map" of the program'                   ''
+  expect sinew/gas/a_test.cpp     'auto t = "--map";'                           ''
+  expect cli/a.cpp                'auto t = "--map";'                           ''
   expect sinew/gas/a.cpp          "$(printf '\\n%.0s' {1..401})"               'more than 400'
   expect sinew/gas/a.fields.h     "$(printf '\\n%.0s' {1..401})"               ''
 

@@ -1,6 +1,7 @@
 // A walk that the program holds: advanced by periods, looked at, changed, saved and restored.
 #include <cstdio>
 
+#include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/simulation.h"
 
 using sinew::run::Simulation;
@@ -17,7 +18,7 @@ void print(Simulation& leg, const char* what) {
 }  // namespace
 
 int main(int, char** words) {
-  Simulation leg(sinew::experiment::load(words[1]));
+  Simulation leg(sinew::run::buildable(words[1]));
   print(leg, "at its start");
   leg.advance_by(2.2);
   print(leg, "in the first stance");

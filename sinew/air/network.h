@@ -140,8 +140,11 @@ class AirNetwork {
   // does not turn between them. Answers what of the air is no number.
   Failure remember(const Answer& look, const State& state, Memory& memory) const noexcept;
 
-  // Muscles that always have a course while air flows: behind hoses that hold air.
-  std::uint64_t always_ahead() const noexcept { return always_ahead_; }
+  // Muscles that always have a course while air flows: behind hoses that hold air and, while
+  // nothing is broken, behind regulators that are quick at any length.
+  std::uint64_t always_ahead(const Valves& valves) const noexcept {
+    return valves.broken ? behind_hoses_ : behind_hoses_ | behind_regulators_;
+  }
 
   // At the beginning of a step of length h, or of a look so far ahead.
   void plan(double t, double h, const Ends& ends, const State& state, const Valves& valves,
@@ -271,6 +274,7 @@ class AirNetwork {
   void limit_step();
   double fastest_slope(int inlet) const;
   double hose_slope(const Line& line) const;
+  bool always_quick(int i) const;
   double density(double pressure) const noexcept;
   void fill(const Slot& slot, double mass, State& state) const noexcept;
 
@@ -361,8 +365,8 @@ class AirNetwork {
   double lag_rate_ = 0;         // of the quickest lag or creep [1/s]
   double longest_step_ = 0;     // of all that has the same rate wherever the machine stands [s]
   std::array<double, 2> side_settling_{};  // of the cylinder's chambers, as a line's [m^3/s]
-  std::uint64_t always_ahead_ = 0;
-  bool settles_ = false;  // a line has `settling`
+  std::uint64_t behind_hoses_ = 0, behind_regulators_ = 0;  // that always go ahead
+  bool settles_ = false;                                    // a line has `settling`
 };
 
 extern template class AirNetwork<4>;

@@ -26,11 +26,10 @@ namespace sinew::air {
 
 namespace quick {
 
-inline constexpr double from_rate = 2.5;      // rate times step from which a body goes ahead
 inline constexpr double muscle_error = 1e-4;  // of a muscle's mass in one of its steps
 inline constexpr double hose_error = 5e-4;    // of a hose's
 inline constexpr double equal = 3e-3;         // relative difference of densities: asleep
-inline constexpr double little = 1e-3;        // change of a mass within a calm step
+inline constexpr double little = 1e-3;        // bend of a mass within a calm step
 inline constexpr double shortest = 1e-7;      // step, whatever its error [s]
 
 // Integrates x from t to `until`, which is not long. `pace` is the step that suited last.
@@ -65,8 +64,9 @@ struct Ahead {
   std::array<double, 3> passed{};
 };
 
-// Integrates through a step. Where little happens within it one step of the rule serves, and the
-// half lies between its ends.
+// Integrates through a step. Where it is calm one step of the rule serves, and the half lies on the
+// cubic through both ends and their rates. A decay of rate r is off there by 2 % of the bend at
+// r h = 1, by a tenth at 2.5 and a third at 5.
 template <int N, class Rates>
 Ahead<N> through(const Rates& rates, double t, double h, const std::array<double, N>& error,
                  const std::array<double, N>& start) {
@@ -74,9 +74,9 @@ Ahead<N> through(const Rates& rates, double t, double h, const std::array<double
   const QuickStep<N> whole = rodas3_step<N>(rates, t, start, h);
   bool calm = true;
   for (std::size_t i = 0; i < N; ++i) {
-    const double moved = std::abs(whole.mass[i] - start[i]);
-    calm = calm && moved < little * start[i] && whole.error[i] < error[i] * start[i];
-    out.half[i] = 0.5 * (start[i] + whole.mass[i]);
+    calm =
+        calm && std::abs(whole.bend[i]) < little * start[i] && whole.error[i] < error[i] * start[i];
+    out.half[i] = 0.5 * (start[i] + whole.mass[i]) + whole.bend[i];
   }
   if (calm) {
     out.full = whole.mass;
@@ -171,7 +171,7 @@ template <int Most>
 bool AirNetwork<Most>::goes_ahead(int cell, double h, const Ends& ends,
                                   const Valves& valves) const noexcept {
   if (air_.wall_time > 0) return false;
-  if (cell < size_ && line(cell).hose != none) return true;
+  if (cell < size_ && (always_ahead(valves) >> cell & 1) != 0) return true;
   double slope = valves.leaking ? spring_ * slope_of_faults(cell, valves.faults) : 0.0, room = 0;
   if (cell < size_) {
     if (line(cell).resists || (valves.broken && blocked(cell, valves))) return false;
@@ -194,13 +194,14 @@ template <int Most>
 void AirNetwork<Most>::run_ahead(const Now& node, double h, const Room& room, const gas::Base& base,
                                  double mass, Cell& cell) const noexcept {
   const double at_one = gas::density_at_atmosphere(air_), n7 = braids_.series().exponent();
+  const bool leaks = cell.of < size_ && (!line(cell.of).leak.tight() || node.valves.leaking);
   const auto rates = [&](double t, const std::array<double, 1>& x, bool sloped) {
     Now now = node;
     now.t = t;
     const double v = room.volume + room.rate * (t - node.t);
     const double y = gas::root(braids_.series(), base, x[0] / v, at_one);
     const Openings o = sloped_through(2 * cell.of, now, t - node.t, y, sloped);
-    const gas::SlopedFlow leak = cell.of < size_ ? sloped_leak(cell.of, now, y) : gas::SlopedFlow{};
+    const gas::SlopedFlow leak = leaks ? sloped_leak(cell.of, now, y) : gas::SlopedFlow{};
     const double by_mass = n7 * y / x[0], by_time = -n7 * y * room.rate / v;
     QuickRates<1> r;
     r.passed = {o.in, o.out, leak.flow};
@@ -229,6 +230,7 @@ void AirNetwork<Most>::run_hose_ahead(const Now& node, double h, const Room& roo
   const double at_one = gas::density_at_atmosphere(air_), n7 = braids_.series().exponent();
   const double in_hose = muscle(i).hose.volume;
   const bool passes = !blocked(i, node.valves);
+  const bool leaks = !l.leak.tight() || node.valves.leaking;
   const std::array<double, 2> x{other(node.state, l.hose), node.state.mass[i]};
   const double sum = x[0] + x[1];
 
@@ -257,7 +259,7 @@ void AirNetwork<Most>::run_hose_ahead(const Now& node, double h, const Room& roo
                                  : sloped
                                      ? gas::sloped_hose_flow_y(l.hose_flow, y_hose, y)
                                      : gas::SlopedFlow{gas::hose_flow_y(l.hose_flow, y_hose, y)};
-    const gas::SlopedFlow leak = sloped_leak(i, now, y);
+    const gas::SlopedFlow leak = leaks ? sloped_leak(i, now, y) : gas::SlopedFlow{};
     const double hose_by = n7 * y_hose / m[0], by_mass = n7 * y / m[1];
     const double by_time = -n7 * y * room.rate / v;
     QuickRates<2> r;

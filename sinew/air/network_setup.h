@@ -19,6 +19,10 @@ inline constexpr double never = std::numeric_limits<double>::infinity();
 // Step times rate of a decay that RK4 can bear: 2.78 at the limit.
 inline constexpr double stable = 2.5;
 
+namespace quick {
+inline constexpr double from_rate = 2.5;  // rate times step from which a body of air goes ahead
+}
+
 inline bool regulates(const gas::Valve& valve) { return valve.kind == gas::Valve::Kind::regulator; }
 
 template <int Most>
@@ -117,7 +121,7 @@ void AirNetwork<Most>::classify() {
     restless_ = restless_ || actuator::has_creep(muscle(i).actuator.creep);
     plain_ = plain_ && !l.more;
     if (l.more) more_.push_back(i);
-    if (l.hose != none && l.energy == none) always_ahead_ |= std::uint64_t{1} << i;
+    if (l.hose != none && l.energy == none) behind_hoses_ |= std::uint64_t{1} << i;
     taps_[inlet].listed = taps_[inlet + 1].listed = !l.more;
   }
   for (const Tap& tap : taps_)
@@ -166,6 +170,7 @@ void AirNetwork<Most>::limit_step() {
       slope += fastest_slope(2 * i);
     l.settling = spring_ * slope;
     settles_ = settles_ || l.settling > 0;
+    if (always_quick(i)) behind_regulators_ |= std::uint64_t{1} << i;
     if (l.hose != none)
       faster(spring_ * (fastest_slope(2 * i) + hose_slope(l)) / muscle(i).hose.volume);
   }
@@ -173,6 +178,16 @@ void AirNetwork<Most>::limit_step() {
     if (sides_[side].mass != none)
       side_settling_[side] = spring_ * fastest_slope(2 * (size_ + side));
   longest_step_ = rate > 0 ? stable / rate : never;
+}
+
+// Is muscle i, behind a regulator alone, quick for a step of a millisecond even where it holds most
+// air?
+template <int Most>
+bool AirNetwork<Most>::always_quick(int i) const {
+  const bool regulated = regulates(taps_[static_cast<std::size_t>(2 * i)].valve);
+  if (!regulated || line(i).resists || air_.wall_time > 0) return false;
+  const double most = volume(i, actuator::shortest_length(muscle(i).actuator));
+  return line(i).settling * 1e-3 > quick::from_rate * most;
 }
 
 // With the piston at the end of its stroke a chamber is the dead volume alone.

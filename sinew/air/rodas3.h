@@ -37,6 +37,7 @@ struct QuickStep {
   std::array<double, N> mass{};    // at the end of the step [kg]
   std::array<double, 3> passed{};  // within the step [kg]
   std::array<double, N> error{};   // estimated, of a mass [kg]
+  std::array<double, N> bend{};    // h/8 of the rates' difference from end to end, of a mass [kg]
 };
 
 namespace rodas3 {
@@ -103,12 +104,14 @@ QuickStep<N> rodas3_step(const Rates& rates, double t, const std::array<double, 
   for (std::size_t i = 0; i < n; ++i) there[i] = x[i] + 2.0 * k[0][i];
   stage(2, rates(t + h, there, false), {1.0, -1.0, 0}, 0.0);
   for (std::size_t i = 0; i < n; ++i) there[i] += k[2][i];
-  stage(3, rates(t + h, there, false), {1.0, -1.0, -8.0 / 3.0}, 0.0);
+  const QuickRates<N> last = rates(t + h, there, false);
+  stage(3, last, {1.0, -1.0, -8.0 / 3.0}, 0.0);
 
   QuickStep<N> out;
   for (std::size_t i = 0; i < n; ++i) {
     out.mass[i] = there[i] + k[3][i];
     out.error[i] = std::abs(k[3][i]);
+    out.bend[i] = 0.125 * h * (first.mass[i] - last.mass[i]);
   }
   for (std::size_t i = 0; i < m; ++i) out.passed[i] = 2.0 * q[0][i] + q[2][i] + q[3][i];
   return out;

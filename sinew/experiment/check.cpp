@@ -6,9 +6,7 @@
 #include "sinew/config/quantity.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/control/gait/legs.h"
-#include "sinew/experiment/check_motion.h"
 #include "sinew/experiment/faults.h"
-#include "sinew/experiment/joint_controllers.h"
 #include "sinew/signals/tick.h"
 
 namespace sinew::experiment {
@@ -255,15 +253,15 @@ config::Location place_of(const std::string& key, const Experiment& e) {
   return first ? *first : nowhere;
 }
 
-void refuse(const List& wrong, const Experiment& e) {
+}  // namespace
+
+void refuse(const std::vector<robot::Contradiction>& wrong, const Experiment& e) {
   if (wrong.empty()) return;
   std::vector<config::Problem> problems;
   for (const robot::Contradiction& c : wrong)
     problems.push_back({place_of(c.key, e), c.key, c.found, c.expected, c.try_this});
   throw config::Error(std::move(problems));
 }
-
-}  // namespace
 
 void refuse_contradictions(std::string_view kind, const Experiment& e) {
   const bool runs = kind == "experiment";
@@ -285,9 +283,7 @@ void refuse_contradictions(std::string_view kind, const Experiment& e) {
   }
   std::ranges::move(robot::contradictions(e.robot), std::back_inserter(wrong));
   std::ranges::move(robot::contradictions(e.wiring, e.robot), std::back_inserter(wrong));
-  if (wrong.empty()) wrong = misfits(e);
   if (runs && wrong.empty()) wrong = gait::contradictions(e.robot, e.plan);
-  if (runs && wrong.empty()) check_motion(e, wrong);
   refuse(wrong, e);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "sinew/experiment/experiment.h"
 
@@ -9,5 +10,8 @@ namespace sinew::experiment {
 
 // Throws config::Error with all that contradicts itself in what a file of that kind says.
 void refuse_contradictions(std::string_view kind, const Experiment& experiment);
+
+// Throws config::Error with what is wrong, each where its key stands; nothing where nothing is.
+void refuse(const std::vector<robot::Contradiction>& wrong, const Experiment& experiment);
 
 }  // namespace sinew::experiment

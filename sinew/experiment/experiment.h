@@ -18,6 +18,7 @@
 #include "sinew/gas/valve.h"
 #include "sinew/robot/robot.h"
 #include "sinew/robot/wiring/wiring.h"
+#include "sinew/signals/tick.h"
 #include "sinew/signals/timing.h"
 
 namespace sinew::experiment {
@@ -66,7 +67,8 @@ struct Experiment {
 };
 
 // Reads the file and everything it names, with --set overrides. Throws config::Error with all that
-// is wrong, also what contradicts itself, such as names that lead nowhere.
+// is wrong, also what contradicts itself, such as names that lead nowhere. What contradicts nothing
+// and can still not be built, run/setup/buildable.h refuses.
 Experiment load(const std::string& path, const std::vector<std::string>& sets = {});
 
 // The same from a tree that is composed already.
@@ -75,6 +77,9 @@ Experiment load(const config::Node& root, const std::string& path);
 // Throws config::Error with every stretch of a foot path that the leg cannot reach. No part of
 // load(): a run is possible, the brain then aims at the nearest point that can be reached.
 void refuse_unreachable(const Experiment& experiment);
+
+// The last tick that a run can reach.
+signals::Tick last_tick(const Experiment& experiment);
 
 // What was run, as a file that runs again: every value in SI, with its source.
 std::string resolved(const Experiment& experiment, const std::string& version);

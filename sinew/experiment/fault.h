@@ -2,6 +2,8 @@
 // readings then lie, and parts of the air, which then really leak, stick or fail.
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -50,6 +52,12 @@ constexpr std::string_view unit_of_amount(Fault::What what) {
   using enum Fault::What;
   if (what == offset || what == slip || what == noise) return "count";
   return what == dropout ? "1" : "";
+}
+
+// Returns when it ends; infinite: it lasts to the end of the run [s].
+inline double end_of(const Fault& fault) {
+  return std::isfinite(fault.lasts) ? fault.at + fault.lasts
+                                    : std::numeric_limits<double>::infinity();
 }
 
 // Does it act at that time? [s]

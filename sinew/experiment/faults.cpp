@@ -3,16 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
-#include "sinew/actuator/braid.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
-#include "sinew/experiment/joint_controllers.h"
-#include "sinew/robot/actuator_of.h"
+#include "sinew/experiment/fault_parts.h"
 
 namespace sinew::experiment {
 namespace {
@@ -22,94 +18,10 @@ using List = std::vector<robot::Contradiction>;
 
 constexpr double widest_seat = 1e-5;  // [m^2]
 
-struct Word {
-  What what;
-  std::string_view text;
-};
-constexpr std::array sensor_words = {Word{What::open, "open"},      Word{What::shorted, "short"},
-                                     Word{What::stuck, "stuck"},    Word{What::offset, "offset"},
-                                     Word{What::slip, "slip"},      Word{What::noise, "noise"},
-                                     Word{What::dropout, "dropout"}};
-constexpr std::array valve_words = {Word{What::stuck_open, "stuck open"},
-                                    Word{What::stuck_shut, "stuck shut"},
-                                    Word{What::leaking, "leaking"}};
-constexpr std::array muscle_words = {Word{What::leaking, "leaking"},
-                                     Word{What::ruptured, "ruptured"},
-                                     Word{What::blocked, "blocked"}};
-constexpr std::array supply_words = {Word{What::failed, "failed"}};
-
-// A thing that can break.
-struct Part {
-  enum class Kind { sensor, valve, regulator, muscle, supply };
-  std::string name;
-  Kind kind = Kind::sensor;
-  int index = 0;  // of its kind; valves as muscle/plumbing.h numbers them
-};
-
-std::span<const Word> words_of(Part::Kind kind) {
-  using enum Part::Kind;
-  if (kind == sensor) return sensor_words;
-  if (kind == valve) return valve_words;
-  if (kind == muscle) return muscle_words;
-  return kind == supply ? std::span<const Word>(supply_words) : std::span<const Word>();
-}
-
-bool has_word(Part::Kind kind, What what) {
-  return std::ranges::any_of(words_of(kind), [&](const Word& w) { return w.what == what; });
-}
-
-std::string_view word_of(What what) {
-  for (const auto kind : {Part::Kind::sensor, Part::Kind::valve, Part::Kind::muscle})
-    for (const Word& w : words_of(kind))
-      if (w.what == what) return w.text;
-  return supply_words.front().text;
-}
-
-Part::Kind kind_of_valve(const Experiment& e, const std::string& valve) {
-  for (const gas::Valve& v : e.valves)
-    if (v.name == valve && v.kind == gas::Valve::Kind::regulator) return Part::Kind::regulator;
-  return Part::Kind::valve;
-}
-
-std::vector<Part> parts_of(const Experiment& e) {
-  std::vector<Part> out;
-  const auto add = [&](std::string name, Part::Kind kind, std::size_t index) {
-    out.push_back({std::move(name), kind, static_cast<int>(index)});
-  };
-  const auto add_pair = [&](const std::string& of, const std::string& inlet,
-                            const std::string& exhaust, std::size_t index) {
-    add(of + ".inlet", kind_of_valve(e, inlet), index);
-    if (!exhaust.empty()) add(of + ".exhaust", kind_of_valve(e, exhaust), index + 1);
-  };
-  for (std::size_t s = 0; s < e.robot.sensors.size(); ++s)
-    add(e.robot.sensors[s].name, Part::Kind::sensor, s);
-  const std::size_t muscles = e.robot.muscles.size();
-  for (std::size_t m = 0; m < muscles; ++m) {
-    const robot::Muscle& muscle = e.robot.muscles[m];
-    add(muscle.name, Part::Kind::muscle, m);
-    add_pair(muscle.name, muscle.inlet, muscle.exhaust, 2 * m);
-  }
-  const robot::Cylinder& c = e.robot.cylinder;
-  if (has_cylinder_joint(e.robot)) {
-    add_pair("cylinder_up", c.up.inlet, c.up.exhaust, 2 * muscles);
-    add_pair("cylinder_down", c.down.inlet, c.down.exhaust, 2 * muscles + 2);
-  }
-  add("supply", Part::Kind::supply, 0);
-  return out;
-}
-
-// Returns the part of that name, of several the one that the fault's word is for.
-std::optional<Part> part_of(const Fault& fault, const std::vector<Part>& parts) {
-  std::optional<Part> out;
-  for (const Part& p : parts)
-    if (p.name == fault.of && (!out || has_word(p.kind, fault.what))) out = p;
-  return out;
-}
-
 robot::Contradiction no_such_part(const std::string& key, const Fault& fault,
-                                  const std::vector<Part>& parts) {
+                                  const std::vector<FaultPart>& parts) {
   std::vector<std::string_view> names;
-  for (const Part& p : parts)
+  for (const FaultPart& p : parts)
     if (has_word(p.kind, fault.what)) names.push_back(p.name);
   return {key + ".of", config::in_quotes(fault.of),
           names.empty() ? "a part that can be " + std::string(word_of(fault.what))
@@ -117,12 +29,12 @@ robot::Contradiction no_such_part(const std::string& key, const Fault& fault,
           config::closest_in_quotes(fault.of, names)};
 }
 
-robot::Contradiction wrong_word(const std::string& key, const Fault& fault, const Part& part) {
-  if (part.kind == Part::Kind::regulator)
+robot::Contradiction wrong_word(const std::string& key, const Fault& fault, const FaultPart& part) {
+  if (part.kind == FaultPart::Kind::regulator)
     return {key + ".of", config::in_quotes(fault.of) + ", a regulator",
             "a valve with a shutter, which can stick or leak", "a leak of its muscle"};
   std::vector<std::string_view> words;
-  for (const Word& w : words_of(part.kind)) words.push_back(w.text);
+  for (const FaultWord& w : words_of(part.kind)) words.push_back(w.text);
   const char* const names[] = {"a sensor", "a valve", "a regulator", "a muscle", "the supply"};
   return {key + ".what", config::in_quotes(word_of(fault.what)),
           config::either(words) + ", as " + fault.of + " is " +
@@ -135,10 +47,6 @@ robot::Contradiction wrong_word(const std::string& key, const Fault& fault, cons
 bool same_part(const Fault& a, const Fault& b) {
   return !is_of_sensor(a.what) && !is_of_sensor(b.what) && a.of == b.of &&
          (a.what == What::blocked) == (b.what == What::blocked);
-}
-
-double end_of(const Fault& f) {
-  return std::isfinite(f.lasts) ? f.at + f.lasts : std::numeric_limits<double>::infinity();
 }
 
 void check_overlaps(const Experiment& e, List& out) {
@@ -155,38 +63,6 @@ void check_overlaps(const Experiment& e, List& out) {
     }
 }
 
-// Returns a tenth of the cross-section of one actuator at its mount length: a tear that the braid
-// holds together, a guess  [m^2].
-double tear_of(const Experiment& e, const robot::Muscle& m) {
-  const actuator::Actuator a = robot::actuator_of(m, e.actuators);
-  const double d = actuator::diameter(a.braid, m.mount_length - a.caps.length);
-  return 0.1 * (0.25 * std::numbers::pi * d * d);
-}
-
-double or_none(double x) { return std::isfinite(x) ? x : 0.0; }
-
-air::AirFault air_fault(const Experiment& e, const Fault& f, const Part& part) {
-  using To = air::AirFault::What;
-  air::AirFault out{.of = part.index,
-                    .begin = f.at,
-                    .end = end_of(f),
-                    .share = f.share,
-                    .leak = {.area = or_none(f.area), .conductance = f.conductance}};
-  if (f.what == What::stuck_shut) out.what = To::stuck_shut;
-  if (f.what == What::leaking) out.what = part.kind == Part::Kind::valve ? To::seat_leak : To::hole;
-  if (f.what == What::blocked) out.what = To::blocked;
-  if (f.what == What::failed) {
-    out.what = To::supply;
-    out.pressure = std::isfinite(f.pressure) ? f.pressure : e.air.atmosphere;
-  }
-  if (f.what == What::ruptured) {
-    out.what = To::hole;
-    if (!(f.area > 0))
-      out.leak.area = tear_of(e, e.robot.muscles[static_cast<std::size_t>(part.index)]);
-  }
-  return out;
-}
-
 // The first tick from `at` on at which the sensor is read.
 signals::Tick next_reading(const Experiment& e, const std::string& sensor, double at) {
   const auto index = static_cast<std::size_t>(robot::find_sensor(e.robot, sensor));
@@ -200,46 +76,32 @@ signals::Tick next_reading(const Experiment& e, const std::string& sensor, doubl
 }  // namespace
 
 void check_faults(const Experiment& e, List& out) {
-  const std::vector<Part> parts = parts_of(e);
-  std::size_t of_air = 0;
+  const std::vector<FaultPart> parts = fault_parts(e);
   for (std::size_t i = 0; i < e.faults.size(); ++i) {
     const Fault& f = e.faults[i];
     const std::string key = fmt::format("fault[{}]", i);
-    const std::optional<Part> part = part_of(f, parts);
+    const std::optional<FaultPart> part = part_of(f, parts);
     if (!part) {
       out.push_back(no_such_part(key, f, parts));
     } else if (!has_word(part->kind, f.what)) {
       out.push_back(wrong_word(key, f, *part));
-    } else if (part->kind == Part::Kind::muscle && f.share > 0) {
+    } else if (part->kind == FaultPart::Kind::muscle && f.share > 0) {
       out.push_back({key + ".share", config::format_number(f.share),
                      "no share, as " + f.of + " is a muscle and has no seat",
                      "an area or a conductance"});
-    } else if (part->kind == Part::Kind::valve && f.area > widest_seat) {
+    } else if (part->kind == FaultPart::Kind::valve && f.area > widest_seat) {
       out.push_back({key + ".area", config::format_quantity(f.area, "m2", "mm2"),
                      "at most " + config::format_quantity(widest_seat, "m2", "mm2") +
                          ", as no seat of a valve is wider",
                      "share = \"100 %\""});
-    } else if (part->kind == Part::Kind::supply && e.robot.cylinder.present &&
+    } else if (part->kind == FaultPart::Kind::supply && e.robot.cylinder.present &&
                e.robot.cylinder.mode == robot::Cylinder::Mode::regulator) {
       out.push_back({key + ".of", "the supply of a cylinder behind a regulator",
                      "a robot whose cylinder has valves or is locked",
                      "cylinder.mode = \"locked\""});
     }
-    of_air += is_of_sensor(f.what) ? 0 : 1;
   }
-  if (of_air > air::FaultSchedule::capacity)
-    out.push_back({"fault", std::to_string(of_air) + " faults of the air",
-                   fmt::format("at most {}", air::FaultSchedule::capacity), "fewer"});
   if (out.empty()) check_overlaps(e, out);
-}
-
-std::vector<air::AirFault> air_faults(const Experiment& e) {
-  const std::vector<Part> parts = parts_of(e);
-  std::vector<air::AirFault> out;
-  for (const Fault& f : e.faults)
-    if (const auto part = part_of(f, parts); part && !is_of_sensor(f.what))
-      out.push_back(air_fault(e, f, *part));
-  return out;
 }
 
 std::string topic_of(const Fault& f) {

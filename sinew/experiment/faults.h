@@ -1,11 +1,10 @@
-// experiment/faults.h - the list [[fault]] of an experiment as a whole: which parts it names, what
-// is wrong with it, what it comes to in the simulated air, and how it is told.
+// experiment/faults.h - the list [[fault]] of an experiment as a whole: what is wrong with it, and
+// how it is told.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "sinew/air/fault.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/robot/robot.h"
 #include "sinew/signals/tick.h"
@@ -15,9 +14,6 @@ namespace sinew::experiment {
 // Adds what cannot be: parts that do not exist, words of other parts, two faults of one part of the
 // air at a time.
 void check_faults(const Experiment& experiment, std::vector<robot::Contradiction>& out);
-
-// The faults of the air, in their order, for a plant. Expects a list without contradictions.
-std::vector<air::AirFault> air_faults(const Experiment& experiment);
 
 // Returns where the log has whether a fault acts, "/true/valve/hip_flexor/inlet/fault".
 std::string topic_of(const Fault& fault);

@@ -169,7 +169,7 @@ using FlowConstants = FlowConstantsOf<double>;
 // over lanes that keep each constant in an array vectorise, and every lane has the scalar's bits.
 template <class S>
 inline S flow_y(const FlowConstantsOf<S>& c, const std::type_identity_t<S>& y_a,
-         const std::type_identity_t<S>& y_b) {
+                const std::type_identity_t<S>& y_b) {
   const S up = units::select(y_a > y_b, y_a, y_b);
   const S down = units::select(y_a > y_b, y_b, y_a);
 

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "sinew/experiment/planar_setup.h"
 #include "sinew/live/request.h"
 #include "sinew/report/page/page_template.h"
 #include "sinew/run/simulation/columns.h"

@@ -248,7 +248,7 @@ struct Sensor {
   double assumed_scale = 0;    // [count/rad], [V/N], [V/Pa], [V s/rad] or [count/m]
   double assumed_at_rest = 0;  // [count]
 
-  // The limits of a reading that is believed; experiment/supervision.h derives those not given.
+  // The limits of a reading that is believed; control/setup/supervision.h derives those not given.
   std::vector<double> plausible;  // lowest, highest [count]
   double max_rate = not_set;      // [count/s]
   double frozen_limit = not_set;  // the same counts while driven end the run; not set: never [s]

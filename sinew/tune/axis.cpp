@@ -13,9 +13,9 @@ namespace {
 
 constexpr double most_values = 10000;
 
-[[noreturn]] void refuse(std::string_view option, std::string_view text, std::string expected,
+[[noreturn]] void refuse(std::string_view setting, std::string_view text, std::string expected,
                          std::string try_this = "") {
-  config::fail({std::string(option), 0, 0}, "", config::in_quotes(text), std::move(expected),
+  config::fail({std::string(setting), 0, 0}, "", config::in_quotes(text), std::move(expected),
                std::move(try_this));
 }
 
@@ -53,14 +53,14 @@ Value number_value(double number, std::string_view unit) {
 
 // Numbers share one unit: that of the last, or of those that say one.
 void add_list(Axis& axis, const std::vector<std::string_view>& items, std::string_view text,
-              std::string_view option) {
+              std::string_view setting) {
   std::vector<std::optional<Number>> numbers;
   for (const std::string_view item : items) {
-    if (item.empty()) refuse(option, text, "a value between two commas");
+    if (item.empty()) refuse(setting, text, "a value between two commas");
     numbers.push_back(number_in(item));
     if (!numbers.back() || numbers.back()->unit.empty()) continue;
     if (!axis.unit.empty() && axis.unit != numbers.back()->unit)
-      refuse(option, text, "one unit for all values", "the same words for it: " + axis.unit);
+      refuse(setting, text, "one unit for all values", "the same words for it: " + axis.unit);
     axis.unit = numbers.back()->unit;
   }
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -71,27 +71,27 @@ void add_list(Axis& axis, const std::vector<std::string_view>& items, std::strin
 }
 
 // from : to : how many, each may say the unit.
-void add_range(Axis& axis, std::string_view text, std::string_view option) {
+void add_range(Axis& axis, std::string_view text, std::string_view setting) {
   const std::string example = fmt::format("\"{}=0:1:5 unit\"", axis.key);
   std::vector<Number> parts;
   for (std::string_view rest = text;;) {
     const std::size_t colon = rest.find(':');
     const auto part = number_in(trimmed(rest.substr(0, colon)));
-    if (!part) refuse(option, text, "from:to:how many", example);
+    if (!part) refuse(setting, text, "from:to:how many", example);
     parts.push_back(*part);
     if (colon == rest.npos) break;
     rest.remove_prefix(colon + 1);
   }
-  if (parts.size() != 3) refuse(option, text, "from:to:how many", example);
+  if (parts.size() != 3) refuse(setting, text, "from:to:how many", example);
   for (const Number& part : parts) {
     if (part.unit.empty()) continue;
-    if (!axis.unit.empty() && axis.unit != part.unit) refuse(option, text, "one unit", example);
+    if (!axis.unit.empty() && axis.unit != part.unit) refuse(setting, text, "one unit", example);
     axis.unit = part.unit;
   }
   const double from = parts[0].value, to = parts[1].value, n = parts[2].value;
   if (n != std::floor(n) || n < 2 || n > most_values)
-    refuse(option, text, "2 to 10000 values: from:to:how many", example);
-  if (from == to) refuse(option, text, "two different ends", example);
+    refuse(setting, text, "2 to 10000 values: from:to:how many", example);
+  if (from == to) refuse(setting, text, "two different ends", example);
   for (double i = 0; i < n; ++i)
     axis.values.push_back(number_value(rounded(from + i * (to - from) / (n - 1)), axis.unit));
 }
@@ -128,20 +128,20 @@ Value Axis::at(double number) const { return number_value(rounded(number), unit)
 
 std::string Axis::set(const Value& value) const { return key + "=" + value.text; }
 
-Axis parse_axis(std::string_view text, std::string_view option) {
+Axis parse_axis(std::string_view text, std::string_view setting) {
   const std::size_t equals = text.find('=');
   Axis axis{.key = std::string(trimmed(text.substr(0, equals))), .unit = {}, .values = {}};
   if (equals == text.npos || axis.key.empty())
-    refuse(option, text, "KEY=a,b,c or KEY=from:to:how many, and the unit",
+    refuse(setting, text, "KEY=a,b,c or KEY=from:to:how many, and the unit",
            "\"joint.hip.angle_gain=0.02:0.1:5 %/count\"");
   const std::string_view values = trimmed(text.substr(equals + 1));
   const std::vector<std::string_view> items = list_of(values);
   const bool range = items.size() == 1 && values.find(':') != values.npos &&
                      number_in(trimmed(values.substr(0, values.find(':'))));
   if (range) {
-    add_range(axis, values, option);
+    add_range(axis, values, setting);
   } else {
-    add_list(axis, items, text, option);
+    add_list(axis, items, text, setting);
   }
   return axis;
 }

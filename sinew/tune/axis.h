@@ -28,8 +28,8 @@ struct Axis {
   std::string set(const Value&) const;  // "joint.hip.angle_gain=0.035 %/count"
 };
 
-// Throws config::Error that begins with `option`.
-Axis parse_axis(std::string_view text, std::string_view option = "--vary");
+// Throws config::Error that begins with `setting`.
+Axis parse_axis(std::string_view text, std::string_view setting = "vary");
 
 // seed = 1 … n: the experiment's noise.
 Axis seeds(int n);

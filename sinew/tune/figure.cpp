@@ -10,26 +10,26 @@
 namespace sinew::tune {
 namespace {
 
-[[noreturn]] void refuse(std::string_view option, std::string_view text, std::string expected,
+[[noreturn]] void refuse(std::string_view setting, std::string_view text, std::string expected,
                          std::string try_this = "") {
-  config::fail({std::string(option), 0, 0}, "", config::in_quotes(text), std::move(expected),
+  config::fail({std::string(setting), 0, 0}, "", config::in_quotes(text), std::move(expected),
                std::move(try_this));
 }
 
-Figure parse_figure(std::string_view text, std::string_view option) {
+Figure parse_figure(std::string_view text, std::string_view setting) {
   const std::size_t bracket = text.find('[');
   Figure out{.key = std::string(trimmed(text.substr(0, bracket))), .unit = {}};
   const std::string si = analysis::unit_of_key(out.key);
   out.unit = si;
   if (out.key.empty() || out.key.find(' ') != out.key.npos)
-    refuse(option, text, "a key of summary.json, and a unit in brackets if another is wanted",
+    refuse(setting, text, "a key of summary.json, and a unit in brackets if another is wanted",
            "\"trolley.distance_m [in]\"");
   if (bracket == text.npos) return out;
-  if (!text.ends_with(']')) refuse(option, text, "a bracket that closes");
+  if (!text.ends_with(']')) refuse(setting, text, "a bracket that closes");
   out.unit = trimmed(text.substr(bracket + 1, text.size() - bracket - 2));
   const config::Parsed parsed = config::parse_quantity("1 " + out.unit, si);
   if (parsed.mistake)
-    refuse(option, text, "a unit of " + config::describe_unit(si), parsed.mistake->try_this);
+    refuse(setting, text, "a unit of " + config::describe_unit(si), parsed.mistake->try_this);
   return out;
 }
 
@@ -47,9 +47,9 @@ std::string Figure::cell(const analysis::Summary& summary, double atmosphere) co
   return fmt::format("{:.9g}", config::convert(*si, own, unit, atmosphere));
 }
 
-std::vector<Figure> parse_figures(std::string_view text, std::string_view option) {
+std::vector<Figure> parse_figures(std::string_view text, std::string_view setting) {
   std::vector<Figure> out;
-  for (const std::string_view part : list_of(text)) out.push_back(parse_figure(part, option));
+  for (const std::string_view part : list_of(text)) out.push_back(parse_figure(part, setting));
   return out;
 }
 
@@ -69,12 +69,12 @@ bool Condition::holds(const analysis::Summary& summary) const {
   return false;
 }
 
-Condition parse_condition(std::string_view text, std::string_view option) {
+Condition parse_condition(std::string_view text, std::string_view setting) {
   const std::size_t sign = text.find_first_of("<>");
   const std::string example = "\"joints.hip.tracking_rms_rad < 5 deg\"";
   Condition out{.key = std::string(trimmed(text.substr(0, sign))), .text = std::string(text)};
   if (sign == text.npos || out.key.empty() || out.key.find(' ') != out.key.npos)
-    refuse(option, text, "key < value, or with <=, > or >=", example);
+    refuse(setting, text, "key < value, or with <=, > or >=", example);
   const bool equal = sign + 1 < text.size() && text[sign + 1] == '=';
   if (text[sign] == '<') out.is = equal ? Condition::Is::at_most : Condition::Is::below;
   if (text[sign] == '>') out.is = equal ? Condition::Is::at_least : Condition::Is::above;
@@ -82,7 +82,7 @@ Condition parse_condition(std::string_view text, std::string_view option) {
   const std::string_view value = trimmed(text.substr(sign + (equal ? 2 : 1)));
   const config::Parsed parsed = config::parse_quantity(value, analysis::unit_of_key(out.key));
   if (parsed.mistake)
-    config::fail({std::string(option), 0, 0}, out.key, parsed.mistake->found,
+    config::fail({std::string(setting), 0, 0}, out.key, parsed.mistake->found,
                  parsed.mistake->expected, parsed.mistake->try_this);
   out.limit = parsed.si;
   return out;

@@ -25,8 +25,8 @@ struct Figure {
   std::string cell(const analysis::Summary&, double atmosphere = units::atmosphere) const;
 };
 
-// "key", "key [unit]", several with commas. Throws config::Error that begins with `option`.
-std::vector<Figure> parse_figures(std::string_view text, std::string_view option = "--report");
+// "key", "key [unit]", several with commas. Throws config::Error that begins with `setting`.
+std::vector<Figure> parse_figures(std::string_view text, std::string_view setting = "report");
 
 struct Condition {
   enum class Is { below, at_most, above, at_least };
@@ -40,8 +40,8 @@ struct Condition {
   bool holds(const analysis::Summary&) const;
 };
 
-// "key < value unit"; also <=, >, >=. Throws config::Error that begins with `option`.
-Condition parse_condition(std::string_view text, std::string_view option = "--where");
+// "key < value unit"; also <=, >, >=. Throws config::Error that begins with `setting`.
+Condition parse_condition(std::string_view text, std::string_view setting = "where");
 
 // The key as the summary could have meant it: empty where it has it, or where nothing is near.
 std::string nearest_key(std::string_view key, const analysis::Summary&);

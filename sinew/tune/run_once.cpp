@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "sinew/config/compose.h"
+#include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/tune/sweep.h"
 
@@ -29,7 +30,7 @@ Ran run_once(const std::string& file, const std::vector<std::string>& sets,
   try {
     const config::Node root = config::compose(file, sets);
     const analysis::Machine machine = analysis::read_machine(root);
-    const experiment::Experiment e = experiment::load(root, file);
+    const experiment::Experiment e = run::buildable(root, file);
     if (!allow_unreachable) experiment::refuse_unreachable(e);
     const run::Outcome outcome = run::run(e);
     out.status = status_of(e, outcome);

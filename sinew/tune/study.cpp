@@ -37,7 +37,7 @@ Sweep sweep_of(const Study& study) {
   if (study.largest.empty()) {
     if (!study.where.empty())
       config::fail({"where", 0, 0}, "", config::in_quotes(study.where.front()),
-                   "a key whose largest value is searched", "--largest KEY=from:to:n");
+                   "a key whose largest value is searched", "largest=\"KEY=from:to:n\"");
     return out;
   }
   out.largest = Search{parse_axis(study.largest, "largest"), {}, study.halvings};
@@ -45,7 +45,7 @@ Sweep sweep_of(const Study& study) {
     out.largest->where.push_back(parse_condition(text, "where"));
   if (study.where.empty())
     config::fail({"largest", 0, 0}, "", "nothing that must hold", "key < value",
-                 "--where \"joints.hip.tracking_rms_rad < 5 deg\"");
+                 "where=\"joints.hip.tracking_rms_rad < 5 deg\"");
   return out;
 }
 

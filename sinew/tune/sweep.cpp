@@ -11,6 +11,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/experiment.h"
+#include "sinew/run/setup/buildable.h"
 #include "sinew/tune/largest.h"
 
 namespace sinew::tune {
@@ -42,7 +43,7 @@ void check_whole_numbers(const Sweep& s, const Axis& axis) {
     std::vector<std::string> sets = s.sets;
     sets.push_back(axis.set(*value));
     try {
-      (void)experiment::load(s.experiment, sets);
+      (void)run::buildable(s.experiment, sets);
     } catch (const config::Error& e) {
       for (const config::Problem& problem : e.problems())
         if (problem.key == axis.key) throw config::Error(problem);
@@ -65,7 +66,7 @@ void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins
                 double atmosphere) {
   if (axis.key == "robot") return;
   if (axis.key == "experiment") {
-    for (const Value& value : axis.values) experiment::load(beside(s, value.text), s.sets);
+    for (const Value& value : axis.values) run::buildable(beside(s, value.text), s.sets);
     return;
   }
   if (const config::Origin* origin = config::find_origin(origins, axis.key))
@@ -75,7 +76,7 @@ void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins
   std::vector<std::string> sets = s.sets;
   sets.push_back(axis.key + "=" + first_text(axis));
   if (axis.key.find('.') == axis.key.npos) unknown_key(axis, origins);
-  const experiment::Experiment e = experiment::load(s.experiment, sets);
+  const experiment::Experiment e = run::buildable(s.experiment, sets);
   const config::Origin* origin = config::find_origin(e.origins, axis.key);
   if (!origin) unknown_key(axis, e.origins);
   check_values(s, axis, *origin, atmosphere);
@@ -271,7 +272,7 @@ void check(const Sweep& s) {
   refuse_too_many(s);
   const config::Node root = config::compose(s.experiment, s.sets);
   const double atmosphere = config::atmosphere_of(root);
-  const config::Origins origins = experiment::load(root, s.experiment).origins;
+  const config::Origins origins = run::buildable(root, s.experiment).origins;
   for (const Axis& axis : s.axes) check_axis(s, axis, origins, atmosphere);
   if (!s.largest) return;
   check_axis(s, s.largest->axis, origins, atmosphere);

@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "sinew/config/write/writer.h"
+#include "sinew/run/setup/buildable.h"
 #include "tests/cli/program.h"
 #include "tests/guards/subjects.h"
 
@@ -105,7 +106,7 @@ Verdict judge(const Subject& subject, const NumericField& field, const std::stri
       out.accepted = true;
       judge_run(short_run(std::move(e), file), usual, out);
     } else {
-      experiment::Experiment e = experiment::load(root, "cell.toml");
+      experiment::Experiment e = run::buildable(root, "cell.toml");
       const analysis::Machine machine = analysis::read_machine(root);
       out.accepted = true;
       judge_run(short_run(std::move(e), machine), usual, out);

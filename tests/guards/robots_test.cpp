@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "sinew/run/setup/buildable.h"
 #include "tests/guards/subjects.h"
 
 namespace sinew::guards {
@@ -132,7 +133,7 @@ void try_one(const Subject& s, std::uint64_t seed, Count& count) {
   hang_on_links(root, random);
   const std::string who = s.name + " by seed " + std::to_string(seed);
   try {
-    const experiment::Experiment e = experiment::load(root, "robot.toml");
+    const experiment::Experiment e = run::buildable(root, "robot.toml");
     const analysis::Machine machine = analysis::read_machine(root);
     const Ran once = short_run(e, machine), again = short_run(e, machine);
     EXPECT_TRUE(same_bits(once.table, again.table)) << who;

@@ -9,8 +9,8 @@
 #include <random>
 #include <string>
 
+#include "sinew/control/setup/supervision.h"
 #include "sinew/control/supervise/test_fuzz.h"
-#include "sinew/experiment/supervision.h"
 #include "sinew/run/simulation/run.h"
 
 namespace sinew::experiment {
@@ -126,7 +126,7 @@ void expect_vented_in_time(const Trial& trial, const char* what) {
   const Tick vented = vented_at(out, e, third);
   ASSERT_GE(vented, 0) << what << ", seed " << e.seed;
   EXPECT_LE(vented - third, 5);
-  EXPECT_NE(to_text(trip, e).find("sensor " + trial.sensor), std::string::npos);
+  EXPECT_NE(to_text(trip, e.robot).find("sensor " + trial.sensor), std::string::npos);
 }
 
 void break_sensor(What what, double amount, const char* name) {
@@ -168,7 +168,7 @@ TEST(Supervise, NoiseWithinItsFileAndSingleBadSamplesDoNotTrip) {
     }
     const run::Outcome out = run::run(e);
     EXPECT_EQ(out.supervised.trip.cause, Trip::Cause::none)
-        << to_text(out.supervised.trip, e) << ", seed " << e.seed;
+        << to_text(out.supervised.trip, e.robot) << ", seed " << e.seed;
     EXPECT_EQ(out.status, signals::Status::ok);
     rejected += out.supervised.rejected;
     ++tally.noisy;

@@ -14,8 +14,9 @@
 #include "sinew/analysis/record/machine.h"
 #include "sinew/config/quantity.h"
 #include "sinew/control/gait/path.h"
+#include "sinew/control/setup/joint_controllers.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/experiment/joint_controllers.h"
+#include "sinew/run/setup/installation.h"
 #include "sinew/signals/tick.h"
 #include "sinew/units/constants.h"
 #include "tests/reference/reference.h"
@@ -158,7 +159,8 @@ TEST(Reference, ChannelsBitsAndTicks) {
 
 TEST(Reference, LowLevelsConstants) {
   const json& code = reference()["code_constants"];
-  const control::JointControllerConfig config = experiment::joint_controller_config(as_printed());
+  const control::JointControllerConfig config =
+      control::joint_controller_config(run::installation(as_printed()));
   ASSERT_EQ(config.joints, 2u);
   for (std::size_t j = 0; j < 2; ++j) {
     const control::JointConfig& c = config.joint[j];
@@ -185,7 +187,9 @@ TEST(Reference, LowLevelsConstants) {
   const double counts_per_volt = derived.robot.converter.counts_per_volt();
   const double exact = printed("counts_per_rad") / (counts_per_volt * printed("force_scale_avg"));
   EXPECT_NEAR(exact, 5.5075, 5e-5);
-  EXPECT_NEAR(experiment::joint_controller_config(derived).joint[0].stiffness_factor, exact, 1e-6);
+  EXPECT_NEAR(
+      control::joint_controller_config(run::installation(derived)).joint[0].stiffness_factor, exact,
+      1e-6);
   EXPECT_NEAR(counts_per_volt * printed("force_scale_avg"), 139.264, 1e-9);
 }
 

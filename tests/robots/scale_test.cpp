@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "runs.h"
-#include "sinew/experiment/planar_setup.h"
 #include "sinew/plant/planar/machine.h"
+#include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/run.h"
 
 namespace sinew {
@@ -37,7 +37,7 @@ std::vector<Toggle> random_toggles(unsigned seed, int valves, Tick end) {
 template <class World>
 std::vector<plant::Truth> motion(const Experiment& e, const std::vector<Toggle>& toggles,
                                  Tick stretch, Tick end) {
-  World world(experiment::planar_setup(e));
+  World world(run::planar_setup(e));
   world.start({.period = 100, .conversions = {}});
   std::vector<bool> open(32, false);
   std::vector<plant::Truth> out;

@@ -11,6 +11,8 @@
 #include "runs.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/robot/boards.h"
+#include "sinew/run/setup/buildable.h"
+#include "sinew/run/setup/installation.h"
 #include "sinew/run/simulation/simulation.h"
 #include "sinew/run/simulation/test_same.h"
 #include "tests/six_legs.h"
@@ -29,7 +31,7 @@ class SixLegs : public testing::Test {
   static void TearDownTestSuite() { fs::remove_all(folder); }
 
   static experiment::Experiment load(const std::vector<std::string>& sets = {}) {
-    return experiment::load(path, sets);
+    return run::buildable(path, sets);
   }
   // The first complaint about the machine with these sets.
   static std::string refusal(const std::vector<std::string>& sets) {
@@ -49,10 +51,10 @@ TEST_F(SixLegs, AreOnThreeBoardsWithTheSameNumbers) {
   const experiment::Experiment e = load();
   EXPECT_EQ(e.robot.joints.size(), 24u);
   EXPECT_EQ(e.robot.muscles.size(), 48u);
-  const std::vector<experiment::Board> boards = experiment::boards(e);
+  const std::vector<control::Board> boards = control::boards(run::installation(e));
   ASSERT_EQ(boards.size(), 3u);
   std::set<int> valves, channels;
-  for (const experiment::Board& b : boards) {
+  for (const control::Board& b : boards) {
     EXPECT_EQ(b.spine.joints, 8u);
     EXPECT_EQ(b.spine.conversions, 24u);
     ASSERT_EQ(b.valve.size(), 32u);

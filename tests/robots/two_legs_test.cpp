@@ -2,7 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "runs.h"
-#include "sinew/experiment/joint_controllers.h"
+#include "sinew/control/setup/joint_controllers.h"
+#include "sinew/run/setup/installation.h"
 #include "sinew/units/constants.h"
 
 namespace sinew {
@@ -42,10 +43,10 @@ TEST(TwoLegs, BothMakeTheSpeed) {
 // The legs' laws are those of the leg: what the low level knows of each joint differs from the
 // leg's in its channels, valves and times alone.
 TEST(TwoLegs, LawsAreThoseOfTheLeg) {
-  const control::JointControllerConfig two = experiment::joint_controller_config(
-                                           load("walk-two-legs")),
-                                       one =
-                                           experiment::joint_controller_config(load("walk-test-1"));
+  const control::JointControllerConfig two = control::joint_controller_config(
+                                           run::installation(load("walk-two-legs"))),
+                                       one = control::joint_controller_config(
+                                           run::installation(load("walk-test-1")));
   ASSERT_EQ(two.joints, 2 * one.joints);
   for (std::size_t j = 0; j < two.joints; ++j) {
     const control::JointConfig &its = two.joint[j], &leg = one.joint[j % one.joints];

@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/experiment/planar_setup.h"
 #include "sinew/plant/planar/machine.h"
+#include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/run.h"
 #include "tests/six_legs.h"
 #include "tests/worlds/body.h"
@@ -259,7 +259,7 @@ Subject of_experiment(const std::string& name, const std::string& file, Sets set
                       const Breaks& faults = {}) {
   Experiment e = load(file, sets);
   e.faults = faults;
-  const Setup s = experiment::planar_setup(e);
+  const Setup s = run::planar_setup(e);
   Subject out = of_setup(name, s);
   sets.push_back("sequence.repeat=1");
   Experiment once = load(file, sets);
@@ -274,7 +274,7 @@ Subject of_experiment(const std::string& name, const std::string& file, Sets set
 
 // The leg with its ankle driven by a pair like the knee's.
 Setup three_driven_joints() {
-  Setup s = experiment::planar_setup(load("walk-with-ankle", {}));
+  Setup s = run::planar_setup(load("walk-with-ankle", {}));
   robot::Joint& ankle = s.robot.joints[2];
   ankle.kind = robot::Joint::Kind::driven;
   ankle.moment_arm = 0.5 * s.robot.joints[1].moment_arm;
@@ -290,7 +290,7 @@ Setup three_driven_joints() {
 }
 
 Setup with_memory() {
-  Setup s = experiment::planar_setup(load("walk-test-1", {}));
+  Setup s = run::planar_setup(load("walk-test-1", {}));
   for (air::Muscle& m : s.muscles) {
     m.actuator.hysteresis = {
         .half_width = 700, .width_per_contraction = 35e3, .volume_pressure = 7e5};

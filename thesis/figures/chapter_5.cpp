@@ -6,7 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "sinew/experiment/joint_controllers.h"
+#include "sinew/control/setup/joint_controllers.h"
+#include "sinew/run/setup/installation.h"
 #include "sinew/run/simulation/run.h"
 #include "thesis/figures/thesis.h"
 
@@ -76,7 +77,7 @@ Tick busiest(const std::vector<Valve>& valves, Tick period, Tick from, Tick to) 
 
 Schedule schedule(const Sources& from) {
   Schedule out{.experiment = experiment::load(from.path(file), {"sequence.repeat=1"})};
-  out.spine = experiment::joint_controller_config(out.experiment);
+  out.spine = control::joint_controller_config(run::installation(out.experiment));
   const signals::Table table = run::run(out.experiment).table;
   out.valves = valves_of(out.experiment, table);
   const signals::Series& phase = *table.find("/plan/phase");

@@ -9,7 +9,9 @@ import { Plots } from './plots.js';
 import { held, index_at, open_within, read_samples } from './samples.js';
 import { Scene } from './scene.js';
 import { as_scene, StandScene } from './stand.js';
-import { count_verdicts, counts_in_words, Figures, show_faults, show_parameters, show_results, show_warnings } from './tables.js';
+import {
+  count_verdicts, counts_in_words, faults_at, Figures, mark_faults, show_faults, show_parameters, show_results, show_warnings,
+} from './tables.js';
 import { Units } from './units.js';
 
 const paper_scene = 'width: 640px; height: 330px;';  // of the drawing, whatever the screen's is
@@ -173,8 +175,10 @@ class Page {
     this.charts?.set_time(t);
     if (this.player?.playing) this.plots.keep_in_view(t);
     const phase = this.phase_at(t);
-    const broken = (this.run.faults ?? []).filter((f) => t >= f.from && t < f.to).map((f) => `${f.of} ${f.what}`);
-    by_id('clock').textContent = [`${t.toFixed(2)} s`, phase, ...broken].filter(Boolean).join('  ·  ');
+    const broken = faults_at(this.run, t).map((f) => `${f.of} ${f.what}`);
+    by_id('clock').replaceChildren([`${t.toFixed(2)} s`, phase].filter(Boolean).join('  ·  '),
+      ...broken.map((text) => element('b', { class: 'broken' }, `  ·  ${text}`)));
+    mark_faults(this.run, t);
     this.show_muscles(t);
   }
 

@@ -79,6 +79,16 @@ export function show_faults(run, seek) {
   }));
 }
 
+// Those that act at that time.
+export function faults_at(run, t) {
+  return (run.faults ?? []).filter((f) => t >= f.from && t < f.to);
+}
+
+export function mark_faults(run, t) {
+  const now = new Set(faults_at(run, t));
+  by_id('faults').querySelectorAll('button').forEach((button, i) => button.classList.toggle('now', now.has(run.faults[i])));
+}
+
 // --- all figures of the summary ---
 
 function* leaves(object, path = '') {

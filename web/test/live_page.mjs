@@ -71,6 +71,18 @@ function samples(run) {
   return readFileSync(file, 'utf8');
 }
 
+test('what is broken is told while it is', async () => {
+  const set = ['--set', 'fault=[{ at = "0.5 s", for = "3 s", of = "knee_extensor.inlet", what = "stuck open" }]'];
+  const run = await start('broken', set);
+  await watch(run, async (page) => {
+    assert.equal(await page.locator('#faults button').textContent(), 'knee_extensor.inlet stuck open, 0.50–3.50 s');
+    await until(page, () => window.sinew.page.player.time > 0.7);
+    assert.match(await page.locator('#clock .broken').textContent(), /knee_extensor\.inlet stuck open/);
+    assert.equal(await page.locator('#faults button.now').count(), 1);
+  });
+  run.child.kill('SIGKILL');
+});
+
 test('a run is watched, paused, steered; its file repeats it', async () => {
   const run = await start('steered');
   await watch(run, async (page) => {

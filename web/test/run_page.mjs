@@ -201,7 +201,8 @@ test('what was broken on purpose is named, shaded and found', () =>
     assert.equal(await page.locator('#faults button').textContent(), 'knee_extensor.inlet stuck open, 5.00–5.20 s');
     await page.locator('#faults button').click();
     assert.ok(Math.abs((await time_of(page)) - 5) < 1e-6);
-    assert.match(await page.locator('#clock').textContent(), /knee_extensor\.inlet stuck open/);
+    assert.match(await page.locator('#clock').textContent(), / s {2}·  .*  ·  knee_extensor\.inlet stuck open$/);
+    assert.equal(await page.locator('#clock .broken, #faults button.now').count(), 2);
     // Its color stands in the plots where it acts, and nowhere else: shares of a column's pixels.
     await page.evaluate(() => window.sinew.page.plots.zoom(4, 6));
     await page.waitForTimeout(100);

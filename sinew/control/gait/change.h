@@ -25,6 +25,7 @@ struct Change {
   std::string key;                // "control.gains.hip.angle", "control.angle.knee"
   double value = robot::not_set;  // in the key's SI unit
   bool release = false;           // no value: the plan's own again
+  std::string leg;                // whose; empty: every leg's
 };
 
 // What can be changed, one for each key; its place in settings() is its number.
@@ -51,7 +52,7 @@ int find_setting(const std::vector<Setting>& settings, std::string_view key);
 double& value_of(const Setting& setting, Desired& desired) noexcept;
 double value_of(const Setting& setting, const Desired& desired) noexcept;
 
-// What stands in place of the plan's. No heap after construction.
+// What stands in place of a leg's plan. No heap after construction.
 class Overrides {
  public:
   static constexpr std::size_t most = 5 * robot::max_leg_joints;

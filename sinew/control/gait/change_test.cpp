@@ -78,6 +78,8 @@ TEST(Changes, AreOfADrivenJointWithAValueOrARelease) {
             "change[0]: a value and a release; one of them");
   EXPECT_EQ(complaint({.time = 1, .key = "control.stiffness.elbow", .value = 2}),
             "change[0].key: \"control.stiffness.elbow\"; the key of a driven joint");
+  EXPECT_EQ(complaint({.time = 1, .key = key, .value = 2, .leg = "left"}),
+            "change[0].leg: \"left\"; no leg, as the robot has one alone");
 }
 
 }  // namespace

@@ -138,8 +138,10 @@ void check_times(const Plan& plan, List& out) {
     out.push_back({"control.brain_period", "no time", "more than 0 s", "10 ms"});
 }
 
-// Of driven joints, with a value or a release.
-void check_changes(const Plan& plan, List& out) {
+// Of driven joints and a leg that is there, with a value or a release.
+void check_changes(const robot::Robot& robot, const Plan& plan, List& out) {
+  std::string legs;
+  for (const robot::Leg& leg : robot.legs) legs += (legs.empty() ? "" : " or ") + leg.name;
   const std::vector<Setting> known = settings(plan);
   std::string joints;
   for (const JointPlan& joint : plan.joints)
@@ -149,6 +151,12 @@ void check_changes(const Plan& plan, List& out) {
     const std::string key = "change[" + std::to_string(i) + "]";
     if (find_setting(known, change.key) < 0)
       out.push_back({key + ".key", quoted(change.key), "the key of a driven joint", joints});
+    if (!change.leg.empty() && robot.legs.empty())
+      out.push_back(
+          {key + ".leg", quoted(change.leg), "no leg, as the robot has one alone", "leave it out"});
+    else if (!change.leg.empty() &&
+             std::ranges::count(robot.legs, change.leg, &robot::Leg::name) == 0)
+      out.push_back({key + ".leg", quoted(change.leg), legs, "leave it out for every leg"});
     const bool valued = std::isfinite(change.value);
     if (valued && change.release)
       out.push_back({key, "a value and a release", "one of them", "leave one out"});
@@ -263,7 +271,7 @@ List contradictions(const robot::Robot& robot, const Plan& plan) {
   for (std::size_t l = 0; l < robot::legs_of(robot).size(); ++l)
     add_new(of_phases(robot::only_leg(robot, l), plan), out);
   check_ranges(plan, out);
-  check_changes(plan, out);
+  check_changes(robot, plan, out);
   return out;
 }
 

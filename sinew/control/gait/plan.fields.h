@@ -257,6 +257,7 @@ void fields(Visitor& v, Change& c) {
   v.number({.name = "time", .unit = "s", .min = 0, .doc = "takes effect at the next period start"},
            c.time);
   v.text({.name = "key", .doc = keys}, c.key);
+  v.text({.name = "leg", .optional = true, .doc = "of several; absent: every leg's"}, c.leg);
   v.flag({.name = "release", .optional = true, .doc = "the plan's own value again"}, c.release);
 
   // Without a key the value has no unit: one complaint is enough.

@@ -12,7 +12,7 @@
 // theta_i is the reading i periods ago [count], T the period [s], v the last estimate [count/s], F
 // the tension that raises the angle less the one that lowers it, mean of this reading and the last
 // [count]. The constants a, c, d, g are the motion of the joint over a period; who describes the
-// machine computes them (experiment/estimators.h). All speeds are in counts of the angle's
+// machine computes them (control/setup/estimators.h). All speeds are in counts of the angle's
 // converter per second. Pure functions.
 #pragma once
 

@@ -49,7 +49,7 @@ void give_rest_length(Points& points, Report& report) {
   if (!none) return;
   if (some)
     throw Refusal("rest length", "points with and without one", "one for every file or row",
-                  "--rest-length, or a column rest_length");
+                  "rest_length=LENGTH, or a column rest_length");
   for (StaticPoint& p : points) p.rest_length = longest;
   report.notes.push_back(
       fmt::format("no rest length given: the longest, {:.4g} mm, stands for it", 1e3 * longest));
@@ -72,7 +72,7 @@ class Tried {
     if (count_of(length_groups(points)) > 1) return;
     if (!scales.braid)
       throw Refusal("lengths", "one length only", "several lengths, or a braid that is known",
-                    "measure at other lengths, or --actuator FILE with the braid's geometry");
+                    "measure at other lengths, or actuator=FILE with the braid's geometry");
     for (const Knob knob : knobs_)
       if (needs_lengths(knob)) throw Refusal("lengths", "one length only", "several for this", "");
   }
@@ -235,12 +235,12 @@ StaticSplit split_by(const Points& points, HoldOut hold_out, Report& report) {
   if (hold_out == HoldOut::length) {
     report.held_out_is = "each length once, all others fitted";
     if (count_of(length_groups(s.fitted)) < 3)
-      throw Refusal("--hold-out length", "fewer than three lengths", "at least three", "");
+      throw Refusal("hold_out=length", "fewer than three lengths", "at least three", "");
   }
   if (hold_out == HoldOut::pressure) {
     const std::vector<int> group = pressure_groups(s.fitted);
     if (count_of(group) < 4)
-      throw Refusal("--hold-out pressure", "fewer than four pressures", "at least four", "");
+      throw Refusal("hold_out=pressure", "fewer than four pressures", "at least four", "");
     const Points before = s.fitted;
     StaticSplit more = split(before, [&](std::size_t i) { return group[i] % 2 == 0; });
     s.fitted = more.fitted;
@@ -318,7 +318,7 @@ void check_model(const std::string& name) {
     if (m.name == name) return;
     all += (all.empty() ? "" : ", ") + std::string(m.name);
   }
-  throw Refusal("--model", "\"" + name + "\"", "one of " + all, "");
+  throw Refusal("model", "\"" + name + "\"", "one of " + all, "");
 }
 
 }  // namespace
@@ -358,7 +358,9 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   report.rows = rows_of(s);
   choose(report);
   if (options.model.empty())
-    refuse_unexplained(report, 15, "--map and --unit: columns may be swapped or in other units");
+    refuse_unexplained(
+        report, 15,
+        "names.COLUMN=NAME or units.NAME=UNIT: columns may be swapped or in other units");
   out.fit = *found[report.chosen].fit;
   out.scales = found[report.chosen].scales;
   out.muscles = muscles_of(out.fit, out.scales, s.fitted);

@@ -56,7 +56,7 @@ const Wanted columns[] = {
 std::vector<double> force_of(const Measured& m) {
   if (m.has("force") == m.has("load"))
     throw Refusal(m.file, m.has("force") ? "both force and load" : "neither force nor load",
-                  "one of them", m.has("force") ? "" : "--map force=NAME");
+                  "one of them", m.has("force") ? "" : "names.force=NAME");
   if (m.has("force")) return m["force"];
   std::vector<double> out = m["load"];
   for (double& x : out) x *= units::standard_gravity;
@@ -68,7 +68,7 @@ std::vector<double> length_of(const Measured& m, const StaticInput& input) {
   if (m.has("length")) return m["length"];
   if (!(input.length > 0))
     throw Refusal(m.file, "no length", "a column of lengths, or the one length of this file",
-                  "--map length=NAME, or " + input.length_from + " \"205 mm\"");
+                  "names.length=NAME, or length=\"205 mm\"");
   return std::vector<double>(m.rows(), input.length);
 }
 
@@ -102,7 +102,7 @@ void refuse_falling(const Measured& m, const std::vector<double>& force,
   }
   if (rise < 0)
     throw Refusal(m.file, "force that falls while the pressure rises", "a muscle that pulls",
-                  "--map, if columns are swapped, or the sign of the force");
+                  "names.force=NAME, if columns are swapped, or the sign of the force");
 }
 
 void check(const Measured& m, const std::vector<double>& force, const std::vector<double>& length) {

@@ -41,7 +41,6 @@ struct StaticInput {
   double length = 0;       // of a file without that column; 0: none [m]
   double rest_length = 0;  // 0: not known [m]
   bool fitted = true;
-  std::string length_from = "--length";  // for messages
 };
 
 // force or load, pressure; length, rest_length, branch, time where there are such columns.

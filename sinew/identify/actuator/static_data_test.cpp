@@ -173,7 +173,7 @@ TEST(StaticRefusal, OneLengthAndNoGeometry) {
   std::string text = "length [mm],force [N],pressure [kPa gauge]\n";
   for (int p = 50; p <= 600; p += 25)
     text += fmt::format("240,{},{}\n", force_at(0.24, 1e3 * p), p);
-  expect_refused(refusal_of(text), {"one length only", "--actuator"});
+  expect_refused(refusal_of(text), {"one length only", "actuator=FILE"});
 }
 
 TEST(StaticRefusal, TooFewPoints) {
@@ -184,7 +184,7 @@ TEST(StaticRefusal, TooFewPoints) {
 
 TEST(StaticRefusal, NoLength) {
   expect_refused(refusal_of("force [N],pressure [kPa gauge]\n1,100\n2,200\n"),
-                 {"no length", "--length"});
+                 {"no length", "length=\"205 mm\""});
 }
 
 TEST(StaticRefusal, SwappedColumns) {
@@ -200,7 +200,7 @@ TEST(StaticRefusal, SwappedColumns) {
 TEST(StaticRefusal, WrongUnit) {
   expect_refused(refusal_of("length [m],force [N],pressure [kPa gauge]\n"
                             "250,100,300\n240,80,400\n230,50,500\n"),
-                 {"length", "wrong unit", "--unit length=", "mm"});
+                 {"length", "wrong unit", "units.length=", "mm"});
 }
 
 TEST(StaticRefusal, ASensorAtItsEnd) {

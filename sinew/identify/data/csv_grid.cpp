@@ -83,7 +83,7 @@ void refuse_missing_header(const Grid& grid, const Row& first) {
   if (!numbers) return;
   config::fail({grid.file, first.line, 1}, "header", "numbers in the first line",
                "a header that names the columns with their units: `time [s],force [N]`",
-               "--columns \"name [unit],name [unit]\" with the columns' meaning");
+               "columns=\"name [unit],name [unit]\" with the columns' meaning");
 }
 
 void refuse_ragged_rows(const Grid& grid) {

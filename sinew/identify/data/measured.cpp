@@ -115,8 +115,8 @@ class Table {
     add_problem(grid_.header_line, 1, std::string(w.name),
                 fmt::format("no column {} among {}", config::in_quotes(name), all_names()),
                 fmt::format("`{} [{}]`, {}", w.name, w.unit, w.doc),
-                near.empty() ? fmt::format("--map {}=NAME with the file's name for it", w.name)
-                             : fmt::format("--map {}={}", w.name, near));
+                near.empty() ? fmt::format("names.{}=NAME with the file's name for it", w.name)
+                             : fmt::format("names.{}={}", w.name, near));
   }
 
   // Two columns of one name: nobody knows which is meant. Those with an @ belong together.
@@ -139,17 +139,17 @@ class Table {
     return out;
   }
 
-  // Every name that --map and --unit give must be somewhere.
+  // Every name in `names` and `units` must be somewhere.
   void check_names(std::span<const Wanted> wanted) {
     const auto known = config::names_of(wanted);
     for (const auto& [name, file_name] : source_.names)
       if (std::find(known.begin(), known.end(), name) == known.end())
-        add_problem(0, 0, "--map", config::in_quotes(name), config::either(known),
+        add_problem(0, 0, "names", config::in_quotes(name), config::either(known),
                     config::closest_in_quotes(name, known));
     const auto columns = names();
     for (const auto& [column, unit] : source_.units)
       if (std::find(columns.begin(), columns.end(), column) == columns.end())
-        add_problem(0, 0, "--unit", config::in_quotes(column),
+        add_problem(0, 0, "units", config::in_quotes(column),
                     "a column of the file: " + all_names(),
                     config::closest_in_quotes(column, columns));
   }
@@ -158,8 +158,7 @@ class Table {
     for (const auto& [name, values] : source_.where) {
       const auto at = std::ranges::find(grid_.headings, name, &Heading::name);
       if (at == grid_.headings.end()) {
-        add_problem(0, 0, "--where", config::in_quotes(name),
-                    "a column of the file: " + all_names(),
+        add_problem(0, 0, "where", config::in_quotes(name), "a column of the file: " + all_names(),
                     config::closest_in_quotes(name, names()));
         continue;
       }
@@ -200,7 +199,7 @@ class Table {
       add_problem(grid_.header_line, h.column, std::string(w.name),
                   fmt::format("the column {} without a unit", config::in_quotes(h.name)),
                   config::describe_unit(w.unit),
-                  fmt::format("`{0} [{1}]` in the header, or --unit {0}=\"{1}\"", h.name, w.unit));
+                  fmt::format("`{0} [{1}]` in the header, or units.{0}=\"{1}\"", h.name, w.unit));
     } else {
       add_problem(grid_.header_line, h.column, std::string(w.name),
                   fmt::format("the unit {}", config::in_quotes(unit)),
@@ -277,7 +276,7 @@ class Table {
     add_problem(row.line, row.cells[index].column, std::string(f.wanted->name),
                 text.empty() ? "an empty cell" : config::in_quotes(text), expected,
                 decimal_comma ? fmt::format("a decimal point: {}", with_point)
-                : missing     ? "--drop-incomplete to leave such rows out"
+                : missing     ? "drop_incomplete=true to leave such rows out"
                               : "");
   }
 
@@ -322,7 +321,7 @@ class Table {
                   fmt::format("between {} and {}: a wrong unit, or another column",
                               config::format_quantity(w.least, w.unit, w.unit, 4),
                               config::format_quantity(w.most, w.unit, w.unit, 4)),
-                  units.empty() ? "" : fmt::format("--unit {}={}", heading.name, units));
+                  units.empty() ? "" : fmt::format("units.{}={}", heading.name, units));
     }
   }
 

@@ -78,7 +78,7 @@ TEST(Measured, RowsThatAreNotCompleteAreLeftOutOnRequestOnly) {
   const std::string said = problem(text);
   EXPECT_TRUE(says(said, "rig.csv:3:1: pressure: found an empty cell")) << said;
   EXPECT_TRUE(says(said, "rig.csv:4:5: force: found \"nan\"")) << said;
-  EXPECT_TRUE(says(said, "--drop-incomplete")) << said;
+  EXPECT_TRUE(says(said, "drop_incomplete=true")) << said;
 
   const Measured m = read(text, {.drop_incomplete = true});
   EXPECT_EQ(m["force"], (std::vector<double>{10, 40}));
@@ -97,7 +97,7 @@ TEST(Measured, WhatIsWrongIsTold) {
       {"pressure [kPa],force [N]\n1,2\n", "try \"kPa gauge\" or \"kPa abs\""},
       {"pressure [kPa gauge],force\n1,2\n", "without a unit"},
       {"pressure [kPa gauge],force [lb]\n100,2\n", "lbf: lb is mass, lbf is force"},
-      {"pressure [Pa gauge],force [N]\n100,20\n", "--unit pressure=kPa gauge"},
+      {"pressure [Pa gauge],force [N]\n100,20\n", "units.pressure=kPa gauge"},
       {"pressure [kPa gauge];force [N]\n100,5;20,1\n", "a decimal point: 100.5"},
       {"pressure [kPa gauge],force [N]\n100,5,20,1\n", "found 4 cells (1 such row)"},
       {"time [s],pressure [kPa gauge],force [N]\n0,100,10\n2,110,12\n1,120,13\n",
@@ -113,9 +113,9 @@ TEST(Measured, WhatIsWrongIsTold) {
     EXPECT_TRUE(says(said, c.part)) << c.text << said;
   }
   EXPECT_TRUE(says(problem("pressure [kPa gauge],force [N]\n100,20\n", {.names = {{"froce", "x"}}}),
-                   "--map: found \"froce\""));
+                   "names: found \"froce\""));
   EXPECT_TRUE(says(problem("pressure [kPa gauge],force [N]\n100,20\n", {.units = {{"x", "N"}}}),
-                   "--unit: found \"x\""));
+                   "units: found \"x\""));
 }
 
 TEST(Measured, TwoColumnsOfOneNameAreRefusedUnlessAnAtTellsThemApart) {

@@ -21,7 +21,7 @@ struct Score {
 Score score(std::span<const double> residuals, double full_scale);
 
 struct Fit {
-  std::string model;   // its name, as --model takes it
+  std::string model;   // its name, as the setting model takes it
   std::string law;     // "F = Eff(p) p b^2/(4 pi n^2) (3 L^2/b^2 - 1)"
   std::string source;  // of the law
   std::vector<Estimate> parameters;

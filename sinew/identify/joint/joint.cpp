@@ -235,16 +235,16 @@ void refuse_unusable(const Measured& data, const JointTorque& joint, const Joint
   if (!joint.has_flexor() && !joint.has_extensor())
     throw Refusal(data.file, "no pressure",
                   "a column flexor_pressure or extensor_pressure, or both",
-                  "--map flexor_pressure=NAME");
+                  "names.flexor_pressure=NAME");
   const bool known = data.has("torque") || data.has("load") || std::isfinite(setup.load) ||
                      (setup.limb > 0 && setup.limb_lever > 0);
   if (!known)
     throw Refusal(data.file, "no known load",
                   "one: angles and pressures alone give no torque a scale, every force law would "
                   "do with some arm",
-                  "a column torque or load, or --load and --lever");
+                  "a column torque or load, or load=MASS and lever=LENGTH");
   if (!data.has("torque") && !(setup.lever > 0) && !(setup.limb_lever > 0))
-    throw Refusal(data.file, "a load without a lever", "where it hangs", "--lever \"6 in\"");
+    throw Refusal(data.file, "a load without a lever", "where it hangs", "lever=\"6 in\"");
   double most = 0, mean = 0;
   for (const double t : joint.torque()) {
     most = std::max(most, std::abs(t));
@@ -252,7 +252,7 @@ void refuse_unusable(const Measured& data, const JointTorque& joint, const Joint
   }
   if (!(most > 0))
     throw Refusal(data.file, "loads whose torque is zero throughout", "a torque that is known",
-                  "another --down, or loads");
+                  "another down=ANGLE, or loads");
   refuse_constant(data, "angle", least_excursion,
                   "angles that differ by more than 5 deg: at one angle the arm and the force are "
                   "one number",
@@ -261,7 +261,7 @@ void refuse_unusable(const Measured& data, const JointTorque& joint, const Joint
   const double pulls = joint.has_flexor() ? joint.sign() : -joint.sign();
   if (joint.has_flexor() != joint.has_extensor() && pulls * mean > 0)
     throw Refusal(data.file, "a load that pulls the way the muscle pulls", "one against it",
-                  "the sign of torque, --flexion, or --down");
+                  "the sign of torque, the other flexion=SENSE, or down=ANGLE");
 }
 
 std::pair<Measured, Measured> every_third(const Measured& data) {
@@ -320,7 +320,7 @@ void refuse_if_all_are(const Report& report, const std::string& file) {
   }
   throw Refusal(file, "no model whose values the data determine (" + reasons + ")",
                 "poses that tell arm, length and force apart",
-                "larger excursions, --moment-arm, --flexor-length, or --keep-force");
+                "larger excursions, moment_arm=LENGTH, flexor_length=LENGTH, or keep_force=true");
 }
 
 void refuse_other_columns(const Measured& data, const Measured& held_out) {

@@ -86,7 +86,7 @@ void Swing::take_pressure(const Measured& data) {
   if (!at_rest && !exponent) return;
   if (!data.has("pressure"))
     throw Refusal(file, "no measured pressure", "it, or the nominal one and an exponent",
-                  "--pressure \"60 psi gauge\"");
+                  "pressure=\"60 psi gauge\"");
   const double end = oscillation.turns.back().time;
   const auto air = [&](double l) {
     return std::log(actuator::volume(stand.actuator.braid, l) + stand.external_volume);
@@ -103,7 +103,7 @@ void Swing::take_pressure(const Measured& data) {
     throw Refusal(file + ": pressure",
                   fmt::format("it goes with the volume to the power {:.3g}", line.slope),
                   "trapped air: between -0.9 and -1.6",
-                  "--external-volume, --exponent, or the pressure's zero");
+                  "external_volume=VOLUME, exponent=N, or the pressure's zero");
   notes.push_back(fmt::format("{}: the measured pressure gives {:.5g} Pa at rest, exponent {:.3f}",
                               file, stand.pressure, stand.polytropic_exponent));
 }
@@ -179,7 +179,7 @@ double Swing::tension_of_period() const {
       fmt::format("a period of {:.4g} s; of the actuator of the file {:.4g} s", oscillation.period,
                   2 * std::numbers::pi / (at_one + wanted)),
       fmt::format("one that {} to {} times its tension would have", least_tension, most_tension),
-      "the mass that moves, --external-volume, --exponent");
+      "the mass that moves, external_volume=VOLUME, exponent=N");
 }
 
 // Length and speed from the samples, the rest by the static model.

@@ -59,7 +59,7 @@ class Finder {
     if (layout.sensors.empty())
       config::fail(header(), "sensor", "no column in volts or counts among " + all_names(),
                    "at least one beside " + layout.known_heading->name,
-                   "its unit in the header, `gage [V]`, or --unit gage=V");
+                   "its unit in the header, `gage [V]`, or units.gage=V");
     return layout;
   }
 
@@ -98,7 +98,7 @@ class Finder {
     if (layout.known)
       config::fail(header(), "known quantity",
                    fmt::format("both {} and {}", layout.known->wanted.name, known.wanted.name),
-                   "one", fmt::format("--known {}", layout.known->wanted.name));
+                   "one", fmt::format("known={}", layout.known->wanted.name));
     layout.known = &known;
     layout.known_heading = &*heading;
   }
@@ -107,11 +107,11 @@ class Finder {
     std::vector<std::string_view> names;
     for (const Known& k : names_of_known) names.push_back(k.wanted.name);
     if (!wanted.empty() && std::ranges::find(names, wanted) == names.end())
-      config::fail({"--known", 0, 0}, "", config::in_quotes(wanted), config::either(names),
+      config::fail({"known", 0, 0}, "", config::in_quotes(wanted), config::either(names),
                    config::closest_in_quotes(wanted, names));
     config::fail(header(), "known quantity", "none among " + all_names(),
                  "a column of what was set: " + config::either(names),
-                 "--map load=NAME with the file's name for it");
+                 "names.load=NAME with the file's name for it");
   }
 
   void add_sensor(const Heading& h, Layout& layout) const {
@@ -128,7 +128,7 @@ class Finder {
     for (const Heading& h : grid_.headings)
       if (is_output(h)) names.push_back(h.name);
     if (std::ranges::find(layout.sensors, name, &Heading::name) == layout.sensors.end())
-      config::fail({"--sensors", 0, 0}, "", config::in_quotes(name),
+      config::fail({"sensors", 0, 0}, "", config::in_quotes(name),
                    names.empty() ? "a column in volts or counts" : config::either(names),
                    config::closest_in_quotes(name, names));
   }
@@ -149,8 +149,8 @@ void refuse_beyond(const Measured& data, const Column& column, const CountScale&
         config::format_quantity(value, column.unit, column.unit),
         counts ? fmt::format("0 to {:g}, the counts of {} bits", most, converter.bits)
                : fmt::format("at most {} V, the converter's full scale", converter.full_scale),
-        counts ? "--bits of your converter, or the columns: they may be swapped"
-               : "--full-scale \"10 V\", --unit for another unit, or the columns: they "
+        counts ? "bits=N of your converter, or the columns: they may be swapped"
+               : "full_scale=\"10 V\", units.NAME=UNIT for another unit, or the columns: they "
                  "may be swapped");
   }
 }
@@ -163,10 +163,10 @@ const KindFacts& facts_of(SensorKind kind) {
 
 SensorData parse_sensor_data(std::string_view text, const Source& source,
                              const CountScale& converter, const std::string& known,
-                             const std::vector<std::string>& only) {
+                             const std::vector<std::string>& sensors) {
   const Grid grid = read_grid(text, source.path, source.columns);
   const Finder finder(grid, source);
-  const Layout layout = finder.find(known, only);
+  const Layout layout = finder.find(known, sensors);
 
   // Weights hang: their mass is what the file says.
   Wanted first = layout.known->wanted;
@@ -210,9 +210,9 @@ SensorData parse_sensor_data(std::string_view text, const Source& source,
 }
 
 SensorData read_sensor_data(const Source& source, const CountScale& converter,
-                            const std::string& known, const std::vector<std::string>& only) {
+                            const std::string& known, const std::vector<std::string>& sensors) {
   return parse_sensor_data(config::read_text_file(source.path, "a calibration as CSV"), source,
-                           converter, known, only);
+                           converter, known, sensors);
 }
 
 }  // namespace sinew::identify

@@ -54,12 +54,12 @@ struct SensorData {
 };
 
 // `known`: the column of the known quantity, by one of the names above; empty where the file has
-// one only. `only`: names of the sensors' columns; empty: all. Throws config::Error.
+// one only. `sensors`: names of the sensors' columns; empty: all. Throws config::Error.
 SensorData read_sensor_data(const Source& source, const CountScale& converter,
                             const std::string& known = "",
-                            const std::vector<std::string>& only = {});
+                            const std::vector<std::string>& sensors = {});
 SensorData parse_sensor_data(std::string_view text, const Source& source,
                              const CountScale& converter, const std::string& known = "",
-                             const std::vector<std::string>& only = {});
+                             const std::vector<std::string>& sensors = {});
 
 }  // namespace sinew::identify

@@ -148,7 +148,7 @@ Usable without_ends(const SensorData& data, const SensorReadings& s, const Count
                   all.known.size(), all.lines[*left_out.begin()], in_words(ends));
   if (2 * kept.known.size() < all.known.size() || level_count(kept.points) < 2)
     refuse(data, s.name, where, "readings within its range, at two known values or more",
-           "less load, less gain, or --full-scale of your converter");
+           "less load, less gain, or full_scale=VOLTS of your converter");
   kept.notes.push_back(fmt::format("{}: left out {}", s.name, where));
   return kept;
 }
@@ -168,7 +168,7 @@ void refuse_poor(const SensorData& data, const SensorReadings& s, const Usable& 
   if (high - low <= 2 * finest)
     refuse(data, s.name, fmt::format("{:.5g} V throughout", low),
            "an output that changes with what is measured",
-           "the wiring and the sensor's supply, or --sensors to leave it out");
+           "the wiring and the sensor's supply, or sensors=NAMES without it");
 }
 
 // A sensor that does not follow: more than half of what it does is something else.

@@ -187,7 +187,7 @@ TEST(Sensor, WhatCannotBeCalibratedIsRefused) {
       {"load [N],gage [V]\n1,2\n2,2\n3,2\n4,2\n", "2 V throughout"},
       {"load [N],gage [V]\n1,1\n2,3\n3,0\n4,1.5\n5,2\n6,0.1\n", "does not follow"},
       {"load [N],gage [count]\n1,4095\n2,4095\n3,4095\n", "3 of 3 readings at an end"},
-      {"load [N],gage [count]\n1,500\n2,4095\n3,4095\n", "--full-scale"},
+      {"load [N],gage [count]\n1,500\n2,4095\n3,4095\n", "full_scale=VOLTS"},
   };
   for (const auto& c : cases) {
     const std::string said = message([&] { calibrate(c.text); });
@@ -208,7 +208,7 @@ TEST(Sensor, WhatIsWrongWithAFileIsTold) {
       {"load [N],gage [count]\n1,2\n2,5000\n", "0 to 4095, the counts of 12 bits"},
       {"load [psi],gage [V]\n1,2\n2,3\n", "load: found the unit \"psi\""},
       {"time [s],load [N],gage [V]\n0,1,2\n2,2,3\n1,3,4\n", "weights.csv:4:1: time"},
-      {"load [N],gage [V]\n1,2\n2,nan\n", "--drop-incomplete"},
+      {"load [N],gage [V]\n1,2\n2,nan\n", "drop_incomplete=true"},
   };
   for (const auto& c : cases) {
     const std::string said = message([&] { parse(c.text); });

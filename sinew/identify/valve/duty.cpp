@@ -37,7 +37,7 @@ Map map_of(const Measured& data, const ValveOptions& options) {
     m.frequency.assign(m.duty.size(), *options.frequency);
   else
     throw Refusal(data.file, "no frequency of the pulses",
-                  "a column frequency [Hz], or one for all", "--frequency \"100 Hz\"");
+                  "a column frequency [Hz], or one for all", "frequency=\"100 Hz\"");
   if (m.flow) m.full = largest(m.delivered);
   refuse_constant(data, "duty", 0.05, "duties that differ", "a sweep from 0 to 100 %");
   if (!(largest(m.delivered) - smallest(m.delivered) > nothing * m.full))

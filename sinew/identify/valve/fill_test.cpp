@@ -323,11 +323,11 @@ TEST(ValveFill, EachOfEightMeasuredFillingsIsMetWithin3Percent) {
     const Measured m = read_measured(source, valve_columns());
     const ValveResult r = identify_fill(m, ValveOptions());
     EXPECT_LT(r.report.best().fit.rmse_percent, 3) << i;
-    EXPECT_NE(r.refused.find("try --volume"), std::string::npos) << i;
+    EXPECT_NE(r.refused.find("try volume="), std::string::npos) << i;
     // Its interval is narrow, or it is said that it is not.
     const Estimate& k = r.report.best().parameters.front();
     if (k.high - k.low > 0.5 * k.value) {
-      EXPECT_NE(r.refused.find("--supply"), std::string::npos) << i;
+      EXPECT_NE(r.refused.find("port=PRESSURE"), std::string::npos) << i;
     }
   }
 }

@@ -165,12 +165,12 @@ Tried try_model(const FillModel& model, const Curve& c, const ValveOptions& opti
   fit.law = model.law;
   fit.source = model.source;
   if (model.leak && !options.port) {
-    fit.refused = "a leak and the port's pressure look the same; --supply tells them apart";
+    fit.refused = "a leak and the port's pressure look the same; port=PRESSURE tells them apart";
     return out;
   }
   const bool named = options.exponent == 1.0 || options.exponent == gas::heat_capacity_ratio;
   if (options.exponent && (model.exponent > 0 ? model.exponent != *options.exponent : named)) {
-    fit.refused = fmt::format("--exponent is {:g}", *options.exponent);
+    fit.refused = fmt::format("the exponent is known, {:g}", *options.exponent);
     return out;
   }
   const std::vector<FreeValue> free = free_values(model, c, options);
@@ -199,7 +199,7 @@ void refuse_unsettled(const Measured& data, const Curve& c, const ValveOptions& 
                 fmt::format("one that still moves at the end, at {}",
                             config::format_quantity(c.pressure.back(), "Pa abs", "kPa abs", 4)),
                 "one that settles at the pressure on the valve's other side",
-                "a longer record, or --supply");
+                "a longer record, or port=PRESSURE");
 }
 
 void refuse_poor_fit(const Measured& data, const Report& report, double worst) {
@@ -262,8 +262,8 @@ void describe(const Curve& c, const ValveOptions& options, ValveResult& out) {
   if (!options.volume && !options.conductance && !options.per_volume)
     out.refused = fmt::format(
         "sonic conductance: found C/V = {} alone; expected the volume beside it: one curve does "
-        "not tell C from V; try --volume \"0.5 L\", --conductance for the volume instead, or "
-        "--per-volume where C/V is enough",
+        "not tell C from V; try volume=\"0.5 L\", conductance=C in place of the volume, or "
+        "per_volume=true where C/V is enough",
         config::format_quantity(k.value, "1/(s Pa)", "1/(s bar)", 4));
   if (half_of(k) <= well_known) return;
   out.refused += fmt::format(
@@ -271,8 +271,8 @@ void describe(const Curve& c, const ValveOptions& options, ValveResult& out) {
       "chamber "
       "near the valve, less noise",
       out.refused.empty() ? "" : "\n", k.name, 100 * half_of(k), 100 * well_known,
-      options.port ? "" : "--supply with the pressure on the valve's other side, ",
-      options.exponent ? "" : "--exponent where it is known (1 in a chamber full of wire wool), ");
+      options.port ? "" : "port=PRESSURE on the valve's other side, ",
+      options.exponent ? "" : "exponent=N where it is known (1 in a chamber full of wire wool), ");
 }
 
 }  // namespace

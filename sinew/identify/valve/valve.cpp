@@ -105,7 +105,7 @@ ValveData valve_data(const Measured& data, std::optional<ValveData> wanted) {
                 found.empty() ? "none of the columns" : "the columns " + found + " alone",
                 "upstream and flow; time and pressure; time, pressure and command; time and "
                 "current; or duty and delivered or flow",
-                "--map, where the file calls them otherwise");
+                "names.pressure=NAME, where the file calls them otherwise");
 }
 
 ValveResult before(const ValveOptions& options) {

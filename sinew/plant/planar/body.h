@@ -20,13 +20,16 @@
 // the tips inwards, where each row has entries with what it hangs on and nothing else.
 //
 // N is the number of links that there is room for. A small body has just so many: its loops are
-// then known to the compiler.
+// then known to the compiler. Where its links moreover hang one on the other, on a trolley that
+// moves, the coordinates above one are all that come before it: no tree is walked, and the bits are
+// those of the walk.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 
+#include "sinew/plant/planar/unroll.h"
 #include "sinew/robot/legs.h"
 #include "sinew/robot/robot.h"
 #include "sinew/units/math.h"
@@ -57,6 +60,7 @@ struct BodyConstants {
   // The coordinate that one moves with: a link's parent, of a link on the body the lift or the
   // track, whichever moves; -1: none.
   std::array<int, N + 2> above{};
+  bool chain = false;  // exact, one link on the other on a trolley that moves
 
   constexpr std::size_t links() const { return exact ? N : count; }
   constexpr std::size_t coordinates() const { return first_link + links(); }
@@ -103,6 +107,20 @@ class Body {
 
  private:
   void factor();
+  void factor_tree();
+  Coordinates<N> response_of_tree(Coordinates<N> force) const;
+
+  // The coordinates of a chain that move, in their order: all, or all but a lift that is held.
+  template <bool Lifts>
+  static constexpr std::size_t moving = N + (Lifts ? 2 : 1);
+  template <bool Lifts>
+  static constexpr std::size_t coordinate(std::size_t k) {
+    return Lifts || k == along_track ? k : k + 1;
+  }
+  template <bool Lifts>
+  void factor_chain();
+  template <bool Lifts>
+  Coordinates<N> response_of_chain(Coordinates<N> force) const;
 
   const BodyConstants<N>& k_;
   const Motion<N>& motion_;
@@ -173,6 +191,9 @@ BodyConstants<N> body_of(const robot::Robot& robot) {
   for (std::size_t i = 0; i < k.links(); ++i)
     k.above[first_link + i] =
         k.hangs_on_link(i) ? k.parent[i] + static_cast<int>(first_link) : on_body;
+  k.chain = BodyConstants<N>::exact && !k.held[along_track];
+  for (std::size_t i = 0; i < k.links(); ++i)
+    k.chain = k.chain && k.parent[i] == static_cast<int>(i) - 1;
   k.sliding_mass = robot.trolley.moving_mass();
   k.lifted_mass = robot::leg_mass(robot) + robot.cylinder.body_mass;
   return k;
@@ -189,10 +210,17 @@ Body<N>::Body(const BodyConstants<N>& constants, const Motion<N>& motion)
   factor();
 }
 
+template <int N>
+void Body<N>::factor() {
+  if constexpr (BodyConstants<N>::exact)
+    if (k_.chain) return k_.held[up] ? factor_chain<false>() : factor_chain<true>();
+  factor_tree();
+}
+
 // The mass matrix as L^T D L, from the tips inwards: a coordinate has entries with those above it
 // alone, before and after. A held one has the row of a unit matrix.
 template <int N>
-void Body<N>::factor() {
+void Body<N>::factor_tree() {
   const auto above = [this](std::size_t c) { return k_.above[c]; };
   lower_[along_track][along_track] = k_.held[0] ? 1.0 : k_.sliding_mass;
   lower_[up][up] = k_.held[1] ? 1.0 : k_.lifted_mass;
@@ -221,11 +249,72 @@ void Body<N>::factor() {
   }
 }
 
+// The same, where all that come before a coordinate are above it.
+template <int N>
+template <bool Lifts>
+void Body<N>::factor_chain() {
+  lower_[along_track][along_track] = k_.sliding_mass;
+  lower_[up][up] = Lifts ? k_.lifted_mass : 1.0;
+  lower_[up][along_track] = 0;
+  if (!Lifts) inverse_pivot_[up] = 1.0;
+  for (std::size_t i = 0; i < N; ++i) {
+    Coordinates<N>& row = lower_[first_link + i];
+    row[first_link + i] = k_.inertia[i][i];
+    for (std::size_t on = 0; on < i; ++on)
+      row[first_link + on] = k_.inertia[i][on] * (cos_[i] * cos_[on] + sin_[i] * sin_[on]);
+    row[along_track] = -k_.first_moment[i] * sin_[i];
+    row[up] = k_.first_moment[i] * cos_[i];
+  }
+  unroll<moving<Lifts>>([&](auto from_last) {
+    constexpr std::size_t c = moving<Lifts> - 1 - from_last, at = coordinate<Lifts>(c);
+    Coordinates<N>& row = lower_[at];
+    const double inverse = 1.0 / row[at];
+    inverse_pivot_[at] = inverse;
+    unroll<c>([&](auto from_c) {
+      constexpr std::size_t a = c - 1 - from_c, i = coordinate<Lifts>(a);
+      const double share = row[i] * inverse;
+      unroll<a + 1>(
+          [&](auto b) { lower_[i][coordinate<Lifts>(b)] -= share * row[coordinate<Lifts>(b)]; });
+      row[i] = share;
+    });
+  });
+}
+
+template <int N>
+template <bool Lifts>
+Coordinates<N> Body<N>::response_of_chain(Coordinates<N> a) const {
+  if (!Lifts) a[up] = 0;
+  unroll<moving<Lifts>>([&](auto from_last) {
+    constexpr std::size_t c = moving<Lifts> - 1 - from_last, at = coordinate<Lifts>(c);
+    unroll<c>([&](auto k) {
+      constexpr std::size_t i = coordinate<Lifts>(k);
+      a[i] -= lower_[at][i] * a[at];
+    });
+  });
+  unroll<moving<Lifts>>([&](auto c) {
+    constexpr std::size_t at = coordinate<Lifts>(c);
+    double one = a[at] * inverse_pivot_[at];
+    unroll<c>([&](auto from_c) {
+      constexpr std::size_t i = coordinate<Lifts>(c - 1 - from_c);
+      one -= lower_[at][i] * a[i];
+    });
+    a[at] = one;
+  });
+  return a;
+}
+
 template <int N>
 Coordinates<N> Body<N>::response(const Coordinates<N>& force) const {
+  if constexpr (BodyConstants<N>::exact)
+    if (k_.chain)
+      return k_.held[up] ? response_of_chain<false>(force) : response_of_chain<true>(force);
+  return response_of_tree(force);
+}
+
+template <int N>
+Coordinates<N> Body<N>::response_of_tree(Coordinates<N> a) const {
   const std::size_t n = k_.coordinates();
   const auto above = [this](std::size_t c) { return k_.above[c]; };
-  Coordinates<N> a = force;
   if (k_.held[0]) a[along_track] = 0;
   if (k_.held[1]) a[up] = 0;
   for (std::size_t c = n; c-- > 0;)
@@ -248,13 +337,16 @@ Coordinates<N> Body<N>::accelerations(Coordinates<N> force) const {
     force[up] += k_.first_moment[i] * sin_[i] * rate2;
     double& q = force[first_link + i];
     q -= k_.gravity * k_.first_moment[i] * cos_[i];
-    for (std::size_t j = i; k_.hangs_on_link(j); j = k_.on(j)) {
-      const std::size_t on = k_.on(j);
+    const auto couple = [&](std::size_t on) {
       const double other = motion_.rate[first_link + on];
       const double turn = k_.inertia[i][on] * (sin_[i] * cos_[on] - cos_[i] * sin_[on]);
       q -= turn * (other * other);
       force[first_link + on] += turn * rate2;
-    }
+    };
+    if (BodyConstants<N>::exact && k_.chain)
+      for (std::size_t on = i; on-- > 0;) couple(on);
+    else
+      for (std::size_t j = i; k_.hangs_on_link(j); j = k_.on(j)) couple(k_.on(j));
   }
   return response(force);
 }

@@ -30,7 +30,7 @@ class BodyMechanism : public PlanarMechanism<M> {
   using Acceleration = Coordinates<N>;
   using Forces = typename FrictionContacts<N, D>::Forces;
   using Arms = MuscleRouting::MomentArms<M>;
-  using Pose = Body<N>;
+  using Pose = BodyOnGround<N, D>;
 
   struct Load {
     Coordinates<N> force;                             // all but dry friction
@@ -52,7 +52,11 @@ class BodyMechanism : public PlanarMechanism<M> {
   double arm(const Arms& arms, int muscle) const noexcept {  // at its first joint [m]
     return arms[static_cast<std::size_t>(muscle)][0];
   }
-  Pose pose(double, const Motion& motion) const noexcept { return Pose(constants_, motion); }
+  Pose pose(double, const Motion& motion) const noexcept {
+    Pose pose(constants_, motion);
+    rubs_.place(motion, pose);
+    return pose;
+  }
 
   double joint_angle(const Motion& m, std::size_t j) const noexcept {
     return m.at[first_link + j] -

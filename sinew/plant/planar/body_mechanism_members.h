@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sinew/plant/planar/body_mechanism.h"
 #include "sinew/plant/planar/friction_contacts_members.h"
@@ -38,8 +39,19 @@ double BodyMechanism<N, D, M>::sum(const Motion& m) const noexcept {
 
 template <int N, int D, int M>
 double BodyMechanism<N, D, M>::node_step(const Setup& setup) const {
-  return stable_step(setup.steps.body,
-                     rubs_.stiffest_rate(Pose(constants_, start_), start_, robot_));
+  const auto rate = [this](const Motion& m) {
+    return rubs_.stiffest_rate(Body<N>(constants_, m), m, robot_);
+  };
+  // A light foot is quick where the ground pushes past its centre. Poses all over: each link turns
+  // by another irrational number of turns from one to the next (5 + 7 j is no square).
+  double elsewhere = 0;
+  Motion m = start_;
+  for (int k = 0; k < 100; ++k) {
+    for (std::size_t j = 0; j < constants_.links(); ++j)
+      m.at[first_link + j] += 2.0 * std::numbers::pi * std::sqrt(static_cast<double>(5 + 7 * j));
+    elsewhere = std::max(elsewhere, rate(m));
+  }
+  return stable_step(setup.steps.body, rate(start_), elsewhere);
 }
 
 template <int N, int D, int M>
@@ -117,9 +129,9 @@ void BodyMechanism<N, D, M>::load(const Pose& body, const Motion& m, const Arms&
 
   out.normal = {};
   for (int i = 0; i < rubs_.discs(); ++i) {
-    const double depth = rubs_.depth(body, m, i);
+    const double depth = body.depth[static_cast<std::size_t>(i)];
     if (depth <= 0) continue;
-    const DiscAt<N> disc = rubs_.disc(body, m, i);
+    const DiscAt<N>& disc = body.contact[static_cast<std::size_t>(i)];
     const double push = rubs_.push(depth, disc, m);
     out.normal[static_cast<std::size_t>(i)] = push;
     if (push <= 0) continue;
@@ -201,7 +213,7 @@ void BodyMechanism<N, D, M>::tell(const Motion& m, const Acceleration& a, const 
   out.x_rate = m.rate[along_track];
   out.lift = m.at[up];
   out.lift_rate = m.rate[up];
-  const Pose body(constants_, m);
+  const Body<N> body(constants_, m);
   for (std::size_t j = 0; j < constants_.links(); ++j) {
     out.angle[j] = joint_angle(m, j);
     out.rate[j] = joint_rate(m, j);

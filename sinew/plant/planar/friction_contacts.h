@@ -32,10 +32,20 @@ struct DiscAt {
   double slip_bias, rise_bias;  // of the accelerations, from the rates [m/s^2]
 };
 
+// A body in its pose, with its discs on the ground: what several forces of one look go by.
+template <int N, int D>
+struct BodyOnGround : Body<N> {
+  using Body<N>::Body;
+
+  std::array<double, D> depth;       // of the discs that are there [m]
+  std::array<DiscAt<N>, D> contact;  // of those that touch, depth not up to 0
+};
+
 // They are of a body with room for N links (body.h), on feet with room for D discs.
 template <int N, int D>
 class FrictionContacts {
  public:
+  using Pose = BodyOnGround<N, D>;
   static constexpr int trolley = N, lift = trolley + 1, first_disc = lift + 1;
   static constexpr int count = first_disc + D;
   using Forces = std::array<double, count>;  // [N m] of the joints, [N] of the others
@@ -72,11 +82,14 @@ class FrictionContacts {
   // Compliant force of the ground on a disc that is so deep in it, never pulling  [N].
   double push(double depth, const DiscAt<N>& disc, const Motion<N>& motion) const;
 
+  // Puts the discs of a pose where they are.
+  void place(const Motion<N>& motion, Pose& pose) const;
+
   // J^T f.
-  Coordinates<N> generalised(const Body<N>& body, const Motion<N>& motion, const Forces& f) const;
+  Coordinates<N> generalised(const Pose& pose, const Motion<N>& motion, const Forces& f) const;
 
   // At a node: accelerations without friction, bounds, and the ground's forces on the discs.
-  void prepare(const Body<N>& body, const Motion<N>& motion, const Coordinates<N>& acceleration,
+  void prepare(const Pose& pose, const Motion<N>& motion, const Coordinates<N>& acceleration,
                const Forces& bound, const Normals& normal);
 
   // Dry friction of a step of length h; `last` is the last step's.

@@ -144,27 +144,43 @@ double FrictionContacts<N, D>::along(int c, const Coordinates<N>& row,
   return v[first_link + link] - (k_.hangs_on_link(link) ? v[first_link + k_.on(link)] : 0.0);
 }
 
-// Only of contacts that carry something; the sum goes over their numbers in ascending order.
 template <int N, int D>
-Coordinates<N> FrictionContacts<N, D>::generalised(const Body<N>& body, const Motion<N>& motion,
+void FrictionContacts<N, D>::place(const Motion<N>& motion, Pose& pose) const {
+  for (int i = 0; i < disc_count_; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    pose.depth[k] = depth(pose, motion, i);
+    if (!(pose.depth[k] <= 0)) pose.contact[k] = disc(pose, motion, i);
+  }
+}
+
+// A disc that has left the ground carries what it is given all the same.
+template <int N, int D>
+Coordinates<N> FrictionContacts<N, D>::generalised(const Pose& pose, const Motion<N>& motion,
                                                    const Forces& f) const {
   Coordinates<N> sum{};
-  const auto add = [&](int c, const Coordinates<N>& j) {
-    const double force = f[static_cast<std::size_t>(c)];
-    for (std::size_t i = 0; i < k_.coordinates(); ++i) sum[i] += j[i] * force;
-  };
-  const auto carries = [&](int c) { return f[static_cast<std::size_t>(c)] != 0; };
-  for (int c = 0; c < static_cast<int>(k_.links()); ++c)
-    if (carries(c)) add(c, row(c));
-  for (const int c : {trolley, lift})
-    if (carries(c)) add(c, row(c));
-  for (int i = 0; i < disc_count_; ++i)
-    if (carries(first_disc + i)) add(first_disc + i, disc(body, motion, i).slip);
+  for (std::size_t j = 0; j < k_.links(); ++j) {
+    sum[first_link + j] += f[j];
+    if (k_.hangs_on_link(j)) sum[first_link + k_.on(j)] -= f[j];
+  }
+  sum[along_track] += f[trolley];
+  sum[up] += f[lift];
+  for (int i = 0; i < disc_count_; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double force = f[first_disc + k];
+    if (force == 0) continue;
+    const auto add = [&](const DiscAt<N>& at) {
+      for (std::size_t c = 0; c < k_.coordinates(); ++c) sum[c] += at.slip[c] * force;
+    };
+    if (!(pose.depth[k] <= 0))
+      add(pose.contact[k]);
+    else
+      add(disc(pose, motion, i));
+  }
   return sum;
 }
 
 template <int N, int D>
-void FrictionContacts<N, D>::prepare(const Body<N>& body, const Motion<N>& motion,
+void FrictionContacts<N, D>::prepare(const Pose& pose, const Motion<N>& motion,
                                      const Coordinates<N>& acceleration, const Forces& bound,
                                      const Normals& normal) {
   bound_ = bound;
@@ -178,7 +194,7 @@ void FrictionContacts<N, D>::prepare(const Body<N>& body, const Motion<N>& motio
     problem_.bound[k] = bound[static_cast<std::size_t>(c)];
     problem_.slip[k] = along(c, row, motion.rate);
     slip_rate_[k] = along(c, row, acceleration) + bias;
-    column_[k] = body.response(rows[k]);
+    column_[k] = pose.response(rows[k]);
   };
   const auto rubs = [&](int c) { return bound[static_cast<std::size_t>(c)] > 0; };
   for (int c = 0; c < static_cast<int>(k_.links()); ++c)
@@ -190,7 +206,7 @@ void FrictionContacts<N, D>::prepare(const Body<N>& body, const Motion<N>& motio
     const double force = normal[static_cast<std::size_t>(i)];
     if (force <= 0) continue;
     DiscAt<N>& at = discs[touching_count_];
-    at = disc(body, motion, i);
+    at = pose.contact[static_cast<std::size_t>(i)];
     touching_[touching_count_] = i;
     normal_[touching_count_++] = force;
     if (rubs(first_disc + i)) activate(first_disc + i, at.slip, at.slip_bias);
@@ -202,7 +218,7 @@ void FrictionContacts<N, D>::prepare(const Body<N>& body, const Motion<N>& motio
 
   for (std::size_t i = 0; i < touching_count_; ++i) {
     const DiscAt<N>& at = discs[i];
-    const Coordinates<N> column = body.response(at.rise);
+    const Coordinates<N> column = pose.response(at.rise);
     rise_[i] = dot(k_, at.rise, motion.rate);
     rise_rate_[i] = dot(k_, at.rise, acceleration) + at.rise_bias;
     for (std::size_t k = 0; k < touching_count_; ++k)

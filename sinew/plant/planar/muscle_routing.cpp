@@ -10,6 +10,8 @@ CamLaw::CamLaw(const robot::Cam& cam, const robot::Joint& joint)
     angle_ = {joint.rest_angle};
     radius_ = {robot::cam_radius(cam, joint, joint.rest_angle)};
   }
+  round_ = angle_.size() == 1;
+  first_radius_ = radius_[0];
   area_ = {0.0};
   for (std::size_t k = 1; k < angle_.size(); ++k)
     area_.push_back(area_.back() +
@@ -17,8 +19,7 @@ CamLaw::CamLaw(const robot::Cam& cam, const robot::Joint& joint)
   area_at_rest_ = area(rest_);
 }
 
-double CamLaw::radius(double angle) const noexcept {
-  if (angle_.size() == 1) return radius_[0];
+double CamLaw::radius_of_table(double angle) const noexcept {
   return robot::cam_radius(angle_, radius_, angle);
 }
 
@@ -30,12 +31,6 @@ double CamLaw::area(double angle) const noexcept {
     return area_[k - 1] + 0.5 * (radius_[k - 1] + radius(angle)) * inside;
   }
   return area_.back() + radius_.back() * (angle - angle_.back());
-}
-
-// A round cam is exactly r (theta - rest), as a chain has it.
-double CamLaw::travel(double angle) const noexcept {
-  if (angle_.size() == 1) return radius_[0] * (angle - rest_);
-  return area(angle) - area_at_rest_;
 }
 
 MuscleRouting::MuscleRouting(const robot::Robot& robot) {

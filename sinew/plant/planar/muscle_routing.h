@@ -24,14 +24,21 @@ class CamLaw {
   CamLaw() = default;
   CamLaw(const robot::Cam& cam, const robot::Joint& joint);
 
-  double radius(double angle) const noexcept;  // [m]
-  double travel(double angle) const noexcept;  // S [m]
+  double radius(double angle) const noexcept {  // [m]
+    return round_ ? first_radius_ : radius_of_table(angle);
+  }
+  // S [m]; a round cam's is exactly r (theta - rest), as a chain has it.
+  double travel(double angle) const noexcept {
+    return round_ ? first_radius_ * (angle - rest_) : area(angle) - area_at_rest_;
+  }
 
  private:
+  double radius_of_table(double angle) const noexcept;
   double area(double angle) const noexcept;  // integral of r from the first point [m]
 
-  std::vector<double> angle_, radius_, area_;  // ascending; one point: round
-  double rest_ = 0, area_at_rest_ = 0;
+  bool round_ = true;                          // its table has one point
+  std::vector<double> angle_, radius_, area_;  // ascending
+  double first_radius_ = 0, rest_ = 0, area_at_rest_ = 0;
 };
 
 class MuscleRouting {

@@ -35,11 +35,13 @@ struct Steps {
 inline constexpr double blocked_bound = 1e9;  // dry friction of a joint that is held [N m]
 
 // The body step, or a whole part of it that suits the machine's fastest rate [1/s]: RK4 is stable
-// up to a product of 2.8, and the rate changes with the pose.
-inline double stable_step(double step, double rate) {
-  constexpr double largest_product = 1.5;
-  const double product = rate * step;
-  return product > largest_product ? step / std::ceil(product / largest_product) : step;
+// up to a product of 2.78. What is left of it is for what acts together with the fastest, and for
+// other poses; `elsewhere` is the fastest rate in any, if it is known.
+inline double stable_step(double step, double rate, double elsewhere = 0) {
+  constexpr double largest_product = 1.55, largest_elsewhere = 2.6;
+  const double parts =
+      std::fmax(rate * step / largest_product, elsewhere * step / largest_elsewhere);
+  return parts > 1 ? step / std::ceil(parts) : step;
 }
 
 struct Setup {

@@ -47,7 +47,7 @@ void World<M, A>::prepare() noexcept {
     begin_part(state_.time, state_.now, state_.memory, state_.held, first);
     look_for_failure();
   } else {
-    evaluate_air(state_.time, state_.now, state_.memory, first, air_.always_ahead());
+    evaluate_air(state_.time, state_.now, state_.memory, first, air_.always_ahead(state_.valves));
     look_for_failure();
     const typename M::Pose pose = mechanism_.pose(state_.time, state_.now.motion);
     mechanism_.load(pose, state_.now.motion, first.arms, first.air, first.load);
@@ -111,7 +111,8 @@ void World<M, A>::step(double to) noexcept {
     for (double k = 0; k < pieces; ++k) {
       const double from = state_.time + k * (h / pieces);
       if (k > 0) {
-        look_at(from, state_.now, state_.memory, state_.held, state_.first, air_.always_ahead());
+        look_at(from, state_.now, state_.memory, state_.held, state_.first,
+                air_.always_ahead(state_.valves));
         air_.remember(state_.first.air, state_.now.air, state_.memory);
         first = state_.first.acceleration;
       }
@@ -219,7 +220,7 @@ void World<M, A>::extrapolate(double t, Peek& p) noexcept {
       evaluate_air(to, p.state, state_.memory, p.look, course.muscles);
       air_.correct(p.state.air, from, h, before, p.look.air, state_.valves, course);
     }
-    evaluate_air(to, p.state, state_.memory, p.look, air_.always_ahead());
+    evaluate_air(to, p.state, state_.memory, p.look, air_.always_ahead(state_.valves));
   }
 }
 

@@ -66,8 +66,8 @@ void open(ComparedRun& run, const Machine& machine, const config::Node& resolved
 }
 
 [[noreturn]] void no_sequence(const std::string& label) {
-  config::fail({label, 0, 0}, "--align sequence", "a run without phases",
-               "a run that goes through a sequence", "--align start");
+  config::fail({label, 0, 0}, "align=sequence", "a run without phases",
+               "a run that goes through a sequence", "align=start");
 }
 
 // `sequence` is the first run's start, known after it was opened.
@@ -148,7 +148,7 @@ Comparison compare(std::vector<RecordedRun> runs, Align align) {
     config::fail({out.runs.back().label, 0, 0}, "",
                  "no channel that " + out.runs.front().label + " has too",
                  "runs with common channels",
-                 "sinew export RUN --csv, whose first line names a run's channels");
+                 "other channels: the first line of a run's log as CSV names its own");
   return out;
 }
 

@@ -119,7 +119,7 @@ TEST(Comparison, SaysWhatCannotBeCompared) {
   signals::Table without = table();
   std::erase_if(without.series,
                 [](const signals::Series& s) { return s.topic.name.starts_with("/plan"); });
-  EXPECT_NE(message([&] { two(table(), without, {}, Align::sequence); }).find("--align start"),
+  EXPECT_NE(message([&] { two(table(), without, {}, Align::sequence); }).find("align=start"),
             std::string::npos);
   EXPECT_NE(message([&] { two(table(), {}); }).find("no channel that one has too"),
             std::string::npos);

@@ -51,9 +51,11 @@ struct Curve {
   bool in_legend = true;  // or named where it ends
 };
 
-// Shaded from bottom to top: stance.
+// Shaded from bottom to top: stance; or, between two lines, the time of a fault.
 struct Span {
+  enum class Of { stance, fault };
   double from = 0, to = 0;  // in x
+  Of of = Of::stance;
 };
 
 struct Plot {

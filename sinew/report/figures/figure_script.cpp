@@ -217,9 +217,16 @@ void Script::spans(const Plot& plot, const Scale& x) {
   for (const Span& s : plot.spans) {
     const double from = std::max(s.from, x.from), to = std::min(s.to, x.to);
     if (!(from < to)) continue;
+    const bool fault = s.of == Span::Of::fault;
     add("set object rectangle from first {}, graph 0 to first {}, graph 1 behind "
-        "fillcolor rgb '#e8edf3' fillstyle solid noborder",
-        format_number(from), format_number(to));
+        "fillcolor rgb '{}' fillstyle solid noborder",
+        format_number(from), format_number(to), fault ? "#f9dccf" : "#e8edf3");
+    if (!fault) continue;
+    for (const double end : {s.from, s.to})
+      if (end >= x.from && end <= x.to)
+        add("set arrow from first {0}, graph 0 to first {0}, graph 1 nohead back linewidth 0.4 "
+            "linecolor rgb '#b3401a'",
+            format_number(end));
   }
 }
 

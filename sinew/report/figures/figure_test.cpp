@@ -346,10 +346,20 @@ TEST(Gnuplot, DrawsEveryStyleOfACurve) {
   for (const Curve::Style style : {line, marked, steps, points, bars})
     figure.plots[0].curves.push_back(
         {.label = "style", .xs = {0, 1, 2}, .ys = {1, 3, 2}, .style = style});
-  figure.plots[0].spans = {{0.5, 1}, {1.5, 9}};
+  figure.plots[0].spans = {
+      {0.5, 1}, {1.5, 9}, {0.2, 0.3, Span::Of::fault}, {1.9, 5, Span::Of::fault}};
   const Drawn drawn(figure);
   ASSERT_EQ(drawn.code, 0) << drawn.messages;
   EXPECT_EQ(drawn.messages, "");
+  const std::string text = script(figure, data(figure), {Picture::svg});
+  const auto count = [&](const std::string& word) {
+    std::size_t n = 0;
+    for (std::size_t at = 0; (at = text.find(word, at)) != text.npos; ++at) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("fillcolor"), 4u);
+  EXPECT_EQ(count("'#f9dccf'"), 2u);
+  EXPECT_EQ(count("'#b3401a'"), 3u) << "one fault lasts beyond the axis";
 }
 
 }  // namespace

@@ -63,6 +63,8 @@ class Maker {
       : channels_(channels), about_(std::move(about)), options_(options), atmosphere_(atmosphere) {}
 
   void shade(std::vector<Span> stance) { stance_ = std::move(stance); }
+  // The faults that the run had, up to its end  [s].
+  void shade(const std::vector<analysis::MachineFault>& faults, double end);
   void panel(const Panel& panel);
   // y over x, at the times of x; `desired` may have none.
   void over(const std::string& name, const std::string& title, const Axis& x, const Axis& y,
@@ -89,10 +91,23 @@ class Maker {
   const About about_;
   const RunFigureOptions options_;
   const double atmosphere_;
-  std::vector<Span> stance_;
+  std::vector<Span> stance_, faults_;
+  std::string broken_;  // those faults in words
 };
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
+
+void Maker::shade(const std::vector<analysis::MachineFault>& faults, double end) {
+  std::vector<std::string> words;
+  for (const analysis::MachineFault& f : faults) {
+    const double to = std::min(f.end, end);
+    if (f.begin > std::min(options_.to, end) || to < options_.from) continue;
+    faults_.push_back({f.begin, to, Span::Of::fault});
+    words.push_back(fmt::format("{} {} from {:.10g} s {}", f.of, f.what, f.begin,
+                                std::isfinite(f.end) ? fmt::format("to {:.10g} s", f.end) : "on"));
+  }
+  broken_ = fmt::format("{}", fmt::join(words, ", "));
+}
 
 Curve Maker::curve(const Line& line, const ShownUnit& unit, bool steps) const {
   Curve out{.label = line.label, .kind = about_.kind, .color = line.color, .source = about_.source};
@@ -190,6 +205,7 @@ void Maker::panel(const Panel& all) {
     plot.x = {"time", "s"};
     plot.y = {in_sentence(panel.title), unit.name};
     plot.spans = stance_;
+    plot.spans.insert(plot.spans.end(), faults_.begin(), faults_.end());
     plot.curves.push_back(curve(line, unit, steps));
     if (plot.curves.back().xs.empty()) plot.curves.pop_back();
   }
@@ -199,6 +215,7 @@ void Maker::panel(const Panel& all) {
   figure.caption = fmt::format("{} of {}, {}.", panel.title, about_.run, about_.source);
   if (desired) figure.caption += " Dotted: desired.";
   if (!stance_.empty()) figure.caption += " Shaded: stance by plan.";
+  if (!broken_.empty()) figure.caption += " Between red lines, broken on purpose: " + broken_ + ".";
   figure.caption += meanings(panel);
   for (auto& [part, plot] : plots) {
     if (plots.size() == 1 && plot.curves.size() == 1)
@@ -284,6 +301,7 @@ std::vector<Figure> of_robot(const Run& run, const RunFigureOptions& options) {
 
   Maker make(channels, about(run, machine.title, machine.robot.name), options, machine.atmosphere);
   if (machine.robot.legs.empty()) make.shade(stance_of(record, machine));  // else each has its own
+  if (record.rows() > 0) make.shade(machine.faults, record.time(record.rows() - 1));
   for (const Panel& panel : panels(channels, machine.robot)) make.panel(panel);
   for (const robot::LegParts& leg : robot::legs_of(machine.robot))
     add_foot_path(make, channels, leg.name);

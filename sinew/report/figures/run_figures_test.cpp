@@ -118,6 +118,38 @@ TEST(RunFigures, HaveNamesOfTheirOwnAndShadeStance) {
   }
 }
 
+// Where a part is broken on purpose is shaded between lines, and the caption says which.
+TEST(RunFigures, ShadeTheTimesOfFaults) {
+  const config::Node broken = config::compose(
+      std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml",
+      {R"(fault=[{ at = "0.4 s", for = "200 ms", of = "knee_extensor.inlet", what = "stuck open" },)"
+       R"( { at = "0.9 s", of = "supply", what = "failed" },)"
+       R"( { at = "1 h", of = "hip_flexor", what = "blocked" }])"});
+  const signals::Table table = logged();
+  const auto faults = [&](const RunFigureOptions& options) {
+    std::vector<Span> out;
+    const Figure figure =
+        named(run_figures({.table = table, .resolved = broken, .name = "broken"}, options),
+              "joint-angles");
+    for (const Span& s : figure.plots[0].spans)
+      if (s.of == Span::Of::fault) out.push_back(s);
+    const bool told = figure.caption.find("broken on purpose: ") != std::string::npos;
+    EXPECT_EQ(told, !out.empty()) << figure.caption;
+    if (out.size() == 2) {
+      EXPECT_THAT(figure.caption, HasSubstr("knee_extensor.inlet stuck open from 0.4 s to 0.6 s, "
+                                            "supply failed from 0.9 s on."));
+    }
+    return out;
+  };
+  const std::vector<Span> whole = faults({});
+  ASSERT_EQ(whole.size(), 2u) << "one begins after the end";
+  EXPECT_NEAR(whole[0].to, 0.6, 1e-12);
+  const double end = 1e-9 * static_cast<double>(table.find("/joint/hip/angle")->time_ns.back());
+  EXPECT_NEAR(whole[1].to, end, 0.02);
+  EXPECT_EQ(faults({.from = 0.7, .to = 0.8}).size(), 0u);
+  EXPECT_EQ(faults({.from = 0.5, .to = 0.8}).size(), 1u);
+}
+
 // --- units ---
 
 TEST(ShownUnit, ChoosesTheFirstOfThoseThatDifferByAThousand) {

@@ -110,6 +110,8 @@ Growing::Growing(const std::vector<signals::Topic>& topics, Of of)
   Json head = Json::parse(
       report::content({.table = prototype.table, .resolved = of_.resolved, .name = of_.name}).json);
   head["duration"] = of_.duration;
+  if (!machine_.faults.empty())
+    head["faults"] = Json::parse(to_json(machine_.faults, of_.duration));
   head["phases"]["stretches"] = Json::array();
   head["panels"] = Json::parse(to_json(panels(parts.channels, machine_.robot), columns));
   head["scene"] = Json::parse(to_json(parts.scene, columns));

@@ -119,6 +119,20 @@ TEST(Growing, PiecesAreTheWhole) {
   }
 }
 
+// The page knows beforehand what will break, to mark it when it does.
+TEST(Growing, ThePageKnowsTheFaults) {
+  const Table all = table();
+  EXPECT_FALSE(Json::parse(growing(all).content("{}").json).contains("faults"));
+  const config::Node broken =
+      config::compose(std::string(SINEW_SOURCE_DIR) + "/experiments/faults/valve-stuck-open.toml");
+  const Growing page(topics(all), {.resolved = broken, .name = "broken", .duration = 12.5});
+  const Json faults = Json::parse(page.content("{}").json)["faults"];
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0]["of"], "knee_extensor.inlet");
+  EXPECT_EQ(faults[0]["from"], 5.0);
+  EXPECT_NEAR(faults[0]["to"].get<double>(), 5.2, 1e-12);
+}
+
 TEST(Growing, ThePageHasNoSamplesYetAndAPlaceForAll) {
   const Table all = table();
   const Content content = growing(all).content(R"({"controls":[]})");

@@ -3,6 +3,7 @@
 #include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
+#include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/logged.h"
 #include "sinew/run/stand/run.h"
 
@@ -11,7 +12,7 @@ namespace sinew::run {
 experiment::Experiment runnable(const std::string& path, const std::vector<std::string>& sets,
                                 bool allow_unreachable) {
   const config::Node root = config::compose(path, sets);
-  experiment::Experiment e = experiment::load(root, path);
+  experiment::Experiment e = buildable(root, path);
   if (!allow_unreachable) refuse_unreachable(e);
   (void)analysis::read_machine(root);  // what cannot be summed up is not run
   (void)logged_topics(e);

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/experiment/planar_setup.h"
 #include "sinew/plant/planar/machine.h"
+#include "sinew/run/setup/buildable.h"
+#include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/run.h"
 
 namespace sinew::run {
@@ -18,7 +19,7 @@ using Sets = std::vector<std::string>;
 
 experiment::Experiment walk(Sets sets = {}) {
   sets.push_back("sequence.repeat=1");
-  return experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml", sets);
+  return buildable(std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml", sets);
 }
 
 std::string refusal(const Sets& sets) {
@@ -36,7 +37,7 @@ const Sets pipe{"muscle.hip_flexor.hose.law=pipe", "muscle.hip_flexor.hose.lengt
                 "muscle.hip_flexor.hose.inner_diameter=2.5 mm"};
 
 bool plain(const experiment::Experiment& e) {
-  const plant::Setup s = experiment::planar_setup(e);
+  const plant::Setup s = planar_setup(e);
   return air::AirNetwork<plant::most_muscles>(s.muscles, s.air, s.supply, s.cylinder).plain();
 }
 
@@ -53,7 +54,7 @@ TEST(AirOfAFile, ReachesThePlant) {
   hose.push_back("muscle.hip_flexor.hose.volume=5 mL");
   hose.push_back("muscle.knee_flexor.leak.area=0.01 mm2");
   hose.push_back("muscle.knee_flexor.leak.conductance=2e-11 kg/(s Pa)");
-  const plant::Setup s = experiment::planar_setup(walk(hose));
+  const plant::Setup s = planar_setup(walk(hose));
   EXPECT_EQ(s.muscles[0].hose.law, gas::Hose::Law::pipe);
   EXPECT_EQ(s.muscles[0].hose.length, 1);
   EXPECT_EQ(s.muscles[0].hose.inner_diameter, 2.5e-3);
@@ -65,8 +66,7 @@ TEST(AirOfAFile, ReachesThePlant) {
   for (const Sets& sets :
        {tank, pipe, Sets{"air.wall_time=0.3 s"}, Sets{"muscle.hip_flexor.leak.area=0.01 mm2"}})
     EXPECT_FALSE(plain(walk(sets))) << sets[0];
-  const plant::Setup slow =
-      experiment::planar_setup(walk({"valve.exhaust.opening_delay_slope=1e-9 s/Pa"}));
+  const plant::Setup slow = planar_setup(walk({"valve.exhaust.opening_delay_slope=1e-9 s/Pa"}));
   EXPECT_EQ(slow.muscles[0].exhaust.opening_delay_slope, 1e-9);
 }
 

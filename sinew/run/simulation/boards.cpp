@@ -1,4 +1,5 @@
 #include "sinew/run/simulation/boards.h"
+#include "sinew/run/setup/installation.h"
 
 #include <algorithm>
 #include <cstring>
@@ -15,7 +16,7 @@ static_assert(std::is_trivially_copyable_v<control::Supervisor>);
 
 // --- one board ---
 
-Board::Board(const experiment::Board& board)
+Board::Board(const control::Board& board)
     : supervisor(board.spine, board.limits),
       joint_(board.joint),
       channel_(board.channel),
@@ -104,7 +105,7 @@ bool MachineSeen::tripped() const noexcept {
 
 Boards::Boards(const experiment::Experiment& e)
     : joint_(e.robot.joints.size() + 1), sensor_(e.robot.sensors.size()) {
-  for (const experiment::Board& board : experiment::boards(e)) {
+  for (const control::Board& board : control::boards(installation(e))) {
     const auto b = static_cast<std::uint8_t>(boards_.size());
     const Board& added = boards_.emplace_back(board);
     for (std::size_t i = 0; i < board.joint.size(); ++i)

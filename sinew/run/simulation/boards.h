@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
+#include "sinew/control/setup/boards.h"
 #include "sinew/control/supervise/supervisor.h"
-#include "sinew/experiment/boards.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/robot/robot.h"
 #include "sinew/signals/port.h"
@@ -23,7 +23,7 @@ namespace sinew::run {
 // One board before the machine's port: what goes in and out has the machine's numbers.
 class Board {
  public:
-  explicit Board(const experiment::Board& board);
+  explicit Board(const control::Board& board);
 
   // As of control::Supervisor.
   std::span<const signals::Edge> edges(signals::Tick t) noexcept;

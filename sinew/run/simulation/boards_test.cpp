@@ -1,13 +1,14 @@
 // A machine on several boards: what each of them does is what one board did.
 #include "sinew/run/simulation/boards.h"
+#include "sinew/run/setup/installation.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "sinew/experiment/joint_controllers.h"
-#include "sinew/experiment/supervision.h"
+#include "sinew/control/setup/joint_controllers.h"
+#include "sinew/control/setup/supervision.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/simulation.h"
 #include "sinew/run/simulation/test_same.h"
@@ -71,7 +72,7 @@ TEST(Boards, TwoLegsWithTheSameTicksAndBits) {
   }
   ASSERT_TRUE(robot::contradictions(e.robot).empty());
 
-  const std::vector<experiment::Board> boards = experiment::boards(e);
+  const std::vector<control::Board> boards = control::boards(installation(e));
   ASSERT_EQ(boards.size(), 2u);
   EXPECT_EQ(boards[1].joint, (std::vector<std::uint8_t>{2, 3}));
   EXPECT_EQ(boards[1].valve, (std::vector<std::uint8_t>{8, 9, 10, 11, 12, 13, 14, 15}));
@@ -160,7 +161,7 @@ TEST(Boards, BadCommandsNameTheirJoint) {
   EXPECT_EQ(totals.trip.cause, Trip::Cause::command);
   EXPECT_EQ(totals.trip.joint, 1);
   EXPECT_EQ(totals.board, 2);
-  const std::string text = experiment::to_text(totals.trip, e, totals.board);
+  const std::string text = control::to_text(totals.trip, e.robot, totals.board);
   EXPECT_TRUE(text.starts_with("the commands for joint knee on board 2 at ")) << text;
 }
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include "sinew/experiment/failure.h"
-#include "sinew/experiment/supervision.h"
+#include "sinew/control/setup/supervision.h"
 #include "sinew/robot/actuator_of.h"
+#include "sinew/run/setup/failure.h"
 #include "sinew/run/simulation/run.h"
 
 namespace sinew::run {
@@ -24,14 +24,13 @@ std::string cause_of(const experiment::Experiment& e, const Outcome& outcome) {
   const SeenTotals& seen = outcome.seen;
   if (outcome.failure) {
     const auto m = static_cast<std::size_t>(outcome.failure.muscle);
-    if (m >= e.robot.muscles.size())
-      return experiment::in_words(outcome.failure, "", {}, "plant_steps.body");
+    if (m >= e.robot.muscles.size()) return in_words(outcome.failure, "", {}, "plant_steps.body");
     const robot::Muscle& muscle = e.robot.muscles[m];
-    return experiment::in_words(outcome.failure, "muscle " + muscle.name,
-                                robot::actuator_of(muscle, e.actuators), "plant_steps.body");
+    return in_words(outcome.failure, "muscle " + muscle.name,
+                    robot::actuator_of(muscle, e.actuators), "plant_steps.body");
   }
   const std::string tripped =
-      experiment::to_text(outcome.supervised.trip, e, outcome.supervised.board);
+      control::to_text(outcome.supervised.trip, e.robot, outcome.supervised.board);
   if (!tripped.empty()) return tripped;
   const bool by_sensor = seen.fault != signals::Status::ok;
   std::string text(word(by_sensor ? seen.fault : outcome.status));

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/experiment/joint_controllers.h"
-#include "sinew/experiment/supervision.h"
+#include "sinew/control/setup/joint_controllers.h"
+#include "sinew/control/setup/supervision.h"
 #include "sinew/run/simulation/column_list.h"
 
 namespace sinew::run {
@@ -101,7 +101,7 @@ void muscle_columns(const experiment::Experiment& e, Columns& out) {
 
 // Up is the low level's flexor of the joint behind the robot's own.
 void cylinder_columns(const robot::Robot& robot, Columns& out) {
-  if (!experiment::has_cylinder_joint(robot)) return;
+  if (!robot::has_cylinder_joint(robot)) return;
   const std::size_t j = robot.joints.size();
   out.scalar("/cylinder/position", "m", "measured travel, up from the extended stop",
              [](const Snapshot& m) { return m.measured.cylinder; });
@@ -120,14 +120,24 @@ void cylinder_columns(const robot::Robot& robot, Columns& out) {
 }
 
 void low_level_columns(const robot::Robot& robot, Columns& out) {
-  if (!experiment::laws_overrun(robot)) return;
+  if (!control::laws_overrun(robot)) return;
   out.scalar("/low_level/overruns", "1", "laws so far that took longer than their interrupt may",
              [](const Snapshot& m) { return m.seen.overruns(); });
 }
 
+// Answers whether there is a reason to record what was rejected: a fault, or a limit in the robot's
+// file.
+bool is_supervised_closely(const experiment::Experiment& e) {
+  return !e.faults.empty() || std::isfinite(e.robot.low_level.command_rate) ||
+         std::ranges::any_of(e.robot.sensors, [](const robot::Sensor& s) {
+           return !s.plausible.empty() || std::isfinite(s.max_rate) ||
+                  std::isfinite(s.frozen_limit);
+         });
+}
+
 // Adds the counters of rejected readings where the experiment gives reason to expect some.
 void supervision_columns(const experiment::Experiment& e, Columns& out) {
-  if (!experiment::is_supervised_closely(e)) return;
+  if (!is_supervised_closely(e)) return;
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s) {
     const std::string at = "/sensor/" + e.robot.sensors[s].name;
     out.scalar(at + "/rejected", "1", "readings so far that were not believed",

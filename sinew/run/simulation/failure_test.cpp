@@ -1,12 +1,13 @@
 // What cannot run is refused by its key; what runs away all the same ends its run, in every world,
 // with the muscle, the time and the cause.
-#include "sinew/experiment/failure.h"
+#include "sinew/run/setup/failure.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
 
 namespace sinew::run {
@@ -16,7 +17,7 @@ const std::string folder = std::string(SINEW_SOURCE_DIR) + "/experiments/";
 
 std::string refusal(const std::string& name, const std::vector<std::string>& sets) {
   try {
-    experiment::load(folder + name + ".toml", sets);
+    (void)buildable(folder + name + ".toml", sets);
   } catch (const config::Error& e) {
     return e.what();
   }
@@ -70,7 +71,7 @@ TEST(Refusal, NamesWhatTheControllerCannotHold) {
 
 // --- what is noticed in the loop ---
 
-// Past what load() would refuse.
+// Past what buildable() would refuse.
 experiment::Experiment without_volume(const std::string& name) {
   experiment::Experiment e = experiment::load(folder + name + ".toml", {"sequence.repeat=1"});
   for (robot::Muscle& m : e.robot.muscles) m.external_volume = 0;

@@ -10,9 +10,11 @@
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/node.h"
+#include "sinew/control/setup/supervision.h"
 #include "sinew/experiment/faults.h"
-#include "sinew/experiment/supervision.h"
 #include "sinew/robot/actuator_of.h"
+#include "sinew/run/setup/air_faults.h"
+#include "sinew/run/setup/installation.h"
 #include "sinew/run/simulation/faulty_port.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/test_same.h"
@@ -111,7 +113,7 @@ TEST(Fault, EndsTheRunAndIsNamed) {
   EXPECT_EQ(out.supervised.trip.cause, Trip::Cause::range);
   EXPECT_EQ(out.supervised.trip.at, 10'201);  // read at tick 1 of the third scan
   EXPECT_EQ(out.seen.fault, Status::fault);
-  const std::string text = experiment::to_text(out.supervised.trip, e);
+  const std::string text = control::to_text(out.supervised.trip, e.robot);
   EXPECT_TRUE(
       text.starts_with("sensor lever_angle at 1.0201 s: 4095 count three times in a row, "
                        "outside its plausible "))
@@ -237,7 +239,7 @@ TEST(AirFault, ComesToPartsOfThePlant) {
   experiment::Experiment e = bench();
   e.faults = {of_air("extensor.exhaust", What::stuck_shut, 1, 0.5), of_lever(What::open),
               of_air("extensor", What::ruptured, 1), of_air("supply", What::failed, 2)};
-  const std::vector<air::AirFault> air = experiment::air_faults(e);
+  const std::vector<air::AirFault> air = air_faults(e);
   ASSERT_EQ(air.size(), 3u);
   EXPECT_EQ(air[0].what, air::AirFault::What::stuck_shut);
   EXPECT_EQ(air[0].of, 3);
@@ -313,7 +315,7 @@ TEST(AirFault, GoesWithALieOfASensor) {
 // radian, more than the potentiometer's 714.
 TEST(Supervision, AnAngleIsPlausibleWithinItsMusclesReach) {
   const experiment::Experiment e = experiment::load(source + "/experiments/walk-test-1.toml");
-  const control::SuperviseConfig c = experiment::supervise_config(e);
+  const control::SuperviseConfig c = control::supervise_config(installation(e));
   const int hip = robot::find_sensor(e.robot, "hip_angle");
   const control::SensorLimits& limit = c.sensor[static_cast<std::size_t>(hip)];
   EXPECT_GT(limit.low, 0);
@@ -339,7 +341,7 @@ TEST(Supervision, WhereItRestsIsPlausible) {
   for (const double rest : {0.0, 2.0, 4095.0}) {
     experiment::Experiment e = bench();
     e.robot.sensors[0].at_rest = e.robot.sensors[0].assumed_at_rest = rest;
-    const control::SensorLimits limit = experiment::supervise_config(e).sensor[0];
+    const control::SensorLimits limit = control::supervise_config(installation(e)).sensor[0];
     EXPECT_EQ(limit.low, rest < 4000 ? 0 : limit.low);
     EXPECT_EQ(limit.high, rest > 4000 ? 4095 : limit.high);
     EXPECT_LE(limit.low, rest);
@@ -352,7 +354,7 @@ TEST(Supervision, TheFilesLimitsCount) {
   e.robot.sensors[0].plausible = {1900, 2500};
   e.robot.sensors[0].max_rate = 20'000;
   e.robot.sensors[0].frozen_limit = 0.3;
-  const control::SensorLimits limit = experiment::supervise_config(e).sensor[0];
+  const control::SensorLimits limit = control::supervise_config(installation(e)).sensor[0];
   EXPECT_EQ(limit.low, 1900);
   EXPECT_EQ(limit.high, 2500);
   EXPECT_EQ(limit.max_step, 206);
@@ -361,7 +363,7 @@ TEST(Supervision, TheFilesLimitsCount) {
   e.faults = {{.at = 0.8, .of = "lever_angle", .what = What::stuck}};
   const Outcome out = run(e);
   EXPECT_EQ(out.supervised.trip.cause, Trip::Cause::frozen);
-  EXPECT_TRUE(experiment::to_text(out.supervised.trip, e).find("its frozen_limit") !=
+  EXPECT_TRUE(control::to_text(out.supervised.trip, e.robot).find("its frozen_limit") !=
               std::string::npos);
 }
 
@@ -370,8 +372,8 @@ TEST(Supervision, ACommandThatIsTooFastIsRejected) {
   e.robot.low_level.command_rate = 1;
   const Outcome out = run(e);
   EXPECT_EQ(out.supervised.trip.cause, Trip::Cause::command);
-  EXPECT_TRUE(
-      experiment::to_text(out.supervised.trip, e).starts_with("the commands for joint knee at "));
+  EXPECT_TRUE(control::to_text(out.supervised.trip, e.robot)
+                  .starts_with("the commands for joint knee at "));
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ HighLevel::HighLevel(const robot::Robot& robot, const gait::Plan& plan, Steering
       brain_ticks_(std::llround(plan.brain_period / signals::tick_seconds)),
       scale_(believed(robot)),
       legs_(robot, plan),
-      changes_(plan, steering) {
+      changes_(plan, robot::legs_of(robot), steering) {
   for (std::size_t l = 0; l < legs_.count(); ++l) desired_[l] = legs_.desired(l);
 }
 

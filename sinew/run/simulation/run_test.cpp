@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/experiment/joint_controllers.h"
-#include "sinew/experiment/planar_setup.h"
-#include "sinew/experiment/supervision.h"
+#include "sinew/control/setup/joint_controllers.h"
+#include "sinew/control/setup/supervision.h"
 #include "sinew/plant/planar/machine.h"
+#include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/loop.h"
 #include "sinew/run/simulation/simulation.h"
@@ -145,7 +145,7 @@ TEST(Run, TheLastRowStandsAfterTheSequence) {
 
 template <class World>
 void expect_no_heap(const experiment::Experiment& e, Steering* steering = nullptr) {
-  World world(experiment::planar_setup(e));
+  World world(planar_setup(e));
   Boards boards(e);
   HighLevel high(e.robot, e.plan, steering);
   const signals::Tick end = experiment::last_tick(e);

@@ -1,14 +1,16 @@
 #include "sinew/run/simulation/simulation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <type_traits>
 
+#include "sinew/config/diagnostics.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/experiment/planar_setup.h"
+#include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/run.h"
 
@@ -69,7 +71,7 @@ void take(std::span<const std::byte>& from, Part& part) {
 
 Simulation::Simulation(const experiment::Experiment& experiment, Steering* steering)
     : experiment_(experiment),
-      machine_(std::in_place, experiment::planar_setup(experiment_)),
+      machine_(std::in_place, planar_setup(experiment_)),
       port_(&machine_->port()),
       boards_(experiment_),
       high_level_(experiment_.robot, experiment_.plan, steering),
@@ -155,15 +157,27 @@ std::size_t Simulation::setting(std::string_view key) const {
   refuse("setting: found \"" + std::string(key) + "\"; expected one of " + all);
 }
 
-void Simulation::change(std::string_view key, double value) {
+int Simulation::leg_number(std::string_view leg) const {
+  if (leg.empty()) return -1;
+  const std::vector<robot::LegParts> legs = robot::legs_of(experiment_.robot);
+  const auto found = std::ranges::find(legs, leg, &robot::LegParts::name);
+  if (found != legs.end()) return static_cast<int>(found - legs.begin());
+  refuse("leg: found \"" + std::string(leg) + "\"; expected " +
+         (experiment_.robot.legs.empty() ? "none, as the robot has one leg alone"
+                                         : config::either(config::names_of(legs))));
+}
+
+void Simulation::change(std::string_view key, double value, std::string_view leg) {
   const std::size_t s = setting(key);
   if (!(value >= 0 && value <= gait::Setting::most))
     refuse(std::string(key) + ": found " + std::to_string(value) + "; expected 0 to 1e6 " +
            std::string(settings()[s].unit));
-  (void)high_level_.wish({s, value, false});
+  (void)high_level_.wish({s, value, false, leg_number(leg)});
 }
 
-void Simulation::release(std::string_view key) { (void)high_level_.wish({setting(key), 0, true}); }
+void Simulation::release(std::string_view key, std::string_view leg) {
+  (void)high_level_.wish({setting(key), 0, true, leg_number(leg)});
+}
 
 // --- saving ---
 

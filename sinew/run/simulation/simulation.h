@@ -1,7 +1,7 @@
 // run/simulation/simulation.h - a run that somebody holds: an experiment's machine and its
 // controllers, advanced by as much as one likes, looked at, changed, saved and restored.
 //
-//   Simulation s(load("experiments/walk-test-1.toml"));
+//   Simulation s(buildable("experiments/walk-test-1.toml"));
 //   s.advance_by(2.0);
 //   double angle = s.read("/joint/hip/angle");
 //   s.change("control.stiffness.hip", 3.0);       // from the next period start on
@@ -37,7 +37,7 @@ namespace sinew::run {
 
 class Simulation {
  public:
-  // The experiment at its start. `steering` may be null and outlives this. Throws
+  // The experiment, a buildable one, at its start. `steering` may be null and outlives this. Throws
   // std::invalid_argument for a robot that no plant can hold.
   explicit Simulation(const experiment::Experiment& experiment, Steering* steering = nullptr);
 
@@ -97,10 +97,11 @@ class Simulation {
   // --- changing ---
 
   // Sets gain, stiffness or angle in place of the plan's ("control.stiffness.hip", in SI) from the
-  // next period start on, which may be this tick; and gives it back to the plan. Throws
-  // std::invalid_argument for a key that there is not, or a value that it cannot have.
-  void change(std::string_view key, double value);
-  void release(std::string_view key);
+  // next period start on, which may be this tick; and gives it back to the plan. `leg`: whose;
+  // empty: every leg's. Throws std::invalid_argument for a key or a leg that there is not, or a
+  // value that it cannot have.
+  void change(std::string_view key, double value, std::string_view leg = {});
+  void release(std::string_view key, std::string_view leg = {});
   const std::vector<gait::Setting>& settings() const noexcept { return high_level_.settings(); }
 
   // --- saving ---
@@ -123,6 +124,7 @@ class Simulation {
   signals::Port& port() noexcept { return *port_; }
   void list_channels();
   std::size_t setting(std::string_view key) const;
+  int leg_number(std::string_view leg) const;  // -1: every leg's
   std::uint64_t model();
 
   experiment::Experiment experiment_;

@@ -1,5 +1,6 @@
 // What the low level is told of robots other than the leg.
-#include "sinew/experiment/joint_controllers.h"
+#include "sinew/control/setup/joint_controllers.h"
+#include "sinew/run/setup/installation.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,7 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/experiment/check.h"
+#include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
 
 namespace sinew::run {
@@ -27,6 +29,7 @@ experiment::Experiment one_step(std::vector<std::string> sets = {}) {
 std::string refusal(const experiment::Experiment& e) {
   try {
     refuse_contradictions("experiment", e);
+    refuse_unbuildable(e);
   } catch (const config::Error& error) {
     return error.what();
   }
@@ -50,7 +53,7 @@ TEST(Spinal, ThreeWayValvesMakeAThreeWayJoint) {
   experiment::Experiment e = one_step();
   use_three_way(e, "knee");
   e.robot.joints[1].pressure_law.bias = 0.35;
-  const control::JointControllerConfig c = experiment::joint_controller_config(e);
+  const control::JointControllerConfig c = control::joint_controller_config(installation(e));
   EXPECT_EQ(c.joint[0].kind, Kind::antagonist);
   EXPECT_EQ(c.joint[1].kind, Kind::three_way);
   EXPECT_EQ(c.joint[1].bias, 35);
@@ -122,8 +125,9 @@ double error_in_swing(const Outcome& out) {
 TEST(Spinal, RegulatorsFollowTheirSetPoints) {
   const experiment::Experiment e = regulated_hip(0.006);
   EXPECT_EQ(refusal(e), "nothing");
-  EXPECT_EQ(experiment::joint_controller_config(e).joint[0].kind, Kind::regulated);
-  EXPECT_NEAR(experiment::joint_controller_config(e).joint[0].regulator.angle_integral, 0.006,
+  EXPECT_EQ(control::joint_controller_config(installation(e)).joint[0].kind, Kind::regulated);
+  EXPECT_NEAR(control::joint_controller_config(installation(e)).joint[0].regulator.angle_integral,
+              0.006,
               1e-9);  // % in 10 ms
   const Outcome out = run(e), plain = run(regulated_hip(0));
   EXPECT_LT(error_in_swing(out), 0.5 * error_in_swing(plain));
@@ -145,7 +149,7 @@ TEST(Spinal, TheCylinderGoesWhereThePlanWantsIt) {
   const experiment::Experiment e = experiment::load(
       air, {"sequence.repeat=1", "cylinder.mode=valves", "cylinder.position_gain=0.1 %/count",
             "cylinder.damping=3 lbf s/in", R"(phase.swing.cylinder={ position = ["0.7 in"] })"});
-  const control::JointControllerConfig c = experiment::joint_controller_config(e);
+  const control::JointControllerConfig c = control::joint_controller_config(installation(e));
   ASSERT_EQ(c.joints, 3u);
   EXPECT_EQ(c.joint[2].kind, Kind::cylinder);
   EXPECT_EQ(c.joint[2].flexor.inlet.index, 8);
@@ -173,12 +177,14 @@ TEST(Spinal, TheCylinderGoesWhereThePlanWantsIt) {
 // Another scale, another arm: the torque of a count, over that of the flexor's.
 TEST(Spinal, TensionRatioIsOfTorquePerCount) {
   experiment::Experiment e = one_step();
-  EXPECT_EQ(experiment::joint_controller_config(e).joint[0].extensor.tension_ratio, 1.0f);
+  EXPECT_EQ(control::joint_controller_config(installation(e)).joint[0].extensor.tension_ratio,
+            1.0f);
   const int s = robot::tension_sensor_of(e.robot, 1);
   e.robot.sensors[static_cast<std::size_t>(s)].assumed_scale /= 2;
-  EXPECT_NEAR(experiment::joint_controller_config(e).joint[0].extensor.tension_ratio, 2, 1e-6);
+  EXPECT_NEAR(control::joint_controller_config(installation(e)).joint[0].extensor.tension_ratio, 2,
+              1e-6);
   e.robot.muscles[1].cam.radius = 1.5 * e.robot.joints[0].moment_arm;
-  const control::JointConfig hip = experiment::joint_controller_config(e).joint[0];
+  const control::JointConfig hip = control::joint_controller_config(installation(e)).joint[0];
   EXPECT_NEAR(hip.extensor.tension_ratio, 3, 1e-6);
   EXPECT_NEAR(hip.extensor.free_length, hip.flexor.free_length / 1.5, 1);
 }
@@ -189,7 +195,7 @@ TEST(Spinal, AJointWithOneMuscle) {
     const std::string name = e.robot.muscles[gone].name;
     e.robot.muscles.erase(e.robot.muscles.begin() + static_cast<std::ptrdiff_t>(gone));
     std::erase_if(e.robot.sensors, [&](const robot::Sensor& s) { return s.of == name; });
-    const control::JointConfig hip = experiment::joint_controller_config(e).joint[0];
+    const control::JointConfig hip = control::joint_controller_config(installation(e)).joint[0];
     EXPECT_EQ(hip.flexor.present, gone == 1);
     EXPECT_EQ(hip.extensor.present, gone == 0);
     EXPECT_FALSE(robot::is_plain(e.robot));
@@ -208,7 +214,7 @@ TEST(Spinal, AMuscleOverTwoJoints) {
   e.robot.muscles[0].second.cam.radius = 0.5 * e.robot.joints[1].moment_arm;
   std::erase_if(e.robot.sensors, [](const robot::Sensor& s) { return s.of == "knee_flexor"; });
   e.robot.muscles.erase(e.robot.muscles.begin() + 2);
-  const control::JointControllerConfig c = experiment::joint_controller_config(e);
+  const control::JointControllerConfig c = control::joint_controller_config(installation(e));
   const control::MuscleConfig &hip = c.joint[0].flexor, &knee = c.joint[1].flexor;
   EXPECT_EQ(hip.inlet.index, knee.inlet.index);
   EXPECT_EQ(hip.tension.index, knee.tension.index);
@@ -238,7 +244,7 @@ TEST(Spinal, InterruptsOverrunAbove100Hz) {
   for (const int ticks : {50, 66, 100, 111, 125, 200}) {
     experiment::Experiment e = one_step({"low_level.interrupt_time=100 us"});
     e.robot.low_level.pwm_ticks = ticks;
-    EXPECT_EQ(experiment::laws_overrun(e.robot), ticks < 100) << ticks;
+    EXPECT_EQ(control::laws_overrun(e.robot), ticks < 100) << ticks;
   }
 }
 

@@ -50,6 +50,7 @@ class Steering {
     std::size_t setting = 0;
     double value = 0;
     bool release = false;
+    int leg = -1;  // its number; -1: every leg's
   };
   template <class Use>
   void take(Use&& use) noexcept {

@@ -11,9 +11,10 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/experiment/planar_setup.h"
+#include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/run.h"
+#include "sinew/run/simulation/simulation.h"
 #include "sinew/run/simulation/test_same.h"
 
 namespace sinew::run {
@@ -121,9 +122,9 @@ TEST(Change, GoesThroughTheFileAndBack) {
   EXPECT_TRUE(std::isnan(back.plan.changes[1].value));
 }
 
-std::string refusal(const std::string& change) {
-  const std::string text = "format = \"sinew.experiment/1\"\nbase = \"" + source +
-                           "/experiments/walk-test-1.toml\"\n[[change]]\n" + change;
+std::string refusal(const std::string& change, const std::string& base = "walk-test-1") {
+  const std::string text = "format = \"sinew.experiment/1\"\nbase = \"" + source + "/experiments/" +
+                           base + ".toml\"\n[[change]]\n" + change;
   const std::string file = ::testing::TempDir() + "steering_test_change.toml";
   std::ofstream(file) << text;
   try {
@@ -152,6 +153,77 @@ TEST(Change, ThatIsWrongIsRefusedWithItsLine) {
   expect("key = \"control.stiffness.hip\"\nvalue = \"1 N m/rad\"", {"change[0].time"});
   expect("time = \"-1 s\"\nkey = \"control.stiffness.hip\"\nvalue = \"1 N m/rad\"",
          {"change[0].time"});
+}
+
+// --- several legs ---
+
+experiment::Experiment on_two_legs(std::vector<gait::Change> changes) {
+  return with(experiment::load(source + "/experiments/walk-two-legs.toml", {"sequence.repeat=1"}),
+              std::move(changes));
+}
+
+const signals::Column& knee(const Outcome& out, const std::string& leg) {
+  return series(out.table, "/desired/leg/" + leg + "/joint/knee/stiffness").columns[0];
+}
+
+// What a leg alone is given leaves the other what the plan says; without a leg it is both's.
+TEST(Change, OfOneLegLeavesTheOther) {
+  const std::string key = "control.stiffness.knee";
+  const Outcome plain = run(on_two_legs({}));
+  const Outcome left = run(on_two_legs({{.time = 1, .key = key, .value = 4, .leg = "left"}}));
+  const Outcome both = run(on_two_legs({{.time = 1, .key = key, .value = 4},
+                                        {.time = 2, .key = key, .release = true, .leg = "right"}}));
+  const signals::Times& time =
+      series(plain.table, "/desired/leg/left/joint/knee/stiffness").time_ns;
+  const std::size_t rows =
+      std::min({time.size(), knee(left, "left").size(), knee(both, "left").size()});
+  int changed = 0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const bool after = time[i] >= 1'010'000'000, before = time[i] < 1'000'000'000;
+    const bool released = time[i] >= 2'010'000'000;
+    if (!after && !before) continue;
+    EXPECT_EQ(knee(left, "right")[i], knee(plain, "right")[i]) << time[i];
+    EXPECT_EQ(knee(left, "left")[i], after ? 4 : knee(plain, "left")[i]) << time[i];
+    EXPECT_EQ(knee(both, "left")[i], after ? 4 : knee(plain, "left")[i]) << time[i];
+    const bool set = after && time[i] < 2'000'000'000;
+    if (set || released || before) {
+      EXPECT_EQ(knee(both, "right")[i], set ? 4 : knee(plain, "right")[i]) << time[i];
+    }
+    changed += knee(left, "left")[i] != knee(plain, "left")[i];
+  }
+  EXPECT_GT(changed, 50);
+
+  // The file that the run leaves says whose it was.
+  const experiment::Experiment back =
+      again(on_two_legs({}), {{.time = 1, .key = key, .value = 4, .leg = "left"}});
+  expect_same(run(back).table, left.table);
+}
+
+TEST(Change, NamesALegThatIsThere) {
+  const std::string change = "time = \"1 s\"\nkey = \"control.stiffness.hip\"\nrelease = true\n";
+  const std::string none = refusal(change + "leg = \"left\"");
+  EXPECT_NE(none.find(":7:"), none.npos) << none;
+  EXPECT_NE(none.find("change[0].leg: found \"left\"; expected no leg"), none.npos) << none;
+  const std::string other = refusal(change + "leg = \"lefd\"", "walk-two-legs");
+  EXPECT_NE(other.find("change[0].leg: found \"lefd\"; expected left or right"), other.npos)
+      << other;
+  EXPECT_EQ(refusal(change + "leg = \"left\"", "walk-two-legs"), "nothing");
+}
+
+// Held, or by the list: the same run.
+TEST(Change, OfOneLegByWhoHoldsTheRunIsThatOfTheList) {
+  const std::string key = "control.stiffness.knee";
+  Simulation held(on_two_legs({}));
+  Simulation listed(on_two_legs({{.time = 1, .key = key, .value = 4, .leg = "right"}}));
+  held.advance_to(10'000);
+  held.change(key, 4, "right");
+  held.advance_to(20'000);
+  listed.advance_to(20'000);
+  for (const Simulation::Channel& c : held.channels())
+    EXPECT_EQ(held.read(c.name), listed.read(c.name)) << c.name;
+  EXPECT_EQ(held.read("/desired/leg/right/joint/knee/stiffness"), 4);
+  EXPECT_NE(held.read("/desired/leg/left/joint/knee/stiffness"), 4);
+  EXPECT_THROW(held.change(key, 4, "middle"), std::invalid_argument);
 }
 
 TEST(Steering, ThatDoesNothingLeavesTheBits) {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <thread>
 
-#include "sinew/experiment/failure.h"
-#include "sinew/experiment/planar_setup.h"
+#include "sinew/run/setup/failure.h"
+#include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/loop.h"
 #include "sinew/run/stand/recorder.h"
@@ -128,7 +128,7 @@ std::string cause_of(const Experiment& e, const Outcome& outcome) {
   actuator::Actuator actuator;
   for (const actuator::Actuator& a : e.actuators)
     if (a.name == e.element.actuator) actuator = a;
-  return experiment::in_words(outcome.failure, "element " + e.element.name, actuator, "step");
+  return run::in_words(outcome.failure, "element " + e.element.name, actuator, "step");
 }
 
 Outcome run(const Experiment& e, const RunOptions& options) {

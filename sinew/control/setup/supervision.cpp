@@ -1,4 +1,4 @@
-#include "sinew/experiment/supervision.h"
+#include "sinew/control/setup/supervision.h"
 
 #include <fmt/format.h>
 
@@ -7,10 +7,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "sinew/experiment/joint_controllers.h"
+#include "sinew/control/setup/joint_controllers.h"
 #include "sinew/robot/actuator_of.h"
 
-namespace sinew::experiment {
+namespace sinew::control {
 namespace {
 
 using Kind = robot::Sensor::Kind;
@@ -36,12 +36,12 @@ double smallest_arm(const robot::Cam& cam, const robot::Joint& joint) {
 
 // A muscle is stretched against its pull, at most until its threads are straight. One over two
 // joints can be let out by the other.
-Reach reach_of(const Experiment& e, const robot::Joint& joint) {
+Reach reach_of(const Installation& in, const robot::Joint& joint) {
   Reach reach;
-  for (const robot::Muscle& m : e.robot.muscles) {
+  for (const robot::Muscle& m : in.robot.muscles) {
     if (m.joint != joint.name || !m.second.joint.empty()) continue;
     const double arm = smallest_arm(m.cam, joint);
-    const double slack = robot::actuator_of(m, e.actuators).braid.thread_length - m.mount_length;
+    const double slack = robot::actuator_of(m, in.actuators).braid.thread_length - m.mount_length;
     if (!(arm > 0) || !(slack > 0)) continue;
     const bool raises = (m.role == robot::Muscle::Role::flexor) == (joint.sign() > 0);
     double& there = raises ? reach.down : reach.up;
@@ -81,7 +81,7 @@ class Range {
     high_ = bounded(std::ceil(high * (1 + beyond_supply) + noise_bound * sensor_.noise), 1, top_);
   }
 
-  void put(control::SensorLimits& out) const {
+  void put(SensorLimits& out) const {
     out.low = static_cast<std::uint16_t>(low_);
     out.high = static_cast<std::uint16_t>(high_);
   }
@@ -95,8 +95,8 @@ class Range {
   double low_ = 0, high_ = signals::max_counts;
 };
 
-void set_plausible(const Experiment& e, const robot::Sensor& s, control::SensorLimits& out) {
-  const robot::Robot& robot = e.robot;
+void set_plausible(const Installation& in, const robot::Sensor& s, SensorLimits& out) {
+  const robot::Robot& robot = in.robot;
   const double per_volt = robot.converter.counts_per_volt();
   Range range(s, robot.converter.top());
   if (!s.plausible.empty()) {
@@ -106,33 +106,32 @@ void set_plausible(const Experiment& e, const robot::Sensor& s, control::SensorL
   }
   if (s.kind == Kind::angle) {
     const auto j = static_cast<std::size_t>(robot::find_joint(robot, s.of));
-    range.inside(reach_of(e, robot.joints[j]), per_volt / s.scale, s.assumed_scale);
+    range.inside(reach_of(in, robot.joints[j]), per_volt / s.scale, s.assumed_scale);
   } else if (s.kind == Kind::cylinder) {
     const double around = beyond_stroke * robot.cylinder.stroke;
     range.inside({around, robot.cylinder.stroke + around}, per_volt / s.scale, s.assumed_scale);
   } else if (s.kind == Kind::pressure && s.scale > 0 && s.assumed_scale > 0) {
-    range.below(per_volt * s.scale, per_volt * s.assumed_scale,
-                e.supply.pressure - e.air.atmosphere);
+    range.below(per_volt * s.scale, per_volt * s.assumed_scale, in.supply_pressure - in.atmosphere);
   }
   range.put(out);
 }
 
 // Sets the largest change from one scan to the next, with the noise of both readings included.
-void set_rate(const Experiment& e, const robot::Sensor& s, control::SensorLimits& out) {
+void set_rate(const Installation& in, const robot::Sensor& s, SensorLimits& out) {
   double rate = s.max_rate;  // [count/s]
   if (!std::isfinite(rate) && s.kind == Kind::angle)
     rate = fastest_angle *
-           std::max(std::abs(s.assumed_scale), e.robot.converter.counts_per_volt() / s.scale);
+           std::max(std::abs(s.assumed_scale), in.robot.converter.counts_per_volt() / s.scale);
   if (!std::isfinite(rate)) return;
-  const double period = e.robot.low_level.pwm_ticks * signals::tick_seconds;
+  const double period = in.robot.low_level.pwm_ticks * signals::tick_seconds;
   const double step = std::ceil(rate * period + 2 * noise_bound * s.noise);
   out.max_step = static_cast<std::uint16_t>(std::clamp<double>(step, 1, signals::max_counts));
 }
 
 // The valves that move it; what regulators hold moves without any. A cylinder's work all the time,
 // also at its stop: its position is judged only where the file asks for it.
-void set_driver(const robot::Robot& robot, const control::JointControllerConfig& spine,
-                const robot::Sensor& s, control::SensorLimits& out) {
+void set_driver(const robot::Robot& robot, const JointControllerConfig& spine,
+                const robot::Sensor& s, SensorLimits& out) {
   int joint = -1;
   if (s.kind == Kind::angle) joint = robot::find_joint(robot, s.of);
   if (s.kind == Kind::cylinder && has_cylinder_joint(robot) && std::isfinite(s.frozen_limit))
@@ -144,8 +143,7 @@ void set_driver(const robot::Robot& robot, const control::JointControllerConfig&
     out.of_extensor = !out.of_flexor;
     out.rests_at_ends = true;
   }
-  if (joint < 0 ||
-      spine.joint[static_cast<std::size_t>(joint)].kind == control::JointKind::regulated)
+  if (joint < 0 || spine.joint[static_cast<std::size_t>(joint)].kind == JointKind::regulated)
     return;
   out.joint = static_cast<std::int8_t>(joint);
   if (std::isfinite(s.frozen_limit)) {
@@ -156,24 +154,24 @@ void set_driver(const robot::Robot& robot, const control::JointControllerConfig&
 }
 
 // A turn beyond the converter either way: what is further away is no place to go to.
-void set_commands(const Experiment& e, control::SuperviseConfig& out) {
-  const double period = e.robot.low_level.pwm_ticks * signals::tick_seconds;
-  for (std::size_t j = 0; j < e.robot.joints.size(); ++j) {
-    const int s = robot::angle_sensor_of(e.robot, static_cast<int>(j));
+void set_commands(const Installation& in, SuperviseConfig& out) {
+  const double period = in.robot.low_level.pwm_ticks * signals::tick_seconds;
+  for (std::size_t j = 0; j < in.robot.joints.size(); ++j) {
+    const int s = robot::angle_sensor_of(in.robot, static_cast<int>(j));
     if (s < 0) continue;
-    control::CommandLimits& limit = out.command[j];
+    CommandLimits& limit = out.command[j];
     limit.low = -signals::max_counts;
     limit.high = 2 * signals::max_counts;
-    const double rate = e.robot.low_level.command_rate;
+    const double rate = in.robot.low_level.command_rate;
     if (!std::isfinite(rate)) continue;
     const double step =
-        std::abs(e.robot.sensors[static_cast<std::size_t>(s)].assumed_scale) * rate * period;
+        std::abs(in.robot.sensors[static_cast<std::size_t>(s)].assumed_scale) * rate * period;
     limit.max_step = static_cast<std::int32_t>(std::clamp(std::ceil(step), 1.0, 1e5));
   }
 }
 
-std::string sensor_text(const control::Trip& trip) {
-  using enum control::Trip::Cause;
+std::string sensor_text(const Trip& trip) {
+  using enum Trip::Cause;
   if (trip.cause == range)
     return fmt::format("{} count three times in a row, outside its plausible {} to {} count",
                        trip.counts, trip.low, trip.high);
@@ -190,31 +188,23 @@ std::string sensor_text(const control::Trip& trip) {
 
 }  // namespace
 
-control::SuperviseConfig supervise_config(const Experiment& e) {
-  control::SuperviseConfig out;
-  const control::JointControllerConfig spine = joint_controller_config(e);
-  for (std::size_t i = 0; i < e.robot.sensors.size() && i < out.sensor.size(); ++i) {
-    set_plausible(e, e.robot.sensors[i], out.sensor[i]);
-    set_rate(e, e.robot.sensors[i], out.sensor[i]);
-    set_driver(e.robot, spine, e.robot.sensors[i], out.sensor[i]);
+SuperviseConfig supervise_config(const Installation& in) {
+  SuperviseConfig out;
+  const JointControllerConfig spine = joint_controller_config(in);
+  for (std::size_t i = 0; i < in.robot.sensors.size() && i < out.sensor.size(); ++i) {
+    set_plausible(in, in.robot.sensors[i], out.sensor[i]);
+    set_rate(in, in.robot.sensors[i], out.sensor[i]);
+    set_driver(in.robot, spine, in.robot.sensors[i], out.sensor[i]);
   }
-  set_commands(e, out);
-  if (const char* wrong = control::problem(out)) throw std::invalid_argument(wrong);
+  set_commands(in, out);
+  if (const char* wrong = problem(out)) throw std::invalid_argument(wrong);
   return out;
 }
 
-bool is_supervised_closely(const Experiment& e) {
-  return !e.faults.empty() || std::isfinite(e.robot.low_level.command_rate) ||
-         std::ranges::any_of(e.robot.sensors, [](const robot::Sensor& s) {
-           return !s.plausible.empty() || std::isfinite(s.max_rate) ||
-                  std::isfinite(s.frozen_limit);
-         });
-}
-
-std::string to_text(const control::Trip& trip, const Experiment& e, int board) {
-  using enum control::Trip::Cause;
+std::string to_text(const Trip& trip, const robot::Robot& robot, int board) {
+  using enum Trip::Cause;
   const double at = static_cast<double>(trip.at) * signals::tick_seconds;
-  const bool several = robot::boards_of(e.robot).size() > 1;
+  const bool several = robot::boards_of(robot).size() > 1;
   const std::string on = several ? fmt::format(" on board {}", board) : "";
   if (trip.cause == none) return "";
   if (trip.cause == gap)
@@ -223,16 +213,16 @@ std::string to_text(const control::Trip& trip, const Experiment& e, int board) {
   if (trip.cause == command) {
     const std::size_t j = trip.joint;
     const std::string name =
-        j < e.robot.joints.size() ? "joint " + e.robot.joints[j].name : "the cylinder";
+        j < robot.joints.size() ? "joint " + robot.joints[j].name : "the cylinder";
     return fmt::format(
         "the commands for {}{} at {:.4f} s: {} in a row were not numbers, out of "
         "range or faster than low_level.command_rate",
         name, on, at, trip.high);
   }
-  const std::string name = trip.channel.index < e.robot.sensors.size()
-                               ? e.robot.sensors[trip.channel.index].name
+  const std::string name = trip.channel.index < robot.sensors.size()
+                               ? robot.sensors[trip.channel.index].name
                                : fmt::format("{}", trip.channel.index);
   return fmt::format("sensor {}{} at {:.4f} s: {}", name, on, at, sensor_text(trip));
 }
 
-}  // namespace sinew::experiment
+}  // namespace sinew::control

@@ -1,40 +1,40 @@
-#include "sinew/experiment/estimators.h"
+#include "sinew/control/setup/estimators.h"
 
 #include <cmath>
 
 #include "sinew/units/math.h"
 
-namespace sinew::experiment {
+namespace sinew::control {
 namespace {
 
-using Estimator = robot::Velocity::Estimator;
+using From = robot::Velocity::Estimator;
 
-control::Estimator estimator(Estimator e) {
-  switch (e) {
-    case Estimator::weighted_average:
-      return control::Estimator::weighted_average;
-    case Estimator::bounded_observer:
-      return control::Estimator::bounded_observer;
-    case Estimator::kalman:
-      return control::Estimator::kalman;
-    case Estimator::sensor:
-      return control::Estimator::sensor;
-    case Estimator::difference:
+Estimator estimator(From from) {
+  switch (from) {
+    case From::weighted_average:
+      return Estimator::weighted_average;
+    case From::bounded_observer:
+      return Estimator::bounded_observer;
+    case From::kalman:
+      return Estimator::kalman;
+    case From::sensor:
+      return Estimator::sensor;
+    case From::difference:
       break;
   }
-  return control::Estimator::difference;
+  return Estimator::difference;
 }
 
-void set_weights(const robot::Velocity& from, double rate, control::VelocityConfig& out) {
+void set_weights(const robot::Velocity& from, double rate, VelocityConfig& out) {
   out.samples = static_cast<std::uint8_t>(from.samples);
-  out.weight = control::line_weights(out.samples, static_cast<float>(rate));
+  out.weight = line_weights(out.samples, static_cast<float>(rate));
   for (std::size_t i = 0; i < from.weights.size() && i < out.weight.size(); ++i)
     out.weight[i] = static_cast<float>(from.weights[i]);
 }
 
 // In counts: of the angle per radian, and per count of tension.
 void set_model(const robot::Velocity& from, double counts_per_rad, double torque_per_count,
-               double rate, control::VelocityConfig& out) {
+               double rate, VelocityConfig& out) {
   const JointMotion motion = joint_motion(from.inertia, from.damping, 1.0 / rate);
   out.decay = static_cast<float>(motion.decay);
   out.travel = static_cast<float>(motion.travel);
@@ -46,7 +46,7 @@ void set_model(const robot::Velocity& from, double counts_per_rad, double torque
   out.margin = static_cast<float>(from.acceleration * motion.travel * counts_per_rad);
   if (from.speed_limit > 0) out.limit = static_cast<float>(from.speed_limit * counts_per_rad);
 
-  if (from.estimator != Estimator::kalman) return;
+  if (from.estimator != From::kalman) return;
   const SteadyState steady = steady_state(motion, from.acceleration * counts_per_rad,
                                           std::sqrt(from.noise * from.noise + 1.0 / 12.0));
   out.angle_share = static_cast<float>(steady.angle_share);
@@ -84,20 +84,20 @@ SteadyState steady_state(const JointMotion& m, double acceleration, double noise
   return s;
 }
 
-control::VelocityConfig velocity_config(const robot::Robot& robot, int joint,
-                                        double torque_per_count, double rate) {
+VelocityConfig velocity_config(const robot::Robot& robot, int joint, double torque_per_count,
+                               double rate) {
   const robot::Velocity& from = robot.joints[static_cast<std::size_t>(joint)].velocity;
   const auto sensor = [&](int index) -> const robot::Sensor& {
     return robot.sensors[static_cast<std::size_t>(index)];
   };
   const double counts_per_rad = sensor(robot::angle_sensor_of(robot, joint)).assumed_scale;
 
-  control::VelocityConfig out;
+  VelocityConfig out;
   out.estimator = estimator(from.estimator);
-  if (from.estimator == Estimator::weighted_average) set_weights(from, rate, out);
-  if (from.estimator == Estimator::bounded_observer || from.estimator == Estimator::kalman)
+  if (from.estimator == From::weighted_average) set_weights(from, rate, out);
+  if (from.estimator == From::bounded_observer || from.estimator == From::kalman)
     set_model(from, counts_per_rad, torque_per_count, rate, out);
-  if (from.estimator == Estimator::sensor) {
+  if (from.estimator == From::sensor) {
     const int index = robot::velocity_sensor_of(robot, joint);
     const robot::Sensor& s = sensor(index);
     out.channel = {static_cast<std::uint8_t>(index)};
@@ -108,4 +108,4 @@ control::VelocityConfig velocity_config(const robot::Robot& robot, int joint,
   return out;
 }
 
-}  // namespace sinew::experiment
+}  // namespace sinew::control

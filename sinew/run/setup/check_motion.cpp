@@ -1,4 +1,4 @@
-#include "sinew/experiment/check_motion.h"
+#include "sinew/run/setup/check_motion.h"
 
 #include <algorithm>
 #include <array>
@@ -8,11 +8,14 @@
 #include "sinew/air/network.h"
 #include "sinew/config/quantity.h"
 #include "sinew/control/gait/legs.h"
-#include "sinew/experiment/planar_setup.h"
 #include "sinew/plant/planar/machine.h"
 #include "sinew/plant/planar/muscle_routing.h"
+#include "sinew/run/setup/planar_setup.h"
 
-namespace sinew::experiment {
+namespace sinew::run {
+
+using experiment::Experiment;
+
 namespace {
 
 using List = std::vector<robot::Contradiction>;
@@ -125,4 +128,4 @@ void check_motion(const Experiment& e, List& out) {
   if (out.empty()) check_steps(setup, out);
 }
 
-}  // namespace sinew::experiment
+}  // namespace sinew::run

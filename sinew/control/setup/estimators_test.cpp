@@ -1,6 +1,6 @@
 // The estimators' constants by their laws: the joint's motion, the Riccati equation, and the speed
 // of simulated joints.
-#include "sinew/experiment/estimators.h"
+#include "sinew/control/setup/estimators.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,7 @@
 #include <random>
 #include <string>
 
-#include "sinew/config/diagnostics.h"
-#include "sinew/experiment/experiment.h"
-#include "sinew/experiment/joint_controllers.h"
-
-namespace sinew::experiment {
+namespace sinew::control {
 namespace {
 
 constexpr double period = 0.01;
@@ -74,16 +70,16 @@ Simulated simulate(double damping, double unknown, int periods) {
   const JointMotion m = joint_motion(inertia, damping, period);
   const double gain = torque_per_count * counts_per_rad / inertia;
   const SteadyState s = steady_state(m, unknown, std::sqrt(0.25 + 1.0 / 12));
-  control::VelocityConfig config{.estimator = control::Estimator::kalman,
-                                 .decay = static_cast<float>(m.decay),
-                                 .speed_gain = static_cast<float>(m.travel * gain),
-                                 .travel = static_cast<float>(m.travel),
-                                 .travel_gain = static_cast<float>(m.travel_gain * gain),
-                                 .angle_share = static_cast<float>(s.angle_share),
-                                 .speed_share = static_cast<float>(s.speed_share)};
+  VelocityConfig config{.estimator = Estimator::kalman,
+                        .decay = static_cast<float>(m.decay),
+                        .speed_gain = static_cast<float>(m.travel * gain),
+                        .travel = static_cast<float>(m.travel),
+                        .travel_gain = static_cast<float>(m.travel_gain * gain),
+                        .angle_share = static_cast<float>(s.angle_share),
+                        .speed_share = static_cast<float>(s.speed_share)};
   std::mt19937 random(7);
   std::normal_distribution<double> unit(0, 1);
-  control::VelocityState kalman, difference;
+  VelocityState kalman, difference;
   Simulated out;
   double angle = 0, speed = 0, squares = 0, difference_squares = 0;
   constexpr int settle = 500;
@@ -93,7 +89,7 @@ Simulated simulate(double damping, double unknown, int periods) {
     angle += m.travel * speed + m.travel_gain * a;
     speed = m.decay * speed + m.travel * a;
     const auto counts = static_cast<std::int32_t>(std::lround(angle + 0.5 * unit(random)));
-    const control::Motion now{.angle = counts, .push = static_cast<float>(next_push), .rate = 100};
+    const Motion now{.angle = counts, .push = static_cast<float>(next_push), .rate = 100};
     const double e = static_cast<double>(estimate(config, kalman, now)) - speed;
     const double d = static_cast<double>(estimate({}, difference, now)) - speed;
     if (i < settle) continue;
@@ -119,87 +115,5 @@ TEST(Kalman, FindsTheSpeedOfASimulatedJointAsTheRiccatiEquationSays) {
   }
 }
 
-// --- from the robot's file ----------------------------------------------------------------------
-
-const std::string walk = std::string(SINEW_SOURCE_DIR) + "/experiments/walk-test-1.toml";
-
-control::JointConfig hip_of(const std::vector<std::string>& sets) {
-  return joint_controller_config(load(walk, sets)).joint[0];
-}
-
-std::string refusal(const std::vector<std::string>& sets) {
-  try {
-    joint_controller_config(load(walk, sets));
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "nothing";
-}
-
-// The hip's, from "<estimator>", ...
-std::string velocity(const std::string& keys) {
-  return "joint.hip.velocity={ estimator = " + keys + " }";
-}
-
-TEST(VelocityKeys, BecomeTheLowLevelsConstants) {
-  EXPECT_EQ(hip_of({}).velocity.estimator, control::Estimator::difference);
-  const control::VelocityConfig line =
-      hip_of({velocity(R"("weighted average", samples = 6)")}).velocity;
-  EXPECT_EQ(line.samples, 6);
-  EXPECT_EQ(line.weight, control::line_weights(6, 100));
-
-  const control::VelocityConfig bounded =
-      hip_of({velocity(R"("bounded observer", acceleration = "100 rad/s2",)"
-                       R"( speed_limit = "5 rad/s")")})
-          .velocity;
-  EXPECT_NEAR(bounded.margin, 767, 1e-3);
-  EXPECT_NEAR(bounded.limit, 5 * 767, 1e-3);
-  EXPECT_EQ(bounded.speed_gain, 0);
-  EXPECT_EQ(bounded.decay, 1);
-
-  const control::VelocityConfig kalman =
-      hip_of({velocity(R"("kalman", acceleration = "100 rad/s2", inertia = "0.02 kg m2",)"
-                       R"( tensions = true)")})
-          .velocity;
-  // 1 in of arm, 0.17 V/lbf, 819.2 counts/V
-  const double torque = 0.0254 * 4.4482216152605 / (0.17 * 819.2);
-  EXPECT_NEAR(kalman.speed_gain, 0.01 * torque * 767 / 0.02, 1e-5);
-  EXPECT_GT(kalman.speed_share, 0);
-}
-
-TEST(VelocityKeys, RefuseWhatCannotBe) {
-  EXPECT_NE(refusal({velocity(R"("kalman")")}).find("acceleration"), std::string::npos);
-  EXPECT_NE(refusal({velocity(R"("kalman", acceleration = "9 rad/s2", tensions = true)")})
-                .find("inertia: found none"),
-            std::string::npos);
-  EXPECT_NE(refusal({velocity(R"("sensor")")}).find("0 sensors of its velocity; expected one"),
-            std::string::npos);
-  EXPECT_NE(refusal({velocity(R"("weighted average", samples = 3,)"
-                              R"( weights = ["50 1/s", "0 1/s", "-40 1/s"])")})
-                .find("a joint at rest has no speed"),
-            std::string::npos);
-}
-
-TEST(StiffnessSourceKey, SaysWhichSensorsTheLawWaitsFor) {
-  EXPECT_EQ(hip_of({}).law_tick, 9);
-  EXPECT_EQ(hip_of({"joint.hip.stiffness_source=flexor force"}).law_tick, 7);
-  EXPECT_EQ(hip_of({"joint.hip.stiffness_source=none"}).law_tick, 3);
-  EXPECT_NE(refusal({"joint.hip.stiffness_source=pressures"})
-                .find("muscle.hip_flexor: found 0 sensors of its pressure"),
-            std::string::npos);
-}
-
-TEST(LowLevelKeys, ReachTheLowLevel) {
-  const control::JointControllerConfig c =
-      joint_controller_config(load(walk, {"low_level.dead_band=3 %", "low_level.hold_limit=7",
-                                          "low_level.interrupt_time=101 us"}));
-  EXPECT_EQ(c.dead_band, 3);
-  EXPECT_EQ(c.hold_limit, 7u);
-  EXPECT_TRUE(c.laws_overrun);
-  EXPECT_FALSE(
-      joint_controller_config(load(walk, {"low_level.interrupt_time=100 us"})).laws_overrun);
-  EXPECT_NE(refusal({"low_level.dead_band=2.5 %"}).find("whole percents"), std::string::npos);
-}
-
 }  // namespace
-}  // namespace sinew::experiment
+}  // namespace sinew::control

@@ -1,12 +1,12 @@
-#include "sinew/experiment/boards.h"
+#include "sinew/control/setup/boards.h"
 
-#include "sinew/experiment/joint_controllers.h"
-#include "sinew/experiment/supervision.h"
+#include "sinew/control/setup/joint_controllers.h"
+#include "sinew/control/setup/supervision.h"
 
-namespace sinew::experiment {
+namespace sinew::control {
 
-static_assert(robot::board_joints == static_cast<int>(control::max_joints));
-static_assert(robot::board_channels == static_cast<int>(control::max_channels));
+static_assert(robot::board_joints == static_cast<int>(max_joints));
+static_assert(robot::board_channels == static_cast<int>(max_channels));
 static_assert(robot::max_boards * robot::board_channels <= 256);
 static_assert(2 * robot::max_muscles + 4 <= 256);
 
@@ -20,12 +20,12 @@ std::vector<std::uint8_t> numbers(const std::vector<int>& list) {
 
 }  // namespace
 
-std::vector<Board> boards(const Experiment& e) {
-  const std::vector<robot::Board> parts = robot::boards_of(e.robot);
+std::vector<Board> boards(const Installation& in) {
+  const std::vector<robot::Board> parts = robot::boards_of(in.robot);
   std::vector<Board> out;
-  Experiment of_board = e;
+  Installation of_board = in;
   for (std::size_t b = 0; b < parts.size(); ++b) {
-    of_board.robot = robot::only_board(e.robot, parts, b);
+    of_board.robot = robot::only_board(in.robot, parts, b);
     Board board{.spine = joint_controller_config(of_board), .limits = supervise_config(of_board)};
     board.joint = numbers(parts[b].joints);
     board.channel = numbers(parts[b].sensors);
@@ -33,13 +33,13 @@ std::vector<Board> boards(const Experiment& e) {
       for (const int which : {0, 1})
         board.valve.push_back(static_cast<std::uint8_t>(2 * muscle + which));
     if (has_cylinder_joint(of_board.robot)) {
-      board.joint.push_back(static_cast<std::uint8_t>(e.robot.joints.size()));
+      board.joint.push_back(static_cast<std::uint8_t>(in.robot.joints.size()));
       for (std::size_t which = 0; which < 4; ++which)
-        board.valve.push_back(static_cast<std::uint8_t>(2 * e.robot.muscles.size() + which));
+        board.valve.push_back(static_cast<std::uint8_t>(2 * in.robot.muscles.size() + which));
     }
     out.push_back(std::move(board));
   }
   return out;
 }
 
-}  // namespace sinew::experiment
+}  // namespace sinew::control

@@ -1,10 +1,10 @@
-#include "sinew/experiment/failure.h"
+#include "sinew/run/setup/failure.h"
 
 #include <fmt/format.h>
 
 #include "sinew/config/quantity.h"
 
-namespace sinew::experiment {
+namespace sinew::run {
 namespace {
 
 std::string inches(double metres) { return config::format_quantity(metres, "m", "in"); }
@@ -44,4 +44,4 @@ std::string in_words(const air::Failure& failure, const std::string& who,
                           : what + length;
 }
 
-}  // namespace sinew::experiment
+}  // namespace sinew::run

@@ -1,19 +1,19 @@
-// experiment/boards.h - the low level as it is built: one controller per board, each with its own
-// constants, limits and scan in its own numbers, and what these numbers are in the machine.
+// control/setup/boards.h - the low level as it is built: one controller per board, each with its
+// own constants, limits and scan in its own numbers, and what these numbers are in the machine.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "sinew/control/joint/config.h"
+#include "sinew/control/setup/installation.h"
 #include "sinew/control/supervise/limits.h"
-#include "sinew/experiment/experiment.h"
 
-namespace sinew::experiment {
+namespace sinew::control {
 
 struct Board {
-  control::JointControllerConfig spine;
-  control::SuperviseConfig limits;
+  JointControllerConfig spine;
+  SuperviseConfig limits;
 
   // By the board's own numbers, those of the machine: joints in the robot's order, with the
   // cylinder's behind them; sensors; valves, 2 x muscle + (0 inlet | 1 exhaust), and the four of a
@@ -23,6 +23,6 @@ struct Board {
 
 // Returns the boards by their numbers, which count from 1. Throws std::invalid_argument where the
 // low level cannot be built so.
-std::vector<Board> boards(const Experiment& experiment);
+std::vector<Board> boards(const Installation& installation);
 
-}  // namespace sinew::experiment
+}  // namespace sinew::control

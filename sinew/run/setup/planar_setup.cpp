@@ -1,22 +1,11 @@
-#include "sinew/experiment/planar_setup.h"
+#include "sinew/run/setup/planar_setup.h"
 
-#include <cmath>
-
-#include "sinew/experiment/faults.h"
 #include "sinew/robot/actuator_of.h"
+#include "sinew/run/setup/air_faults.h"
 
-namespace sinew::experiment {
+namespace sinew::run {
 
-using signals::Tick;
-
-Tick last_tick(const Experiment& e) {
-  const double vent = e.plan.finish == gait::Plan::Finish::vent ? e.robot.low_level.vent_time : 0.0;
-  const auto brain_ticks = std::llround(e.plan.brain_period / signals::tick_seconds);
-  const Tick plan = gait::periods(e.robot, e.plan) * brain_ticks;
-  // One period for the last valves to shut, and for a sample of where the plan has led to.
-  const Tick last = e.robot.low_level.pwm_ticks;
-  return plan + std::llround(vent / signals::tick_seconds) + last;
-}
+using experiment::Experiment;
 
 namespace {
 
@@ -78,4 +67,4 @@ plant::Setup planar_setup(const Experiment& e) {
   return s;
 }
 
-}  // namespace sinew::experiment
+}  // namespace sinew::run

@@ -1,4 +1,4 @@
-// experiment/estimators.h - the constants of a joint's velocity estimator, from what the robot's
+// control/setup/estimators.h - the constants of a joint's velocity estimator, from what the robot's
 // file says of the joint. Worked out once, before the run, in double; the low level gets floats.
 //
 //   J theta'' = tau - D theta' + J w     over a period T in which tau and w are constant:
@@ -19,7 +19,7 @@
 #include "sinew/control/joint/velocity.h"
 #include "sinew/robot/robot.h"
 
-namespace sinew::experiment {
+namespace sinew::control {
 
 // A joint over one period: a, g, d above.
 struct JointMotion {
@@ -39,7 +39,7 @@ struct SteadyState {
 SteadyState steady_state(const JointMotion& motion, double acceleration, double noise);
 
 // `torque_per_count`: of one count of the flexor's tension [N m]; `rate`: laws per second.
-control::VelocityConfig velocity_config(const robot::Robot& robot, int joint,
-                                        double torque_per_count, double rate);
+VelocityConfig velocity_config(const robot::Robot& robot, int joint, double torque_per_count,
+                               double rate);
 
-}  // namespace sinew::experiment
+}  // namespace sinew::control

@@ -1,4 +1,4 @@
-#include "sinew/experiment/joint_controllers.h"
+#include "sinew/control/setup/joint_controllers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,13 +6,13 @@
 
 #include "sinew/actuator/braid.h"
 #include "sinew/config/quantity.h"
-#include "sinew/experiment/boards.h"
-#include "sinew/experiment/estimators.h"
+#include "sinew/control/setup/boards.h"
+#include "sinew/control/setup/estimators.h"
 #include "sinew/robot/actuator_of.h"
 #include "sinew/robot/kinematics.h"
 #include "sinew/units/constants.h"
 
-namespace sinew::experiment {
+namespace sinew::control {
 namespace {
 
 using Role = robot::Muscle::Role;
@@ -56,35 +56,35 @@ double newtons_per_count(const robot::Robot& robot, int muscle) {
 // A muscle as its joint's laws take it.
 class MuscleSide {
  public:
-  MuscleSide(const Experiment& e, int joint, int muscle)
-      : e_(e),
-        joint_(e.robot.joints[static_cast<std::size_t>(joint)]),
+  MuscleSide(const Installation& in, int joint, int muscle)
+      : in_(in),
+        joint_(in.robot.joints[static_cast<std::size_t>(joint)]),
         index_(muscle),
-        muscle_(e.robot.muscles[static_cast<std::size_t>(muscle)]),
+        muscle_(in.robot.muscles[static_cast<std::size_t>(muscle)]),
         pull_(pull(muscle_, joint_)),
-        counts_per_rad_(sensor(e.robot, robot::angle_sensor_of(e.robot, joint)).assumed_scale),
+        counts_per_rad_(sensor(in.robot, robot::angle_sensor_of(in.robot, joint)).assumed_scale),
         counts_per_metre_(counts_per_rad_ / pull_.arm) {}
 
   // Torque of a count of its tension  [N m].
-  double torque_per_count() const { return pull_.arm * newtons_per_count(e_.robot, index_); }
+  double torque_per_count() const { return pull_.arm * newtons_per_count(in_.robot, index_); }
 
   // As the stiffness law takes it, before it is cut to whole counts  [count].
   double free_length() const {
-    const double assumed = e_.robot.low_level.assumed_mount_length;
+    const double assumed = in_.robot.low_level.assumed_mount_length;
     return counts_per_metre_ * (assumed > 0 ? assumed : muscle_.mount_length);
   }
   double thread_length() const {
-    const double assumed = e_.robot.low_level.assumed_thread_length;
-    const actuator::Actuator a = robot::actuator_of(muscle_, e_.actuators);
+    const double assumed = in_.robot.low_level.assumed_thread_length;
+    const actuator::Actuator a = robot::actuator_of(muscle_, in_.actuators);
     return counts_per_metre_ * (assumed > 0 ? assumed : a.braid.thread_length);
   }
 
   void add_misfits(double flexor_torque_per_count, List& out) const;
 
-  control::MuscleConfig config(double flexor_torque_per_count) const {
-    const actuator::Actuator a = robot::actuator_of(muscle_, e_.actuators);
-    control::MuscleConfig c;
-    c.tension = channel(robot::tension_sensor_of(e_.robot, index_));
+  MuscleConfig config(double flexor_torque_per_count) const {
+    const actuator::Actuator a = robot::actuator_of(muscle_, in_.actuators);
+    MuscleConfig c;
+    c.tension = channel(robot::tension_sensor_of(in_.robot, index_));
     c.inlet = {static_cast<std::uint8_t>(2 * index_)};
     c.exhaust = {static_cast<std::uint8_t>(2 * index_ + 1)};
     c.free_length = static_cast<std::int32_t>(free_length());
@@ -101,24 +101,24 @@ class MuscleSide {
  private:
   // [26], of a count of so many pascals.
   double pressure_factor(double pascals) const {
-    const actuator::Actuator a = robot::actuator_of(muscle_, e_.actuators);
+    const actuator::Actuator a = robot::actuator_of(muscle_, in_.actuators);
     return 6.0 * muscle_.count * actuator::braid_factor(a.braid) * pull_.arm * pull_.arm /
            counts_per_metre_ * pascals / stiffness_unit;
   }
 
   // [26] and [30] in counts of gauge pressure.
-  void set_pressure(const actuator::Actuator& a, control::MuscleConfig& c) const {
-    const int s = robot::pressure_sensor_of(e_.robot, index_);
+  void set_pressure(const actuator::Actuator& a, MuscleConfig& c) const {
+    const int s = robot::pressure_sensor_of(in_.robot, index_);
     if (s < 0) return;
-    const robot::Sensor& from = sensor(e_.robot, s);
-    const double pascals = 1.0 / (e_.robot.converter.counts_per_volt() * from.assumed_scale);
+    const robot::Sensor& from = sensor(in_.robot, s);
+    const double pascals = 1.0 / (in_.robot.converter.counts_per_volt() * from.assumed_scale);
     c.pressure = channel(s);
     c.pressure_at_zero = static_cast<std::int32_t>(std::lround(from.assumed_at_rest));
     c.pressure_factor = static_cast<float>(pressure_factor(pascals));
     const actuator::Effectiveness& e = a.effectiveness;
     // As a polynomial of gauge pressure, whichever it is fitted to.
     const double zero =
-        e.argument == actuator::Effectiveness::Argument::absolute ? e_.air.atmosphere : 0.0;
+        e.argument == actuator::Effectiveness::Argument::absolute ? in_.atmosphere : 0.0;
     const double c0 = e.c0 + zero * (e.c1 + zero * e.c2), c1 = e.c1 + 2 * zero * e.c2;
     c.effectiveness = {static_cast<float>(e.scale * c0), static_cast<float>(e.scale * c1 * pascals),
                        static_cast<float>(e.scale * e.c2 * pascals * pascals)};
@@ -128,18 +128,18 @@ class MuscleSide {
 
   // A muscle over two joints: its share of the duty by moment arm, and how the other joint moves
   // it.
-  void set_second(control::MuscleConfig& c) const {
+  void set_second(MuscleConfig& c) const {
     if (muscle_.second.joint.empty()) return;
     const bool first = muscle_.joint == joint_.name;
-    const int j = robot::find_joint(e_.robot, first ? muscle_.second.joint : muscle_.joint);
-    const robot::Joint& other = e_.robot.joints[static_cast<std::size_t>(j)];
+    const int j = robot::find_joint(in_.robot, first ? muscle_.second.joint : muscle_.joint);
+    const robot::Joint& other = in_.robot.joints[static_cast<std::size_t>(j)];
     const Pull there = pull(muscle_, other);
-    const double scale = sensor(e_.robot, robot::angle_sensor_of(e_.robot, j)).assumed_scale;
+    const double scale = sensor(in_.robot, robot::angle_sensor_of(in_.robot, j)).assumed_scale;
     c.share = static_cast<float>(pull_.arm / (pull_.arm + there.arm));
     c.other_travel = static_cast<float>(-there.sign * there.arm / scale * counts_per_metre_);
   }
 
-  const Experiment& e_;
+  const Installation& in_;
   const robot::Joint& joint_;
   int index_;
   const robot::Muscle& muscle_;
@@ -149,58 +149,58 @@ class MuscleSide {
 
 // Where a number does not fit, the sensor's scale or the cam may be wrong as well as the length.
 void MuscleSide::add_misfits(double flexor_torque_per_count, List& out) const {
-  const robot::LowLevel& low = e_.robot.low_level;
+  const robot::LowLevel& low = in_.robot.low_level;
   const std::string muscle = "muscle." + muscle_.name;
   const std::string angle =
-      "sensor." +
-      sensor(e_.robot, robot::angle_sensor_of(e_.robot, robot::find_joint(e_.robot, joint_.name)))
-          .name;
+      "sensor." + sensor(in_.robot, robot::angle_sensor_of(
+                                        in_.robot, robot::find_joint(in_.robot, joint_.name)))
+                      .name;
   const auto number = [](double x) { return config::format_number(std::round(x)); };
   const std::string remedy = "another length, " + angle + ".assumed.scale or moment_arm";
 
-  if (!(free_length() < control::max_length + 1.0))
+  if (!(free_length() < max_length + 1.0))
     out.push_back(
         {low.assumed_mount_length > 0 ? "low_level.assumed_mount_length" : muscle + ".mount_length",
          number(free_length()) + " count of " + angle + " at muscle " + muscle_.name,
-         "at most " + std::to_string(control::max_length) + " count", remedy});
-  const double longest = std::sqrt(static_cast<double>(control::max_thread_length_squared));
+         "at most " + std::to_string(max_length) + " count", remedy});
+  const double longest = std::sqrt(static_cast<double>(max_thread_length_squared));
   if (!(thread_length() >= 1 && thread_length() < longest))
     out.push_back({low.assumed_thread_length > 0
                        ? "low_level.assumed_thread_length"
                        : "actuator." + muscle_.actuator + ".braid.thread_length",
                    number(thread_length()) + " count of " + angle + " at muscle " + muscle_.name,
                    "1 to " + number(longest) + " count", remedy});
-  const int s = robot::tension_sensor_of(e_.robot, index_);
+  const int s = robot::tension_sensor_of(in_.robot, index_);
   const double ratio =
       flexor_torque_per_count > 0 ? torque_per_count() / flexor_torque_per_count : 1.0;
-  if (s >= 0 && !(ratio <= control::max_tension_ratio))
-    out.push_back({"sensor." + sensor(e_.robot, s).name + ".assumed.scale",
+  if (s >= 0 && !(ratio <= max_tension_ratio))
+    out.push_back({"sensor." + sensor(in_.robot, s).name + ".assumed.scale",
                    "a count " + number(ratio) + " times as strong as the flexor's",
-                   "at most " + number(control::max_tension_ratio) + " times",
+                   "at most " + number(max_tension_ratio) + " times",
                    "the scales of both muscles' transducers"});
-  if (const int p = robot::pressure_sensor_of(e_.robot, index_); p >= 0) {
+  if (const int p = robot::pressure_sensor_of(in_.robot, index_); p >= 0) {
     const double pascals =
-        1.0 / (e_.robot.converter.counts_per_volt() * sensor(e_.robot, p).assumed_scale);
-    if (!(pressure_factor(pascals) <= control::max_pressure_factor))
-      out.push_back({"sensor." + sensor(e_.robot, p).name + ".assumed.scale",
+        1.0 / (in_.robot.converter.counts_per_volt() * sensor(in_.robot, p).assumed_scale);
+    if (!(pressure_factor(pascals) <= max_pressure_factor))
+      out.push_back({"sensor." + sensor(in_.robot, p).name + ".assumed.scale",
                      "a count of " + number(pascals) + " Pa", "a finer one",
                      "what the transducer gives for one Pa"});
   }
 }
 
-control::JointKind kind_of(const Experiment& e, const std::vector<int>& muscles) {
+JointKind kind_of(const Installation& in, const std::vector<int>& muscles) {
   for (const int m : muscles)
-    for (const gas::Valve& v : e.valves) {
-      if (v.name != e.robot.muscles[static_cast<std::size_t>(m)].inlet) continue;
-      if (v.kind == gas::Valve::Kind::three_way) return control::JointKind::three_way;
-      if (v.kind == gas::Valve::Kind::regulator) return control::JointKind::regulated;
+    for (const gas::Valve& v : in.valves) {
+      if (v.name != in.robot.muscles[static_cast<std::size_t>(m)].inlet) continue;
+      if (v.kind == gas::Valve::Kind::three_way) return JointKind::three_way;
+      if (v.kind == gas::Valve::Kind::regulator) return JointKind::regulated;
     }
-  return control::JointKind::antagonist;
+  return JointKind::antagonist;
 }
 
-control::StiffnessSource source(robot::StiffnessSource from) {
+StiffnessSource source(robot::StiffnessSource from) {
   using From = robot::StiffnessSource;
-  using To = control::StiffnessSource;
+  using To = StiffnessSource;
   if (from == From::flexor_force) return To::flexor_force;
   if (from == From::extensor_force) return To::extensor_force;
   if (from == From::pressures) return To::pressure;
@@ -209,7 +209,7 @@ control::StiffnessSource source(robot::StiffnessSource from) {
 
 // 767/(819.2 x 0.17) = 5.5075 by the assumed scales; B.1 rounds to 5.5, for its 1 in cam.
 void set_stiffness_factor(const robot::Robot& robot, double arm, double counts_per_rad, int muscle,
-                          control::JointConfig& out) {
+                          JointConfig& out) {
   out.moment_arm_factor = static_cast<float>(arm / units::inch);
   if (robot.low_level.stiffness_factor > 0) {
     out.stiffness_factor = static_cast<float>(robot.low_level.stiffness_factor);
@@ -223,24 +223,24 @@ void set_stiffness_factor(const robot::Robot& robot, double arm, double counts_p
 }
 
 // Integral gains per law, in percent and the controller's unit of stiffness.
-void set_pressure_law(const robot::PressureLaw& law, double period, control::JointConfig& c) {
+void set_pressure_law(const robot::PressureLaw& law, double period, JointConfig& c) {
   c.bias = static_cast<std::int32_t>(std::lround(law.bias * 100.0));
   c.regulator.angle_integral = static_cast<float>(law.angle_integral * period * 100.0);
   c.regulator.stiffness_integral =
       static_cast<float>(law.stiffness_integral * period * 100.0 * stiffness_unit);
 }
 
-void set_muscles(const Experiment& e, int index, control::JointConfig& c) {
-  const robot::Robot& robot = e.robot;
+void set_muscles(const Installation& in, int index, JointConfig& c) {
+  const robot::Robot& robot = in.robot;
   const int flexor = robot::muscle_of(robot, index, Role::flexor);
   const int extensor = robot::muscle_of(robot, index, Role::extensor);
   const int leading = flexor >= 0 ? flexor : extensor;
-  const MuscleSide lead(e, index, leading);
+  const MuscleSide lead(in, index, leading);
   const double torque = lead.torque_per_count();
   const auto config = [&](int muscle) {
-    control::MuscleConfig none;
+    MuscleConfig none;
     none.present = false;
-    return muscle < 0 ? none : MuscleSide(e, index, muscle).config(torque);
+    return muscle < 0 ? none : MuscleSide(in, index, muscle).config(torque);
   };
   c.flexor = config(flexor);
   c.extensor = config(extensor);
@@ -248,7 +248,7 @@ void set_muscles(const Experiment& e, int index, control::JointConfig& c) {
   std::vector<int> muscles;
   for (const int m : {flexor, extensor})
     if (m >= 0) muscles.push_back(m);
-  c.kind = kind_of(e, muscles);
+  c.kind = kind_of(in, muscles);
   const robot::Joint& joint = robot.joints[static_cast<std::size_t>(index)];
   const robot::Muscle& m = robot.muscles[static_cast<std::size_t>(leading)];
   const int angle = robot::angle_sensor_of(robot, index);
@@ -257,19 +257,19 @@ void set_muscles(const Experiment& e, int index, control::JointConfig& c) {
 }
 
 // The law runs when the last of the readings that it needs is there.
-std::uint16_t law_tick(const robot::Robot& robot, const control::JointConfig& c) {
+std::uint16_t law_tick(const robot::Robot& robot, const JointConfig& c) {
   int tick = 0;
-  for (const signals::Channel needed : control::readings_of(c))
+  for (const signals::Channel needed : readings_of(c))
     tick = std::max(tick, sensor(robot, needed.index).tick);
   return static_cast<std::uint16_t>(tick);
 }
 
-control::JointConfig joint_config(const Experiment& e, int index) {
-  const robot::Robot& robot = e.robot;
+JointConfig joint_config(const Installation& in, int index) {
+  const robot::Robot& robot = in.robot;
   const robot::Joint& joint = robot.joints[static_cast<std::size_t>(index)];
-  control::JointConfig c;
+  JointConfig c;
   if (joint.kind == robot::Joint::Kind::passive) {
-    c.kind = control::JointKind::passive;
+    c.kind = JointKind::passive;
     c.flexor.present = c.extensor.present = false;
     return c;
   }
@@ -283,14 +283,14 @@ control::JointConfig joint_config(const Experiment& e, int index) {
   c.pole_clamp = static_cast<std::int32_t>(
       std::lround(robot.low_level.stiffness_pole_clamp * sensor(robot, angle).assumed_scale));
   set_pressure_law(joint.pressure_law, period_of(robot), c);
-  set_muscles(e, index, c);
+  set_muscles(in, index, c);
   c.law_tick = law_tick(robot, c);
   return c;
 }
 
 // Joint 0 of B.1 is the last one here: up is its flexor, down its extensor; the valves come after
 // the muscles'.
-control::JointConfig cylinder_config(const robot::Robot& robot) {
+JointConfig cylinder_config(const robot::Robot& robot) {
   const robot::Cylinder& from = robot.cylinder;
   const int travel = robot::cylinder_sensor(robot);
   const auto valve = [&](std::size_t i) {
@@ -299,8 +299,8 @@ control::JointConfig cylinder_config(const robot::Robot& robot) {
   const auto percent = [](double share) {
     return static_cast<std::int32_t>(std::lround(share * 100.0));
   };
-  control::JointConfig c;
-  c.kind = control::JointKind::cylinder;
+  JointConfig c;
+  c.kind = JointKind::cylinder;
   c.angle = channel(travel);
   c.angle_at_rest = static_cast<std::int32_t>(std::lround(sensor(robot, travel).assumed_at_rest));
   c.flexion = sensor(robot, travel).assumed_scale > 0 ? std::int8_t{1} : std::int8_t{-1};
@@ -313,14 +313,14 @@ control::JointConfig cylinder_config(const robot::Robot& robot) {
   return c;
 }
 
-control::Truncation truncation(robot::LowLevel::Rounding rounding) {
+Truncation truncation(robot::LowLevel::Rounding rounding) {
   using Rounding = robot::LowLevel::Rounding;
-  if (rounding == Rounding::truncate_sum) return control::Truncation::sum;
-  if (rounding == Rounding::none) return control::Truncation::none;
-  return control::Truncation::each_law;
+  if (rounding == Rounding::truncate_sum) return Truncation::sum;
+  if (rounding == Rounding::none) return Truncation::none;
+  return Truncation::each_law;
 }
 
-void set_scan(const robot::Robot& robot, control::JointControllerConfig& c) {
+void set_scan(const robot::Robot& robot, JointControllerConfig& c) {
   if (robot.sensors.size() > c.conversion.size())
     throw std::invalid_argument("the low level scans at most " +
                                 std::to_string(c.conversion.size()) + " sensors");
@@ -338,8 +338,8 @@ bool laws_overrun(const robot::Robot& robot) {
   return robot.low_level.interrupt_time > period_of(robot) / 100.0 * (1.0 + 1e-9);
 }
 
-std::vector<robot::Contradiction> misfits(const Experiment& e) {
-  const robot::Robot& robot = e.robot;
+std::vector<robot::Contradiction> misfits(const Installation& in) {
+  const robot::Robot& robot = in.robot;
   List out;
   const int joints = static_cast<int>(robot.joints.size());
   for (int j = 0; j < joints; ++j) {
@@ -347,15 +347,15 @@ std::vector<robot::Contradiction> misfits(const Experiment& e) {
     if (joint.kind == robot::Joint::Kind::passive) continue;
     const int flexor = robot::muscle_of(robot, j, Role::flexor);
     const int extensor = robot::muscle_of(robot, j, Role::extensor);
-    const double torque = MuscleSide(e, j, flexor >= 0 ? flexor : extensor).torque_per_count();
+    const double torque = MuscleSide(in, j, flexor >= 0 ? flexor : extensor).torque_per_count();
     for (const int m : {flexor, extensor})
-      if (m >= 0) MuscleSide(e, j, m).add_misfits(torque, out);
+      if (m >= 0) MuscleSide(in, j, m).add_misfits(torque, out);
     const double clamp = robot.low_level.stiffness_pole_clamp *
                          sensor(robot, robot::angle_sensor_of(robot, j)).assumed_scale;
-    if (!(std::abs(clamp) <= control::max_length))
+    if (!(std::abs(clamp) <= max_length))
       out.push_back({"low_level.stiffness_pole_clamp",
                      config::format_number(std::round(clamp)) + " count of joint " + joint.name,
-                     "within " + std::to_string(control::max_length) + " count of 0",
+                     "within " + std::to_string(max_length) + " count of 0",
                      "a smaller one, or the sensor's assumed.scale"});
   }
   if (robot.low_level.output_delay > robot.low_level.pwm_ticks)
@@ -363,38 +363,38 @@ std::vector<robot::Contradiction> misfits(const Experiment& e) {
                    "at most pwm_ticks, " + std::to_string(robot.low_level.pwm_ticks), "1"});
   if (!out.empty()) return out;
   try {
-    (void)boards(e);
+    (void)boards(in);
   } catch (const std::invalid_argument& refused) {
     out.push_back({"low_level", refused.what(), "what the low level can work with", ""});
   }
   return out;
 }
 
-control::JointControllerConfig joint_controller_config(const Experiment& e) {
-  const robot::Robot& robot = e.robot;
+JointControllerConfig joint_controller_config(const Installation& in) {
+  const robot::Robot& robot = in.robot;
   const robot::LowLevel& low = robot.low_level;
   const auto ticks = [](double seconds) {
     return static_cast<std::uint32_t>(std::lround(seconds / signals::tick_seconds));
   };
 
-  if (robot.joints.size() + has_cylinder_joint(robot) > control::max_joints)
+  if (robot.joints.size() + has_cylinder_joint(robot) > max_joints)
     throw std::invalid_argument("one board has at most 8 joints");
-  control::JointControllerConfig c;
+  JointControllerConfig c;
   for (std::size_t j = 0; j < robot.joints.size(); ++j)
-    c.joint[c.joints++] = joint_config(e, static_cast<int>(j));
+    c.joint[c.joints++] = joint_config(in, static_cast<int>(j));
   if (has_cylinder_joint(robot)) c.joint[c.joints++] = cylinder_config(robot);
   set_scan(robot, c);
   c.period = static_cast<std::uint16_t>(low.pwm_ticks);
   c.output_delay = static_cast<std::uint16_t>(low.output_delay);
   c.truncation = truncation(low.rounding);
-  c.timing = e.timing;
+  c.timing = in.timing;
   c.dead_band = static_cast<std::int32_t>(std::lround(low.dead_band * 100.0));
-  c.startup_vent = ticks(e.start.settle);
+  c.startup_vent = ticks(in.settle);
   c.shutdown_vent = ticks(low.vent_time);
   c.hold_limit = static_cast<std::uint32_t>(low.hold_limit);
   c.laws_overrun = laws_overrun(robot);
-  if (const char* wrong = control::problem(c)) throw std::invalid_argument(wrong);
+  if (const char* wrong = problem(c)) throw std::invalid_argument(wrong);
   return c;
 }
 
-}  // namespace sinew::experiment
+}  // namespace sinew::control

@@ -1,4 +1,4 @@
-// experiment/failure.h - a failure of a simulated machine in words.
+// run/setup/failure.h - a failure of a simulated machine in words.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 #include "sinew/actuator/actuator.h"
 #include "sinew/air/failure.h"
 
-namespace sinew::experiment {
+namespace sinew::run {
 
 // "the air of muscle knee_flexor was no number any more at 0.012 s: …; try …". `who` is the muscle
 // as its file calls it, `step` the key of the step's length.
 std::string in_words(const air::Failure& failure, const std::string& who,
                      const actuator::Actuator& actuator, const std::string& step);
 
-}  // namespace sinew::experiment
+}  // namespace sinew::run

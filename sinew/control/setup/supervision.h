@@ -1,5 +1,5 @@
-// experiment/supervision.h - what the low level takes for possible, from the robot's description:
-// the limits of control/supervise in counts, and what to say when one was broken.
+// control/setup/supervision.h - what the low level takes for possible, from the robot's
+// description: the limits of control/supervise in counts, and what to say when one was broken.
 //
 //   plausible   of an angle: as far as the muscles that are stretched by it can be, to the length
 //               of their thread, and 10 % beyond; of the cylinder: its stroke and 25 % beyond;
@@ -10,22 +10,19 @@
 
 #include <string>
 
+#include "sinew/control/setup/installation.h"
 #include "sinew/control/supervise/limits.h"
 #include "sinew/control/supervise/supervised.h"
-#include "sinew/experiment/experiment.h"
 
-namespace sinew::experiment {
+namespace sinew::control {
 
 // Returns the limits of a machine of one board, or of one board of it (boards.h). Throws
-// std::invalid_argument where the limits cannot be so (control::problem).
-control::SuperviseConfig supervise_config(const Experiment& experiment);
-
-// Has a reason to record what was rejected: a fault, or a limit in the robot's file.
-bool is_supervised_closely(const Experiment& experiment);
+// std::invalid_argument where the limits cannot be so (problem).
+SuperviseConfig supervise_config(const Installation& installation);
 
 // "sensor hip_angle at 2.0103 s: 4095 count three times in a row, outside its plausible 1075 to
 // 2715 count"; "" where the run was not ended. Channel and joint are the machine's; the board, from
 // 1, is named where the machine has several.
-std::string to_text(const control::Trip& trip, const Experiment& experiment, int board = 1);
+std::string to_text(const Trip& trip, const robot::Robot& robot, int board = 1);
 
-}  // namespace sinew::experiment
+}  // namespace sinew::control

@@ -1,0 +1,97 @@
+#include "cli/settings.h"
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+
+namespace sinew::cli {
+
+namespace {
+
+// Settings that give each name a value, `names.load=NAME`, and what their options are called.
+struct Renamed {
+  std::string_view setting, option;
+};
+constexpr Renamed renamed[] = {{"names", "map"}, {"units", "unit"}};
+
+// The settings that messages of the library name. A word that is not here stays a word: "time=0" is
+// no option.
+constexpr std::string_view settings[] = {
+    "actuator", "align",      "bits",   "columns",   "conductance",     "down",
+    "exponent", "flexion",    "force",  "frequency", "full_scale",      "drop_incomplete",
+    "hold_out", "keep_force", "known",  "largest",   "external_volume", "flexor_length",
+    "length",   "lever",      "load",   "machine",   "model",           "moment_arm",
+    "names",    "per_volume", "port",   "pressure",  "rest_length",     "root",
+    "sensors",  "units",      "volume", "where"};
+
+// Settings that can be the subject of a problem: at the begin of a line, or behind a file without a
+// line of it. What has a line is a key of that file.
+constexpr std::string_view subjects[] = {"known", "model", "names", "sensors", "units", "where"};
+
+bool is_one_of(std::string_view word, const auto& words) {
+  return std::ranges::find(words, word) != std::end(words);
+}
+
+bool is_letter_of_a_name(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+std::string option_of(std::string_view setting) {
+  const auto* other = std::ranges::find(renamed, setting, &Renamed::setting);
+  std::string out = "--" + std::string(other == std::end(renamed) ? setting : other->option);
+  std::ranges::replace(out, '_', '-');
+  return out;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool can_be_subject(std::string_view before) {
+  if (before.empty() || before.ends_with('\n')) return true;
+  return before.size() > 2 && before.ends_with(": ") && !is_digit(before[before.size() - 3]);
+}
+
+// Returns the setting that begins at `at` as its option; empty: none does. `taken` is how many
+// letters it stands for.
+std::string option_at(std::string_view whole, std::size_t at, std::size_t& taken) {
+  const std::string_view text = whole.substr(at);
+  const std::size_t end =
+      static_cast<std::size_t>(std::ranges::find_if_not(text, is_letter_of_a_name) - text.begin());
+  const std::string_view name = text.substr(0, end), rest = text.substr(end);
+  taken = end;
+  if (is_one_of(name, subjects) && rest.starts_with(": found ") &&
+      can_be_subject(whole.substr(0, at)))
+    return option_of(name);
+  if (!is_one_of(name, settings) || rest.size() < 2) return "";
+  const bool named = std::ranges::count(renamed, name, &Renamed::setting) > 0;
+  const bool value = rest[0] == '=' && rest[1] != ' ' && rest[1] != '=';
+  if (!(named ? rest[0] == '.' && is_letter_of_a_name(rest[1]) : value)) return "";
+  taken += 1;
+  if (!rest.substr(1).starts_with("true")) return option_of(name) + " ";
+  taken += 4;
+  return option_of(name);
+}
+
+}  // namespace
+
+std::string as_options(std::string_view text) {
+  std::string out;
+  bool quoted = false, begins_word = true;
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t taken = 1;
+    std::string option;
+    if (begins_word && !quoted) option = option_at(text, at, taken);
+    if (option.empty()) {
+      const char c = text[at++];
+      out += c;
+      if (c == '"' || c == '\n') quoted = c == '"' && !quoted;
+      begins_word = c == ' ' || c == '(' || c == '\n';
+      continue;
+    }
+    out += option;
+    at += taken;
+    begins_word = false;
+  }
+  return out;
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,16 @@
+// cli/settings.h - the library's settings as the options of this program.
+//
+// The library knows no command line: what it says of a setting reads `force=true`, `full_scale="10
+// V"`, `names.load=NAME`, and a problem with a setting begins with its name, `units: found …`.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace sinew::cli {
+
+// Returns the text with each setting as its option: `--force`, `--full-scale "10 V"`,
+// `--map load=NAME`, `--unit: found …`. What stands between double quotes stays: a user wrote it.
+std::string as_options(std::string_view text);
+
+}  // namespace sinew::cli

@@ -1,0 +1,27 @@
+// run/setup/buildable.h - experiments whose controllers and simulated machine can be built.
+//
+// experiment::load refuses a description that contradicts itself; here is refused what the low
+// level's numbers cannot hold, and what the simulated air and bodies cannot be.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sinew/experiment/experiment.h"
+#include "sinew/experiment/machine_file.h"
+
+namespace sinew::run {
+
+// Throws config::Error with all that cannot be built of a description without contradictions.
+void refuse_unbuildable(const experiment::Experiment& experiment);
+
+// The same of a file read alone: of a robot what its low level cannot hold; of its parts nothing.
+void refuse_unbuildable(const experiment::MachineFile& file);
+
+// Reads the file as experiment::load does, or a tree that is composed already. Throws config::Error
+// with all that is wrong.
+experiment::Experiment buildable(const std::string& path,
+                                 const std::vector<std::string>& sets = {});
+experiment::Experiment buildable(const config::Node& root, const std::string& path);
+
+}  // namespace sinew::run

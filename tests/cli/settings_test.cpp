@@ -1,0 +1,84 @@
+// What the library says of its settings is said of the options that they come from.
+#include "cli/settings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "tests/cli/program.h"
+
+namespace sinew::test {
+namespace {
+
+using cli::as_options;
+
+TEST(Settings, AreToldAsOptions) {
+  EXPECT_EQ(as_options("try another one, or force=true to replace it"),
+            "try another one, or --force to replace it");
+  EXPECT_EQ(as_options("try full_scale=\"10 V\", units.gage=V or drop_incomplete=true"),
+            "try --full-scale \"10 V\", --unit gage=V or --drop-incomplete");
+  EXPECT_EQ(as_options("try names.flexor_pressure=NAME (known=load)"),
+            "try --map flexor_pressure=NAME (--known load)");
+  EXPECT_EQ(as_options("run/1: align=sequence: found a run without phases"),
+            "run/1: --align sequence: found a run without phases");
+}
+
+TEST(Settings, BeginAProblemOrDoNot) {
+  EXPECT_EQ(as_options("names: found \"froce\"; expected force\nunits: found \"x\"; expected y"),
+            "--map: found \"froce\"; expected force\n--unit: found \"x\"; expected y");
+  EXPECT_EQ(as_options("a.csv: names: found \"x\""), "a.csv: --map: found \"x\"");
+  EXPECT_EQ(as_options("a.toml:3:1: where: found \"x\""), "a.toml:3:1: where: found \"x\"");
+  EXPECT_EQ(as_options("the model: found none"), "the model: found none");
+}
+
+TEST(Settings, WhatAUserWroteStays) {
+  for (const char* text : {"found \"force=true\"; expected key=value", "at length = 3 in",
+                           "length==3", "pulse_length=3", "a unit in other units. Try",
+                           "/runs/port=3/1", "seed=1", "--length \"3 in\"", "", "=", "names."})
+    EXPECT_EQ(as_options(text), text);
+  EXPECT_EQ(as_options("a 5\" tube\nport=0"), "a 5\" tube\n--port 0")
+      << "a quote ends with its line";
+}
+
+// Every option that a message of the library tells of is one of the program's.
+TEST(Settings, TheOptionsExist) {
+  const Workspace w;
+  const auto help = [&](Words words) {
+    words.emplace_back("--help");
+    return w.sinew(words).out;
+  };
+  struct Case {
+    Words command;
+    const char* settings;
+  };
+  const Case cases[] = {
+      {{"identify", "static"},
+       "names.a=b units.a=b columns=a where=a drop_incomplete=true length=a rest_length=a "
+       "actuator=a "
+       "hold_out=a model=a"},
+      {{"identify", "joint"},
+       "load=a lever=a down=a flexion=a moment_arm=a flexor_length=a keep_force=true"},
+      {{"identify", "valve"},
+       "volume=a conductance=a per_volume=true port=a exponent=a frequency=a"},
+      {{"identify", "sensor"}, "known=a sensors=a bits=a full_scale=a"},
+      {{"identify", "dynamic"}, "pressure=a external_volume=a exponent=a"},
+      {{"sweep"}, "largest=a where=a"},
+      {{"compare"}, "align=a"},
+      {{"run"}, "force=true"},
+      {{"view"}, "port=a"},
+      {{"replay"}, "machine=a"}};
+  for (const Case& c : cases) {
+    const std::string text = help(c.command), options = as_options(c.settings);
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = options.find("--", at)) != options.npos; at += 2, ++count) {
+      const std::string option = options.substr(at, options.find(' ', at) - at);
+      EXPECT_NE(text.find(option), text.npos) << c.command.back() << ": " << option;
+    }
+    EXPECT_EQ(count,
+              1 + static_cast<std::size_t>(std::ranges::count(std::string_view(c.settings), ' ')));
+  }
+}
+
+}  // namespace
+}  // namespace sinew::test
