@@ -210,7 +210,6 @@ void expect_all_machines_alone() {
 TEST(PlainAir, MachinesSideBySideAreThoseAlone) {
   expect_all_machines_alone<2>();
   expect_all_machines_alone<4>();
-  expect_all_machines_alone<8>();
 }
 
 // A chamber whose air is gone is told of the machine that has it, and of no other.

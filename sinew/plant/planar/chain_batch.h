@@ -78,7 +78,7 @@ class ChainBatch {
   }
 
   double next_node(int k) const noexcept;
-  [[gnu::flatten]] void commit(const Mask& goes) noexcept;
+  void commit(const Mask& goes) noexcept;
   void step(const Mask& steps, const S& h) noexcept;
   void look_at(const Moving& state, const typename Body::Forces& held, Look& look) const noexcept;
   void prepare(const Mask& goes) noexcept;

@@ -106,7 +106,6 @@ void expect_batches_alone() {
 TEST(ChainBatch, MachinesOfABatchAreThoseAlone) {
   expect_batches_alone<2>();
   expect_batches_alone<4>();
-  expect_batches_alone<8>();
 }
 
 // One whose air runs away is told as it is alone, and the others go on.
