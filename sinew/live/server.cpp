@@ -2,149 +2,27 @@
 
 #include <fmt/format.h>
 
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/signal_set.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <boost/beast/core.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http.hpp>
-#include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
 #include <chrono>
 #include <csignal>
-#include <deque>
-#include <list>
-#include <map>
 #include <optional>
 #include <stdexcept>
 
-#include "sinew/live/token.h"
+#include "sinew/live/server_impl.h"
 
 namespace sinew::live {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
-namespace websocket = beast::websocket;
-using tcp = asio::ip::tcp;
-using Error = beast::error_code;
-
 constexpr auto between_frames = std::chrono::milliseconds(40);
 constexpr auto patience = std::chrono::seconds(10);  // with a request that does not come
 constexpr auto last_moment = std::chrono::seconds(1);
-constexpr std::size_t longest_head = 8 << 10, longest_message = 4 << 10;  // [bytes]
-constexpr std::string_view ready = "ready";
-constexpr std::size_t most_connections = 64, most_answers = 32;
-
-using Request = http::request<http::string_body>;
+constexpr std::size_t longest_head = 8 << 10;  // [bytes]
+constexpr std::size_t most_connections = 64;
 
 }  // namespace
-
-struct Server::Impl : std::enable_shared_from_this<Server::Impl> {
-  struct Connection;
-  struct Socket;
-
-  explicit Impl(Handlers h) : handlers(std::move(h)) {}
-
-  void listen(std::uint16_t port);
-  void accept();
-  void tick();
-  bool make_room();
-  bool is_ours(const Request& request, http::field field, std::string_view before) const;
-  bool has_token(std::string_view target) const;
-
-  asio::io_context io{1};
-  tcp::acceptor acceptor{io};
-  asio::steady_timer timer{io}, end{io}, pause{io};
-  asio::signal_set signals{io};
-  Handlers handlers;
-  std::map<Watcher, std::weak_ptr<Socket>> sockets;
-  std::list<Connection*> unauthorized;  // have not shown the token; the oldest first
-  const std::string token = random_token();
-  Watcher last = 0;
-  std::size_t connections = 0;
-  std::uint16_t port = 0;
-};
-
-// --- a WebSocket ---
-
-struct Server::Impl::Socket : std::enable_shared_from_this<Socket> {
-  Socket(std::shared_ptr<Impl> s, beast::tcp_stream&& stream)
-      : server(std::move(s)), id(++server->last), ws(std::move(stream)) {
-    ++server->connections;
-  }
-  ~Socket() {
-    --server->connections;
-    if (server->handlers.left) server->handlers.left(id);
-    server->sockets.erase(id);
-  }
-
-  void start(const Request& request) {
-    beast::get_lowest_layer(ws).expires_never();
-    ws.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-    ws.read_message_max(longest_message);
-    ws.async_accept(request, [self = shared_from_this()](Error error) {
-      if (error) return;
-      self->server->sockets[self->id] = self;
-      self->open = true;
-      self->read();
-    });
-  }
-
-  void read() {
-    ws.async_read(in, [self = shared_from_this()](Error error, std::size_t) {
-      if (error) return self->leave();
-      const std::string text = beast::buffers_to_string(self->in.data());
-      self->in.consume(self->in.size());
-      if (text == ready) {
-        self->waits = true;
-        return self->read();
-      }
-      if (std::string answer = self->server->handlers.message(self->id, text); !answer.empty()) {
-        if (self->answers.size() == most_answers) return self->leave();
-        self->answers.push_back(std::move(answer));
-        self->send();
-      }
-      self->read();
-    });
-  }
-
-  // Answers first, then a frame of what there is now, if the last one is done with.
-  void send() {
-    if (!open || sending) return;
-    if (!answers.empty()) {
-      out = std::move(answers.front());
-      answers.pop_front();
-    } else if (waits) {
-      out = server->handlers.frame(id);
-      waits = out.empty();
-    } else {
-      return;
-    }
-    if (out.empty()) return;
-    sending = true;
-    ws.text(true);
-    ws.async_write(asio::buffer(out), [self = shared_from_this()](Error error, std::size_t) {
-      self->sending = false;
-      if (error) return self->leave();
-      if (!self->answers.empty()) self->send();
-    });
-  }
-
-  void leave() {
-    open = false;
-    beast::get_lowest_layer(ws).close();
-  }
-
-  std::shared_ptr<Impl> server;
-  Watcher id;
-  websocket::stream<beast::tcp_stream> ws;
-  beast::flat_buffer in;
-  std::string out;
-  std::deque<std::string> answers;
-  bool open = false, sending = false;
-  bool waits = true;  // for a frame
-};
 
 // --- HTTP ---
 
@@ -187,11 +65,11 @@ struct Server::Impl::Connection : std::enable_shared_from_this<Connection> {
                              "text/plain"});
     is_known();
     const std::string_view path = target.substr(1 + server->token.size());
-    if (websocket::is_upgrade(request)) {
+    if (beast::websocket::is_upgrade(request)) {
       if (!server->handlers.frame || path != "/live" ||
           !server->is_ours(request, http::field::origin, "http://"))
         return write(request, {403, "Only this server's own page may watch.\n", "text/plain"});
-      return std::make_shared<Socket>(server, std::move(stream))->start(request);
+      return server->upgrade(std::move(stream), request);
     }
     const bool head = request.method() == http::verb::head;
     if (request.method() != http::verb::get && !head)
@@ -297,9 +175,7 @@ void Server::Impl::tick() {
   timer.async_wait([self = shared_from_this()](Error error) {
     if (error) return;
     if (self->handlers.tick) self->handlers.tick();
-    const auto all = self->sockets;  // a frame may be the last of its socket
-    for (const auto& [id, socket] : all)
-      if (const auto s = socket.lock()) s->send();
+    self->send_frames();
     self->tick();
   });
 }
@@ -320,8 +196,7 @@ Server::~Server() {
   impl_->end.cancel();
   impl_->pause.cancel();
   impl_->signals.cancel(ignored);
-  for (const auto& [id, socket] : std::map(impl_->sockets))
-    if (const auto s = socket.lock()) s->leave();
+  impl_->leave_sockets();
   impl_->io.restart();
   impl_->io.run_for(last_moment);
 }
