@@ -7,7 +7,7 @@
 
 #include "sinew/control/setup/joint_controllers.h"
 #include "sinew/control/setup/supervision.h"
-#include "sinew/plant/planar/machine.h"
+#include "sinew/plant/machine/machine.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/loop.h"

@@ -6,22 +6,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <optional>
 
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/json_text.h"
 #include "cli/text_table.h"
-#include "sinew/actuator/body.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/plant/planar/muscle_routing.h"
-#include "sinew/robot/actuator_of.h"
 #include "sinew/robot/legs.h"
+#include "sinew/run/setup/stance.h"
 
 namespace sinew::cli {
 
@@ -40,24 +36,9 @@ struct Shown {
   std::string length = "m", angle = "deg", torque = "N m";
 };
 
-struct MuscleAt {
-  std::string name;
-  double length = 0, shortest = 0, longest = 0;  // [m]
-
-  bool within() const { return length >= shortest && length <= longest; }
-};
-
 // One way in which the leg can stand.
-struct Branch {
-  std::vector<double> angles;  // [rad]
-  robot::Point foot;           // [m]
-  std::vector<MuscleAt> muscles;
-  std::optional<robot::Jacobian> jacobian;  // of two links
-  std::vector<double> torques;              // [N m]; empty where no force is given
-
-  bool within() const {
-    return std::ranges::all_of(muscles, [](const MuscleAt& m) { return m.within(); });
-  }
+struct Branch : run::Stance {
+  std::vector<double> torques;  // [N m]; empty where no force is given
 };
 
 std::string unit_in(const config::Origins& origins, std::string_view table, std::string_view key,
@@ -82,31 +63,6 @@ robot::TwoLinks need_two_links(const robot::Robot& robot) {
         fmt::format("{}: has {} link{}; --foot needs two, at driven joints; try --angles",
                     robot.name, robot.links.size(), robot.links.size() == 1 ? "" : "s"));
   return robot::two_links(robot);
-}
-
-// A joint turns from its rest angle, so of all equal angles the one next to that is meant.
-double next_to_rest(const robot::Joint& joint, double angle) {
-  return joint.rest_angle + std::remainder(angle - joint.rest_angle, 2 * std::numbers::pi);
-}
-
-Branch stand(const experiment::Experiment& e, const std::vector<double>& angles) {
-  Branch out{.angles = angles, .foot = robot::forward(e.robot, angles).foot()};
-  std::array<double, robot::max_joints> turned{}, still{};
-  for (std::size_t j = 0; j < angles.size(); ++j)
-    turned[j] = next_to_rest(e.robot.joints[j], angles[j]);
-  air::Lanes<plant::most_muscles> length, rate;
-  plant::MuscleRouting::MomentArms<plant::most_muscles> pulls;
-  plant::MuscleRouting(e.robot).at(turned.data(), still.data(), length, rate, pulls);
-  for (std::size_t i = 0; i < e.robot.muscles.size(); ++i) {
-    const actuator::Actuator a = robot::actuator_of(e.robot.muscles[i], e.actuators);
-    out.muscles.push_back({.name = e.robot.muscles[i].name,
-                           .length = length[i],
-                           .shortest = actuator::shortest_length(a),
-                           .longest = a.long_end.length});
-  }
-  if (robot::is_leg(e.robot))
-    out.jacobian = robot::jacobian(robot::two_links(e.robot), angles[0], angles[1]);
-  return out;
 }
 
 [[noreturn]] void out_of_reach(const std::string& text, const robot::Inverse& inverse,
@@ -137,7 +93,7 @@ std::vector<Branch> branches_to(const experiment::Experiment& e, const std::stri
   for (const robot::Knee knee : {robot::Knee::above_pi, robot::Knee::below_pi}) {
     const robot::Inverse inverse = robot::inverse(need_two_links(e.robot), target, knee);
     if (!inverse.reached()) out_of_reach(text, inverse, units);
-    out.push_back(stand(e, {inverse.angle[0], inverse.angle[1]}));
+    out.push_back({run::stance(e, {inverse.angle[0], inverse.angle[1]}), {}});
   }
   return out;
 }
@@ -149,7 +105,7 @@ Branch branch_at(const experiment::Experiment& e, const std::string& text) {
   if (angles.size() != e.robot.joints.size())
     config::fail({"--angles", 0, 0}, "", config::in_quotes(text),
                  fmt::format("{} angles, as there are joints", e.robot.joints.size()));
-  return stand(e, angles);
+  return {run::stance(e, angles), {}};
 }
 
 // [71] in each way to stand.
@@ -167,7 +123,7 @@ Json to_json(const experiment::Experiment& e, const Branch& b) {
   Json out{{"foot_m", {b.foot.x, b.foot.y}}};
   for (std::size_t j = 0; j < b.angles.size(); ++j)
     out["angles_rad"][e.robot.joints[j].name] = b.angles[j];
-  for (const MuscleAt& m : b.muscles)
+  for (const run::MuscleAt& m : b.muscles)
     out["muscles"][m.name] = {{"length_m", m.length},
                               {"shortest_m", m.shortest},
                               {"longest_m", m.longest},
@@ -195,7 +151,7 @@ void print(const experiment::Experiment& e, const Branch& b, const Shown& units)
                config::format_quantity(b.angles[j], "rad", units.angle, 5));
 
   TextTable table({"muscle", "length", "from", "to", ""});
-  for (const MuscleAt& m : b.muscles)
+  for (const run::MuscleAt& m : b.muscles)
     table.add({m.name, length(m.length), length(m.shortest), length(m.longest),
                m.within() ? "" : "beyond"});
   fmt::print("{}", table.text("  "));

@@ -12,6 +12,7 @@ layers='
     gas             units
     actuator        units
     air             gas actuator signals
+    air/packs       air
     robot           gas actuator signals
     robot/wiring    robot
     control/joint   signals
@@ -23,6 +24,8 @@ layers='
     log             signals
     plant/world     air signals
     plant/planar    plant/world air robot signals
+    plant/machine   plant/planar
+    plant/packs     plant/machine air/packs
     plant/slide     plant/world air robot signals
     plant/recorded  air robot signals log
     plant/mujoco    air robot signals
@@ -57,6 +60,7 @@ layers='
 test_layers='
     *               config
     identify/motion plant/slide
+    plant/planar    plant/machine
 '
 
 # Each outside library sits behind one folder.

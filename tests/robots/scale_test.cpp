@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "runs.h"
-#include "sinew/plant/planar/machine.h"
+#include "sinew/plant/machine/machine.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/run.h"
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "sinew/actuator/braid.h"
-#include "sinew/plant/planar/machine.h"
+#include "sinew/plant/machine/machine.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/run.h"
 #include "tests/six_legs.h"

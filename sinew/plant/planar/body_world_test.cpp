@@ -1,5 +1,5 @@
 // Laws that a machine of any shape keeps, and that all worlds agree where several hold a robot.
-#include "sinew/plant/planar/machine.h"
+#include "sinew/plant/machine/machine.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <random>
 
-#include "sinew/plant/planar/machine.h"
+#include "sinew/plant/machine/machine.h"
 #include "sinew/plant/planar/test_setups.h"
 
 namespace sinew::plant {

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
+#include "sinew/plant/machine/machine.h"
 #include "sinew/plant/planar/friction_contacts_members.h"
-#include "sinew/plant/planar/machine.h"
 #include "sinew/plant/planar/test_setups.h"
 
 namespace sinew::plant {

@@ -6,7 +6,7 @@
 #include <random>
 #include <span>
 
-#include "sinew/plant/planar/machine.h"
+#include "sinew/plant/machine/machine.h"
 #include "sinew/plant/planar/test_setups.h"
 #include "sinew/robot/kinematics.h"
 

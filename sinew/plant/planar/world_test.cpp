@@ -1,5 +1,5 @@
 // Laws that a planar world keeps, with and without muscles.
-#include "sinew/plant/planar/machine.h"
+#include "sinew/plant/machine/machine.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // plant/world/members.h - the members of World, for the files that compile its kinds once
-// (planar/chain_worlds.cpp, planar/body_worlds.cpp, slide/stand.cpp); cuts.h has those of
+// (machine/chain_worlds.cpp, machine/body_worlds.cpp, slide/stand.cpp); cuts.h has those of
 // mechanisms that cut their steps.
 #pragma once
 

@@ -114,7 +114,7 @@ class World final : public signals::Port {
   const State& state() const noexcept { return state_; }
   // Goes on from there as the world did whose state it was: the same bits.
   void restore(const State& state) noexcept;
-  // For whoever integrates in this world's place (planar/chain_batch.h): the state, to be brought
+  // For whoever integrates in this world's place (packs/chain_batch.h): the state, to be brought
   // to another node; and then the world goes on from there.
   State& borrow() noexcept { return state_; }
   void resume() noexcept {

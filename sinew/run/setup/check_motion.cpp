@@ -8,7 +8,7 @@
 #include "sinew/air/network.h"
 #include "sinew/config/quantity.h"
 #include "sinew/control/gait/legs.h"
-#include "sinew/plant/planar/machine.h"
+#include "sinew/plant/machine/machine.h"
 #include "sinew/plant/planar/muscle_routing.h"
 #include "sinew/run/setup/planar_setup.h"
 

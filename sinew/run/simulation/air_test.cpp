@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
-#include "sinew/plant/planar/machine.h"
+#include "sinew/plant/machine/machine.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/run.h"

@@ -26,7 +26,7 @@
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
-#include "sinew/plant/planar/machine.h"
+#include "sinew/plant/machine/machine.h"
 #include "sinew/run/simulation/boards.h"
 #include "sinew/run/simulation/columns.h"
 #include "sinew/run/simulation/faulty_port.h"

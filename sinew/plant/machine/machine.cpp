@@ -1,4 +1,4 @@
-#include "sinew/plant/planar/machine.h"
+#include "sinew/plant/machine/machine.h"
 
 #include <cstring>
 #include <type_traits>

@@ -1,4 +1,4 @@
-// plant/planar/chain_lanes.h - chains of machines side by side: W bodies as one of packs.
+// plant/packs/chain_lanes.h - chains of machines side by side: W bodies as one of packs.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // Machines side by side: the body of each has the bits that it has alone.
-#include "sinew/plant/planar/chain_lanes.h"
+#include "sinew/plant/packs/chain_lanes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Machines side by side: the air of each has the bits that it has alone.
-#include "sinew/air/plain_air.h"
+#include "sinew/air/packs/plain_air.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-// plant/planar/large_body_worlds.cpp - the worlds of machines of many links, compiled once.
+// plant/machine/large_body_worlds.cpp - the worlds of machines of many links, compiled once.
+#include "sinew/plant/machine/machine.h"
 #include "sinew/plant/planar/body_mechanism_members.h"
-#include "sinew/plant/planar/machine.h"
 #include "sinew/plant/world/members.h"
 
 namespace sinew::plant {

@@ -1,6 +1,6 @@
 // Machines in a batch have the bits of each alone: in any lane, beside any others, however far each
 // is asked to go at a time.
-#include "sinew/plant/planar/chain_batch_members.h"
+#include "sinew/plant/packs/chain_batch_members.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// plant/planar/chain_worlds.cpp - the worlds of chains, compiled once.
-#include "sinew/plant/planar/machine.h"
+// plant/machine/chain_worlds.cpp - the worlds of chains, compiled once.
+#include "sinew/plant/machine/machine.h"
 #include "sinew/plant/world/members.h"
 
 namespace sinew::plant {

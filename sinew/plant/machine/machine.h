@@ -1,4 +1,4 @@
-// plant/planar/machine.h - a planar machine in simulation: the mechanism and the air that suit its
+// plant/machine/machine.h - a planar machine in simulation: the mechanism and the air that suit its
 // description, behind one face. Robots that a chain holds go by chain_mechanism.h, all others by
 // the first size of body_mechanism.h that has room for them.
 #pragma once

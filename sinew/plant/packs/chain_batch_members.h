@@ -1,7 +1,7 @@
-// plant/planar/chain_batch_members.h - the members of ChainBatch, for the files that compile it.
+// plant/packs/chain_batch_members.h - the members of ChainBatch, for the files that compile it.
 #pragma once
 
-#include "sinew/plant/planar/chain_batch.h"
+#include "sinew/plant/packs/chain_batch.h"
 
 namespace sinew::plant {
 

@@ -1,6 +1,6 @@
-// air/plain_air.h - the air of W machines side by side that have nothing but muscles between valves
-// on a constant supply: network.h's law with a pack in the place of each number, and the muscles
-// one after the other. Each machine has the bits that it has alone.
+// air/packs/plain_air.h - the air of W machines side by side that have nothing but muscles between
+// valves on a constant supply: network.h's law with a pack in the place of each number, and the
+// muscles one after the other. Each machine has the bits that it has alone.
 //
 // Valves, commands and failures are each network's own affair: from its valves come the shares that
 // are open until its next node. What a lane seldom needs (a power, the sealed stiffness) its own

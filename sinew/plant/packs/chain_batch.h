@@ -1,4 +1,4 @@
-// plant/planar/chain_batch.h - W plain machines side by side: chains whose muscles are filled
+// plant/packs/chain_batch.h - W plain machines side by side: chains whose muscles are filled
 // through valves from a constant supply. Each is a World, and has the bits that it has alone.
 //
 // The nodes are integrated in lanes, all the rest a World does by itself: commands, readings,
@@ -21,9 +21,9 @@
 #include <span>
 #include <stdexcept>
 
-#include "sinew/air/plain_air.h"
-#include "sinew/plant/planar/chain_lanes.h"
-#include "sinew/plant/planar/machine.h"
+#include "sinew/air/packs/plain_air.h"
+#include "sinew/plant/machine/machine.h"
+#include "sinew/plant/packs/chain_lanes.h"
 
 namespace sinew::plant {
 

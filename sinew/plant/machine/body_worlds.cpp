@@ -1,7 +1,7 @@
-// plant/planar/body_worlds.cpp - the worlds of machines that are no chain, of few links, compiled
+// plant/machine/body_worlds.cpp - the worlds of machines that are no chain, of few links, compiled
 // once.
+#include "sinew/plant/machine/machine.h"
 #include "sinew/plant/planar/body_mechanism_members.h"
-#include "sinew/plant/planar/machine.h"
 #include "sinew/plant/world/members.h"
 
 namespace sinew::plant {

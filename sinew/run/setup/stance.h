@@ -1,0 +1,38 @@
+// run/setup/stance.h - a machine that stands at given joint angles: its foot, and its muscles
+// beside the lengths between which they work.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sinew/experiment/experiment.h"
+#include "sinew/robot/kinematics.h"
+
+namespace sinew::run {
+
+// A muscle at some joint angles.
+struct MuscleAt {
+  std::string name;
+  double length = 0, shortest = 0, longest = 0;  // [m]
+
+  bool within() const { return length >= shortest && length <= longest; }
+};
+
+struct Stance {
+  std::vector<double> angles;  // of the joints [rad]
+  robot::Point foot;           // from the first joint [m]
+  std::vector<MuscleAt> muscles;
+  std::optional<robot::Jacobian> jacobian;  // of the foot by the angles: of two links [m/rad]
+
+  bool within() const {
+    return std::ranges::all_of(muscles, [](const MuscleAt& m) { return m.within(); });
+  }
+};
+
+// Returns the machine at these angles, one per joint in the robot's order  [rad]. Of angles that
+// are whole turns apart the muscles' lengths are those of the one next to the joint's rest.
+Stance stance(const experiment::Experiment& experiment, const std::vector<double>& angles);
+
+}  // namespace sinew::run
