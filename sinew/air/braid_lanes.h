@@ -60,7 +60,8 @@ class BraidLanes {
               out.friction_bound.of.data(), out.drift.of.data(), y.of.data()});
   }
 
-  // Of muscle i: its numbers, is its dry friction bound by its sealed stiffness, does it stick?
+  // These return the constants of muscle i, whether its dry friction is bound by its sealed
+  // stiffness, and whether it sticks.
   BraidConstants<double> constants(int i) const {
     return units::lane_of<BraidConstants<double>>(
         constants_[static_cast<std::size_t>(i / lanes)].law, i % lanes);

@@ -68,16 +68,7 @@ TEST(Faults, AirIsConservedWhateverBreaks) {
                          .pressure = 6 * bar,
                          .volume = 2e-4,
                          .initial_pressure = 7 * bar};
-  const auto motion = [](double t) {
-    Motion m = at_rest(0);
-    for (int i = 0; i < 8; ++i) {
-      m.length[i] += 0.3 * inch * std::sin(9 * t + i);
-      m.rate[i] = 2.7 * inch * std::cos(9 * t + i);
-    }
-    m.travel = 0.5 * inch * (1 + std::sin(5 * t));
-    m.travel_rate = 2.5 * inch * std::cos(5 * t);
-    return m;
-  };
+  const auto motion = [](double t) { return swaying(3.15 * inch, t); };
   std::mt19937 random(3);
   for (const double wall_time : {0.0, 0.2})
     for (const gas::Supply& supply : {tank, gas::Supply{.pressure = 6 * bar}}) {

@@ -64,6 +64,17 @@ struct Ahead {
   std::array<double, 3> passed{};
 };
 
+// Writes the course's end into the cell; its muscle or chamber is the last body.
+template <int N, class Cell>
+void fill(const Ahead<N>& ahead, Cell& cell) {
+  cell.half = ahead.half.back();
+  cell.full = ahead.full.back();
+  if constexpr (N > 1) cell.hose = ahead.full.front();
+  cell.in = ahead.passed[0];
+  cell.out = ahead.passed[1];
+  cell.leak = ahead.passed[2];
+}
+
 // Integrates through a step. Where it is calm one step of the rule serves, and the half lies on the
 // cubic through both ends and their rates. A decay of rate r is off there by 2 % of the bend at
 // r h = 1, by a tenth at 2.5 and a third at 5.
@@ -223,12 +234,7 @@ void AirNetwork<Most>::run_ahead(const Now& node, double h, const Room& room, co
     }
     return r;
   };
-  const quick::Ahead<1> ahead = quick::through<1>(rates, node.t, h, {quick::muscle_error}, {mass});
-  cell.half = ahead.half[0];
-  cell.full = ahead.full[0];
-  cell.in = ahead.passed[0];
-  cell.out = ahead.passed[1];
-  cell.leak = ahead.passed[2];
+  quick::fill(quick::through<1>(rates, node.t, h, {quick::muscle_error}, {mass}), cell);
 }
 
 // Valves, hose, muscle.
@@ -284,14 +290,8 @@ void AirNetwork<Most>::run_hose_ahead(const Now& node, double h, const Room& roo
                       (pass.by_b - leak.by_a) * by_time};
     return r;
   };
-  const quick::Ahead<2> ahead =
-      quick::through<2>(rates, node.t, h, {quick::hose_error, quick::muscle_error}, x);
-  cell.half = ahead.half[1];
-  cell.full = ahead.full[1];
-  cell.hose = ahead.full[0];
-  cell.in = ahead.passed[0];
-  cell.out = ahead.passed[1];
-  cell.leak = ahead.passed[2];
+  quick::fill(quick::through<2>(rates, node.t, h, {quick::hose_error, quick::muscle_error}, x),
+              cell);
 }
 
 template <int Most>

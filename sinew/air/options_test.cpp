@@ -36,16 +36,7 @@ TEST(AirNetwork, AirIsConserved) {
                              .volume = 2e-4,
                              .initial_pressure = 7 * bar};
     Air network(everything(), air, supply, thesis_cylinder());
-    const auto motion = [](double t) {
-      Motion m = still();
-      for (int i = 0; i < 8; ++i) {
-        m.length[i] += 0.3 * inch * std::sin(9 * t + i);
-        m.rate[i] = 2.7 * inch * std::cos(9 * t + i);
-      }
-      m.travel = 0.5 * inch * (1 + std::sin(5 * t));
-      m.travel_rate = 2.5 * inch * std::cos(5 * t);
-      return m;
-    };
+    const auto motion = [](double t) { return swaying(3.15 * inch, t); };
     Hand hand(network, motion, 1.5 * bar);
     const double before = network.total_mass(hand.state, motion(0).travel);
     std::mt19937 random(1);

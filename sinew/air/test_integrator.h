@@ -1,10 +1,12 @@
 // air/test_integrator.h - a network moved by hand: RK4 over its state along a given motion.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <utility>
 
 #include "sinew/air/network.h"
+#include "sinew/units/constants.h"
 
 namespace sinew::air {
 
@@ -15,6 +17,18 @@ using Motion = Air::Ends;  // lengths and travel as given functions of time, wit
 inline Motion still_at(double length) {
   Motion m{};
   m.length.of.fill(length);
+  return m;
+}
+
+// From muscles of one length: each swings by itself, and a piston moves.
+inline Motion swaying(double length, double t) {
+  Motion m = still_at(length);
+  for (int i = 0; i < 8; ++i) {
+    m.length[i] += 0.3 * units::inch * std::sin(9 * t + i);
+    m.rate[i] = 2.7 * units::inch * std::cos(9 * t + i);
+  }
+  m.travel = 0.5 * units::inch * (1 + std::sin(5 * t));
+  m.travel_rate = 2.5 * units::inch * std::cos(5 * t);
   return m;
 }
 

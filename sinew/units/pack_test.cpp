@@ -65,7 +65,7 @@ class PackOf : public testing::Test {};
 using Widths = testing::Types<Width<2>, Width<4>, Width<8>>;
 TYPED_TEST_SUITE(PackOf, Widths);
 
-// What the law says of packs is in each lane what it says of that lane's numbers.
+// A law of packs has in each lane the bits of the law of that lane's numbers.
 template <int W, class Law>
 void expect_lanes(const char* name, unsigned seed, Law law) {
   Numbers numbers(seed);

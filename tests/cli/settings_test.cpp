@@ -1,4 +1,4 @@
-// What the library says of its settings is said of the options that they come from.
+// Messages about the library's settings are told as the options that they come from.
 #include "cli/settings.h"
 
 #include <gtest/gtest.h>

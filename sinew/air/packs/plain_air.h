@@ -182,7 +182,7 @@ std::array<int, W> PlainAir<Most, W>::remember(const Mask& where, const Answer& 
   failed.fill(-1);
   for (int i = 0; i < size_; ++i) {
     const S x = look.drift[i];
-    // What is no number goes on.
+    // A drift that is no number is not near: it goes on, and fails below.
     const Mask near = (x < gas::PowerSeries::rebase) & (x > -gas::PowerSeries::rebase);
     const Mask follows = where & !near;
     if (!units::any(follows)) continue;

@@ -50,7 +50,7 @@ struct Alone {
   double t = 0;
 };
 
-// The same motion for all looks of a step, a little further each time: as a body's stages would.
+// Returns the ends a time `by` later at constant rates, as a body's stages see them  [s].
 template <class Ends>
 Ends further(const Ends& ends, double by) {
   Ends out = ends;
@@ -227,7 +227,7 @@ TEST(PlainAir, ADensityThatIsNoneIsTold) {
   EXPECT_EQ(air.remember(both, t.look, t.memory), (std::array<int, 2>{-1, 1}));
 }
 
-// What its law leaves out keeps a machine from standing side by side with others.
+// A machine whose air has more than the plain law cannot stand side by side with others.
 TEST(PlainAir, OnlyPlainNetworksAreFit) {
   std::vector<Muscle> muscles{bundle(0.1)};
   const gas::Air air;

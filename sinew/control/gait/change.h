@@ -52,7 +52,7 @@ int find_setting(const std::vector<Setting>& settings, std::string_view key);
 double& value_of(const Setting& setting, Desired& desired) noexcept;
 double value_of(const Setting& setting, const Desired& desired) noexcept;
 
-// What stands in place of a leg's plan. No heap after construction.
+// The changes that stand in place of a leg's plan. They take no heap after construction.
 class Overrides {
  public:
   static constexpr std::size_t most = 5 * robot::max_leg_joints;

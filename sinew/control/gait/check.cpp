@@ -138,7 +138,8 @@ void check_times(const Plan& plan, List& out) {
     out.push_back({"control.brain_period", "no time", "more than 0 s", "10 ms"});
 }
 
-// Of driven joints and a leg that is there, with a value or a release.
+// A change must name a driven joint and, where it names a leg, one that is there; it has a value or
+// a release.
 void check_changes(const robot::Robot& robot, const Plan& plan, List& out) {
   std::string legs;
   for (const robot::Leg& leg : robot.legs) legs += (legs.empty() ? "" : " or ") + leg.name;

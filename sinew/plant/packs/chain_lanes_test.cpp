@@ -105,7 +105,7 @@ Setup random_leg(std::mt19937& random) {
   return s;
 }
 
-// What the air says of the muscles.
+// The muscles' tensions and friction bounds, as an air would answer them  [N].
 template <class S>
 struct Pulls {
   std::array<S, chain_muscles> tension, friction_bound;

@@ -249,7 +249,7 @@ void Body<N>::factor_tree() {
   }
 }
 
-// The same, where all that come before a coordinate are above it.
+// Does what factor_tree does for a chain, where all coordinates before one are above it.
 template <int N>
 template <bool Lifts>
 void Body<N>::factor_chain() {

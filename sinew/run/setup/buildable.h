@@ -15,7 +15,8 @@ namespace sinew::run {
 // Throws config::Error with all that cannot be built of a description without contradictions.
 void refuse_unbuildable(const experiment::Experiment& experiment);
 
-// The same of a file read alone: of a robot what its low level cannot hold; of its parts nothing.
+// Throws config::Error for an experiment as above, and for a robot with numbers that its low level
+// cannot hold. Files of parts are never refused.
 void refuse_unbuildable(const experiment::MachineFile& file);
 
 // Reads the file as experiment::load does, or a tree that is composed already. Throws config::Error

@@ -1,4 +1,4 @@
-// What an experiment's file says of the low level reaches the controllers' constants.
+// An experiment's words about the low level reach the controllers' constants.
 #include <gtest/gtest.h>
 
 #include <string>

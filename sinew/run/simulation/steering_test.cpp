@@ -166,7 +166,7 @@ const signals::Column& knee(const Outcome& out, const std::string& leg) {
   return series(out.table, "/desired/leg/" + leg + "/joint/knee/stiffness").columns[0];
 }
 
-// What a leg alone is given leaves the other what the plan says; without a leg it is both's.
+// A change of one leg leaves the other to the plan; without a leg it is both's.
 TEST(Change, OfOneLegLeavesTheOther) {
   const std::string key = "control.stiffness.knee";
   const Outcome plain = run(on_two_legs({}));
