@@ -176,15 +176,15 @@ BENCHMARK(four_muscles_in_sequence);
 // Mass matrix, its factors and the accelerations of the two-link leg on its trolley.
 void body_accelerations(benchmark::State& state) {
   const plant::ChainConstants<2> k = plant::chain_of<2>(walk().robot);
-  plant::Pose<2> pose;
-  pose.angle = {5.1, 9.9};
-  pose.rate = {0.1, 0.2};
+  plant::GeneralizedState<2> motion;
+  motion.angle = {5.1, 9.9};
+  motion.rate = {0.1, 0.2};
   for (auto _ : state) {
-    const plant::Chain<2> chain(k, pose);
-    const plant::Generalised<2> a = chain.accelerations({.x = 1.0, .angle = {0.1, 0.2}});
-    pose.angle[0] += 1e-15 * a.x;
+    const plant::Chain<2> chain(k, motion);
+    const plant::GeneralizedVector<2> a = chain.accelerations({.x = 1.0, .angle = {0.1, 0.2}});
+    motion.angle[0] += 1e-15 * a.x;
   }
-  benchmark::DoNotOptimize(pose);
+  benchmark::DoNotOptimize(motion);
 }
 BENCHMARK(body_accelerations);
 

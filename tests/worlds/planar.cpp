@@ -137,7 +137,7 @@ double air_energy(const Setup& s, double pressure, double volume) {
 }
 
 double energy_of(const Setup& s, const Truth& x) {
-  plant::Motion<robot::max_joints> m;
+  plant::BodyState<robot::max_joints> m;
   m.at[plant::along_track] = x.x;
   m.rate[plant::along_track] = x.x_rate;
   m.at[plant::up] = x.lift;

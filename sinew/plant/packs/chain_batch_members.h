@@ -9,7 +9,7 @@ namespace detail {
 
 // Puts the new numbers in the lanes of the mask.
 template <class Mask, int N, class S>
-void blend(const Mask& mask, const Pose<N, S>& from, Pose<N, S>& to) {
+void blend(const Mask& mask, const GeneralizedState<N, S>& from, GeneralizedState<N, S>& to) {
   to.x = units::select(mask, from.x, to.x);
   to.x_rate = units::select(mask, from.x_rate, to.x_rate);
   for (int i = 0; i < N; ++i) {
@@ -257,7 +257,7 @@ template <int N, int W>
 void ChainBatch<N, W>::bring(int k) noexcept {
   const auto l = static_cast<std::size_t>(k);
   typename World::State& s = worlds_[l]->borrow();
-  s.now.motion = units::lane_of<Pose<N>>(now_.motion, k);
+  s.now.motion = units::lane_of<GeneralizedState<N>>(now_.motion, k);
   s.held = units::lane_of<typename ChainBody<N>::Forces>(held_, k);
   s.trolley_bound = trolley_bound_[k];
   const auto put = [&](const auto& packed, auto& one) {
@@ -268,7 +268,7 @@ void ChainBatch<N, W>::bring(int k) noexcept {
   put(memory_.y, s.memory.reference.y);
   put(memory_.inverse_sigma, s.memory.reference.inverse_sigma);
   s.first.load = units::lane_of<typename ChainBody<N>::Load>(first_.load, k);
-  s.first.acceleration = units::lane_of<Generalised<N>>(first_.acceleration, k);
+  s.first.acceleration = units::lane_of<GeneralizedVector<N>>(first_.acceleration, k);
   s.time = time_[l];
   s.multiple = multiple_[l];
   s.nodes = nodes_[l];

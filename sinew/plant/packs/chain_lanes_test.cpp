@@ -119,11 +119,11 @@ struct Asked {
   typename ChainBody<N, S>::Acceleration free, under, staged;
   typename ChainBody<N, S>::Forces held;
   S trolley_bound, sum;
-  Pose<N, S> now, stage, glided;
+  GeneralizedState<N, S> now, stage, glided;
 };
 
 template <int N, class S>
-Asked<N, S> step(ChainBody<N, S>& body, const Pose<N, S>& now, const Pulls<S>& pulls,
+Asked<N, S> step(ChainBody<N, S>& body, const GeneralizedState<N, S>& now, const Pulls<S>& pulls,
                  const std::array<S, N + 2>& last, const S& last_bound, const S& h) {
   Asked<N, S> out{.now = now};
   typename ChainBody<N, S>::Arms arms;
@@ -160,7 +160,7 @@ template <int N, int W>
 void expect_bodies_alone(std::mt19937& random, int& standing, int& sticking, int& mixed) {
   std::vector<ChainMechanism<N>> alone;
   std::array<const ChainBody<N>*, W> each;
-  std::array<Pose<N>, W> now;
+  std::array<GeneralizedState<N>, W> now;
   alone.reserve(W);
   for (std::size_t k = 0; k < W; ++k) {
     Setup s = random_leg(random);
@@ -185,7 +185,7 @@ void expect_bodies_alone(std::mt19937& random, int& standing, int& sticking, int
       for (double& f : pulls[k].friction_bound) f = random() % 3 == 0 ? 0.0 : between(random, 0, 9);
     }
     const auto packed =
-        step<N, Pack<W>>(body, units::side_by_side<Pose<N, Pack<W>>>(now),
+        step<N, Pack<W>>(body, units::side_by_side<GeneralizedState<N, Pack<W>>>(now),
                          units::side_by_side<Pulls<Pack<W>>>(pulls),
                          units::side_by_side<std::array<Pack<W>, N + 2>>(held),
                          units::side_by_side<Pack<W>>(bound), units::side_by_side<Pack<W>>(h));

@@ -85,16 +85,18 @@ bool holds(const robot::Robot& robot) {
 template <int N>
 BodyConstants<N> body_of(const robot::Robot& robot);
 
+// The generalized state of a body: coordinates and their rates.
 template <int N>
-struct Motion {
+struct BodyState {
   Coordinates<N> at{}, rate{};
 };
 
-// What of the equations depends on the pose: evaluated once, used for several right-hand sides.
+// The terms of the equations that depend on the motion: evaluated once, used for several right-hand
+// sides.
 template <int N>
 class Body {
  public:
-  Body(const BodyConstants<N>& constants, const Motion<N>& motion);
+  Body(const BodyConstants<N>& constants, const BodyState<N>& motion);
 
   double sin(std::size_t link) const { return sin_[link]; }
   double cos(std::size_t link) const { return cos_[link]; }
@@ -123,7 +125,7 @@ class Body {
   Coordinates<N> response_of_chain(Coordinates<N> force) const;
 
   const BodyConstants<N>& k_;
-  const Motion<N>& motion_;
+  const BodyState<N>& motion_;
   // Set for the coordinates that are there, no others.
   std::array<double, N> sin_, cos_;
   std::array<Coordinates<N>, N + 2> lower_;  // by coordinate, entries with those above it
@@ -132,11 +134,11 @@ class Body {
 
 // Kinetic plus potential energy [J], zero potential at the origin.
 template <int N>
-double energy(const BodyConstants<N>& k, const Motion<N>& motion);
+double energy(const BodyConstants<N>& k, const BodyState<N>& motion);
 
 // Momentum of all that moves, along the track and upwards [N s].
 template <int N>
-std::array<double, 2> momentum(const BodyConstants<N>& k, const Motion<N>& motion);
+std::array<double, 2> momentum(const BodyConstants<N>& k, const BodyState<N>& motion);
 
 // Mass at the end of each link: of the feet that are there  [kg].
 template <int N>
@@ -200,7 +202,7 @@ BodyConstants<N> body_of(const robot::Robot& robot) {
 }
 
 template <int N>
-Body<N>::Body(const BodyConstants<N>& constants, const Motion<N>& motion)
+Body<N>::Body(const BodyConstants<N>& constants, const BodyState<N>& motion)
     : k_(constants), motion_(motion) {
   for (std::size_t i = 0; i < k_.links(); ++i) {
     const units::SinCos sc = units::sin_cos(motion.at[first_link + i]);
@@ -352,7 +354,7 @@ Coordinates<N> Body<N>::accelerations(Coordinates<N> force) const {
 }
 
 template <int N>
-double energy(const BodyConstants<N>& k, const Motion<N>& motion) {
+double energy(const BodyConstants<N>& k, const BodyState<N>& motion) {
   const double x = motion.rate[along_track], y = motion.rate[up];
   double e = 0.5 * k.sliding_mass * x * x + 0.5 * k.lifted_mass * y * y +
              k.lifted_mass * k.gravity * motion.at[up];
@@ -370,7 +372,7 @@ double energy(const BodyConstants<N>& k, const Motion<N>& motion) {
 }
 
 template <int N>
-std::array<double, 2> momentum(const BodyConstants<N>& k, const Motion<N>& motion) {
+std::array<double, 2> momentum(const BodyConstants<N>& k, const BodyState<N>& motion) {
   std::array<double, 2> p{k.sliding_mass * motion.rate[along_track],
                           k.lifted_mass * motion.rate[up]};
   for (std::size_t i = 0; i < k.links(); ++i) {

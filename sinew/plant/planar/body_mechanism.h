@@ -26,7 +26,7 @@ namespace sinew::plant {
 template <int N, int D, int M>
 class BodyMechanism : public PlanarMechanism<M> {
  public:
-  using Motion = plant::Motion<N>;
+  using Motion = plant::BodyState<N>;
   using Acceleration = Coordinates<N>;
   using Forces = typename FrictionContacts<N, D>::Forces;
   using Arms = MuscleRouting::MomentArms<M>;

@@ -85,11 +85,12 @@ TEST(BodyWorld, BodyAgreesWithTheFastChain) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> any(-3, 3);
   for (int trial = 0; trial < 200; ++trial) {
-    Pose<2> pose{any(random), any(random), {any(random), any(random)}, {any(random), any(random)}};
-    const Motion<8> motion{{pose.x, 0, pose.angle[0], pose.angle[1]},
-                           {pose.x_rate, 0, pose.rate[0], pose.rate[1]}};
-    const Generalised<2> force{any(random), {any(random), any(random)}};
-    const Generalised<2> a = Chain<2>(fast, pose).accelerations(force);
+    GeneralizedState<2> chain{
+        any(random), any(random), {any(random), any(random)}, {any(random), any(random)}};
+    const BodyState<8> motion{{chain.x, 0, chain.angle[0], chain.angle[1]},
+                              {chain.x_rate, 0, chain.rate[0], chain.rate[1]}};
+    const GeneralizedVector<2> force{any(random), {any(random), any(random)}};
+    const GeneralizedVector<2> a = Chain<2>(fast, chain).accelerations(force);
     const Coordinates<8> b =
         Body(whole, motion).accelerations({force.x, any(random), force.angle[0], force.angle[1]});
     const double scale = 1 + std::abs(a.x) + std::abs(a.angle[0]) + std::abs(a.angle[1]);

@@ -35,36 +35,38 @@ struct ChainConstants {
   S gravity = 9.80665;                        // [m/s^2]
 };
 
-// Coordinates and their rates.
+// The generalized state of a chain: coordinates and their rates.
 template <int N, class S = double>
-struct Pose {
+struct GeneralizedState {
   S x = 0, x_rate = 0;               // trolley [m], [m/s]
   std::array<S, N> angle{}, rate{};  // of the links, from +x [rad], [rad/s]
 };
 
 // A force on each coordinate, or an acceleration of each.
 template <int N, class S = double>
-struct Generalised {
+struct GeneralizedVector {
   S x = 0;
   std::array<S, N> angle{};
 };
 
 // Returns `a` where the mask is set, else `b`.
 template <class Mask, int N, class S>
-Generalised<N, S> select(const Mask& mask, const Generalised<N, S>& a, const Generalised<N, S>& b) {
-  Generalised<N, S> out{.x = units::select(mask, a.x, b.x)};
+GeneralizedVector<N, S> select(const Mask& mask, const GeneralizedVector<N, S>& a,
+                               const GeneralizedVector<N, S>& b) {
+  GeneralizedVector<N, S> out{.x = units::select(mask, a.x, b.x)};
   for (int i = 0; i < N; ++i) out.angle[i] = units::select(mask, a.angle[i], b.angle[i]);
   return out;
 }
 
-// What of the equations depends on the pose: evaluated once, used for several right-hand sides.
+// The terms of the equations that depend on the motion: evaluated once, used for several right-hand
+// sides.
 template <int N, class S = double>
 class Chain {
  public:
-  Chain(const ChainConstants<N, S>& constants, const Pose<N, S>& pose)
-      : k_(constants), pose_(pose) {
+  Chain(const ChainConstants<N, S>& constants, const GeneralizedState<N, S>& motion)
+      : k_(constants), motion_(motion) {
     for (int i = 0; i < N; ++i) {
-      const auto sc = units::sin_cos(pose.angle[i]);
+      const auto sc = units::sin_cos(motion.angle[i]);
       sin_[i] = sc.sin;
       cos_[i] = sc.cos;
       lever_[i] = k_.first_moment[i] * sin_[i];
@@ -76,23 +78,23 @@ class Chain {
   S cos(int i) const { return cos_[i]; }
 
   // Accelerations under the given forces, gravity and the velocities' own terms.
-  Generalised<N, S> accelerations(const Generalised<N, S>& given) const {
-    Generalised<N, S> force = given;
+  GeneralizedVector<N, S> accelerations(const GeneralizedVector<N, S>& given) const {
+    GeneralizedVector<N, S> force = given;
     for (int i = 0; i < N; ++i) {
-      const S rate2 = pose_.rate[i] * pose_.rate[i];
+      const S rate2 = motion_.rate[i] * motion_.rate[i];
       force.x += k_.first_moment[i] * cos_[i] * rate2;
       force.angle[i] -= k_.gravity * k_.first_moment[i] * cos_[i];
       for (int j = 0; j < N; ++j) {
         if (j == i) continue;
         const S sine = sin_[i] * cos_[j] - cos_[i] * sin_[j];
-        force.angle[i] -= k_.inertia[i][j] * sine * (pose_.rate[j] * pose_.rate[j]);
+        force.angle[i] -= k_.inertia[i][j] * sine * (motion_.rate[j] * motion_.rate[j]);
       }
     }
     return response(force);
   }
 
   // Accelerations that the forces alone cause: the inverse mass matrix times `force`.
-  Generalised<N, S> response(const Generalised<N, S>& force) const {
+  GeneralizedVector<N, S> response(const GeneralizedVector<N, S>& force) const {
     const S push = force.x * k_.inverse_total_mass;
     std::array<S, N> a;
     for (int i = 0; i < N; ++i) a[i] = force.angle[i] + lever_[i] * push;
@@ -103,7 +105,7 @@ class Chain {
     } else {
       substitute(a);
     }
-    Generalised<N, S> out{.x = push, .angle = a};
+    GeneralizedVector<N, S> out{.x = push, .angle = a};
     for (int i = 0; i < N; ++i) out.x += k_.inverse_total_mass * lever_[i] * a[i];
     return out;
   }
@@ -147,7 +149,7 @@ class Chain {
   }
 
   const ChainConstants<N, S>& k_;
-  const Pose<N, S>& pose_;
+  const GeneralizedState<N, S>& motion_;
   std::array<S, N> sin_, cos_, lever_;
   std::array<S, N> pivot_, inverse_pivot_;
   std::array<std::array<S, N>, N> lower_;
@@ -155,16 +157,16 @@ class Chain {
 
 // Kinetic plus potential energy [J], zero potential at the height of the first joint.
 template <int N, class S>
-S energy(const ChainConstants<N, S>& k, const Pose<N, S>& pose) {
-  S e = 0.5 * k.total_mass * pose.x_rate * pose.x_rate;
+S energy(const ChainConstants<N, S>& k, const GeneralizedState<N, S>& motion) {
+  S e = 0.5 * k.total_mass * motion.x_rate * motion.x_rate;
   for (int i = 0; i < N; ++i) {
-    const auto a = units::sin_cos(pose.angle[i]);
+    const auto a = units::sin_cos(motion.angle[i]);
     e += k.gravity * k.first_moment[i] * a.sin;
-    e -= pose.x_rate * k.first_moment[i] * a.sin * pose.rate[i];
+    e -= motion.x_rate * k.first_moment[i] * a.sin * motion.rate[i];
     for (int j = 0; j < N; ++j) {
-      const auto b = units::sin_cos(pose.angle[j]);
+      const auto b = units::sin_cos(motion.angle[j]);
       const S cosine = a.cos * b.cos + a.sin * b.sin;
-      e += 0.5 * k.inertia[i][j] * cosine * pose.rate[i] * pose.rate[j];
+      e += 0.5 * k.inertia[i][j] * cosine * motion.rate[i] * motion.rate[j];
     }
   }
   return e;
@@ -172,10 +174,10 @@ S energy(const ChainConstants<N, S>& k, const Pose<N, S>& pose) {
 
 // Momentum along the track [N s].
 template <int N, class S>
-S momentum(const ChainConstants<N, S>& k, const Pose<N, S>& pose) {
-  S p = k.total_mass * pose.x_rate;
+S momentum(const ChainConstants<N, S>& k, const GeneralizedState<N, S>& motion) {
+  S p = k.total_mass * motion.x_rate;
   for (int i = 0; i < N; ++i)
-    p -= k.first_moment[i] * units::sin_cos(pose.angle[i]).sin * pose.rate[i];
+    p -= k.first_moment[i] * units::sin_cos(motion.angle[i]).sin * motion.rate[i];
   return p;
 }
 

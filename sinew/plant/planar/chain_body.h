@@ -59,8 +59,8 @@ ChainModel<N> chain_model_of(const Setup& setup) {
 template <int N, class S = double>
 class ChainBody {
  public:
-  using Motion = plant::Pose<N, S>;
-  using Acceleration = Generalised<N, S>;
+  using Motion = plant::GeneralizedState<N, S>;
+  using Acceleration = GeneralizedVector<N, S>;
   using Forces = typename Contacts<N, S>::Forces;
   using Pose = Chain<N, S>;
   using Ends = air::Ends<chain_muscles, S>;
@@ -68,8 +68,8 @@ class ChainBody {
   struct Arms {};  // they are constant
 
   struct Load {
-    Generalised<N, S> force;  // muscles, dampers, springs, ground, track's stop; no friction
-    S normal = 0;             // on the foot [N]
+    GeneralizedVector<N, S> force;  // muscles, dampers, springs, ground, track's stop; no friction
+    S normal = 0;                   // on the foot [N]
     S ankle_x = 0, ankle_y = 0;
   };
 
@@ -95,11 +95,11 @@ class ChainBody {
   }
 
   // Lengths of the muscles and their rates, from the joints' angles.
-  void route(double, const Motion& pose, Ends& ends, Arms&) const noexcept {
+  void route(double, const Motion& motion, Ends& ends, Arms&) const noexcept {
     std::array<S, N> travel, rate;
     for (int j = 0; j < N; ++j) {
-      travel[j] = pose.angle[j] - (j > 0 ? pose.angle[j - 1] : S(0.0)) - model_.rest[j];
-      rate[j] = pose.rate[j] - (j > 0 ? pose.rate[j - 1] : S(0.0));
+      travel[j] = motion.angle[j] - (j > 0 ? motion.angle[j - 1] : S(0.0)) - model_.rest[j];
+      rate[j] = motion.rate[j] - (j > 0 ? motion.rate[j - 1] : S(0.0));
     }
     if constexpr (std::is_same_v<S, double>)
       lengths_of_four(travel, rate, ends);
@@ -112,34 +112,34 @@ class ChainBody {
   }
 
   template <class Answer>
-  void load(const Pose& chain, const Motion& pose, const Arms&, const Answer& air,
+  void load(const Pose& chain, const Motion& motion, const Arms&, const Answer& air,
             Load& out) const noexcept {
     std::array<S, N + 1> torque{};
     for (int i = 0; i < routes_.count; ++i)
       torque[routes_.joint[i]] += routes_.moment_arm[i] * air.tension[i];
     for (int j = 0; j < N; ++j) {
       const auto k = static_cast<std::size_t>(j);
-      torque[j] -= model_.damping[j] * joint_rate(pose, k);
-      torque[j] -= model_.spring[j] * (joint_angle(pose, k) - model_.spring_angle[j]);
-      torque[j] += model_.stop[j].torque(joint_angle(pose, k), joint_rate(pose, k));
+      torque[j] -= model_.damping[j] * joint_rate(motion, k);
+      torque[j] -= model_.spring[j] * (joint_angle(motion, k) - model_.spring_angle[j]);
+      torque[j] += model_.stop[j].torque(joint_angle(motion, k), joint_rate(motion, k));
     }
 
     out.force.x = 0;
     for (int j = 0; j < N; ++j) out.force.angle[j] = torque[j] - torque[j + 1];
 
     // The track's stop: one-sided, and never pulling.
-    const S beyond = pose.x - model_.track_length;
+    const S beyond = motion.x - model_.track_length;
     if (const auto there = beyond > 0.0; units::any(there)) {
-      const S push = model_.track_stiffness * beyond + model_.track_damping * pose.x_rate;
+      const S push = model_.track_stiffness * beyond + model_.track_damping * motion.x_rate;
       out.force.x -= units::select(there & (push > 0.0), push, 0.0);
     }
-    ground(chain, pose, out);
+    ground(chain, motion, out);
   }
 
   Acceleration accelerate(const Pose& chain, const Motion&, const Load& load,
                           const Forces& held) const noexcept {
-    Generalised<N, S> force = load.force;
-    const Generalised<N, S> rub = contacts_.generalised(chain, held);
+    GeneralizedVector<N, S> force = load.force;
+    const GeneralizedVector<N, S> rub = contacts_.generalised(chain, held);
     force.x += rub.x;
     for (int i = 0; i < N; ++i) force.angle[i] += rub.angle[i];
     return chain.accelerations(force);
@@ -153,7 +153,7 @@ class ChainBody {
 
   // At a node: answers the accelerations without friction and makes what hold() goes by. Bounds:
   // the mesh's own friction acts through the cams and is part of the joint's.
-  Acceleration prepare(const Pose& chain, const Motion& pose, const Arms&,
+  Acceleration prepare(const Pose& chain, const Motion& motion, const Arms&,
                        const air::Lanes<chain_muscles, S>& friction_bound, const S& trolley_bound,
                        const Load& load) noexcept {
     const Acceleration free = chain.accelerations(load.force);
@@ -163,7 +163,7 @@ class ChainBody {
       bound[routes_.joint[i]] += units::abs(routes_.moment_arm[i]) * friction_bound[i];
     bound[Contacts<N, S>::trolley] = trolley_bound;
     bound[Contacts<N, S>::foot] = model_.footing.friction * load.normal;
-    contacts_.prepare(chain, pose, free, bound, load.normal);
+    contacts_.prepare(chain, motion, free, bound, load.normal);
     return free;
   }
 
@@ -210,13 +210,13 @@ class ChainBody {
  protected:
   // The foot: a disc about the ankle that belongs to the last link. Compliant normal force only;
   // the tangential force is one of the step's dry frictions.
-  void ground(const Chain<N, S>& chain, const Motion& pose, Load& out) const noexcept {
+  void ground(const Chain<N, S>& chain, const Motion& motion, Load& out) const noexcept {
     out.ankle_x = out.ankle_y = out.normal = 0;
     S rate_y = 0;
     for (int i = 0; i < N; ++i) {
       out.ankle_x += model_.chain.length[i] * chain.cos(i);
       out.ankle_y += model_.chain.length[i] * chain.sin(i);
-      rate_y += model_.chain.length[i] * chain.cos(i) * pose.rate[i];
+      rate_y += model_.chain.length[i] * chain.cos(i) * motion.rate[i];
     }
     const S depth = model_.footing.height - out.ankle_y;
     const auto touches = depth > 0.0;

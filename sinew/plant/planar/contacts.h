@@ -48,8 +48,8 @@ class Contacts {
       : k_(chain), footing_(footing) {}
 
   // J^T f.
-  Generalised<N, S> generalised(const Chain<N, S>& chain, const Forces& f) const {
-    Generalised<N, S> out;
+  GeneralizedVector<N, S> generalised(const Chain<N, S>& chain, const Forces& f) const {
+    GeneralizedVector<N, S> out;
     out.x = f[trolley] + f[foot];
     for (int i = 0; i < N; ++i)
       out.angle[i] = f[i] - (i + 1 < N ? f[i + 1] : S(0.0)) - f[foot] * k_.length[i] * chain.sin(i);
@@ -58,7 +58,7 @@ class Contacts {
   }
 
   // J v, or J a. The foot slips at its lowest point, a radius below the ankle.
-  Forces slips(const Chain<N, S>& chain, const Generalised<N, S>& v) const {
+  Forces slips(const Chain<N, S>& chain, const GeneralizedVector<N, S>& v) const {
     Forces s;
     s[trolley] = v.x;
     s[foot] = v.x + footing_.radius * v.angle[N - 1];
@@ -77,7 +77,7 @@ class Contacts {
     const auto consider = [&](double w, double c, double k) {
       fastest = std::max({fastest, c * w, std::sqrt(k * w)});
     };
-    Generalised<N, S> up;
+    GeneralizedVector<N, S> up;
     for (int i = 0; i < N; ++i) {
       Forces unit{};
       unit[i] = 1.0;
@@ -85,7 +85,7 @@ class Contacts {
       up.angle[i] = k_.length[i] * chain.cos(i);
     }
     if (std::isinf(footing_.height)) return fastest;
-    const Generalised<N, S> column = chain.response(up);
+    const GeneralizedVector<N, S> column = chain.response(up);
     double w = 0;
     for (int i = 0; i < N; ++i) w += up.angle[i] * column.angle[i];
     consider(w, footing_.damping, footing_.stiffness);
@@ -93,8 +93,8 @@ class Contacts {
   }
 
   // At a node: accelerations without friction, bounds, and the ground's force on the foot.
-  void prepare(const Chain<N, S>& chain, const Pose<N, S>& pose,
-               const Generalised<N, S>& acceleration, const Forces& bound, const S& normal) {
+  void prepare(const Chain<N, S>& chain, const GeneralizedState<N, S>& motion,
+               const GeneralizedVector<N, S>& acceleration, const Forces& bound, const S& normal) {
     problem_.bound = bound;
     for (int c = 0; c < count; ++c) {
       Forces unit{};
@@ -105,14 +105,14 @@ class Contacts {
       const Forces response = slips(chain, column_[c]);
       for (int d = 0; d < count; ++d) problem_.response[d][c] = response[d];
     }
-    problem_.slip = slips(chain, {.x = pose.x_rate, .angle = pose.rate});
+    problem_.slip = slips(chain, {.x = motion.x_rate, .angle = motion.rate});
     slip_rate_ = slips(chain, acceleration);
     // The foot's lever turns with the links: d/dt of J is part of the slip's rate.
     for (int i = 0; i < N; ++i)
-      slip_rate_[foot] -= k_.length[i] * chain.cos(i) * pose.rate[i] * pose.rate[i];
+      slip_rate_[foot] -= k_.length[i] * chain.cos(i) * motion.rate[i] * motion.rate[i];
 
     normal_.force = normal;
-    if (units::any(normal > 0.0)) prepare_normal(chain, pose, acceleration);
+    if (units::any(normal > 0.0)) prepare_normal(chain, motion, acceleration);
   }
 
   // Dry friction of a step of length h; `last` is the last step's.
@@ -134,8 +134,9 @@ class Contacts {
   }
 
   // Accelerations under the friction f, given those without any.
-  Generalised<N, S> accelerations(const Generalised<N, S>& without, const Forces& f) const {
-    Generalised<N, S> a = without;
+  GeneralizedVector<N, S> accelerations(const GeneralizedVector<N, S>& without,
+                                        const Forces& f) const {
+    GeneralizedVector<N, S> a = without;
     for (int c = 0; c < count; ++c) {
       a.x += column_[c].x * f[c];
       for (int i = 0; i < N; ++i) a.angle[i] += column_[c].angle[i] * f[c];
@@ -177,14 +178,14 @@ class Contacts {
     }
   }
 
-  void prepare_normal(const Chain<N, S>& chain, const Pose<N, S>& pose,
-                      const Generalised<N, S>& acceleration) {
-    Generalised<N, S> up;
+  void prepare_normal(const Chain<N, S>& chain, const GeneralizedState<N, S>& motion,
+                      const GeneralizedVector<N, S>& acceleration) {
+    GeneralizedVector<N, S> up;
     for (int i = 0; i < N; ++i) up.angle[i] = k_.length[i] * chain.cos(i);
-    const Generalised<N, S> column = chain.response(up);
+    const GeneralizedVector<N, S> column = chain.response(up);
     normal_ = {.force = normal_.force};
     for (int i = 0; i < N; ++i) {
-      const S rate = pose.rate[i];
+      const S rate = motion.rate[i];
       normal_.response += up.angle[i] * column.angle[i];
       normal_.rate += up.angle[i] * rate;
       normal_.acceleration +=
@@ -196,9 +197,9 @@ class Contacts {
   ChainConstants<N, S> k_;
   Footing<S> footing_;
 
-  std::array<Generalised<N, S>, count> column_{};  // M^-1 J^T
-  FrictionProblem<count, S> problem_{};            // slips at the node, responses per second
-  Forces slip_rate_{};                             // of the slips, without friction
+  std::array<GeneralizedVector<N, S>, count> column_{};  // M^-1 J^T
+  FrictionProblem<count, S> problem_{};                  // slips at the node, responses per second
+  Forces slip_rate_{};                                   // of the slips, without friction
   Normal normal_;
 };
 

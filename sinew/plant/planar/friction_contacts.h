@@ -72,24 +72,24 @@ class FrictionContacts {
 
   // The fastest rate at which springs, dampers and the ground bring the machine to rest  [1/s], by
   // joint: c w and sqrt(k w) with w, the joint's or disc's acceleration per force.
-  double stiffest_rate(const Body<N>& body, const Motion<N>& motion,
+  double stiffest_rate(const Body<N>& body, const BodyState<N>& motion,
                        const robot::Robot& robot) const;
-  DiscAt<N> disc(const Body<N>& body, const Motion<N>& motion, int i) const;
+  DiscAt<N> disc(const Body<N>& body, const BodyState<N>& motion, int i) const;
 
   // How deep a disc is in the ground; above 0 where they touch  [m].
-  double depth(const Body<N>& body, const Motion<N>& motion, int i) const;
+  double depth(const Body<N>& body, const BodyState<N>& motion, int i) const;
 
   // Compliant force of the ground on a disc that is so deep in it, never pulling  [N].
-  double push(double depth, const DiscAt<N>& disc, const Motion<N>& motion) const;
+  double push(double depth, const DiscAt<N>& disc, const BodyState<N>& motion) const;
 
   // Puts the discs of a pose where they are.
-  void place(const Motion<N>& motion, Pose& pose) const;
+  void place(const BodyState<N>& motion, Pose& pose) const;
 
   // J^T f.
-  Coordinates<N> generalised(const Pose& pose, const Motion<N>& motion, const Forces& f) const;
+  Coordinates<N> generalised(const Pose& pose, const BodyState<N>& motion, const Forces& f) const;
 
   // At a node: accelerations without friction, bounds, and the ground's forces on the discs.
-  void prepare(const Pose& pose, const Motion<N>& motion, const Coordinates<N>& acceleration,
+  void prepare(const Pose& pose, const BodyState<N>& motion, const Coordinates<N>& acceleration,
                const Forces& bound, const Normals& normal);
 
   // Dry friction of a step of length h; `last` is the last step's.

@@ -59,7 +59,7 @@ void FrictionContacts<N, D>::add_foot(const robot::Robot& robot, std::size_t leg
 }
 
 template <int N, int D>
-double FrictionContacts<N, D>::stiffest_rate(const Body<N>& body, const Motion<N>& motion,
+double FrictionContacts<N, D>::stiffest_rate(const Body<N>& body, const BodyState<N>& motion,
                                              const robot::Robot& robot) const {
   double fastest = 0;
   const auto consider = [&](const Coordinates<N>& row, double damping, double stiffness) {
@@ -77,7 +77,8 @@ double FrictionContacts<N, D>::stiffest_rate(const Body<N>& body, const Motion<N
 }
 
 template <int N, int D>
-DiscAt<N> FrictionContacts<N, D>::disc(const Body<N>& body, const Motion<N>& motion, int i) const {
+DiscAt<N> FrictionContacts<N, D>::disc(const Body<N>& body, const BodyState<N>& motion,
+                                       int i) const {
   const Disc& d = disc_[static_cast<std::size_t>(i)];
   const Path& path = path_[d.foot];
   DiscAt<N> at{};
@@ -99,7 +100,7 @@ DiscAt<N> FrictionContacts<N, D>::disc(const Body<N>& body, const Motion<N>& mot
 }
 
 template <int N, int D>
-double FrictionContacts<N, D>::depth(const Body<N>& body, const Motion<N>& motion, int i) const {
+double FrictionContacts<N, D>::depth(const Body<N>& body, const BodyState<N>& motion, int i) const {
   if (!ground_.present) return 0;
   const Disc& d = disc_[static_cast<std::size_t>(i)];
   const Path& path = path_[d.foot];
@@ -115,7 +116,7 @@ double FrictionContacts<N, D>::depth(const Body<N>& body, const Motion<N>& motio
 
 template <int N, int D>
 double FrictionContacts<N, D>::push(double depth, const DiscAt<N>& disc,
-                                    const Motion<N>& motion) const {
+                                    const BodyState<N>& motion) const {
   if (depth <= 0) return 0;
   const double rate = dot(k_, disc.rise, motion.rate);
   const double force = ground_.normal_stiffness * depth - ground_.normal_damping * rate;
@@ -145,7 +146,7 @@ double FrictionContacts<N, D>::along(int c, const Coordinates<N>& row,
 }
 
 template <int N, int D>
-void FrictionContacts<N, D>::place(const Motion<N>& motion, Pose& pose) const {
+void FrictionContacts<N, D>::place(const BodyState<N>& motion, Pose& pose) const {
   for (int i = 0; i < disc_count_; ++i) {
     const auto k = static_cast<std::size_t>(i);
     pose.depth[k] = depth(pose, motion, i);
@@ -155,7 +156,7 @@ void FrictionContacts<N, D>::place(const Motion<N>& motion, Pose& pose) const {
 
 // A disc that has left the ground carries what it is given all the same.
 template <int N, int D>
-Coordinates<N> FrictionContacts<N, D>::generalised(const Pose& pose, const Motion<N>& motion,
+Coordinates<N> FrictionContacts<N, D>::generalised(const Pose& pose, const BodyState<N>& motion,
                                                    const Forces& f) const {
   Coordinates<N> sum{};
   for (std::size_t j = 0; j < k_.links(); ++j) {
@@ -180,7 +181,7 @@ Coordinates<N> FrictionContacts<N, D>::generalised(const Pose& pose, const Motio
 }
 
 template <int N, int D>
-void FrictionContacts<N, D>::prepare(const Pose& pose, const Motion<N>& motion,
+void FrictionContacts<N, D>::prepare(const Pose& pose, const BodyState<N>& motion,
                                      const Coordinates<N>& acceleration, const Forces& bound,
                                      const Normals& normal) {
   bound_ = bound;

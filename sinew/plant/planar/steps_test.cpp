@@ -43,7 +43,7 @@ TEST(Steps, SuitEveryPose) {
     const FrictionContacts<3, 4> contacts(mechanism.constants(), s.robot);
     const double step = mechanism.node_step(s);
     double fastest = 0;
-    Motion<3> m = mechanism.start();
+    BodyState<3> m = mechanism.start();
     for (int pose = 0; pose < 2000; ++pose) {
       const Body<3> body(mechanism.constants(), m);
       fastest = std::max(fastest, contacts.stiffest_rate(body, m, s.robot));

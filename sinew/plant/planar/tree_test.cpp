@@ -102,7 +102,7 @@ TEST(Trees, EnergyIsThatOfTheirMasses) {
     BodyWorld world(s);
     const double slide = any(random);
     world.set_rates({rate[0], rate[1], rate[2], rate[3]}, slide);
-    Motion<8> still = world.motion();
+    BodyState<8> still = world.motion();
     still.rate = {};
     const double moving = energy(world.constants(), world.motion());
     const double kinetic = kinetic_energy(s, s.start.joint_angle, rate, slide);

@@ -75,9 +75,9 @@ TEST(World, SealedMusclesConvergeWithTheFourthOrder) {
     world.advance(0.256);
     return world.motion();
   };
-  const Pose<2> exact = swing(1.25e-4);
+  const GeneralizedState<2> exact = swing(1.25e-4);
   const auto error = [&](double step) {
-    const Pose<2> p = swing(step);
+    const GeneralizedState<2> p = swing(step);
     return std::hypot(p.angle[0] - exact.angle[0], p.angle[1] - exact.angle[1]);
   };
   const double coarse = error(4e-3), fine = error(2e-3);

@@ -2,7 +2,7 @@
 //
 // A mechanism (planar/chain_mechanism.h, planar/body_mechanism.h, slide/slide_mechanism.h) has
 //
-//   Motion         coordinates and rates                  Acceleration   d(rates)/dt
+//   Motion         the generalized state: coordinates, rates      Acceleration   d(rates)/dt
 //   Ends, Arms     what the air feels of a motion: lengths and rates of the muscles, travel of a
 //                  piston; moment arms
 //   Pose, Load     of one look: what the equations of motion need; all that pushes but dry friction
