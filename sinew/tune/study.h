@@ -20,7 +20,10 @@ struct Study {
   std::string reproduces;
   std::string experiment;  // relative to the file
   std::vector<std::string> set, vary, where, report;
-  std::string largest;  // empty: every point is one run
+  std::vector<std::string> range;  // sampled
+  Sample::Kind sample = Sample::Kind::sobol;
+  int points = 0, sample_seed = 1;  // of the sample
+  std::string largest;              // empty: every point is one run
   int halvings = 6;
   int seeds = 0;  // 0: the experiment's own seed
   bool allow_unreachable = false;
