@@ -279,7 +279,8 @@ TEST_F(Plan, SaysWhatIsWrong) {
   EXPECT_NE(
       of(start + "range = [\"k=1:2 m\"]\nvary = [\"k=1,2 m\"]\npoints = 2\n").find("given twice"),
       std::string::npos);
-  EXPECT_NE(of(start + "sample = \"halton\"\n").find("\"sobol\", \"latin\" or \"random\""), std::string::npos);
+  EXPECT_NE(of(start + "sample = \"halton\"\n").find("\"sobol\", \"latin\" or \"random\""),
+            std::string::npos);
   EXPECT_NE(of("format = \"sinew.valves/1\"\n").find("\"sinew.plan/1\""), std::string::npos);
 }
 
