@@ -147,7 +147,7 @@ void add_sweep(CLI::App& app, Action& action) {
   sub.add_option("--seeds", options->study.seeds, "each point with the noise of seeds 1 … N")
       ->check(CLI::Range(1, 10000));
   add_words(sub, "--report", options->study.report,
-            "keys of summary.json, with commas: key, or key [unit]");
+            "keys of summary.json, with commas: key, or key [unit]; else what is reported of it");
   sub.add_option("--largest", options->study.largest,
                  "the largest value of one more key for which --where holds; written like --vary");
   add_words(sub, "--where", options->study.where,

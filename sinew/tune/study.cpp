@@ -6,6 +6,7 @@
 #include "sinew/config/compose.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/reader.h"
+#include "sinew/run/setup/buildable.h"
 #include "sinew/tune/study.fields.h"
 
 namespace sinew::tune {
@@ -64,9 +65,7 @@ void refuse_twice(const Sweep& s) {
   for (const Axis& axis : s.axes) take(axis);
 }
 
-}  // namespace
-
-Sweep sweep_of(const Study& study) {
+Sweep words_of(const Study& study) {
   Sweep out{.experiment = study.experiment, .sets = study.set};
   out.allow_unreachable = study.allow_unreachable;
   for (const std::string& text : study.vary) out.axes.push_back(parse_axis(text, "vary"));
@@ -87,6 +86,16 @@ Sweep sweep_of(const Study& study) {
   if (study.where.empty())
     config::fail({"largest", 0, 0}, "", "nothing that must hold", "key < value",
                  "where=\"joints.hip.tracking_rms_rad < 5 deg\"");
+  return out;
+}
+
+}  // namespace
+
+Sweep sweep_of(const Study& study) {
+  Sweep out = words_of(study);
+  if (!out.report.empty()) return out;
+  const experiment::Experiment e = run::buildable(out.experiment, out.sets);
+  out.report = reported_figures(e.reported, e.air.atmosphere);
   return out;
 }
 

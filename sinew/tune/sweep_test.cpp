@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/simulation/run.h"
@@ -247,6 +248,21 @@ TEST_F(Plan, NamesItsExperimentFromWhereItStands) {
       file("format = \"sinew.plan/1\"\ntitle = \"t\"\nexperiment = \"../some/walk.toml\"\n");
   const auto expected = (path_.parent_path() / "../some/walk.toml").lexically_normal();
   EXPECT_EQ(load_study(name).experiment, expected.string());
+}
+
+// Without words of its own a plan reports what sources do, each key once and in their unit.
+TEST_F(Plan, ReportsWhatIsReported) {
+  const std::string start = "format = \"sinew.plan/1\"\ntitle = \"t\"\nexperiment = \"" + root +
+                            "/experiments/walk-test-1.toml\"\n";
+  const Sweep s = sweep_of(load_study(file(start)));
+  const experiment::Experiment e = experiment::load(s.experiment);
+  std::set<std::string> keys;
+  for (const config::Reported& r : e.reported) keys.insert(r.key);
+  ASSERT_EQ(s.report.size(), keys.size());
+  const auto distance = std::ranges::find(s.report, "trolley.distance_m", &Figure::key);
+  ASSERT_NE(distance, s.report.end());
+  EXPECT_EQ(distance->unit, "in");
+  EXPECT_EQ(sweep_of(load_study(file(start + "report = [\"duration_s\"]\n"))).report.size(), 1U);
 }
 
 TEST_F(Plan, Samples) {
