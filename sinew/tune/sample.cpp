@@ -43,20 +43,19 @@ std::vector<double> latin_shares(const Sample& s) {
   return out;
 }
 
+}  // namespace
+
 // The engine leaves out the sequence's first point, which is 0: without it the first 2^m are not
 // spread evenly.
-std::vector<double> sobol_shares(const Sample& s) {
-  const std::size_t d = s.ranges.size();
-  std::vector<double> out(s.points * d);
+std::vector<double> sobol_shares(std::size_t d, std::size_t points, std::uint64_t seed) {
+  std::vector<double> out(points * d);
   boost::random::sobol engine(d);
   for (std::size_t i = 0; i < out.size(); ++i) {
     const std::uint64_t digits = i < d ? 0 : engine();
-    out[i] = share(digits ^ bits(s.seed, i % d, 0));
+    out[i] = share(digits ^ bits(seed, i % d, 0));
   }
   return out;
 }
-
-}  // namespace
 
 Value Range::at(double share) const {
   const double from = *axis.values.front().number, to = *axis.values.back().number;
@@ -88,9 +87,10 @@ Range parse_range(std::string_view text, std::string_view setting) {
 }
 
 std::vector<double> shares(const Sample& s) {
-  if (s.ranges.empty()) return {};
+  if (!s.given.empty() || s.ranges.empty()) return s.given;
   if (s.kind == Sample::Kind::random) return random_shares(s);
-  return s.kind == Sample::Kind::latin ? latin_shares(s) : sobol_shares(s);
+  return s.kind == Sample::Kind::latin ? latin_shares(s)
+                                       : sobol_shares(s.ranges.size(), s.points, s.seed);
 }
 
 }  // namespace sinew::tune

@@ -44,11 +44,15 @@ struct Sample {
   std::vector<Range> ranges;
   std::size_t points = 0;
   std::uint64_t seed = 1;
+  std::vector<double> given;  // shares in place of drawn ones; empty: none
 };
 
 inline constexpr std::size_t most_ranges = 1000;
 
 // Returns the shares of all points, d for each. The same on every machine.
 std::vector<double> shares(const Sample& sample);
+
+// Returns those of Sobol's sequence alone.
+std::vector<double> sobol_shares(std::size_t ranges, std::size_t points, std::uint64_t seed);
 
 }  // namespace sinew::tune
