@@ -1,5 +1,6 @@
 // cli/actuator.cpp - `sinew actuator`: what one braided actuator does at a length and a pressure.
 #include "sinew/actuator/actuator.h"
+#include "sinew/report/text/text_table.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +13,6 @@
 #include "cli/command.h"
 #include "cli/json_text.h"
 #include "cli/terminal.h"
-#include "cli/text_table.h"
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/operating_point.h"
 #include "sinew/config/named.h"
@@ -82,8 +82,9 @@ std::string shown(double value, const char* format) {
 }
 
 void print_point(const Point& p) {
-  TextTable table({"", "SI", "in, lbf, psi"},
-                  {TextTable::Align::left, TextTable::Align::right, TextTable::Align::right});
+  report::TextTable table({"", "SI", "in, lbf, psi"},
+                          {report::TextTable::Align::left, report::TextTable::Align::right,
+                           report::TextTable::Align::right});
   for (const Row& row : rows) {
     const double value = p.*row.value;
     const bool plain = std::string_view(row.unit) == "1";
@@ -134,8 +135,8 @@ void print_table(const std::vector<Point>& points, const Values& lengths, const 
   std::vector<std::string> titles;
   for (const Cell& cell : cells) titles.push_back(cell.title);
   titles.emplace_back("");
-  std::vector<TextTable::Align> align(cells.size(), TextTable::Align::right);
-  TextTable table(titles, align);
+  std::vector<report::TextTable::Align> align(cells.size(), report::TextTable::Align::right);
+  report::TextTable table(titles, align);
   for (const Point& p : points) {
     std::vector<std::string> row;
     for (const Cell& cell : cells) row.push_back(cell.text(p));

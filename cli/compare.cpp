@@ -1,10 +1,9 @@
 // cli/compare.cpp - `sinew compare`: runs beside each other, as tables and as one page.
-#include "cli/compare.h"
-
 #include <fmt/format.h>
 
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "sinew/report/compare/comparison_text.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/folder/compared.h"
 #include "sinew/run/folder/files.h"
@@ -24,6 +23,15 @@ struct Options {
   bool json = false, all = false, force = false, quiet = false;
 };
 
+report::ComparisonText shown_as(const Options& options) {
+  using Units = report::ComparisonText::Units;
+  return {.units = options.units == "si" ? Units::si : Units::thesis,
+          .all = options.all,
+          .width = width_of_output(),
+          .see_all = "--all",
+          .color = output_has_color()};
+}
+
 ExitCode compare_runs(const Options& options) {
   const Messages messages(options.quiet);
   if (!options.out.empty()) {
@@ -42,8 +50,7 @@ ExitCode compare_runs(const Options& options) {
   if (options.json)
     fmt::print("{}", to_json(comparison));
   else
-    print_comparison(comparison, options.units == "si" ? ShownUnits::si : ShownUnits::thesis,
-                     options.all);
+    fmt::print("{}", text_of(comparison, shown_as(options)));
   if (options.out.empty()) return ok;
   const std::string page = report::page(comparison);
   run::write_file(options.out, page);
@@ -52,8 +59,6 @@ ExitCode compare_runs(const Options& options) {
 }
 
 }  // namespace
-
-std::string letter_of(std::size_t run) { return {static_cast<char>('A' + run)}; }
 
 void add_compare(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();

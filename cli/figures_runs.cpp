@@ -8,8 +8,8 @@
 #include "cli/arguments.h"
 #include "cli/json_text.h"
 #include "cli/terminal.h"
-#include "cli/text_table.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/drawn_run.h"
 #include "sinew/units/constants.h"
 
@@ -41,7 +41,8 @@ fs::path folder_of(const RunFiguresRequest& request, const std::string& named,
 void print(const Json& runs) {
   for (const Json& run : runs) {
     fmt::print("{}\n", run["folder"].get<std::string>());
-    TextTable table({"figure", "", "curves"}, {TextTable::Align::left, TextTable::Align::left});
+    report::TextTable table({"figure", "", "curves"},
+                            {report::TextTable::Align::left, report::TextTable::Align::left});
     for (const Json& f : run["figures"])
       table.add({f["figure"], f["title"], std::to_string(f["curves"].size())});
     fmt::print("{}", table.text());

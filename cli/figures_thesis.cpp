@@ -4,7 +4,7 @@
 
 #include "cli/figures_runs.h"
 #include "cli/terminal.h"
-#include "cli/text_table.h"
+#include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/files.h"
 #include "thesis/figures/thesis.h"
 
@@ -17,10 +17,10 @@ std::string shown(int n) { return n > 0 ? std::to_string(n) : std::string(); }
 
 // A row per figure with the number of statements of each verdict.
 void print_figures(const report::Gallery& gallery) {
-  using enum TextTable::Align;
+  using enum report::TextTable::Align;
   std::vector<std::string> titles{"figure", ""};
   for (const Is v : report::all_verdicts) titles.emplace_back(to_text(v));
-  TextTable table(titles, {left, left, right, right, right, right, right});
+  report::TextTable table(titles, {left, left, right, right, right, right, right});
   const auto row = [&](const std::string& name, const std::string& title, const report::Tally& t) {
     std::vector<std::string> cells{name, title};
     for (const Is v : report::all_verdicts) cells.push_back(shown(t.of(v)));
@@ -37,11 +37,11 @@ void print_figures(const report::Gallery& gallery) {
 
 // A row per class.
 void print_classes(const report::Gallery& gallery) {
-  using enum TextTable::Align;
+  using enum report::TextTable::Align;
   const report::Tally all = tally(gallery);
   std::vector<std::string> titles{"class"};
   for (const Is v : report::all_verdicts) titles.emplace_back(to_text(v));
-  TextTable table(titles, {left, right, right, right, right, right});
+  report::TextTable table(titles, {left, right, right, right, right, right});
   for (const report::StatementClass c : report::all_classes) {
     if (all.of(c) == 0) continue;
     std::vector<std::string> cells{

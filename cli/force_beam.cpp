@@ -1,5 +1,6 @@
 // cli/force_beam.cpp - `sinew force-beam`: what a beam with strain gages reads, and when it yields.
 #include "sinew/identify/sensor/transducer.h"
+#include "sinew/report/text/text_table.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +11,6 @@
 #include "cli/command.h"
 #include "cli/json_text.h"
 #include "cli/terminal.h"
-#include "cli/text_table.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 
@@ -116,8 +116,9 @@ Json places(const Transducer& s, double wanted) {
 }
 
 void print(const Transducer& s, const Json& where, const Options& options) {
-  TextTable table({"", "SI", "in, lbf, psi"},
-                  {TextTable::Align::left, TextTable::Align::right, TextTable::Align::right});
+  report::TextTable table({"", "SI", "in, lbf, psi"},
+                          {report::TextTable::Align::left, report::TextTable::Align::right,
+                           report::TextTable::Align::right});
   for (const Line& line : answer(s))
     table.add({line.words, config::format_quantity(line.value, line.unit, line.unit),
                std::string_view(line.unit) == "1"

@@ -13,11 +13,11 @@
 #include "cli/json_text.h"
 #include "cli/settings.h"
 #include "cli/terminal.h"
-#include "cli/text_table.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/report/page/page.h"
+#include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/run_folder.h"
 
@@ -57,8 +57,8 @@ bool is_parameter_file(const std::string& path) {
 }
 
 void print_models(const identify::Report& report) {
-  using enum TextTable::Align;
-  TextTable table(
+  using enum report::TextTable::Align;
+  report::TextTable table(
       {"model", "parameters", "fit rmse", "max", "held out rmse", "max", "cross-validated", ""},
       {left, right, right, right, right, right, right, left});
   const auto percent = [](double x) { return fmt::format("{:.2f} %", x); };
@@ -86,8 +86,8 @@ std::string interval(const identify::Estimate& e) {
 }
 
 void print_parameters(const identify::Fit& fit) {
-  TextTable table({"parameter", "value", "unit", "95 %"},
-                  {TextTable::Align::left, TextTable::Align::right});
+  report::TextTable table({"parameter", "value", "unit", "95 %"},
+                          {report::TextTable::Align::left, report::TextTable::Align::right});
   for (const identify::Estimate& e : fit.parameters)
     table.add({e.name, fmt::format("{:.6g}", e.value), e.unit == "1" ? "" : e.unit, interval(e)});
   fmt::print("{}", table.text());

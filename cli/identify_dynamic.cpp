@@ -7,18 +7,18 @@
 
 #include "cli/arguments.h"
 #include "cli/identify.h"
-#include "cli/text_table.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/named.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/motion/dynamic_file.h"
+#include "sinew/report/text/text_table.h"
 
 namespace sinew::cli {
 
 namespace {
 
-using Align = TextTable::Align;
+using Align = report::TextTable::Align;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 struct Options {
@@ -90,7 +90,7 @@ std::vector<identify::DecayRecord> records_of(Options options, const actuator::A
 
 // Methods that know no muscle beside the trajectories.
 void print_methods(const identify::DynamicResult& found) {
-  TextTable table(
+  report::TextTable table(
       {"file", "method", "Q [mm]", "friction at rest [N]", "c [N s/m]", "zeta [53]"},
       {Align::left, Align::left, Align::right, Align::right, Align::right, Align::right});
   const auto row = [&](const identify::DecaySummary& s, const char* method,

@@ -6,13 +6,13 @@
 
 #include "cli/arguments.h"
 #include "cli/identify.h"
-#include "cli/text_table.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/named.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/fit/robot_over.h"
 #include "sinew/identify/joint/joint_file.h"
+#include "sinew/report/text/text_table.h"
 
 namespace sinew::cli {
 
@@ -60,8 +60,8 @@ identify::JointSetup setup_of(const Options& options, const actuator::Actuator& 
 }
 
 void print_combinations(const JointResult& found) {
-  TextTable table({"what the data tell apart, best first", "95 %"},
-                  {TextTable::Align::left, TextTable::Align::right});
+  report::TextTable table({"what the data tell apart, best first", "95 %"},
+                          {report::TextTable::Align::left, report::TextTable::Align::right});
   for (const identify::Combination& c : found.combinations)
     table.add({c.text, std::isfinite(c.relative_error)
                            ? fmt::format("+- {:.2g} %", 100 * c.relative_error)

@@ -8,13 +8,13 @@
 #include "cli/identify_page.h"
 #include "cli/json_text.h"
 #include "cli/terminal.h"
-#include "cli/text_table.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/named.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/fit/robot_over.h"
 #include "sinew/identify/sensor/sensor_file.h"
+#include "sinew/report/text/text_table.h"
 
 namespace sinew::cli {
 
@@ -40,11 +40,12 @@ std::string percent(double share) { return digits(100 * share, "{:.2f} %"); }
 
 // Table 4-1, and what else one calibration tells of each sensor.
 void print_table(const Calibration& c, const std::string& display) {
-  using enum TextTable::Align;
+  using enum report::TextTable::Align;
   const std::string unit = scale_unit(c), shown = scale_unit_for(c, display);
-  TextTable table({"sensor", "scale [" + shown + "]", "95 %", "at rest [V]", "model", "held out",
-                   "linearity", "hysteresis", "noise [mV]", "step [mV]", "error from average"},
-                  {left, right, right, right, left, right, right, right, right, right, right});
+  report::TextTable table(
+      {"sensor", "scale [" + shown + "]", "95 %", "at rest [V]", "model", "held out", "linearity",
+       "hysteresis", "noise [mV]", "step [mV]", "error from average"},
+      {left, right, right, right, left, right, right, right, right, right, right});
   const auto add = [&](const std::string& name, double sensitivity, auto... rest) {
     const double scale = config::convert(scale_of(c, sensitivity), unit, shown);
     table.add({name, digits(scale, "{:.5g}"), rest...});

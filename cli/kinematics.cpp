@@ -1,6 +1,7 @@
 // cli/kinematics.cpp - `sinew kinematics`: foot to joint angles and back, and the torques behind a
 // force. Lengths and angles are printed in the units of the robot's file.
 #include "sinew/robot/kinematics.h"
+#include "sinew/report/text/text_table.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,7 +14,6 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/json_text.h"
-#include "cli/text_table.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/robot/legs.h"
@@ -150,7 +150,7 @@ void print(const experiment::Experiment& e, const Branch& b, const Shown& units)
     fmt::print("  {:<14} {}\n", e.robot.joints[j].name,
                config::format_quantity(b.angles[j], "rad", units.angle, 5));
 
-  TextTable table({"muscle", "length", "from", "to", ""});
+  report::TextTable table({"muscle", "length", "from", "to", ""});
   for (const run::MuscleAt& m : b.muscles)
     table.add({m.name, length(m.length), length(m.shortest), length(m.longest),
                m.within() ? "" : "beyond"});

@@ -6,10 +6,10 @@
 
 #include "cli/command.h"
 #include "cli/json_text.h"
-#include "cli/text_table.h"
 #include "sinew/config/lookup.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/experiment/rig/rig.h"
+#include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/runnable.h"
 
 namespace sinew::cli {
@@ -103,7 +103,7 @@ ExitCode show(const Options& options) {
     fmt::print("{}\n", json_text(out, 2));
     return ok;
   }
-  TextTable table({"key", "as written", "SI", "", "range", "where", "source"});
+  report::TextTable table({"key", "as written", "SI", "", "range", "where", "source"});
   for (const config::Origin& o : origins) {
     const std::string si = si_text(values, o);
     const std::string range = fmt::format("{}", fmt::join(o.range, " to "));

@@ -25,9 +25,13 @@ bool on_terminal() {
   return terminal;
 }
 
-std::string in_color(int stream, std::string_view text, std::string_view code) {
+bool takes_color(int stream) {
   const char* no_color = std::getenv("NO_COLOR");
-  if (!is_terminal(stream) || (no_color && *no_color)) return std::string(text);
+  return is_terminal(stream) && !(no_color && *no_color);
+}
+
+std::string in_color(int stream, std::string_view text, std::string_view code) {
+  if (!takes_color(stream)) return std::string(text);
   return fmt::format("\033[{}m{}\033[0m", code, text);
 }
 
@@ -71,6 +75,8 @@ std::size_t width_of_output() {
 }
 
 std::string in_green(std::string_view text) { return in_color(STDOUT_FILENO, text, "32"); }
+
+bool output_has_color() { return takes_color(STDOUT_FILENO); }
 
 std::string in_red(std::string_view text) { return in_color(STDOUT_FILENO, text, "31"); }
 

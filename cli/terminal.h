@@ -43,6 +43,7 @@ std::size_t width_of_output();
 // Green for what is as it should be, red for what is not; plain where stdout takes no color.
 std::string in_green(std::string_view text);
 std::string in_red(std::string_view text);
+bool output_has_color();
 
 // What one step of a progress bar stands for, as people count.
 struct Steps {

@@ -1,6 +1,7 @@
 // cli/valve.cpp - `sinew valve`: what flows through a valve, how long a volume takes, what its
 // delays make of a duty.
 #include "sinew/gas/valve.h"
+#include "sinew/report/text/text_table.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +11,6 @@
 #include "cli/command.h"
 #include "cli/json_text.h"
 #include "cli/terminal.h"
-#include "cli/text_table.h"
 #include "sinew/config/named.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
@@ -73,7 +73,7 @@ void print_flow(const gas::Valve& valve, const gas::ValveFlow& f) {
   const auto show = [](double si, std::string_view unit, std::string_view display) {
     return config::format_quantity(si, unit, display, 5);
   };
-  TextTable table({"", "", ""});
+  report::TextTable table({"", "", ""});
   table.add({"mass flow", show(f.mass_flow, "kg/s", "kg/s"),
              show(f.normal_flow, "m3/s", "L/min") + " ANR"});
   if (f.linear) table.add({"by the law itself", show(f.law_flow, "kg/s", "kg/s"), ""});
@@ -106,8 +106,8 @@ void print_times(const std::vector<gas::Transfer>& times, double volume, const g
   const auto bar = [](double p) { return config::format_quantity(p, "Pa abs", "psi abs", 4); };
   fmt::print("\n{} between {} and {}, valve open:\n", config::format_quantity(volume, "m3", "in3"),
              bar(f.downstream), bar(f.upstream));
-  using enum TextTable::Align;
-  TextTable table({"of the way", "fill [ms]", "vent [ms]"}, {right, right, right});
+  using enum report::TextTable::Align;
+  report::TextTable table({"of the way", "fill [ms]", "vent [ms]"}, {right, right, right});
   for (const gas::Transfer& t : times)
     table.add({fmt::format("{:.0f} %", 100 * t.share), fmt::format("{:.3f}", 1e3 * t.fill),
                fmt::format("{:.3f}", 1e3 * t.vent)});
@@ -116,9 +116,9 @@ void print_times(const std::vector<gas::Transfer>& times, double volume, const g
 
 void print_duties(const std::vector<Delivered>& duties, const std::string& frequency) {
   if (duties.empty()) return;
-  using enum TextTable::Align;
+  using enum report::TextTable::Align;
   fmt::print("\nat {}:\n", frequency);
-  TextTable table({"duty", "delivered"}, {right, right});
+  report::TextTable table({"duty", "delivered"}, {right, right});
   for (const Delivered& d : duties)
     table.add({fmt::format("{:.4g} %", 100 * d.duty), fmt::format("{:.4g} %", 100 * d.delivered)});
   fmt::print("{}", table.text());

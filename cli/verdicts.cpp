@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "cli/terminal.h"
-#include "cli/text_table.h"
 #include "sinew/config/quantity.h"
+#include "sinew/report/text/text_table.h"
 #include "sinew/robot/legs.h"
 
 namespace sinew::cli {
@@ -32,7 +32,7 @@ void print_main_figures(const analysis::Summary& summary, const analysis::Machin
     keys.push_back({"legs." + leg.name + ".foot.loaded_share_true", "%"});
   keys.push_back({"air_used_kg", "g"});
 
-  TextTable table({"", "Sinew"});
+  report::TextTable table({"", "Sinew"});
   for (const auto& [key, unit] : keys)
     if (const double* value = summary.find(key))
       table.add({std::string(analysis::without_unit(key)),
@@ -50,10 +50,10 @@ std::string shown(analysis::Verdict::Is is) {
 
 // The class of a statement has a column of its own, or stands before the source where the window
 // has no room for one.
-TextTable verdict_table(const std::vector<analysis::Verdict>& verdicts, bool class_column) {
+report::TextTable verdict_table(const std::vector<analysis::Verdict>& verdicts, bool class_column) {
   std::vector<std::string> titles = {"", "reported", "Sinew", "accepted", "class", "", "source"};
   if (!class_column) titles = {"", "reported", "Sinew", "accepted", "", "class; source"};
-  TextTable table(titles);
+  report::TextTable table(titles);
   for (const analysis::Verdict& v : verdicts) {
     const std::string statement_class(to_text(v.statement_class));
     std::vector<std::string> row = {std::string(analysis::without_unit(v.key)), v.reported,
@@ -76,7 +76,7 @@ bool print_reported(const analysis::Summary& summary,
   const std::vector<analysis::Verdict> verdicts = compare(summary, reported, atmosphere);
   if (verdicts.empty()) return false;
   const std::size_t width = width_of_output();
-  const TextTable table = verdict_table(verdicts, true);
+  const report::TextTable table = verdict_table(verdicts, true);
   const bool fits = width == 0 || table.width_before_last() <= width;
   fmt::print("{}", (fits ? table : verdict_table(verdicts, false)).text_within(width));
   return true;
@@ -91,7 +91,7 @@ void print_verdicts(const analysis::Summary& summary, const analysis::Machine& m
 
 void print_verdicts(const analysis::Summary& summary, const analysis::StandFile& stand) {
   if (print_reported(summary, stand.reported, stand.atmosphere)) return;
-  TextTable table({"", "Sinew"});
+  report::TextTable table({"", "Sinew"});
   for (const analysis::Entry& e : summary.entries()) {
     const std::string unit = analysis::unit_of_key(e.key);
     table.add({std::string(analysis::without_unit(e.key)),

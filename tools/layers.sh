@@ -46,7 +46,8 @@ layers='
     analysis           analysis/record
     report/page     analysis log robot
     report/figures  report/page
-    report/compare  report/page
+    report/text
+    report/compare  report/page report/text
     run/setup       experiment control plant
     run/simulation  run/setup log
     run/stand       run/simulation experiment/rig

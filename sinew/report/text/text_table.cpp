@@ -1,9 +1,9 @@
-#include "cli/text_table.h"
+#include "sinew/report/text/text_table.h"
 
 #include <algorithm>
 #include <stdexcept>
 
-namespace sinew::cli {
+namespace sinew::report {
 
 namespace {
 
@@ -105,4 +105,4 @@ std::string TextTable::text_within(std::size_t width) const {
   return out;
 }
 
-}  // namespace sinew::cli
+}  // namespace sinew::report

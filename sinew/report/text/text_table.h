@@ -1,11 +1,11 @@
-// cli/text_table.h - rows of words in columns that line up.
+// report/text/text_table.h - rows of words in columns that line up.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace sinew::cli {
+namespace sinew::report {
 
 class TextTable {
  public:
@@ -39,4 +39,4 @@ class TextTable {
 // Letters of a UTF-8 text without its colors; none here is wider than one column.
 std::size_t columns(std::string_view text);
 
-}  // namespace sinew::cli
+}  // namespace sinew::report

@@ -1,27 +1,37 @@
+#include "sinew/report/compare/comparison_text.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
+#include <string_view>
 
-#include "cli/compare.h"
-#include "cli/terminal.h"
-#include "cli/text_table.h"
 #include "sinew/config/quantity.h"
+#include "sinew/report/text/text_table.h"
 
-namespace sinew::cli {
+namespace sinew::report {
 
 namespace {
 
 using Align = TextTable::Align;
-using report::Comparison;
+using Units = ComparisonText::Units;
+
+// Prints into a text.
+template <class... Args>
+void print(std::string& out, fmt::format_string<Args...> format, Args&&... args) {
+  fmt::format_to(std::back_inserter(out), format, std::forward<Args>(args)...);
+}
+
+std::string letter_of(std::size_t run) { return {static_cast<char>('A' + run)}; }
 
 constexpr std::size_t most_figures = 12, most_parameters = 15, most_channels = 12;
 constexpr std::size_t most_letters = 32;  // of a parameter's value
 
 // In which unit people see a quantity of that SI unit.
-std::string_view shown_unit(std::string_view unit, ShownUnits units) {
+std::string_view shown_unit(std::string_view unit, Units units) {
   struct Shown {
     std::string_view unit, thesis, si;
   };
@@ -34,7 +44,7 @@ std::string_view shown_unit(std::string_view unit, ShownUnits units) {
       {"Pa", "psi gauge", "kPa"}, {"Pa diff", "psi diff", "kPa diff"},
   };
   for (const Shown& s : all)
-    if (s.unit == unit) return units == ShownUnits::thesis ? s.thesis : s.si;
+    if (s.unit == unit) return units == Units::thesis ? s.thesis : s.si;
   return unit;
 }
 
@@ -63,7 +73,7 @@ std::string percent(const std::optional<double>& relative) {
 // A figure's value and difference in the unit that is shown.
 class Figure {
  public:
-  Figure(std::string_view key, ShownUnits units, double atmosphere)
+  Figure(std::string_view key, Units units, double atmosphere)
       : unit_(analysis::unit_of_key(key)),
         shown_(is_share(key) && unit_ == "1" ? "%" : shown_unit(unit_, units)),
         difference_(config::difference_unit(unit_)),
@@ -92,24 +102,26 @@ class Figure {
   double atmosphere_;
 };
 
-void print_runs(const Comparison& c) {
+void print_runs(const Comparison& c, std::string& out) {
   TextTable table({"", "", "", "", ""}, {Align::left, Align::left, Align::left, Align::right});
   for (std::size_t i = 0; i < c.runs.size(); ++i) {
-    const report::ComparedRun& run = c.runs[i];
+    const ComparedRun& run = c.runs[i];
     table.add({letter_of(i), run.label, run.title, fmt::format("{:.2f} s", run.last - run.first),
                run.shift != 0 ? fmt::format("moved by {:+.2f} s", -run.shift) : ""});
   }
   const std::string text = table.text();
-  fmt::print("{}", text.substr(text.find('\n') + 1));  // without titles
+  print(out, "{}", text.substr(text.find('\n') + 1));  // without titles
 }
 
 // --- figures ---
 
+std::string red(const std::string& text) { return "\033[31m" + text + "\033[0m"; }
+
 // "agrees", or where it is not the same of all "agrees → differs"; empty where none is judged.
-std::string verdicts_of(const Comparison& c, const std::string& key) {
+std::string verdicts_of(const Comparison& c, const std::string& key, bool color = false) {
   std::vector<std::string> words;
   std::set<std::string> judged;
-  for (const report::ComparedRun& run : c.runs) {
+  for (const ComparedRun& run : c.runs) {
     words.push_back(run.verdict_of(key));
     if (!words.back().empty()) judged.insert(words.back());
     if (words.back().empty()) words.back() = "not judged";
@@ -117,7 +129,7 @@ std::string verdicts_of(const Comparison& c, const std::string& key) {
   if (judged.empty()) return "";
   const bool alike = std::ranges::all_of(words, [&](const auto& w) { return w == words.front(); });
   const std::string text = alike ? words.front() : fmt::format("{}", fmt::join(words, " → "));
-  return judged.size() > 1 ? in_red(text) : text;
+  return color && judged.size() > 1 ? red(text) : text;
 }
 
 bool differs(const analysis::FigureRow& row) {
@@ -140,8 +152,8 @@ std::vector<const analysis::FigureRow*> chosen_figures(const Comparison& c, bool
 }
 
 std::vector<std::string> figure_cells(const Comparison& c, const analysis::FigureRow& row,
-                                      ShownUnits units) {
-  const Figure figure(row.key, units, c.runs.front().atmosphere);
+                                      const ComparisonText& how) {
+  const Figure figure(row.key, how.units, c.runs.front().atmosphere);
   const std::optional<double>& first = row.values.front();
   std::vector<std::string> cells = {std::string(analysis::without_unit(row.key)),
                                     figure.value(first)};
@@ -152,13 +164,24 @@ std::vector<std::string> figure_cells(const Comparison& c, const analysis::Figur
     if (c.runs.size() == 2) cells.push_back(both ? figure.difference(*first, *other) : "");
     cells.push_back(both ? figure.relative(*first, *other) : "");
   }
-  cells.push_back(verdicts_of(c, row.key));
+  cells.push_back(verdicts_of(c, row.key, how.color));
   return cells;
 }
 
-void print_figures(const Comparison& c, ShownUnits units, bool all) {
+void print_table(const TextTable& table, const ComparisonText& how, std::string& out) {
+  if (!table.empty()) out += table.text_within(how.width);
+}
+
+// What is not shown, and how to see it.
+void print_rest(std::size_t rest, std::string_view what, const ComparisonText& how,
+                std::string& out) {
+  if (rest > 0)
+    print(out, "and {} more{}{}{}\n", rest, what, how.see_all.empty() ? "" : ": ", how.see_all);
+}
+
+void print_figures(const Comparison& c, const ComparisonText& how, std::string& out) {
   const auto differing = std::ranges::count_if(c.figures, differs);
-  fmt::print("\nFigures: {} of {} differ\n", differing, c.figures.size());
+  print(out, "\nFigures: {} of {} differ\n", differing, c.figures.size());
   std::vector<std::string> titles = {"", "A"};
   for (std::size_t i = 1; i < c.runs.size(); ++i) {
     titles.push_back(letter_of(i));
@@ -171,12 +194,13 @@ void print_figures(const Comparison& c, ShownUnits units, bool all) {
 
   TextTable table(titles, align);
   std::ptrdiff_t shown = 0;
-  for (const analysis::FigureRow* row : chosen_figures(c, all)) {
-    table.add(figure_cells(c, *row, units));
+  for (const analysis::FigureRow* row : chosen_figures(c, how.all)) {
+    table.add(figure_cells(c, *row, how));
     shown += differs(*row);
   }
-  if (!table.empty()) fmt::print("{}", table.text_within(width_of_output()));
-  if (shown < differing) fmt::print("and {} more that differ: --all\n", differing - shown);
+  print_table(table, how, out);
+  print_rest(static_cast<std::size_t>(std::max<std::ptrdiff_t>(differing - shown, 0)),
+             " that differ", how, out);
 }
 
 // --- parameters ---
@@ -188,27 +212,27 @@ std::string cut(const std::string& text) {
   return text.substr(0, end) + " …";
 }
 
-void print_parameters(const Comparison& c, bool all) {
-  fmt::print("\nParameters: {}\n",
-             c.parameters.empty() ? "all equal" : fmt::format("{} differ", c.parameters.size()));
+void print_parameters(const Comparison& c, const ComparisonText& how, std::string& out) {
+  print(out, "\nParameters: {}\n",
+        c.parameters.empty() ? "all equal" : fmt::format("{} differ", c.parameters.size()));
   std::vector<std::string> titles = {""};
   for (std::size_t i = 0; i < c.runs.size(); ++i) titles.push_back(letter_of(i));
   TextTable table(titles);
   std::size_t shown = 0;
-  for (const report::ParameterRow& row : c.parameters) {
-    if (!all && shown++ == most_parameters) break;
+  for (const ParameterRow& row : c.parameters) {
+    if (!how.all && shown++ == most_parameters) break;
     std::vector<std::string> cells = {row.key};
     for (const auto& value : row.values) cells.push_back(value ? cut(*value) : "-");
     table.add(std::move(cells));
   }
-  if (!table.empty()) fmt::print("{}", table.text_within(width_of_output()));
-  if (!all && c.parameters.size() > most_parameters)
-    fmt::print("and {} more: --all\n", c.parameters.size() - most_parameters);
+  print_table(table, how, out);
+  if (!how.all && c.parameters.size() > most_parameters)
+    print_rest(c.parameters.size() - most_parameters, "", how, out);
 }
 
 // --- channels ---
 
-std::string name_of(const report::ChannelRow& row) {
+std::string name_of(const ChannelRow& row) {
   return row.channel.topic + (row.channel.field == "value" ? "" : "." + row.channel.field);
 }
 
@@ -222,7 +246,7 @@ std::string note_of(const analysis::Difference& d) {
 }
 
 // A log may hold units that only its maker knows: they are shown as they are.
-std::string difference_text(double si, const std::string& of, ShownUnits units) {
+std::string difference_text(double si, const std::string& of, Units units) {
   const std::string unit = of == "Pa" ? "Pa diff" : of;
   const std::string_view shown = shown_unit(unit, units);
   const double value = shown == unit ? si : config::convert(si, unit, shown);
@@ -230,8 +254,8 @@ std::string difference_text(double si, const std::string& of, ShownUnits units) 
                      of == "1" ? "" : shown);
 }
 
-std::vector<std::string> channel_cells(const report::ChannelRow& row, const analysis::Difference& d,
-                                       ShownUnits units) {
+std::vector<std::string> channel_cells(const ChannelRow& row, const analysis::Difference& d,
+                                       Units units) {
   if (d.same) return {name_of(row), "same samples"};
   if (d.equal()) return {name_of(row), "equal", "", "", note_of(d)};
   if (d.samples == 0) return {name_of(row), "never meet"};
@@ -243,41 +267,42 @@ std::vector<std::string> channel_cells(const report::ChannelRow& row, const anal
 }
 
 // Of one run against the first.
-void print_channels(const Comparison& c, std::size_t run, ShownUnits units, bool all) {
-  std::vector<const report::ChannelRow*> rows;
+void print_channels(const Comparison& c, std::size_t run, const ComparisonText& how,
+                    std::string& out) {
+  std::vector<const ChannelRow*> rows;
   std::size_t same = 0, compared = 0;
-  for (const report::ChannelRow& row : c.channels) {
+  for (const ChannelRow& row : c.channels) {
     const auto& d = row.differences[run];
     if (!d) continue;
     ++compared;
     same += d->same;
-    if (all || !(d->same || d->equal())) rows.push_back(&row);
+    if (how.all || !(d->same || d->equal())) rows.push_back(&row);
   }
-  fmt::print("\nChannels, {} against A: {} compared, {} with the same samples\n", letter_of(run),
-             compared, same);
+  print(out, "\nChannels, {} against A: {} compared, {} with the same samples\n", letter_of(run),
+        compared, same);
   const std::size_t differing = rows.size();
-  if (!all) {
-    std::ranges::stable_sort(rows, std::ranges::greater{}, [&](const report::ChannelRow* row) {
-      return row->differences[run]->share();
-    });
+  if (!how.all) {
+    std::ranges::stable_sort(rows, std::ranges::greater{},
+                             [&](const ChannelRow* row) { return row->differences[run]->share(); });
     rows.resize(std::min(rows.size(), most_channels));
   }
   TextTable table({"", "rms", letter_of(run) + " − A at most", "at", ""},
                   {Align::left, Align::right, Align::right, Align::right, Align::left});
-  for (const report::ChannelRow* row : rows)
-    table.add(channel_cells(*row, *row->differences[run], units));
-  if (!table.empty()) fmt::print("{}", table.text_within(width_of_output()));
-  if (rows.size() < differing) fmt::print("and {} more: --all\n", differing - rows.size());
+  for (const ChannelRow* row : rows)
+    table.add(channel_cells(*row, *row->differences[run], how.units));
+  print_table(table, how, out);
+  print_rest(differing - rows.size(), "", how, out);
 }
 
 }  // namespace
 
-void print_comparison(const Comparison& comparison, ShownUnits units, bool all) {
-  print_runs(comparison);
-  print_figures(comparison, units, all);
-  print_parameters(comparison, all);
-  for (std::size_t i = 1; i < comparison.runs.size(); ++i)
-    print_channels(comparison, i, units, all);
+std::string text_of(const Comparison& comparison, const ComparisonText& how) {
+  std::string out;
+  print_runs(comparison, out);
+  print_figures(comparison, how, out);
+  print_parameters(comparison, how, out);
+  for (std::size_t i = 1; i < comparison.runs.size(); ++i) print_channels(comparison, i, how, out);
+  return out;
 }
 
-}  // namespace sinew::cli
+}  // namespace sinew::report

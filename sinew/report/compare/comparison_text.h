@@ -1,0 +1,24 @@
+// report/compare/comparison_text.h - a comparison as tables for people.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "sinew/report/compare/comparison.h"
+
+namespace sinew::report {
+
+struct ComparisonText {
+  enum class Units { thesis, si };
+
+  Units units = Units::thesis;
+  bool all = false;          // what is equal too
+  std::size_t width = 0;     // letters of a line; 0: any
+  std::string see_all = {};  // where a table is cut: how to see all of it
+  bool color = false;        // verdicts that changed are red, by the escapes of a terminal
+};
+
+// Returns runs, figures, parameters and channels that differ.
+std::string text_of(const Comparison& comparison, const ComparisonText& how);
+
+}  // namespace sinew::report
