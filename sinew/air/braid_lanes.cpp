@@ -6,16 +6,7 @@
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/air/failure.h"
-
-// Lanes of four doubles where the machine has them; the same operations, so the same bits. The
-// sanitizers start before the loader could choose, and what Clang 14 makes of it has a name that no
-// other file finds.
-#if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define SINEW_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define SINEW_WIDE
-#endif
+#include "sinew/air/wide.h"
 
 namespace sinew::air {
 namespace {

@@ -36,6 +36,7 @@
 #include "sinew/air/fault.h"
 #include "sinew/air/muscle.h"
 #include "sinew/air/network_state.h"
+#include "sinew/air/regulator_lanes.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/orifice.h"
 #include "sinew/gas/slopes.h"
@@ -327,6 +328,9 @@ class AirNetwork {
   void run_ahead(const Now& node, double h, const Room& room, const gas::Base& base, double mass,
                  Cell& cell) const noexcept;
   void run_hose_ahead(const Now& node, double h, const Room& room, Cell& cell) const noexcept;
+  void run_muscle_ahead(const Now& node, double h, const Ends& ends, Cell& cell) const noexcept;
+  void go_beside(int first, const Now& node, double h, const Ends& ends,
+                 RegulatorLanes::Ahead& ahead) const noexcept;
 
   // network_faults.h
   void add_faults();
@@ -347,6 +351,7 @@ class AirNetwork {
   gas::PowerSeries of_pressure_{1.0 / 7.0};  // y of a pressure
   std::vector<Muscle> muscles_;
   BraidLanes braids_;
+  RegulatorLanes regulators_;
   bool in_lanes_ = false;  // all muscles go by braids_
   bool plain_ = false;     // there is nothing but muscles between valves on a constant supply
   std::optional<Cylinder> cylinder_;
@@ -367,6 +372,7 @@ class AirNetwork {
   double longest_step_ = 0;     // of all that has the same rate wherever the machine stands [s]
   std::array<double, 2> side_settling_{};  // of the cylinder's chambers, as a line's [m^3/s]
   std::uint64_t behind_hoses_ = 0, behind_regulators_ = 0;  // that always go ahead
+  std::uint64_t beside_ = 0;                                // that go ahead by regulators_
   bool settles_ = false;                                    // a line has `settling`
 };
 

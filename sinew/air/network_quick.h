@@ -19,101 +19,10 @@
 #include "sinew/air/network.h"
 #include "sinew/air/network_flows.h"
 #include "sinew/air/network_setup.h"
-#include "sinew/air/rodas3.h"
+#include "sinew/air/quick.h"
 #include "sinew/gas/slopes.h"
 
 namespace sinew::air {
-
-namespace quick {
-
-inline constexpr double muscle_error = 1e-4;  // of a muscle's mass in one of its steps
-inline constexpr double hose_error = 5e-4;    // of a hose's
-inline constexpr double equal = 3e-3;         // relative difference of densities: asleep
-inline constexpr double little = 1e-3;        // bend of a mass within a calm step
-inline constexpr double shortest = 1e-7;      // step, whatever its error [s]
-
-// Integrates x from t to `until`, which is not long. `pace` is the step that suited last.
-template <int N, class Rates>
-void go(const Rates& rates, double t, double until, const std::array<double, N>& error,
-        std::array<double, N>& x, std::array<double, 3>& passed, double& pace) {
-  while (t < until) {
-    const double left = until - t;
-    const bool last = !(pace < left);
-    const double h = last ? left : pace;
-    const QuickStep<N> step = rodas3_step<N>(rates, t, x, h);
-    double worst = 0;
-    for (std::size_t i = 0; i < N; ++i) {
-      const double one = step.error[i] / (x[i] * error[i]);
-      worst = one > worst || !(one >= 0) ? one : worst;
-    }
-    if (!(worst <= 1.0) && h > shortest) {
-      pace = 0.25 * h;
-      continue;
-    }
-    x = step.mass;
-    for (std::size_t k = 0; k < 3; ++k) passed[k] += step.passed[k];
-    t = last ? until : t + h;
-    if (worst < 0.03) pace = 3.0 * h;
-  }
-}
-
-// Masses at the half and at the end of a step of length h, and what has passed in it.
-template <int N>
-struct Ahead {
-  std::array<double, N> half{}, full{};
-  std::array<double, 3> passed{};
-};
-
-// Writes the course's end into the cell; its muscle or chamber is the last body.
-template <int N, class Cell>
-void fill(const Ahead<N>& ahead, Cell& cell) {
-  cell.half = ahead.half.back();
-  cell.full = ahead.full.back();
-  if constexpr (N > 1) cell.hose = ahead.full.front();
-  cell.in = ahead.passed[0];
-  cell.out = ahead.passed[1];
-  cell.leak = ahead.passed[2];
-}
-
-// Integrates through a step. Where it is calm one step of the rule serves, and the half lies on the
-// cubic through both ends and their rates. A decay of rate r is off there by 2 % of the bend at
-// r h = 1, by a tenth at 2.5 and a third at 5.
-template <int N, class Rates>
-Ahead<N> through(const Rates& rates, double t, double h, const std::array<double, N>& error,
-                 const std::array<double, N>& start) {
-  Ahead<N> out;
-  const QuickStep<N> whole = rodas3_step<N>(rates, t, start, h);
-  bool calm = true;
-  for (std::size_t i = 0; i < N; ++i) {
-    calm =
-        calm && std::abs(whole.bend[i]) < little * start[i] && whole.error[i] < error[i] * start[i];
-    out.half[i] = 0.5 * (start[i] + whole.mass[i]) + whole.bend[i];
-  }
-  if (calm) {
-    out.full = whole.mass;
-    out.passed = whole.passed;
-    return out;
-  }
-  double pace = 0.5 * h;
-  out.full = start;
-  go<N>(rates, t, t + 0.5 * h, error, out.full, out.passed, pace);
-  out.half = out.full;
-  go<N>(rates, t + 0.5 * h, t + h, error, out.full, out.passed, pace);
-  return out;
-}
-
-// e^-x of a lag that has run for a small part of its time: five terms, 3e-9 at 0.1.
-inline double decay(double x) {
-  if (x > 0.1) return units::exp(-x);
-  return 1.0 - x * (1.0 - x * (0.5 - x * (1.0 / 6.0 - x * (1.0 / 24.0 - x / 120.0))));
-}
-
-// A valve's flow, its slopes only where a step needs them.
-inline gas::SlopedFlow flow(bool sloped, const gas::FlowConstants& c, double y_a, double y_b) {
-  return sloped ? gas::sloped_flow_y(c, y_a, y_b) : gas::SlopedFlow{gas::flow_y(c, y_a, y_b)};
-}
-
-}  // namespace quick
 
 // A pair of valves that ends at y, with its slopes. Regulators follow their lag meanwhile.
 template <int Most>
@@ -294,6 +203,49 @@ void AirNetwork<Most>::run_hose_ahead(const Now& node, double h, const Room& roo
               cell);
 }
 
+// Muscle `cell.of` alone.
+template <int Most>
+void AirNetwork<Most>::run_muscle_ahead(const Now& node, double h, const Ends& ends,
+                                        Cell& cell) const noexcept {
+  const int i = cell.of;
+  const Muscle& m = muscle(i);
+  const Room room{volume(i, ends.length[i]),
+                  m.count * actuator::volume_slope(m.actuator, ends.length[i]) * ends.rate[i]};
+  if (line(i).hose != none) return run_hose_ahead(node, h, room, cell);
+  const gas::Base base{node.memory.reference.y[i], node.memory.reference.inverse_sigma[i]};
+  const double mass = node.state.mass[i];
+  if (line(i).leak.tight() && !node.valves.leaking)
+    run_ahead<2>(node, h, room, base, mass, cell);
+  else
+    run_ahead<3>(node, h, room, base, mass, cell);
+}
+
+// Four muscles from `first` on as if there were nothing but regulators; a lane that has none says
+// something.
+template <int Most>
+void AirNetwork<Most>::go_beside(int first, const Now& node, double h, const Ends& ends,
+                                 RegulatorLanes::Ahead& ahead) const noexcept {
+  const auto lane = [first](const Lanes& of) { return of.of.data() + first; };
+  const Reference<Most>& reference = node.memory.reference;
+  RegulatorLanes::Given in{.length = lane(ends.length),
+                           .rate = lane(ends.rate),
+                           .mass = lane(node.state.mass),
+                           .y_ref = lane(reference.y),
+                           .inverse_sigma = lane(reference.inverse_sigma)};
+  for (int at = 0; at < lanes; ++at) {
+    const auto v = static_cast<std::size_t>(2 * std::min(first + at, size_ - 1));
+    const int outlet = taps_[v].outlet;
+    const bool lags = outlet != none;
+    const gas::Base& base = node.memory.outlet[v];
+    const double set = node.valves[v].set;
+    in.set[at] = lags ? set : 1.0;
+    in.off[at] = lags ? other(node.state, outlet) - set : 0.0;
+    in.outlet_y[at] = lags ? base.y : node.valves[v].set_y;
+    in.outlet_inverse[at] = lags ? base.inverse : 1.0;
+  }
+  regulators_.go(first, h, node.y_supply, in, ahead);
+}
+
 template <int Most>
 void AirNetwork<Most>::plan(double t, double h, const Ends& ends, const State& state,
                             const Valves& valves, const Memory& memory,
@@ -313,22 +265,28 @@ void AirNetwork<Most>::plan(double t, double h, const Ends& ends, const State& s
     cell.hose = 0;
     return cell;
   };
+  std::uint64_t beside = 0;
   each_line(valves, [&](int i) {
     if (!goes_ahead(i, h, ends, valves)) return;
-    const Muscle& m = muscle(i);
-    const Room room{volume(i, ends.length[i]),
-                    m.count * actuator::volume_slope(m.actuator, ends.length[i]) * ends.rate[i]};
-    Cell& cell = add(i);
-    if (line(i).hose != none)
-      run_hose_ahead(now, h, room, cell);
-    else {
-      const gas::Base base{memory.reference.y[i], memory.reference.inverse_sigma[i]};
-      if (line(i).leak.tight() && !valves.leaking)
-        run_ahead<2>(now, h, room, base, state.mass[i], cell);
-      else
-        run_ahead<3>(now, h, room, base, state.mass[i], cell);
-    }
+    if (!valves.leaking && (beside_ >> i & 1) != 0)
+      beside |= std::uint64_t{1} << i;
+    else
+      run_muscle_ahead(now, h, ends, add(i));
   });
+  for (int first = 0; beside >> first != 0; first += lanes) {
+    if ((beside >> first & 0xf) == 0) continue;
+    RegulatorLanes::Ahead ahead;
+    go_beside(first, now, h, ends, ahead);
+    for (int at = 0; at < lanes; ++at) {
+      if ((beside >> (first + at) & 1) == 0) continue;
+      Cell& cell = add(first + at);
+      if ((ahead.calm >> at & 1) == 0)
+        run_muscle_ahead(now, h, ends, cell);
+      else
+        cell.half = ahead.half[at], cell.full = ahead.full[at], cell.in = ahead.in[at],
+        cell.out = ahead.out[at], cell.leak = 0;
+    }
+  }
   for (const Side side : {up, down}) {
     if (!cylinder_ || !goes_ahead(size_ + side, h, ends, valves)) continue;
     const Room room{air::volume(*cylinder_, side, ends.travel),

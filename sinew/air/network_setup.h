@@ -123,6 +123,13 @@ void AirNetwork<Most>::classify() {
     if (l.more) more_.push_back(i);
     if (l.hose != none && l.energy == none) behind_hoses_ |= std::uint64_t{1} << i;
     taps_[inlet].listed = taps_[inlet + 1].listed = !l.more;
+    if (in_lanes_ && regulates(taps_[inlet].valve) && !l.resists && l.leak.tight())
+      beside_ |= std::uint64_t{1} << i;
+  }
+  if (beside_ != 0) {
+    std::vector<gas::Valve> inlets;
+    for (const Muscle& m : muscles_) inlets.push_back(m.inlet);
+    regulators_ = RegulatorLanes(braids_, inlets, air_);
   }
   for (const Tap& tap : taps_)
     ramping_ = ramping_ || tap.valve.profile == gas::Valve::Profile::ramp;

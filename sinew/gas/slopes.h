@@ -12,10 +12,13 @@
 
 namespace sinew::gas {
 
-struct SlopedFlow {
-  double flow = 0;            // from a to b [kg/s]
-  double by_a = 0, by_b = 0;  // its slopes over y_a and y_b [kg/s]
+// S is a double; or a pack of them (units/pack.h).
+template <class S>
+struct SlopedFlowOf {
+  S flow = 0;            // from a to b [kg/s]
+  S by_a = 0, by_b = 0;  // its slopes over y_a and y_b [kg/s]
 };
+using SlopedFlow = SlopedFlowOf<double>;
 
 namespace slopes {
 
@@ -77,6 +80,44 @@ inline SlopedFlow downhill_pipe(const HoseConstants& c, double up, double down) 
 inline SlopedFlow sloped_flow_y(const FlowConstants& c, double y_a, double y_b) {
   return slopes::both_ways(y_a, y_b,
                            [&](double up, double down) { return slopes::downhill(c, up, down); });
+}
+
+// flow_y with its slopes, of lanes. What no lane needs is left out.
+template <class S>
+[[gnu::always_inline]] inline SlopedFlowOf<S> sloped_flow_side_by_side(const FlowConstantsOf<S>& c,
+                                                                       const S& y_a, const S& y_b) {
+  const auto forward = y_a >= y_b, iso = c.iso > 0.0;
+  const S up = units::select(forward, y_a, y_b), down = units::select(forward, y_b, y_a);
+  const S up2 = up * up, down2 = down * down;
+  const S up6 = up2 * up2 * up2, down6 = down2 * down2 * down2;
+  const S p_up = up6 * up, p_down = down6 * down;
+  S flow = c.linear_gain * (p_up - p_down);
+  S by_up = (7.0 * c.linear_gain) * up6, by_down = (-7.0 * c.linear_gain) * down6;
+  const auto by_law = !(down > c.linear_from * up);
+  if (const auto of_iso = by_law & iso; units::any(of_iso)) {
+    const S over = p_down - c.choke * p_up, share = units::max(over, 0.0) * c.spread;
+    const S inside = p_up * p_up - share * share;
+    const S root = units::sqrt(units::max(inside, 0.0));
+    const S gain = units::select(over > 0.0, c.gain, c.choked_gain);
+    const S steep = units::select(root > 0.0, 7.0 * gain / root, 0.0);
+    flow = units::select(of_iso, gain * root, flow);
+    by_up = units::select(of_iso, steep * (p_up + share * c.choke * c.spread) * up6, by_up);
+    by_down = units::select(of_iso, -steep * share * c.spread * down6, by_down);
+  }
+  if (const auto of_orifice = by_law & !iso; units::any(of_orifice)) {
+    const S limit = c.choke * up, d = units::max(limit, down), d2 = d * d;
+    const auto free = down > limit;
+    const S inside = up2 - d2, root = units::sqrt(units::max(inside, 0.0));
+    const S one = units::select(free, c.gain, c.choked_gain) * (d2 * d2 * d * up) * root;
+    const S less = units::select(free & (inside > 0.0), one / inside, 0.0);
+    flow = units::select(of_orifice, one, flow);
+    const S scaled = one / up;
+    by_up = units::select(of_orifice, units::select(free, scaled + less * up, 7.0 * scaled), by_up);
+    by_down = units::select(of_orifice, units::select(free, 5.0 * one / down - less * down, 0.0),
+                            by_down);
+  }
+  return {units::select(forward, flow, -flow), units::select(forward, by_up, -by_down),
+          units::select(forward, by_down, -by_up)};
 }
 
 // hose_flow_y with its slopes.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -42,6 +43,31 @@ TEST_F(Slopes, OfEveryValveLaw) {
       const double a = y(), b = k % 4 == 0 ? a * (1 + 1e-4 * (y() - 1.1)) : y();
       expect_slopes([&](double ya, double yb) { return flow_y(c, ya, yb); },
                     [&](double ya, double yb) { return sloped_flow_y(c, ya, yb); }, a, b, c.gain);
+    }
+  }
+}
+
+TEST_F(Slopes, SideBySideAreThoseOfEachLane) {
+  using S = units::Pack<4>;
+  const Flow orifice{.area = 1e-6}, rounded{.law = Flow::Law::appendix_a, .area = 1e-6};
+  const Flow iso{
+      .law = Flow::Law::iso6358, .sonic_conductance = 2e-9, .critical_pressure_ratio = 0.3};
+  const std::array<FlowConstants, 4> each{flow_constants(orifice, air_), flow_constants(iso, air_),
+                                          flow_constants(rounded, air_), flow_constants(iso, air_)};
+  const auto c = units::side_by_side<FlowConstantsOf<S>>(each);
+  for (int k = 0; k < 2000; ++k) {
+    S a, b;
+    for (int lane = 0; lane < 4; ++lane) {
+      a.set(lane, y());
+      b.set(lane, k % 4 == 0 ? a[lane] * (1 + 1e-4 * (y() - 1.1)) : y());
+    }
+    const SlopedFlowOf<S> all = sloped_flow_side_by_side(c, a, b);
+    for (int lane = 0; lane < 4; ++lane) {
+      const FlowConstants& one = each[static_cast<std::size_t>(lane)];
+      const SlopedFlow f = sloped_flow_y(one, a[lane], b[lane]);
+      EXPECT_NEAR(all.flow[lane], f.flow, 1e-12 * one.gain);
+      EXPECT_NEAR(all.by_a[lane], f.by_a, 1e-12 * (one.gain + std::abs(f.by_a)));
+      EXPECT_NEAR(all.by_b[lane], f.by_b, 1e-12 * (one.gain + std::abs(f.by_b)));
     }
   }
 }
