@@ -19,6 +19,7 @@
 #include "sinew/run/folder/runnable.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
+#include "sinew/run/stand/run.h"
 #include "sinew/tune/study.h"
 
 namespace sinew::cli {
@@ -74,20 +75,23 @@ void tell_of_sources(const Problems& unsourced, Finding& out) {
                                        fmt::join(list, ", ")));
 }
 
+// Tells what breaks and when, and warns of what changes nothing: why(fault).
+template <class Why>
+void tell_of_faults(const std::string& path, const std::vector<experiment::Fault>& faults, Why why,
+                    Finding& out) {
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    out.faults.push_back(experiment::in_words(faults[i]));
+    if (const std::string idle = why(faults[i]); !idle.empty())
+      out.warnings.push_back(fmt::format("{}: fault[{}] never acts: {}", path, i, idle));
+  }
+}
+
 void check_rig(const std::string& path, Finding& out) {
   const rig::Experiment e = run::runnable_on_stand(path, {});
   out.add(e.warnings, out.warnings);
   tell_of_sources(e.unsourced, out);
-}
-
-// Tells what breaks and when, and warns of what breaks only after the run has ended.
-void tell_of_faults(const experiment::Experiment& e, Finding& out) {
-  for (std::size_t i = 0; i < e.faults.size(); ++i) {
-    out.faults.push_back(experiment::in_words(e.faults[i]));
-    const std::string why = why_idle(e, e.faults[i], experiment::last_tick(e));
-    if (!why.empty())
-      out.warnings.push_back(fmt::format("{}: fault[{}] never acts: {}", e.path, i, why));
-  }
+  const auto why = [&](const experiment::Fault& f) { return why_idle(f, rig::last_tick(e)); };
+  tell_of_faults(path, e.faults, why, out);
 }
 
 void check_machine(const std::string& path, Finding& out) {
@@ -102,7 +106,11 @@ void check_machine(const std::string& path, Finding& out) {
   const experiment::Experiment& e = file.experiment;
   out.add(e.warnings, out.warnings);
   tell_of_sources(e.unsourced, out);
-  if (runs) tell_of_faults(e, out);
+  if (!runs) return;
+  const auto why = [&](const experiment::Fault& f) {
+    return why_idle(e, f, experiment::last_tick(e));
+  };
+  tell_of_faults(e.path, e.faults, why, out);
 }
 
 Finding check(const std::string& path) {

@@ -20,6 +20,8 @@ namespace fs = std::filesystem;
 struct Options {
   std::string file, out;
   tune::Study study;  // what the command line says
+  std::string sample;
+  std::optional<int> sample_seed;
   int halvings = -1, threads = 0;
   bool force = false, json = false, quiet = false;
 };
@@ -36,10 +38,17 @@ tune::Sweep sweep_for(const Options& options) {
   };
   append(study.set, said.set);
   append(study.vary, said.vary);
+  append(study.range, said.range);
   append(study.where, said.where);
   append(study.report, said.report);
   if (!said.largest.empty()) study.largest = said.largest;
   if (said.seeds > 0) study.seeds = said.seeds;
+  if (said.points > 0) study.points = said.points;
+  using Kind = tune::Sample::Kind;
+  if (options.sample == "sobol") study.sample = Kind::sobol;
+  if (options.sample == "latin") study.sample = Kind::latin;
+  if (options.sample == "random") study.sample = Kind::random;
+  if (options.sample_seed) study.sample_seed = *options.sample_seed;
   if (options.halvings >= 0) study.halvings = options.halvings;
   study.allow_unreachable = study.allow_unreachable || said.allow_unreachable;
   return tune::sweep_of(study);
@@ -111,6 +120,17 @@ void add_words(Command sub, const char* name, std::vector<std::string>& words,
   sub.add_option(name, words, description).takes_one();
 }
 
+void add_sample(CLI::App& sub, Options& options) {
+  add_words(sub, "--range", options.study.range,
+            "KEY=from:to unit, sampled; with \"log\" or \"whole\" behind it; repeated");
+  sub.add_option("--points", options.study.points, "of the sample, each a row or more")
+      ->check(CLI::Range(1, 1000000));
+  sub.add_option("--sample", options.sample, "how the points lie: sobol, latin, random; sobol")
+      ->check(CLI::IsMember({"sobol", "latin", "random"}));
+  sub.add_option("--sample-seed", options.sample_seed, "other points of the same kind; 1")
+      ->check(CLI::Range(0, 2147483647));
+}
+
 }  // namespace
 
 void add_sweep(Command app, Action& action) {
@@ -123,10 +143,11 @@ void add_sweep(Command app, Action& action) {
       .required();
   add_words(sub, "--vary", options->study.vary,
             "KEY=a,b,c unit or KEY=from:to:how many unit; repeated: all combinations");
+  add_sample(sub, *options);
   sub.add_option("--seeds", options->study.seeds, "each point with the noise of seeds 1 … N")
       .is_between(1, 10000);
   add_words(sub, "--report", options->study.report,
-            "keys of summary.json, with commas: key, or key [unit]");
+            "keys of summary.json, with commas: key, or key [unit]; else what is reported of it");
   sub.add_option("--largest", options->study.largest,
                  "the largest value of one more key for which --where holds; written like --vary");
   add_words(sub, "--where", options->study.where,

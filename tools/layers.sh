@@ -71,7 +71,8 @@ libraries='
     mujoco/         sinew/plant/mujoco
     cvode/          sinew/plant/slide
     CLI/            cli
-    boost/          sinew/live
+    boost/(asio|beast|system)  sinew/live
+    boost/random/   sinew/tune
     ceres/          sinew/identify/fit
     Eigen/          sinew/identify
 '

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/verdict/reported.fields.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/config/reader.h"
@@ -200,6 +201,7 @@ StandFile read_stand(const config::Node& root) {
   });
   reader.list({.name = "reported", .optional = true}, f.reported,
               [&](auto& g, Reported& r) { analysis::fields(g, r, f.atmosphere); });
+  read_faults(reader, f.faults);
   reader.finish_part();
   return f;
 }
@@ -208,6 +210,7 @@ Summary summarize(const signals::Table& table, const StandFile& file) {
   Summary summary;
   summary.title = file.title;
   summary.reproduces = file.reproduces;
+  summary.faults = file.faults;
   add_sweep(table, summary);
   const signals::Series* rows = table.find("/true/stand/length");
   summary.warnings = texts(warnings(table, summary));
@@ -215,6 +218,7 @@ Summary summarize(const signals::Table& table, const StandFile& file) {
   Log log{table, file, summary, Column(rows->time_ns.file())};
   for (const std::int64_t ns : rows->time_ns)
     log.time.push_back(seconds_per_ns * static_cast<double>(ns));
+  summary.faults = begun_by(file.faults, log.time.back());
   add_stand(log);
   add_swing(log);
   add_pulsed(log);

@@ -28,6 +28,7 @@ struct StandFile {
   std::string drive = "none";             // its kind
   double period = 0.04;                   // of the drive [s]
   std::vector<Reported> reported;
+  std::vector<MachineFault> faults;
 };
 
 // Throws config::Error with everything that is wrong in what is read.

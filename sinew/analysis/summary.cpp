@@ -8,17 +8,6 @@
 
 namespace sinew::analysis {
 
-namespace {
-
-std::vector<MachineFault> faults_within(const Record& record, const Machine& machine) {
-  std::vector<MachineFault> out = machine.faults;
-  const double last = record.time(record.rows() - 1);
-  std::erase_if(out, [&](const MachineFault& f) { return f.begin > last; });
-  return out;
-}
-
-}  // namespace
-
 Summary summarize(const signals::Table& table, const Machine& machine) {
   const signals::Table derived = derive(table, machine);
   const Record record(table, machine, &derived);
@@ -27,7 +16,7 @@ Summary summarize(const signals::Table& table, const Machine& machine) {
   summary.reproduces = machine.reproduces;
   summary.warnings = texts(warnings(table, machine));
   if (record.rows() == 0) return summary;
-  summary.faults = faults_within(record, machine);
+  summary.faults = begun_by(machine.faults, record.time(record.rows() - 1));
 
   Figures figures{machine, record, summary};
   add_run(figures);
@@ -58,7 +47,7 @@ Summary summarize_trip(const signals::Table& table, const Machine& machine) {
   summary.title = machine.title;
   summary.warnings = texts(warnings(table, machine));
   if (record.rows() == 0) return summary;
-  summary.faults = faults_within(record, machine);
+  summary.faults = begun_by(machine.faults, record.time(record.rows() - 1));
   Figures figures{machine, record, summary};
   add_supervision(figures);
   return summary;

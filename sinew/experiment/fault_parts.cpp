@@ -23,14 +23,13 @@ constexpr std::array muscle_words = {FaultWord{What::leaking, "leaking"},
                                      FaultWord{What::blocked, "blocked"}};
 constexpr std::array supply_words = {FaultWord{What::failed, "failed"}};
 
-// A thing that can break.
-FaultPart::Kind kind_of_valve(const Experiment& e, const std::string& valve) {
-  for (const gas::Valve& v : e.valves)
-    if (v.name == valve && v.kind == gas::Valve::Kind::regulator) return FaultPart::Kind::regulator;
+}  // namespace
+
+FaultPart::Kind kind_of_valve(std::span<const gas::Valve> valves, const std::string& name) {
+  for (const gas::Valve& v : valves)
+    if (v.name == name && v.kind == gas::Valve::Kind::regulator) return FaultPart::Kind::regulator;
   return FaultPart::Kind::valve;
 }
-
-}  // namespace
 
 std::span<const FaultWord> words_of(FaultPart::Kind kind) {
   using enum FaultPart::Kind;
@@ -58,8 +57,8 @@ std::vector<FaultPart> fault_parts(const Experiment& e) {
   };
   const auto add_pair = [&](const std::string& of, const std::string& inlet,
                             const std::string& exhaust, std::size_t index) {
-    add(of + ".inlet", kind_of_valve(e, inlet), index);
-    if (!exhaust.empty()) add(of + ".exhaust", kind_of_valve(e, exhaust), index + 1);
+    add(of + ".inlet", kind_of_valve(e.valves, inlet), index);
+    if (!exhaust.empty()) add(of + ".exhaust", kind_of_valve(e.valves, exhaust), index + 1);
   };
   for (std::size_t s = 0; s < e.robot.sensors.size(); ++s)
     add(e.robot.sensors[s].name, FaultPart::Kind::sensor, s);

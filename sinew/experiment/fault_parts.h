@@ -13,7 +13,8 @@
 namespace sinew::experiment {
 
 struct FaultPart {
-  enum class Kind { sensor, valve, regulator, muscle, supply };
+  // transducer: a sensor of the test stand, which none of the words is for
+  enum class Kind { sensor, valve, regulator, muscle, supply, transducer };
   std::string name;
   Kind kind = Kind::sensor;
   int index = 0;  // of its kind; valves: 2 x muscle + (0 inlet | 1 exhaust), the cylinder's behind
@@ -21,6 +22,9 @@ struct FaultPart {
 
 // Returns every part, by the name that a fault's `of` gives it.
 std::vector<FaultPart> fault_parts(const Experiment& experiment);
+
+// Returns what a valve is to the list [[fault]], by its name among `valves`.
+FaultPart::Kind kind_of_valve(std::span<const gas::Valve> valves, const std::string& name);
 
 // Returns the part of that name, of several the one that the fault's word is for.
 std::optional<FaultPart> part_of(const Fault& fault, const std::vector<FaultPart>& parts);

@@ -33,6 +33,10 @@ robot::Contradiction wrong_word(const std::string& key, const Fault& fault, cons
   if (part.kind == FaultPart::Kind::regulator)
     return {key + ".of", config::in_quotes(fault.of) + ", a regulator",
             "a valve with a shutter, which can stick or leak", "a leak of its muscle"};
+  if (part.kind == FaultPart::Kind::transducer)
+    return {key + ".of", config::in_quotes(fault.of) + ", a transducer of the test stand",
+            "a part of its air: only that breaks on a test stand",
+            "sensor." + fault.of + ".offset, .scale or .noise"};
   std::vector<std::string_view> words;
   for (const FaultWord& w : words_of(part.kind)) words.push_back(w.text);
   const char* const names[] = {"a sensor", "a valve", "a regulator", "a muscle", "the supply"};
@@ -49,11 +53,11 @@ bool same_part(const Fault& a, const Fault& b) {
          (a.what == What::blocked) == (b.what == What::blocked);
 }
 
-void check_overlaps(const Experiment& e, List& out) {
+void check_overlaps(std::span<const Fault> faults, List& out) {
   const auto seconds = [](double t) { return config::format_number(t) + " s"; };
-  for (std::size_t i = 0; i < e.faults.size(); ++i)
+  for (std::size_t i = 0; i < faults.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
-      const Fault &a = e.faults[k], &b = e.faults[i];
+      const Fault &a = faults[k], &b = faults[i];
       if (!same_part(a, b) || end_of(a) <= b.at || end_of(b) <= a.at) continue;
       const bool ends = std::isfinite(a.lasts) && a.at <= b.at;
       out.push_back({fmt::format("fault[{}].at", i), seconds(b.at),
@@ -75,10 +79,10 @@ signals::Tick next_reading(const Experiment& e, const std::string& sensor, doubl
 
 }  // namespace
 
-void check_faults(const Experiment& e, List& out) {
-  const std::vector<FaultPart> parts = fault_parts(e);
-  for (std::size_t i = 0; i < e.faults.size(); ++i) {
-    const Fault& f = e.faults[i];
+void check_faults(std::span<const Fault> faults, const std::vector<FaultPart>& parts, List& out) {
+  const std::size_t before = out.size();
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    const Fault& f = faults[i];
     const std::string key = fmt::format("fault[{}]", i);
     const std::optional<FaultPart> part = part_of(f, parts);
     if (!part) {
@@ -94,14 +98,20 @@ void check_faults(const Experiment& e, List& out) {
                      "at most " + config::format_quantity(widest_seat, "m2", "mm2") +
                          ", as no seat of a valve is wider",
                      "share = \"100 %\""});
-    } else if (part->kind == FaultPart::Kind::supply && e.robot.cylinder.present &&
-               e.robot.cylinder.mode == robot::Cylinder::Mode::regulator) {
-      out.push_back({key + ".of", "the supply of a cylinder behind a regulator",
-                     "a robot whose cylinder has valves or is locked",
-                     "cylinder.mode = \"locked\""});
     }
   }
-  if (out.empty()) check_overlaps(e, out);
+  if (out.size() == before) check_overlaps(faults, out);
+}
+
+void check_faults(const Experiment& e, List& out) {
+  check_faults(e.faults, fault_parts(e), out);
+  const bool prescribed =
+      e.robot.cylinder.present && e.robot.cylinder.mode == robot::Cylinder::Mode::regulator;
+  for (std::size_t i = 0; prescribed && i < e.faults.size(); ++i)
+    if (e.faults[i].what == What::failed)
+      out.push_back({fmt::format("fault[{}].of", i), "the supply of a cylinder behind a regulator",
+                     "a robot whose cylinder has valves or is locked",
+                     "cylinder.mode = \"locked\""});
 }
 
 std::string topic_of(const Fault& f) {
@@ -111,6 +121,22 @@ std::string topic_of(const Fault& f) {
   const std::size_t dot = f.of.rfind('.');
   if (dot == f.of.npos) return "/true/muscle/" + f.of + "/fault";
   return "/true/valve/" + f.of.substr(0, dot) + "/" + f.of.substr(dot + 1) + "/fault";
+}
+
+bool FaultsOfPart::acted(double time, double period) const {
+  return std::ranges::any_of(
+      faults, [&](const Fault& f) { return f.at <= time && !(time - period >= f.at + f.lasts); });
+}
+
+std::vector<FaultsOfPart> by_part(std::span<const Fault> faults) {
+  std::vector<FaultsOfPart> out;
+  for (const Fault& f : faults) {
+    const std::string topic = topic_of(f);
+    auto part = std::ranges::find(out, topic, &FaultsOfPart::topic);
+    if (part == out.end()) part = out.insert(out.end(), {topic, {}});
+    part->faults.push_back(f);
+  }
+  return out;
 }
 
 std::string in_words(const Fault& f) {
@@ -128,11 +154,15 @@ std::string in_words(const Fault& f) {
   return out + (std::isfinite(f.lasts) ? fmt::format(" to {:.10g} s", end_of(f)) : " on");
 }
 
-std::string why_idle(const Experiment& e, const Fault& f, signals::Tick end) {
+std::string why_idle(const Fault& f, signals::Tick end) {
   const double ends = static_cast<double>(end) * signals::tick_seconds;
   if (f.at > ends)
     return fmt::format("it begins at {:.6g} s, the run ends at {:.4f} s", f.at, ends);
-  if (f.amount == 0) return "its amount is 0";
+  return f.amount == 0 ? "its amount is 0" : "";
+}
+
+std::string why_idle(const Experiment& e, const Fault& f, signals::Tick end) {
+  if (std::string why = why_idle(f, end); !why.empty()) return why;
   if (!is_of_sensor(f.what) || robot::find_sensor(e.robot, f.of) < 0) return "";
   const signals::Tick reading = next_reading(e, f.of, f.at);
   if (reading <= end && acts(f, static_cast<double>(reading) * signals::tick_seconds)) return "";

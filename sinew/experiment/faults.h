@@ -2,10 +2,12 @@
 // how it is told.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "sinew/experiment/experiment.h"
+#include "sinew/experiment/fault_parts.h"
 #include "sinew/robot/robot.h"
 #include "sinew/signals/tick.h"
 
@@ -15,8 +17,29 @@ namespace sinew::experiment {
 // air at a time.
 void check_faults(const Experiment& experiment, std::vector<robot::Contradiction>& out);
 
+// The same of the faults of a machine with these parts.
+void check_faults(std::span<const Fault> faults, const std::vector<FaultPart>& parts,
+                  std::vector<robot::Contradiction>& out);
+
 // Returns where the log has whether a fault acts, "/true/valve/hip_flexor/inlet/fault".
 std::string topic_of(const Fault& fault);
+
+// The faults of one part, by their topic in the log.
+struct FaultsOfPart {
+  std::string topic;
+  std::vector<Fault> faults;
+
+  // Answers whether one of them acts at a time or has acted in the period before it [s]: a part of
+  // the air may be broken for less than a sample.
+  bool acted(double time, double period) const;
+};
+
+// Describes that topic for a part of the air.
+inline constexpr const char* fault_description =
+    "1 where one of the experiment's acts or has acted since the last sample";
+
+// Returns the faults by their parts, in the order of the list.
+std::vector<FaultsOfPart> by_part(std::span<const Fault> faults);
 
 // "hip_flexor.inlet stuck open from 3 s to 3.2 s", "hip_flexor leaking (0.1 mm2) from 1 s on".
 std::string in_words(const Fault& fault);
@@ -24,5 +47,8 @@ std::string in_words(const Fault& fault);
 // Returns why a fault changes nothing of a run that ends at `end`, at a tick: it begins too late,
 // its amount is 0, or it falls between two readings of its sensor. Empty: it acts.
 std::string why_idle(const Experiment& experiment, const Fault& fault, signals::Tick end);
+
+// The same of a fault that acts whenever its time comes.
+std::string why_idle(const Fault& fault, signals::Tick end);
 
 }  // namespace sinew::experiment

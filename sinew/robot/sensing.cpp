@@ -1,19 +1,10 @@
 #include "sinew/robot/sensing.h"
 
+#include "sinew/units/mix.h"
+
 namespace sinew::robot {
-namespace {
 
-// A mixer with full avalanche: every input bit flips half of the output's.
-std::uint64_t mix(std::uint64_t x) {
-  x ^= x >> 32;
-  x *= 0xd6e8feb86659fd93ull;
-  x ^= x >> 32;
-  x *= 0xd6e8feb86659fd93ull;
-  x ^= x >> 32;
-  return x;
-}
-
-}  // namespace
+using units::mix;
 
 double noise(std::uint64_t seed, int sensor, signals::Tick tick) {
   const std::uint64_t key =

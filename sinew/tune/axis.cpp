@@ -70,28 +70,43 @@ void add_list(Axis& axis, const std::vector<std::string_view>& items, std::strin
   }
 }
 
-// from : to : how many, each may say the unit.
-void add_range(Axis& axis, std::string_view text, std::string_view setting) {
-  const std::string example = fmt::format("\"{}=0:1:5 unit\"", axis.key);
-  std::vector<Number> parts;
+// How numbers between colons are written.
+struct Form {
+  std::string_view setting;
+  std::size_t parts = 0;
+  std::string_view words;  // "from:to:how many"
+  std::string example;
+};
+
+// Numbers between colons, the first two of them different; each may say the unit.
+std::vector<double> between_colons(Axis& axis, std::string_view text, const Form& form) {
+  std::vector<double> out;
   for (std::string_view rest = text;;) {
     const std::size_t colon = rest.find(':');
     const auto part = number_in(trimmed(rest.substr(0, colon)));
-    if (!part) refuse(setting, text, "from:to:how many", example);
-    parts.push_back(*part);
+    if (!part) refuse(form.setting, text, std::string(form.words), form.example);
+    if (!part->unit.empty() && !axis.unit.empty() && axis.unit != part->unit)
+      refuse(form.setting, text, "one unit", form.example);
+    if (!part->unit.empty()) axis.unit = part->unit;
+    out.push_back(part->value);
     if (colon == rest.npos) break;
     rest.remove_prefix(colon + 1);
   }
-  if (parts.size() != 3) refuse(setting, text, "from:to:how many", example);
-  for (const Number& part : parts) {
-    if (part.unit.empty()) continue;
-    if (!axis.unit.empty() && axis.unit != part.unit) refuse(setting, text, "one unit", example);
-    axis.unit = part.unit;
-  }
-  const double from = parts[0].value, to = parts[1].value, n = parts[2].value;
+  if (out.size() != form.parts) refuse(form.setting, text, std::string(form.words), form.example);
+  return out;
+}
+
+void refuse_equal_ends(const std::vector<double>& ends, std::string_view text, const Form& form) {
+  if (ends[0] == ends[1]) refuse(form.setting, text, "two different ends", form.example);
+}
+
+void add_range(Axis& axis, std::string_view text, std::string_view setting) {
+  const Form form{setting, 3, "from:to:how many", fmt::format("\"{}=0:1:5 unit\"", axis.key)};
+  const std::vector<double> parts = between_colons(axis, text, form);
+  const double from = parts[0], to = parts[1], n = parts[2];
   if (n != std::floor(n) || n < 2 || n > most_values)
-    refuse(setting, text, "2 to 10000 values: from:to:how many", example);
-  if (from == to) refuse(setting, text, "two different ends", example);
+    refuse(setting, text, "2 to 10000 values: from:to:how many", form.example);
+  refuse_equal_ends(parts, text, form);
   for (double i = 0; i < n; ++i)
     axis.values.push_back(number_value(rounded(from + i * (to - from) / (n - 1)), axis.unit));
 }
@@ -143,6 +158,19 @@ Axis parse_axis(std::string_view text, std::string_view setting) {
   } else {
     add_list(axis, items, text, setting);
   }
+  return axis;
+}
+
+Axis parse_ends(std::string_view text, std::string_view setting, const std::string& example) {
+  const std::size_t equals = text.find('=');
+  Axis axis{.key = std::string(trimmed(text.substr(0, equals))), .unit = {}, .values = {}};
+  const Form form{setting, 2, "KEY=from:to and the unit", example};
+  if (equals == text.npos || axis.key.empty())
+    refuse(setting, text, std::string(form.words), example);
+  const std::string_view ends = trimmed(text.substr(equals + 1));
+  const std::vector<double> numbers = between_colons(axis, ends, form);
+  refuse_equal_ends(numbers, ends, form);
+  for (const double number : numbers) axis.values.push_back(number_value(number, axis.unit));
   return axis;
 }
 

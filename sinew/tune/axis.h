@@ -31,6 +31,10 @@ struct Axis {
 // Throws config::Error that begins with `setting`.
 Axis parse_axis(std::string_view text, std::string_view setting = "vary");
 
+// Parses "KEY=from:to unit": an axis of these two values. Throws config::Error that begins with
+// `setting`; `example` is what it suggests.
+Axis parse_ends(std::string_view text, std::string_view setting, const std::string& example);
+
 // seed = 1 … n: the experiment's noise.
 Axis seeds(int n);
 

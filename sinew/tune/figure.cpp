@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "sinew/analysis/verdict/reported.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
@@ -50,6 +52,15 @@ std::string Figure::cell(const analysis::Summary& summary, double atmosphere) co
 std::vector<Figure> parse_figures(std::string_view text, std::string_view setting) {
   std::vector<Figure> out;
   for (const std::string_view part : list_of(text)) out.push_back(parse_figure(part, setting));
+  return out;
+}
+
+std::vector<Figure> reported_figures(const std::vector<config::Reported>& reported,
+                                     double atmosphere) {
+  std::vector<Figure> out;
+  for (const config::Reported& r : reported)
+    if (std::ranges::find(out, r.key, &Figure::key) == out.end())
+      out.push_back({r.key, analysis::spoken_unit(r, atmosphere)});
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sinew/analysis/summary.h"
+#include "sinew/config/reported.h"
 #include "sinew/units/constants.h"
 
 namespace sinew::tune {
@@ -27,6 +28,10 @@ struct Figure {
 
 // "key", "key [unit]", several with commas. Throws config::Error that begins with `setting`.
 std::vector<Figure> parse_figures(std::string_view text, std::string_view setting = "report");
+
+// Returns the figures that sources report of an experiment, each key once, in the source's unit.
+std::vector<Figure> reported_figures(const std::vector<config::Reported>& reported,
+                                     double atmosphere = units::atmosphere);
 
 struct Condition {
   enum class Is { below, at_most, above, at_least };

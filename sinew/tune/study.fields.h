@@ -15,6 +15,17 @@ void fields(Visitor& v, Study& s) {
   v.texts({.name = "set", .optional = true, .doc = "key=value, for every run"}, s.set);
   v.texts({.name = "vary", .optional = true, .doc = "KEY=a,b,c unit or KEY=from:to:n unit"},
           s.vary);
+  v.texts({.name = "range", .optional = true, .doc = "KEY=from:to unit [log|whole], sampled"},
+          s.range);
+  v.choice({.name = "sample", .optional = true, .doc = "how points lie between the ranges' ends"},
+           s.sample,
+           {{"sobol", Sample::Kind::sobol},
+            {"latin", Sample::Kind::latin},
+            {"random", Sample::Kind::random}});
+  v.integer({.name = "points", .min = 0, .max = 1000000, .optional = true, .doc = "of the sample"},
+            s.points);
+  v.integer({.name = "sample_seed", .min = 0, .optional = true, .doc = "of the sample's points"},
+            s.sample_seed);
   v.integer({.name = "seeds", .min = 0, .max = 10000, .optional = true, .doc = "runs per point"},
             s.seeds);
   v.text({.name = "largest", .optional = true, .doc = "like vary: the key that is searched"},

@@ -19,8 +19,12 @@ struct Study {
   std::string title;
   std::string reproduces;
   std::string experiment;  // relative to the file
-  std::vector<std::string> set, vary, where, report;
-  std::string largest;  // empty: every point is one run
+  std::vector<std::string> set, vary, where;
+  std::vector<std::string> report;  // empty: what is reported of the experiment
+  std::vector<std::string> range;   // sampled
+  Sample::Kind sample = Sample::Kind::sobol;
+  int points = 0, sample_seed = 1;  // of the sample
+  std::string largest;              // empty: every point is one run
   int halvings = 6;
   int seeds = 0;  // 0: the experiment's own seed
   bool allow_unreachable = false;
@@ -29,7 +33,8 @@ struct Study {
 // Throws config::Error with everything that is wrong with the file.
 Study load_study(const std::string& path);
 
-// Its words understood. Throws config::Error for those that cannot be.
+// Its words understood; the experiment is read where it says what is reported. Throws config::Error
+// for words that cannot be, and for such an experiment that is wrong.
 Sweep sweep_of(const Study&);
 
 }  // namespace sinew::tune

@@ -82,14 +82,27 @@ void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins
   check_values(s, axis, *origin, atmosphere);
 }
 
+// A key that takes whole numbers is found out by a value between the ends.
+void check_range(const Sweep& s, const Range& range, const config::Origins& origins,
+                 double atmosphere) {
+  if (range.axis.key == "robot" || range.axis.key == "experiment")
+    config::fail({range.axis.key, 0, 0}, "", "a range", "a list of files, in vary",
+                 "vary=\"" + range.axis.key + "=a.toml,b.toml\"");
+  check_axis(s, range.axis, origins, atmosphere);
+  const Axis between{range.axis.key, range.axis.unit, {range.at(0.4321)}};
+  check_axis(s, between, origins, atmosphere);
+}
+
 // Before they are in memory, and before their number is too large for one.
 void refuse_too_many(const Sweep& s) {
   double all = 1;
   std::string product;
-  for (const Axis& axis : s.axes) {
-    all *= static_cast<double>(axis.values.size());
-    product += fmt::format("{}{}", product.empty() ? "" : " x ", axis.values.size());
-  }
+  const auto times = [&](std::size_t count) {
+    all *= static_cast<double>(count);
+    product += fmt::format("{}{}", product.empty() ? "" : " x ", count);
+  };
+  if (s.sample) times(s.sample->points);
+  for (const Axis& axis : s.axes) times(axis.values.size());
   if (all <= static_cast<double>(most_points)) return;
   config::fail({"vary", 0, 0}, "", fmt::format("{} = {:.6g} points", product, all),
                fmt::format("at most {}", most_points),
@@ -114,9 +127,36 @@ struct Point {
   std::vector<std::string> sets, cells;
 };
 
-Point point_of(const Sweep& s, std::size_t index) {
+// The points of a sweep by their number; the sample's shares are drawn once.
+class Points {
+ public:
+  explicit Points(const Sweep& s)
+      : sweep_(s), shares_(s.sample ? shares(*s.sample) : std::vector<double>{}) {}
+
+  Point at(std::size_t index) const;
+
+ private:
+  void add_sampled(std::size_t index, Point& out) const;
+
+  const Sweep& sweep_;
+  std::vector<double> shares_;
+};
+
+void Points::add_sampled(std::size_t index, Point& out) const {
+  const std::vector<Range>& ranges = sweep_.sample->ranges;
+  for (std::size_t r = 0; r < ranges.size(); ++r) {
+    const Value value = ranges[r].at(shares_[index * ranges.size() + r]);
+    out.sets.push_back(ranges[r].axis.set(value));
+    out.cells.push_back(value.cell);
+  }
+}
+
+Point Points::at(std::size_t index) const {
+  const Sweep& s = sweep_;
   Point out{.experiment = s.experiment, .sets = s.sets, .cells = {}};
-  const std::vector<const Value*> values = Grid(s.axes).point(index);
+  const Grid grid(s.axes);
+  if (s.sample) add_sampled(index / grid.size(), out);
+  const std::vector<const Value*> values = grid.point(index % grid.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (s.axes[i].key == "experiment")
       out.experiment = beside(s, values[i]->text);
@@ -159,8 +199,7 @@ void add_report(const Sweep& s, const Ran& ran, std::vector<std::string>& cells)
     cells.push_back(ran.ok() ? figure.cell(ran.summary, ran.atmosphere) : "");
 }
 
-Row single(const Sweep& s, std::size_t index) {
-  Point point = point_of(s, index);
+Row single(const Sweep& s, std::size_t index, Point point) {
   const Ran ran = run_once(point.experiment, point.sets, s.allow_unreachable);
   if (index == 0 && ran.ok()) check_keys(s, ran.summary);
   add_report(s, ran, point.cells);
@@ -170,9 +209,8 @@ Row single(const Sweep& s, std::size_t index) {
 }
 
 // Keeps the run of the largest value that held.
-Row searched(const Sweep& s, std::size_t index) {
+Row searched(const Sweep& s, std::size_t index, Point point) {
   const Search& search = *s.largest;
-  Point point = point_of(s, index);
   Ran best, last;
   int runs = 0;
   const auto holds = [&](double number) {
@@ -209,7 +247,7 @@ Row searched(const Sweep& s, std::size_t index) {
 class Work {
  public:
   Work(const Sweep& s, const Options& options)
-      : sweep_(s), options_(options), rows_(points(s)), next_(0) {}
+      : sweep_(s), points_(s), options_(options), rows_(points(s)), next_(0) {}
 
   // Also the first one's refusal is thrown by the caller's thread.
   void first() { done(row(next_++)); }
@@ -236,7 +274,9 @@ class Work {
  private:
   bool stopped() const { return options_.stop && options_.stop->load(); }
   Row row(std::size_t index) const {
-    return sweep_.largest ? searched(sweep_, index) : single(sweep_, index);
+    Point point = points_.at(index);
+    return sweep_.largest ? searched(sweep_, index, std::move(point))
+                          : single(sweep_, index, std::move(point));
   }
   void done(Row row) {
     const std::lock_guard lock(mutex_);
@@ -248,6 +288,7 @@ class Work {
   }
 
   const Sweep& sweep_;
+  const Points points_;
   const Options& options_;
   std::vector<std::optional<Row>> rows_;
   std::atomic<std::size_t> next_;
@@ -273,6 +314,8 @@ void check(const Sweep& s) {
   const config::Node root = config::compose(s.experiment, s.sets);
   const double atmosphere = config::atmosphere_of(root);
   const config::Origins origins = run::buildable(root, s.experiment).origins;
+  if (s.sample)
+    for (const Range& range : s.sample->ranges) check_range(s, range, origins, atmosphere);
   for (const Axis& axis : s.axes) check_axis(s, axis, origins, atmosphere);
   if (!s.largest) return;
   check_axis(s, s.largest->axis, origins, atmosphere);
@@ -284,6 +327,8 @@ void check(const Sweep& s) {
 
 std::vector<std::string> headings(const Sweep& s) {
   std::vector<std::string> out;
+  if (s.sample)
+    for (const Range& range : s.sample->ranges) out.push_back(range.axis.heading());
   for (const Axis& axis : s.axes) out.push_back(axis.heading());
   if (s.largest) out.push_back("largest " + s.largest->axis.heading());
   for (const Figure& figure : s.report) out.push_back(figure.heading());
@@ -292,7 +337,9 @@ std::vector<std::string> headings(const Sweep& s) {
   return out;
 }
 
-std::size_t points(const Sweep& s) { return Grid(s.axes).size(); }
+std::size_t points(const Sweep& s) {
+  return (s.sample ? s.sample->points : 1) * Grid(s.axes).size();
+}
 
 std::vector<Row> sweep(const Sweep& s, const Options& options) {
   check(s);

@@ -6,8 +6,9 @@
 //   sweep(s, {.threads = 2, .row = [](const Row& r) {...}});
 //
 // The axis `experiment` takes files beside the experiment's own, `robot` takes robots.
-// Each point of the grid is a run of its own. Rows come in the grid's order and are the same for
-// any number of threads. A run that cannot be, or that ends early, is a row that says so.
+// Each point of the grid is a run of its own; of a sample, each of its points with each of the
+// grid. Rows come in the grid's order, the grid counting faster than the sample, and are the same
+// for any number of threads. A run that cannot be, or that ends early, is a row that says so.
 #pragma once
 
 #include <atomic>
@@ -19,6 +20,7 @@
 
 #include "sinew/tune/axis.h"
 #include "sinew/tune/figure.h"
+#include "sinew/tune/sample.h"
 
 namespace sinew::tune {
 
@@ -32,6 +34,7 @@ struct Search {
 struct Sweep {
   std::string experiment;         // its file
   std::vector<std::string> sets;  // key=value, for every run
+  std::optional<Sample> sample;
   std::vector<Axis> axes;
   std::vector<Figure> report;
   std::optional<Search> largest;
@@ -39,7 +42,7 @@ struct Sweep {
 };
 
 struct Row {
-  std::size_t point = 0;           // of the grid
+  std::size_t point = 0;           // of the sweep
   std::vector<std::string> cells;  // as many as headings(); empty: does not apply
   bool ok = false;                 // what the last cell, the status, says
   std::vector<std::string> lacks;  // of keys(), what the summary of its run does not have

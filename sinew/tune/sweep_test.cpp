@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/simulation/run.h"
@@ -67,6 +68,48 @@ TEST(Sweep, ARowIsWhatTheSingleRunSays) {
   for (std::size_t i = 0; i < s.report.size(); ++i)
     EXPECT_EQ(row.cells[2 + i], s.report[i].cell(run)) << s.report[i].key;
   EXPECT_EQ(std::stod(row.cells[2]), *run.find("joints.hip.tracking_rms_rad")) << "bit for bit";
+}
+
+// Each point of the sample with each of the grid, which counts faster.
+TEST(Sweep, ASampleIsTheSameForAnyNumberOfThreadsAndAsSingleRuns) {
+  Sweep s = gains();
+  s.axes = {seeds(2)};
+  s.sample = Sample{Sample::Kind::latin,
+                    {parse_range("joint.hip.angle_gain=0.01:0.04 %/count log"),
+                     parse_range("control.stiffness.hip=20:40 lbf in/rad")},
+                    5,
+                    3};
+  const std::string alone = table(s, 1);
+  EXPECT_EQ(std::count(alone.begin(), alone.end(), '\n'), 11);
+  for (int threads : {2, 7}) EXPECT_EQ(table(s, threads), alone) << threads;
+
+  const std::vector<Row> rows = sweep(s, {.threads = 2});
+  ASSERT_EQ(rows.size(), 10U);
+  EXPECT_EQ(headings(s)[1], "control.stiffness.hip [lbf in/rad]");
+  EXPECT_EQ(rows[6].cells[0], rows[7].cells[0]);
+  EXPECT_NE(rows[7].cells[0], rows[8].cells[0]);
+  const std::vector<std::string>& cells = rows[7].cells;
+  EXPECT_EQ(cells[2], "2") << "its seed";
+  const analysis::Summary run =
+      single_run({"joint.hip.angle_gain=" + cells[0] + " %/count",
+                  "control.stiffness.hip=" + cells[1] + " lbf in/rad", "seed=2"});
+  EXPECT_EQ(std::stod(cells[3]), *run.find("joints.hip.tracking_rms_rad")) << "bit for bit";
+}
+
+TEST(Sweep, RefusesARangeThatTheExperimentDoesNotKnow) {
+  const auto of = [](const char* range) {
+    return message([=] {
+      check(
+          {.experiment = lever, .sample = Sample{Sample::Kind::sobol, {parse_range(range)}, 4, 1}});
+    });
+  };
+  EXPECT_EQ(of("phase.up.duration=1:2 s"), "");
+  EXPECT_EQ(of("seed=1:9 whole"), "");
+  EXPECT_NE(of("phase.up.duration=1:2 lb").find("\"1 lb\", kg (mass)"), std::string::npos);
+  EXPECT_NE(of("joint.arm.angle_gian=1:2 %/count").find("did you mean"), std::string::npos);
+  EXPECT_NE(of("seed=1:9").find("expected a whole number"), std::string::npos);
+  EXPECT_NE(of("robot=1:9").find("a list of files, in vary"), std::string::npos);
+  EXPECT_NE(of("seed=1:3000000000 whole").find("0 to 2147483647"), std::string::npos);
 }
 
 // What differs in many keys differs by its file.
@@ -207,6 +250,32 @@ TEST_F(Plan, NamesItsExperimentFromWhereItStands) {
   EXPECT_EQ(load_study(name).experiment, expected.string());
 }
 
+// Without words of its own a plan reports what sources do, each key once and in their unit.
+TEST_F(Plan, ReportsWhatIsReported) {
+  const std::string start = "format = \"sinew.plan/1\"\ntitle = \"t\"\nexperiment = \"" + root +
+                            "/experiments/walk-test-1.toml\"\n";
+  const Sweep s = sweep_of(load_study(file(start)));
+  const experiment::Experiment e = experiment::load(s.experiment);
+  std::set<std::string> keys;
+  for (const config::Reported& r : e.reported) keys.insert(r.key);
+  ASSERT_EQ(s.report.size(), keys.size());
+  const auto distance = std::ranges::find(s.report, "trolley.distance_m", &Figure::key);
+  ASSERT_NE(distance, s.report.end());
+  EXPECT_EQ(distance->unit, "in");
+  EXPECT_EQ(sweep_of(load_study(file(start + "report = [\"duration_s\"]\n"))).report.size(), 1U);
+}
+
+TEST_F(Plan, Samples) {
+  const std::string name = file("format = \"sinew.plan/1\"\ntitle = \"s\"\nexperiment = \"" + leg +
+                                "\"\nrange = [\"joint.hip.angle_gain=0.01:0.04 %/count log\"]\n"
+                                "sample = \"random\"\npoints = 12\nsample_seed = 4\nseeds = 2\n");
+  const Sweep s = sweep_of(load_study(name));
+  ASSERT_TRUE(s.sample);
+  EXPECT_EQ(s.sample->kind, Sample::Kind::random);
+  EXPECT_EQ(s.sample->seed, 4U);
+  EXPECT_EQ(points(s), 24U);
+}
+
 TEST_F(Plan, SaysWhatIsWrong) {
   const std::string start = "format = \"sinew.plan/1\"\ntitle = \"t\"\nexperiment = \"e.toml\"\n";
   const auto of = [&](const std::string& text) {
@@ -218,6 +287,15 @@ TEST_F(Plan, SaysWhatIsWrong) {
   EXPECT_NE(of(start + "where = [\"passiveness > 0.5\"]\n").find("largest value"),
             std::string::npos);
   EXPECT_NE(of(start + "largest = \"k=1:2:3 m\"\n").find("nothing that must hold"),
+            std::string::npos);
+  EXPECT_NE(of(start + "points = 5\n").find("ranges to sample from"), std::string::npos);
+  EXPECT_NE(of(start + "range = [\"k=1:2 m\"]\n").find("how many points"), std::string::npos);
+  EXPECT_NE(of(start + "range = [\"k=1:2 m\", \"k=1:3 m\"]\npoints = 2\n").find("given twice"),
+            std::string::npos);
+  EXPECT_NE(
+      of(start + "range = [\"k=1:2 m\"]\nvary = [\"k=1,2 m\"]\npoints = 2\n").find("given twice"),
+      std::string::npos);
+  EXPECT_NE(of(start + "sample = \"halton\"\n").find("\"sobol\", \"latin\" or \"random\""),
             std::string::npos);
   EXPECT_NE(of("format = \"sinew.valves/1\"\n").find("\"sinew.plan/1\""), std::string::npos);
 }

@@ -176,15 +176,78 @@ TEST(Faults, OnePartOfTheAirBreaksOnceAtATime) {
                 "1 s on; flexor blocked from 1 s on; flexor.inlet stuck shut from 1.5 s on"));
 }
 
-TEST(Faults, ATestStandSaysThatItTakesNone) {
+// Writes experiments/rig/<base>.toml with a list of faults.
+void write_stand(const Workspace& w, const std::string& list,
+                 const std::string& base = "pwm-25hz-5lb") {
+  write_text(w / "experiments/rig/x.toml",
+             "format = \"sinew.rig/1\"\nbase = \"" + base + ".toml\"\n" + list);
+}
+
+TEST(Faults, ATestStandsAirBreaks) {
   const Workspace w;
-  write_text(
-      w / "experiments/rig/x.toml",
-      "format = \"sinew.rig/1\"\nbase = \"pwm-25hz-5lb.toml\"\n" + of_air("inlet", "stuck open"));
-  const Result r = w.sinew({"check", "experiments/rig/x.toml"});
-  EXPECT_EQ(r.code, 1);
-  EXPECT_THAT(r.out, AllOf(HasSubstr("x.toml:3:"), HasSubstr("fault: found a list of faults"),
-                           HasSubstr("nothing of a test stand breaks while it runs")));
+  write_stand(w, of_air("bpa.inlet", "stuck shut", "for = \"0.2 s\"\n") +
+                     "[[fault]]\nat = \"1.5 s\"\nof = \"bpa\"\nwhat = \"leaking\"\n"
+                     "area = \"0.05 mm2\"\n" +
+                     "[[fault]]\nat = \"90 s\"\nof = \"supply\"\nwhat = \"failed\"\n");
+  const Result checked = w.sinew({"check", "experiments/rig/x.toml"});
+  EXPECT_EQ(checked.code, 0);
+  EXPECT_THAT(checked.out + checked.err,
+              AllOf(HasSubstr("3 faults: bpa.inlet stuck shut from 1 s to 1.2 s; bpa leaking (0.05 "
+                              "mm2) from 1.5 s on"),
+                    HasSubstr("fault[2] never acts: it begins at 90 s")));
+
+  const Result r = w.sinew({"run", "experiments/rig/x.toml", "-o", "run"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_THAT(r.err, HasSubstr("warning: fault[2] never acted: it begins at 90 s"));
+  const Json summary = Json::parse(read_text(w / "run/summary.json"));
+  EXPECT_EQ(summary["faults"],
+            Json::parse("[{\"of\": \"bpa.inlet\", \"what\": \"stuck shut\", \"begin_s\": 1, "
+                        "\"end_s\": 1.2}, {\"of\": \"bpa\", \"what\": \"leaking\", "
+                        "\"begin_s\": 1.5}]"));
+  const signals::Table log = log::read(w / "run/log.mcap");
+  const signals::Column& leaked = *log.column("/true/muscle/bpa/air_leaked");
+  const signals::Column& acts = *log.column("/true/muscle/bpa/fault");
+  const signals::Column& inlet = *log.column("/true/valve/bpa/inlet");
+  const signals::Times& time = log.find("/true/muscle/bpa/fault")->time_ns;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    EXPECT_EQ(acts[i], time[i] >= 1'500'000'000 ? 1.0 : 0.0) << time[i];
+    if (time[i] < 1'500'000'000) {
+      EXPECT_EQ(leaked[i], 0.0) << time[i];
+    }
+    if (time[i] > 1'000'000'000 && time[i] < 1'200'000'000) {
+      EXPECT_EQ(inlet[i], 0.0) << time[i];
+    }
+  }
+  EXPECT_GT(leaked.back(), 1e-6);
+  EXPECT_THAT(read_text(w / "run/report.html"),
+              HasSubstr("\"faults\":[{\"of\":\"bpa.inlet\",\"what\":\"stuck shut\""));
+}
+
+TEST(Faults, WhatATestStandHasNotCannotBreak) {
+  const auto refused = [](const std::string& list, const std::string& base = "pwm-25hz-5lb") {
+    const Workspace w;
+    write_stand(w, list, base);
+    const Result r = w.sinew({"check", "experiments/rig/x.toml"});
+    EXPECT_EQ(r.code, 1) << list;
+    return r.out + r.err;
+  };
+  EXPECT_THAT(refused(of_air("inlet", "stuck open")),
+              AllOf(HasSubstr("x.toml:5:"), HasSubstr("fault[0].of: found \"inlet\""),
+                    HasSubstr("bpa.inlet")));
+  EXPECT_THAT(refused(of_air("bpa.inlet", "open"), "feedback"), HasSubstr("a base of its own"));
+  EXPECT_THAT(refused("[sensor.dial]\nof = \"length\"\nlow = \"2 in\"\nhigh = \"4 in\"\n" +
+                      of_air("dial", "stuck")),
+              AllOf(HasSubstr("\"dial\", a transducer of the test stand"),
+                    HasSubstr("sensor.dial.offset")));
+  EXPECT_THAT(refused(of_air("bpa", "ruptured"), "length-sweep"),
+              HasSubstr("the pressure is prescribed"));
+  EXPECT_THAT(refused(of_air("bpa", "ruptured") + of_air("bpa", "leaking", "area = \"1 mm2\"\n")),
+              HasSubstr("a time at which no other fault of bpa acts"));
+  std::string many;
+  for (int i = 0; i < 65; ++i)
+    many += "[[fault]]\nat = \"" + std::to_string(i + 1) +
+            " s\"\nfor = \"0.5 s\"\nof = \"bpa\"\nwhat = \"blocked\"\n";
+  EXPECT_THAT(refused(many), HasSubstr("65 faults of the air; expected at most 64"));
 }
 
 TEST(Faults, AValveThatStandsOpenIsListedAndDrawn) {

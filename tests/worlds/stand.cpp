@@ -5,6 +5,7 @@
 
 #include "sinew/actuator/braid.h"
 #include "sinew/plant/slide/stand.h"
+#include "sinew/run/stand/faulty_setup.h"
 #include "sinew/run/stand/run.h"
 #include "tests/worlds/body.h"
 
@@ -118,7 +119,7 @@ Subject of_setup(const std::string& name, const StandSetup& s) {
   const bool valves = s.charge.mode == plant::Charge::Mode::valves;
   if (valves) out.taps = {{0, inlet.kind == gas::Valve::Kind::regulator}};
   if (valves && inlet.kind == gas::Valve::Kind::two_way) out.taps.push_back({1});
-  const bool leaks = s.muscle.leak.area > 0 || s.muscle.leak.conductance > 0;
+  const bool leaks = s.muscle.leak.area > 0 || s.muscle.leak.conductance > 0 || !s.faults.empty();
   const bool seals = !leaks && s.charge.mode != plant::Charge::Mode::regulated &&
                      (!valves || inlet.kind == gas::Valve::Kind::two_way);
   out.conserves = seals && s.load.mode == plant::Load::Mode::hanging &&
@@ -127,11 +128,29 @@ Subject of_setup(const std::string& name, const StandSetup& s) {
   return out;
 }
 
-Subject of_experiment(const std::string& name, const std::string& file, Sets sets = {}) {
-  const auto load = [file](const Sets& with) {
-    return rig::load(std::string(SINEW_SOURCE_DIR) + "/experiments/rig/" + file + ".toml", with);
+// One of each kind of fault. They begin and end between two steps of the laws: there the supply
+// jumps.
+std::vector<experiment::Fault> broken() {
+  using What = experiment::Fault::What;
+  return {
+      {.at = 0.0703, .lasts = 0.0503, .of = "bpa.inlet", .what = What::stuck_open},
+      {.at = 0.2001, .of = "bpa", .what = What::leaking, .area = 2e-9},
+      {.at = 0.3007, .lasts = 0.1004, .of = "supply", .what = What::failed, .pressure = 3e5},
+      {.at = 0.4509, .lasts = 0.2, .of = "bpa.exhaust", .what = What::leaking, .share = 0.02},
+      {.at = 0.6511, .lasts = 0.1, .of = "bpa.inlet", .what = What::stuck_shut},
+      {.at = 0.8013, .of = "bpa", .what = What::blocked},
   };
-  Subject out = of_setup(name, rig::setup_of(load(sets)));
+}
+
+Subject of_experiment(const std::string& name, const std::string& file, Sets sets = {},
+                      const std::vector<experiment::Fault>& faults = {}) {
+  const auto load = [file, faults](const Sets& with) {
+    rig::Experiment e =
+        rig::load(std::string(SINEW_SOURCE_DIR) + "/experiments/rig/" + file + ".toml", with);
+    e.faults = faults;
+    return e;
+  };
+  Subject out = of_setup(name, rig::faulty_setup_of(load(sets)));
   sets.push_back("duration=1 s");
   const rig::Experiment shorter = load(sets);
   out.run = [shorter](bool every_tick, int) {
@@ -214,6 +233,7 @@ std::vector<Subject> stand_subjects() {
       of_experiment("tank", "feedback", tank),
       of_experiment("leak", "feedback", {"element.leak={ area = \"1e-9 m2\" }"}),
       of_experiment("heat", "feedback", {"air.wall_time=0.3 s"}),
+      of_experiment("broken", "feedback", {}, broken()),
   };
   for (Subject& s : all) s.limits = limits_of(s.name);
   return all;

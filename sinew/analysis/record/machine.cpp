@@ -6,7 +6,6 @@
 
 #include "sinew/actuator/actuator.fields.h"
 #include "sinew/analysis/verdict/reported.fields.h"
-#include "sinew/config/reader.h"
 #include "sinew/gas/delay.h"
 #include "sinew/robot/kinematics.h"
 #include "sinew/robot/robot.fields.h"
@@ -108,11 +107,15 @@ void read_run(config::Reader& reader, Machine& m) {
   });
   reader.list({.name = "reported", .optional = true}, m.reported,
               [&](auto& g, Reported& r) { analysis::fields(g, r, m.atmosphere); });
-  reader.list({.name = "fault", .optional = true}, m.faults,
-              [](auto& g, MachineFault& f) { fields(g, f); });
+  read_faults(reader, m.faults);
 }
 
 }  // namespace
+
+void read_faults(config::Reader& reader, std::vector<MachineFault>& faults) {
+  reader.list({.name = "fault", .optional = true}, faults,
+              [](auto& g, MachineFault& f) { fields(g, f); });
+}
 
 Machine read_machine(const config::Node& root) {
   Machine m;

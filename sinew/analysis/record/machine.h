@@ -14,6 +14,7 @@
 #include "sinew/analysis/verdict/reported.h"
 #include "sinew/analysis/verdict/summary.h"
 #include "sinew/config/node.h"
+#include "sinew/config/reader.h"
 #include "sinew/robot/robot.h"
 #include "sinew/units/constants.h"
 
@@ -43,6 +44,9 @@ struct Machine {
   std::vector<Reported> reported;
   std::vector<MachineFault> faults;
 };
+
+// Reads the list [[fault]], of which only parts, words and times matter here.
+void read_faults(config::Reader& reader, std::vector<MachineFault>& faults);
 
 // Throws config::Error with everything that is wrong in what is read.
 Machine read_machine(const config::Node& root);

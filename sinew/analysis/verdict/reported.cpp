@@ -156,18 +156,6 @@ std::string_view after_last_number(std::string_view text) {
   return unit == text.npos ? std::string_view{} : text.substr(unit);
 }
 
-// The unit in which the source speaks; where its text has none, that of `accept`, else SI.
-std::string spoken_unit(const Reported& r, double atmosphere) {
-  const std::string unit = unit_of_key(r.key);
-  std::string_view text = after_last_number(r.value);
-  if (!text.empty() && is_unit(text, unit, atmosphere)) return std::string(text);
-  for (const std::string& other : {r.of, r.accept.empty() ? std::string() : r.accept.back()}) {
-    text = after_last_number(other);
-    if (!text.empty() && is_unit(text, unit, atmosphere)) return std::string(text);
-  }
-  return unit;
-}
-
 // "53 in to 60 in", "at most 6 in"; as the file has it where it has it.
 std::string accept_text(const Reported& r, const Band& band, const std::string& unit,
                         double atmosphere) {
@@ -226,6 +214,17 @@ Verdict judge(const Summary& summary, const Reported& r, double atmosphere) {
 }
 
 }  // namespace
+
+std::string spoken_unit(const Reported& r, double atmosphere) {
+  const std::string unit = unit_of_key(r.key);
+  std::string_view text = after_last_number(r.value);
+  if (!text.empty() && is_unit(text, unit, atmosphere)) return std::string(text);
+  for (const std::string& other : {r.of, r.accept.empty() ? std::string() : r.accept.back()}) {
+    text = after_last_number(other);
+    if (!text.empty() && is_unit(text, unit, atmosphere)) return std::string(text);
+  }
+  return unit;
+}
 
 std::string unit_of_key(std::string_view key) {
   for (const auto& [ending, unit] : endings)

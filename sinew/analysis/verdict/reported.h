@@ -36,6 +36,9 @@ using config::Reported;
 std::string unit_of_key(std::string_view key);
 std::string_view without_unit(std::string_view key);  // "trolley.distance" of "trolley.distance_m"
 
+// Returns the unit in which the source speaks; where its text has none, that of `accept`, else SI.
+std::string spoken_unit(const Reported&, double atmosphere = units::atmosphere);
+
 // Returns what is wrong with `accept` or with the words that a wording needs, or nothing.
 std::optional<config::Mistake> mistake_in_band(const Reported&,
                                                double atmosphere = units::atmosphere);

@@ -37,6 +37,11 @@ std::string text_of(const Json& json, const std::string& indent) {
 
 }  // namespace
 
+std::vector<MachineFault> begun_by(std::vector<MachineFault> faults, double last) {
+  std::erase_if(faults, [&](const MachineFault& f) { return f.begin > last; });
+  return faults;
+}
+
 void Summary::add(std::string key, double value) {
   if (!std::isfinite(value)) return;
   entries_.push_back({std::move(key), value == 0 ? 0.0 : value});  // no -0

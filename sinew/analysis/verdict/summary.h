@@ -23,6 +23,9 @@ struct MachineFault {
   double begin = 0, end = 0;  // no end: infinite [s]
 };
 
+// Returns those that began by `last`  [s].
+std::vector<MachineFault> begun_by(std::vector<MachineFault> faults, double last);
+
 class Summary {
  public:
   std::string title;

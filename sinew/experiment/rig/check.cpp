@@ -7,6 +7,8 @@
 
 #include "sinew/actuator/body.h"
 #include "sinew/config/quantity.h"
+#include "sinew/experiment/faults.h"
+#include "sinew/experiment/rig/fault_parts.h"
 #include "sinew/plant/slide/stand.h"
 
 namespace sinew::rig {
@@ -180,6 +182,20 @@ void check_law(const Experiment& e, Findings& out) {
     out.add("drive.gain", "none", "a duty per length", "gain = \"5 1/in\"");
 }
 
+void check_faults(const Experiment& e, Findings& out) {
+  if (e.faults.empty()) return;
+  if (e.charge.mode == plant::Charge::Mode::regulated) {
+    out.add("fault", "a list of faults",
+            "none: the pressure is prescribed, and nothing that breaks would change it",
+            "charge.mode = \"sealed\" or \"valves\"");
+    return;
+  }
+  std::vector<robot::Contradiction> found;
+  experiment::check_faults(e.faults, fault_parts(e), found);
+  for (robot::Contradiction& c : found)
+    out.add(std::move(c.key), std::move(c.found), std::move(c.expected), std::move(c.try_this));
+}
+
 void check_drive(const Experiment& e, Findings& out) {
   const Drive& d = e.drive;
   if (!whole_ticks(d.period)) out.add("drive.period", "no whole ticks", "a multiple of 0.1 ms");
@@ -221,6 +237,7 @@ void refuse_contradictions(const Experiment& e) {
   check_valves(e, out);
   check_load(e, out);
   check_drive(e, out);
+  check_faults(e, out);
   check_size(e, out);
   check_volumes(e, out);
   if (out.none()) check_plant(e, out);

@@ -87,10 +87,6 @@ Experiment load(const config::Node& root, const std::string& path) {
   if (kind != "rig")
     config::fail({path, 0, 0}, "format", config::in_quotes(kind), "\"sinew.rig/1\"",
                  "sinew check " + path);
-  if (const config::Node* faults = root.find("fault"))
-    config::fail(faults->where, "fault", "a list of faults",
-                 "none: nothing of a test stand breaks while it runs",
-                 "element.leak, a valve without area, or an experiment with a robot");
   Experiment e;
   e.path = path;
   e.name = std::filesystem::path(path).stem().string();

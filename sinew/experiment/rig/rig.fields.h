@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sinew/actuator/actuator.fields.h"
+#include "sinew/experiment/fault.fields.h"
 #include "sinew/experiment/log_table.fields.h"
 #include "sinew/experiment/rig/rig.h"
 #include "sinew/gas/air.fields.h"
@@ -260,6 +261,8 @@ void fields(Visitor& v, Experiment& e) {
           [&](auto& g) { fields(g, e.sweep); });
   v.each({.name = "sensor", .optional = true, .doc = "transducers, by name"}, e.sensors,
          [](auto& g, plant::Transducer& t) { fields(g, t); });
+  v.list({.name = "fault", .optional = true, .doc = "what breaks, when"}, e.faults,
+         [](auto& g, experiment::Fault& f) { experiment::fields(g, f); });
   v.group({.name = "measured", .optional = true, .doc = "what the sensors leave as CSV"},
           [&](auto& g) { fields(g, e.measured); });
   v.group({.name = "log", .optional = true, .doc = "what is recorded"},

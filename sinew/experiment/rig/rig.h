@@ -11,6 +11,7 @@
 #include "sinew/config/origin.h"
 #include "sinew/config/reader.h"
 #include "sinew/config/reported.h"
+#include "sinew/experiment/fault.h"
 #include "sinew/experiment/log_table.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
@@ -104,6 +105,7 @@ struct Experiment {
   Drive drive;
   Sweep sweep;
   std::vector<plant::Transducer> sensors;
+  std::vector<experiment::Fault> faults;  // of the air
   Measured measured;
   experiment::Log log{.period = 1e-3};
   std::vector<config::Reported> reported;
@@ -127,7 +129,7 @@ Experiment load(const config::Node& root, const std::string& path);
 // Points as steps: each value holds from its instant on.
 std::vector<plant::Point> steps_of(const std::vector<plant::Point>& points);
 
-// The stand that it describes.
+// The stand that it describes, in which nothing breaks (run/stand/faulty_setup.h).
 plant::StandSetup setup_of(const Experiment& experiment);
 
 // Every value in SI under the keys of its origins, and the same as a file that runs again.

@@ -42,6 +42,8 @@ void refuse_contradictions(const StandSetup& s) {
   refuse_schedule(s.charge.pressure, "the regulated pressure", 0);
   if (s.charge.mode == Charge::Mode::regulated && s.charge.pressure.empty())
     refuse("a regulated stand has a pressure over time");
+  if (s.charge.mode == Charge::Mode::regulated && !s.faults.empty())
+    refuse("nothing that breaks changes a prescribed pressure");
   if (!(s.start.pressure > 0)) refuse("the pressure at the start must be above 0");
   if (driven && (s.start.displacement != 0 || s.start.length != 0))
     refuse("a driven load starts where its length says");

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "sinew/air/cylinder.h"
+#include "sinew/air/fault.h"
 #include "sinew/air/muscle.h"
 #include "sinew/gas/air.h"
 #include "sinew/gas/supply.h"
@@ -60,6 +61,7 @@ struct StandSetup {
   Load load;
   Charge charge;
   StandStart start;
+  std::vector<air::AirFault> faults;    // of its air; none that opens a prescribed pressure
   std::vector<Transducer> transducers;  // the channels of the port, in their order
   double step = 5e-4;                   // between nodes, at most [s]
   double accuracy = 3.4e-7;             // of a swing, per radian of it, between nodes [-]

@@ -20,8 +20,8 @@ struct StandEnds : ElementAir::Ends {
 };
 
 inline ElementAir air_of(const StandSetup& s) {
-  if (s.cylinder) return {{}, s.air, s.supply, s.cylinder};
-  return {std::span(&s.muscle, 1), s.air, s.supply};
+  if (s.cylinder) return {{}, s.air, s.supply, s.cylinder, s.faults};
+  return {std::span(&s.muscle, 1), s.air, s.supply, {}, s.faults};
 }
 
 class StandAir : public ElementAir {

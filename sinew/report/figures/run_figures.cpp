@@ -317,6 +317,10 @@ std::vector<Figure> of_stand(const Run& run, const RunFigureOptions& options) {
   channels.add(drawn);
 
   Maker make(channels, about(run, file.title, ""), options, file.atmosphere);
+  if (!stand_of_run.empty()) {
+    const signals::Times& time = *channels.find(stand_of_run.length).time_ns;
+    if (!time.empty()) make.shade(file.faults, seconds(time.back()));
+  }
   for (const Panel& panel : panels_of_stand(channels, file.element)) make.panel(panel);
   for (const Chart& chart : stand_charts(channels, stand_of_run)) add_chart(make, chart);
   return std::move(make.list);

@@ -148,6 +148,7 @@ Content of_stand(const Run& run) {
   Object json = head(run, {file.title, file.reproduces, "", file.atmosphere});
   json.put("duration", config::format_number(end_of(channels)));
   json.put("phases", R"({"names":[],"stretches":[]})");
+  if (!summary.faults.empty()) json.put("faults", to_json(summary.faults, end_of(channels)));
   json.put("panels", to_json(panels_of_stand(channels, file.element), columns));
   json.put("scene", "null");
   json.put("stand", to_json(stand_of_run, columns));

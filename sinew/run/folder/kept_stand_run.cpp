@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "sinew/config/node.h"
+#include "sinew/experiment/faults.h"
 #include "sinew/experiment/rig/measured.h"
 #include "sinew/run/folder/page.h"
 #include "sinew/run/folder/runnable.h"
@@ -45,9 +46,15 @@ Kept<analysis::StandFile> keep(const rig::Experiment& e, const What& what, Outpu
                                  .duration = outcome.duration,
                                  .wall = outcome.wall};
   const double factor = outcome.wall > 0 ? outcome.duration / outcome.wall : 0;
-  kept.json = to_json(kept.summary, {.numbers = {{"real_time_factor", factor}, {"threads", 1}}});
+  std::vector<std::string> idle;  // what did not break
+  for (std::size_t i = 0; i < e.faults.size(); ++i)
+    if (const std::string why = why_idle(e.faults[i], rig::last_tick(e)); !why.empty())
+      idle.push_back(fmt::format("fault[{}] never acted: {}", i, why));
+  kept.json = to_json(
+      kept.summary, {.numbers = {{"real_time_factor", factor}, {"threads", 1}}, .warnings = idle});
   write_into(folder, summary_name, kept.json);
   for (const std::string& text : kept.summary.warnings) notices.warning(text);
+  for (const std::string& text : idle) notices.warning(text);
   if (e.log.enabled && report)
     kept.page = write_report(folder, run::logged_part(std::move(outcome.table), what.logged),
                              what.values, e.name, notices);

@@ -5,6 +5,7 @@
 #include "sinew/config/compose.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/logged.h"
+#include "sinew/run/stand/faulty_setup.h"
 #include "sinew/run/stand/run.h"
 
 namespace sinew::run {
@@ -22,6 +23,7 @@ experiment::Experiment runnable(const std::string& path, const std::vector<std::
 rig::Experiment runnable_on_stand(const std::string& path, const std::vector<std::string>& sets) {
   const config::Node root = config::compose(path, sets);
   rig::Experiment e = rig::load(root, path);
+  refuse_too_many_faults(e);
   (void)analysis::read_stand(root);
   (void)logged_topics(e);
   return e;

@@ -13,7 +13,7 @@ using experiment::Experiment;
 
 void refuse_unbuildable(const Experiment& e) {
   std::vector<robot::Contradiction> wrong = control::misfits(installation(e));
-  check_air_faults(e, wrong);
+  check_air_faults(e.faults, wrong);
   if (wrong.empty()) check_motion(e, wrong);
   refuse(wrong, e);
 }

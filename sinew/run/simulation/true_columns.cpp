@@ -51,31 +51,16 @@ void true_muscle_columns(const experiment::Experiment& e, Columns& out) {
   }
 }
 
-// Adds a column for each part that the list [[fault]] names. A part of the air may be broken for
-// less than a sample.
+// Adds a column for each part that the list [[fault]] names.
 void true_fault_columns(const experiment::Experiment& e, Columns& out) {
-  std::vector<std::string> done;
-  for (const experiment::Fault& first : e.faults) {
-    const std::string topic = experiment::topic_of(first);
-    if (std::ranges::count(done, topic) > 0) continue;
-    done.push_back(topic);
-    std::vector<experiment::Fault> faults;
-    for (const experiment::Fault& f : e.faults)
-      if (experiment::topic_of(f) == topic) faults.push_back(f);
-    if (is_of_sensor(first.what))
-      out.scalar(
-          topic, "1", "1 while one of the experiment's acts on it", [faults](const Snapshot& m) {
-            return std::ranges::any_of(
-                faults, [&](const experiment::Fault& f) { return experiment::acts(f, m.time); });
-          });
+  for (const experiment::FaultsOfPart& part : experiment::by_part(e.faults)) {
+    if (is_of_sensor(part.faults.front().what))
+      out.scalar(part.topic, "1", "1 while one of the experiment's acts on it",
+                 [part](const Snapshot& m) { return part.acted(m.time, 0); });
     else
-      out.scalar(topic, "1",
-                 "1 where one of the experiment's acts or has acted since the last sample",
-                 [faults, period = e.log.period](const Snapshot& m) {
-                   return std::ranges::any_of(faults, [&](const experiment::Fault& f) {
-                     return f.at <= m.time && !(m.time - period >= f.at + f.lasts);
-                   });
-                 });
+      out.scalar(
+          part.topic, "1", experiment::fault_description,
+          [part, period = e.log.period](const Snapshot& m) { return part.acted(m.time, period); });
   }
 }
 

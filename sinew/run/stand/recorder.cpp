@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "sinew/experiment/faults.h"
+
 namespace sinew::rig {
 
 using signals::Tick;
@@ -82,12 +84,21 @@ void true_columns(const Experiment& e, Columns& out) {
     out.truth("supply/tank_pressure", "Pa", "absolute", &T::tank_pressure);
 }
 
+void fault_columns(const Experiment& e, Columns& out) {
+  for (const experiment::FaultsOfPart& part : experiment::by_part(e.faults))
+    out.add(part.topic, "1", experiment::fault_description,
+            [part, period = e.log.period](const Snapshot& m) {
+              return part.acted(m.time, period) ? 1.0 : 0.0;
+            });
+}
+
 }  // namespace
 
 std::vector<Column> columns(const Experiment& e) {
   Columns out;
   measured_columns(e, out);
   true_columns(e, out);
+  fault_columns(e, out);
   return out.list;
 }
 
@@ -131,10 +142,11 @@ void Recorder::sample(Tick t) noexcept {
     complete_ = false;
     return;
   }
-  const plant::StandTruth truth = stand_.truth(static_cast<double>(t) * signals::tick_seconds);
+  const double time = static_cast<double>(t) * signals::tick_seconds;
+  const plant::StandTruth truth = stand_.truth(time);
   if (stand_.failure()) return;  // no number of a stand that has failed is kept
   row_time_ns_.push_back(t * signals::tick_nanoseconds);
-  const Snapshot now{controller_.seen(), truth};
+  const Snapshot now{controller_.seen(), truth, time};
   for (const Column& c : columns_) rows_.push_back(c.value(now));
 }
 

@@ -16,6 +16,7 @@ namespace sinew::rig {
 struct Snapshot {
   const DriveSeen& seen;
   const plant::StandTruth& truth;
+  double time = 0;  // [s]
 };
 
 struct Column {

@@ -10,18 +10,16 @@
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/loop.h"
+#include "sinew/run/stand/faulty_setup.h"
 #include "sinew/run/stand/recorder.h"
 
 namespace sinew::rig {
 
 using signals::Tick;
 
-namespace {
+Tick last_tick(const Experiment& e) { return std::llround(e.duration / signals::tick_seconds) + 1; }
 
-Tick last_tick(const Experiment& e) {
-  // One more, so that the last instant is sampled too.
-  return std::llround(e.duration / signals::tick_seconds) + 1;
-}
+namespace {
 
 // Length, pressure and force over the last five periods, tick by tick.
 struct Watch {
@@ -51,7 +49,7 @@ Settled settled(Experiment e, double duty) {
   e.drive.duties.clear();
   const Tick period = std::llround(e.drive.period / signals::tick_seconds);
   const Tick end = std::llround(e.duration / signals::tick_seconds) / period * period;
-  plant::Stand stand(setup_of(e));
+  plant::Stand stand(faulty_setup_of(e));
   Controller controller(e, end);
   Wishes wishes(e);
   run::SimulatedClock clock;
@@ -142,7 +140,7 @@ Outcome run(const Experiment& e, const RunOptions& options) {
     out.table = table_of(e, all);
   } else {
     const Tick end = last_tick(e);
-    plant::Stand stand(setup_of(e));
+    plant::Stand stand(faulty_setup_of(e));
     Controller controller(e, end);
     Wishes wishes(e);
     Recorder recorder(e, controller, stand, end, options.every_tick);

@@ -10,6 +10,7 @@
 #include "sinew/run/simulation/logged.h"
 #include "sinew/signals/port.h"
 #include "sinew/signals/table.h"
+#include "sinew/signals/tick.h"
 
 namespace sinew::rig {
 
@@ -29,6 +30,10 @@ struct RunOptions {
   bool every_tick = false;  // visit each tick: slower, the same bits
   int threads = 0;          // of a sweep; 0: as many as the machine has. The same bits
 };
+
+// Returns the tick at which a run ends: one more than its duration has, so that the last instant is
+// sampled too.
+signals::Tick last_tick(const Experiment& experiment);
 
 // What a run records, in the order of its table.
 std::vector<signals::Topic> topics(const Experiment& experiment);

@@ -1,0 +1,233 @@
+#include "sinew/tune/sensitivity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "sinew/tune/sample.h"
+#include "sinew/units/mix.h"
+
+namespace sinew::tune {
+namespace {
+
+constexpr std::size_t resamples = 1000;
+constexpr double morris_step = 2.0 / 3.0;  // of levels 0, 1/3, 2/3, 1
+
+std::uint64_t draw(std::uint64_t seed, std::uint64_t what, std::uint64_t which) {
+  return units::mix(units::mix(units::mix(seed ^ 0x5e5e) + what) + which);
+}
+
+// --- designs ---
+
+std::vector<double> one_at_a_time(const Design& design) {
+  const std::size_t d = design.ranges;
+  std::vector<double> out(size(design) * d, 0.5);
+  for (std::size_t i = 0; i < d; ++i) {
+    out[(1 + 2 * i) * d + i] = 0;
+    out[(2 + 2 * i) * d + i] = 1;
+  }
+  return out;
+}
+
+// A path begins at a random level and takes the ranges in a random order, each once, up or down.
+std::vector<double> paths(const Design& design) {
+  const std::size_t d = design.ranges;
+  std::vector<double> out;
+  std::vector<std::size_t> order(d);
+  for (std::size_t path = 0; path < design.count; ++path) {
+    std::vector<double> at(d);
+    for (std::size_t i = 0; i < d; ++i)
+      at[i] = static_cast<double>(draw(design.seed, 2 * path, i) >> 62) / 3.0;
+    std::iota(order.begin(), order.end(), 0);
+    for (std::size_t left = d; left > 1; --left)
+      std::swap(order[left - 1], order[draw(design.seed, 2 * path + 1, left) % left]);
+    out.insert(out.end(), at.begin(), at.end());
+    for (const std::size_t i : order) {
+      at[i] += at[i] < 0.5 ? morris_step : -morris_step;
+      out.insert(out.end(), at.begin(), at.end());
+    }
+  }
+  for (double& x : out) x = std::clamp(x, 0.0, 1.0);  // 1/3 + 2/3 rounds
+  return out;
+}
+
+// A, B and the AB_i of each row, row by row.
+std::vector<double> rows(const Design& design) {
+  const std::size_t d = design.ranges;
+  const std::vector<double> both = tune::sobol_shares(2 * d, design.count, design.seed);
+  std::vector<double> out;
+  out.reserve(size(design) * d);
+  for (std::size_t row = 0; row < design.count; ++row) {
+    const auto a = both.begin() + static_cast<std::ptrdiff_t>(2 * d * row);
+    const auto b = a + static_cast<std::ptrdiff_t>(d);
+    out.insert(out.end(), a, b);
+    out.insert(out.end(), b, b + static_cast<std::ptrdiff_t>(d));
+    for (std::size_t i = 0; i < d; ++i) {
+      out.insert(out.end(), a, b);
+      out[out.size() - d + i] = b[static_cast<std::ptrdiff_t>(i)];
+    }
+  }
+  return out;
+}
+
+// --- what they say ---
+
+bool finite(std::span<const double> figures) {
+  return std::ranges::all_of(figures, [](double x) { return std::isfinite(x); });
+}
+
+// The blocks of figures, paths or rows, that are whole.
+std::vector<std::span<const double>> whole_blocks(std::span<const double> figures,
+                                                  std::size_t length) {
+  std::vector<std::span<const double>> out;
+  for (std::size_t at = 0; at + length <= figures.size(); at += length)
+    if (const auto block = figures.subspan(at, length); finite(block)) out.push_back(block);
+  return out;
+}
+
+using Blocks = std::vector<std::span<const double>>;
+
+// Returns statistics of the blocks with their intervals: of(blocks) gives as many numbers each
+// time.
+std::vector<Estimate> bootstrap(const Blocks& blocks, std::uint64_t seed,
+                                const std::function<std::vector<double>(const Blocks&)>& of) {
+  const std::vector<double> values = of(blocks);
+  std::vector<std::vector<double>> drawn(values.size());
+  Blocks again(blocks.size());
+  for (std::size_t k = 0; k < resamples; ++k) {
+    for (std::size_t i = 0; i < again.size(); ++i)
+      again[i] = blocks[draw(~seed, k, i) % blocks.size()];
+    const std::vector<double> numbers = of(again);
+    for (std::size_t v = 0; v < values.size(); ++v)
+      if (std::isfinite(numbers[v])) drawn[v].push_back(numbers[v]);
+  }
+  std::vector<Estimate> out;
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    std::vector<double>& d = drawn[v];
+    std::ranges::sort(d);
+    const auto at = [&](double share) {
+      if (d.empty()) return values[v];
+      return d[static_cast<std::size_t>(share * static_cast<double>(d.size() - 1))];
+    };
+    out.push_back({values[v], at(0.025), at(0.975)});
+  }
+  return out;
+}
+
+struct Moments {
+  double mean = 0, variance = 0;
+};
+Moments moments(const std::vector<double>& x) {
+  Moments out;
+  const auto n = static_cast<double>(x.size());
+  out.mean = std::accumulate(x.begin(), x.end(), 0.0) / n;
+  for (const double one : x) out.variance += (one - out.mean) * (one - out.mean) / n;
+  return out;
+}
+
+std::optional<Sensitivity> of_ends(const Design& design, std::span<const double> f) {
+  if (!std::isfinite(f[0])) return std::nullopt;
+  Sensitivity out;
+  std::vector<double> there;
+  for (const double x : f)
+    if (std::isfinite(x)) there.push_back(x);
+  const Moments all = moments(there);
+  out.mean = all.mean, out.variance = all.variance;
+  out.left_out = f.size() - there.size();
+  for (std::size_t i = 0; i < design.ranges; ++i) {
+    const double low = f[1 + 2 * i] - f[0], high = f[2 + 2 * i] - f[0];
+    out.effects.push_back({.to_low = {low, low, low}, .to_high = {high, high, high}});
+  }
+  return out;
+}
+
+// Elementary effects of a path: which range a step moved, and which way, the design knows.
+std::optional<Sensitivity> of_paths(const Design& design, std::span<const double> f) {
+  const std::size_t d = design.ranges;
+  const std::vector<double> at = paths(design);
+  std::vector<double> effects(design.count * d, std::nan(""));  // by path and range
+  std::vector<double> there;
+  for (std::size_t path = 0; path < design.count; ++path) {
+    const std::span<const double> own = f.subspan(path * (d + 1), d + 1);
+    if (!finite(own)) continue;
+    there.insert(there.end(), own.begin(), own.end());
+    for (std::size_t step = 0; step < d; ++step) {
+      const double* from = &at[(path * (d + 1) + step) * d];
+      std::size_t i = 0;
+      while (from[i] == from[d + i]) ++i;
+      effects[path * d + i] = (own[step + 1] - own[step]) / (from[d + i] - from[i]);
+    }
+  }
+  const Blocks blocks = whole_blocks(effects, d);
+  if (blocks.size() < 2) return std::nullopt;
+  Sensitivity out;
+  out.left_out = design.count - blocks.size();
+  const Moments all = moments(there);
+  out.mean = all.mean, out.variance = all.variance;
+  for (std::size_t i = 0; i < d; ++i) {
+    const std::vector<Estimate> e = bootstrap(blocks, design.seed, [&](const Blocks& some) {
+      std::vector<double> one;
+      double size = 0;
+      for (const auto& block : some) one.push_back(block[i]), size += std::fabs(block[i]);
+      const Moments m = moments(one);
+      const auto n = static_cast<double>(one.size());
+      return std::vector<double>{size / n, m.mean, std::sqrt(m.variance * n / (n - 1))};
+    });
+    out.effects.push_back({.mean_size = e[0], .mean = e[1], .spread = e[2]});
+  }
+  return out;
+}
+
+// The mean is taken off first: the estimate of S_i is then far closer.
+std::vector<double> indices(const Blocks& rows, std::size_t i) {
+  std::vector<double> ab;
+  for (const auto& row : rows) ab.insert(ab.end(), {row[0], row[1]});
+  const Moments m = moments(ab);
+  double first = 0, total = 0;
+  for (const auto& row : rows) {
+    first += (row[1] - m.mean) * (row[2 + i] - row[0]);
+    total += 0.5 * (row[0] - row[2 + i]) * (row[0] - row[2 + i]);
+  }
+  const double all = static_cast<double>(rows.size()) * m.variance;
+  return {first / all, total / all};
+}
+
+std::optional<Sensitivity> of_rows(const Design& design, std::span<const double> f) {
+  const Blocks blocks = whole_blocks(f, design.ranges + 2);
+  if (blocks.size() < 2) return std::nullopt;
+  Sensitivity out;
+  out.left_out = design.count - blocks.size();
+  std::vector<double> ab;
+  for (const auto& row : blocks) ab.insert(ab.end(), {row[0], row[1]});
+  const Moments m = moments(ab);
+  out.mean = m.mean, out.variance = m.variance;
+  if (!(m.variance > 0)) return std::nullopt;
+  for (std::size_t i = 0; i < design.ranges; ++i) {
+    const std::vector<Estimate> e =
+        bootstrap(blocks, design.seed, [&](const Blocks& some) { return indices(some, i); });
+    out.effects.push_back({.first = e[0], .total = e[1]});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::size_t size(const Design& design) {
+  if (design.method == Method::one_at_a_time) return 2 * design.ranges + 1;
+  const std::size_t each = design.method == Method::morris ? 1 : 2;
+  return design.count * (design.ranges + each);
+}
+
+std::vector<double> shares(const Design& design) {
+  if (design.method == Method::one_at_a_time) return one_at_a_time(design);
+  return design.method == Method::morris ? paths(design) : rows(design);
+}
+
+std::optional<Sensitivity> sensitivity(const Design& design, std::span<const double> figures) {
+  if (figures.size() != size(design) || figures.empty()) return std::nullopt;
+  if (design.method == Method::one_at_a_time) return of_ends(design, figures);
+  return design.method == Method::morris ? of_paths(design, figures) : of_rows(design, figures);
+}
+
+}  // namespace sinew::tune

@@ -1,0 +1,64 @@
+// tune/sensitivity.h - which of several ranges a figure follows, and how strongly: designs of
+// points to be run, and what their figures say. Pure; sweep.h runs the points.
+//
+//   one at a time  each range from its middle to both ends, all others in their middle
+//   morris         elementary effects along r paths on a grid of 4 levels, a step of 2/3 of a range
+//                  in one range after the other (Morris 1991):
+//                  mu* = mean |EE| (Campolongo 2007), sigma = standard deviation of EE
+//   sobol          shares of the variance (Saltelli et al. 2010): V is the figure's variance,
+//                  S_i   = (1/n) sum f(B) (f(AB_i) - f(A)) / V       of range i alone
+//                  S_Ti  = (1/2n) sum (f(A) - f(AB_i))^2 / V         with all its interactions
+//
+// Symbols: d ranges; f a figure at a point; A, B: n points each, of 2 d Sobol's dimensions; AB_i: A
+// with column i of B. Effects are in the figure's unit per whole range. Intervals are 95 %, by the
+// bootstrap over paths or rows with a seed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace sinew::tune {
+
+enum class Method { one_at_a_time, morris, sobol };
+
+struct Design {
+  Method method = Method::sobol;
+  std::size_t ranges = 0;  // d
+  std::size_t count = 0;   // morris: paths r; sobol: rows n; one at a time: not used
+  std::uint64_t seed = 1;
+};
+
+// Returns how many points a design has: 2 d + 1, r (d + 1), n (d + 2).
+std::size_t size(const Design& design);
+
+// Returns their shares of the ranges, d for each point, in [0, 1]. The same on every machine.
+std::vector<double> shares(const Design& design);
+
+// A number with its 95 % interval; low = high = value where nothing was drawn.
+struct Estimate {
+  double value = 0, low = 0, high = 0;
+};
+
+struct Effect {
+  // one at a time: f(from) - f(middle), f(to) - f(middle)
+  // morris: mu*, mu, sigma;  sobol: S_i, S_Ti
+  Estimate to_low, to_high;
+  Estimate mean_size, mean, spread;
+  Estimate first, total;
+};
+
+struct Sensitivity {
+  std::vector<Effect> effects;    // of each range
+  double mean = 0, variance = 0;  // of the figure over the design's own points (sobol: A and B)
+  std::size_t left_out = 0;       // paths or rows, of which a run has no figure
+};
+
+// Returns what the figures of a design say; as many as it has points, in its order. A figure that
+// is not finite is one that a run does not have. Nothing where too few are left: one at a time the
+// middle, else two paths or rows; nor where the figure never changes (sobol).
+std::optional<Sensitivity> sensitivity(const Design& design, std::span<const double> figures);
+
+}  // namespace sinew::tune
