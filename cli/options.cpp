@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace sinew::cli {
@@ -91,6 +92,7 @@ template Option Command::add_option(const std::string&, std::vector<std::string>
 template Option Command::add_option(const std::string&, double&, const std::string&);
 template Option Command::add_option(const std::string&, int&, const std::string&);
 template Option Command::add_option(const std::string&, std::size_t&, const std::string&);
+template Option Command::add_option(const std::string&, std::optional<int>&, const std::string&);
 
 Option Command::add_flag(const std::string& names, bool& value, const std::string& description) {
   return Option(*app_->add_flag(names, value, description));

@@ -120,15 +120,15 @@ void add_words(Command sub, const char* name, std::vector<std::string>& words,
   sub.add_option(name, words, description).takes_one();
 }
 
-void add_sample(CLI::App& sub, Options& options) {
+void add_sample(Command sub, Options& options) {
   add_words(sub, "--range", options.study.range,
             "KEY=from:to unit, sampled; with \"log\" or \"whole\" behind it; repeated");
   sub.add_option("--points", options.study.points, "of the sample, each a row or more")
-      ->check(CLI::Range(1, 1000000));
+      .is_between(1, 1000000);
   sub.add_option("--sample", options.sample, "how the points lie: sobol, latin, random; sobol")
-      ->check(CLI::IsMember({"sobol", "latin", "random"}));
+      .is_one_of({"sobol", "latin", "random"});
   sub.add_option("--sample-seed", options.sample_seed, "other points of the same kind; 1")
-      ->check(CLI::Range(0, 2147483647));
+      .is_between(0, 2147483647);
 }
 
 }  // namespace
