@@ -172,15 +172,15 @@ ExitCode check_all(const Options& options) {
 
 }  // namespace
 
-void add_check(CLI::App& app, Action& action) {
+void add_check(Command app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(app, "check", "what is wrong with files, all of it at once",
-                             "sinew check robots/leg/*.toml robots/leg/predict.dat");
+  Command sub = app.subcommand("check", "what is wrong with files, all of it at once",
+                               "sinew check robots/leg/*.toml robots/leg/predict.dat");
   sub.add_option("FILE", options->files,
                  "experiment, rig, plan, robot, actuator, valves, wiring file, predict.dat, "
                  "gain*.dat, or a "
                  "run's folder or log")
-      ->required();
+      .required();
   sub.add_flag("--json", options->json, "as JSON");
   sub.callback([=, &action] { action = [=] { return check_all(*options); }; });
 }

@@ -60,23 +60,21 @@ ExitCode compare_runs(const Options& options) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, Action& action) {
+void add_compare(Command app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub =
-      subcommand(app, "compare", "runs beside each other: figures, parameters, channels",
-                 "sinew compare runs/walk-test-1/1 runs/walk-test-2/1 -o compare.html");
+  Command sub =
+      app.subcommand("compare", "runs beside each other: figures, parameters, channels",
+                     "sinew compare runs/walk-test-1/1 runs/walk-test-2/1 -o compare.html");
   sub.add_option("RUN", options->runs, "folders of runs, or log files; the first is compared with")
-      ->required()
-      ->expected(2, most_runs)
-      ->option_text("2 to 8, REQUIRED");
+      .required()
+      .takes(2, most_runs, "2 to 8, REQUIRED");
   sub.add_option("-o,--output", options->out, "also write a page with overlaid plots");
   sub.add_option("--align", options->align,
                  "where times are counted from: start, or sequence: its first phase")
-      ->check(CLI::IsMember({"start", "sequence"}));
-  sub.add_option("--channels", options->channels, "only these: '/joint/*/angle'")
-      ->expected(1, CLI::detail::expected_max_vector_size);
+      .is_one_of({"start", "sequence"});
+  sub.add_option("--channels", options->channels, "only these: '/joint/*/angle'").takes_all();
   sub.add_option("--units", options->units, "of the tables: thesis or si; --json is in SI")
-      ->check(CLI::IsMember({"thesis", "si"}));
+      .is_one_of({"thesis", "si"});
   sub.add_flag("--all", options->all, "every figure and channel, equal ones too");
   sub.add_flag("--json", options->json, "all of it as JSON");
   sub.add_flag("--force", options->force, "replace the page");

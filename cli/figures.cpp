@@ -52,38 +52,36 @@ run::FigureFiles files_of(const std::vector<std::string>& formats, bool force) {
   return files;
 }
 
-void add_figures(CLI::App& app, Action& action) {
+void add_figures(Command app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(
-      app, "figures", "figures for print, with the CSV behind each: of runs, or the thesis's",
+  Command sub = app.subcommand(
+      "figures", "figures for print, with the CSV behind each: of runs, or the thesis's",
       "sinew figures runs/walk-test-1/1 --units thesis\n  sinew figures --thesis -o figures");
-  CLI::Option* runs = sub.add_option("DIR", options->runs.runs, "folders of runs, or log files");
-  CLI::Option* thesis = sub.add_flag("--thesis", options->of_thesis, "those of Colbrunn (2000)");
-  runs->excludes(thesis);
+  Option runs = sub.add_option("DIR", options->runs.runs, "folders of runs, or log files");
+  Option thesis = sub.add_flag("--thesis", options->of_thesis, "those of Colbrunn (2000)");
+  runs.excludes(thesis);
   sub.add_option("-o,--output", options->runs.out,
                  "folder for the figures and index.json; of runs: else figures/ beside the log");
   sub.add_option("--root", options->thesis.root,
                  "--thesis: the project's folder, with robots/ and experiments/; .");
-  sub.add_option("--format", options->runs.formats, "svg, png or csv; svg,png")
-      ->allow_extra_args(false);
-  sub.add_option("--only", options->runs.only, "of runs: these figures alone")->excludes(thesis);
+  sub.add_option("--format", options->runs.formats, "svg, png or csv; svg,png").takes_one();
+  sub.add_option("--only", options->runs.only, "of runs: these figures alone").excludes(thesis);
   sub.add_option("--units", options->runs.units, "of runs: si or thesis (in, lbf, psi, deg); si")
-      ->check(CLI::IsMember({"si", "thesis"}))
-      ->excludes(thesis);
+      .is_one_of({"si", "thesis"})
+      .excludes(thesis);
   sub.add_option("--from", options->runs.from, "of runs: \"2 s\"; what was before is left out")
-      ->excludes(thesis);
-  sub.add_option("--to", options->runs.to, "of runs: what was after is left out")->excludes(thesis);
+      .excludes(thesis);
+  sub.add_option("--to", options->runs.to, "of runs: what was after is left out").excludes(thesis);
   sub.add_option("--machine", options->runs.machine,
                  "of runs: what was run, in place of the folder's resolved.toml")
-      ->excludes(thesis);
+      .excludes(thesis);
   sub.add_flag("--force", options->runs.force, "replace the figures that are there");
   sub.add_flag("--json", options->runs.json, "print index.json; of runs all of them");
   sub.add_flag("--quiet", options->runs.quiet, "only errors on stderr");
   sub.callback([=, &action] {
     if (!options->of_thesis && options->runs.runs.empty())
-      throw CLI::RequiredError("DIR, the folder of a run, or --thesis");
-    if (options->of_thesis && options->runs.out.empty())
-      throw CLI::RequiredError("-o with --thesis");
+      require("DIR, the folder of a run, or --thesis");
+    if (options->of_thesis && options->runs.out.empty()) require("-o with --thesis");
     action = [=] { return draw(*options); };
   });
 }

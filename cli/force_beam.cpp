@@ -4,8 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "cli/arguments.h"
 #include "cli/command.h"
@@ -28,7 +31,7 @@ struct Options {
   std::string length = "0.75 in", width = "0.3 in", height = "0.15 in", gages = "0.36 in";
   std::string modulus = "10000000 psi", yield = "40000 psi";
   double poisson = 0.33, concentration = 1;
-  Arms arms = Arms::poisson;
+  std::string bridge = "poisson";
   double gage_factor = 2, gain = 800;
   std::string excitation = "5 V", full_scale = "5 V", load = "30 lbf", wanted;
   int bits = 12;
@@ -39,6 +42,18 @@ struct Options {
 constexpr Range size = above_zero(10, "of a transducer");
 constexpr Range stress = above_zero(1e13, "diamond has 1.2e12 N/m2");
 constexpr Range voltage = above_zero(1000, "of an instrument");
+
+constexpr std::pair<const char*, Arms> arrangements[] = {{"quarter", Arms::quarter},
+                                                         {"half", Arms::half},
+                                                         {"poisson", Arms::poisson},
+                                                         {"bending", Arms::bending}};
+
+// Returns the arrangement that --bridge, which is one of them, names.
+Arms arms_of(std::string_view bridge) {
+  return std::find_if(std::begin(arrangements), std::end(arrangements),
+                      [&](const auto& each) { return each.first == bridge; })
+      ->second;
+}
 
 double quantity(std::string_view option, const std::string& text, std::string_view unit,
                 const Range& range) {
@@ -57,7 +72,7 @@ Transducer read(const Options& o) {
             .yield_stress = quantity("--yield", o.yield, "N/m2", stress),
             .stress_concentration = number_argument("--concentration", o.concentration,
                                                     {1, 100, "a mount adds to the stress"})};
-  s.bridge = {.arms = o.arms,
+  s.bridge = {.arms = arms_of(o.bridge),
               .gage_factor = number_argument("--gage-factor", o.gage_factor,
                                              above_zero(1000, "semiconductors have 200")),
               .excitation = quantity("--excitation", o.excitation, "V", voltage),
@@ -97,11 +112,6 @@ std::vector<Line> answer(const Transducer& s) {
       {"clip_load_N", "the converter ends at", p.clip_load, "N", "lbf"},
   };
 }
-
-constexpr std::pair<const char*, Arms> arrangements[] = {{"quarter", Arms::quarter},
-                                                         {"half", Arms::half},
-                                                         {"poisson", Arms::poisson},
-                                                         {"bending", Arms::bending}};
 
 // Where the gages would have to be, for each way to wire them.
 Json places(const Transducer& s, double wanted) {
@@ -154,47 +164,43 @@ ExitCode run_force_beam(const Options& options) {
   return ok;
 }
 
-void add_beam_options(CLI::App& sub, Options& o) {
-  sub.add_option("--length", o.length, "from the load to the mount")->capture_default_str();
-  sub.add_option("--width", o.width, "of the beam")->capture_default_str();
-  sub.add_option("--height", o.height, "in the direction of the load")->capture_default_str();
-  sub.add_option("--gages", o.gages, "from the load to the middle of the gages")
-      ->capture_default_str();
-  sub.add_option("--modulus", o.modulus, "Young's, of the material")->capture_default_str();
-  sub.add_option("--poisson", o.poisson, "Poisson's ratio")->capture_default_str();
-  sub.add_option("--yield", o.yield, "stress at which it yields")->capture_default_str();
-  sub.add_option("--concentration", o.concentration, "of stress at the mount")
-      ->capture_default_str();
+void add_beam_options(Command sub, Options& o) {
+  sub.add_option("--length", o.length, "from the load to the mount").show_default();
+  sub.add_option("--width", o.width, "of the beam").show_default();
+  sub.add_option("--height", o.height, "in the direction of the load").show_default();
+  sub.add_option("--gages", o.gages, "from the load to the middle of the gages").show_default();
+  sub.add_option("--modulus", o.modulus, "Young's, of the material").show_default();
+  sub.add_option("--poisson", o.poisson, "Poisson's ratio").show_default();
+  sub.add_option("--yield", o.yield, "stress at which it yields").show_default();
+  sub.add_option("--concentration", o.concentration, "of stress at the mount").show_default();
 }
 
-void add_bridge_options(CLI::App& sub, Options& o) {
-  std::map<std::string, Arms> arms;
-  for (const auto& [name, each] : arrangements) arms[name] = each;
-  sub.add_option("--bridge", o.arms,
+void add_bridge_options(Command sub, Options& o) {
+  std::vector<std::string> names;
+  for (const auto& [name, arms] : arrangements) names.emplace_back(name);
+  sub.add_option("--bridge", o.bridge,
                  "quarter: one gage; half: above and below; poisson: above and below, along and "
                  "across; bending: two above, two below")
-      ->transform(CLI::CheckedTransformer(arms))
-      ->default_str("poisson");
-  sub.add_option("--gage-factor", o.gage_factor, "of the gages")->capture_default_str();
-  sub.add_option("--excitation", o.excitation, "of the bridge")->capture_default_str();
-  sub.add_option("--gain", o.gain, "of the amplifier")->capture_default_str();
-  sub.add_option("--full-scale", o.full_scale, "of the converter")->capture_default_str();
-  sub.add_option("--bits", o.bits, "of the converter")
-      ->check(CLI::Range(1, 24))
-      ->capture_default_str();
+      .is_one_of(names)
+      .show_default();
+  sub.add_option("--gage-factor", o.gage_factor, "of the gages").show_default();
+  sub.add_option("--excitation", o.excitation, "of the bridge").show_default();
+  sub.add_option("--gain", o.gain, "of the amplifier").show_default();
+  sub.add_option("--full-scale", o.full_scale, "of the converter").show_default();
+  sub.add_option("--bits", o.bits, "of the converter").is_between(1, 24).show_default();
 }
 
 }  // namespace
 
-void add_force_beam(CLI::App& app, Action& action) {
+void add_force_beam(Command app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(
-      app, "force-beam",
+  Command sub = app.subcommand(
+      "force-beam",
       "strain, safety and output of a beam with strain gages; without options the thesis's",
       "sinew force-beam --load \"20 lbf\" --gain 400 --sensitivity \"0.1 V/lbf\"");
   add_beam_options(sub, *options);
   add_bridge_options(sub, *options);
-  sub.add_option("--load", options->load, "at the free end")->capture_default_str();
+  sub.add_option("--load", options->load, "at the free end").show_default();
   sub.add_option("--sensitivity", options->wanted, "wanted: tells where the gages must be");
   sub.add_flag("--json", options->json, "as JSON, SI");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");

@@ -120,22 +120,21 @@ std::vector<std::string> at_commas(const std::string& text) {
   return out;
 }
 
-void add_data_options(CLI::App& sub, DataOptions& options) {
-  sub.add_option("data", options.files, "measurements as CSV")->required();
+void add_data_options(Command sub, DataOptions& options) {
+  sub.add_option("data", options.files, "measurements as CSV").required();
   sub.add_option("--map", options.maps, "name=NAME: the file's name for a column; may be repeated")
-      ->allow_extra_args(false)
-      ->delimiter(',');
+      .takes_one()
+      .split_at(',');
   sub.add_option("--unit", options.units,
                  "NAME=UNIT: unit of a column of the file, as it calls it; may be repeated")
-      ->allow_extra_args(false);
+      .takes_one();
   sub.add_option("--where", options.where,
                  "NAME=VALUE,...: only rows whose column NAME has one of these values; may be "
                  "repeated")
-      ->allow_extra_args(false);
+      .takes_one();
   sub.add_option("--columns", options.columns,
                  "\"force [N],time [s]\": the header of a file without one");
-  sub.add_option("--atmosphere", options.atmosphere, "that gauges read against")
-      ->capture_default_str();
+  sub.add_option("--atmosphere", options.atmosphere, "that gauges read against").show_default();
   sub.add_flag("--drop-incomplete", options.drop_incomplete,
                "leave out rows with cells that are empty or no numbers");
 }
@@ -169,7 +168,7 @@ void refuse_data_file(std::string_view option, const std::string& file,
                    "another file than those that are fitted");
 }
 
-void add_result_options(CLI::App& sub, ResultOptions& options) {
+void add_result_options(Command sub, ResultOptions& options) {
   sub.add_option("-o,--out", options.out, "the parameter file to write");
   sub.add_flag("--force", options.force, "replace the parameter file and the page");
   sub.add_flag("--json", options.json, "print the report as JSON");
@@ -177,11 +176,11 @@ void add_result_options(CLI::App& sub, ResultOptions& options) {
   add_report_options(sub, options);
 }
 
-void add_report_options(CLI::App& sub, ResultOptions& options) {
-  CLI::Option* page =
+void add_report_options(Command sub, ResultOptions& options) {
+  Option page =
       sub.add_option("--report", options.report,
                      "FILE.html: a page with the data beside the models; absent: beside --out");
-  sub.add_flag("--no-report", options.no_report, "no page")->excludes(page);
+  sub.add_flag("--no-report", options.no_report, "no page").excludes(page);
 }
 
 std::string page_of(const ResultOptions& options) {
@@ -231,10 +230,10 @@ void tell(const identify::Report& report, const std::string& parameter_file,
   leave_page(report.subject, {&report}, parameter_file, data, options);
 }
 
-void add_identify(CLI::App& app, Action& action) {
-  CLI::App& sub = subcommand(app, "identify", "from measurements to parameter files",
-                             "sinew identify geometry mesh.csv -o my-actuator.toml");
-  sub.require_subcommand(1);
+void add_identify(Command app, Action& action) {
+  Command sub = app.subcommand("identify", "from measurements to parameter files",
+                               "sinew identify geometry mesh.csv -o my-actuator.toml");
+  sub.require_subcommand();
   add_identify_geometry(sub, action);
   add_identify_sensor(sub, action);
   add_identify_dynamic(sub, action);

@@ -5,7 +5,6 @@
 // its method stands in sinew/identify.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -17,13 +16,13 @@
 
 namespace sinew::cli {
 
-void add_identify_geometry(CLI::App& identify, Action& action);
-void add_identify_sensor(CLI::App& identify, Action& action);
-void add_identify_dynamic(CLI::App& identify, Action& action);
-void add_identify_joint(CLI::App& identify, Action& action);
-void add_identify_valve(CLI::App& identify, Action& action);
-void add_identify_static(CLI::App& identify, Action& action);
-void add_identify_creep(CLI::App& identify, Action& action);
+void add_identify_geometry(Command identify, Action& action);
+void add_identify_sensor(Command identify, Action& action);
+void add_identify_dynamic(Command identify, Action& action);
+void add_identify_joint(Command identify, Action& action);
+void add_identify_valve(Command identify, Action& action);
+void add_identify_static(Command identify, Action& action);
+void add_identify_creep(Command identify, Action& action);
 
 // How files of measurements are read.
 struct DataOptions {
@@ -34,7 +33,7 @@ struct DataOptions {
   std::string atmosphere = "14.7 psi";
   bool drop_incomplete = false;
 };
-void add_data_options(CLI::App& sub, DataOptions& options);
+void add_data_options(Command sub, DataOptions& options);
 
 // "6 lb, 11 lb": the pieces between commas, without blanks before them.
 std::vector<std::string> at_commas(const std::string& text);
@@ -51,8 +50,8 @@ struct ResultOptions {
   std::string report;  // the page; empty: beside `out`
   bool json = false, force = false, quiet = false, no_report = false;
 };
-void add_result_options(CLI::App& sub, ResultOptions& options);
-void add_report_options(CLI::App& sub, ResultOptions& options);  // in it; of methods without a file
+void add_result_options(Command sub, ResultOptions& options);
+void add_report_options(Command sub, ResultOptions& options);  // in it; of methods without a file
 
 // The page that is to be written: the one that was asked for, or the parameter file's name with
 // .html; empty: none.

@@ -5,16 +5,17 @@
 
 namespace sinew::cli {
 
-void add_identify_creep(CLI::App& identify, Action& action) {
+void add_identify_creep(Command identify, Action& action) {
   struct Options {
     DataOptions data;
     ResultOptions result;
   };
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(identify, "creep",
-                             "creep from force that goes on growing at one length; its shares and "
-                             "times belong into an actuator's [creep]",
-                             "sinew identify creep hold.csv");
+  Command sub =
+      identify.subcommand("creep",
+                          "creep from force that goes on growing at one length; its shares and "
+                          "times belong into an actuator's [creep]",
+                          "sinew identify creep hold.csv");
   add_data_options(sub, options->data);
   sub.add_flag("--json", options->result.json, "print the report as JSON");
   sub.add_flag("--quiet", options->result.quiet, "only the report and errors");

@@ -129,34 +129,33 @@ ExitCode run_dynamic(const Options& options) {
 
 }  // namespace
 
-void add_identify_dynamic(CLI::App& identify, Action& action) {
+void add_identify_dynamic(Command identify, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(
-      identify, "dynamic", "viscous loss and dry friction from a mass that swings on trapped air",
+  Command sub = identify.subcommand(
+      "dynamic", "viscous loss and dry friction from a mass that swings on trapped air",
       "sinew identify dynamic a.csv b.csv --actuator robots/leg/actuator.toml --mass \"6 lb,11 "
       "lb\" --pressure \"60 psi gauge,80 psi gauge\" --external-volume \"0.114 in3\" -o bpa.toml");
   add_data_options(sub, options->data);
   sub.add_option("--actuator", options->actuator, "file with braid, tension and ends; a start")
-      ->required();
+      .required();
   sub.add_option("--name", options->name, "which actuator, where the file has several");
   sub.add_option("--mass", options->mass, "that moves; one, or one per file with commas")
-      ->required();
+      .required();
   sub.add_option("--pressure", options->pressure,
                  "of the air as the mass hangs; one, or one per file; absent: the measured one");
   sub.add_option("--external-volume", options->external,
                  "of hose and fittings up to the shut valve; one, or one per file")
-      ->capture_default_str();
+      .show_default();
   sub.add_option("--exponent", options->exponent,
                  "of the trapped air; absent: from the measured pressure, else 1.4 [39]");
   sub.add_option("--count", options->count, "actuators in parallel")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
+      .is_between(1, 100)
+      .show_default();
   sub.add_option("--hold-out", options->held_out,
                  "a file that scores the laws and is not fitted; may be repeated; absent: each "
                  "file in turn, or the last third of the only one")
-      ->allow_extra_args(false);
-  sub.add_option("--model", options->model, "only this law")
-      ->check(CLI::IsMember(identify::dynamic_models()));
+      .takes_one();
+  sub.add_option("--model", options->model, "only this law").is_one_of(identify::dynamic_models());
   add_result_options(sub, options->result);
   sub.callback([options, &action] { action = [options] { return run_dynamic(*options); }; });
 }

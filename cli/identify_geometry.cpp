@@ -68,29 +68,28 @@ ExitCode from_trapezoids(const Options& options) {
 
 }  // namespace
 
-void add_identify_geometry(CLI::App& identify, Action& action) {
+void add_identify_geometry(Command identify, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub =
-      subcommand(identify, "geometry",
-                 "thread length and turns, from counted trapezoids or from lengths and diameters",
-                 "sinew identify geometry --trapezoids 37,16 --side \"0.057 in\"");
+  Command sub = identify.subcommand(
+      "geometry", "thread length and turns, from counted trapezoids or from lengths and diameters",
+      "sinew identify geometry --trapezoids 37,16 --side \"0.057 in\"");
   add_data_options(sub, options->data);
-  sub.get_option("data")->required(false);
+  sub.option("data").required(false);
   sub.add_option("--trapezoids", options->trapezoids,
                  "LENGTHWISE,AROUND counted on the opened mesh, instead of data");
   sub.add_option("--side", options->side, "of one trapezoid");
   sub.add_option("--thread-thickness", options->thread,
                  "taken off diameters that were measured outside the threads")
-      ->capture_default_str();
-  sub.add_option("--name", options->name, "of the actuator")->capture_default_str();
+      .show_default();
+  sub.add_option("--name", options->name, "of the actuator").show_default();
   add_result_options(sub, options->result);
   sub.callback([options, &action] {
     if (options->data.files.empty() == options->trapezoids.empty())
-      throw CLI::ValidationError("data", "either a file of lengths and diameters, or --trapezoids");
+      refuse("data", "either a file of lengths and diameters, or --trapezoids");
     if (!options->trapezoids.empty() && !options->result.report.empty())
-      throw CLI::ValidationError("--report", "needs a file of lengths and diameters to show");
+      refuse("--report", "needs a file of lengths and diameters to show");
     if (!options->trapezoids.empty() && options->side.empty())
-      throw CLI::ValidationError("--side", "is needed with --trapezoids");
+      refuse("--side", "is needed with --trapezoids");
     action = [options] {
       check_result_options(options->result);
       return options->trapezoids.empty() ? from_pairs(*options) : from_trapezoids(*options);

@@ -108,17 +108,16 @@ ExitCode run_joint(const Options& options) {
   return ok;
 }
 
-void add_load_options(CLI::App& sub, Options& o) {
+void add_load_options(Command sub, Options& o) {
   sub.add_option("--load", o.load, "mass at the lever, where no column torque or load has it");
-  sub.add_option("--lever", o.lever, "from the joint to the load")->capture_default_str();
-  sub.add_option("--down", o.down, "angle at which the lever points straight down")
-      ->capture_default_str();
-  sub.add_option("--limb", o.limb, "mass of the limb itself")->capture_default_str();
+  sub.add_option("--lever", o.lever, "from the joint to the load").show_default();
+  sub.add_option("--down", o.down, "angle at which the lever points straight down").show_default();
+  sub.add_option("--limb", o.limb, "mass of the limb itself").show_default();
   sub.add_option("--limb-lever", o.limb_lever, "from the joint to the limb's center of mass")
-      ->capture_default_str();
+      .show_default();
 }
 
-void add_known_options(CLI::App& sub, Options& o) {
+void add_known_options(Command sub, Options& o) {
   sub.add_option("--moment-arm", o.moment_arm, "is known, at the rest angle");
   sub.add_option("--flexor-length", o.flexor_length, "is known, at the rest angle");
   sub.add_option("--extensor-length", o.extensor_length, "is known, at the rest angle");
@@ -127,31 +126,29 @@ void add_known_options(CLI::App& sub, Options& o) {
 
 }  // namespace
 
-void add_identify_joint(CLI::App& identify, Action& action) {
+void add_identify_joint(Command identify, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(
-      identify, "joint", "force law and moment arm from joint angle, pressures and a known load",
+  Command sub = identify.subcommand(
+      "joint", "force law and moment arm from joint angle, pressures and a known load",
       "sinew identify joint knee.csv --actuator robots/leg/actuator.toml --load \"5 lb\" --lever "
       "\"6 in\" --rest-angle \"310 deg\" --joint knee --base robots/leg/robot.toml -o mine.toml");
   add_data_options(sub, options->data);
-  sub.add_option("--actuator", options->actuator, "file with the braid; a start")->required();
+  sub.add_option("--actuator", options->actuator, "file with the braid; a start").required();
   sub.add_option("--name", options->actuator_name, "which actuator, where the file has several");
   sub.add_option("--count", options->count, "actuators in parallel in a muscle")
-      ->check(CLI::Range(1, 100))
-      ->capture_default_str();
+      .is_between(1, 100)
+      .show_default();
   sub.add_option("--flexion", options->names.flexion, "what a shorter flexor does to the angle")
-      ->check(CLI::IsMember({"raises angle", "lowers angle"}))
-      ->capture_default_str();
+      .is_one_of({"raises angle", "lowers angle"})
+      .show_default();
   sub.add_option("--rest-angle", options->rest, "at which the muscles' lengths are told")
-      ->capture_default_str();
+      .show_default();
   add_load_options(sub, *options);
   add_known_options(sub, *options);
   sub.add_option("--hold-out", options->hold_out,
                  "a file that scores the models and is not fitted; absent: every third row");
-  sub.add_option("--model", options->model, "only this one")
-      ->check(CLI::IsMember(identify::joint_models()));
-  sub.add_option("--joint", options->names.joint, "its name in the robot's file")
-      ->capture_default_str();
+  sub.add_option("--model", options->model, "only this one").is_one_of(identify::joint_models());
+  sub.add_option("--joint", options->names.joint, "its name in the robot's file").show_default();
   sub.add_option("--flexor", options->names.flexor, "the muscle's name; absent: <joint>_flexor");
   sub.add_option("--extensor", options->names.extensor,
                  "the muscle's name; absent: <joint>_extensor");
@@ -163,7 +160,7 @@ void add_identify_joint(CLI::App& identify, Action& action) {
     if (options->names.extensor.empty())
       options->names.extensor = options->names.joint + "_extensor";
     if (options->keep_force && options->model.ends_with("pressure"))
-      throw CLI::ValidationError("--model", "with --keep-force round or hinge");
+      refuse("--model", "with --keep-force round or hinge");
     action = [options] { return run_joint(*options); };
   });
 }

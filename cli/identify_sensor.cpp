@@ -151,26 +151,24 @@ ExitCode run(const Options& options) {
 
 }  // namespace
 
-void add_identify_sensor(CLI::App& identify, Action& action) {
+void add_identify_sensor(Command identify, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(
-      identify, "sensor", "scale, offset, linearity, hysteresis and noise of calibrated sensors",
+  Command sub = identify.subcommand(
+      "sensor", "scale, offset, linearity, hysteresis and noise of calibrated sensors",
       "sinew identify sensor weights.csv --map load=weight -o my-sensors.toml");
   add_data_options(sub, options->data);
   sub.add_option("--known", options->known,
                  "load, force, tension, angle, length, position, pressure or velocity: what was "
                  "set, where the file has several");
   sub.add_option("--sensors", options->sensors, "columns to calibrate; all in volts or counts")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+      .split_at(',')
+      .takes_one();
   sub.add_option("--rest", options->rest, "the known value at the joint's rest angle; 0");
-  sub.add_option("--bits", options->bits, "of the converter")
-      ->check(CLI::Range(1, 16))
-      ->capture_default_str();
-  sub.add_option("--full-scale", options->full_scale, "of the converter")->capture_default_str();
+  sub.add_option("--bits", options->bits, "of the converter").is_between(1, 16).show_default();
+  sub.add_option("--full-scale", options->full_scale, "of the converter").show_default();
   sub.add_option("--hold-out", options->hold_out,
                  "level: every known value is predicted from the others; or another calibration")
-      ->capture_default_str();
+      .show_default();
   sub.add_flag("--average", options->average,
                "the controller believes in one scale for all of them, as the thesis's did");
   sub.add_option("--base", options->base,

@@ -159,10 +159,10 @@ ExitCode run_static(const Options& options) {
 
 }  // namespace
 
-void add_identify_static(CLI::App& identify, Action& action) {
+void add_identify_static(Command identify, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(
-      identify, "static", "the static law of an actuator from force, length and pressure",
+  Command sub = identify.subcommand(
+      "static", "the static law of an actuator from force, length and pressure",
       "sinew identify static map.csv --map force=F_N,pressure=P_gauge_Pa,length=L_m --unit F_N=N "
       "--unit \"P_gauge_Pa=Pa gauge\" --unit L_m=m --rest-length \"250 mm\" -o my-actuator.toml");
   add_data_options(sub, options->data);
@@ -171,19 +171,19 @@ void add_identify_static(CLI::App& identify, Action& action) {
   sub.add_option("--length", options->lengths,
                  "of files without a column of it: \"205 mm\", or PART=\"205 mm\" for files with "
                  "PART in their name; may be repeated")
-      ->allow_extra_args(false);
+      .takes_one();
   sub.add_option("--actuator", options->actuator, "a file whose braid is taken as known");
   sub.add_option("--branch", options->branch, "fill, vent or both")
-      ->check(CLI::IsMember({"fill", "vent", "both"}))
-      ->capture_default_str();
+      .is_one_of({"fill", "vent", "both"})
+      .show_default();
   sub.add_option("--fit-where", options->fit_where,
                  "NAME=VALUE,...: only such rows are fitted, the others held out; may be repeated")
-      ->allow_extra_args(false);
+      .takes_one();
   sub.add_option("--hold-out", options->hold_out,
                  "pressure (every second), length (each once) or another FILE, to score what was "
                  "not seen");
   sub.add_option("--model", options->model, "this one alone");
-  sub.add_option("--name", options->name, "of the actuator")->capture_default_str();
+  sub.add_option("--name", options->name, "of the actuator").show_default();
   add_result_options(sub, options->result);
   sub.callback([options, &action] {
     action = [options] {

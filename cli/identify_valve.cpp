@@ -141,15 +141,16 @@ ExitCode run_identify_valve(const Options& options) {
 
 }  // namespace
 
-void add_identify_valve(CLI::App& identify, Action& action) {
+void add_identify_valve(Command identify, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(identify, "valve",
-                             "flow and delays, from a chart, a filling, pulses, a coil's current "
-                             "or a map of duties",
-                             "sinew identify valve fill.csv --volume \"0.5 L\" -o my-valve.toml");
+  Command sub =
+      identify.subcommand("valve",
+                          "flow and delays, from a chart, a filling, pulses, a coil's current "
+                          "or a map of duties",
+                          "sinew identify valve fill.csv --volume \"0.5 L\" -o my-valve.toml");
   add_data_options(sub, options->data);
   sub.add_option("--kind", options->kind, "what was measured; absent: by the columns")
-      ->check(CLI::IsMember({"chart", "fill", "pulses", "coil", "duty"}));
+      .is_one_of({"chart", "fill", "pulses", "coil", "duty"});
   sub.add_option("--volume", options->volume, "fill, pulses: of the chamber, hoses included");
   sub.add_option("--conductance", options->conductance,
                  "fill, pulses: of the valve, for the volume instead");
@@ -158,9 +159,9 @@ void add_identify_valve(CLI::App& identify, Action& action) {
                  "pressure on the valve's other side, the room's when venting; fitted without");
   sub.add_option("--exponent", options->exponent,
                  "fill: polytropic, of the chamber: 1 isothermal, 1.4 adiabatic; tried without");
-  sub.add_option("--temperature", options->temperature, "of the air")->capture_default_str();
+  sub.add_option("--temperature", options->temperature, "of the air").show_default();
   sub.add_option("--hold-out", options->hold_out, "OTHER.csv that scores the model of a filling");
-  sub.add_option("--name", options->name, "of the valve")->capture_default_str();
+  sub.add_option("--name", options->name, "of the valve").show_default();
   sub.add_option("--base", options->base,
                  "VALVES.toml with --name in it: what is not identified is kept from there");
   sub.add_option("--frequency", options->frequency,

@@ -35,13 +35,13 @@ ExitCode import_log(const Options& options) {
 
 }  // namespace
 
-void add_import(CLI::App& app, Action& action) {
+void add_import(Command app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(app, "import", "the thesis's log, out.dat, as the folder of a run",
-                             "sinew import out.dat --experiment experiments/walk-test-1.toml");
-  sub.add_option("FILE", options->file, "out.dat, as B.1 or sinew export writes it")->required();
+  Command sub = app.subcommand("import", "the thesis's log, out.dat, as the folder of a run",
+                               "sinew import out.dat --experiment experiments/walk-test-1.toml");
+  sub.add_option("FILE", options->file, "out.dat, as B.1 or sinew export writes it").required();
   sub.add_option("--experiment", options->experiment, "what was run: its robot, phases, scales")
-      ->required();
+      .required();
   sub.add_option("-o,--output", options->folder, "folder; else runs/<experiment>/<n>, counting up");
   sub.add_flag("--force", options->force, "replace the run that is in the folder");
   add_sets(sub, options->sets);

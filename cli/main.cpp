@@ -3,6 +3,7 @@
 // Results go to stdout, everything else to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <vector>
@@ -50,24 +51,25 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer("Example:\n  sinew run experiments/walk-test-1.toml");
 
+  const cli::Command command(app);
   cli::Action action;
-  cli::add_run(app, action);
-  cli::add_analyze(app, action);
-  cli::add_report(app, action);
-  cli::add_view(app, action);
-  cli::add_compare(app, action);
-  cli::add_export(app, action);
-  cli::add_import(app, action);
-  cli::add_replay(app, action);
-  cli::add_sweep(app, action);
-  cli::add_show(app, action);
-  cli::add_check(app, action);
-  cli::add_actuator(app, action);
-  cli::add_valve(app, action);
-  cli::add_kinematics(app, action);
-  cli::add_identify(app, action);
-  cli::add_figures(app, action);
-  cli::add_force_beam(app, action);
+  cli::add_run(command, action);
+  cli::add_analyze(command, action);
+  cli::add_report(command, action);
+  cli::add_view(command, action);
+  cli::add_compare(command, action);
+  cli::add_export(command, action);
+  cli::add_import(command, action);
+  cli::add_replay(command, action);
+  cli::add_sweep(command, action);
+  cli::add_show(command, action);
+  cli::add_check(command, action);
+  cli::add_actuator(command, action);
+  cli::add_valve(command, action);
+  cli::add_kinematics(command, action);
+  cli::add_identify(command, action);
+  cli::add_figures(command, action);
+  cli::add_force_beam(command, action);
 
   try {
     app.parse(argc, argv);

@@ -59,11 +59,11 @@ ExitCode replay_run(const Options& options) {
 
 }  // namespace
 
-void add_replay(CLI::App& app, Action& action) {
+void add_replay(Command app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(app, "replay", "recorded readings through today's controller",
-                             "sinew replay runs/walk-test-1/1");
-  sub.add_option("DIR", options->run, "a run's folder, or a log file")->required();
+  Command sub = app.subcommand("replay", "recorded readings through today's controller",
+                               "sinew replay runs/walk-test-1/1");
+  sub.add_option("DIR", options->run, "a run's folder, or a log file").required();
   sub.add_option("--machine", options->machine, "what was run, in place of the folder's");
   sub.add_flag("--json", options->json, "as JSON");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");

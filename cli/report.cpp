@@ -40,12 +40,11 @@ ExitCode report_run(const Options& options) {
 
 }  // namespace
 
-void add_report(CLI::App& app, Action& action) {
+void add_report(Command app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub =
-      subcommand(app, "report", "a run as one page, which opens in any browser, offline",
-                 "sinew report runs/walk-test-1/1 -o walk.html");
-  sub.add_option("DIR", options->run, "a run's folder, or a log file")->required();
+  Command sub = app.subcommand("report", "a run as one page, which opens in any browser, offline",
+                               "sinew report runs/walk-test-1/1 -o walk.html");
+  sub.add_option("DIR", options->run, "a run's folder, or a log file").required();
   sub.add_option("-o,--output", options->out, "the file to write; else report.html beside the log");
   sub.add_option("--machine", options->machine,
                  "what was run, in place of the folder's resolved.toml");

@@ -54,7 +54,7 @@ std::string a_pace(const std::string& text) {
   return fmt::format("found \"{}\"; expected 0, or a number from {} on", text, slowest);
 }
 
-void add_run_options(CLI::App& sub, RunOptions& options) {
+void add_run_options(Command sub, RunOptions& options) {
   run::RunRequest& request = options.run;
   sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
   sub.add_flag("--force", request.force, "replace the run that is in the folder");
@@ -66,14 +66,15 @@ void add_run_options(CLI::App& sub, RunOptions& options) {
   sub.add_flag("--quiet", options.quiet, "only errors on stderr");
 }
 
-void add_run(CLI::App& app, Action& action) {
+void add_run(Command app, Action& action) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App& sub = subcommand(app, "run", "an experiment; its log and numbers go into a new folder",
-                             "sinew run experiments/walk-test-1.toml --set \"trolley.drag=0 lbf\"");
-  sub.add_option("EXPERIMENT", options->run.experiment, "file of the experiment")->required();
+  Command sub =
+      app.subcommand("run", "an experiment; its log and numbers go into a new folder",
+                     "sinew run experiments/walk-test-1.toml --set \"trolley.drag=0 lbf\"");
+  sub.add_option("EXPERIMENT", options->run.experiment, "file of the experiment").required();
   add_run_options(sub, *options);
   sub.add_option("--pace", options->pace, "simulated seconds per second of wall time; 0: no limit")
-      ->check(a_pace, "");
+      .check(a_pace);
   sub.callback([=, &action] { action = [=] { return run_experiment(*options); }; });
 }
 

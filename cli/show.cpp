@@ -115,12 +115,12 @@ ExitCode show(const Options& options) {
 
 }  // namespace
 
-void add_show(CLI::App& app, Action& action) {
+void add_show(Command app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(app, "show", "values of a file, and where each one came from",
-                             "sinew show robots/leg/robot.toml joint.knee muscle.hip");
+  Command sub = app.subcommand("show", "values of a file, and where each one came from",
+                               "sinew show robots/leg/robot.toml joint.knee muscle.hip");
   sub.add_option("FILE", options->file, "experiment, rig, robot, actuator, valves or wiring file")
-      ->required();
+      .required();
   sub.add_option("KEY", options->keys, "keys, or how they begin");
   add_sets(sub, options->sets);
   sub.add_flag("--json", options->json, "as JSON");

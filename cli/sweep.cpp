@@ -115,37 +115,37 @@ ExitCode sweep_all(const Options& options) {
 }
 
 // One each, so that what follows stays what it is.
-void add_words(CLI::App& sub, const char* name, std::vector<std::string>& words,
+void add_words(Command sub, const char* name, std::vector<std::string>& words,
                const char* description) {
-  sub.add_option(name, words, description)->allow_extra_args(false);
+  sub.add_option(name, words, description).takes_one();
 }
 
-void add_sample(CLI::App& sub, Options& options) {
+void add_sample(Command sub, Options& options) {
   add_words(sub, "--range", options.study.range,
             "KEY=from:to unit, sampled; with \"log\" or \"whole\" behind it; repeated");
   sub.add_option("--points", options.study.points, "of the sample, each a row or more")
-      ->check(CLI::Range(1, 1000000));
+      .is_between(1, 1000000);
   sub.add_option("--sample", options.sample, "how the points lie: sobol, latin, random; sobol")
-      ->check(CLI::IsMember({"sobol", "latin", "random"}));
+      .is_one_of({"sobol", "latin", "random"});
   sub.add_option("--sample-seed", options.sample_seed, "other points of the same kind; 1")
-      ->check(CLI::Range(0, 2147483647));
+      .is_between(0, 2147483647);
 }
 
 }  // namespace
 
-void add_sweep(CLI::App& app, Action& action) {
+void add_sweep(Command app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub = subcommand(
-      app, "sweep", "many runs of one experiment as one table",
+  Command sub = app.subcommand(
+      "sweep", "many runs of one experiment as one table",
       "sinew sweep experiments/leg-in-air.toml --vary \"joint.hip.angle_gain=0.02:0.1:5 %/count\" "
       "--report \"joints.hip.tracking_rms_rad [deg]\" -o gain.csv");
   sub.add_option("FILE", options->file, "the experiment, or a plan: the same options as a file")
-      ->required();
+      .required();
   add_words(sub, "--vary", options->study.vary,
             "KEY=a,b,c unit or KEY=from:to:how many unit; repeated: all combinations");
   add_sample(sub, *options);
   sub.add_option("--seeds", options->study.seeds, "each point with the noise of seeds 1 … N")
-      ->check(CLI::Range(1, 10000));
+      .is_between(1, 10000);
   add_words(sub, "--report", options->study.report,
             "keys of summary.json, with commas: key, or key [unit]; else what is reported of it");
   sub.add_option("--largest", options->study.largest,
@@ -153,11 +153,11 @@ void add_sweep(CLI::App& app, Action& action) {
   add_words(sub, "--where", options->study.where,
             "\"key < value\" of summary.json, also <=, >, >=; repeated: all must hold");
   sub.add_option("--halvings", options->halvings, "of the interval that --largest finds; 6")
-      ->check(CLI::Range(0, 50));
+      .is_between(0, 50);
   add_sets(sub, options->study.set);
   sub.add_flag("--allow-unreachable", options->study.allow_unreachable, "as in sinew run");
   sub.add_option("--threads", options->threads, "at a time; as many as the machine has")
-      ->check(CLI::Range(1, 1024));
+      .is_between(1, 1024);
   sub.add_option("-o,--output", options->out, "the CSV file to write; else stdout");
   sub.add_flag("--force", options->force, "replace that file");
   sub.add_flag("--json", options->json, "print the table as JSON");

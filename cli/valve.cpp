@@ -156,20 +156,19 @@ ExitCode run_valve(const Options& options) {
 
 }  // namespace
 
-void add_valve(CLI::App& app, Action& action) {
+void add_valve(Command app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App& sub =
-      subcommand(app, "valve", "flow, filling times and delays of a valve",
-                 "sinew valve robots/leg/valves.toml inlet --upstream \"100 psi gauge\" "
-                 "--downstream \"0 psi gauge\" --volume \"1 in3\"");
-  sub.add_option("FILE", options->file, "valves, robot or experiment file")->required();
-  sub.add_option("NAME", options->name, "of the valve")->required();
-  sub.add_option("--upstream", options->upstream, "pressure, gauge or abs")->required();
-  sub.add_option("--downstream", options->downstream, "pressure, gauge or abs")->required();
+  Command sub =
+      app.subcommand("valve", "flow, filling times and delays of a valve",
+                     "sinew valve robots/leg/valves.toml inlet --upstream \"100 psi gauge\" "
+                     "--downstream \"0 psi gauge\" --volume \"1 in3\"");
+  sub.add_option("FILE", options->file, "valves, robot or experiment file").required();
+  sub.add_option("NAME", options->name, "of the valve").required();
+  sub.add_option("--upstream", options->upstream, "pressure, gauge or abs").required();
+  sub.add_option("--downstream", options->downstream, "pressure, gauge or abs").required();
   sub.add_option("--volume", options->volume, "rigid, to be filled and vented");
-  CLI::Option& duty =
-      *sub.add_option("--duty", options->duty, "share of the period, or from:to:step");
-  sub.add_option("--frequency", options->frequency, "of the pulses; 100 Hz")->needs(&duty);
+  Option duty = sub.add_option("--duty", options->duty, "share of the period, or from:to:step");
+  sub.add_option("--frequency", options->frequency, "of the pulses; 100 Hz").needs(duty);
   sub.add_flag("--json", options->json, "as JSON, SI");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");
   sub.callback([=, &action] { action = [=] { return run_valve(*options); }; });
