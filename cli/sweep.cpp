@@ -1,15 +1,12 @@
 // cli/sweep.cpp - `sinew sweep`: many runs of one experiment as one table.
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
-#include <thread>
 
 #include "cli/command.h"
-#include "cli/interrupt.h"
-#include "cli/terminal.h"
+#include "cli/sweep_runs.h"
 #include "sinew/config/compose.h"
-#include "sinew/tune/study.h"
-#include "sinew/tune/table.h"
 
 namespace sinew::cli {
 
@@ -54,40 +51,12 @@ tune::Sweep sweep_for(const Options& options) {
   return tune::sweep_of(study);
 }
 
-int threads_for(const Options& options) {
-  if (options.threads > 0) return options.threads;
-  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
-
-// The bar would run through a table on the same terminal.
-std::vector<tune::Row> run_all(const Options& options, const tune::Sweep& s, tune::TableFile* csv) {
-  std::atomic<std::int64_t> progress{0};
-  const ProgressBar bar(progress, static_cast<std::int64_t>(tune::points(s)),
-                        {.each = 1, .unit = "points", .decimals = 0},
-                        options.quiet || options.out.empty());
-  Interrupt interrupt;
-  return tune::sweep(s, {.threads = threads_for(options),
-                         .stop = &interrupt.asked(),
-                         .progress = &progress,
-                         .row = [&](const tune::Row& row) {
-                           if (csv && !csv->add(row.cells)) interrupt.ask();
-                         }});
-}
-
 // Before the table takes an older one's place.
 void judge(const std::vector<tune::Row>& rows, const tune::Sweep& s, const std::string& part) try {
   tune::refuse_empty_columns(rows, s);
 } catch (const std::exception& e) {
   if (part.empty()) throw;
   throw std::runtime_error(std::string(e.what()) + "\n" + part + ": holds the rows");
-}
-
-void tell(const std::vector<tune::Row>& rows, std::size_t points, const std::string& part,
-          const Messages& messages) {
-  for (const std::string& text : tune::warnings(rows)) messages.warning(text);
-  if (rows.size() < points)
-    throw std::runtime_error(fmt::format("interrupted: {} of {} points are done{}", rows.size(),
-                                         points, part.empty() ? "" : " and kept in " + part));
 }
 
 ExitCode sweep_all(const Options& options) {
@@ -102,27 +71,22 @@ ExitCode sweep_all(const Options& options) {
   else if (!options.json)
     csv.emplace(headings,
                 [](std::string_view line) { std::fwrite(line.data(), 1, line.size(), stdout); });
-  const std::vector<tune::Row> rows = run_all(options, s, csv ? &*csv : nullptr);
+  const std::vector<tune::Row> rows =
+      run_rows(s, {.threads = options.threads,
+                   .bar = !options.quiet && !options.out.empty(),  // it would run through a table
+                   .csv = csv ? &*csv : nullptr});
   const std::size_t points = tune::points(s);
   if (csv) csv->throw_failure();
   if (options.json) fmt::print("{}", tune::json_of(headings, rows));
   const std::string part = csv ? csv->part() : "";
-  tell(rows, points, part, messages);
+  tell_of_rows(rows, points, part, messages);
   judge(rows, s, part);
   if (csv) csv->take_place();
   if (!options.out.empty()) messages.note(options.out);
   return ok;
 }
 
-// One each, so that what follows stays what it is.
-void add_words(Command sub, const char* name, std::vector<std::string>& words,
-               const char* description) {
-  sub.add_option(name, words, description).takes_one();
-}
-
 void add_sample(Command sub, Options& options) {
-  add_words(sub, "--range", options.study.range,
-            "KEY=from:to unit, sampled; with \"log\" or \"whole\" behind it; repeated");
   sub.add_option("--points", options.study.points, "of the sample, each a row or more")
       .is_between(1, 1000000);
   sub.add_option("--sample", options.sample, "how the points lie: sobol, latin, random; sobol")
@@ -143,21 +107,16 @@ void add_sweep(Command app, Action& action) {
       .required();
   add_words(sub, "--vary", options->study.vary,
             "KEY=a,b,c unit or KEY=from:to:how many unit; repeated: all combinations");
+  add_runs(sub, options->study, options->threads);
   add_sample(sub, *options);
   sub.add_option("--seeds", options->study.seeds, "each point with the noise of seeds 1 … N")
       .is_between(1, 10000);
-  add_words(sub, "--report", options->study.report,
-            "keys of summary.json, with commas: key, or key [unit]; else what is reported of it");
   sub.add_option("--largest", options->study.largest,
                  "the largest value of one more key for which --where holds; written like --vary");
   add_words(sub, "--where", options->study.where,
             "\"key < value\" of summary.json, also <=, >, >=; repeated: all must hold");
   sub.add_option("--halvings", options->halvings, "of the interval that --largest finds; 6")
       .is_between(0, 50);
-  add_sets(sub, options->study.set);
-  sub.add_flag("--allow-unreachable", options->study.allow_unreachable, "as in sinew run");
-  sub.add_option("--threads", options->threads, "at a time; as many as the machine has")
-      .is_between(1, 1024);
   sub.add_option("-o,--output", options->out, "the CSV file to write; else stdout");
   sub.add_flag("--force", options->force, "replace that file");
   sub.add_flag("--json", options->json, "print the table as JSON");

@@ -26,7 +26,7 @@ constexpr Look looks[] = {{"#0072b2", "1", "(1,1.5)"},
                           {"#7a4b12", "(2,1)", "(1,7)"}};
 
 // In single quotes a quote alone means something to gnuplot.
-std::string quoted(std::string_view typed) {
+std::string as_literal(std::string_view typed) {
   std::string out = "'";
   for (const char c : typed) {
     if (c == '\'') out += '\'';
@@ -159,7 +159,7 @@ std::string named(const std::vector<Axis::Tick>& ticks) {
   for (const Axis::Tick& t : ticks) {
     std::string text;
     for (const char c : t.text) text += c == '%' ? "%%" : std::string(1, c);
-    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", quoted(text), format_number(t.at));
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", as_literal(text), format_number(t.at));
   }
   return out;
 }
@@ -177,11 +177,12 @@ void Script::axis(char name, const Axis& axis, const Scale& s) {
 
 void Script::titles(const Plot& plot, const PlotLayout& at) {
   if (!plot.title.empty())
-    add("set label {} at {} left font heading", quoted(plot.title), place(Print::left, at.title));
+    add("set label {} at {} left font heading", as_literal(plot.title),
+        place(Print::left, at.title));
   if (!plot.y.name.empty())
-    add("set label {} at screen {}, graph 0.5 center rotate by 90", quoted(plot.y.title()),
+    add("set label {} at screen {}, graph 0.5 center rotate by 90", as_literal(plot.y.title()),
         across(0.75 * Print::line));
-  add("set label {} at graph 0.5, screen {} center", quoted(plot.x.title()),
+  add("set label {} at graph 0.5, screen {} center", as_literal(plot.x.title()),
       up(at.bottom + Print::numbers + Print::line));
   if (at.curves.empty()) add("set label 'no data' at graph 0.5, graph 0.5 center");
 }
@@ -195,7 +196,8 @@ void Script::legend(const Plot& plot, const PlotLayout& at) {
     if (has_points(curve))
       add("set label '' at {} point {} linecolor rgb '{}'", place(e.x + Print::sample / 2, e.y),
           point_of(plot, e.curve), look_of(plot, e.curve).color);
-    add("set label {} at {} left", quoted(e.text), place(e.x + Print::sample + Print::gap, e.y));
+    add("set label {} at {} left", as_literal(e.text),
+        place(e.x + Print::sample + Print::gap, e.y));
   }
 }
 
@@ -208,7 +210,7 @@ void Script::ends(const Plot& plot, const PlotLayout& at) {
     for (std::size_t i = 0; i < curve.xs.size(); ++i)
       if (!(curve.xs[i] > at.x.to) && std::isfinite(curve.ys[i])) last = i;
     if (last < curve.xs.size())
-      add("set label {} at first {}, first {} left offset 0.6,0", quoted(curve.label),
+      add("set label {} at first {}, first {} left offset 0.6,0", as_literal(curve.label),
           format_number(curve.xs[last]), format_number(curve.ys[last]));
   }
 }

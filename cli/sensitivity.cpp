@@ -1,0 +1,134 @@
+// cli/sensitivity.cpp - `sinew sensitivity`: which ranges a figure follows, and how strongly.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "cli/command.h"
+#include "cli/sweep_runs.h"
+#include "sinew/report/text/text_table.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/tune/sensitivity_table.h"
+
+namespace sinew::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using tune::Method;
+
+struct Options {
+  tune::Study study;
+  std::string method = "sobol", out, runs;
+  int points = 0, seed = 1, threads = 0;
+  bool force = false, json = false, quiet = false;
+};
+
+tune::Design design_of(const Options& options) {
+  tune::Design out{.ranges = options.study.range.size(),
+                   .seed = static_cast<std::uint64_t>(options.seed)};
+  if (options.method == "morris") out.method = Method::morris;
+  if (options.method == "ends") out.method = Method::one_at_a_time;
+  const int usual = out.method == Method::morris ? 20 : 256;
+  out.count = static_cast<std::size_t>(options.points > 0 ? options.points : usual);
+  return out;
+}
+
+tune::Sweep runs_of(const Options& options, const tune::Design& design) {
+  tune::Study study = options.study;
+  study.points = 1;  // the design has its own
+  return tune::sweep_of(design, tune::sweep_of(study));
+}
+
+// The table of one figure, without the column that names it.
+void print_figure(const tune::Design& design, const tune::Sweep& runs,
+                  const tune::FigureSensitivity& f) {
+  if (!f.found) {
+    fmt::print("{}: too few runs have it, or it never changes\n\n", f.figure);
+    return;
+  }
+  const tune::Sensitivity& s = *f.found;
+  fmt::print("{}: mean {:.5g}, standard deviation {:.3g}{}\n", f.figure, s.mean,
+             std::sqrt(s.variance), s.left_out > 0 ? fmt::format(", {} left out", s.left_out) : "");
+  std::vector<std::string> titles = tune::sensitivity_headings(design.method);
+  titles.erase(titles.begin());
+  titles.front().clear();
+  std::vector<report::TextTable::Align> align(titles.size(), report::TextTable::Align::right);
+  align.front() = report::TextTable::Align::left;
+  report::TextTable table(titles, align);
+  for (std::vector<std::string>& row : tune::sensitivity_rows(design, runs, {f})) {
+    row.erase(row.begin());
+    table.add(std::move(row));
+  }
+  fmt::print("{}\n", table.text("  "));
+}
+
+void write_table(const Options& options, const tune::Design& design, const tune::Sweep& runs,
+                 const std::vector<tune::FigureSensitivity>& all, const Messages& messages) {
+  tune::TableFile csv(options.out, tune::sensitivity_headings(design.method), options.force,
+                      {options.study.experiment});
+  for (const std::vector<std::string>& row : tune::sensitivity_rows(design, runs, all))
+    csv.add(row);
+  csv.throw_failure();
+  csv.take_place();
+  messages.note(options.out);
+}
+
+ExitCode tell_sensitivity(const Options& options) {
+  const Messages messages(options.quiet);
+  const tune::Design design = design_of(options);
+  const tune::Sweep runs = runs_of(options, design);
+  tune::check(runs);
+  const std::vector<fs::path> inputs{options.study.experiment};
+  if (!options.out.empty()) run::refuse_to_overwrite(options.out, options.force, inputs);
+  std::optional<tune::TableFile> csv;
+  if (!options.runs.empty()) csv.emplace(options.runs, tune::headings(runs), options.force, inputs);
+
+  const std::vector<tune::Row> rows = run_rows(
+      runs, {.threads = options.threads, .bar = !options.quiet, .csv = csv ? &*csv : nullptr});
+  if (csv) csv->throw_failure();
+  tell_of_rows(rows, tune::points(runs), csv ? csv->part() : "", messages);
+  if (csv) csv->take_place(), messages.note(options.runs);
+
+  const auto all = tune::sensitivities(design, runs, rows);
+  if (options.json)
+    fmt::print("{}", tune::sensitivity_json(design, runs, all));
+  else
+    for (const tune::FigureSensitivity& f : all) print_figure(design, runs, f);
+  if (!options.out.empty()) write_table(options, design, runs, all, messages);
+  return std::ranges::any_of(all, [](const auto& f) { return f.found.has_value(); }) ? ok : failed;
+}
+
+}  // namespace
+
+void add_sensitivity(Command app, Action& action) {
+  auto options = std::make_shared<Options>();
+  Command sub = app.subcommand(
+      "sensitivity", "which ranges a figure follows, and how strongly",
+      "sinew sensitivity experiments/walk-test-1.toml --range \"joint.hip.angle_gain=0.02:0.08 "
+      "%/count\" --range \"air.supply.pressure=70:90 psi gauge\" --report \"trolley.distance_m "
+      "[in]\"");
+  sub.add_option("FILE", options->study.experiment, "the experiment").required();
+  add_runs(sub, options->study, options->threads);
+  sub.add_option(
+         "--method", options->method,
+         "sobol: shares of the variance; morris: effects along paths; ends: to both ends of "
+         "one range at a time")
+      .is_one_of({"sobol", "morris", "ends"});
+  sub.add_option("--points", options->points,
+                 "sobol: rows, each as many runs as ranges and 2, a power of two; 256. morris: "
+                 "paths, each as many runs as ranges and 1; 20")
+      .is_between(2, 1000000);
+  sub.add_option("--sample-seed", options->seed, "other points of the same kind; 1")
+      .is_between(0, 2147483647);
+  sub.add_option("-o,--output", options->out, "also write the table to this CSV file");
+  sub.add_option("--runs", options->runs, "also write every run to this CSV file");
+  sub.add_flag("--force", options->force, "replace those files");
+  sub.add_flag("--json", options->json, "print it as JSON");
+  sub.add_flag("--quiet", options->quiet, "only errors on stderr");
+  sub.callback([=, &action] { action = [=] { return tell_sensitivity(*options); }; });
+}
+
+}  // namespace sinew::cli
