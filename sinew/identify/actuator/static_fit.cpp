@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "sinew/actuator/hysteresis.h"
 #include "sinew/actuator/tension.h"
+#include "sinew/identify/actuator/static_widen.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/refusal.h"
 
@@ -113,55 +112,6 @@ std::vector<std::vector<double>> starts_of(std::span<const Parameter> parameters
   return out;
 }
 
-// Scatter differs from point to point: a length that is 0.1 mm off matters most where force is
-// steepest. Each point's own residual says how much (White's errors, with HC3's factor for the pull
-// that a point has on its own fit). Intervals that this makes wider become so; none narrower.
-void widen(const Problem& problem, std::size_t points, double scatter, Solution& solution) {
-  const auto n = static_cast<Eigen::Index>(solution.values.size());
-  const auto rows = static_cast<Eigen::Index>(problem.count());
-  if (n == 0) return;
-  const Residuals residuals = problem.residuals(scatter);
-  Eigen::MatrixXd j = Eigen::MatrixXd::Zero(rows, n);
-  std::vector<double> at = solution.values, up(problem.count()), down(problem.count());
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    if (solution.estimates[k].at_bound) continue;
-    const double h = 1e-5 * problem.parameters()[k].scale;
-    at[k] = solution.values[k] + h;
-    residuals(at, up);
-    at[k] = solution.values[k] - h;
-    residuals(at, down);
-    at[k] = solution.values[k];
-    for (Eigen::Index r = 0; r < rows; ++r) {
-      const auto row = static_cast<std::size_t>(r);
-      j(r, i) = (up[row] - down[row]) / (2e-5);  // per scale
-    }
-  }
-  const Eigen::MatrixXd inverse =
-      (j.transpose() * j).completeOrthogonalDecomposition().pseudoInverse();
-  const Eigen::MatrixXd pull = j * inverse;
-  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(n, n);
-  for (Eigen::Index r = 0; r < rows; ++r) {
-    const bool point = r < static_cast<Eigen::Index>(points);
-    double off = point ? solution.residuals[static_cast<std::size_t>(r)] : scatter;
-    off = std::clamp(off, -outlier * scatter, outlier * scatter);
-    const double leverage = point ? pull.row(r).dot(j.row(r)) : 0;
-    off /= std::max(0.2, 1 - leverage);
-    meat += off * off * pull.row(r).transpose() * pull.row(r);
-  }
-  const double t = t_quantile(std::max(1, solution.freedom));
-  for (Eigen::Index i = 0; i < n; ++i) {
-    Estimate& e = solution.estimates[static_cast<std::size_t>(i)];
-    const double scale = problem.parameters()[static_cast<std::size_t>(i)].scale;
-    const double own = std::sqrt(meat(i, i)) * scale;
-    if (e.at_bound || !(own > e.standard_error)) continue;
-    e.standard_error = own;
-    e.low = e.value - t * own;
-    e.high = e.value + t * own;
-    e.identifiable = t * own <= std::max(std::abs(e.value), scale);
-  }
-}
-
 }  // namespace
 
 double predicted(const StaticSetting& setting, const StaticScales& scales,
@@ -198,7 +148,9 @@ StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint
   out.solution = least_squares(problem.residuals(out.scatter), problem.count(), from,
                                {.outlier = outlier * out.scatter, .correlated = true});
   out.setting = problem.setting(out.solution.values);
-  if (!start) widen(problem, points.size(), out.scatter, out.solution);
+  if (!start)
+    widen(problem.residuals(out.scatter), problem.parameters(), problem.count(), points.size(),
+          out.scatter, outlier, out.solution);
   out.solution.residuals.resize(points.size());
   for (const double r : out.solution.residuals) out.outliers += std::abs(r) > outlier * out.scatter;
 

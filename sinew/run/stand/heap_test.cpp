@@ -15,7 +15,7 @@ using test::allocations;
 using test::counting;
 
 TEST(RigRun, TakesNoMemoryInItsLoop) {
-  const std::string folder = std::string(SINEW_SOURCE_DIR) + "/experiments/rig/";
+  const std::string folder = SINEW_SOURCE_DIR "/experiments/rig/";
   for (const char* name : {"feedback.toml", "feed-forward.toml", "pwm-25hz-15lb.toml",
                            "pressure-steps.toml", "trapped-60-6.toml"}) {
     const Experiment e = load(folder + name);
