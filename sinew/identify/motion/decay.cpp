@@ -83,8 +83,9 @@ DecayFit decay_fit(const Oscillation& oscillation, double mass) {
        .unit = "m",
        .start = 0.1 * decrement * first,
        .low = 0,
-       .scale = decrement * first}};
-  if (n >= 7) parameters.push_back({.name = "bend", .unit = "1/m", .scale = 0.1 / first});
+       .scale = decrement * first},
+      {.name = "bend", .unit = "1/m", .scale = 0.1 / first}};
+  if (n < 7) parameters.pop_back();  // the bend
 
   std::vector<double> a(n);
   const auto residuals = [&](std::span<const double> p, std::span<double> r) {
