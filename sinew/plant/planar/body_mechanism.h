@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <initializer_list>
 
 #include "sinew/air/lanes.h"
@@ -74,6 +75,15 @@ class BodyMechanism : public PlanarMechanism<M> {
   // The body step, or a whole part of it that suits the fastest rate of the machine at its start.
   double node_step(const Setup& setup) const;
 
+  // The ground is what asks for short steps where a foot is light. While no disc can reach it,
+  // nodes stand as far apart as the joints alone bear: at whole multiples of so many steps.
+  std::int64_t next_multiple(std::int64_t multiple, double step, const Pose& pose,
+                             const Motion& m) const noexcept {
+    if (steps_in_air_ == 1 || rubs_.can_touch(pose, m, static_cast<double>(steps_in_air_) * step))
+      return multiple + 1;
+    return (multiple / steps_in_air_ + 1) * steps_in_air_;
+  }
+
   void set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
                  double y_rate) const;
 
@@ -128,6 +138,7 @@ class BodyMechanism : public PlanarMechanism<M> {
             Truth& out) const noexcept;
 
  private:
+  double suited_step(const Setup& setup, bool on_ground) const;
   void load(const Pose& body, const Motion& m, const Arms& arms, const air::Lanes<M>& tension,
             double piston_force, Load& out) const noexcept;
   double cylinder_stop(const Motion& m) const noexcept;
@@ -142,7 +153,8 @@ class BodyMechanism : public PlanarMechanism<M> {
   MuscleRouting cords_;
   FrictionContacts<N, D> rubs_;
   Motion start_{};
-  std::array<double, N> damping_{}, dry_{};
+  std::int64_t steps_in_air_ = 1;
+  std::array<double, N> damping_{}, spring_{}, spring_angle_{}, dry_{};
   std::array<JointStop, N> stop_{};
 };
 

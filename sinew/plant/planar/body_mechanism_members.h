@@ -21,6 +21,8 @@ BodyMechanism<N, D, M>::BodyMechanism(const Setup& setup)
   for (std::size_t j = 0; j < constants_.links(); ++j) {
     const robot::Joint& joint = robot_.joints[j];
     damping_[j] = joint.damping + joint.damper;
+    spring_[j] = joint.spring;
+    spring_angle_[j] = joint.spring_angle;
     stop_[j] = JointStop(joint.stop);
     dry_[j] = setup.start.blocked[j] ? blocked_bound : joint.dry_friction;
     const double on = constants_.hangs_on_link(j) ? start_.at[first_link + constants_.on(j)] : 0.0;
@@ -28,6 +30,8 @@ BodyMechanism<N, D, M>::BodyMechanism(const Setup& setup)
   }
   start_.at[along_track] = setup.start.trolley;
   start_.at[up] = setup.start.lift;
+  const double in_air = suited_step(setup, false) / suited_step(setup, true);
+  steps_in_air_ = static_cast<std::int64_t>(in_air + 1e-9);
 }
 
 template <int N, int D, int M>
@@ -39,8 +43,14 @@ double BodyMechanism<N, D, M>::sum(const Motion& m) const noexcept {
 
 template <int N, int D, int M>
 double BodyMechanism<N, D, M>::node_step(const Setup& setup) const {
-  const auto rate = [this](const Motion& m) {
-    return rubs_.stiffest_rate(Body<N>(constants_, m), m, robot_);
+  return suited_step(setup, true);
+}
+
+// Returns the step that suits the machine with the ground under its feet, or without  [s].
+template <int N, int D, int M>
+double BodyMechanism<N, D, M>::suited_step(const Setup& setup, bool on_ground) const {
+  const auto rate = [&](const Motion& m) {
+    return rubs_.stiffest_rate(Body<N>(constants_, m), m, robot_, on_ground);
   };
   // A light foot is quick where the ground pushes past its centre. Poses all over: each link turns
   // by another irrational number of turns from one to the next (5 + 7 j is no square).
@@ -100,17 +110,12 @@ void BodyMechanism<N, D, M>::load(const Pose& body, const Motion& m, const Arms&
                                   Load& out) const noexcept {
   std::array<double, N> torque{};
   for (std::size_t j = 0; j < constants_.links(); ++j) {
-    const robot::Joint& joint = robot_.joints[j];
-    out.passive_torque[j] =
-        -damping_[j] * joint_rate(m, j) - joint.spring * (joint_angle(m, j) - joint.spring_angle);
-    out.passive_torque[j] += stop_[j].torque(joint_angle(m, j), joint_rate(m, j));
+    const double angle = joint_angle(m, j), rate = joint_rate(m, j);
+    out.passive_torque[j] = -damping_[j] * rate - spring_[j] * (angle - spring_angle_[j]);
+    out.passive_torque[j] += stop_[j].torque(angle, rate);
     torque[j] = out.passive_torque[j];
   }
-  for (int i = 0; i < cords_.count(); ++i)
-    for (int k = 0; k < MuscleRouting::most; ++k)
-      if (const int j = cords_.joint(i, k); j >= 0)
-        torque[static_cast<std::size_t>(j)] +=
-            arms[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] * tension[i];
+  cords_.each(arms, [&](int i, std::size_t j, double arm) { torque[j] += arm * tension[i]; });
 
   out.force = {};
   for (std::size_t j = 0; j < constants_.links(); ++j) {
@@ -155,12 +160,9 @@ auto BodyMechanism<N, D, M>::prepare(const Pose& body, const Motion& m, const Ar
   const Acceleration free = body.accelerations(load.force);
   Forces bound{};
   for (std::size_t j = 0; j < constants_.links(); ++j) bound[j] = dry_[j];
-  for (int i = 0; i < cords_.count(); ++i)
-    for (int k = 0; k < MuscleRouting::most; ++k)
-      if (const int j = cords_.joint(i, k); j >= 0)
-        bound[static_cast<std::size_t>(j)] +=
-            std::abs(arms[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)]) *
-            friction_bound[i];
+  cords_.each(arms, [&](int i, std::size_t j, double arm) {
+    bound[j] += std::abs(arm) * friction_bound[i];
+  });
   bound[FrictionContacts<N, D>::trolley] = trolley_bound;
   bound[FrictionContacts<N, D>::lift] = constants_.held[up] ? 0.0 : robot_.cylinder.friction;
   for (std::size_t i = 0; i < static_cast<std::size_t>(rubs_.discs()); ++i)

@@ -72,8 +72,8 @@ class FrictionContacts {
 
   // The fastest rate at which springs, dampers and the ground bring the machine to rest  [1/s], by
   // joint: c w and sqrt(k w) with w, the joint's or disc's acceleration per force.
-  double stiffest_rate(const Body<N>& body, const BodyState<N>& motion,
-                       const robot::Robot& robot) const;
+  double stiffest_rate(const Body<N>& body, const BodyState<N>& motion, const robot::Robot& robot,
+                       bool on_ground = true) const;
   DiscAt<N> disc(const Body<N>& body, const BodyState<N>& motion, int i) const;
 
   // How deep a disc is in the ground; above 0 where they touch  [m].
@@ -81,6 +81,9 @@ class FrictionContacts {
 
   // Compliant force of the ground on a disc that is so deep in it, never pulling  [N].
   double push(double depth, const DiscAt<N>& disc, const BodyState<N>& motion) const;
+
+  // Is a disc on the ground, or can it come there within h by the rates of all that carries it?
+  bool can_touch(const Pose& pose, const BodyState<N>& motion, double h) const;
 
   // Puts the discs of a pose where they are.
   void place(const BodyState<N>& motion, Pose& pose) const;
@@ -117,7 +120,15 @@ class FrictionContacts {
     double friction = 0;                       // [-]
     double surface = 0;                        // of the ground [m]
   };
+  // From each link of a path to the next, or to a disc, and how high its last link hangs  [m].
+  struct Levers {
+    std::array<double, N> x, y;
+    double height;
+  };
   void add_foot(const robot::Robot& robot, std::size_t leg);
+  Levers levers(const Body<N>& body, const BodyState<N>& motion, const Path& path) const;
+  double reach(const Body<N>& body, const Disc& d, Levers& way) const;
+  DiscAt<N> disc_at(const Levers& way, const Disc& d, const BodyState<N>& motion) const;
 
   BodyConstants<N> k_;
   robot::Ground ground_;

@@ -49,7 +49,12 @@ MuscleRouting::MuscleRouting(const robot::Robot& robot) {
     attach(cord, 0, m.joint, m.role, m.cam);
     attach(cord, 1, m.second.joint, m.second.role, m.second.cam);
     cords_.push_back(cord);
+    if (cord.joint[0] < 0 || cord.joint[1] >= 0 || !cord.cam[0].round()) continue;
+    const double rest = cord.cam[0].rest();
+    round_.push_back({cord.mount, cord.sign[0] * cord.cam[0].radius(rest), rest,
+                      static_cast<std::size_t>(cord.joint[0])});
   }
+  if (round_.size() < cords_.size()) round_.clear();
 }
 
 }  // namespace sinew::plant

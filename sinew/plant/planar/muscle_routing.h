@@ -32,6 +32,9 @@ class CamLaw {
     return round_ ? first_radius_ * (angle - rest_) : area(angle) - area_at_rest_;
   }
 
+  bool round() const noexcept { return round_; }
+  double rest() const noexcept { return rest_; }  // angle at which nothing has run over it [rad]
+
  private:
   double radius_of_table(double angle) const noexcept;
   double area(double angle) const noexcept;  // integral of r from the first point [m]
@@ -56,6 +59,10 @@ class MuscleRouting {
   // Of muscle i: its joints; the second is -1 where there is none.
   int joint(int i, int k) const { return cords_[static_cast<std::size_t>(i)].joint[k]; }
 
+  // Visits every muscle i at each joint j that it crosses, with its moment arm there.
+  template <class Arms, class Visit>
+  void each(const Arms& pull, const Visit& visit) const noexcept;
+
   // From the joints' angles [rad] and rates [rad/s]. Lanes beyond the last muscle repeat it.
   template <int M>
   void at(const double* angle, const double* rate, air::Lanes<M>& length,
@@ -68,14 +75,37 @@ class MuscleRouting {
     std::array<double, most> sign{};
     std::array<CamLaw, most> cam;
   };
+  // A muscle over one round cam: L = mount - arm (theta - rest).
+  struct RoundRoute {
+    double mount = 0, arm = 0, rest = 0;
+    std::size_t joint = 0;
+  };
   std::vector<Route> cords_;
+  std::vector<RoundRoute> round_;  // all of them, where all are such; else empty
 };
+
+template <class Arms, class Visit>
+void MuscleRouting::each(const Arms& pull, const Visit& visit) const noexcept {
+  for (std::size_t i = 0; i < round_.size(); ++i)
+    visit(static_cast<int>(i), round_[i].joint, pull[i][0]);
+  if (!round_.empty()) return;
+  for (std::size_t i = 0; i < cords_.size(); ++i)
+    for (std::size_t k = 0; k < most; ++k)
+      if (const int j = cords_[i].joint[k]; j >= 0)
+        visit(static_cast<int>(i), static_cast<std::size_t>(j), pull[i][k]);
+}
 
 template <int M>
 void MuscleRouting::at(const double* angle, const double* rate, air::Lanes<M>& length,
                        air::Lanes<M>& length_rate,
                        std::type_identity_t<MomentArms<M>>& pull) const noexcept {
-  for (int i = 0; i < count(); ++i) {
+  for (std::size_t i = 0; i < round_.size(); ++i) {
+    const RoundRoute& cord = round_[i];
+    pull[i] = {cord.arm, 0.0};
+    length[static_cast<int>(i)] = cord.mount - cord.arm * (angle[cord.joint] - cord.rest);
+    length_rate[static_cast<int>(i)] = -(cord.arm * rate[cord.joint]);
+  }
+  for (int i = static_cast<int>(round_.size()); i < count(); ++i) {
     const Route& cord = cords_[static_cast<std::size_t>(i)];
     double l = cord.mount, v = 0;
     for (std::size_t k = 0; k < most; ++k) {

@@ -55,5 +55,50 @@ TEST(Steps, SuitEveryPose) {
   EXPECT_GT(divided, 10);
 }
 
+// A node is left out only where no disc comes to the ground before the next: all coordinates go on
+// with their rates.
+TEST(Steps, AreLongWhereNoDiscCanTouch) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> turn(0, 2 * std::numbers::pi), rates(-12, 12);
+  std::uniform_real_distribution<double> sinking(-1, 1);
+  int in_air = 0, near = 0, on_ground = 0;
+  for (int machine = 0; machine < 20; ++machine) {
+    plant::Setup s = leg_on_a_shoe(random);
+    const BodyMechanism<3, 4, 8> mechanism(s);
+    const FrictionContacts<3, 4> contacts(mechanism.constants(), s.robot);
+    const double step = mechanism.node_step(s);
+    for (int pose = 0; pose < 500; ++pose) {
+      BodyState<3> m = mechanism.start();
+      for (std::size_t j = 0; j < 3; ++j) {
+        m.at[first_link + j] = turn(random);
+        m.rate[first_link + j] = rates(random);
+      }
+      m.rate[up] = sinking(random);
+      const std::int64_t next = mechanism.next_multiple(2, step, mechanism.pose(0, m), m);
+      ASSERT_GE(next, 3);
+      double deepest = -1;
+      for (int i = 0; i < contacts.discs(); ++i)
+        deepest = std::max(deepest, contacts.depth(Body<3>(mechanism.constants(), m), m, i));
+      on_ground += deepest >= 0;
+      EXPECT_TRUE(deepest < 0 || next == 3);
+      if (next == 3) continue;
+      EXPECT_LE(static_cast<double>(next - 2) * step, s.steps.body * (1 + 1e-9));
+      ++in_air;
+      near += deepest > -0.01;
+      for (int part = 1; part <= 10; ++part) {
+        BodyState<3> later = m;
+        for (std::size_t c = 0; c < 5; ++c)
+          later.at[c] += 0.1 * part * static_cast<double>(next - 2) * step * m.rate[c];
+        const Body<3> body(mechanism.constants(), later);
+        for (int i = 0; i < contacts.discs(); ++i)
+          EXPECT_LT(contacts.depth(body, later, i), 0) << machine;
+      }
+    }
+  }
+  EXPECT_GT(in_air, 500);
+  EXPECT_GT(near, 5);
+  EXPECT_GT(on_ground, 300);
+}
+
 }  // namespace
 }  // namespace sinew::plant

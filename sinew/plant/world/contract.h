@@ -26,6 +26,10 @@
 //   accelerate(free, held)             accelerations there, under that friction
 //   glide(motion, h, a)                along a constant acceleration, for a peek
 //
+// and may leave out nodes (SkipsNodes) while what asks for them is out of reach:
+//
+//   next_multiple(multiple, step, pose, motion)   of the body step, where the next node is due
+//
 // One whose laws break off within a step (CutsSteps) has its step end there and another begin:
 //
 //   begin(t, motion)               a smooth part begins: what is prescribed goes into the motion
@@ -42,6 +46,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstdint>
 #include <type_traits>
 
 #include "sinew/signals/port.h"
@@ -75,6 +80,12 @@ concept WholeSteps = IsMechanism<M> && !M::cuts_steps &&
   { m.hold(h, held) } -> std::same_as<typename M::Forces>;
   { m.accelerate(a, held) } -> std::same_as<typename M::Acceleration>;
   m.glide(q, h, a);
+};
+
+template <class M>
+concept SkipsNodes = WholeSteps<M> &&
+    requires(const M& m, const typename M::Pose& pose, const typename M::Motion& q, double step) {
+  { m.next_multiple(std::int64_t{}, step, pose, q) } -> std::same_as<std::int64_t>;
 };
 
 template <class M>

@@ -61,6 +61,9 @@ template <IsMechanism M, IsAirOf<M> A>
 auto World<M, A>::prepare_friction(const typename M::Pose& pose) noexcept -> Acceleration {
   const Look& first = state_.first;
   glanced_ = false;
+  if constexpr (SkipsNodes<M>)
+    skipped_ = mechanism_.next_multiple(state_.multiple, step_, pose, state_.now.motion) -
+               (state_.multiple + 1);
   if constexpr (CutsSteps<M>)
     return first.acceleration;  // each part has its own
   else
@@ -105,8 +108,14 @@ void World<M, A>::step(double to) noexcept {
     go(state_.time, to, state_.now, state_.memory, state_.held, state_.first);
   } else {
     const double h = to - state_.time;
-    state_.held = mechanism_.hold(h, state_.held);
-    Acceleration first = mechanism_.accelerate(state_.first.acceleration, state_.held);
+    Acceleration first;
+    if (SkipsNodes<M> && is_whole(to)) {  // a peek goes by the same friction
+      first = glance().acceleration;
+      state_.held = glance_.held;
+    } else {
+      state_.held = mechanism_.hold(h, state_.held);
+      first = mechanism_.accelerate(state_.first.acceleration, state_.held);
+    }
     const double pieces = pieces_of(h, state_.first);
     for (double k = 0; k < pieces; ++k) {
       const double from = state_.time + k * (h / pieces);
@@ -148,10 +157,10 @@ void World<M, A>::piece(double from, double h, Moving& now, const Memory& memory
   air_.finish(now.air, h, air, state_.valves, course);
 }
 
-// The next multiple of the body step, or the next change of a valve.
+// The next multiple of the body step that is due, or the next change of a valve.
 template <IsMechanism M, IsAirOf<M> A>
 double World<M, A>::next_node() const noexcept {
-  const double multiple = static_cast<double>(state_.multiple + 1) * step_;
+  const double multiple = static_cast<double>(state_.multiple + 1 + skipped_) * step_;
   const double change = state_.valves.next_change;
   return change < multiple ? change : multiple;
 }
@@ -166,7 +175,7 @@ void World<M, A>::commit() noexcept {
   const double next = next_node();
   if (next > state_.time) step(next);
   state_.time = next > state_.time ? next : state_.time;
-  if (next >= static_cast<double>(state_.multiple + 1) * step_) ++state_.multiple;
+  while (next >= static_cast<double>(state_.multiple + 1) * step_) ++state_.multiple;
   ++state_.nodes;
   prepare();
 }
@@ -178,7 +187,7 @@ auto World<M, A>::glance() noexcept -> const Glance& {
   if (glanced_) return glance_;
   glanced_ = true;
   if constexpr (!CutsSteps<M>) {
-    glance_.held = mechanism_.hold(step_, state_.held);
+    glance_.held = mechanism_.hold(whole_step(), state_.held);
     glance_.acceleration = mechanism_.accelerate(state_.first.acceleration, glance_.held);
   }
   return glance_;

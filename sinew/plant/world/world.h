@@ -1,10 +1,11 @@
 // plant/world/world.h - a machine that its muscles move, as a Port: nodes, steps, cuts, peeks and
 // events, written once for every mechanism and every air.
 //
-// One RK4 over body and air. Committed nodes are the multiples of the body step and the instants at
-// which valves really open or close, nothing else; a node is committed only when no earlier edge
-// can still arrive. Readings, logs and viewers peek: they extrapolate from the last node in a copy,
-// so that nobody's looking changes a bit.
+// One RK4 over body and air. Committed nodes are the multiples of the body step (less those that a
+// mechanism which SkipsNodes needs not) and the instants at which valves really open or close,
+// nothing else; a node is committed only when no earlier edge can still arrive. Readings, logs and
+// viewers peek: they extrapolate from the last node in a copy, so that nobody's looking changes a
+// bit.
 //
 //   order of one step:  node (valves, reference of the pressure, first stage)
 //                       -> dry friction for this step -> three more stages -> next node
@@ -164,7 +165,15 @@ class World final : public signals::Port {
   void prepare() noexcept;
   Acceleration prepare_friction(const typename Mechanism::Pose& pose) noexcept;
   void look_for_failure() noexcept;
+  // Does a step go from one multiple of the body step that is due to the next one?
+  bool is_whole(double to) const noexcept {
+    return state_.time == static_cast<double>(state_.multiple) * step_ &&
+           to == static_cast<double>(state_.multiple + 1 + skipped_) * step_;
+  }
   double next_node() const noexcept;
+  double whole_step() const noexcept {  // from one multiple to the next that is due [s]
+    return static_cast<double>(1 + skipped_) * step_;
+  }
   void commit() noexcept;
   void step(double to) noexcept;
   void piece(double from, double h, Moving& now, const Memory& memory, const Look& look,
@@ -193,6 +202,7 @@ class World final : public signals::Port {
   Mechanism mechanism_;
   Air air_;
   double step_ = 1e-3;
+  std::int64_t skipped_ = 0;  // multiples of it before the next node
 
   State state_{};
   Glance glance_{};  // from this node, once somebody has looked
