@@ -135,16 +135,16 @@ double FrictionContacts<N, D>::depth(const Body<N>& body, const BodyState<N>& mo
   return reach(body, d, way);
 }
 
-// 200 m/s^2 take a disc by a tenth of a millimetre in a millisecond.
+// What carries a foot changes its rates by some 20 g at most: a tenth of a millimetre in a
+// millisecond.
 template <int N, int D>
 bool FrictionContacts<N, D>::can_touch(const Pose& pose, const BodyState<N>& motion,
                                        double h) const {
-  constexpr double fastest_change = 200;  // of a rate [m/s^2]
   for (int i = 0; i < disc_count_ && ground_.present; ++i) {
     const auto k = static_cast<std::size_t>(i);
     const Disc& d = disc_[k];
     const Path& path = path_[d.foot];
-    double rate = std::abs(motion.rate[up]) + 0.5 * fastest_change * h;
+    double rate = std::abs(motion.rate[up]) + 0.5 * (20.0 * k_.gravity) * h;
     for (std::size_t at = 0; at < path.count; ++at) {
       const bool last = at + 1 == path.count;
       const double reach = last ? std::abs(d.along) + std::abs(d.across) : std::abs(path.reach[at]);
