@@ -38,11 +38,36 @@ tune::Design design_of(const Options& options) {
 
 tune::Sweep runs_of(const Options& options, const tune::Design& design) {
   tune::Study study = options.study;
-  study.points = 1;  // the design has its own
+  if (!study.range.empty()) study.points = 1;  // the design has its own
   return tune::sweep_of(design, tune::sweep_of(study));
 }
 
-// The table of one figure, without the column that names it.
+std::string three_digits(const std::string& number) {
+  return number.empty() ? "" : fmt::format("{:.3g}", std::stod(number));
+}
+
+// Cells for people: no figure's name, and an interval behind its number.
+std::vector<std::string> shown(const std::vector<std::string>& headings,
+                               const std::vector<std::string>& row) {
+  std::vector<std::string> out{row[1]};
+  for (std::size_t i = 2; i < row.size(); ++i) {
+    out.push_back(three_digits(row[i]));
+    if (i + 1 == row.size() || !headings[i + 1].ends_with(", low")) continue;
+    out.push_back(fmt::format("{} to {}", three_digits(row[i + 1]), three_digits(row[i + 2])));
+    i += 2;
+  }
+  return out;
+}
+
+std::vector<std::string> titles_of(const std::vector<std::string>& headings) {
+  std::vector<std::string> out{""};
+  for (std::size_t i = 2; i < headings.size(); ++i) {
+    if (headings[i].ends_with(", high")) continue;
+    out.push_back(headings[i].ends_with(", low") ? "95 %" : headings[i]);
+  }
+  return out;
+}
+
 void print_figure(const tune::Design& design, const tune::Sweep& runs,
                   const tune::FigureSensitivity& f) {
   if (!f.found) {
@@ -52,16 +77,12 @@ void print_figure(const tune::Design& design, const tune::Sweep& runs,
   const tune::Sensitivity& s = *f.found;
   fmt::print("{}: mean {:.5g}, standard deviation {:.3g}{}\n", f.figure, s.mean,
              std::sqrt(s.variance), s.left_out > 0 ? fmt::format(", {} left out", s.left_out) : "");
-  std::vector<std::string> titles = tune::sensitivity_headings(design.method);
-  titles.erase(titles.begin());
-  titles.front().clear();
+  const std::vector<std::string> headings = tune::sensitivity_headings(design.method);
+  const std::vector<std::string> titles = titles_of(headings);
   std::vector<report::TextTable::Align> align(titles.size(), report::TextTable::Align::right);
   align.front() = report::TextTable::Align::left;
   report::TextTable table(titles, align);
-  for (std::vector<std::string>& row : tune::sensitivity_rows(design, runs, {f})) {
-    row.erase(row.begin());
-    table.add(std::move(row));
-  }
+  for (const auto& row : tune::sensitivity_rows(design, runs, {f})) table.add(shown(headings, row));
   fmt::print("{}\n", table.text("  "));
 }
 
@@ -90,6 +111,7 @@ ExitCode tell_sensitivity(const Options& options) {
       runs, {.threads = options.threads, .bar = !options.quiet, .csv = csv ? &*csv : nullptr});
   if (csv) csv->throw_failure();
   tell_of_rows(rows, tune::points(runs), csv ? csv->part() : "", messages);
+  tune::refuse_empty_columns(rows, runs);
   if (csv) csv->take_place(), messages.note(options.runs);
 
   const auto all = tune::sensitivities(design, runs, rows);
