@@ -53,8 +53,11 @@ void write_table(const Options& options, const tune::Design& design, const tune:
 }
 
 ExitCode tell_sensitivity(const Options& options) {
-  const Messages messages(options.quiet);
   const tune::Design design = design_of(options);
+  const tune::Ranks ranks;
+  if (is_worker_of(ranks, options.run, [&] { return runs_of(options, design); })) return ok;
+  tune::Master master(ranks);
+  const Messages messages(options.quiet);
   const tune::Sweep runs = runs_of(options, design);
   tune::check(runs);
   const std::vector<fs::path> inputs{options.study.experiment};
@@ -65,6 +68,7 @@ ExitCode tell_sensitivity(const Options& options) {
   const std::vector<tune::Row> rows = run_rows(runs, {.options = options.run,
                                                       .messages = messages,
                                                       .bar = !options.quiet,
+                                                      .master = &master,
                                                       .csv = csv ? &*csv : nullptr});
   if (csv) messages.note(options.runs);
 

@@ -21,8 +21,12 @@ struct Options {
 };
 
 ExitCode sweep_all(const Options& options) {
+  const auto asked = [&] { return tune::sweep_of(tune::load_study(options.file, options.said)); };
+  const tune::Ranks ranks;
+  if (is_worker_of(ranks, options.runs, asked)) return ok;
+  tune::Master master(ranks);
   const Messages messages(options.quiet);
-  const tune::Sweep s = tune::sweep_of(tune::load_study(options.file, options.said));
+  const tune::Sweep s = asked();
   tune::check(s);
 
   const std::vector<std::string> headings = tune::headings(s);
@@ -36,6 +40,7 @@ ExitCode sweep_all(const Options& options) {
       run_rows(s, {.options = options.runs,
                    .messages = messages,
                    .bar = !options.quiet && !options.out.empty(),  // it would run through a table
+                   .master = &master,
                    .csv = csv ? &*csv : nullptr});
   if (options.json) fmt::print("{}", tune::json_of(headings, rows));
   if (!options.out.empty()) messages.note(options.out);

@@ -45,6 +45,15 @@ void judge(const std::vector<tune::Row>& rows, const tune::Sweep& s, std::size_t
 
 }  // namespace
 
+// A signal is for the first process, which then lets this one go.
+bool is_worker_of(const tune::Ranks& ranks, const RunOptions& options,
+                  const std::function<tune::Sweep()>& sweep) {
+  if (!ranks.is_worker()) return false;
+  const Interrupt interrupt;
+  tune::work(ranks, sweep, std::max(1, options.threads));
+  return true;
+}
+
 std::vector<tune::Row> run_rows(const tune::Sweep& s, const SweepRuns& how) {
   const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   tune::Options options{.threads = how.options.threads > 0 ? how.options.threads : all};
@@ -61,6 +70,7 @@ std::vector<tune::Row> run_rows(const tune::Sweep& s, const SweepRuns& how) {
   Interrupt interrupt;
   options.stop = &interrupt.asked();
   options.progress = &progress;
+  if (how.master) options.elsewhere = how.master->elsewhere(s, options.stop);
   options.row = [&](const tune::Row& row) {
     if (how.csv && !late && !how.csv->add(row.cells)) interrupt.ask();
   };

@@ -6,6 +6,7 @@
 
 #include "cli/options.h"
 #include "cli/terminal.h"
+#include "sinew/tune/mpi/work.h"
 #include "sinew/tune/results/results.h"
 #include "sinew/tune/study.h"
 #include "sinew/tune/table.h"
@@ -23,8 +24,14 @@ struct SweepRuns {
   const RunOptions& options;
   const Messages& messages;
   bool bar = true;                 // shows on a terminal how far it is
+  tune::Master* master = nullptr;  // hands out the runs to other processes
   tune::TableFile* csv = nullptr;  // takes the rows, as they come where nothing else keeps them
 };
+
+// Runs what other processes of mpirun hand out, where this one is not the first of them. Returns
+// false where it is, or is alone. `sweep` returns the sweep of this command line.
+bool is_worker_of(const tune::Ranks& ranks, const RunOptions& options,
+                  const std::function<tune::Sweep()>& sweep);
 
 // Returns the rows of the share: those that were there and those that were run. Tells what is to be
 // said of them, and lets the table take its place. Throws std::runtime_error where they are not all

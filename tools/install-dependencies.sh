@@ -32,6 +32,8 @@ list='
     quick  -                   libsundials-dev                  a second integrator in tests
     quick  gnuplot             gnuplot-nox                      draws figures
     quick  clang-format-14     clang-format-14                  one layout of code; versions differ
+    check  -                   libopenmpi-dev                   sweeps over the processes of mpirun
+    check  mpirun              openmpi-bin                      starts them in tests
     check  chromium            chromium                         opens that page in tests
     check  -                   fonts-dejavu-core                what its reference pictures are set in
     check  arm-none-eabi-g++   gcc-arm-none-eabi                embedded core for Cortex-M4F

@@ -54,6 +54,7 @@ layers='
     run/folder      run/simulation run/stand log analysis report
     tune            run/folder
     tune/results    tune
+    tune/mpi        tune/results
     live            run/folder
 '
 
@@ -76,6 +77,7 @@ libraries='
     boost/(asio|beast|system)  sinew/live
     boost/random/   sinew/tune
     sqlite3[.]h     sinew/tune/results
+    mpi[.]h         sinew/tune/mpi/module
     ceres/          sinew/identify/fit
     Eigen/          sinew/identify
 '

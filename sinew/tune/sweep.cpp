@@ -8,102 +8,13 @@
 #include <mutex>
 #include <thread>
 
-#include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
-#include "sinew/experiment/experiment.h"
-#include "sinew/run/setup/buildable.h"
 #include "sinew/tune/largest.h"
 
 namespace sinew::tune {
 namespace {
 
-// --- what an axis asks of the experiment ---
-
-const std::string& first_text(const Axis& axis) { return axis.values.front().text; }
-
-[[noreturn]] void unknown_key(const Axis& axis, const config::Origins& origins) {
-  std::vector<std::string_view> known;
-  for (const config::Origin& origin : origins) known.push_back(origin.path);
-  config::fail({axis.key, 0, 0}, "", "an unknown key", "one that sinew show lists",
-               config::closest_in_quotes(axis.key, known));
-}
-
-// Whole numbers: the least and the greatest are read, each alone. What else is wrong with the
-// experiment then may be mended by another axis.
-void check_whole_numbers(const Sweep& s, const Axis& axis) {
-  const auto [least, greatest] = std::ranges::minmax_element(
-      axis.values, {}, [](const Value& v) { return v.number.value_or(0); });
-  for (const Value* value : {&*least, &*greatest}) {
-    if (!value->number) continue;
-    std::vector<std::string> sets = s.sets;
-    sets.push_back(axis.set(*value));
-    try {
-      (void)run::buildable(s.experiment, sets);
-    } catch (const config::Error& e) {
-      for (const config::Problem& problem : e.problems())
-        if (problem.key == axis.key) throw config::Error(problem);
-    }
-  }
-}
-
-void check_values(const Sweep& s, const Axis& axis, const config::Origin& origin,
-                  double atmosphere) {
-  if (origin.unit.empty()) return check_whole_numbers(s, axis);
-  for (const Value& value : axis.values) {
-    const auto mistake =
-        config::parse_quantity(value.text, origin.unit, atmosphere, origin.text).mistake;
-    if (mistake)
-      config::fail({axis.key, 0, 0}, "", mistake->found, mistake->expected, mistake->try_this);
-  }
-}
-
-void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins,
-                double atmosphere) {
-  if (axis.key == "robot") return;
-  if (axis.key == "experiment") {
-    for (const Value& value : axis.values) run::buildable(beside(s, value.text), s.sets);
-    return;
-  }
-  if (const config::Origin* origin = config::find_origin(origins, axis.key))
-    return check_values(s, axis, *origin, atmosphere);
-
-  // It may be a key that is there only once it is set. If not, the reader says what it is.
-  std::vector<std::string> sets = s.sets;
-  sets.push_back(axis.key + "=" + first_text(axis));
-  if (axis.key.find('.') == axis.key.npos) unknown_key(axis, origins);
-  const experiment::Experiment e = run::buildable(s.experiment, sets);
-  const config::Origin* origin = config::find_origin(e.origins, axis.key);
-  if (!origin) unknown_key(axis, e.origins);
-  check_values(s, axis, *origin, atmosphere);
-}
-
-// A key that takes whole numbers is found out by a value between the ends.
-void check_range(const Sweep& s, const Range& range, const config::Origins& origins,
-                 double atmosphere) {
-  if (range.axis.key == "robot" || range.axis.key == "experiment")
-    config::fail({range.axis.key, 0, 0}, "", "a range", "a list of files, in vary",
-                 "vary=\"" + range.axis.key + "=a.toml,b.toml\"");
-  check_axis(s, range.axis, origins, atmosphere);
-  const Axis between{range.axis.key, range.axis.unit, {range.at(0.4321)}};
-  check_axis(s, between, origins, atmosphere);
-}
-
-// Before they are in memory, and before their number is too large for one.
-void refuse_too_many(const Sweep& s) {
-  double all = 1;
-  std::string product;
-  const auto times = [&](std::size_t count) {
-    all *= static_cast<double>(count);
-    product += fmt::format("{}{}", product.empty() ? "" : " x ", count);
-  };
-  if (s.sample) times(s.sample->points);
-  for (const Axis& axis : s.axes) times(axis.values.size());
-  if (all <= static_cast<double>(most_points)) return;
-  config::fail({"vary", 0, 0}, "", fmt::format("{} = {:.6g} points", product, all),
-               fmt::format("at most {}", most_points),
-               "fewer values, or one sweep after the other");
-}
+// --- one point ---
 
 // A key that the first run's summary lacks may not apply to it; one that is nearly another is a
 // mistake.
@@ -115,8 +26,6 @@ void check_keys(const Sweep& s, const analysis::Summary& summary) {
                    config::in_quotes(near));
   }
 }
-
-// --- one point ---
 
 struct Point {
   std::string experiment;
@@ -223,6 +132,21 @@ Row searched(const Sweep& s, std::size_t index, Point point, bool first) {
   return {index, std::move(point.cells), any, std::move(notes)};
 }
 
+Row row_of(const Sweep& s, const Points& points, std::size_t index, bool first) {
+  Point point = points.at(index);
+  return s.largest ? searched(s, index, std::move(point), first)
+                   : single(s, index, std::move(point), first);
+}
+
+// Calls `work` in that many threads, of which this is one.
+template <class Work>
+void in_threads(std::size_t threads, Work work) {
+  std::vector<std::thread> helpers;
+  for (std::size_t i = 1; i < threads; ++i) helpers.emplace_back(work);
+  work();
+  for (std::thread& helper : helpers) helper.join();
+}
+
 // --- all of them ---
 
 // Hands out points to the threads, and rows in their order.
@@ -240,18 +164,26 @@ class Work {
   }
 
   std::size_t to_do() const { return to_do_.size(); }
+  bool elsewhere() const { return static_cast<bool>(options_.elsewhere); }
 
   // Also the first one's refusal is thrown by the caller's thread.
   void first() {
-    if (!to_do_.empty()) done(row(to_do_[next_++], true));
+    if (!to_do_.empty()) done(row_of(sweep_, points_, to_do_[next_++], true));
   }
 
   void go_on() noexcept {
     while (!stopped()) {
       const std::size_t next = next_++;
       if (next >= to_do_.size()) return;
-      done(row(to_do_[next], false));
+      done(row_of(sweep_, points_, to_do_[next], false));
     }
+  }
+
+  void go_on_elsewhere() {
+    std::vector<std::size_t> points(to_do_.begin() + static_cast<std::ptrdiff_t>(next_.load()),
+                                    to_do_.end());
+    if (!points.empty() && !stopped())
+      options_.elsewhere(points, [this](Row row) { done(std::move(row)); });
   }
 
   // Those behind a gap too, where it was stopped.
@@ -267,11 +199,6 @@ class Work {
 
  private:
   bool stopped() const { return options_.stop && options_.stop->load(); }
-  Row row(std::size_t index, bool first) const {
-    Point point = points_.at(index);
-    return sweep_.largest ? searched(sweep_, index, std::move(point), first)
-                          : single(sweep_, index, std::move(point), first);
-  }
   void done(Row row) {
     const std::lock_guard lock(mutex_);
     const std::size_t index = row.point;
@@ -309,22 +236,6 @@ std::vector<std::string> keys(const Sweep& s) {
   return out;
 }
 
-void check(const Sweep& s) {
-  refuse_too_many(s);
-  const config::Node root = config::compose(s.experiment, s.sets);
-  const double atmosphere = config::atmosphere_of(root);
-  const config::Origins origins = run::buildable(root, s.experiment).origins;
-  if (s.sample)
-    for (const Range& range : s.sample->ranges) check_range(s, range, origins, atmosphere);
-  for (const Axis& axis : s.axes) check_axis(s, axis, origins, atmosphere);
-  if (!s.largest) return;
-  check_axis(s, s.largest->axis, origins, atmosphere);
-  for (const Value& value : s.largest->axis.values)
-    if (!value.number)
-      config::fail({s.largest->axis.key, 0, 0}, "", config::in_quotes(value.text),
-                   "numbers, to be halved between");
-}
-
 std::vector<std::string> headings(const Sweep& s) {
   std::vector<std::string> out;
   if (s.sample)
@@ -360,12 +271,35 @@ std::vector<Row> sweep(const Sweep& s, const Options& options) {
   check(s);
   Work work(s, options);
   work.first();
-  std::vector<std::thread> helpers;
-  const auto others = std::min(static_cast<std::size_t>(options.threads), work.to_do());
-  for (std::size_t i = 1; i < others; ++i) helpers.emplace_back([&work] { work.go_on(); });
-  work.go_on();
-  for (std::thread& helper : helpers) helper.join();
+  if (work.elsewhere())
+    work.go_on_elsewhere();
+  else
+    in_threads(std::min(static_cast<std::size_t>(options.threads), work.to_do()),
+               [&work] { work.go_on(); });
   return work.finish();
+}
+
+struct Runner::Drawn {
+  explicit Drawn(const Sweep& s) : sweep(s), points(sweep) {}
+
+  const Sweep sweep;
+  const Points points;
+};
+
+Runner::Runner(const Sweep& s) : drawn_(std::make_unique<Drawn>(s)) {}
+Runner::~Runner() = default;
+
+void Runner::run(std::span<const std::size_t> points, int threads,
+                 const std::function<void(Row)>& done) const {
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  in_threads(std::min(static_cast<std::size_t>(threads), points.size()), [&] {
+    for (std::size_t i; (i = next++) < points.size();) {
+      Row row = row_of(drawn_->sweep, drawn_->points, points[i], false);
+      const std::lock_guard lock(mutex);
+      done(std::move(row));
+    }
+  });
 }
 
 }  // namespace sinew::tune

@@ -15,7 +15,9 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,8 +72,12 @@ struct Options {
   std::atomic<std::int64_t>* progress = nullptr;  // points that are done
   std::function<void(const Row&)> row = {};       // each of the table, in the points' order
   std::function<void(const Row&)> done = {};      // each that was run, as soon as it is there
-  Share share = {};                               // of the points: the table has no others
-  std::vector<Row> known = {};                    // of an earlier time: they are not run again
+  // In place of threads here: runs these points, hands back their rows in any order, and returns
+  // when all are there or it was stopped.
+  std::function<void(std::span<const std::size_t> points, const std::function<void(Row)>& done)>
+      elsewhere = {};
+  Share share = {};             // of the points: the table has no others
+  std::vector<Row> known = {};  // of an earlier time: they are not run again
 };
 
 // Returns the file that a value of the axis `experiment` names, which stands beside the sweep's
@@ -96,6 +102,22 @@ void check(const Sweep&);
 // Checks, then runs. Throws after its first run for a key that the summary lacks and that looks
 // like a typing error. Returns the rows that are there, the known ones too, in the points' order.
 std::vector<Row> sweep(const Sweep&, const Options&);
+
+// Runs points of a sweep by their number, for whoever hands them out: a row is the same wherever it
+// was made.
+class Runner {
+ public:
+  explicit Runner(const Sweep& sweep);
+  ~Runner();
+
+  // `done` is called for one row at a time, and must not throw.
+  void run(std::span<const std::size_t> points, int threads,
+           const std::function<void(Row)>& done) const;
+
+ private:
+  struct Drawn;
+  std::unique_ptr<Drawn> drawn_;
+};
 
 // One run: what `sinew run` would say of it.
 struct Ran {

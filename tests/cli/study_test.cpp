@@ -180,5 +180,56 @@ TEST_F(Study, OfASensitivityGoesOnToo) {
   EXPECT_THAT(other.err, HasSubstr("s.db: found another study, with \"sample = 32 points, given"));
 }
 
+// --- mpirun ---
+
+class StudyOverMpi : public Study {
+ protected:
+  // A line of a shell; its words on stderr.
+  int shell(const std::string& line) {
+    const std::string all = "cd " + w.path().string() +
+                            " && export OMPI_ALLOW_RUN_AS_ROOT=1 "
+                            "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 && " +
+                            line + " >out 2>err";
+    const int status = std::system(("bash -c '" + all + "'").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string err() { return read_text(w / "err"); }
+
+  const std::string sinew = SINEW_PROGRAM " sweep experiments/one-joint.toml --seeds ";
+};
+
+TEST_F(StudyOverMpi, IsTheSameTableAndAnErrorIsSaidOnce) {
+  if (!SINEW_HAS_MPI || std::system("command -v mpirun >/dev/null") != 0)
+    GTEST_SKIP() << "no mpirun, or a program without MPI";
+  const std::string mpirun = "mpirun --oversubscribe -n 3 ";
+  EXPECT_EQ(shell(mpirun + sinew + "7 --results s.db"), 0) << err();
+  EXPECT_EQ(read_text(w / "out"),
+            w.sinew({"sweep", "experiments/one-joint.toml", "--seeds", "7"}).out);
+  EXPECT_EQ(shell(mpirun + sinew + "8 --results s.db"), 1);
+  const std::string said = err(), what = "s.db: found another study";
+  EXPECT_NE(said.find(what), said.npos) << said;
+  EXPECT_EQ(said.find(what), said.rfind(what)) << said;
+  // Other files on another machine.
+  EXPECT_EQ(shell("mpirun --oversubscribe -n 1 " + sinew + "7 : -n 1 " + sinew + "9"), 1);
+  EXPECT_THAT(err(), HasSubstr("rank 1 has another study, with \"vary = seed: 1, 2, 3, 4, 5, 6, 7, "
+                               "8, 9\"; expected \"vary = seed: 1, 2, 3, 4, 5, 6, 7\""));
+  EXPECT_EQ(shell("mpirun --oversubscribe -n 1 " + sinew +
+                  "7 : -n 1 " SINEW_PROGRAM " sweep experiments/none.toml"),
+            1);
+  EXPECT_THAT(err(), HasSubstr("rank 1: experiments/none.toml: found no readable file"));
+}
+
+TEST_F(StudyOverMpi, IsRefusedWithoutTheModule) {
+  fs::create_directory(w / "bin");
+  fs::copy_file(SINEW_PROGRAM, w / "bin/sinew");
+  const std::string alone = "bin/sinew sweep experiments/one-joint.toml --seeds 2";
+  EXPECT_EQ(shell("env OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=0 " + alone), 1);
+  EXPECT_THAT(err(), AllOf(HasSubstr("started by mpirun, and this program was built without MPI"),
+                           HasSubstr("libopenmpi-dev")));
+  EXPECT_EQ(shell("env PMI_SIZE=2 " + alone), 1);
+  EXPECT_THAT(err(), HasSubstr("the mpirun of another MPI"));
+  EXPECT_EQ(shell("env OMPI_COMM_WORLD_SIZE=1 " + alone), 0) << "one process needs none";
+}
+
 }  // namespace
 }  // namespace sinew::test

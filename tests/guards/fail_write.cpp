@@ -51,6 +51,16 @@ ssize_t pwrite(int fd, const void* data, size_t size, off_t at) {
   return next<ssize_t (*)(int, const void*, size_t, off_t)>("pwrite")(fd, data, size, at);
 }
 
+ssize_t pwrite64(int fd, const void* data, size_t size, off64_t at) {
+  if (fails(fd)) return -1;
+  return next<ssize_t (*)(int, const void*, size_t, off64_t)>("pwrite64")(fd, data, size, at);
+}
+
+int fdatasync(int fd) {
+  if (fails(fd)) return -1;
+  return next<int (*)(int)>("fdatasync")(fd);
+}
+
 int fsync(int fd) {
   if (fails(fd)) return -1;
   return next<int (*)(int)>("fsync")(fd);

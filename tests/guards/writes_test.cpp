@@ -58,5 +58,34 @@ TEST(Writes, ThatFailAreToldOfAndLoseNothing) {
               total);
 }
 
+// A row that a study's file could not take is run again; none that it took is lost.
+TEST(Writes, ThatFailOfAStudyLoseNoRow) {
+  const Workspace w;
+  const Words alone = {"sweep", "experiments/one-joint.toml", "--seeds", "3", "--quiet"};
+  Words words = alone;
+  words.insert(words.end(), {"--results", "s.db"});
+  const std::string table = w.sinew(alone).out;
+  const Writer writer{.name = "study", .old = {}, .fresh = words, .refused = {}, .target = "s.db"};
+  const bool all = std::getenv("SINEW_GUARD_COUNT") != nullptr;
+  int failures = 0, told = 0;
+  Ended end;
+  for (int n = 1; n < 500 && failed(w, writer, n, end); n = next(n, all), ++failures) {
+    SCOPED_TRACE("call " + std::to_string(n));
+    // At the very end, when all rows are there, SQLite puts off what it cannot write.
+    EXPECT_THAT(end.code, ::testing::AnyOf(0, 1)) << end.output;
+    told += end.code;
+    EXPECT_TRUE(end.code == 0 || end.output.find("s.db: cannot be") != std::string::npos)
+        << end.output;
+    const Result again = w.sinew(words);
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_EQ(again.out, table);
+    for (const char* part : {"s.db", "s.db-wal", "s.db-shm"}) fs::remove(w / part);
+  }
+  EXPECT_GE(told, 3);
+  std::printf(
+      "guard: %d calls that write a study failed in turn, %d were told of, no row was lost\n",
+      failures, told);
+}
+
 }  // namespace
 }  // namespace sinew::test

@@ -1,0 +1,184 @@
+#include "sinew/tune/mpi/work.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "sinew/tune/results/asked.h"
+
+namespace sinew::tune {
+namespace {
+
+using Json = nlohmann::json;
+
+// Binary, so that a cell keeps its bytes whatever they are.
+//
+//   to a worker     {}                             say what you have been asked for
+//                   {"points": [3, 4, 5]}          run these
+//                   {"end": true}
+//   to the master   {"asked": "…"}
+//                   {"row": {…}}
+//                   {"error": "…"}                 there is no such sweep here
+//                   {"end": true}                  the last word
+std::string packed(const Json& message) {
+  const std::vector<std::uint8_t> bytes = Json::to_cbor(message);
+  return {bytes.begin(), bytes.end()};
+}
+
+Json unpacked(const std::string& bytes) { return Json::from_cbor(bytes); }
+
+Json json_of(const Row& row) {
+  return {{"point", row.point},
+          {"cells", row.cells},
+          {"ok", row.ok},
+          {"lacks", row.notes.lacks},
+          {"differs", row.notes.differs},
+          {"stop_reached", row.notes.stop_reached},
+          {"no_air", row.notes.no_air},
+          {"out_of_reach", row.notes.out_of_reach}};
+}
+
+Row row_of(const Json& json) {
+  return {.point = json.at("point"),
+          .cells = json.at("cells"),
+          .ok = json.at("ok"),
+          .notes = {.lacks = json.at("lacks"),
+                    .differs = json.at("differs"),
+                    .stop_reached = json.at("stop_reached"),
+                    .no_air = json.at("no_air"),
+                    .out_of_reach = json.at("out_of_reach")}};
+}
+
+constexpr double while_nothing_comes = 0.1;  // between looks at `stop` [s]
+constexpr std::size_t largest_part = 32;     // points given out at a time
+
+// Hands out points so that every worker has some in store while its next ones are on their way.
+class HandOut {
+ public:
+  HandOut(const Ranks& ranks, std::span<const std::size_t> points, const std::atomic<bool>* stop)
+      : ranks_(ranks),
+        points_(points),
+        stop_(stop),
+        open_(static_cast<std::size_t>(ranks.size()), 0) {}
+
+  bool all_there() const { return running_ == 0 && (next_ == points_.size() || stopped()); }
+
+  void give(int worker) {
+    std::size_t& open = open_[static_cast<std::size_t>(worker)];
+    while (next_ < points_.size() && !stopped() && open <= part() / 2) {
+      const std::size_t count = std::min(part(), points_.size() - next_);
+      const auto some = points_.subspan(next_, count);
+      ranks_.send(worker, packed({{"points", std::vector(some.begin(), some.end())}}));
+      next_ += count;
+      open += count;
+      running_ += count;
+    }
+  }
+
+  void returned(int worker) {
+    --open_[static_cast<std::size_t>(worker)];
+    --running_;
+  }
+
+ private:
+  bool stopped() const { return stop_ && stop_->load(); }
+
+  // Small near the end, so that nobody waits long for the last.
+  std::size_t part() const {
+    const auto workers = static_cast<std::size_t>(ranks_.size() - 1);
+    return std::clamp<std::size_t>((points_.size() - next_) / (4 * workers), 1, largest_part);
+  }
+
+  const Ranks& ranks_;
+  std::span<const std::size_t> points_;
+  const std::atomic<bool>* stop_;
+  std::vector<std::size_t> open_;  // points at each worker
+  std::size_t next_ = 0, running_ = 0;
+};
+
+// A worker's first answer.
+Json begin(const std::function<Sweep()>& sweep, std::unique_ptr<Runner>& runner) try {
+  const Sweep s = sweep();
+  runner = std::make_unique<Runner>(s);
+  return {{"asked", asked_of(s).text}};
+} catch (const std::exception& e) {
+  return {{"error", e.what()}};
+}
+
+void require_same(const std::string& ours, const std::string& theirs, int rank) {
+  if (ours == theirs) return;
+  const Difference d = difference(theirs, ours);
+  throw std::runtime_error(
+      fmt::format("rank {} has another study, with \"{}\"; expected \"{}\"; try the same files on "
+                  "every machine",
+                  rank, d.first, d.second));
+}
+
+}  // namespace
+
+decltype(Options::elsewhere) Master::elsewhere(const Sweep& sweep, const std::atomic<bool>* stop) {
+  if (ranks_.size() == 1) return {};
+  return [this, asked = asked_of(sweep).text, stop](std::span<const std::size_t> points,
+                                                    const std::function<void(Row)>& done) {
+    run(asked, points, done, stop);
+  };
+}
+
+void Master::run(const std::string& asked, std::span<const std::size_t> points,
+                 const std::function<void(Row)>& done, const std::atomic<bool>* stop) {
+  HandOut out(ranks_, points, stop);
+  for (int worker = 1; worker < ranks_.size(); ++worker)
+    ranks_.send(worker, packed(Json::object()));
+  while (!out.all_there()) {
+    const auto message = ranks_.receive(while_nothing_comes);
+    if (!message) continue;
+    const Json json = unpacked(message->text);
+    if (json.contains("error"))
+      throw std::runtime_error(
+          fmt::format("rank {}: {}", message->from, json.at("error").get<std::string>()));
+    if (json.contains("asked")) {
+      require_same(asked, json.at("asked"), message->from);
+    } else {
+      out.returned(message->from);
+      done(row_of(json.at("row")));
+    }
+    out.give(message->from);
+  }
+}
+
+// Rows that come after an error are of runs that were under way; they are run again another time.
+Master::~Master() {
+  try {
+    for (int worker = 1; worker < ranks_.size(); ++worker)
+      ranks_.send(worker, packed({{"end", true}}));
+    for (int left = ranks_.size() - 1; left > 0;) {
+      const auto message = ranks_.receive(while_nothing_comes);
+      left -= message && unpacked(message->text).contains("end") ? 1 : 0;
+    }
+  } catch (const std::exception&) {
+    // They are gone.
+  }
+}
+
+void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads) {
+  std::unique_ptr<Runner> runner;
+  for (;;) {
+    const auto message = ranks.receive(60);
+    if (!message) continue;
+    const Json json = unpacked(message->text);
+    if (json.contains("end")) break;
+    if (!json.contains("points")) {
+      ranks.send(0, packed(begin(sweep, runner)));
+      continue;
+    }
+    const std::vector<std::size_t> points = json.at("points");
+    runner->run(points, threads, [&](const Row& row) {
+      ranks.send(0, packed({{"row", json_of(row)}}));
+    });
+  }
+  ranks.send(0, packed({{"end", true}}));
+}
+
+}  // namespace sinew::tune

@@ -1,0 +1,45 @@
+// tune/mpi/work.h - a sweep over the processes of mpirun: the first one hands out points and takes
+// the rows, all others run them.
+//
+//   Ranks ranks;
+//   if (ranks.is_worker()) return work(ranks, [] { return the same sweep; }, threads);
+//   Master master(ranks);  // before anything that can fail: it lets the workers go
+//   sweep(s, {.elsewhere = master.elsewhere(s, &stop)});
+//
+// A point is its number and a row is a row, as for threads and shards, so a table does not follow
+// from who made it. A row is sent as soon as its run is done. Open MPI ends all processes when one
+// of them dies; what the first one has written by then is there, and the same command goes on.
+#pragma once
+
+#include <atomic>
+#include <functional>
+
+#include "sinew/tune/mpi/ranks.h"
+#include "sinew/tune/sweep.h"
+
+namespace sinew::tune {
+
+class Master {
+ public:
+  explicit Master(const Ranks& ranks) : ranks_(ranks) {}
+
+  // Lets the workers go.
+  ~Master();
+  Master(const Master&) = delete;
+  Master& operator=(const Master&) = delete;
+
+  // Returns what Options::elsewhere wants; nothing where this process is alone. It throws
+  // std::runtime_error where a worker has another sweep, as of other files under the same names.
+  decltype(Options::elsewhere) elsewhere(const Sweep& sweep, const std::atomic<bool>* stop);
+
+ private:
+  void run(const std::string& asked, std::span<const std::size_t> points,
+           const std::function<void(Row)>& done, const std::atomic<bool>* stop);
+
+  const Ranks& ranks_;
+};
+
+// Runs what it is given until it is let go. `sweep` is called when there is something to be done.
+void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads);
+
+}  // namespace sinew::tune

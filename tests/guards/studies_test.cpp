@@ -1,0 +1,127 @@
+// The same study alone, by two threads, as three shards merged, over three processes of mpirun, and
+// killed at any moments and gone on with in any of these ways: the same table, to the byte.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <random>
+#include <thread>
+
+#include "tests/guards/writers.h"
+
+namespace sinew::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+
+constexpr int points = 120;
+
+const Words sweep = {"sweep",    "experiments/one-joint.toml",
+                     "--vary",   "joint.lever.angle_gain=0.08,0.12,0.2 %/count",
+                     "--range",  "phase.up.duration=0.5:1.5 s",
+                     "--points", "40",
+                     "--report", "joints.lever.tracking_rms_rad,air_used_kg [g]"};
+
+Words with(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+bool has_mpi() { return SINEW_HAS_MPI && std::system("command -v mpirun >/dev/null") == 0; }
+
+// Three processes where there may be fewer processors, by whoever builds in a container.
+[[noreturn]] void become_mpirun(const Words& words) {
+  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  std::vector<const char*> arguments{"mpirun", "--oversubscribe", "-n", "3", SINEW_PROGRAM};
+  for (const std::string& word : words) arguments.push_back(word.c_str());
+  arguments.push_back(nullptr);
+  execvp("mpirun", const_cast<char**>(arguments.data()));
+  _exit(126);
+}
+
+Started start_on(const Workspace& w, const Words& words, bool mpi) {
+  return start(w, words, [&] {
+    if (mpi) become_mpirun(words);
+  });
+}
+
+std::vector<pid_t> children_of(pid_t pid) {
+  const std::string id = std::to_string(pid);
+  std::istringstream text(read_text("/proc/" + id + "/task/" + id + "/children"));
+  std::vector<pid_t> out;
+  for (pid_t child = 0; text >> child;) out.push_back(child);
+  return out;
+}
+
+class Studies : public ::testing::Test {
+ protected:
+  Studies() : table(w.sinew(with(sweep, {"--threads", "1"})).out) {}
+
+  void SetUp() override { ASSERT_EQ(std::count(table.begin(), table.end(), '\n'), points + 1); }
+
+  // Kills the process, one of those that mpirun started, or asks mpirun to end.
+  bool disturb(const Started& process, bool mpi) {
+    const std::vector<pid_t> ranks = mpi ? children_of(process.pid) : std::vector<pid_t>{};
+    const std::size_t which = random() % 4;
+    const bool one = which < ranks.size();
+    kill(one ? ranks[which] : process.pid, one || !mpi ? SIGKILL : SIGTERM);
+    const Ended end = ended(process);
+    EXPECT_THAT(end.code, AnyOf(-1, 0, 1, 128 + SIGKILL)) << end.output;
+    return end.code != 0;
+  }
+
+  Workspace w;
+  const std::string table;
+  std::mt19937 random{7};
+};
+
+TEST_F(Studies, AreOneTableHoweverTheyAreRun) {
+  EXPECT_EQ(w.sinew(with(sweep, {"--threads", "2"})).out, table);
+  Words merge = {"merge", "-o", "all.db"};
+  for (const std::string i : {"3", "1", "2"}) {
+    EXPECT_EQ(w.sinew(with(sweep, {"--results", i + ".db", "--shard", i + "/3"})).code, 0);
+    merge.push_back(i + ".db");
+  }
+  EXPECT_EQ(w.sinew(merge).code, 0);
+  EXPECT_EQ(w.sinew(with(sweep, {"--results", "all.db"})).out, table);
+  if (!has_mpi()) GTEST_SKIP() << "no mpirun, or a program without MPI: the others are the same";
+  const Ended end = ended(start_on(w, with(sweep, {"-o", "mpi.csv", "--results", "m.db"}), true));
+  EXPECT_EQ(end.code, 0) << end.output;
+  EXPECT_EQ(read_text(w / "mpi.csv"), table);
+}
+
+TEST_F(Studies, KilledAndGoneOnWithAreTheSameTable) {
+  const Words words = with(sweep, {"--results", "s.db", "--quiet", "--threads", "1"});
+  int killed = 0, whole = 0, mpirun = 0;
+  const auto finish = [&] {
+    EXPECT_EQ(w.sinew(words).out, table);
+    fs::remove(w / "s.db");
+    ++whole;
+  };
+  for (int i = 0; i < tries(6); ++i) {
+    const bool mpi = has_mpi() && i % 2 == 1;
+    const Started process = start_on(w, words, mpi);
+    const double after = std::uniform_real_distribution(0.0, mpi ? 1.2 : 0.8)(random);
+    std::this_thread::sleep_for(std::chrono::duration<double>(after));
+    SCOPED_TRACE("killed after " + std::to_string(after) + " s" + (mpi ? " of mpirun" : ""));
+    const bool in_time = disturb(process, mpi);
+    killed += in_time;
+    mpirun += in_time && mpi;
+    if (!in_time) finish();
+  }
+  finish();
+  EXPECT_GT(killed, tries(6) / 3) << "most were over before their signal came";
+  std::printf(
+      "guard: %d kills of a study of %d points in %d, %d of them under mpirun; gone on with, the "
+      "table was the same %d times\n",
+      killed, points, tries(6), mpirun, whole);
+}
+
+}  // namespace
+}  // namespace sinew::test
