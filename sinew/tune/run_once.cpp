@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include "sinew/analysis/verdict/reported.h"
+#include "sinew/analysis/warnings.h"
 #include "sinew/config/compose.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
@@ -21,6 +23,14 @@ std::string status_of(const experiment::Experiment& e, const run::Outcome& outco
   return "ok";
 }
 
+// What the summary alone does not show of its figures.
+void judge(const run::Outcome& outcome, const analysis::Machine& machine, Ran& out) {
+  out.no_air = !analysis::unused_air(outcome.table, machine).empty();
+  for (const analysis::Verdict& v :
+       analysis::compare(out.summary, machine.reported, machine.atmosphere))
+    if (v.is == analysis::Verdict::Is::differs) out.differs.push_back(v.key);
+}
+
 }  // namespace
 
 // The log's files are not written: the summary is of the table in memory.
@@ -35,7 +45,9 @@ Ran run_once(const std::string& file, const std::vector<std::string>& sets,
     const run::Outcome outcome = run::run(e);
     out.status = status_of(e, outcome);
     out.atmosphere = machine.atmosphere;
-    if (out.ok()) out.summary = analysis::summarize(outcome.table, machine);
+    if (!out.ok()) return out;
+    out.summary = analysis::summarize(outcome.table, machine);
+    judge(outcome, machine, out);
   } catch (const config::Error& e) {
     out.status = "refused: " + first_problem(e);
   } catch (const std::exception& e) {
