@@ -84,8 +84,7 @@ void add_report(const Sweep& s, const Ran& ran, std::vector<std::string>& cells)
     cells.push_back(ran.ok() ? figure.cell(ran.summary, ran.atmosphere) : "");
 }
 
-Row single(const Sweep& s, std::size_t index, Point point, bool first) {
-  const Ran ran = run_once(point.experiment, point.sets, s.allow_unreachable);
+Row single(const Sweep& s, std::size_t index, Point point, const Ran& ran, bool first) {
   if (first && ran.ok()) check_keys(s, ran.summary);
   add_report(s, ran, point.cells);
   Notes notes = notes_of(ran, keys(s));
@@ -134,8 +133,15 @@ Row searched(const Sweep& s, std::size_t index, Point point, bool first) {
 
 Row row_of(const Sweep& s, const Points& points, std::size_t index, bool first) {
   Point point = points.at(index);
-  return s.largest ? searched(s, index, std::move(point), first)
-                   : single(s, index, std::move(point), first);
+  if (s.largest) return searched(s, index, std::move(point), first);
+  const Ran ran = run_once(point.experiment, point.sets, s.allow_unreachable);
+  return single(s, index, std::move(point), ran, first);
+}
+
+// Runs the points that next() answers, as long as it does, and hands their rows to done().
+template <class Next, class Done>
+void run_points(const Sweep& s, const Points& points, const Next& next, const Done& done) {
+  while (const std::optional<std::size_t> index = next()) done(row_of(s, points, *index, false));
 }
 
 // Calls `work` in that many threads, of which this is one.
@@ -172,11 +178,12 @@ class Work {
   }
 
   void go_on() noexcept {
-    while (!stopped()) {
-      const std::size_t next = next_++;
-      if (next >= to_do_.size()) return;
-      done(row_of(sweep_, points_, to_do_[next], false));
-    }
+    const auto next = [this]() -> std::optional<std::size_t> {
+      const std::size_t i = stopped() ? to_do_.size() : next_++;
+      if (i >= to_do_.size()) return {};
+      return to_do_[i];
+    };
+    run_points(sweep_, points_, next, [this](Row row) { done(std::move(row)); });
   }
 
   void go_on_elsewhere() {
@@ -291,15 +298,19 @@ Runner::~Runner() = default;
 
 void Runner::run(std::span<const std::size_t> points, int threads,
                  const std::function<void(Row)>& done) const {
-  std::atomic<std::size_t> next{0};
+  std::atomic<std::size_t> taken{0};
   std::mutex mutex;
-  in_threads(std::min(static_cast<std::size_t>(threads), points.size()), [&] {
-    for (std::size_t i; (i = next++) < points.size();) {
-      Row row = row_of(drawn_->sweep, drawn_->points, points[i], false);
-      const std::lock_guard lock(mutex);
-      done(std::move(row));
-    }
-  });
+  const auto next = [&]() -> std::optional<std::size_t> {
+    const std::size_t i = taken++;
+    if (i >= points.size()) return {};
+    return points[i];
+  };
+  const auto hand_back = [&](Row row) {
+    const std::lock_guard lock(mutex);
+    done(std::move(row));
+  };
+  in_threads(std::min(static_cast<std::size_t>(threads), points.size()),
+             [&] { run_points(drawn_->sweep, drawn_->points, next, hand_back); });
 }
 
 }  // namespace sinew::tune

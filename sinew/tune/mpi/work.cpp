@@ -52,7 +52,7 @@ Row row_of(const Json& json) {
 }
 
 constexpr double while_nothing_comes = 0.1;  // between looks at `stop` [s]
-constexpr std::size_t largest_part = 32;     // points given out at a time
+constexpr std::size_t largest_part = 256;    // points given out at a time
 
 // Hands out points so that every worker has some in store while its next ones are on their way.
 class HandOut {
