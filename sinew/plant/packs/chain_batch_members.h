@@ -52,18 +52,35 @@ template <int N, int W>
 ChainBatch<N, W>::ChainBatch(std::span<const Setup, static_cast<std::size_t>(W)> setups)
     : worlds_(worlds_of(setups)), body_(side_by_side(bodies(worlds_))), air_(airs(worlds_)) {
   for (int k = 0; k < W; ++k) take(k);
+  until_.fill(-over);
 }
 
 template <int N, int W>
 auto ChainBatch<N, W>::worlds_of(std::span<const Setup, static_cast<std::size_t>(W)> setups)
     -> Worlds {
-  const ChainRouting first = chain_routing_of(setups[0].robot);
   for (const Setup& s : setups)
-    if (!holds(s) || !alike(chain_routing_of(s.robot), first))
-      throw std::invalid_argument("machines that cannot go side by side");
+    if (!holds(s) || !alike(s, setups[0])) refuse();
   Worlds worlds;
   for (std::size_t k = 0; k < W; ++k) worlds[k] = std::make_unique<World>(setups[k]);
   return worlds;
+}
+
+template <int N, int W>
+void ChainBatch<N, W>::refuse() {
+  throw std::invalid_argument("machines that cannot go side by side");
+}
+
+template <int N, int W>
+void ChainBatch<N, W>::replace(int k, const Setup& setup) {
+  const auto l = static_cast<std::size_t>(k);
+  const auto other = worlds_[l == 0 && W > 1 ? 1 : 0]->mechanism().routes();
+  if (!holds(setup) || !plant::alike(chain_routing_of(setup.robot), other)) refuse();
+  worlds_[l] = std::make_unique<World>(setup);
+  body_ = side_by_side(bodies(worlds_));
+  air_ = Air(airs(worlds_));
+  take(k);
+  until_[l] = -over;
+  parked_[l] = false;
 }
 
 template <int N, int W>
@@ -90,10 +107,7 @@ double ChainBatch<N, W>::next_node(int k) const noexcept {
 
 template <int N, int W>
 void ChainBatch<N, W>::advance(const Instants& until) noexcept {
-  for (int k = 0; k < W; ++k) {
-    const auto l = static_cast<std::size_t>(k);
-    if (!behind_[l] && worlds_[l]->state().nodes != nodes_[l]) take(k);
-  }
+  for (int k = 0; k < W; ++k) follow(k);
   for (;;) {
     Mask goes = S(0.0) > 0.0;
     for (int k = 0; k < W; ++k) {
@@ -124,6 +138,7 @@ void ChainBatch<N, W>::commit(const Mask& goes) noexcept {
     time_[l] = next > time_[l] ? next : time_[l];
     ++nodes_[l];
     behind_[l] = true;
+    glanced_[l] = false;
   }
   prepare(goes);
 }
@@ -249,6 +264,7 @@ void ChainBatch<N, W>::take(int k) noexcept {
   nodes_[l] = s.nodes;
   failure_[l] = s.failure;
   behind_[l] = false;
+  glanced_[l] = false;
   prepare_friction();
 }
 
