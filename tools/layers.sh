@@ -11,7 +11,8 @@ layers='
     signals
     gas             units
     actuator        units
-    air             gas actuator signals
+    air/stiff       gas
+    air             air/stiff gas actuator signals
     air/packs       air
     robot           gas actuator signals
     robot/wiring    robot
@@ -23,7 +24,8 @@ layers='
     config/write    config
     log             signals
     plant/world     air signals
-    plant/planar    plant/world air robot signals
+    plant/friction  units
+    plant/planar    plant/world plant/friction air robot signals
     plant/machine   plant/planar
     plant/packs     plant/machine air/packs
     plant/slide     plant/world air robot signals

@@ -6,7 +6,7 @@
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/air/failure.h"
-#include "sinew/air/wide.h"
+#include "sinew/units/wide.h"
 
 namespace sinew::air {
 namespace {

@@ -19,7 +19,7 @@
 #include "sinew/air/network.h"
 #include "sinew/air/network_flows.h"
 #include "sinew/air/network_setup.h"
-#include "sinew/air/quick.h"
+#include "sinew/air/stiff/quick.h"
 #include "sinew/gas/slopes.h"
 
 namespace sinew::air {

@@ -1,8 +1,8 @@
 #include "sinew/air/regulator_lanes.h"
 
-#include "sinew/air/quick.h"
-#include "sinew/air/wide.h"
+#include "sinew/air/stiff/quick.h"
 #include "sinew/gas/slopes.h"
+#include "sinew/units/wide.h"
 
 namespace sinew::air {
 namespace {

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "sinew/actuator/body.h"
-#include "sinew/air/quick.h"
+#include "sinew/air/stiff/quick.h"
 #include "sinew/air/test_machines.h"
 #include "sinew/gas/air.h"
 

@@ -161,8 +161,8 @@ TEST(Scale, AFifthOfTheLegMovesAlikeToRounding) {
   }
 }
 
-// The hair of damping in plant/planar/friction.h is 1e-9 of the largest response, be it of an angle
-// or of a way: with both kinds of friction it has a size of its own, and shows that much.
+// The hair of damping in plant/friction/friction.h is 1e-9 of the largest response, be it of an
+// angle or of a way: with both kinds of friction it has a size of its own, and shows that much.
 TEST(Scale, BothKindsOfFrictionAgreeButForAHair) {
   constexpr int n = 8;
   constexpr Tick end = 1200;  // 0.96 s of the leg

@@ -26,6 +26,7 @@ using LargeBodyWorld = SizedBodyWorld<most_joints, robot::max_discs, most_muscle
 extern template class World<ChainMechanism<1>, air::AirNetwork<chain_muscles>>;
 extern template class World<ChainMechanism<2>, air::AirNetwork<chain_muscles>>;
 extern template class World<BodyMechanism<2, 4, 8>, air::AirNetwork<8>>;
+extern template class World<BodyMechanism<3, 2, 4>, air::AirNetwork<4>>;
 extern template class World<BodyMechanism<3, 4, 8>, air::AirNetwork<8>>;
 extern template class World<BodyMechanism<4, 4, 8>, air::AirNetwork<8>>;
 extern template class World<BodyMechanism<8, 8, 8>, air::AirNetwork<8>>;
@@ -36,8 +37,9 @@ extern template class World<BodyMechanism<most_joints, robot::max_discs, most_mu
 using LegLane = Lane<ChainWorld<2>>;
 
 using AnyWorld =
-    std::variant<ChainWorld<1>, ChainWorld<2>, SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 4, 8>,
-                 SizedBodyWorld<4, 4, 8>, BodyWorld, LargeBodyWorld, LegLane>;
+    std::variant<ChainWorld<1>, ChainWorld<2>, SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 2, 4>,
+                 SizedBodyWorld<3, 4, 8>, SizedBodyWorld<4, 4, 8>, BodyWorld, LargeBodyWorld,
+                 LegLane>;
 
 class Machine {
  public:

@@ -2,12 +2,12 @@
 // driven or passive, a body that a cylinder lifts, cams of any shape, muscles across two joints,
 // feet of several discs.
 //
-//   body.h   equations of motion, dense      rubs.h     friction and the discs on the ground
-//   cords.h  routes of the muscles           rollers.h  what the trolley rests on
+//   body.h            equations of motion       friction_contacts.h  friction, discs on the ground
+//   muscle_routing.h  routes of the muscles     rollers.h            what the trolley rests on
 //
 // One of the mechanisms of world/world.h; chain_mechanism.h is the same for the leg that walks,
-// faster. It is compiled for several sizes: N joints on feet of D discs (body.h, rubs.h), M
-// muscles.
+// faster. It is compiled for several sizes: N joints on feet of D discs (body.h,
+// friction_contacts.h), M muscles.
 #pragma once
 
 #include <array>
@@ -72,17 +72,20 @@ class BodyMechanism : public PlanarMechanism<M> {
   // A number that is none where one of the coordinates is none.
   double sum(const Motion& m) const noexcept;
 
-  // The body step, or a whole part of it that suits the fastest rate of the machine at its start.
-  double node_step(const Setup& setup) const;
-
-  // The ground is what asks for short steps where a foot is light. While no disc can reach it,
-  // nodes stand as far apart as the joints alone bear: at whole multiples of so many steps.
+  // The body step, or a whole part of it that suits the machine's fastest rates  [s].
+  double node_step(const Setup&) const noexcept { return node_step_; }
+  // The ground is what asks for short steps where a foot is light. While no disc can come to it or
+  // leave it, nodes stand as far apart as the joints alone bear in the air, and as the relaxed
+  // damper does on the ground: at whole multiples of so many steps.
   std::int64_t next_multiple(std::int64_t multiple, double step, const Pose& pose,
                              const Motion& m) const noexcept {
-    if (steps_in_air_ == 1 || rubs_.can_touch(pose, m, static_cast<double>(steps_in_air_) * step))
+    if (steps_in_air_ == 1) return multiple + 1;
+    const std::int64_t steps = rubs_.touches(pose) ? steps_on_ground_ : steps_in_air_;
+    if (steps == 1 || rubs_.can_change(pose, m, static_cast<double>(steps) * step))
       return multiple + 1;
-    return (multiple / steps_in_air_ + 1) * steps_in_air_;
+    return (multiple / steps + 1) * steps;
   }
+  std::int64_t most_steps_on_ground() const noexcept { return steps_on_ground_; }
 
   void set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
                  double y_rate) const;
@@ -122,6 +125,12 @@ class BodyMechanism : public PlanarMechanism<M> {
   void move(Motion& out, const Motion& from, double h, const Motion& rates,
             const Acceleration& a) const noexcept;
 
+  // The ground's damper within a step: friction_contacts.h.
+  void relax(double h, double share, const Load& load, const Acceleration& before,
+             Acceleration& a) const noexcept {
+    rubs_.relax(h, share, load.normal, before, a);
+  }
+
   // h along a constant acceleration.
   void glide(Motion& m, double h, const Acceleration& a) const noexcept;
 
@@ -138,7 +147,7 @@ class BodyMechanism : public PlanarMechanism<M> {
             Truth& out) const noexcept;
 
  private:
-  double suited_step(const Setup& setup, bool on_ground) const;
+  void choose_steps(double body_step);
   void load(const Pose& body, const Motion& m, const Arms& arms, const air::Lanes<M>& tension,
             double piston_force, Load& out) const noexcept;
   double cylinder_stop(const Motion& m) const noexcept;
@@ -153,7 +162,8 @@ class BodyMechanism : public PlanarMechanism<M> {
   MuscleRouting cords_;
   FrictionContacts<N, D> rubs_;
   Motion start_{};
-  std::int64_t steps_in_air_ = 1;
+  double node_step_ = 1e-3;                              // [s]
+  std::int64_t steps_in_air_ = 1, steps_on_ground_ = 1;  // of them, at most
   std::array<double, N> damping_{}, spring_{}, spring_angle_{}, dry_{};
   std::array<JointStop, N> stop_{};
 };

@@ -30,8 +30,7 @@ BodyMechanism<N, D, M>::BodyMechanism(const Setup& setup)
   }
   start_.at[along_track] = setup.start.trolley;
   start_.at[up] = setup.start.lift;
-  const double in_air = suited_step(setup, false) / suited_step(setup, true);
-  steps_in_air_ = static_cast<std::int64_t>(in_air + 1e-9);
+  choose_steps(setup.steps.body);
 }
 
 template <int N, int D, int M>
@@ -41,27 +40,37 @@ double BodyMechanism<N, D, M>::sum(const Motion& m) const noexcept {
   return places;
 }
 
+// Chooses the step that suits all, and the longer ones without the ground or with its damper
+// relaxed.
 template <int N, int D, int M>
-double BodyMechanism<N, D, M>::node_step(const Setup& setup) const {
-  return suited_step(setup, true);
-}
-
-// Returns the step that suits the machine with the ground under its feet, or without  [s].
-template <int N, int D, int M>
-double BodyMechanism<N, D, M>::suited_step(const Setup& setup, bool on_ground) const {
-  const auto rate = [&](const Motion& m) {
-    return rubs_.stiffest_rate(Body<N>(constants_, m), m, robot_, on_ground);
+void BodyMechanism<N, D, M>::choose_steps(double body_step) {
+  const auto rates = [&](const Motion& m) {
+    return rubs_.fastest_rates(Body<N>(constants_, m), m, robot_);
   };
   // A light foot is quick where the ground pushes past its centre. Poses all over: each link turns
   // by another irrational number of turns from one to the next (5 + 7 j is no square).
-  double elsewhere = 0;
+  const FastestRates at_start = rates(start_);
+  FastestRates elsewhere;
   Motion m = start_;
   for (int k = 0; k < 100; ++k) {
     for (std::size_t j = 0; j < constants_.links(); ++j)
       m.at[first_link + j] += 2.0 * std::numbers::pi * std::sqrt(static_cast<double>(5 + 7 * j));
-    elsewhere = std::max(elsewhere, rate(m));
+    elsewhere.include(rates(m));
   }
-  return stable_step(setup.steps.body, rate(start_), elsewhere);
+  using Contacts = FrictionContacts<N, D>;
+  const auto suited = [&](double ground, double damper) {  // by their shares in the rates
+    const auto rate = [&](const FastestRates& r) {
+      return std::max({r.joints, ground * r.ground_spring, damper * r.ground_damper});
+    };
+    return stable_step(body_step, rate(at_start), rate(elsewhere));
+  };
+  node_step_ = suited(1, 1);
+  const auto steps = [&](double longer) {
+    return static_cast<std::int64_t>(longer / node_step_ + 1e-9);
+  };
+  steps_in_air_ = steps(suited(0, 0));
+  steps_on_ground_ = steps(suited(1, Contacts::stable_explicit / Contacts::stable_relaxed));
+  rubs_.relax_beyond(node_step_ * (1 + 1e-9));
 }
 
 template <int N, int D, int M>

@@ -13,9 +13,9 @@
 #include <cmath>
 #include <limits>
 
+#include "sinew/plant/friction/friction.h"
+#include "sinew/plant/friction/friction_lanes.h"
 #include "sinew/plant/planar/chain.h"
-#include "sinew/plant/planar/friction.h"
-#include "sinew/plant/planar/friction_lanes.h"
 #include "sinew/robot/robot.h"
 
 namespace sinew::plant {

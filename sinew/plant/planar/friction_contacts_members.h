@@ -6,16 +6,9 @@
 #include <cmath>
 
 #include "sinew/plant/planar/friction_contacts.h"
+#include "sinew/plant/planar/friction_contacts_places.h"
 
 namespace sinew::plant {
-
-// Over the coordinates that the machine has.
-template <int N>
-double dot(const BodyConstants<N>& k, const Coordinates<N>& a, const Coordinates<N>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < k.coordinates(); ++i) sum += a[i] * b[i];
-  return sum;
-}
 
 template <int N, int D>
 FrictionContacts<N, D>::FrictionContacts(const BodyConstants<N>& body, const robot::Robot& robot)
@@ -47,6 +40,8 @@ void FrictionContacts<N, D>::add_foot(const robot::Robot& robot, std::size_t leg
   const auto n = static_cast<std::ptrdiff_t>(path.count);
   std::reverse(path.link.begin(), path.link.begin() + n);
   std::reverse(path.reach.begin(), path.reach.begin() + n);
+  path.whole = path.count == k_.links();
+  for (std::size_t k = 0; k < path.count; ++k) path.whole = path.whole && path.link[k] == k;
 
   if (!foot.present) return;
   const auto add = [&](double along, double across, double radius) {
@@ -59,109 +54,25 @@ void FrictionContacts<N, D>::add_foot(const robot::Robot& robot, std::size_t leg
 }
 
 template <int N, int D>
-double FrictionContacts<N, D>::stiffest_rate(const Body<N>& body, const BodyState<N>& motion,
-                                             const robot::Robot& robot, bool on_ground) const {
-  double fastest = 0;
-  const auto consider = [&](const Coordinates<N>& row, double damping, double stiffness) {
-    const double w = dot(k_, row, body.response(row));
-    fastest = std::max({fastest, damping * w, std::sqrt(stiffness * w)});
+FastestRates FrictionContacts<N, D>::fastest_rates(const Body<N>& body, const BodyState<N>& motion,
+                                                   const robot::Robot& robot) const {
+  FastestRates fastest;
+  const auto per_force = [&](const Coordinates<N>& row) {
+    return dot(k_, row, body.response(row));
   };
   for (std::size_t j = 0; j < k_.links(); ++j) {
     const robot::Joint& joint = robot.joints[j];
-    consider(row(static_cast<int>(j)), joint.damping + joint.damper + joint.stop.damping,
-             joint.spring + joint.stop.stiffness);
+    const double w = per_force(row(static_cast<int>(j)));
+    const double damping = joint.damping + joint.damper + joint.stop.damping;
+    const double stiffness = joint.spring + joint.stop.stiffness;
+    fastest.include({.joints = std::max(damping * w, std::sqrt(stiffness * w))});
   }
-  for (int i = 0; i < disc_count_ && ground_.present && on_ground; ++i)
-    consider(disc(body, motion, i).rise, ground_.normal_damping, ground_.normal_stiffness);
-  return fastest;
-}
-
-// Levers of a leg's links up to the last one, where its discs are.
-template <int N, int D>
-auto FrictionContacts<N, D>::levers(const Body<N>& body, const BodyState<N>& motion,
-                                    const Path& path) const -> Levers {
-  Levers way;
-  way.height = motion.at[up];
-  for (std::size_t k = 0; k + 1 < path.count; ++k) {
-    way.x[k] = path.reach[k] * body.cos(path.link[k]);
-    way.y[k] = path.reach[k] * body.sin(path.link[k]);
-    way.height += way.y[k];
-  }
-  return way;
-}
-
-// The way goes on along the last link to a disc: returns how deep it is in the ground.
-template <int N, int D>
-double FrictionContacts<N, D>::reach(const Body<N>& body, const Disc& d, Levers& way) const {
-  const std::size_t last = path_[d.foot].count - 1, link = path_[d.foot].link[last];
-  way.x[last] = d.along * body.cos(link) - d.across * body.sin(link);
-  way.y[last] = d.along * body.sin(link) + d.across * body.cos(link);
-  return d.surface + d.radius - (way.height + way.y[last]);
-}
-
-template <int N, int D>
-DiscAt<N> FrictionContacts<N, D>::disc_at(const Levers& way, const Disc& d,
-                                          const BodyState<N>& motion) const {
-  const Path& path = path_[d.foot];
-  DiscAt<N> at{};
-  at.slip[along_track] = 1;
-  at.rise[up] = 1;
-  for (std::size_t k = 0; k < path.count; ++k) {
-    const std::size_t link = first_link + path.link[k];
-    const double rate2 = motion.rate[link] * motion.rate[link];
-    at.slip[link] = -way.y[k];
-    at.rise[link] = way.x[k];
-    at.slip_bias -= way.x[k] * rate2;
-    at.rise_bias -= way.y[k] * rate2;
-  }
-  at.slip[first_link + path.link[path.count - 1]] += d.radius;
-  return at;
-}
-
-template <int N, int D>
-DiscAt<N> FrictionContacts<N, D>::disc(const Body<N>& body, const BodyState<N>& motion,
-                                       int i) const {
-  const Disc& d = disc_[static_cast<std::size_t>(i)];
-  Levers way = levers(body, motion, path_[d.foot]);
-  (void)reach(body, d, way);
-  return disc_at(way, d, motion);
-}
-
-template <int N, int D>
-double FrictionContacts<N, D>::depth(const Body<N>& body, const BodyState<N>& motion, int i) const {
-  if (!ground_.present) return 0;
-  const Disc& d = disc_[static_cast<std::size_t>(i)];
-  Levers way = levers(body, motion, path_[d.foot]);
-  return reach(body, d, way);
-}
-
-// What carries a foot changes its rates by some 20 g at most: a tenth of a millimetre in a
-// millisecond.
-template <int N, int D>
-bool FrictionContacts<N, D>::can_touch(const Pose& pose, const BodyState<N>& motion,
-                                       double h) const {
   for (int i = 0; i < disc_count_ && ground_.present; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const Disc& d = disc_[k];
-    const Path& path = path_[d.foot];
-    double rate = std::abs(motion.rate[up]) + 0.5 * (20.0 * k_.gravity) * h;
-    for (std::size_t at = 0; at < path.count; ++at) {
-      const bool last = at + 1 == path.count;
-      const double reach = last ? std::abs(d.along) + std::abs(d.across) : std::abs(path.reach[at]);
-      rate += reach * std::abs(motion.rate[first_link + path.link[at]]);
-    }
-    if (!(pose.depth[k] + rate * h < 0)) return true;
+    const double w = per_force(disc(body, motion, i).rise);
+    fastest.include({.ground_spring = std::sqrt(ground_.normal_stiffness * w),
+                     .ground_damper = ground_.normal_damping * w});
   }
-  return false;
-}
-
-template <int N, int D>
-double FrictionContacts<N, D>::push(double depth, const DiscAt<N>& disc,
-                                    const BodyState<N>& motion) const {
-  if (depth <= 0) return 0;
-  const double rate = dot(k_, disc.rise, motion.rate);
-  const double force = ground_.normal_stiffness * depth - ground_.normal_damping * rate;
-  return force > 0 ? force : 0.0;
+  return fastest;
 }
 
 template <int N, int D>
@@ -184,23 +95,6 @@ double FrictionContacts<N, D>::along(int c, const Coordinates<N>& row,
   if (c == lift) return v[up];
   const auto link = static_cast<std::size_t>(c);
   return v[first_link + link] - (k_.hangs_on_link(link) ? v[first_link + k_.on(link)] : 0.0);
-}
-
-template <int N, int D>
-void FrictionContacts<N, D>::place(const BodyState<N>& motion, Pose& pose) const {
-  Levers way;
-  const Path* of = nullptr;
-  for (int i = 0; i < disc_count_; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const Disc& d = disc_[k];
-    if (!ground_.present) {
-      pose.depth[k] = 0;
-      continue;
-    }
-    if (of != &path_[d.foot]) way = levers(pose, motion, *(of = &path_[d.foot]));
-    pose.depth[k] = reach(pose, d, way);
-    if (!(pose.depth[k] <= 0)) pose.contact[k] = disc_at(way, d, motion);
-  }
 }
 
 // A disc that has left the ground carries what it is given all the same.
@@ -269,6 +163,8 @@ void FrictionContacts<N, D>::prepare(const Pose& pose, const BodyState<N>& motio
   for (std::size_t i = 0; i < touching_count_; ++i) {
     const DiscAt<N>& at = discs[i];
     const Coordinates<N> column = pose.response(at.rise);
+    rise_row_[i] = at.rise;
+    rise_column_[i] = column;
     rise_[i] = dot(k_, at.rise, motion.rate);
     rise_rate_[i] = dot(k_, at.rise, acceleration) + at.rise_bias;
     for (std::size_t k = 0; k < touching_count_; ++k)
@@ -340,6 +236,31 @@ void FrictionContacts<N, D>::soften(double h, FrictionProblem<count>& p) const {
       for (std::size_t d = 0; d < n; ++d) p.response[d][c] -= along_[i][d] * given;
     }
   }
+}
+
+template <int N, int D>
+void FrictionContacts<N, D>::relax_touching(double time, const Normals& pushed,
+                                            const Coordinates<N>& before, Coordinates<N>& a) const {
+  const std::size_t n = touching_count_;
+  const double damping = time * ground_.normal_damping;
+  Coordinates<N> back;
+  for (std::size_t c = 0; c < k_.coordinates(); ++c) back[c] = before[c] - a[c];
+  Matrix m{};
+  Normals force{};
+  for (std::size_t i = 0; i < n; ++i) {
+    m[i][i] = 1;
+    const auto is_pushed = [&](std::size_t k) {
+      return pushed[static_cast<std::size_t>(touching_[k])] > 0;
+    };
+    if (!is_pushed(i)) continue;
+    force[i] = damping * dot(k_, rise_row_[i], back);
+    for (std::size_t j = 0; j < n; ++j)
+      if (is_pushed(j)) m[i][j] += damping * response_[i][j];
+  }
+  eliminate(m);
+  solve(m, force);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t c = 0; c < k_.coordinates(); ++c) a[c] += rise_column_[i][c] * force[i];
 }
 
 template <int N, int D>

@@ -1,5 +1,5 @@
 // Dry friction: sticks, slides, and shares loads that rigid bodies do not determine.
-#include "sinew/plant/planar/friction.h"
+#include "sinew/plant/friction/friction.h"
 
 #include <gtest/gtest.h>
 

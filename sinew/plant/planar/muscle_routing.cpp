@@ -1,5 +1,7 @@
 #include "sinew/plant/planar/muscle_routing.h"
 
+#include <algorithm>
+
 #include "sinew/robot/kinematics.h"
 
 namespace sinew::plant {
@@ -49,12 +51,27 @@ MuscleRouting::MuscleRouting(const robot::Robot& robot) {
     attach(cord, 0, m.joint, m.role, m.cam);
     attach(cord, 1, m.second.joint, m.second.role, m.second.cam);
     cords_.push_back(cord);
-    if (cord.joint[0] < 0 || cord.joint[1] >= 0 || !cord.cam[0].round()) continue;
-    const double rest = cord.cam[0].rest();
-    round_.push_back({cord.mount, cord.sign[0] * cord.cam[0].radius(rest), rest,
-                      static_cast<std::size_t>(cord.joint[0])});
   }
-  if (round_.size() < cords_.size()) round_.clear();
+  const auto is_round = [](const Route& cord) {
+    return cord.joint[0] >= 0 && cord.joint[1] < 0 && cord.cam[0].round();
+  };
+  if (std::all_of(cords_.begin(), cords_.end(), is_round)) lay_round_ones_side_by_side();
+}
+
+// Lanes beyond the last muscle repeat it.
+void MuscleRouting::lay_round_ones_side_by_side() {
+  constexpr std::size_t lanes = air::lanes;
+  for (std::size_t first = 0; first < cords_.size(); first += lanes) {
+    RoundRoutes& routes = round_.emplace_back();
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const Route& cord = cords_[std::min(first + k, cords_.size() - 1)];
+      const double rest = cord.cam[0].rest();
+      routes.mount[k] = cord.mount;
+      routes.arm[k] = cord.sign[0] * cord.cam[0].radius(rest);
+      routes.rest[k] = rest;
+      routes.joint[k] = static_cast<std::size_t>(cord.joint[0]);
+    }
+  }
 }
 
 }  // namespace sinew::plant

@@ -75,19 +75,21 @@ class MuscleRouting {
     std::array<double, most> sign{};
     std::array<CamLaw, most> cam;
   };
-  // A muscle over one round cam: L = mount - arm (theta - rest).
-  struct RoundRoute {
-    double mount = 0, arm = 0, rest = 0;
-    std::size_t joint = 0;
+  // Muscles over one round cam each, side by side: L = mount - arm (theta - rest).
+  struct RoundRoutes {
+    air::Four mount, arm, rest;
+    std::array<std::size_t, air::lanes> joint;
   };
+  void lay_round_ones_side_by_side();
+
   std::vector<Route> cords_;
-  std::vector<RoundRoute> round_;  // all of them, where all are such; else empty
+  std::vector<RoundRoutes> round_;  // all of them, where all are such; else empty
 };
 
 template <class Arms, class Visit>
 void MuscleRouting::each(const Arms& pull, const Visit& visit) const noexcept {
-  for (std::size_t i = 0; i < round_.size(); ++i)
-    visit(static_cast<int>(i), round_[i].joint, pull[i][0]);
+  for (std::size_t i = 0; i < cords_.size() && !round_.empty(); ++i)
+    visit(static_cast<int>(i), round_[i / air::lanes].joint[i % air::lanes], pull[i][0]);
   if (!round_.empty()) return;
   for (std::size_t i = 0; i < cords_.size(); ++i)
     for (std::size_t k = 0; k < most; ++k)
@@ -99,13 +101,22 @@ template <int M>
 void MuscleRouting::at(const double* angle, const double* rate, air::Lanes<M>& length,
                        air::Lanes<M>& length_rate,
                        std::type_identity_t<MomentArms<M>>& pull) const noexcept {
-  for (std::size_t i = 0; i < round_.size(); ++i) {
-    const RoundRoute& cord = round_[i];
-    pull[i] = {cord.arm, 0.0};
-    length[static_cast<int>(i)] = cord.mount - cord.arm * (angle[cord.joint] - cord.rest);
-    length_rate[static_cast<int>(i)] = -(cord.arm * rate[cord.joint]);
+  // In whole lanes from the start: a wide load would have to wait for narrow stores.
+  for (std::size_t k = 0; k < round_.size(); ++k) {
+    const RoundRoutes& r = round_[k];
+    const auto& j = r.joint;
+    const air::Four theta = {angle[j[0]], angle[j[1]], angle[j[2]], angle[j[3]]};
+    const air::Four turn = {rate[j[0]], rate[j[1]], rate[j[2]], rate[j[3]]};
+    const int first = static_cast<int>(k) * air::lanes;
+    length.four(first) = r.mount - r.arm * (theta - r.rest);
+    length_rate.four(first) = -(r.arm * turn);
   }
-  for (int i = static_cast<int>(round_.size()); i < count(); ++i) {
+  if (!round_.empty()) {
+    for (std::size_t i = 0; i < cords_.size(); ++i)
+      pull[i] = {round_[i / air::lanes].arm[i % air::lanes], 0.0};
+    return;
+  }
+  for (int i = 0; i < count(); ++i) {
     const Route& cord = cords_[static_cast<std::size_t>(i)];
     double l = cord.mount, v = 0;
     for (std::size_t k = 0; k < most; ++k) {

@@ -30,6 +30,10 @@
 //
 //   next_multiple(multiple, step, pose, motion)   of the body step, where the next node is due
 //
+// and may take a damper that is quicker than the step into the later stages (RelaxesStages):
+//
+//   relax(h, share, load, before, a)   accelerations in a step of length h, by those before
+//
 // One whose laws break off within a step (CutsSteps) has its step end there and another begin:
 //
 //   begin(t, motion)               a smooth part begins: what is prescribed goes into the motion
@@ -86,6 +90,13 @@ template <class M>
 concept SkipsNodes = WholeSteps<M> &&
     requires(const M& m, const typename M::Pose& pose, const typename M::Motion& q, double step) {
   { m.next_multiple(std::int64_t{}, step, pose, q) } -> std::same_as<std::int64_t>;
+};
+
+template <class M>
+concept RelaxesStages = WholeSteps<M> &&
+    requires(const M& m, double h, const typename M::Load& load,
+             const typename M::Acceleration& before, typename M::Acceleration& a) {
+  m.relax(h, h, load, before, a);
 };
 
 template <class M>

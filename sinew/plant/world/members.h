@@ -149,6 +149,8 @@ void World<M, A>::piece(double from, double h, Moving& now, const Memory& memory
     mechanism_.move(stage[s].motion, now.motion, part, *motion[s], acceleration[s]);
     air_.move(stage[s].air, now.air, part, *air[s], state_.valves, course);
     look_at(from + part, stage[s], memory, held, later[s], course.muscles);
+    if constexpr (RelaxesStages<M>)
+      mechanism_.relax(h, 0.2, later[s].load, acceleration[s], later[s].acceleration);
     acceleration[s + 1] = later[s].acceleration;
   }
 
@@ -190,6 +192,10 @@ auto World<M, A>::glance() noexcept -> const Glance& {
   if constexpr (!CutsSteps<M>) {
     glance_.held = mechanism_.hold(whole_step(), state_.held);
     glance_.acceleration = mechanism_.accelerate(state_.first.acceleration, glance_.held);
+  }
+  if constexpr (RelaxesStages<M>) {
+    glance_.mean = glance_.acceleration;
+    mechanism_.relax(whole_step(), 0.5, state_.first.load, {}, glance_.mean);
   }
   return glance_;
 }

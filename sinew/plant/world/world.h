@@ -144,13 +144,14 @@ class World final : public signals::Port {
   struct Glance {
     Forces held{};
     Acceleration acceleration{};
+    Acceleration mean{};  // over the whole step, where a damper is quicker (RelaxesStages)
   };
   const Glance& glanced() const noexcept { return glance_; }
   template <WholeSteps = Mechanism>
   Motion peek_motion(double t) noexcept {
     const Glance& g = glance();
     Motion motion = state_.now.motion;
-    mechanism_.glide(motion, t - state_.time, g.acceleration);
+    mechanism_.glide(motion, t - state_.time, RelaxesStages<Mechanism> ? g.mean : g.acceleration);
     return motion;
   }
   const Mechanism& mechanism() const noexcept { return mechanism_; }

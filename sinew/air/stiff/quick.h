@@ -1,4 +1,4 @@
-// air/quick.h - one body of air, or two in a row, through a step of the machine that they are
+// air/stiff/quick.h - one body of air, or two in a row, through a step of the machine that they are
 // quicker than: in steps of rodas3.h that the error chooses. network_quick.h says of which laws,
 // regulator_lanes.h has the calm step of muscles behind regulators side by side.
 #pragma once
@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "sinew/air/rodas3.h"
+#include "sinew/air/stiff/rodas3.h"
 #include "sinew/gas/slopes.h"
 #include "sinew/units/math.h"
 

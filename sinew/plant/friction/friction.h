@@ -1,4 +1,4 @@
-// plant/planar/friction.h - dry friction with true stick, one force per contact and step.
+// plant/friction/friction.h - dry friction with true stick, one force per contact and step.
 //
 // The slip velocities at the end of a step of length h are, to first order in the forces,
 //

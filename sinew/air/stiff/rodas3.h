@@ -1,5 +1,5 @@
-// air/rodas3.h - a linearly implicit step for few bodies of air that are quicker than the steps
-// of the machine that they belong to.
+// air/stiff/rodas3.h - a linearly implicit step for few bodies of air that are quicker than the
+// steps of the machine that they belong to.
 //
 // RODAS3 of Sandu, Verwer, Blom, Spee, Carmichael and Potra (Atmospheric Environment 31, 1997):
 // four stages, three evaluations, order 3, stiffly accurate and L-stable, with an embedded answer

@@ -1,5 +1,5 @@
-// plant/planar/friction_lanes.h - friction.h's law for W machines side by side, each lane with the
-// bits of the scalar solution.
+// plant/friction/friction_lanes.h - friction.h's law for W machines side by side, each lane with
+// the bits of the scalar solution.
 //
 // Which contacts stick differs from lane to lane. So all C rows are there, and one that does not
 // stick is that of the unit matrix with nothing on its right side:
@@ -12,7 +12,7 @@
 
 #include <array>
 
-#include "sinew/plant/planar/friction.h"
+#include "sinew/plant/friction/friction.h"
 #include "sinew/units/pack.h"
 
 namespace sinew::plant {
