@@ -13,6 +13,7 @@
 #include "sinew/experiment/experiment.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/tune/largest.h"
+#include "sinew/tune/run_many.h"
 
 namespace sinew::tune {
 namespace {
@@ -199,8 +200,7 @@ void add_report(const Sweep& s, const Ran& ran, std::vector<std::string>& cells)
     cells.push_back(ran.ok() ? figure.cell(ran.summary, ran.atmosphere) : "");
 }
 
-Row single(const Sweep& s, std::size_t index, Point point) {
-  const Ran ran = run_once(point.experiment, point.sets, s.allow_unreachable);
+Row row_of(const Sweep& s, std::size_t index, Point point, const Ran& ran) {
   if (index == 0 && ran.ok()) check_keys(s, ran.summary);
   add_report(s, ran, point.cells);
   const std::vector<std::string> lacks = missing(s, ran);
@@ -253,11 +253,8 @@ class Work {
   void first() { done(row(next_++)); }
 
   void go_on() noexcept {
-    while (!stopped()) {
-      const std::size_t index = next_++;
-      if (index >= rows_.size()) return;
-      done(row(index));
-    }
+    if (!sweep_.largest) return go_on_in_lanes();
+    while (const std::optional<std::size_t> index = next()) done(row(*index));
   }
 
   // Those behind a gap too, where it was stopped.
@@ -275,9 +272,34 @@ class Work {
   bool stopped() const { return options_.stop && options_.stop->load(); }
   Row row(std::size_t index) const {
     Point point = points_.at(index);
-    return sweep_.largest ? searched(sweep_, index, std::move(point))
-                          : single(sweep_, index, std::move(point));
+    if (sweep_.largest) return searched(sweep_, index, std::move(point));
+    const Ran ran = run_once(point.experiment, point.sets, sweep_.allow_unreachable);
+    return row_of(sweep_, index, std::move(point), ran);
   }
+
+  std::optional<std::size_t> next() {
+    if (stopped()) return {};
+    const std::size_t index = next_++;
+    if (index >= rows_.size()) return {};
+    return index;
+  }
+
+  void go_on_in_lanes() {
+    const auto wanted = [this]() -> std::optional<Wanted> {
+      const std::optional<std::size_t> index = next();
+      if (!index) return {};
+      Point point = points_.at(*index);
+      return Wanted{*index, std::move(point.experiment), std::move(point.sets)};
+    };
+    const auto ran = [this](std::size_t index, const Ran& its) {
+      done(row_of(sweep_, index, points_.at(index), its));
+    };
+    run_many({.next = wanted,
+              .done = ran,
+              .allow_unreachable = sweep_.allow_unreachable,
+              .lanes = options_.lanes});
+  }
+
   void done(Row row) {
     const std::lock_guard lock(mutex_);
     const std::size_t index = row.point;

@@ -51,6 +51,7 @@ struct Row {
 
 struct Options {
   int threads = 1;
+  int lanes = 8;  // runs side by side in each thread, at most; the rows are the same
   const std::atomic<bool>* stop = nullptr;        // true: runs that began are the last
   std::atomic<std::int64_t>* progress = nullptr;  // points that are done
   std::function<void(const Row&)> row = {};       // called in the grid's order, one at a time; must

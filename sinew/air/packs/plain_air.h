@@ -110,11 +110,29 @@ class PlainAir {
 
     Told<T> out{braid_pull(cell.braid, room.atmosphere, at.length, at.rate, y), x, 0, 0};
     finish(out.pull);
-    if (const auto open = at.inlet > 0.0; units::any(open))
-      out.inflow = units::select(open, at.inlet * gas::flow_y(cell.inlet, room.supply_y, y), 0.0);
-    if (const auto open = at.exhaust > 0.0; units::any(open))
-      out.outflow = units::select(open, at.exhaust * gas::flow_y(cell.exhaust, y, 1.0), 0.0);
+    flow(room, cell, at, y, out);
     return out;
+  }
+
+  // Where some are filled and others emptied, and none both, one flow does for all.
+  template <class T>
+  [[gnu::always_inline]] static void flow(const Room<T>& room, const Cell<T>& cell,
+                                          const Asked<T>& at, const T& y, Told<T>& out) {
+    const auto fills = at.inlet > 0.0, empties = at.exhaust > 0.0;
+    const bool some_fill = units::any(fills), some_empty = units::any(empties);
+    if (some_fill && some_empty && !units::any(fills & empties)) {
+      const T size =
+          units::select(fills, at.inlet, at.exhaust) *
+          gas::flow_y(gas::select(fills, cell.inlet, cell.exhaust),
+                      units::select(fills, room.supply_y, y), units::select(fills, y, 1.0));
+      out.inflow = units::select(fills, size, 0.0);
+      out.outflow = units::select(empties, size, 0.0);
+      return;
+    }
+    if (some_fill)
+      out.inflow = units::select(fills, at.inlet * gas::flow_y(cell.inlet, room.supply_y, y), 0.0);
+    if (some_empty)
+      out.outflow = units::select(empties, at.exhaust * gas::flow_y(cell.exhaust, y, 1.0), 0.0);
   }
 
   void far_roots(int i, const Mask& outside, const S& drift, const Memory& memory,

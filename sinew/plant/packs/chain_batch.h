@@ -140,7 +140,7 @@ class ChainBatch {
   typename Body::Forces held_{};
   S trolley_bound_ = 0;
   Look first_{};
-  Instants time_{}, step_{};
+  Instants time_{}, step_{}, change_{};  // of the node; between nodes; when a valve moves next [s]
   std::array<std::int64_t, W> multiple_{}, nodes_{};
   std::array<air::Failure, W> failure_{};
   std::array<bool, W> behind_{};  // is the machine's World?

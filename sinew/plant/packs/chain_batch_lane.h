@@ -76,16 +76,19 @@ auto ChainBatch<N, W>::only(int k) const noexcept -> Mask {
   return mask;
 }
 
-// Where the World has gone on by itself its lane follows.
+// Where somebody has driven the World itself, or it has gone on, its lane follows.
 template <int N, int W>
 void ChainBatch<N, W>::follow(int k) noexcept {
   const auto l = static_cast<std::size_t>(k);
-  if (!behind_[l] && worlds_[l]->nodes() != nodes_[l]) take(k);
+  if (behind_[l]) return;
+  change_[l] = worlds_[l]->state().valves.next_change;
+  if (worlds_[l]->nodes() != nodes_[l]) take(k);
 }
 
 template <int N, int W>
 template <class Turn>
 int ChainBatch<N, W>::go(const Turn& turn) noexcept {
+  for (int k = 0; k < W; ++k) follow(k);
   for (;;) {
     Mask goes = S(0.0) > 0.0;
     bool any = false;
@@ -142,6 +145,7 @@ signals::Status ChainBatch<N, W>::drive(int k, const signals::Edge& edge) noexce
   typename World::State& s = world.borrow();
   for (int i = 0; i < air_.muscles(); ++i) s.first.air.pressure[i] = first_.air.pressure[i][k];
   world.air().command(edge, t, s.first.air, s.valves);
+  change_[l] = s.valves.next_change;
   return signals::Status::ok;
 }
 

@@ -5,6 +5,7 @@ namespace sinew::run {
 using signals::Tick;
 
 void Watch::sample(Tick t) noexcept {
+  if (extra_readers == 0 && !(recorder && t >= recorder->next(t))) return;
   // Nothing is recorded of a machine that has failed.
   if (machine && t >= sample_at()) machine->advance(static_cast<double>(t) * signals::tick_seconds);
   if (failed()) return;
