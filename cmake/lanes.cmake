@@ -3,7 +3,7 @@
 #
 # An inline or template function that another file has too is one function to the linker, which
 # takes any of them: the one with FLAGS would run on processors that lack them. So all that the file
-# defines is made its own, but the one function that hands out the rest; tests/lanes looks.
+# defines is made its own, but the one function that hands out the rest (tools/own-symbols.sh looks).
 
 function(sinew_lanes path source width)
   sinew_target(${path} target)
@@ -24,6 +24,16 @@ function(sinew_lanes path source width)
   set_source_files_properties(${own} PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
   target_sources(${target} PRIVATE ${own})
   target_compile_definitions(${target} PRIVATE SINEW_WIDE)
+
+  if(SINEW_TESTS)
+    set(check ${PROJECT_SOURCE_DIR}/tools/own-symbols.sh)
+    add_test(NAME "${path}: ${width} lanes keep their symbols" COMMAND ${check} ${own} ${entry})
+    # As the compiler leaves it, it does not: the check can fail.
+    add_test(NAME "${path}: ${width} lanes would share their symbols"
+             COMMAND ${check} ${whole} ${entry})
+    set_tests_properties("${path}: ${width} lanes would share their symbols"
+                         PROPERTIES WILL_FAIL TRUE)
+  endif()
 endfunction()
 
 # A sanitizer's objects are not to be taken apart; its builds have the two lanes of every processor.

@@ -30,6 +30,10 @@
 #include <type_traits>
 #include <utility>
 
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
 namespace sinew::units {
 
 // Returns `a` where the mask is set, else `b`.
@@ -160,6 +164,12 @@ template <int W>
 
 template <int W>
 [[gnu::always_inline]] inline bool any(const PackMask<W>& mask) {
+#if defined(__AVX2__)
+  if constexpr (W == 4) return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask.bits)) != 0;
+#endif
+#if defined(__AVX512DQ__)
+  if constexpr (W == 8) return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask.bits)) != 0;
+#endif
   std::int64_t some = 0;
   for (int k = 0; k < W; ++k) some |= mask.bits[k];
   return some != 0;
