@@ -2,15 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
 
 #include "cli/command.h"
 #include "cli/sweep_runs.h"
-#include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/files.h"
-#include "sinew/tune/sensitivity_table.h"
+#include "sinew/tune/sensitivity_text.h"
 
 namespace sinew::cli {
 
@@ -21,8 +19,9 @@ using tune::Method;
 
 struct Options {
   tune::Study study;
+  RunOptions run;
   std::string method = "sobol", out, runs;
-  int points = 0, seed = 1, threads = 0;
+  int points = 0, seed = 1;
   bool force = false, json = false, quiet = false;
 };
 
@@ -40,50 +39,6 @@ tune::Sweep runs_of(const Options& options, const tune::Design& design) {
   tune::Study study = options.study;
   if (!study.range.empty()) study.points = 1;  // the design has its own
   return tune::sweep_of(design, tune::sweep_of(study));
-}
-
-std::string three_digits(const std::string& number) {
-  return number.empty() ? "" : fmt::format("{:.3g}", std::stod(number));
-}
-
-// Cells for people: no figure's name, and an interval behind its number.
-std::vector<std::string> shown(const std::vector<std::string>& headings,
-                               const std::vector<std::string>& row) {
-  std::vector<std::string> out{row[1]};
-  for (std::size_t i = 2; i < row.size(); ++i) {
-    out.push_back(three_digits(row[i]));
-    if (i + 1 == row.size() || !headings[i + 1].ends_with(", low")) continue;
-    out.push_back(fmt::format("{} to {}", three_digits(row[i + 1]), three_digits(row[i + 2])));
-    i += 2;
-  }
-  return out;
-}
-
-std::vector<std::string> titles_of(const std::vector<std::string>& headings) {
-  std::vector<std::string> out{""};
-  for (std::size_t i = 2; i < headings.size(); ++i) {
-    if (headings[i].ends_with(", high")) continue;
-    out.push_back(headings[i].ends_with(", low") ? "95 %" : headings[i]);
-  }
-  return out;
-}
-
-void print_figure(const tune::Design& design, const tune::Sweep& runs,
-                  const tune::FigureSensitivity& f) {
-  if (!f.found) {
-    fmt::print("{}: too few runs have it, or it never changes\n\n", f.figure);
-    return;
-  }
-  const tune::Sensitivity& s = *f.found;
-  fmt::print("{}: mean {:.5g}, standard deviation {:.3g}{}\n", f.figure, s.mean,
-             std::sqrt(s.variance), s.left_out > 0 ? fmt::format(", {} left out", s.left_out) : "");
-  const std::vector<std::string> headings = tune::sensitivity_headings(design.method);
-  const std::vector<std::string> titles = titles_of(headings);
-  std::vector<report::TextTable::Align> align(titles.size(), report::TextTable::Align::right);
-  align.front() = report::TextTable::Align::left;
-  report::TextTable table(titles, align);
-  for (const auto& row : tune::sensitivity_rows(design, runs, {f})) table.add(shown(headings, row));
-  fmt::print("{}\n", table.text("  "));
 }
 
 void write_table(const Options& options, const tune::Design& design, const tune::Sweep& runs,
@@ -107,18 +62,17 @@ ExitCode tell_sensitivity(const Options& options) {
   std::optional<tune::TableFile> csv;
   if (!options.runs.empty()) csv.emplace(options.runs, tune::headings(runs), options.force, inputs);
 
-  const std::vector<tune::Row> rows = run_rows(
-      runs, {.threads = options.threads, .bar = !options.quiet, .csv = csv ? &*csv : nullptr});
-  if (csv) csv->throw_failure();
-  tell_of_rows(rows, tune::points(runs), csv ? csv->part() : "", messages);
-  tune::refuse_empty_columns(rows, runs);
-  if (csv) csv->take_place(), messages.note(options.runs);
+  const std::vector<tune::Row> rows = run_rows(runs, {.options = options.run,
+                                                      .messages = messages,
+                                                      .bar = !options.quiet,
+                                                      .csv = csv ? &*csv : nullptr});
+  if (csv) messages.note(options.runs);
 
   const auto all = tune::sensitivities(design, runs, rows);
   if (options.json)
     fmt::print("{}", tune::sensitivity_json(design, runs, all));
   else
-    for (const tune::FigureSensitivity& f : all) print_figure(design, runs, f);
+    for (const tune::FigureSensitivity& f : all) fmt::print("{}\n", tune::text_of(design, runs, f));
   if (!options.out.empty()) write_table(options, design, runs, all, messages);
   return std::ranges::any_of(all, [](const auto& f) { return f.found.has_value(); }) ? ok : failed;
 }
@@ -133,7 +87,7 @@ void add_sensitivity(Command app, Action& action) {
       "%/count\" --range \"air.supply.pressure=70:90 psi gauge\" --report \"trolley.distance_m "
       "[in]\"");
   sub.add_option("FILE", options->study.experiment, "the experiment").required();
-  add_runs(sub, options->study, options->threads);
+  add_runs(sub, options->study, options->run);
   sub.add_option(
          "--method", options->method,
          "sobol: shares of the variance; morris: effects along paths; ends: to both ends of "

@@ -22,13 +22,13 @@ constexpr std::string_view settings[] = {
     "hold_out", "keep_force",  "known",  "largest",   "external_volume", "flexor_length",
     "length",   "lever",       "load",   "machine",   "model",           "moment_arm",
     "names",    "per_volume",  "points", "port",      "pressure",        "range",
-    "report",   "rest_length", "root",   "sensors",   "units",           "vary",
-    "volume",   "where"};
+    "report",   "rest_length", "root",   "sensors",   "shard",           "units",
+    "vary",     "volume",      "where"};
 
 // Settings that can be the subject of a problem: at the begin of a line, or behind a file without a
 // line of it. What has a line is a key of that file.
-constexpr std::string_view subjects[] = {"known",  "model",   "names", "points", "range",
-                                         "report", "sensors", "units", "vary",   "where"};
+constexpr std::string_view subjects[] = {"known",   "model", "names", "points", "range", "report",
+                                         "sensors", "shard", "units", "vary",   "where"};
 
 bool is_one_of(std::string_view word, const auto& words) {
   return std::ranges::find(words, word) != std::end(words);

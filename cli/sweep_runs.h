@@ -6,27 +6,34 @@
 
 #include "cli/options.h"
 #include "cli/terminal.h"
+#include "sinew/tune/results/results.h"
 #include "sinew/tune/study.h"
 #include "sinew/tune/table.h"
 
 namespace sinew::cli {
 
-struct SweepRuns {
-  int threads = 0;                 // 0: as many as the machine has
-  bool bar = true;                 // shows on a terminal how far it is
-  tune::TableFile* csv = nullptr;  // takes the rows as they come
+// What all of these commands take besides the study.
+struct RunOptions {
+  int threads = 0;      // 0: as many as the machine has
+  std::string results;  // a study's file
+  std::string shard;    // "2/3"; empty: all points
 };
 
-// Returns the rows that are done: all, or those of an interrupted sweep.
+struct SweepRuns {
+  const RunOptions& options;
+  const Messages& messages;
+  bool bar = true;                 // shows on a terminal how far it is
+  tune::TableFile* csv = nullptr;  // takes the rows, as they come where nothing else keeps them
+};
+
+// Returns the rows of the share: those that were there and those that were run. Tells what is to be
+// said of them, and lets the table take its place. Throws std::runtime_error where they are not all
+// of the share's points, config::Error where a figure has no row; both say what holds the rows.
 std::vector<tune::Row> run_rows(const tune::Sweep& sweep, const SweepRuns& how);
 
-// Tells what is to be said of the rows. Throws std::runtime_error where they are not all of the
-// points; `part`: the file that holds them, if any.
-void tell_of_rows(const std::vector<tune::Row>& rows, std::size_t points, const std::string& part,
-                  const Messages& messages);
-
-// --range, --set, --report, --allow-unreachable, --threads: what every command with runs takes.
-void add_runs(Command sub, tune::Study& study, int& threads);
+// --range, --set, --report, --allow-unreachable, --threads, --results: what every command with runs
+// takes.
+void add_runs(Command sub, tune::Study& study, RunOptions& options);
 
 // An option that takes one word each time that it is named, so that what follows stays what it is.
 void add_words(Command sub, const char* name, std::vector<std::string>& words,

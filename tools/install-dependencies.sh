@@ -23,6 +23,7 @@ list='
     demo   -                   libfmt-dev                       formats numbers and messages
     demo   -                   zlib1g-dev                       checksums of logs, smaller pages
     demo   -                   libceres-dev                     least squares of identification
+    demo   -                   libsqlite3-dev                   keeps studies
     demo   -                   libboost-dev                     serves pages to the browser here
     demo   node                nodejs                           bundles the page that shows a run
     demo   npm                 npm                              installs what that needs

@@ -55,6 +55,7 @@ layers='
     run/stand       run/simulation experiment/rig
     run/folder      run/simulation run/stand log analysis report
     tune            run/folder
+    tune/results    tune
     live            run/folder
 '
 
@@ -76,6 +77,7 @@ libraries='
     CLI/            cli
     boost/(asio|beast|system)  sinew/live
     boost/random/   sinew/tune
+    sqlite3[.]h     sinew/tune/results
     ceres/          sinew/identify/fit
     Eigen/          sinew/identify
 '

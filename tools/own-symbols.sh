@@ -13,16 +13,18 @@ if (($# != 2)); then
 fi
 object=$1 entry=$2 wrong=0
 
-shared=$(nm --defined-only --extern-only --format=posix "$object" | awk -v entry="$entry" '$1 != entry { print $1 }')
+seen=$(nm --defined-only --extern-only --format=posix "$object" | cut -d ' ' -f 1)
+shared=$(grep -Fvx "$entry" <<<"$seen" || true)
 if [[ -n $shared ]]; then
   echo "$object: other objects see $(wc -l <<<"$shared") of its symbols, such as $(head -1 <<<"$shared" | c++filt)"
   wrong=1
 fi
-if ! nm --defined-only --extern-only --format=posix "$object" | grep -q "^$entry T "; then
+if ! grep -Fqx "$entry" <<<"$seen"; then
   echo "$object: does not define $entry"
   wrong=1
 fi
-if objdump --section-headers "$object" | grep -qE '\.(init_array|ctors)'; then
+sections=$(objdump --section-headers "$object")
+if grep -qE ' \.(init_array|ctors)' <<<"$sections"; then
   echo "$object: has code that runs before main, on any processor"
   wrong=1
 fi

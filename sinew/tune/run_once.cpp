@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "sinew/analysis/verdict/reported.h"
+#include "sinew/analysis/warnings.h"
 #include "sinew/config/compose.h"
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/lanes.h"
@@ -24,6 +26,14 @@ std::string status_of(const experiment::Experiment& e, const run::Outcome& outco
   if (outcome.ended_early()) return "ended early: " + cause_of(e, outcome);
   if (!outcome.table.complete) return "more valve edges than there was room for";
   return "ok";
+}
+
+// What the summary alone does not show of its figures.
+void judge(const run::Outcome& outcome, const analysis::Machine& machine, Ran& out) {
+  out.no_air = !analysis::unused_air(outcome.table, machine).empty();
+  for (const analysis::Verdict& v :
+       analysis::compare(out.summary, machine.reported, machine.atmosphere))
+    if (v.is == analysis::Verdict::Is::differs) out.differs.push_back(v.key);
 }
 
 // Returns what `work` puts into a run, or why it refuses it.
@@ -60,7 +70,9 @@ struct Prepared {
 void sum_up(const Prepared& p, const run::Outcome& outcome, Ran& out) {
   out.status = status_of(p.experiment, outcome);
   out.atmosphere = p.machine.atmosphere;
-  if (out.ok()) out.summary = analysis::summarize(outcome.table, p.machine);
+  if (!out.ok()) return;
+  out.summary = analysis::summarize(outcome.table, p.machine);
+  judge(outcome, p.machine, out);
 }
 
 }  // namespace

@@ -29,6 +29,24 @@ Study load_study(const std::string& path) {
   return out;
 }
 
+Study load_study(const std::string& path, const Said& said) {
+  const bool plan = config::format_kind(config::parse_file(path)) == "plan";
+  Study out = plan ? load_study(path) : Study{};
+  if (!plan) out.experiment = path;
+  for (const auto list : {&Study::set, &Study::vary, &Study::range, &Study::where, &Study::report})
+    (out.*list).insert((out.*list).end(), (said.study.*list).begin(), (said.study.*list).end());
+  if (!said.study.largest.empty()) out.largest = said.study.largest;
+  if (said.study.seeds > 0) out.seeds = said.study.seeds;
+  if (said.study.points > 0) out.points = said.study.points;
+  if (said.sample == "sobol") out.sample = Sample::Kind::sobol;
+  if (said.sample == "latin") out.sample = Sample::Kind::latin;
+  if (said.sample == "random") out.sample = Sample::Kind::random;
+  if (said.sample_seed) out.sample_seed = *said.sample_seed;
+  if (said.halvings) out.halvings = *said.halvings;
+  out.allow_unreachable = out.allow_unreachable || said.study.allow_unreachable;
+  return out;
+}
+
 namespace {
 
 std::optional<Sample> sample_of(const Study& study) {

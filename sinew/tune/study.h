@@ -8,7 +8,9 @@
 //   where      = ["joints.hip.swing_oscillation_later_steps_rms_rad < 2 deg"]
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "sinew/config/node.h"
 #include "sinew/tune/sweep.h"
@@ -30,8 +32,20 @@ struct Study {
   bool allow_unreachable = false;
 };
 
+// What is said besides a plan: lists are added to the plan's, the others stand in place of its own
+// where they are said.
+struct Said {
+  Study study;         // numbers above 0 and words that are not empty are said
+  std::string sample;  // "sobol", "latin" or "random"; empty: not said
+  std::optional<int> sample_seed, halvings;
+};
+
 // Throws config::Error with everything that is wrong with the file.
 Study load_study(const std::string& path);
+
+// Returns a plan, or the study of one run of an experiment, with what is said besides. Throws
+// config::Error.
+Study load_study(const std::string& path, const Said& said);
 
 // Its words understood; the experiment is read where it says what is reported. Throws config::Error
 // for words that cannot be, and for such an experiment that is wrong.

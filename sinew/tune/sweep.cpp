@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <mutex>
 #include <thread>
@@ -19,11 +20,6 @@ namespace sinew::tune {
 namespace {
 
 // --- what an axis asks of the experiment ---
-
-// Another experiment's file: beside the sweep's own, as a robot's is.
-std::string beside(const Sweep& s, const std::string& file) {
-  return (std::filesystem::path(s.experiment).parent_path() / file).lexically_normal().string();
-}
 
 const std::string& first_text(const Axis& axis) { return axis.values.front().text; }
 
@@ -168,14 +164,6 @@ Point Points::at(std::size_t index) const {
   return out;
 }
 
-std::vector<std::string> missing(const Sweep& s, const Ran& ran) {
-  std::vector<std::string> out;
-  if (!ran.ok()) return out;
-  for (const std::string& key : keys(s))
-    if (!ran.summary.find(key)) out.push_back(key);
-  return out;
-}
-
 // Nothing can hold of a key that is not there.
 bool lacks_condition(const Search& search, const std::vector<std::string>& lacks) {
   return std::ranges::any_of(search.where, [&](const Condition& c) {
@@ -183,33 +171,29 @@ bool lacks_condition(const Search& search, const std::vector<std::string>& lacks
   });
 }
 
-bool stop_reached(const Ran& ran) {
-  return ran.ok() && ran.summary.find("trolley.stop_reached_s") != nullptr;
-}
-
-// "ok" is a run with all that was asked for, and on a track that was long enough for it.
-std::string status_with(const std::vector<std::string>& missing, const Ran& ran) {
-  if (missing.empty()) return stop_reached(ran) ? "reaches the end of the track" : ran.status;
-  std::string out = "without";
-  for (const std::string& key : missing) out += (&key == missing.data() ? " " : ", ") + key;
-  return out;
-}
-
 void add_report(const Sweep& s, const Ran& ran, std::vector<std::string>& cells) {
   for (const Figure& figure : s.report)
     cells.push_back(ran.ok() ? figure.cell(ran.summary, ran.atmosphere) : "");
 }
 
-Row row_of(const Sweep& s, std::size_t index, Point point, const Ran& ran) {
-  if (index == 0 && ran.ok()) check_keys(s, ran.summary);
+Row single(const Sweep& s, std::size_t index, Point point, const Ran& ran, bool first) {
+  if (first && ran.ok()) check_keys(s, ran.summary);
   add_report(s, ran, point.cells);
-  const std::vector<std::string> lacks = missing(s, ran);
-  point.cells.push_back(status_with(lacks, ran));
-  return {index, std::move(point.cells), ran.ok(), lacks, stop_reached(ran)};
+  Notes notes = notes_of(ran, keys(s));
+  point.cells.push_back(status_with(notes, ran.status));
+  return {index, std::move(point.cells), ran.ok(), std::move(notes)};
+}
+
+std::string searched_status(const Search& search, const Largest& found, const Ran& last,
+                            const Notes& notes) {
+  if (found.is == Largest::Is::to_the_end) return status_with(notes, "holds to the last value");
+  if (found.is == Largest::Is::between) return status_with(notes, "ok");
+  if (lacks_condition(search, notes.lacks)) return status_with({.lacks = notes.lacks}, "ok");
+  return last.ok() ? "does not hold at the first value" : last.status;
 }
 
 // Keeps the run of the largest value that held.
-Row searched(const Sweep& s, std::size_t index, Point point) {
+Row searched(const Sweep& s, std::size_t index, Point point, bool first) {
   const Search& search = *s.largest;
   Ran best, last;
   int runs = 0;
@@ -217,7 +201,7 @@ Row searched(const Sweep& s, std::size_t index, Point point) {
     std::vector<std::string> sets = point.sets;
     sets.push_back(search.axis.set(search.axis.at(number)));
     last = run_once(point.experiment, sets, s.allow_unreachable);
-    if (++runs == 1 && index == 0 && last.ok()) check_keys(s, last.summary);
+    if (++runs == 1 && first && last.ok()) check_keys(s, last.summary);
     const bool all = last.ok() && std::ranges::all_of(search.where, [&](const Condition& c) {
                        return c.holds(last.summary);
                      });
@@ -230,15 +214,41 @@ Row searched(const Sweep& s, std::size_t index, Point point) {
   const Largest found = largest(values, search.halvings, holds);
   const bool any = found.is != Largest::Is::never;
   point.cells.push_back(any ? search.axis.at(found.value).cell : "");
-  const std::vector<std::string> lacks = missing(s, any ? best : last);
-  std::string status = status_with(lacks, best);
-  if (!any && !lacks_condition(search, lacks))
-    status = last.ok() ? "does not hold at the first value" : last.status;
-  if (found.is == Largest::Is::to_the_end && lacks.empty()) status = "holds to the last value";
+  Notes notes = notes_of(any ? best : last, keys(s));
+  std::string status = searched_status(search, found, last, notes);
+  if (!any) notes = {.lacks = std::move(notes.lacks)};
   add_report(s, best, point.cells);
   point.cells.push_back(std::to_string(runs));
   point.cells.push_back(std::move(status));
-  return {index, std::move(point.cells), any, lacks, any && stop_reached(best)};
+  return {index, std::move(point.cells), any, std::move(notes)};
+}
+
+Row row_of(const Sweep& s, const Points& points, std::size_t index, bool first) {
+  Point point = points.at(index);
+  if (s.largest) return searched(s, index, std::move(point), first);
+  const Ran ran = run_once(point.experiment, point.sets, s.allow_unreachable);
+  return single(s, index, std::move(point), ran, first);
+}
+
+// Runs the points that next() answers, as long as it does, many side by side, and hands their rows
+// to done(). A search goes by itself: its next run depends on the last.
+template <class Next, class Done>
+void run_points(const Sweep& s, const Points& points, int lanes, const Next& next,
+                const Done& done) {
+  if (s.largest) {
+    while (const std::optional<std::size_t> index = next()) done(row_of(s, points, *index, false));
+    return;
+  }
+  const auto wanted = [&]() -> std::optional<Wanted> {
+    const std::optional<std::size_t> index = next();
+    if (!index) return {};
+    Point point = points.at(*index);
+    return Wanted{*index, std::move(point.experiment), std::move(point.sets)};
+  };
+  const auto ran = [&](std::size_t index, const Ran& its) {
+    done(single(s, index, points.at(index), its, false));
+  };
+  run_many({.next = wanted, .done = ran, .allow_unreachable = s.allow_unreachable, .lanes = lanes});
 }
 
 // --- all of them ---
@@ -247,14 +257,30 @@ Row searched(const Sweep& s, std::size_t index, Point point) {
 class Work {
  public:
   Work(const Sweep& s, const Options& options)
-      : sweep_(s), points_(s), options_(options), rows_(points(s)), next_(0) {}
+      : sweep_(s), points_(s), options_(options), rows_(points(s)), next_(0) {
+    for (const Row& row : options.known)
+      if (options.share.has(row.point)) rows_.at(row.point) = row;
+    for (std::size_t i = options.share.i - 1; i < rows_.size(); i += options.share.n)
+      if (!rows_[i]) to_do_.push_back(i);
+    if (options.progress)
+      *options.progress =
+          static_cast<std::int64_t>(options.share.size(rows_.size()) - to_do_.size());
+  }
+
+  std::size_t to_do() const { return to_do_.size(); }
 
   // Also the first one's refusal is thrown by the caller's thread.
-  void first() { done(row(next_++)); }
+  void first() {
+    if (!to_do_.empty()) done(row_of(sweep_, points_, to_do_[next_++], true));
+  }
 
   void go_on() noexcept {
-    if (!sweep_.largest) return go_on_in_lanes();
-    while (const std::optional<std::size_t> index = next()) done(row(*index));
+    const auto next = [this]() -> std::optional<std::size_t> {
+      const std::size_t next = stopped() ? to_do_.size() : next_++;
+      if (next >= to_do_.size()) return {};
+      return to_do_[next];
+    };
+    run_points(sweep_, points_, options_.lanes, next, [this](Row row) { done(std::move(row)); });
   }
 
   // Those behind a gap too, where it was stopped.
@@ -270,55 +296,31 @@ class Work {
 
  private:
   bool stopped() const { return options_.stop && options_.stop->load(); }
-  Row row(std::size_t index) const {
-    Point point = points_.at(index);
-    if (sweep_.largest) return searched(sweep_, index, std::move(point));
-    const Ran ran = run_once(point.experiment, point.sets, sweep_.allow_unreachable);
-    return row_of(sweep_, index, std::move(point), ran);
-  }
-
-  std::optional<std::size_t> next() {
-    if (stopped()) return {};
-    const std::size_t index = next_++;
-    if (index >= rows_.size()) return {};
-    return index;
-  }
-
-  void go_on_in_lanes() {
-    const auto wanted = [this]() -> std::optional<Wanted> {
-      const std::optional<std::size_t> index = next();
-      if (!index) return {};
-      Point point = points_.at(*index);
-      return Wanted{*index, std::move(point.experiment), std::move(point.sets)};
-    };
-    const auto ran = [this](std::size_t index, const Ran& its) {
-      done(row_of(sweep_, index, points_.at(index), its));
-    };
-    run_many({.next = wanted,
-              .done = ran,
-              .allow_unreachable = sweep_.allow_unreachable,
-              .lanes = options_.lanes});
-  }
-
   void done(Row row) {
     const std::lock_guard lock(mutex_);
     const std::size_t index = row.point;
+    if (options_.done) options_.done(row);
     rows_[index] = std::move(row);
     if (options_.progress) ++*options_.progress;
-    for (; told_ < rows_.size() && rows_[told_]; ++told_)
-      if (options_.row) options_.row(*rows_[told_]);
+    for (; told_ < rows_.size() && (rows_[told_] || !options_.share.has(told_)); ++told_)
+      if (options_.row && rows_[told_]) options_.row(*rows_[told_]);
   }
 
   const Sweep& sweep_;
   const Points points_;
   const Options& options_;
   std::vector<std::optional<Row>> rows_;
-  std::atomic<std::size_t> next_;
-  std::size_t told_ = 0;  // rows that were handed out
+  std::vector<std::size_t> to_do_;  // of the share, what is not known
+  std::atomic<std::size_t> next_;   // of these
+  std::size_t told_ = 0;            // points whose rows were handed out
   std::mutex mutex_;
 };
 
 }  // namespace
+
+std::string beside(const Sweep& s, const std::string& file) {
+  return (std::filesystem::path(s.experiment).parent_path() / file).lexically_normal().string();
+}
 
 std::vector<std::string> keys(const Sweep& s) {
   std::vector<std::string> out;
@@ -359,6 +361,21 @@ std::vector<std::string> headings(const Sweep& s) {
   return out;
 }
 
+Share parse_share(std::string_view text) {
+  Share out;
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto read = [&](std::size_t from, std::size_t to, std::size_t& number) {
+    const auto [end, error] = std::from_chars(text.data() + from, text.data() + to, number);
+    return error == std::errc{} && end == text.data() + to;
+  };
+  const bool numbers =
+      slash < text.size() && read(0, slash, out.i) && read(slash + 1, text.size(), out.n);
+  if (!numbers || out.i < 1 || out.i > out.n || out.n > most_points)
+    config::fail({"shard", 0, 0}, "", config::in_quotes(text),
+                 fmt::format("i/n, i from 1 to n, n at most {}", most_points), "shard=1/3");
+  return out;
+}
+
 std::size_t points(const Sweep& s) {
   return (s.sample ? s.sample->points : 1) * Grid(s.axes).size();
 }
@@ -368,7 +385,7 @@ std::vector<Row> sweep(const Sweep& s, const Options& options) {
   Work work(s, options);
   work.first();
   std::vector<std::thread> helpers;
-  const auto others = std::min<std::size_t>(static_cast<std::size_t>(options.threads), points(s));
+  const auto others = std::min(static_cast<std::size_t>(options.threads), work.to_do());
   for (std::size_t i = 1; i < others; ++i) helpers.emplace_back([&work] { work.go_on(); });
   work.go_on();
   for (std::thread& helper : helpers) helper.join();

@@ -8,7 +8,8 @@
 // The axis `experiment` takes files beside the experiment's own, `robot` takes robots.
 // Each point of the grid is a run of its own; of a sample, each of its points with each of the
 // grid. Rows come in the grid's order, the grid counting faster than the sample, and are the same
-// for any number of threads. A run that cannot be, or that ends early, is a row that says so.
+// for any number of threads, shares and interruptions. A run that cannot be, or that ends early, is
+// a row that says so.
 #pragma once
 
 #include <atomic>
@@ -16,10 +17,12 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sinew/tune/axis.h"
 #include "sinew/tune/figure.h"
+#include "sinew/tune/notes.h"
 #include "sinew/tune/sample.h"
 
 namespace sinew::tune {
@@ -44,19 +47,37 @@ struct Sweep {
 struct Row {
   std::size_t point = 0;           // of the sweep
   std::vector<std::string> cells;  // as many as headings(); empty: does not apply
-  bool ok = false;                 // what the last cell, the status, says
-  std::vector<std::string> lacks;  // of keys(), what the summary of its run does not have
-  bool stop_reached = false;       // by the trolley: its figures are up to there
+  bool ok = false;                 // has figures; else the last cell, the status, says why not
+  Notes notes = {};
 };
 
+// A share of a sweep's points, those with numbers m = i - 1, i - 1 + n, i - 1 + 2 n, …: the same on
+// every machine.
+struct Share {
+  std::size_t i = 1, n = 1;
+
+  bool has(std::size_t point) const { return point % n == i - 1; }
+  std::size_t size(std::size_t points) const { return points / n + (points % n >= i ? 1 : 0); }
+};
+
+// "2/3". Throws config::Error that begins with "shard".
+Share parse_share(std::string_view text);
+
+// Both functions are called for one row at a time and must not throw.
 struct Options {
   int threads = 1;
   int lanes = 8;  // runs side by side in each thread, at most; the rows are the same
   const std::atomic<bool>* stop = nullptr;        // true: runs that began are the last
   std::atomic<std::int64_t>* progress = nullptr;  // points that are done
-  std::function<void(const Row&)> row = {};       // called in the grid's order, one at a time; must
-                                                  // not throw
+  std::function<void(const Row&)> row = {};       // each of the table, in the points' order
+  std::function<void(const Row&)> done = {};      // each that was run, as soon as it is there
+  Share share = {};                               // of the points: the table has no others
+  std::vector<Row> known = {};                    // of an earlier time: they are not run again
 };
+
+// Returns the file that a value of the axis `experiment` names, which stands beside the sweep's
+// own.
+std::string beside(const Sweep&, const std::string& file);
 
 // "joint.hip.angle_gain [%/count]", the reported figures, "status". A search has its largest value
 // and the number of its runs besides.
@@ -73,8 +94,8 @@ std::vector<std::string> keys(const Sweep&);
 // axes that it does not know, and for more than most_points. Runs nothing.
 void check(const Sweep&);
 
-// Checks, then runs. Throws after the first point for a key that the summary lacks and that looks
-// like a typing error. Returns the rows that are done.
+// Checks, then runs. Throws after its first run for a key that the summary lacks and that looks
+// like a typing error. Returns the rows that are there, the known ones too, in the points' order.
 std::vector<Row> sweep(const Sweep&, const Options&);
 
 // One run: what `sinew run` would say of it.
@@ -82,6 +103,8 @@ struct Ran {
   std::string status = "ok";
   analysis::Summary summary;  // empty where the status is another
   double atmosphere = units::atmosphere;
+  bool no_air = false;               // no muscle took any, whatever was commanded
+  std::vector<std::string> differs;  // keys of what is reported, where the verdict is "differs"
 
   bool ok() const { return status == "ok"; }
 };

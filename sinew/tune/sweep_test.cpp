@@ -199,7 +199,7 @@ TEST(Sweep, WhatARunLacksItsStatusNames) {
   std::vector<Row> rows = sweep(s, {});
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_TRUE(rows[0].ok);
-  EXPECT_EQ(rows[0].lacks, std::vector<std::string>{"of.another.machine_m"});
+  EXPECT_EQ(rows[0].notes.lacks, std::vector<std::string>{"of.another.machine_m"});
   EXPECT_EQ(rows[0].cells.back(), "without of.another.machine_m");
   EXPECT_EQ(rows[0].cells[2], "");
 

@@ -91,7 +91,8 @@ void TableFile::take_place() {
 
 std::vector<std::string> warnings(const std::vector<Row>& rows) {
   std::vector<std::string> out;
-  const auto part = std::ranges::count_if(rows, [](const Row& row) { return !row.lacks.empty(); });
+  const auto part =
+      std::ranges::count_if(rows, [](const Row& row) { return !row.notes.lacks.empty(); });
   if (part > 0)
     out.push_back(
         fmt::format("{} of {} rows lack a figure; their status names it", part, rows.size()));
@@ -99,12 +100,17 @@ std::vector<std::string> warnings(const std::vector<Row>& rows) {
   if (bad > 0)
     out.push_back(
         fmt::format("{} of {} rows have no figures; their status says why", bad, rows.size()));
-  const auto ended = std::ranges::count_if(rows, &Row::stop_reached);
+  const auto ended =
+      std::ranges::count_if(rows, [](const Row& row) { return row.notes.stop_reached; });
   if (ended > 0)
     out.push_back(
         fmt::format("in {} of {} rows the trolley reaches the end of its track; distance and mean "
                     "speed are up to there",
                     ended, rows.size()));
+  const auto idle = std::ranges::count_if(rows, [](const Row& row) { return row.notes.no_air; });
+  if (idle > 0)
+    out.push_back(fmt::format("in {} of {} rows no muscle takes any air: the robot does nothing",
+                              idle, rows.size()));
   return out;
 }
 
@@ -112,10 +118,10 @@ void refuse_empty_columns(const std::vector<Row>& rows, const Sweep& s) {
   std::vector<config::Problem> problems;
   for (const std::string& key : keys(s)) {
     const auto has = [&](const Row& row) {
-      return row.ok && std::ranges::find(row.lacks, key) == row.lacks.end();
+      return row.ok && std::ranges::find(row.notes.lacks, key) == row.notes.lacks.end();
     };
     const auto lacks = [&](const Row& row) {
-      return std::ranges::find(row.lacks, key) != row.lacks.end();
+      return std::ranges::find(row.notes.lacks, key) != row.notes.lacks.end();
     };
     if (std::ranges::any_of(rows, lacks) && std::ranges::none_of(rows, has))
       problems.emplace_back(config::Location{key, 0, 0}, "", "no run with it",
@@ -123,7 +129,7 @@ void refuse_empty_columns(const std::vector<Row>& rows, const Sweep& s) {
                             "sinew run, whose summary.json has them all");
   }
   if (!problems.empty()) throw config::Error(problems);
-  if (std::ranges::none_of(rows, &Row::ok))
+  if (!rows.empty() && std::ranges::none_of(rows, &Row::ok))
     throw std::runtime_error("no row has figures; the first one's status: " +
                              rows.front().cells.back());
 }

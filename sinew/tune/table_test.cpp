@@ -81,9 +81,9 @@ TEST(Table, JsonHasNumbersAndFlagsAsSuch) {
 TEST(Table, EachKindOfDoubtfulRowIsOneWarning) {
   std::vector<Row> rows{{.ok = true}, {.ok = true}};
   EXPECT_TRUE(warnings(rows).empty());
-  rows[0].lacks = {"x"};
+  rows[0].notes.lacks = {"x"};
   EXPECT_EQ(warnings(rows).size(), 1u);
-  rows[1].stop_reached = true;
+  rows[1].notes.stop_reached = true;
   EXPECT_EQ(warnings(rows).size(), 2u);
   rows.push_back({.ok = false});
   EXPECT_EQ(warnings(rows).size(), 3u);
@@ -91,9 +91,9 @@ TEST(Table, EachKindOfDoubtfulRowIsOneWarning) {
 
 TEST(Table, AFigureThatNoRowHasIsRefusedAndOneThatSomeHaveIsNot) {
   const Sweep sweep{.report = parse_figures("x_m")};
-  std::vector<Row> rows{{.ok = true, .lacks = {"x_m"}}, {.ok = true}};
+  std::vector<Row> rows{{.ok = true, .notes = {.lacks = {"x_m"}}}, {.ok = true}};
   EXPECT_NO_THROW(refuse_empty_columns(rows, sweep));
-  rows[1].lacks = {"x_m"};
+  rows[1].notes.lacks = {"x_m"};
   EXPECT_THROW(refuse_empty_columns(rows, sweep), config::Error);
   EXPECT_THROW(refuse_empty_columns({{.cells = {"no"}, .ok = false}}, sweep), std::runtime_error);
 }

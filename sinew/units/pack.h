@@ -164,6 +164,7 @@ template <int W>
 
 template <int W>
 [[gnu::always_inline]] inline bool any(const PackMask<W>& mask) {
+// One instruction, which GCC does not find.
 #if defined(__AVX2__)
   if constexpr (W == 4) return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask.bits)) != 0;
 #endif

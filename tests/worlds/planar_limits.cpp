@@ -16,9 +16,13 @@ Limits planar_limits(const std::string& name) {
     l.rubbing_angle = 1.3e-3;
     l.error = l.driven_error = 3e-5, l.energy = 1e-4;
   }
-  // Light toes (3.3e-5 rad); from 1 ms on the error is near rounding (7e-10 rad; 1.3e-8 of the
+  // Light toes (3.3e-5 rad; 1.8e-3 rad where they stand, in steps twice as long as the ground's
+  // damper alone would bear); from 1 ms on the error is near rounding (7e-10 rad; 1.3e-8 of the
   // energy).
-  if (name == "six_legs") l.peek_angle = 4.5e-5, l.order = l.driven_order = -1, l.energy = 2e-8;
+  if (name == "six_legs") {
+    l.peek_angle = 4.5e-5, l.rubbing_angle = 2e-3;
+    l.order = l.driven_order = -1, l.energy = 2e-8;
+  }
   // The body accelerates on its cylinder (3.9e-5 rad, 4.0e-6 m; 1.4e-3 rad, 1.5e-4 m where the foot
   // lands). Chambers near the supply's pressure go ahead of a step (9e-9 m).
   if (name == "moving_cylinder") {

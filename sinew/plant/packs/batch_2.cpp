@@ -5,7 +5,8 @@ namespace sinew::plant {
 
 template <>
 const BatchCalls& batch_calls<2>() {
-  return BatchOf<2>::calls;
+  static constexpr BatchCalls calls = BatchOf<2>::calls();
+  return calls;
 }
 
 }  // namespace sinew::plant

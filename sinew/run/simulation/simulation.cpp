@@ -13,6 +13,7 @@
 #include "sinew/run/setup/planar_setup.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/run.h"
+#include "sinew/units/hash.h"
 
 namespace sinew::run {
 
@@ -31,19 +32,6 @@ struct Nobody {
   void sample(Tick) noexcept {}
   Tick next(Tick) const noexcept { return std::numeric_limits<Tick>::max(); }
 };
-
-// FNV-1a, 64 bits.
-std::uint64_t hash(std::span<const std::byte> bytes, std::uint64_t h = 0xcbf29ce484222325) {
-  for (const std::byte b : bytes) {
-    h ^= std::to_integer<std::uint64_t>(b);
-    h *= 0x100000001b3;
-  }
-  return h;
-}
-
-std::uint64_t hash(std::string_view text, std::uint64_t h = 0xcbf29ce484222325) {
-  return hash(std::as_bytes(std::span(text.data(), text.size())), h);
-}
 
 // The header stands before the state in a save.
 struct Header {
@@ -194,7 +182,8 @@ std::uint64_t Simulation::model() {
   if (model_) return *model_;
   const std::string values = config::to_toml(experiment::values_in_si({"experiment", experiment_}));
   const std::size_t sizes[] = {save_size()};
-  model_ = hash(std::as_bytes(std::span(sizes)), hash(values, hash(SINEW_VERSION)));
+  model_ =
+      units::hash(std::as_bytes(std::span(sizes)), units::hash(values, units::hash(SINEW_VERSION)));
   return *model_;
 }
 
@@ -215,7 +204,7 @@ std::vector<std::byte> Simulation::save() {
   put(rest, faulty_ ? faulty_->state() : FaultyPort::State{});
   put(rest, loop_);
   std::span<std::byte> head = all.first(sizeof(Header));
-  put(head, Header{.model = model(), .checksum = hash(state), .tick = tick_});
+  put(head, Header{.model = model(), .checksum = units::hash(state), .tick = tick_});
   return out;
 }
 
@@ -230,7 +219,7 @@ void Simulation::restore(std::span<const std::byte> saved) {
     refuse(
         "save: found that of another experiment, or of another version of Sinew; expected one of "
         "the same values");
-  if (saved.size() != save_size() - sizeof header || hash(saved) != header.checksum)
+  if (saved.size() != save_size() - sizeof header || units::hash(saved) != header.checksum)
     refuse("save: found it cut off or spoilt");
 
   machine_->restore(saved.first(machine_->state_size()));

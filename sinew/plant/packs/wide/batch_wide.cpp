@@ -6,7 +6,8 @@ namespace sinew::plant {
 
 template <>
 const BatchCalls& batch_calls<SINEW_LANES>() {
-  return BatchOf<SINEW_LANES>::calls;
+  static constexpr BatchCalls calls = BatchOf<SINEW_LANES>::calls();
+  return calls;
 }
 
 }  // namespace sinew::plant

@@ -1,0 +1,150 @@
+#include "sinew/tune/results/asked.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "sinew/run/folder/refusal.h"
+#include "sinew/run/setup/buildable.h"
+#include "sinew/units/hash.h"
+
+namespace sinew::tune {
+namespace {
+
+// Every value in SI. Its title and its sources change no number.
+std::string values_of(const std::string& file, const std::vector<std::string>& sets) {
+  experiment::Experiment e = run::buildable(file, sets);
+  e.origins.clear();
+  e.title.clear();
+  e.reproduces.clear();
+  return experiment::resolved(e, SINEW_VERSION);
+}
+
+// Words may name files, whose values count. Such a value may be none without another axis; then it
+// counts by its name alone.
+std::string values_of_word(const Sweep& s, const Axis& axis, const Value& value) try {
+  if (axis.key == "experiment") return values_of(beside(s, value.text), s.sets);
+  std::vector<std::string> sets = s.sets;
+  sets.push_back(axis.set(value));
+  return values_of(s.experiment, sets);
+} catch (const config::Error&) {
+  return "";
+}
+
+const char* to_text(Sample::Kind kind) {
+  if (kind == Sample::Kind::random) return "random";
+  return kind == Sample::Kind::latin ? "latin" : "sobol";
+}
+
+const char* to_text(Range::Scale scale) {
+  if (scale == Range::Scale::log) return " log";
+  return scale == Range::Scale::whole ? " whole" : "";
+}
+
+class Text {
+ public:
+  void line(std::string_view name, std::string_view value) {
+    out_ += fmt::format("{} = {}\n", name, value);
+  }
+  void block(std::string_view text) { out_ += text; }
+
+  void axis(std::string_view name, const Axis& axis, const char* scale = "") {
+    std::string values;
+    for (const Value& v : axis.values) values += (values.empty() ? "" : ", ") + v.text;
+    line(name, axis.heading() + ": " + values + scale);
+  }
+
+  std::string take() { return std::move(out_); }
+
+ private:
+  std::string out_;
+};
+
+void add_sample(const Sample& sample, Text& out) {
+  const auto bytes = std::as_bytes(std::span(sample.given));
+  const std::string points = sample.given.empty()
+                                 ? fmt::format("{}, seed {}", to_text(sample.kind), sample.seed)
+                                 : fmt::format("given, {:016x}", units::hash(bytes));
+  out.line("sample", fmt::format("{} points, {}", sample.points, points));
+  for (const Range& range : sample.ranges) out.axis("range", range.axis, to_text(range.scale));
+}
+
+void add_search(const Search& search, Text& out) {
+  out.axis("largest", search.axis);
+  for (const Condition& c : search.where) out.line("where", c.text);
+  out.line("halvings", std::to_string(search.halvings));
+}
+
+std::string text_of(const Sweep& s) {
+  Text out;
+  out.line("sinew", SINEW_VERSION);
+  for (const Figure& f : s.report) out.line("report", fmt::format("{} [{}]", f.key, f.unit));
+  if (s.sample) add_sample(*s.sample, out);
+  for (const Axis& axis : s.axes) out.axis("vary", axis);
+  if (s.largest) add_search(*s.largest, out);
+  out.line("allow_unreachable", s.allow_unreachable ? "true" : "false");
+  out.block(values_of(s.experiment, s.sets));
+  for (const Axis& axis : s.axes)
+    for (const Value& value : axis.values) {
+      if (value.number) continue;
+      out.line(axis.key, value.text);
+      out.block(values_of_word(s, axis, value));
+    }
+  return out.take();
+}
+
+bool has_numbers(const Axis& axis) {
+  return std::ranges::all_of(axis.values, [](const Value& v) { return v.number.has_value(); });
+}
+
+std::vector<Column> columns_of(const Sweep& s) {
+  std::vector<Column> out;
+  for (const std::string& heading : headings(s)) out.push_back({heading, true});
+  const std::size_t sampled = s.sample ? s.sample->ranges.size() : 0;
+  for (std::size_t i = 0; i < s.axes.size(); ++i) out[sampled + i].number = has_numbers(s.axes[i]);
+  out.back().number = false;  // the status
+  return out;
+}
+
+[[noreturn]] void refuse_version(const std::filesystem::path& file, const Difference& d) {
+  const auto version = [](const std::string& line) { return line.substr(line.find("= ") + 2); };
+  run::refuse(file, "a study of Sinew " + version(d.first),
+              "one of this version, " + version(d.second),
+              "another name, or that version of Sinew: numbers of both are no one table");
+}
+
+}  // namespace
+
+Asked asked_of(const Sweep& s) { return {text_of(s), columns_of(s), points(s), s.experiment}; }
+
+std::string hash_of(const Asked& asked) {
+  return fmt::format("{:016x}", units::hash(std::string_view(asked.text)));
+}
+
+Difference difference(const std::string& first, const std::string& second) {
+  std::istringstream a(first), b(second);
+  std::string line_a, line_b, table_a, table_b;
+  for (;;) {
+    const bool more_a = static_cast<bool>(std::getline(a, line_a));
+    const bool more_b = static_cast<bool>(std::getline(b, line_b));
+    if (!more_a && !more_b) return {};
+    if (more_a && more_b && line_a == line_b) {
+      if (line_a.starts_with('[')) table_a = table_b = line_a + " ";
+      continue;
+    }
+    return {more_a ? table_a + line_a : "nothing", more_b ? table_b + line_b : "nothing"};
+  }
+}
+
+void require_same(const std::filesystem::path& file, const Asked& held, const Asked& asked) {
+  if (held.text == asked.text) return;
+  const Difference d = difference(held.text, asked.text);
+  if (d.first.starts_with("sinew = ") && d.second.starts_with("sinew = ")) refuse_version(file, d);
+  run::refuse(file, "another study, with " + config::in_quotes(d.first),
+              config::in_quotes(d.second) + ", as it is asked for now", "another name");
+}
+
+}  // namespace sinew::tune

@@ -1,0 +1,47 @@
+// tune/results/asked.h - what a study asks for, as text: two studies are one where it is the same.
+//
+// It holds everything that a row's cells depend on: the version of Sinew, every value of the
+// experiment and its robot in SI, and of the files that an axis names, then what is varied,
+// sampled, searched and reported. Where the files stand and what comments they have is no part of
+// it.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sinew/tune/sweep.h"
+
+namespace sinew::tune {
+
+struct Column {
+  std::string heading;
+  bool number = true;  // its cells are numbers, or empty
+};
+
+struct Asked {
+  std::string text;  // a fact a line
+  std::vector<Column> columns;
+  std::size_t points = 0;
+  std::string experiment;  // the file, as it was named
+};
+
+// Throws config::Error for an experiment that is wrong.
+Asked asked_of(const Sweep& sweep);
+
+// Sixteen hexadecimal digits that stand for the text.
+std::string hash_of(const Asked& asked);
+
+// Returns the first fact in which two differ, with the table of the file it stands in: `"[trolley]
+// drag = 1 N"`; of a text that ends before it "nothing". Both are the same for the same texts.
+struct Difference {
+  std::string first, second;
+};
+Difference difference(const std::string& first, const std::string& second);
+
+// Throws config::Error that begins with the file where what it holds is another study than is asked
+// for, or was run by another version of Sinew.
+void require_same(const std::filesystem::path& file, const Asked& held, const Asked& asked);
+
+}  // namespace sinew::tune

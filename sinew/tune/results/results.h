@@ -1,0 +1,73 @@
+// tune/results/results.h - the rows of one study in an SQLite file, each as soon as its run is
+// done.
+//
+//   Results results("study.db", asked_of(sweep));
+//   tune::sweep(sweep, {.done = [&](const Row& row) { results.add(row); }, .known =
+//   results.rows()});
+//
+// Whoever writes it is one process; anybody may read meanwhile. A row is a transaction: killed at
+// any moment, the process leaves every row that was added, and the next one goes on behind it.
+// docs/study-file.md has the tables.
+#pragma once
+
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sinew/tune/results/asked.h"
+#include "sinew/tune/results/database.h"
+
+namespace sinew::tune {
+
+inline constexpr int study_format = 1;             // of the tables
+inline constexpr std::size_t most_columns = 1900;  // what a database of Debian's SQLite can show
+
+class Results {
+ public:
+  // Opens the file of this study, or makes it. Throws config::Error for a file that holds another
+  // study, or one of another version; log::Error for one that is none, that cannot be written, or
+  // that another process is writing.
+  Results(const std::filesystem::path& file, const Asked& asked);
+
+  // A file that it made and that has no row is removed.
+  ~Results();
+  Results(const Results&) = delete;
+  Results& operator=(const Results&) = delete;
+
+  // Returns the rows that are there, in the points' order. Throws log::Error.
+  std::vector<Row> rows();
+
+  // A failure is kept for throw_failure(). Returns false where there was one.
+  bool add(const Row& row) noexcept;
+
+  // Adds all of them, or none. Throws log::Error.
+  void add_all(const std::vector<Row>& rows);
+
+  // Throws log::Error where a row could not be written.
+  void throw_failure() const;
+
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  void insert(const Row& row);
+
+  std::filesystem::path file_;
+  int lock_ = -1;
+  bool made_ = false;
+  std::optional<Database> database_;
+  std::optional<Statement> insert_;
+  std::exception_ptr failure_;
+};
+
+// What a file holds.
+struct HeldStudy {
+  Asked asked;
+  std::vector<Row> rows;  // in the points' order
+};
+
+// Throws as Results does. Changes nothing; the file may be written meanwhile.
+HeldStudy read_results(const std::filesystem::path& file);
+
+}  // namespace sinew::tune

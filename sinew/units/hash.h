@@ -1,0 +1,24 @@
+// units/hash.h - a short number that stands for long bytes: FNV-1a of 64 bits, the same on every
+// machine. Against mistakes, not against anybody.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace sinew::units {
+
+inline std::uint64_t hash(std::span<const std::byte> bytes, std::uint64_t h = 0xcbf29ce484222325) {
+  for (const std::byte b : bytes) {
+    h ^= std::to_integer<std::uint64_t>(b);
+    h *= 0x100000001b3;
+  }
+  return h;
+}
+
+inline std::uint64_t hash(std::string_view text, std::uint64_t h = 0xcbf29ce484222325) {
+  return hash(std::as_bytes(std::span(text.data(), text.size())), h);
+}
+
+}  // namespace sinew::units
