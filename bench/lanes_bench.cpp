@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <string>
 #include <thread>
 #include <vector>
@@ -38,7 +37,8 @@ double time_of(const std::vector<experiment::Experiment>& each, int lanes, bool 
 // One walk after the other and many side by side, by turns.
 void walks_in_lanes(benchmark::State& state, bool recorded) {
   const int lanes = static_cast<int>(state.range(0));
-  if (lanes > run::widest_lanes()) return state.SkipWithError("this processor has fewer lanes");
+  if (lanes > 2 && lanes > run::widest_lanes())
+    return state.SkipWithError("this processor has fewer lanes");
   const auto each = walks(static_cast<std::size_t>(8 * lanes));
   double alone = 1e9, beside = 1e9;  // the least disturbed of each [s] per walk
   for (auto _ : state) {
@@ -51,5 +51,23 @@ void walks_in_lanes(benchmark::State& state, bool recorded) {
 }
 BENCHMARK_CAPTURE(walks_in_lanes, recorded, true)->Arg(2)->Arg(4)->Arg(8)->Iterations(5);
 BENCHMARK_CAPTURE(walks_in_lanes, unwatched, false)->Arg(2)->Arg(4)->Arg(8)->Iterations(5);
+
+// Ten thousand walks on two threads, scaled from a thousand.
+void ten_thousand_walks(benchmark::State& state, bool recorded) {
+  const auto half = walks(500);
+  double least = 1e9;  // [s]
+  for (auto _ : state) {
+    const auto start = std::chrono::steady_clock::now();
+    std::thread other([&] { time_of(half, run::widest_lanes(), recorded); });
+    time_of(half, run::widest_lanes(), recorded);
+    other.join();
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+    least = std::min(least, wall.count());
+  }
+  state.counters["lanes"] = run::widest_lanes();
+  state.counters["s_for_10000"] = 10 * least;
+}
+BENCHMARK_CAPTURE(ten_thousand_walks, recorded, true)->Iterations(2)->UseRealTime();
+BENCHMARK_CAPTURE(ten_thousand_walks, unwatched, false)->Iterations(2)->UseRealTime();
 
 }  // namespace

@@ -276,9 +276,9 @@ class Work {
 
   void go_on() noexcept {
     const auto next = [this]() -> std::optional<std::size_t> {
-      const std::size_t next = stopped() ? to_do_.size() : next_++;
-      if (next >= to_do_.size()) return {};
-      return to_do_[next];
+      const std::size_t i = stopped() ? to_do_.size() : next_++;
+      if (i >= to_do_.size()) return {};
+      return to_do_[i];
     };
     run_points(sweep_, points_, options_.lanes, next, [this](Row row) { done(std::move(row)); });
   }

@@ -226,9 +226,11 @@ template <class One, class Packed>
 One lane_of(const Packed& packed, int lane) {
   static_assert(sizeof(Packed) % sizeof(One) == 0 && std::is_trivially_copyable_v<One>);
   constexpr std::size_t width = sizeof(Packed) / sizeof(One), count = sizeof(One) / sizeof(double);
-  const auto rows = std::bit_cast<std::array<std::array<double, width>, count>>(packed);
+  // Number by number: a copy of all lanes would cost more than what is asked for.
+  const auto* from = reinterpret_cast<const std::byte*>(&packed) + sizeof(double) * lane;
   std::array<double, count> one;
-  for (std::size_t i = 0; i < count; ++i) one[i] = rows[i][static_cast<std::size_t>(lane)];
+  for (std::size_t i = 0; i < count; ++i)
+    std::memcpy(&one[i], from + i * width * sizeof(double), sizeof(double));
   return std::bit_cast<One>(one);
 }
 
@@ -237,10 +239,10 @@ template <class One, class Packed>
 void put_lane(const One& one, int lane, Packed& packed) {
   static_assert(sizeof(Packed) % sizeof(One) == 0 && std::is_trivially_copyable_v<Packed>);
   constexpr std::size_t width = sizeof(Packed) / sizeof(One), count = sizeof(One) / sizeof(double);
-  auto rows = std::bit_cast<std::array<std::array<double, width>, count>>(packed);
   const auto numbers = std::bit_cast<std::array<double, count>>(one);
-  for (std::size_t i = 0; i < count; ++i) rows[i][static_cast<std::size_t>(lane)] = numbers[i];
-  packed = std::bit_cast<Packed>(rows);
+  auto* to = reinterpret_cast<std::byte*>(&packed) + sizeof(double) * lane;
+  for (std::size_t i = 0; i < count; ++i)
+    std::memcpy(to + i * width * sizeof(double), &numbers[i], sizeof(double));
 }
 
 }  // namespace sinew::units

@@ -1,7 +1,7 @@
 #include "sinew/run/simulation/lanes.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -35,13 +35,17 @@ class Bounds {
     const Tick of_period = t % period_, lag = lag_[static_cast<std::size_t>(of_period)];
     if (lag != none) return seconds(t - lag);
     if (of_period == 0 && !samples) return nothing;  // the high level's word alone, as a rule
-    return std::nextafter(seconds(t), nothing);      // an edge at t: all before it
+    return before(seconds(t));                       // an edge at t: all before it
   }
 
   static constexpr double nothing = -std::numeric_limits<double>::max();
 
  private:
   static constexpr Tick none = -1;
+  // The greatest number below one that is not negative.
+  static double before(double x) {
+    return x > 0 ? std::bit_cast<double>(std::bit_cast<std::int64_t>(x) - 1) : nothing;
+  }
   static double seconds(Tick t) { return static_cast<double>(t) * signals::tick_seconds; }
 
   Tick period_;
@@ -159,10 +163,11 @@ bool fill(const Lanes& lanes, std::optional<Group>& group, int k) {
 
 }  // namespace
 
-int widest_lanes() { return plant::Batch::widest(); }
+// Two lanes alone are no faster than one world.
+int widest_lanes() { return plant::Batch::widest() > 2 ? plant::Batch::widest() : 1; }
 
 void run_in_lanes(const Lanes& lanes) {
-  if (lanes.most < 2) {
+  if (lanes.most < 2 || (lanes.most > 2 && widest_lanes() == 1)) {
     while (const Experiment* e = lanes.next()) run_alone(lanes, *e);
     return;
   }

@@ -24,12 +24,14 @@ struct Lanes {
   // Takes an outcome, or what run() would have thrown. Its wall time is from the run's start to its
   // end, among the others. Must not throw.
   std::function<void(const experiment::Experiment&, Outcome, std::exception_ptr)> done;
-  int most = 8;          // lanes; 1: one after the other
+  // Lanes at most; 1: one run after the other, as where there are but the two lanes that every
+  // processor has, which are taken only where just two are asked for.
+  int most = 8;
   bool recorded = true;  // false: an outcome has no table, nor what is taken from it
 };
 void run_in_lanes(const Lanes& lanes);
 
-// Lanes that this computer has.
+// Lanes that are worth it on this computer: 8 with AVX-512, 4 with AVX2, else 1.
 int widest_lanes();
 
 }  // namespace sinew::run

@@ -48,9 +48,11 @@ struct BatchOf {
     of(batch).restore(k, state);
   }
 
-  static constexpr BatchCalls calls = {
-      W,       make, destroy,
-      replace, go,   {start, drive, read, stop, truth, advance, failure, nodes, world, restore}};
+  static constexpr BatchCalls calls() {
+    return {W,       make,
+            destroy, replace,
+            go,      {start, drive, read, stop, truth, advance, failure, nodes, world, restore}};
+  }
 };
 
 }  // namespace sinew::plant
