@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct Figures {
   const Machine& machine;
   const Record& record;  // of the log and of what derive() makes of it
   Summary& summary;
+  mutable std::map<std::string, double> delivered_duties = {};  // of valves, once asked for
 
   // Absent where the topic is: a statistic of no samples is not a number.
   template <class Statistic>

@@ -62,12 +62,19 @@ std::vector<Switching> all_switching(const Figures& f) {
 }
 
 // Share of the sequence's time in which the valve really stands open.
-double delivered_duty(const Figures& f, const robot::Muscle& m, const char* which) {
+double delivered_duty_anew(const Figures& f, const robot::Muscle& m, const char* which) {
   if (!f.record.has_sequence()) return no_figure;
   const Switching s = switching(f, m, which);
   if (!s.logged) return no_figure;
   const double from = f.record.sequence_start(), to = f.record.sequence_end();
   return open_time(s.delivered, from, to) / (to - from);
+}
+
+// Several figures ask for it.
+double delivered_duty(const Figures& f, const robot::Muscle& m, const char* which) {
+  const auto [at, is_new] = f.delivered_duties.try_emplace(m.name + "/" + which);
+  if (is_new) at->second = delivered_duty_anew(f, m, which);
+  return at->second;
 }
 
 // Of a topic that only grows: what it gains between two rows.

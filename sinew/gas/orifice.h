@@ -165,6 +165,19 @@ struct FlowConstantsOf {
 };
 using FlowConstants = FlowConstantsOf<double>;
 
+// Returns `a` where the mask is set, else `b`.
+template <class Mask, class S>
+inline FlowConstantsOf<S> select(const Mask& mask, const FlowConstantsOf<S>& a,
+                                 const FlowConstantsOf<S>& b) {
+  return {units::select(mask, a.gain, b.gain),
+          units::select(mask, a.choked_gain, b.choked_gain),
+          units::select(mask, a.choke, b.choke),
+          units::select(mask, a.spread, b.spread),
+          units::select(mask, a.linear_gain, b.linear_gain),
+          units::select(mask, a.linear_from, b.linear_from),
+          units::select(mask, a.iso, b.iso)};
+}
+
 // Flow from a to b out of y at both ports  [kg/s]. + - x sqrt and selections only, one root: loops
 // over lanes that keep each constant in an array vectorise, and every lane has the scalar's bits.
 template <class S>

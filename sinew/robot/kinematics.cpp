@@ -186,18 +186,26 @@ double pull_at(const Muscle& muscle, const Joint& joint, double angle) {
          cam_radius(cam, joint, angle);
 }
 
+JointMuscles::JointMuscles(const Robot& robot, int joint)
+    : robot_(robot), joint_(robot.joints[static_cast<std::size_t>(joint)]) {
+  if (!is_plain(robot)) return;
+  flexor_ = muscle_of(robot, joint, Muscle::Role::flexor);
+  extensor_ = muscle_of(robot, joint, Muscle::Role::extensor);
+}
+
+double JointMuscles::torque(double angle, std::span<const double> tensions) const {
+  if (flexor_ >= 0 && extensor_ >= 0)
+    return robot::torque(joint_, tensions[static_cast<std::size_t>(flexor_)],
+                         tensions[static_cast<std::size_t>(extensor_)]);
+  double sum = 0;
+  for (std::size_t m = 0; m < robot_.muscles.size() && m < tensions.size(); ++m)
+    sum += pull_at(robot_.muscles[m], joint_, angle) * tensions[m];
+  return sum;
+}
+
 double torque_of_muscles(const Robot& robot, int joint, double angle,
                          std::span<const double> tensions) {
-  const Joint& at = robot.joints[static_cast<std::size_t>(joint)];
-  const int flexor = muscle_of(robot, joint, Muscle::Role::flexor);
-  const int extensor = muscle_of(robot, joint, Muscle::Role::extensor);
-  if (is_plain(robot) && flexor >= 0 && extensor >= 0)
-    return torque(at, tensions[static_cast<std::size_t>(flexor)],
-                  tensions[static_cast<std::size_t>(extensor)]);
-  double sum = 0;
-  for (std::size_t m = 0; m < robot.muscles.size() && m < tensions.size(); ++m)
-    sum += pull_at(robot.muscles[m], at, angle) * tensions[m];
-  return sum;
+  return JointMuscles(robot, joint).torque(angle, tensions);
 }
 
 double torque(const Joint& joint, double flexor_tension, double extensor_tension) {

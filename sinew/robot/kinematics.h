@@ -114,7 +114,19 @@ double cam_radius(const Cam&, const Joint&, double angle);
 // muscle does not run across  [m].
 double pull_at(const Muscle&, const Joint&, double angle);
 
-// Torque of all muscles that run across a joint, from their tensions in the robot's order  [N m].
+// The muscles across a joint, found once for many torques. The robot outlives it.
+class JointMuscles {
+ public:
+  JointMuscles(const Robot& robot, int joint);
+
+  // Torque of all of them, from their tensions in the robot's order  [N m].
+  double torque(double angle, std::span<const double> tensions) const;
+
+ private:
+  const Robot& robot_;
+  const Joint& joint_;
+  int flexor_ = -1, extensor_ = -1;  // of a plain robot
+};
 double torque_of_muscles(const Robot&, int joint, double angle, std::span<const double> tensions);
 
 // Torque of a joint from its muscles, > 0 raises the angle  [N m]: [71]'s T with the sign of each.

@@ -1,10 +1,15 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <memory>
+
 #include "sinew/analysis/verdict/reported.h"
 #include "sinew/analysis/warnings.h"
 #include "sinew/config/compose.h"
 #include "sinew/run/setup/buildable.h"
+#include "sinew/run/simulation/lanes.h"
 #include "sinew/run/simulation/run.h"
+#include "sinew/tune/run_many.h"
 #include "sinew/tune/sweep.h"
 
 namespace sinew::tune {
@@ -31,29 +36,82 @@ void judge(const run::Outcome& outcome, const analysis::Machine& machine, Ran& o
     if (v.is == analysis::Verdict::Is::differs) out.differs.push_back(v.key);
 }
 
-}  // namespace
-
-// The log's files are not written: the summary is of the table in memory.
-Ran run_once(const std::string& file, const std::vector<std::string>& sets,
-             bool allow_unreachable) {
+// Returns what `work` puts into a run, or why it refuses it.
+template <class Work>
+Ran refusing(const Work& work) {
   Ran out;
   try {
-    const config::Node root = config::compose(file, sets);
-    const analysis::Machine machine = analysis::read_machine(root);
-    const experiment::Experiment e = run::buildable(root, file);
-    if (!allow_unreachable) experiment::refuse_unreachable(e);
-    const run::Outcome outcome = run::run(e);
-    out.status = status_of(e, outcome);
-    out.atmosphere = machine.atmosphere;
-    if (!out.ok()) return out;
-    out.summary = analysis::summarize(outcome.table, machine);
-    judge(outcome, machine, out);
+    work(out);
   } catch (const config::Error& e) {
     out.status = "refused: " + first_problem(e);
   } catch (const std::exception& e) {
     out.status = std::string("refused: ") + e.what();
   }
   return out;
+}
+
+// A run that can begin.
+struct Prepared {
+  Prepared(const Wanted& wanted, bool allow_unreachable)
+      : Prepared(wanted, config::compose(wanted.experiment, wanted.sets), allow_unreachable) {}
+  Prepared(const Wanted& wanted, const config::Node& root, bool allow_unreachable)
+      : point(wanted.point),
+        machine(analysis::read_machine(root)),
+        experiment(run::buildable(root, wanted.experiment)) {
+    if (!allow_unreachable) experiment::refuse_unreachable(experiment);
+  }
+
+  std::size_t point;
+  analysis::Machine machine;
+  experiment::Experiment experiment;
+};
+
+// The log's files are not written: the summary is of the table in memory.
+void sum_up(const Prepared& p, const run::Outcome& outcome, Ran& out) {
+  out.status = status_of(p.experiment, outcome);
+  out.atmosphere = p.machine.atmosphere;
+  if (!out.ok()) return;
+  out.summary = analysis::summarize(outcome.table, p.machine);
+  judge(outcome, p.machine, out);
+}
+
+}  // namespace
+
+Ran run_once(const std::string& file, const std::vector<std::string>& sets,
+             bool allow_unreachable) {
+  return refusing([&](Ran& out) {
+    const Prepared p({0, file, sets}, allow_unreachable);
+    sum_up(p, run::run(p.experiment), out);
+  });
+}
+
+void run_many(const Many& many) {
+  std::vector<std::unique_ptr<Prepared>> going;
+  const auto prepare = [&](const Wanted& wanted) {
+    std::unique_ptr<Prepared> p;
+    Ran refused =
+        refusing([&](Ran&) { p = std::make_unique<Prepared>(wanted, many.allow_unreachable); });
+    if (!p) many.done(wanted.point, std::move(refused));
+    return p;
+  };
+  const auto next = [&]() -> const experiment::Experiment* {
+    while (const std::optional<Wanted> wanted = many.next())
+      if (std::unique_ptr<Prepared> p = prepare(*wanted))
+        return &going.emplace_back(std::move(p))->experiment;
+    return nullptr;
+  };
+  const auto done = [&](const experiment::Experiment& e, const run::Outcome& outcome,
+                        const std::exception_ptr& thrown) {
+    const auto it =
+        std::ranges::find_if(going, [&](const auto& p) { return &p->experiment == &e; });
+    const std::unique_ptr<Prepared> p = std::move(*it);
+    going.erase(it);
+    many.done(p->point, refusing([&](Ran& out) {
+                if (thrown) std::rethrow_exception(thrown);
+                sum_up(*p, outcome, out);
+              }));
+  };
+  run::run_in_lanes({.next = next, .done = done, .most = many.lanes});
 }
 
 }  // namespace sinew::tune

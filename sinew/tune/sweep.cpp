@@ -10,6 +10,7 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/tune/largest.h"
+#include "sinew/tune/run_many.h"
 
 namespace sinew::tune {
 namespace {
@@ -138,10 +139,25 @@ Row row_of(const Sweep& s, const Points& points, std::size_t index, bool first) 
   return single(s, index, std::move(point), ran, first);
 }
 
-// Runs the points that next() answers, as long as it does, and hands their rows to done().
+// Runs the points that next() answers, as long as it does, many side by side, and hands their rows
+// to done(). A search goes by itself: its next run depends on the last.
 template <class Next, class Done>
-void run_points(const Sweep& s, const Points& points, const Next& next, const Done& done) {
-  while (const std::optional<std::size_t> index = next()) done(row_of(s, points, *index, false));
+void run_points(const Sweep& s, const Points& points, int lanes, const Next& next,
+                const Done& done) {
+  if (s.largest) {
+    while (const std::optional<std::size_t> index = next()) done(row_of(s, points, *index, false));
+    return;
+  }
+  const auto wanted = [&]() -> std::optional<Wanted> {
+    const std::optional<std::size_t> index = next();
+    if (!index) return {};
+    Point point = points.at(*index);
+    return Wanted{*index, std::move(point.experiment), std::move(point.sets)};
+  };
+  const auto ran = [&](std::size_t index, const Ran& its) {
+    done(single(s, index, points.at(index), its, false));
+  };
+  run_many({.next = wanted, .done = ran, .allow_unreachable = s.allow_unreachable, .lanes = lanes});
 }
 
 // Calls `work` in that many threads, of which this is one.
@@ -183,7 +199,7 @@ class Work {
       if (i >= to_do_.size()) return {};
       return to_do_[i];
     };
-    run_points(sweep_, points_, next, [this](Row row) { done(std::move(row)); });
+    run_points(sweep_, points_, options_.lanes, next, [this](Row row) { done(std::move(row)); });
   }
 
   void go_on_elsewhere() {
@@ -310,7 +326,7 @@ void Runner::run(std::span<const std::size_t> points, int threads,
     done(std::move(row));
   };
   in_threads(std::min(static_cast<std::size_t>(threads), points.size()),
-             [&] { run_points(drawn_->sweep, drawn_->points, next, hand_back); });
+             [&] { run_points(drawn_->sweep, drawn_->points, Options{}.lanes, next, hand_back); });
 }
 
 }  // namespace sinew::tune

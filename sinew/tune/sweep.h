@@ -68,6 +68,7 @@ Share parse_share(std::string_view text);
 // Both functions are called for one row at a time and must not throw.
 struct Options {
   int threads = 1;
+  int lanes = 8;  // runs side by side in each thread, at most; the rows are the same
   const std::atomic<bool>* stop = nullptr;        // true: runs that began are the last
   std::atomic<std::int64_t>* progress = nullptr;  // points that are done
   std::function<void(const Row&)> row = {};       // each of the table, in the points' order

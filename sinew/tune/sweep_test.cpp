@@ -26,9 +26,11 @@ Sweep gains() {
                                   "air_used_kg")};
 }
 
-std::string table(const Sweep& s, int threads) {
+std::string table(const Sweep& s, int threads, int lanes = 8) {
   std::string rows;
-  sweep(s, {.threads = threads, .row = [&](const Row& row) { rows += csv_line(row.cells); }});
+  sweep(s, {.threads = threads, .lanes = lanes, .row = [&](const Row& row) {
+              rows += csv_line(row.cells);
+            }});
   return csv_line(headings(s)) + rows;
 }
 
@@ -53,6 +55,11 @@ TEST(Sweep, IsTheSameForAnyNumberOfThreads) {
   const std::string alone = table(gains(), 1);
   EXPECT_EQ(std::count(alone.begin(), alone.end(), '\n'), 7);
   for (int threads : {2, 3, 16}) EXPECT_EQ(table(gains(), threads), alone) << threads;
+}
+
+TEST(Sweep, IsTheSameForAnyNumberOfLanes) {
+  const std::string one = table(gains(), 1, 1);
+  for (int lanes : {2, 4, 8}) EXPECT_EQ(table(gains(), 1, lanes), one) << lanes;
 }
 
 TEST(Sweep, ARowIsWhatTheSingleRunSays) {
@@ -149,11 +156,22 @@ TEST(Sweep, FailuresAreRows) {
 TEST(Sweep, StopsAfterTheRunsThatHaveBegun) {
   std::atomic<bool> stop{false};
   std::size_t told = 0;
-  const auto rows = sweep(gains(), {.threads = 1, .stop = &stop, .row = [&](const Row&) {
-                                      if (++told == 2) stop = true;
-                                    }});
-  EXPECT_EQ(rows.size(), 2U);
+  const auto rows_of = [&](int lanes) {
+    stop = false;
+    told = 0;
+    return sweep(gains(), {.threads = 1,
+                           .lanes = lanes,
+                           .stop = &stop,
+                           .row =
+                               [&](const Row&) {
+                                 if (++told == 2) stop = true;
+                               }})
+        .size();
+  };
+  EXPECT_EQ(rows_of(1), 2U);
   EXPECT_EQ(told, 2U);
+  EXPECT_EQ(rows_of(2), 3U);  // the first alone, then two side by side
+  EXPECT_EQ(told, 3U);
 }
 
 TEST(Sweep, RefusesWhatTheExperimentDoesNotKnow) {

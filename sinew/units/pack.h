@@ -30,6 +30,10 @@
 #include <type_traits>
 #include <utility>
 
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
 namespace sinew::units {
 
 // Returns `a` where the mask is set, else `b`.
@@ -160,6 +164,13 @@ template <int W>
 
 template <int W>
 [[gnu::always_inline]] inline bool any(const PackMask<W>& mask) {
+// One instruction, which GCC does not find.
+#if defined(__AVX2__)
+  if constexpr (W == 4) return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask.bits)) != 0;
+#endif
+#if defined(__AVX512DQ__)
+  if constexpr (W == 8) return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask.bits)) != 0;
+#endif
   std::int64_t some = 0;
   for (int k = 0; k < W; ++k) some |= mask.bits[k];
   return some != 0;
@@ -215,9 +226,11 @@ template <class One, class Packed>
 One lane_of(const Packed& packed, int lane) {
   static_assert(sizeof(Packed) % sizeof(One) == 0 && std::is_trivially_copyable_v<One>);
   constexpr std::size_t width = sizeof(Packed) / sizeof(One), count = sizeof(One) / sizeof(double);
-  const auto rows = std::bit_cast<std::array<std::array<double, width>, count>>(packed);
+  // Number by number: a copy of all lanes would cost more than what is asked for.
+  const auto* from = reinterpret_cast<const std::byte*>(&packed) + sizeof(double) * lane;
   std::array<double, count> one;
-  for (std::size_t i = 0; i < count; ++i) one[i] = rows[i][static_cast<std::size_t>(lane)];
+  for (std::size_t i = 0; i < count; ++i)
+    std::memcpy(&one[i], from + i * width * sizeof(double), sizeof(double));
   return std::bit_cast<One>(one);
 }
 
@@ -226,10 +239,10 @@ template <class One, class Packed>
 void put_lane(const One& one, int lane, Packed& packed) {
   static_assert(sizeof(Packed) % sizeof(One) == 0 && std::is_trivially_copyable_v<Packed>);
   constexpr std::size_t width = sizeof(Packed) / sizeof(One), count = sizeof(One) / sizeof(double);
-  auto rows = std::bit_cast<std::array<std::array<double, width>, count>>(packed);
   const auto numbers = std::bit_cast<std::array<double, count>>(one);
-  for (std::size_t i = 0; i < count; ++i) rows[i][static_cast<std::size_t>(lane)] = numbers[i];
-  packed = std::bit_cast<Packed>(rows);
+  auto* to = reinterpret_cast<std::byte*>(&packed) + sizeof(double) * lane;
+  for (std::size_t i = 0; i < count; ++i)
+    std::memcpy(to + i * width * sizeof(double), &numbers[i], sizeof(double));
 }
 
 }  // namespace sinew::units

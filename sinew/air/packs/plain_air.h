@@ -45,6 +45,15 @@ class PlainAir {
 
   int muscles() const noexcept { return size_; }
 
+  // One muscle of one machine, a little after its node.
+  struct Glimpse {
+    double pressure, tension;  // as Answer's
+  };
+  // Muscle i of the machine in a lane at h after its node, by Heun's rule from there: as a peek of
+  // world.h, of this muscle alone. Its length and rate are those at that time.
+  Glimpse ahead(int lane, int i, double length, double rate, double h, const State& state,
+                const Shares& shares, const Memory& memory, const Answer& at_node) const noexcept;
+
   // Takes over what one machine's valves let through.
   void set_shares(int lane, const AirValves<Most>& valves, Shares& shares) const noexcept;
 
@@ -61,51 +70,114 @@ class PlainAir {
   void finish(State& state, const S& h, const Answer* const (&look)[4]) const noexcept;
 
  private:
+  // A muscle and its two valves.
+  template <class T>
   struct Cell {
-    BraidConstants<S> braid;
-    gas::FlowConstantsOf<S> inlet, exhaust;
-    Mask sealed, loose;  // bound by the sealed stiffness; it does not stick
+    BraidConstants<T> braid;
+    gas::FlowConstantsOf<T> inlet, exhaust;
   };
+  // What one machine, or all of them, have in common for all muscles.
+  template <class T>
+  struct Room {
+    gas::PowerSeriesOf<T> series;
+    T atmosphere = 0, supply_y = 0;
+  };
+  // The numbers of a muscle that a look goes by, and what the look yields.
+  template <class T>
+  struct Asked {
+    T length, rate, mass, inlet, exhaust, y, inverse_sigma;
+  };
+  template <class T>
+  struct Told {
+    BraidPull<T> pull;
+    T drift, inflow, outflow;
+  };
+
+  // far(x, y) puts the root of a density beyond the reach of the series into y; finish(pull) adds
+  // what lanes leave out.
+  template <class T, class Far, class Finish>
+  [[gnu::always_inline]] static Told<T> look(const Room<T>& room, const Cell<T>& cell,
+                                             const Asked<T>& at, const Far& far,
+                                             const Finish& finish) {
+    // Density against the reference, and y by the series.
+    const T volume = braid_volume(cell.braid, at.length);
+    const T x = (at.mass * at.inverse_sigma) / volume - 1.0;
+    T power, y;
+    room.series.raise(x, power);
+    y = at.y * power;
+    const auto outside = (x > gas::PowerSeries::reach) | (x < -gas::PowerSeries::reach);
+    if (units::any(outside)) far(outside, x, y);
+
+    Told<T> out{braid_pull(cell.braid, room.atmosphere, at.length, at.rate, y), x, 0, 0};
+    finish(out.pull);
+    flow(room, cell, at, y, out);
+    return out;
+  }
+
+  // Where some are filled and others emptied, and none both, one flow does for all.
+  template <class T>
+  [[gnu::always_inline]] static void flow(const Room<T>& room, const Cell<T>& cell,
+                                          const Asked<T>& at, const T& y, Told<T>& out) {
+    const auto fills = at.inlet > 0.0, empties = at.exhaust > 0.0;
+    const bool some_fill = units::any(fills), some_empty = units::any(empties);
+    if (some_fill && some_empty && !units::any(fills & empties)) {
+      const T size =
+          units::select(fills, at.inlet, at.exhaust) *
+          gas::flow_y(gas::select(fills, cell.inlet, cell.exhaust),
+                      units::select(fills, room.supply_y, y), units::select(fills, y, 1.0));
+      out.inflow = units::select(fills, size, 0.0);
+      out.outflow = units::select(empties, size, 0.0);
+      return;
+    }
+    if (some_fill)
+      out.inflow = units::select(fills, at.inlet * gas::flow_y(cell.inlet, room.supply_y, y), 0.0);
+    if (some_empty)
+      out.outflow = units::select(empties, at.exhaust * gas::flow_y(cell.exhaust, y, 1.0), 0.0);
+  }
 
   void far_roots(int i, const Mask& outside, const S& drift, const Memory& memory,
                  S& y) const noexcept;
+  template <class T, class M>
+  static void rub(const M& loose, const T& rate, BraidPull<T>& pull);
   void finish_friction(int i, const Ends& ends, BraidPull<S>& pull) const noexcept;
+  void finish_friction(int lane, int i, const Asked<double>& at,
+                       BraidPull<double>& pull) const noexcept;
 
   int size_ = 0;
   std::array<const Network*, W> each_;
-  std::array<Cell, Most> cells_;
-  gas::PowerSeriesOf<S> series_;
-  S atmosphere_ = 0, supply_y_ = 0;
+  Room<S> room_;
+  std::array<Cell<S>, Most> cells_;
+  std::array<Mask, Most> sealed_, loose_;  // bound by the sealed stiffness; it does not stick
+  // The same of each machine alone.
+  std::array<Room<double>, W> rooms_;
+  std::array<std::array<Cell<double>, Most>, W> alone_;
 };
 
 template <int Most, int W>
 PlainAir<Most, W>::PlainAir(const std::array<const Network*, W>& each)
     : size_(each[0]->muscles()), each_(each) {
+  std::array<Cell<double>, W> each_cell;
   S exponent;
   for (std::size_t k = 0; k < W; ++k) {
     const int lane = static_cast<int>(k);
-    exponent.set(lane, each[k]->braids().series().exponent());
-    atmosphere_.set(lane, each[k]->atmosphere());
-    supply_y_.set(lane, each[k]->supply_y());
+    rooms_[k] = {each[k]->braids().series(), each[k]->atmosphere(), each[k]->supply_y()};
+    exponent.set(lane, rooms_[k].series.exponent());
+    room_.atmosphere.set(lane, rooms_[k].atmosphere);
+    room_.supply_y.set(lane, rooms_[k].supply_y);
   }
-  series_ = gas::PowerSeriesOf<S>(exponent);
+  room_.series = gas::PowerSeriesOf<S>(exponent);
 
-  std::array<BraidConstants<double>, W> braids;
-  std::array<gas::FlowConstants, W> inlets, exhausts;
   for (int i = 0; i < size_; ++i) {
-    Cell& cell = cells_[static_cast<std::size_t>(i)];
+    const auto m = static_cast<std::size_t>(i);
     for (std::size_t k = 0; k < W; ++k) {
       const int lane = static_cast<int>(k);
       const BraidLanes& laws = each[k]->braids();
-      braids[k] = laws.constants(i);
-      inlets[k] = each[k]->flow(2 * i);
-      exhausts[k] = each[k]->flow(2 * i + 1);
-      cell.sealed.set(lane, laws.bound_by_sealed(i));
-      cell.loose.set(lane, !laws.sticks(i));
+      alone_[k][m] = {laws.constants(i), each[k]->flow(2 * i), each[k]->flow(2 * i + 1)};
+      each_cell[k] = alone_[k][m];
+      sealed_[m].set(lane, laws.bound_by_sealed(i));
+      loose_[m].set(lane, !laws.sticks(i));
     }
-    cell.braid = units::side_by_side<BraidConstants<S>>(braids);
-    cell.inlet = units::side_by_side<gas::FlowConstantsOf<S>>(inlets);
-    cell.exhaust = units::side_by_side<gas::FlowConstantsOf<S>>(exhausts);
+    cells_[m] = units::side_by_side<Cell<S>>(each_cell);
   }
 }
 
@@ -123,31 +195,52 @@ template <int Most, int W>
 void PlainAir<Most, W>::evaluate(const Ends& ends, const State& state, const Shares& shares,
                                  const Memory& memory, Answer& out) const noexcept {
   for (int i = 0; i < size_; ++i) {
-    const Cell& cell = cells_[static_cast<std::size_t>(i)];
-    // Density against the reference, and y by the series.
-    const S volume = braid_volume(cell.braid, ends.length[i]);
-    const S x = (state.mass[i] * memory.inverse_sigma[i]) / volume - 1.0;
-    S power, y;
-    series_.raise(x, power);
-    y = memory.y[i] * power;
-    const Mask outside = (x > gas::PowerSeries::reach) | (x < -gas::PowerSeries::reach);
-    if (units::any(outside)) far_roots(i, outside, x, memory, y);
-
-    BraidPull<S> pull = braid_pull(cell.braid, atmosphere_, ends.length[i], ends.rate[i], y);
-    if (units::any(cell.sealed | cell.loose)) finish_friction(i, ends, pull);
-    out.drift[i] = x;
-    out.pressure[i] = pull.pressure;
-    out.tension[i] = pull.tension;
-    out.clamped[i] = pull.clamped;
-    out.friction_bound[i] = pull.friction_bound;
-
-    out.inflow[i] = out.outflow[i] = 0;
-    const S in = shares.inlet[i], gone = shares.exhaust[i];
-    if (const Mask open = in > 0.0; units::any(open))
-      out.inflow[i] = units::select(open, in * gas::flow_y(cell.inlet, supply_y_, y), 0.0);
-    if (const Mask open = gone > 0.0; units::any(open))
-      out.outflow[i] = units::select(open, gone * gas::flow_y(cell.exhaust, y, 1.0), 0.0);
+    const auto m = static_cast<std::size_t>(i);
+    const Asked<S> at{ends.length[i],    ends.rate[i], state.mass[i],          shares.inlet[i],
+                      shares.exhaust[i], memory.y[i],  memory.inverse_sigma[i]};
+    const auto far = [&](const Mask& outside, const S& x, S& y) {
+      far_roots(i, outside, x, memory, y);
+    };
+    const auto finish = [&](BraidPull<S>& pull) {
+      if (units::any(sealed_[m] | loose_[m])) finish_friction(i, ends, pull);
+    };
+    const Told<S> told = look<S>(room_, cells_[m], at, far, finish);
+    out.drift[i] = told.drift;
+    out.pressure[i] = told.pull.pressure;
+    out.tension[i] = told.pull.tension;
+    out.clamped[i] = told.pull.clamped;
+    out.friction_bound[i] = told.pull.friction_bound;
+    out.inflow[i] = told.inflow;
+    out.outflow[i] = told.outflow;
   }
+}
+
+template <int Most, int W>
+auto PlainAir<Most, W>::ahead(int lane, int i, double length, double rate, double h,
+                              const State& state, const Shares& shares, const Memory& memory,
+                              const Answer& at_node) const noexcept -> Glimpse {
+  const auto k = static_cast<std::size_t>(lane), m = static_cast<std::size_t>(i);
+  const double mass = state.mass[i][lane];
+  Asked<double> at{length,
+                   rate,
+                   mass,
+                   shares.inlet[i][lane],
+                   shares.exhaust[i][lane],
+                   memory.y[i][lane],
+                   memory.inverse_sigma[i][lane]};
+  const auto far = [&](bool, double x, double& y) {
+    y = each_[k]->braids().exact_y((x + 1.0) / at.inverse_sigma);
+  };
+  const auto finish = [&](BraidPull<double>& pull) { finish_friction(lane, i, at, pull); };
+  const auto seen = [&] { return look<double>(rooms_[k], alone_[k][m], at, far, finish); };
+  if (at.inlet > 0 || at.exhaust > 0) {
+    const double in = at_node.inflow[i][lane], gone = at_node.outflow[i][lane], half = 0.5 * h;
+    at.mass = mass + h * (in - gone);
+    const Told<double> then = seen();
+    at.mass = mass + (half * (in + then.inflow) - half * (gone + then.outflow));
+  }
+  const Told<double> told = seen();
+  return {told.pull.pressure, told.pull.tension};
 }
 
 // Beyond the reach of the series.
@@ -163,16 +256,32 @@ void PlainAir<Most, W>::far_roots(int i, const Mask& outside, const S& drift, co
 template <int Most, int W>
 void PlainAir<Most, W>::finish_friction(int i, const Ends& ends,
                                         BraidPull<S>& pull) const noexcept {
-  const Cell& cell = cells_[static_cast<std::size_t>(i)];
+  const auto m = static_cast<std::size_t>(i);
   for (int k = 0; k < W; ++k)
-    if (cell.sealed[k])
+    if (sealed_[m][k])
       pull.friction_bound.set(k, each_[static_cast<std::size_t>(k)]->braids().sealed_bound(
                                      i, ends.length[i][k], pull.pressure[k]));
-  const S rub = units::select(ends.rate[i] >= 0.0, pull.friction_bound, -pull.friction_bound);
-  const S f = pull.tension + rub;
-  pull.tension = units::select(cell.loose, units::select(f > 0.0, f, 0.0), pull.tension);
-  pull.clamped = units::select(cell.loose, pull.clamped + rub, pull.clamped);
-  pull.friction_bound = units::select(cell.loose, 0.0, pull.friction_bound);
+  rub(loose_[m], ends.rate[i], pull);
+}
+
+template <int Most, int W>
+void PlainAir<Most, W>::finish_friction(int lane, int i, const Asked<double>& at,
+                                        BraidPull<double>& pull) const noexcept {
+  const auto m = static_cast<std::size_t>(i);
+  if (sealed_[m][lane])
+    pull.friction_bound =
+        each_[static_cast<std::size_t>(lane)]->braids().sealed_bound(i, at.length, pull.pressure);
+  rub(loose_[m][lane], at.rate, pull);
+}
+
+template <int Most, int W>
+template <class T, class M>
+void PlainAir<Most, W>::rub(const M& loose, const T& rate, BraidPull<T>& pull) {
+  const T rub = units::select(rate >= 0.0, pull.friction_bound, -pull.friction_bound);
+  const T f = pull.tension + rub;
+  pull.tension = units::select(loose, units::select(f > 0.0, f, 0.0), pull.tension);
+  pull.clamped = units::select(loose, pull.clamped + rub, pull.clamped);
+  pull.friction_bound = units::select(loose, 0.0, pull.friction_bound);
 }
 
 template <int Most, int W>

@@ -96,12 +96,12 @@ Column measured_torque(const Record& record, const Machine& m, std::size_t joint
   std::vector<Column> tension;
   if (!of_muscles(record, m, at, "/muscle/", "/tension", tension)) return {};
   std::vector<double> now(tension.size(), 0.0);
+  const robot::JointMuscles muscles(m.robot, static_cast<int>(joint));
   Column out = record.new_column();
   for (std::size_t i = 0; i < record.rows(); ++i) {
     for (std::size_t k = 0; k < now.size(); ++k)
       if (!tension[k].empty()) now[k] = tension[k][i];
-    out.push_back(
-        robot::torque_of_muscles(m.robot, static_cast<int>(joint), angle_in(angle, at, i), now));
+    out.push_back(muscles.torque(angle_in(angle, at, i), now));
   }
   return out;
 }

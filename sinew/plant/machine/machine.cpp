@@ -28,6 +28,8 @@ AnyWorld world_for(const Setup& s) {
 
 Machine::Machine(const Setup& setup) : world_(world_for(setup)) {}
 
+Machine::Machine(const LegLane& lane) : world_(lane) {}
+
 signals::Port& Machine::port() noexcept {
   return *std::visit([](auto& world) -> signals::Port* { return &world; }, world_);
 }

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "sinew/air/network.h"
+#include "sinew/plant/machine/lane.h"
 #include "sinew/plant/planar/body_mechanism.h"
 #include "sinew/plant/planar/chain_mechanism.h"
 #include "sinew/plant/world/world.h"
@@ -32,14 +33,19 @@ extern template class World<BodyMechanism<8, 8, 8>, air::AirNetwork<8>>;
 extern template class World<BodyMechanism<most_joints, robot::max_discs, most_muscles>,
                             air::AirNetwork<most_muscles>>;
 
-using AnyWorld =
-    std::variant<ChainWorld<1>, ChainWorld<2>, SizedBodyWorld<2, 4, 8>, SizedBodyWorld<3, 2, 4>,
-                 SizedBodyWorld<3, 4, 8>, SizedBodyWorld<4, 4, 8>, BodyWorld, LargeBodyWorld>;
+// One leg of several that go side by side (packs/batch.h).
+using LegLane = Lane<ChainWorld<2>>;
+
+using AnyWorld = std::variant<ChainWorld<1>, ChainWorld<2>, SizedBodyWorld<2, 4, 8>,
+                              SizedBodyWorld<3, 2, 4>, SizedBodyWorld<3, 4, 8>,
+                              SizedBodyWorld<4, 4, 8>, BodyWorld, LargeBodyWorld, LegLane>;
 
 class Machine {
  public:
   // The setup must be free of contradictions (robot::contradictions).
   explicit Machine(const Setup& setup);
+  // One that goes side by side with others; whoever holds them outlives this.
+  explicit Machine(const LegLane& lane);
 
   signals::Port& port() noexcept;
 

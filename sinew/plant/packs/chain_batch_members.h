@@ -52,18 +52,35 @@ template <int N, int W>
 ChainBatch<N, W>::ChainBatch(std::span<const Setup, static_cast<std::size_t>(W)> setups)
     : worlds_(worlds_of(setups)), body_(side_by_side(bodies(worlds_))), air_(airs(worlds_)) {
   for (int k = 0; k < W; ++k) take(k);
+  until_.fill(-over);
 }
 
 template <int N, int W>
 auto ChainBatch<N, W>::worlds_of(std::span<const Setup, static_cast<std::size_t>(W)> setups)
     -> Worlds {
-  const ChainRouting first = chain_routing_of(setups[0].robot);
   for (const Setup& s : setups)
-    if (!holds(s) || !alike(chain_routing_of(s.robot), first))
-      throw std::invalid_argument("machines that cannot go side by side");
+    if (!holds(s) || !alike(s, setups[0])) refuse();
   Worlds worlds;
   for (std::size_t k = 0; k < W; ++k) worlds[k] = std::make_unique<World>(setups[k]);
   return worlds;
+}
+
+template <int N, int W>
+void ChainBatch<N, W>::refuse() {
+  throw std::invalid_argument("machines that cannot go side by side");
+}
+
+template <int N, int W>
+void ChainBatch<N, W>::replace(int k, const Setup& setup) {
+  const auto l = static_cast<std::size_t>(k);
+  const auto other = worlds_[l == 0 && W > 1 ? 1 : 0]->mechanism().routes();
+  if (!holds(setup) || !plant::alike(chain_routing_of(setup.robot), other)) refuse();
+  worlds_[l] = std::make_unique<World>(setup);
+  body_ = side_by_side(bodies(worlds_));
+  air_ = Air(airs(worlds_));
+  take(k);
+  until_[l] = -over;
+  parked_[l] = false;
 }
 
 template <int N, int W>
@@ -84,16 +101,12 @@ template <int N, int W>
 double ChainBatch<N, W>::next_node(int k) const noexcept {
   const auto l = static_cast<std::size_t>(k);
   const double multiple = static_cast<double>(multiple_[l] + 1) * step_[l];
-  const double change = worlds_[l]->state().valves.next_change;
-  return change < multiple ? change : multiple;
+  return change_[l] < multiple ? change_[l] : multiple;
 }
 
 template <int N, int W>
 void ChainBatch<N, W>::advance(const Instants& until) noexcept {
-  for (int k = 0; k < W; ++k) {
-    const auto l = static_cast<std::size_t>(k);
-    if (!behind_[l] && worlds_[l]->state().nodes != nodes_[l]) take(k);
-  }
+  for (int k = 0; k < W; ++k) follow(k);
   for (;;) {
     Mask goes = S(0.0) > 0.0;
     for (int k = 0; k < W; ++k) {
@@ -109,21 +122,22 @@ void ChainBatch<N, W>::advance(const Instants& until) noexcept {
 template <int N, int W>
 void ChainBatch<N, W>::commit(const Mask& goes) noexcept {
   S h = 0;
+  Instants next{};
   for (int k = 0; k < W; ++k) {
     if (!goes[k]) continue;
     const auto l = static_cast<std::size_t>(k);
-    const double next = next_node(k);
-    h.set(k, next > time_[l] ? next - time_[l] : 0.0);
+    next[l] = next_node(k);
+    h.set(k, next[l] > time_[l] ? next[l] - time_[l] : 0.0);
   }
   if (const Mask steps = h > 0.0; units::any(steps)) step(steps, h);
   for (int k = 0; k < W; ++k) {
     if (!goes[k]) continue;
     const auto l = static_cast<std::size_t>(k);
-    const double next = next_node(k);
-    if (next >= static_cast<double>(multiple_[l] + 1) * step_[l]) ++multiple_[l];
-    time_[l] = next > time_[l] ? next : time_[l];
+    if (next[l] >= static_cast<double>(multiple_[l] + 1) * step_[l]) ++multiple_[l];
+    time_[l] = next[l] > time_[l] ? next[l] : time_[l];
     ++nodes_[l];
     behind_[l] = true;
+    glanced_[l] = false;
   }
   prepare(goes);
 }
@@ -148,6 +162,11 @@ void ChainBatch<N, W>::step(const Mask& steps, const S& h) noexcept {
     acceleration[s + 1] = later[s].acceleration;
   }
 
+  if (units::all(steps)) {  // each number's rate is read before it moves
+    body_.finish(now_.motion, h, motion, acceleration);
+    air_.finish(now_.air, h, air);
+    return;
+  }
   Moving after = now_;
   body_.finish(after.motion, h, motion, acceleration);
   air_.finish(after.air, h, air);
@@ -172,16 +191,19 @@ template <int N, int W>
 void ChainBatch<N, W>::prepare(const Mask& goes) noexcept {
   for (int k = 0; k < W; ++k) {
     const auto l = static_cast<std::size_t>(k);
+    if (!goes[k] || change_[l] > time_[l]) continue;
     typename World::State& s = worlds_[l]->borrow();
-    if (!goes[k] || s.valves.next_change > time_[l]) continue;
     worlds_[l]->air().move_valves(time_[l], s.first.air, s.valves);
+    change_[l] = s.valves.next_change;
     air_.set_shares(k, s.valves, shares_);
   }
+  const bool all = units::all(goes);
   typename Body::Arms arms;
-  Look look;
+  Look other;
+  Look& look = all ? first_ : other;
   body_.route(0, now_.motion, look.ends, arms);
   air_.evaluate(look.ends, now_.air, shares_, memory_, look.air);
-  detail::each_of_look(look, first_, blend_onto(goes));
+  if (!all) detail::each_of_look(look, first_, blend_onto(goes));
   look_for_failures(goes);
   trolley_bound_ = units::select(goes, body_.trolley_bound(held_, trolley_bound_), trolley_bound_);
   prepare_friction();
@@ -244,11 +266,13 @@ void ChainBatch<N, W>::take(int k) noexcept {
   put(memory_.inverse_sigma, s.memory.reference.inverse_sigma);
   air_.set_shares(k, s.valves, shares_);
   time_[l] = s.time;
+  change_[l] = s.valves.next_change;
   step_[l] = worlds_[l]->body_step();
   multiple_[l] = s.multiple;
   nodes_[l] = s.nodes;
   failure_[l] = s.failure;
   behind_[l] = false;
+  glanced_[l] = false;
   prepare_friction();
 }
 

@@ -43,7 +43,7 @@ class PlanarSenses {
       return mechanism.joint_angle(world.peek_motion(t), j) - robot_.joints[j].rest_angle;
     if (kind == Kind::velocity) return mechanism.joint_rate(world.peek_motion(t), j);
     if (kind == Kind::cylinder) return mechanism.lift(world.peek_motion(t));
-    const auto p = world.peek(t);
+    const auto p = world.peek_muscle(t, of);
     const double gauged = p.look.air.pressure[of] - atmosphere_;
     if (kind == Kind::pressure || !std::isfinite(gauged)) return gauged;  // air that ran away too
     return gauge(world, p, of);
@@ -99,14 +99,13 @@ class PlanarSenses {
   template <class World, class Peek>
   double gauge(const World& world, const Peek& p, int muscle) const noexcept {
     const auto& mechanism = world.mechanism();
-    const auto& first = world.state().first;
     const auto j = static_cast<std::size_t>(mechanism.joint(muscle));
     double f = p.look.air.tension[muscle];
-    const double friction_bound = first.air.friction_bound[muscle],
-                 bound = mechanism.bound(static_cast<int>(j));
+    const double friction_bound = world.friction_bound(muscle),
+                 bound = world.bound(static_cast<int>(j));
     if (friction_bound > 0 && bound > 0) {
       const double share = world.glanced().held[j] * friction_bound / bound;
-      f += mechanism.arm(first.arms, muscle) > 0 ? share : -share;
+      f += mechanism.arm(world.arms(), muscle) > 0 ? share : -share;
     }
     return f < 0 ? 0.0 : f;  // not a number stays what it is
   }

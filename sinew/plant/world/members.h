@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "sinew/plant/world/cuts.h"
+#include "sinew/plant/world/reading.h"
 #include "sinew/plant/world/world.h"
 
 namespace sinew::plant {
@@ -262,14 +263,7 @@ signals::Status World<M, A>::drive(signals::Edge edge) noexcept {
 
 template <IsMechanism M, IsAirOf<M> A>
 signals::Reading World<M, A>::read(signals::Channel channel, signals::Tick now) noexcept {
-  if (channel.index >= senses_.channels()) return {0, signals::Status::invalid};
-  const signals::Tick sampled = now - lag_[channel.index];
-  const double t = static_cast<double>(sampled) * signals::tick_seconds;
-  const double value = senses_.quantity(*this, channel.index, t);
-  // A state that ran away never comes back: every later reading says so too.
-  if (state_.failure || !std::isfinite(value)) return {0, signals::Status::fault};
-  return {senses_.counts(channel.index, value, sampled),
-          state_.ended ? signals::Status::ended : signals::Status::ok};
+  return reading(*this, senses_, channel, now - lag_[channel.index]);
 }
 
 template <IsMechanism M, IsAirOf<M> A>

@@ -138,6 +138,8 @@ class World final : public signals::Port {
     Look look;
   };
   Peek peek(double t) noexcept;
+  // One of which a muscle's own tension and pressure are asked.
+  Peek peek_muscle(double t, int) noexcept { return peek(t); }
   // Friction and accelerations that the last peek went by.
   struct Glance {
     Forces held{};
@@ -154,6 +156,20 @@ class World final : public signals::Port {
   }
   const Mechanism& mechanism() const noexcept { return mechanism_; }
   const Air& air() const noexcept { return air_; }
+  const Senses& senses() const noexcept { return senses_; }
+  const auto& arms() const noexcept { return state_.first.arms; }
+  // Bounds of dry friction at the last node: of a muscle's mesh [N], and of a contact.
+  template <WholeSteps = Mechanism>
+  double friction_bound(int muscle) const noexcept {
+    return state_.first.air.friction_bound[muscle];
+  }
+  template <WholeSteps = Mechanism>
+  double bound(int contact) const noexcept {
+    return mechanism_.bound(contact);
+  }
+  bool ended() const noexcept { return state_.ended; }
+  // Ticks from the start of the channel's conversions to their reads.
+  signals::Tick lag(signals::Channel channel) const noexcept { return lag_[channel.index]; }
 
  private:
   void evaluate_air(double t, const Moving& state, const Memory& memory, Look& look,

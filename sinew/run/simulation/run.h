@@ -24,6 +24,7 @@ struct RunOptions {
   std::atomic<std::int64_t>* progress = nullptr;  // the tick that the run has reached
   const std::atomic<bool>* stop = nullptr;        // true: the run ends there, as it stands
   bool every_tick = false;                        // visit each tick: slower, the same bits
+  bool recorded = true;                           // false: the outcome's table is empty
   int extra_readers = 0;                          // looks at the world per event: the same bits
 };
 

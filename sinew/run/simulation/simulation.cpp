@@ -57,9 +57,11 @@ void take(std::span<const std::byte>& from, Part& part) {
 
 }  // namespace
 
-Simulation::Simulation(const experiment::Experiment& experiment, Steering* steering)
+template <class Machine>
+Simulation::Simulation(const experiment::Experiment& experiment, const Machine& machine,
+                       Steering* steering)
     : experiment_(experiment),
-      machine_(std::in_place, planar_setup(experiment_)),
+      machine_(std::in_place, machine),
       port_(&machine_->port()),
       boards_(experiment_),
       high_level_(experiment_.robot, experiment_.plan, steering),
@@ -67,6 +69,12 @@ Simulation::Simulation(const experiment::Experiment& experiment, Steering* steer
   if (!experiment_.faults.empty()) port_ = &faulty_.emplace(experiment_, *port_);
   list_channels();
 }
+
+Simulation::Simulation(const experiment::Experiment& experiment, Steering* steering)
+    : Simulation(experiment, planar_setup(experiment), steering) {}
+
+Simulation::Simulation(const experiment::Experiment& experiment, const plant::LegLane& lane)
+    : Simulation(experiment, lane, nullptr) {}
 
 Simulation::Simulation(const experiment::Experiment& experiment, signals::Port& body)
     : experiment_(experiment),

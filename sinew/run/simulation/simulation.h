@@ -41,6 +41,9 @@ class Simulation {
   // std::invalid_argument for a robot that no plant can hold.
   explicit Simulation(const experiment::Experiment& experiment, Steering* steering = nullptr);
 
+  // The experiment in a machine that goes side by side with others, at its start.
+  Simulation(const experiment::Experiment& experiment, const plant::LegLane& lane);
+
   // The experiment's controllers before another body, which outlives this: a recorded one, for
   // instance. Nothing is simulated then: no truth, and nothing to save.
   Simulation(const experiment::Experiment& experiment, signals::Port& body);
@@ -53,6 +56,8 @@ class Simulation {
   // The tick that it has been advanced to: what happens at it has not happened yet.
   signals::Tick tick() const noexcept { return tick_; }
   double time() const noexcept { return static_cast<double>(tick_) * signals::tick_seconds; }
+  // The next tick at which anything happens.
+  signals::Tick next() const noexcept { return loop_.at; }
   // The tick at which it ends, if nothing ends it before.
   signals::Tick last() const noexcept { return last_; }
   // Is there nothing left to advance? The plan has come to its end, or something has failed.
@@ -121,6 +126,10 @@ class Simulation {
   plant::Machine* machine() noexcept { return machine_ ? &*machine_ : nullptr; }
 
  private:
+  // `machine` is a setup or a lane.
+  template <class Machine>
+  Simulation(const experiment::Experiment& experiment, const Machine& machine, Steering* steering);
+
   signals::Port& port() noexcept { return *port_; }
   void list_channels();
   std::size_t setting(std::string_view key) const;

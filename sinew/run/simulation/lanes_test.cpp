@@ -1,0 +1,123 @@
+// Many runs in lanes: each has the bits that it has alone, whoever goes beside it.
+#include "sinew/run/simulation/lanes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <random>
+#include <stdexcept>
+
+#include "sinew/plant/packs/batch.h"
+#include "sinew/run/setup/planar_setup.h"
+#include "sinew/run/simulation/test_same.h"
+
+namespace sinew::run {
+namespace {
+
+using experiment::Experiment;
+
+const std::string source = SINEW_SOURCE_DIR;
+
+// Legs that go in lanes: walks, legs in the air, on a fixed base, with sensors that lie or measure
+// pressures, at other periods, in other steps; and some that cannot.
+Experiment random_experiment(std::mt19937& random) {
+  const char* files[] = {"walk-test-1",
+                         "walk-test-2",
+                         "leg-in-air",
+                         "kick",
+                         "pwm-80",
+                         "pwm-151",
+                         "touchdown",
+                         "derivative-control",
+                         "walk-with-pressures",
+                         "joint-limits",
+                         "blocked-joint",
+                         "knee-staircase",
+                         "faults/sensor-open",
+                         "faults/valve-stuck-open",
+                         "walk-with-hoses",
+                         "endurance"};
+  const std::string file = files[random() % std::size(files)];
+  const auto number = [&](double low, double high) {
+    return std::to_string(std::uniform_real_distribution<double>(low, high)(random));
+  };
+  std::vector<std::string> sets = {
+      "seed=" + std::to_string(random() % 1000),
+      "joint.hip.angle_gain=" + number(0.02, 0.1) + " %/count",
+      "plant_steps.body=" + std::string(random() % 3 ? "1 ms" : "0.7 ms"),
+      "log.period=" + std::string(random() % 4 ? "10 ms" : "3 ms")};
+  if (random() % 2) sets.push_back("air.polytropic_exponent=" + number(1.0, 1.4));
+  sets.push_back("sequence.repeat=1");
+  return experiment::load(source + "/experiments/" + file + ".toml", sets);
+}
+
+void expect_same_outcome(const Outcome& a, const Outcome& b) {
+  ASSERT_NO_FATAL_FAILURE(expect_same(a.table, b.table));
+  EXPECT_EQ(a.status, b.status);
+  EXPECT_EQ(a.nodes, b.nodes);
+  EXPECT_EQ(a.duration, b.duration);
+  EXPECT_EQ(a.no_room, b.no_room);
+  EXPECT_EQ(a.unreachable_periods, b.unreachable_periods);
+  EXPECT_EQ(a.failure.of, b.failure.of);
+  EXPECT_EQ(a.failure.time, b.failure.time);
+  EXPECT_EQ(a.seen.phase, b.seen.phase);
+  EXPECT_EQ(a.seen.invalid, b.seen.invalid);
+  EXPECT_EQ(a.seen.overruns, b.seen.overruns);
+  EXPECT_EQ(a.supervised.rejected, b.supervised.rejected);
+  EXPECT_EQ(a.supervised.trip.cause, b.supervised.trip.cause);
+  EXPECT_EQ(a.supervised.trip.at, b.supervised.trip.at);
+}
+
+// Runs them in lanes; answers in their order.
+std::vector<Outcome> in_lanes(const std::vector<Experiment>& each, int most) {
+  std::vector<Outcome> out(each.size());
+  std::size_t next = 0;
+  run_in_lanes({.next = [&] { return next < each.size() ? &each[next++] : nullptr; },
+                .done =
+                    [&](const Experiment& e, Outcome outcome, const std::exception_ptr& thrown) {
+                      EXPECT_FALSE(thrown);
+                      out[static_cast<std::size_t>(&e - each.data())] = std::move(outcome);
+                    },
+                .most = most});
+  return out;
+}
+
+TEST(Lanes, RunsSideBySideHaveTheBitsThatTheyHaveAlone) {
+  std::mt19937 random(7);
+  std::vector<Experiment> each;
+  std::vector<Outcome> alone;
+  int held = 0;
+  for (int i = 0; i < 24; ++i) {
+    each.push_back(random_experiment(random));
+    alone.push_back(run(each.back()));
+    held += plant::Batch::holds(planar_setup(each.back()));
+  }
+  EXPECT_GT(held, 12);
+  EXPECT_LT(held, 24);
+  for (const int most : {1, 2, 4, 8}) {
+    const std::vector<Outcome> lanes = in_lanes(each, most);
+    for (std::size_t i = 0; i < each.size(); ++i)
+      ASSERT_NO_FATAL_FAILURE(expect_same_outcome(lanes[i], alone[i]))
+          << each[i].path << ", of " << most << " lanes";
+  }
+  // Another order, other neighbours.
+  std::vector<std::size_t> order(each.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::shuffle(order.begin(), order.end(), random);
+  std::vector<Experiment> shuffled;
+  for (const std::size_t i : order) shuffled.push_back(each[i]);
+  const std::vector<Outcome> lanes = in_lanes(shuffled, 8);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    ASSERT_NO_FATAL_FAILURE(expect_same_outcome(lanes[i], alone[order[i]])) << shuffled[i].path;
+}
+
+TEST(Lanes, FewerThanThereAreLanes) {
+  const std::vector<Experiment> one = {
+      experiment::load(source + "/experiments/kick.toml", {"sequence.repeat=1"})};
+  expect_same_outcome(in_lanes(one, 8)[0], run(one[0]));
+  EXPECT_TRUE(in_lanes({}, 8).empty());
+}
+
+}  // namespace
+}  // namespace sinew::run

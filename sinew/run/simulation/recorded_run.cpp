@@ -1,0 +1,59 @@
+#include "sinew/run/simulation/recorded_run.h"
+
+namespace sinew::run {
+
+using signals::Tick;
+
+void Watch::sample(Tick t) noexcept {
+  if (extra_readers == 0 && !(recorder && t >= recorder->next(t))) return;
+  // Nothing is recorded of a machine that has failed.
+  if (machine && t >= sample_at()) machine->advance(static_cast<double>(t) * signals::tick_seconds);
+  if (failed()) return;
+  for (int i = 0; i < extra_readers; ++i)
+    if (machine) (void)machine->truth(static_cast<double>(t) * signals::tick_seconds);
+  if (recorder) recorder->sample(t);
+}
+
+Recorder::TruthAt RecordedRun::truth_of(plant::Machine* machine) {
+  if (!machine) return {};
+  return
+      [machine](Tick t) { return machine->truth(static_cast<double>(t) * signals::tick_seconds); };
+}
+
+RecordedRun::RecordedRun(Simulation& simulation, const RunOptions& options)
+    : simulation_(simulation),
+      watch_{nullptr, simulation.machine(), options.every_tick, options.extra_readers,
+             options.stop},
+      start_(std::chrono::steady_clock::now()) {
+  if (!options.recorded) return;
+  watch_.recorder =
+      &recorder_.emplace(simulation.experiment(), simulation.boards(), simulation.high_level(),
+                         truth_of(simulation.machine()), simulation.last());
+  if (options.tap.push) recorder_->tap(options.tap, options.tapped);
+  recorder_->progress(options.progress);
+}
+
+Outcome RecordedRun::finish() {
+  Outcome out;
+  out.status = simulation_.finish();
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start_;
+
+  out.wall = wall.count();
+  out.stopped = watch_.was_stopped;
+  out.failure = simulation_.failure();
+  if (recorder_) {
+    out.table = recorder_->take();
+    out.no_room = recorder_->problem();
+  }
+  out.seen = simulation_.boards().seen_totals();
+  out.supervised = simulation_.boards().supervised_totals();
+  out.changes = simulation_.high_level().changes().all();
+  out.unreachable_periods = simulation_.high_level().legs().unreachable_periods();
+  out.duration = static_cast<double>(simulation_.last()) * signals::tick_seconds;
+  for (const signals::Series& s : out.table.series)
+    if (!s.time_ns.empty() && s.topic.name.ends_with("/plan/phase"))
+      out.duration = 1e-9 * static_cast<double>(s.time_ns.back());
+  return out;
+}
+
+}  // namespace sinew::run
