@@ -1,8 +1,8 @@
 // plant/friction/friction_lanes.h - friction.h's law for W machines side by side, each lane with
 // the bits of the scalar solution.
 //
-// Which contacts stick differs from lane to lane. So all C rows are there, and one that does not
-// stick is that of the unit matrix with nothing on its right side:
+// Which contacts stick differs from lane to lane. So every row is there that sticks in one of them,
+// and in the lanes where it does not it is that of the unit matrix with nothing on its right side:
 //
 //   L_ab = L_ba = 0, pivot = 1, x = 0
 //
@@ -56,20 +56,27 @@ class FrictionLanes {
   }
 
   void solve_sticking() {
-    S largest = 0;
+    // The rows that stick in some lane; the others' numbers would be nothing in all of them.
+    std::array<int, C> index;
     std::array<Mask, C> row;
+    int n = 0;
+    S largest = 0;
     for (int i = 0; i < C; ++i) {
-      row[i] = sticks_[i] & unsettled_;
+      const Mask sticks = sticks_[i] & unsettled_;
+      if (!units::any(sticks)) continue;
       const S& own = p_.response[i][i];
-      largest = units::select(row[i] & (own > largest), own, largest);
+      largest = units::select(sticks & (own > largest), own, largest);
+      row[n] = sticks;
+      index[n++] = i;
     }
 
     std::array<std::array<S, C>, C> lower;
     std::array<S, C> pivot, inverse, x;
     const S damping = 1e-9 * largest;
-    for (int a = 0; a < C; ++a) {
+    for (int a = 0; a < n; ++a) {
+      const int i = index[a];
       for (int b = 0; b <= a; ++b) {
-        S m = p_.response[a][b];
+        S m = p_.response[i][index[b]];
         for (int k = 0; k < b; ++k) m -= lower[a][k] * lower[b][k] * pivot[k];
         if (a == b) {
           pivot[a] = units::select(row[a], units::select(m > 0.0, m, 0.0) + damping, 1.0);
@@ -78,15 +85,18 @@ class FrictionLanes {
           lower[a][b] = units::select(row[a] & row[b], m * inverse[b], 0.0);
         }
       }
-      x[a] = -slip_under(a);
+      x[a] = -slip_under(i);
       for (int k = 0; k < a; ++k) x[a] -= lower[a][k] * x[k];
       x[a] = units::select(row[a], x[a], 0.0);
     }
-    for (int a = C - 1; a >= 0; --a) {
+    for (int a = n - 1; a >= 0; --a) {
       x[a] *= inverse[a];
-      for (int k = a + 1; k < C; ++k) x[a] -= lower[k][a] * x[k];
+      for (int k = a + 1; k < n; ++k) x[a] -= lower[k][a] * x[k];
     }
-    for (int a = 0; a < C; ++a) force_[a] = units::select(row[a], force_[a] + x[a], force_[a]);
+    for (int a = 0; a < n; ++a) {
+      S& force = force_[index[a]];
+      force = units::select(row[a], force + x[a], force);
+    }
   }
 
   // Lets go what asks for more than its bound, holds what slides the way it is pushed.
@@ -95,7 +105,8 @@ class FrictionLanes {
     for (int i = 0; i < C; ++i) {
       const S &b = p_.bound[i], f = force_[i];
       const Mask lets_go = sticks_[i] & ((f > b) | (f < -b)) & unsettled_;
-      const Mask holds = slides_[i] & (slip_under(i) * f > 0.0) & unsettled_;
+      Mask holds = slides_[i] & unsettled_;
+      if (units::any(holds)) holds = holds & (slip_under(i) * f > 0.0);
       force_[i] = units::select(lets_go, units::select(f > 0.0, b, -b), f);
       sticks_[i] = (sticks_[i] & !lets_go) | holds;
       slides_[i] = (slides_[i] & !holds) | lets_go;
