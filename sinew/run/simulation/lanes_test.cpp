@@ -112,6 +112,22 @@ TEST(Lanes, RunsSideBySideHaveTheBitsThatTheyHaveAlone) {
     ASSERT_NO_FATAL_FAILURE(expect_same_outcome(lanes[i], alone[order[i]])) << shuffled[i].path;
 }
 
+// A machine that runs away ends its own run, as it does alone.
+TEST(Lanes, AFailureIsOneRunsOwn) {
+  const std::string file = source + "/experiments/walk-test-1.toml";
+  std::vector<Experiment> each;
+  for (const char* viscous : {"3", "5000", "4", "5"})
+    each.push_back(experiment::load(
+        file,
+        {"sequence.repeat=1", std::string("actuator.bpa.loss.viscous=") + viscous + " N s/m"}));
+  const std::vector<Outcome> lanes = in_lanes(each, 8);
+  EXPECT_TRUE(lanes[1].failure);
+  for (std::size_t i = 0; i < each.size(); ++i) {
+    EXPECT_EQ(lanes[i].ended_early(), i == 1) << i;
+    ASSERT_NO_FATAL_FAILURE(expect_same_outcome(lanes[i], run(each[i]))) << i;
+  }
+}
+
 TEST(Lanes, FewerThanThereAreLanes) {
   const std::vector<Experiment> one = {
       experiment::load(source + "/experiments/kick.toml", {"sequence.repeat=1"})};
