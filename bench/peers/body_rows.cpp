@@ -1,5 +1,6 @@
 // The leg's body alone, without muscles, on the table.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -7,6 +8,7 @@
 #include "bench/peers/mujoco_leg.h"
 #include "bench/peers/row.h"
 #include "sinew/plant/machine/machine.h"
+#include "sinew/plant/packs/batch.h"
 #include "sinew/run/setup/planar_setup.h"
 
 namespace sinew::bench {
@@ -61,6 +63,30 @@ class OurLeg {
   const plant::ChainWorld<2>::State start_;
 };
 
+// Ours side by side, in as many lanes as the processor has.
+class OurLegs {
+ public:
+  OurLegs() : setup_(springy(1e-3)), batch_(plant::Batch::widest(), setup_) {}
+
+  double fall() {
+    const int width = batch_.width();
+    for (int k = 0; k < width; ++k) batch_.replace(k, setup_);
+    std::array<bool, 8> begun{};
+    auto turn = [&](int k) noexcept {
+      bool& b = begun[static_cast<std::size_t>(k)];
+      const double to = b ? plant::Batch::over : 1e-3 * milliseconds;
+      b = true;
+      return to;
+    };
+    while (batch_.go(turn) >= 0) {}
+    return 1.0 * milliseconds * width;
+  }
+
+ private:
+  plant::Setup setup_;
+  plant::Batch batch_;
+};
+
 class TheirLeg {
  public:
   TheirLeg(int ticks, Integrator integrator)
@@ -103,6 +129,18 @@ void judge(const std::string& of, Leg&& coarse, Leg&& fine, std::vector<Accuracy
   out.push_back({of, "share of the steps on the table", touching, "1"});
 }
 
+// Some 10 ms of each.
+template <class Ours, class Theirs>
+Row compared(const Row& row, Ours& ours, Theirs& theirs, int rounds) {
+  const auto several = [](auto& leg, int times) {
+    double steps = 0;
+    for (int i = 0; i < times; ++i) steps += leg.fall();
+    return steps;
+  };
+  return times_faster(row, by_turns([&] { return several(ours, 20); },
+                                    [&] { return several(theirs, 2); }, rounds, Clock::processor));
+}
+
 Row against_mujoco(const std::string& name, const std::string& what, Integrator integrator,
                    std::optional<double> goal, int rounds) {
   Row row{.name = name, .what = what, .goal = goal, .per = "step of 1 ms"};
@@ -111,13 +149,20 @@ Row against_mujoco(const std::string& name, const std::string& what, Integrator 
   judge("mujoco", TheirLeg(10, integrator), TheirLeg(1, integrator), row.accuracy);
   OurLeg ours(1e-3);
   TheirLeg theirs(10, integrator);
-  const auto several = [](auto& leg, int times) {
-    double steps = 0;
-    for (int i = 0; i < times; ++i) steps += leg.fall();
-    return steps;
-  };
-  return times_faster(row, by_turns([&] { return several(ours, 40); },
-                                    [&] { return several(theirs, 2); }, rounds, Clock::processor));
+  return compared(row, ours, theirs, rounds);
+}
+
+// The lanes have the bits that ours has alone: how exact that is, the row above says.
+Row lanes_against_mujoco(std::optional<double> goal, int rounds) {
+  Row row{
+      .name = "body/mujoco-lanes",
+      .what = "the same, ours side by side in the processor's lanes, against MuJoCo's Euler step",
+      .goal = goal,
+      .per = "step of 1 ms"};
+  if (!has_mujoco()) return not_measured(row, "MuJoCo was not found when this program was built");
+  OurLegs ours;
+  TheirLeg theirs(10, Integrator::euler);
+  return compared(row, ours, theirs, rounds);
 }
 
 }  // namespace
@@ -127,8 +172,9 @@ std::vector<Row> body_rows(const Effort& effort) {
                          "step of 1 ms of the leg without muscles, in contact with the table: ours "
                          "(RK4, sticking friction) against MuJoCo's Euler step",
                          Integrator::euler, 25.0, effort.rounds),
-          against_mujoco("body/mujoco-rk4", "the same against MuJoCo's RK4 step", Integrator::rk4,
-                         std::nullopt, effort.rounds)};
+          lanes_against_mujoco(25.0, effort.rounds),
+          against_mujoco("body/mujoco-rk4", "the first, one at a time, against MuJoCo's RK4 step",
+                         Integrator::rk4, std::nullopt, effort.rounds)};
 }
 
 }  // namespace sinew::bench

@@ -52,12 +52,12 @@ class Muscles {
   void move_valves(double t) { network_.move_valves(t, look_[0], valves_); }
 
   // RK4, as plant/world/world.h has it.
-  void step(const Drill& d, std::size_t half, double h) {
+  void step(const Drill& d, std::size_t half, std::size_t wide, double h) {
     look(d, half, state_, look_[0]);
     network_.remember(look_[0], state_, memory_);
     for (int s = 0; s < 3; ++s) {
       network_.move(stage_, state_, s == 2 ? h : 0.5 * h, look_[s], valves_, course_);
-      look(d, half + (s == 2 ? 2 : 1), stage_, look_[s + 1]);
+      look(d, half + (s == 2 ? 2 : 1) * wide, stage_, look_[s + 1]);
     }
     const Air::Answer* looks[4] = {&look_[0], &look_[1], &look_[2], &look_[3]};
     network_.finish(state_, h, looks, valves_, course_);
@@ -71,10 +71,9 @@ class Muscles {
   using Air = air::AirNetwork<drill_muscles>;
 
   void look(const Drill& d, std::size_t half, const Air::State& state, Air::Answer& out) {
-    for (int i = 0; i < drill_muscles; ++i) {
-      ends_.length[i] = d.rest + d.stroke[half];
-      ends_.rate[i] = d.speed[half];
-    }
+    // In whole lanes: a wide load would have to wait for narrow stores.
+    ends_.length.four(0) = d.rest + d.stroke[half] + air::Four{};
+    ends_.rate.four(0) = d.speed[half] + air::Four{};
     network_.evaluate(0, ends_, state, valves_, memory_, out);
   }
 
@@ -88,14 +87,43 @@ class Muscles {
 };
 
 std::size_t place(int machine, int muscle, int tick) {
-  return static_cast<std::size_t>((machine * drill_muscles + muscle) * drill_samples + tick / 10);
+  return static_cast<std::size_t>((machine * drill_muscles + muscle) * drill_samples +
+                                  tick / drill_sampling);
 }
+
+// One machine's drill: `command` at each of its switchings, `sample` where one is due, `step` with
+// the place in the half steps' tables and half a step's length there.
+template <class Command, class Sample, class Step>
+void go_through(const Drill& d, int machine, const Command& command, const Sample& sample,
+                const Step& step) {
+  auto next = d.switchings.begin();
+  const auto find_own = [&] {
+    while (next != d.switchings.end() && next->machine != machine) ++next;
+  };
+  find_own();
+  for (int tick = 0; tick < drill_ticks;) {
+    for (; next != d.switchings.end() && next->tick <= tick; find_own()) command(*next++);
+    const auto half = static_cast<std::size_t>(2 * d.parts * tick);
+    sample(tick, half);
+    int to = (tick / d.stride + 1) * d.stride;
+    if (next != d.switchings.end()) to = std::min(to, next->tick);
+    if (d.parts == 1)
+      step(half, static_cast<std::size_t>(to - tick));
+    else
+      for (int part = 0; part < d.parts; ++part) step(half + 2 * static_cast<std::size_t>(part), 1);
+    tick = to;
+  }
+}
+
+constexpr double seconds = 1e-4 * drill_ticks * drill_machines * drill_muscles;
 
 }  // namespace
 
-Drill drill(int parts) {
+Drill drill(int parts, int stride) {
   const plant::Setup leg = run::planar_setup(walk());
-  Drill d{.muscle = leg.muscles.front(), .air = leg.air, .supply = leg.supply, .parts = parts};
+  Drill d{.muscle = leg.muscles.front(), .air = leg.air, .supply = leg.supply};
+  d.parts = parts;
+  d.stride = stride;
   d.muscle.inlet.profile = d.muscle.exhaust.profile = gas::Valve::Profile::ideal;
   d.rest = 0.98 * leg.robot.muscles.front().mount_length;
   d.start = 2.5 * leg.air.atmosphere;
@@ -111,50 +139,56 @@ Drill drill(int parts) {
 }
 
 Counts by_pow(const Drill& d, Pressures* pressures) {
-  const double h = 1e-4 / d.parts;
+  Counts counts{.seconds = seconds};
   double pulled = 0;
   for (int machine = 0; machine < drill_machines; ++machine) {
     std::vector<PowMuscle> muscles(drill_muscles, PowMuscle(d.muscle, d.air, d.supply));
     for (PowMuscle& m : muscles) m.fill(d.start, d.rest + d.stroke[0]);
     double share[drill_muscles][2] = {};
-    auto next = d.switchings.begin();
-    std::size_t half = 0;
-    for (int tick = 0; tick < drill_ticks; ++tick) {
-      for (; next != d.switchings.end() && next->tick <= tick; ++next)
-        if (next->machine == machine) share[next->muscle][next->exhaust] = next->open ? 1.0 : 0.0;
-      for (int part = 0; part < d.parts; ++part, half += 2) {
-        const PowMuscle::Lengths l{d.rest + d.stroke[half], d.rest + d.stroke[half + 1],
-                                   d.rest + d.stroke[half + 2]};
-        for (int i = 0; i < drill_muscles; ++i) {
-          PowMuscle& m = muscles[static_cast<std::size_t>(i)];
-          if (pressures && part == 0 && tick % 10 == 0)
-            (*pressures)[place(machine, i, tick)] = m.pressure(l.begin);
-          m.step(h, l, share[i][0], share[i][1]);
-          pulled += m.pull(l.end, d.speed[half + 2], m.pressure(l.end)).tension;
-        }
-      }
-    }
+    go_through(
+        d, machine,
+        [&](const Switching& s) { share[s.muscle][s.exhaust ? 1 : 0] = s.open ? 1.0 : 0.0; },
+        [&](int tick, std::size_t half) {
+          if (!pressures || tick % drill_sampling != 0) return;
+          for (int i = 0; i < drill_muscles; ++i)
+            (*pressures)[place(machine, i, tick)] =
+                muscles[static_cast<std::size_t>(i)].pressure(d.rest + d.stroke[half]);
+        },
+        [&](std::size_t half, std::size_t wide) {
+          const double h = 1e-4 / d.parts * static_cast<double>(wide);
+          const std::size_t end = half + 2 * wide;
+          const PowMuscle::Lengths l{d.rest + d.stroke[half], d.rest + d.stroke[half + wide],
+                                     d.rest + d.stroke[end]};
+          for (int i = 0; i < drill_muscles; ++i) {
+            PowMuscle& m = muscles[static_cast<std::size_t>(i)];
+            m.step(h, l, share[i][0], share[i][1]);
+            pulled += m.pull(l.end, d.speed[end], m.pressure(l.end)).tension;
+          }
+          counts.steps += drill_muscles;
+        });
   }
-  return {.steps = pulled > 0 ? 1.0 * drill_machines * drill_muscles * drill_ticks * d.parts : 1.0};
+  if (!(pulled > 0)) counts.steps = 0;  // so that the tensions are worked out
+  return counts;
 }
 
 Counts by_network(const Drill& d, Pressures* pressures) {
-  const double h = 1e-4 / d.parts;
+  Counts counts{.seconds = seconds};
   for (int machine = 0; machine < drill_machines; ++machine) {
     Muscles muscles(d);
-    auto next = d.switchings.begin();
-    std::size_t half = 0;
-    for (int tick = 0; tick < drill_ticks; ++tick) {
-      for (; next != d.switchings.end() && next->tick <= tick; ++next)
-        if (next->machine == machine) muscles.command(*next);
-      muscles.move_valves(1e-4 * tick);
-      if (pressures && tick % 10 == 0)
-        for (int i = 0; i < drill_muscles; ++i)
-          (*pressures)[place(machine, i, tick)] = muscles.pressure(d, half, i);
-      for (int part = 0; part < d.parts; ++part, half += 2) muscles.step(d, half, h);
-    }
+    go_through(
+        d, machine, [&](const Switching& s) { muscles.command(s); },
+        [&](int tick, std::size_t half) {
+          muscles.move_valves(1e-4 * tick);
+          if (!pressures || tick % drill_sampling != 0) return;
+          for (int i = 0; i < drill_muscles; ++i)
+            (*pressures)[place(machine, i, tick)] = muscles.pressure(d, half, i);
+        },
+        [&](std::size_t half, std::size_t wide) {
+          muscles.step(d, half, wide, 1e-4 / d.parts * static_cast<double>(wide));
+          counts.steps += drill_muscles;
+        });
   }
-  return {.steps = 1.0 * drill_machines * drill_muscles * drill_ticks * d.parts};
+  return counts;
 }
 
 std::vector<Wide> widths() {

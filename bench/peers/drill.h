@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "sinew/air/muscle.h"
@@ -29,24 +28,28 @@ struct Drill {
   air::Muscle muscle;  // each of them; ideal valves
   gas::Air air;
   gas::Supply supply;
-  double rest = 0;                    // [m]
-  double start = 0;                   // absolute pressure [Pa]
-  int parts = 1;                      // steps of a tick
-  std::vector<double> stroke;         // L - rest by half steps, from 0 on [m]
-  std::vector<double> speed;          // its rate [m/s]
+  double rest = 0;             // [m]
+  double start = 0;            // absolute pressure [Pa]
+  int parts = 1;               // steps of a tick
+  int stride = 1;              // ticks of a step, where no valve moves sooner; with one part a tick
+  std::vector<double> stroke;  // L - rest by half steps, from 0 on [m]
+  std::vector<double> speed;   // its rate [m/s]
   std::vector<Switching> switchings;  // ascending in tick
 };
 
-// The leg's own muscles, with as many steps of a tick.
-Drill drill(int parts);
+// The leg's own muscles.
+Drill drill(int parts, int stride = 1);
 
-// Pressures by machine, muscle and millisecond, the last counting fastest  [Pa].
+// Pressures by machine, muscle and sample, the last counting fastest  [Pa]. Every stride divides
+// the way from one sample to the next.
 using Pressures = std::vector<double>;
-inline constexpr int drill_samples = drill_ticks / 10;
+inline constexpr int drill_sampling = 50;  // [ticks]
+inline constexpr int drill_samples = drill_ticks / drill_sampling;
 
-// Rows of the drill, each over all muscles; `pressures` may be null.
+// Ways through the drill, each over all muscles; `pressures` may be null.
 struct Counts {
   double steps = 0;      // of single muscles
+  double seconds = 0;    // simulated, of all muscles together
   double divisions = 0;  // of packs, or of doubles, in the steps' laws
   double roots = 0;
 };

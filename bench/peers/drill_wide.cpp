@@ -62,7 +62,7 @@ class Machines {
     for (int k = 0; k < W; ++k)
       for (int i = 0; i < drill_muscles; ++i)
         out[static_cast<std::size_t>(((first_ + k) * drill_muscles + i) * drill_samples +
-                                     tick / 10)] = look_[0].pressure[i][k];
+                                     tick / drill_sampling)] = look_[0].pressure[i][k];
   }
 
   // Roots of one stage: one flow does for all where some fill and others empty and none both.
@@ -104,7 +104,7 @@ Counts run(const Drill& d, Pressures* pressures) {
     std::size_t half = 0;
     for (int tick = 0; tick < drill_ticks; ++tick) {
       for (; next != d.switchings.end() && next->tick <= tick; ++next) machines.command(*next);
-      if (pressures && tick % 10 == 0) machines.tell(d, half, tick, *pressures);
+      if (pressures && tick % drill_sampling == 0) machines.tell(d, half, tick, *pressures);
       for (int part = 0; part < d.parts; ++part, half += 2) machines.step(d, half, h);
       counts.steps += 1.0 * W * drill_muscles * d.parts;
       counts.divisions += 4.0 * drill_muscles * d.parts;
