@@ -1,6 +1,7 @@
 // sinew_peers - ourselves and others by turns.
 //
-//   sinew_peers [--rounds N] [--only PART]...     the table on stderr, the record on stdout
+//   sinew_peers [--passes N] [--rounds N] [--only PART]...
+//                                                 the table on stderr, the record on stdout
 //   sinew_peers --compare OLD NEW                 what is slower or faster by more than the spread
 #include <cstring>
 #include <fstream>
@@ -24,13 +25,14 @@ constexpr Named parts[] = {{"actuator", actuator_rows}, {"body", body_rows},
                            {"program", program_rows}};
 
 constexpr const char* usage =
-    "usage: sinew_peers [--rounds N] [--only PART]...\n"
+    "usage: sinew_peers [--passes N] [--rounds N] [--only PART]...\n"
     "       sinew_peers --compare OLD NEW\n"
     "parts: actuator body walk stand threads cost program\n"
     "example: sinew_peers --only walk > walk.json\n";
 
 struct Arguments {
   Effort effort{.program = SINEW_PROGRAM};
+  int passes = 3;  // through the table, minutes apart: a computer has its moods
   std::vector<std::string> only, compared;
   bool wrong = false;
 };
@@ -49,6 +51,9 @@ Arguments parse(int argc, char** argv) {
     if (word == "--rounds" && left >= 1) {
       a.effort.rounds = std::atoi(argv[++i]);
       a.wrong = a.effort.rounds < 1;
+    } else if (word == "--passes" && left >= 1) {
+      a.passes = std::atoi(argv[++i]);
+      a.wrong = a.passes < 1;
     } else if (word == "--only" && left >= 1) {
       a.only.emplace_back(argv[++i]);
       a.wrong = !is_part(a.only.back());
@@ -76,7 +81,8 @@ int compare_files(const std::vector<std::string>& files) {
   return 0;
 }
 
-int measure(const Arguments& arguments, const std::string& command) {
+// Returns the rows of all parts that are wanted.
+std::vector<Row> pass(const Arguments& arguments) {
   std::vector<Row> rows;
   for (const Named& part : parts) {
     bool wanted = arguments.only.empty();
@@ -85,6 +91,12 @@ int measure(const Arguments& arguments, const std::string& command) {
     std::cerr << part.name << " …\n";
     for (Row& row : part.rows(arguments.effort)) rows.push_back(std::move(row));
   }
+  return rows;
+}
+
+int measure(const Arguments& arguments, const std::string& command) {
+  std::vector<Row> rows = pass(arguments);
+  for (int i = 1; i < arguments.passes; ++i) add(rows, pass(arguments));
   std::cerr << table(rows);
   std::cout << record(rows, command).dump(1) << "\n";
   return 0;

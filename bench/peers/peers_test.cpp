@@ -82,8 +82,8 @@ TEST(Spread, KnowsItsQuantiles) {
 }
 
 Row row(const std::string& name, double median, double width) {
-  Row r{.name = name, .goal = 2.0, .unit = "times as fast", .rounds = 5};
-  r.figure = {median - width, median, median, median, median + width};
+  Row r{.name = name, .goal = 2.0, .unit = "times as fast"};
+  for (int i = -10; i <= 10; ++i) r.figures.push_back(median + width * i / 9.0);
   return r;
 }
 
@@ -99,6 +99,15 @@ TEST(Compare, TellsWhatHasChangedByMoreThanBothSpreads) {
   EXPECT_EQ(found[1].kind, Change::Kind::faster);
   EXPECT_EQ(found[2].kind, Change::Kind::gone);
   EXPECT_TRUE(compare(before, before).empty());
+}
+
+// More rounds of the same rows are one row of all rounds.
+TEST(Row, PassesAddUp) {
+  std::vector<Row> rows = {row("a", 10, 1)};
+  add(rows, {row("a", 20, 1)});
+  EXPECT_EQ(rows[0].figures.size(), 42u);
+  EXPECT_NEAR(rows[0].figure().median, 15, 4);
+  EXPECT_TRUE(rows[0].met());
 }
 
 TEST(Compare, RefusesWhatIsNoRecord) {

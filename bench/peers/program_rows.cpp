@@ -59,10 +59,8 @@ Row timed(Row row, const Work& work, int rounds) {
   for (int i = 0; i < rounds; ++i) seconds.push_back(seconds_of([&] { work(); }, Clock::wall));
   row.better = Row::Better::less;
   row.unit = "ms";
-  row.rounds = rounds;
-  row.ours = spread(seconds).median;
-  for (double& s : seconds) s *= 1e3;
-  row.figure = spread(seconds);
+  row.ours = seconds;
+  for (const double s : seconds) row.figures.push_back(1e3 * s);
   return row;
 }
 

@@ -46,23 +46,24 @@ double rounded(double x) { return std::stod(fmt::format("{:.4g}", x)); }
 
 Json row_of(const Row& r) {
   Json out = {{"name", r.name}, {"what", r.what}};
-  if (r.rounds == 0) {
+  if (!r.measured()) {
     out["missing"] = r.missing;
     return out;
   }
+  const Spread figure = r.figure();
   out["figure"] = r.unit;
   out["better"] = r.better == Row::Better::more ? "more" : "less";
-  out["median"] = rounded(r.figure.median);
-  out["quartiles"] = {rounded(r.figure.quarter), rounded(r.figure.three_quarters)};
-  out["from_5_to_95_percent"] = {rounded(r.figure.low), rounded(r.figure.high)};
-  out["rounds"] = r.rounds;
+  out["median"] = rounded(figure.median);
+  out["quartiles"] = {rounded(figure.quarter), rounded(figure.three_quarters)};
+  out["from_5_to_95_percent"] = {rounded(figure.low), rounded(figure.high)};
+  out["rounds"] = r.figures.size();
   if (r.goal) {
     out["goal"] = *r.goal;
     out["met"] = r.met();
   }
   out["per"] = r.per;
-  if (r.ours > 0) out["ours_s"] = rounded(r.ours);
-  if (r.theirs > 0) out["theirs_s"] = rounded(r.theirs);
+  if (!r.ours.empty()) out["ours_s"] = rounded(spread(r.ours).median);
+  if (!r.theirs.empty()) out["theirs_s"] = rounded(spread(r.theirs).median);
   for (const Accuracy& a : r.accuracy)
     out["accuracy"].push_back(
         {{"of", a.of}, {"what", a.what}, {"value", rounded(a.value)}, {"unit", a.unit}});
@@ -103,15 +104,15 @@ std::string table(const std::vector<Row>& rows) {
   std::string out =
       fmt::format("{:<34} {:>9} {:>19} {:>8}  {}\n", "row", "median", "5 to 95 %", "goal", "");
   for (const Row& r : rows) {
-    if (r.rounds == 0) {
+    if (!r.measured()) {
       out += fmt::format("{:<34} {}\n", r.name, r.missing);
       continue;
     }
+    const Spread figure = r.figure();
     const std::string goal =
         r.goal ? fmt::format("{} {:g}", r.better == Row::Better::more ? ">=" : "<=", *r.goal) : "";
-    out += fmt::format("{:<34} {:>9.4g} {:>9.4g} {:>9.4g} {:>8}  {}{}\n", r.name, r.figure.median,
-                       r.figure.low, r.figure.high, goal, r.unit,
-                       r.goal && !r.met() ? ", missed" : "");
+    out += fmt::format("{:<34} {:>9.4g} {:>9.4g} {:>9.4g} {:>8}  {}{}\n", r.name, figure.median,
+                       figure.low, figure.high, goal, r.unit, r.goal && !r.met() ? ", missed" : "");
   }
   return out;
 }

@@ -4,12 +4,15 @@ namespace sinew::bench {
 
 namespace {
 
-Row with_times(Row row, const Turns& turns, const std::vector<double>& figures) {
-  row.figure = spread(figures);
-  row.rounds = static_cast<int>(figures.size());
-  row.ours = spread(turns.ours).median;
-  row.theirs = spread(turns.theirs).median;
+Row with_times(Row row, const Turns& turns, std::vector<double> figures) {
+  row.figures = std::move(figures);
+  row.ours = turns.ours;
+  row.theirs = turns.theirs;
   return row;
+}
+
+void append(std::vector<double>& to, const std::vector<double>& more) {
+  to.insert(to.end(), more.begin(), more.end());
 }
 
 }  // namespace
@@ -27,9 +30,16 @@ Row times_slower(Row row, const Turns& turns) {
 }
 
 Row not_measured(Row row, const std::string& why) {
-  row.rounds = 0;
   row.missing = why;
   return row;
+}
+
+void add(std::vector<Row>& rows, const std::vector<Row>& pass) {
+  for (std::size_t i = 0; i < rows.size() && i < pass.size(); ++i) {
+    append(rows[i].figures, pass[i].figures);
+    append(rows[i].ours, pass[i].ours);
+    append(rows[i].theirs, pass[i].theirs);
+  }
 }
 
 }  // namespace sinew::bench

@@ -16,31 +16,31 @@ struct Accuracy {
   std::string unit;
 };
 
-// A number of ours and theirs, one unit of the work.
 struct Row {
   enum class Better { more, less };
 
-  std::string name;              // "walk/mujoco"; the part before the slash is the file's
-  std::string what;              // what is compared, in a sentence
-  Better better = Better::more;  // is the figure better the greater it is?
-  std::optional<double> goal;    // of its median
-  std::string unit = "times";    // of the figure
-  Spread figure;                 // a ratio of each pair of turns, or a time [unit]
-  int rounds = 0;                // 0: there are no numbers, `missing` says why
-  std::string per;               // what one unit of the work is: "walk"
-  double ours = 0, theirs = 0;   // medians for one unit [s]
+  std::string name;                  // "walk/mujoco"; the part before the slash is the file's
+  std::string what;                  // what is compared, in a sentence
+  Better better = Better::more;      // is the figure better the greater it is?
+  std::optional<double> goal;        // of its median
+  std::string unit = "times";        // of the figure
+  std::vector<double> figures;       // by round: ratios of each pair of turns, or times [unit]
+  std::string per;                   // what one unit of the work is: "walk"
+  std::vector<double> ours, theirs;  // by round, for one unit [s]
   std::vector<Accuracy> accuracy;
-  std::string missing;
+  std::string missing;  // why there are no figures; empty: there are
 
-  bool met() const {  // the goal
-    return rounds > 0 && goal &&
-           (better == Better::more ? figure.median >= *goal : figure.median <= *goal);
+  bool measured() const { return !figures.empty(); }
+  Spread figure() const { return spread(figures); }  // where it is measured
+  bool met() const {                                 // the goal
+    if (!measured() || !goal) return false;
+    return better == Better::more ? figure().median >= *goal : figure().median <= *goal;
   }
 };
 
 // How much is done.
 struct Effort {
-  int rounds = 15;
+  int rounds = 7;       // of a pass
   std::string program;  // path of the program `sinew`; empty: rows that need it are missing
 };
 
@@ -50,6 +50,9 @@ Row times_faster(Row row, const Turns& turns);
 Row times_slower(Row row, const Turns& turns);
 // A row without numbers, because something is not there.
 Row not_measured(Row row, const std::string& why);
+
+// Adds another pass's rounds to the same rows.
+void add(std::vector<Row>& rows, const std::vector<Row>& pass);
 
 // Returns the rows of one part of the table.
 using Part = std::vector<Row> (*)(const Effort& effort);
