@@ -10,9 +10,9 @@
 
 namespace sinew::bench {
 
-// Of this thread on the processor, which stands while others have it; or of the wall, for what goes
-// on in several threads or programs.
-enum class Clock { processor, wall };
+// Of this thread on the processor, which stands while others have it; of all threads of this
+// program together; or of the wall, for what goes on in several threads or programs.
+enum class Clock { processor, all_threads, wall };
 
 // Works once, and answers how many units that were: walks, steps, simulated seconds.
 using Work = std::function<double()>;

@@ -155,6 +155,7 @@ struct MujocoLeg::State {
       const double from = static_cast<double>(at) + part * k;
       for (int i = 0; i < routes.count; ++i) {
         const auto v = static_cast<std::size_t>(2 * i);
+        if (!(open[v] > 0) && !(open[v + 1] > 0)) continue;  // sealed: its mass stays
         const PowMuscle::Lengths l{length(i, share_at(from)),
                                    length(i, share_at(from + 0.5 * part)),
                                    length(i, share_at(from + part))};

@@ -38,9 +38,15 @@ std::vector<Row> thread_rows(const Effort& effort) {
   const bool same = sweep(runner, 2) == sweep(runner, 1);
   row.accuracy = {{"both", "rows of the sweep that are the same to the last digit",
                    same ? 1.0 * walks : 0.0, "of 64"}};
-  return {times_faster(
-      row, by_turns([&] { return sweep(runner, 2).size() * 1.0; },
-                    [&] { return sweep(runner, 1).size() * 1.0; }, effort.rounds, Clock::wall))};
+  Row work{.name = "threads/work",
+           .what =
+               "processor time of the same, two threads together against one: what they cost "
+               "each other",
+           .per = "walk"};
+  const Work two = [&] { return static_cast<double>(sweep(runner, 2).size()); };
+  const Work one = [&] { return static_cast<double>(sweep(runner, 1).size()); };
+  return {times_faster(row, by_turns(two, one, effort.rounds, Clock::wall)),
+          times_slower(work, by_turns(two, one, effort.rounds, Clock::all_threads))};
 }
 
 }  // namespace sinew::bench
