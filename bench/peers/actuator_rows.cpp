@@ -59,7 +59,7 @@ std::vector<Accuracy> accuracies(const Side& own, const Drill& mine, const Side&
            largest_difference(own.limit, peer.limit), "1"}};
 }
 
-// The same steps of a tick.
+// Both go by steps of a tick.
 Row step_for_step(Row row, const Side& own, const Side& peer, int rounds) {
   const Drill d = drill(1);
   row.per = "step of 100 us of one muscle";

@@ -1,5 +1,5 @@
-// What a machine's size, its steps, its neighbours and its recorder cost: each against the plain
-// walk, by turns.
+// How much a machine's size, its steps, its neighbours and its recorder cost: each against the
+// plain walk, by turns.
 #include <fmt/format.h>
 
 #include <exception>

@@ -10,11 +10,12 @@
 
 namespace sinew::bench {
 
-// Of this thread on the processor, which stands while others have it; of all threads of this
-// program together; or of the wall, for what goes on in several threads or programs.
+// A clock of this thread on the processor, which stands while others have it; one of all threads of
+// this program together; or the wall's, for what goes on in several threads or programs.
 enum class Clock { processor, all_threads, wall };
 
-// Works once, and answers how many units that were: walks, steps, simulated seconds.
+// A work is done once by a call, which answers how many units that were: walks, steps, simulated
+// seconds.
 using Work = std::function<double()>;
 
 struct Turns {

@@ -52,7 +52,8 @@ std::string mjcf(const plant::Setup& setup, double step, Integrator integrator) 
 <worldbody>
 <geom name="table" type="plane" pos="0 0 {surface}" size="10 10 1" {contact}/>
 <body name="trolley">{carried}
-<joint name="trolley" type="slide" axis="1 0 0" frictionloss="{drag}" limited="true" range="-10 {track}"/>
+<joint name="trolley" type="slide" axis="1 0 0" frictionloss="{drag}" limited="true"
+ range="-10 {track}"/>
 <body name="femur">{upper}{hip}
 <body name="tibia" pos="{femur} 0 0">{lower}{knee}
 <geom name="foot" type="sphere" pos="{tibia} 0 0" size="{radius}" {contact}/>

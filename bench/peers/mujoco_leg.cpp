@@ -99,14 +99,14 @@ struct MujocoLeg::State {
     }
   }
 
-  // Straight through the body step, at a share of it.
+  // Coordinates go straight through the body step; where they are at a share of it.
   double coordinate(std::size_t c, double share) const {
     return begin[c] + share * (end[c] - begin[c]);
   }
   double share_at(double tick) const {
     return (tick - static_cast<double>(at - at % steps.body)) / steps.body;
   }
-  // Of muscle i so many ticks after the start of the body step [m], and its rate [m/s].
+  // Length of muscle i at a share of the body step [m], and its rate [m/s].
   double length(int i, double share) const {
     const auto joint = static_cast<std::size_t>(routes.joint[static_cast<std::size_t>(i)]);
     const double travel = coordinate(joint + 1, share) - setup.robot.joints[joint].rest_angle;

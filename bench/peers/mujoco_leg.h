@@ -19,7 +19,7 @@
 
 namespace sinew::bench {
 
-// What was compiled in: "2.2.2", or "none".
+// Returns the version that was compiled in: "2.2.2", or "none".
 std::string mujoco_version();
 bool has_mujoco();
 
@@ -30,7 +30,7 @@ struct LegSteps {
   int muscle = 1;  // steps of a tick
 };
 
-// Of the body alone: joints [rad], their rates [rad/s], the trolley [m], [m/s].
+// Motion of the body alone: joints [rad], their rates [rad/s], the trolley [m], [m/s].
 struct LegMotion {
   double x = 0, x_rate = 0, hip = 0, hip_rate = 0, knee = 0, knee_rate = 0;
 };

@@ -30,7 +30,8 @@ class PowMuscle {
 
   double pressure(double length) const noexcept { return pressure(mass_, length); }  // [Pa]
 
-  // Of the bundle [N], by its length, its rate and its pressure; the bound of its dry friction [N].
+  // The bundle's tension, by its length, its rate and its pressure, and the bound of its dry
+  // friction  [N].
   struct Pull {
     double tension, friction_bound;
   };

@@ -17,7 +17,7 @@ nlohmann::ordered_json record(const std::vector<Row>& rows, const std::string& c
 // A line per row for people.
 std::string table(const std::vector<Row>& rows);
 
-// What has changed between two records of the same rows.
+// A row that has changed between two records.
 struct Change {
   enum class Kind { slower, faster, gone };
   Kind kind = Kind::slower;

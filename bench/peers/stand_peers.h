@@ -13,7 +13,7 @@ namespace sinew::bench {
 
 using Lengths = std::vector<double>;  // at the end of each millisecond [in]
 
-// What was compiled in, or "none".
+// Return the versions that were compiled in, or "none".
 std::string cvode_version();
 std::string odeint_version();
 
