@@ -45,12 +45,13 @@ tune::Tuned run_tuning(const tune::Tuning& tuning, const Options& options, tune:
 
 // What a shell runs the candidate by.
 std::string command_of(const tune::Tuning& tuning, const tune::Candidate& candidate) {
-  std::string out = "sinew run " + tuning.runs.experiment;
-  for (const std::string& set : tuning.runs.sets) out += fmt::format(" --set \"{}\"", set);
+  std::vector<std::string> sets = tuning.runs.sets;
   for (std::size_t i = 0; i < tuning.tuned; ++i)
-    out +=
-        fmt::format(" --set \"{}\"", tuning.runs.sample->ranges[i].axis.set(candidate.values[i]));
-  return out;
+    sets.push_back(tuning.runs.sample->ranges[i].axis.set(candidate.values[i]));
+  std::string out = "sinew run " + tuning.runs.experiment;
+  for (const std::string& set : sets)
+    out += fmt::format(" --set {0}{1}{0}", set.find('"') == set.npos ? '"' : '\'', set);
+  return out + (tuning.runs.allow_unreachable ? " --allow-unreachable" : "");
 }
 
 void write_table(const tune::Tuning& tuning, const tune::Tuned& tuned, const Options& options) {

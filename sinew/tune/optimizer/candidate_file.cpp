@@ -79,6 +79,8 @@ std::string goals_of(const Tuning& tuning, const Candidate& candidate) {
   for (std::size_t i = 0; i < tuning.goals.limits.size(); ++i)
     add(tuning.goals.limits[i].figure, candidate.judged.limits[i],
         runs == 1 ? "" : ", the worst of its runs");
+  if (tuning.runs.allow_unreachable)
+    out += "# It was tuned with points out of reach allowed: the nearest ones were aimed at.\n";
   return out;
 }
 
