@@ -88,8 +88,9 @@ Row row(const std::string& name, double median, double width) {
 }
 
 TEST(Compare, TellsWhatHasChangedByMoreThanBothSpreads) {
-  const auto before =
-      record({row("a", 10, 1), row("b", 10, 1), row("c", 10, 1), row("d", 1, 0)}, "");
+  const auto before = record({row("a", 10, 1), row("b", 10, 1), row("c", 10, 1), row("c/d", 1, 0),
+                              row("other/part", 1, 0)},
+                             "");
   const auto after = record({row("a", 7, 1), row("b", 9, 1), row("c", 13, 1)}, "");
   const std::vector<Change> found = compare(before, after);
   ASSERT_EQ(found.size(), 3u);

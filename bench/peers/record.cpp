@@ -76,6 +76,15 @@ const Json* find(const Json& record, const std::string& name) {
   return nullptr;
 }
 
+std::string part_of(const std::string& name) { return name.substr(0, name.find('/')); }
+
+// Was anything of the row's part measured?
+bool has_part(const Json& record, const std::string& name) {
+  for (const Json& row : record.at("rows"))
+    if (part_of(row.at("name")) == part_of(name)) return true;
+  return false;
+}
+
 void refuse_others(const Json& record) {
   if (record.value("format", "") != format_name)
     throw std::runtime_error(
@@ -126,6 +135,7 @@ std::vector<Change> compare(const Json& older, const Json& newer) {
     const std::string name = before.at("name");
     const Json* after = find(newer, name);
     const double was = before.at("median");
+    if (!has_part(newer, name)) continue;
     if (!after || !is_ratio(*after)) {
       out.push_back({Change::Kind::gone, name, was, 0});
       continue;

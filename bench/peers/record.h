@@ -26,8 +26,8 @@ struct Change {
 };
 
 // Returns the rows that are worse or better by more than both spreads, from 5 to 95 %, and those
-// that the newer record lacks. Times of single programs say what a computer did that day and are
-// left out. Throws std::runtime_error where one of them is no record.
+// that the newer record lacks of the parts that it has. Times of single programs say what a
+// computer did that day and are left out. Throws std::runtime_error where one of them is no record.
 std::vector<Change> compare(const nlohmann::ordered_json& older,
                             const nlohmann::ordered_json& newer);
 
