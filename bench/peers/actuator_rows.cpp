@@ -122,6 +122,11 @@ std::vector<Row> actuator_rows(const Effort& effort) {
                                             "scalar pow RK4 at the controller's tick",
                                     .goal = 10.0},
                                    alone, machine_stride, peer, pow_stride, rounds));
+  rows.push_back(second_for_second({.name = "actuator/pow-as-used-lanes",
+                                    .what = "the same, ours side by side in the processor's lanes",
+                                    .goal = 10.0},
+                                   Side("sinew", wide.back().run), machine_stride, peer, pow_stride,
+                                   rounds));
   rows.push_back(second_for_second(
       {.name = "actuator/pow-1e-4",
        .what = "one machine's muscles, both by the longest steps that keep pressures to 1e-4"},

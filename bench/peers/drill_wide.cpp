@@ -1,8 +1,10 @@
 // Compiled once for each width, with SINEW_LANES as the width.
 #include "bench/peers/drill_wide.h"
 
-#include <cmath>
+#include <algorithm>
+#include <array>
 #include <memory>
+#include <vector>
 
 #include "sinew/air/packs/plain_air.h"
 
@@ -14,6 +16,26 @@ constexpr int W = SINEW_LANES;
 using Pack = units::Pack<W>;
 using Network = air::AirNetwork<drill_muscles>;
 using Air = air::PlainAir<drill_muscles, W>;
+
+// Lengths and rates at the beginning, the middle and the end of each machine's step.
+struct Places {
+  Pack length[3], rate[3];
+
+  // All machines go from the half step `half` by a step of the table.
+  void all(const Drill& d, std::size_t half) {
+    for (std::size_t n = 0; n < 3; ++n) {
+      length[n] = d.rest + d.stroke[half + n];
+      rate[n] = d.speed[half + n];
+    }
+  }
+  // One of them goes by a step that is `wide` times as long.
+  void one(const Drill& d, int lane, std::size_t half, std::size_t wide) {
+    for (std::size_t n = 0; n < 3; ++n) {
+      length[n].set(lane, d.rest + d.stroke[half + n * wide]);
+      rate[n].set(lane, d.speed[half + n * wide]);
+    }
+  }
+};
 
 // W machines from `first` on.
 class Machines {
@@ -46,23 +68,23 @@ class Machines {
   }
 
   // RK4, as plant/packs/chain_batch.h has it.
-  void step(const Drill& d, std::size_t half, const Pack& h) {
-    look(d, half, state_, look_[0]);
+  void step(const Places& p, const Pack& h) {
+    constexpr int at[] = {0, 1, 1, 2};
+    look(p, 0, state_, look_[0]);
     air_->remember(Pack(0.0) < Pack(1.0), look_[0], memory_);
     for (int s = 0; s < 3; ++s) {
       air_->move(stage_, state_, s == 2 ? h : Pack(0.5 * h), look_[s]);
-      look(d, half + (s == 2 ? 2 : 1), stage_, look_[s + 1]);
+      look(p, at[s + 1], stage_, look_[s + 1]);
     }
     const Air::Answer* looks[4] = {&look_[0], &look_[1], &look_[2], &look_[3]};
     air_->finish(state_, h, looks);
   }
 
-  void tell(const Drill& d, std::size_t half, int tick, Pressures& out) {
-    look(d, half, state_, look_[0]);
-    for (int k = 0; k < W; ++k)
-      for (int i = 0; i < drill_muscles; ++i)
-        out[static_cast<std::size_t>(((first_ + k) * drill_muscles + i) * drill_samples +
-                                     tick / drill_sampling)] = look_[0].pressure[i][k];
+  // Pressures of one machine where the step at hand began.
+  void tell(int lane, int tick, Pressures& out) const {
+    for (int i = 0; i < drill_muscles; ++i)
+      out[static_cast<std::size_t>(((first_ + lane) * drill_muscles + i) * drill_samples +
+                                   tick / drill_sampling)] = look_[0].pressure[i][lane];
   }
 
   // Roots of one stage: one flow does for all where some fill and others empty and none both.
@@ -77,10 +99,10 @@ class Machines {
   }
 
  private:
-  void look(const Drill& d, std::size_t half, const Air::State& state, Air::Answer& out) {
+  void look(const Places& p, int n, const Air::State& state, Air::Answer& out) {
     for (int i = 0; i < drill_muscles; ++i) {
-      ends_.length[i] = d.rest + d.stroke[half];
-      ends_.rate[i] = d.speed[half];
+      ends_.length[i] = p.length[n];
+      ends_.rate[i] = p.rate[n];
     }
     air_->evaluate(ends_, state, shares_, memory_, out);
   }
@@ -95,21 +117,72 @@ class Machines {
   Air::Answer look_[4];
 };
 
-Counts run(const Drill& d, Pressures* pressures) {
+// All machines by the same steps of a tick or a part of it.
+void by_ticks(const Drill& d, int, Machines& machines, Pressures* pressures, Counts& counts) {
   const double h = 1e-4 / d.parts;
-  Counts counts;
+  auto next = d.switchings.begin();
+  Places places;
+  std::size_t half = 0;
+  for (int tick = 0; tick < drill_ticks; ++tick) {
+    for (; next != d.switchings.end() && next->tick <= tick; ++next) machines.command(*next);
+    for (int part = 0; part < d.parts; ++part, half += 2) {
+      places.all(d, half);
+      machines.step(places, h);
+      for (int k = 0; pressures && k < W && part == 0 && tick % drill_sampling == 0; ++k)
+        machines.tell(k, tick, *pressures);
+    }
+    counts.steps += 1.0 * W * drill_muscles * d.parts;
+    counts.divisions += 4.0 * drill_muscles * d.parts;
+    counts.roots += 4.0 * machines.roots() * d.parts;
+  }
+}
+
+// One machine's place in the drill.
+struct Course {
+  std::vector<Switching> switchings;  // its own
+  std::size_t next = 0;
+  int tick = 0, to = 0;  // of the step at hand
+};
+
+// Each machine by its own nodes, in lockstep by node: one that is at its end waits.
+void by_nodes(const Drill& d, int first, Machines& machines, Pressures* pressures, Counts& counts) {
+  std::array<Course, W> courses;
+  for (const Switching& s : d.switchings)
+    if (s.machine >= first && s.machine < first + W)
+      courses[static_cast<std::size_t>(s.machine - first)].switchings.push_back(s);
+  Places places;
+  Pack h = 0.0;
+  for (bool goes = true; goes;) {
+    goes = false;
+    for (int k = 0; k < W; ++k) {
+      Course& c = courses[static_cast<std::size_t>(k)];
+      c.tick = c.to;
+      h.set(k, 0.0);
+      if (c.tick >= drill_ticks) continue;
+      goes = true;
+      for (; c.next < c.switchings.size() && c.switchings[c.next].tick <= c.tick; ++c.next)
+        machines.command(c.switchings[c.next]);
+      c.to = (c.tick / d.stride + 1) * d.stride;
+      if (c.next < c.switchings.size()) c.to = std::min(c.to, c.switchings[c.next].tick);
+      const auto wide = static_cast<std::size_t>(c.to - c.tick);
+      places.one(d, k, 2 * static_cast<std::size_t>(c.tick), wide);
+      h.set(k, 1e-4 * static_cast<double>(wide));
+      counts.steps += drill_muscles;
+    }
+    if (!goes) break;
+    machines.step(places, h);
+    for (int k = 0; pressures && k < W; ++k) {
+      const int tick = courses[static_cast<std::size_t>(k)].tick;
+      if (tick < drill_ticks && tick % drill_sampling == 0) machines.tell(k, tick, *pressures);
+    }
+  }
+}
+
+Counts run(const Drill& d, Pressures* pressures) {
+  Counts counts{.seconds = 1e-4 * drill_ticks * drill_machines * drill_muscles};
   for (int first = 0; first < drill_machines; first += W) {
     Machines machines(d, first);
-    auto next = d.switchings.begin();
-    std::size_t half = 0;
-    for (int tick = 0; tick < drill_ticks; ++tick) {
-      for (; next != d.switchings.end() && next->tick <= tick; ++next) machines.command(*next);
-      if (pressures && tick % drill_sampling == 0) machines.tell(d, half, tick, *pressures);
-      for (int part = 0; part < d.parts; ++part, half += 2) machines.step(d, half, h);
-      counts.steps += 1.0 * W * drill_muscles * d.parts;
-      counts.divisions += 4.0 * drill_muscles * d.parts;
-      counts.roots += 4.0 * machines.roots() * d.parts;
-    }
+    (d.stride > 1 ? by_nodes : by_ticks)(d, first, machines, pressures, counts);
   }
   return counts;
 }

@@ -31,6 +31,8 @@ TEST(Drill, AllWaysFillTheMusclesAlike) {
   for (const Wide& wide : widths()) {
     wide.run(d, &other);
     EXPECT_LT(largest_difference(other, by), 1e-9) << wide.width;
+    wide.run(drill(1, 10), &other);
+    EXPECT_LT(largest_difference(other, by), 1e-6) << wide.width << " by nodes";
   }
 }
 
