@@ -57,7 +57,8 @@ layers='
     tune            run/folder
     tune/results    tune
     tune/mpi        tune/results
-    live            run/folder
+    tune/page       tune/results report/page
+    live            run/folder tune/page
 '
 
 # What only the tests of a folder may include besides (*_test.cpp, *_test.h, test_*.h, testing.h).

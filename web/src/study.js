@@ -18,6 +18,7 @@ class StudyPage {
     this.filter = new Filter(this.data);
     this.chosen = -1;
     this.under = -1;
+    this.hurry = false;  // while a person drags: what takes long waits
     this.sort_columns();
     this.color_column = this.data.studies.length > 1 ? null : this.first_figures[1] ?? this.first_figures[0] ?? null;
     document.querySelector('.switch').hidden = true;  // a heading has its unit
@@ -39,9 +40,10 @@ class StudyPage {
     if (run.served) this.growing = new Growing(this);
   }
 
-  // Parameters first; what a person looks at first are objectives, then figures that vary.
+  // Parameters first; what a person looks at first are objectives, then figures that vary. What both
+  // studies have comes before what one has.
   sort_columns() {
-    const rank = (c) => ['parameter', 'objective', 'constraint', 'figure'].indexOf(c.role) + 1 || 9;
+    const rank = (c) => (['parameter', 'objective', 'constraint', 'figure'].indexOf(c.role) + 1 || 9) + (this.data.is_common(c) ? 0 : 0.5);
     this.columns = this.data.columns.map((c, i) => [rank(c), i, c]).sort((a, b) => a[0] - b[0] || a[1] - b[1]).map((c) => c[2]);
     this.parameters = this.columns.filter((c) => c.role === 'parameter');
     const figures = this.columns.filter((c) => c.number && ['objective', 'figure', 'constraint'].includes(c.role));
@@ -167,7 +169,7 @@ class StudyPage {
     this.waiting = undefined;
     const began = performance.now(), colors = colors_now();
     this.show_filter();
-    for (const view of [this.parallel, ...this.views]) view.draw(colors);
+    for (const view of [this.parallel, ...this.views]) if (!this.hurry || !view.takes_long) view.draw(colors);
     this.table.draw();
     this.mark();
     this.took = performance.now() - began;

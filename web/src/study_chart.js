@@ -5,7 +5,7 @@ import { round_values } from './study_math.js';
 import { number, tick_text } from './units.js';
 
 export const color_steps = 16;
-const margin = { left: 58, right: 14, top: 12, bottom: 40 };  // [px]
+const margin = { left: 58, right: 14, top: 28, bottom: 40 };  // [px]
 const near_enough = 18;  // of the pointer to a mark [px]
 
 // Colors of the page as they are now.
@@ -103,6 +103,8 @@ export class Chart {
     ctx.textAlign = 'center';
     ctx.textBaseline = 'alphabetic';
     ctx.fillText(fitting(ctx, x_axis.label ?? x_axis.column.heading, right - left), (left + right) / 2, this.height - 4);
+    ctx.textAlign = 'left';
+    ctx.fillText(fitting(ctx, `↑ ${y_axis.column.heading}`, right - 8), 8, 14);
   }
 
   // Remembers where the marks of rows are. `xs`, `ys`: numbers by row.

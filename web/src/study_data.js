@@ -86,6 +86,11 @@ export class StudyData {
     return this.count - before;
   }
 
+  // Whether each study has the column.
+  is_common(column) {
+    return this.studies.every((s) => s.own.includes(column));
+  }
+
   name_of(row) {
     const { letter } = this.studies[this.study[row]];
     return this.studies.length > 1 ? `${letter}${this.number[row]}` : String(this.number[row]);

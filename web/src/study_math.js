@@ -126,34 +126,40 @@ function gathered(rows, x, y, z, [x0, x1], [y0, y1], size) {
   return [...cells.values()].map(({ u, v, z: sum, n }) => ({ u: u / n, v: v / n, z: sum / n, n }));
 }
 
+// Where the nearest points are, in order of distance; one place for all nodes.
+const near = { at: new Int32Array(nearest_used), d: new Float64Array(nearest_used), count: 0 };
+
+function find_nearest(points, u, v) {
+  const { at, d } = near, most = Math.min(nearest_used, points.length);
+  let count = 0;
+  for (let i = 0; i < points.length; ++i) {
+    const du = points[i].u - u, dv = points[i].v - v, distance = du * du + dv * dv;
+    if (count === most && distance >= d[most - 1]) continue;
+    let k = count < most ? count++ : most - 1;
+    for (; k > 0 && d[k - 1] > distance; --k) {
+      d[k] = d[k - 1];
+      at[k] = at[k - 1];
+    }
+    d[k] = distance;
+    at[k] = i;
+  }
+  near.count = count;
+}
+
 function value_at(points, u, v, far) {
-  const near = nearest(points, u, v);
-  if (near[0].d > far) return NaN;
-  const wide = 1.3 * near[near.length - 1].d || 1;
+  find_nearest(points, u, v);
+  if (near.d[0] > far * far) return NaN;
+  const wide = 1.69 * near.d[near.count - 1] || 1;
   const s = [0, 0, 0, 0, 0, 0], t = [0, 0, 0];
   let low = Infinity, high = -Infinity;
-  for (const { p, d } of near) {
-    const w = p.n * (1 - (d / wide) ** 2) ** 2, du = p.u - u, dv = p.v - v;
+  for (let k = 0; k < near.count; ++k) {
+    const p = points[near.at[k]], w = p.n * (1 - near.d[k] / wide) ** 2, du = p.u - u, dv = p.v - v;
     s[0] += w; s[1] += w * du; s[2] += w * dv; s[3] += w * du * du; s[4] += w * du * dv; s[5] += w * dv * dv;
     t[0] += w * p.z; t[1] += w * du * p.z; t[2] += w * dv * p.z;
     low = Math.min(low, p.z);
     high = Math.max(high, p.z);
   }
   return Math.min(high, Math.max(low, plane_at_origin(s, t)));
-}
-
-// The nearest points, in order of distance.
-function nearest(points, u, v) {
-  const most = Math.min(nearest_used, points.length), found = [];
-  for (const p of points) {
-    const d = Math.hypot(p.u - u, p.v - v);
-    if (found.length === most && d >= found[most - 1].d) continue;
-    let at = found.length;
-    while (at > 0 && found[at - 1].d > d) --at;
-    found.splice(at, 0, { p, d });
-    if (found.length > most) found.pop();
-  }
-  return found;
 }
 
 // The constant of the weighted plane, by Cramer's rule; the mean where the points are on one line.

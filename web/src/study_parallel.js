@@ -10,6 +10,8 @@ const narrowest = 84;  // between two axes; more of them scroll
 const near_enough = 14;
 const lines_at_once = 250;  // of one path: longer ones are slower than several
 
+const thin = (rows, most) => rows.filter((_, i) => i % Math.ceil(rows.length / most) === 0);
+
 export class Parallel {
   constructor(page) {
     this.page = page;
@@ -32,7 +34,10 @@ export class Parallel {
 
   // The axes until a person says otherwise.
   choose_first() {
-    if (!this.chosen_by_hand) this.shown = new Set(this.page.columns.filter((c) => c.varies && c.role !== 'other').slice(0, 12));
+    if (this.chosen_by_hand) return;
+    const { columns, data } = this.page, there = columns.filter((c) => c.varies && c.role !== 'other');
+    const common = there.filter((c) => data.is_common(c));
+    this.shown = new Set((common.length > 1 ? common : there).slice(0, 12));
   }
 
   arrange() {
@@ -70,6 +75,7 @@ export class Parallel {
     event.preventDefault();
     root.focus();
     root.setPointerCapture(event.pointerId);
+    this.page.hurry = true;
     const from = event.clientY, value = (e) => this.value_at(column, e.clientY - root.getBoundingClientRect().top);
     const first = value(event);
     const move = (e) => {
@@ -79,6 +85,8 @@ export class Parallel {
     };
     const end = (e) => {
       root.removeEventListener('pointermove', move);
+      this.page.hurry = false;
+      this.page.redraw();
       if (e.type === 'pointerup' && Math.abs(e.clientY - from) < 4) this.page.set_range(column, null);
     };
     root.addEventListener('pointermove', move);
@@ -130,12 +138,12 @@ export class Parallel {
   lines(ctx, colors) {
     const { data, filter, color_column } = this.page, color = coloring(data, color_column, colors);
     const groups = new Map();
-    for (const row of filter.rows) {
+    for (const row of this.page.hurry ? thin(filter.rows, 1500) : filter.rows) {
       const key = 2 * (color.step_of(row) + 1) + (data.study[row] ? 1 : 0);
       if (!groups.has(key)) groups.set(key, []);
       groups.get(key).push(row);
     }
-    const count = filter.rows.length, thin = (rows, most) => rows.filter((_, i) => i % Math.ceil(rows.length / most) === 0);
+    const count = filter.rows.length;
     ctx.lineWidth = 1;
     if (filter.is_on) this.stroke(ctx, thin(filter.hidden, 1500), colors.grid, 0.7);
     const alpha = count > 3000 ? 0.25 : count > 300 ? 0.45 : 0.8;

@@ -97,12 +97,14 @@ export class Chosen {
     if (data.violation[row] > 0) words.push(`beyond its limits by ${number(data.violation[row])}`);
     if (!filter.shown[row]) words.push('hidden by the filter');
     if (data.studies.length > 1) words.push(data.studies[data.study[row]].file);
+    for (const c of data.studies[data.study[row]].own)
+      if (c.role === 'other' && c.texts[row]) words.push(`${c.key}: ${c.texts[row]}`);
     return element('p', { class: 'quiet' }, words.join(' · '));
   }
 
   values(role, title) {
     const { page } = this, own = page.data.studies[page.data.study[page.chosen]].own;
-    const columns = own.filter((c) => (c.role === 'parameter') === (role === 'parameter'));
+    const columns = own.filter((c) => c.role !== 'other' && (c.role === 'parameter') === (role === 'parameter'));
     if (!columns.length) return '';
     return element('div', {}, element('h3', {}, title), element('table', { 'aria-label': title }, element('tbody', {},
       ...columns.map((c) => element('tr', { 'data-heading': c.heading },

@@ -90,7 +90,7 @@ export class History extends View {
     chart.marks(ctx, data, coloring(data, null, colors));
     const bests = data.studies.map((s) => this.best(ctx, s, xs, colors));
     const words = bests.filter(Boolean).map(({ row }) => `${data.name_of(row)} with ${value_text(y, y.values[row])}`);
-    this.hint.textContent = `Line: the best so far${words.length ? `, at last row ${words.join(', row ')}` : ''}. Hollow: without figures, or beyond a limit.`;
+    this.hint.textContent = `Line: the best so far${words.length ? `, now row ${words.join(', row ')}` : ''}. Hollow: without figures, or beyond a limit.`;
   }
 
   // The stair of the best so far of one study; returns where it ends.
@@ -139,7 +139,7 @@ export class Scatter extends View {
     this.front = pareto_front(filter.rows.filter((r) => data.feasible[r]), x.values, y.values, x.less, y.less);
     this.draw_front(ctx, colors);
     const better = (c) => (c.less ? 'less' : 'more');
-    this.hint.textContent = `${this.front.length} ringed ${this.front.length === 1 ? 'row' : 'rows'}: no other has ${better(x)} ${x.key} and ${better(y)} ${y.key}. ↑ ${y.heading}`;
+    this.hint.textContent = `${this.front.length} ringed ${this.front.length === 1 ? 'row' : 'rows'}: no other has ${better(x)} ${x.key} and ${better(y)} ${y.key}.`;
   }
 
   // Stairs between rows that no other beats: what lies behind them is beaten.
@@ -172,6 +172,7 @@ export class Surface extends View {
     const over = page.parameters.filter((c) => c.varies && c.number);
     [this.x, this.y] = [over[0] ?? page.columns[0], over[1] ?? page.columns[1] ?? page.columns[0]];
     this.z = page.first_figures[0] ?? page.columns[0];
+    this.takes_long = true;
   }
 
   columns() { return [this.x, this.y, this.z]; }
@@ -193,28 +194,30 @@ export class Surface extends View {
     const span = there.length ? [Math.min(...there), Math.max(...there)] : [0, 1];
     this.fill(ctx, span, colors);
     this.lines(ctx, span, colors);
-    ctx.strokeStyle = colors.ink;
-    ctx.globalAlpha = rows.length > 1000 ? 0.25 : 0.6;
-    ctx.beginPath();
-    chart.px.forEach((px, i) => { ctx.moveTo(px + 2, chart.py[i]); ctx.arc(px, chart.py[i], 2, 0, 2 * Math.PI); });
-    ctx.stroke();
+    ctx.fillStyle = colors.ink;
+    ctx.globalAlpha = rows.length > 1000 ? 0.3 : 0.6;
+    for (let i = 0; i < chart.rows.length; ++i) ctx.fillRect(chart.px[i] - 1, chart.py[i] - 1, 2, 2);
     ctx.globalAlpha = 1;
     this.hint.textContent = there.length
-      ? `${z.heading}: ${number(span[0])} to ${number(span[1])}, a plane through the nearest rows at each place, blank where none is near. Whatever else was varied is averaged. ↑ ${y.heading}`
+      ? `${z.heading}: ${number(span[0])} to ${number(span[1])}, a plane through the nearest rows at each place, blank where none is near. Whatever else was varied is averaged.`
       : 'Too few rows for a surface.';
   }
 
+  // A pixel for each node, drawn as large as the box.
   fill(ctx, [low, high], colors) {
     const { chart, x, y, nodes } = this, size = surface_size;
-    const left = chart.x(x.low), top = chart.y(y.high), w = (chart.x(x.high) - left) / (size - 1), h = (chart.y(y.low) - top) / (size - 1);
+    const cells = document.createElement('canvas'), paint = cells.getContext('2d');
+    cells.width = cells.height = size;
+    nodes.forEach((v, k) => {
+      if (v !== v) return;
+      paint.fillStyle = colors.ramp[high > low ? Math.min(color_steps - 1, Math.floor(((v - low) / (high - low)) * color_steps)) : 0];
+      paint.fillRect(k % size, size - 1 - Math.floor(k / size), 1, 1);
+    });
+    const left = chart.x(x.low), top = chart.y(y.high), right = chart.x(x.high), bottom = chart.y(y.low);
+    const w = (right - left) / (size - 1), h = (bottom - top) / (size - 1);
     ctx.globalAlpha = 0.75;
-    for (let j = 0; j < size; ++j)
-      for (let i = 0; i < size; ++i) {
-        const v = nodes[j * size + i];
-        if (v !== v) continue;
-        ctx.fillStyle = colors.ramp[high > low ? Math.min(color_steps - 1, Math.floor(((v - low) / (high - low)) * color_steps)) : 0];
-        ctx.fillRect(left + (i - 0.5) * w, top + (size - 1 - j - 0.5) * h, w + 0.6, h + 0.6);
-      }
+    ctx.imageSmoothingEnabled = false;
+    ctx.drawImage(cells, left - w / 2, top - h / 2, w * size, h * size);
     ctx.globalAlpha = 1;
   }
 
