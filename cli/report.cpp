@@ -5,7 +5,6 @@
 #include "cli/terminal.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/page.h"
-#include "sinew/run/folder/run_log.h"
 #include "sinew/tune/page/study_view.h"
 
 namespace sinew::cli {
@@ -41,16 +40,7 @@ ExitCode report_run(const Options& options) {
                                         ? recorded.log.parent_path() / run::report_name
                                         : std::filesystem::path(options.out);
   run::refuse_to_overwrite(out, options.force, {recorded.log, recorded.resolved, options.machine});
-  bool cut = false;
-  const std::string page = run::page_of(recorded, options.machine, &cut);
-  if (const std::string ended = run::ended_in(recorded.log); !ended.empty())
-    messages.warning(fmt::format("{}: the run was ended: {}; the page shows it until then",
-                                 recorded.log.string(), ended));
-  if (cut)
-    messages.warning(recorded.log.string() +
-                     " was cut off or is damaged; the page shows what stands "
-                     "before");
-  return write(out, page, messages);
+  return write(out, run::page_of(recorded, options.machine, messages.notices()), messages);
 }
 
 }  // namespace
@@ -72,6 +62,7 @@ void add_report(Command app, Action& action) {
     const bool study = tune::is_study(options->runs.front());
     if (!study && options->runs.size() > 1)
       refuse("DIR", "two are of studies; runs beside each other are sinew compare's");
+    if (study && !options->machine.empty()) refuse("--machine", "a study has none");
     action = [=] { return study ? report_study(*options) : report_run(*options); };
   });
 }

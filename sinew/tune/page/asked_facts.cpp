@@ -29,8 +29,6 @@ std::set<std::string> headings_of(const std::string& text, const std::string& na
   return out;
 }
 
-std::string key_of(const std::string& heading) { return heading.substr(0, heading.find(" [")); }
-
 using Values = std::map<std::string, std::string>;
 
 // Lines "key = value" below "[table]" as table.key and what stands behind it. `ends`: names of
@@ -53,7 +51,8 @@ Values values_of(std::istream& lines, const std::set<std::string>& ends) {
 
 Values values_asked(const Asked& asked) {
   std::set<std::string> ends{"case"};
-  for (const std::string& heading : headings_of(asked.text, "vary")) ends.insert(key_of(heading));
+  for (const Column& column : asked.columns)
+    if (!column.number) ends.insert(column.heading);  // the values of words follow the first block
   std::istringstream lines(asked.text);
   for (std::string line; std::getline(lines, line);)
     if (line.starts_with("allow_unreachable = ")) break;
