@@ -30,7 +30,7 @@ ExitCode report_study(const Options& options) {
   if (out.empty()) out = std::filesystem::path(options.runs[0]).replace_extension(".html");
   const std::vector<std::filesystem::path> files(options.runs.begin(), options.runs.end());
   run::refuse_to_overwrite(out, options.force, files);
-  return write(out, tune::study_page(files), Messages(options.quiet));
+  return write(out, tune::study_page_of(files), Messages(options.quiet));
 }
 
 ExitCode report_run(const Options& options) {

@@ -208,7 +208,7 @@ test('dark, on paper, on a phone', async () => {
 // A sweep that writes the study, slower than it could.
 function sweep(file, more = []) {
   return spawn(program, ['sweep', experiment, '--vary', 'joint.hip.angle_gain=0.02:0.1:60 %/count', '--seeds', '3', '--threads', '1',
-    '--set', 'sequence.repeat=40', '--report', 'joints.hip.tracking_rms_rad [deg], air_used_kg [g]', '--results', file, '-o', `${file}.csv`, '--quiet', ...more],
+    '--set', 'sequence.repeat=12', '--report', 'joints.hip.tracking_rms_rad [deg], air_used_kg [g]', '--results', file, '-o', `${file}.csv`, '--quiet', ...more],
   { cwd: folder });
 }
 const ended = (child) => new Promise((done) => child.on('close', done));

@@ -76,7 +76,7 @@ std::string study_page(const std::vector<StudyView>& studies) {
   return filled(studies, json_of(studies), "");
 }
 
-std::string study_page(const std::vector<std::filesystem::path>& files) {
+std::string study_page_of(const std::vector<std::filesystem::path>& files) {
   std::vector<StudyView> studies;
   for (const std::filesystem::path& file : files) studies.push_back(study_view(file));
   return study_page(studies);

@@ -77,7 +77,7 @@ struct StudyServer {
 // them. Throws std::runtime_error where the program was built without its pages.
 std::string study_page(const StudyView& study);
 std::string study_page(const std::vector<StudyView>& studies);
-std::string study_page(const std::vector<std::filesystem::path>& files);
+std::string study_page_of(const std::vector<std::filesystem::path>& files);
 std::string study_page(const StudyView& study, const StudyServer& server);
 
 }  // namespace sinew::tune
