@@ -51,7 +51,7 @@ void add_report(Command app, Action& action) {
                                "sinew report runs/walk-test-1/1 -o walk.html");
   sub.add_option("DIR", options->runs, "a run's folder, a log file, or one or two studies' files")
       .required()
-      .takes(1, 2, "REQUIRED");
+      .takes(1, 2, "1 or 2, REQUIRED");
   sub.add_option("-o,--output", options->out,
                  "the file to write; else report.html beside the log, STUDY.html beside STUDY.db");
   sub.add_option("--machine", options->machine,

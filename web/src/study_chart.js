@@ -12,7 +12,7 @@ const near_enough = 18;  // of the pointer to a mark [px]
 export function colors_now() {
   const css = getComputedStyle(document.documentElement), of = (name) => css.getPropertyValue(`--${name}`).trim();
   return { ink: of('ink'), quiet: of('quiet'), grid: of('grid'), paper: of('paper'), edge: of('edge'), unlit: of('unlit'),
-           accent: of('accent'), force: of('force'), sans: of('sans'), studies: [of('line-0'), of('line-1')],
+           accent: of('accent'), sans: of('sans'), studies: [of('line-0'), of('line-1')],
            ramp: ramp_on(of('paper')) };
 }
 
@@ -147,14 +147,12 @@ export class Chart {
     ctx.clearRect(0, 0, this.canvas.width, this.canvas.height);
     ctx.drawImage(this.still, 0, 0);
     ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-    for (const [row, size, color] of [[over, 6, this.colors.ink], [chosen, 7, this.colors.force]]) {
+    for (const [row, size] of [[chosen, 8], [over, 6]]) {
       const i = this.index?.get(row);
       if (i === undefined) continue;
-      ctx.strokeStyle = color;
-      ctx.lineWidth = row === chosen ? 3 : 2;
       ctx.beginPath();
       ctx.arc(this.px[i], this.py[i], size, 0, 2 * Math.PI);
-      ctx.stroke();
+      outlined(ctx, this.colors, row === chosen);
       if (row === over && words) this.label(ctx, this.px[i], this.py[i], words(row));
     }
   }
@@ -185,6 +183,15 @@ export class Chart {
       if (d <= best) best = d, found = i;
     }
     return found < 0 ? -1 : this.rows[found];
+  }
+}
+
+// Strokes a path so that it shows on every color.
+export function outlined(ctx, colors, is_chosen) {
+  for (const [color, width] of [[colors.paper, is_chosen ? 7 : 4], [colors.ink, is_chosen ? 3 : 1.6]]) {
+    ctx.strokeStyle = color;
+    ctx.lineWidth = width;
+    ctx.stroke();
   }
 }
 

@@ -1,7 +1,7 @@
 // Parallel coordinates: an axis for each column, a line for each row. A range that is drawn on an axis
 // filters every view.
 import { element } from './page.js';
-import { axis_of, coloring, value_text } from './study_chart.js';
+import { axis_of, coloring, outlined, value_text } from './study_chart.js';
 import { number } from './units.js';
 
 const pad = { top: 12, bottom: 12 };  // [px]
@@ -218,13 +218,11 @@ export class Parallel {
     ctx.clearRect(0, 0, this.canvas.width, this.canvas.height);
     ctx.drawImage(this.still, 0, 0);
     ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-    for (const [row, color, wide] of [[over, this.colors.ink, 2], [chosen, this.colors.force, 3]]) {
+    for (const row of [chosen, over]) {
       if (row < 0) continue;
-      ctx.strokeStyle = color;
-      ctx.lineWidth = wide;
       ctx.beginPath();
       this.trace(ctx, row);
-      ctx.stroke();
+      outlined(ctx, this.colors, row === chosen);
       if (row === over) this.values(ctx, row);
     }
   }
