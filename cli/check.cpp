@@ -20,6 +20,7 @@
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/stand/run.h"
+#include "sinew/tune/optimizer/tuning.h"
 #include "sinew/tune/study.h"
 
 namespace sinew::cli {
@@ -125,8 +126,11 @@ Finding check(const std::string& path) {
       config::read_gains(path);
     } else if (file.extension() == ".dat") {
       config::read_valve_timing(path);
-    } else if (config::format_kind(config::parse_file(path)) == "plan") {
+    } else if (const config::Node root = config::parse_file(path);
+               config::format_kind(root) == "plan") {
       tune::check(tune::sweep_of(tune::load_study(path)));
+    } else if (config::format_kind(root) == "tuning") {
+      tune::load_tuning(path);
     } else if (run::is_on_stand(path)) {
       check_rig(path, out);
     } else {
@@ -176,10 +180,11 @@ void add_check(Command app, Action& action) {
   auto options = std::make_shared<Options>();
   Command sub = app.subcommand("check", "what is wrong with files, all of it at once",
                                "sinew check robots/leg/*.toml robots/leg/predict.dat");
-  sub.add_option("FILE", options->files,
-                 "experiment, rig, plan, robot, actuator, valves, wiring file, predict.dat, "
-                 "gain*.dat, or a "
-                 "run's folder or log")
+  sub.add_option(
+         "FILE", options->files,
+         "experiment, rig, plan, tuning, robot, actuator, valves, wiring file, predict.dat, "
+         "gain*.dat, or a "
+         "run's folder or log")
       .required();
   sub.add_flag("--json", options->json, "as JSON");
   sub.callback([=, &action] { action = [=] { return check_all(*options); }; });

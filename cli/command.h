@@ -22,6 +22,7 @@ void add_export(Command app, Action& action);
 void add_import(Command app, Action& action);
 void add_replay(Command app, Action& action);
 void add_sweep(Command app, Action& action);
+void add_tune(Command app, Action& action);
 void add_merge(Command app, Action& action);
 void add_sensitivity(Command app, Action& action);
 void add_show(Command app, Action& action);

@@ -1,27 +1,21 @@
 // cli/force_beam.cpp - `sinew force-beam`: what a beam with strain gages reads, and when it yields.
-#include "sinew/identify/sensor/transducer.h"
-#include "sinew/report/text/text_table.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <nlohmann/json.hpp>
-#include <utility>
+#include <memory>
+#include <optional>
 
 #include "cli/arguments.h"
 #include "cli/command.h"
-#include "cli/json_text.h"
 #include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
-#include "sinew/config/quantity.h"
+#include "sinew/identify/sensor/transducer_text.h"
+#include "sinew/units/constants.h"
 
 namespace sinew::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Arms = identify::Bridge::Arms;
 using identify::Transducer;
 
@@ -43,16 +37,9 @@ constexpr Range size = above_zero(10, "of a transducer");
 constexpr Range stress = above_zero(1e13, "diamond has 1.2e12 N/m2");
 constexpr Range voltage = above_zero(1000, "of an instrument");
 
-constexpr std::pair<const char*, Arms> arrangements[] = {{"quarter", Arms::quarter},
-                                                         {"half", Arms::half},
-                                                         {"poisson", Arms::poisson},
-                                                         {"bending", Arms::bending}};
-
 // Returns the arrangement that --bridge, which is one of them, names.
 Arms arms_of(std::string_view bridge) {
-  return std::find_if(std::begin(arrangements), std::end(arrangements),
-                      [&](const auto& each) { return each.first == bridge; })
-      ->second;
+  return std::ranges::find(identify::arrangements, bridge, &identify::Arrangement::name)->arms;
 }
 
 double quantity(std::string_view option, const std::string& text, std::string_view unit,
@@ -87,79 +74,19 @@ Transducer read(const Options& o) {
   return s;
 }
 
-// One line of the answer: key of the JSON, words, value, SI unit and the thesis's.
-struct Line {
-  const char* key;
-  const char* words;
-  double value;
-  const char* unit;
-  const char* display;
-};
-
-std::vector<Line> answer(const Transducer& s) {
-  const identify::TransducerPoint p = evaluate(s);
-  return {
-      {"load_N", "load", s.load, "N", "lbf"},
-      {"strain", "strain at the gages", p.strain, "1", "1"},
-      {"stress_Pa", "stress at the mount", p.stress, "N/m2", "psi"},
-      {"factor_of_safety", "factor of safety", p.factor_of_safety, "1", "1"},
-      {"yield_load_N", "yields at", p.yield_load, "N", "lbf"},
-      {"deflection_m", "deflection", p.deflection, "m", "in"},
-      {"bridge_output_V", "bridge", p.bridge_output, "V", "mV"},
-      {"output_V", "amplifier", p.output, "V", "V"},
-      {"sensitivity_V_per_N", "sensitivity", p.sensitivity, "V/N", "V/lbf"},
-      {"counts_per_N", "after the converter", p.counts_per_newton, "count/N", "count/lbf"},
-      {"clip_load_N", "the converter ends at", p.clip_load, "N", "lbf"},
-  };
-}
-
-// Where the gages would have to be, for each way to wire them.
-Json places(const Transducer& s, double wanted) {
-  Json out;
-  for (const auto& [name, arms] : arrangements) {
-    identify::Bridge bridge = s.bridge;
-    bridge.arms = arms;
-    const double distance = gage_distance_for(s.beam, bridge, wanted);
-    out[name] = distance <= s.beam.length ? Json(distance) : Json();
-  }
-  return out;
-}
-
-void print(const Transducer& s, const Json& where, const Options& options) {
-  report::TextTable table({"", "SI", "in, lbf, psi"},
-                          {report::TextTable::Align::left, report::TextTable::Align::right,
-                           report::TextTable::Align::right});
-  for (const Line& line : answer(s))
-    table.add({line.words, config::format_quantity(line.value, line.unit, line.unit),
-               std::string_view(line.unit) == "1"
-                   ? ""
-                   : config::format_quantity(line.value, line.unit, line.display)});
-  fmt::print("{}", table.text());
-  if (where.empty()) return;
-  fmt::print("\n{} with the gages, from the load:\n", options.wanted);
-  for (const auto& [name, distance] : where.items())
-    fmt::print("  {:8}  {}\n", name,
-               distance.is_null()
-                   ? "beyond the mount"
-                   : config::format_quantity(distance.get<double>(), "m", "m", 5) + "  " +
-                         config::format_quantity(distance.get<double>(), "m", "in", 4));
-}
-
 ExitCode run_force_beam(const Options& options) {
   const Transducer s = read(options);
-  Json where;
+  std::optional<double> wanted;
   if (!options.wanted.empty())
-    where = places(
-        s, quantity("--sensitivity", options.wanted, "V/N", above_zero(1e9, "output by load")));
+    wanted = quantity("--sensitivity", options.wanted, "V/N", above_zero(1e9, "output by load"));
   if (options.json) {
-    Json out;
-    for (const Line& line : answer(s)) out[line.key] = line.value;
-    if (!where.empty()) out["gage_distance_m"] = where;
-    out["beyond"] = doubts(s);
-    fmt::print("{}\n", json_text(out, 2));
+    fmt::print("{}\n", json_of(s, wanted));
     return ok;
   }
-  print(s, where, options);
+  fmt::print("{}", text_of(s));
+  if (wanted)
+    fmt::print("\n{} with the gages, from the load:\n{}", options.wanted,
+               text_of_places(s, *wanted));
   for (const std::string& doubt : doubts(s)) Messages(options.quiet).warning(doubt);
   return ok;
 }
@@ -177,7 +104,7 @@ void add_beam_options(Command sub, Options& o) {
 
 void add_bridge_options(Command sub, Options& o) {
   std::vector<std::string> names;
-  for (const auto& [name, arms] : arrangements) names.emplace_back(name);
+  for (const auto& [name, arms] : identify::arrangements) names.emplace_back(name);
   sub.add_option("--bridge", o.bridge,
                  "quarter: one gage; half: above and below; poisson: above and below, along and "
                  "across; bending: two above, two below")

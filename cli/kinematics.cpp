@@ -1,13 +1,11 @@
 // cli/kinematics.cpp - `sinew kinematics`: foot to joint angles and back, and the torques behind a
 // force. Lengths and angles are printed in the units of the robot's file.
 #include "sinew/robot/kinematics.h"
-#include "sinew/report/text/text_table.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -17,7 +15,7 @@
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/robot/legs.h"
-#include "sinew/run/setup/stance.h"
+#include "sinew/run/setup/stance_text.h"
 
 namespace sinew::cli {
 
@@ -30,17 +28,6 @@ struct Options {
   bool json = false;
 };
 
-// The units in which the robot's file speaks, by its first link and its first joint; of the torques
-// by the force that is given.
-struct Shown {
-  std::string length = "m", angle = "deg", torque = "N m";
-};
-
-// One way in which the leg can stand.
-struct Branch : run::Stance {
-  std::vector<double> torques;  // [N m]; empty where no force is given
-};
-
 std::string unit_in(const config::Origins& origins, std::string_view table, std::string_view key,
                     std::string otherwise) {
   for (const config::Origin& o : origins)
@@ -49,8 +36,10 @@ std::string unit_in(const config::Origins& origins, std::string_view table, std:
   return otherwise;
 }
 
-Shown shown_for(const experiment::Experiment& e, const std::string& force) {
-  Shown out;
+// The units in which the robot's file speaks, by its first link and its first joint; of the torques
+// by the force that is given.
+run::StanceUnits units_for(const experiment::Experiment& e, const std::string& force) {
+  run::StanceUnits out;
   out.length = unit_in(e.origins, "link.", ".length", out.length);
   out.angle = unit_in(e.origins, "joint.", ".rest_angle", out.angle);
   if (unit_text(force.substr(0, force.find(','))) == "lbf") out.torque = "lbf in";
@@ -66,7 +55,7 @@ robot::TwoLinks need_two_links(const robot::Robot& robot) {
 }
 
 [[noreturn]] void out_of_reach(const std::string& text, const robot::Inverse& inverse,
-                               const Shown& units) {
+                               const run::StanceUnits& units) {
   const auto length = [&](double m) { return config::format_quantity(m, "m", units.length, 5); };
   config::fail({"--foot", 0, 0}, "",
                fmt::format("\"{}\", {} from the first joint", text, length(inverse.distance)),
@@ -85,82 +74,38 @@ robot::Point x_and_y(std::string_view option, const std::string& text, std::stri
   return {values[0], values[1]};
 }
 
-std::vector<Branch> branches_to(const experiment::Experiment& e, const std::string& text,
-                                const Shown& units) {
+std::vector<run::Stance> branches_to(const experiment::Experiment& e, const std::string& text,
+                                     const run::StanceUnits& units) {
   const robot::Point target =
       x_and_y("--foot", text, "m", {-1000, 1000, "a foot is on a leg"}, "\"-2 in, -13 in\"");
-  std::vector<Branch> out;
+  std::vector<run::Stance> out;
   for (const robot::Knee knee : {robot::Knee::above_pi, robot::Knee::below_pi}) {
     const robot::Inverse inverse = robot::inverse(need_two_links(e.robot), target, knee);
     if (!inverse.reached()) out_of_reach(text, inverse, units);
-    out.push_back({run::stance(e, {inverse.angle[0], inverse.angle[1]}), {}});
+    out.push_back(run::stance(e, {inverse.angle[0], inverse.angle[1]}));
   }
   return out;
 }
 
-Branch branch_at(const experiment::Experiment& e, const std::string& text) {
+run::Stance branch_at(const experiment::Experiment& e, const std::string& text) {
   const std::vector<double> angles = argument_list(
       "--angles", text, "rad",
       {-4 * std::numbers::pi, 4 * std::numbers::pi, "two turns; a joint makes less than one"});
   if (angles.size() != e.robot.joints.size())
     config::fail({"--angles", 0, 0}, "", config::in_quotes(text),
                  fmt::format("{} angles, as there are joints", e.robot.joints.size()));
-  return {run::stance(e, angles), {}};
+  return run::stance(e, angles);
 }
 
 // [71] in each way to stand.
 void add_torques(const experiment::Experiment& e, const std::string& text,
-                 std::vector<Branch>& branches) {
+                 std::vector<run::Stance>& branches) {
   const robot::Point force = x_and_y("--force", text, "N", {-1e6, 1e6, "a foot pushes with it"},
                                      "\"0 lbf, -20 lbf\", which presses down");
-  for (Branch& b : branches) {
+  for (run::Stance& b : branches) {
     const auto torques = robot::torques_for(robot::forward(e.robot, b.angles), force);
     b.torques.assign(torques.begin(), torques.begin() + std::ssize(b.angles));
   }
-}
-
-Json to_json(const experiment::Experiment& e, const Branch& b) {
-  Json out{{"foot_m", {b.foot.x, b.foot.y}}};
-  for (std::size_t j = 0; j < b.angles.size(); ++j)
-    out["angles_rad"][e.robot.joints[j].name] = b.angles[j];
-  for (const run::MuscleAt& m : b.muscles)
-    out["muscles"][m.name] = {{"length_m", m.length},
-                              {"shortest_m", m.shortest},
-                              {"longest_m", m.longest},
-                              {"within", m.within()}};
-  if (b.jacobian)
-    out["jacobian_m_per_rad"] = {{b.jacobian->x1, b.jacobian->x2},
-                                 {b.jacobian->y1, b.jacobian->y2}};
-  for (std::size_t j = 0; j < b.torques.size(); ++j)
-    out["torques_Nm"][e.robot.joints[j].name] = b.torques[j];
-  out["within"] = b.within();
-  return out;
-}
-
-// Returns a length or a torque as text; the 1e-9 that rounding leaves is shown as 0.
-std::string shown(double si, std::string_view unit, std::string_view display) {
-  return config::format_quantity(std::abs(si) < 1e-9 ? 0 : si, unit, display, 5);
-}
-
-void print(const experiment::Experiment& e, const Branch& b, const Shown& units) {
-  const auto length = [&](double m) { return shown(m, "m", units.length); };
-  fmt::print("foot at {}, {}{}\n", length(b.foot.x), length(b.foot.y),
-             b.within() ? "" : ": beyond a muscle's lengths");
-  for (std::size_t j = 0; j < b.angles.size(); ++j)
-    fmt::print("  {:<14} {}\n", e.robot.joints[j].name,
-               config::format_quantity(b.angles[j], "rad", units.angle, 5));
-
-  report::TextTable table({"muscle", "length", "from", "to", ""});
-  for (const run::MuscleAt& m : b.muscles)
-    table.add({m.name, length(m.length), length(m.shortest), length(m.longest),
-               m.within() ? "" : "beyond"});
-  fmt::print("{}", table.text("  "));
-  if (b.jacobian)
-    fmt::print("  Jacobian [m/rad]  x: {:9.5f} {:9.5f}\n                    y: {:9.5f} {:9.5f}\n",
-               b.jacobian->x1, b.jacobian->x2, b.jacobian->y1, b.jacobian->y2);
-  for (std::size_t j = 0; j < b.torques.size(); ++j)
-    fmt::print("  torque {:<7} {}\n", e.robot.joints[j].name,
-               shown(b.torques[j], "N m", units.torque));
 }
 
 // Leaves the one leg that is asked for, its parts named as within it; where it hangs is the origin.
@@ -182,20 +127,22 @@ ExitCode run_kinematics(const Options& options) {
   const experiment::Experiment& e = file.experiment;
   if (e.robot.joints.empty())
     throw std::invalid_argument(options.file + ": has no joints; try a robot's file");
-  const Shown units = shown_for(e, options.force);
-  std::vector<Branch> branches = options.foot.empty() ? std::vector{branch_at(e, options.angles)}
-                                                      : branches_to(e, options.foot, units);
+  const run::StanceUnits units = units_for(e, options.force);
+  std::vector<run::Stance> branches = options.foot.empty()
+                                          ? std::vector{branch_at(e, options.angles)}
+                                          : branches_to(e, options.foot, units);
   if (!options.force.empty()) add_torques(e, options.force, branches);
   if (options.json) {
     Json out{{"robot", e.robot.name}};
     if (!options.leg.empty()) out["leg"] = options.leg;
-    for (const Branch& b : branches) out["branches"].push_back(to_json(e, b));
+    for (const run::Stance& b : branches)
+      out["branches"].push_back(Json::parse(json_of(e.robot, b)));
     fmt::print("{}\n", json_text(out, 2));
     return ok;
   }
   for (std::size_t i = 0; i < branches.size(); ++i) {
     if (i > 0) fmt::print("\n");
-    print(e, branches[i], units);
+    fmt::print("{}", text_of(e.robot, branches[i], units));
   }
   return ok;
 }

@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
   cli::add_import(command, action);
   cli::add_replay(command, action);
   cli::add_sweep(command, action);
+  cli::add_tune(command, action);
   cli::add_merge(command, action);
   cli::add_sensitivity(command, action);
   cli::add_show(command, action);

@@ -16,19 +16,52 @@ constexpr Renamed renamed[] = {{"names", "map"}, {"units", "unit"}};
 
 // The settings that messages of the library name. A word that is not here stays a word: "time=0" is
 // no option.
-constexpr std::string_view settings[] = {
-    "actuator", "align",       "bits",   "columns",   "conductance",     "down",
-    "exponent", "flexion",     "force",  "frequency", "full_scale",      "drop_incomplete",
-    "hold_out", "keep_force",  "known",  "largest",   "external_volume", "flexor_length",
-    "length",   "lever",       "load",   "machine",   "model",           "moment_arm",
-    "names",    "per_volume",  "points", "port",      "pressure",        "range",
-    "report",   "rest_length", "root",   "sensors",   "shard",           "units",
-    "vary",     "volume",      "where"};
+constexpr std::string_view settings[] = {"actuator",
+                                         "align",
+                                         "bits",
+                                         "candidate",
+                                         "columns",
+                                         "conductance",
+                                         "down",
+                                         "exponent",
+                                         "flexion",
+                                         "force",
+                                         "frequency",
+                                         "full_scale",
+                                         "drop_incomplete",
+                                         "hold_out",
+                                         "keep_force",
+                                         "known",
+                                         "largest",
+                                         "external_volume",
+                                         "flexor_length",
+                                         "length",
+                                         "lever",
+                                         "load",
+                                         "machine",
+                                         "model",
+                                         "moment_arm",
+                                         "names",
+                                         "per_volume",
+                                         "points",
+                                         "port",
+                                         "pressure",
+                                         "range",
+                                         "report",
+                                         "rest_length",
+                                         "root",
+                                         "sensors",
+                                         "shard",
+                                         "units",
+                                         "vary",
+                                         "volume",
+                                         "where"};
 
 // Settings that can be the subject of a problem: at the begin of a line, or behind a file without a
 // line of it. What has a line is a key of that file.
-constexpr std::string_view subjects[] = {"known",   "model", "names", "points", "range", "report",
-                                         "sensors", "shard", "units", "vary",   "where"};
+constexpr std::string_view subjects[] = {"candidate", "known", "model",  "names",
+                                         "points",    "range", "report", "sensors",
+                                         "shard",     "units", "vary",   "where"};
 
 bool is_one_of(std::string_view word, const auto& words) {
   return std::ranges::find(words, word) != std::end(words);

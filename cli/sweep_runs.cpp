@@ -1,49 +1,18 @@
 #include "cli/sweep_runs.h"
 
-#include <fmt/format.h>
-
 #include <atomic>
-#include <stdexcept>
 #include <thread>
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "sinew/tune/results/kept.h"
 
 namespace sinew::cli {
 
-namespace {
-
-// Opens the study's file, and takes the rows that are there.
-void open_results(const tune::Sweep& s, const SweepRuns& how, tune::Options& options,
-                  std::optional<tune::Results>& results) {
-  const std::string& file = how.options.results;
-  if (file.empty()) return;
-  results.emplace(file, tune::asked_of(s));
-  options.known = results->rows();
-  std::erase_if(options.known, [&](const tune::Row& row) { return !options.share.has(row.point); });
-  if (!options.known.empty())
-    how.messages.note(fmt::format("{}: {} of {} points are there", file, options.known.size(),
-                                  options.share.size(tune::points(s))));
+int threads_of(const RunOptions& options) {
+  const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  return options.threads > 0 ? options.threads : all;
 }
-
-// Warns, and refuses what is no whole table. `kept`: the file with the rows, if any.
-void judge(const std::vector<tune::Row>& rows, const tune::Sweep& s, std::size_t points,
-           const std::string& kept, const SweepRuns& how) {
-  for (const std::string& text : tune::warnings(rows)) how.messages.warning(text);
-  if (rows.size() < points)
-    throw std::runtime_error(fmt::format(
-        "interrupted: {} of {} points are done{}{}", rows.size(), points,
-        kept.empty() ? "" : " and kept in " + kept,
-        how.options.results.empty() ? "" : "; the same command goes on with the others"));
-  try {
-    tune::refuse_empty_columns(rows, s);
-  } catch (const std::exception& e) {
-    if (kept.empty()) throw;
-    throw std::runtime_error(fmt::format("{}\n{}: holds the rows", e.what(), kept));
-  }
-}
-
-}  // namespace
 
 // A signal is for the first process, which then lets this one go.
 bool is_worker_of(const tune::Ranks& ranks, const RunOptions& options,
@@ -55,11 +24,11 @@ bool is_worker_of(const tune::Ranks& ranks, const RunOptions& options,
 }
 
 std::vector<tune::Row> run_rows(const tune::Sweep& s, const SweepRuns& how) {
-  const int all = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  tune::Options options{.threads = how.options.threads > 0 ? how.options.threads : all};
+  const std::string& file = how.options.results;
+  tune::Options options{.threads = threads_of(how.options)};
   if (!how.options.shard.empty()) options.share = tune::parse_share(how.options.shard);
   std::optional<tune::Results> results;
-  open_results(s, how, options, results);
+  tune::open_results(s, file, options, results, how.messages.notices());
   // What a study's file keeps need not stand in half a table too.
   const bool late = results && how.csv && !how.csv->part().empty();
 
@@ -80,7 +49,8 @@ std::vector<tune::Row> run_rows(const tune::Sweep& s, const SweepRuns& how) {
   std::vector<tune::Row> rows = tune::sweep(s, options);
   if (results) results->throw_failure();
   if (how.csv) how.csv->throw_failure();
-  judge(rows, s, points, results || !how.csv ? how.options.results : how.csv->part(), how);
+  tune::judge(rows, s, points, results || !how.csv ? file : how.csv->part(), !file.empty(),
+              how.messages.notices());
   if (!how.csv) return rows;
   if (late)
     for (const tune::Row& row : rows) how.csv->add(row.cells);
@@ -101,6 +71,10 @@ void add_runs(Command sub, tune::Study& study, RunOptions& options) {
             "keys of summary.json, with commas: key, or key [unit]; else what is reported of it");
   add_sets(sub, study.set);
   sub.add_flag("--allow-unreachable", study.allow_unreachable, "as in sinew run");
+  add_keeping(sub, options);
+}
+
+void add_keeping(Command sub, RunOptions& options) {
   sub.add_option("--threads", options.threads, "at a time; as many as the machine has")
       .is_between(1, 1024);
   sub.add_option("--results", options.results,

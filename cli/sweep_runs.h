@@ -20,6 +20,9 @@ struct RunOptions {
   std::string shard;    // "2/3"; empty: all points
 };
 
+// How many threads that is.
+int threads_of(const RunOptions& options);
+
 struct SweepRuns {
   const RunOptions& options;
   const Messages& messages;
@@ -41,6 +44,9 @@ std::vector<tune::Row> run_rows(const tune::Sweep& sweep, const SweepRuns& how);
 // --range, --set, --report, --allow-unreachable, --threads, --results: what every command with runs
 // takes.
 void add_runs(Command sub, tune::Study& study, RunOptions& options);
+
+// --threads and --results alone.
+void add_keeping(Command sub, RunOptions& options);
 
 // An option that takes one word each time that it is named, so that what follows stays what it is.
 void add_words(Command sub, const char* name, std::vector<std::string>& words,

@@ -5,40 +5,11 @@
 #include "cli/terminal.h"
 #include "sinew/config/quantity.h"
 #include "sinew/report/text/text_table.h"
-#include "sinew/robot/legs.h"
+#include "sinew/run/folder/main_figures.h"
 
 namespace sinew::cli {
 
 namespace {
-
-// Prints the main figures of a run of which nothing is reported, so that no paper gives the units.
-void print_main_figures(const analysis::Summary& summary, const analysis::Machine& machine) {
-  std::vector<std::pair<std::string, std::string_view>> keys = {
-      {"sequence_duration_s", "s"},
-      {"trolley.distance_m", "mm"},
-      {"trolley.mean_speed_m_per_s", "mm/s"},
-  };
-  for (std::size_t j = 0; j < machine.robot.joints.size(); ++j) {
-    const int leg = robot::leg_of_joint(machine.robot, static_cast<int>(j));
-    const bool named = !machine.robot.legs.empty() && leg >= 0;
-    const std::string of = named ? machine.robot.legs[static_cast<std::size_t>(leg)].name : "";
-    const std::string at = (of.empty() ? "joints." : "legs." + of + ".joints.") +
-                           robot::name_in_leg(of, machine.robot.joints[j].name);
-    keys.push_back({at + ".excursion_rad", "deg"});
-    keys.push_back({at + ".tracking_rms_rad", "deg"});
-    keys.push_back({at + ".passiveness", "%"});
-  }
-  for (const robot::Leg& leg : machine.robot.legs)
-    keys.push_back({"legs." + leg.name + ".foot.loaded_share_true", "%"});
-  keys.push_back({"air_used_kg", "g"});
-
-  report::TextTable table({"", "Sinew"});
-  for (const auto& [key, unit] : keys)
-    if (const double* value = summary.find(key))
-      table.add({std::string(analysis::without_unit(key)),
-                 analysis::show(*value, key, unit, machine.atmosphere)});
-  if (!table.empty()) fmt::print("{}", table.text());
-}
 
 // Verdicts, colored on a terminal.
 std::string shown(analysis::Verdict::Is is) {
@@ -86,7 +57,7 @@ bool print_reported(const analysis::Summary& summary,
 
 void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine) {
   if (!print_reported(summary, machine.reported, machine.atmosphere))
-    print_main_figures(summary, machine);
+    fmt::print("{}", run::main_figures(summary, machine));
 }
 
 void print_verdicts(const analysis::Summary& summary, const analysis::StandFile& stand) {

@@ -18,6 +18,12 @@ function(sinew_optimize_little target)
   endif()
 endfunction()
 
+# Tests are built more often than they run, and what they try is in the folders: unoptimised they
+# take a quarter less to build.
+function(sinew_optimize_nothing target)
+  target_compile_options(${target} PRIVATE -O0)
+endfunction()
+
 function(sinew_folder path)
   sinew_target(${path} target)
   set(dir ${PROJECT_SOURCE_DIR}/sinew/${path})
@@ -49,7 +55,7 @@ function(sinew_folder path)
 
   if(SINEW_TESTS AND tests)
     add_executable(${target}_test ${tests})
-    sinew_optimize_little(${target}_test)
+    sinew_optimize_nothing(${target}_test)
     sinew_precompiled(${target}_test test)
     target_link_libraries(${target}_test PRIVATE ${target} GTest::gtest_main)
     target_compile_definitions(${target}_test PRIVATE SINEW_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

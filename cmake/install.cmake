@@ -42,9 +42,11 @@ install(FILES ${PROJECT_BINARY_DIR}/sinewConfig.cmake ${PROJECT_BINARY_DIR}/sine
 if(TARGET sinew)
   install(TARGETS sinew RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
-if(TARGET sinew_mpi)
-  install(TARGETS sinew_mpi LIBRARY DESTINATION ${sinew_mpi_module})
-endif()
+foreach(module sinew_mpi sinew_pagmo)
+  if(TARGET ${module})
+    install(TARGETS ${module} LIBRARY DESTINATION ${sinew_modules})
+  endif()
+endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/robots ${PROJECT_SOURCE_DIR}/experiments
         DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md

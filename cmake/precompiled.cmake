@@ -1,4 +1,4 @@
-# sinew_precompile(KIND HEADERS [OPTIMIZED_LITTLE] [LIBRARY] [USES ...])   headers that the compiler
+# sinew_precompile(KIND HEADERS [OPTIMIZED_LITTLE|UNOPTIMIZED] [LIBRARY] [USES ...])   headers that the compiler
 # reads once for all targets of a kind, instead of once for each of their sources. Every source still
 # includes what it needs and compiles without; -DSINEW_PCH=OFF does so.
 #
@@ -9,7 +9,7 @@ option(SINEW_PCH "precompile the headers that most sources include" ON)
 
 # Makes the target sinew_pch_<kind>, of which sinew_precompiled takes the headers.
 function(sinew_precompile kind)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "LIBRARY;OPTIMIZED_LITTLE" "" "USES;HEADERS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "LIBRARY;OPTIMIZED_LITTLE;UNOPTIMIZED" "" "USES;HEADERS")
   if(NOT SINEW_PCH)
     return()
   endif()
@@ -25,6 +25,8 @@ function(sinew_precompile kind)
   endif()
   if(arg_OPTIMIZED_LITTLE)
     sinew_optimize_little(${target})
+  elseif(arg_UNOPTIMIZED)
+    sinew_optimize_nothing(${target})
   endif()
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${target} PRIVATE ${arg_USES})

@@ -40,7 +40,7 @@ layers='
     identify/motion identify/data
     identify/joint  identify/data robot
     identify/valve  identify/data gas signals
-    identify/sensor identify/data robot
+    identify/sensor identify/data robot report/text
     identify/page   identify/fit report
     analysis/verdict   signals config
     analysis/measures  signals robot gas actuator
@@ -50,13 +50,14 @@ layers='
     report/figures  report/page
     report/text
     report/compare  report/page report/text
-    run/setup       experiment control plant
+    run/setup       experiment control plant report/text
     run/simulation  run/setup log
     run/stand       run/simulation experiment/rig
     run/folder      run/simulation run/stand log analysis report
     tune            run/folder
     tune/results    tune
     tune/mpi        tune/results
+    tune/optimizer  tune/results
     tune/page       tune/results report/page
     live            run/folder tune/page
 '
@@ -81,6 +82,7 @@ libraries='
     boost/random/   sinew/tune
     sqlite3[.]h     sinew/tune/results
     mpi[.]h         sinew/tune/mpi/module
+    pagmo/          sinew/tune/optimizer/module
     ceres/          sinew/identify/fit
     Eigen/          sinew/identify
 '

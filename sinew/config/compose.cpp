@@ -18,7 +18,7 @@ constexpr int newest_format = 1;
 const char* const set_origin = "--set";
 
 std::vector<std::string_view> kinds() {
-  return {"robot", "actuator", "valves", "wiring", "experiment", "rig", "plan"};
+  return {"robot", "actuator", "valves", "wiring", "experiment", "rig", "plan", "tuning"};
 }
 
 // --- format = "sinew.robot/1" ---
@@ -293,6 +293,25 @@ Node& set_step(Node& table, std::string_view segment, const std::string& key) {
   return table.put(make_table(segment, set_location()));
 }
 
+// "polynomial[1]": one element of a list that is there, in the place of the old one.
+void set_element(Node& table, std::string_view segment, std::string_view text,
+                 const std::string& key) {
+  const std::size_t bracket = segment.find('[');
+  Node* list = table.find(segment.substr(0, bracket));
+  if (list && list->is_value_table()) list = list->find("value");
+  if (!list || list->kind != Node::Kind::array)
+    fail(set_location(), key, list ? shown(*list) : "nothing", "a list to set an element of");
+  std::size_t index = 0;
+  const char* last = segment.data() + segment.size() - 1;
+  const auto [end, error] = std::from_chars(segment.data() + bracket + 1, last, index);
+  if (error != std::errc{} || end != last || index >= list->children.size())
+    fail(set_location(), key, in_quotes(segment.substr(bracket)),
+         fmt::format("[0] to [{}]", list->children.size() - 1));
+  Node value = set_node("", text);
+  value.replaced = written(list->children[index]);
+  list->children[index] = std::move(value);
+}
+
 }  // namespace
 
 std::string_view format_kind(const Node& root) {
@@ -314,7 +333,9 @@ void apply_set(Node& root, std::string_view set) {
   for (std::size_t dot; (dot = rest.find('.')) != rest.npos; rest.remove_prefix(dot + 1)) {
     table = &set_step(*table, rest.substr(0, dot), key);
   }
-  table->put(set_node(rest, trimmed(set.substr(equals + 1))));
+  const std::string_view value = trimmed(set.substr(equals + 1));
+  if (rest.ends_with(']')) return set_element(*table, rest, value, key);
+  table->put(set_node(rest, value));
 }
 
 Node compose(const std::string& path, const std::vector<std::string>& sets) {

@@ -28,7 +28,8 @@ Node compose(const std::string& path, const std::vector<std::string>& sets = {})
 // "experiment" of format = "sinew.experiment/1"; empty where there is no such key.
 std::string_view format_kind(const Node& root);
 
-// Puts "key=value" into the tree: true, false, numbers, TOML lists and tables, else text.
+// Puts "key=value" into the tree: true, false, numbers, TOML lists and tables, else text. A key
+// that ends with an index, as "phase.swing.y.polynomial[1]", is an element of a list that is there.
 void apply_set(Node& root, std::string_view set);
 
 }  // namespace sinew::config

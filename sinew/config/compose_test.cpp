@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "sinew/config/lookup.h"
+
 namespace sinew::config {
 namespace {
 
@@ -157,6 +159,25 @@ TEST_F(Compose, SetCanNameAnotherRobot) {
       compose(path("tests/walk.toml"), {"joint.hip.x=2", "robot=" + path("other/robot.toml")});
   EXPECT_EQ(at(root, "robot_name")->text, "other");
   EXPECT_EQ(at(root, "joint.hip.x")->integer, 2);
+}
+
+TEST_F(Compose, SetTakesAnElementOfAList) {
+  write("tests/path.toml",
+        "format = \"sinew.experiment/1\"\nrobot = \"../leg/robot.toml\"\n"
+        "[phase.swing]\ny = [\"1 in\", \"-0.5\"]\n"
+        "stiffness = { value = [\"20 N\", \"30 N\"], source = \"6.2\" }\n");
+  const Node root =
+      compose(path("tests/path.toml"), {"phase.swing.y[1]=-0.25", "phase.swing.stiffness[0]=25 N"});
+  const Node* y = value_at(root, "phase.swing.y");
+  EXPECT_EQ(y->children[0].text, "1 in") << "the others stay";
+  EXPECT_EQ(y->children[1].real, -0.25);
+  EXPECT_EQ(value_at(root, "phase.swing.stiffness.value[0]")->text, "25 N");
+  const auto says = [&](const std::string& set) { return message("tests/path.toml", {set}); };
+  EXPECT_NE(says("phase.swing.y[2]=1").find("found \"[2]\"; expected [0] to [1]"),
+            std::string::npos)
+      << says("phase.swing.y[2]=1");
+  EXPECT_NE(says("phase.swing.y[a]=1").find("expected [0] to [1]"), std::string::npos);
+  EXPECT_NE(says("phase.swing.x[0]=1").find("a list to set an element of"), std::string::npos);
 }
 
 TEST_F(Compose, SetReportsSlips) {

@@ -51,9 +51,20 @@ void check_values(const Sweep& s, const Axis& axis, const config::Origin& origin
   }
 }
 
+// An element of a list has no origin of its own: the reader says what is wrong with its first and
+// last value.
+void check_element(const Sweep& s, const Axis& axis) {
+  for (const Value* value : {&axis.values.front(), &axis.values.back()}) {
+    std::vector<std::string> sets = s.sets;
+    sets.push_back(axis.set(*value));
+    (void)run::buildable(s.experiment, sets);
+  }
+}
+
 void check_axis(const Sweep& s, const Axis& axis, const config::Origins& origins,
                 double atmosphere) {
   if (axis.key == "robot") return;
+  if (axis.key.ends_with(']')) return check_element(s, axis);
   if (axis.key == "experiment") {
     for (const Value& value : axis.values) run::buildable(beside(s, value.text), s.sets);
     return;
@@ -82,6 +93,13 @@ void check_range(const Sweep& s, const Range& range, const config::Origins& orig
   check_axis(s, between, origins, atmosphere);
 }
 
+// Throws what the case's experiment is refused with.
+void check_case(const Sweep& s, const Case& one) {
+  std::vector<std::string> sets = s.sets;
+  sets.insert(sets.end(), one.sets.begin(), one.sets.end());
+  (void)run::buildable(one.experiment.empty() ? s.experiment : one.experiment, sets);
+}
+
 // Before they are in memory, and before their number is too large for one.
 void refuse_too_many(const Sweep& s) {
   double all = 1;
@@ -91,6 +109,7 @@ void refuse_too_many(const Sweep& s) {
     product += fmt::format("{}{}", product.empty() ? "" : " x ", count);
   };
   if (s.sample) times(s.sample->points);
+  if (!s.cases.empty()) times(s.cases.size());
   for (const Axis& axis : s.axes) times(axis.values.size());
   if (all <= static_cast<double>(most_points)) return;
   config::fail({"vary", 0, 0}, "", fmt::format("{} = {:.6g} points", product, all),
@@ -107,6 +126,7 @@ void check(const Sweep& s) {
   const config::Origins origins = run::buildable(root, s.experiment).origins;
   if (s.sample)
     for (const Range& range : s.sample->ranges) check_range(s, range, origins, atmosphere);
+  for (const Case& one : s.cases) check_case(s, one);
   for (const Axis& axis : s.axes) check_axis(s, axis, origins, atmosphere);
   if (!s.largest) return;
   check_axis(s, s.largest->axis, origins, atmosphere);

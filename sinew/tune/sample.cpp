@@ -65,6 +65,14 @@ Value Range::at(double share) const {
   return axis.at(from + way * std::floor(share * (std::fabs(to - from) + 1)));
 }
 
+double Range::share_of(double number) const {
+  const double from = *axis.values.front().number, to = *axis.values.back().number;
+  if (scale == Scale::log) return std::log(number / from) / std::log(to / from);
+  if (scale == Scale::linear) return (number - from) / (to - from);
+  const double way = to < from ? -1 : 1;
+  return (way * (number - from) + 0.5) / (std::fabs(to - from) + 1);
+}
+
 Range parse_range(std::string_view text, std::string_view setting) {
   Range out;
   const std::size_t blank = trimmed(text).rfind(' ');
@@ -87,7 +95,7 @@ Range parse_range(std::string_view text, std::string_view setting) {
 }
 
 std::vector<double> shares(const Sample& s) {
-  if (!s.given.empty() || s.ranges.empty()) return s.given;
+  if (!s.given.empty() || s.handed || s.ranges.empty()) return s.given;
   if (s.kind == Sample::Kind::random) return random_shares(s);
   return s.kind == Sample::Kind::latin ? latin_shares(s)
                                        : sobol_shares(s.ranges.size(), s.points, s.seed);

@@ -24,6 +24,10 @@ struct Range {
 
   // Returns the value at a share of the range, 0 to below 1.
   Value at(double share) const;
+
+  // Returns the share whose value is the number; of a whole number, the middle of its shares. It
+  // lies outside of 0 to 1 where the number is beyond an end.
+  double share_of(double number) const;
 };
 
 // Throws config::Error that begins with `setting`.
@@ -45,6 +49,7 @@ struct Sample {
   std::size_t points = 0;
   std::uint64_t seed = 1;
   std::vector<double> given;  // shares in place of drawn ones; empty: none
+  bool handed = false;  // the shares are given by whoever hands out the points, some at a time
 };
 
 inline constexpr std::size_t most_ranges = 1000;

@@ -155,5 +155,22 @@ TEST(Range, SaysWhatIsWrong) {
   EXPECT_NE(of("k=1:2.5 whole").find("whole ends"), string::npos);
 }
 
+// A share and its number are each other's.
+TEST(Range, SharesComeBackFromTheirNumbers) {
+  for (const char* text : {"a=2:5 m", "a=5:2 m", "a=0.02:0.4 m log", "a=0.4:0.02 m log"}) {
+    const Range range = parse_range(text);
+    for (const double share : {0.0, 0.1, 0.5, 0.93})
+      EXPECT_NEAR(range.share_of(*range.at(share).number), share, 1e-9) << text;
+    EXPECT_LT(range.share_of(*range.at(-0.2).number), 0) << text;
+    EXPECT_GT(range.share_of(*range.at(1.2).number), 1) << text;
+  }
+  for (const char* text : {"n=1:6 whole", "n=6:1 whole"}) {
+    const Range range = parse_range(text);
+    for (double n = 1; n <= 6; ++n) EXPECT_EQ(*range.at(range.share_of(n)).number, n) << text;
+    EXPECT_TRUE(range.share_of(0) < 0 || range.share_of(0) > 1);
+    EXPECT_TRUE(range.share_of(7) < 0 || range.share_of(7) > 1);
+  }
+}
+
 }  // namespace
 }  // namespace sinew::tune

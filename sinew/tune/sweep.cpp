@@ -33,6 +33,11 @@ struct Point {
   std::vector<std::string> sets, cells;
 };
 
+void add_case(const Case& one, Point& out) {
+  if (!one.experiment.empty()) out.experiment = one.experiment;
+  out.sets.insert(out.sets.end(), one.sets.begin(), one.sets.end());
+}
+
 // The points of a sweep by their number; the sample's shares are drawn once.
 class Points {
  public:
@@ -61,7 +66,11 @@ Point Points::at(std::size_t index) const {
   const Sweep& s = sweep_;
   Point out{.experiment = s.experiment, .sets = s.sets, .cells = {}};
   const Grid grid(s.axes);
-  if (s.sample) add_sampled(index / grid.size(), out);
+  const std::size_t cases = std::max<std::size_t>(1, s.cases.size());
+  const std::size_t ahead = index / grid.size();  // of the grid: sample and cases
+  if (!s.cases.empty()) add_case(s.cases[ahead % cases], out);
+  if (s.sample) add_sampled(ahead / cases, out);
+  if (!s.cases.empty()) out.cells.push_back(s.cases[ahead % cases].name);
   const std::vector<const Value*> values = grid.point(index % grid.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (s.axes[i].key == "experiment")
@@ -263,6 +272,7 @@ std::vector<std::string> headings(const Sweep& s) {
   std::vector<std::string> out;
   if (s.sample)
     for (const Range& range : s.sample->ranges) out.push_back(range.axis.heading());
+  if (!s.cases.empty()) out.push_back("case");
   for (const Axis& axis : s.axes) out.push_back(axis.heading());
   if (s.largest) out.push_back("largest " + s.largest->axis.heading());
   for (const Figure& figure : s.report) out.push_back(figure.heading());
@@ -287,13 +297,14 @@ Share parse_share(std::string_view text) {
 }
 
 std::size_t points(const Sweep& s) {
-  return (s.sample ? s.sample->points : 1) * Grid(s.axes).size();
+  return (s.sample ? s.sample->points : 1) * std::max<std::size_t>(1, s.cases.size()) *
+         Grid(s.axes).size();
 }
 
 std::vector<Row> sweep(const Sweep& s, const Options& options) {
-  check(s);
+  if (!options.checked) check(s);
   Work work(s, options);
-  work.first();
+  if (!options.checked) work.first();
   if (work.elsewhere())
     work.go_on_elsewhere();
   else

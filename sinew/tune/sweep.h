@@ -6,10 +6,10 @@
 //   sweep(s, {.threads = 2, .row = [](const Row& r) {...}});
 //
 // The axis `experiment` takes files beside the experiment's own, `robot` takes robots.
-// Each point of the grid is a run of its own; of a sample, each of its points with each of the
-// grid. Rows come in the grid's order, the grid counting faster than the sample, and are the same
-// for any number of threads, shares and interruptions. A run that cannot be, or that ends early, is
-// a row that says so.
+// Each point of the grid is a run of its own; of a sample, each of its points with each case and
+// each of the grid. Rows come in the grid's order, the grid counting faster than the sample, and
+// are the same for any number of threads, shares and interruptions. A run that cannot be, or that
+// ends early, is a row that says so.
 #pragma once
 
 #include <atomic>
@@ -36,10 +36,19 @@ struct Search {
   int halvings = 6;  // of the interval that is found
 };
 
+// A circumstance in which each point is run: another experiment, other values, a fault.
+struct Case {
+  std::string name;
+  std::string experiment;         // its file; empty: the sweep's own
+  std::vector<std::string> sets;  // key=value, behind the sweep's own and before a point's
+  double weight = 1;              // how much it counts where runs are averaged
+};
+
 struct Sweep {
   std::string experiment;         // its file
   std::vector<std::string> sets;  // key=value, for every run
   std::optional<Sample> sample;
+  std::vector<Case> cases;  // each point with each of them; empty: the experiment as it is
   std::vector<Axis> axes;
   std::vector<Figure> report;
   std::optional<Search> largest;
@@ -78,6 +87,7 @@ struct Options {
   std::function<void(std::span<const std::size_t> points, const std::function<void(Row)>& done)>
       elsewhere = {};
   Share share = {};             // of the points: the table has no others
+  bool checked = false;         // by an earlier sweep that differs in the sample's points alone
   std::vector<Row> known = {};  // of an earlier time: they are not run again
 };
 

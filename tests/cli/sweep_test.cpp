@@ -174,8 +174,11 @@ TEST(Studies, AreInOrderAndOfToday) {
   for (const auto& entry : fs::directory_iterator(source / "studies")) {
     if (entry.path().extension() != ".toml") continue;
     EXPECT_EQ(w.sinew({"check", entry.path().string()}).code, 0) << entry.path();
-    const fs::path table = source / "docs/studies" / entry.path().stem().concat(".csv");
-    EXPECT_TRUE(fs::exists(table)) << table;
+    const bool tuned = read_text(entry.path()).find("\"sinew.tuning/1\"") != std::string::npos;
+    const fs::path name = entry.path().stem();
+    const fs::path result = source / (tuned ? "experiments/tuned" : "docs/studies") /
+                            (name.string() + (tuned ? ".toml" : ".csv"));
+    EXPECT_TRUE(fs::exists(result)) << result;
     ++plans;
   }
   EXPECT_GE(plans, 10);

@@ -21,6 +21,19 @@ using ::testing::HasSubstr;
 
 constexpr int points = 120;
 
+// The same number of runs as generations that follow from each other.
+const char* const tuning =
+    "format = \"sinew.tuning/1\"\n"
+    "title = \"a lever\"\n"
+    "experiment = \"experiments/one-joint.toml\"\n"
+    "range = [\"joint.lever.angle_gain=0.05:0.2 %/count log\", \"phase.up.duration=0.5:1.5 s\"]\n"
+    "minimize = [\"joints.lever.tracking_rms_rad\"]\n"
+    "where = [\"air_used_kg < 0.6 g\"]\n"
+    "population = 10\n"
+    "seeds = 2\n"
+    "generations = 6\n";
+const Words tune = {"tune", "t.toml"};
+
 const Words sweep = {"sweep",    "experiments/one-joint.toml",
                      "--vary",   "joint.lever.angle_gain=0.08,0.12,0.2 %/count",
                      "--range",  "phase.up.duration=0.5:1.5 s",
@@ -59,15 +72,27 @@ std::vector<pid_t> children_of(pid_t pid) {
   return out;
 }
 
-class Studies : public ::testing::Test {
+// Of sweeps and of tunings.
+class Studies : public ::testing::TestWithParam<Words> {
  protected:
   Studies() {
+    write_text(w / "t.toml", tuning);
     const auto begin = std::chrono::steady_clock::now();
-    table = w.sinew(with(sweep, {"--threads", "1"})).out;
+    table = table_of({"--results", "alone.db", "--threads", "1"});
     lasts = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   }
 
-  void SetUp() override { ASSERT_EQ(std::count(table.begin(), table.end(), '\n'), points + 1); }
+  void SetUp() override {
+    const int rows = GetParam() == tune ? points / 2 : points;  // two runs a candidate
+    ASSERT_EQ(std::count(table.begin(), table.end(), '\n'), rows + 1);
+  }
+
+  // Of this study, run or gone on with as the words say.
+  std::string table_of(const Words& words) {
+    const Result r = w.sinew(with(with(GetParam(), words), {"-o", "t.csv", "--force", "--quiet"}));
+    EXPECT_EQ(r.code, 0) << r.err;
+    return read_text(w / "t.csv");
+  }
 
   // Kills the process, one of those that mpirun started, or asks mpirun to end.
   bool disturb(const Started& process, bool mpi) {
@@ -86,27 +111,30 @@ class Studies : public ::testing::Test {
   std::mt19937 random{7};
 };
 
-TEST_F(Studies, AreOneTableHoweverTheyAreRun) {
-  EXPECT_EQ(w.sinew(with(sweep, {"--threads", "2"})).out, table);
-  Words merge = {"merge", "-o", "all.db"};
-  for (const std::string i : {"3", "1", "2"}) {
-    EXPECT_EQ(w.sinew(with(sweep, {"--results", i + ".db", "--shard", i + "/3"})).code, 0);
-    merge.push_back(i + ".db");
+TEST_P(Studies, AreOneTableHoweverTheyAreRun) {
+  EXPECT_EQ(table_of({"--results", "two.db", "--threads", "2"}), table);
+  if (GetParam() == sweep) {
+    Words merge = {"merge", "-o", "all.db"};
+    for (const std::string i : {"3", "1", "2"}) {
+      EXPECT_EQ(w.sinew(with(sweep, {"--results", i + ".db", "--shard", i + "/3"})).code, 0);
+      merge.push_back(i + ".db");
+    }
+    EXPECT_EQ(w.sinew(merge).code, 0);
+    EXPECT_EQ(table_of({"--results", "all.db"}), table);
   }
-  EXPECT_EQ(w.sinew(merge).code, 0);
-  EXPECT_EQ(w.sinew(with(sweep, {"--results", "all.db"})).out, table);
   if (!has_mpi()) GTEST_SKIP() << "no mpirun, or a program without MPI: the others are the same";
-  const Ended end = ended(start_on(w, with(sweep, {"-o", "mpi.csv", "--results", "m.db"}), true));
+  const Ended end =
+      ended(start_on(w, with(GetParam(), {"-o", "mpi.csv", "--results", "m.db"}), true));
   EXPECT_EQ(end.code, 0) << end.output;
   EXPECT_EQ(read_text(w / "mpi.csv"), table);
 }
 
-TEST_F(Studies, KilledAndGoneOnWithAreTheSameTable) {
-  const Words words = with(sweep, {"--results", "s.db", "--quiet", "--threads", "1"});
+TEST_P(Studies, KilledAndGoneOnWithAreTheSameTable) {
+  const Words words = with(GetParam(), {"--results", "s.db", "--quiet", "--threads", "1"});
   const double begin_of_mpirun = 0.3;  // [s], or so
   int killed = 0, whole = 0, mpirun = 0, tried = 0;
   const auto finish = [&] {
-    EXPECT_EQ(w.sinew(words).out, table);
+    EXPECT_EQ(table_of({"--results", "s.db", "--threads", "1"}), table);
     fs::remove(w / "s.db");
     ++whole;
   };
@@ -125,10 +153,14 @@ TEST_F(Studies, KilledAndGoneOnWithAreTheSameTable) {
   finish();
   EXPECT_EQ(killed, tries(6)) << "most were over before their signal came";
   std::printf(
-      "guard: %d kills of a study of %d points, %d of them under mpirun; gone on with, the table "
-      "was the same %d times\n",
-      killed, points, mpirun, whole);
+      "guard: %d kills of a %s of %d runs, %d of them under mpirun; gone on with, the table was "
+      "the "
+      "same %d times\n",
+      killed, GetParam() == tune ? "tuning" : "sweep", points, mpirun, whole);
 }
+
+INSTANTIATE_TEST_SUITE_P(All, Studies, ::testing::Values(sweep, tune),
+                         [](const auto& kind) { return kind.param.front(); });
 
 }  // namespace
 }  // namespace sinew::test

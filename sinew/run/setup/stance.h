@@ -25,6 +25,7 @@ struct Stance {
   robot::Point foot;           // from the first joint [m]
   std::vector<MuscleAt> muscles;
   std::optional<robot::Jacobian> jacobian;  // of the foot by the angles: of two links [m/rad]
+  std::vector<double> torques;              // of the joints [N m]; empty where no force is asked of
 
   bool within() const {
     return std::ranges::all_of(muscles, [](const MuscleAt& m) { return m.within(); });

@@ -1,19 +1,15 @@
 #include "sinew/tune/mpi/ranks.h"
 
-#include <dlfcn.h>
-
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <stdexcept>
 #include <thread>
 
+#include "sinew/tune/module.h"
 #include "sinew/tune/mpi/module/messages.h"
 
 namespace sinew::tune {
 namespace {
-
-namespace fs = std::filesystem;
 
 int number_in(const char* variable) {
   const char* text = std::getenv(variable);
@@ -37,12 +33,8 @@ bool one_of_several() {
   throw std::runtime_error(what);
 }
 
-// Beside the program as it is built and installed, else wherever the system finds it.
-void* open_module() {
-  std::error_code none;
-  const fs::path program = fs::read_symlink("/proc/self/exe", none);
-  for (const fs::path& file : {program.parent_path() / SINEW_MPI_MODULE, fs::path("sinew_mpi.so")})
-    if (void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) return module;
+void* module_with_mpi() {
+  if (void* module = open_module("sinew_mpi.so")) return module;
   fail(
       "started by mpirun, and this program was built without MPI; try: apt-get install "
       "libopenmpi-dev, and build again; or shards, which need none");
@@ -52,8 +44,8 @@ void* open_module() {
 
 Ranks::Ranks() {
   if (!one_of_several()) return;
-  const auto messages =
-      reinterpret_cast<const SinewMessages* (*)()>(dlsym(open_module(), "sinew_messages_1"));
+  const auto messages = reinterpret_cast<const SinewMessages* (*)()>(
+      function_of(module_with_mpi(), "sinew_messages_1"));
   if (!messages) fail("sinew_mpi.so is of another version of Sinew; build and install both again");
   if (!messages()->begin(&rank_, &size_)) fail("MPI cannot begin; its own words stand above");
   messages_ = messages();

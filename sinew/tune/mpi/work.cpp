@@ -15,7 +15,8 @@ using Json = nlohmann::json;
 
 // Binary, so that a cell keeps its bytes whatever they are.
 //
-//   to a worker     {}                             say what you have been asked for
+//   to a worker     {"shares": […]}                say what you have been asked for; of a sample
+//                                                  whose shares are handed out, these
 //                   {"points": [3, 4, 5]}          run these
 //                   {"end": true}
 //   to the master   {"asked": "…"}
@@ -99,8 +100,13 @@ class HandOut {
 };
 
 // A worker's first answer.
-Json begin(const std::function<Sweep()>& sweep, std::unique_ptr<Runner>& runner) try {
-  const Sweep s = sweep();
+Json begin(const std::function<Sweep()>& sweep, const std::vector<double>& shares,
+           std::unique_ptr<Runner>& runner) try {
+  Sweep s = sweep();
+  if (s.sample && s.sample->handed) {
+    s.sample->points = shares.size() / s.sample->ranges.size();
+    s.sample->given = shares;
+  }
   runner = std::make_unique<Runner>(s);
   return {{"asked", asked_of(s).text}};
 } catch (const std::exception& e) {
@@ -120,17 +126,20 @@ void require_same(const std::string& ours, const std::string& theirs, int rank) 
 
 decltype(Options::elsewhere) Master::elsewhere(const Sweep& sweep, const std::atomic<bool>* stop) {
   if (ranks_.size() == 1) return {};
-  return [this, asked = asked_of(sweep).text, stop](std::span<const std::size_t> points,
-                                                    const std::function<void(Row)>& done) {
-    run(asked, points, done, stop);
+  const bool handed = sweep.sample && sweep.sample->handed;
+  return [this, asked = asked_of(sweep).text,
+          shares = handed ? sweep.sample->given : std::vector<double>{},
+          stop](std::span<const std::size_t> points, const std::function<void(Row)>& done) {
+    run(asked, shares, points, done, stop);
   };
 }
 
-void Master::run(const std::string& asked, std::span<const std::size_t> points,
-                 const std::function<void(Row)>& done, const std::atomic<bool>* stop) {
+void Master::run(const std::string& asked, const std::vector<double>& shares,
+                 std::span<const std::size_t> points, const std::function<void(Row)>& done,
+                 const std::atomic<bool>* stop) {
   HandOut out(ranks_, points, stop);
   for (int worker = 1; worker < ranks_.size(); ++worker)
-    ranks_.send(worker, packed(Json::object()));
+    ranks_.send(worker, packed({{"shares", shares}}));
   while (!out.all_there()) {
     const auto message = ranks_.receive(while_nothing_comes);
     if (!message) continue;
@@ -170,7 +179,7 @@ void work(const Ranks& ranks, const std::function<Sweep()>& sweep, int threads) 
     const Json json = unpacked(message->text);
     if (json.contains("end")) break;
     if (!json.contains("points")) {
-      ranks.send(0, packed(begin(sweep, runner)));
+      ranks.send(0, packed(begin(sweep, json.at("shares"), runner)));
       continue;
     }
     const std::vector<std::size_t> points = json.at("points");

@@ -33,8 +33,9 @@ class Master {
   decltype(Options::elsewhere) elsewhere(const Sweep& sweep, const std::atomic<bool>* stop);
 
  private:
-  void run(const std::string& asked, std::span<const std::size_t> points,
-           const std::function<void(Row)>& done, const std::atomic<bool>* stop);
+  void run(const std::string& asked, const std::vector<double>& shares,
+           std::span<const std::size_t> points, const std::function<void(Row)>& done,
+           const std::atomic<bool>* stop);
 
   const Ranks& ranks_;
 };

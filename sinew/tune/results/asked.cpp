@@ -68,7 +68,8 @@ void add_sample(const Sample& sample, Text& out) {
   const std::string points = sample.given.empty()
                                  ? fmt::format("{}, seed {}", to_text(sample.kind), sample.seed)
                                  : fmt::format("given, {:016x}", units::hash(bytes));
-  out.line("sample", fmt::format("{} points, {}", sample.points, points));
+  const bool whole = !sample.handed || !sample.given.empty();
+  out.line("sample", whole ? fmt::format("{} points, {}", sample.points, points) : "handed out");
   for (const Range& range : sample.ranges) out.axis("range", range.axis, to_text(range.scale));
 }
 
@@ -76,6 +77,13 @@ void add_search(const Search& search, Text& out) {
   out.axis("largest", search.axis);
   for (const Condition& c : search.where) out.line("where", c.text);
   out.line("halvings", std::to_string(search.halvings));
+}
+
+void add_case(const Sweep& s, const Case& one, Text& out) {
+  out.line("case", fmt::format("{}, weight {}", one.name, one.weight));
+  std::vector<std::string> sets = s.sets;
+  sets.insert(sets.end(), one.sets.begin(), one.sets.end());
+  out.block(values_of(one.experiment.empty() ? s.experiment : one.experiment, sets));
 }
 
 std::string text_of(const Sweep& s) {
@@ -87,6 +95,7 @@ std::string text_of(const Sweep& s) {
   if (s.largest) add_search(*s.largest, out);
   out.line("allow_unreachable", s.allow_unreachable ? "true" : "false");
   out.block(values_of(s.experiment, s.sets));
+  for (const Case& one : s.cases) add_case(s, one, out);
   for (const Axis& axis : s.axes)
     for (const Value& value : axis.values) {
       if (value.number) continue;
@@ -100,12 +109,21 @@ bool has_numbers(const Axis& axis) {
   return std::ranges::all_of(axis.values, [](const Value& v) { return v.number.has_value(); });
 }
 
+// They stand in the order of headings().
 std::vector<Column> columns_of(const Sweep& s) {
   std::vector<Column> out;
-  for (const std::string& heading : headings(s)) out.push_back({heading, true});
-  const std::size_t sampled = s.sample ? s.sample->ranges.size() : 0;
-  for (std::size_t i = 0; i < s.axes.size(); ++i) out[sampled + i].number = has_numbers(s.axes[i]);
-  out.back().number = false;  // the status
+  for (const std::string& heading : headings(s)) out.push_back({heading});
+  std::size_t at = 0;
+  if (s.sample)
+    for (; at < s.sample->ranges.size(); ++at) out[at].role = Column::Role::parameter;
+  if (!s.cases.empty()) out[at++] = {"case", false, Column::Role::circumstance};
+  for (const Axis& axis : s.axes) {
+    out[at].role = axis.key == "seed" ? Column::Role::circumstance : Column::Role::parameter;
+    out[at++].number = has_numbers(axis);
+  }
+  if (s.largest) ++at;
+  for (std::size_t i = 0; i < s.report.size(); ++i) out[at++].role = Column::Role::figure;
+  out.back().number = false;
   return out;
 }
 
@@ -119,6 +137,26 @@ std::vector<Column> columns_of(const Sweep& s) {
 }  // namespace
 
 Asked asked_of(const Sweep& s) { return {text_of(s), columns_of(s), points(s), s.experiment}; }
+
+const char* to_text(Column::Role role) {
+  switch (role) {
+    case Column::Role::parameter:
+      return "parameter";
+    case Column::Role::circumstance:
+      return "circumstance";
+    case Column::Role::figure:
+      return "figure";
+    case Column::Role::maximize:
+      return "maximize";
+    case Column::Role::minimize:
+      return "minimize";
+    case Column::Role::limit:
+      return "limit";
+    case Column::Role::other:
+      break;
+  }
+  return "other";
+}
 
 std::string hash_of(const Asked& asked) {
   return fmt::format("{:016x}", units::hash(std::string_view(asked.text)));

@@ -16,15 +16,25 @@
 namespace sinew::tune {
 
 struct Column {
+  // parameter     a sweep varies it, a tuner chooses it
+  // circumstance  a parameter has to serve in it: a seed, a case, a draw of what is not known
+  // figure        a run's, that was asked for
+  // maximize, minimize, limit  a figure that a tuner goes by
+  enum class Role { parameter, circumstance, figure, maximize, minimize, limit, other };
+
   std::string heading;
   bool number = true;  // its cells are numbers, or empty
+  Role role = Role::other;
 };
+const char* to_text(Column::Role role);
 
 struct Asked {
   std::string text;  // a fact a line
   std::vector<Column> columns;
-  std::size_t points = 0;
+  std::size_t points = 0;  // no part of the text of a tuning, which may be asked to go on
   std::string experiment;  // the file, as it was named
+  std::string title = {};
+  std::vector<Column> of_candidates = {};  // a tuning's; empty: a sweep
 };
 
 // Throws config::Error for an experiment that is wrong.

@@ -120,6 +120,11 @@ Statement& Statement::bind(std::int64_t value) {
   return *this;
 }
 
+Statement& Statement::bind(double value) {
+  sqlite3_bind_double(handle_, ++bound_, value);
+  return *this;
+}
+
 Statement& Statement::bind(const std::string& value) {
   sqlite3_bind_text(handle_, ++bound_, value.data(), static_cast<int>(value.size()),
                     SQLITE_TRANSIENT);
@@ -136,6 +141,8 @@ bool Statement::step() {
 }
 
 std::int64_t Statement::number(int column) const { return sqlite3_column_int64(handle_, column); }
+
+double Statement::real(int column) const { return sqlite3_column_double(handle_, column); }
 
 std::string Statement::text(int column) const {
   const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(handle_, column));

@@ -45,6 +45,7 @@ class Statement {
 
   // Fill the places in their order, from the first after each step to the end.
   Statement& bind(std::int64_t value);
+  Statement& bind(double value);
   Statement& bind(const std::string& value);
 
   // Goes to the next row of the answer. Returns false behind the last one; then it can be filled
@@ -56,6 +57,7 @@ class Statement {
 
   // Cells of this row, counted from 0.
   std::int64_t number(int column) const;
+  double real(int column) const;
   std::string text(int column) const;
 
  private:

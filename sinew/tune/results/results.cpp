@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "sinew/log/error.h"
@@ -53,6 +54,23 @@ std::vector<Row> rows_of(Database& database, const fs::path& file, const Asked& 
                        "keep a copy, and choose another name");
     out.push_back(std::move(row));
   }
+  return out;
+}
+
+std::vector<CandidateRow> candidates_of(Database& database, const fs::path& file,
+                                        const Asked& asked) {
+  std::vector<CandidateRow> out;
+  if (asked.of_candidates.empty()) return out;
+  Statement select(database,
+                   "SELECT candidate, generation, feasible, violation, holds, cells "
+                   "FROM candidate_result ORDER BY candidate");
+  while (select.step())
+    out.push_back({.number = static_cast<std::size_t>(select.number(0)),
+                   .generation = static_cast<std::size_t>(select.number(1)),
+                   .feasible = select.number(2) != 0,
+                   .violation = select.real(3),
+                   .holds = select.real(4),
+                   .cells = texts_of(select.text(5), file)});
   return out;
 }
 
@@ -141,9 +159,36 @@ bool Results::add(const Row& row) noexcept {
 }
 
 void Results::add_all(const std::vector<Row>& rows) {
+  all_or_none([&] {
+    for (const Row& row : rows) insert(row);
+  });
+}
+
+void Results::add_candidates(const std::vector<CandidateRow>& candidates) {
+  all_or_none([&] {
+    Statement insert(*database_,
+                     "INSERT OR REPLACE INTO candidate_result (candidate, generation, feasible, "
+                     "violation, holds, cells) VALUES (?1, ?2, ?3, ?4, ?5, ?6)");
+    for (const CandidateRow& c : candidates)
+      insert.bind(static_cast<std::int64_t>(c.number))
+          .bind(static_cast<std::int64_t>(c.generation))
+          .bind(std::int64_t{c.feasible})
+          .bind(c.violation)
+          .bind(c.holds)
+          .bind(json_of(c.cells))
+          .to_the_end();
+  });
+}
+
+void Results::expect(std::size_t points) {
+  Statement update(*database_, "UPDATE study SET value = ?1 WHERE key = 'points'");
+  update.bind(std::to_string(points)).to_the_end();
+}
+
+void Results::all_or_none(const std::function<void()>& write) {
   database_->run("BEGIN IMMEDIATE");
   try {
-    for (const Row& row : rows) insert(row);
+    write();
     database_->run("COMMIT");
   } catch (...) {
     try {
@@ -166,6 +211,7 @@ HeldStudy read_results(const fs::path& file) {
   database.run("BEGIN");
   HeldStudy out{.asked = study_of(database, file), .rows = {}};
   out.rows = rows_of(database, file, out.asked);
+  out.candidates = candidates_of(database, file, out.asked);
   return out;
 }
 

@@ -12,6 +12,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,8 +22,19 @@
 
 namespace sinew::tune {
 
-inline constexpr int study_format = 1;             // of the tables
+inline constexpr int study_format = 2;             // of the tables
 inline constexpr std::size_t most_columns = 1900;  // what a database of Debian's SQLite can show
+
+// What the runs of a tuning's candidate say together.
+struct CandidateRow {
+  std::size_t number = 0, generation = 0;  // from 0
+  bool feasible = false;                   // every limit holds, as often as it must
+  double violation = 0;                    // how far it is from that; 0: feasible
+  double holds = 0;                        // share of its runs in which every limit holds
+  std::vector<std::string> cells;          // as many as Asked::of_candidates
+
+  bool operator==(const CandidateRow&) const = default;
+};
 
 class Results {
  public:
@@ -45,6 +57,12 @@ class Results {
   // Adds all of them, or none. Throws log::Error.
   void add_all(const std::vector<Row>& rows);
 
+  // Adds those of a generation, or none; one that is there is written anew. Throws log::Error.
+  void add_candidates(const std::vector<CandidateRow>& candidates);
+
+  // A tuning may be asked for more generations than when it began. Throws log::Error.
+  void expect(std::size_t points);
+
   // Throws log::Error where a row could not be written.
   void throw_failure() const;
 
@@ -52,6 +70,7 @@ class Results {
 
  private:
   void insert(const Row& row);
+  void all_or_none(const std::function<void()>& write);
 
   std::filesystem::path file_;
   int lock_ = -1;
@@ -64,7 +83,8 @@ class Results {
 // What a file holds.
 struct HeldStudy {
   Asked asked;
-  std::vector<Row> rows;  // in the points' order
+  std::vector<Row> rows;                 // in the points' order
+  std::vector<CandidateRow> candidates;  // of a tuning, in their order
 };
 
 // Throws as Results does. Changes nothing; the file may be written meanwhile.

@@ -222,8 +222,11 @@ TEST_F(ResultsTest, RefusesWhatIsNoStudy) {
   sqlite3* db = nullptr;
   sqlite3_open(file_.c_str(), &db);
   sqlite3_exec(db, "PRAGMA user_version = 9", nullptr, nullptr, nullptr);
-  EXPECT_NE(refusal().find("format 9; expected format 1 or older"), std::string::npos) << refusal();
-  sqlite3_exec(db, "PRAGMA user_version = 1; UPDATE study SET value = 'x' WHERE key = 'hash'",
+  EXPECT_NE(refusal().find("format 9; expected format 2; try a newer"), std::string::npos)
+      << refusal();
+  sqlite3_exec(db, "PRAGMA user_version = 1", nullptr, nullptr, nullptr);
+  EXPECT_NE(refusal().find("an older Sinew wrote it"), std::string::npos) << refusal();
+  sqlite3_exec(db, "PRAGMA user_version = 2; UPDATE study SET value = 'x' WHERE key = 'hash'",
                nullptr, nullptr, nullptr);
   EXPECT_NE(refusal().find("is damaged"), std::string::npos) << refusal();
   sqlite3_close(db);

@@ -20,19 +20,31 @@ constexpr std::int64_t application = 0x53696e77;  // "Sinw", by which `file` and
 const char* const tables =
     "CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
     "CREATE TABLE heading (number INTEGER PRIMARY KEY, heading TEXT NOT NULL,"
-    "  name TEXT NOT NULL, is_number INTEGER NOT NULL);"
+    "  name TEXT NOT NULL, is_number INTEGER NOT NULL, role TEXT NOT NULL);"
     "CREATE TABLE result (point INTEGER PRIMARY KEY, ok INTEGER NOT NULL,"
     "  stop_reached INTEGER NOT NULL, no_air INTEGER NOT NULL, out_of_reach INTEGER NOT NULL,"
     "  lacks TEXT NOT NULL, differs TEXT NOT NULL, cells TEXT NOT NULL);";
+
+// Of a tuning alone.
+const char* const tables_of_candidates =
+    "CREATE TABLE candidate_heading (number INTEGER PRIMARY KEY, heading TEXT NOT NULL,"
+    "  name TEXT NOT NULL, is_number INTEGER NOT NULL, role TEXT NOT NULL);"
+    "CREATE TABLE candidate_result (candidate INTEGER PRIMARY KEY, generation INTEGER NOT NULL,"
+    "  feasible INTEGER NOT NULL, violation REAL NOT NULL, holds REAL NOT NULL,"
+    "  cells TEXT NOT NULL);";
+
+constexpr std::string_view of_runs = "point, ok, stop_reached, no_air, out_of_reach";
+constexpr std::string_view of_candidates = "candidate, generation, feasible, violation, holds";
 
 std::string lower(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
   return text;
 }
 
-// SQLite's names do not tell letters by their case.
-std::vector<std::string> names_of(const std::vector<Column>& columns) {
-  std::set<std::string> taken{"point", "ok", "stop_reached", "no_air", "out_of_reach"};
+// SQLite's names do not tell letters by their case. `own` are the view's other names.
+std::vector<std::string> names_of(const std::vector<Column>& columns, std::string_view own) {
+  std::set<std::string> taken;
+  for (const std::string_view name : list_of(own)) taken.emplace(name);
   std::vector<std::string> out;
   for (const Column& column : columns) {
     std::string name = column.heading;
@@ -49,15 +61,44 @@ std::string quoted(const std::string& name) {
   return out + "\"";
 }
 
-std::string view_of(const std::vector<Column>& columns, const std::vector<std::string>& names) {
-  std::string out = "CREATE VIEW run AS SELECT point";
+// A view of a table whose column `cells` is a list of texts; `own` are the table's other columns.
+std::string view_of(const char* view, const char* table, std::string_view own,
+                    const std::vector<Column>& columns, const std::vector<std::string>& names) {
+  const std::size_t comma = own.find(',');
+  std::string out = fmt::format("CREATE VIEW {} AS SELECT {}", view, own.substr(0, comma));
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const std::string cell = fmt::format("nullif(json_extract(cells, '$[{}]'), '')", i);
     out += fmt::format(", {} AS {}",
                        columns[i].number ? fmt::format("CAST({} AS NUMERIC)", cell) : cell,
                        quoted(names[i]));
   }
-  return out + ", ok, stop_reached, no_air, out_of_reach FROM result";
+  return out + fmt::format("{} FROM {}", own.substr(comma), table);
+}
+
+void make_headings(Database& database, const char* table, const std::vector<Column>& columns,
+                   const std::vector<std::string>& names) {
+  Statement heading(database, fmt::format("INSERT INTO {} VALUES (?1, ?2, ?3, ?4, ?5)", table));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    heading.bind(static_cast<std::int64_t>(i))
+        .bind(columns[i].heading)
+        .bind(names[i])
+        .bind(std::int64_t{columns[i].number})
+        .bind(std::string(to_text(columns[i].role)))
+        .to_the_end();
+}
+
+std::vector<Column> columns_of(Database& database, const char* table) {
+  constexpr int last_role = static_cast<int>(Column::Role::other);
+  std::vector<Column> out;
+  Statement headings(database,
+                     fmt::format("SELECT heading, is_number, role FROM {} ORDER BY number", table));
+  while (headings.step()) {
+    out.push_back({headings.text(0), headings.number(1) != 0});
+    for (int role = 0; role < last_role; ++role)
+      if (headings.text(2) == to_text(static_cast<Column::Role>(role)))
+        out.back().role = static_cast<Column::Role>(role);
+  }
+  return out;
 }
 
 std::string value_of(Database& database, const std::string& key) {
@@ -76,8 +117,12 @@ bool has_study(Database& database, const fs::path& file) {
                 "another name, or to remove it first");
   if (format > study_format)
     run::refuse(file, fmt::format("a study's file of format {}", format),
-                fmt::format("format {} or older", study_format),
+                fmt::format("format {}", study_format),
                 "a newer Sinew: the file was written by one");
+  if (format < study_format)
+    run::refuse(file, fmt::format("a study's file of format {}", format),
+                fmt::format("format {}", study_format),
+                "another name: an older Sinew wrote it, and any SQLite program still reads it");
   return true;
 }
 
@@ -91,19 +136,22 @@ void make_tables(Database& database, const Asked& asked) {
   };
   say("format", fmt::format("sinew.study/{}", study_format));
   say("sinew_version", SINEW_VERSION);
+  say("kind", asked.of_candidates.empty() ? "sweep" : "tuning");
+  say("title", asked.title);
   say("experiment", asked.experiment);
   say("points", std::to_string(asked.points));
   say("hash", hash_of(asked));
   say("asked", asked.text);
-  const std::vector<std::string> names = names_of(asked.columns);
-  Statement heading(database, "INSERT INTO heading VALUES (?1, ?2, ?3, ?4)");
-  for (std::size_t i = 0; i < names.size(); ++i)
-    heading.bind(static_cast<std::int64_t>(i))
-        .bind(asked.columns[i].heading)
-        .bind(names[i])
-        .bind(std::int64_t{asked.columns[i].number})
-        .to_the_end();
-  database.run(view_of(asked.columns, names));
+  const std::vector<std::string> names = names_of(asked.columns, of_runs);
+  make_headings(database, "heading", asked.columns, names);
+  database.run(view_of("run", "result", of_runs, asked.columns, names));
+  if (!asked.of_candidates.empty()) {
+    database.run(tables_of_candidates);
+    const std::vector<std::string> theirs = names_of(asked.of_candidates, of_candidates);
+    make_headings(database, "candidate_heading", asked.of_candidates, theirs);
+    database.run(
+        view_of("candidate", "candidate_result", of_candidates, asked.of_candidates, theirs));
+  }
   database.run(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}; COMMIT",
                            application, study_format));
 }
@@ -112,11 +160,13 @@ Asked study_of(Database& database, const fs::path& file) {
   Asked out{.text = value_of(database, "asked"),
             .columns = {},
             .points = 0,
-            .experiment = value_of(database, "experiment")};
+            .experiment = value_of(database, "experiment"),
+            .title = value_of(database, "title")};
   out.points = static_cast<std::size_t>(
       database.number("SELECT CAST(value AS INTEGER) FROM study WHERE key = 'points'"));
-  Statement headings(database, "SELECT heading, is_number FROM heading ORDER BY number");
-  while (headings.step()) out.columns.push_back({headings.text(0), headings.number(1) != 0});
+  out.columns = columns_of(database, "heading");
+  if (value_of(database, "kind") == "tuning")
+    out.of_candidates = columns_of(database, "candidate_heading");
   if (hash_of(out) != value_of(database, "hash") || out.points > most_points)
     throw log::Error(file, "is damaged: what it was asked for cannot be read",
                      "keep a copy, and choose another name");

@@ -1,0 +1,42 @@
+# sinew_module(NAME SOURCE LIBRARY)   a part of the program with an outside library in it, which the
+# program opens only when it is needed: lib/sinew/NAME.so.
+#
+# sinew_mpi    the MPI library, for processes that mpirun started
+# sinew_pagmo  the methods of `sinew tune`
+#
+# Where a library is missing the program is built without, and says so when it is asked for.
+
+function(sinew_module name source library)
+  add_library(${name} MODULE ${PROJECT_SOURCE_DIR}/sinew/${source})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${name} PRIVATE ${library})
+  set_target_properties(${name} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY
+                                           ${PROJECT_BINARY_DIR}/${sinew_modules})
+endfunction()
+
+if(SINEW_MPI AND NOT SINEW_FUZZ)
+  set(MPI_CXX_SKIP_MPICXX ON)
+  find_package(MPI COMPONENTS CXX QUIET)
+  if(MPI_CXX_FOUND)
+    sinew_module(sinew_mpi tune/mpi/module/module.cpp MPI::MPI_CXX)
+  else()
+    message(STATUS "MPI: built without sweeps over mpirun; libopenmpi-dev brings them")
+  endif()
+endif()
+
+if(SINEW_PAGMO AND NOT SINEW_FUZZ)
+  find_package(Pagmo QUIET)
+  if(Pagmo_FOUND)
+    sinew_module(sinew_pagmo tune/optimizer/module/module.cpp Pagmo::pagmo)
+    # Its headers take the optimiser longer than the module ever runs.
+    sinew_optimize_little(sinew_pagmo)
+  else()
+    message(STATUS "pagmo: built without `sinew tune`; libpagmo-dev brings it")
+  endif()
+endif()
+
+# Tests of the optimizer look for its module where the program does.
+if(TARGET sinew_tune_optimizer_test)
+  set_target_properties(sinew_tune_optimizer_test PROPERTIES RUNTIME_OUTPUT_DIRECTORY
+                                                             ${PROJECT_BINARY_DIR}/bin)
+endif()

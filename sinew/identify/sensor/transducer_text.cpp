@@ -1,0 +1,90 @@
+#include "sinew/identify/sensor/transducer_text.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "sinew/config/quantity.h"
+#include "sinew/report/text/text_table.h"
+
+namespace sinew::identify {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// One line of the answer: key of the JSON, words, value, SI unit and the thesis's.
+struct Line {
+  const char* key;
+  const char* words;
+  double value;
+  const char* unit;
+  const char* display;
+};
+
+std::vector<Line> answer(const Transducer& s) {
+  const TransducerPoint p = evaluate(s);
+  return {
+      {"load_N", "load", s.load, "N", "lbf"},
+      {"strain", "strain at the gages", p.strain, "1", "1"},
+      {"stress_Pa", "stress at the mount", p.stress, "N/m2", "psi"},
+      {"factor_of_safety", "factor of safety", p.factor_of_safety, "1", "1"},
+      {"yield_load_N", "yields at", p.yield_load, "N", "lbf"},
+      {"deflection_m", "deflection", p.deflection, "m", "in"},
+      {"bridge_output_V", "bridge", p.bridge_output, "V", "mV"},
+      {"output_V", "amplifier", p.output, "V", "V"},
+      {"sensitivity_V_per_N", "sensitivity", p.sensitivity, "V/N", "V/lbf"},
+      {"counts_per_N", "after the converter", p.counts_per_newton, "count/N", "count/lbf"},
+      {"clip_load_N", "the converter ends at", p.clip_load, "N", "lbf"},
+  };
+}
+
+// Where the gages would have to be, for each way to wire them; nothing beyond the mount.
+std::vector<std::pair<std::string_view, std::optional<double>>> places(const Transducer& s,
+                                                                       double wanted) {
+  std::vector<std::pair<std::string_view, std::optional<double>>> out;
+  for (const auto& [name, arms] : arrangements) {
+    Bridge bridge = s.bridge;
+    bridge.arms = arms;
+    const double distance = gage_distance_for(s.beam, bridge, wanted);
+    out.push_back({name, {}});
+    if (distance <= s.beam.length) out.back().second = distance;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string text_of(const Transducer& s) {
+  using Align = report::TextTable::Align;
+  report::TextTable table({"", "SI", "in, lbf, psi"}, {Align::left, Align::right, Align::right});
+  for (const Line& line : answer(s))
+    table.add({line.words, config::format_quantity(line.value, line.unit, line.unit),
+               std::string_view(line.unit) == "1"
+                   ? ""
+                   : config::format_quantity(line.value, line.unit, line.display)});
+  return table.text();
+}
+
+std::string text_of_places(const Transducer& s, double wanted) {
+  std::string out;
+  for (const auto& [name, distance] : places(s, wanted))
+    out += fmt::format("  {:8}  {}\n", name,
+                       distance ? config::format_quantity(*distance, "m", "m", 5) + "  " +
+                                      config::format_quantity(*distance, "m", "in", 4)
+                                : "beyond the mount");
+  return out;
+}
+
+std::string json_of(const Transducer& s, std::optional<double> wanted) {
+  Json out;
+  for (const Line& line : answer(s)) out[line.key] = line.value;
+  if (wanted)
+    for (const auto& [name, distance] : places(s, *wanted))
+      out["gage_distance_m"][name] = distance ? Json(*distance) : Json();
+  out["beyond"] = doubts(s);
+  return out.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace sinew::identify

@@ -1,0 +1,61 @@
+#include "sinew/run/setup/stance_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sinew/config/quantity.h"
+#include "sinew/report/text/text_table.h"
+
+namespace sinew::run {
+namespace {
+
+// Returns a length or a torque as text; the 1e-9 that rounding leaves is shown as 0.
+std::string shown(double si, std::string_view unit, std::string_view display) {
+  return config::format_quantity(std::abs(si) < 1e-9 ? 0 : si, unit, display, 5);
+}
+
+}  // namespace
+
+std::string text_of(const robot::Robot& robot, const Stance& s, const StanceUnits& units) {
+  const auto length = [&](double m) { return shown(m, "m", units.length); };
+  std::string out = fmt::format("foot at {}, {}{}\n", length(s.foot.x), length(s.foot.y),
+                                s.within() ? "" : ": beyond a muscle's lengths");
+  for (std::size_t j = 0; j < s.angles.size(); ++j)
+    out += fmt::format("  {:<14} {}\n", robot.joints[j].name,
+                       config::format_quantity(s.angles[j], "rad", units.angle, 5));
+  report::TextTable table({"muscle", "length", "from", "to", ""});
+  for (const MuscleAt& m : s.muscles)
+    table.add({m.name, length(m.length), length(m.shortest), length(m.longest),
+               m.within() ? "" : "beyond"});
+  out += table.text("  ");
+  if (s.jacobian)
+    out += fmt::format(
+        "  Jacobian [m/rad]  x: {:9.5f} {:9.5f}\n                    y: {:9.5f} {:9.5f}\n",
+        s.jacobian->x1, s.jacobian->x2, s.jacobian->y1, s.jacobian->y2);
+  for (std::size_t j = 0; j < s.torques.size(); ++j)
+    out += fmt::format("  torque {:<7} {}\n", robot.joints[j].name,
+                       shown(s.torques[j], "N m", units.torque));
+  return out;
+}
+
+std::string json_of(const robot::Robot& robot, const Stance& s) {
+  nlohmann::ordered_json out{{"foot_m", {s.foot.x, s.foot.y}}};
+  for (std::size_t j = 0; j < s.angles.size(); ++j)
+    out["angles_rad"][robot.joints[j].name] = s.angles[j];
+  for (const MuscleAt& m : s.muscles)
+    out["muscles"][m.name] = {{"length_m", m.length},
+                              {"shortest_m", m.shortest},
+                              {"longest_m", m.longest},
+                              {"within", m.within()}};
+  if (s.jacobian)
+    out["jacobian_m_per_rad"] = {{s.jacobian->x1, s.jacobian->x2},
+                                 {s.jacobian->y1, s.jacobian->y2}};
+  for (std::size_t j = 0; j < s.torques.size(); ++j)
+    out["torques_Nm"][robot.joints[j].name] = s.torques[j];
+  out["within"] = s.within();
+  return out.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace sinew::run

@@ -1,0 +1,156 @@
+#include "sinew/tune/optimizer/goals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace sinew::tune {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// Goals stay far below, violations are told apart above.
+constexpr double infeasible = 1e12;
+
+bool upper(Condition::Is is) { return is == Condition::Is::below || is == Condition::Is::at_most; }
+
+bool holds(const Limit& limit, double value) {
+  switch (limit.is) {
+    case Condition::Is::below:
+      return value < limit.limit;
+    case Condition::Is::at_most:
+      return value <= limit.limit;
+    case Condition::Is::above:
+      return value > limit.limit;
+    case Condition::Is::at_least:
+      return value >= limit.limit;
+  }
+  return false;
+}
+
+double violation(const Limit& limit, double value) {
+  if (holds(limit, value)) return 0;
+  const double scale = limit.limit != 0 ? std::fabs(limit.limit) : 1;
+  return std::clamp(std::fabs(value - limit.limit) / scale, 1e-9, without_figures);
+}
+
+double violation(const Goals& goals, const Figures& run) {
+  if (!run.ok) return without_figures * static_cast<double>(goals.limits.size() + 1);
+  double out = 0;
+  for (std::size_t i = 0; i < goals.limits.size(); ++i)
+    out += violation(goals.limits[i], run.limits[i]);
+  return out;
+}
+
+// The worse of two, where more is better or worse; not a number is none.
+double worse(double a, double b, bool more_is_better) {
+  if (std::isnan(a)) return b;
+  return more_is_better ? std::min(a, b) : std::max(a, b);
+}
+
+double goal_over(const Goals& goals, std::size_t i, std::span<const Figures> runs) {
+  double sum = 0, weight = 0, worst = nan;
+  for (const Figures& run : runs) {
+    if (!run.ok) continue;
+    sum += run.weight * run.goals[i];
+    weight += run.weight;
+    worst = worse(worst, run.goals[i], goals.goals[i].maximize);
+  }
+  if (weight == 0) return nan;
+  return goals.over == Goals::Over::mean ? sum / weight : worst;
+}
+
+double worst_of(const Limit& limit, std::size_t i, std::span<const Figures> runs) {
+  double out = nan;
+  for (const Figures& run : runs)
+    if (run.ok) out = worse(out, run.limits[i], !upper(limit.is));
+  return out;
+}
+
+// The violations' mean over the least of them, up to that share of the weights.
+struct Weighed {
+  double violation = 0, weight = 0;
+};
+double mean_up_to(double share, std::vector<Weighed> runs) {
+  std::ranges::stable_sort(runs, {}, &Weighed::violation);
+  double left = 0, sum = 0;
+  for (const Weighed& run : runs) left += run.weight;
+  left *= share;
+  const double all = left;
+  // What is left over of a share such as 0.95 after nineteen of twenty is a rounding error.
+  for (const Weighed& run : runs) {
+    if (left <= 1e-9 * all) break;
+    sum += run.violation * std::min(left, run.weight);
+    left -= run.weight;
+  }
+  return sum / all;
+}
+
+double cost(const Goal& goal, double value) { return goal.maximize ? -value : value; }
+
+}  // namespace
+
+Judgement judge(const Goals& goals, std::span<const Figures> runs) {
+  Judgement out;
+  for (std::size_t i = 0; i < goals.goals.size(); ++i)
+    out.goals.push_back(goal_over(goals, i, runs));
+  for (std::size_t i = 0; i < goals.limits.size(); ++i)
+    out.limits.push_back(worst_of(goals.limits[i], i, runs));
+  std::vector<Weighed> weighed;
+  double all = 0, good = 0;
+  for (const Figures& run : runs) {
+    weighed.push_back({violation(goals, run), run.weight});
+    all += run.weight;
+    if (weighed.back().violation == 0) good += run.weight;
+  }
+  out.holds = good / all;
+  out.violation = mean_up_to(goals.hold, std::move(weighed));
+  return out;
+}
+
+std::vector<double> costs(const Goals& goals, const Judgement& judged) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < goals.goals.size(); ++i)
+    out.push_back(judged.feasible() ? std::clamp(cost(goals.goals[i], judged.goals[i]),
+                                                 -0.5 * infeasible, 0.5 * infeasible)
+                                    : infeasible * (1 + judged.violation));
+  return out;
+}
+
+bool dominates(const Goals& goals, const Judgement& a, const Judgement& b) {
+  if (!a.feasible() || !b.feasible()) return a.violation < b.violation;
+  bool better = false;
+  for (std::size_t i = 0; i < goals.goals.size(); ++i) {
+    const double of_a = cost(goals.goals[i], a.goals[i]), of_b = cost(goals.goals[i], b.goals[i]);
+    if (of_a > of_b) return false;
+    better = better || of_a < of_b;
+  }
+  return better;
+}
+
+std::vector<std::size_t> front(const Goals& goals, std::span<const Judgement> judged) {
+  const auto before = [&](std::size_t a, std::size_t b) {
+    for (std::size_t i = 0; i < goals.goals.size(); ++i) {
+      const double of_a = cost(goals.goals[i], judged[a].goals[i]);
+      const double of_b = cost(goals.goals[i], judged[b].goals[i]);
+      if (of_a != of_b) return of_a < of_b;
+    }
+    return a < b;
+  };
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < judged.size(); ++i)
+    if (judged[i].feasible()) order.push_back(i);
+  std::ranges::sort(order, before);
+  // Whoever stands later in this order cannot dominate an earlier one.
+  std::vector<std::size_t> out;
+  for (const std::size_t i : order) {
+    const bool beaten = std::ranges::any_of(out, [&](std::size_t j) {
+      return dominates(goals, judged[j], judged[i]) || judged[j].goals == judged[i].goals;
+    });
+    if (!beaten) out.push_back(i);
+  }
+  return out;
+}
+
+}  // namespace sinew::tune

@@ -1,0 +1,291 @@
+#include "sinew/tune/optimizer/optimize.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+#include "sinew/config/quantity.h"
+
+namespace sinew::tune {
+namespace {
+
+constexpr double below_one = 1 - 0x1p-53;
+
+double number_in(const std::string& cell) {
+  double out = 0;
+  std::from_chars(cell.data(), cell.data() + cell.size(), out);
+  return out;
+}
+
+// Where in a row a figure stands.
+std::size_t cell_of(const Sweep& runs, const Figure& figure) {
+  std::size_t at = headings(runs).size() - 1 - runs.report.size();
+  for (const Figure& f : runs.report) {
+    if (f.key == figure.key && f.unit == figure.unit) break;
+    ++at;
+  }
+  return at;
+}
+
+// A generation's runs, and what they say of its candidates.
+class Generation {
+ public:
+  Generation(const Tuning& tuning, std::size_t number, const std::vector<double>& shares);
+
+  const Sweep& runs() const { return runs_; }
+  std::size_t first_point() const { return number_ * tuning_.runs_of_generation(); }
+  std::size_t candidates() const { return candidates_; }
+
+  // Throws where a row that was known is not one of these candidates'.
+  std::vector<Candidate> judged(const std::vector<Row>& rows) const;
+
+ private:
+  std::vector<Value> values(std::size_t candidate) const;
+  Figures figures(const Row& row) const;
+  void require_own(const Row& row, const std::vector<Value>& values) const;
+
+  const Tuning& tuning_;
+  std::size_t number_, candidates_;
+  std::vector<double> shares_;  // of the tuned ranges
+  Sweep runs_;
+  std::vector<std::size_t> goals_, limits_;  // cells
+};
+
+Generation::Generation(const Tuning& tuning, std::size_t number, const std::vector<double>& shares)
+    : tuning_(tuning),
+      number_(number),
+      candidates_(shares.size() / tuning.tuned),
+      shares_(shares),
+      runs_(tuning.runs) {
+  Sample& sample = *runs_.sample;
+  sample.points = candidates_ * tuning.draws;
+  const std::size_t drawn = tuning.drawn.size() / tuning.draws;
+  for (double& share : shares_) share = std::clamp(share, 0.0, below_one);
+  for (std::size_t c = 0; c < candidates_; ++c)
+    for (std::size_t d = 0; d < tuning.draws; ++d) {
+      const auto own = shares_.begin() + static_cast<std::ptrdiff_t>(c * tuning.tuned);
+      const auto draw = tuning.drawn.begin() + static_cast<std::ptrdiff_t>(d * drawn);
+      sample.given.insert(sample.given.end(), own, own + static_cast<std::ptrdiff_t>(tuning.tuned));
+      sample.given.insert(sample.given.end(), draw, draw + static_cast<std::ptrdiff_t>(drawn));
+    }
+  for (const Goal& goal : tuning.goals.goals) goals_.push_back(cell_of(runs_, goal.figure));
+  for (const Limit& limit : tuning.goals.limits) limits_.push_back(cell_of(runs_, limit.figure));
+}
+
+std::vector<Value> Generation::values(std::size_t candidate) const {
+  std::vector<Value> out;
+  for (std::size_t i = 0; i < tuning_.tuned; ++i)
+    out.push_back(runs_.sample->ranges[i].at(shares_[candidate * tuning_.tuned + i]));
+  return out;
+}
+
+Figures Generation::figures(const Row& row) const {
+  Figures out{.ok = row.ok};
+  const auto take = [&](const std::vector<std::size_t>& cells, std::vector<double>& to) {
+    for (const std::size_t cell : cells) {
+      out.ok = out.ok && !row.cells[cell].empty();
+      to.push_back(number_in(row.cells[cell]));
+    }
+  };
+  take(goals_, out.goals);
+  take(limits_, out.limits);
+  if (!runs_.cases.empty()) {
+    const std::string& name = row.cells[runs_.sample->ranges.size()];
+    for (const Case& one : runs_.cases)
+      if (one.name == name) out.weight = one.weight;
+  }
+  return out;
+}
+
+void Generation::require_own(const Row& row, const std::vector<Value>& values) const {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (row.cells[i] != values[i].cell)
+      throw std::runtime_error(fmt::format(
+          "point {} has {} = {}; expected {}, which the method asks for here; try another file: "
+          "another version of pagmo, or another kind of computer, wrote this one",
+          row.point, runs_.sample->ranges[i].axis.heading(), row.cells[i], values[i].cell));
+}
+
+std::vector<Candidate> Generation::judged(const std::vector<Row>& rows) const {
+  const std::size_t each = rows.size() / candidates_;
+  std::vector<Candidate> out;
+  for (std::size_t c = 0; c < candidates_; ++c) {
+    Candidate one{.number = number_ * tuning_.method.population + c,
+                  .generation = number_,
+                  .values = values(c),
+                  .judged = {}};
+    std::vector<Figures> all;
+    for (std::size_t i = c * each; i < (c + 1) * each; ++i) {
+      require_own(rows[i], one.values);
+      all.push_back(figures(rows[i]));
+    }
+    one.judged = judge(tuning_.goals, all);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+// What the experiment has, then Sobol's sequence.
+std::vector<double> first_generation(const Tuning& tuning) {
+  std::vector<double> out = tuning.start;
+  const std::vector<double> spread =
+      sobol_shares(tuning.tuned, tuning.method.population - 1, tuning.method.seed);
+  out.insert(out.end(), spread.begin(), spread.end());
+  return out;
+}
+
+// Known rows by the generation they are of, with its own points.
+std::vector<Row> known_of(const std::vector<Row>& known, std::size_t first, std::size_t count) {
+  const auto begin = std::ranges::lower_bound(known, first, {}, &Row::point);
+  const auto end = std::ranges::lower_bound(known, first + count, {}, &Row::point);
+  std::vector<Row> out(begin, end);
+  for (Row& row : out) row.point -= first;
+  return out;
+}
+
+class Loop {
+ public:
+  Loop(const Tuning& tuning, const TuneOptions& options)
+      : tuning_(tuning), options_(options), method_(tuning.method) {}
+
+  Tuned run() {
+    for (std::size_t g = 0; g < tuning_.generations && !out_.stopped; ++g) {
+      const std::vector<double> shares = g == 0 ? first_generation(tuning_) : method_.ask();
+      if (shares.empty()) {
+        out_.converged = true;
+        break;
+      }
+      step(Generation(tuning_, g, shares), shares, g == 0);
+    }
+    add_best();
+    return std::move(out_);
+  }
+
+ private:
+  void step(const Generation& generation, const std::vector<double>& shares, bool first) {
+    const std::vector<Row> rows = rows_of(generation, first);
+    if (rows.size() < points(generation.runs())) {
+      out_.stopped = true;
+      return;
+    }
+    const std::vector<Candidate> judged = generation.judged(rows);
+    std::vector<double> costs_of_all;
+    for (const Candidate& c : judged) {
+      const std::vector<double> own = costs(tuning_.goals, c.judged);
+      costs_of_all.insert(costs_of_all.end(), own.begin(), own.end());
+    }
+    if (first)
+      method_.begin(shares, costs_of_all);
+    else
+      method_.tell(costs_of_all);
+    if (options_.generation) options_.generation(judged);
+    out_.candidates.insert(out_.candidates.end(), judged.begin(), judged.end());
+  }
+
+  // Runs what is not known of a generation.
+  std::vector<Row> rows_of(const Generation& generation, bool first) {
+    const std::size_t from = generation.first_point();
+    const Sweep& runs = generation.runs();
+    Options own = options_.runs;
+    own.progress = nullptr;
+    own.checked = !first;
+    own.known = known_of(options_.runs.known, from, points(runs));
+    if (options_.runs.progress)
+      *options_.runs.progress += static_cast<std::int64_t>(own.known.size());
+    if (own.known.size() < points(runs) && options_.elsewhere)
+      own.elsewhere = options_.elsewhere(runs);
+    own.done = [&](const Row& row) {
+      if (options_.runs.progress) ++*options_.runs.progress;
+      if (!options_.runs.done) return;
+      Row numbered = row;
+      numbered.point += from;
+      options_.runs.done(numbered);
+    };
+    std::vector<Row> rows = sweep(runs, own);
+    for (Row& row : rows) row.point += from;
+    return rows;
+  }
+
+  void add_best() {
+    std::vector<Judgement> judged;
+    for (const Candidate& c : out_.candidates) judged.push_back(c.judged);
+    out_.best = front(tuning_.goals, judged);
+  }
+
+  const Tuning& tuning_;
+  const TuneOptions& options_;
+  OptimizerMethod method_;
+  Tuned out_;
+};
+
+const char* to_text(MethodKind kind) { return kind == MethodKind::cmaes ? "cmaes" : "nsga2"; }
+
+void add_columns(const Tuning& tuning, Asked& out) {
+  using Role = Column::Role;
+  const std::vector<Range>& ranges = tuning.runs.sample->ranges;
+  for (std::size_t i = tuning.tuned; i < ranges.size(); ++i)
+    out.columns[i].role = Role::circumstance;
+  const auto add = [&](const Figure& figure, Role role) {
+    out.columns[cell_of(tuning.runs, figure)].role = role;
+    out.of_candidates.push_back({figure.heading(), true, role});
+  };
+  for (std::size_t i = 0; i < tuning.tuned; ++i)
+    out.of_candidates.push_back({ranges[i].axis.heading(), true, Role::parameter});
+  for (const Goal& goal : tuning.goals.goals)
+    add(goal.figure, goal.maximize ? Role::maximize : Role::minimize);
+  for (const Limit& limit : tuning.goals.limits) {
+    // A goal with a limit stays a goal.
+    const Role before = out.columns[cell_of(tuning.runs, limit.figure)].role;
+    add(limit.figure, Role::limit);
+    if (before != Role::figure) out.columns[cell_of(tuning.runs, limit.figure)].role = before;
+  }
+}
+
+}  // namespace
+
+Tuned optimize(const Tuning& tuning, const TuneOptions& options) {
+  return Loop(tuning, options).run();
+}
+
+Asked asked_of(const Tuning& tuning) {
+  Asked out = asked_of(tuning.runs);
+  out.title = tuning.title;
+  std::string own =
+      fmt::format("method = {}, population {}, seed {}, step {}\n", to_text(tuning.method.kind),
+                  tuning.method.population, tuning.method.seed, tuning.method.step);
+  own += fmt::format("tuned = {}\ndraws = {}, {}\n", tuning.tuned, tuning.draws,
+                     fmt::join(tuning.drawn, " "));
+  for (const Goal& goal : tuning.goals.goals)
+    own += fmt::format("{} = {} [{}]\n", goal.maximize ? "maximize" : "minimize", goal.figure.key,
+                       goal.figure.unit);
+  for (const Limit& limit : tuning.goals.limits) own += fmt::format("where = {}\n", limit.text);
+  own += fmt::format("over = {}, hold = {}\n",
+                     tuning.goals.over == Goals::Over::mean ? "mean" : "worst", tuning.goals.hold);
+  // Behind the version, whose line tells studies of different versions apart.
+  out.text.insert(out.text.find('\n') + 1, own);
+  add_columns(tuning, out);
+  return out;
+}
+
+CandidateRow row_of(const Candidate& candidate) {
+  const Judgement& judged = candidate.judged;
+  CandidateRow out{.number = candidate.number,
+                   .generation = candidate.generation,
+                   .feasible = judged.feasible(),
+                   .violation = judged.violation,
+                   .holds = judged.holds,
+                   .cells = {}};
+  for (const Value& value : candidate.values) out.cells.push_back(value.cell);
+  const auto add = [&](const std::vector<double>& numbers) {
+    for (const double number : numbers)
+      out.cells.push_back(std::isfinite(number) ? fmt::format("{:.9g}", number) : "");
+  };
+  add(judged.goals);
+  add(judged.limits);
+  return out;
+}
+
+}  // namespace sinew::tune

@@ -1,0 +1,148 @@
+#include "sinew/tune/optimizer/tuned_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sinew/report/text/text_table.h"
+
+namespace sinew::tune {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_shown = 12;  // of a front, side by side
+
+// Those of the front that are shown, from end to end of it.
+std::vector<std::size_t> shown_of(const std::vector<std::size_t>& front) {
+  if (front.size() <= most_shown) return front;
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < most_shown; ++i)
+    out.push_back(front[i * (front.size() - 1) / (most_shown - 1)]);
+  return out;
+}
+
+const Candidate& closest(const std::vector<Candidate>& candidates) {
+  return *std::ranges::min_element(candidates, {},
+                                   [](const Candidate& c) { return c.judged.violation; });
+}
+
+std::string cell(double number) {
+  return std::isfinite(number) ? fmt::format("{:.4g}", number) : "-";
+}
+
+std::string cell(const Value& value) {
+  double number = 0;
+  std::from_chars(value.cell.data(), value.cell.data() + value.cell.size(), number);
+  return fmt::format("{:.5g}", number);
+}
+
+// A line for each goal, limit and tuned key, a column for each candidate.
+std::string table_of(const Tuning& tuning, const std::vector<const Candidate*>& candidates) {
+  using report::TextTable;
+  std::vector<std::string> titles{""};
+  for (const Candidate* c : candidates)
+    titles.push_back(c->number == 0 ? "as it is" : fmt::format("candidate {}", c->number));
+  std::vector<TextTable::Align> align(titles.size(), TextTable::Align::right);
+  align.front() = TextTable::Align::left;
+  TextTable table(titles, align);
+  const auto add = [&](const std::string& name, const auto& cell_of) {
+    std::vector<std::string> row{name};
+    for (const Candidate* c : candidates) row.push_back(cell_of(*c));
+    table.add(std::move(row));
+  };
+  const Goals& goals = tuning.goals;
+  for (std::size_t i = 0; i < goals.goals.size(); ++i)
+    add((goals.goals[i].maximize ? "maximize  " : "minimize  ") + goals.goals[i].figure.heading(),
+        [&](const Candidate& c) { return cell(c.judged.goals[i]); });
+  for (std::size_t i = 0; i < goals.limits.size(); ++i)
+    add("where     " + goals.limits[i].text,
+        [&](const Candidate& c) { return cell(c.judged.limits[i]); });
+  if (!goals.limits.empty())
+    add("          holds [%]", [](const Candidate& c) { return cell(100 * c.judged.holds); });
+  for (std::size_t i = 0; i < tuning.tuned; ++i)
+    add("          " + tuning.runs.sample->ranges[i].axis.heading(),
+        [&](const Candidate& c) { return cell(c.values[i]); });
+  return table.text();
+}
+
+Json json_of(const Tuning& tuning, const Candidate& candidate) {
+  Json out{{"candidate", candidate.number},
+           {"generation", candidate.generation},
+           {"feasible", candidate.judged.feasible()},
+           {"violation", candidate.judged.violation},
+           {"holds", candidate.judged.holds}};
+  for (std::size_t i = 0; i < tuning.goals.goals.size(); ++i)
+    out["goals"][tuning.goals.goals[i].figure.heading()] = candidate.judged.goals[i];
+  for (std::size_t i = 0; i < tuning.goals.limits.size(); ++i)
+    out["limits"][tuning.goals.limits[i].text] = candidate.judged.limits[i];
+  for (std::size_t i = 0; i < tuning.tuned; ++i)
+    out["set"][tuning.runs.sample->ranges[i].axis.key] = candidate.values[i].text;
+  return out;
+}
+
+std::string count(std::size_t n, const char* what) {
+  return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string text_of(const Tuning& tuning, const Tuned& tuned) {
+  if (tuned.candidates.empty()) return "no generation is whole\n";
+  std::string out = fmt::format("{}: {} in {}, {} each{}\n", tuning.title,
+                                count(tuned.candidates.size(), "candidate"),
+                                count(tuned.candidates.back().generation + 1, "generation"),
+                                count(tuning.runs_of_candidate(), "run"),
+                                tuned.converged ? "; the method has converged" : "");
+  std::vector<const Candidate*> shown{&tuned.candidates.front()};
+  if (tuned.best.empty()) {
+    out += "nothing keeps every limit; the closest:\n";
+    shown.push_back(&closest(tuned.candidates));
+    return out + table_of(tuning, shown);
+  }
+  if (tuning.goals.goals.size() > 1)
+    out += fmt::format("{} on the front{}\n", count(tuned.best.size(), "candidate"),
+                       tuned.best.size() > most_shown ? ", of which these" : "");
+  for (const std::size_t i : shown_of(tuned.best))
+    if (i != 0) shown.push_back(&tuned.candidates[i]);
+  return out + table_of(tuning, shown);
+}
+
+std::string json_of(const Tuning& tuning, const Tuned& tuned) {
+  Json out{{"format", "sinew.tuned/1"},
+           {"title", tuning.title},
+           {"candidates", tuned.candidates.size()},
+           {"generations", tuned.candidates.empty() ? 0 : tuned.candidates.back().generation + 1},
+           {"runs_of_a_candidate", tuning.runs_of_candidate()},
+           {"converged", tuned.converged}};
+  if (!tuned.candidates.empty()) out["as_it_is"] = json_of(tuning, tuned.candidates.front());
+  out["best"] = Json::array();
+  for (const std::size_t i : tuned.best)
+    out["best"].push_back(json_of(tuning, tuned.candidates[i]));
+  if (tuned.best.empty() && !tuned.candidates.empty())
+    out["closest"] = json_of(tuning, closest(tuned.candidates));
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<std::string> candidate_headings(const Tuning& tuning) {
+  std::vector<std::string> out{"candidate", "generation", "feasible", "violation", "holds"};
+  for (std::size_t i = 0; i < tuning.tuned; ++i)
+    out.push_back(tuning.runs.sample->ranges[i].axis.heading());
+  for (const Goal& goal : tuning.goals.goals) out.push_back(goal.figure.heading());
+  for (const Limit& limit : tuning.goals.limits) out.push_back(limit.text);
+  return out;
+}
+
+std::vector<std::string> candidate_cells(const Candidate& candidate) {
+  CandidateRow row = row_of(candidate);
+  std::vector<std::string> out{
+      std::to_string(row.number), std::to_string(row.generation), row.feasible ? "true" : "false",
+      fmt::format("{:.9g}", row.violation), fmt::format("{:.9g}", row.holds)};
+  out.insert(out.end(), row.cells.begin(), row.cells.end());
+  return out;
+}
+
+}  // namespace sinew::tune

@@ -1,0 +1,245 @@
+#include "sinew/tune/optimizer/tuning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "sinew/config/compose.h"
+#include "sinew/config/lookup.h"
+#include "sinew/config/quantity.h"
+#include "sinew/config/reader.h"
+#include "sinew/run/setup/buildable.h"
+#include "sinew/tune/optimizer/tuning.fields.h"
+
+namespace sinew::tune {
+namespace {
+
+constexpr double below_one = 1 - 0x1p-53;
+
+config::Location where(const TuningFile& file, const char* key) {
+  const config::Origin* origin = config::find_origin(file.origins, key);
+  return origin ? origin->where : config::Location{};
+}
+
+[[noreturn]] void refuse(const TuningFile& file, const char* key, std::string found,
+                         std::string expected, std::string try_this = "") {
+  config::fail(where(file, key), key, std::move(found), std::move(expected), std::move(try_this));
+}
+
+// "plan.toml:7:1: range", with which messages about one of its texts begin.
+std::string place(const TuningFile& file, const char* key) {
+  const config::Location at = where(file, key);
+  return fmt::format("{}:{}:{}: {}", at.file, at.line, at.column, key);
+}
+
+void add_goals(const TuningFile& file, const std::vector<std::string>& texts, const char* key,
+               bool maximize, Goals& out) {
+  for (const std::string& text : texts)
+    for (Figure& figure : parse_figures(text, place(file, key))) {
+      for (const Goal& goal : out.goals)
+        if (goal.figure.key == figure.key)
+          refuse(file, key, figure.key + " twice", "each figure as one goal");
+      out.goals.push_back({std::move(figure), maximize});
+    }
+}
+
+// "key < 5 deg": the figure is shown in degrees.
+Limit limit_of(const TuningFile& file, const std::string& text) {
+  const Condition condition = parse_condition(text, place(file, "where"));
+  const std::string si = analysis::unit_of_key(condition.key);
+  const std::size_t number = text.find_first_of("0123456789.", text.find_first_of("<>"));
+  const std::size_t end = text.find_first_not_of("0123456789.eE+-", number);
+  const std::string unit = end == text.npos ? "" : std::string(trimmed(text.substr(end)));
+  Limit out{.figure = {condition.key, unit.empty() ? si : unit},
+            .is = condition.is,
+            .limit = condition.limit,
+            .text = text,
+            .si = condition.limit};
+  if (out.figure.unit != si) out.limit = config::convert(condition.limit, si, out.figure.unit);
+  return out;
+}
+
+Goals goals_of(const TuningFile& file) {
+  Goals out{.goals = {}, .limits = {}, .over = file.over, .hold = file.hold};
+  add_goals(file, file.maximize, "maximize", true, out);
+  add_goals(file, file.minimize, "minimize", false, out);
+  if (out.goals.empty())
+    refuse(file, "maximize", "no goal", "a key of summary.json, here or in minimize",
+           "maximize = [\"trolley.mean_speed_m_per_s [in/s]\"]");
+  for (const std::string& text : file.where) out.limits.push_back(limit_of(file, text));
+  return out;
+}
+
+// Limits of one figure between which there is nothing.
+void refuse_contradictions(const TuningFile& file, const std::vector<Limit>& limits) {
+  const auto upper = [](const Limit& l) {
+    return l.is == Condition::Is::below || l.is == Condition::Is::at_most;
+  };
+  for (const Limit& low : limits)
+    for (const Limit& high : limits) {
+      if (low.figure.key != high.figure.key) continue;
+      if (upper(low) || !upper(high)) continue;
+      const bool open = low.is == Condition::Is::above || high.is == Condition::Is::below;
+      if (low.si > high.si || (open && low.si == high.si))
+        refuse(file, "where", fmt::format("\"{}\" and \"{}\"", low.text, high.text),
+               "limits that a number can keep together");
+    }
+}
+
+MethodAsked method_of(const TuningFile& file, const Tuning& tuning) {
+  using Method = TuningFile::Method;
+  const std::size_t goals = tuning.goals.goals.size();
+  const bool several =
+      file.method == Method::nsga2 || (file.method == Method::automatic && goals > 1);
+  if (!several && goals > 1)
+    refuse(file, "method", "\"cmaes\" with several goals", "\"nsga2\", or one goal and limits");
+  if (several && goals == 1)
+    refuse(file, "method", "\"nsga2\" with one goal", "\"cmaes\", or several goals");
+  // At least as many as go side by side in two threads.
+  const auto usual = static_cast<std::size_t>(4 + 3 * std::log(tuning.tuned));
+  std::size_t population = std::max<std::size_t>(16, (usual + 3) / 4 * 4);
+  if (several) population = 48;
+  if (file.population > 0) population = static_cast<std::size_t>(file.population);
+  if (population < 5) refuse(file, "population", std::to_string(population), "5 or more");
+  if (several && population % 4 != 0)
+    refuse(file, "population", std::to_string(population), "a multiple of 4, for nsga2");
+  return {.kind = several ? MethodKind::nsga2 : MethodKind::cmaes,
+          .dimensions = tuning.tuned,
+          .costs = goals,
+          .population = population,
+          .seed = static_cast<std::uint64_t>(file.tuner_seed),
+          .step = file.step};
+}
+
+void refuse_twice(const TuningFile& file, const Sample& sample) {
+  for (std::size_t i = 0; i < sample.ranges.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (sample.ranges[i].axis.key == sample.ranges[j].axis.key)
+        refuse(file, "range", sample.ranges[i].axis.key + " twice", "each key once");
+}
+
+void add_ranges(const TuningFile& file, Tuning& out) {
+  Sample sample{.ranges = {}, .handed = true};
+  for (const std::string& text : file.range)
+    sample.ranges.push_back(parse_range(text, place(file, "range")));
+  out.tuned = sample.ranges.size();
+  if (out.tuned == 0)
+    refuse(file, "range", "none", "what is tuned", "range = [\"KEY=from:to unit\"]");
+  for (const std::string& text : file.spread)
+    sample.ranges.push_back(parse_range(text, place(file, "spread")));
+  refuse_twice(file, sample);
+  const std::size_t drawn = sample.ranges.size() - out.tuned;
+  if ((drawn > 0) != (file.draws > 0))
+    refuse(file, drawn > 0 ? "spread" : "draws", drawn > 0 ? "no draws" : "no spread",
+           "both, or neither of them", "draws = 8, and spread = [\"KEY=from:to unit\"]");
+  if (drawn > 0) {
+    out.draws = static_cast<std::size_t>(file.draws);
+    out.drawn = sobol_shares(drawn, out.draws, static_cast<std::uint64_t>(file.spread_seed));
+  }
+  out.runs.sample = std::move(sample);
+}
+
+void add_figure(const Figure& figure, std::vector<Figure>& out) {
+  const auto same = [&](const Figure& f) { return f.key == figure.key && f.unit == figure.unit; };
+  if (std::ranges::none_of(out, same)) out.push_back(figure);
+}
+
+void add_report(const TuningFile& file, Tuning& out) {
+  std::vector<Figure>& report = out.runs.report;
+  for (const Goal& goal : out.goals.goals) add_figure(goal.figure, report);
+  for (const Limit& limit : out.goals.limits) add_figure(limit.figure, report);
+  for (const std::string& text : file.report)
+    for (const Figure& figure : parse_figures(text, place(file, "report")))
+      add_figure(figure, report);
+}
+
+// The number that an element of a list has, where it is written in the range's own unit.
+std::optional<double> element_of(const Range& range, const config::Node& root) {
+  const config::Node* node = config::value_at(root, range.axis.key);
+  if (!node) return std::nullopt;
+  const std::string text = config::written(*node);
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const std::string_view unit(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  if (error != std::errc{} || trimmed(unit) != range.axis.unit) return std::nullopt;
+  return number;
+}
+
+std::optional<double> number_of(const Range& range, const config::Origins& origins,
+                                double atmosphere) {
+  const config::Origin* origin = config::find_origin(origins, range.axis.key);
+  if (!origin) return std::nullopt;
+  const std::string unit = origin->unit.empty() ? "1" : origin->unit;
+  const config::Parsed parsed = config::parse_quantity(origin->text, unit, atmosphere);
+  if (parsed.mistake) return std::nullopt;
+  return range.axis.unit.empty() ? parsed.si
+                                 : config::convert(parsed.si, unit, range.axis.unit, atmosphere);
+}
+
+// Returns the shares of the tuned ranges at which the experiment stands; the middle where that is
+// no number between the ends.
+std::vector<double> start_of(const Tuning& tuning) {
+  const config::Node root = config::compose(tuning.runs.experiment, tuning.runs.sets);
+  const experiment::Experiment e = run::buildable(root, tuning.runs.experiment);
+  std::vector<double> out;
+  for (std::size_t i = 0; i < tuning.tuned; ++i) {
+    const Range& range = tuning.runs.sample->ranges[i];
+    const std::optional<double> number = range.axis.key.ends_with(']')
+                                             ? element_of(range, root)
+                                             : number_of(range, e.origins, e.air.atmosphere);
+    const double share = number ? range.share_of(*number) : 0.5;
+    out.push_back(share >= 0 && share <= 1 ? std::min(share, below_one) : 0.5);
+  }
+  return out;
+}
+
+}  // namespace
+
+TuningFile load_tuning_file(const std::string& path) {
+  const config::Node root = config::compose(path);
+  if (config::format_kind(root) != "tuning")
+    config::fail({path, 0, 0}, "format", config::in_quotes(config::format_kind(root)),
+                 "\"sinew.tuning/1\"");
+  TuningFile out;
+  config::Reader reader(root);
+  std::string format;
+  reader.text({.name = "format", .doc = "kind and version"}, format);
+  fields(reader, out);
+  reader.finish();
+  out.origins = reader.origins();
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  const auto beside_it = [&](std::string& file) {
+    if (!file.empty()) file = (folder / file).lexically_normal().string();
+  };
+  beside_it(out.experiment);
+  for (Case& one : out.cases) beside_it(one.experiment);
+  return out;
+}
+
+Tuning tuning_of(const std::string& path, const TuningFile& file) {
+  Tuning out{.file = path, .title = file.title, .goals = goals_of(file)};
+  refuse_contradictions(file, out.goals.limits);
+  out.runs = {.experiment = file.experiment, .sets = file.set, .cases = file.cases};
+  out.runs.allow_unreachable = file.allow_unreachable;
+  if (file.seeds > 0) out.runs.axes.push_back(seeds(file.seeds));
+  add_ranges(file, out);
+  add_report(file, out);
+  out.method = method_of(file, out);
+  out.generations = static_cast<std::size_t>(file.generations);
+  out.runs.sample->points = out.generations * out.method.population * out.draws;
+
+  check(out.runs);
+  out.start = start_of(out);
+  return out;
+}
+
+Tuning load_tuning(const std::string& path, int generations) {
+  TuningFile file = load_tuning_file(path);
+  if (generations > 0) file.generations = generations;
+  return tuning_of(path, file);
+}
+
+}  // namespace sinew::tune

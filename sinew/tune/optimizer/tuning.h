@@ -1,0 +1,70 @@
+// tune/optimizer/tuning.h - what a tuner is asked for, as a file.
+//
+//   format     = "sinew.tuning/1"
+//   title      = "A faster walk"
+//   experiment = "../experiments/walk-test-1.toml"
+//   range      = ["joint.hip.angle_gain=0.02:0.1 %/count log", "phase.swing.duration=0.4:1.5 s"]
+//   maximize   = ["trolley.mean_speed_m_per_s [in/s]"]
+//   where      = ["passiveness >= 90 %"]
+//   generations = 40
+//
+// Each candidate is run in every circumstance: in each [[case]], with the noise of each of `seeds`,
+// and at each of `draws` points of `spread`, the same points for all candidates.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sinew/config/origin.h"
+#include "sinew/tune/optimizer/goals.h"
+#include "sinew/tune/optimizer/method.h"
+#include "sinew/tune/sweep.h"
+
+namespace sinew::tune {
+
+// The file's words.
+struct TuningFile {
+  std::string title, reproduces, experiment;
+  std::vector<std::string> set, range, maximize, minimize, where, report, spread;
+  std::vector<Case> cases;
+  enum class Method { automatic, cmaes, nsga2 } method = Method::automatic;
+  Goals::Over over = Goals::Over::mean;
+  double hold = 1, step = 0.3;
+  int population = 0;  // 0: as many as suit the ranges
+  int generations = 50, tuner_seed = 1;
+  int seeds = 0, draws = 0, spread_seed = 1;
+  bool allow_unreachable = false;
+  config::Origins origins = {};  // where its keys stand, for messages
+};
+
+// The same, understood.
+struct Tuning {
+  std::string file, title;
+  // The runs of all generations. Its sample has the ranges that are tuned, then those that are
+  // drawn; its shares come with each generation.
+  Sweep runs;
+  std::size_t tuned = 0;           // ranges
+  std::vector<double> drawn = {};  // shares of the drawn ranges, point by point
+  std::size_t draws = 1;
+  Goals goals;
+  MethodAsked method;
+  std::size_t generations = 0;
+  std::vector<double> start = {};  // shares of what the experiment has; the first candidate
+
+  std::size_t runs_of_candidate() const { return points(runs) / (generations * method.population); }
+  std::size_t runs_of_generation() const { return points(runs) / generations; }
+};
+
+// Throws config::Error with everything that is wrong with the file.
+TuningFile load_tuning_file(const std::string& path);
+
+// Throws config::Error for words that cannot be, and for an experiment that is wrong. Nothing is
+// run.
+Tuning tuning_of(const std::string& path, const TuningFile& file);
+
+// Both. `generations`: in place of the file's own, where it is above 0.
+Tuning load_tuning(const std::string& path, int generations = 0);
+
+}  // namespace sinew::tune
