@@ -78,7 +78,9 @@ export class Chosen {
       element('header', {}, element('h2', {}, `${kind} ${data.name_of(chosen)}`), this.steps()),
       this.state(chosen),
       this.values('parameter', 'Parameters'), this.values('', 'Figures'),
-      element('h3', {}, 'Run it again'), element('pre', { class: 'command', tabindex: '0' }, command), this.buttons(study, command));
+      element('h3', {}, 'Run it again'), element('pre', { class: 'command', tabindex: '0' }, command),
+      study.kind === 'tune' ? element('p', { class: 'quiet' }, 'One run, with the experiment’s own seed; a candidate’s figures are over all of its runs.') : '',
+      this.buttons(study, command));
   }
 
   steps() {

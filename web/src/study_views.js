@@ -199,7 +199,7 @@ export class Surface extends View {
     for (let i = 0; i < chart.rows.length; ++i) ctx.fillRect(chart.px[i] - 1, chart.py[i] - 1, 2, 2);
     ctx.globalAlpha = 1;
     this.hint.textContent = there.length
-      ? `${z.heading}: ${number(span[0])} to ${number(span[1])}, a plane through the nearest rows at each place, blank where none is near. Whatever else was varied is averaged.`
+      ? `${z.heading}: ${number(span[0])} to ${number(span[1])}, a plane through the nearest rows at each place, blank where none is near. Whatever else was varied is averaged; rows beyond a limit are dots alone.`
       : 'Too few rows for a surface.';
   }
 

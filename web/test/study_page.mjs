@@ -1,5 +1,6 @@
-// The page of a study: RUNS/study/{walk,pair}.html of the sweeps RUNS/study/{walk,other}.db; what the
-// program serves while a study grows, and a row that is run from the page. SINEW names the program.
+// The page of a study: RUNS/study/{walk,pair}.html of the sweeps RUNS/study/{walk,other}.db, tuned.html of
+// the tuning of tuning.toml; what the program serves while a study grows, and a row that is run from the
+// page. SINEW names the program.
 import assert from 'node:assert/strict';
 import { execFileSync, spawn } from 'node:child_process';
 import { mkdtempSync, readdirSync, readFileSync, rmSync } from 'node:fs';
@@ -161,6 +162,30 @@ test('two studies: a column of both is one, each is hidden and shown', () => stu
   await page.evaluate((row) => window.sinew.page.choose(row), a.length + 1);
   assert.equal(await page.locator('#chosen h2').textContent(), 'Row B1');
   await picture(page, 'study-pair');
+}));
+
+test('a tuning: its candidates by generation, its own goals, what is beyond a limit apart', () => study('tuned', async (page) => {
+  const held = await page.evaluate(() => {
+    const { data, views: [history, scatter] } = window.sinew.page;
+    return { kinds: data.studies[0].kind, count: data.count, generations: [...new Set(data.generation)].sort((a, b) => a - b),
+             feasible: data.feasible, violation: data.violation, by: history.by,
+             goals: [scatter.x, scatter.y].map((c) => [c.heading, c.role, c.less]),
+             front: scatter.front, passiveness: data.by_heading.get('passiveness worst [%]').values };
+  });
+  assert.equal(held.kinds, 'tune');
+  assert.equal(held.count, 64);
+  assert.deepEqual(held.generations, [0, 1, 2, 3]);
+  assert.equal(held.by, 'generation');
+  assert.deepEqual(held.goals, [[speed, 'objective', false], ['passiveness [%]', 'objective', false]]);
+  held.feasible.forEach((is, i) => assert.equal(is, held.violation[i] === 0 && held.passiveness[i] >= 80, `candidate ${i}`));
+  assert.ok(held.feasible.includes(true) && held.feasible.includes(false));
+  assert.ok(held.front.length > 0 && held.front.every((r) => held.feasible[r]));
+  await page.locator('#feasible').click();
+  assert.equal((await numbers(page)).length, held.feasible.filter(Boolean).length);
+  await page.evaluate((row) => window.sinew.page.choose(row), held.front[0]);
+  assert.equal(await page.locator('#chosen h2').textContent(), `Candidate ${held.front[0]}`);
+  assert.match(await page.locator('#importance .hint').textContent(), /chosen, by a tuner/);
+  await picture(page, 'study-tuned');
 }));
 
 test('ten thousand rows are drawn soon', () => study('walk', async (page) => {

@@ -20,15 +20,6 @@ std::optional<std::string> value_after(const std::string& line, const std::strin
   return line.substr(begin.size());
 }
 
-// The headings of the lines "name = HEADING: values".
-std::set<std::string> headings_of(const std::string& text, const std::string& name) {
-  std::set<std::string> out;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);)
-    if (const auto value = value_after(line, name)) out.insert(value->substr(0, value->find(": ")));
-  return out;
-}
-
 using Values = std::map<std::string, std::string>;
 
 // Lines "key = value" below "[table]" as table.key and what stands behind it. `ends`: names of
@@ -38,11 +29,11 @@ Values values_of(std::istream& lines, const std::set<std::string>& ends) {
   std::string table;
   for (std::string line; std::getline(lines, line);) {
     const std::size_t is = line.find(" = ");
-    if (line.starts_with("[[")) return {};
     if (line.starts_with('[') && line.ends_with(']')) {
       table = line.substr(1, line.size() - 2) + ".";
     } else if (is != line.npos) {
       if (ends.contains(line.substr(0, is))) break;
+      if (table.starts_with('[')) continue;
       out[table + line.substr(0, is)] = line.substr(is + 3);
     }
   }
@@ -84,18 +75,10 @@ std::string fact(const Asked& asked, const std::string& name) {
   return "";
 }
 
-std::vector<StudyColumn> columns_with_roles(const Asked& asked) {
-  std::set<std::string> varied = headings_of(asked.text, "vary");
-  varied.merge(headings_of(asked.text, "range"));
-  const std::set<std::string> searched = headings_of(asked.text, "largest");
-  std::vector<StudyColumn> out;
-  for (const Column& column : asked.columns) {
-    using Role = StudyColumn::Role;
-    const bool parameter = varied.contains(column.heading);
-    const Role role = parameter ? Role::parameter : column.number ? Role::figure : Role::other;
-    const bool set = parameter || searched.contains(column.heading);
-    out.push_back({.heading = column.heading, .number = column.number, .role = role, .set = set});
-  }
+std::size_t count(const Asked& asked, const std::string& name) {
+  std::size_t out = 0;
+  std::istringstream lines(asked.text);
+  for (std::string line; std::getline(lines, line);) out += value_after(line, name) ? 1 : 0;
   return out;
 }
 

@@ -2,20 +2,19 @@
 // columns and of every run. Until the file says it itself.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
-#include "sinew/tune/page/study_view.h"
 #include "sinew/tune/results/asked.h"
 
 namespace sinew::tune {
 
-// Returns the columns, each with its role: what is varied and sampled is a parameter, numbers
-// besides are figures, words are neither.
-std::vector<StudyColumn> columns_with_roles(const Asked& asked);
-
 // Returns the value of a fact, "0.1.0" of `sinew`; empty where there is none.
 std::string fact(const Asked& asked, const std::string& name);
+
+// Returns how many facts have that name.
+std::size_t count(const Asked& asked, const std::string& name);
 
 // Returns what every run has in place of the experiment's file as it is now, "key=value" each, in
 // SI; nothing where the file cannot be read, or is another one altogether.

@@ -70,8 +70,9 @@ TEST_F(StudyPageTest, KnowsWhatItsColumnsAre) {
   EXPECT_FALSE(view.version.empty());
   std::vector<Role> roles;
   for (const StudyColumn& c : view.columns) roles.push_back(c.role);
-  EXPECT_EQ(roles, (std::vector<Role>{Role::parameter, Role::parameter, Role::parameter,
-                                      Role::figure, Role::figure, Role::other}));
+  EXPECT_EQ(roles, (std::vector<Role>{Role::parameter, Role::parameter, Role::other, Role::figure,
+                                      Role::figure, Role::other}));
+  EXPECT_TRUE(view.columns[2].set) << "a seed is no parameter, and a run has it";
   EXPECT_FALSE(view.columns[1].number);
 }
 
@@ -128,6 +129,56 @@ TEST_F(StudyPageTest, IsAskedOfStudiesOnly) {
             std::string::npos);
   fs::resize_file(file_, 100);
   EXPECT_NE(message([&] { (void)study_view(file_); }).find("study.db"), std::string::npos);
+}
+
+// An experiment with lists of tables, as of what is reported, and a word whose values follow.
+TEST_F(StudyPageTest, FindsWhatAWalkHadSet) {
+  const Sweep sweep = {.experiment = root + "/experiments/walk-test-1.toml",
+                       .sets = {"trolley.track_length=20 ft"},
+                       .axes = {parse_axis("low_level.duty_rounding=none,truncate sum")},
+                       .report = parse_figures("air_used_kg")};
+  const fs::path file = folder_ / "walk.db";
+  { Results(file, asked_of(sweep)).add({.point = 1, .cells = {"truncate sum", "1", "ok"}}); }
+  EXPECT_EQ(run_of(study_view(file), 1).sets,
+            (std::vector<std::string>{"trolley.track_length=6.096 m",
+                                      "low_level.duty_rounding=truncate sum"}));
+}
+
+// A tuning's rows are its candidates. A goal with a limit has two columns.
+TEST_F(StudyPageTest, ShowsTheCandidatesOfATuning) {
+  using From = Column::Role;
+  const fs::path file = folder_ / "tuning.db";
+  Asked asked = asked_of(a_sweep());
+  asked.title = "A faster lever";
+  asked.text += "draws = 2, 0.5\n";
+  asked.points = 40;
+  asked.of_candidates = {{"joint.lever.damping [N m s/rad]", true, From::parameter},
+                         {"air_used [kg]", true, From::minimize},
+                         {"sequence_duration [ms]", true, From::maximize},
+                         {"air_used [kg]", true, From::limit}};
+  {
+    Results results(file, asked);
+    results.add_all(some_rows());
+    results.add_candidates(
+        {{.number = 0, .feasible = true, .cells = {"0.1", "1", "2", "1"}},
+         {.number = 3, .generation = 1, .violation = 0.5, .cells = {"0.2", "", "", ""}}});
+  }
+  const StudyView view = study_view(file);
+  EXPECT_EQ(view.title, "A faster lever");
+  EXPECT_EQ(view.kind, "tune");
+  EXPECT_EQ(view.expected, 10u) << "of four runs each: two seeds, two draws";
+  EXPECT_EQ(view.columns[1].role, Role::objective);
+  EXPECT_FALSE(view.columns[1].maximize);
+  EXPECT_TRUE(view.columns[2].maximize);
+  EXPECT_EQ(view.columns[3].role, Role::constraint);
+  EXPECT_EQ(view.columns[3].heading, "air_used worst [kg]");
+  ASSERT_EQ(view.rows.size(), 2u);
+  EXPECT_TRUE(view.rows[0].ok);
+  EXPECT_EQ(view.rows[1].number, 3u);
+  EXPECT_EQ(view.rows[1].generation, 1);
+  EXPECT_EQ(view.rows[1].violation, 0.5);
+  EXPECT_FALSE(view.rows[1].ok);
+  EXPECT_EQ(run_of(view, 3).sets.back(), "joint.lever.damping=0.2 N m s/rad");
 }
 
 // An experiment that is gone or another one leaves the study readable; its command is what was

@@ -1,6 +1,7 @@
 #include "sinew/tune/page/study_view.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <string_view>
 
@@ -30,6 +31,66 @@ std::string set_of(const StudyColumn& column, const std::string& cell) {
          column.heading.substr(unit + 2, column.heading.size() - unit - 3);
 }
 
+StudyColumn shown(const Column& column) {
+  using From = Column::Role;
+  using To = StudyColumn::Role;
+  StudyColumn out{.heading = column.heading, .number = column.number};
+  out.set = column.role == From::parameter || column.role == From::circumstance;
+  out.maximize = column.role == From::maximize;
+  if (column.role == From::parameter) out.role = To::parameter;
+  if (column.role == From::figure) out.role = To::figure;
+  if (column.role == From::maximize || column.role == From::minimize) out.role = To::objective;
+  if (column.role == From::limit) out.role = To::constraint;
+  return out;
+}
+
+// A sweep's. The key that is searched is what the search found, and a run has it.
+std::vector<StudyColumn> columns_of_runs(const Asked& asked) {
+  const std::string searched = fact(asked, "largest");
+  std::vector<StudyColumn> out;
+  for (const Column& column : asked.columns) {
+    out.push_back(shown(column));
+    if (!searched.starts_with(column.heading + ": ")) continue;
+    out.back().role = StudyColumn::Role::figure;
+    out.back().set = true;
+  }
+  return out;
+}
+
+// A tuning's. A figure that is a goal and has a limit is there twice: its limit is of the worst
+// run.
+std::vector<StudyColumn> columns_of_candidates(const Asked& asked) {
+  std::vector<StudyColumn> out;
+  for (const Column& column : asked.of_candidates) {
+    StudyColumn next = shown(column);
+    if (std::ranges::find(out, next.heading, &StudyColumn::heading) != out.end()) {
+      const std::size_t unit = std::min(next.heading.find(" ["), next.heading.size());
+      next.heading.insert(unit, " worst");
+    }
+    out.push_back(std::move(next));
+  }
+  return out;
+}
+
+// Seeds, draws and cases.
+std::size_t runs_of_a_candidate(const Asked& asked) {
+  const std::string draws = fact(asked, "draws"), seeds = fact(asked, "vary");
+  const auto number = static_cast<std::size_t>(std::atoll(draws.c_str()));
+  const auto commas = static_cast<std::size_t>(std::ranges::count(seeds, ','));
+  return std::max<std::size_t>(1, number) * (commas + 1) *
+         std::max<std::size_t>(1, count(asked, "case"));
+}
+
+StudyRow row_of(CandidateRow row, const std::vector<StudyColumn>& columns) {
+  StudyRow out{.cells = std::move(row.cells),
+               .number = row.number,
+               .generation = static_cast<int>(row.generation),
+               .violation = row.violation};
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].role == StudyColumn::Role::objective && !out.cells[i].empty()) out.ok = true;
+  return out;
+}
+
 }  // namespace
 
 bool is_study(const fs::path& file) {
@@ -44,20 +105,23 @@ bool is_study(const fs::path& file) {
 
 StudyView study_view(const fs::path& file) {
   HeldStudy held = read_results(file);
-  StudyView out{.title = title_of(held.asked.experiment),
-                .kind = "sweep",
-                .experiment = held.asked.experiment,
+  const Asked& asked = held.asked;
+  const bool tune = !asked.of_candidates.empty();
+  StudyView out{.title = asked.title.empty() ? title_of(asked.experiment) : asked.title,
+                .kind = tune ? "tune" : "sweep",
+                .experiment = asked.experiment,
                 .file = file.filename().string(),
-                .columns = columns_with_roles(held.asked),
+                .columns = tune ? columns_of_candidates(asked) : columns_of_runs(asked),
                 .rows = {},
-                .expected = held.asked.points,
-                .asked = held.asked.text,
-                .version = fact(held.asked, "sinew"),
-                .sets = sets_of(held.asked),
-                .allow_unreachable = fact(held.asked, "allow_unreachable") == "true"};
-  out.rows.reserve(held.rows.size());
+                .expected = tune ? asked.points / runs_of_a_candidate(asked) : asked.points,
+                .asked = asked.text,
+                .version = fact(asked, "sinew"),
+                .sets = sets_of(asked),
+                .allow_unreachable = fact(asked, "allow_unreachable") == "true"};
+  for (CandidateRow& row : held.candidates) out.rows.push_back(row_of(std::move(row), out.columns));
   for (Row& row : held.rows)
-    out.rows.push_back({.cells = std::move(row.cells), .number = row.point, .ok = row.ok});
+    if (!tune)
+      out.rows.push_back({.cells = std::move(row.cells), .number = row.point, .ok = row.ok});
   return out;
 }
 
