@@ -209,6 +209,21 @@ test('ten thousand rows are drawn soon', () => study('walk', async (page) => {
   assert.ok(took.dragged < took.whole * 1.5 + 50, `${took.dragged} ms while dragging`);
 }));
 
+// A finger along the first axis keeps a range and does not scroll; a tap lets go.
+async function drag_by_touch(page) {
+  const all = (await numbers(page)).length, handle = page.locator('.axis-handle').first(), box = await handle.boundingBox();
+  const session = await page.context().newCDPSession(page), before = await page.evaluate(() => scrollY);
+  const touch = (type, y) => session.send('Input.dispatchTouchEvent', { type, touchPoints: y === null ? [] : [{ x: box.x + box.width / 2, y: box.y + y }] });
+  await touch('touchStart', 60);
+  for (let y = 80; y <= 160; y += 20) await touch('touchMove', y);
+  await touch('touchEnd', null);
+  const some = (await numbers(page)).length;
+  assert.ok(some > 0 && some < all, `${some} of ${all}`);
+  assert.equal(await page.evaluate(() => scrollY), before);
+  await handle.tap();
+  assert.equal((await numbers(page)).length, all);
+}
+
 test('dark, on paper, on a phone', async () => {
   await study('walk', async (page) => {
     const light = await drawn(page, 'scatter');
@@ -224,6 +239,8 @@ test('dark, on paper, on a phone', async () => {
     assert.ok(wide <= 390, `${wide} px`);
     await page.evaluate(() => window.sinew.page.choose(3));
     assert.match(await page.locator('.command').textContent(), /^sinew run /);
+    await page.locator('#parallel').scrollIntoViewIfNeeded();
+    await drag_by_touch(page);
     await picture(page, 'study-phone');
   }, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
 });
