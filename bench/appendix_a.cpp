@@ -1,5 +1,6 @@
 #include "bench/appendix_a.h"
 
+#include <array>
 #include <cmath>
 
 namespace sinew::bench {
@@ -76,13 +77,8 @@ void pressures(const double* x, double* xdot) {
   xdot[3] = flowrate * DENSITY;
 }
 
-void fnc_xdot(const double* x, double* xdot) {
+void fnc_xdot(const double* x, double* xdot, int sign) {
   double fact, fact_damping, fext, act_eff;
-  int sign;
-  if (x[1] >= 0.0)
-    sign = 1;
-  else
-    sign = -1;
   act_eff = -0.00002 * x[2] * x[2] + 0.0005 * x[2] + 0.9969;
   fact = PI / 4. * std::pow(B / (N * PI), 2.) * std::fabs(x[2] - 14.7) *
          ((3 * x[0] * x[0]) / (B * B) - 1) * act_eff;
@@ -94,6 +90,15 @@ void fnc_xdot(const double* x, double* xdot) {
   xdot[0] = x[1];
   xdot[1] = g - (fact - fext) / MASS;
   pressures(x, xdot);
+}
+
+void fnc_xdot(const double* x, double* xdot) {
+  int sign;
+  if (x[1] >= 0.0)
+    sign = 1;
+  else
+    sign = -1;
+  fnc_xdot(x, xdot, sign);
 }
 
 void rk4(const double* x_in, double* t_ptr, double* x_out) {
@@ -110,17 +115,19 @@ void rk4(const double* x_in, double* t_ptr, double* x_out) {
     x_out[i] = x_in[i] + h6 * (xdot_init[i] + xdot_end[i]) + h3 * (xdot_mid1[i] + xdot_mid2[i]);
 }
 
+void set_mesh() {
+  B = 2 * L_trap * Trap_size;
+  N = L_trap / C_trap;
+  length_min = std::sqrt(std::pow(2 * Trap_size * L_trap, 2.) / 3);
+}
+
 }  // namespace
 
 void appendix_a(int steps_per_ms, double* length) {
   int j, k = 0;
   double t = 0.0;
-  double x[4] = {3.4, 0.0, 14.7, 0.0};  // (in, in/s, psia, slugs)
-  B = 2 * L_trap * Trap_size;
-  N = L_trap / C_trap;
-  length_min = std::sqrt(std::pow(2 * Trap_size * L_trap, 2.) / 3);
-  const double vol_initial = x[0] / (4. * PI * N * N) * (B * B - x[0] * x[0]) + EXT_VOL;
-  x[3] = vol_initial * DENSITY * std::pow(x[2] / 14.7, (1. / GAS_CONST));
+  std::array<double, 4> start = appendix_a_start();
+  double* x = start.data();  // (in, in/s, psia, slugs)
   h = 0.001 / steps_per_ms;
   h2 = h / 2.0;
   h3 = h / 3.0;
@@ -136,6 +143,33 @@ void appendix_a(int steps_per_ms, double* length) {
     k++;
     length[i] = x[0];
   }
+}
+
+std::array<double, 4> appendix_a_start() {
+  set_mesh();
+  std::array<double, 4> x = {3.4, 0.0, 14.7, 0.0};
+  const double vol_initial = x[0] / (4. * PI * N * N) * (B * B - x[0] * x[0]) + EXT_VOL;
+  x[3] = vol_initial * DENSITY * std::pow(x[2] / 14.7, (1. / GAS_CONST));
+  return x;
+}
+
+void appendix_a_rates(int valve, int side, const double* x, double* rates) {
+  valve_state = valve;
+  if (side == 0) {
+    const double at_rest[4] = {x[0], 0.0, x[2], x[3]};
+    fnc_xdot(at_rest, rates, 0);
+    rates[0] = rates[1] = 0;
+    return;
+  }
+  fnc_xdot(x, rates, side);
+}
+
+AppendixFriction appendix_a_friction(const double* x) {
+  double without[4], with[4];
+  const double at_rest[4] = {x[0], 0.0, x[2], x[3]};
+  fnc_xdot(at_rest, without, 0);
+  fnc_xdot(at_rest, with, 1);
+  return {.bound = (without[1] - with[1]) * MASS, .asks = without[1] * MASS};
 }
 
 }  // namespace sinew::bench

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# install-dependencies.sh [demo|quick|check|long]   installs with apt what is missing, and nothing else.
+# install-dependencies.sh [demo|quick|check|long|bench]   installs with apt what is missing, no more.
 #
 #   demo    to build and run Sinew
 #   quick   and to test it: ./check --quick
 #   check   and for everything ./check does
 #   long    and for ./check long
+#   bench   to build Sinew and what measures it beside others (bench)
 #
 # Can be run again. Needs Debian 12 or a system with the same packages; docs/dependencies.md tells
 # more about each. Where you have the tools from elsewhere, SINEW_DEPENDENCIES=present skips this.
@@ -43,6 +44,9 @@ list='
     long   clang++-14          clang-14                         the other compiler
     long   -                   libclang-rt-14-dev               fuzzers and sanitizers for it
     long   llvm-symbolizer-14  llvm-14                          names lines in what they find
+    bench  -                   libbenchmark-dev                 times parts of a walk
+    bench  -                   libmujoco-dev                    a peer: bodies and contacts
+    bench  -                   libsundials-dev                  a peer: CVODE
 '
 
 case ${1:-demo} in
@@ -50,7 +54,8 @@ case ${1:-demo} in
   quick) sets=' demo quick ' ;;
   check) sets=' demo quick check ' ;;
   long) sets=' demo quick check long ' ;;
-  *) echo "usage: $0 [demo|quick|check|long]" >&2; exit 2 ;;
+  bench) sets=' demo bench ' ;;
+  *) echo "usage: $0 [demo|quick|check|long|bench]" >&2; exit 2 ;;
 esac
 
 if [[ ${SINEW_DEPENDENCIES:-} == present ]]; then

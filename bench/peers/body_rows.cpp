@@ -1,0 +1,180 @@
+// The leg's body alone, without muscles, on the table.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "bench/peers/experiments.h"
+#include "bench/peers/mujoco_leg.h"
+#include "bench/peers/row.h"
+#include "sinew/plant/machine/machine.h"
+#include "sinew/plant/packs/batch.h"
+#include "sinew/run/setup/planar_setup.h"
+
+namespace sinew::bench {
+
+namespace {
+
+constexpr int milliseconds = 1000;  // of one fall
+
+// Springs at the joints, wound up, drop the leg on the table and shove the trolley along until all
+// swings have died away: 0.1 s in the air, then sliding and sticking.
+plant::Setup springy(double step) {
+  plant::Setup s = run::planar_setup(walk());
+  s.muscles.clear();
+  s.robot.muscles.clear();
+  s.robot.sensors.clear();
+  s.steps.body = step;
+  constexpr double stiffness = 6.0;      // [N m/rad]
+  const double wound[] = {-0.35, 0.25};  // [rad]
+  for (std::size_t j = 0; j < 2; ++j) {
+    robot::Joint& joint = s.robot.joints[j];
+    joint.spring = stiffness;
+    joint.spring_angle = s.start.joint_angle[j] + wound[j];
+  }
+  s.start.joint_angle[0] += 0.1;  // off the table
+  return s;
+}
+
+// Ours from the same start again and again.
+class OurLeg {
+ public:
+  explicit OurLeg(double step) : world_(springy(step)), start_(world_.state()) {}
+
+  double fall() {
+    world_.restore(start_);
+    for (int ms = 1; ms <= milliseconds; ++ms) world_.advance(1e-3 * ms);
+    return milliseconds;
+  }
+  // Where the trolley is at the end of each millisecond [m]; the share of them on the table.
+  double trace(std::vector<double>& x) {
+    world_.restore(start_);
+    int on_table = 0;
+    for (int ms = 1; ms <= milliseconds; ++ms) {
+      const plant::Truth t = world_.truth(1e-3 * ms);
+      x.push_back(t.x);
+      on_table += t.foot[0].force_y > 0;
+    }
+    return 1.0 * on_table / milliseconds;
+  }
+
+ private:
+  plant::ChainWorld<2> world_;
+  const plant::ChainWorld<2>::State start_;
+};
+
+// Ours side by side, in as many lanes as the processor has.
+class OurLegs {
+ public:
+  OurLegs() : setup_(springy(1e-3)), batch_(plant::Batch::widest(), setup_) {}
+
+  double fall() {
+    const int width = batch_.width();
+    for (int k = 0; k < width; ++k) batch_.replace(k, setup_);
+    std::array<bool, 8> begun{};
+    auto turn = [&](int k) noexcept {
+      bool& b = begun[static_cast<std::size_t>(k)];
+      const double to = b ? plant::Batch::over : 1e-3 * milliseconds;
+      b = true;
+      return to;
+    };
+    while (batch_.go(turn) >= 0) {}
+    return 1.0 * milliseconds * width;
+  }
+
+ private:
+  plant::Setup setup_;
+  plant::Batch batch_;
+};
+
+class TheirLeg {
+ public:
+  TheirLeg(int ticks, Integrator integrator)
+      : per_ms_(10 / ticks),
+        leg_(springy(1e-3), {.body = ticks}, integrator),
+        start_(leg_.motion()) {}
+
+  double fall() {
+    leg_.place(start_);
+    for (int n = 0; n < milliseconds * per_ms_; ++n) leg_.step_body();
+    return milliseconds * per_ms_;
+  }
+  double trace(std::vector<double>& x) {
+    leg_.place(start_);
+    int on_table = 0;
+    for (int ms = 0; ms < milliseconds; ++ms) {
+      for (int n = 0; n < per_ms_; ++n) leg_.step_body();
+      x.push_back(leg_.motion().x);
+      on_table += leg_.touches();
+    }
+    return 1.0 * on_table / milliseconds;
+  }
+
+ private:
+  int per_ms_;
+  MujocoLeg leg_;
+  LegMotion start_;
+};
+
+// Largest difference of the trolley's place in two falls [mm], and the share on the table.
+template <class Leg>
+void judge(const std::string& of, Leg&& coarse, Leg&& fine, std::vector<Accuracy>& out) {
+  std::vector<double> a, b;
+  const double touching = coarse.trace(a);
+  fine.trace(b);
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::fabs(a[i] - b[i]));
+  out.push_back({of, "trolley, largest difference from steps of 100 us", 1e3 * most, "mm"});
+  out.push_back({of, "trolley, where it comes to rest", 1e3 * a.back(), "mm"});
+  out.push_back({of, "share of the steps on the table", touching, "1"});
+}
+
+// Some 10 ms of each.
+template <class Ours, class Theirs>
+Row compared(const Row& row, Ours& ours, Theirs& theirs, int rounds) {
+  const auto several = [](auto& leg, int times) {
+    double steps = 0;
+    for (int i = 0; i < times; ++i) steps += leg.fall();
+    return steps;
+  };
+  return times_faster(row, by_turns([&] { return several(ours, 20); },
+                                    [&] { return several(theirs, 2); }, rounds, Clock::processor));
+}
+
+Row against_mujoco(const std::string& name, const std::string& what, Integrator integrator,
+                   std::optional<double> goal, int rounds) {
+  Row row{.name = name, .what = what, .goal = goal, .per = "step of 1 ms"};
+  if (!has_mujoco()) return not_measured(row, "MuJoCo was not found when this program was built");
+  judge("sinew", OurLeg(1e-3), OurLeg(1e-4), row.accuracy);
+  judge("mujoco", TheirLeg(10, integrator), TheirLeg(1, integrator), row.accuracy);
+  OurLeg ours(1e-3);
+  TheirLeg theirs(10, integrator);
+  return compared(row, ours, theirs, rounds);
+}
+
+// The lanes have the bits that ours has alone: how exact that is, the row above says.
+Row lanes_against_mujoco(std::optional<double> goal, int rounds) {
+  Row row{
+      .name = "body/mujoco-lanes",
+      .what = "the same, ours side by side in the processor's lanes, against MuJoCo's Euler step",
+      .goal = goal,
+      .per = "step of 1 ms"};
+  if (!has_mujoco()) return not_measured(row, "MuJoCo was not found when this program was built");
+  OurLegs ours;
+  TheirLeg theirs(10, Integrator::euler);
+  return compared(row, ours, theirs, rounds);
+}
+
+}  // namespace
+
+std::vector<Row> body_rows(const Effort& effort) {
+  return {against_mujoco("body/mujoco",
+                         "step of 1 ms of the leg without muscles, in contact with the table: ours "
+                         "(RK4, sticking friction) against MuJoCo's Euler step",
+                         Integrator::euler, 25.0, effort.rounds),
+          lanes_against_mujoco(25.0, effort.rounds),
+          against_mujoco("body/mujoco-rk4", "the first, one at a time, against MuJoCo's RK4 step",
+                         Integrator::rk4, std::nullopt, effort.rounds)};
+}
+
+}  // namespace sinew::bench

@@ -1,0 +1,142 @@
+// Compiled once for each width, with SINEW_LANES as the width.
+#include "bench/peers/drill_wide.h"
+
+#include <cmath>
+#include <memory>
+
+#include "sinew/air/packs/plain_air.h"
+
+namespace sinew::bench {
+
+namespace {
+
+constexpr int W = SINEW_LANES;
+using Pack = units::Pack<W>;
+using Network = air::AirNetwork<drill_muscles>;
+using Air = air::PlainAir<drill_muscles, W>;
+
+// W machines from `first` on.
+class Machines {
+ public:
+  Machines(const Drill& d, int first) : first_(first) {
+    const std::vector<air::Muscle> muscles(drill_muscles, d.muscle);
+    std::array<const Network*, W> each;
+    for (std::size_t k = 0; k < W; ++k) {
+      networks_[k] = std::make_unique<Network>(muscles, d.air, d.supply);
+      each[k] = networks_[k].get();
+    }
+    air_ = std::make_unique<Air>(each);
+    const double mass = each[0]->mass_at(0, d.start, d.rest + d.stroke[0]);
+    const double density = mass / each[0]->volume(0, d.rest + d.stroke[0]);
+    for (int i = 0; i < drill_muscles; ++i) {
+      state_.mass[i] = mass;
+      state_.in[i] = state_.out[i] = 0.0;
+      shares_.inlet[i] = shares_.exhaust[i] = 0.0;
+      memory_.y[i] = each[0]->braids().exact_y(density);
+      memory_.inverse_sigma[i] = 1.0 / density;
+    }
+  }
+
+  void command(const Switching& s) {
+    const int lane = s.machine - first_;
+    if (lane < 0 || lane >= W) return;
+    (s.exhaust ? shares_.exhaust : shares_.inlet)
+        .of[static_cast<std::size_t>(s.muscle)]
+        .set(lane, s.open ? 1.0 : 0.0);
+  }
+
+  // RK4, as plant/packs/chain_batch.h has it.
+  void step(const Drill& d, std::size_t half, const Pack& h) {
+    look(d, half, state_, look_[0]);
+    air_->remember(Pack(0.0) < Pack(1.0), look_[0], memory_);
+    for (int s = 0; s < 3; ++s) {
+      air_->move(stage_, state_, s == 2 ? h : Pack(0.5 * h), look_[s]);
+      look(d, half + (s == 2 ? 2 : 1), stage_, look_[s + 1]);
+    }
+    const Air::Answer* looks[4] = {&look_[0], &look_[1], &look_[2], &look_[3]};
+    air_->finish(state_, h, looks);
+  }
+
+  void tell(const Drill& d, std::size_t half, int tick, Pressures& out) {
+    look(d, half, state_, look_[0]);
+    for (int k = 0; k < W; ++k)
+      for (int i = 0; i < drill_muscles; ++i)
+        out[static_cast<std::size_t>(((first_ + k) * drill_muscles + i) * drill_samples +
+                                     tick / drill_sampling)] = look_[0].pressure[i][k];
+  }
+
+  // Roots of one stage: one flow does for all where some fill and others empty and none both.
+  double roots() const {
+    double sum = 0;
+    for (int i = 0; i < drill_muscles; ++i) {
+      const auto fills = shares_.inlet[i] > 0.0, empties = shares_.exhaust[i] > 0.0;
+      const bool in = units::any(fills), out = units::any(empties);
+      sum += in && out && !units::any(fills & empties) ? 1 : (in ? 1 : 0) + (out ? 1 : 0);
+    }
+    return sum;
+  }
+
+ private:
+  void look(const Drill& d, std::size_t half, const Air::State& state, Air::Answer& out) {
+    for (int i = 0; i < drill_muscles; ++i) {
+      ends_.length[i] = d.rest + d.stroke[half];
+      ends_.rate[i] = d.speed[half];
+    }
+    air_->evaluate(ends_, state, shares_, memory_, out);
+  }
+
+  int first_;
+  std::array<std::unique_ptr<Network>, W> networks_;
+  std::unique_ptr<Air> air_;
+  Air::Ends ends_;
+  Air::State state_, stage_;
+  Air::Shares shares_;
+  Air::Memory memory_;
+  Air::Answer look_[4];
+};
+
+Counts run(const Drill& d, Pressures* pressures) {
+  const double h = 1e-4 / d.parts;
+  Counts counts;
+  for (int first = 0; first < drill_machines; first += W) {
+    Machines machines(d, first);
+    auto next = d.switchings.begin();
+    std::size_t half = 0;
+    for (int tick = 0; tick < drill_ticks; ++tick) {
+      for (; next != d.switchings.end() && next->tick <= tick; ++next) machines.command(*next);
+      if (pressures && tick % drill_sampling == 0) machines.tell(d, half, tick, *pressures);
+      for (int part = 0; part < d.parts; ++part, half += 2) machines.step(d, half, h);
+      counts.steps += 1.0 * W * drill_muscles * d.parts;
+      counts.divisions += 4.0 * drill_muscles * d.parts;
+      counts.roots += 4.0 * machines.roots() * d.parts;
+    }
+  }
+  return counts;
+}
+
+// Sixteen packs side by side, so that none waits for its own last answer.
+double divide(std::int64_t divisions, std::int64_t roots) {
+  constexpr int beside = 16;
+  Pack x[beside];
+  for (int i = 0; i < beside; ++i) x[i] = 1.5 + 0.01 * i;
+  const Pack over = 2.0;
+  for (std::int64_t k = 0; k < divisions; k += beside)
+    for (Pack& one : x) one = over / one;
+  for (std::int64_t k = 0; k < roots; k += beside)
+    for (Pack& one : x) one = units::sqrt(one);
+  double sum = 0;
+  for (const Pack& one : x) sum += one[0];
+  return sum;
+}
+
+}  // namespace
+
+#if SINEW_LANES == 2
+Wide wide_2() { return {W, run, divide}; }
+#elif SINEW_LANES == 4
+Wide wide_4() { return {W, run, divide}; }
+#else
+Wide wide_8() { return {W, run, divide}; }
+#endif
+
+}  // namespace sinew::bench
