@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string file, out, best;
+  std::vector<std::string> sets;
   RunOptions runs;
   int generations = 0, candidate = -1;
   bool force = false, json = false, quiet = false;
@@ -75,7 +76,9 @@ const tune::Candidate& chosen(const tune::Tuned& tuned, const Options& options) 
 
 ExitCode tune_all(const Options& given) {
   Options options = given;
-  const auto asked = [&] { return tune::load_tuning(options.file, options.generations); };
+  const auto asked = [&] {
+    return tune::load_tuning(options.file, options.sets, options.generations);
+  };
   if (options.runs.results.empty())
     options.runs.results = fs::path(options.file).stem().string() + ".db";
   const tune::Ranks ranks;
@@ -113,6 +116,7 @@ void add_tune(Command app, Action& action) {
                                "sinew tune studies/faster-walk.toml --best faster-walk.toml");
   sub.add_option("FILE", options->file, "what is tuned, by which goals: docs/how-to-tune.md")
       .required();
+  add_sets(sub, options->sets);
   add_keeping(sub, options->runs);
   sub.add_option("--generations", options->generations, "in place of the file's number")
       .is_between(1, 100000);

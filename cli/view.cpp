@@ -1,20 +1,16 @@
-// cli/view.cpp - `sinew view`: the page of a run in the browser, recorded or while it goes.
+// cli/view.cpp - `sinew view`: the page of a run or of a study in the browser, recorded or while it
+// goes.
 
 #include <fmt/format.h>
 
 #include "cli/run.h"
-#include "sinew/config/diagnostics.h"
 #include "sinew/live/browser.h"
 #include "sinew/live/live_run.h"
-#include "sinew/live/runs_pages.h"
-#include "sinew/run/folder/page.h"
-#include "sinew/run/folder/run_folder.h"
+#include "sinew/live/served.h"
 
 namespace sinew::cli {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ViewOptions {
   std::string run, machine;  // recorded
@@ -25,21 +21,11 @@ struct ViewOptions {
 
 ExitCode view_recorded(const ViewOptions& o) {
   const Messages messages(o.live.quiet);
-  std::vector<fs::path> runs =
-      o.run.empty() ? live::runs_below("runs") : std::vector<fs::path>{o.run};
-  if (runs.empty())
-    config::fail({"runs", 0, 0}, "", "no run", "folders with a log.mcap",
-                 "sinew run experiments/walk-test-1.toml, or the folder of a run");
-  if (!o.run.empty())
-    (void)run::page_of(run::recorded_run(o.run), o.machine);  // its errors belong here
-  live::Server server(static_cast<std::uint16_t>(o.port), {.get = [&](std::string_view path) {
-                        return live::answer(path, runs, o.machine);
-                      }});
+  const live::Served served = live::served(o.run, o.machine, messages.notices());
+  live::Server server(static_cast<std::uint16_t>(o.port), {.get = served.get});
   fmt::print("{}\n", server.url());
   std::fflush(stdout);
-  messages.note(fmt::format(
-      "{}; Ctrl-C ends{}", runs.front().string(),
-      runs.size() > 1 ? fmt::format("; {} runs at {}runs", runs.size(), server.url()) : ""));
+  messages.note(served.in_words(server.url()));
   const live::Browser browser(o.open ? server.url() : "");
   server.run();
   return ok;
@@ -73,10 +59,10 @@ ExitCode view_live(const ViewOptions& o) {
 
 void add_view(Command app, Action& action) {
   auto options = std::make_shared<ViewOptions>();
-  Command sub = app.subcommand("view", "a run in the browser, recorded or while it goes",
+  Command sub = app.subcommand("view", "a run or a study in the browser, recorded or while it goes",
                                "sinew view --live experiments/tune-in-air.toml");
-  Option dir = sub.add_option("DIR", options->run,
-                              "a run's folder, or a log file; else the newest below runs/");
+  Option dir = sub.add_option(
+      "DIR", options->run, "a run's folder, a log file or a study's; else the newest below runs/");
   sub.add_option("--machine", options->machine,
                  "what was run, in place of the folder's resolved.toml");
   Option live =

@@ -27,6 +27,7 @@ else()
 std::string_view sinew::report::page_template() { return {}; }
 std::string_view sinew::report::comparison_template() { return {}; }
 std::string_view sinew::report::fit_template() { return {}; }
+std::string_view sinew::report::study_template() { return {}; }
 ")
   message(STATUS "web/: built without reports; npm ci in web/ brings them")
 endif()

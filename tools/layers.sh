@@ -58,7 +58,8 @@ layers='
     tune/results    tune
     tune/mpi        tune/results
     tune/optimizer  tune/results
-    live            run/folder
+    tune/page       tune/results report/page
+    live            run/folder tune/page
 '
 
 # What only the tests of a folder may include besides (*_test.cpp, *_test.h, test_*.h, testing.h).

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # pictures.sh   makes every picture of README and docs/ anew, from runs: docs/walk.gif, walk.svg,
-# report.png, compare.png, stand.png, fit.png.
+# report.png, compare.png, stand.png, fit.png, study.png.
 #
 # Needs gnuplot, chromium and npm, as ./check does. SINEW_BUILD names the build folder whose program
 # runs; build/release without it. With one chromium the same runs give the same bytes.
@@ -26,6 +26,14 @@ node web/picture.mjs "$work/compare.html" docs/compare.png 3.9
 "$program" run experiments/rig/feedback.toml -o "$work/stand" --quiet >/dev/null
 node web/picture.mjs "$work/stand/report.html" docs/stand.png 7
 
+# As in docs/how-to-look-at-a-study.md.
+"$program" sweep experiments/walk-test-1.toml --points 32 --range "joint.hip.angle_gain=0.02:0.08 %/count log" \
+  --range "joint.knee.angle_gain=0.02:0.12 %/count" --range "phase.swing.duration=0.5:1 s" \
+  --vary "low_level.duty_rounding=none,truncate sum" --results "$work/study.db" -o "$work/study.csv" --quiet \
+  --report "trolley.mean_speed_m_per_s [in/s], joints.hip.tracking_rms_rad [deg], air_used_kg [g], joints.hip.passiveness [%]"
+"$program" report "$work/study.db" --quiet
+node web/picture.mjs "$work/study.html" docs/study.png 17 light 960
+
 # As in examples/06-characterise.
 for psi in 10 20 30 40 50 60 70 80 90 100; do
   "$program" run examples/06-characterise/pressures.toml --set "charge.pressure=$psi psi gauge" \
@@ -39,4 +47,4 @@ cd "$work"
   --quiet >/dev/null
 cd - >/dev/null
 node web/picture.mjs "$work/static.html" docs/fit.png
-ls -l docs/walk.gif docs/walk.svg docs/{report,compare,stand,fit}.png
+ls -l docs/walk.gif docs/walk.svg docs/{report,compare,stand,fit,study}.png

@@ -66,6 +66,36 @@ TEST(Report, OfARunThatIsNotThereNamesWhatIsMissing) {
   EXPECT_EQ(w.sinew({"report", "run", "--force", "--machine", bench}).code, 0);
 }
 
+TEST(Report, OfAStudyStandsBesideIt) {
+  const Workspace w;
+  for (const char* name : {"one.db", "two.db"})
+    ASSERT_EQ(w.sinew({"sweep", bench, "--seeds", "3", "--report", "air_used_kg", "--results", name,
+                       "-o", "t.csv", "--force"})
+                  .code,
+              0);
+  const Result made = w.sinew({"report", "one.db"});
+  EXPECT_EQ(made.code, 0);
+  EXPECT_THAT(made.err, StartsWith("one.html, "));
+  EXPECT_THAT(read_text(w / "one.html"), HasSubstr("air_used [kg]"));
+  EXPECT_THAT(w.sinew({"report", "one.db"}).err,
+              AllOf(StartsWith("one.html: found a file"), HasSubstr("--force")));
+  EXPECT_EQ(w.sinew({"report", "one.db", "two.db", "-o", "both.html"}).code, 0);
+  EXPECT_THAT(read_text(w / "both.html"), AllOf(HasSubstr("one.db"), HasSubstr("two.db")));
+}
+
+TEST(Report, OfAStudyRefusesWhatIsNone) {
+  const Workspace w;
+  ASSERT_EQ(w.sinew({"run", bench, "-o", "run"}).code, 0);
+  const Result two = w.sinew({"report", "run", "run"});
+  EXPECT_EQ(two.code, 2);
+  EXPECT_THAT(two.err, HasSubstr("sinew compare"));
+  EXPECT_EQ(w.sinew({"report", "a.db", "--machine", bench}).code, 2);
+  EXPECT_THAT(w.sinew({"report", "a.db"}).err, StartsWith("a.db: "));
+  EXPECT_THAT(w.sinew({"view", "a.db", "--no-open"}).err, StartsWith("a.db: "));
+  write_text(w / "words.db", "not a study");
+  EXPECT_THAT(w.sinew({"report", "words.db"}).err, StartsWith("words.db"));
+}
+
 TEST(Report, IsMadeOfALogThatWasCutAndSaysSo) {
   const Workspace w;
   ASSERT_EQ(w.sinew({"run", walk, "-o", "run", "--no-report"}).code, 0);

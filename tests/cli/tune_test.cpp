@@ -1,6 +1,7 @@
 // `tune`: the best candidate, its file, and what is refused.
 #include <gmock/gmock.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -18,7 +19,7 @@ const std::string lever =
     "format = \"sinew.tuning/1\"\n"
     "title = \"A lever that follows\"\n"
     "experiment = \"experiments/one-joint.toml\"\n"
-    "range = [\"joint.lever.angle_gain=0.05:0.3 %/count log\"]\n"
+    "tune = [\"joint.lever.angle_gain=0.05:0.3 %/count log\"]\n"
     "minimize = [\"joints.lever.tracking_rms_rad [deg]\"]\n"
     "where = [\"joints.lever.passiveness >= 50 %\"]\n"
     "population = 6\n"
@@ -96,6 +97,35 @@ TEST_F(Tune, RefusesWhatCannotBe) {
   refused({"--results", "new.db"}, "joints.lever.tracking_rms_rad");
   w.edit("lever.toml", "population = 6", "population = 4");
   refused({}, "lever.toml:7:1: population: found 4; expected 5 or more");
+}
+
+// What a tuning's file of experiments/tuned says of itself comes out again.
+TEST(Tuned, ShippedCandidatesReachWhatTheySay) {
+  const Workspace w;
+  int files = 0;
+  for (const auto& entry :
+       fs::directory_iterator(fs::path(SINEW_SOURCE_DIR) / "experiments/tuned")) {
+    const std::string text = read_text(entry.path());
+    const std::size_t begin = text.find("#   ") + 4, equals = text.find(" = ", begin);
+    const std::string figure = text.substr(begin, equals - begin);
+    const double said = std::stod(text.substr(equals + 3));
+    // In a heading a key's own unit is left out: "trolley.mean_speed [in/s]".
+    const std::map<std::string, std::string> keys = {
+        {"trolley.mean_speed [in/s]", "trolley.mean_speed_m_per_s [in/s]"},
+        {"foot.tracking_rms [in]", "foot.tracking_rms_m [in]"}};
+    ASSERT_TRUE(keys.contains(figure)) << figure;
+    const Result r =
+        w.sinew({"sweep", entry.path().string(), "--seeds", "2", "--report", keys.at(figure)});
+    ASSERT_EQ(r.code, 0) << r.err;
+    std::istringstream rows(r.out);
+    std::string row;
+    double sum = 0;
+    std::getline(rows, row);
+    while (std::getline(rows, row)) sum += std::stod(row.substr(row.find(',') + 1));
+    EXPECT_NEAR(sum / 2, said, 0.03 * said) << entry.path();
+    ++files;
+  }
+  EXPECT_GE(files, 2);
 }
 
 }  // namespace

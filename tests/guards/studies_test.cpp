@@ -26,7 +26,7 @@ const char* const tuning =
     "format = \"sinew.tuning/1\"\n"
     "title = \"a lever\"\n"
     "experiment = \"experiments/one-joint.toml\"\n"
-    "range = [\"joint.lever.angle_gain=0.05:0.2 %/count log\", \"phase.up.duration=0.5:1.5 s\"]\n"
+    "tune = [\"joint.lever.angle_gain=0.05:0.2 %/count log\", \"phase.up.duration=0.5:1.5 s\"]\n"
     "minimize = [\"joints.lever.tracking_rms_rad\"]\n"
     "where = [\"air_used_kg < 0.6 g\"]\n"
     "population = 10\n"

@@ -6,4 +6,5 @@ import './stand_page.mjs';
 import './compare_page.mjs';
 import './gallery_page.mjs';
 import './fit_page.mjs';
+import './study_page.mjs';
 import './references.mjs';

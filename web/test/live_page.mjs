@@ -1,63 +1,26 @@
 // The page of a run that goes: `sinew view --live`, watched, paused, steered, repeated. The program
 // is what SINEW names.
 import assert from 'node:assert/strict';
-import { execFileSync, spawn } from 'node:child_process';
+import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import http from 'node:http';
 import { tmpdir } from 'node:os';
-import { join, resolve } from 'node:path';
+import { join } from 'node:path';
 import { after, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { drawing_of, new_context, picture, playheads } from './pages.mjs';
+import { program, serve, watch } from './served.mjs';
 
-if (!process.env.SINEW) throw new Error('SINEW must name the program, as build/dev/bin/sinew');
-const program = resolve(process.env.SINEW);
 const experiment = fileURLToPath(new URL('../../experiments/tune-in-air.toml', import.meta.url));
 const folder = mkdtempSync(join(tmpdir(), 'sinew-live-'));
-const children = [];
-after(() => {
-  for (const child of children) child.kill('SIGKILL');
-  rmSync(folder, { recursive: true, force: true });
-});
+after(() => rmSync(folder, { recursive: true, force: true }));
 
 const wait = (ms) => new Promise((done) => setTimeout(done, ms));
 
 // A run with its server; `url`, and what it came to at the end.
 async function start(name, options = []) {
   const out = join(folder, name);
-  return { out, ...(await serve(['view', '--live', experiment, '--no-open', '-o', out, ...options])) };
-}
-
-async function serve(words_of_line, cwd = folder) {
-  const child = spawn(program, words_of_line, { cwd });
-  children.push(child);
-  let words = '', errors = '';
-  child.stderr.on('data', (text) => (errors += text));
-  const ended = new Promise((done) => child.on('close', (code) => done({ code, errors })));
-  const url = await new Promise((found, wrong) => {
-    child.stdout.on('data', (text) => {
-      words += text;
-      if (words.includes('\n')) found(words.split('\n')[0]);
-    });
-    ended.then(({ errors: why }) => wrong(new Error(why)));
-  });
-  return { url, child, ended };
-}
-
-async function watch(run, does, options = {}, path = '') {
-  const context = await new_context(options);
-  const page = await context.newPage(), wrong = [];
-  page.on('console', (m) => ['error', 'warning'].includes(m.type()) && wrong.push(m.text()));
-  page.on('pageerror', (e) => wrong.push(e.message));
-  page.on('request', (r) => !r.url().startsWith(run.url) && !r.url().startsWith('data:') && wrong.push(r.url()));
-  try {
-    await page.goto(run.url + path);
-    await page.waitForSelector('html[data-ready]');
-    await does(page);
-    assert.deepEqual(wrong, []);
-  } finally {
-    await context.close();
-  }
+  return { out, ...(await serve(['view', '--live', experiment, '--no-open', '-o', out, ...options], folder)) };
 }
 
 const live = (page) => page.evaluate(() => ({ ...window.sinew.live.state, shown: window.sinew.page.player.time,

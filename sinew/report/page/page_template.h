@@ -9,5 +9,6 @@ namespace sinew::report {
 std::string_view page_template();        // of one run
 std::string_view comparison_template();  // of several
 std::string_view fit_template();         // of an identification
+std::string_view study_template();       // of a sweep or a tuning, or of two
 
 }  // namespace sinew::report

@@ -7,14 +7,19 @@
 
 namespace sinew::run {
 
-std::string page_of(const RecordedRun& run, const std::string& machine, bool* cut) {
+std::string page_of(const RecordedRun& run, const std::string& machine, const Notices& notices) {
   const config::Node resolved = config::compose(machine_of(run, machine).string());
   const signals::Table table = log::read(run.log);
-  if (cut) *cut = !table.complete;
-  return report::page({.table = table,
-                       .resolved = resolved,
-                       .name = experiment_in(run.log),
-                       .ended = ended_in(run.log)});
+  const std::string ended = ended_in(run.log);
+  std::string page = report::page(
+      {.table = table, .resolved = resolved, .name = experiment_in(run.log), .ended = ended});
+  if (!ended.empty())
+    notices.warning(run.log.string() + ": the run was ended: " + ended +
+                    "; the page shows it until then");
+  if (!table.complete)
+    notices.warning(run.log.string() +
+                    " was cut off or is damaged; the page shows what stands before");
+  return page;
 }
 
 bool write_report(const OutputFolder& folder, const signals::Table& logged,

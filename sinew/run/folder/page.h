@@ -20,8 +20,9 @@ bool write_report(const OutputFolder& folder, const signals::Table& logged,
                   const config::Node& values, const std::string& name, const Notices& notices);
 
 // Returns the page of a recorded run, by `machine` where it is not empty, else by its
-// resolved.toml. Throws where there is no such run, or no page in the library; `cut` says whether
-// the log was.
-std::string page_of(const RecordedRun& run, const std::string& machine, bool* cut = nullptr);
+// resolved.toml. Warns where the run was ended, or its log is cut off. Throws where there is no
+// such run, or no page in the library.
+std::string page_of(const RecordedRun& run, const std::string& machine,
+                    const Notices& notices = {});
 
 }  // namespace sinew::run

@@ -30,8 +30,8 @@ TuningFile lever_file() {
   out.title = "A lever that follows";
   out.experiment = lever;
   out.set = {"sequence.repeat=1"};
-  out.range = {"joint.lever.angle_gain=0.01:0.3 %/count log",
-               "control.stiffness.lever=4:20 lbf in/rad"};
+  out.tune = {"joint.lever.angle_gain=0.01:0.3 %/count log",
+              "control.stiffness.lever=4:20 lbf in/rad"};
   out.minimize = {"joints.lever.tracking_rms_rad [deg]"};
   out.where = {"joints.lever.passiveness >= 50 %"};
   out.population = 6;

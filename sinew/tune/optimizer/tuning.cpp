@@ -118,16 +118,16 @@ void refuse_twice(const TuningFile& file, const Sample& sample) {
   for (std::size_t i = 0; i < sample.ranges.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (sample.ranges[i].axis.key == sample.ranges[j].axis.key)
-        refuse(file, "range", sample.ranges[i].axis.key + " twice", "each key once");
+        refuse(file, "tune", sample.ranges[i].axis.key + " twice", "each key once");
 }
 
 void add_ranges(const TuningFile& file, Tuning& out) {
   Sample sample{.ranges = {}, .handed = true};
-  for (const std::string& text : file.range)
-    sample.ranges.push_back(parse_range(text, place(file, "range")));
+  for (const std::string& text : file.tune)
+    sample.ranges.push_back(parse_range(text, place(file, "tune")));
   out.tuned = sample.ranges.size();
   if (out.tuned == 0)
-    refuse(file, "range", "none", "what is tuned", "range = [\"KEY=from:to unit\"]");
+    refuse(file, "tune", "none", "what is tuned", "tune = [\"KEY=from:to unit\"]");
   for (const std::string& text : file.spread)
     sample.ranges.push_back(parse_range(text, place(file, "spread")));
   refuse_twice(file, sample);
@@ -236,8 +236,9 @@ Tuning tuning_of(const std::string& path, const TuningFile& file) {
   return out;
 }
 
-Tuning load_tuning(const std::string& path, int generations) {
+Tuning load_tuning(const std::string& path, const std::vector<std::string>& sets, int generations) {
   TuningFile file = load_tuning_file(path);
+  file.set.insert(file.set.end(), sets.begin(), sets.end());
   if (generations > 0) file.generations = generations;
   return tuning_of(path, file);
 }

@@ -74,7 +74,8 @@ void fields(Visitor& v, TuningFile& f) {
   v.text({.name = "experiment", .doc = "file of the experiment, relative to this one"},
          f.experiment);
   v.texts({.name = "set", .optional = true, .doc = "key=value, for every run"}, f.set);
-  v.texts({.name = "range", .doc = "KEY=from:to unit [log|whole]: what is tuned"}, f.range);
+  // Not `range`: beside numbers that is the range of their value.
+  v.texts({.name = "tune", .doc = "KEY=from:to unit [log|whole]"}, f.tune);
   goal_fields(v, f);
   method_fields(v, f);
   v.integer({.name = "seeds",
@@ -83,7 +84,7 @@ void fields(Visitor& v, TuningFile& f) {
              .optional = true,
              .doc = "runs of a candidate with other noise; 0: the experiment's own"},
             f.seeds);
-  v.texts({.name = "spread", .optional = true, .doc = "like range: what is not known closely"},
+  v.texts({.name = "spread", .optional = true, .doc = "like tune: what is not known closely"},
           f.spread);
   v.integer({.name = "draws",
              .min = 0,

@@ -3,7 +3,7 @@
 //   format     = "sinew.tuning/1"
 //   title      = "A faster walk"
 //   experiment = "../experiments/walk-test-1.toml"
-//   range      = ["joint.hip.angle_gain=0.02:0.1 %/count log", "phase.swing.duration=0.4:1.5 s"]
+//   tune       = ["joint.hip.angle_gain=0.02:0.1 %/count log", "phase.swing.duration=0.4:1.5 s"]
 //   maximize   = ["trolley.mean_speed_m_per_s [in/s]"]
 //   where      = ["passiveness >= 90 %"]
 //   generations = 40
@@ -27,7 +27,7 @@ namespace sinew::tune {
 // The file's words.
 struct TuningFile {
   std::string title, reproduces, experiment;
-  std::vector<std::string> set, range, maximize, minimize, where, report, spread;
+  std::vector<std::string> set, tune, maximize, minimize, where, report, spread;
   std::vector<Case> cases;
   enum class Method { automatic, cmaes, nsga2 } method = Method::automatic;
   Goals::Over over = Goals::Over::mean;
@@ -64,7 +64,8 @@ TuningFile load_tuning_file(const std::string& path);
 // run.
 Tuning tuning_of(const std::string& path, const TuningFile& file);
 
-// Both. `generations`: in place of the file's own, where it is above 0.
-Tuning load_tuning(const std::string& path, int generations = 0);
+// Both, with more values for every run, and another number of generations where it is above 0.
+Tuning load_tuning(const std::string& path, const std::vector<std::string>& sets = {},
+                   int generations = 0);
 
 }  // namespace sinew::tune

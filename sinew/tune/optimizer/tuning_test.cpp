@@ -26,7 +26,7 @@ class TuningTest : public ::testing::Test {
         "title = \"t\"\n"
         "experiment = \"" SINEW_SOURCE_DIR
         "/experiments/one-joint.toml\"\n"
-        "range = [\"joint.lever.angle_gain=0.01:0.3 %/count log\"]\n"
+        "tune = [\"joint.lever.angle_gain=0.01:0.3 %/count log\"]\n"
         "minimize = [\"joints.lever.tracking_rms_rad [deg]\"]\n"
         "where = [\"joints.lever.passiveness >= 50 %\"]\n"
         "generations = 4\n";
@@ -64,16 +64,22 @@ TEST_F(TuningTest, IsUnderstood) {
   EXPECT_GT(t.start[0], 0);
 }
 
+TEST_F(TuningTest, TakesNumbersBesideWhatIsTuned) {
+  const Tuning t = load_tuning(with("generations = 4", "generations = 4\nstep = 0.1\nhold = 0.9"));
+  EXPECT_EQ(t.method.step, 0.1);
+  EXPECT_EQ(t.goals.hold, 0.9);
+}
+
 TEST_F(TuningTest, SaysWhereAndWhatIsWrong) {
   refuses("generations = 4", "generations = 0", "t.toml:7:1: generations");
   refuses("generations = 4", "generation = 4", "generations");
   refuses("minimize", "maximise", "maximise");
   refuses("minimize = [\"joints.lever.tracking_rms_rad [deg]\"]", "", "no goal");
-  refuses("range = [\"joint.lever", "range = [\"joint.lever.angle_gain=0.1 %/count\"]\n#",
-          "t.toml:4:1: range: found \"0.1 %/count\"; expected KEY=from:to");
-  refuses("range = [\"joint.lever.angle_gain", "range = [\"joint.lever.angel_gain", "angle_gain");
-  refuses("range = [\"joint.lever.angle_gain=0.01:0.3 %/count log\"]",
-          "range = [\"joint.lever.angle_gain=0.3:0.3 %/count\"]", "two different ends");
+  refuses("tune = [\"joint.lever", "tune = [\"joint.lever.angle_gain=0.1 %/count\"]\n#",
+          "t.toml:4:1: tune: found \"0.1 %/count\"; expected KEY=from:to");
+  refuses("tune = [\"joint.lever.angle_gain", "tune = [\"joint.lever.angel_gain", "angle_gain");
+  refuses("tune = [\"joint.lever.angle_gain=0.01:0.3 %/count log\"]",
+          "tune = [\"joint.lever.angle_gain=0.3:0.3 %/count\"]", "two different ends");
   refuses(">= 50 %\"", ">= 50 %\", \"joints.lever.passiveness < 0.4\"",
           "expected limits that a number can keep together");
   refuses("[deg]", "[lbf]", "t.toml:5:1: minimize: found");

@@ -1,0 +1,148 @@
+// A study that is served while it grows: what is new is told once, and a row's run is the row.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "sinew/live/served.h"
+#include "sinew/live/study_feed.h"
+#include "sinew/live/study_pages.h"
+#include "sinew/report/page/page.h"
+#include "sinew/tune/results/results.h"
+
+namespace sinew::live {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+const std::string lever = std::string(SINEW_SOURCE_DIR) + "/experiments/one-joint.toml";
+
+tune::Sweep a_sweep() {
+  return {.experiment = lever,
+          .axes = {tune::seeds(9)},
+          .report = tune::parse_figures("sequence_duration_s")};
+}
+
+tune::Row row(std::size_t point, const std::string& seed = "1") {
+  return {.point = point, .cells = {seed, "3.5", "ok"}, .ok = true};
+}
+
+std::vector<std::size_t> numbers(const std::vector<tune::StudyRow>& rows) {
+  std::vector<std::size_t> out;
+  for (const tune::StudyRow& r : rows) out.push_back(r.number);
+  return out;
+}
+
+class StudyPagesTest : public ::testing::Test {
+ protected:
+  StudyPagesTest() : before_(fs::current_path()) {
+    fs::create_directories(folder_);
+    fs::current_path(folder_);
+  }
+  ~StudyPagesTest() override {
+    fs::current_path(before_);
+    fs::remove_all(folder_);
+  }
+
+  const fs::path before_;
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("sinew-study-pages-" + std::to_string(getpid()));
+  const fs::path file_ = folder_ / "study.db";
+};
+
+// Rows come in any order while the file is written.
+TEST_F(StudyPagesTest, TellsEachRowOnceAsItComes) {
+  tune::Results results(file_, asked_of(a_sweep()));
+  results.add(row(4));
+  StudyFeed feed(file_);
+  EXPECT_EQ(feed.changes(), 1u);
+  results.add(row(2));
+  results.add(row(7));
+  feed.look();
+  EXPECT_EQ(feed.changes(), 3u);
+  EXPECT_EQ(numbers(feed.since(1)), (std::vector<std::size_t>{2, 7}));
+  EXPECT_EQ(numbers(feed.since(0)), (std::vector<std::size_t>{4, 2, 7}));
+  EXPECT_TRUE(feed.since(3).empty());
+  EXPECT_TRUE(feed.since(99).empty());
+  feed.look();
+  EXPECT_EQ(feed.changes(), 3u) << "nothing was written";
+}
+
+TEST_F(StudyPagesTest, AnswersWithWhatIsNew) {
+  if (!report::has_page()) GTEST_SKIP() << "built without pages";
+  tune::Results results(file_, asked_of(a_sweep()));
+  results.add(row(0));
+  StudyPages pages(file_, {});
+  EXPECT_EQ(pages.get("/").status, 200);
+  results.add(row(3));
+  const Reply reply = pages.get("/rows/1");
+  EXPECT_EQ(reply.type, "application/json");
+  const Json json = Json::parse(reply.body);
+  EXPECT_EQ(json["known"], 2);
+  EXPECT_EQ(json["expected"], 9);
+  EXPECT_EQ(json["rows"].size(), 1u);
+  EXPECT_EQ(json["rows"][0][0], 3);
+  EXPECT_FALSE(json.contains("error"));
+  for (const char* path : {"/rows/", "/rows/-1", "/rows/1x", "/run/", "/runs", "/study.db", ""})
+    EXPECT_EQ(pages.get(path).status, 404) << path;
+}
+
+// The page that stands says what became of the file.
+TEST_F(StudyPagesTest, SaysThatTheFileIsGone) {
+  if (!report::has_page()) GTEST_SKIP() << "built without pages";
+  { tune::Results(file_, asked_of(a_sweep())).add(row(0)); }
+  StudyPages pages(file_, {});
+  fs::remove(file_);
+  const Json json = Json::parse(pages.get("/rows/1").body);
+  EXPECT_NE(json["error"].get<std::string>().find("study.db"), std::string::npos);
+  EXPECT_EQ(json["known"], 1);
+}
+
+TEST_F(StudyPagesTest, RunsARowOnceAndShowsIt) {
+  if (!report::has_page()) GTEST_SKIP() << "built without pages";
+  { tune::Results(file_, asked_of(a_sweep())).add(row(2, "3")); }
+  std::vector<std::string> notes;
+  StudyPages pages(file_, {.on_note = [&](std::string_view n) { notes.emplace_back(n); }});
+  Reply reply;
+  for (int i = 0; i < 60; ++i) {
+    reply = pages.get("/run/2");
+    ASSERT_EQ(reply.status, 200) << reply.body;
+    if (reply.body.find("http-equiv=\"refresh\"") == reply.body.npos) break;
+  }
+  EXPECT_NE(reply.body.find("\"seed\""), reply.body.npos);
+  EXPECT_EQ(pages.get("/run/2").body, reply.body);
+  EXPECT_EQ(notes, std::vector<std::string>{"row 2: kept in runs/one-joint/1"});
+  EXPECT_TRUE(fs::exists(folder_ / "runs/one-joint/1/log.mcap"));
+  EXPECT_FALSE(fs::exists(folder_ / "runs/one-joint/2"));
+  const Reply none = pages.get("/run/5");
+  EXPECT_EQ(none.status, 500);
+  EXPECT_EQ(none.body, "study.db: found no row 5; expected one of 1 rows that are there\n");
+}
+
+// What cannot be run says why, in place of a page.
+TEST_F(StudyPagesTest, SaysWhyARowCannotRun) {
+  if (!report::has_page()) GTEST_SKIP() << "built without pages";
+  tune::Asked asked = asked_of(a_sweep());
+  asked.experiment = "gone.toml";
+  { tune::Results(file_, asked).add(row(2)); }
+  StudyPages pages(file_, {});
+  const Reply reply = pages.get("/run/2");
+  EXPECT_EQ(reply.status, 500);
+  EXPECT_NE(reply.body.find("gone.toml"), reply.body.npos) << reply.body;
+}
+
+TEST_F(StudyPagesTest, IsServedByItsFile) {
+  if (!report::has_page()) GTEST_SKIP() << "built without pages";
+  { tune::Results(file_, asked_of(a_sweep())).add(row(0)); }
+  const Served study = served(file_.string(), "");
+  EXPECT_EQ(study.get("/rows/0").status, 200);
+  EXPECT_EQ(study.in_words(""), file_.string() + "; Ctrl-C ends");
+  EXPECT_THROW((void)served("nowhere.db", ""), std::exception);
+  EXPECT_THROW((void)served("", ""), std::exception) << "there is no run here";
+}
+
+}  // namespace
+}  // namespace sinew::live

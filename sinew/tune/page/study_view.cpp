@@ -1,0 +1,146 @@
+#include "sinew/tune/page/study_view.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <string_view>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/tune/page/asked_facts.h"
+#include "sinew/tune/results/results.h"
+
+namespace sinew::tune {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A study of "experiments/leg-in-air.toml": "leg in air".
+std::string title_of(const std::string& experiment) {
+  std::string out = fs::path(experiment).stem().string();
+  std::ranges::replace(out, '-', ' ');
+  if (!out.empty()) out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
+  return out;
+}
+
+// "joint.hip.angle_gain [%/count]" of "0.02": "joint.hip.angle_gain=0.02 %/count".
+std::string set_of(const StudyColumn& column, const std::string& cell) {
+  const std::size_t unit = column.number ? column.heading.find(" [") : std::string::npos;
+  if (unit == std::string::npos || !column.heading.ends_with(']'))
+    return column.heading + "=" + cell;
+  return column.heading.substr(0, unit) + "=" + cell + " " +
+         column.heading.substr(unit + 2, column.heading.size() - unit - 3);
+}
+
+StudyColumn shown(const Column& column) {
+  using From = Column::Role;
+  using To = StudyColumn::Role;
+  StudyColumn out{.heading = column.heading, .number = column.number};
+  out.set = column.role == From::parameter || column.role == From::circumstance;
+  out.maximize = column.role == From::maximize;
+  if (column.role == From::parameter) out.role = To::parameter;
+  if (column.role == From::figure) out.role = To::figure;
+  if (column.role == From::maximize || column.role == From::minimize) out.role = To::objective;
+  if (column.role == From::limit) out.role = To::constraint;
+  return out;
+}
+
+// A sweep's. The key that is searched is what the search found, and a run has it.
+std::vector<StudyColumn> columns_of_runs(const Asked& asked) {
+  const std::string searched = fact(asked, "largest");
+  std::vector<StudyColumn> out;
+  for (const Column& column : asked.columns) {
+    out.push_back(shown(column));
+    if (!searched.starts_with(column.heading + ": ")) continue;
+    out.back().role = StudyColumn::Role::figure;
+    out.back().set = true;
+  }
+  return out;
+}
+
+// A tuning's. A figure that is a goal and has a limit is there twice: its limit is of the worst
+// run.
+std::vector<StudyColumn> columns_of_candidates(const Asked& asked) {
+  std::vector<StudyColumn> out;
+  for (const Column& column : asked.of_candidates) {
+    StudyColumn next = shown(column);
+    if (std::ranges::find(out, next.heading, &StudyColumn::heading) != out.end()) {
+      const std::size_t unit = std::min(next.heading.find(" ["), next.heading.size());
+      next.heading.insert(unit, " worst");
+    }
+    out.push_back(std::move(next));
+  }
+  return out;
+}
+
+// Seeds, draws and cases.
+std::size_t runs_of_a_candidate(const Asked& asked) {
+  const std::string draws = fact(asked, "draws"), seeds = fact(asked, "vary");
+  const auto number = static_cast<std::size_t>(std::atoll(draws.c_str()));
+  const auto commas = static_cast<std::size_t>(std::ranges::count(seeds, ','));
+  return std::max<std::size_t>(1, number) * (commas + 1) *
+         std::max<std::size_t>(1, count(asked, "case"));
+}
+
+StudyRow row_of(CandidateRow row, const std::vector<StudyColumn>& columns) {
+  StudyRow out{.cells = std::move(row.cells),
+               .number = row.number,
+               .generation = static_cast<int>(row.generation),
+               .violation = row.violation};
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].role == StudyColumn::Role::objective && !out.cells[i].empty()) out.ok = true;
+  return out;
+}
+
+}  // namespace
+
+bool is_study(const fs::path& file) {
+  std::error_code none;
+  if (!fs::is_regular_file(file, none)) return file.extension() == ".db";
+  constexpr std::string_view begins = "SQLite format 3";
+  std::string head(begins.size(), ' ');
+  std::ifstream(file, std::ios::binary)
+      .read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head == begins || file.extension() == ".db";
+}
+
+StudyView study_view(const fs::path& file) {
+  HeldStudy held = read_results(file);
+  const Asked& asked = held.asked;
+  const bool tune = !asked.of_candidates.empty();
+  StudyView out{.title = asked.title.empty() ? title_of(asked.experiment) : asked.title,
+                .kind = tune ? "tune" : "sweep",
+                .experiment = asked.experiment,
+                .file = file.filename().string(),
+                .columns = tune ? columns_of_candidates(asked) : columns_of_runs(asked),
+                .rows = {},
+                .expected = tune ? asked.points / runs_of_a_candidate(asked) : asked.points,
+                .asked = asked.text,
+                .version = fact(asked, "sinew"),
+                .sets = sets_of(asked),
+                .allow_unreachable = fact(asked, "allow_unreachable") == "true"};
+  for (CandidateRow& row : held.candidates) out.rows.push_back(row_of(std::move(row), out.columns));
+  for (Row& row : held.rows)
+    if (!tune)
+      out.rows.push_back({.cells = std::move(row.cells), .number = row.point, .ok = row.ok});
+  return out;
+}
+
+StudyRun run_of(const StudyView& study, std::size_t number) {
+  const auto row = std::ranges::find(study.rows, number, &StudyRow::number);
+  if (row == study.rows.end())
+    config::fail({study.file, 0, 0}, "", "no row " + std::to_string(number),
+                 "one of " + std::to_string(study.rows.size()) + " rows that are there");
+  StudyRun out{study.experiment, study.sets, study.allow_unreachable};
+  for (std::size_t i = 0; i < study.columns.size(); ++i) {
+    const StudyColumn& column = study.columns[i];
+    if (!column.set && column.role != StudyColumn::Role::parameter) continue;
+    if (row->cells[i].empty()) continue;
+    if (column.heading == "experiment")
+      out.experiment = beside({.experiment = study.experiment}, row->cells[i]);
+    else
+      out.sets.push_back(set_of(column, row->cells[i]));
+  }
+  return out;
+}
+
+}  // namespace sinew::tune

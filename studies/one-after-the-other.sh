@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# one-after-the-other.sh [FOLDER]   what it costs to tune joint after joint: the four gains of studies/gains-again.toml at once,
+# or the hip's two, then the knee's two with the hip's best, then the hip's again, each from where it stands. A minute or two.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+export LC_ALL=C.UTF-8
+sinew=${SINEW:-build/release/bin/sinew} folder=${1:-build/one-after-the-other}
+mkdir -p "$folder"
+experiment=$PWD/experiments/leg-in-air.toml
+
+# plan JOINTS GENERATIONS SEED   the plan with the ranges of these joints alone (a pattern).
+plan() {
+  sed -E -e "s|^experiment .*|experiment = \"$experiment\"|" -e "s/^generations .*/generations = $2\ntuner_seed = $3/" \
+      -e "/^  \"joint\.($1)\./!{/^  \"joint\./d}" studies/gains-again.toml
+}
+goal() { sed -n '/"best"/,$ s/.*"foot.tracking_rms \[in\]": \([0-9.]*\).*/\1/p' "$1" | head -1; }
+# The best one's values, as options.
+sets() { sed -n '/"best"/,$ s/^ *"\(joint\.[a-z_.]*\)": "\(.*\)",*$/--set\n\1=\2/p' "$1"; }
+
+printf '%-6s %-20s %12s %12s\n' seed way candidates 'error [in]'
+for seed in 1 2 3; do
+  plan 'hip|knee' 60 $seed >"$folder/both.toml"
+  "$sinew" tune "$folder/both.toml" --results "$folder/both-$seed.db" --quiet --json >"$folder/both.json" || true
+  printf '%-6s %-20s %12s %12.5s\n' $seed 'all four at once' 960 "$(goal "$folder/both.json")"
+
+  hip=() knee=() candidates=0
+  for turn in 1 2 3; do
+    for joint in hip knee; do
+      plan $joint 10 $seed >"$folder/$joint.toml"
+      "$sinew" tune "$folder/$joint.toml" "${hip[@]}" "${knee[@]}" --results "$folder/$joint-$turn-$seed.db" --quiet --json >"$folder/$joint.json" || true
+      candidates=$((candidates + 160))
+      mapfile -t "$joint" < <(sets "$folder/$joint.json")
+      printf '%-6s %-20s %12s %12.5s\n' $seed "turn $turn, $joint" $candidates "$(goal "$folder/$joint.json")"
+    done
+  done
+done

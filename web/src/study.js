@@ -1,0 +1,218 @@
+// The page of a study, or of two beside each other: history, all columns, two of them, what a figure
+// follows, a figure over two parameters, and every row with what runs it again.
+import { pressure_gradient } from './colors.js';
+import { Look } from './look.js';
+import { by_id, element } from './page.js';
+import { colors_now, value_text } from './study_chart.js';
+import { Filter, StudyData } from './study_data.js';
+import { Parallel } from './study_parallel.js';
+import { Growing } from './study_growing.js';
+import { Chosen, Importance, RowTable } from './study_tables.js';
+import { chooser, History, Scatter, Surface } from './study_views.js';
+import { Units } from './units.js';
+
+class StudyPage {
+  constructor(run) {
+    this.run = run;
+    this.data = new StudyData(run.studies);
+    this.filter = new Filter(this.data);
+    this.chosen = -1;
+    this.under = -1;
+    this.hurry = false;  // while a person drags: what takes long waits
+    this.sort_columns();
+    this.color_column = this.data.studies.length > 1 ? null : this.first_figures[1] ?? this.first_figures[0] ?? null;
+    document.querySelector('.switch').hidden = true;  // a heading has its unit
+    this.views = [new History(this), new Scatter(this), new Importance(this), new Surface(this)];
+    this.parallel = new Parallel(this);
+    this.table = new RowTable(this);
+    this.side = new Chosen(this);
+    by_id('overview').append(this.parallel.root);
+    by_id('views').append(...this.views.map((v) => v.root));
+    by_id('side').append(this.side.root);
+    by_id('table').append(this.table.root);
+    this.head();
+    this.look = new Look(new Units(101325), { on_units: () => {}, on_colors: () => this.redraw(), on_print: () => this.draw() });
+    this.controls();
+    this.arrange_choices();
+    this.draw();
+    this.side.draw();
+    new ResizeObserver(() => this.redraw()).observe(by_id('views'));
+    if (run.served) this.growing = new Growing(this);
+  }
+
+  // Parameters first; what a person looks at first are objectives, then figures that vary. What both
+  // studies have comes before what one has.
+  sort_columns() {
+    const rank = (c) => (['parameter', 'objective', 'constraint', 'figure'].indexOf(c.role) + 1 || 9) + (this.data.is_common(c) ? 0 : 0.5);
+    this.columns = this.data.columns.map((c, i) => [rank(c), i, c]).sort((a, b) => a[0] - b[0] || a[1] - b[1]).map((c) => c[2]);
+    this.parameters = this.columns.filter((c) => c.role === 'parameter');
+    const figures = this.columns.filter((c) => c.number && ['objective', 'figure', 'constraint'].includes(c.role));
+    this.first_figures = figures.some((c) => c.varies) ? figures.filter((c) => c.varies) : figures;
+  }
+
+  // --- what is above ---
+
+  head() {
+    const { studies } = this.data;
+    by_id('title').textContent = studies.map((s) => s.title).join(' · ');
+    by_id('about').textContent = [...new Set(studies.map((s) => s.experiment))].join(' · ');
+    this.facts();
+    by_id('asked-text').append(...studies.map((s) => element('div', {},
+      studies.length > 1 ? element('h3', {}, `${s.letter}: ${s.file}`) : '', element('pre', {}, s.asked))));
+    if (studies.length > 1) by_id('studies').append(...studies.map((s) => this.study_button(s)));
+    this.studies_shown = by_id('studies').children;
+  }
+
+  facts() {
+    const { studies } = this.data;
+    const words = studies.map((s) => `${studies.length > 1 ? `${s.letter} ` : ''}${s.file}: ${s.count} of ${s.expected} ` +
+      `${s.kind === 'tune' ? 'candidates' : 'points'}`);
+    by_id('facts').textContent = [...words, ...new Set(studies.map((s) => `Sinew ${s.version}`))].join(' · ');
+  }
+
+  study_button(s) {
+    const mark = element('span', { class: `study-mark ${s.study ? 'triangle' : 'disc'}` });
+    const button = element('button', { type: 'button', class: 'run', 'aria-pressed': 'true', title: `show or hide (${s.study + 1})` },
+      mark, element('b', {}, s.letter), element('span', {}, s.file));
+    button.addEventListener('click', () => this.toggle_study(s.study));
+    return button;
+  }
+
+  toggle_study(study) {
+    if (study >= this.data.studies.length) return;
+    this.filter.studies[study] = !this.filter.studies[study];
+    this.filtered();
+  }
+
+  arrange_choices() {
+    for (const view of [...this.views, this.parallel, this.table]) view.arrange();
+    const own = this.data.studies.length > 1 ? 'by study' : 'one color';
+    by_id('color').replaceChildren(chooser('color', this.columns, this.color_column ?? '', (c) => {
+      this.color_column = c || null;
+      this.redraw();
+    }, [['', own]]));
+  }
+
+  // --- the filter ---
+
+  set_range(column, range) {
+    this.filter.set_range(column, range);
+    this.filtered();
+  }
+
+  filtered() {
+    this.filter.update();
+    this.redraw();
+  }
+
+  show_filter() {
+    const { filter, data } = this;
+    by_id('count').textContent = filter.is_on ? `${filter.rows.length} of ${data.count} rows` : `${data.count} rows`;
+    by_id('clear').hidden = !filter.is_on;
+    by_id('feasible').setAttribute('aria-pressed', String(filter.only_feasible));
+    [...this.studies_shown].forEach((b, i) => b.setAttribute('aria-pressed', String(filter.studies[i])));
+    by_id('ranges').replaceChildren(...[...filter.ranges].map(([column, [from, to]]) => {
+      const words = column.number ? `${value_text(column, from)} – ${value_text(column, to)}`
+        : column.words.filter((_, i) => i >= from && i <= to).join(', ') || 'none';
+      const button = element('button', { type: 'button', class: 'chip', title: `${column.heading}; let go` }, `${column.key}: ${words} ✕`);
+      button.addEventListener('click', () => this.set_range(column, null));
+      return button;
+    }));
+    const ramp = this.color_column?.varies ? this.color_column : null;
+    by_id('ramp').hidden = !ramp;
+    if (!ramp) return;
+    by_id('ramp-low').textContent = value_text(ramp, ramp.low);
+    by_id('ramp-high').textContent = value_text(ramp, ramp.high);
+    by_id('ramp-colors').style.background = pressure_gradient;
+  }
+
+  clear() {
+    by_id('words').value = '';
+    this.filter.clear();
+    this.filtered();
+  }
+
+  // --- rows ---
+
+  choose(row) {
+    if (row === this.chosen) return;
+    this.chosen = row;
+    this.side.draw();
+    this.table.show(row);
+    this.mark();
+  }
+
+  over(row) {
+    if (row === this.under) return;
+    this.under = row;
+    this.mark();
+  }
+
+  // Through the rows as the table has them.
+  step(by) {
+    const { sorted } = this.table, at = sorted.indexOf(this.chosen);
+    if (sorted.length) this.choose(sorted[Math.min(sorted.length - 1, Math.max(0, at + by))]);
+  }
+
+  mark() {
+    for (const view of [...this.views, this.parallel]) view.show?.(this.under, this.chosen);
+  }
+
+  // --- drawing ---
+
+  // In the next frame, once, however often it is asked for.
+  redraw() {
+    this.waiting ??= requestAnimationFrame(() => this.draw());
+  }
+
+  draw() {
+    this.waiting = undefined;
+    const began = performance.now(), colors = colors_now();
+    this.show_filter();
+    for (const view of [this.parallel, ...this.views]) if (!this.hurry || !view.takes_long) view.draw(colors);
+    this.table.draw();
+    this.mark();
+    this.took = performance.now() - began;
+  }
+
+  // After rows came: the axes and the words may be others.
+  grown(columns_changed) {
+    this.filter.update();
+    this.facts();
+    if (columns_changed) this.arrange_choices();
+    this.redraw();
+  }
+
+  controls() {
+    by_id('words').addEventListener('input', () => {
+      this.filter.words = by_id('words').value.toLowerCase().split(/\s+/).filter(Boolean);
+      this.filtered();
+    });
+    by_id('feasible').addEventListener('click', () => {
+      this.filter.only_feasible = !this.filter.only_feasible;
+      this.filtered();
+    });
+    by_id('clear').addEventListener('click', () => this.clear());
+    addEventListener('keydown', (e) => this.key(e));
+  }
+
+  key(e) {
+    if (e.ctrlKey || e.metaKey || e.altKey || /^(INPUT|SELECT|TEXTAREA)$/.test(e.target.tagName)) return;
+    if (e.key === 'Escape') this.choose(-1);
+    else if (e.key === 'ArrowRight') this.step(1);
+    else if (e.key === 'ArrowLeft') this.step(-1);
+    else if (e.key === '0') this.clear();
+    else if (/^[12]$/.test(e.key) && this.data.studies.length > 1) this.toggle_study(Number(e.key) - 1);
+    else return;
+    e.preventDefault();
+  }
+}
+
+try {
+  const run = JSON.parse(by_id('run-data').textContent);
+  window.sinew = { run, page: new StudyPage(run) };  // for scripts that take pictures, and for tests
+  document.documentElement.dataset.ready = 'yes';
+} catch (error) {
+  document.body.prepend(element('p', { class: 'failed', role: 'alert' }, `This page could not be read: ${error.message}`));
+  throw error;
+}

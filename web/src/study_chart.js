@@ -1,0 +1,222 @@
+// A canvas with two axes and marks for rows: what history, scatter and surface share. What stands is
+// drawn once; the row under the pointer and the chosen one come on top.
+import { pressure_color } from './colors.js';
+import { round_values } from './study_math.js';
+import { number, tick_text } from './units.js';
+
+export const color_steps = 16;
+const margin = { left: 58, right: 14, top: 28, bottom: 40 };  // [px]
+const near_enough = 18;  // of the pointer to a mark [px]
+
+// Colors of the page as they are now.
+export function colors_now() {
+  const css = getComputedStyle(document.documentElement), of = (name) => css.getPropertyValue(`--${name}`).trim();
+  return { ink: of('ink'), quiet: of('quiet'), grid: of('grid'), paper: of('paper'), edge: of('edge'), unlit: of('unlit'),
+           accent: of('accent'), sans: of('sans'), studies: [of('line-0'), of('line-1')],
+           ramp: ramp_on(of('paper')) };
+}
+
+// The part of the ramp that can be told from the paper, in steps.
+function ramp_on(paper) {
+  const dark = parseInt(paper.slice(1, 3), 16) < 128, [from, to] = dark ? [0.28, 1] : [0, 0.88];
+  return Array.from({ length: color_steps }, (_, i) => pressure_color(from + ((to - from) * i) / (color_steps - 1)));
+}
+
+// How rows are colored: by a column, or by their study. `step_of(row)`: the number of a color, -1
+// for none.
+export function coloring(data, column, colors) {
+  if (!column || !column.varies)
+    return { list: colors.studies, column: null, step_of: (row) => data.study[row] };
+  const { values, low, high } = column, scale = color_steps / (high - low);
+  return { list: colors.ramp, column,
+           step_of: (row) => (values[row] === values[row] ? Math.min(color_steps - 1, Math.floor((values[row] - low) * scale)) : -1) };
+}
+
+// An axis of a column, a little wider than its values.
+export function axis_of(column, room = 0.04) {
+  const { low, high } = column;
+  if (!(high >= low)) return { span: [0, 1], column };
+  const wide = high > low ? room * (high - low) : Math.abs(low) * 0.1 || 1;
+  return { span: [low - wide, high + wide], column };
+}
+
+export const value_text = (column, value) =>
+  (value !== value || value === undefined ? '–' : column.number ? number(value) : column.words[value]);
+
+export class Chart {
+  // `on_pick(row)` and `on_over(row)` with the row at the pointer, -1 where there is none.
+  constructor(canvas, { on_pick, on_over, height = 320 }) {
+    Object.assign(this, { canvas, on_pick, on_over, height });
+    this.still = document.createElement('canvas');
+    this.rows = [];
+    canvas.tabIndex = 0;
+    canvas.addEventListener('pointermove', (e) => on_over(this.row_at(e)));
+    canvas.addEventListener('pointerleave', () => on_over(-1));
+    canvas.addEventListener('click', (e) => on_pick(this.row_at(e)));
+  }
+
+  // Begins a drawing with these axes; null while there is no room.
+  begin(x_axis, y_axis, colors) {
+    const ratio = window.devicePixelRatio || 1, width = this.canvas.clientWidth;
+    if (!width) return null;
+    this.canvas.style.height = `${this.height}px`;
+    for (const c of [this.canvas, this.still]) {
+      c.width = Math.round(width * ratio);
+      c.height = Math.round(this.height * ratio);
+    }
+    this.box = { left: margin.left, right: width - margin.right, top: margin.top, bottom: this.height - margin.bottom };
+    const ctx = this.still.getContext('2d');
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const { left, right, top, bottom } = this.box;
+    const [x0, x1] = x_axis.span, [y0, y1] = y_axis.span;
+    this.x = (v) => left + ((v - x0) / (x1 - x0)) * (right - left);
+    this.y = (v) => bottom - ((v - y0) / (y1 - y0)) * (bottom - top);
+    this.colors = colors;
+    this.axes(ctx, x_axis, y_axis);
+    return ctx;
+  }
+
+  axes(ctx, x_axis, y_axis) {
+    const { left, right, top, bottom } = this.box, { colors } = this;
+    ctx.font = `11px ${colors.sans}`;
+    ctx.strokeStyle = colors.grid;
+    ctx.fillStyle = colors.quiet;
+    ctx.lineWidth = 1;
+    ctx.beginPath();
+    ctx.textAlign = 'center';
+    ctx.textBaseline = 'top';
+    for (const [v, words] of ticks(x_axis, (right - left) / 80)) {
+      const x = Math.round(this.x(v)) + 0.5;
+      ctx.moveTo(x, top);
+      ctx.lineTo(x, bottom);
+      ctx.fillText(words, Math.min(right - ctx.measureText(words).width / 2, x), bottom + 5);
+    }
+    ctx.textAlign = 'right';
+    ctx.textBaseline = 'middle';
+    for (const [v, words] of ticks(y_axis, (bottom - top) / 50)) {
+      const y = Math.round(this.y(v)) + 0.5;
+      ctx.moveTo(left, y);
+      ctx.lineTo(right, y);
+      ctx.fillText(words, left - 6, y);
+    }
+    ctx.stroke();
+    ctx.textAlign = 'center';
+    ctx.textBaseline = 'alphabetic';
+    ctx.fillText(fitting(ctx, x_axis.label ?? x_axis.column.heading, right - left), (left + right) / 2, this.height - 4);
+    ctx.textAlign = 'left';
+    ctx.fillText(fitting(ctx, `↑ ${y_axis.column.heading}`, right - 8), 8, 14);
+  }
+
+  // Remembers where the marks of rows are. `xs`, `ys`: numbers by row.
+  place(rows, xs, ys) {
+    this.rows = rows.filter((r) => xs[r] === xs[r] && ys[r] === ys[r]);
+    this.px = Float32Array.from(this.rows, (r) => this.x(xs[r]));
+    this.py = Float32Array.from(this.rows, (r) => this.y(ys[r]));
+    this.index = new Map(this.rows.map((r, i) => [r, i]));
+  }
+
+  // Draws the marks that were placed: those that are feasible full, the others hollow and faint; those
+  // of a second study as triangles. The higher a color, the larger.
+  marks(ctx, data, color) {
+    const groups = new Map(), sized = color.column !== null;
+    this.rows.forEach((row, i) => {
+      const step = color.step_of(row), key = 4 * (step + 1) + 2 * data.study[row] + (data.feasible[row] ? 0 : 1);
+      if (!groups.has(key)) groups.set(key, []);
+      groups.get(key).push(i);
+    });
+    const many = this.rows.length > 3000 ? 0.7 : 1;
+    for (const [key, members] of [...groups].sort((a, b) => (b[0] & 1) - (a[0] & 1) || a[0] - b[0])) {
+      const step = (key >> 2) - 1, hollow = key & 1, triangle = key & 2;
+      const size = many * (sized ? 2.2 + (2.6 * Math.max(0, step)) / color_steps : 3.4);
+      ctx.beginPath();
+      for (const i of members) trace(ctx, this.px[i], this.py[i], size, triangle);
+      const paint = step < 0 ? this.colors.unlit : color.list[step];
+      ctx.globalAlpha = hollow ? 0.45 : 0.85;
+      ctx.lineWidth = 1.2;
+      if (hollow) ctx.strokeStyle = paint, ctx.stroke();
+      else ctx.fillStyle = paint, ctx.fill();
+    }
+    ctx.globalAlpha = 1;
+  }
+
+  // What stands, with the row at the pointer and the chosen one on it.
+  show(over, chosen, words) {
+    if (!this.box) return;
+    const ctx = this.canvas.getContext('2d'), ratio = window.devicePixelRatio || 1;
+    ctx.setTransform(1, 0, 0, 1, 0, 0);
+    ctx.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    ctx.drawImage(this.still, 0, 0);
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    for (const [row, size] of [[chosen, 8], [over, 6]]) {
+      const i = this.index?.get(row);
+      if (i === undefined) continue;
+      ctx.beginPath();
+      ctx.arc(this.px[i], this.py[i], size, 0, 2 * Math.PI);
+      outlined(ctx, this.colors, row === chosen);
+      if (row === over && words) this.label(ctx, this.px[i], this.py[i], words(row));
+    }
+  }
+
+  label(ctx, x, y, text) {
+    ctx.font = `12px ${this.colors.sans}`;
+    const width = ctx.measureText(text).width + 12, right = x + 12 + width > this.box.right;
+    const left = Math.max(2, right ? x - 12 - width : x + 12), top = Math.max(2, y - 26);
+    ctx.fillStyle = this.colors.paper;
+    ctx.strokeStyle = this.colors.edge;
+    ctx.lineWidth = 1;
+    ctx.beginPath();
+    ctx.rect(left, top, width, 20);
+    ctx.fill();
+    ctx.stroke();
+    ctx.fillStyle = this.colors.ink;
+    ctx.textAlign = 'left';
+    ctx.textBaseline = 'middle';
+    ctx.fillText(text, left + 6, top + 10);
+  }
+
+  row_at(event) {
+    if (!this.px) return -1;
+    const box = this.canvas.getBoundingClientRect(), x = event.clientX - box.left, y = event.clientY - box.top;
+    let best = near_enough ** 2, found = -1;
+    for (let i = 0; i < this.rows.length; ++i) {
+      const d = (this.px[i] - x) ** 2 + (this.py[i] - y) ** 2;
+      if (d <= best) best = d, found = i;
+    }
+    return found < 0 ? -1 : this.rows[found];
+  }
+}
+
+// Strokes a path so that it shows on every color.
+export function outlined(ctx, colors, is_chosen) {
+  for (const [color, width] of [[colors.paper, is_chosen ? 7 : 4], [colors.ink, is_chosen ? 3 : 1.6]]) {
+    ctx.strokeStyle = color;
+    ctx.lineWidth = width;
+    ctx.stroke();
+  }
+}
+
+function trace(ctx, x, y, size, triangle) {
+  if (!triangle) {
+    ctx.moveTo(x + size, y);
+    ctx.arc(x, y, size, 0, 2 * Math.PI);
+    return;
+  }
+  const s = 1.25 * size;
+  ctx.moveTo(x, y - s);
+  ctx.lineTo(x + s, y + 0.8 * s);
+  ctx.lineTo(x - s, y + 0.8 * s);
+  ctx.closePath();
+}
+
+// [value, words] of an axis, about `count` of them.
+function ticks({ span, column }, count) {
+  if (column && !column.number) return column.words.map((w, i) => [i, w.length > 18 ? `${w.slice(0, 17)}…` : w]);
+  return round_values(span, Math.max(2, count)).filter((v) => v >= span[0] && v <= span[1]).map((v) => [v, tick_text(v)]);
+}
+
+function fitting(ctx, text, width) {
+  if (ctx.measureText(text).width <= width) return text;
+  let most = text.length;
+  while (most > 4 && ctx.measureText(`${text.slice(0, most)}…`).width > width) --most;
+  return `${text.slice(0, most)}…`;
+}

@@ -1,0 +1,257 @@
+// Parallel coordinates: an axis for each column, a line for each row. A range that is drawn on an axis
+// filters every view.
+import { element } from './page.js';
+import { axis_of, coloring, outlined, value_text } from './study_chart.js';
+import { number } from './units.js';
+
+const pad = { top: 12, bottom: 12 };  // [px]
+const height = 300;
+const narrowest = 84;  // between two axes; more of them scroll
+const near_enough = 14;
+const lines_at_once = 250;  // of one path: longer ones are slower than several
+
+const thin = (rows, most) => rows.filter((_, i) => i % Math.ceil(rows.length / most) === 0);
+
+export class Parallel {
+  constructor(page) {
+    this.page = page;
+    this.choose_first();
+    this.canvas = element('canvas', { id: 'parallel-canvas', role: 'img', 'aria-label': 'A line for each row across the axes of its columns' });
+    this.still = document.createElement('canvas');
+    this.handles = element('div', { class: 'handles' });
+    this.names = element('div', { class: 'axis-names' });
+    this.inner = element('div', { class: 'parallel-inner' }, this.names, this.canvas, this.handles);
+    this.toggles = element('div', { class: 'groups no-print', role: 'group', 'aria-label': 'Axes' });
+    this.root = element('section', { class: 'study-view', id: 'parallel' },
+      element('header', {}, element('h2', {}, 'All columns'), this.toggles),
+      element('div', { class: 'parallel-scroll' }, this.inner),
+      element('p', { class: 'hint' }, 'Drag along an axis to keep a range, tap it to let go; with the keyboard ↑ ↓ move its lower end, with shift its upper end, Delete lets go. ',
+        'Click a line to choose its row.'));
+    this.canvas.addEventListener('pointermove', (e) => page.over(this.row_at(e)));
+    this.canvas.addEventListener('pointerleave', () => page.over(-1));
+    this.canvas.addEventListener('click', (e) => page.choose(this.row_at(e)));
+  }
+
+  // The axes until a person says otherwise.
+  choose_first() {
+    if (this.chosen_by_hand) return;
+    const { columns, data } = this.page, there = columns.filter((c) => c.varies && c.role !== 'other');
+    const common = there.filter((c) => data.is_common(c));
+    this.shown = new Set((common.length > 1 ? common : there).slice(0, 12));
+  }
+
+  arrange() {
+    const { page } = this;
+    this.toggles.replaceChildren(...page.columns.filter((c) => c.varies).map((c) => {
+      const button = element('button', { type: 'button', 'aria-pressed': String(this.shown.has(c)), title: c.heading }, c.key.split('.').slice(-2).join('.'));
+      button.addEventListener('click', () => {
+        this.chosen_by_hand = true;
+        if (!this.shown.delete(c)) this.shown.add(c);
+        else if (this.page.filter.ranges.has(c)) this.page.set_range(c, null);
+        this.arrange();
+        page.redraw();
+      });
+      return button;
+    }));
+    this.columns = page.columns.filter((c) => this.shown.has(c));
+    this.inner.style.minWidth = `${narrowest * this.columns.length}px`;
+    this.names.replaceChildren(...this.columns.map((c) => element('div', { class: 'axis-name', title: c.heading },
+      element('b', {}, c.key.split('.').slice(-2).join('.')), c.unit ? ` ${c.unit}` : '')));
+    this.handles.replaceChildren(...this.columns.map((c, i) => this.handle(c, i)));
+  }
+
+  // The part of an axis that a person drags over.
+  handle(column, i) {
+    const band = element('i', { class: 'band' });
+    const root = element('div', { class: 'axis-handle', tabindex: '0', role: 'group', 'data-heading': column.heading,
+                                  'aria-label': `${column.heading}: drag to keep a range` }, band);
+    root.style.left = `${(100 * (i + 0.5)) / this.columns.length}%`;
+    root.addEventListener('pointerdown', (e) => this.drag(e, column, root));
+    root.addEventListener('keydown', (e) => this.key(e, column));
+    return root;
+  }
+
+  drag(event, column, root) {
+    event.preventDefault();
+    root.focus();
+    root.setPointerCapture(event.pointerId);
+    this.page.hurry = true;
+    const from = event.clientY, value = (e) => this.value_at(column, e.clientY - root.getBoundingClientRect().top);
+    const first = value(event);
+    const move = (e) => {
+      if (Math.abs(e.clientY - from) < 4) return;
+      const last = value(e);
+      this.page.set_range(column, [Math.min(first, last), Math.max(first, last)]);
+    };
+    const end = (e) => {
+      root.removeEventListener('pointermove', move);
+      this.page.hurry = false;
+      this.page.redraw();
+      if (e.type === 'pointerup' && Math.abs(e.clientY - from) < 4) this.page.set_range(column, null);
+    };
+    root.addEventListener('pointermove', move);
+    root.addEventListener('pointerup', end, { once: true });
+    root.addEventListener('pointercancel', end, { once: true });
+  }
+
+  key(event, column) {
+    const { span: [low, high] } = axis_of(column), step = 0.05 * (high - low);
+    const by = { ArrowUp: step, ArrowDown: -step }[event.key];
+    if (['Delete', 'Backspace'].includes(event.key)) this.page.set_range(column, null);
+    else if (by) {
+      const [from, to] = this.page.filter.ranges.get(column) ?? [low, high];
+      const range = event.shiftKey ? [from, to + by] : [from + by, to];
+      this.page.set_range(column, [Math.max(low, Math.min(...range)), Math.min(high, Math.max(...range))]);
+    } else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  value_at(column, y) {
+    const { span: [low, high] } = axis_of(column);
+    const share = (height - pad.bottom - y) / (height - pad.top - pad.bottom);
+    return low + Math.min(1, Math.max(0, share)) * (high - low);
+  }
+
+  draw(colors) {
+    const ratio = window.devicePixelRatio || 1, width = this.canvas.clientWidth;
+    if (!width || !this.columns.length) return;
+    this.canvas.style.height = `${height}px`;
+    for (const c of [this.canvas, this.still]) {
+      c.width = Math.round(width * ratio);
+      c.height = Math.round(height * ratio);
+    }
+    const ctx = this.still.getContext('2d');
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.at_x = this.columns.map((_, i) => (width * (i + 0.5)) / this.columns.length);
+    this.at_y = this.columns.map((c) => {
+      const { span: [low, high] } = axis_of(c), scale = (height - pad.top - pad.bottom) / (high - low);
+      return (v) => height - pad.bottom - (v - low) * scale;
+    });
+    this.colors = colors;
+    this.lines(ctx, colors);
+    this.axes(ctx, colors);
+    this.bands();
+  }
+
+  // Hidden rows faint and below; then those shown, by color.
+  lines(ctx, colors) {
+    const { data, filter, color_column } = this.page, color = coloring(data, color_column, colors);
+    const groups = new Map();
+    for (const row of this.page.hurry ? thin(filter.rows, 1500) : filter.rows) {
+      const key = 2 * (color.step_of(row) + 1) + (data.study[row] ? 1 : 0);
+      if (!groups.has(key)) groups.set(key, []);
+      groups.get(key).push(row);
+    }
+    const count = filter.rows.length;
+    ctx.lineWidth = 1;
+    if (filter.is_on) this.stroke(ctx, thin(filter.hidden, 1500), colors.grid, 0.7);
+    const alpha = count > 3000 ? 0.25 : count > 300 ? 0.45 : 0.8;
+    for (const [key, rows] of groups) {
+      const step = (key >> 1) - 1;
+      ctx.setLineDash(key & 1 && count < 1000 ? [6, 4] : []);
+      this.stroke(ctx, rows, step < 0 ? colors.unlit : color.list[step], alpha);
+    }
+    ctx.setLineDash([]);
+    ctx.globalAlpha = 1;
+  }
+
+  stroke(ctx, rows, paint, alpha) {
+    ctx.strokeStyle = paint;
+    ctx.globalAlpha = alpha;
+    for (let from = 0; from < rows.length; from += lines_at_once) {
+      ctx.beginPath();
+      for (const row of rows.slice(from, from + lines_at_once)) this.trace(ctx, row);
+      ctx.stroke();
+    }
+  }
+
+  // A gap where a value is missing.
+  trace(ctx, row) {
+    let drawing = false;
+    this.columns.forEach((c, i) => {
+      const v = c.values[row];
+      if (v === v) ctx[drawing ? 'lineTo' : 'moveTo'](this.at_x[i], this.at_y[i](v));
+      drawing = v === v;
+    });
+  }
+
+  axes(ctx, colors) {
+    ctx.font = `11px ${colors.sans}`;
+    ctx.textAlign = 'left';
+    ctx.textBaseline = 'middle';
+    this.columns.forEach((c, i) => {
+      ctx.strokeStyle = colors.quiet;
+      ctx.lineWidth = 1;
+      ctx.beginPath();
+      ctx.moveTo(this.at_x[i], pad.top);
+      ctx.lineTo(this.at_x[i], height - pad.bottom);
+      ctx.stroke();
+      const marks = c.number ? [[c.low, number(c.low)], [c.high, number(c.high)]] : c.words.map((w, k) => [k, w.slice(0, 14)]);
+      for (const [v, words] of marks) {
+        const y = this.at_y[i](v), wide = ctx.measureText(words).width;
+        ctx.globalAlpha = 0.8;
+        ctx.fillStyle = colors.paper;
+        ctx.fillRect(this.at_x[i] + 4, y - 7, wide + 4, 14);
+        ctx.globalAlpha = 1;
+        ctx.fillStyle = colors.ink;
+        ctx.fillText(words, this.at_x[i] + 6, y);
+      }
+    });
+  }
+
+  bands() {
+    [...this.handles.children].forEach((handle, i) => {
+      const range = this.page.filter.ranges.get(this.columns[i]), band = handle.firstChild;
+      band.hidden = !range;
+      if (!range) return;
+      const [bottom, top] = range.map(this.at_y[i]);
+      band.style.top = `${top}px`;
+      band.style.height = `${Math.max(2, bottom - top)}px`;
+    });
+  }
+
+  show(over, chosen) {
+    if (!this.at_x) return;
+    const ctx = this.canvas.getContext('2d'), ratio = window.devicePixelRatio || 1;
+    ctx.setTransform(1, 0, 0, 1, 0, 0);
+    ctx.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    ctx.drawImage(this.still, 0, 0);
+    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    for (const row of [chosen, over]) {
+      if (row < 0) continue;
+      ctx.beginPath();
+      this.trace(ctx, row);
+      outlined(ctx, this.colors, row === chosen);
+      if (row === over) this.values(ctx, row);
+    }
+  }
+
+  values(ctx, row) {
+    ctx.font = `600 11px ${this.colors.sans}`;
+    ctx.textAlign = 'right';
+    this.columns.forEach((c, i) => {
+      if (c.values[row] !== c.values[row]) return;
+      const words = value_text(c, c.values[row]), y = this.at_y[i](c.values[row]), wide = ctx.measureText(words).width;
+      ctx.fillStyle = this.colors.paper;
+      ctx.fillRect(this.at_x[i] - 8 - wide, y - 8, wide + 4, 16);
+      ctx.fillStyle = this.colors.ink;
+      ctx.fillText(words, this.at_x[i] - 6, y);
+    });
+  }
+
+  row_at(event) {
+    if (!this.at_x) return -1;
+    const box = this.canvas.getBoundingClientRect(), x = event.clientX - box.left, y = event.clientY - box.top;
+    const right = this.at_x.findIndex((at) => at > x), left = right - 1;
+    if (right < 1) return -1;
+    const share = (x - this.at_x[left]) / (this.at_x[right] - this.at_x[left]);
+    let best = near_enough, found = -1;
+    for (const row of this.page.filter.rows) {
+      const a = this.at_y[left](this.columns[left].values[row]), b = this.at_y[right](this.columns[right].values[row]);
+      const d = Math.abs(a + share * (b - a) - y);
+      if (d < best) best = d, found = row;
+    }
+    return found;
+  }
+}
