@@ -59,12 +59,9 @@ TEST(Writes, ThatFailAreToldOfAndLoseNothing) {
 }
 
 // A row that a study's file could not take is run again; none that it took is lost.
-TEST(Writes, ThatFailOfAStudyLoseNoRow) {
-  const Workspace w;
-  const Words alone = {"sweep", "experiments/one-joint.toml", "--seeds", "3", "--quiet"};
+void lose_no_row(const Workspace& w, const Words& alone, const std::string& result, int least) {
   Words words = alone;
   words.insert(words.end(), {"--results", "s.db"});
-  const std::string table = w.sinew(alone).out;
   const Writer writer{.name = "study", .old = {}, .fresh = words, .refused = {}, .target = "s.db"};
   const bool all = std::getenv("SINEW_GUARD_COUNT") != nullptr;
   int failures = 0, told = 0;
@@ -78,13 +75,31 @@ TEST(Writes, ThatFailOfAStudyLoseNoRow) {
         << end.output;
     const Result again = w.sinew(words);
     EXPECT_EQ(again.code, 0) << again.err;
-    EXPECT_EQ(again.out, table);
+    EXPECT_EQ(again.out, result);
     for (const char* part : {"s.db", "s.db-wal", "s.db-shm"}) fs::remove(w / part);
   }
-  EXPECT_GE(told, 3);
-  std::printf(
-      "guard: %d calls that write a study failed in turn, %d were told of, no row was lost\n",
-      failures, told);
+  EXPECT_GE(told, least);
+  std::printf("guard: %d calls that write a %s failed in turn, %d were told of, no row was lost\n",
+              failures, alone.front() == "tune" ? "tuning" : "study", told);
+}
+
+TEST(Writes, ThatFailOfAStudyLoseNoRow) {
+  const Workspace w;
+  const Words sweep = {"sweep", "experiments/one-joint.toml", "--seeds", "3", "--quiet"};
+  lose_no_row(w, sweep, w.sinew(sweep).out, 3);
+}
+
+TEST(Writes, ThatFailOfATuningLoseNoRow) {
+  const Workspace w;
+  write_text(w / "t.toml",
+             "format = \"sinew.tuning/1\"\ntitle = \"a lever\"\n"
+             "experiment = \"experiments/one-joint.toml\"\n"
+             "tune = [\"joint.lever.angle_gain=0.05:0.2 %/count\"]\n"
+             "minimize = [\"air_used_kg\"]\npopulation = 5\ngenerations = 2\n");
+  const Words tune = {"tune", "t.toml", "--quiet", "--threads", "1"};
+  Words apart = tune;
+  apart.insert(apart.end(), {"--results", "apart.db"});
+  lose_no_row(w, tune, w.sinew(apart).out, 3);
 }
 
 }  // namespace
