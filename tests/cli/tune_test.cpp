@@ -1,6 +1,7 @@
 // `tune`: the best candidate, its file, and what is refused.
 #include <gmock/gmock.h>
 
+#include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -97,6 +98,15 @@ TEST_F(Tune, RefusesWhatCannotBe) {
   refused({"--results", "new.db"}, "joints.lever.tracking_rms_rad");
   w.edit("lever.toml", "population = 6", "population = 4");
   refused({}, "lever.toml:7:1: population: found 4; expected 5 or more");
+}
+
+// As where it was built without pagmo: nothing is begun.
+TEST_F(Tune, IsRefusedWithoutItsModule) {
+  fs::copy_file(SINEW_PROGRAM, w / "alone");
+  const std::string line = "cd " + w.path().string() + " && ./alone tune lever.toml 2>err";
+  EXPECT_NE(std::system(line.c_str()), 0);
+  EXPECT_THAT(read_text(w / "err"),
+              AllOf(HasSubstr("this program was built without pagmo"), HasSubstr("libpagmo-dev")));
 }
 
 // What a tuning's file of experiments/tuned says of itself comes out again.

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sinew/config/quantity.h"
+#include "sinew/config/diagnostics.h"
 
 namespace sinew::tune {
 namespace {
@@ -41,6 +41,10 @@ class Generation {
 
   // Throws where a row that was known is not one of these candidates'.
   std::vector<Candidate> judged(const std::vector<Row>& rows) const;
+
+  // Throws where there is nothing to go by: no run has figures, or none has one of the goals' and
+  // limits'.
+  void require_figures(const std::vector<Row>& rows) const;
 
  private:
   std::vector<Value> values(std::size_t candidate) const;
@@ -109,6 +113,25 @@ void Generation::require_own(const Row& row, const std::vector<Value>& values) c
           row.point, runs_.sample->ranges[i].axis.heading(), row.cells[i], values[i].cell));
 }
 
+void Generation::require_figures(const std::vector<Row>& rows) const {
+  if (std::ranges::none_of(rows, &Row::ok))
+    throw std::runtime_error(fmt::format(
+        "none of the first generation's {} runs has figures: {}; try ranges around what the "
+        "experiment has",
+        rows.size(), rows.front().cells.back()));
+  const auto require = [&](const char* key, const Figure& figure, std::size_t cell) {
+    if (std::ranges::all_of(rows, [&](const Row& row) { return row.cells[cell].empty(); }))
+      config::fail({tuning_.file, 0, 0}, key, figure.key, "a figure that the runs have",
+                   "another key of a run's summary.json");
+  };
+  for (std::size_t i = 0; i < goals_.size(); ++i) {
+    const Goal& goal = tuning_.goals.goals[i];
+    require(goal.maximize ? "maximize" : "minimize", goal.figure, goals_[i]);
+  }
+  for (std::size_t i = 0; i < limits_.size(); ++i)
+    require("where", tuning_.goals.limits[i].figure, limits_[i]);
+}
+
 std::vector<Candidate> Generation::judged(const std::vector<Row>& rows) const {
   const std::size_t each = rows.size() / candidates_;
   std::vector<Candidate> out;
@@ -171,6 +194,7 @@ class Loop {
       out_.stopped = true;
       return;
     }
+    if (first) generation.require_figures(rows);
     const std::vector<Candidate> judged = generation.judged(rows);
     std::vector<double> costs_of_all;
     for (const Candidate& c : judged) {

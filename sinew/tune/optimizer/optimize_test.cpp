@@ -178,6 +178,25 @@ TEST_F(OptimizeTest, RowsOfOtherCandidatesAreRefused) {
       << words;
 }
 
+TEST_F(OptimizeTest, WithNothingToGoByItSaysSo) {
+  TuningFile file = lever_file();
+  file.minimize = {"ground_reaction.peak_normal_N"};  // a lever does not stand
+  std::string words = message([&] { optimize(lever_tuning(file), {}); });
+  EXPECT_NE(words.find("minimize: found ground_reaction.peak_normal_N; expected a figure that the "
+                       "runs have"),
+            std::string::npos)
+      << words;
+  file = {.experiment = root + "/experiments/walk-test-1.toml",
+          .tune = {"link.femur.length=7.5:8 in"},  // the gait's path is out of such a leg's reach
+          .maximize = {"trolley.distance_m"},
+          .population = 5,
+          .generations = 1};
+  words = message([&] { optimize(lever_tuning(file), {}); });
+  EXPECT_NE(words.find("none of the first generation's 5 runs has figures: refused: "),
+            std::string::npos)
+      << words;
+}
+
 TEST_F(OptimizeTest, ACandidateIsRunInEveryCircumstance) {
   TuningFile file = lever_file();
   file.generations = 1;

@@ -142,6 +142,14 @@ void add_ranges(const TuningFile& file, Tuning& out) {
   out.runs.sample = std::move(sample);
 }
 
+void refuse_cases_twice(const TuningFile& file) {
+  for (std::size_t i = 0; i < file.cases.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (file.cases[i].name == file.cases[j].name)
+        refuse(file, "case", config::in_quotes(file.cases[i].name) + " twice",
+               "a name of its own for each case");
+}
+
 void add_figure(const Figure& figure, std::vector<Figure>& out) {
   const auto same = [&](const Figure& f) { return f.key == figure.key && f.unit == figure.unit; };
   if (std::ranges::none_of(out, same)) out.push_back(figure);
@@ -222,6 +230,7 @@ TuningFile load_tuning_file(const std::string& path) {
 Tuning tuning_of(const std::string& path, const TuningFile& file) {
   Tuning out{.file = path, .title = file.title, .goals = goals_of(file)};
   refuse_contradictions(file, out.goals.limits);
+  refuse_cases_twice(file);
   out.runs = {.experiment = file.experiment, .sets = file.set, .cases = file.cases};
   out.runs.allow_unreachable = file.allow_unreachable;
   if (file.seeds > 0) out.runs.axes.push_back(seeds(file.seeds));

@@ -90,6 +90,8 @@ TEST_F(TuningTest, SaysWhereAndWhatIsWrong) {
   refuses("generations = 4", "draws = 4", "found no spread");
   refuses("generations = 4", "generations = 100000\nseeds = 10", "at most 1000000");
   refuses("generations = 4", "[[case]]\nname = \"a\"\nset = [\"sequence.repaet=2\"]", "repeat");
+  refuses("generations = 4", "[[case]]\nname = \"a\"\n[[case]]\nname = \"a\"",
+          "\"a\" twice; expected a name of its own");
   refuses("sinew.tuning/1", "sinew.plan/1", "sinew.tuning/1");
 }
 

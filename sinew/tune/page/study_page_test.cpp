@@ -85,7 +85,7 @@ TEST_F(StudyPageTest, HasEachRowAsItStandsInTheFile) {
   EXPECT_FALSE(view.rows[1].ok);
 }
 
-// What the sweep set besides is what its file does not say.
+// With what was set for every run.
 TEST_F(StudyPageTest, RunsARowAgainWithAllThatItHad) {
   const StudyRun run = run_of(study_view(file_), 5);
   EXPECT_EQ(run.experiment, lever);
@@ -129,19 +129,6 @@ TEST_F(StudyPageTest, IsAskedOfStudiesOnly) {
             std::string::npos);
   fs::resize_file(file_, 100);
   EXPECT_NE(message([&] { (void)study_view(file_); }).find("study.db"), std::string::npos);
-}
-
-// An experiment with lists of tables, as of what is reported, and a word whose values follow.
-TEST_F(StudyPageTest, FindsWhatAWalkHadSet) {
-  const Sweep sweep = {.experiment = root + "/experiments/walk-test-1.toml",
-                       .sets = {"trolley.track_length=20 ft"},
-                       .axes = {parse_axis("low_level.duty_rounding=none,truncate sum")},
-                       .report = parse_figures("air_used_kg")};
-  const fs::path file = folder_ / "walk.db";
-  { Results(file, asked_of(sweep)).add({.point = 1, .cells = {"truncate sum", "1", "ok"}}); }
-  EXPECT_EQ(run_of(study_view(file), 1).sets,
-            (std::vector<std::string>{"trolley.track_length=6.096 m",
-                                      "low_level.duty_rounding=truncate sum"}));
 }
 
 // A tuning's rows are its candidates. A goal with a limit has two columns.
@@ -190,7 +177,7 @@ TEST_F(StudyPageTest, IsReadWithoutItsExperiment) {
   { Results(study, asked).add_all(some_rows()); }
   const StudyView view = study_view(study);
   EXPECT_EQ(view.rows.size(), 2u);
-  EXPECT_TRUE(view.sets.empty());
+  EXPECT_EQ(view.sets, std::vector<std::string>{"sequence.repeat=2"});
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ StudyView study_view(const fs::path& file) {
                 .expected = tune ? asked.points / runs_of_a_candidate(asked) : asked.points,
                 .asked = asked.text,
                 .version = fact(asked, "sinew"),
-                .sets = sets_of(asked),
+                .sets = asked.sets,
                 .allow_unreachable = fact(asked, "allow_unreachable") == "true"};
   for (CandidateRow& row : held.candidates) out.rows.push_back(row_of(std::move(row), out.columns));
   for (Row& row : held.rows)

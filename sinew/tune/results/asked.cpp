@@ -136,7 +136,9 @@ std::vector<Column> columns_of(const Sweep& s) {
 
 }  // namespace
 
-Asked asked_of(const Sweep& s) { return {text_of(s), columns_of(s), points(s), s.experiment}; }
+Asked asked_of(const Sweep& s) {
+  return {text_of(s), columns_of(s), points(s), s.experiment, s.sets};
+}
 
 const char* to_text(Column::Role role) {
   switch (role) {

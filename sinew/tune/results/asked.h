@@ -33,6 +33,7 @@ struct Asked {
   std::vector<Column> columns;
   std::size_t points = 0;  // no part of the text of a tuning, which may be asked to go on
   std::string experiment;  // the file, as it was named
+  std::vector<std::string> sets = {};  // key=value, for every run; the text has what they lead to
   std::string title = {};
   std::vector<Column> of_candidates = {};  // a tuning's; empty: a sweep
 };

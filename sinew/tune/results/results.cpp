@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <functional>
-#include <nlohmann/json.hpp>
 
 #include "sinew/log/error.h"
 #include "sinew/log/file.h"
@@ -20,20 +19,6 @@ namespace sinew::tune {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
-// As text that need not be UTF-8.
-std::string json_of(const std::vector<std::string>& texts) {
-  return Json(texts).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-std::vector<std::string> texts_of(const std::string& json, const fs::path& file) {
-  const Json list = Json::parse(json, nullptr, false);
-  const auto is_text = [](const Json& item) { return item.is_string(); };
-  if (list.is_array() && std::ranges::all_of(list, is_text)) return list;
-  throw log::Error(file, "is damaged: a list of cells cannot be read",
-                   "keep a copy, and choose another name");
-}
 
 std::vector<Row> rows_of(Database& database, const fs::path& file, const Asked& asked) {
   std::vector<Row> out;

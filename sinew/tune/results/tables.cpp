@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "sinew/log/error.h"
@@ -139,6 +140,7 @@ void make_tables(Database& database, const Asked& asked) {
   say("kind", asked.of_candidates.empty() ? "sweep" : "tuning");
   say("title", asked.title);
   say("experiment", asked.experiment);
+  say("sets", json_of(asked.sets));
   say("points", std::to_string(asked.points));
   say("hash", hash_of(asked));
   say("asked", asked.text);
@@ -161,6 +163,7 @@ Asked study_of(Database& database, const fs::path& file) {
             .columns = {},
             .points = 0,
             .experiment = value_of(database, "experiment"),
+            .sets = texts_of(value_of(database, "sets"), file),
             .title = value_of(database, "title")};
   out.points = static_cast<std::size_t>(
       database.number("SELECT CAST(value AS INTEGER) FROM study WHERE key = 'points'"));
@@ -171,6 +174,18 @@ Asked study_of(Database& database, const fs::path& file) {
     throw log::Error(file, "is damaged: what it was asked for cannot be read",
                      "keep a copy, and choose another name");
   return out;
+}
+
+std::string json_of(const std::vector<std::string>& texts) {
+  return nlohmann::json(texts).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::vector<std::string> texts_of(const std::string& json, const fs::path& file) {
+  const nlohmann::json list = nlohmann::json::parse(json, nullptr, false);
+  const auto is_text = [](const nlohmann::json& item) { return item.is_string(); };
+  if (list.is_array() && std::ranges::all_of(list, is_text)) return list;
+  throw log::Error(file, "is damaged: a list of texts cannot be read",
+                   "keep a copy, and choose another name");
 }
 
 }  // namespace sinew::tune

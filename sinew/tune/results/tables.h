@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "sinew/tune/results/asked.h"
 #include "sinew/tune/results/database.h"
@@ -18,5 +20,9 @@ void make_tables(Database& database, const Asked& asked);
 
 // Returns what the file says was asked for. Throws log::Error for a damaged one.
 Asked study_of(Database& database, const std::filesystem::path& file);
+
+// A list of texts as JSON; text need not be UTF-8. texts_of() throws log::Error for what is none.
+std::string json_of(const std::vector<std::string>& texts);
+std::vector<std::string> texts_of(const std::string& json, const std::filesystem::path& file);
 
 }  // namespace sinew::tune
