@@ -100,8 +100,10 @@ class StudyPage {
     this.filtered();
   }
 
+  // What is pressed says so at once; what is drawn follows in the next frame.
   filtered() {
     this.filter.update();
+    this.show_filter();
     this.redraw();
   }
 
