@@ -24,6 +24,12 @@ function(sinew_optimize_nothing target)
   target_compile_options(${target} PRIVATE -O0)
 endfunction()
 
+# A build that is made once compiles the sources of a folder some at a time (presets release, asan,
+# tsan): their headers are read and instantiated once. One that is edited compiles each alone.
+option(SINEW_TOGETHER "compile the sources of a folder some at a time" OFF)
+# In these, files have names of their own for the same thing.
+set(sinew_apart live tune)
+
 function(sinew_folder path)
   sinew_target(${path} target)
   set(dir ${PROJECT_SOURCE_DIR}/sinew/${path})
@@ -39,6 +45,9 @@ function(sinew_folder path)
   if(sources)
     add_library(${target} STATIC ${sources} ${headers})
     set(scope PUBLIC)
+    if(SINEW_TOGETHER AND NOT path IN_LIST sinew_apart)
+      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    endif()
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "sinew/config/gains.h"
+#include "sinew/config/quantity.h"
 
 namespace sinew::config {
 
@@ -270,12 +271,6 @@ Node set_node(std::string_view key, std::string_view text) {
   value.key = key;
   mark_as_set(value);
   return value;
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return text;
 }
 
 // The table for the next segment. It may be new, unless its name looks like a slip.

@@ -12,6 +12,12 @@
 
 namespace sinew::config {
 
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
 namespace {
 
 using units::Dimension;
@@ -24,12 +30,6 @@ struct FullUnit {
   units::UnitReading reading;
   Reference reference = Reference::none;
 };
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 FullUnit split_unit(std::string_view text) {
   text = trimmed(text);

@@ -14,6 +14,9 @@
 
 namespace sinew::config {
 
+// The text without blanks and tabs at its ends.
+std::string_view trimmed(std::string_view text);
+
 // Why a text is not the wanted quantity; the parts of a Problem that the text decides.
 struct Mistake {
   std::string found;

@@ -6,20 +6,18 @@
 namespace sinew::robot {
 namespace {
 
-using Kind = Sensor::Kind;
-
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 // The joint whose board a sensor is on; -1 of one that looks at no joint and no muscle.
 int joint_of(const Robot& robot, const Sensor& sensor) {
-  if (sensor.kind == Kind::angle || sensor.kind == Kind::velocity)
+  if (sensor.kind == Sensor::Kind::angle || sensor.kind == Sensor::Kind::velocity)
     return find_joint(robot, sensor.of);
-  if (sensor.kind != Kind::tension && sensor.kind != Kind::pressure) return -1;
+  if (sensor.kind != Sensor::Kind::tension && sensor.kind != Sensor::Kind::pressure) return -1;
   const int muscle = find_muscle(robot, sensor.of);
   return muscle < 0 ? -1 : find_joint(robot, robot.muscles[at(muscle)].joint);
 }
 
-bool measures_cylinder(const Sensor& sensor) { return sensor.kind == Kind::cylinder; }
+bool measures_cylinder(const Sensor& sensor) { return sensor.kind == Sensor::Kind::cylinder; }
 
 // Finds a place for each joint, for the cylinder and for each sensor.
 class Split {

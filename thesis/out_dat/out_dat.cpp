@@ -184,9 +184,9 @@ class PlanWalk {
         if (plan_.phases[p].name == phase_name) phase = static_cast<int>(p);
       return;
     }
-    std::vector<std::string> modes;
-    for (const std::string& name : plan_.sequence) modes.push_back(mode_of_phase(name));
-    const std::vector<std::string_view> known(modes.begin(), modes.end());
+    std::vector<std::string> sequence_modes;
+    for (const std::string& name : plan_.sequence) sequence_modes.push_back(mode_of_phase(name));
+    const std::vector<std::string_view> known(sequence_modes.begin(), sequence_modes.end());
     problems_.add(line.number, 1, "mode", config::in_quotes(line.mode), config::either(known),
                   config::closest_in_quotes(line.mode, known));
   }

@@ -8,7 +8,7 @@
 namespace sinew::analysis {
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 template <class Of>
 double mean_of(Values values, Seconds seconds, Of of) {
@@ -19,12 +19,12 @@ double mean_of(Values values, Seconds seconds, Of of) {
     sum += of(values[i]) * seconds[i];
     time += seconds[i];
   }
-  return time > 0 ? sum / time : none;
+  return time > 0 ? sum / time : no_value;
 }
 
 template <class Of>
 double largest_of(Values values, Seconds seconds, Of of) {
-  double best = none;
+  double best = no_value;
   const std::size_t n = std::min(values.size(), seconds.size());
   for (std::size_t i = 0; i < n; ++i) {
     if (!(seconds[i] > 0) || !std::isfinite(values[i])) continue;
@@ -66,7 +66,7 @@ signals::Column moving_mean(Values values, std::size_t half) {
   const std::size_t n = values.size();
   const auto first =
       std::find_if(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
-  const double offset = first == values.end() ? none : *first;
+  const double offset = first == values.end() ? no_value : *first;
 
   // Up to a row, as far as it was summed up.
   struct Sum {
@@ -88,7 +88,7 @@ signals::Column moving_mean(Values values, std::size_t half) {
       sums.push_back(sums.back());
       add(sums.back(), i + half);
     }
-    double mean = none;
+    double mean = no_value;
     if (i >= half && i + half < n) {
       if (i > half) sums.pop_front();
       const double samples = sums.back().count - sums.front().count;

@@ -7,19 +7,19 @@
 namespace sinew::control {
 namespace {
 
-using From = robot::Velocity::Estimator;
+using Asked = robot::Velocity::Estimator;
 
-Estimator estimator(From from) {
+Estimator estimator(Asked from) {
   switch (from) {
-    case From::weighted_average:
+    case Asked::weighted_average:
       return Estimator::weighted_average;
-    case From::bounded_observer:
+    case Asked::bounded_observer:
       return Estimator::bounded_observer;
-    case From::kalman:
+    case Asked::kalman:
       return Estimator::kalman;
-    case From::sensor:
+    case Asked::sensor:
       return Estimator::sensor;
-    case From::difference:
+    case Asked::difference:
       break;
   }
   return Estimator::difference;
@@ -46,7 +46,7 @@ void set_model(const robot::Velocity& from, double counts_per_rad, double torque
   out.margin = static_cast<float>(from.acceleration * motion.travel * counts_per_rad);
   if (from.speed_limit > 0) out.limit = static_cast<float>(from.speed_limit * counts_per_rad);
 
-  if (from.estimator != From::kalman) return;
+  if (from.estimator != Asked::kalman) return;
   const SteadyState steady = steady_state(motion, from.acceleration * counts_per_rad,
                                           std::sqrt(from.noise * from.noise + 1.0 / 12.0));
   out.angle_share = static_cast<float>(steady.angle_share);
@@ -94,10 +94,10 @@ VelocityConfig velocity_config(const robot::Robot& robot, int joint, double torq
 
   VelocityConfig out;
   out.estimator = estimator(from.estimator);
-  if (from.estimator == From::weighted_average) set_weights(from, rate, out);
-  if (from.estimator == From::bounded_observer || from.estimator == From::kalman)
+  if (from.estimator == Asked::weighted_average) set_weights(from, rate, out);
+  if (from.estimator == Asked::bounded_observer || from.estimator == Asked::kalman)
     set_model(from, counts_per_rad, torque_per_count, rate, out);
-  if (from.estimator == From::sensor) {
+  if (from.estimator == Asked::sensor) {
     const int index = robot::velocity_sensor_of(robot, joint);
     const robot::Sensor& s = sensor(index);
     out.channel = {static_cast<std::uint8_t>(index)};

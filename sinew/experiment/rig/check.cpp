@@ -59,12 +59,6 @@ bool whole_ticks(double seconds) {
   return std::fabs(ticks - std::round(ticks)) < 1e-6;
 }
 
-const gas::Valve* find_valve(const Experiment& e, const std::string& name) {
-  for (const gas::Valve& v : e.valves)
-    if (v.name == name) return &v;
-  return nullptr;
-}
-
 void check_valves(const Experiment& e, Findings& out) {
   if (e.charge.mode != plant::Charge::Mode::valves) {
     out.unused(e.drive.kind != Kind::none, "drive.kind", "charge.mode = \"valves\"");

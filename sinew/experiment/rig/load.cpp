@@ -12,12 +12,6 @@ plant::Schedule schedule(double constant, const std::vector<plant::Point>& point
   return points.empty() ? plant::Schedule(constant) : plant::Schedule(points);
 }
 
-const gas::Valve* find_valve(const Experiment& e, const std::string& name) {
-  for (const gas::Valve& v : e.valves)
-    if (v.name == name) return &v;
-  return nullptr;
-}
-
 air::Cylinder cylinder_of(const Element::Cylinder& c, const gas::Valve* in, const gas::Valve* out) {
   air::Cylinder cylinder{.mode = air::Cylinder::Mode::single_acting,
                          .bore = c.bore,
@@ -30,6 +24,12 @@ air::Cylinder cylinder_of(const Element::Cylinder& c, const gas::Valve* in, cons
 }
 
 }  // namespace
+
+const gas::Valve* find_valve(const Experiment& experiment, const std::string& name) {
+  for (const gas::Valve& v : experiment.valves)
+    if (v.name == name) return &v;
+  return nullptr;
+}
 
 std::vector<plant::Point> steps_of(const std::vector<plant::Point>& points) {
   std::vector<plant::Point> out;

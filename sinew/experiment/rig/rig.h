@@ -126,6 +126,9 @@ Experiment load(const std::string& path, const std::vector<std::string>& sets = 
 // Loads the experiment from a tree that is composed already; `path` is for messages.
 Experiment load(const config::Node& root, const std::string& path);
 
+// The valve of that name; none: null.
+const gas::Valve* find_valve(const Experiment& experiment, const std::string& name);
+
 // Points as steps: each value holds from its instant on.
 std::vector<plant::Point> steps_of(const std::vector<plant::Point>& points);
 

@@ -12,7 +12,7 @@ namespace sinew::identify {
 
 namespace {
 
-const Wanted columns[] = {
+const Wanted creep_wanted[] = {
     {.name = "time", .unit = "s", .doc = "from before the pressure rises"},
     {.name = "force", .unit = "N", .least = 0.05, .most = 2e4, .doc = "tension of the muscle"},
     {.name = "pressure", .unit = "Pa gauge", .least = 1e4, .most = 5e6, .doc = "in the muscle"},
@@ -137,7 +137,7 @@ void warn_of_pressure(const Measured& m, const actuator::Creep& creep, Report& r
 
 }  // namespace
 
-std::span<const Wanted> creep_columns() { return columns; }
+std::span<const Wanted> creep_columns() { return creep_wanted; }
 
 CreepResult identify_creep(const Measured& data) {
   if (data.rows() < 12)

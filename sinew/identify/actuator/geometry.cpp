@@ -13,7 +13,7 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr std::array columns{
+constexpr std::array geometry_wanted{
     Wanted{.name = "length",
            .unit = "m",
            .least = 5e-3,
@@ -90,7 +90,7 @@ Solution fit(const std::vector<double>& length, const std::vector<double>& diame
 
 }  // namespace
 
-std::span<const Wanted> geometry_columns() { return columns; }
+std::span<const Wanted> geometry_columns() { return geometry_wanted; }
 
 GeometryResult identify_geometry(const Measured& data, double thread_thickness) {
   refuse_poor(data);

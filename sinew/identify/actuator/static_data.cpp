@@ -23,7 +23,7 @@ constexpr double largest_zero_pressure = 0.05;  // of the range of pressures
 
 constexpr std::pair<std::string_view, double> branch_words[] = {{"fill", 1.0}, {"vent", -1.0}};
 
-const Wanted columns[] = {
+const Wanted static_wanted[] = {
     {.name = "force",
      .unit = "N",
      .least = 0.05,
@@ -275,7 +275,7 @@ Zero add_table(const Measured& m, const StaticInput& input, StaticData& data) {
 
 }  // namespace
 
-std::span<const Wanted> static_columns() { return columns; }
+std::span<const Wanted> static_columns() { return static_wanted; }
 
 Zero add_points(const Measured& m, const StaticInput& input, StaticData& data) {
   if (m.rows() == 0) throw Refusal(m.file, "no rows", "rows of numbers", "");

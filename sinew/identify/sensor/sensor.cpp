@@ -17,7 +17,7 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_folds = 20;
 
 // Powers of the known value in a model; proportional has no 0.
@@ -96,7 +96,7 @@ struct Usable {
   std::vector<double> known, output;
   std::vector<int> lines;
   std::vector<Point> points;
-  double step = none;
+  double step = no_value;
   std::vector<std::string> notes;
 };
 

@@ -102,7 +102,7 @@ struct CoilModel {
   bool dip = false, boost = false;
 };
 
-constexpr std::array models{
+constexpr std::array coil_models{
     CoilModel{"coil", "L di/dt + R i = U"},
     CoilModel{"coil, boosted", "the same, U lower after the boost", false, true},
     CoilModel{"coil and shutter", "L di/dt + R i = U - E while the shutter moves", true, false},
@@ -172,7 +172,7 @@ std::vector<double> dips_of(const Pulses& c, double width) {
                        t);
   std::sort(found.rbegin(), found.rend());
   std::vector<double> out;
-  for (const auto& [growth, t] : found) {
+  for (const auto& [bend, t] : found) {
     const bool near = std::any_of(out.begin(), out.end(), [t = t, width](double other) {
       return std::abs(other - t) < width;
     });
@@ -252,10 +252,10 @@ ValveResult identify_coil(const Measured& data, const ValveOptions& options) {
   report.full_scale_is = "the largest current";
   report.held_out_is = "every second sample";
   report.notes.insert(report.notes.end(), data.notes.begin(), data.notes.end());
-  for (const CoilModel& model : models) report.fits.push_back(try_model(model, c));
+  for (const CoilModel& model : coil_models) report.fits.push_back(try_model(model, c));
   report.rows = {.x = "time", .x_unit = "s", .at = c.time, .measured = c.current};
   choose(report, 0.1, 0.01);
-  if (!models[report.chosen].dip)
+  if (!coil_models[report.chosen].dip)
     throw Refusal(data.file + ": current", "no dip in its rise: a coil without a moving shutter",
                   "the back-EMF of the opening shutter",
                   "a faster sampling, and whether the valve opens at all");

@@ -21,7 +21,7 @@ constexpr std::string_view soft_iso = "d(rho V)/dt = m', ISO 6358; V = V_end (1 
 constexpr std::string_view hose_iso =
     "s V before a hose of h C, (1 - s) V behind it; ISO 6358; rho ~ P^(1/n)";
 
-constexpr std::array models{
+constexpr std::array all_models{
     FillModel{"orifice isothermal", rigid_orifice, "[38]-[44], n = 1", rigid, orifice, 1},
     FillModel{"orifice adiabatic", rigid_orifice, "[38]-[44], n = 1.4", rigid, orifice, 1.4},
     FillModel{"orifice polytropic", rigid_orifice, "[38]-[44]", rigid, orifice, 0},
@@ -73,7 +73,7 @@ void widen(Solution& s, const Residuals& residuals, std::size_t rows,
 
 }  // namespace
 
-std::span<const FillModel> fill_models() { return models; }
+std::span<const FillModel> fill_models() { return all_models; }
 
 std::vector<FreeValue> free_values(const FillModel& model, const Curve& c,
                                    const ValveOptions& options) {

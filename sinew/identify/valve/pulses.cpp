@@ -36,10 +36,10 @@ struct PulseModel {
 
 constexpr std::string_view law_sealed = "V d rho/dt = m' from t + t_o to t + t_c, ISO 6358";
 constexpr std::string_view law_vents = "the same, and to the room the rest of the time";
-constexpr std::array models{PulseModel{"sealed isothermal", law_sealed, false, 1},
-                            PulseModel{"sealed polytropic", law_sealed, false, 0},
-                            PulseModel{"venting isothermal", law_vents, true, 1},
-                            PulseModel{"venting polytropic", law_vents, true, 0}};
+constexpr std::array pulse_models{PulseModel{"sealed isothermal", law_sealed, false, 1},
+                                  PulseModel{"sealed polytropic", law_sealed, false, 0},
+                                  PulseModel{"venting isothermal", law_vents, true, 1},
+                                  PulseModel{"venting polytropic", law_vents, true, 0}};
 
 struct PulseCase {
   Chamber chamber;
@@ -205,7 +205,7 @@ ValveResult identify_pulses(const Measured& data, const ValveOptions& options) {
   report.full_scale_is = "the pressure's range";
   report.held_out_is = "the last third of the record";
   report.notes = data.notes;
-  for (const PulseModel& model : models) report.fits.push_back(try_model(model, r, options));
+  for (const PulseModel& model : pulse_models) report.fits.push_back(try_model(model, r, options));
   report.rows = {
       .x = "time", .x_unit = "s", .unit = "Pa abs", .at = r.time, .measured = r.pressure};
   choose(report);

@@ -28,6 +28,12 @@ struct BatchCalls {
 // Defined for the widths that this library was compiled with.
 template <int W>
 const BatchCalls& batch_calls();
+template <>
+const BatchCalls& batch_calls<2>();
+template <>
+const BatchCalls& batch_calls<4>();
+template <>
+const BatchCalls& batch_calls<8>();
 
 class Batch {
  public:

@@ -12,15 +12,15 @@
 namespace sinew::report {
 namespace {
 
-std::string with_unit(const std::string& name, const std::string& unit) {
+std::string heading_of(const std::string& name, const std::string& unit) {
   return fmt::format("{} [{}]", name, unit.empty() ? "-" : unit);
 }
 
 // A heading that no other column of the sheet has.
 std::string free_heading(const Sheet& sheet, const std::string& name, const std::string& unit) {
-  std::string heading = with_unit(name, unit);
+  std::string heading = heading_of(name, unit);
   for (int n = 2; std::ranges::find(sheet.headings, heading) != sheet.headings.end(); ++n)
-    heading = with_unit(fmt::format("{} {}", name, n), unit);
+    heading = heading_of(fmt::format("{} {}", name, n), unit);
   return heading;
 }
 
@@ -73,7 +73,7 @@ class Layout {
       std::size_t at = first;
       while (at < out.sheets.size() && !same(out.sheets[at].columns[0], curve.xs)) ++at;
       if (at == out.sheets.size()) {
-        out.sheets.push_back({"", {with_unit(plot.x.name, plot.x.unit)}, {curve.xs}});
+        out.sheets.push_back({"", {heading_of(plot.x.name, plot.x.unit)}, {curve.xs}});
         named_after.push_back(curve.label);
       }
       Sheet& sheet = out.sheets[at];
@@ -107,7 +107,7 @@ class Layout {
 }  // namespace
 
 std::string Axis::title() const {
-  return unit.empty() || unit == "-" ? name : with_unit(name, unit);
+  return unit.empty() || unit == "-" ? name : heading_of(name, unit);
 }
 
 FigureData data(const Figure& figure) { return std::move(Layout(figure).out); }

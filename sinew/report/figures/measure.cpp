@@ -69,7 +69,7 @@ double first_at_most(const Trace& t, double level, double from) {
   return first_crossing(t, level, from, false);
 }
 
-Line line_of(const Trace& t) {
+StraightLine line_of(const Trace& t) {
   double n = 0, x = 0, y = 0;
   for (std::size_t i = 0; i < t.x.size(); ++i)
     if (there(t, i)) n += 1, x += t.x[i], y += t.y[i];
@@ -84,7 +84,7 @@ Line line_of(const Trace& t) {
 }
 
 double bend(const Trace& t) {
-  const Line line = line_of(t);
+  const StraightLine line = line_of(t);
   const Range range = range_of(t);
   double largest = 0;
   for (std::size_t i = 0; i < t.x.size(); ++i)

@@ -13,12 +13,6 @@ namespace {
 
 Tick ticks(double seconds) { return std::llround(seconds / signals::tick_seconds); }
 
-const gas::Valve* find_valve(const Experiment& e, const std::string& name) {
-  for (const gas::Valve& v : e.valves)
-    if (v.name == name) return &v;
-  return nullptr;
-}
-
 bool earlier(const signals::Edge& a, const signals::Edge& b) { return a.at < b.at; }
 
 }  // namespace
