@@ -13,15 +13,16 @@ namespace sinew::cli {
 namespace {
 
 struct ViewOptions {
-  std::string run, machine;  // recorded
-  RunOptions live;           // .run.experiment empty: a recorded one
-  int port = 0;              // 0: a free one
+  std::vector<std::string> what;  // recorded: a run, a study or two
+  std::string machine;
+  RunOptions live;  // .run.experiment empty: a recorded one
+  int port = 0;     // 0: a free one
   bool open = true, once = false, paused = false;
 };
 
 ExitCode view_recorded(const ViewOptions& o) {
   const Messages messages(o.live.quiet);
-  const live::Served served = live::served(o.run, o.machine, messages.notices());
+  const live::Served served = live::served(o.what, o.machine, messages.notices());
   live::Server server(static_cast<std::uint16_t>(o.port), {.get = served.get});
   fmt::print("{}\n", server.url());
   std::fflush(stdout);
@@ -61,8 +62,9 @@ void add_view(Command app, Action& action) {
   auto options = std::make_shared<ViewOptions>();
   Command sub = app.subcommand("view", "a run or a study in the browser, recorded or while it goes",
                                "sinew view --live experiments/tune-in-air.toml");
-  Option dir = sub.add_option(
-      "DIR", options->run, "a run's folder, a log file or a study's; else the newest below runs/");
+  Option dir =
+      sub.add_option("DIR", options->what,
+                     "a run's folder, a log file, one or two studies; else the newest of runs/");
   sub.add_option("--machine", options->machine,
                  "what was run, in place of the folder's resolved.toml");
   Option live =

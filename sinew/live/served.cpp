@@ -16,16 +16,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Served study(const std::string& file, run::Notices notices) {
-  auto pages = std::make_shared<StudyPages>(file, std::move(notices));
+Served of_studies(const std::vector<fs::path>& files, run::Notices notices) {
+  auto pages = std::make_shared<StudyPages>(files, std::move(notices));
+  std::string names = files.front().string();
+  if (files.size() > 1) names += " and " + files[1].string();
   return {.get = [pages](std::string_view path) { return pages->get(path); },
-          .in_words = [file](const std::string&) { return file + "; Ctrl-C ends"; }};
+          .in_words = [names](const std::string&) { return names + "; Ctrl-C ends"; }};
 }
 
 }  // namespace
 
 Served served(const std::string& what, const std::string& machine, run::Notices notices) {
-  if (!what.empty() && tune::is_study(what)) return study(what, std::move(notices));
+  if (!what.empty() && tune::is_study(what)) return of_studies({what}, std::move(notices));
   const std::vector<fs::path> runs =
       what.empty() ? runs_below("runs") : std::vector<fs::path>{what};
   if (runs.empty())
@@ -40,6 +42,17 @@ Served served(const std::string& what, const std::string& machine, run::Notices 
                     "{}; Ctrl-C ends{}", runs.front().string(),
                     runs.size() > 1 ? fmt::format("; {} runs at {}runs", runs.size(), url) : "");
               }};
+}
+
+Served served(const std::vector<std::string>& what, const std::string& machine,
+              run::Notices notices) {
+  if (what.size() < 2) return served(what.empty() ? "" : what.front(), machine, std::move(notices));
+  for (const std::string& file : what)
+    if (what.size() > 2 || !tune::is_study(file))
+      config::fail({file, 0, 0}, "", what.size() > 2 ? "a third one" : "no study's file",
+                   "one run, one study, or two studies beside each other",
+                   "sinew compare for runs");
+  return of_studies({what[0], what[1]}, std::move(notices));
 }
 
 }  // namespace sinew::live

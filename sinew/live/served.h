@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sinew/live/server.h"
 #include "sinew/run/folder/notices.h"
@@ -19,5 +20,9 @@ struct Served {
 // first. `machine`: what was run, in place of a folder's resolved.toml; may be empty. Throws
 // config::Error or log::Error where nothing of the kind is there.
 Served served(const std::string& what, const std::string& machine, run::Notices notices = {});
+
+// The same of several: none or one is as above, two studies' files stand beside each other.
+Served served(const std::vector<std::string>& what, const std::string& machine,
+              run::Notices notices = {});
 
 }  // namespace sinew::live

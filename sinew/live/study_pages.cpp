@@ -49,50 +49,60 @@ Reply it_goes(std::size_t row) {
 
 }  // namespace
 
-StudyPages::StudyPages(const std::filesystem::path& file, run::Notices notices)
-    : notices_(std::move(notices)), feed_(file) {
+StudyPages::StudyPages(const std::vector<std::filesystem::path>& files, run::Notices notices)
+    : notices_(std::move(notices)) {
+  for (const std::filesystem::path& file : files) studies_.emplace_back(file);
   report::require_page("the page of a study");
 }
 
 Reply StudyPages::get(std::string_view path) try {
   if (path == "/") return page();
-  if (const auto known = number_in(path, "/rows/")) return rows(*known);
-  if (const auto row = number_in(path, "/run/")) return run_of(*row);
+  const bool second = studies_.size() > 1 && path.starts_with("/b/");
+  if (second) path.remove_prefix(2);
+  Study& study = studies_[second ? 1 : 0];
+  if (const auto known = number_in(path, "/rows/")) return rows(study, *known);
+  if (const auto row = number_in(path, "/run/")) return run_of(study, *row);
   return {404, "Nothing is here; the study is at the address that was printed.\n", plain};
 } catch (const std::exception& wrong) {
   return {500, std::string(wrong.what()) + "\n", plain};
 }
 
 Reply StudyPages::page() {
-  feed_.look();
-  return {200, tune::study_page(feed_.study(), {.known = feed_.changes()})};
+  std::vector<tune::StudyView> views;
+  tune::StudyServer server;
+  for (Study& study : studies_) {
+    study.feed.look();
+    views.push_back(study.feed.study());
+    server.known.push_back(study.feed.changes());
+  }
+  return {200, tune::study_page(views, server)};
 }
 
 // What is wrong with a file that was there is said on the page that stands.
-Reply StudyPages::rows(std::size_t known) {
+Reply StudyPages::rows(Study& study, std::size_t known) {
   std::string error;
   try {
-    feed_.look();
+    study.feed.look();
   } catch (const std::exception& wrong) {
     error = fmt::format(",\"error\":{}",
                         nlohmann::json(wrong.what())
                             .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   }
   return {200,
-          fmt::format("{{\"known\":{},\"expected\":{},\"rows\":{}{}}}", feed_.changes(),
-                      feed_.study().expected, tune::rows_json(feed_.since(known)), error),
+          fmt::format("{{\"known\":{},\"expected\":{},\"rows\":{}{}}}", study.feed.changes(),
+                      study.feed.study().expected, tune::rows_json(study.feed.since(known)), error),
           "application/json"};
 }
 
-Reply StudyPages::run_of(std::size_t row) {
-  if (!runs_.has(row)) {
-    const tune::StudyRun run = tune::run_of(feed_.study(), row);
-    if (runs_.is_busy()) return it_goes(row);
-    runs_.begin(row, run);
+Reply StudyPages::run_of(Study& study, std::size_t row) {
+  if (!study.runs.has(row)) {
+    const tune::StudyRun run = tune::run_of(study.feed.study(), row);
+    if (study.runs.is_busy()) return it_goes(row);
+    study.runs.begin(row, run);
   }
-  const auto folder = runs_.folder(row);
+  const auto folder = study.runs.folder(row);
   if (!folder) return it_goes(row);
-  if (told_.insert(row).second)
+  if (study.told.insert(row).second)
     notices_.note(fmt::format("row {}: kept in {}", row, folder->string()));
   return {200, text_of(*folder / run::report_name)};
 }

@@ -75,7 +75,7 @@ TEST_F(StudyPagesTest, AnswersWithWhatIsNew) {
   if (!report::has_page()) GTEST_SKIP() << "built without pages";
   tune::Results results(file_, asked_of(a_sweep()));
   results.add(row(0));
-  StudyPages pages(file_, {});
+  StudyPages pages({file_}, {});
   EXPECT_EQ(pages.get("/").status, 200);
   results.add(row(3));
   const Reply reply = pages.get("/rows/1");
@@ -94,7 +94,7 @@ TEST_F(StudyPagesTest, AnswersWithWhatIsNew) {
 TEST_F(StudyPagesTest, SaysThatTheFileIsGone) {
   if (!report::has_page()) GTEST_SKIP() << "built without pages";
   { tune::Results(file_, asked_of(a_sweep())).add(row(0)); }
-  StudyPages pages(file_, {});
+  StudyPages pages({file_}, {});
   fs::remove(file_);
   const Json json = Json::parse(pages.get("/rows/1").body);
   EXPECT_NE(json["error"].get<std::string>().find("study.db"), std::string::npos);
@@ -105,7 +105,7 @@ TEST_F(StudyPagesTest, RunsARowOnceAndShowsIt) {
   if (!report::has_page()) GTEST_SKIP() << "built without pages";
   { tune::Results(file_, asked_of(a_sweep())).add(row(2, "3")); }
   std::vector<std::string> notes;
-  StudyPages pages(file_, {.on_note = [&](std::string_view n) { notes.emplace_back(n); }});
+  StudyPages pages({file_}, {.on_note = [&](std::string_view n) { notes.emplace_back(n); }});
   Reply reply;
   for (int i = 0; i < 60; ++i) {
     reply = pages.get("/run/2");
@@ -128,7 +128,7 @@ TEST_F(StudyPagesTest, SaysWhyARowCannotRun) {
   tune::Asked asked = asked_of(a_sweep());
   asked.experiment = "gone.toml";
   { tune::Results(file_, asked).add(row(2)); }
-  StudyPages pages(file_, {});
+  StudyPages pages({file_}, {});
   const Reply reply = pages.get("/run/2");
   EXPECT_EQ(reply.status, 500);
   EXPECT_NE(reply.body.find("gone.toml"), reply.body.npos) << reply.body;
@@ -142,6 +142,45 @@ TEST_F(StudyPagesTest, IsServedByItsFile) {
   EXPECT_EQ(study.in_words(""), file_.string() + "; Ctrl-C ends");
   EXPECT_THROW((void)served("nowhere.db", ""), std::exception);
   EXPECT_THROW((void)served("", ""), std::exception) << "there is no run here";
+}
+
+// The second one's rows and runs stand below /b.
+TEST_F(StudyPagesTest, TwoStudiesStandBesideEachOther) {
+  if (!report::has_page()) GTEST_SKIP() << "built without pages";
+  const fs::path other = folder_ / "other.db";
+  tune::Results first(file_, asked_of(a_sweep())), second(other, asked_of(a_sweep()));
+  first.add(row(0));
+  second.add(row(4));
+  const Served both = served(std::vector{file_.string(), other.string()}, "");
+  EXPECT_EQ(both.in_words(""), file_.string() + " and " + other.string() + "; Ctrl-C ends");
+  const std::string page = both.get("/").body;
+  EXPECT_NE(page.find("\"known\":[1,1]"), page.npos);
+  second.add(row(7));
+  EXPECT_EQ(Json::parse(both.get("/rows/1").body)["rows"].size(), 0u);
+  const Json json = Json::parse(both.get("/b/rows/1").body);
+  EXPECT_EQ(json["known"], 2);
+  EXPECT_EQ(json["rows"][0][0], 7);
+  EXPECT_EQ(both.get("/b/run/0").body,
+            "other.db: found no row 0; expected one of 2 rows that are there\n");
+  EXPECT_EQ(served(std::vector{file_.string()}, "").get("/b/rows/0").status, 404);
+}
+
+TEST_F(StudyPagesTest, OtherThingsDoNotStandBesideEachOther) {
+  { tune::Results(file_, asked_of(a_sweep())).add(row(0)); }
+  const auto said = [](const std::vector<std::string>& what) -> std::string {
+    try {
+      (void)served(what, "");
+    } catch (const std::exception& wrong) {
+      return wrong.what();
+    }
+    return "nothing";
+  };
+  EXPECT_NE(said({file_.string(), "runs/a"})
+                .find("no study's file; expected one run, one study, or two studies"),
+            std::string::npos)
+      << said({file_.string(), "runs/a"});
+  EXPECT_NE(said({file_.string(), file_.string(), file_.string()}).find("a third one"),
+            std::string::npos);
 }
 
 }  // namespace

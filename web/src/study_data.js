@@ -45,7 +45,7 @@ class Column {
 
 export class StudyData {
   constructor(studies) {
-    this.studies = studies.map((s, study) => ({ ...s, study, letter: 'AB'[study], at: new Map(), count: 0 }));
+    this.studies = studies.map((s, study) => ({ ...s, study, letter: 'AB'[study], path: study ? 'b/' : '', at: new Map(), count: 0 }));
     this.columns = [];
     this.by_heading = new Map();
     Object.assign(this, { study: [], number: [], ok: [], generation: [], violation: [], feasible: [], count: 0 });
@@ -96,11 +96,11 @@ export class StudyData {
     return this.studies.length > 1 ? `${letter}${this.number[row]}` : String(this.number[row]);
   }
 
-  // What runs the row's machine again, in the shell.
-  command_of(row) {
+  // What runs the row's machine again, in the shell; a candidate's in one of its cases.
+  command_of(row, one = this.studies[this.study[row]]) {
     const study = this.studies[this.study[row]];
-    let { experiment } = study;
-    const sets = [...(study.sets ?? [])];
+    let { experiment } = one;
+    const sets = [...(one.sets ?? [])];
     for (const c of study.own) {
       if (!c.set || !c.texts[row]) continue;
       if (c.key === 'experiment') experiment = beside(experiment, c.texts[row]);

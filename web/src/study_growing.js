@@ -6,7 +6,7 @@ const again_after = 1000;  // [ms]
 export class Growing {
   constructor(page) {
     this.page = page;
-    this.known = page.run.known;  // changes of rows that the program has told
+    this.known = [...page.run.known];  // of each study: changes of rows that the program has told
     this.answers = 0;
     this.wait();
   }
@@ -17,9 +17,11 @@ export class Growing {
 
   async ask() {
     try {
-      const answer = await fetch(new URL(`rows/${this.known}`, location.href));
-      if (!answer.ok) throw new Error(answer.statusText);
-      this.take(await answer.json());
+      for (const study of this.page.data.studies) {
+        const answer = await fetch(new URL(`${study.path}rows/${this.known[study.study]}`, location.href));
+        if (!answer.ok) throw new Error(answer.statusText);
+        this.take(study, await answer.json());
+      }
       by_id('lost').hidden = true;
     } catch {
       by_id('lost').hidden = false;
@@ -27,12 +29,12 @@ export class Growing {
     this.wait();
   }
 
-  take({ known, rows, expected, error }) {
+  take(study, { known, rows, expected, error }) {
     ++this.answers;
     by_id('lost').textContent = error ?? 'The program that serves this page is gone; what was there stays.';
     if (error) throw new Error(error);
-    const { data } = this.page, [study] = data.studies;
-    this.known = known;
+    const { data } = this.page;
+    this.known[study.study] = known;
     if (!rows.length && expected === study.expected) return;
     study.expected = expected;
     const kinds = () => data.columns.map((c) => `${c.varies}${c.words.length}`).join();
@@ -41,6 +43,7 @@ export class Growing {
     const changed = kinds() !== before;
     if (changed) this.page.parallel.choose_first();
     this.page.grown(changed);
-    if (this.page.chosen >= 0 && rows.some((r) => r[0] === data.number[this.page.chosen])) this.page.side.draw();
+    const { chosen } = this.page;
+    if (chosen >= 0 && data.study[chosen] === study.study && rows.some((r) => r[0] === data.number[chosen])) this.page.side.draw();
   }
 }

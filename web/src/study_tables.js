@@ -79,6 +79,8 @@ export class Chosen {
       this.state(chosen),
       this.values('parameter', 'Parameters'), this.values('', 'Figures'),
       element('h3', {}, 'Run it again'), element('pre', { class: 'command', tabindex: '0' }, command),
+      ...(study.cases ?? []).flatMap((one) => [element('h4', {}, `In the case “${one.name}”`),
+        element('pre', { class: 'command', 'data-case': one.name, tabindex: '0' }, data.command_of(chosen, one))]),
       study.kind === 'tune' ? element('p', { class: 'quiet' }, 'One run, with the experiment’s own seed; a candidate’s figures are over all of its runs.') : '',
       this.buttons(study, command));
   }
@@ -122,7 +124,7 @@ export class Chosen {
       copy.textContent = (await copied(command, this.root.querySelector('.command'))) ? 'Copied' : 'Marked: press Ctrl-C';
     });
     const run = page.run.served && page.data.ok[page.chosen] !== undefined
-      ? element('a', { id: 'run-it', class: 'button', href: `run/${page.data.number[page.chosen]}`, target: '_blank', rel: 'noopener' }, 'Run it and look at it')
+      ? element('a', { id: 'run-it', class: 'button', href: `${study.path}run/${page.data.number[page.chosen]}`, target: '_blank', rel: 'noopener' }, 'Run it and look at it')
       : null;
     return element('div', { class: 'buttons no-print' }, copy, run);
   }

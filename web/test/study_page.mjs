@@ -29,6 +29,11 @@ const gain = 'joint.hip.angle_gain [%/count]', speed = 'trolley.mean_speed [in/s
 const numbers = (page) => page.evaluate(() => window.sinew.page.filter.rows.map((r) => window.sinew.page.data.number[r]).sort((a, b) => a - b));
 const drawn = (page, id) => page.locator(`#${id}-canvas`).evaluate((c) => c.toDataURL());
 const settle = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+// The speed that a command of the page says when it is run [in/s].
+function speed_of(command, name) {
+  const said = execFileSync('sh', ['-c', `${command.replace(/^sinew/, program)} --json --quiet --no-report -o ${join(folder, name)}`], { encoding: 'utf8' });
+  return JSON.parse(said).trolley.mean_speed_m_per_s / 0.0254;
+}
 const axis = (page, heading) => page.locator('.axis-handle').and(page.locator(`[data-heading="${heading}"]`));
 
 test('a study: every row of the table, its columns by what they are', () => study('walk', async (page) => {
@@ -126,8 +131,7 @@ test('a click chooses a row everywhere, and its command repeats it', () => study
   assert.equal(await page.locator('#rows tr[aria-selected="true"]').getAttribute('data-row'), String(chosen));
   const command = await page.locator('.command').textContent();
   assert.ok(command.startsWith('sinew run ') && command.includes(`--set "joint.hip.angle_gain=${row[gain]} %/count"`), command);
-  const said = JSON.parse(execFileSync('sh', ['-c', `${command.replace(/^sinew/, program)} --json --quiet --no-report -o ${join(folder, 'again')}`], { encoding: 'utf8' }));
-  assert.ok(Math.abs(said.trolley.mean_speed_m_per_s / 0.0254 - Number(row[speed])) <= 1e-8 * Math.abs(row[speed]));
+  assert.ok(Math.abs(speed_of(command, 'again') - Number(row[speed])) <= 1e-8 * Math.abs(row[speed]));
   await page.locator('#chosen').getByLabel('Next row').click();
   assert.equal(await page.locator('#chosen h2').textContent(), `Row ${chosen + 1}`);
   await page.keyboard.press('ArrowLeft');
@@ -186,6 +190,14 @@ test('a tuning: its candidates by generation, its own goals, what is beyond a li
   assert.equal(await page.locator('#chosen h2').textContent(), `Candidate ${held.front[0]}`);
   assert.match(await page.locator('#importance .hint').textContent(), /chosen, by a tuner/);
   await picture(page, 'study-tuned');
+
+  const speeds = await Promise.all(['as it is', 'more drag'].map(async (name) => {
+    const command = await page.locator(`.command[data-case="${name}"]`).textContent();
+    assert.equal(command.includes("--set 'trolley.drag=1.2 lbf'") || command.includes('--set "trolley.drag=1.2 lbf"'), name === 'more drag', command);
+    return speed_of(command, name.replaceAll(' ', '-'));
+  }));
+  const mean = await page.evaluate(([row, s]) => window.sinew.page.data.by_heading.get(s).values[row], [held.front[0], speed]);
+  assert.ok(Math.abs((speeds[0] + 0.5 * speeds[1]) / 1.5 - mean) <= 1e-8 * mean, `${speeds} for ${mean}`);
 }));
 
 test('ten thousand rows are drawn soon', () => study('walk', async (page) => {
@@ -268,7 +280,7 @@ test('a study is watched while it grows; a row is run, and is the row', async ()
     assert.equal(await end, 0);
     await page.waitForFunction(() => window.sinew.page.data.count === 180, null, { timeout: 60000 });
     assert.match(await page.locator('#facts').textContent(), /180 of 180 points/);
-    const asked = await page.evaluate(() => window.sinew.page.growing.known);
+    const asked = await page.evaluate(() => window.sinew.page.growing.known[0]);
     assert.equal(asked, 180, 'each row was told once');
 
     await page.evaluate(() => window.sinew.page.choose(window.sinew.page.data.number.indexOf(100)));
@@ -281,6 +293,28 @@ test('a study is watched while it grows; a row is run, and is the row', async ()
     assert.deepEqual(readdirSync(join(folder, 'runs', 'leg-in-air')), ['1']);
     await replay.reload();
     assert.deepEqual(readdirSync(join(folder, 'runs', 'leg-in-air')), ['1'], 'it is run once');
+  });
+  served.child.kill('SIGINT');
+  assert.equal((await served.ended).code, 0);
+});
+
+test('two studies are watched beside each other; a row of the second is run', async () => {
+  const files = ['one', 'two'].map((name) => join(folder, `${name}.db`)), rms = 'joints.hip.tracking_rms_rad';
+  files.forEach((file, i) => execFileSync(program, ['sweep', experiment, '--vary', `joint.hip.angle_gain=0.02:0.0${4 + i}:${3 + i} %/count`,
+    '--report', `${rms} [deg]`, '--results', file, '-o', `${file}.csv`, '--quiet'], { cwd: folder }));
+  const served = await serve(['view', ...files, '--no-open'], folder);
+  await watch(served, async (page) => {
+    assert.equal(await page.locator('#count').textContent(), '7 rows');
+    await page.waitForFunction(() => window.sinew.page.growing.answers >= 4, null, { timeout: 60000 });
+    assert.deepEqual(await page.evaluate(() => window.sinew.page.growing.known), [3, 4]);
+    assert.equal(await page.evaluate(() => window.sinew.page.data.count), 7, 'nothing comes twice');
+    await page.evaluate(() => window.sinew.page.choose(3 + 3));
+    assert.equal(await page.locator('#chosen h2').textContent(), 'Row B3');
+    const [replay] = await Promise.all([page.context().waitForEvent('page'), page.locator('#run-it').click()]);
+    await replay.waitForSelector('html[data-ready]', { timeout: 60000 });
+    const ours = await replay.evaluate(() => (window.sinew.run.summary.joints.hip.tracking_rms_rad * 180) / Math.PI);
+    const theirs = Number(readFileSync(`${files[1]}.csv`, 'utf8').trim().split('\n')[4].split(',')[1]);
+    assert.ok(Math.abs(ours - theirs) <= 1e-8 * theirs, `${ours} for ${theirs}`);
   });
   served.child.kill('SIGINT');
   assert.equal((await served.ended).code, 0);

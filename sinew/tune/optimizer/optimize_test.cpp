@@ -221,6 +221,9 @@ TEST_F(OptimizeTest, ACandidateIsRunInEveryCircumstance) {
     weight += own;
   }
   EXPECT_NEAR(tuned.candidates[1].judged.goals[0], sum / weight, 1e-12);
+  ASSERT_EQ(held.asked.cases.size(), 2U);
+  EXPECT_EQ(held.asked.cases[1].name, "slow");
+  EXPECT_EQ(held.asked.cases[1].sets, file.cases[1].sets);
   // Draws are the same for all candidates.
   for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(held.rows[i].cells[2], held.rows[24 + i].cells[2]);
 }

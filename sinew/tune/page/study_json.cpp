@@ -37,6 +37,9 @@ Json json_of(const StudyView& study) {
                        {"role", to_text(c.role)},
                        {"maximize", c.maximize},
                        {"set", c.set || c.role == StudyColumn::Role::parameter}});
+  Json cases = Json::array();
+  for (const StudyCase& one : study.cases)
+    cases.push_back({{"name", one.name}, {"experiment", one.experiment}, {"sets", one.sets}});
   return {{"title", study.title},
           {"kind", study.kind},
           {"experiment", study.experiment},
@@ -44,6 +47,7 @@ Json json_of(const StudyView& study) {
           {"version", study.version},
           {"expected", study.expected},
           {"sets", study.sets},
+          {"cases", std::move(cases)},
           {"allow_unreachable", study.allow_unreachable},
           {"asked", study.asked},
           {"columns", std::move(columns)},
@@ -82,11 +86,11 @@ std::string study_page_of(const std::vector<std::filesystem::path>& files) {
   return study_page(studies);
 }
 
-std::string study_page(const StudyView& study, const StudyServer& server) {
-  Json json = json_of(std::vector{study});
+std::string study_page(const std::vector<StudyView>& studies, const StudyServer& server) {
+  Json json = json_of(studies);
   json["served"] = true;
   json["known"] = server.known;
-  return filled({study}, json, "; connect-src 'self'");
+  return filled(studies, json, "; connect-src 'self'");
 }
 
 }  // namespace sinew::tune

@@ -115,7 +115,8 @@ TEST_F(StudyPageTest, NeverLeavesItsElement) {
   const std::string page = study_page(study_view(file_));
   EXPECT_EQ(page.find("refused: </script>"), page.npos);
   EXPECT_EQ(page.find("connect-src"), page.npos) << "a file asks nobody";
-  EXPECT_NE(study_page(study_view(file_), {.known = 2}).find("connect-src 'self'"), page.npos);
+  EXPECT_NE(study_page(std::vector{study_view(file_)}, {.known = {2}}).find("connect-src 'self'"),
+            page.npos);
   EXPECT_EQ(study_page(study_view(file_)), page) << "the same study gives the same bytes";
   EXPECT_NE(study_page_of({file_, file_}).find("One joint and One joint"), page.npos);
 }

@@ -34,6 +34,13 @@ struct StudyRow {
   bool operator==(const StudyRow&) const = default;
 };
 
+// Circumstances in which each candidate of a tuning runs: another experiment, other values.
+struct StudyCase {
+  std::string name;
+  std::string experiment;         // its file, as it was named
+  std::vector<std::string> sets;  // key=value, before the candidate's own
+};
+
 struct StudyView {
   std::string title;
   std::string kind;        // "sweep", "tune"
@@ -46,6 +53,7 @@ struct StudyView {
   std::string version;
   std::vector<std::string> sets = {};  // key=value of every run
   bool allow_unreachable = false;      // of every run
+  std::vector<StudyCase> cases = {};   // empty: the experiment as it is
 };
 
 // A file of SQLite, or one that is called so. Whether it holds a study is seen when it is read.
@@ -70,7 +78,9 @@ std::string rows_json(const std::vector<StudyRow>& rows);
 
 // Where a page is served from while its study grows.
 struct StudyServer {
-  std::size_t known = 0;  // changes of rows that the page has; it asks for "rows/<known>"
+  // Of each study, changes of rows that the page has: it asks for "rows/<known>", of the second
+  // study for "b/rows/<known>".
+  std::vector<std::size_t> known;
 };
 
 // Returns the whole page, of one study or of two beside each other; of files, as study_view() reads
@@ -78,6 +88,6 @@ struct StudyServer {
 std::string study_page(const StudyView& study);
 std::string study_page(const std::vector<StudyView>& studies);
 std::string study_page_of(const std::vector<std::filesystem::path>& files);
-std::string study_page(const StudyView& study, const StudyServer& server);
+std::string study_page(const std::vector<StudyView>& studies, const StudyServer& server);
 
 }  // namespace sinew::tune

@@ -137,7 +137,12 @@ std::vector<Column> columns_of(const Sweep& s) {
 }  // namespace
 
 Asked asked_of(const Sweep& s) {
-  return {text_of(s), columns_of(s), points(s), s.experiment, s.sets};
+  return {.text = text_of(s),
+          .columns = columns_of(s),
+          .points = points(s),
+          .experiment = s.experiment,
+          .sets = s.sets,
+          .cases = s.cases};
 }
 
 const char* to_text(Column::Role role) {

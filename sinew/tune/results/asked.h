@@ -35,6 +35,7 @@ struct Asked {
   std::string experiment;  // the file, as it was named
   std::vector<std::string> sets = {};  // key=value, for every run; the text has what they lead to
   std::string title = {};
+  std::vector<Case> cases = {};            // of each candidate; the text has what they lead to
   std::vector<Column> of_candidates = {};  // a tuning's; empty: a sweep
 };
 

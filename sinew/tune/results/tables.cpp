@@ -107,6 +107,31 @@ std::string value_of(Database& database, const std::string& key) {
   return select.bind(key).step() ? select.text(0) : "";
 }
 
+// A file that lacks them may be of a Sinew that did not keep them.
+std::vector<Case> cases_of(const std::string& text, const fs::path& file) try {
+  std::vector<Case> out;
+  if (text.empty()) return out;
+  for (const nlohmann::json& one : nlohmann::json::parse(text))
+    out.push_back({.name = one.at("name"),
+                   .experiment = one.at("experiment"),
+                   .sets = one.at("sets"),
+                   .weight = one.at("weight")});
+  return out;
+} catch (const nlohmann::json::exception&) {
+  throw log::Error(file, "is damaged: its cases cannot be read",
+                   "keep a copy, and choose another name");
+}
+
+std::string json_of(const std::vector<Case>& cases) {
+  nlohmann::json out = nlohmann::json::array();
+  for (const Case& one : cases)
+    out.push_back({{"name", one.name},
+                   {"experiment", one.experiment},
+                   {"sets", one.sets},
+                   {"weight", one.weight}});
+  return out.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 }  // namespace
 
 bool has_study(Database& database, const fs::path& file) {
@@ -141,6 +166,7 @@ void make_tables(Database& database, const Asked& asked) {
   say("title", asked.title);
   say("experiment", asked.experiment);
   say("sets", json_of(asked.sets));
+  say("cases", json_of(asked.cases));
   say("points", std::to_string(asked.points));
   say("hash", hash_of(asked));
   say("asked", asked.text);
@@ -164,7 +190,8 @@ Asked study_of(Database& database, const fs::path& file) {
             .points = 0,
             .experiment = value_of(database, "experiment"),
             .sets = texts_of(value_of(database, "sets"), file),
-            .title = value_of(database, "title")};
+            .title = value_of(database, "title"),
+            .cases = cases_of(value_of(database, "cases"), file)};
   out.points = static_cast<std::size_t>(
       database.number("SELECT CAST(value AS INTEGER) FROM study WHERE key = 'points'"));
   out.columns = columns_of(database, "heading");
