@@ -17,7 +17,7 @@ function(sinew_lanes path source width)
   set(own ${CMAKE_CURRENT_BINARY_DIR}/${lib}.o)
   add_custom_command(
     OUTPUT ${own}
-    COMMAND ${CMAKE_LINKER} -r --force-group-allocation -o ${whole} $<TARGET_OBJECTS:${lib}>
+    COMMAND ${SINEW_LD_BFD} -r --force-group-allocation -o ${whole} $<TARGET_OBJECTS:${lib}>
     COMMAND ${CMAKE_OBJCOPY} --keep-global-symbol=${entry} ${whole} ${own}
     DEPENDS ${lib} $<TARGET_OBJECTS:${lib}>
     COMMAND_EXPAND_LISTS VERBATIM)
@@ -36,8 +36,10 @@ function(sinew_lanes path source width)
   endif()
 endfunction()
 
-# A sanitizer's objects are not to be taken apart; its builds have the two lanes of every processor.
-if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND CMAKE_OBJCOPY AND CMAKE_LINKER AND NOT SINEW_SANITIZE)
+# Of the linkers only binutils' own resolves groups in an object. A sanitizer's objects are not to be
+# taken apart; its builds have the two lanes of every processor.
+find_program(SINEW_LD_BFD ld.bfd)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND CMAKE_OBJCOPY AND SINEW_LD_BFD AND NOT SINEW_SANITIZE)
   sinew_lanes(plant/packs plant/packs/wide/batch_wide.cpp 4 -mavx2)
   sinew_lanes(plant/packs plant/packs/wide/batch_wide.cpp 8 -mavx2 -mavx512f -mavx512dq -mavx512vl
               -mavx512bw -mprefer-vector-width=512)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # designs.sh [FOLDER [SEED]]   what a change of the leg's design buys: the front of faster-walk-front.toml again for each
-# design, then faster-walk-one-seed.toml from that front's fastest walk with 90 % passiveness. An hour for each seed on one core.
+# design, then faster-walk-one-seed.toml from that front's fastest walk with 90 % passiveness. An hour for each seed on one
+# core. docs/studies/designs.csv has what it prints for seeds 1 and 2, docs/designs.png shows it (designs.gp).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8
@@ -39,7 +40,7 @@ fastest() {
            $3 == "true" && (!p || $p + 0 >= 90) && $v + 0 > best { best = $v + 0; which = $1 } END { print which, best }' "$1"
 }
 
-printf '%-24s %5s %22s %20s\n' design seed 'front at 90 % [in/s]' 'from there [in/s]'
+echo 'design,tuner_seed,front at 90 % [in/s],from there [in/s]'
 for design in ${DESIGNS:-as-it-is hip-flexor-of-three hip-extensor-of-three cams-of-0.8-in cams-of-1.25-in \
                          valves-half-as-wide valves-twice-as-wide delays-halved delays-doubled}; do
   at=$folder/$design-$seed
@@ -56,5 +57,5 @@ for design in ${DESIGNS:-as-it-is hip-flexor-of-three hip-extensor-of-three cams
   "$sinew" tune "$at-faster-walk-front.toml" "${sets[@]}" --results "$at-front.db" --candidate "$which" --best "$at-start.toml" --threads 1 --quiet --force >/dev/null
   sed -i -e "s|^experiment .*|experiment = \"$at-start.toml\"|" "$at-faster-walk-one-seed.toml"
   "$sinew" tune "$at-faster-walk-one-seed.toml" --results "$at-best.db" -o "$at-best.csv" --threads 1 --quiet --force >/dev/null
-  printf '%-24s %5s %22s %20s\n' "$design" "$seed" "$speed" "$(fastest "$at-best.csv" | cut -d' ' -f2)"
+  echo "$design,$seed,$speed,$(fastest "$at-best.csv" | cut -d' ' -f2)"
 done

@@ -70,8 +70,11 @@ class Quick : public ::testing::TestWithParam<Case> {
              const std::function<void(int valve, bool open, double share)>& command) {
     std::mt19937 random(4);
     for (int k = 1; k <= 150; ++k) {
+      // One after the other: compilers differ in the order of arguments.
       const int valve = static_cast<int>(random() % (GetParam().cylinder ? 8 : 4));
-      command(valve, random() % 2 == 0, 0.1 * static_cast<double>(random() % 10));
+      const double share = 0.1 * static_cast<double>(random() % 10);
+      const bool open = random() % 2 == 0;
+      command(valve, open, share);
       go(2e-3 * k);
     }
   }

@@ -29,7 +29,7 @@ class Slopes : public ::testing::Test {
  protected:
   double y() { return std::uniform_real_distribution<double>(0.95, 1.35)(random_); }
 
-  const Air air_;
+  const Air air_{};
   std::mt19937 random_{7};
 };
 

@@ -124,9 +124,11 @@ void refuse_empty_columns(const std::vector<Row>& rows, const Sweep& s) {
       return std::ranges::find(row.notes.lacks, key) != row.notes.lacks.end();
     };
     if (std::ranges::any_of(rows, lacks) && std::ranges::none_of(rows, has))
-      problems.emplace_back(config::Location{key, 0, 0}, "", "no run with it",
-                            "a key of the runs' summary.json",
-                            "sinew run, whose summary.json has them all");
+      problems.push_back(config::Problem{.where = config::Location{key, 0, 0},
+                                         .key = {},
+                                         .found = "no run with it",
+                                         .expected = "a key of the runs' summary.json",
+                                         .try_this = "sinew run, whose summary.json has them all"});
   }
   if (!problems.empty()) throw config::Error(problems);
   if (!rows.empty() && std::ranges::none_of(rows, &Row::ok))

@@ -51,6 +51,9 @@ bool has_mpi() { return SINEW_HAS_MPI && std::system("command -v mpirun >/dev/nu
 [[noreturn]] void become_mpirun(const Words& words) {
   setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
   setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  // A process that dies while it begins may leave a lock of PMIx's shared memory taken, for which
+  // mpirun then waits forever: once in 130 kills. Without that memory there is no such lock.
+  setenv("PMIX_MCA_gds", "hash", 1);
   std::vector<const char*> arguments{"mpirun", "--oversubscribe", "-n", "3", SINEW_PROGRAM};
   for (const std::string& word : words) arguments.push_back(word.c_str());
   arguments.push_back(nullptr);

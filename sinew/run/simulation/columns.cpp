@@ -33,7 +33,8 @@ void joint_columns(const robot::Robot& robot, Columns& out) {
   for (std::size_t j = 0; j < robot.joints.size(); ++j) {
     if (robot::angle_sensor_of(robot, static_cast<int>(j)) < 0) continue;
     const std::string at = robot::topic_of_joint(robot, j), want = "/desired" + at;
-    const auto [leg, i] = place_of(robot, j);
+    const JointAt at_leg = place_of(robot, j);
+    const std::size_t leg = at_leg.leg, i = at_leg.joint;
     out.scalar(at + "/angle", "rad", "measured, by the controller's scale",
                [j](const Snapshot& m) { return m.measured.angle[j]; });
     out.scalar(at + "/stiffness", "N m/rad", "as the controller believes it, [27], [60]",
@@ -41,9 +42,9 @@ void joint_columns(const robot::Robot& robot, Columns& out) {
     out.scalar(at + "/velocity_estimate", "rad/s", "what the velocity gain works on, 6.5",
                [j](const Snapshot& m) { return m.measured.velocity[j]; });
     out.scalar(want + "/angle", "rad", "desired by the brain",
-               [leg, i](const Snapshot& m) { return m.desired[leg].joint[i].angle; });
+               [=](const Snapshot& m) { return m.desired[leg].joint[i].angle; });
     out.scalar(want + "/stiffness", "N m/rad", "desired by the brain",
-               [leg, i](const Snapshot& m) { return m.desired[leg].joint[i].stiffness; });
+               [=](const Snapshot& m) { return m.desired[leg].joint[i].stiffness; });
   }
 }
 
