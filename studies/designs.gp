@@ -10,7 +10,7 @@ set grid x lc rgb "#dddddd"
 set border 3
 set tics nomirror
 set style fill solid 0.8
-row(i) = int(i) % 9                     # nine designs for each seed of the tuner
+row(i) = int(i) % 9               # nine designs for each seed of the tuner
 larger(a, b) = a > b ? a : b
 plot ARG1 every ::1 using (0.5 * larger($3, $4)):(row($0) + 0.36 * ($2 - 1.5)):(0):(larger($3, $4)):(row($0) + 0.36 * ($2 - 1.5) - 0.16):(row($0) + 0.36 * ($2 - 1.5) + 0.16):ytic($2 == 1 ? stringcolumn(1) : "") \
        with boxxyerror lc rgb "#2166ac" title "from the front's fastest, two seeds of the tuner", \
