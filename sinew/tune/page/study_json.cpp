@@ -38,7 +38,7 @@ Json json_of(const StudyView& study) {
                        {"maximize", c.maximize},
                        {"set", c.set || c.role == StudyColumn::Role::parameter}});
   Json cases = Json::array();
-  for (const StudyCase& one : study.cases)
+  for (const Case& one : study.cases)
     cases.push_back({{"name", one.name}, {"experiment", one.experiment}, {"sets", one.sets}});
   return {{"title", study.title},
           {"kind", study.kind},

@@ -118,11 +118,10 @@ StudyView study_view(const fs::path& file) {
                 .version = fact(asked, "sinew"),
                 .sets = asked.sets,
                 .allow_unreachable = fact(asked, "allow_unreachable") == "true"};
-  for (const Case& one : asked.cases) {
-    out.cases.push_back(
-        {one.name, one.experiment.empty() ? asked.experiment : one.experiment, asked.sets});
-    auto& sets = out.cases.back().sets;
-    sets.insert(sets.end(), one.sets.begin(), one.sets.end());
+  out.cases = asked.cases;
+  for (Case& one : out.cases) {
+    if (one.experiment.empty()) one.experiment = asked.experiment;
+    one.sets.insert(one.sets.begin(), asked.sets.begin(), asked.sets.end());
   }
   for (CandidateRow& row : held.candidates) out.rows.push_back(row_of(std::move(row), out.columns));
   for (Row& row : held.rows)

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "sinew/tune/sweep.h"
+
 namespace sinew::tune {
 
 struct StudyColumn {
@@ -34,13 +36,6 @@ struct StudyRow {
   bool operator==(const StudyRow&) const = default;
 };
 
-// Circumstances in which each candidate of a tuning runs: another experiment, other values.
-struct StudyCase {
-  std::string name;
-  std::string experiment;         // its file, as it was named
-  std::vector<std::string> sets;  // key=value, before the candidate's own
-};
-
 struct StudyView {
   std::string title;
   std::string kind;        // "sweep", "tune"
@@ -53,7 +48,7 @@ struct StudyView {
   std::string version;
   std::vector<std::string> sets = {};  // key=value of every run
   bool allow_unreachable = false;      // of every run
-  std::vector<StudyCase> cases = {};   // empty: the experiment as it is
+  std::vector<Case> cases = {};        // a tuning's, each with its experiment and all its sets
 };
 
 // A file of SQLite, or one that is called so. Whether it holds a study is seen when it is read.

@@ -226,7 +226,12 @@ TEST_F(ResultsTest, RefusesWhatIsNoStudy) {
       << refusal();
   sqlite3_exec(db, "PRAGMA user_version = 1", nullptr, nullptr, nullptr);
   EXPECT_NE(refusal().find("an older Sinew wrote it"), std::string::npos) << refusal();
-  sqlite3_exec(db, "PRAGMA user_version = 2; UPDATE study SET value = 'x' WHERE key = 'hash'",
+  sqlite3_exec(db, "PRAGMA user_version = 2; UPDATE study SET value = 'x' WHERE key = 'cases'",
+               nullptr, nullptr, nullptr);
+  EXPECT_NE(refusal().find("is damaged: its cases cannot be read"), std::string::npos) << refusal();
+  sqlite3_exec(db,
+               "UPDATE study SET value = '[]' WHERE key = 'cases';"
+               "UPDATE study SET value = 'x' WHERE key = 'hash'",
                nullptr, nullptr, nullptr);
   EXPECT_NE(refusal().find("is damaged"), std::string::npos) << refusal();
   sqlite3_close(db);
