@@ -19,10 +19,8 @@
 // nothing in common but the body is coupled by x and y alone: the mass matrix is taken apart from
 // the tips inwards, where each row has entries with what it hangs on and nothing else.
 //
-// N is the number of links that there is room for. A small body has just so many: its loops are
-// then known to the compiler. Where its links moreover hang one on the other, on a trolley that
-// moves, the coordinates above one are all that come before it: no tree is walked, and the bits are
-// those of the walk.
+// N is the number of links that there is room for; a small body has just so many. Where these moreover
+// hang one on the other, on a trolley that moves, no tree is walked, with the same bits.
 #pragma once
 
 #include <algorithm>
@@ -107,6 +105,10 @@ class Body {
   // What the forces alone cause: the inverse mass matrix times `force`.
   Coordinates<N> response(const Coordinates<N>& force) const;
 
+  // The same where no coordinate behind the given one is forced: the same bits, sooner.
+  template <std::size_t Last>
+  Coordinates<N> response_up_to(const Coordinates<N>& force) const;
+
  private:
   void factor();
   void factor_tree();
@@ -121,7 +123,8 @@ class Body {
   }
   template <bool Lifts>
   void factor_chain();
-  template <bool Lifts>
+  // Forced is how many of them there are up to the last one that a force acts on.
+  template <bool Lifts, std::size_t Forced = moving<Lifts>>
   Coordinates<N> response_of_chain(Coordinates<N> force) const;
 
   const BodyConstants<N>& k_;
@@ -283,11 +286,11 @@ void Body<N>::factor_chain() {
 }
 
 template <int N>
-template <bool Lifts>
+template <bool Lifts, std::size_t Forced>
 Coordinates<N> Body<N>::response_of_chain(Coordinates<N> a) const {
   if (!Lifts) a[up] = 0;
-  unroll<moving<Lifts>>([&](auto from_last) {
-    constexpr std::size_t c = moving<Lifts> - 1 - from_last, at = coordinate<Lifts>(c);
+  unroll<Forced>([&](auto from_last) {
+    constexpr std::size_t c = Forced - 1 - from_last, at = coordinate<Lifts>(c);
     unroll<c>([&](auto k) {
       constexpr std::size_t i = coordinate<Lifts>(k);
       a[i] -= lower_[at][i] * a[at];
@@ -310,6 +313,16 @@ Coordinates<N> Body<N>::response(const Coordinates<N>& force) const {
   if constexpr (BodyConstants<N>::exact)
     if (k_.chain)
       return k_.held[up] ? response_of_chain<false>(force) : response_of_chain<true>(force);
+  return response_of_tree(force);
+}
+
+template <int N>
+template <std::size_t Last>
+Coordinates<N> Body<N>::response_up_to(const Coordinates<N>& force) const {
+  if constexpr (BodyConstants<N>::exact)
+    if (k_.chain)
+      return k_.held[up] ? response_of_chain<false, (Last > up ? Last : Last + 1)>(force)
+                         : response_of_chain<true, Last + 1>(force);
   return response_of_tree(force);
 }
 

@@ -28,6 +28,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <type_traits>
 
 #include "sinew/plant/friction/friction.h"
 #include "sinew/plant/planar/body.h"
@@ -147,7 +148,11 @@ class FrictionContacts {
   Coordinates<N> row(int c) const;
   // The product of contact c's row with rates or accelerations.
   double along(int c, const Coordinates<N>& row, const Coordinates<N>& v) const;
-  void soften(double h, FrictionProblem<count>& problem) const;
+  // Count is a number, or a constant of a type of its own.
+  template <class Count>
+  Forces hold_of(double h, const Forces& last, Count active) const;
+  template <class Count>
+  void soften(double h, Count active, FrictionProblem<count>& problem) const;
   void relax_touching(double time, const Normals& pushed, const Coordinates<N>& before,
                       Coordinates<N>& a) const;
   void eliminate(Matrix& m) const;

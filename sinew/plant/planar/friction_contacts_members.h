@@ -131,20 +131,29 @@ void FrictionContacts<N, D>::prepare(const Pose& pose, const BodyState<N>& motio
   active_count_ = 0;
   touching_count_ = 0;
   std::array<Coordinates<N>, count> rows;
-  const auto activate = [&](int c, const Coordinates<N>& row, double bias) {
+  const auto activate = [&](auto last_forced, int c, const Coordinates<N>& row, double bias) {
     const auto k = static_cast<std::size_t>(active_count_++);
     active_[k] = c;
     rows[k] = row;
     problem_.bound[k] = bound[static_cast<std::size_t>(c)];
     problem_.slip[k] = along(c, row, motion.rate);
     slip_rate_[k] = along(c, row, acceleration) + bias;
-    column_[k] = pose.response(rows[k]);
+    column_[k] = pose.template response_up_to<last_forced>(rows[k]);
   };
   const auto rubs = [&](int c) { return bound[static_cast<std::size_t>(c)] > 0; };
-  for (int c = 0; c < static_cast<int>(k_.links()); ++c)
-    if (rubs(c)) activate(c, row(c), 0);
-  for (const int c : {trolley, lift})
-    if (rubs(c)) activate(c, row(c), 0);
+  using All = std::integral_constant<std::size_t, N + 1>;
+  if constexpr (BodyConstants<N>::exact) {
+    unroll<N>([&](auto joint) {
+      constexpr int c = joint;
+      if (rubs(c)) activate(std::integral_constant<std::size_t, first_link + c>{}, c, row(c), 0);
+    });
+  } else {
+    for (int c = 0; c < static_cast<int>(k_.links()); ++c)
+      if (rubs(c)) activate(All{}, c, row(c), 0);
+  }
+  if (rubs(trolley))
+    activate(std::integral_constant<std::size_t, along_track>{}, trolley, row(trolley), 0);
+  if (rubs(lift)) activate(std::integral_constant<std::size_t, up>{}, lift, row(lift), 0);
   std::array<DiscAt<N>, D> discs;  // of those that touch
   for (int i = 0; i < disc_count_; ++i) {
     const double force = normal[static_cast<std::size_t>(i)];
@@ -153,7 +162,7 @@ void FrictionContacts<N, D>::prepare(const Pose& pose, const BodyState<N>& motio
     at = pose.contact[static_cast<std::size_t>(i)];
     touching_[touching_count_] = i;
     normal_[touching_count_++] = force;
-    if (rubs(first_disc + i)) activate(first_disc + i, at.slip, at.slip_bias);
+    if (rubs(first_disc + i)) activate(All{}, first_disc + i, at.slip, at.slip_bias);
   }
   const auto n = static_cast<std::size_t>(active_count_);
   for (std::size_t d = 0; d < n; ++d)
@@ -202,8 +211,9 @@ void FrictionContacts<N, D>::solve(const Matrix& m, Normals& b) const {
 
 // The ground's give within the step, put into slips, responses and bounds.
 template <int N, int D>
-void FrictionContacts<N, D>::soften(double h, FrictionProblem<count>& p) const {
-  const auto n = static_cast<std::size_t>(active_count_);
+template <class Count>
+void FrictionContacts<N, D>::soften(double h, Count active, FrictionProblem<count>& p) const {
+  const auto n = static_cast<std::size_t>(active);
   const std::size_t touching = touching_count_;
   const double k = ground_.normal_stiffness;
   const double beta = h * (h / 6.0 * k + 0.5 * ground_.normal_damping);
@@ -265,7 +275,19 @@ void FrictionContacts<N, D>::relax_touching(double time, const Normals& pushed,
 
 template <int N, int D>
 auto FrictionContacts<N, D>::hold(double h, const Forces& last) const -> Forces {
-  const auto n = static_cast<std::size_t>(active_count_);
+  // A leg with an ankle: the usual numbers of contacts, known to the compiler.
+  if constexpr (N == 3 && D == 2) {
+    if (active_count_ == 4) return hold_of(h, last, std::integral_constant<int, 4>{});
+    if (active_count_ == 5) return hold_of(h, last, std::integral_constant<int, 5>{});
+    if (active_count_ == 6) return hold_of(h, last, std::integral_constant<int, 6>{});
+  }
+  return hold_of(h, last, active_count_);
+}
+
+template <int N, int D>
+template <class Count>
+auto FrictionContacts<N, D>::hold_of(double h, const Forces& last, Count active) const -> Forces {
+  const auto n = static_cast<std::size_t>(active);
   FrictionProblem<count> p;
   Forces before{};
   for (std::size_t c = 0; c < n; ++c) {
@@ -274,8 +296,8 @@ auto FrictionContacts<N, D>::hold(double h, const Forces& last) const -> Forces 
     p.slip[c] = problem_.slip[c] + h * slip_rate_[c];
     for (std::size_t d = 0; d < n; ++d) p.response[c][d] = h * problem_.response[c][d];
   }
-  if (touching_count_ > 0) soften(h, p);
-  const Forces solved = solve_friction<count>(p, before, active_count_);
+  if (touching_count_ > 0) soften(h, active, p);
+  const Forces solved = solve_friction<count>(p, before, active);
   Forces all{};
   for (std::size_t c = 0; c < n; ++c) all[static_cast<std::size_t>(active_[c])] = solved[c];
   return all;
