@@ -210,6 +210,14 @@ std::string to_text(const Trip& trip, const robot::Robot& robot, int board) {
   if (trip.cause == gap)
     return fmt::format("the clock{} at {:.4f} s: a tick came {} ticks or more too late", on, at,
                        trip.high);
+  const double limit = static_cast<double>(trip.high) * signals::tick_seconds;
+  if (trip.cause == host)
+    return fmt::format("the host{} at {:.4f} s: no command for {:g} s", on, at, limit);
+  if (trip.cause == held)
+    return fmt::format(
+        "the board{} at {:.4f} s: all valves were shut for {:g} s, as long as they may be", on, at,
+        limit);
+  if (trip.cause == asked) return fmt::format("shut down{} at {:.4f} s, as was asked", on, at);
   if (trip.cause == command) {
     const std::size_t j = trip.joint;
     const std::string name =

@@ -18,17 +18,27 @@ struct SensorSeen {
   std::uint32_t longest = 0;   // of them, in a row
 };
 
-// Why the run was ended; what is not of the cause is 0.
+// Why the run was ended; what is not of the cause is 0. The last three are a board's (safety.h).
 struct Trip {
-  enum class Cause : std::uint8_t { none, range, rate, frozen, gap, command };
+  enum class Cause : std::uint8_t {
+    none,
+    range,
+    rate,
+    frozen,
+    gap,
+    command,
+    host,   // silent for too long
+    held,   // all valves were shut for as long as they may be
+    asked,  // shut down at once, by whoever may ask
+  };
 
   Cause cause = Cause::none;
   signals::Tick at = 0;      // when the supervisor knew
   signals::Channel channel;  // range, rate, frozen
   std::uint16_t counts = 0;  // that it read there; before = last good ones
   std::uint16_t before = 0;  // [count]
-  std::int32_t low = 0;      // the limit that was broken: range [count]; rate, frozen, gap and
-  std::int32_t high = 0;     // command: `high`, in counts, scans, ticks, commands
+  std::int32_t low = 0;      // the limit that was broken: range [count]; else `high`: rate
+  std::int32_t high = 0;     // [count], frozen [scans], gap, host, held [ticks], command [commands]
   std::uint8_t joint = 0;    // command
 };
 

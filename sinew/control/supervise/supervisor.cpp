@@ -71,12 +71,16 @@ void Supervisor::trip(const Trip& trip, Tick vent_at) noexcept {
   spine_.trip(Status::fault, trip.channel, vent_at);
 }
 
+void Supervisor::end_run(Trip::Cause cause, std::uint32_t limit, Tick t) noexcept {
+  trip({.cause = cause, .at = t, .high = shown(limit)}, t);
+}
+
 // --- the clock ----------------------------------------------------------------------------------
 
 // The first call of a new tick: is it the one that was announced?
 void Supervisor::enter(Tick t) noexcept {
   if (t <= now_) return;
-  const Tick announced = now_ < 0 ? t : spine_.next_event(now_);
+  const Tick announced = now_ < 0 ? t : every_tick_ ? now_ + 1 : spine_.next_event(now_);
   now_ = t;
   if (t > announced) gap(announced, t);
 }
@@ -267,7 +271,11 @@ void Supervisor::reject_command(std::uint8_t joint) noexcept {
   ++supervised_.rejected_commands;
   bad_joint_ = joint;
   if (bad_commands_ < limits_.vent_commands) ++bad_commands_;
-  if (bad_commands_ != limits_.hold_commands) return;
+  if (bad_commands_ == limits_.hold_commands) hold();
+}
+
+void Supervisor::hold() noexcept {
+  if (supervised_.holding) return;
   supervised_.holding = true;
   ++supervised_.holds;
   Command shut = good_;

@@ -51,6 +51,18 @@ class Supervisor {
   void missed(signals::Tick t) noexcept { spine_.missed(t); }
   void shut_down(signals::Tick t) noexcept { spine_.shut_down(t); }
 
+  // --- for who knows more than readings, commands and the clock (safety.h) ---
+
+  // Shuts all valves until the next good command.
+  void hold() noexcept;
+
+  // From now on each tick is announced, as by a board's timer: one that is missed is a gap also
+  // where nothing would have happened.
+  void expect_every_tick() noexcept { every_tick_ = true; }
+
+  // Vents from t on, without the delay of a law.
+  void end_run(Trip::Cause cause, std::uint32_t limit, signals::Tick t) noexcept;
+
   const Supervised& supervised() const noexcept { return supervised_; }
   const SuperviseConfig& limits() const noexcept { return limits_; }
 
@@ -89,6 +101,7 @@ class Supervisor {
   Supervised supervised_;
 
   signals::Tick now_ = -1;  // the last visited tick
+  bool every_tick_ = false;
   std::array<Watch, max_channels> watch_;
   Command good_;                    // the last good command
   bool commanded_ = false;          // there was one

@@ -19,8 +19,8 @@
 // nothing in common but the body is coupled by x and y alone: the mass matrix is taken apart from
 // the tips inwards, where each row has entries with what it hangs on and nothing else.
 //
-// N is the number of links that there is room for; a small body has just so many. Where these moreover
-// hang one on the other, on a trolley that moves, no tree is walked, with the same bits.
+// N is the number of links that there is room for; a small body has just so many. Where these
+// moreover hang one on the other, on a trolley that moves, no tree is walked, with the same bits.
 #pragma once
 
 #include <algorithm>

@@ -1,0 +1,76 @@
+#include "sinew/control/supervise/output_stage.h"
+
+namespace sinew::control {
+namespace {
+
+// Zero for a valve that no board has.
+constexpr OpenMask bit(signals::Valve valve) noexcept {
+  return valve.index < max_valves ? OpenMask{1} << valve.index : 0u;
+}
+
+constexpr bool has_exhaust(JointKind kind) noexcept {
+  return kind == JointKind::antagonist || kind == JointKind::cylinder;
+}
+
+}  // namespace
+
+OutputStage::OutputStage(const JointControllerConfig& machine, std::uint32_t refractory) noexcept
+    : refractory_(refractory) {
+  for (std::size_t j = 0; j < machine.joints; ++j) {
+    const JointConfig& joint = machine.joint[j];
+    if (!has_exhaust(joint.kind)) continue;
+    for (const MuscleConfig* m : {&joint.flexor, &joint.extensor}) {
+      if (!m->present) continue;
+      exhausts_ |= bit(m->exhaust);
+      if (m->exhaust_inverted) inverted_ |= bit(m->exhaust);
+      if (joint.kind == JointKind::antagonist) pair_[pairs_++] = {bit(m->inlet), bit(m->exhaust)};
+    }
+  }
+}
+
+void OutputStage::drive(const signals::Edge& edge) noexcept {
+  const OpenMask valve = bit(edge.valve);
+  if (valve == 0) return;
+  const bool open = edge.open != ((inverted_ & valve) != 0);
+  asked_ = open ? asked_ | valve : asked_ & ~valve;
+  level_[edge.valve.index] = edge.level;
+}
+
+void OutputStage::shut_all() noexcept {
+  asked_ = 0;
+  for (std::uint16_t& level : level_) level = 0;
+}
+
+void OutputStage::vent(signals::Tick now) noexcept {
+  shut_all();
+  asked_ = exhausts_;
+  has_shut_ &= ~exhausts_;  // nothing waits
+  (void)at(now);
+}
+
+OpenMask OutputStage::at(signals::Tick now) noexcept {
+  if (asked_ == worked_off_ && kept_ == 0) return open_;
+  worked_off_ = asked_;
+  OpenMask allowed = asked_, locked = 0, kept = 0;
+  for (std::size_t i = 0; i < pairs_; ++i)
+    if (asked_ & pair_[i].exhaust) locked |= allowed & pair_[i].inlet;
+  allowed &= ~locked;
+  for (std::size_t v = 0; v < max_valves && refractory_ > 0; ++v) {
+    const OpenMask one = OpenMask{1} << v;
+    if ((allowed & ~open_ & has_shut_ & one) == 0) continue;
+    if (now - shut_at_[v] < static_cast<signals::Tick>(refractory_)) kept |= one;
+  }
+  allowed &= ~kept;
+  for (std::size_t v = 0; v < max_valves; ++v) {
+    const OpenMask one = OpenMask{1} << v;
+    if ((open_ & ~allowed & one) != 0) shut_at_[v] = now;
+    interlocks_ += (locked & ~locked_ & one) != 0;
+    refractories_ += (kept & ~kept_ & one) != 0;
+  }
+  has_shut_ |= open_ & ~allowed;
+  locked_ = locked;
+  kept_ = kept;
+  return open_ = allowed;
+}
+
+}  // namespace sinew::control
