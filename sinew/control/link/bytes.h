@@ -125,6 +125,27 @@ class Reader {
   bool ok_ = true, too_short_ = false;
 };
 
+// Sizer counts what a Writer would write.
+class Sizer {
+ public:
+  static constexpr bool reads = false;
+
+  constexpr std::size_t size() const noexcept { return size_; }
+
+  template <class T>
+  constexpr void whole(const T&) noexcept {
+    size_ += sizeof(T);
+  }
+  template <class T>
+  constexpr void limited(const T& x, T, T) noexcept {
+    whole(x);
+  }
+  constexpr void finite(const float& x) noexcept { whole(x); }
+
+ private:
+  std::size_t size_ = 0;
+};
+
 // --- what is no number by itself, for either of them
 // ----------------------------------------------
 

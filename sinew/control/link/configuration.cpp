@@ -5,27 +5,11 @@
 namespace sinew::link {
 namespace {
 
-// Sizer counts what a Writer would write.
-struct Sizer {
-  static constexpr bool reads = false;
-  std::size_t size = 0;
-
-  template <class T>
-  constexpr void whole(const T&) noexcept {
-    size += sizeof(T);
-  }
-  template <class T>
-  constexpr void limited(const T&, T, T) noexcept {
-    size += sizeof(T);
-  }
-  constexpr void finite(const float&) noexcept { size += sizeof(float); }
-};
-
 constexpr std::size_t counted() noexcept {
   Sizer io;
   const Configuration any;
   fields(io, any);
-  return io.size;
+  return io.size();
 }
 static_assert(counted() == configuration_size, "its fields have another size");
 
