@@ -4,10 +4,10 @@
 //   period      0        1        2        3        4
 //   command           from = 1, periods = 2: good for 1 and 2, over in 3
 //
-// One that is over is refused, and so is one more than `ahead` periods before its time. Where
-// several are good for a period the one that begins last is taken; of two that begin together, the
-// one that came last. Where none is good, the host is lost and at() says so: what then happens is
-// the board's affair (it vents).
+// One that is over is refused, and so is one more than `ahead` periods before its time. When one
+// begins, those that began before it are over, however long they were good for: nothing goes back
+// to them. Of two that begin together the one that came last is taken. Where none is good, the host
+// is lost and at() says so: what then happens is the board's affair (it vents).
 #pragma once
 
 #include <array>
@@ -29,9 +29,9 @@ class CommandQueue {
   constexpr Code put(const CommandFor& command, signals::Tick begun) noexcept {
     const signals::Tick before = command.from - begun;  // both are within max_tick
     if (before > signals::Tick{ahead} * period_) return Code::future;
-    if (before <= -signals::Tick{command.periods} * period_) return Code::past;
-    // It was good for the period that runs; only what is still to come counts.
+    // It may be good for the period that runs; only what is still to come counts.
     if (before + signals::Tick{command.periods} * period_ <= period_) return Code::past;
+    if (command.from < newest_) return Code::past;
     if (static_cast<std::int32_t>(before) % period_ != 0) return Code::period;
     place_for(command.from) = {command, true};
     return Code::done;
@@ -40,20 +40,17 @@ class CommandQueue {
   // At a period's first tick: its command, nullptr where there is none. Ticks never decrease.
   constexpr const CommandFor* at(signals::Tick begins) noexcept {
     const CommandFor* out = nullptr;
-    for (Slot& s : slot_) {
-      if (!s.used) continue;
-      const signals::Tick end = s.command.from + signals::Tick{s.command.periods} * period_;
-      if (end <= begins)
-        s.used = false;
-      else if (s.command.from <= begins && (!out || s.command.from > out->from))
+    for (const Slot& s : slot_)
+      if (s.used && s.command.from <= begins && s.command.from >= newest_) {
+        newest_ = s.command.from;
         out = &s.command;
-    }
-    return out;
+      }
+    for (Slot& s : slot_)
+      if (s.command.from < newest_) s.used = false;
+    return out && begins < out->from + signals::Tick{out->periods} * period_ ? out : nullptr;
   }
 
-  constexpr void clear() noexcept {
-    for (Slot& s : slot_) s.used = false;
-  }
+  constexpr void clear() noexcept { *this = CommandQueue(period_); }
 
  private:
   struct Slot {
@@ -74,6 +71,7 @@ class CommandQueue {
   }
 
   std::uint16_t period_;
+  signals::Tick newest_ = 0;  // of those that have begun, the last
   // Those to come, and the one that holds.
   std::array<Slot, ahead + 1> slot_;
 };
