@@ -1,5 +1,5 @@
 #!/bin/sh
-# same-bits.sh BUILD_DIR: the spinal cord's self-test on the host and on an emulated Cortex-M4F
+# same-bits.sh BUILD_DIR: the self-test of spinal cord and wire on the host and on an emulated Cortex-M4F
 # must print the same hash. BUILD_DIR is the firmware's build folder, or an empty one to build in.
 # Skips (exit 0, says so) where the cross compiler or the emulator is not installed.
 set -eu
@@ -30,9 +30,11 @@ board=$(timeout 120 qemu-system-arm -M mps2-an386 -nographic -monitor none -seri
 # The host at two levels of optimisation: the compiler must not matter either.
 for level in -O0 -O3; do
   ${CXX:-g++} -std=c++20 $level -ffp-contract=off -fno-math-errno -I"$root" -o "$build/same-bits-host" \
-    "$here/same_bits.cpp" "$root"/sinew/control/joint/config.cpp \
+    "$here/same_bits.cpp" "$here/same_bits_link.cpp" "$root"/sinew/control/joint/config.cpp \
     "$root"/sinew/control/joint/joint_controller.cpp "$root"/sinew/control/joint/joint_controller_laws.cpp \
-    "$root"/sinew/control/supervise/supervisor.cpp
+    "$root"/sinew/control/supervise/supervisor.cpp "$root"/sinew/control/link/baud.cpp \
+    "$root"/sinew/control/link/configuration.cpp "$root"/sinew/control/link/frame.cpp \
+    "$root"/sinew/control/link/telemetry.cpp "$root"/sinew/control/link/thesis_words.cpp
   host=$("$build/same-bits-host")
   if [ -z "$host" ] || [ "$host" != "$board" ]; then
     echo "same-bits: host ($level) $host, Cortex-M4F $board" >&2

@@ -1,10 +1,12 @@
 // firmware/same_bits.cpp - runs the spinal cord over seeded random periods, alone and supervised,
-// and prints a hash of all it did: duties, edges, stiffnesses, counters bit for bit.
+// and the wire over random messages; prints a hash of all they did: duties, edges, stiffnesses,
+// counters, frames bit for bit.
 // firmware/same-bits.sh compares controller and host.
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware/same_bits.h"
 #include "sinew/control/joint/joint_controller.h"
 #include "sinew/control/joint/test_leg.h"
 #include "sinew/control/supervise/supervisor.h"
@@ -23,35 +25,6 @@ using control::Truncation;
 using signals::Tick;
 
 constexpr Tick periods = 5000;  // per run
-
-// Fowler-Noll-Vo, 64 bits, a word at a time.
-class Hash {
- public:
-  template <class Word>  // 32 bits, whatever they mean
-  void add(Word word) {
-    value_ = (value_ ^ std::bit_cast<std::uint32_t>(word)) * 0x100000001b3u;
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325u;
-};
-
-// xorshift32 (Marsaglia 2003)
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : state_(seed) {}
-  std::uint32_t below(std::uint32_t n) {
-    state_ ^= state_ << 13;
-    state_ ^= state_ >> 17;
-    state_ ^= state_ << 5;
-    return (state_ >> 8) % n;
-  }
-  float unit() { return static_cast<float>(below(1u << 24)) / static_cast<float>(1u << 24); }
-
- private:
-  std::uint32_t state_;
-};
 
 void random_command(Random& random, Command& command) {
   for (std::size_t j = 0; j < 3; ++j) {
@@ -205,6 +178,7 @@ void same_bits() {
   }
   other_machines(hash);
   for (std::uint32_t seed = 1; seed <= 6; ++seed) run_supervised(seed, hash);
+  run_link(7, hash);
   print_hex(hash.value());
 }
 

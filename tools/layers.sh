@@ -18,6 +18,7 @@ layers='
     robot/wiring    robot
     control/joint   signals
     control/supervise  control/joint signals
+    control/link    control/supervise control/joint signals
     control/gait    robot signals
     control/setup   control robot config
     config          units
@@ -258,6 +259,8 @@ self_test() {
   expect sinew/control/joint/a.h  '#include "sinew/control/gait/a.h"'          'may not include control/gait'
   expect sinew/control/supervise/a.h '#include "sinew/control/joint/a.h"'      ''
   expect sinew/control/joint/a.h  '#include "sinew/control/supervise/a.h"'     'may not include control/supervise'
+  expect sinew/control/link/a.h   '#include "sinew/control/supervise/a.h"'     ''
+  expect sinew/control/supervise/a.h '#include "sinew/control/link/a.h"'       'may not include control/link'
   expect sinew/plant/planar/a.cpp '#include "sinew/log/writer.h"'              'plant/planar may not include log'
   expect sinew/plant/recorded/a.h '#include "sinew/log/reader.h"'              ''
   expect sinew/run/setup/a.h      '#include "sinew/plant/world/world.h"'       ''  # plant stands for it

@@ -1,0 +1,195 @@
+// control/link/bytes.h - numbers as bytes, little-endian, and back: never beyond the end, never out
+// of range.
+//
+// A message lists its fields once (messages.h); Writer and Reader go over the same list, so that
+// the two ends cannot differ. Both have
+//
+//   whole(x)               an integer, a float, all of its bits
+//   limited(x, low, high)  the same, refused outside
+//   finite(x)              a float, refused where it is infinite or not a number
+//
+// and the functions below, for what is no number by itself. After a refusal ok() is false, and what
+// follows is neither written nor read.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+namespace sinew::link {
+
+namespace as_bits {
+
+// The unsigned integer that has a type's bits.
+template <class T>
+using Of = std::conditional_t<
+    sizeof(T) == 1, std::uint8_t,
+    std::conditional_t<sizeof(T) == 2, std::uint16_t,
+                       std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>>>;
+
+}  // namespace as_bits
+
+// All bits of the exponent are set in what is infinite or not a number.
+constexpr bool is_finite(float x) noexcept {
+  return (std::bit_cast<std::uint32_t>(x) & 0x7f800000u) != 0x7f800000u;
+}
+
+class Writer {
+ public:
+  static constexpr bool reads = false;
+
+  constexpr explicit Writer(std::span<std::uint8_t> out) noexcept : out_(out) {}
+
+  constexpr bool ok() const noexcept { return ok_; }
+  constexpr std::size_t size() const noexcept { return size_; }
+
+  template <class T>
+  constexpr void whole(const T& x) noexcept {
+    require(out_.size() - size_ >= sizeof(T));
+    if (!ok_) return;
+    as_bits::Of<T> bits = std::bit_cast<as_bits::Of<T>>(x);
+    for (std::size_t i = 0; i < sizeof(T); ++i) {
+      out_[size_++] = static_cast<std::uint8_t>(bits & 0xffu);
+      if constexpr (sizeof(T) > 1) bits = static_cast<as_bits::Of<T>>(bits >> 8);
+    }
+  }
+
+  template <class T>
+  constexpr void limited(const T& x, T low, T high) noexcept {
+    require(x >= low && x <= high);
+    whole(x);
+  }
+  constexpr void finite(const float& x) noexcept {
+    require(is_finite(x));
+    whole(x);
+  }
+
+ private:
+  constexpr void require(bool holds) noexcept { ok_ = ok_ && holds; }
+
+  std::span<std::uint8_t> out_;
+  std::size_t size_ = 0;
+  bool ok_ = true;
+};
+
+// A number that is not there, or out of range, is left as it was.
+class Reader {
+ public:
+  static constexpr bool reads = true;
+
+  constexpr explicit Reader(std::span<const std::uint8_t> in) noexcept : in_(in) {}
+
+  constexpr bool ok() const noexcept { return ok_; }
+  // Bytes that were expected and are not there; else a refusal is one of a value.
+  constexpr bool too_short() const noexcept { return too_short_; }
+  constexpr std::size_t left() const noexcept { return in_.size() - size_; }
+
+  template <class T>
+  constexpr void whole(T& x) noexcept {
+    if (!ok_) return;
+    if (left() < sizeof(T)) {
+      ok_ = false;
+      too_short_ = true;
+      return;
+    }
+    as_bits::Of<T> bits = 0;
+    for (std::size_t i = sizeof(T); i-- > 0;) {
+      if constexpr (sizeof(T) > 1) bits = static_cast<as_bits::Of<T>>(bits << 8);
+      bits = static_cast<as_bits::Of<T>>(bits | in_[size_ + i]);
+    }
+    size_ += sizeof(T);
+    x = std::bit_cast<T>(bits);
+  }
+
+  template <class T>
+  constexpr void limited(T& x, T low, T high) noexcept {
+    T found = low;
+    whole(found);
+    if (found < low || found > high) ok_ = false;
+    if (ok_) x = found;
+  }
+  constexpr void finite(float& x) noexcept {
+    float found = 0;
+    whole(found);
+    if (!is_finite(found)) ok_ = false;
+    if (ok_) x = found;
+  }
+
+ private:
+  std::span<const std::uint8_t> in_;
+  std::size_t size_ = 0;
+  bool ok_ = true, too_short_ = false;
+};
+
+// Sizer counts what a Writer would write.
+class Sizer {
+ public:
+  static constexpr bool reads = false;
+
+  constexpr std::size_t size() const noexcept { return size_; }
+
+  template <class T>
+  constexpr void whole(const T&) noexcept {
+    size_ += sizeof(T);
+  }
+  template <class T>
+  constexpr void limited(const T& x, T, T) noexcept {
+    whole(x);
+  }
+  constexpr void finite(const float& x) noexcept { whole(x); }
+
+ private:
+  std::size_t size_ = 0;
+};
+
+// --- what is no number by itself, for either of them
+// ----------------------------------------------
+
+// `x` as a number of type T between low and high, or the other way round.
+template <class T, class Io, class X>
+constexpr void number_as(Io& io, X& x, T low, T high) noexcept {
+  T value = low;
+  if constexpr (Io::reads) {
+    io.limited(value, low, high);
+    x = static_cast<X>(value);
+  } else {
+    // What the smaller type cannot hold must not wrap into the range.
+    const bool fits = static_cast<X>(static_cast<T>(x)) == x;
+    value = fits ? static_cast<T>(x) : static_cast<T>(high + 1);
+    io.limited(value, low, high);
+  }
+}
+
+// A byte, 0 or 1.
+template <class Io, class X>
+constexpr void flag(Io& io, X& x) noexcept {
+  number_as<std::uint8_t>(io, x, 0, 1);
+}
+
+// An enumerator, from the first one, 0, to `last`.
+template <class Io, class X>
+constexpr void choice(Io& io, X& x, std::remove_const_t<X> last) noexcept {
+  number_as<std::uint8_t>(io, x, 0, static_cast<std::uint8_t>(last));
+}
+
+// How many there are, or a place among them, as a byte up to `most`; most < 255.
+template <class Io, class X>
+constexpr void count(Io& io, X& x, std::size_t most) noexcept {
+  number_as<std::uint8_t>(io, x, 0, static_cast<std::uint8_t>(most));
+}
+
+// Letters of ASCII; behind the last one are zeros.
+template <class Io, class X>
+constexpr void letters(Io& io, X& x) noexcept {
+  for (auto& c : x) number_as<std::uint8_t>(io, c, 0, 126);
+}
+
+// True for M = X and M = const X: a list of fields serves for both directions.
+template <class M, class X>
+concept Is = std::same_as<std::remove_const_t<M>, X>;
+
+}  // namespace sinew::link

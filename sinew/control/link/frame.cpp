@@ -1,0 +1,102 @@
+#include "sinew/control/link/frame.h"
+
+#include "sinew/control/link/bytes.h"
+#include "sinew/control/link/crc.h"
+
+namespace sinew::link {
+namespace {
+
+template <class T>
+T number_at(std::span<const std::uint8_t> bytes, std::size_t at) noexcept {
+  T out = 0;
+  Reader(bytes.subspan(at, sizeof(T))).whole(out);
+  return out;
+}
+
+}  // namespace
+
+std::size_t encode(std::uint8_t type, Envelope envelope, std::span<const std::uint8_t> body,
+                   std::span<std::uint8_t> out) noexcept {
+  if (body.size() > max_body || out.size() < min_frame + body.size()) return 0;
+  Writer to(out);
+  for (const std::uint8_t byte :
+       {sync_first, sync_second, type, envelope.sequence,
+        static_cast<std::uint8_t>(min_payload + body.size()), protocol_version, envelope.board})
+    to.whole(byte);
+  for (const std::uint8_t byte : body) to.whole(byte);
+  to.whole(crc32(out.subspan(2, to.size() - 2)));
+  to.whole(crc16(out.subspan(2, to.size() - 2)));
+  return to.size();
+}
+
+std::size_t Decoder::push(std::span<const std::uint8_t> bytes) noexcept {
+  if (bytes.size() > buffer_.size() - end_) {  // to the buffer's begin with what is left
+    for (std::size_t i = begin_; i < end_; ++i) buffer_[i - begin_] = buffer_[i];
+    silence_ = silence_ > begin_ ? silence_ - begin_ : 0;
+    end_ -= begin_;
+    begin_ = 0;
+  }
+  const std::size_t room = buffer_.size() - end_;
+  const std::size_t taken = bytes.size() < room ? bytes.size() : room;
+  for (std::size_t i = 0; i < taken; ++i) buffer_[end_ + i] = bytes[i];
+  end_ += taken;
+  return taken;
+}
+
+const Frame* Decoder::next() noexcept {
+  while (begin_ < end_) switch (look()) {
+      case Look::wait:
+        return nullptr;
+      case Look::skip:
+        ++begin_;
+        ++line_.skipped;
+        break;
+      case Look::frame:
+        ++line_.frames;
+        begin_ += header_size + buffer_[begin_ + 4] + crc16_size;
+        return &frame_;
+    }
+  return nullptr;
+}
+
+// Looks at the place where the next frame may begin.
+Decoder::Look Decoder::look() noexcept {
+  const std::uint8_t* at = buffer_.data() + begin_;
+  if (at[0] != sync_first) return Look::skip;
+  if (const Look l = reach(2); l != Look::frame) return l == Look::skip ? failed(line_.half) : l;
+  if (at[1] != sync_second) return Look::skip;
+  if (const Look l = reach(header_size); l != Look::frame)
+    return l == Look::skip ? failed(line_.half) : l;
+  if (at[4] < min_payload) return failed(line_.length);
+  const std::size_t size = header_size + at[4] + crc16_size;
+  if (const Look l = reach(size); l != Look::frame) return l == Look::skip ? failed(line_.half) : l;
+  return judge({at, size});
+}
+
+// Are so many bytes there, without a silence between them?
+Decoder::Look Decoder::reach(std::size_t bytes) const noexcept {
+  if (begin_ < silence_ && begin_ + bytes > silence_) return Look::skip;
+  return end_ - begin_ < bytes ? Look::wait : Look::frame;
+}
+
+Decoder::Look Decoder::judge(std::span<const std::uint8_t> frame) noexcept {
+  const std::size_t body_end = frame.size() - crc32_size - crc16_size;
+  if (crc16(frame.subspan(2, frame.size() - 4)) !=
+      number_at<std::uint16_t>(frame, frame.size() - crc16_size))
+    return failed(line_.crc16);
+  if (crc32(frame.subspan(2, body_end - 2)) != number_at<std::uint32_t>(frame, body_end))
+    return failed(line_.crc32);
+  constexpr std::size_t body_at = header_size + before_body;
+  frame_ = {.type = frame[2],
+            .version = frame[5],
+            .envelope = {.board = frame[6], .sequence = frame[3]},
+            .body = frame.subspan(body_at, body_end - body_at)};
+  return Look::frame;
+}
+
+Decoder::Look Decoder::failed(std::uint32_t& reason) noexcept {
+  ++reason;
+  return Look::skip;
+}
+
+}  // namespace sinew::link

@@ -1,0 +1,318 @@
+// control/link/messages.h - what a host asks of a board (docs/wire.md has the bytes).
+//
+// A message is a struct; fields() beside it lists what goes over the wire, in order. encode() and
+// decode() go over that list, so that neither end can have another one. What cannot be, a flag of
+// 2, a joint 9, a gain that is no number, is neither sent nor taken.
+//
+//   host                                board
+//   identify                            identity
+//   configure_begin, _chunk..., _end    answer to each; refused as a whole
+//   arm_first                           answer with a number of the board's choice
+//   arm_second with that number         answer: armed
+//   command, every period               telemetry, every period
+//   shut_down                           answer, and it has happened
+//
+// Angles in counts, stiffness in lbf in/rad, duties in percent, times in ticks of 100 us, as
+// everywhere in the low level.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "sinew/control/joint/command.h"
+#include "sinew/control/link/bytes.h"
+#include "sinew/control/link/frame.h"
+#include "sinew/signals/tick.h"
+#include "sinew/signals/timing.h"
+
+namespace sinew::link {
+
+enum class Type : std::uint8_t {
+  identify = 0x01,
+  configure_begin,
+  configure_chunk,
+  configure_end,
+  arm_first,
+  arm_second,
+  command,
+  set_gains,
+  set_feedforward,
+  enable,
+  read_sensors,
+  edges_wanted,
+  read_fault_log,
+  clear_fault,
+  heartbeat,
+  thesis_words,
+  shut_down,
+
+  // A board's
+  identity = 0x81,
+  answer,
+  state,
+  readings,
+  counters,
+  joints,
+  event,
+  edges,
+  fault_log,
+};
+
+// Why something is refused, in a board's answer.
+enum class Code : std::uint8_t {
+  done,
+  version,        // a frame of another protocol version
+  type,           // no message that a board takes
+  length,         // not the length of this type
+  value,          // a number that cannot be
+  state,          // not now: joints run, or none is configured
+  sequence,       // seen before
+  past,           // a command whose periods are over
+  future,         // a command too far ahead
+  period,         // a command that does not begin with a period
+  order,          // configure: no begin before, or a second one
+  gap,            // configure: a chunk that does not follow the last one
+  size,           // configure: not as many bytes as a configuration has
+  checksum,       // configure: the CRC over all does not fit
+  layout,         // configure: bytes of another layout, or a number that cannot be
+  configuration,  // configure: the parts contradict each other; the answer's text says which
+  nonce,          // arm: not the board's number, or for another configuration
+};
+inline constexpr Code last_code = Code::nonce;
+
+// Ticks on the wire are from -1, never, to 3,600 years.
+inline constexpr signals::Tick max_tick = signals::Tick{1} << 60;
+
+// --- a host's messages
+// ----------------------------------------------------------------------------
+
+struct Identify {
+  static constexpr Type type = Type::identify;
+};
+struct ConfigureBegin {
+  static constexpr Type type = Type::configure_begin;
+  std::uint16_t bytes = 0;  // of the whole configuration
+  std::uint32_t crc = 0;    // crc32 over all of them
+};
+inline constexpr std::size_t max_chunk = 200;
+struct ConfigureChunk {
+  static constexpr Type type = Type::configure_chunk;
+  std::uint16_t offset = 0;
+  std::uint8_t count = 0;  // 1 .. max_chunk
+  std::array<std::uint8_t, max_chunk> data{};
+};
+struct ConfigureEnd {
+  static constexpr Type type = Type::configure_end;
+  std::uint32_t crc = 0;  // the same again
+};
+
+// Air is let in only after two different frames, of which the second repeats what the board made
+// up.
+struct ArmFirst {
+  static constexpr Type type = Type::arm_first;
+  std::uint32_t configuration = 0;  // crc32 of the configuration that the host believes is there
+};
+struct ArmSecond {
+  static constexpr Type type = Type::arm_second;
+  std::uint32_t nonce = 0;  // from the answer to the first
+  std::uint32_t configuration = 0;
+};
+
+// What holds from a period on. Joints that are not named keep their last command.
+struct CommandFor {
+  static constexpr Type type = Type::command;
+  signals::Tick from = 0;    // the first tick of a period
+  std::uint8_t periods = 1;  // how many it is good for, 1 .. 100; then the host is taken for lost
+  std::uint8_t joints = 0;   // how many follow, the board's first ones
+  std::array<control::JointCommand, control::max_joints> joint;
+};
+
+// These change what holds between a host's commands.
+struct SetGains {
+  static constexpr Type type = Type::set_gains;
+  std::uint8_t joint = 0;
+  control::Gains gains;
+};
+struct SetFeedforward {
+  static constexpr Type type = Type::set_feedforward;
+  std::uint8_t joint = 0;
+  control::Duties duties;
+};
+struct Enable {
+  static constexpr Type type = Type::enable;
+  std::uint8_t joints = 0;  // a bit for each
+  bool enabled = false;
+};
+
+struct ReadSensors {  // answered by readings
+  static constexpr Type type = Type::read_sensors;
+};
+struct EdgesWanted {
+  static constexpr Type type = Type::edges_wanted;
+  bool wanted = false;
+};
+struct ReadFaultLog {  // answered by fault_log, from that part on
+  static constexpr Type type = Type::read_fault_log;
+  std::uint16_t from = 0;
+};
+struct ClearFault {
+  static constexpr Type type = Type::clear_fault;
+};
+struct Heartbeat {  // where no command says that the host lives
+  static constexpr Type type = Type::heartbeat;
+};
+struct ThesisWords {  // thesis_words.h
+  static constexpr Type type = Type::thesis_words;
+  bool on = false;
+};
+struct ShutDown {  // at once, in every state
+  static constexpr Type type = Type::shut_down;
+};
+
+// --- their fields
+// ---------------------------------------------------------------------------------
+
+template <class Io, class M>
+constexpr void tick(Io& io, M& t) noexcept {
+  io.limited(t, signals::Tick{-1}, max_tick);
+}
+
+template <class Io, Is<control::Duties> M>
+constexpr void fields(Io& io, M& d) noexcept {
+  number_as<std::uint8_t>(io, d.flexor_inlet, 0, signals::max_duty);
+  number_as<std::uint8_t>(io, d.flexor_exhaust, 0, signals::max_duty);
+  number_as<std::uint8_t>(io, d.extensor_inlet, 0, signals::max_duty);
+  number_as<std::uint8_t>(io, d.extensor_exhaust, 0, signals::max_duty);
+}
+template <class Io, Is<control::Gains> M>
+constexpr void fields(Io& io, M& g) noexcept {
+  io.finite(g.angle);
+  io.finite(g.stiffness);
+  io.finite(g.velocity);
+}
+template <class Io, Is<control::JointCommand> M>
+constexpr void fields(Io& io, M& c) noexcept {
+  io.whole(c.angle);
+  io.finite(c.stiffness);
+  fields(io, c.gains);
+  flag(io, c.enabled);
+  flag(io, c.open_loop);
+  fields(io, c.duties);
+}
+
+template <class Io, class M>
+requires(Is<M, Identify> || Is<M, ReadSensors> || Is<M, ClearFault> || Is<M, Heartbeat> ||
+         Is<M, ShutDown>) constexpr void fields(Io&, M&) noexcept {}
+
+template <class Io, Is<ConfigureBegin> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.whole(m.bytes);
+  io.whole(m.crc);
+}
+template <class Io, Is<ConfigureChunk> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.whole(m.offset);
+  io.limited(m.count, std::uint8_t{1}, std::uint8_t{max_chunk});
+  for (std::size_t i = 0; i < m.count; ++i) io.whole(m.data[i]);
+}
+template <class Io, Is<ConfigureEnd> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.whole(m.crc);
+}
+template <class Io, Is<ArmFirst> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.whole(m.configuration);
+}
+template <class Io, Is<ArmSecond> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.whole(m.nonce);
+  io.whole(m.configuration);
+}
+template <class Io, Is<CommandFor> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.limited(m.from, signals::Tick{0}, max_tick);
+  io.limited(m.periods, std::uint8_t{1}, std::uint8_t{100});
+  count(io, m.joints, control::max_joints);
+  for (std::size_t j = 0; j < m.joints; ++j) fields(io, m.joint[j]);
+}
+template <class Io, class M>
+constexpr void joint_number(Io& io, M& joint) noexcept {
+  count(io, joint, control::max_joints - 1);
+}
+template <class Io, Is<SetGains> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  joint_number(io, m.joint);
+  fields(io, m.gains);
+}
+template <class Io, Is<SetFeedforward> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  joint_number(io, m.joint);
+  fields(io, m.duties);
+}
+template <class Io, Is<Enable> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.whole(m.joints);
+  flag(io, m.enabled);
+}
+template <class Io, Is<EdgesWanted> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  flag(io, m.wanted);
+}
+template <class Io, Is<ReadFaultLog> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.whole(m.from);
+}
+template <class Io, Is<ThesisWords> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  flag(io, m.on);
+}
+
+// --- messages in frames
+// ---------------------------------------------------------------------------
+
+// The body alone; 0 bytes where the message has a value that cannot be.
+struct Body {
+  std::array<std::uint8_t, max_body> bytes{};
+  std::size_t size = 0;
+  bool ok = false;
+
+  std::span<const std::uint8_t> span() const noexcept { return {bytes.data(), size}; }
+};
+
+template <class M>
+Body body_of(const M& message) noexcept {
+  Body out;
+  Writer to(out.bytes);
+  fields(to, message);
+  out.ok = to.ok();
+  out.size = out.ok ? to.size() : 0;
+  return out;
+}
+
+// The frame's size in `out`; 0 where the message has a value that cannot be, or does not fit.
+template <class M>
+std::size_t encode(const M& message, Envelope envelope, std::span<std::uint8_t> out) noexcept {
+  const Body body = body_of(message);
+  return body.ok ? encode(static_cast<std::uint8_t>(M::type), envelope, body.span(), out) : 0;
+}
+
+// The fields of a body, which has no byte too many; done or why not. Then `out` is not whole.
+template <class M>
+Code read(std::span<const std::uint8_t> body, M& out) noexcept {
+  Reader from(body);
+  fields(from, out);
+  if (from.too_short()) return Code::length;
+  if (!from.ok()) return Code::value;
+  return from.left() == 0 ? Code::done : Code::length;
+}
+
+template <class M>
+Code decode(const Frame& frame, M& out) noexcept {
+  if (frame.version != protocol_version) return Code::version;
+  if (frame.type != static_cast<std::uint8_t>(M::type)) return Code::type;
+  return read(frame.body, out);
+}
+
+}  // namespace sinew::link

@@ -1,0 +1,302 @@
+// control/link/reports.h - what a board tells a host (docs/wire.md has the bytes).
+//
+// Telemetry of a period is several messages with the same tick, numbered among themselves: together
+// they are all of control::Seen and control::Supervised, bit for bit, for the board's joints and
+// channels (telemetry.h cuts and joins them). One that is lost makes a gap.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "sinew/control/joint/seen.h"
+#include "sinew/control/link/messages.h"
+#include "sinew/control/supervise/supervised.h"
+
+namespace sinew::link {
+
+enum class BoardState : std::uint8_t {
+  empty,       // no configuration
+  configured,  // valves shut
+  arming,      // the first of two frames has come
+  armed,       // commands are followed
+  venting,     // shut down, or a fault
+  fault,       // vented; cleared by a frame
+};
+
+inline constexpr std::size_t name_size = 16;
+using Name = std::array<char, name_size>;  // zeros behind the last letter
+
+struct Identity {
+  static constexpr Type type = Type::identity;
+  std::uint8_t protocol = protocol_version;
+  BoardState state = BoardState::empty;
+  Name firmware{}, board{};
+  std::uint32_t configuration = 0;  // crc32 of the one it has; 0: none
+  std::uint16_t configuration_bytes = 0;
+  std::uint8_t joints = 0, channels = 0, conversions = 0;  // it has room for
+  signals::Tick tick = 0;
+};
+
+inline constexpr std::size_t max_text = 100;
+struct Answer {
+  static constexpr Type type = Type::answer;
+  std::uint8_t to = 0, sequence = 0;  // type and sequence of what it answers
+  Code code = Code::done;
+  std::uint32_t value = 0;  // arm_first: the board's number
+  std::uint8_t letters = 0;
+  std::array<char, max_text> text{};  // what is wrong, in words
+};
+
+// What a board's end of the line has thrown away.
+struct LinkSeen {
+  LineCount line;
+  std::uint32_t refused = 0;   // messages, answered with a code
+  std::uint32_t lost = 0;      // frames, by gaps in their sequence
+  std::uint32_t repeated = 0;  // frames that had been seen before
+  std::uint32_t late = 0;      // commands that came too late
+
+  friend constexpr bool operator==(const LinkSeen&, const LinkSeen&) = default;
+};
+
+// The telemetry's messages of one tick are parts 0 .. parts - 1.
+struct Part {
+  signals::Tick tick = 0;  // the first of a period: as the brain sees it there
+  std::uint8_t part = 0, parts = 1;
+};
+inline constexpr std::size_t max_parts = 8;
+
+// Seen and Supervised but for their arrays.
+struct State {
+  static constexpr Type type = Type::state;
+  Part of;
+  BoardState state = BoardState::empty;
+  std::uint8_t joints = 0, channels = 0;
+  control::Seen seen;              // without joints and readings
+  control::Supervised supervised;  // without sensors
+  LinkSeen link;
+};
+
+struct ChannelSeen {
+  signals::Reading reading;
+  std::uint16_t counts = 0;  // as converted last, believed or not
+};
+struct Readings {
+  static constexpr Type type = Type::readings;
+  Part of;
+  std::uint8_t count = 0;
+  std::array<ChannelSeen, control::max_channels> channel;
+};
+
+inline constexpr std::size_t counters_in_message = 16;
+struct Counters {
+  static constexpr Type type = Type::counters;
+  Part of;
+  std::uint8_t first = 0, count = 0;
+  std::array<control::SensorSeen, counters_in_message> sensor;  // without counts
+};
+
+inline constexpr std::size_t joints_in_message = 4;
+struct Joints {
+  static constexpr Type type = Type::joints;
+  Part of;
+  std::uint8_t first = 0, count = 0;
+  std::array<control::JointSeen, joints_in_message> joint;
+};
+
+struct Event {
+  static constexpr Type type = Type::event;
+  enum class What : std::uint8_t {
+    started,     // the board, after power came; a: why, as the board knows it
+    configured,  // a: crc32
+    armed,
+    shut_down,    // a: 0 by the host, 1 by the thesis's word, 2 by a button
+    tripped,      // a: control::Trip::Cause, b: channel or joint
+    host_silent,  // a: periods without a good command
+    cleared,
+    watchdog,       // the board's own, before the last start
+    edges_dropped,  // a: how many
+  };
+  signals::Tick tick = 0;
+  What what = What::started;
+  std::uint32_t a = 0, b = 0;
+};
+
+struct EdgeSeen {
+  std::uint16_t offset = 0;  // [ticks] since `tick`
+  std::uint8_t valve = 0;
+  bool open = false;
+  std::uint16_t level = 0;
+};
+inline constexpr std::size_t max_edges = 32;
+struct Edges {
+  static constexpr Type type = Type::edges;
+  signals::Tick tick = 0;
+  std::uint8_t count = 0;
+  std::array<EdgeSeen, max_edges> edge;
+};
+
+// The telemetry of the last 200 ms before a fault, message by message: its type and its body.
+inline constexpr std::size_t max_logged = 240;
+struct FaultLog {
+  static constexpr Type type = Type::fault_log;
+  std::uint16_t part = 0, parts = 0;
+  std::uint8_t kind = 0;
+  std::uint8_t count = 0;
+  std::array<std::uint8_t, max_logged> data{};
+};
+
+// --- their fields
+// ---------------------------------------------------------------------------------
+
+template <class Io, Is<Identity> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.whole(m.protocol);
+  choice(io, m.state, BoardState::fault);
+  letters(io, m.firmware);
+  letters(io, m.board);
+  io.whole(m.configuration);
+  io.whole(m.configuration_bytes);
+  count(io, m.joints, 254);
+  count(io, m.channels, 254);
+  count(io, m.conversions, 254);
+  tick(io, m.tick);
+}
+template <class Io, Is<Answer> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.whole(m.to);
+  io.whole(m.sequence);
+  choice(io, m.code, last_code);
+  io.whole(m.value);
+  count(io, m.letters, max_text);
+  for (std::size_t i = 0; i < m.letters; ++i) number_as<std::uint8_t>(io, m.text[i], 1, 126);
+}
+template <class Io, Is<LinkSeen> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.whole(m.line.frames);
+  io.whole(m.line.length);
+  io.whole(m.line.crc16);
+  io.whole(m.line.crc32);
+  io.whole(m.line.half);
+  io.whole(m.line.skipped);
+  io.whole(m.refused);
+  io.whole(m.lost);
+  io.whole(m.repeated);
+  io.whole(m.late);
+}
+template <class Io, Is<Part> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.limited(m.tick, signals::Tick{0}, max_tick);
+  io.limited(m.part, std::uint8_t{0}, std::uint8_t{max_parts - 1});
+  io.limited(m.parts, std::uint8_t{1}, std::uint8_t{max_parts});
+}
+template <class Io, Is<control::Trip> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  choice(io, m.cause, control::Trip::Cause::command);
+  tick(io, m.at);
+  io.whole(m.channel.index);
+  io.whole(m.counts);
+  io.whole(m.before);
+  io.whole(m.low);
+  io.whole(m.high);
+  io.whole(m.joint);
+}
+template <class Io, Is<State> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  fields(io, m.of);
+  choice(io, m.state, BoardState::fault);
+  count(io, m.joints, control::max_joints);
+  count(io, m.channels, control::max_channels);
+  choice(io, m.seen.phase, control::Phase::off);
+  io.whole(m.seen.late);
+  io.whole(m.seen.invalid);
+  io.whole(m.seen.missed);
+  io.whole(m.seen.overruns);
+  choice(io, m.seen.fault, signals::Status::fault);
+  io.whole(m.seen.fault_channel.index);
+  io.whole(m.supervised.rejected);
+  io.whole(m.supervised.rejected_commands);
+  io.whole(m.supervised.gaps);
+  io.whole(m.supervised.worst_gap);
+  flag(io, m.supervised.holding);
+  io.whole(m.supervised.holds);
+  fields(io, m.supervised.trip);
+  fields(io, m.link);
+}
+template <class Io, Is<ChannelSeen> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.whole(m.reading.counts);
+  choice(io, m.reading.status, signals::Status::fault);
+  io.whole(m.counts);
+}
+template <class Io, Is<Readings> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  fields(io, m.of);
+  count(io, m.count, control::max_channels);
+  for (std::size_t i = 0; i < m.count; ++i) fields(io, m.channel[i]);
+}
+// `counts` goes with the readings.
+template <class Io, Is<control::SensorSeen> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.whole(m.rejected);
+  io.whole(m.frozen);
+  io.whole(m.longest);
+}
+template <class Io, Is<Counters> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  fields(io, m.of);
+  count(io, m.first, control::max_channels - 1);
+  count(io, m.count, counters_in_message);
+  for (std::size_t i = 0; i < m.count; ++i) fields(io, m.sensor[i]);
+}
+template <class Io, Is<control::JointSeen> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  tick(io, m.law_at);
+  io.whole(m.stiffness);
+  io.whole(m.stiffness_output);
+  io.whole(m.angle_output);
+  io.whole(m.velocity);
+  fields(io, m.duties);
+  io.whole(m.levels.flexor);
+  io.whole(m.levels.extensor);
+  flag(io, m.enabled);
+  flag(io, m.pole_held);
+  io.whole(m.pole_holds);
+}
+template <class Io, Is<Joints> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  fields(io, m.of);
+  joint_number(io, m.first);
+  count(io, m.count, joints_in_message);
+  for (std::size_t j = 0; j < m.count; ++j) fields(io, m.joint[j]);
+}
+template <class Io, Is<Event> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  tick(io, m.tick);
+  choice(io, m.what, Event::What::edges_dropped);
+  io.whole(m.a);
+  io.whole(m.b);
+}
+template <class Io, Is<EdgeSeen> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.whole(m.offset);
+  io.whole(m.valve);
+  flag(io, m.open);
+  io.limited(m.level, std::uint16_t{0}, signals::max_level);
+}
+template <class Io, Is<Edges> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  tick(io, m.tick);
+  count(io, m.count, max_edges);
+  for (std::size_t i = 0; i < m.count; ++i) fields(io, m.edge[i]);
+}
+template <class Io, Is<FaultLog> M>
+constexpr void fields(Io& io, M& m) noexcept {
+  io.whole(m.part);
+  io.whole(m.parts);
+  io.whole(m.kind);
+  count(io, m.count, max_logged);
+  for (std::size_t i = 0; i < m.count; ++i) io.whole(m.data[i]);
+}
+
+}  // namespace sinew::link

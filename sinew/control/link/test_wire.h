@@ -1,0 +1,135 @@
+// control/link/test_wire.h - all messages, any of them, and lines that spoil them: for the folder's
+// tests, the guard and the fuzzer.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <random>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "sinew/control/link/reports.h"
+
+namespace sinew::link {
+
+using Bytes = std::vector<std::uint8_t>;
+
+// Calls `use` with a message of each type.
+template <class Use>
+void each_host_message(Use use) {
+  use(Identify{}), use(ConfigureBegin{}), use(ConfigureChunk{}), use(ConfigureEnd{});
+  use(ArmFirst{}), use(ArmSecond{}), use(CommandFor{}), use(SetGains{}), use(SetFeedforward{});
+  use(Enable{}), use(ReadSensors{}), use(EdgesWanted{}), use(ReadFaultLog{}), use(ClearFault{});
+  use(Heartbeat{}), use(ThesisWords{}), use(ShutDown{});
+}
+template <class Use>
+void each_board_message(Use use) {
+  use(Identity{}), use(Answer{}), use(State{}), use(Readings{}), use(Counters{}), use(Joints{});
+  use(Event{}), use(Edges{}), use(FaultLog{});
+}
+template <class Use>
+void each_message(Use use) {
+  each_host_message(use);
+  each_board_message(use);
+}
+
+// Anything fills a message with values that can be; floats that need not be finite are any bits.
+class Anything {
+ public:
+  static constexpr bool reads = true;
+
+  explicit Anything(std::mt19937& random, bool most = false) : random_(&random), most_(most) {}
+
+  template <class T>
+  void whole(T& x) {
+    std::uint64_t bits = (std::uint64_t{(*random_)()} << 32) | (*random_)();
+    x = std::bit_cast<T>(static_cast<as_bits::Of<T>>(bits));
+  }
+  template <class T>
+  void limited(T& x, T low, T high) {
+    x = most_ ? high : std::uniform_int_distribution<std::int64_t>(low, high)(*random_);
+  }
+  void finite(float& x) {
+    do whole(x);
+    while (!is_finite(x));
+  }
+
+ private:
+  std::mt19937* random_;
+  bool most_;  // numbers with limits are at the upper one: the longest message
+};
+
+template <class M>
+M any(std::mt19937& random, bool most = false) {
+  M out;
+  Anything io(random, most);
+  fields(io, out);
+  return out;
+}
+
+template <class M>
+Bytes frame_of(const M& message, Envelope envelope = {}) {
+  Bytes out(max_frame);
+  out.resize(encode(message, envelope, out));
+  return out;
+}
+
+// A frame of any type, or any of one direction.
+inline Bytes any_frame(std::mt19937& random, std::uint8_t sequence, bool host_only = false) {
+  std::size_t types = 0;
+  each_message([&](auto) { ++types; });
+  std::size_t host_types = 0;
+  each_host_message([&](auto) { ++host_types; });
+  const std::size_t wanted = random() % (host_only ? host_types : types);
+  Bytes out;
+  std::size_t at = 0;
+  each_message([&](auto m) {
+    if (at++ == wanted)
+      out = frame_of(any<decltype(m)>(random),
+                     {.board = static_cast<std::uint8_t>(random() % 4), .sequence = sequence});
+  });
+  return out;
+}
+
+// What a decoder hands out, as bytes again: those of the stream, if it is right.
+inline Bytes bytes_of(const Frame& frame) {
+  Bytes out(max_frame);
+  out.resize(encode(frame.type, frame.envelope, frame.body, out));
+  return out;
+}
+
+template <class Use>
+void feed(Decoder& decoder, std::span<const std::uint8_t> bytes, Use use) {
+  do {
+    bytes = bytes.subspan(decoder.push(bytes));
+    while (const Frame* f = decoder.next()) use(*f);
+  } while (!bytes.empty());
+}
+
+// All frames of a stream that ends.
+inline std::vector<Bytes> frames_of(std::span<const std::uint8_t> stream) {
+  std::vector<Bytes> out;
+  Decoder decoder;
+  const auto keep = [&](const Frame& f) { out.push_back(bytes_of(f)); };
+  feed(decoder, stream, keep);
+  decoder.silent();
+  feed(decoder, {}, keep);
+  return out;
+}
+
+// --- a line that spoils what it carries
+// -----------------------------------------------------------
+
+inline void flip(std::span<std::uint8_t> bytes, std::size_t bit) {
+  bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ (1u << bit % 8));
+}
+
+// Flips bits of a pattern, the first of which is at `bit`, in the order in which a line sends them.
+inline void burst(std::span<std::uint8_t> bytes, std::size_t bit, std::uint32_t pattern) {
+  for (std::size_t i = bit; pattern != 0; ++i, pattern >>= 1)
+    if (pattern & 1u) flip(bytes, i);
+}
+
+}  // namespace sinew::link
