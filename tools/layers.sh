@@ -19,6 +19,7 @@ layers='
     control/joint   signals
     control/supervise  control/joint signals
     control/link    control/supervise control/joint signals
+    control/board   control/link control/supervise control/joint signals
     control/gait    robot signals
     control/setup   control robot config
     config          units

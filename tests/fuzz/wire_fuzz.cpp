@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "sinew/control/link/crc.h"
 #include "sinew/control/link/telemetry.h"
 #include "sinew/control/link/test_wire.h"
 #include "sinew/control/link/thesis_words.h"
+#include "sinew/signals/crc.h"
 #include "tests/fuzz/law.h"
 
 namespace sinew::fuzz {
@@ -28,8 +28,8 @@ std::span<const std::uint8_t> frame_at(std::span<const std::uint8_t> stream) {
   if (size < link::min_frame || size > stream.size()) return {};
   const std::uint8_t* end = stream.data() + size;
   const bool good =
-      link::crc16(stream.subspan(2, size - 4)) == (end[-2] | end[-1] << 8) &&
-      link::crc32(stream.subspan(2, size - 8)) ==
+      signals::crc16(stream.subspan(2, size - 4)) == (end[-2] | end[-1] << 8) &&
+      signals::crc32(stream.subspan(2, size - 8)) ==
           (end[-6] | end[-5] << 8 | end[-4] << 16 | static_cast<std::uint32_t>(end[-3]) << 24);
   return good ? stream.first(size) : std::span<const std::uint8_t>{};
 }

@@ -149,8 +149,7 @@ TEST(Wire, BurstsOverTheHeadOfEachTypeNeverPass) {
   });
 }
 
-// --- commands over a bad line
-// ---------------------------------------------------------------------
+// --- commands over a bad line -------------------------------------------------------------------
 
 // What the line does to a frame on its way.
 class BadLine {

@@ -146,8 +146,7 @@ class Sizer {
   std::size_t size_ = 0;
 };
 
-// --- what is no number by itself, for either of them
-// ----------------------------------------------
+// --- what is no number by itself, for either of them --------------------------------------------
 
 // `x` as a number of type T between low and high, or the other way round.
 template <class T, class Io, class X>

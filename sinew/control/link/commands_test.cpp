@@ -16,8 +16,7 @@ using signals::Tick;
 
 constexpr Tick period = 100;
 
-// --- sequence
-// -------------------------------------------------------------------------------------
+// --- sequence -----------------------------------------------------------------------------------
 
 TEST(Sequence, EveryFrameIsTakenOnceRoundAndRound) {
   SequenceWindow window;
@@ -60,8 +59,7 @@ TEST(Sequence, AnewAnyNumberIsTaken) {
   EXPECT_EQ(window.lost(), 0u);
 }
 
-// --- a command's time
-// -----------------------------------------------------------------------------
+// --- a command's time ---------------------------------------------------------------------------
 
 CommandFor command(Tick from, int periods, int angle = 0) {
   CommandFor out{.from = from, .periods = static_cast<std::uint8_t>(periods), .joints = 1};

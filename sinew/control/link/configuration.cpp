@@ -1,6 +1,6 @@
 #include "sinew/control/link/configuration.h"
 
-#include "sinew/control/link/crc.h"
+#include "sinew/signals/crc.h"
 
 namespace sinew::link {
 namespace {
@@ -22,19 +22,18 @@ bool write(const Configuration& configuration, ConfigurationBytes& out) noexcept
 }
 
 Refusal read(std::span<const std::uint8_t> bytes, Configuration& out) noexcept {
-  Configuration found;
-  const Code code = read<Configuration>(bytes, found);
+  const Code code = read<Configuration>(bytes, out);
   if (code == Code::length) return {Code::size};
   if (code != Code::done) return {Code::layout};
-  if (const char* words = control::problem(found.spine)) return {Code::configuration, words};
-  if (const char* words = control::problem(found.limits)) return {Code::configuration, words};
-  out = found;
+  for (const char* words : {control::problem(out.spine), control::safety_problem(out.spine),
+                            control::problem(out.limits), control::problem(out.safety)})
+    if (words != nullptr) return {Code::configuration, words};
   return {};
 }
 
 ConfigurationSender::ConfigurationSender(const Configuration& configuration) noexcept {
   ok_ = write(configuration, bytes_);
-  crc_ = crc32(bytes_);
+  crc_ = signals::crc32(bytes_);
 }
 
 ConfigureBegin ConfigurationSender::begin() const noexcept {
@@ -74,7 +73,7 @@ Code ConfigurationReceiver::take(const ConfigureChunk& chunk) noexcept {
 Code ConfigurationReceiver::check(const ConfigureEnd& end) const noexcept {
   if (!begun_) return Code::order;
   if (size_ != configuration_size) return Code::size;
-  if (end.crc != crc_ || crc32(bytes_) != crc_) return Code::checksum;
+  if (end.crc != crc_ || signals::crc32(bytes_) != crc_) return Code::checksum;
   return Code::done;
 }
 

@@ -15,7 +15,7 @@
 namespace sinew::link {
 
 // A configuration's only size.
-inline constexpr std::size_t configuration_size = 3358;
+inline constexpr std::size_t configuration_size = 3454;
 
 using ConfigurationBytes = std::array<std::uint8_t, configuration_size>;
 
@@ -28,8 +28,8 @@ struct Refusal {
 // False where a field has a value that cannot be.
 bool write(const Configuration& configuration, ConfigurationBytes& out) noexcept;
 
-// `out` changes only if all is in order, problem() of both parts included. Takes
-// sizeof(Configuration) of the stack.
+// All is in order, problem() of the parts included, where it answers done; else `out` is not whole.
+// It needs no second Configuration, for which a small machine's stack has no room.
 Refusal read(std::span<const std::uint8_t> bytes, Configuration& out) noexcept;
 
 // A host's side: the frames to send, one after the other.
@@ -57,7 +57,7 @@ class ConfigurationReceiver {
  public:
   Code take(const ConfigureBegin& begin) noexcept;
   Code take(const ConfigureChunk& chunk) noexcept;
-  // `out` changes only if the answer is done.
+  // Where the answer is not done, `out` is not whole.
   Refusal take(const ConfigureEnd& end, Configuration& out) noexcept;
 
   // The transfer is over, for another reason: the line was silent, joints were armed.

@@ -13,13 +13,14 @@
 #include "sinew/control/joint/config.h"
 #include "sinew/control/link/members.h"
 #include "sinew/control/link/messages.h"
-#include "sinew/control/supervise/limits.h"
+#include "sinew/control/supervise/safety.h"
 
 namespace sinew::link {
 
 struct Configuration {
   control::JointControllerConfig spine;
   control::SuperviseConfig limits;
+  control::SafetyConfig safety;
 };
 
 inline constexpr std::uint16_t configuration_layout = 1;
@@ -165,6 +166,20 @@ constexpr void fields(Io& io, M& c) noexcept {
   io.whole(c.gap_vent);
 }
 
+static_assert(members<control::SafetyConfig>() == 9);
+template <class Io, Is<control::SafetyConfig> M>
+constexpr void fields(Io& io, M& c) noexcept {
+  io.whole(c.host_hold);
+  io.whole(c.host_vent);
+  io.whole(c.hold_limit);
+  io.whole(c.arm_window);
+  for (auto& at : c.empty_at) io.whole(at);
+  io.whole(c.empty_scans);
+  io.whole(c.vent_limit);
+  io.whole(c.check_every);
+  io.whole(c.refractory);
+}
+
 template <class Io, Is<Configuration> M>
 constexpr void fields(Io& io, M& c) noexcept {
   std::uint16_t layout = configuration_layout;
@@ -174,6 +189,7 @@ constexpr void fields(Io& io, M& c) noexcept {
     io.whole(layout);
   fields(io, c.spine);
   fields(io, c.limits);
+  fields(io, c.safety);
 }
 
 }  // namespace sinew::link

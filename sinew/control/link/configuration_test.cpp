@@ -8,9 +8,9 @@
 #include <limits>
 #include <string>
 
-#include "sinew/control/link/crc.h"
 #include "sinew/control/link/test_wire.h"
 #include "sinew/control/supervise/test_fuzz.h"
+#include "sinew/signals/crc.h"
 
 namespace sinew::link {
 namespace {
@@ -103,7 +103,6 @@ TEST(Configuration, ValuesThatCannotBeAreNotSent) {
   EXPECT_FALSE(ConfigurationSender(c).ok());
 }
 
-// The board keeps what it has.
 TEST(Configuration, PartsThatContradictEachOtherAreRefusedInWords) {
   Board board;
   const Configuration good{control::test_leg(), {}};
@@ -120,7 +119,18 @@ TEST(Configuration, PartsThatContradictEachOtherAreRefusedInWords) {
   refusal = board.receive(ConfigurationSender(bad));
   EXPECT_EQ(refusal.code, Code::configuration);
   EXPECT_STREQ(refusal.words, control::problem(bad.limits));
-  EXPECT_EQ(bytes_of(board.has), bytes_of(good));
+
+  bad = good;
+  bad.safety.host_vent = 1;
+  refusal = board.receive(ConfigurationSender(bad));
+  EXPECT_EQ(refusal.code, Code::configuration);
+  EXPECT_STREQ(refusal.words, control::problem(bad.safety));
+
+  bad = good;
+  bad.spine.timing.closing[50] = 2;
+  refusal = board.receive(ConfigurationSender(bad));
+  EXPECT_EQ(refusal.code, Code::configuration);
+  EXPECT_STREQ(refusal.words, control::safety_problem(bad.spine));
 }
 
 TEST(Configuration, EachProblemFitsAnAnswer) {
@@ -139,8 +149,7 @@ TEST(Configuration, AnotherLayoutIsRefused) {
   EXPECT_EQ(read(bytes, out).code, Code::layout);
 }
 
-// --- a transfer that goes wrong
-// -------------------------------------------------------------------
+// --- a transfer that goes wrong -----------------------------------------------------------------
 
 class Transfer : public ::testing::Test {
  protected:

@@ -1,7 +1,7 @@
 #include "sinew/control/link/frame.h"
 
 #include "sinew/control/link/bytes.h"
-#include "sinew/control/link/crc.h"
+#include "sinew/signals/crc.h"
 
 namespace sinew::link {
 namespace {
@@ -24,8 +24,8 @@ std::size_t encode(std::uint8_t type, Envelope envelope, std::span<const std::ui
         static_cast<std::uint8_t>(min_payload + body.size()), protocol_version, envelope.board})
     to.whole(byte);
   for (const std::uint8_t byte : body) to.whole(byte);
-  to.whole(crc32(out.subspan(2, to.size() - 2)));
-  to.whole(crc16(out.subspan(2, to.size() - 2)));
+  to.whole(signals::crc32(out.subspan(2, to.size() - 2)));
+  to.whole(signals::crc16(out.subspan(2, to.size() - 2)));
   return to.size();
 }
 
@@ -81,10 +81,10 @@ Decoder::Look Decoder::reach(std::size_t bytes) const noexcept {
 
 Decoder::Look Decoder::judge(std::span<const std::uint8_t> frame) noexcept {
   const std::size_t body_end = frame.size() - crc32_size - crc16_size;
-  if (crc16(frame.subspan(2, frame.size() - 4)) !=
+  if (signals::crc16(frame.subspan(2, frame.size() - 4)) !=
       number_at<std::uint16_t>(frame, frame.size() - crc16_size))
     return failed(line_.crc16);
-  if (crc32(frame.subspan(2, body_end - 2)) != number_at<std::uint32_t>(frame, body_end))
+  if (signals::crc32(frame.subspan(2, body_end - 2)) != number_at<std::uint32_t>(frame, body_end))
     return failed(line_.crc32);
   constexpr std::size_t body_at = header_size + before_body;
   frame_ = {.type = frame[2],

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <set>
 
-#include "sinew/control/link/crc.h"
 #include "sinew/control/link/test_wire.h"
+#include "sinew/signals/crc.h"
 
 namespace sinew::link {
 namespace {
@@ -30,8 +30,8 @@ TEST(Frame, HasTheFormOfTheLaboratory) {
   ASSERT_EQ(frame.size(), min_frame);
   EXPECT_EQ(Bytes(frame.begin(), frame.begin() + 7), (Bytes{0xaa, 0x55, 1, 7, 6, 1, 3}));
   const std::span<const std::uint8_t> all(frame);
-  EXPECT_EQ(crc16(all.subspan(2, 9)), frame[11] | frame[12] << 8);
-  EXPECT_EQ(crc32(all.subspan(2, 5)),
+  EXPECT_EQ(signals::crc16(all.subspan(2, 9)), frame[11] | frame[12] << 8);
+  EXPECT_EQ(signals::crc32(all.subspan(2, 5)),
             frame[7] | frame[8] << 8 | frame[9] << 16 | std::uint32_t{frame[10]} << 24);
 }
 
@@ -117,8 +117,8 @@ TEST(Decoder, OtherVersionsAreHandedOutAndNotObeyed) {
     Bytes frame = frame_of(ShutDown{});
     frame[5] = static_cast<std::uint8_t>(version);
     const std::span<std::uint8_t> all(frame);
-    Writer(all.subspan(7)).whole(crc32(all.subspan(2, 5)));
-    Writer(all.subspan(11)).whole(crc16(all.subspan(2, 9)));
+    Writer(all.subspan(7)).whole(signals::crc32(all.subspan(2, 5)));
+    Writer(all.subspan(11)).whole(signals::crc16(all.subspan(2, 9)));
     Decoder decoder;
     decoder.push(frame);
     const Frame* found = decoder.next();
@@ -128,8 +128,7 @@ TEST(Decoder, OtherVersionsAreHandedOutAndNotObeyed) {
   }
 }
 
-// --- what was spoiled never passes
-// ----------------------------------------------------------------
+// --- what was spoiled never passes --------------------------------------------------------------
 
 // What comes before and behind stays as it is, so that a longer length finds bytes to go on with.
 struct Among {

@@ -85,8 +85,7 @@ inline constexpr Code last_code = Code::nonce;
 // Ticks on the wire are from -1, never, to 3,600 years.
 inline constexpr signals::Tick max_tick = signals::Tick{1} << 60;
 
-// --- a host's messages
-// ----------------------------------------------------------------------------
+// --- a host's messages --------------------------------------------------------------------------
 
 struct Identify {
   static constexpr Type type = Type::identify;
@@ -171,8 +170,7 @@ struct ShutDown {  // at once, in every state
   static constexpr Type type = Type::shut_down;
 };
 
-// --- their fields
-// ---------------------------------------------------------------------------------
+// --- their fields -------------------------------------------------------------------------------
 
 template <class Io, class M>
 constexpr void tick(Io& io, M& t) noexcept {
@@ -269,8 +267,7 @@ constexpr void fields(Io& io, M& m) noexcept {
   flag(io, m.on);
 }
 
-// --- messages in frames
-// ---------------------------------------------------------------------------
+// --- messages in frames -------------------------------------------------------------------------
 
 // The body alone; 0 bytes where the message has a value that cannot be.
 struct Body {

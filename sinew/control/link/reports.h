@@ -11,18 +11,9 @@
 
 #include "sinew/control/joint/seen.h"
 #include "sinew/control/link/messages.h"
-#include "sinew/control/supervise/supervised.h"
+#include "sinew/control/supervise/safety.h"
 
 namespace sinew::link {
-
-enum class BoardState : std::uint8_t {
-  empty,       // no configuration
-  configured,  // valves shut
-  arming,      // the first of two frames has come
-  armed,       // commands are followed
-  venting,     // shut down, or a fault
-  fault,       // vented; cleared by a frame
-};
 
 inline constexpr std::size_t name_size = 16;
 using Name = std::array<char, name_size>;  // zeros behind the last letter
@@ -30,7 +21,7 @@ using Name = std::array<char, name_size>;  // zeros behind the last letter
 struct Identity {
   static constexpr Type type = Type::identity;
   std::uint8_t protocol = protocol_version;
-  BoardState state = BoardState::empty;
+  control::BoardState state = control::BoardState::fault;
   Name firmware{}, board{};
   std::uint32_t configuration = 0;  // crc32 of the one it has; 0: none
   std::uint16_t configuration_bytes = 0;
@@ -70,7 +61,8 @@ inline constexpr std::size_t max_parts = 8;
 struct State {
   static constexpr Type type = Type::state;
   Part of;
-  BoardState state = BoardState::empty;
+  control::BoardState state = control::BoardState::fault;
+  control::BoardFault fault = control::BoardFault::none;
   std::uint8_t joints = 0, channels = 0;
   control::Seen seen;              // without joints and readings
   control::Supervised supervised;  // without sensors
@@ -107,19 +99,13 @@ struct Joints {
 struct Event {
   static constexpr Type type = Type::event;
   enum class What : std::uint8_t {
-    started,     // the board, after power came; a: why, as the board knows it
-    configured,  // a: crc32
-    armed,
-    shut_down,    // a: 0 by the host, 1 by the thesis's word, 2 by a button
-    tripped,      // a: control::Trip::Cause, b: channel or joint
-    host_silent,  // a: periods without a good command
-    cleared,
-    watchdog,       // the board's own, before the last start
-    edges_dropped,  // a: how many
+    started,  // the board, after a reset
+    state,    // it has entered another one
   };
   signals::Tick tick = 0;
   What what = What::started;
-  std::uint32_t a = 0, b = 0;
+  control::BoardState state = control::BoardState::fault;
+  control::BoardFault fault = control::BoardFault::none;  // why
 };
 
 struct EdgeSeen {
@@ -146,13 +132,12 @@ struct FaultLog {
   std::array<std::uint8_t, max_logged> data{};
 };
 
-// --- their fields
-// ---------------------------------------------------------------------------------
+// --- their fields -------------------------------------------------------------------------------
 
 template <class Io, Is<Identity> M>
 constexpr void fields(Io& io, M& m) noexcept {
   io.whole(m.protocol);
-  choice(io, m.state, BoardState::fault);
+  choice(io, m.state, control::BoardState::dump);
   letters(io, m.firmware);
   letters(io, m.board);
   io.whole(m.configuration);
@@ -192,7 +177,7 @@ constexpr void fields(Io& io, M& m) noexcept {
 }
 template <class Io, Is<control::Trip> M>
 constexpr void fields(Io& io, M& m) noexcept {
-  choice(io, m.cause, control::Trip::Cause::command);
+  choice(io, m.cause, control::Trip::Cause::asked);
   tick(io, m.at);
   io.whole(m.channel.index);
   io.whole(m.counts);
@@ -204,7 +189,8 @@ constexpr void fields(Io& io, M& m) noexcept {
 template <class Io, Is<State> M>
 constexpr void fields(Io& io, M& m) noexcept {
   fields(io, m.of);
-  choice(io, m.state, BoardState::fault);
+  choice(io, m.state, control::BoardState::dump);
+  choice(io, m.fault, control::BoardFault::asked);
   count(io, m.joints, control::max_joints);
   count(io, m.channels, control::max_channels);
   choice(io, m.seen.phase, control::Phase::off);
@@ -273,9 +259,9 @@ constexpr void fields(Io& io, M& m) noexcept {
 template <class Io, Is<Event> M>
 constexpr void fields(Io& io, M& m) noexcept {
   tick(io, m.tick);
-  choice(io, m.what, Event::What::edges_dropped);
-  io.whole(m.a);
-  io.whole(m.b);
+  choice(io, m.what, Event::What::state);
+  choice(io, m.state, control::BoardState::dump);
+  choice(io, m.fault, control::BoardFault::asked);
 }
 template <class Io, Is<EdgeSeen> M>
 constexpr void fields(Io& io, M& m) noexcept {

@@ -30,6 +30,7 @@ Place place_of(std::size_t part, std::size_t joints, std::size_t channels) noexc
 State state_of(const Telemetry& t, const Part& part) noexcept {
   return {.of = part,
           .state = t.state,
+          .fault = t.fault,
           .joints = t.joints,
           .channels = t.channels,
           .seen = t.seen,
@@ -101,6 +102,10 @@ const Telemetry* TelemetryJoiner::take(std::uint8_t type,
   return &now_;
 }
 
+Readings readings_alone(const Telemetry& telemetry) noexcept {
+  return readings_of(telemetry, {.tick = telemetry.tick, .part = 0, .parts = 1});
+}
+
 bool TelemetryJoiner::begin(std::span<const std::uint8_t> body) noexcept {
   State state;
   next_ = 0;
@@ -109,6 +114,7 @@ bool TelemetryJoiner::begin(std::span<const std::uint8_t> body) noexcept {
     return false;
   now_ = {.tick = state.of.tick,
           .state = state.state,
+          .fault = state.fault,
           .joints = state.joints,
           .channels = state.channels,
           .seen = state.seen,

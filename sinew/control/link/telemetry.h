@@ -16,7 +16,8 @@ namespace sinew::link {
 
 struct Telemetry {
   signals::Tick tick = 0;  // the first of a period
-  BoardState state = BoardState::empty;
+  control::BoardState state = control::BoardState::fault;
+  control::BoardFault fault = control::BoardFault::none;
   std::uint8_t joints = 0, channels = 0;  // the board's: what is beyond is not sent
   control::Seen seen;
   control::Supervised supervised;
@@ -40,6 +41,9 @@ struct TelemetryMessage {
   Body body;
 };
 TelemetryMessage part_of(const Telemetry& telemetry, std::uint8_t part) noexcept;
+
+// The readings without the rest, for who asks for them.
+Readings readings_alone(const Telemetry& telemetry) noexcept;
 
 // A host's side.
 class TelemetryJoiner {

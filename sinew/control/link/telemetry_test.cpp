@@ -29,6 +29,7 @@ Telemetry any_telemetry(std::mt19937& random, signals::Tick tick) {
   const auto state = any<State>(random);
   Telemetry out{.tick = tick,
                 .state = state.state,
+                .fault = state.fault,
                 .joints = state.joints,
                 .channels = state.channels,
                 .seen = state.seen,
@@ -79,7 +80,7 @@ TEST(Telemetry, OfASupervisedLegIsWhatItHasSeen) {
   for (int i = 0; i < 100; ++i) {
     stand.run(1);
     const Telemetry sent{.tick = 100 * i,
-                         .state = BoardState::armed,
+                         .state = control::BoardState::armed,
                          .joints = 3,
                          .channels = channels_of(stand.spine.config()),
                          .seen = stand.spine.seen(),

@@ -119,8 +119,7 @@ inline std::vector<Bytes> frames_of(std::span<const std::uint8_t> stream) {
   return out;
 }
 
-// --- a line that spoils what it carries
-// -----------------------------------------------------------
+// --- a line that spoils what it carries ---------------------------------------------------------
 
 inline void flip(std::span<std::uint8_t> bytes, std::size_t bit) {
   bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ (1u << bit % 8));

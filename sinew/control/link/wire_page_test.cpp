@@ -25,8 +25,7 @@ const Lines& page() {
   return lines;
 }
 
-// --- tables
-// ---------------------------------------------------------------------------------------
+// --- tables -------------------------------------------------------------------------------------
 
 // A number on the wire: where it stands and its type.
 using Place = std::pair<std::size_t, std::string>;
@@ -225,8 +224,7 @@ TEST(WirePage, HasEachCode) {
   EXPECT_EQ(codes, static_cast<std::size_t>(last_code) + 1);
 }
 
-// --- examples
-// -------------------------------------------------------------------------------------
+// --- examples -----------------------------------------------------------------------------------
 
 // By their first line.
 std::map<std::string, Bytes> examples_of_page() {

@@ -95,14 +95,14 @@ bool Safety::clear(bool wish, Tick) noexcept {
 
 // Nothing was read yet.
 void Safety::forget_sensors() noexcept {
-  for (Status& status : last_status_) status = Status::late;
+  for (Reading& reading : last_) reading.status = Status::late;
   scan_tick_ = 0;
 }
 
 bool Safety::sensors_good() const noexcept {
   for (std::size_t i = 0; i < machine_.conversions; ++i) {
     const std::size_t channel = machine_.conversion[i].channel.index;
-    if (channel < max_channels && last_status_[channel] != Status::ok) return false;
+    if (channel < max_channels && last_[channel].status != Status::ok) return false;
   }
   return true;
 }
@@ -310,6 +310,7 @@ void Safety::take(const Conversion& conversion, Reading reading, Tick now) noexc
   waiting_ = false;
   const std::size_t channel = conversion.channel.index;
   if (channel >= max_channels) return;
+  last_[channel] = reading;
   if (runs()) {
     run_->take(conversion, reading, now - start_);
     if (state_ == BoardState::vent) count_empty(channel, reading);
@@ -317,8 +318,7 @@ void Safety::take(const Conversion& conversion, Reading reading, Tick now) noexc
   }
   const SensorLimits& limit = limits_.sensor[channel];
   const bool possible = reading.counts >= limit.low && reading.counts <= limit.high;
-  last_status_[channel] =
-      reading.status == Status::ok && !possible ? Status::invalid : reading.status;
+  if (reading.status == Status::ok && !possible) last_[channel].status = Status::invalid;
 }
 
 void Safety::count_empty(std::size_t channel, Reading reading) noexcept {

@@ -85,6 +85,8 @@ class Safety {
   const char* configure(const JointControllerConfig&, const SuperviseConfig&,
                         const SafetyConfig&) noexcept;
   bool configured() const noexcept { return configured_; }
+  // The machine that it was configured for last.
+  const JointControllerConfig& machine() const noexcept { return machine_; }
 
   // --- what a host asks; false: not in this state ---
 
@@ -121,6 +123,8 @@ class Safety {
   // Has the supply's dump valve current? Without, it lets the supply's air out.
   bool supply() const noexcept { return state_ != BoardState::dump && state_ != BoardState::fault; }
   const OutputStage& outputs() const noexcept { return out_; }
+  // A channel's last reading, whether something runs or not.
+  signals::Reading reading(std::size_t channel) const noexcept { return last_[channel]; }
   // Ticks since the run's first command; -1: there was none since the board was armed.
   signals::Tick run_tick(signals::Tick now) const noexcept { return runs() ? now - start_ : -1; }
   // What runs or has run last; nullptr before.
@@ -167,7 +171,7 @@ class Safety {
   signals::Tick start_ = 0;  // of the run
   signals::Tick heard_at_ = 0, armed_at_ = 0, held_since_ = 0, vent_since_ = 0;
 
-  std::array<signals::Status, max_channels> last_status_{};
+  std::array<signals::Reading, max_channels> last_{};
   std::array<std::uint32_t, max_channels> empty_{};  // scans in a row
   std::size_t watched_ = 0;
   std::size_t cursor_ = 0;       // conversions while nothing runs

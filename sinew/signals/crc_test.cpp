@@ -1,4 +1,4 @@
-#include "sinew/control/link/crc.h"
+#include "sinew/signals/crc.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sinew::link {
+namespace sinew::signals {
 namespace {
 
 std::vector<std::uint8_t> bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
@@ -53,4 +53,4 @@ TEST(Crc, TablesAgreeWithBitByBit) {
 }
 
 }  // namespace
-}  // namespace sinew::link
+}  // namespace sinew::signals

@@ -1,0 +1,367 @@
+#include "sinew/control/board/program.h"
+
+namespace sinew::board {
+
+using control::BoardFault;
+using control::BoardState;
+using link::Code;
+using link::Type;
+using signals::Conversion;
+using signals::Edge;
+using signals::Reading;
+using signals::Tick;
+
+namespace {
+
+constexpr std::uint8_t of(Type type) noexcept { return static_cast<std::uint8_t>(type); }
+
+}  // namespace
+
+Program::Program(const Identification& who) noexcept
+    : who_(who), safety_(who.bitten), nonce_(who.nonce) {}
+
+bool Program::runs() const noexcept {
+  const BoardState state = safety_.state();
+  return state == BoardState::running || state == BoardState::hold || state == BoardState::vent;
+}
+
+bool Program::at_rest() const noexcept {
+  return safety_.state() == BoardState::fault || safety_.state() == BoardState::idle ||
+         safety_.state() == BoardState::dump;
+}
+
+// --- a tick -------------------------------------------------------------------------------------
+
+// Also that of the run's first command.
+bool Program::begins_period() noexcept {
+  safety_.begin(now_);
+  if (starts_ && safety_.state() == BoardState::armed) return true;
+  if (runs()) return safety_.starts_period(now_);
+  if (++idle_ticks_ < 100) return false;
+  idle_ticks_ = 0;
+  return true;
+}
+
+// What is known as the period begins. One that is still being said is not disturbed: the host sees
+// a gap.
+void Program::note() noexcept {
+  if (speaking_.load(std::memory_order_acquire)) {
+    ++dropped_;
+    return;
+  }
+  const Tick run = safety_.run_tick(now_);
+  telemetry_.tick = run < 0 ? now_ : run;
+  telemetry_.state = safety_.state();
+  telemetry_.fault = safety_.fault();
+  if (const control::Supervisor* c = run < 0 ? nullptr : safety_.controller()) {
+    telemetry_.seen = c->seen();
+    telemetry_.supervised = c->supervised();
+  } else {
+    telemetry_.seen = {};
+    telemetry_.supervised = {};
+    for (std::uint8_t i = 0; i < telemetry_.channels; ++i) {
+      telemetry_.seen.reading[i] = safety_.reading(i);
+      telemetry_.supervised.sensor[i].counts = safety_.reading(i).counts;
+    }
+  }
+  telemetry_.link = line_seen();
+  part_ = 0;
+  speaking_.store(true, std::memory_order_release);
+}
+
+void Program::obey_command() noexcept {
+  const bool starts = safety_.state() == BoardState::armed;
+  if (starts ? !starts_ : !runs()) return;
+  const Tick run = starts ? 0 : safety_.run_tick(now_);
+  const link::CommandFor* to_obey = queue_.at(run);
+  command_begun_ = run;
+  starts_ = false;
+  // What holds is changed once by a command, however long it is good for.
+  if (to_obey != nullptr && to_obey->from != obeyed_) {
+    for (std::size_t j = 0; j < to_obey->joints; ++j) held_.joint[j] = to_obey->joint[j];
+    obeyed_ = to_obey->from;
+  }
+  if (to_obey != nullptr || changed_) safety_.command(held_, now_);
+  changed_ = false;
+}
+
+const Conversion* Program::drive() noexcept {
+  for (const Edge& edge : safety_.edges(now_)) {
+    if (!edges_wanted_) continue;
+    if (edge_count_ < edge_.size())
+      edge_[edge_count_++] = edge;
+    else
+      ++edges_lost_;
+  }
+  return safety_.due(now_);
+}
+
+void Program::take(const Conversion& conversion, Reading reading) noexcept {
+  safety_.take(conversion, reading, now_);
+}
+
+Outputs Program::end_tick() noexcept {
+  const Outputs out{.open = safety_.open(now_),
+                    .current = safety_.state() != BoardState::dump,
+                    .supply = safety_.supply(),
+                    .feed = safety_.end(now_)};
+  ++now_;
+  return out;
+}
+
+// --- what a host says ---------------------------------------------------------------------------
+
+std::size_t Program::receive(std::span<const std::uint8_t> bytes) noexcept {
+  const std::size_t n = bytes.size() < in_.room() ? bytes.size() : in_.room();
+  in_.push(bytes.first(n));
+  return n;
+}
+
+void Program::silent() noexcept {
+  if (in_.size() > 0) return;
+  decoder_.silent();
+  if (words_ && words_->silent()) {
+    step_ = {.what = link::WordStep::What::bad};
+    step_due_ = true;
+  }
+}
+
+bool Program::next_frame() noexcept {
+  if (step_due_) return true;
+  if ((frame_ = decoder_.next()) != nullptr) return true;
+  while (in_.size() > 0) {
+    std::array<std::uint8_t, 1> byte;
+    in_.pop(byte);
+    if (words_) {
+      step_ = words_->take(byte[0]);
+      if (step_.what == link::WordStep::What::nothing) continue;
+      if (step_.what != link::WordStep::What::frame) return step_due_ = true;
+    }
+    decoder_.push(byte);
+    if ((frame_ = decoder_.next()) != nullptr) return true;
+  }
+  return false;
+}
+
+void Program::obey() noexcept {
+  if (step_due_) return obey_word();
+  quiet_ = false;
+  why_ = nullptr;
+  value_ = 0;
+  code_ = judge();
+  if (code_ == Code::done) code_ = act();
+  if (code_ != Code::done) ++refused_;
+}
+
+// To whom is it, is it new, and of our version? Frames to other boards are nobody's business.
+Code Program::judge() noexcept {
+  const std::uint8_t to = frame_->envelope.board;
+  const bool identify = frame_->type == of(Type::identify);
+  const bool shut_down = frame_->type == of(Type::shut_down);
+  if (to != who_.number && !(to == link::every_board && (identify || shut_down))) {
+    frame_ = nullptr;
+    return Code::done;
+  }
+  if (frame_->version != link::protocol_version) return Code::version;
+  if (identify && at_rest()) window_.restart();
+  const bool is_new = window_.take(frame_->envelope.sequence);
+  return is_new || shut_down || identify ? Code::done : Code::sequence;
+}
+
+Code Program::act() noexcept {
+  if (frame_ == nullptr) return Code::done;
+  switch (static_cast<Type>(frame_->type)) {
+    case Type::identify:
+      quiet_ = identity_wanted_ = true;
+      return link::Code::done;
+    case Type::read_sensors:
+      quiet_ = readings_wanted_ = true;
+      return Code::done;
+    case Type::edges_wanted: {
+      link::EdgesWanted m;
+      const Code code = link::decode(*frame_, m);
+      if (code == Code::done) edges_wanted_ = m.wanted;
+      return code;
+    }
+    case Type::read_fault_log: {
+      link::ReadFaultLog m;
+      const Code code = link::decode(*frame_, m);
+      if (code != Code::done) return code;
+      log_from_ = m.from;
+      return quiet_ = log_wanted_ = true, Code::done;
+    }
+    case Type::heartbeat:
+      safety_.heard(now_);
+      quiet_ = true;
+      return Code::done;
+    case Type::clear_fault:
+      safety_.clear(false, now_);
+      return safety_.clear(true, now_) ? Code::done : Code::state;
+    case Type::shut_down:
+      safety_.shut_down(now_);
+      return Code::done;
+    default:
+      return act_on_run();
+  }
+}
+
+Code Program::act_on_run() noexcept {
+  switch (static_cast<Type>(frame_->type)) {
+    case Type::arm_first: {
+      link::ArmFirst m;
+      const Code code = link::decode(*frame_, m);
+      return code == Code::done ? arm(m) : code;
+    }
+    case Type::arm_second: {
+      link::ArmSecond m;
+      const Code code = link::decode(*frame_, m);
+      return code == Code::done ? arm(m) : code;
+    }
+    case Type::command: {
+      link::CommandFor m;
+      const Code code = link::decode(*frame_, m);
+      return code == Code::done ? command(m) : code;
+    }
+    case Type::set_gains: {
+      link::SetGains m;
+      const Code code = link::decode(*frame_, m);
+      return code == Code::done ? change(m.joint, &m, nullptr) : code;
+    }
+    case Type::set_feedforward: {
+      link::SetFeedforward m;
+      const Code code = link::decode(*frame_, m);
+      return code == Code::done ? change(m.joint, nullptr, &m) : code;
+    }
+    case Type::enable: {
+      link::Enable m;
+      const Code code = link::decode(*frame_, m);
+      return code == Code::done ? enable(m) : code;
+    }
+    default:
+      return act_on_configuration();
+  }
+}
+
+Code Program::act_on_configuration() noexcept {
+  switch (static_cast<Type>(frame_->type)) {
+    case Type::configure_begin: {
+      link::ConfigureBegin m;
+      const Code code = link::decode(*frame_, m);
+      if (code != Code::done) return code;
+      return at_rest() ? receiver_.take(m) : Code::state;
+    }
+    case Type::configure_chunk: {
+      link::ConfigureChunk m;
+      const Code code = link::decode(*frame_, m);
+      if (code != Code::done) return code;
+      return at_rest() ? receiver_.take(m) : Code::state;
+    }
+    case Type::configure_end: {
+      link::ConfigureEnd m;
+      const Code code = link::decode(*frame_, m);
+      return code == Code::done ? configure(m) : code;
+    }
+    case Type::thesis_words: {
+      link::ThesisWords m;
+      const Code code = link::decode(*frame_, m);
+      if (code != Code::done) return code;
+      if (m.on && !thesis_.found) return Code::configuration;
+      words_.reset();
+      if (m.on) words_.emplace(thesis_);
+      return Code::done;
+    }
+    default:
+      return Code::type;
+  }
+}
+
+Code Program::configure(const link::ConfigureEnd& end) noexcept {
+  if (!at_rest()) return Code::state;
+  const link::Refusal refusal = receiver_.take(end, incoming_);
+  why_ = refusal.words;
+  if (refusal.code != Code::done) return refusal.code;
+  why_ = safety_.configure(incoming_.spine, incoming_.limits, incoming_.safety);
+  if (why_ != nullptr) return Code::configuration;
+  configuration_ = end.crc;
+  thesis_ = link::thesis_joints(incoming_.spine);
+  words_.reset();
+  queue_ = link::CommandQueue(incoming_.spine.period);
+  telemetry_.joints = static_cast<std::uint8_t>(incoming_.spine.joints);
+  telemetry_.channels = link::channels_of(incoming_.spine);
+  return Code::done;
+}
+
+Code Program::arm(const link::ArmFirst& m) noexcept {
+  if (configuration_ == 0 || m.configuration != configuration_) return Code::nonce;
+  if (!safety_.arm_first(now_)) return Code::state;
+  value_ = ++nonce_;
+  return Code::done;
+}
+
+Code Program::arm(const link::ArmSecond& m) noexcept {
+  if (m.configuration != configuration_ || m.nonce != nonce_) return Code::nonce;
+  if (!safety_.arm_second(now_)) return Code::state;
+  queue_.clear();
+  held_ = control::rest_command(safety_.machine());
+  starts_ = changed_ = false;
+  obeyed_ = -1;
+  log_ = {};
+  log_stops_ = log_stopped_ = false;
+  edge_count_ = 0;
+  return Code::done;
+}
+
+// An armed board takes the one that its run begins with, no other.
+Code Program::command(const link::CommandFor& m) noexcept {
+  const bool armed = safety_.state() == BoardState::armed;
+  if (!armed && safety_.state() != BoardState::running && safety_.state() != BoardState::hold)
+    return Code::state;
+  if (armed && m.from != 0) return Code::period;
+  if (m.joints > telemetry_.joints) return Code::value;
+  quiet_ = true;
+  const Tick begun = armed ? -Tick{safety_.machine().period} : command_begun_;
+  const Code code = queue_.put(m, begun);
+  late_ += code == Code::past;
+  starts_ = starts_ || (armed && code == Code::done);
+  return code;
+}
+
+Code Program::change(std::size_t joint, const link::SetGains* gains,
+                     const link::SetFeedforward* duties) noexcept {
+  if (at_rest()) return Code::state;
+  if (joint >= telemetry_.joints) return Code::value;
+  if (gains != nullptr) held_.joint[joint].gains = gains->gains;
+  if (duties != nullptr) {
+    held_.joint[joint].duties = duties->duties;
+    held_.joint[joint].open_loop = true;
+  }
+  changed_ = true;
+  return Code::done;
+}
+
+Code Program::enable(const link::Enable& m) noexcept {
+  if (at_rest()) return Code::state;
+  for (std::size_t j = 0; j < telemetry_.joints; ++j)
+    if (m.joints >> j & 1u) held_.joint[j].enabled = m.enabled;
+  changed_ = true;
+  return Code::done;
+}
+
+void Program::obey_word() noexcept {
+  using What = link::WordStep::What;
+  if (step_.what == What::shut_down) safety_.shut_down(now_);
+  if (step_.what != What::enable && step_.what != What::feedforward && step_.what != What::desired)
+    return;
+  Code code = Code::state;
+  if (step_.what == What::enable) code = enable(step_.enable);
+  if (step_.what == What::feedforward)
+    code = change(step_.feedforward.joint, nullptr, &step_.feedforward);
+  if (step_.what == What::desired && !at_rest()) {
+    step_.apply(held_);
+    changed_ = true;
+    code = Code::done;
+  }
+  if (code != Code::done) step_.what = What::bad;
+}
+
+}  // namespace sinew::board
