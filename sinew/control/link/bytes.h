@@ -181,6 +181,12 @@ constexpr void count(Io& io, X& x, std::size_t most) noexcept {
   number_as<std::uint8_t>(io, x, 0, static_cast<std::uint8_t>(most));
 }
 
+// The first `n` of them, and never beyond the last: a number that was refused does not lead there.
+template <class Items, class Use>
+constexpr void first_of(Items& items, std::size_t n, Use use) noexcept {
+  for (std::size_t i = 0; i < n && i < items.size(); ++i) use(items[i]);
+}
+
 // Letters of ASCII; behind the last one are zeros.
 template <class Io, class X>
 constexpr void letters(Io& io, X& x) noexcept {

@@ -213,7 +213,7 @@ template <class Io, Is<ConfigureChunk> M>
 constexpr void fields(Io& io, M& m) noexcept {
   io.whole(m.offset);
   io.limited(m.count, std::uint8_t{1}, std::uint8_t{max_chunk});
-  for (std::size_t i = 0; i < m.count; ++i) io.whole(m.data[i]);
+  first_of(m.data, m.count, [&](auto& x) { io.whole(x); });
 }
 template <class Io, Is<ConfigureEnd> M>
 constexpr void fields(Io& io, M& m) noexcept {
@@ -233,7 +233,7 @@ constexpr void fields(Io& io, M& m) noexcept {
   io.limited(m.from, signals::Tick{0}, max_tick);
   io.limited(m.periods, std::uint8_t{1}, std::uint8_t{100});
   count(io, m.joints, control::max_joints);
-  for (std::size_t j = 0; j < m.joints; ++j) fields(io, m.joint[j]);
+  first_of(m.joint, m.joints, [&](auto& x) { fields(io, x); });
 }
 template <class Io, class M>
 constexpr void joint_number(Io& io, M& joint) noexcept {

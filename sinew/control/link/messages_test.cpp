@@ -117,6 +117,19 @@ TEST(Messages, CommandsThatCannotBeAreNotSent) {
   }
 }
 
+// Nor is anything behind the last place read: the sanitizers would say so.
+TEST(Messages, CountsBeyondTheRoomAreNotSent) {
+  EXPECT_TRUE(frame_of(CommandFor{.joints = 255}).empty());
+  EXPECT_TRUE(frame_of(ConfigureChunk{.count = 255}).empty());
+  EXPECT_TRUE(frame_of(ConfigureChunk{.count = 0}).empty());
+  EXPECT_TRUE(frame_of(Answer{.letters = 255}).empty());
+  EXPECT_TRUE(frame_of(Readings{.count = 255}).empty());
+  EXPECT_TRUE(frame_of(Counters{.count = 255}).empty());
+  EXPECT_TRUE(frame_of(Joints{.count = 255}).empty());
+  EXPECT_TRUE(frame_of(Edges{.count = 255}).empty());
+  EXPECT_TRUE(frame_of(FaultLog{.count = 255}).empty());
+}
+
 TEST(Messages, ACommandOfALegIsShort) {
   EXPECT_EQ(frame_of(CommandFor{.joints = 3}).size(), 13u + 10u + 3u * 26u);
 }

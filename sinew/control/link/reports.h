@@ -154,7 +154,7 @@ constexpr void fields(Io& io, M& m) noexcept {
   choice(io, m.code, last_code);
   io.whole(m.value);
   count(io, m.letters, max_text);
-  for (std::size_t i = 0; i < m.letters; ++i) number_as<std::uint8_t>(io, m.text[i], 1, 126);
+  first_of(m.text, m.letters, [&](auto& x) { number_as<std::uint8_t>(io, x, 1, 126); });
 }
 template <class Io, Is<LinkSeen> M>
 constexpr void fields(Io& io, M& m) noexcept {
@@ -219,7 +219,7 @@ template <class Io, Is<Readings> M>
 constexpr void fields(Io& io, M& m) noexcept {
   fields(io, m.of);
   count(io, m.count, control::max_channels);
-  for (std::size_t i = 0; i < m.count; ++i) fields(io, m.channel[i]);
+  first_of(m.channel, m.count, [&](auto& x) { fields(io, x); });
 }
 // `counts` goes with the readings.
 template <class Io, Is<control::SensorSeen> M>
@@ -233,7 +233,7 @@ constexpr void fields(Io& io, M& m) noexcept {
   fields(io, m.of);
   count(io, m.first, control::max_channels - 1);
   count(io, m.count, counters_in_message);
-  for (std::size_t i = 0; i < m.count; ++i) fields(io, m.sensor[i]);
+  first_of(m.sensor, m.count, [&](auto& x) { fields(io, x); });
 }
 template <class Io, Is<control::JointSeen> M>
 constexpr void fields(Io& io, M& m) noexcept {
@@ -254,7 +254,7 @@ constexpr void fields(Io& io, M& m) noexcept {
   fields(io, m.of);
   joint_number(io, m.first);
   count(io, m.count, joints_in_message);
-  for (std::size_t j = 0; j < m.count; ++j) fields(io, m.joint[j]);
+  first_of(m.joint, m.count, [&](auto& x) { fields(io, x); });
 }
 template <class Io, Is<Event> M>
 constexpr void fields(Io& io, M& m) noexcept {
@@ -274,7 +274,7 @@ template <class Io, Is<Edges> M>
 constexpr void fields(Io& io, M& m) noexcept {
   tick(io, m.tick);
   count(io, m.count, max_edges);
-  for (std::size_t i = 0; i < m.count; ++i) fields(io, m.edge[i]);
+  first_of(m.edge, m.count, [&](auto& x) { fields(io, x); });
 }
 template <class Io, Is<FaultLog> M>
 constexpr void fields(Io& io, M& m) noexcept {
@@ -282,7 +282,7 @@ constexpr void fields(Io& io, M& m) noexcept {
   io.whole(m.parts);
   io.whole(m.kind);
   count(io, m.count, max_logged);
-  for (std::size_t i = 0; i < m.count; ++i) io.whole(m.data[i]);
+  first_of(m.data, m.count, [&](auto& x) { io.whole(x); });
 }
 
 }  // namespace sinew::link
