@@ -1,39 +1,42 @@
-// firmware/mps2_an386.cpp - start-up, output and end of the self-test on QEMU's Cortex-M4F board.
-//
-// Output and end go through semihosting: the processor stops at BKPT 0xAB, the emulator does what
-// r0 asks for with the parameter r1.
+// firmware/mps2_an386.cpp - start-up and end of a program on QEMU's Cortex-M4F board.
+#include <cstddef>
 #include <cstdint>
 
+#include "firmware/semihosting.h"
+
 extern "C" {
-extern std::uint8_t stack_top[];  // from the linker script
+extern std::uint8_t stack_top[], stack_limit[];  // from the linker script
 [[noreturn]] void reset();
 [[noreturn]] void fault();
 }
 
 namespace sinew::firmware {
-void same_bits();
+
+void program();  // the image's own
 
 namespace {
 
-constexpr std::uint32_t write0 = 0x04;         // SYS_WRITE0: a text that ends with 0
-constexpr std::uint32_t exit_extended = 0x20;  // SYS_EXIT_EXTENDED: reason and code
+constexpr std::uint32_t untouched = 0xdeadbeef;
 
-void semihost(std::uint32_t operation, const void* parameter) {
-  register std::uint32_t r0 asm("r0") = operation;
-  register const void* r1 asm("r1") = parameter;
-  asm volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+// The part of the stack that nobody has written to begins at its limit.
+std::uint32_t* stack_word(std::size_t i) {
+  return reinterpret_cast<std::uint32_t*>(stack_limit) + i;
 }
+constexpr std::size_t kept = 64;  // words of this function's own, not to be painted over
 
-[[noreturn]] void quit(std::uint32_t code) {
-  constexpr std::uint32_t application_exit = 0x20026;
-  const std::uint32_t block[] = {application_exit, code};
-  semihost(exit_extended, block);
-  for (;;) {}
+void paint_stack() {
+  const auto words = static_cast<std::size_t>(stack_top - stack_limit) / 4;
+  for (std::size_t i = 0; i + kept < words; ++i) *stack_word(i) = untouched;
 }
 
 }  // namespace
 
-void print(const char* text) { semihost(write0, text); }
+// How deep the stack has ever been [bytes].
+std::uint32_t deepest_stack() {
+  std::size_t i = 0;
+  while (*stack_word(i) == untouched) ++i;
+  return static_cast<std::uint32_t>(stack_top - stack_limit) - static_cast<std::uint32_t>(4 * i);
+}
 
 }  // namespace sinew::firmware
 
@@ -45,7 +48,8 @@ void reset() {
   *reinterpret_cast<volatile std::uint32_t*>(coprocessor_access_control) |= 0xFu << 20;
   asm volatile("dsb\n isb" ::: "memory");
 
-  sinew::firmware::same_bits();
+  sinew::firmware::paint_stack();
+  sinew::firmware::program();
   sinew::firmware::quit(0);
 }
 

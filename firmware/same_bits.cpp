@@ -7,6 +7,9 @@
 #include <cstdint>
 
 #include "firmware/same_bits.h"
+#if !__STDC_HOSTED__
+#include "firmware/semihosting.h"
+#endif
 #include "sinew/control/joint/joint_controller.h"
 #include "sinew/control/joint/test_leg.h"
 #include "sinew/control/supervise/supervisor.h"
@@ -14,7 +17,10 @@
 
 namespace sinew::firmware {
 
-void print(const char* text);  // the board's, or the host's below
+void program();
+#if __STDC_HOSTED__
+void print(const char* text);  // below
+#endif
 
 namespace {
 
@@ -190,4 +196,6 @@ void same_bits() {
 void sinew::firmware::print(const char* text) { std::fputs(text, stdout); }
 
 int main() { sinew::firmware::same_bits(); }
+#else
+void sinew::firmware::program() { same_bits(); }
 #endif

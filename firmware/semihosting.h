@@ -1,0 +1,75 @@
+// firmware/semihosting.h - what a program in an emulator may ask of the computer around it: the
+// processor stops at BKPT 0xAB, the emulator does what r0 asks for with the parameter r1.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace sinew::firmware {
+
+inline std::int32_t semihost(std::uint32_t operation, const void* parameter) {
+  register std::uint32_t r0 asm("r0") = operation;
+  register const void* r1 asm("r1") = parameter;
+  asm volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+  return static_cast<std::int32_t>(r0);
+}
+
+inline void print(const char* text) { semihost(0x04, text); }  // SYS_WRITE0
+
+[[noreturn]] inline void quit(std::uint32_t code) {
+  constexpr std::uint32_t application_exit = 0x20026;
+  const std::uint32_t block[] = {application_exit, code};
+  semihost(0x20, block);  // SYS_EXIT_EXTENDED
+  for (;;) {}
+}
+
+// A file of the computer around it; a named pipe keeps the whole machine waiting, its clock too.
+class File {
+ public:
+  enum class For : std::uint32_t { reading = 1, writing = 5 };  // "rb", "wb"
+
+  File(const char* name, For use) {
+    std::uint32_t length = 0;
+    while (name[length] != 0) ++length;
+    const std::uint32_t block[] = {reinterpret_cast<std::uint32_t>(name),
+                                   static_cast<std::uint32_t>(use), length};
+    handle_ = semihost(0x01, block);  // SYS_OPEN
+    if (handle_ < 0) fail("a pipe of the host cannot be opened\n");
+  }
+
+  // All of it; nobody at the other end ends the program.
+  void write(std::span<const std::uint8_t> bytes) const {
+    for (std::uint32_t left; !bytes.empty(); bytes = bytes.last(left)) {
+      left = ask(0x05, bytes.data(), bytes.size());  // SYS_WRITE
+      if (left >= bytes.size()) fail("the host does not listen any more\n");
+    }
+  }
+  void read(std::span<std::uint8_t> bytes) const {
+    for (std::uint32_t left; !bytes.empty(); bytes = bytes.last(left)) {
+      left = ask(0x06, bytes.data(), bytes.size());  // SYS_READ
+      if (left >= bytes.size()) fail("the host says nothing any more\n");
+    }
+  }
+
+ private:
+  [[noreturn]] static void fail(const char* why) {
+    print(why);
+    quit(1);
+  }
+  std::uint32_t ask(std::uint32_t operation, const void* data, std::size_t size) const {
+    const std::uint32_t block[] = {static_cast<std::uint32_t>(handle_),
+                                   reinterpret_cast<std::uint32_t>(data), size};
+    return static_cast<std::uint32_t>(semihost(operation, block));
+  }
+
+  std::int32_t handle_ = -1;
+};
+
+// The words behind -semihosting-config arg=..., separated by blanks; cut off at the room's end.
+inline void command_line(std::span<char> out) {
+  const std::uint32_t block[] = {reinterpret_cast<std::uint32_t>(out.data()), out.size()};
+  if (semihost(0x15, block) != 0) out[0] = 0;  // SYS_GET_CMDLINE
+}
+
+}  // namespace sinew::firmware
