@@ -4,7 +4,7 @@ namespace sinew::cli {
 
 namespace {
 
-constexpr int ending_signals[] = {SIGINT, SIGTERM};
+constexpr int ending_signals[] = {SIGINT, SIGTERM, SIGHUP};
 
 // A signal handler may touch this flag at any time, so it outlives every listener.
 std::atomic<bool> interrupted{false};
@@ -19,11 +19,11 @@ Interrupt::Interrupt() {
   struct sigaction listen {};
   listen.sa_handler = on_interrupt;
   listen.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
-  for (int i = 0; i < 2; ++i) sigaction(ending_signals[i], &listen, &before_[i]);
+  for (int i = 0; i < 3; ++i) sigaction(ending_signals[i], &listen, &before_[i]);
 }
 
 Interrupt::~Interrupt() {
-  for (int i = 0; i < 2; ++i) sigaction(ending_signals[i], &before_[i], nullptr);
+  for (int i = 0; i < 3; ++i) sigaction(ending_signals[i], &before_[i], nullptr);
 }
 
 const std::atomic<bool>& Interrupt::asked() const { return interrupted; }

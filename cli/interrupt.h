@@ -1,4 +1,5 @@
-// cli/interrupt.h - Ctrl-C and SIGTERM as a wish, while something is to be brought to an end first.
+// cli/interrupt.h - Ctrl-C, SIGTERM and a terminal that closes as a wish, while something is to be
+// brought to an end first.
 #pragma once
 
 #include <signal.h>
@@ -20,7 +21,7 @@ class Interrupt {
   void ask();  // as a signal would
 
  private:
-  struct sigaction before_[2]{};
+  struct sigaction before_[3]{};
 };
 
 // A file that may not grow further is an error of write(), which is told, and not this program's

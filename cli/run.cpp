@@ -18,14 +18,20 @@ run::Outcome run_logged(const RunOptions& options, run::KeptRun& kept) {
   std::atomic<std::int64_t> tick{0};
   const Interrupt interrupt;
   run::RunOptions run_options{.pace = options.pace, .progress = &tick, .stop = &interrupt.asked()};
-  if (kept.log()) kept.log()->tap(run_options);
+  if (options.pace > 0 && kept.place().board_keeps_time())
+    config::fail({options.run.experiment, 0, 0}, "--pace", fmt::format("{}", options.pace),
+                 "no pace: the board keeps the time");
+  kept.apply(run_options);
   const ProgressBar bar(tick, experiment::last_tick(kept.experiment()),
                         Steps{signals::tick_seconds, "s", 1}, options.quiet);
   return run::run(kept.experiment(), run_options);
 }
 
-// A stand has no use for a pace.
+// A stand has no use for a pace, and its valve no board.
 ExitCode run_stand(const RunOptions& o, const Messages& messages) {
+  if (run::is_elsewhere(o.run.port))
+    config::fail({o.run.experiment, 0, 0}, "--port", o.run.port,
+                 "simulated: no board drives a test stand yet");
   if (o.pace > 0)
     config::fail({o.run.experiment, 0, 0}, "--pace", fmt::format("{}", o.pace),
                  "a run as fast as it goes: a stand has no live log");
@@ -37,6 +43,7 @@ ExitCode run_experiment(const RunOptions& options) {
   const Messages messages(options.quiet);
   if (run::is_on_stand(options.run.experiment)) return run_stand(options, messages);
   run::KeptRun kept(options.run, messages.notices());
+  if (!kept.place().who().empty()) messages.note("board: " + kept.place().who());
   tell(kept.keep(run_logged(options, kept)), options.json, messages);
   return ok;
 }
@@ -54,8 +61,11 @@ std::string a_pace(const std::string& text) {
   return fmt::format("found \"{}\"; expected 0, or a number from {} on", text, slowest);
 }
 
-void add_run_options(Command sub, RunOptions& options) {
+void add_run_options(Command sub, const std::string& port, RunOptions& options) {
   run::RunRequest& request = options.run;
+  sub.add_option(port, request.port,
+                 "where it runs: simulated, serial:DEVICE[@RATE] or emulated:FILE")
+      .check(run::problem_of_place);
   sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
   sub.add_flag("--force", request.force, "replace the run that is in the folder");
   add_sets(sub, request.sets);
@@ -72,7 +82,7 @@ void add_run(Command app, Action& action) {
       app.subcommand("run", "an experiment; its log and numbers go into a new folder",
                      "sinew run experiments/walk-test-1.toml --set \"trolley.drag=0 lbf\"");
   sub.add_option("EXPERIMENT", options->run.experiment, "file of the experiment").required();
-  add_run_options(sub, *options);
+  add_run_options(sub, "--port", *options);
   sub.add_option("--pace", options->pace, "simulated seconds per second of wall time; 0: no limit")
       .check(a_pace);
   sub.callback([=, &action] { action = [=] { return run_experiment(*options); }; });

@@ -21,7 +21,7 @@ struct RunOptions {
 };
 
 // EXPERIMENT, -o, --force, --set, --allow-unreachable, --no-report, --json, --quiet.
-void add_run_options(Command sub, RunOptions& options);
+void add_run_options(Command sub, const std::string& port, RunOptions& options);
 
 // Returns "" for what --pace may be, else what is wrong.
 std::string a_pace(const std::string& text);

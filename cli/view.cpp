@@ -79,9 +79,9 @@ void add_view(Command app, Action& action) {
       .needs(live);
   sub.add_flag("--paused", options->paused, "the run waits for the page's button").needs(live);
   sub.add_flag("--once", options->once, "end with the run").needs(live);
-  add_run_options(sub, options->live);
+  add_run_options(sub, "--place", options->live);
   for (const char* of_a_run :
-       {"--output", "--force", "--set", "--allow-unreachable", "--no-report", "--json"})
+       {"--place", "--output", "--force", "--set", "--allow-unreachable", "--no-report", "--json"})
     sub.option(of_a_run).needs(live);
   sub.callback([=, &action] {
     action = [=] {

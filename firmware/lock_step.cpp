@@ -1,12 +1,11 @@
 // firmware/lock_step.cpp - a board's program in the emulator, tick by tick with the simulation of a
 // host: what it sends to valves goes into a pipe, what its converter reads comes out of another.
 // The host keeps the whole machine waiting while it thinks, so that both see one and the same time.
-#include "firmware/lock_step.h"
-
 #include <array>
 #include <new>
 
 #include "firmware/semihosting.h"
+#include "sinew/control/board/lock_step.h"
 #include "sinew/control/board/program.h"
 
 namespace sinew::firmware {
@@ -16,7 +15,7 @@ std::uint32_t deepest_stack();
 
 namespace {
 
-using signals::Tick;
+namespace record = board::record;
 
 // The two pipes: what is said is kept until an answer is waited for.
 class Host {
@@ -69,6 +68,11 @@ struct Room {
 Room<board::Program> program_room;
 Room<Host> host_room;
 
+// The bits of -1 while nothing runs.
+std::uint64_t run_tick(const board::Program& program) {
+  return static_cast<std::uint64_t>(program.safety().run_tick(program.now()));
+}
+
 void say_all(board::Program& program, Host& host) {
   static std::array<std::uint8_t, link::max_frame> bytes;
   for (bool more = true; more;) {
@@ -84,10 +88,10 @@ void say_all(board::Program& program, Host& host) {
 void wait(board::Program& program, Host& host) {
   say_all(program, host);
   host.put(record::waits);
-  host.put(static_cast<std::uint64_t>(program.now()));
+  host.put(run_tick(program));
   host.send();
   std::uint16_t size = host.number();
-  if (size == ends) {
+  if (size == board::ends) {
     host.put(record::sizes);
     host.put(deepest_stack());
     host.put(static_cast<std::uint32_t>(sizeof(board::Program)));
@@ -108,7 +112,7 @@ void wait(board::Program& program, Host& host) {
 
 signals::Reading convert(board::Program& program, Host& host, std::uint8_t channel) {
   host.put(record::reading);
-  host.put(static_cast<std::uint64_t>(program.now()));
+  host.put(run_tick(program));
   host.put(channel);
   host.send();
   std::array<std::uint8_t, 3> b;
@@ -116,22 +120,23 @@ signals::Reading convert(board::Program& program, Host& host, std::uint8_t chann
   return {static_cast<std::uint16_t>(b[0] | b[1] << 8), static_cast<signals::Status>(b[2])};
 }
 
+void say_valves(const board::Program& program, Host& host, const board::Outputs& out) {
+  host.put(record::valves);
+  host.put(run_tick(program));
+  host.put(out.open);
+  host.put(static_cast<std::uint8_t>((out.current ? board::has_current : 0) |
+                                     (out.supply ? board::has_supply : 0)));
+}
+
 void run_forever(board::Program& program, Host& host) {
   board::Outputs last;
   for (;;) {
-    if (const signals::Conversion* c = program.begin_tick([&] { wait(program, host); }))
+    const board::Outputs out = program.begin_tick([&] { wait(program, host); });
+    if (out != last) say_valves(program, host, out);
+    last = out;
+    if (const signals::Conversion* c = program.due())
       program.take(*c, convert(program, host, c->channel.index));
-    const Tick now = program.now();
-    const board::Outputs out = program.end_tick();
-    if (out.open != last.open || out.current != last.current || out.supply != last.supply ||
-        out.feed != last.feed) {
-      host.put(record::valves);
-      host.put(static_cast<std::uint64_t>(now));
-      host.put(out.open);
-      host.put(static_cast<std::uint8_t>((out.current ? has_current : 0) |
-                                         (out.supply ? has_supply : 0) | (out.feed ? is_fed : 0)));
-      last = out;
-    }
+    (void)program.end_tick();
   }
 }
 

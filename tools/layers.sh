@@ -33,7 +33,7 @@ layers='
     plant/slide     plant/world air robot signals
     plant/recorded  air robot signals log
     plant/mujoco    air robot signals
-    plant/hardware  air robot signals
+    plant/hardware  control/link control/board signals
     experiment      robot config control/gait
     experiment/rig  experiment plant/slide
     identify/fit    actuator config

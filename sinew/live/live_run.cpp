@@ -85,7 +85,7 @@ class LiveRun::Impl {
     try {
       Tee tee{{}, {}, feed_};
       run::RunOptions o{.steering = &steering_, .progress = &tick_};
-      if (kept_.log()) kept_.log()->tap(o);
+      kept_.apply(o);
       tee.log = o.tap;
       tee.logged = std::move(o.tapped);
       o.tap = {&tee, &Tee::push};

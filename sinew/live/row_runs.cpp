@@ -21,7 +21,7 @@ std::filesystem::path run_and_keep(const tune::StudyRun& run, const std::atomic<
   if (run::is_on_stand(run.experiment)) return run::run_on_stand(request).folder;
   run::KeptRun kept(request);
   run::RunOptions options{.stop = &stop};
-  if (kept.log()) kept.log()->tap(options);
+  kept.apply(options);
   return kept.keep(run::run(kept.experiment(), options)).folder;
 }
 

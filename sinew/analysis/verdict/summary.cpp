@@ -77,6 +77,7 @@ std::string to_json(const Summary& summary, const Host& host) {
   if (!summary.warnings.empty()) root["warnings"] = summary.warnings;
   for (const auto& [key, value] : host.numbers)
     if (std::isfinite(value)) put(root, "host." + key, value);
+  if (!host.board.empty()) root["host"]["board"] = host.board;
   if (!host.warnings.empty()) root["host"]["warnings"] = host.warnings;
   return text_of(root, "") + "\n";
 }

@@ -47,6 +47,7 @@ class Summary {
 // its log does not hold.
 struct Host {
   std::vector<std::pair<std::string, double>> numbers;
+  std::string board;  // who ran it, where that was no simulation
   std::vector<std::string> warnings;
 };
 

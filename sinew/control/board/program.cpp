@@ -76,16 +76,19 @@ void Program::obey_command() noexcept {
   const link::CommandFor* to_obey = queue_.at(run);
   command_begun_ = run;
   starts_ = false;
+  bool ends = false;
   // What holds is changed once by a command, however long it is good for.
   if (to_obey != nullptr && to_obey->from != obeyed_) {
     for (std::size_t j = 0; j < to_obey->joints; ++j) held_.joint[j] = to_obey->joint[j];
     obeyed_ = to_obey->from;
+    ends = to_obey->ends;
   }
   if (to_obey != nullptr || changed_) safety_.command(held_, now_);
   changed_ = false;
+  if (ends) safety_.finish(now_);
 }
 
-const Conversion* Program::drive() noexcept {
+Outputs Program::drive() noexcept {
   for (const Edge& edge : safety_.edges(now_)) {
     if (!edges_wanted_) continue;
     if (edge_count_ < edge_.size())
@@ -93,20 +96,19 @@ const Conversion* Program::drive() noexcept {
     else
       ++edges_lost_;
   }
-  return safety_.due(now_);
+  return {.open = safety_.open(now_),
+          .current = safety_.state() != BoardState::dump,
+          .supply = safety_.supply()};
 }
 
 void Program::take(const Conversion& conversion, Reading reading) noexcept {
   safety_.take(conversion, reading, now_);
 }
 
-Outputs Program::end_tick() noexcept {
-  const Outputs out{.open = safety_.open(now_),
-                    .current = safety_.state() != BoardState::dump,
-                    .supply = safety_.supply(),
-                    .feed = safety_.end(now_)};
+bool Program::end_tick() noexcept {
+  const bool feed = safety_.end(now_);
   ++now_;
-  return out;
+  return feed;
 }
 
 // --- what a host says ---------------------------------------------------------------------------

@@ -5,9 +5,9 @@
 // between, serve() works the line off. serve() must not be cut in two by a tick where it says so:
 // the hardware gives it a way to keep the ticks away for some hundred instructions (`Ticks`).
 //
-//   tick:    const Conversion* c = program.begin_tick();
-//            if (c) program.take(*c, adc());
-//            outputs(program.end_tick());
+//   tick:    outputs(program.begin_tick());        valves first: their instant counts
+//            if (const Conversion* c = program.due()) program.take(*c, adc());
+//            if (program.end_tick()) feed_watchdog();
 //   between: program.receive(bytes); while (program.serve(ticks)); program.transmit(buffer);
 //
 // A run's ticks count from its first command, which the host sends `from` 0 to an armed board.
@@ -41,12 +41,13 @@ struct Identification {
   bool bitten = false;      // the watchdog has reset it
 };
 
-// What a tick leaves behind.
+// What valves and the supply are to have from a tick on.
 struct Outputs {
   control::OpenMask open = 0;
   bool current = true;  // false: no coil has any (a dump)
   bool supply = false;  // the dump valve has current
-  bool feed = false;    // the watchdog
+
+  friend constexpr bool operator==(const Outputs&, const Outputs&) = default;
 };
 
 class Program {
@@ -58,11 +59,10 @@ class Program {
 
   // --- a tick ---
 
-  // Returns the conversion whose result is due in this tick, or nullptr. `told(now)` is called
-  // where a run's period begins, between what is said of the last one and the command of this one:
-  // where host and board go in lock step it waits for the host.
+  // `told` is called where a run's period begins, between what is said of the last one and the
+  // command of this one: where host and board go in lock step it waits for the host.
   template <class Told>
-  const signals::Conversion* begin_tick(Told told) noexcept {
+  Outputs begin_tick(Told told) noexcept {
     if (begins_period()) {
       note();
       told();
@@ -70,11 +70,14 @@ class Program {
     }
     return drive();
   }
-  const signals::Conversion* begin_tick() noexcept {
+  Outputs begin_tick() noexcept {
     return begin_tick([] {});
   }
+  // The conversion whose result is there in this tick, or nullptr.
+  const signals::Conversion* due() noexcept { return safety_.due(now_); }
   void take(const signals::Conversion&, signals::Reading) noexcept;
-  Outputs end_tick() noexcept;
+  // All of the tick was worked off and nothing has changed by itself: the watchdog may be fed.
+  bool end_tick() noexcept;
 
   // So many ticks have passed without a call.
   void miss(std::uint32_t ticks) noexcept { now_ += ticks; }
@@ -113,7 +116,7 @@ class Program {
   bool begins_period() noexcept;
   void note() noexcept;
   void obey_command() noexcept;
-  const signals::Conversion* drive() noexcept;
+  Outputs drive() noexcept;
 
   // A host's messages
   bool next_frame() noexcept;

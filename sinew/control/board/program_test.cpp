@@ -238,6 +238,28 @@ TEST(Program, GainsDutiesAndEnablingHoldUntilACommandSaysOtherwise) {
   EXPECT_EQ(b.last(), Code::value);
 }
 
+// A plan's end is no fault: inlets shut at once, a vent, then all shut and ready for the next run.
+TEST(Program, ACommandThatEndsTheRunVentsItAndLeavesTheBoardIdle) {
+  Bench b;
+  b.ready();
+  Command command = control::rest_command(control::test_leg());
+  command.joint[control::hip] = {.enabled = true, .open_loop = true, .duties = {90, 0, 0, 90}};
+  b.send(command_of(command, 0, 3, 10));
+  b.run(150);
+  EXPECT_NE(b.out.open, 0u);
+  link::CommandFor last = command_of(command, 200, 3, 10);
+  last.ends = true;
+  b.send(last);
+  ASSERT_TRUE(b.reaches(BoardState::vent, 60));
+  ASSERT_TRUE(b.reaches(BoardState::idle, 30'000));
+  b.run(1);
+  EXPECT_EQ(b.out.open, 0u);
+  std::vector<BoardState> states;
+  for (const link::Event& e : b.events) states.push_back(e.state);
+  EXPECT_EQ(states, (std::vector{BoardState::fault, BoardState::idle, BoardState::armed,
+                                 BoardState::running, BoardState::vent, BoardState::idle}));
+}
+
 // --- faults -------------------------------------------------------------------------------------
 
 TEST(Program, AHostThatFallsSilentIsHeldVentedAndTold) {

@@ -82,17 +82,17 @@ struct Bench {
   // --- the board ---
 
   void tick() {
-    const signals::Conversion* c = program.begin_tick([&] {
+    out = program.begin_tick([&] {
       serve();
       if (told) told();
     });
-    if (c != nullptr) {
+    if (const signals::Conversion* c = program.due()) {
       const std::uint8_t channel = c->channel.index;
       signals::Reading r{control::Stand::rest(channel), signals::Status::ok};
       if (reads) r = reads(channel, program.safety().run_tick(program.now()), r);
       program.take(*c, r);
     }
-    out = program.end_tick();
+    feed = program.end_tick();
     serve();
   }
   void run(Tick ticks) {
@@ -129,6 +129,7 @@ struct Bench {
 
   Program program;
   Outputs out;
+  bool feed = false;
   std::uint8_t sequence = 0;
   std::uint32_t crc = 0;
   std::function<void(Bytes&)> spoil;  // a frame on its way to the board

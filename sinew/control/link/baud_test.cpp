@@ -70,11 +70,11 @@ TEST(Baud, TheSlowestThatCarriesAllIsChosen) {
 // Figures of docs/wire.md.
 TEST(Baud, OfTheLegAndOfTheLargestBoard) {
   EXPECT_EQ(load_of(control::test_leg(), false).to_host, 482u);
-  EXPECT_EQ(load_of(control::test_leg(), false).to_board, 127u);
+  EXPECT_EQ(load_of(control::test_leg(), false).to_board, 128u);
   EXPECT_EQ(choose_baud(control::test_leg(), false, choices), 921'600u);
   EXPECT_EQ(choose_baud(control::test_leg(), true, choices), 921'600u);
   EXPECT_EQ(load_of(largest(), false).to_host, 1147u);
-  EXPECT_EQ(load_of(largest(), false).to_board, 257u);
+  EXPECT_EQ(load_of(largest(), false).to_board, 258u);
   EXPECT_EQ(choose_baud(largest(), false, choices), 2'000'000u);
   EXPECT_EQ(choose_baud(largest(), true, choices), 0u);
 }

@@ -124,6 +124,7 @@ struct CommandFor {
   static constexpr Type type = Type::command;
   signals::Tick from = 0;    // the first tick of a period
   std::uint8_t periods = 1;  // how many it is good for, 1 .. 100; then the host is taken for lost
+  bool ends = false;         // the run ends with it: the joints are vented as a plan's end does it
   std::uint8_t joints = 0;   // how many follow, the board's first ones
   std::array<control::JointCommand, control::max_joints> joint;
 };
@@ -232,6 +233,7 @@ template <class Io, Is<CommandFor> M>
 constexpr void fields(Io& io, M& m) noexcept {
   io.limited(m.from, signals::Tick{0}, max_tick);
   io.limited(m.periods, std::uint8_t{1}, std::uint8_t{100});
+  flag(io, m.ends);
   count(io, m.joints, control::max_joints);
   first_of(m.joint, m.joints, [&](auto& x) { fields(io, x); });
 }

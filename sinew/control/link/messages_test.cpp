@@ -131,7 +131,7 @@ TEST(Messages, CountsBeyondTheRoomAreNotSent) {
 }
 
 TEST(Messages, ACommandOfALegIsShort) {
-  EXPECT_EQ(frame_of(CommandFor{.joints = 3}).size(), 13u + 10u + 3u * 26u);
+  EXPECT_EQ(frame_of(CommandFor{.joints = 3}).size(), 13u + 11u + 3u * 26u);
 }
 
 }  // namespace

@@ -151,6 +151,12 @@ void Safety::shut_down(Tick now) noexcept {
     vent(BoardFault::asked, Trip::Cause::asked, 0, now);
 }
 
+void Safety::finish(Tick now) noexcept {
+  if (state_ != BoardState::running && state_ != BoardState::hold) return;
+  run_->shut_down(now - start_);
+  fail(BoardState::vent, BoardFault::asked, now);
+}
+
 // --- what goes wrong ----------------------------------------------------------------------------
 
 void Safety::fail(BoardState state, BoardFault fault, Tick now) noexcept {

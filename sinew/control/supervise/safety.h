@@ -51,7 +51,7 @@ enum class BoardFault : std::uint8_t {
   parameters,  // the constants in memory have changed
   state,       // so has the state itself
   not_empty,   // after the longest vent something was still under pressure
-  asked,       // shut down at once
+  asked,       // a host has: at once, or at its plan's end
 };
 
 struct SafetyConfig {
@@ -101,6 +101,9 @@ class Safety {
     if (state_ == BoardState::armed) heard_at_ = now;
   }
   void shut_down(signals::Tick now) noexcept;
+  // The plan is over, at a period's start: vents as the controller does by itself, a law's delay
+  // later.
+  void finish(signals::Tick now) noexcept;
 
   // --- a tick, in this order; ticks count from the reset and never decrease ---
 

@@ -22,9 +22,10 @@ experiment::Experiment load(const RunRequest& request, const Notices& notices) {
 }
 
 std::string summary_json(const analysis::Summary& summary, const experiment::Experiment& e,
-                         const run::Outcome& outcome) {
+                         const Place& place, const run::Outcome& outcome) {
   const double factor = outcome.wall > 0 ? outcome.duration / outcome.wall : 0;
   return to_json(summary, {.numbers = {{"real_time_factor", factor}, {"threads", 1}},
+                           .board = place.who(),
                            .warnings = warnings_beside_the_log(e, outcome)});
 }
 
@@ -34,12 +35,18 @@ KeptRun::KeptRun(RunRequest request, Notices notices)
     : request_(std::move(request)),
       notices_(std::move(notices)),
       experiment_(load(request_, notices_)),
-      logged_(run::logged_topics(experiment_)) {
+      logged_(run::logged_topics(experiment_)),
+      place_(std::make_unique<Place>(request_.port, experiment_)) {
   resolve();
   folder_.emplace(run_folder(request_.folder, request_.force, experiment_.name));
   if (!experiment_.log.enabled) return;
   write_into(*folder_, resolved_name, resolved_);
   log_.emplace(folder_->work() / log_name, experiment_.name, experiment_.seed, resolved_, logged_);
+}
+
+void KeptRun::apply(RunOptions& options) {
+  place_->apply(options);
+  if (log_) log_->tap(options);
 }
 
 // The figures are made of what `analyze` will read, so that both come to the same bits.
@@ -72,7 +79,7 @@ void KeptRun::keep_trip(const run::Outcome& outcome) {
   if (outcome.supervised.trip.cause == control::Trip::Cause::none) return;
   const analysis::Summary summary =
       analysis::summarize_trip(outcome.table, analysis::read_machine(values_));
-  write_into(*folder_, summary_name, summary_json(summary, experiment_, outcome));
+  write_into(*folder_, summary_name, summary_json(summary, experiment_, *place_, outcome));
 }
 
 // Leaves the log without an index, as one that was cut off, and throws with its name.
@@ -92,7 +99,7 @@ Kept<analysis::Machine> KeptRun::keep_files(run::Outcome& outcome, analysis::Mac
                                .duration = outcome.duration,
                                .wall = outcome.wall};
   warn(kept.summary.warnings, outcome);
-  kept.json = summary_json(kept.summary, experiment_, outcome);
+  kept.json = summary_json(kept.summary, experiment_, *place_, outcome);
   write_into(*folder_, summary_name, kept.json);
   if (log_ && request_.report)
     kept.page = write_report(*folder_, run::logged_part(std::move(outcome.table), logged_), values_,
@@ -125,7 +132,7 @@ Kept<analysis::Machine> KeptRun::keep(run::Outcome outcome) try {
 Kept<analysis::Machine> run_and_keep(RunRequest request, Notices notices) {
   KeptRun kept(std::move(request), std::move(notices));
   run::RunOptions options;
-  if (kept.log()) kept.log()->tap(options);
+  kept.apply(options);
   return kept.keep(run::run(kept.experiment(), options));
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "sinew/run/folder/notices.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/run_log.h"
+#include "sinew/run/simulation/place.h"
 #include "sinew/run/simulation/run.h"
 
 namespace sinew::run {
@@ -25,6 +27,7 @@ struct RunRequest {
   bool force = false;              // replace the run that is in the folder
   bool allow_unreachable = false;  // aim at the nearest point where the foot path is out of reach
   bool report = true;              // leave report.html
+  std::string port;                // where it runs (place.h); empty: simulated
 };
 
 // The files and figures that a run left. Machine is analysis::Machine or, of a stand,
@@ -42,8 +45,8 @@ struct Kept {
 // KeptRun holds the folder of a run locked, and its log, from before the loop until it is kept.
 class KeptRun {
  public:
-  // Loads the experiment and opens its folder and its log. Throws config::Error for what cannot be
-  // run, or kept.
+  // Loads the experiment, has its board ready where it is to run on one, and opens its folder and
+  // its log. Throws config::Error for what cannot be run, or kept, and plant::BoardError.
   explicit KeptRun(RunRequest request, Notices notices = {});
 
   const experiment::Experiment& experiment() const { return experiment_; }
@@ -51,6 +54,10 @@ class KeptRun {
   const config::Node& values() const { return values_; }     // what it says
   const std::filesystem::path& folder() const { return folder_->path(); }
   RunLog* log() { return log_ ? &*log_ : nullptr; }  // nullptr where the experiment wants none
+  const Place& place() const { return *place_; }
+
+  // The run goes to its place and into its log, where it has one.
+  void apply(RunOptions& options);
 
   // After the loop: the log's end, summary and page into the folder. What was changed on the way
   // stands in resolved.toml. Only then it takes the place of an older run. Throws where the run
@@ -71,6 +78,7 @@ class KeptRun {
   std::string resolved_;
   config::Node values_;  // what resolved_ says, as `sinew analyze` will read it
   LoggedTopics logged_;
+  std::unique_ptr<Place> place_;
   std::optional<OutputFolder> folder_;
   std::optional<RunLog> log_;
 };

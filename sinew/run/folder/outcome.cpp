@@ -105,6 +105,8 @@ std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& e
        "rejected: not numbers, out of range or too fast");
   tell(logged ? 0 : supervised.gaps, "tick", "ticks",
        fmt::format("came later than announced, by {} at worst", supervised.worst_gap));
+  tell(outcome.lost, "period", "periods",
+       "of the board's telemetry did not come: they are gaps in the log");
   add_sensors(e, outcome, out);
   add_idle_faults(e, outcome, out);
   tell(seen.missed, "tick", "ticks",

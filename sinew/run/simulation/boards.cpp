@@ -49,7 +49,7 @@ void Board::take(const Conversion& conversion, signals::Reading reading, Tick t)
 }
 
 control::Trip Board::trip() const noexcept {
-  control::Trip trip = supervisor.supervised().trip;
+  control::Trip trip = supervised().trip;
   if (trip.channel.index < channel_.size()) trip.channel.index = channel_[trip.channel.index];
   if (trip.joint < joint_.size()) trip.joint = joint_[trip.joint];
   return trip;
@@ -58,46 +58,46 @@ control::Trip Board::trip() const noexcept {
 // --- what all boards know ---
 
 MachineSeen::MachineSeen(const Boards& boards) noexcept
-    : phase(boards.boards_.front().supervisor.seen().phase), boards_(&boards) {
-  for (const Board& b : boards.boards_) phase = std::min(phase, b.supervisor.seen().phase);
+    : phase(boards.boards_.front().seen().phase), boards_(&boards) {
+  for (const Board& b : boards.boards_) phase = std::min(phase, b.seen().phase);
 }
 
 const control::JointSeen& MachineSeen::joint(std::size_t joint) const noexcept {
   const Boards::Place at = boards_->joint_[joint];
-  return boards_->boards_[at.board].supervisor.seen().joint[at.number];
+  return boards_->boards_[at.board].seen().joint[at.number];
 }
 
 const signals::Reading& MachineSeen::reading(std::size_t sensor) const noexcept {
   const Boards::Place at = boards_->sensor_[sensor];
-  return boards_->boards_[at.board].supervisor.seen().reading[at.number];
+  return boards_->boards_[at.board].seen().reading[at.number];
 }
 
 const control::SensorSeen& MachineSeen::supervised(std::size_t sensor) const noexcept {
   const Boards::Place at = boards_->sensor_[sensor];
-  return boards_->boards_[at.board].supervisor.supervised().sensor[at.number];
+  return boards_->boards_[at.board].supervised().sensor[at.number];
 }
 
 std::uint32_t MachineSeen::overruns() const noexcept {
   std::uint32_t sum = 0;
-  for (const Board& b : boards_->boards_) sum += b.supervisor.seen().overruns;
+  for (const Board& b : boards_->boards_) sum += b.seen().overruns;
   return sum;
 }
 
 std::uint32_t MachineSeen::rejected_commands() const noexcept {
   std::uint32_t sum = 0;
-  for (const Board& b : boards_->boards_) sum += b.supervisor.supervised().rejected_commands;
+  for (const Board& b : boards_->boards_) sum += b.supervised().rejected_commands;
   return sum;
 }
 
 std::uint32_t MachineSeen::gaps() const noexcept {
   std::uint32_t most = 0;
-  for (const Board& b : boards_->boards_) most = std::max(most, b.supervisor.supervised().gaps);
+  for (const Board& b : boards_->boards_) most = std::max(most, b.supervised().gaps);
   return most;
 }
 
 bool MachineSeen::tripped() const noexcept {
   return std::ranges::any_of(boards_->boards_, [](const Board& b) {
-    return b.supervisor.supervised().trip.cause != control::Trip::Cause::none;
+    return b.supervised().trip.cause != control::Trip::Cause::none;
   });
 }
 
@@ -150,6 +150,19 @@ Tick Boards::next_event(Tick t) noexcept {
   return next;
 }
 
+void Boards::show(const control::Seen& seen, const control::Supervised& supervised,
+                  Ticks known) noexcept {
+  boards_.front().show({seen, supervised});
+  known_ = known;
+}
+
+void Boards::show_end(signals::Status why) noexcept {
+  Board::Far last{boards_.front().seen(), boards_.front().supervised()};
+  last.seen.phase = Phase::off;
+  if (last.seen.fault == signals::Status::ok) last.seen.fault = why;
+  boards_.front().show(last);
+}
+
 void Boards::missed(Tick t) noexcept {
   for (Board& b : boards_) b.supervisor.missed(t);
 }
@@ -162,14 +175,14 @@ SeenTotals Boards::seen_totals() const {
   SeenTotals out;
   out.phase = seen().phase;
   for (const Board& b : boards_) {
-    const control::Seen& its = b.supervisor.seen();
+    const control::Seen& its = b.seen();
     out.late += its.late;
     out.invalid += its.invalid;
     out.overruns += its.overruns;
     out.missed = std::max(out.missed, its.missed);
   }
   const Board& ended = boards_[static_cast<std::size_t>(std::max(state_.ended_by, 0))];
-  const control::Seen& its = ended.supervisor.seen();
+  const control::Seen& its = ended.seen();
   out.fault = its.fault;
   const std::size_t channel = its.fault_channel.index;
   if (channel < ended.channels().size()) out.fault_channel = {ended.channels()[channel]};
@@ -181,7 +194,7 @@ SupervisedTotals Boards::supervised_totals() const {
   const MachineSeen now = seen();
   for (std::size_t s = 0; s < sensor_.size(); ++s) out.sensor.push_back(now.supervised(s));
   for (const Board& b : boards_) {
-    const control::Supervised& its = b.supervisor.supervised();
+    const control::Supervised& its = b.supervised();
     out.rejected += its.rejected;
     out.rejected_commands += its.rejected_commands;
     out.gaps = std::max(out.gaps, its.gaps);

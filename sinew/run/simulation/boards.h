@@ -9,6 +9,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,6 +36,18 @@ class Board {
   std::span<const signals::Conversion> conversions() const noexcept { return conversion_; }
   std::span<const std::uint8_t> joints() const noexcept { return joint_; }
   std::span<const std::uint8_t> channels() const noexcept { return channel_; }
+  std::span<const std::uint8_t> valves() const noexcept { return valve_; }
+
+  // What it knows: its controller's, or what a board far away has said last.
+  const control::Seen& seen() const noexcept { return far_ ? far_->seen : supervisor.seen(); }
+  const control::Supervised& supervised() const noexcept {
+    return far_ ? far_->supervised : supervisor.supervised();
+  }
+  struct Far {
+    control::Seen seen;
+    control::Supervised supervised;
+  };
+  void show(const Far& far) noexcept { far_ = far; }
   // Why it ended the run, with the machine's channel and joint.
   control::Trip trip() const noexcept;
 
@@ -43,6 +57,7 @@ class Board {
   std::vector<std::uint8_t> joint_, channel_, valve_;  // the machine's numbers, by the board's own
   std::vector<signals::Conversion> conversion_;        // its scan
   std::array<signals::Edge, 4 * control::max_joints> out_;
+  std::optional<Far> far_;
 };
 
 // A command says what is desired of every joint of the machine, in the robot's order, and of the
@@ -108,6 +123,19 @@ class Boards {
   void missed(signals::Tick t) noexcept;
   void shut_down(signals::Tick t) noexcept;
 
+  // --- for a machine whose one board is far away (remote_boards.h) ---
+
+  // Ticks from `first` on, before `last`.
+  struct Ticks {
+    signals::Tick first = 0, last = 0;
+  };
+  // Shows what it knew in these ticks, in place of its controller here.
+  void show(const control::Seen& seen, const control::Supervised& supervised, Ticks known) noexcept;
+  // Its run is over; `why` is ok where it has said so itself.
+  void show_end(signals::Status why) noexcept;
+  // Is what is seen that of tick t? Always, of boards that are here.
+  bool knows(signals::Tick t) const noexcept { return t >= known_.first && t < known_.last; }
+
   // --- for whoever looks ---
 
   std::span<const Board> each() const noexcept { return boards_; }
@@ -138,6 +166,7 @@ class Boards {
   std::vector<signals::Conversion> conversion_;
   std::vector<Place> joint_, sensor_;
   std::uint16_t period_ = 100;
+  Ticks known_{0, std::numeric_limits<signals::Tick>::max()};
   State state_;
 };
 

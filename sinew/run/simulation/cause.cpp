@@ -32,6 +32,7 @@ std::string cause_of(const experiment::Experiment& e, const Outcome& outcome) {
   const std::string tripped =
       control::to_text(outcome.supervised.trip, e.robot, outcome.supervised.board);
   if (!tripped.empty()) return tripped;
+  if (!outcome.line.empty()) return outcome.line + fmt::format(" at {:.4f} s", outcome.duration);
   const bool by_sensor = seen.fault != signals::Status::ok;
   std::string text(word(by_sensor ? seen.fault : outcome.status));
   if (by_sensor && seen.fault_channel.index < e.robot.sensors.size())

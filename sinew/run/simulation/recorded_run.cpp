@@ -45,6 +45,10 @@ Outcome RecordedRun::finish() {
     out.table = recorder_->take();
     out.no_room = recorder_->problem();
   }
+  if (const RemoteBoards* far = simulation_.remote()) {
+    out.line = far->problem();
+    out.lost = far->lost();
+  }
   out.seen = simulation_.boards().seen_totals();
   out.supervised = simulation_.boards().supervised_totals();
   out.changes = simulation_.high_level().changes().all();

@@ -112,6 +112,7 @@ signals::Table Recorder::take() {
 void Recorder::sample(Tick t) noexcept {
   if (t < next_) return;
   next_ += period_;
+  if (!spine_.knows(t)) return;  // what a board far away said of it is lost
   now_ns_ = t * signals::tick_nanoseconds;
   keep(row_time_ns_, now_ns_);
   cursor_ = number_ = 0;

@@ -14,13 +14,17 @@ template <class Clock>
 Outcome to_the_end(Simulation& simulation, const RunOptions& options, Clock& clock) {
   RecordedRun run(simulation, options);
   run.advance(simulation.last(), clock);
-  return run.finish();
+  Outcome out = run.finish();
+  if (simulation.machine() != nullptr) out.nodes = simulation.machine()->nodes();
+  return out;
 }
 
-}  // namespace
-
-Outcome run(const experiment::Experiment& e, const RunOptions& options) {
-  Simulation simulation(e, options.steering);
+Outcome by_its_clock(Simulation& simulation, const experiment::Experiment& e,
+                     const RunOptions& options) {
+  if (options.board && options.board_keeps_time) {
+    SimulatedClock clock;
+    return to_the_end(simulation, options, clock);
+  }
   if (options.steering) {
     SteeredClock clock(*options.steering, 0.01 + e.log.period);
     return to_the_end(simulation, options, clock);
@@ -30,9 +34,18 @@ Outcome run(const experiment::Experiment& e, const RunOptions& options) {
     return to_the_end(simulation, options, clock);
   }
   SimulatedClock clock;
-  Outcome out = to_the_end(simulation, options, clock);
-  out.nodes = simulation.machine()->nodes();
-  return out;
+  return to_the_end(simulation, options, clock);
+}
+
+}  // namespace
+
+Outcome run(const experiment::Experiment& e, const RunOptions& options) {
+  if (options.board) {
+    Simulation simulation(e, *options.board, options.lead, options.steering);
+    return by_its_clock(simulation, e, options);
+  }
+  Simulation simulation(e, options.steering);
+  return by_its_clock(simulation, e, options);
 }
 
 Outcome replay(const experiment::Experiment& e, const signals::Table& recorded) {

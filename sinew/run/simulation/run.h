@@ -8,6 +8,7 @@
 
 #include "sinew/air/failure.h"
 #include "sinew/experiment/experiment.h"
+#include "sinew/plant/hardware/remote_board.h"
 #include "sinew/plant/planar/setup.h"
 #include "sinew/run/simulation/boards.h"
 #include "sinew/run/simulation/recorder.h"
@@ -26,12 +27,17 @@ struct RunOptions {
   bool every_tick = false;                        // visit each tick: slower, the same bits
   bool recorded = true;                           // false: the outcome's table is empty
   int extra_readers = 0;                          // looks at the world per event: the same bits
+  plant::RemoteBoard* board = nullptr;  // drives the machine in place of the simulation; armed
+  int lead = 1;                         // of its commands [periods] (remote_boards.h)
+  bool board_keeps_time = true;         // false: it waits for the host, who may set a pace
 };
 
 struct Outcome {
   signals::Status status = signals::Status::ok;
   bool stopped = false;  // by RunOptions::stop
   signals::Table table;
+  std::string line;                   // what was wrong with the line to a board; empty: nothing
+  std::uint32_t lost = 0;             // periods of which a board's telemetry did not come
   std::string no_room;                // why the table is not complete, and what to do; empty: it is
   SeenTotals seen;                    // the low level's last word
   SupervisedTotals supervised;        // what was not believed, and what ended the run
@@ -44,8 +50,8 @@ struct Outcome {
 
   // It did not come to its end: there is nothing to sum up.
   bool ended_early() const {
-    return failure || status != signals::Status::ok || seen.fault != signals::Status::ok ||
-           supervised.trip.cause != control::Trip::Cause::none;
+    return failure || !line.empty() || status != signals::Status::ok ||
+           seen.fault != signals::Status::ok || supervised.trip.cause != control::Trip::Cause::none;
   }
 };
 

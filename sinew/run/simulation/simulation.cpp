@@ -85,6 +85,16 @@ Simulation::Simulation(const experiment::Experiment& experiment, signals::Port& 
   list_channels();
 }
 
+Simulation::Simulation(const experiment::Experiment& experiment, plant::RemoteBoard& board,
+                       int lead, Steering* steering)
+    : experiment_(experiment),
+      boards_(experiment_),
+      high_level_(experiment_.robot, experiment_.plan, steering),
+      last_(experiment::last_tick(experiment_)) {
+  port_ = &remote_.emplace(boards_, board, lead);
+  list_channels();
+}
+
 bool Simulation::ended() const noexcept {
   return tick_ >= last_ || loop_.status != signals::Status::ok ||
          boards_.seen().phase == control::Phase::off;

@@ -32,6 +32,7 @@
 #include "sinew/run/simulation/faulty_port.h"
 #include "sinew/run/simulation/high_level.h"
 #include "sinew/run/simulation/loop.h"
+#include "sinew/run/simulation/remote_boards.h"
 
 namespace sinew::run {
 
@@ -47,6 +48,11 @@ class Simulation {
   // The experiment's controllers before another body, which outlives this: a recorded one, for
   // instance. Nothing is simulated then: no truth, and nothing to save.
   Simulation(const experiment::Experiment& experiment, signals::Port& body);
+
+  // The experiment's plan before a board at the end of a line, which is armed and outlives this
+  // (remote_boards.h has `lead`). Nothing is simulated then either.
+  Simulation(const experiment::Experiment& experiment, plant::RemoteBoard& board, int lead,
+             Steering* steering = nullptr);
 
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -72,7 +78,10 @@ class Simulation {
   void advance(signals::Tick until, Clock& clock, Watch& watch) noexcept {
     if (tick_ < last_ && until > tick_) {
       until = until < last_ ? until : last_;
-      run::advance(loop_, boards_, high_level_, port(), clock, watch, until);
+      if (remote_)
+        run::advance(loop_, *remote_, high_level_, port(), clock, watch, until);
+      else
+        run::advance(loop_, boards_, high_level_, port(), clock, watch, until);
       tick_ = loop_.at < until ? loop_.at : until;
     }
   }
@@ -123,6 +132,7 @@ class Simulation {
   const experiment::Experiment& experiment() const noexcept { return experiment_; }
   const Boards& boards() const noexcept { return boards_; }
   const HighLevel& high_level() const noexcept { return high_level_; }
+  const RemoteBoards* remote() const noexcept { return remote_ ? &*remote_ : nullptr; }
   plant::Machine* machine() noexcept { return machine_ ? &*machine_ : nullptr; }
 
  private:
@@ -141,6 +151,7 @@ class Simulation {
   std::optional<FaultyPort> faulty_;
   signals::Port* port_ = nullptr;
   Boards boards_;
+  std::optional<RemoteBoards> remote_;  // shown by boards_
   HighLevel high_level_;
   signals::Tick last_ = 0, tick_ = 0;
   LoopState loop_;

@@ -1,0 +1,25 @@
+// control/board/lock_step.h - records that a board in an emulator and the simulation around it
+// exchange over two pipes: its valves, its converter, its line, its clock. All numbers are
+// little-endian.
+//
+//   board to host   V  tick i64  open u32  flags u8    valves from that tick on
+//                   R  tick i64  channel u8            answered: counts u16, status u8
+//                   L  size u16  bytes                 out of the line
+//                   W  tick i64                        a period begins; answered: size u16, bytes
+//                                                      into the line, or the size `ends`
+//                   S  deepest stack u32, its memory u32   before it ends
+//
+// Ticks are the run's, since its first command; -1 while nothing runs.
+#pragma once
+
+#include <cstdint>
+
+namespace sinew::board {
+
+namespace record {
+inline constexpr std::uint8_t valves = 'V', reading = 'R', line = 'L', waits = 'W', sizes = 'S';
+}
+inline constexpr std::uint16_t ends = 0xffff;
+inline constexpr std::uint8_t has_current = 1, has_supply = 2;  // flags
+
+}  // namespace sinew::board

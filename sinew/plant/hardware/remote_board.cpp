@@ -1,0 +1,241 @@
+#include "sinew/plant/hardware/remote_board.h"
+
+#include <fmt/format.h>
+
+#include "sinew/control/link/words.h"
+
+namespace sinew::plant {
+
+using control::BoardState;
+using link::Code;
+
+namespace {
+
+// For how long an answer is waited for, and how often the question is sent.
+constexpr double answer_seconds = 0.5;
+constexpr int tries = 3;
+
+bool runs(BoardState state) noexcept {
+  return state == BoardState::running || state == BoardState::hold || state == BoardState::vent;
+}
+
+}  // namespace
+
+RemoteBoard::RemoteBoard(BoardLine line, std::uint8_t number, std::uint16_t period)
+    : line_(std::move(line)), number_(number), joiner_(period) {
+  edge_.reserve(4'096);
+}
+
+// --- frames -------------------------------------------------------------------------------------
+
+template <class M>
+bool RemoteBoard::send(const M& message) noexcept {
+  std::array<std::uint8_t, link::max_frame> frame;
+  const std::size_t size = link::encode(message, {number_, sequence_++}, frame);
+  return size > 0 && line_.write({frame.data(), size});
+}
+
+// Hears the frames that have come, as far as the next telemetry: the joiner keeps one of them.
+// Returns whether there was any.
+bool RemoteBoard::work_off() noexcept {
+  bool heard = false;
+  while (telemetry_ == nullptr) {
+    if (const link::Frame* frame = decoder_.next()) {
+      hear(*frame);
+      heard = true;
+    } else if (first_ < end_) {
+      first_ += decoder_.push(std::span(bytes_).subspan(first_, end_ - first_));
+    } else {
+      break;
+    }
+  }
+  return heard;
+}
+
+// One read of the line at most: false where nothing came in that time, or the line is gone.
+bool RemoteBoard::listen(double seconds) noexcept {
+  if (work_off()) return true;
+  const std::ptrdiff_t n = line_.read(bytes_, seconds);
+  if (n < 0) why_ = Why::gone;
+  if (n <= 0) return false;
+  first_ = 0;
+  end_ = static_cast<std::size_t>(n);
+  (void)work_off();
+  return true;
+}
+
+void RemoteBoard::hear(const link::Edges& edges) noexcept {
+  for (std::size_t i = 0; i < edges.count && edge_.size() < edge_.capacity(); ++i) {
+    const link::EdgeSeen& e = edges.edge[i];
+    edge_.push_back({edges.tick + e.offset, {e.valve}, e.open, e.level});
+  }
+}
+
+void RemoteBoard::hear(const link::Frame& frame) noexcept {
+  if (frame.envelope.board != number_) return;
+  if (link::Answer m; link::decode(frame, m) == Code::done) {
+    answer_ = m;
+    if (m.code != Code::done) refusal_ = m;
+  }
+  if (link::Identity m; link::decode(frame, m) == Code::done) identity_ = m;
+  if (link::Edges m; link::decode(frame, m) == Code::done) hear(m);
+  if (link::Event m; link::decode(frame, m) == Code::done) {
+    state_ = m.state;
+    fault_ = m.fault;
+  }
+  if (const link::Telemetry* t = joiner_.take(frame.type, frame.body)) {
+    telemetry_ = t;
+    state_ = t->state;
+    fault_ = t->fault;
+  }
+}
+
+// --- before a run -------------------------------------------------------------------------------
+
+// A frame or its answer may be lost: the same question comes again, as another frame.
+template <class M>
+link::Answer RemoteBoard::ask(const M& message) {
+  for (int i = 0; i < tries; ++i) {
+    answer_.reset();
+    const std::uint8_t sequence = sequence_;
+    if (!send(message)) break;
+    double left = answer_seconds;
+    while (left > 0) {
+      telemetry_ = nullptr;
+      if (!listen(0.05)) left -= 0.05;
+      if (why_ == Why::gone) throw BoardError("the line to the board is gone");
+      if (answer_ && answer_->to == static_cast<std::uint8_t>(M::type) &&
+          answer_->sequence == sequence)
+        return *answer_;
+    }
+  }
+  throw BoardError(
+      fmt::format("board {} does not answer: is it on this line, at this rate?", number_));
+}
+
+void RemoteBoard::refuse(const link::Answer& answer, const std::string& what) const {
+  const std::string_view words(answer.text.data(), answer.letters);
+  throw BoardError(fmt::format("board {} refuses {}: {}{}{}", number_, what,
+                               link::in_words(answer.code), words.empty() ? "" : ": ", words));
+}
+
+link::Identity RemoteBoard::identify() {
+  identity_.reset();
+  for (int i = 0; i < tries && !identity_; ++i) {
+    if (!send(link::Identify{})) break;
+    for (double left = answer_seconds; left > 0 && !identity_ && why_ != Why::gone;) {
+      telemetry_ = nullptr;
+      if (!listen(0.05)) left -= 0.05;
+    }
+  }
+  if (why_ == Why::gone) throw BoardError("the line to the board is gone");
+  if (identity_) return *identity_;
+  const link::LineCount& came = decoder_.line();
+  if (came.frames > 0)
+    throw BoardError(
+        fmt::format("there are boards on the line, board {} is none of them", number_));
+  if (came.skipped > 0)
+    throw BoardError(
+        "what comes over the line are no frames of ours: is it another rate, or another device?");
+  throw BoardError("nobody answers: is the board powered, and this its line?");
+}
+
+void RemoteBoard::configure(const link::Configuration& configuration) {
+  const link::ConfigurationSender sender(configuration);
+  if (!sender.ok()) throw BoardError("the configuration has a number that a board cannot have");
+  const auto check = [&](const link::Answer& answer) {
+    if (answer.code != Code::done) refuse(answer, "its configuration");
+  };
+  check(ask(sender.begin()));
+  for (std::size_t i = 0; i < sender.chunks; ++i) check(ask(sender.chunk(i)));
+  check(ask(sender.end()));
+  configuration_ = sender.crc();
+}
+
+// A board says `state` until it knows its sensors and its own memory.
+template <class M>
+void RemoteBoard::ask_until_done(const M& message, double seconds, const std::string& what) {
+  for (;;) {
+    const link::Answer answer = ask(message);
+    if (answer.code == Code::done) return;
+    if (answer.code != Code::state || seconds <= 0) refuse(answer, what);
+    for (double left = 0.02; left > 0;) {
+      telemetry_ = nullptr;
+      if (!listen(0.01)) left -= 0.01;
+      if (why_ == Why::gone) throw BoardError("the line to the board is gone");
+      if (telemetry_ != nullptr) left -= 0.01;
+    }
+    seconds -= 0.02;
+  }
+}
+
+void RemoteBoard::clear_fault() {
+  if (state_ == BoardState::idle) return;
+  ask_until_done(link::ClearFault{}, 1.0, "to leave its fault");
+}
+
+void RemoteBoard::arm() {
+  ask_until_done(link::ArmFirst{configuration_}, 1.0, "to be armed");
+  const link::Answer second = ask(link::ArmSecond{answer_->value, configuration_});
+  if (second.code != Code::done) refuse(second, "to be armed");
+}
+
+link::Identity RemoteBoard::prepare(const link::Configuration& configuration) {
+  const link::Identity who = identify();
+  if (who.protocol != link::protocol_version)
+    throw BoardError(fmt::format("the board speaks version {} of the protocol, this program {}",
+                                 who.protocol, link::protocol_version));
+  state_ = who.state;
+  if (runs(state_) || state_ == BoardState::armed)
+    throw BoardError("the board is in a run already: is another program at this line?");
+  configure(configuration);
+  clear_fault();
+  const link::Answer edges = ask(link::EdgesWanted{true});
+  if (edges.code != Code::done) refuse(edges, "to tell of its edges");
+  arm();
+  has_run_ = false;
+  edge_.clear();
+  return who;
+}
+
+// --- a run --------------------------------------------------------------------------------------
+
+bool RemoteBoard::command(const link::CommandFor& command) noexcept { return send(command); }
+
+std::span<const signals::Edge> RemoteBoard::edges() noexcept { return edge_; }
+
+const link::Telemetry* RemoteBoard::next(double seconds) noexcept {
+  constexpr double step = 0.01;
+  edge_.clear();
+  while (why_ == Why::none || why_ == Why::silent) {
+    telemetry_ = nullptr;
+    const bool heard = listen(step);
+    if (telemetry_ != nullptr && runs(telemetry_->state)) {
+      has_run_ = true;
+      why_ = Why::none;
+      return telemetry_;
+    }
+    const bool rests = telemetry_ != nullptr && !runs(telemetry_->state);
+    if (has_run_ && rests && why_ != Why::gone) why_ = Why::over;
+    // What is said of no run is no answer either.
+    if (!heard || telemetry_ != nullptr) seconds -= step;
+    if (why_ == Why::none && seconds <= 0) {
+      why_ = Why::silent;
+      return nullptr;
+    }
+  }
+  return nullptr;
+}
+
+bool RemoteBoard::shut_down() noexcept {
+  for (int i = 0; i < 600 && why_ != Why::gone; ++i) {  // of 10 ms
+    if (state_ <= BoardState::idle || state_ == BoardState::dump) return true;
+    if (i % 50 == 0 && state_ != BoardState::vent) (void)send(link::ShutDown{});
+    telemetry_ = nullptr;
+    for (double left = 0.01; left > 0 && telemetry_ == nullptr && why_ != Why::gone;)
+      if (!listen(left)) left = 0;
+  }
+  return false;
+}
+
+}  // namespace sinew::plant

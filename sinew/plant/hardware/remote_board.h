@@ -1,0 +1,106 @@
+// plant/hardware/remote_board.h - a controller board at the other end of a line, as its host has
+// it: who it is, what it was told, what it says.
+//
+//   RemoteBoard board(line, 1, 100);
+//   board.prepare(configuration);              // to an armed board, or throws why not
+//   board.command({.from = 0, ...});           // starts the run
+//   while (const link::Telemetry* t = board.next(1.0)) ...
+//
+// docs/wire.md has the messages, docs/supervision.md the board's states.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "sinew/control/link/configuration.h"
+#include "sinew/control/link/telemetry.h"
+#include "sinew/plant/hardware/line.h"
+#include "sinew/signals/port.h"
+
+namespace sinew::plant {
+
+// Says in words what a board did not do, and what may be done about it.
+struct BoardError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class RemoteBoard {
+ public:
+  // `number` is the board's on its line, `period` that of its controller [ticks].
+  RemoteBoard(BoardLine line, std::uint8_t number, std::uint16_t period);
+
+  // --- before a run; each throws BoardError ---
+
+  // Asks who is there.
+  link::Identity identify();
+  // Sends the constants and has them taken, whole.
+  void configure(const link::Configuration& configuration);
+  // Leaves a latched fault: the board's sensors must be good.
+  void clear_fault();
+  // Lets it take a first command; valves still do not move.
+  void arm();
+  // All of it, with edges wanted.
+  link::Identity prepare(const link::Configuration& configuration);
+
+  // --- a run; no exceptions ---
+
+  // False once the line is gone.
+  bool command(const link::CommandFor& command) noexcept;
+  // Waits for the next telemetry of a run, `seconds` at most. nullptr: none came; why() says why.
+  const link::Telemetry* next(double seconds) noexcept;
+  // Edges that it has told of since the last call, in the run's ticks and the board's numbers. The
+  // span is valid until next().
+  std::span<const signals::Edge> edges() noexcept;
+  // Ends the run at once and waits for the valves to be at rest. True: the board says so.
+  bool shut_down() noexcept;
+
+  // --- for whoever looks ---
+
+  // Why next() has returned nullptr: it ended, it is silent, or the line is gone.
+  enum class Why : std::uint8_t { none, over, silent, gone };
+  Why why() const noexcept { return why_; }
+  // The last state that it has told of, and why it is there.
+  control::BoardState state() const noexcept { return state_; }
+  control::BoardFault fault() const noexcept { return fault_; }
+  // The last answer that was no `done`.
+  const std::optional<link::Answer>& refusal() const noexcept { return refusal_; }
+  const link::LineCount& line() const noexcept { return decoder_.line(); }
+
+ private:
+  template <class M>
+  bool send(const M& message) noexcept;
+  template <class M>
+  link::Answer ask(const M& message);
+  template <class M>
+  void ask_until_done(const M& message, double seconds, const std::string& what);
+
+  bool work_off() noexcept;
+  bool listen(double seconds) noexcept;
+  void hear(const link::Frame& frame) noexcept;
+  void hear(const link::Edges& edges) noexcept;
+  [[noreturn]] void refuse(const link::Answer& answer, const std::string& what) const;
+
+  BoardLine line_;
+  std::uint8_t number_, sequence_ = 0;
+  std::uint32_t configuration_ = 0;
+  link::Decoder decoder_;
+  link::TelemetryJoiner joiner_;
+  std::array<std::uint8_t, 1024> bytes_{};
+  std::size_t first_ = 0, end_ = 0;  // of bytes_, not decoded yet
+
+  std::optional<link::Identity> identity_;
+  std::optional<link::Answer> answer_, refusal_;
+  const link::Telemetry* telemetry_ = nullptr;
+  bool has_run_ = false;
+  Why why_ = Why::none;
+  control::BoardState state_ = control::BoardState::fault;
+  control::BoardFault fault_ = control::BoardFault::none;
+  std::vector<signals::Edge> edge_;
+};
+
+}  // namespace sinew::plant

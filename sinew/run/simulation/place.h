@@ -1,0 +1,49 @@
+// run/simulation/place.h - where an experiment's joint controllers are: here, in the simulation; on
+// a board at a serial line; on a board in an emulator.
+//
+//   simulated                   no board: nothing is opened
+//   serial:DEVICE[@RATE]        a board; without a rate the slowest that carries its telemetry
+//   emulated:FILE               firmware/'s lock-step.elf in QEMU, around it the simulated machine
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "sinew/experiment/experiment.h"
+#include "sinew/run/simulation/run.h"
+
+namespace sinew::run {
+
+// Returns "" for a place in words as above, or none, else what is wrong with it.
+std::string problem_of_place(const std::string& place);
+
+// Is it a place other than the simulation?
+bool is_elsewhere(const std::string& place);
+
+class Place {
+ public:
+  // Opens what is there and arms it. Throws plant::BoardError, or config::Error for an experiment
+  // that cannot run there.
+  Place(const std::string& place, const experiment::Experiment& experiment);
+  ~Place();
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+
+  // The run goes there.
+  void apply(RunOptions& options) const;
+  // Who answered, and where: its board and firmware; empty where nothing was opened.
+  const std::string& who() const noexcept { return who_; }
+  // Does it keep its own time, whatever pace is asked for?
+  bool board_keeps_time() const noexcept { return serial_ != nullptr; }
+
+ private:
+  struct Serial;
+  struct Emulated;
+  std::unique_ptr<Serial> serial_;
+  std::unique_ptr<Emulated> emulated_;
+  plant::RemoteBoard* board_ = nullptr;
+  int lead_ = 1;
+  std::string who_;
+};
+
+}  // namespace sinew::run

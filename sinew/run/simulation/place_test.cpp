@@ -1,0 +1,70 @@
+// Where an experiment may run, in words.
+#include "sinew/run/simulation/place.h"
+
+#include <gtest/gtest.h>
+
+#include "sinew/config/diagnostics.h"
+
+namespace sinew::run {
+namespace {
+
+std::string refusal(const std::string& name, std::vector<std::string> sets,
+                    const std::string& place) {
+  const experiment::Experiment e =
+      experiment::load(SINEW_SOURCE_DIR "/experiments/" + name + ".toml", sets);
+  try {
+    const Place there(place, e);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Place, IsASimulationADeviceOrAFile) {
+  for (const char* good : {"", "simulated", "serial:/dev/ttyACM0", "serial:/dev/ttyACM0@2000000",
+                           "emulated:lock-step.elf"})
+    EXPECT_EQ(problem_of_place(good), "") << good;
+  for (const char* bad : {"serial", "serial:", "emulated:", "Simulated", "/dev/ttyACM0"})
+    EXPECT_NE(problem_of_place(bad).find("expected simulated, serial:DEVICE"), std::string::npos)
+        << bad;
+  for (const char* bad : {"serial:/dev/ttyACM0@", "serial:/dev/ttyACM0@fast", "serial:a@0",
+                          "serial:a@-1", "serial:a@99999999999"})
+    EXPECT_NE(problem_of_place(bad).find("of which the rate is no number"), std::string::npos)
+        << bad;
+  EXPECT_FALSE(is_elsewhere(""));
+  EXPECT_FALSE(is_elsewhere("simulated"));
+  EXPECT_TRUE(is_elsewhere("serial:/dev/ttyACM0"));
+}
+
+TEST(Place, WhatNoBoardCanRunIsRefusedBeforeAnythingIsOpened) {
+  const std::string device = "serial:/dev/no-such-board";
+  EXPECT_NE(refusal("kick", {"log.period=1 ms"}, device)
+                .find("log.period: found 0.001 s; expected a multiple of 0.01 s"),
+            std::string::npos);
+  EXPECT_NE(refusal("kick", {"log.period=15 ms"}, device).find("log.period"), std::string::npos);
+  EXPECT_EQ(refusal("kick", {"log.period=20 ms"}, device).find("log.period"), std::string::npos);
+  EXPECT_NE(refusal("cylinder-following", {"cylinder.board=2", "wiring.present=false"}, device)
+                .find("board: found 2 boards; expected one"),
+            std::string::npos);
+  EXPECT_NE(refusal("faults/valve-stuck-open", {}, device).find("fault: found 1 of them"),
+            std::string::npos);
+}
+
+TEST(Place, ARateThatDoesNotCarryTheTelemetryIsRefusedWithOneThatDoes) {
+  const std::string said = refusal("kick", {}, "serial:/dev/no-such-board@9600");
+  EXPECT_NE(said.find("9600 bits/s do not carry this robot's telemetry; expected "),
+            std::string::npos)
+      << said;
+}
+
+TEST(Place, NothingIsOpenedForASimulation) {
+  const experiment::Experiment e = experiment::load(SINEW_SOURCE_DIR "/experiments/kick.toml", {});
+  const Place here("simulated", e);
+  RunOptions options;
+  here.apply(options);
+  EXPECT_EQ(options.board, nullptr);
+  EXPECT_EQ(here.who(), "");
+}
+
+}  // namespace
+}  // namespace sinew::run
