@@ -73,6 +73,8 @@ class Program {
   const signals::Conversion* begin_tick() noexcept {
     return begin_tick([] {});
   }
+  // The conversion that hardware starts in this tick, to be read in a later one, or nullptr.
+  const signals::Conversion* begins() const noexcept { return safety_.begins(now_); }
   void take(const signals::Conversion&, signals::Reading) noexcept;
   Outputs end_tick() noexcept;
 

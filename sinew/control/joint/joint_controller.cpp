@@ -72,6 +72,12 @@ const Conversion* JointController::due(Tick t) noexcept {
   return period_start_ + c.read == t ? &c : nullptr;
 }
 
+const Conversion* JointController::begins(Tick t) const noexcept {
+  for (std::size_t i = cursor_; i < config_.conversions && i < cursor_ + 2; ++i)
+    if (period_start_ + config_.conversion[i].start == t) return &config_.conversion[i];
+  return nullptr;
+}
+
 void JointController::missed(Tick) noexcept { ++seen_.missed; }
 
 // --- readings -----------------------------------------------------------------------------------

@@ -59,6 +59,8 @@ class JointController {
 
   // The conversion to be read at tick t, or nullptr.
   const signals::Conversion* due(signals::Tick t) noexcept;
+  // The conversion that hardware starts in this tick, to be read in a later one; after due().
+  const signals::Conversion* begins(signals::Tick t) const noexcept;
 
   // Its result. Runs the laws that wait for it.
   void take(const signals::Conversion&, signals::Reading, signals::Tick t) noexcept;
