@@ -19,7 +19,6 @@ using signals::Status;
 using signals::Tick;
 
 constexpr std::uint32_t baud = 921'600;
-constexpr std::uint32_t pause = 50;        // [ticks] without a byte, that end a frame
 constexpr std::uint32_t patience = 1'000;  // [ticks] without a round of run(), that end feeding
 
 // Built by run(): nothing of the language's start-up runs on a board.
@@ -84,7 +83,7 @@ void listen() {
   }
   const std::uint32_t now = ticks.load(std::memory_order_relaxed);
   if (any) last_byte = now;
-  if (!heard || now - last_byte <= pause) return;
+  if (!heard || now - last_byte <= hardware::longest_pause()) return;
   program().silent();
   heard = false;
 }

@@ -50,6 +50,7 @@ bool bitten();       // was it the watchdog that has reset the board?
 std::uint32_t nonce();                // another number after each reset
 bool active_low();                    // do the drivers of coils have 0 for current?
 void start_line(std::uint32_t baud);  // 8 bits, no parity, 1 stop bit; its interrupts come
+std::uint32_t longest_pause();        // [ticks] of the line within a frame; a longer one ends it
 void start_watchdog();  // bites unless it is fed within 20 ms, or so; cannot be stopped again
 void start_ticks();     // every 100 us tick() is called, from here on
 

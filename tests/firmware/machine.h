@@ -25,8 +25,8 @@ namespace sinew::firmware {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-// The emulator lets 8 ns pass with an instruction, as a processor of some 150 MHz does, and keeps
-// to the clock on the wall; it stops where this ends.
+// The emulator lets 8 ns pass with an instruction, as a processor of some 150 MHz does. It is ended
+// with this.
 class Machine {
  public:
   Machine(const std::string& machine, const std::string& image, const std::string& word = {}) {
@@ -119,13 +119,14 @@ class Host {
     const std::uint8_t sequence = sequence_;
     answer.reset();
     send(message);
-    const bool came = wait([&] { return answer && answer->sequence == sequence; });
+    const bool came =
+        wait([&] { return answer && answer->sequence == sequence; }, milliseconds(5'000));
     return came ? answer->code : link::Code::type;
   }
 
   // Listens until it is so; false: it has not been within the time.
   template <class So>
-  bool wait(So so, milliseconds longest = milliseconds(3'000)) {
+  bool wait(So so, milliseconds longest = milliseconds(15'000)) {
     for (const auto end = Clock::now() + longest; !so();) {
       if (Clock::now() > end) return false;
       listen(milliseconds(2));

@@ -146,6 +146,7 @@ bool bitten() { return false; }
 bool active_low() { return false; }
 std::uint32_t nonce() { return 1; }
 void start_line(std::uint32_t) {}
+std::uint32_t longest_pause() { return 50; }
 void start_watchdog() {}
 void feed_watchdog() {}
 void start_ticks() {}
