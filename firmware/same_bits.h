@@ -22,7 +22,7 @@ class Hash {
 // xorshift32 (Marsaglia 2003)
 class Random {
  public:
-  explicit Random(std::uint32_t seed) : state_(seed) {}
+  constexpr explicit Random(std::uint32_t seed) : state_(seed) {}
   std::uint32_t below(std::uint32_t n) {
     state_ ^= state_ << 13;
     state_ ^= state_ >> 17;

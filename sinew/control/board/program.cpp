@@ -1,5 +1,7 @@
 #include "sinew/control/board/program.h"
 
+#include <new>
+
 namespace sinew::board {
 
 using control::BoardFault;
@@ -14,6 +16,35 @@ using signals::Tick;
 namespace {
 
 constexpr std::uint8_t of(Type type) noexcept { return static_cast<std::uint8_t>(type); }
+
+// All that is said of a machine with so many joints and channels, and no more: a tick has no time
+// for the rest.
+void copy(const control::Seen& from, control::Seen& to, std::size_t joints,
+          std::size_t channels) noexcept {
+  to.phase = from.phase;
+  for (std::size_t j = 0; j < joints; ++j) to.joint[j] = from.joint[j];
+  for (std::size_t i = 0; i < channels; ++i) to.reading[i] = from.reading[i];
+  to.late = from.late;
+  to.invalid = from.invalid;
+  to.missed = from.missed;
+  to.overruns = from.overruns;
+  to.fault = from.fault;
+  to.fault_channel = from.fault_channel;
+}
+
+void copy(const control::Supervised& from, control::Supervised& to, std::size_t channels) noexcept {
+  for (std::size_t i = 0; i < channels; ++i) to.sensor[i] = from.sensor[i];
+  to.rejected = from.rejected;
+  to.rejected_commands = from.rejected_commands;
+  to.gaps = from.gaps;
+  to.worst_gap = from.worst_gap;
+  to.holding = from.holding;
+  to.holds = from.holds;
+  to.trip = from.trip;
+}
+
+constexpr control::Seen nothing_seen;
+constexpr control::Supervised nothing_supervised;
 
 }  // namespace
 
@@ -53,12 +84,10 @@ void Program::note() noexcept {
   telemetry_.tick = run < 0 ? now_ : run;
   telemetry_.state = safety_.state();
   telemetry_.fault = safety_.fault();
-  if (const control::Supervisor* c = run < 0 ? nullptr : safety_.controller()) {
-    telemetry_.seen = c->seen();
-    telemetry_.supervised = c->supervised();
-  } else {
-    telemetry_.seen = {};
-    telemetry_.supervised = {};
+  const control::Supervisor* c = run < 0 ? nullptr : safety_.controller();
+  copy(c ? c->seen() : nothing_seen, telemetry_.seen, telemetry_.joints, telemetry_.channels);
+  copy(c ? c->supervised() : nothing_supervised, telemetry_.supervised, telemetry_.channels);
+  if (c == nullptr) {
     for (std::uint8_t i = 0; i < telemetry_.channels; ++i) {
       telemetry_.seen.reading[i] = safety_.reading(i);
       telemetry_.supervised.sensor[i].counts = safety_.reading(i).counts;
@@ -287,7 +316,7 @@ Code Program::configure(const link::ConfigureEnd& end) noexcept {
   configuration_ = end.crc;
   thesis_ = link::thesis_joints(incoming_.spine);
   words_.reset();
-  queue_ = link::CommandQueue(incoming_.spine.period);
+  new (&queue_) link::CommandQueue(incoming_.spine.period);  // too large for the stack
   telemetry_.joints = static_cast<std::uint8_t>(incoming_.spine.joints);
   telemetry_.channels = link::channels_of(incoming_.spine);
   return Code::done;
@@ -303,11 +332,11 @@ Code Program::arm(const link::ArmFirst& m) noexcept {
 Code Program::arm(const link::ArmSecond& m) noexcept {
   if (m.configuration != configuration_ || m.nonce != nonce_) return Code::nonce;
   if (!safety_.arm_second(now_)) return Code::state;
-  queue_.clear();
+  new (&queue_) link::CommandQueue(safety_.machine().period);
   held_ = control::rest_command(safety_.machine());
   starts_ = changed_ = false;
   obeyed_ = -1;
-  log_ = {};
+  log_.clear();
   log_stops_ = log_stopped_ = false;
   edge_count_ = 0;
   return Code::done;

@@ -75,6 +75,8 @@ class Program {
   }
   // The conversion whose result is there in this tick, or nullptr.
   const signals::Conversion* due() noexcept { return safety_.due(now_); }
+  // The conversion that hardware starts in this tick, to be read in a later one, or nullptr.
+  const signals::Conversion* begins() const noexcept { return safety_.begins(now_); }
   void take(const signals::Conversion&, signals::Reading) noexcept;
   // All of the tick was worked off and nothing has changed by itself: the watchdog may be fed.
   bool end_tick() noexcept;

@@ -70,6 +70,12 @@ class Log {
     ++records_;
   }
 
+  void clear() noexcept {
+    bytes_.drop(bytes_.size());
+    records_ = periods_ = 0;
+    opens_ = false;
+  }
+
   std::size_t records() const noexcept { return records_; }
   std::size_t periods() const noexcept { return periods_; }
   // i < records()

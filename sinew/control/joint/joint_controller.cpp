@@ -26,6 +26,7 @@ bool seals(JointKind kind) noexcept {
 JointController::JointController(const JointControllerConfig& config) noexcept
     : config_(config), command_(rest_command(config)) {
   find_partners();
+  find_next_edge();
   if (config.startup_vent > 0)
     vent(0, config.startup_vent, Phase::startup, Phase::running);
   else
@@ -70,6 +71,12 @@ const Conversion* JointController::due(Tick t) noexcept {
   if (cursor_ == config_.conversions) return nullptr;
   const Conversion& c = config_.conversion[cursor_];
   return period_start_ + c.read == t ? &c : nullptr;
+}
+
+const Conversion* JointController::begins(Tick t) const noexcept {
+  for (std::size_t i = cursor_; i < config_.conversions && i < cursor_ + 2; ++i)
+    if (period_start_ + config_.conversion[i].start == t) return &config_.conversion[i];
+  return nullptr;
 }
 
 void JointController::missed(Tick) noexcept { ++seen_.missed; }
@@ -158,7 +165,8 @@ void JointController::schedule(std::size_t j, Tick t) noexcept {
     cycle(flexes ? flexor_exhaust : extensor_exhaust,
           flexes ? seen.duties.flexor_exhaust : seen.duties.extensor_exhaust, enabled);
   }
-  find_next_edge();
+  find_next_edge_of(j);
+  find_first_edge();
 }
 
 void JointController::schedule_level(std::size_t j, Side side, Tick t) noexcept {
@@ -241,7 +249,9 @@ std::span<const Edge> JointController::edges(Tick t) noexcept {
     hand_out(t, false);
     hand_out(t, true);
     hand_out_levels(t);
-    find_next_edge();
+    for (std::size_t j = 0; j < config_.joints; ++j)
+      if (next_of_[j] <= t) find_next_edge_of(j);
+    find_first_edge();
   }
   return {out_.data(), out_count_};
 }
@@ -249,6 +259,7 @@ std::span<const Edge> JointController::edges(Tick t) noexcept {
 // Closing edges go first, so that no muscle is open to both sides even for an instant.
 void JointController::hand_out(Tick t, bool open) noexcept {
   for (std::size_t j = 0; j < config_.joints; ++j) {
+    if (next_of_[j] > t) continue;
     const JointConfig& joint = config_.joint[j];
     const signals::Valve index[] = {joint.flexor.inlet, joint.flexor.exhaust, joint.extensor.inlet,
                                     joint.extensor.exhaust};
@@ -264,23 +275,35 @@ void JointController::hand_out(Tick t, bool open) noexcept {
 }
 
 void JointController::hand_out_levels(Tick t) noexcept {
-  for (std::size_t j = 0; j < config_.joints; ++j)
+  for (std::size_t j = 0; j < config_.joints; ++j) {
+    if (next_of_[j] > t) continue;
     for (const Side side : sides) {
       PendingLevel& pending = levels_[j][side];
       if (pending.at > t || out_count_ == out_.size()) continue;
       out_[out_count_++] = {t, muscle(j, side).inlet, pending.level > 0, pending.level};
       pending.at = PulseTrain::never;
     }
+  }
 }
 
 void JointController::find_next_edge() noexcept {
+  for (std::size_t j = 0; j < config_.joints; ++j) find_next_edge_of(j);
+  find_first_edge();
+}
+
+void JointController::find_next_edge_of(std::size_t j) noexcept {
+  Tick next = PulseTrain::never;
+  for (const PulseTrain& train : valves_[j])
+    if (train.next() < next) next = train.next();
+  for (const PendingLevel& pending : levels_[j])
+    if (pending.at < next) next = pending.at;
+  next_of_[j] = next;
+}
+
+void JointController::find_first_edge() noexcept {
   next_edge_ = PulseTrain::never;
-  for (std::size_t j = 0; j < config_.joints; ++j) {
-    for (const PulseTrain& train : valves_[j])
-      if (train.next() < next_edge_) next_edge_ = train.next();
-    for (const PendingLevel& pending : levels_[j])
-      if (pending.at < next_edge_) next_edge_ = pending.at;
-  }
+  for (std::size_t j = 0; j < config_.joints; ++j)
+    if (next_of_[j] < next_edge_) next_edge_ = next_of_[j];
 }
 
 }  // namespace sinew::control

@@ -59,6 +59,8 @@ class JointController {
 
   // The conversion to be read at tick t, or nullptr.
   const signals::Conversion* due(signals::Tick t) noexcept;
+  // The conversion that hardware starts in this tick, to be read in a later one; after due().
+  const signals::Conversion* begins(signals::Tick t) const noexcept;
 
   // Its result. Runs the laws that wait for it.
   void take(const signals::Conversion&, signals::Reading, signals::Tick t) noexcept;
@@ -135,6 +137,8 @@ class JointController {
   void hand_out(signals::Tick t, bool open) noexcept;
   void hand_out_levels(signals::Tick t) noexcept;
   void find_next_edge() noexcept;
+  void find_next_edge_of(std::size_t joint) noexcept;
+  void find_first_edge() noexcept;
 
   JointControllerConfig config_;
   Command command_;
@@ -157,6 +161,7 @@ class JointController {
   std::array<std::array<Partner, 2>, max_joints> partner_;
   std::array<JointValves, max_joints> valves_;
   std::array<std::array<PendingLevel, 2>, max_joints> levels_;
+  std::array<signals::Tick, max_joints> next_of_{};  // edge of each joint, and of them the first
   signals::Tick next_edge_ = PulseTrain::never;
   std::array<signals::Edge, max_joints * valves_per_joint> out_;
   std::size_t out_count_ = 0;

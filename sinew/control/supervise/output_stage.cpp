@@ -1,11 +1,20 @@
 #include "sinew/control/supervise/output_stage.h"
 
+#include <bit>
+
 namespace sinew::control {
 namespace {
 
 // Zero for a valve that no board has.
 constexpr OpenMask bit(signals::Valve valve) noexcept {
   return valve.index < max_valves ? OpenMask{1} << valve.index : 0u;
+}
+
+// This processor's own library would be asked for std::popcount.
+constexpr std::uint32_t count(OpenMask valves) noexcept {
+  std::uint32_t out = 0;
+  for (; valves != 0; valves &= valves - 1) ++out;
+  return out;
 }
 
 constexpr bool has_exhaust(JointKind kind) noexcept {
@@ -61,12 +70,10 @@ OpenMask OutputStage::at(signals::Tick now) noexcept {
     if (now - shut_at_[v] < static_cast<signals::Tick>(refractory_)) kept |= one;
   }
   allowed &= ~kept;
-  for (std::size_t v = 0; v < max_valves; ++v) {
-    const OpenMask one = OpenMask{1} << v;
-    if ((open_ & ~allowed & one) != 0) shut_at_[v] = now;
-    interlocks_ += (locked & ~locked_ & one) != 0;
-    refractories_ += (kept & ~kept_ & one) != 0;
-  }
+  for (OpenMask left = open_ & ~allowed; left != 0; left &= left - 1)
+    shut_at_[static_cast<std::size_t>(std::countr_zero(left))] = now;
+  interlocks_ += count(locked & ~locked_);
+  refractories_ += count(kept & ~kept_);
   has_shut_ |= open_ & ~allowed;
   locked_ = locked;
   kept_ = kept;

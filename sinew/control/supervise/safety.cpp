@@ -118,17 +118,18 @@ bool Safety::arm_second(Tick now) noexcept {
   first_frame_ = false;
   if (state_ != BoardState::idle || !in_time || !sensors_good()) return false;
   heard_at_ = now;
+  // All that a tick would have no time for.
+  run_.emplace(machine_, limits_).expect_every_tick();
+  out_.shut_all();
+  for (std::uint32_t& scans : empty_) scans = 0;
+  restart_check();
   enter(BoardState::armed);
   return true;
 }
 
 bool Safety::command(const Command& command, Tick now) noexcept {
   if (state_ == BoardState::armed) {
-    run_.emplace(machine_, limits_).expect_every_tick();
-    out_.shut_all();
-    for (std::uint32_t& scans : empty_) scans = 0;
     start_ = now;
-    restart_check();
     enter(BoardState::running);
   }
   if (state_ != BoardState::running && state_ != BoardState::hold) return false;
@@ -310,6 +311,14 @@ const Conversion* Safety::due(Tick now) noexcept {
   }
   waiting_ = c != nullptr;
   return c;
+}
+
+// Alone, a scan is a tick further by now.
+const Conversion* Safety::begins(Tick now) const noexcept {
+  if (runs()) return run_->begins(now - start_);
+  if (!configured_ || cursor_ >= machine_.conversions) return nullptr;
+  const Conversion& next = machine_.conversion[cursor_];
+  return next.start + 1 == scan_tick_ ? &next : nullptr;
 }
 
 void Safety::take(const Conversion& conversion, Reading reading, Tick now) noexcept {

@@ -112,6 +112,8 @@ class Safety {
   std::span<const signals::Edge> edges(signals::Tick now) noexcept;  // in ticks of the run
   // Also while nothing runs, so that `clear` knows the sensors.
   const signals::Conversion* due(signals::Tick now) noexcept;
+  // The conversion that hardware starts in this tick, to be read in a later one; after due().
+  const signals::Conversion* begins(signals::Tick now) const noexcept;
   void take(const signals::Conversion&, signals::Reading, signals::Tick now) noexcept;
   OpenMask open(signals::Tick now) noexcept;
   // As coils, of a driver that is active low or not; in a dump none has current.

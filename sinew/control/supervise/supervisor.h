@@ -45,6 +45,7 @@ class Supervisor {
   void command(const Command& command) noexcept;
   std::span<const signals::Edge> edges(signals::Tick t) noexcept;
   const signals::Conversion* due(signals::Tick t) noexcept;
+  const signals::Conversion* begins(signals::Tick t) const noexcept { return spine_.begins(t); }
   void take(const signals::Conversion&, signals::Reading, signals::Tick t) noexcept;
   const Seen& seen() const noexcept { return spine_.seen(); }
   const JointControllerConfig& config() const noexcept { return spine_.config(); }

@@ -1,0 +1,211 @@
+// firmware/boards/counted/board.cpp - no board: the application's ticks are called one by one and
+// their instructions counted, while a host in the same image configures, arms and runs the leg with
+// commands of all kinds (firmware/worst-tick.sh).
+//
+// The emulator lets 1024 ns pass with each instruction (-icount shift=10), and a timer of 25 MHz
+// counts 25.6 in them, so that a number of counts is one number of instructions.
+#include "firmware/board.h"
+
+#include <array>
+#include <new>
+
+#include "firmware/cortex_m.h"
+#include "firmware/same_bits.h"
+#include "firmware/semihosting.h"
+#include "sinew/control/joint/test_leg.h"
+#include "sinew/control/link/command_queue.h"
+#include "sinew/control/link/configuration.h"
+
+namespace sinew::firmware {
+namespace {
+
+using cortex_m::reg;
+using signals::Tick;
+
+constexpr std::uint32_t ticks_of_a_run = 60'000;
+
+constexpr std::uintptr_t timer = 0x40001000, timer_value = timer + 4, timer_reload = timer + 8;
+
+std::uint32_t counts() { return reg(timer_value); }  // downwards
+std::uint32_t instructions(std::uint32_t from, std::uint32_t to) {
+  return ((from - to) * 10 + 128) / 256;
+}
+
+struct Figures {
+  std::uint32_t ticks = 0, worst = 0, sum = 0;
+  void add(std::uint32_t n) {
+    ++ticks;
+    sum += n;
+    if (n > worst) worst = n;
+  }
+};
+Figures of_ticks, to_valves, kept_away;
+std::array<std::uint32_t, 100> worst_at;  // by the tick of the period
+std::uint32_t nothing = 0, tick_begun = 0, away_since = 0;
+bool in_tick = false;
+
+// --- the host -----------------------------------------------------------------------------------
+
+constinit Random dice(1);
+std::uint8_t sequence = 0;
+std::uint32_t now = 0;  // [ticks] since the reset
+link::CommandFor command{.from = 0, .periods = 3, .joints = 3};
+
+constexpr control::JointControllerConfig machine() {
+  control::JointControllerConfig out = control::test_leg();
+  out.timing = signals::compensated_timing(5, 12);
+  return out;
+}
+constexpr link::Configuration leg{machine(), {}, {}};
+
+const link::ConfigurationSender& sender() {
+  alignas(
+      link::ConfigurationSender) static std::array<std::uint8_t, sizeof(link::ConfigurationSender)>
+      room;
+  static const link::ConfigurationSender* made = nullptr;
+  if (made == nullptr) made = new (room.data()) link::ConfigurationSender(leg);
+  return *made;
+}
+
+template <class M>
+void send(const M& message) {
+  static std::array<std::uint8_t, link::max_frame> frame;
+  const std::size_t size = link::encode(message, {1, sequence++}, frame);
+  for (std::size_t i = 0; i < size; ++i) received(frame[i]);
+}
+
+void send_command() {
+  for (std::size_t j = 0; j < 3; ++j) {
+    control::JointCommand& c = command.joint[j];
+    c.angle = static_cast<std::int32_t>(1'000 + dice.below(2'000));
+    c.stiffness = 60.0f * dice.unit();
+    c.gains = {0.3f * dice.unit(), 8.0f * dice.unit(), 0.002f * dice.unit()};
+    c.enabled = dice.below(8) != 0;
+    c.open_loop = dice.below(16) == 0;
+    c.duties = {static_cast<std::int32_t>(dice.below(100)), 0, 0,
+                static_cast<std::int32_t>(dice.below(100))};
+  }
+  send(command);
+  command.from += 100;
+}
+
+// One message in a tick, so that the line's room lasts.
+void host() {
+  if (now == 0) send(sender().begin());
+  if (now > 0 && now <= sender().chunks) send(sender().chunk(now - 1));
+  if (now == 100) send(sender().end());
+  if (now == 500) send(link::ClearFault{});
+  if (now == 2'000) send(link::ArmFirst{sender().crc()});
+  if (now == 2'010) send(link::ArmSecond{hardware::nonce() + 1, sender().crc()});
+  if (now == 2'013) send(link::EdgesWanted{true});
+  if (now == 2'020 || (now > 2'020 && (now - 2'020) % 100 == 50)) send_command();
+}
+
+// --- what it says -------------------------------------------------------------------------------
+
+void print_number(const char* before, std::uint32_t n) {
+  std::array<char, 12> text{};
+  char* p = &text[11];
+  do *--p = static_cast<char>('0' + n % 10);
+  while ((n /= 10) > 0);
+  print(before);
+  print(p);
+}
+
+[[noreturn]] void end() {
+  print_number("worst_tick ", of_ticks.worst);
+  print_number("\nmean_tick ", of_ticks.sum / of_ticks.ticks);
+  print_number("\nto_valves ", to_valves.worst);
+  print_number("\nkept_away ", kept_away.worst);
+  print_number("\nswitchings ", to_valves.ticks);
+  print_number("\nstack ", cortex_m::deepest_stack());
+  for (std::uint32_t i = 0; i < worst_at.size(); ++i)
+    if (worst_at[i] > of_ticks.worst / 2) {
+      print_number("\n# tick ", i);
+      print_number(" of a period: ", worst_at[i]);
+    }
+  print("\n");
+  quit(0);
+}
+
+}  // namespace
+
+// --- board.h ------------------------------------------------------------------------------------
+
+namespace hardware {
+
+void start() {
+  reg(timer_reload) = 0xFFFFFFFF;
+  reg(timer) = 1;
+  const std::uint32_t from = counts();
+  nothing = instructions(from, counts());
+}
+
+const char* name() { return "counted"; }
+bool bitten() { return false; }
+bool active_low() { return false; }
+std::uint32_t nonce() { return 1; }
+void start_line(std::uint32_t) {}
+std::uint32_t longest_pause() { return 50; }
+void start_watchdog() {}
+void feed_watchdog() {}
+void start_ticks() {}
+std::uint32_t ticks_passed() { return 1; }
+void start_conversion(signals::Channel) {}
+signals::Reading reading(Tick) {
+  return {static_cast<std::uint16_t>(1'500 + dice.below(64)), signals::Status::ok};
+}
+void drive(const Drive&) {
+  if (in_tick && now >= 2'020) to_valves.add(instructions(tick_begun, counts()) - nothing);
+}
+void keep_ticks_away() { away_since = counts(); }
+void let_ticks_come() {
+  if (now > 2'020) kept_away.add(instructions(away_since, counts()) - nothing);
+}
+void wake_sender() {
+  for (std::uint8_t byte = 0; next_to_send(byte);) {}
+}
+
+// Nothing is left to be done: the next tick.
+void idle() {
+  host();
+  in_tick = true;
+  tick_begun = counts();
+  tick();
+  const std::uint32_t n = instructions(tick_begun, counts()) - nothing;
+  in_tick = false;
+  if (now >= 2'020) {
+    of_ticks.add(n);
+    std::uint32_t& worst = worst_at[(now - 2'021) % 100];
+    if (n > worst) worst = n;
+  }
+  if (++now == ticks_of_a_run) end();
+}
+
+}  // namespace hardware
+}  // namespace sinew::firmware
+
+extern "C" {
+
+[[noreturn]] void reset() {
+  using namespace sinew::firmware;
+  cortex_m::start_fpu();
+  cortex_m::prepare_memory();
+  cortex_m::paint_stack();
+  run();
+}
+
+void fault() {
+  sinew::firmware::print("fault\n");
+  sinew::firmware::quit(1);
+}
+
+using Handler = void (*)();
+[[gnu::section(".vectors"), gnu::used]] const struct {
+  std::uint32_t* stack;
+  Handler handler[15];
+} vectors = {stack_top,
+             {reset, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault,
+              fault, fault, fault}};
+
+}  // extern "C"

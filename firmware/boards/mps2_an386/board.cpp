@@ -1,0 +1,279 @@
+// firmware/boards/mps2_an386/board.cpp - Arm's MPS2 with image AN386, a Cortex-M4F at 25 MHz, as
+// qemu-system-arm emulates it: its UART, timer and watchdog are the board's own (Cortex-M System
+// Design Kit, ARM DDI 0479). It has neither a converter nor valves: those are the host's, by the
+// records V and R of sinew/control/board/lock_step.h, where the emulator is started with the names
+// of two pipes; without, readings rest at the middle of their scale and nobody sees the valves.
+//
+//   -semihosting-config enable=on,target=native,arg=board[,arg=TO,arg=FROM]
+//
+// In place of the pipes the one word `starve` stops the watchdog's feeding after a second.
+#include "firmware/board.h"
+
+#include <array>
+#include <new>
+
+#include "firmware/cortex_m.h"
+#include "firmware/semihosting.h"
+#include "sinew/control/board/lock_step.h"
+
+namespace sinew::firmware {
+namespace {
+
+namespace record = board::record;
+using cortex_m::reg;
+using signals::Status;
+using signals::Tick;
+
+constexpr std::uint32_t clock = 25'000'000;  // [Hz]
+constexpr std::uint32_t clocks_a_tick = clock / 10'000;
+
+// --- registers ----------------------------------------------------------------------------------
+
+// Two timers that count down: one for the ticks, one that runs for ever and tells how many passed.
+constexpr std::uintptr_t ticking = 0x40000000, running = 0x40001000;
+constexpr std::uintptr_t control = 0x0, value = 0x4, reload = 0x8, interrupt = 0xC;
+constexpr std::uint32_t enabled = 1, interrupts = 8;
+
+constexpr std::uintptr_t uart = 0x40004000;
+constexpr std::uintptr_t uart_data = uart, uart_state = uart + 0x4, uart_control = uart + 0x8,
+                         uart_interrupt = uart + 0xC, uart_divider = uart + 0x10;
+constexpr std::uint32_t full_to_send = 1, full_of_received = 2;  // of its state
+constexpr std::uint32_t sent = 1, has_come = 2;                  // of its interrupts
+constexpr std::uint32_t both_ways_with_interrupts = 0xF;
+
+// It interrupts when its time is over, and resets when that happens again before it is fed.
+constexpr std::uintptr_t watchdog = 0x40008000;
+constexpr std::uintptr_t watchdog_load = watchdog, watchdog_control = watchdog + 0x8,
+                         watchdog_clear = watchdog + 0xC, watchdog_lock = watchdog + 0xC00;
+constexpr std::uint32_t interrupt_and_reset = 3, unlocked = 0x1ACCE551;
+
+constexpr std::uint32_t line_came = 0, line_sent = 1, time_is_over = 8;  // interrupts' numbers
+
+// --- what survives a reset ----------------------------------------------------------------------
+
+constexpr std::uint32_t watchdog_bit = 0x62697465;
+
+struct Kept {
+  std::uint32_t why, starts;
+};
+[[gnu::section(".kept")]] Kept kept;
+
+// --- the host's converter and valves ------------------------------------------------------------
+
+struct Host {
+  File to, from;
+};
+alignas(Host) std::array<std::uint8_t, sizeof(Host)> host_room;
+Host* host = nullptr;
+std::array<char, 512> words;
+
+// The emulator's UART sends a byte in no time; a line of 921,600 baud carries nine in a tick.
+constexpr std::uint32_t bytes_a_tick = 9;
+std::uint32_t bytes_left = 0;
+
+bool bitten_ = false;
+bool starves = false;
+std::uint32_t meals = 0;
+
+bool same(const char* a, const char* b) {
+  while (*a != 0 && *a == *b) ++a, ++b;
+  return *a == *b;
+}
+
+// The words behind the program's name.
+void read_command_line() {
+  command_line(words);
+  std::array<const char*, 3> word{};
+  std::size_t n = 1;
+  for (std::size_t i = 0; words[i] != 0 && n < word.size(); ++i)
+    if (words[i] == ' ') {
+      words[i] = 0;
+      word[n++] = &words[i + 1];
+    }
+  starves = n == 2 && same(word[1], "starve");
+  if (n == 3)
+    host = new (host_room.data())
+        Host{File(word[1], File::For::writing), File(word[2], File::For::reading)};
+}
+
+template <class T>
+std::uint8_t* put(std::uint8_t* at, T number) {
+  for (std::size_t i = 0; i < sizeof(T); ++i) *at++ = static_cast<std::uint8_t>(number >> 8 * i);
+  return at;
+}
+
+// --- the stack, once a second -------------------------------------------------------------------
+
+std::uint32_t deepest = 0, last_look = 0;
+
+void look_at_stack() {
+  const std::uint32_t now = reg(running + value);
+  if (last_look - now < clock) return;
+  last_look = now;
+  if (cortex_m::deepest_stack() == deepest) return;
+  deepest = cortex_m::deepest_stack();
+  std::array<char, 12> text{};
+  char* p = &text[11];
+  for (std::uint32_t n = deepest; n > 0; n /= 10) *--p = static_cast<char>('0' + n % 10);
+  print("deepest stack ");
+  print(p);
+  print("\n");
+}
+
+}  // namespace
+
+// --- board.h ------------------------------------------------------------------------------------
+
+namespace hardware {
+
+namespace {
+std::uint32_t last_tick = 0;  // as the running timer counts
+signals::Channel converted;
+}  // namespace
+
+void start() {
+  bitten_ = kept.why == watchdog_bit;
+  kept.why = 0;
+  ++kept.starts;
+  read_command_line();
+  reg(running + reload) = 0xFFFFFFFF;
+  reg(running + control) = enabled;
+}
+
+const char* name() { return "mps2-an386"; }
+bool bitten() { return bitten_; }
+bool active_low() { return false; }
+std::uint32_t nonce() { return kept.starts << 16 | 1u; }
+
+void start_line(std::uint32_t baud) {
+  reg(uart_divider) = clock / baud;
+  reg(uart_control) = both_ways_with_interrupts;
+  cortex_m::enable(line_came, cortex_m::of_line);
+  cortex_m::enable(line_sent, cortex_m::of_line);
+}
+
+// The computer around the emulator may be busy with something else.
+std::uint32_t longest_pause() { return 10'000; }
+
+void start_watchdog() {
+  reg(watchdog_lock) = unlocked;
+  reg(watchdog_load) = clock / 100;  // 10 ms, and 10 ms again
+  reg(watchdog_control) = interrupt_and_reset;
+}
+
+void feed_watchdog() {
+  if (starves && !bitten_ && ++meals > 10'000) return;
+  reg(watchdog_clear) = 1;
+}
+
+void start_ticks() {
+  last_tick = last_look = reg(running + value);
+  reg(ticking + reload) = clocks_a_tick - 1;
+  reg(ticking + control) = enabled | interrupts;
+  cortex_m::enable(time_is_over, cortex_m::of_tick);
+}
+
+// The interrupt comes some clocks after the tick: half of one tells early from late.
+std::uint32_t ticks_passed() {
+  const std::uint32_t clocks = last_tick - reg(running + value);
+  std::uint32_t passed = (clocks + clocks_a_tick / 2) / clocks_a_tick;
+  if (passed == 0) passed = 1;
+  last_tick -= passed * clocks_a_tick;
+  return passed;
+}
+
+void start_conversion(signals::Channel channel) { converted = channel; }
+
+// The host knows which instant a reading is of; it is asked when the result is due.
+signals::Reading reading(Tick run) {
+  if (host == nullptr) return {2'048, Status::ok};
+  std::array<std::uint8_t, 10> ask;
+  std::uint8_t* end = put(ask.data(), record::reading);
+  end = put(end, static_cast<std::uint64_t>(run));
+  put(end, converted.index);
+  host->to.write(ask);
+  std::array<std::uint8_t, 3> b;
+  host->from.read(b);
+  return {static_cast<std::uint16_t>(b[0] | b[1] << 8), static_cast<Status>(b[2])};
+}
+
+void drive(const Drive& d) {
+  if (host == nullptr) return;
+  std::array<std::uint8_t, 14> out;
+  std::uint8_t* end = put(out.data(), record::valves);
+  end = put(end, static_cast<std::uint64_t>(d.tick));
+  end = put(end, d.open);
+  put(end, static_cast<std::uint8_t>((d.current ? board::has_current : 0) |
+                                     (d.supply ? board::has_supply : 0)));
+  host->to.write(out);
+}
+
+void keep_ticks_away() { cortex_m::keep_ticks_away(); }
+void let_ticks_come() { cortex_m::let_ticks_come(); }
+
+// The interrupt itself looks whether there is something to send and room for it.
+void wake_sender() { cortex_m::request(line_sent); }
+
+// It does not sleep: the emulator's clock would jump to whenever the computer around it wakes it
+// again, and ticks would be missed (up to 25 were).
+void idle() { look_at_stack(); }
+
+}  // namespace hardware
+}  // namespace sinew::firmware
+
+// --- start-up and interrupts --------------------------------------------------------------------
+
+extern "C" {
+
+[[noreturn]] void reset() {
+  using namespace sinew::firmware;
+  cortex_m::start_fpu();
+  cortex_m::prepare_memory();
+  cortex_m::paint_stack();
+  run();
+}
+
+void fault() {
+  sinew::firmware::print("fault\n");
+  sinew::firmware::quit(1);
+}
+
+// The watchdog's first bite; it resets with the second one.
+void bite() {
+  sinew::firmware::kept.why = sinew::firmware::watchdog_bit;
+  for (;;) {}
+}
+
+// What is asked for is cleared before the byte is taken: the next one may come in between.
+void byte_came() {
+  using namespace sinew::firmware;
+  reg(uart_interrupt) = has_come;
+  while (reg(uart_state) & full_of_received) received(static_cast<std::uint8_t>(reg(uart_data)));
+}
+
+void byte_sent() {
+  using namespace sinew::firmware;
+  reg(uart_interrupt) = sent;
+  std::uint8_t byte = 0;
+  for (; bytes_left > 0 && !(reg(uart_state) & full_to_send) && next_to_send(byte); --bytes_left)
+    reg(uart_data) = byte;
+}
+
+void time_over() {
+  using namespace sinew::firmware;
+  reg(ticking + interrupt) = 1;
+  tick();
+  bytes_left = bytes_a_tick;
+  cortex_m::request(line_sent);
+}
+
+using Handler = void (*)();
+[[gnu::section(".vectors"), gnu::used]] const struct {
+  std::uint32_t* stack;
+  Handler handler[15], interrupt[9];
+} vectors = {stack_top,
+             {reset, bite, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault,
+              fault, fault, fault},
+             {byte_came, byte_sent, fault, fault, fault, fault, fault, fault, time_over}};
+
+}  // extern "C"

@@ -1,0 +1,43 @@
+// firmware/line_ring.h - bytes between an interrupt and the program that it interrupts: one puts,
+// the other takes, neither waits.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+namespace sinew::firmware {
+
+template <std::size_t Size>
+class LineRing {
+  static_assert((Size & (Size - 1)) == 0, "a power of two");
+
+ public:
+  // false: there was no room.
+  bool put(std::uint8_t byte) {
+    const std::uint32_t end = end_.load(std::memory_order_relaxed);
+    if (end - begin_.load(std::memory_order_acquire) == Size) return false;
+    bytes_[end % Size] = byte;
+    end_.store(end + 1, std::memory_order_release);
+    return true;
+  }
+  // false: there was none.
+  bool take(std::uint8_t& byte) {
+    const std::uint32_t begin = begin_.load(std::memory_order_relaxed);
+    if (begin == end_.load(std::memory_order_acquire)) return false;
+    byte = bytes_[begin % Size];
+    begin_.store(begin + 1, std::memory_order_release);
+    return true;
+  }
+  // At least so many may be put, by the one who puts.
+  std::size_t room() const {
+    return Size - (end_.load(std::memory_order_relaxed) - begin_.load(std::memory_order_acquire));
+  }
+
+ private:
+  std::array<std::uint8_t, Size> bytes_{};
+  std::atomic<std::uint32_t> begin_ = 0, end_ = 0;
+};
+
+}  // namespace sinew::firmware

@@ -1,0 +1,115 @@
+// The application in the emulator, on a clock that counts instructions: a host configures, arms and
+// runs it over its serial line, as it would a board on the bench.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sinew/control/joint/test_leg.h"
+#include "tests/firmware/machine.h"
+
+namespace sinew::firmware {
+namespace {
+
+using control::BoardFault;
+using control::BoardState;
+using link::Code;
+
+std::string image(const std::string& board) {
+  return SINEW_FIRMWARE_IMAGES "/application-" + board + ".elf";
+}
+
+// 2,048 are the goal; 1,320 of them are part_of()'s copy of a state message.
+constexpr int deepest_stack = 3'072;  // [bytes]
+
+bool missing() { return std::string(SINEW_FIRMWARE_IMAGES).empty(); }
+constexpr const char* what_is_missing =
+    "not installed: qemu-system-arm or arm-none-eabi-g++ (Debian: gcc-arm-none-eabi, "
+    "libstdc++-arm-none-eabi-newlib)";
+
+bool send_configuration(Host& host, const link::ConfigurationSender& sender) {
+  if (host.ask(sender.begin()) != Code::done) return false;
+  for (std::size_t i = 0; i < sender.chunks; ++i)
+    if (host.ask(sender.chunk(i)) != Code::done) return false;
+  return host.ask(sender.end()) == Code::done;
+}
+
+std::uint32_t configure(Host& host) {
+  const link::ConfigurationSender sender({control::test_leg(), {}, {}});
+  EXPECT_TRUE(send_configuration(host, sender));
+  return sender.crc();
+}
+
+// Its scan must have been round before a fault is cleared, and its constants looked at once before
+// it is armed.
+void arm(Host& host, std::uint32_t configuration) {
+  const auto armed = [&] {
+    return host.ask(link::ArmFirst{configuration}) == Code::done &&
+           host.ask(link::ArmSecond{host.answer->value, configuration}) == Code::done;
+  };
+  EXPECT_TRUE(host.wait([&] { return host.ask(link::ClearFault{}) == Code::done; }));
+  EXPECT_TRUE(host.wait(armed));
+}
+
+// A command for each period from its telemetry on, good for the next ones too.
+void run(Host& host, int periods) {
+  const control::Command command = control::rest_command(control::test_leg());
+  link::CommandFor message{.from = 0, .periods = 20, .joints = 3, .joint = command.joint};
+  host.send(message);
+  const int end = host.telemetries + periods;
+  for (int known = host.telemetries; host.telemetries < end; known = host.telemetries) {
+    if (!host.wait([&] { return host.telemetries > known; })) break;
+    if (host.telemetry.state != BoardState::running) continue;
+    message.from = host.telemetry.tick + 200;
+    host.send(message);
+  }
+}
+
+TEST(Application, IsConfiguredArmedRunAndShutDownOverItsSerialLine) {
+  if (missing()) GTEST_SKIP() << what_is_missing;
+  Machine machine("mps2-an386", image("mps2_an386"));
+  Host host(machine.line());
+  host.send(link::Identify{});
+  ASSERT_TRUE(host.wait([&] { return host.identity.has_value(); }));
+  EXPECT_STREQ(reinterpret_cast<const char*>(host.identity->board.data()), "mps2-an386");
+  EXPECT_EQ(host.identity->state, BoardState::fault);
+
+  arm(host, configure(host));
+  const int before = host.telemetries;
+  run(host, 100);
+  EXPECT_EQ(host.telemetry.state, BoardState::running);
+  EXPECT_GE(host.telemetries - before, 100);
+  EXPECT_EQ(host.joined().lost(), 0u);
+  EXPECT_EQ(host.telemetry.link.lost, 0u) << "frames to the board";
+  EXPECT_EQ(host.telemetry.seen.reading[1].counts, 2'048);
+  EXPECT_EQ(host.telemetry.seen.late, 0u);
+  EXPECT_EQ(host.telemetry.supervised.gaps, 0u) << "missed ticks";
+
+  EXPECT_TRUE(host.wait([&] { return host.ask(link::ShutDown{}) == Code::done; }));
+  const auto vented = [&] {
+    return std::any_of(host.events.begin(), host.events.end(),
+                       [](const link::Event& e) { return e.state == BoardState::vent; });
+  };
+  EXPECT_TRUE(host.wait(vented));
+  EXPECT_TRUE(host.wait([&] { return host.telemetry.state == BoardState::idle; }));
+  for (const link::Event& e : host.events) EXPECT_NE(e.fault, BoardFault::watchdog);
+
+  const std::string words = "deepest stack ", printed = machine.printed();
+  const std::size_t at = printed.rfind(words);
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_LE(std::stoi(printed.substr(at + words.size())), deepest_stack);
+}
+
+TEST(Application, TheWatchdogBitesWhereNobodyFeedsItAndTheBoardSaysSo) {
+  if (missing()) GTEST_SKIP() << what_is_missing;
+  Machine machine("mps2-an386", image("mps2_an386"), "starve");
+  Host host(machine.line());
+  const auto bitten = [&] {
+    return !host.events.empty() && host.events.back().fault == BoardFault::watchdog;
+  };
+  EXPECT_TRUE(host.wait(bitten, milliseconds(15'000)));
+  EXPECT_EQ(host.events.back().what, link::Event::What::started);
+  EXPECT_EQ(host.events.back().state, BoardState::dump);
+}
+
+}  // namespace
+}  // namespace sinew::firmware
