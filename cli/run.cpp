@@ -64,7 +64,7 @@ std::string a_pace(const std::string& text) {
 void add_run_options(Command sub, const std::string& port, RunOptions& options) {
   run::RunRequest& request = options.run;
   sub.add_option(port, request.port,
-                 "where it runs: simulated, serial:DEVICE[@RATE] or emulated:FILE")
+                 "where it runs: simulated, serial:DEVICE[@RATE], emulated:FILE or lock-step:FILE")
       .check(run::problem_of_place);
   sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
   sub.add_flag("--force", request.force, "replace the run that is in the folder");

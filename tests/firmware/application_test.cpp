@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "sinew/control/joint/test_leg.h"
+#include "tests/firmware/images.h"
 #include "tests/firmware/machine.h"
 
 namespace sinew::firmware {
@@ -14,17 +15,8 @@ using control::BoardFault;
 using control::BoardState;
 using link::Code;
 
-std::string image(const std::string& board) {
-  return SINEW_FIRMWARE_IMAGES "/application-" + board + ".elf";
-}
-
 // 2,048 are the goal; 1,320 of them are part_of()'s copy of a state message.
 constexpr int deepest_stack = 3'072;  // [bytes]
-
-bool missing() { return std::string(SINEW_FIRMWARE_IMAGES).empty(); }
-constexpr const char* what_is_missing =
-    "not installed: qemu-system-arm or arm-none-eabi-g++ (Debian: gcc-arm-none-eabi, "
-    "libstdc++-arm-none-eabi-newlib)";
 
 bool send_configuration(Host& host, const link::ConfigurationSender& sender) {
   if (host.ask(sender.begin()) != Code::done) return false;
@@ -66,7 +58,7 @@ void run(Host& host, int periods) {
 
 TEST(Application, IsConfiguredArmedRunAndShutDownOverItsSerialLine) {
   if (missing()) GTEST_SKIP() << what_is_missing;
-  Machine machine("mps2-an386", image("mps2_an386"));
+  Machine machine("mps2-an386", image("application-mps2_an386"));
   Host host(machine.line());
   host.send(link::Identify{});
   ASSERT_TRUE(host.wait([&] { return host.identity.has_value(); }));
@@ -101,7 +93,7 @@ TEST(Application, IsConfiguredArmedRunAndShutDownOverItsSerialLine) {
 
 TEST(Application, TheWatchdogBitesWhereNobodyFeedsItAndTheBoardSaysSo) {
   if (missing()) GTEST_SKIP() << what_is_missing;
-  Machine machine("mps2-an386", image("mps2_an386"), "starve");
+  Machine machine("mps2-an386", image("application-mps2_an386"), "starve");
   Host host(machine.line());
   const auto bitten = [&] {
     return !host.events.empty() && host.events.back().fault == BoardFault::watchdog;

@@ -8,7 +8,6 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/control/link/baud.h"
-#include "sinew/plant/hardware/emulated_board.h"
 #include "sinew/plant/hardware/serial_line.h"
 #include "sinew/run/setup/installation.h"
 #include "sinew/run/simulation/remote_boards.h"
@@ -18,7 +17,8 @@ namespace sinew::run {
 
 namespace {
 
-constexpr std::string_view serial = "serial:", emulated = "emulated:", simulated = "simulated";
+constexpr std::string_view serial = "serial:", emulated = "emulated:", lock_step = "lock-step:",
+                           simulated = "simulated";
 
 // A device and its rate, 0 where none is given.
 struct Device {
@@ -83,12 +83,12 @@ std::uint32_t rate_for(const Device& device, const link::Configuration& configur
 
 std::string problem_of_place(const std::string& place) {
   const std::string expected =
-      "expected simulated, serial:DEVICE, serial:DEVICE@RATE or emulated:FILE";
+      "expected simulated, serial:DEVICE, serial:DEVICE@RATE, emulated:FILE or lock-step:FILE";
   const std::string_view text = place;
   if (!is_elsewhere(place)) return "";
-  for (const std::string_view kind : {serial, emulated})
+  for (const std::string_view kind : {serial, emulated, lock_step})
     if (text.starts_with(kind) && text.size() > kind.size()) {
-      if (kind == emulated || device_of(text.substr(kind.size())).good) return "";
+      if (kind != serial || device_of(text.substr(kind.size())).good) return "";
       return fmt::format("found \"{}\", of which the rate is no number; {}", place, expected);
     }
   return fmt::format("found \"{}\"; {}", place, expected);
@@ -105,14 +105,15 @@ struct Place::Serial {
   plant::RemoteBoard board;
 };
 
-struct Place::Emulated {
-  Emulated(const std::string& image, const experiment::Experiment& experiment)
+template <class Emulated>
+struct Place::AtMachine {
+  AtMachine(const std::string& image, const experiment::Experiment& experiment)
       : body(experiment),
         emulator(image, body.wires()),
         board(emulator.line(), 1, only_board(experiment).spine.period) {}
 
   WiredBody body;
-  plant::EmulatedBoard emulator;
+  Emulated emulator;
   plant::RemoteBoard board;
 };
 
@@ -125,9 +126,14 @@ Place::Place(const std::string& place, const experiment::Experiment& experiment)
   if (place.starts_with(serial)) {
     serial_ = std::make_unique<Serial>(device_of(place.substr(serial.size())), configuration);
     board_ = &serial_->board;
-  } else {
-    emulated_ = std::make_unique<Emulated>(place.substr(emulated.size()), experiment);
+  } else if (place.starts_with(emulated)) {
+    emulated_ = std::make_unique<AtMachine<plant::EmulatedBoard>>(place.substr(emulated.size()),
+                                                                  experiment);
     board_ = &emulated_->board;
+  } else {
+    lock_step_ = std::make_unique<AtMachine<plant::LockStepBoard>>(place.substr(lock_step.size()),
+                                                                   experiment);
+    board_ = &lock_step_->board;
     lead_ = 0;
   }
   const link::Identity who = board_->prepare(configuration);

@@ -3,13 +3,17 @@
 //
 //   simulated                   no board: nothing is opened
 //   serial:DEVICE[@RATE]        a board; without a rate the slowest that carries its telemetry
-//   emulated:FILE               firmware/'s lock-step.elf in QEMU, around it the simulated machine
+//   lock-step:FILE              firmware/'s lock-step.elf in QEMU, around it the simulated machine:
+//                               the simulation's bits
+//   emulated:FILE               the application of firmware/ for mps2-an386 in QEMU, at its serial
+//                               line, the same machine at its wires: as on a bench
 #pragma once
 
 #include <memory>
 #include <string>
 
 #include "sinew/experiment/experiment.h"
+#include "sinew/plant/hardware/emulated_board.h"
 #include "sinew/run/simulation/run.h"
 
 namespace sinew::run {
@@ -34,13 +38,15 @@ class Place {
   // Who answered, and where: its board and firmware; empty where nothing was opened.
   const std::string& who() const noexcept { return who_; }
   // Does it keep its own time, whatever pace is asked for?
-  bool board_keeps_time() const noexcept { return serial_ != nullptr; }
+  bool board_keeps_time() const noexcept { return lead_ > 0; }
 
  private:
   struct Serial;
-  struct Emulated;
+  template <class Emulated>
+  struct AtMachine;
   std::unique_ptr<Serial> serial_;
-  std::unique_ptr<Emulated> emulated_;
+  std::unique_ptr<AtMachine<plant::EmulatedBoard>> emulated_;
+  std::unique_ptr<AtMachine<plant::LockStepBoard>> lock_step_;
   plant::RemoteBoard* board_ = nullptr;
   int lead_ = 1;
   std::string who_;

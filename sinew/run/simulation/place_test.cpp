@@ -22,7 +22,7 @@ std::string refusal(const std::string& name, std::vector<std::string> sets,
 
 TEST(Place, IsASimulationADeviceOrAFile) {
   for (const char* good : {"", "simulated", "serial:/dev/ttyACM0", "serial:/dev/ttyACM0@2000000",
-                           "emulated:lock-step.elf"})
+                           "emulated:a.elf", "lock-step:lock-step.elf"})
     EXPECT_EQ(problem_of_place(good), "") << good;
   for (const char* bad : {"serial", "serial:", "emulated:", "Simulated", "/dev/ttyACM0"})
     EXPECT_NE(problem_of_place(bad).find("expected simulated, serial:DEVICE"), std::string::npos)

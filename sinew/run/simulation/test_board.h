@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "sinew/control/board/program.h"
-#include "sinew/plant/hardware/emulated_board.h"
+#include "sinew/plant/hardware/emulator.h"
 
 namespace sinew::run {
 

@@ -8,7 +8,7 @@
 
 #include "sinew/control/setup/boards.h"
 #include "sinew/experiment/experiment.h"
-#include "sinew/plant/hardware/emulated_board.h"
+#include "sinew/plant/hardware/emulator.h"
 #include "sinew/plant/machine/machine.h"
 #include "sinew/run/simulation/boards.h"
 #include "sinew/run/simulation/faulty_port.h"
