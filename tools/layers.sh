@@ -56,6 +56,7 @@ layers='
     run/simulation  run/setup log
     run/stand       run/simulation experiment/rig
     run/folder      run/simulation run/stand log analysis report
+    run/bring_up    run/folder report
     tune            run/folder
     tune/results    tune
     tune/mpi        tune/results

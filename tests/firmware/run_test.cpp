@@ -20,7 +20,8 @@ experiment::Experiment loaded(const Script& script) {
 }
 
 run::Outcome run_at(const std::string& port, const experiment::Experiment& e) {
-  const run::Place place(port, e);
+  run::Place place(port, e);
+  place.prepare();
   run::RunOptions options;
   place.apply(options);
   return run::run(e, options);

@@ -181,6 +181,7 @@ void RemoteBoard::arm() {
 }
 
 link::Identity RemoteBoard::prepare(const link::Configuration& configuration) {
+  if (why_ != Why::gone) why_ = Why::none;
   const link::Identity who = identify();
   if (who.protocol != link::protocol_version)
     throw BoardError(fmt::format("the board speaks version {} of the protocol, this program {}",
@@ -196,6 +197,13 @@ link::Identity RemoteBoard::prepare(const link::Configuration& configuration) {
   has_run_ = false;
   edge_.clear();
   return who;
+}
+
+const link::Telemetry* RemoteBoard::look(double seconds) noexcept {
+  telemetry_ = nullptr;
+  while (telemetry_ == nullptr && seconds > 0 && why_ != Why::gone)
+    if (!listen(0.01)) seconds -= 0.01;
+  return telemetry_;
 }
 
 // --- a run --------------------------------------------------------------------------------------

@@ -47,6 +47,9 @@ class RemoteBoard {
   // All of it, with edges wanted.
   link::Identity prepare(const link::Configuration& configuration);
 
+  // Waits for the next telemetry, of a run or of none. nullptr: none came.
+  const link::Telemetry* look(double seconds) noexcept;
+
   // --- a run; no exceptions ---
 
   // False once the line is gone.

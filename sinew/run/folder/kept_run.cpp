@@ -37,6 +37,7 @@ KeptRun::KeptRun(RunRequest request, Notices notices)
       experiment_(load(request_, notices_)),
       logged_(run::logged_topics(experiment_)),
       place_(std::make_unique<Place>(request_.port, experiment_)) {
+  place_->prepare();
   resolve();
   folder_.emplace(run_folder(request_.folder, request_.force, experiment_.name));
   if (!experiment_.log.enabled) return;

@@ -117,14 +117,14 @@ struct Place::AtMachine {
   plant::RemoteBoard board;
 };
 
-Place::Place(const std::string& place, const experiment::Experiment& experiment) {
+Place::Place(const std::string& place, const experiment::Experiment& experiment) : place_(place) {
   if (const std::string wrong = problem_of_place(place); !wrong.empty())
     throw std::invalid_argument(wrong);
   if (!is_elsewhere(place)) return;
   refuse_what_no_board_can(experiment, place);
-  const link::Configuration configuration = configuration_of(experiment);
+  configuration_ = configuration_of(experiment);
   if (place.starts_with(serial)) {
-    serial_ = std::make_unique<Serial>(device_of(place.substr(serial.size())), configuration);
+    serial_ = std::make_unique<Serial>(device_of(place.substr(serial.size())), configuration_);
     board_ = &serial_->board;
   } else if (place.starts_with(emulated)) {
     emulated_ = std::make_unique<AtMachine<plant::EmulatedBoard>>(place.substr(emulated.size()),
@@ -136,8 +136,12 @@ Place::Place(const std::string& place, const experiment::Experiment& experiment)
     board_ = &lock_step_->board;
     lead_ = 0;
   }
-  const link::Identity who = board_->prepare(configuration);
-  who_ = fmt::format("{}, firmware {}, at {}", text_of(who.board), text_of(who.firmware), place);
+}
+
+void Place::prepare() {
+  if (board_ == nullptr) return;
+  const link::Identity who = board_->prepare(configuration_);
+  who_ = fmt::format("{}, firmware {}, at {}", text_of(who.board), text_of(who.firmware), place_);
 }
 
 Place::~Place() = default;

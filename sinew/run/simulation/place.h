@@ -26,19 +26,24 @@ bool is_elsewhere(const std::string& place);
 
 class Place {
  public:
-  // Opens what is there and arms it. Throws plant::BoardError, or config::Error for an experiment
-  // that cannot run there.
+  // Opens what is there. Throws plant::BoardError, or config::Error for an experiment that cannot
+  // run there.
   Place(const std::string& place, const experiment::Experiment& experiment);
   ~Place();
   Place(const Place&) = delete;
   Place& operator=(const Place&) = delete;
 
+  // Has the board ready for a run: configured and armed. Throws plant::BoardError.
+  void prepare();
   // The run goes there.
   void apply(RunOptions& options) const;
   // Who answered, and where: its board and firmware; empty where nothing was opened.
   const std::string& who() const noexcept { return who_; }
+  // The board; nullptr in the simulation.
+  plant::RemoteBoard* board() const noexcept { return board_; }
+  int lead() const noexcept { return lead_; }
   // Does it keep its own time, whatever pace is asked for?
-  bool board_keeps_time() const noexcept { return lead_ > 0; }
+  bool board_keeps_time() const noexcept { return board_ != nullptr && lead_ > 0; }
 
  private:
   struct Serial;
@@ -49,7 +54,8 @@ class Place {
   std::unique_ptr<AtMachine<plant::LockStepBoard>> lock_step_;
   plant::RemoteBoard* board_ = nullptr;
   int lead_ = 1;
-  std::string who_;
+  std::string place_, who_;
+  link::Configuration configuration_;
 };
 
 }  // namespace sinew::run

@@ -63,6 +63,7 @@ TEST(Place, NothingIsOpenedForASimulation) {
   RunOptions options;
   here.apply(options);
   EXPECT_EQ(options.board, nullptr);
+  EXPECT_FALSE(here.board_keeps_time()) << "a simulation takes a pace";
   EXPECT_EQ(here.who(), "");
 }
 

@@ -42,6 +42,13 @@ void WiredBody::start() {
   started_ = true;
 }
 
+// The body's time at a run's tick: each run goes on where the one before has left the body.
+Tick WiredBody::at(Tick run) {
+  start();
+  if (begun_ + run < now_) begun_ = now_ - run;
+  return now_ = begun_ + run;
+}
+
 void WiredBody::drive(Tick tick, std::uint32_t changed, std::uint32_t open) {
   for (std::uint8_t i = 0; i < board_.valve.size(); ++i)
     if (changed >> i & 1u) (void)port_->drive({tick, {board_.valve[i]}, (open >> i & 1u) != 0, 0});
@@ -51,7 +58,7 @@ void WiredBody::drive(Tick tick, std::uint32_t changed, std::uint32_t open) {
 // shut.
 void WiredBody::valves(Tick tick, std::uint32_t open, bool current) {
   if (tick < 0) return;
-  start();
+  tick = at(tick);
   if (!current) open = inverted_;
   drive(tick, open_ & ~open, open);
   drive(tick, open & ~open_, open);
@@ -61,10 +68,7 @@ void WiredBody::valves(Tick tick, std::uint32_t open, bool current) {
 Reading WiredBody::read(signals::Channel channel, Tick tick) {
   if (channel.index >= last_.size()) return {0, signals::Status::invalid};
   Reading& last = last_[channel.index];
-  if (tick >= 0) {
-    start();
-    last = port_->read({board_.channel[channel.index]}, tick);
-  }
+  if (tick >= 0) last = port_->read({board_.channel[channel.index]}, at(tick));
   return last;
 }
 

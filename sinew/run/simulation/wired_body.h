@@ -30,6 +30,7 @@ class WiredBody {
   void drive(signals::Tick tick, std::uint32_t changed, std::uint32_t open);
   signals::Reading read(signals::Channel channel, signals::Tick tick);
   void start();
+  signals::Tick at(signals::Tick run);
   std::vector<signals::Reading> at_rest() const;
 
   experiment::Experiment experiment_;
@@ -40,6 +41,8 @@ class WiredBody {
   std::optional<FaultyPort> faulty_;
   signals::Port* port_;
   bool started_ = false;
+  signals::Tick begun_ = 0,
+                now_ = 0;  // of the body's time: this run's start, the last one asked for
   std::vector<signals::Reading> last_;  // by channel: before the run those of the machine at rest
 };
 

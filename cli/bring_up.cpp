@@ -1,0 +1,76 @@
+// cli/bring_up.cpp - `sinew bring-up`: the first day of a machine at the bench.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+
+#include "cli/command.h"
+#include "cli/terminal.h"
+#include "sinew/run/bring_up/bring_up.h"
+#include "sinew/run/simulation/place.h"
+
+namespace sinew::cli {
+
+namespace {
+
+struct Options {
+  std::string robot, place, folder;
+  std::vector<std::string> sets;
+  bool yes = false;
+};
+
+std::optional<bool> asked(const std::string& question, bool yes) {
+  for (std::string line;;) {
+    fmt::print("    {} [y/n] ", question);
+    std::fflush(stdout);
+    if (yes) {
+      fmt::print("y\n");
+      return true;
+    }
+    if (!std::getline(std::cin, line)) {
+      fmt::print("\n");
+      return {};
+    }
+    if (line == "y" || line == "yes") return true;
+    if (line == "n" || line == "no") return false;
+  }
+}
+
+ExitCode bring_up(const Options& o) {
+  const std::filesystem::path robot(o.robot);
+  const std::filesystem::path folder =
+      o.folder.empty() ? std::filesystem::path("bring-up") / robot.parent_path().filename()
+                       : std::filesystem::path(o.folder);
+  const experiment::Experiment bench = run::bench_of(o.robot, folder, o.sets);
+  run::Place place(o.place, bench);
+  if (place.board() == nullptr)
+    throw std::runtime_error("--port: found simulated; expected a board");
+  run::BringUp steps(bench, o.robot, *place.board(), place.lead(),
+                     {.tell =
+                          [](const std::string& line) {
+                            fmt::print("{}\n", line);
+                            std::fflush(stdout);
+                          },
+                      .ask = [&](const std::string& question) { return asked(question, o.yes); }},
+                     folder);
+  return steps.go() ? ok : failed;
+}
+
+}  // namespace
+
+void add_bring_up(Command app, Action& action) {
+  auto options = std::make_shared<Options>();
+  Command sub = app.subcommand("bring-up", "a machine's first day at the bench, step by step",
+                               "sinew bring-up robots/leg/robot.toml --port serial:/dev/ttyACM0");
+  sub.add_option("ROBOT", options->robot, "file of the robot").required();
+  sub.add_option("--port", options->place, "its board: serial:DEVICE[@RATE] or emulated:FILE")
+      .required()
+      .check(run::problem_of_place);
+  sub.add_option("-o,--output", options->folder,
+                 "folder of what is done and learned; else bring-up/<robot>");
+  add_sets(sub, options->sets);
+  sub.add_flag("--yes", options->yes, "every question is answered with yes: for a simulated bench");
+  sub.callback([=, &action] { action = [=] { return bring_up(*options); }; });
+}
+
+}  // namespace sinew::cli

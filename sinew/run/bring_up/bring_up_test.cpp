@@ -1,0 +1,222 @@
+// The first day at a bench that is simulated, whole and broken.
+#include "sinew/run/bring_up/bring_up.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/control/setup/boards.h"
+#include "sinew/experiment/machine_file.h"
+#include "sinew/run/simulation/remote_boards.h"
+#include "sinew/run/simulation/test_board.h"
+#include "sinew/run/simulation/wired_body.h"
+
+namespace sinew::run {
+namespace {
+
+namespace fs = std::filesystem;
+using signals::Reading;
+
+const std::string leg = SINEW_SOURCE_DIR "/robots/leg/robot.toml";
+
+struct Folder {
+  Folder() {
+    std::string pattern = fs::temp_directory_path() / "sinew-bring-up-XXXXXX";
+    path = ::mkdtemp(pattern.data());
+  }
+  ~Folder() { fs::remove_all(path); }
+  fs::path path;
+};
+
+// What is between the board and the machine, by the leg's board's own numbers.
+struct Cables {
+  std::vector<std::uint8_t> channel, valve;  // the machine's end of each wire
+  std::vector<bool> reversed;                // a potentiometer's outer wires
+
+  explicit Cables(const control::Board& board) {
+    for (std::uint8_t i = 0; i < 32; ++i) valve.push_back(i);
+    for (std::uint8_t i = 0; i < board.channel.size(); ++i) channel.push_back(i);
+    reversed.assign(channel.size(), false);
+  }
+  plant::Wires between(plant::Wires body) const {
+    return {[=, *this](signals::Tick tick, std::uint32_t open, bool current) {
+              std::uint32_t there = 0;
+              for (std::size_t i = 0; i < valve.size(); ++i)
+                if (open >> i & 1u) there |= 1u << valve[i];
+              body.valves(tick, there, current);
+            },
+            [=, *this](signals::Channel c, signals::Tick tick) {
+              Reading r = body.read({channel[c.index]}, tick);
+              if (reversed[c.index]) r.counts = static_cast<std::uint16_t>(3'790 - r.counts);
+              return r;
+            }};
+  }
+};
+
+struct Day {
+  explicit Day(std::vector<std::string> sets = {}, const std::string& robot_file = leg)
+      : robot(robot_file),
+        bench(bench_of(robot, folder.path, sets)),
+        body(bench),
+        cables(only_board(bench)) {}
+
+  bool go() {
+    const auto tell = [this](const std::string& line) { said += line + "\n"; };
+    const auto ask = [this](const std::string& question) -> std::optional<bool> {
+      said += question + "\n";
+      return answers ? answers(question) : true;
+    };
+    BoardInThread board(cables.between(body.wires()));
+    plant::RemoteBoard remote(board.line(), 1, 100);
+    return BringUp(bench, robot, remote, 0, {tell, ask}, folder.path).go();
+  }
+  bool has_said(const std::string& words) const { return said.find(words) != said.npos; }
+  // The board's number of a sensor's channel.
+  std::size_t channel(const std::string& sensor) const {
+    const int number = robot::find_sensor(bench.robot, sensor);
+    const control::Board board = only_board(bench);
+    for (std::size_t i = 0; i < board.channel.size(); ++i)
+      if (board.channel[i] == number) return i;
+    throw std::out_of_range(sensor);
+  }
+
+  Folder folder;
+  std::string robot;
+  experiment::Experiment bench;
+  WiredBody body;
+  Cables cables;
+  std::function<std::optional<bool>(const std::string&)> answers;
+  std::string said;
+};
+
+TEST(BringUp, AWholeBenchPassesEveryStepAndItsRobotsFileIsLearned) {
+  Day day;
+  EXPECT_TRUE(day.go()) << day.said;
+  EXPECT_TRUE(day.has_said("9/9")) << day.said;
+  const experiment::MachineFile learned =
+      experiment::load_machine_file(day.folder.path / "robot.toml");
+  const robot::Robot& robot = learned.experiment.robot;
+  const auto at = [&](const char* name) {
+    return robot.sensors[static_cast<std::size_t>(robot::find_sensor(robot, name))];
+  };
+  EXPECT_NEAR(at("hip_angle").assumed_at_rest, 1'895, 1);
+  EXPECT_NEAR(at("hip_flexor_tension").assumed_at_rest, 53, 5);
+  EXPECT_EQ(at("hip_flexor_tension").assumed_at_rest, at("hip_flexor_tension").at_rest);
+  std::ifstream svg(day.folder.path / "wiring.svg");
+  const std::string drawing{std::istreambuf_iterator<char>(svg), {}};
+  EXPECT_NE(drawing.find("hip_flexor inlet"), std::string::npos);
+  EXPECT_NE(drawing.find("pin 31, common 32"), std::string::npos);
+}
+
+TEST(BringUp, OtherRobotsPassAsWell) {
+  for (const char* name : {"one-joint", "leg-with-pressures", "three-muscle-leg", "cricket"}) {
+    Day day({}, std::string(SINEW_SOURCE_DIR "/robots/") + name + "/robot.toml");
+    EXPECT_TRUE(day.go()) << name << "\n" << day.said;
+  }
+}
+
+TEST(BringUp, GoesOnWhereItStopped) {
+  Day day;
+  day.answers = [](const std::string& question) -> std::optional<bool> {
+    if (question.find("supply's air, and stay clear") != question.npos) return {};
+    return true;
+  };
+  EXPECT_FALSE(day.go());
+  EXPECT_TRUE(day.has_said("Stopped. The same command goes on from here."));
+  EXPECT_FALSE(fs::exists(day.folder.path / "robot.toml"));
+  day.said.clear();
+  day.answers = {};
+  EXPECT_TRUE(day.go()) << day.said;
+  EXPECT_TRUE(day.has_said("what the sensors read at rest: done before")) << day.said;
+  EXPECT_FALSE(day.has_said("hang still")) << "what is done is not asked again";
+}
+
+// --- broken benches -----------------------------------------------------------------------------
+
+TEST(BrokenBench, CablesOfTwoAnglesHaveChangedPlaces) {
+  Day day;
+  std::swap(day.cables.channel[day.channel("hip_angle")],
+            day.cables.channel[day.channel("knee_angle")]);
+  EXPECT_FALSE(day.go());
+  EXPECT_TRUE(day.has_said("its cable another's?")) << day.said;
+}
+
+TEST(BrokenBench, CablesOfTwoTensionsHaveChangedPlaces) {
+  Day day;
+  std::swap(day.cables.channel[day.channel("hip_flexor_tension")],
+            day.cables.channel[day.channel("knee_flexor_tension")]);
+  EXPECT_FALSE(day.go());
+  EXPECT_TRUE(day.has_said("the cables of hip_flexor_tension and knee_flexor_tension have changed"))
+      << day.said;
+}
+
+TEST(BrokenBench, APotentiometerIsReversed) {
+  Day day;
+  day.cables.reversed[day.channel("hip_angle")] = true;  // about its rest
+  EXPECT_FALSE(day.go());
+  EXPECT_TRUE(day.has_said("hip_angle goes the wrong way: change the two outer wires")) << day.said;
+}
+
+TEST(BrokenBench, AnInletIsWiredToAnotherMuscle) {
+  Day day;
+  std::swap(day.cables.valve[0], day.cables.valve[4]);  // the inlets of hip and knee flexor
+  EXPECT_FALSE(day.go());
+  EXPECT_TRUE(day.has_said("knee_flexor pulled in its place: the inlet")) << day.said;
+}
+
+TEST(BrokenBench, InletAndExhaustHaveChangedPlaces) {
+  Day day;
+  std::swap(day.cables.valve[0], day.cables.valve[1]);
+  EXPECT_FALSE(day.go());
+  EXPECT_TRUE(day.has_said("wrong:")) << day.said;
+}
+
+TEST(BrokenBench, TheSupplyIsOff) {
+  Day day({"air.supply.pressure=0 psi gauge"});
+  EXPECT_FALSE(day.go());
+  EXPECT_TRUE(day.has_said("nothing happened: is the supply's air on")) << day.said;
+}
+
+TEST(BrokenBench, AMuscleLeaks) {
+  Day day({"muscle.hip_flexor.leak.conductance=2e-10 kg/(s Pa)"});
+  EXPECT_FALSE(day.go());
+  EXPECT_TRUE(day.has_said("% in a second with its valves shut")) << day.said;
+}
+
+TEST(BrokenBench, AValveDoesNotClick) {
+  Day day;
+  day.answers = [](const std::string& question) -> std::optional<bool> {
+    return question.find("exhaust of knee_flexor") == question.npos;
+  };
+  EXPECT_FALSE(day.go());
+  EXPECT_TRUE(day.has_said("the exhaust of knee_flexor (bit 10, pins 47 and 48) did not click"))
+      << day.said;
+}
+
+TEST(BrokenBench, TheEmergencyStopLetsNoAirOut) {
+  Day day;
+  day.answers = [](const std::string& question) -> std::optional<bool> {
+    return question.find("emergency stop") == question.npos;
+  };
+  EXPECT_FALSE(day.go());
+  EXPECT_TRUE(day.has_said("nobody works at this machine until it does")) << day.said;
+}
+
+TEST(BrokenBench, TheFolderHasAnotherRobotsSteps) {
+  Day day;
+  EXPECT_TRUE(day.go());
+  day.robot = SINEW_SOURCE_DIR "/robots/one-joint/robot.toml";
+  try {
+    day.go();
+    FAIL() << day.said;
+  } catch (const config::Error& e) {
+    EXPECT_NE(std::string(e.what()).find("this one has the steps of another robot"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace sinew::run

@@ -1,0 +1,217 @@
+#include "sinew/run/bring_up/muscles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::run {
+
+namespace {
+
+// A change of a mean over 50 ms that is more than noise  [count].
+constexpr double seen = 20;
+// A muscle that is full enough to be tried  [count].
+constexpr double full = 600;
+// What a joint with dry friction and a soft cord may lose while its muscle is shut, and more than
+// which is a leak  [1/s].
+constexpr double leak_limit = 0.10;
+// What may be left after a vent.
+constexpr double left_limit = 0.3;
+
+enum : std::size_t { vent, shut, filling, held, emptying };
+
+std::optional<std::size_t> channel_of(const control::Board& board, int sensor) {
+  if (sensor < 0) return {};
+  const auto at = std::ranges::find(board.channel, static_cast<std::uint8_t>(sensor));
+  if (at == board.channel.end()) return {};
+  return static_cast<std::size_t>(at - board.channel.begin());
+}
+
+std::string wire_of(const experiment::Experiment& e, const std::string& muscle, bool inlet,
+                    int bit) {
+  std::string out = fmt::format("bit {}", bit);
+  for (const robot::Wiring::Valve& v : e.wiring.valves) {
+    if (!e.wiring.present || v.of != muscle) continue;
+    const robot::Wiring::Line& line = inlet ? v.inlet : v.exhaust;
+    if (e.wiring.bits == robot::Wiring::Bits::table) out = fmt::format("bit {}", line.bit);
+    out += fmt::format(", pins {} and {}", line.pin, line.common);
+  }
+  return out;
+}
+
+// Counts over what they were before the air came, at a stage's end.
+double over_rest(std::size_t channel, int sign, const Trial& t, std::size_t stage) {
+  return sign * (t.stages[stage].after(channel) - t.stages[shut].after(channel));
+}
+
+double rise(const BenchMuscle& m, const Trial& t, std::size_t stage) {
+  return m.tension ? over_rest(*m.tension, m.tension_sign, t, stage) : 0;
+}
+
+double turned(const BenchMuscle& m, const Trial& t, std::size_t stage) {
+  return m.angle ? over_rest(*m.angle, m.direction, t, stage) : 0;
+}
+
+// The highest rise of its tension while the air came and was held: a joint that gives way takes
+// most of it back.
+double pull(const BenchMuscle& m, const Trial& t) {
+  double most = 0;
+  if (!m.tension) return most;
+  const double rest = t.stages[shut].after(*m.tension);
+  for (const std::size_t stage : {filling, held})
+    for (const Sample& s : t.stages[stage].samples)
+      most = std::max(most, m.tension_sign * (s.counts[*m.tension] - rest));
+  return most;
+}
+
+// The muscle whose tension rose most, where that is another one by far.
+const BenchMuscle* other_that_pulls(const std::vector<BenchMuscle>& all, std::size_t which,
+                                    const Trial& t) {
+  if (!all[which].tension) return nullptr;
+  const auto most =
+      std::ranges::max_element(all, {}, [&](const BenchMuscle& m) { return pull(m, t); });
+  return pull(*most, t) > std::max(seen, 2 * pull(all[which], t)) ? &*most : nullptr;
+}
+
+std::string no_air(const BenchMuscle& m) {
+  return fmt::format(
+      "nothing happened: is the supply's air on, the hose of {} plugged in, its inlet "
+      "({}) wired?",
+      m.name, m.inlet);
+}
+
+// What is wrong with where the air went; empty: nothing.
+std::string wrong_with_filling(const std::vector<BenchMuscle>& all, std::size_t which,
+                               const Trial& t) {
+  const BenchMuscle& m = all[which];
+  const double turn = turned(m, t, held);
+  if (const BenchMuscle* other = other_that_pulls(all, which, t)) {
+    if (turn > seen)
+      return fmt::format(
+          "the joint moved as it should, and the tension of {} rose: the cables of {} "
+          "and {} have changed places",
+          other->name, m.tension_sensor, other->tension_sensor);
+    return fmt::format(
+        "{} pulled in its place: the inlet ({}) is that of {}, or their hoses have "
+        "changed places",
+        other->name, m.inlet, other->name);
+  }
+  const bool pulls = pull(m, t) > seen;
+  if (!pulls && std::abs(turn) <= seen) return no_air(m);
+  if (m.tension && !pulls)
+    return fmt::format("the joint moved and {} says nothing: look at its cable", m.tension_sensor);
+  if (turn < -seen && !m.two_joints)  // the other joint may have moved this one
+    return fmt::format("{} goes the wrong way: change the two outer wires of the potentiometer",
+                       m.angle_sensor);
+  return "";
+}
+
+std::string wrong_with_holding(const BenchMuscle& m, double lost) {
+  if (!m.tension || lost <= leak_limit) return "";
+  return fmt::format(
+      "it loses {:.0f} % in a second with its valves shut; expected {:.0f} % at most: "
+      "look for bubbles at its ends, fittings and the exhaust valve",
+      100 * lost, 100 * leak_limit);
+}
+
+std::string wrong_with_emptying(const BenchMuscle& m, const Trial& t) {
+  const double was = m.tension ? rise(m, t, held) : turned(m, t, held);
+  const double is = m.tension ? rise(m, t, emptying) : turned(m, t, emptying);
+  if (was <= seen || is <= std::max(left_limit * was, seen)) return "";
+  return fmt::format(
+      "it does not empty ({:.0f} of {:.0f} count are left after a second and a half): "
+      "look at its exhaust ({})",
+      is, was, m.exhaust);
+}
+
+// Share of its pull that a muscle loses in a second while it is shut; the first moments, in which
+// the joint settles, are left out.
+double loss(const BenchMuscle& m, const Trial& t) {
+  constexpr double settle = 0.5;
+  if (!m.tension) return 0;
+  const double rest = t.stages[shut].after(*m.tension);
+  for (const Sample& s : t.stages[held].samples)
+    if (s.time >= settle) {
+      const double from = m.tension_sign * (s.counts[*m.tension] - rest);
+      const double time = t.stages[held].seconds() - s.time;
+      return from > seen && time > 0 ? (from - rise(m, t, held)) / from / time : 0;
+    }
+  return 0;
+}
+
+}  // namespace
+
+std::vector<BenchMuscle> bench_muscles(const experiment::Experiment& e,
+                                       const control::Board& board) {
+  std::vector<BenchMuscle> out;
+  for (std::size_t j = 0; j < board.spine.joints; ++j) {
+    const control::JointConfig& c = board.spine.joint[j];
+    if (c.kind != control::JointKind::antagonist) continue;
+    const int joint = board.joint[j];
+    for (const auto role : {robot::Muscle::Role::flexor, robot::Muscle::Role::extensor}) {
+      const bool flexor = role == robot::Muscle::Role::flexor;
+      const int number = robot::muscle_of(e.robot, joint, role);
+      if (number < 0 || !(flexor ? c.flexor : c.extensor).present) continue;
+      const robot::Muscle& m = e.robot.muscles[static_cast<std::size_t>(number)];
+      const int tension = robot::tension_sensor_of(e.robot, number);
+      const int angle = robot::angle_sensor_of(e.robot, joint);
+      const auto sensor = [&](int which) {
+        return which < 0 ? robot::Sensor{} : e.robot.sensors[static_cast<std::size_t>(which)];
+      };
+      out.push_back({.name = m.name,
+                     .joint = e.robot.joints[static_cast<std::size_t>(joint)].name,
+                     .board_joint = j,
+                     .flexor = flexor,
+                     .two_joints = !m.second.joint.empty(),
+                     .direction = flexor ? c.flexion : -c.flexion,
+                     .tension = channel_of(board, tension),
+                     .angle = channel_of(board, angle),
+                     .tension_sign = sensor(tension).assumed_scale < 0 ? -1 : 1,
+                     .inlet = wire_of(e, m.name, true, m.inlet_bit),
+                     .exhaust = wire_of(e, m.name, false, m.exhaust_bit),
+                     .angle_sensor = sensor(angle).name,
+                     .tension_sensor = sensor(tension).name});
+    }
+  }
+  return out;
+}
+
+control::Duties fill(const BenchMuscle& m) {
+  return m.flexor ? control::Duties{100, 0, 0, 100} : control::Duties{0, 100, 100, 0};
+}
+
+std::vector<Stage> stages_for(const BenchMuscle& m, std::size_t joints) {
+  const std::vector<control::Duties> all_empty(joints, empty_both);
+  std::vector<control::Duties> filled = all_empty, closed = all_empty;
+  filled[m.board_joint] = fill(m);
+  closed[m.board_joint] = fill(m);
+  (m.flexor ? closed[m.board_joint].flexor_inlet : closed[m.board_joint].extensor_inlet) = 0;
+  std::vector<Stage> out{
+      {0.5, all_empty}, {0.3, {}}, {0.6, filled}, {2.0, closed}, {1.5, all_empty}};
+  if (m.tension)
+    out[filling].ends = [start = std::optional<double>(), m](const Sample& s) mutable {
+      if (!start) start = s.counts[*m.tension];
+      return m.tension_sign * (s.counts[*m.tension] - *start) > full;
+    };
+  return out;
+}
+
+Judgement judge(const std::vector<BenchMuscle>& all, std::size_t which, const Trial& t) {
+  const BenchMuscle& m = all[which];
+  Judgement out;
+  if (!t.problem.empty()) {
+    out.wrong.push_back("the board ended the trial: " + t.problem);
+    return out;
+  }
+  const double lost = loss(m, t);
+  if (m.angle) out.filled_angle = t.stages[held].after(*m.angle);
+  out.said = fmt::format("tension {:+.0f} count, {} {:+.0f} count, {:.1f} % lost in a second",
+                         pull(m, t), m.joint, m.direction * turned(m, t, held), 100 * lost);
+  for (const std::string& wrong :
+       {wrong_with_filling(all, which, t), wrong_with_holding(m, lost), wrong_with_emptying(m, t)})
+    if (!wrong.empty()) out.wrong.push_back(wrong);
+  return out;
+}
+
+}  // namespace sinew::run

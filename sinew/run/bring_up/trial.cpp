@@ -1,0 +1,139 @@
+#include "sinew/run/bring_up/trial.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/control/link/words.h"
+#include "sinew/signals/tick.h"
+
+namespace sinew::run {
+
+using signals::Tick;
+
+namespace {
+
+constexpr double edge = 0.05;  // [s] at both ends of a stage, over which means are taken
+
+double mean(const std::vector<Sample>& samples, std::size_t channel, double from, double to) {
+  double sum = 0;
+  int n = 0;
+  for (const Sample& s : samples)
+    if (s.time >= from && s.time <= to) {
+      sum += s.counts[channel];
+      ++n;
+    }
+  return n > 0 ? sum / n : std::nan("");
+}
+
+Sample sample_of(const link::Telemetry& told, double time) {
+  Sample out{.time = time};
+  for (std::size_t i = 0; i < told.channels; ++i) {
+    out.counts.push_back(told.seen.reading[i].counts);
+    out.status.push_back(told.seen.reading[i].status);
+  }
+  return out;
+}
+
+link::CommandFor command_of(const Stage& stage, std::size_t joints, Tick from) {
+  constexpr std::uint8_t good_for = 3;  // periods: a frame may be lost, and the next one as well
+  link::CommandFor out{
+      .from = from, .periods = good_for, .joints = static_cast<std::uint8_t>(joints)};
+  for (std::size_t j = 0; j < joints; ++j) {
+    control::JointCommand& c = out.joint[j];
+    c.enabled = c.open_loop = true;
+    if (j < stage.duties.size()) c.duties = stage.duties[j];
+  }
+  return out;
+}
+
+// A run under way, from command to command.
+class Run {
+ public:
+  Run(plant::RemoteBoard& board, const link::Configuration& configuration, int lead)
+      : board_(&board),
+        joints_(configuration.spine.joints),
+        period_(configuration.spine.period),
+        lead_(lead) {}
+
+  // False: it is over.
+  bool work_off(const Stage& stage, Recording& out) {
+    const Tick begun = now_;
+    for (;;) {
+      const double time = signals::tick_seconds * static_cast<double>(now_ - begun);
+      if (time >= stage.seconds - 1e-9) return true;
+      if (!send(command_of(stage, joints_, now_ == 0 ? 0 : now_ + lead_ * period_)) || !hear())
+        return false;
+      out.samples.push_back(sample_of(*told_, time + signals::tick_seconds * period_));
+      if (stage.ends && stage.ends(out.samples.back())) return true;
+    }
+  }
+  // True: the board is at rest by its own word.
+  bool end() {
+    link::CommandFor last = command_of({}, joints_, now_ + lead_ * period_);
+    last.ends = true;
+    if (!send(last)) return false;
+    while (hear()) {}
+    return board_->why() == plant::RemoteBoard::Why::over;
+  }
+  std::string problem() const {
+    using Why = plant::RemoteBoard::Why;
+    if (board_->why() == Why::over && board_->fault() != control::BoardFault::none)
+      return link::in_words(board_->fault());
+    if (board_->why() == Why::gone) return "the line to the board is gone";
+    return "the board is not heard any more";
+  }
+
+ private:
+  bool send(const link::CommandFor& command) { return board_->command(command); }
+  bool hear() {
+    constexpr double silence = 1.5;  // [s]
+    do {
+      told_ = board_->next(silence);
+    } while (told_ != nullptr && told_->tick <= now_);
+    if (told_ != nullptr) now_ = told_->tick;
+    return told_ != nullptr;
+  }
+
+  plant::RemoteBoard* board_;
+  std::size_t joints_;
+  Tick period_, lead_, now_ = 0;
+  const link::Telemetry* told_ = nullptr;
+};
+
+}  // namespace
+
+double Recording::before(std::size_t channel) const { return mean(samples, channel, 0, edge); }
+
+double Recording::after(std::size_t channel) const {
+  return mean(samples, channel, seconds() - edge, seconds());
+}
+
+Trial try_out(plant::RemoteBoard& board, const link::Configuration& configuration, int lead,
+              const std::vector<Stage>& stages, End end) {
+  board.prepare(configuration);
+  Run run(board, configuration, lead);
+  Trial out;
+  out.stages.resize(stages.size());
+  for (std::size_t i = 0; i < stages.size(); ++i)
+    if (!run.work_off(stages[i], out.stages[i])) {
+      out.problem = run.problem();
+      return out;
+    }
+  if (end == End::at_once ? !board.shut_down() : !run.end()) out.problem = run.problem();
+  return out;
+}
+
+Recording listen(plant::RemoteBoard& board, const link::Configuration& configuration,
+                 double seconds) {
+  const double period = signals::tick_seconds * configuration.spine.period;
+  Recording out;
+  while (out.seconds() < seconds) {
+    const link::Telemetry* told = board.look(1.0);
+    if (told == nullptr) throw plant::BoardError("the board does not say what its sensors read");
+    const double time = period * static_cast<double>(out.samples.size());
+    out.samples.push_back(sample_of(*told, time));
+  }
+  return out;
+}
+
+}  // namespace sinew::run

@@ -1,0 +1,114 @@
+#include "sinew/run/bring_up/wiring_drawing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "sinew/report/page/html.h"
+
+namespace sinew::run {
+
+namespace {
+
+constexpr int row = 30, top = 70, left_edge = 230, right_edge = 590, width = 860;
+
+struct Wire {
+  std::string name, at, pins;  // what it is, where on the board, which terminals
+};
+
+std::string text(int x, int y, const std::string& anchor, const std::string& words,
+                 const std::string& style = "") {
+  return fmt::format(R"(<text x="{}" y="{}" text-anchor="{}"{}>{}</text>)"
+                     "\n",
+                     x, y, anchor, style.empty() ? "" : fmt::format(R"( class="{}")", style),
+                     report::escaped(words));
+}
+
+std::vector<Wire> sensor_wires(const experiment::Experiment& e, const control::Board& board) {
+  std::vector<Wire> out;
+  for (const std::uint8_t number : board.channel) {
+    const robot::Sensor& s = e.robot.sensors[number];
+    Wire wire{s.name, fmt::format("channel {}", s.channel), ""};
+    for (const robot::Wiring::Signal& signal : e.wiring.signals)
+      if (e.wiring.present && signal.name == s.name)
+        wire.pins = fmt::format("pin {}, ground {}", signal.pin, signal.ground);
+    out.push_back(wire);
+  }
+  return out;
+}
+
+std::vector<Wire> valve_wires(const experiment::Experiment& e, int board) {
+  std::vector<Wire> out;
+  for (const robot::ValveBit& bit : robot::bits_of(e.robot, e.wiring)) {
+    if (bit.board != board) continue;
+    Wire wire{bit.of + " " + bit.which, fmt::format("bit {}", bit.bit), ""};
+    for (const robot::Wiring::Valve& v : e.wiring.valves)
+      if (e.wiring.present && v.of == bit.of) {
+        const robot::Wiring::Line& line = bit.which == "inlet" ? v.inlet : v.exhaust;
+        wire.pins = fmt::format("pin {}, common {}", line.pin, line.common);
+      }
+    out.push_back(wire);
+  }
+  return out;
+}
+
+std::string drawn(const Wire& wire, int y, bool sensor) {
+  const int edge = sensor ? left_edge : right_edge, outer = sensor ? edge - 40 : edge + 40;
+  const int inward = sensor ? 10 : -10;
+  std::string out = fmt::format(R"(<line x1="{}" y1="{}" x2="{}" y2="{}"/>)"
+                                "\n",
+                                edge, y, outer, y);
+  out += fmt::format(R"(<circle cx="{}" cy="{}" r="4"/>)"
+                     "\n",
+                     edge, y);
+  out += text(edge + inward, y + 4, sensor ? "start" : "end", wire.at);
+  out += text(outer + (sensor ? -6 : 6), wire.pins.empty() ? y + 4 : y, sensor ? "end" : "start",
+              wire.name);
+  if (!wire.pins.empty())
+    out += text(outer + (sensor ? -6 : 6), y + 11, sensor ? "end" : "start", wire.pins, "small");
+  return out;
+}
+
+}  // namespace
+
+std::string wiring_drawing(const experiment::Experiment& e, const control::Board& board) {
+  const std::vector<Wire> sensors = sensor_wires(e, board), valves = valve_wires(e, 1);
+  const int rows = static_cast<int>(std::max(sensors.size(), valves.size()));
+  const int bottom = top + row * rows, height = bottom + 130;
+  std::string out = fmt::format(
+      R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}">
+<style>text {{ font: 13px sans-serif; fill: #222; }} .small {{ font-size: 10px; fill: #666; }} .head {{ font-weight: bold; }}
+line {{ stroke: #555; }} circle {{ fill: #555; }} rect {{ fill: #f4f4f0; stroke: #555; }}</style>
+<rect x="0" y="0" width="{0}" height="{1}" style="fill: white; stroke: none"/>
+)",
+      width, height);
+  out += fmt::format(R"(<rect x="{}" y="{}" width="{}" height="{}" rx="6"/>)"
+                     "\n",
+                     left_edge, top - 45, right_edge - left_edge, bottom - top + 50);
+  out += text((left_edge + right_edge) / 2, top - 25, "middle", "controller board", "head");
+  out += text(left_edge - 46, top - 25, "end", "sensors", "head");
+  out += text(right_edge + 46, top - 25, "start", "valves, each behind a driver", "head");
+  int y = top;
+  for (const Wire& wire : sensors) out += drawn(wire, std::exchange(y, y + row), true);
+  y = top;
+  for (const Wire& wire : valves) out += drawn(wire, std::exchange(y, y + row), false);
+  out += fmt::format(R"(<rect x="{}" y="{}" width="260" height="46" rx="6"/>)"
+                     "\n",
+                     right_edge - 60, bottom + 40);
+  out += text(right_edge + 70, bottom + 59, "middle", "supply's dump valve");
+  out += text(right_edge + 70, bottom + 75, "middle",
+              "lets the air out when its coil has no current", "small");
+  out +=
+      fmt::format(R"(<polyline points="{0},{1} {0},{2} {3},{2}" style="fill: none; stroke: #555"/>)"
+                  "\n",
+                  right_edge - 120, bottom + 5, bottom + 63, right_edge - 60);
+  out += text(right_edge - 128, bottom + 59, "end",
+              "supply output, in series with the emergency stop");
+  const bool low = e.wiring.present && e.wiring.polarity == robot::Wiring::Polarity::low_opens;
+  out += text(left_edge, bottom + 115, "start",
+              low ? "a bit that is 0 opens its valve" : "a bit that is 1 opens its valve", "small");
+  return out + "</svg>\n";
+}
+
+}  // namespace sinew::run
