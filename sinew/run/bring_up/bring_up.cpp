@@ -10,6 +10,7 @@
 #include "sinew/experiment/machine_file.h"
 #include "sinew/run/bring_up/muscles.h"
 #include "sinew/run/bring_up/progress.h"
+#include "sinew/run/bring_up/wires.h"
 #include "sinew/run/bring_up/wiring_drawing.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/output_folder.h"
@@ -132,11 +133,9 @@ struct BringUp::Impl {
   }
 
   std::string wire_of(const std::string& sensor) const {
-    for (const robot::Wiring::Signal& s : e.wiring.signals)
-      if (e.wiring.present && s.name == sensor)
-        return fmt::format("channel {}, pins {} and {}", s.channel, s.pin, s.ground);
-    const int at = robot::find_sensor(e.robot, sensor);
-    return fmt::format("channel {}", e.robot.sensors[static_cast<std::size_t>(at)].channel);
+    for (const Wire& wire : sensor_wires(e, board))
+      if (wire.name == sensor) return wire.in_words();
+    return "";
   }
 
   // A robot that hangs empty and still.

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/run/bring_up/wires.h"
+
 namespace sinew::run {
 
 namespace {
@@ -26,18 +28,6 @@ std::optional<std::size_t> channel_of(const control::Board& board, int sensor) {
   const auto at = std::ranges::find(board.channel, static_cast<std::uint8_t>(sensor));
   if (at == board.channel.end()) return {};
   return static_cast<std::size_t>(at - board.channel.begin());
-}
-
-std::string wire_of(const experiment::Experiment& e, const std::string& muscle, bool inlet,
-                    int bit) {
-  std::string out = fmt::format("bit {}", bit);
-  for (const robot::Wiring::Valve& v : e.wiring.valves) {
-    if (!e.wiring.present || v.of != muscle) continue;
-    const robot::Wiring::Line& line = inlet ? v.inlet : v.exhaust;
-    if (e.wiring.bits == robot::Wiring::Bits::table) out = fmt::format("bit {}", line.bit);
-    out += fmt::format(", pins {} and {}", line.pin, line.common);
-  }
-  return out;
 }
 
 // Counts over what they were before the air came, at a stage's end.
@@ -144,6 +134,7 @@ double loss(const BenchMuscle& m, const Trial& t) {
 
 std::vector<BenchMuscle> bench_muscles(const experiment::Experiment& e,
                                        const control::Board& board) {
+  const std::vector<Wire> valves = valve_wires(e, board);
   std::vector<BenchMuscle> out;
   for (std::size_t j = 0; j < board.spine.joints; ++j) {
     const control::JointConfig& c = board.spine.joint[j];
@@ -152,7 +143,8 @@ std::vector<BenchMuscle> bench_muscles(const experiment::Experiment& e,
     for (const auto role : {robot::Muscle::Role::flexor, robot::Muscle::Role::extensor}) {
       const bool flexor = role == robot::Muscle::Role::flexor;
       const int number = robot::muscle_of(e.robot, joint, role);
-      if (number < 0 || !(flexor ? c.flexor : c.extensor).present) continue;
+      const control::MuscleConfig& muscle = flexor ? c.flexor : c.extensor;
+      if (number < 0 || !muscle.present) continue;
       const robot::Muscle& m = e.robot.muscles[static_cast<std::size_t>(number)];
       const int tension = robot::tension_sensor_of(e.robot, number);
       const int angle = robot::angle_sensor_of(e.robot, joint);
@@ -168,8 +160,8 @@ std::vector<BenchMuscle> bench_muscles(const experiment::Experiment& e,
                      .tension = channel_of(board, tension),
                      .angle = channel_of(board, angle),
                      .tension_sign = sensor(tension).assumed_scale < 0 ? -1 : 1,
-                     .inlet = wire_of(e, m.name, true, m.inlet_bit),
-                     .exhaust = wire_of(e, m.name, false, m.exhaust_bit),
+                     .inlet = valves[muscle.inlet.index].in_words(),
+                     .exhaust = valves[muscle.exhaust.index].in_words(),
                      .angle_sensor = sensor(angle).name,
                      .tension_sensor = sensor(tension).name});
     }

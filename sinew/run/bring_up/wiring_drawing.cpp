@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sinew/report/page/html.h"
+#include "sinew/run/bring_up/wires.h"
 
 namespace sinew::run {
 
@@ -13,44 +14,12 @@ namespace {
 
 constexpr int row = 30, top = 70, left_edge = 230, right_edge = 590, width = 860;
 
-struct Wire {
-  std::string name, at, pins;  // what it is, where on the board, which terminals
-};
-
 std::string text(int x, int y, const std::string& anchor, const std::string& words,
                  const std::string& style = "") {
   return fmt::format(R"(<text x="{}" y="{}" text-anchor="{}"{}>{}</text>)"
                      "\n",
                      x, y, anchor, style.empty() ? "" : fmt::format(R"( class="{}")", style),
                      report::escaped(words));
-}
-
-std::vector<Wire> sensor_wires(const experiment::Experiment& e, const control::Board& board) {
-  std::vector<Wire> out;
-  for (const std::uint8_t number : board.channel) {
-    const robot::Sensor& s = e.robot.sensors[number];
-    Wire wire{s.name, fmt::format("channel {}", s.channel), ""};
-    for (const robot::Wiring::Signal& signal : e.wiring.signals)
-      if (e.wiring.present && signal.name == s.name)
-        wire.pins = fmt::format("pin {}, ground {}", signal.pin, signal.ground);
-    out.push_back(wire);
-  }
-  return out;
-}
-
-std::vector<Wire> valve_wires(const experiment::Experiment& e, int board) {
-  std::vector<Wire> out;
-  for (const robot::ValveBit& bit : robot::bits_of(e.robot, e.wiring)) {
-    if (bit.board != board) continue;
-    Wire wire{bit.of + " " + bit.which, fmt::format("bit {}", bit.bit), ""};
-    for (const robot::Wiring::Valve& v : e.wiring.valves)
-      if (e.wiring.present && v.of == bit.of) {
-        const robot::Wiring::Line& line = bit.which == "inlet" ? v.inlet : v.exhaust;
-        wire.pins = fmt::format("pin {}, common {}", line.pin, line.common);
-      }
-    out.push_back(wire);
-  }
-  return out;
 }
 
 std::string drawn(const Wire& wire, int y, bool sensor) {
@@ -63,19 +32,17 @@ std::string drawn(const Wire& wire, int y, bool sensor) {
                      "\n",
                      edge, y);
   out += text(edge + inward, y + 4, sensor ? "start" : "end", wire.at);
-  out += text(outer + (sensor ? -6 : 6), wire.pins.empty() ? y + 4 : y, sensor ? "end" : "start",
-              wire.name);
-  if (!wire.pins.empty())
-    out += text(outer + (sensor ? -6 : 6), y + 11, sensor ? "end" : "start", wire.pins, "small");
+  out += text(outer + (sensor ? -6 : 6), y, sensor ? "end" : "start", wire.name);
+  out += text(outer + (sensor ? -6 : 6), y + 11, sensor ? "end" : "start", wire.elsewhere, "small");
   return out;
 }
 
 }  // namespace
 
 std::string wiring_drawing(const experiment::Experiment& e, const control::Board& board) {
-  const std::vector<Wire> sensors = sensor_wires(e, board), valves = valve_wires(e, 1);
+  const std::vector<Wire> sensors = sensor_wires(e, board), valves = valve_wires(e, board);
   const int rows = static_cast<int>(std::max(sensors.size(), valves.size()));
-  const int bottom = top + row * rows, height = bottom + 130;
+  const int bottom = top + row * rows, height = bottom + 100;
   std::string out = fmt::format(
       R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0} {1}" width="{0}" height="{1}">
 <style>text {{ font: 13px sans-serif; fill: #222; }} .small {{ font-size: 10px; fill: #666; }} .head {{ font-weight: bold; }}
@@ -105,9 +72,6 @@ line {{ stroke: #555; }} circle {{ fill: #555; }} rect {{ fill: #f4f4f0; stroke:
                   right_edge - 120, bottom + 5, bottom + 63, right_edge - 60);
   out += text(right_edge - 128, bottom + 59, "end",
               "supply output, in series with the emergency stop");
-  const bool low = e.wiring.present && e.wiring.polarity == robot::Wiring::Polarity::low_opens;
-  out += text(left_edge, bottom + 115, "start",
-              low ? "a bit that is 0 opens its valve" : "a bit that is 1 opens its valve", "small");
   return out + "</svg>\n";
 }
 
