@@ -91,6 +91,23 @@ TEST(Application, IsConfiguredArmedRunAndShutDownOverItsSerialLine) {
   EXPECT_LE(std::stoi(printed.substr(at + words.size())), deepest_stack);
 }
 
+// The emulator has its timers go twelve times too fast, and knows neither its clocks nor its pins:
+// no more than this can be seen of that board.
+TEST(Application, OfTheStm32f405StartsSaysWhoItIsAndIsConfigured) {
+  if (missing()) GTEST_SKIP() << what_is_missing;
+  Machine machine("netduinoplus2", image("application-stm32f405"), "", 0);
+  Host host(machine.line());
+  for (int i = 0; i < 20 && !host.identity; ++i) {  // what comes before it listens is lost
+    host.send(link::Identify{});
+    host.wait([&] { return host.identity.has_value(); }, milliseconds(500));
+  }
+  ASSERT_TRUE(host.identity.has_value());
+  EXPECT_STREQ(reinterpret_cast<const char*>(host.identity->board.data()), "stm32f405");
+  configure(host);
+  const int before = host.telemetries;
+  EXPECT_TRUE(host.wait([&] { return host.telemetries > before + 20; }));
+}
+
 TEST(Application, TheWatchdogBitesWhereNobodyFeedsItAndTheBoardSaysSo) {
   if (missing()) GTEST_SKIP() << what_is_missing;
   Machine machine("mps2-an386", image("application-mps2_an386"), "starve");

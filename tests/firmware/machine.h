@@ -25,11 +25,12 @@ namespace sinew::firmware {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-// The emulator lets 8 ns pass with an instruction, as a processor of some 150 MHz does. It is ended
-// with this.
+// The emulator lets 2^shift ns pass with an instruction: 8, as a processor of some 150 MHz does. It
+// is ended with this.
 class Machine {
  public:
-  Machine(const std::string& machine, const std::string& image, const std::string& word = {}) {
+  Machine(const std::string& machine, const std::string& image, const std::string& word = {},
+          int shift = 3) {
     std::string pattern = std::filesystem::temp_directory_path() / "sinew-board-XXXXXX";
     folder_ = mkdtemp(pattern.data());
     const std::string words =
@@ -44,7 +45,7 @@ class Machine {
                                        "-monitor",
                                        "none",
                                        "-icount",
-                                       "shift=3,sleep=on",
+                                       "shift=" + std::to_string(shift) + ",sleep=on",
                                        "-chardev",
                                        line,
                                        "-semihosting-config",
