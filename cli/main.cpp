@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   cli::add_report(command, action);
   cli::add_view(command, action);
   cli::add_bring_up(command, action);
+  cli::add_firmware(command, action);
   cli::add_compare(command, action);
   cli::add_export(command, action);
   cli::add_import(command, action);

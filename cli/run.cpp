@@ -1,9 +1,12 @@
 // cli/run.cpp - `sinew run`: an experiment from its file to a folder with its log and its numbers.
 #include "cli/run.h"
+#include "cli/emergency.h"
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 
+#include "cli/emergency.h"
 #include "cli/interrupt.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/folder/kept_stand_run.h"
@@ -16,12 +19,16 @@ namespace {
 // The run itself, with its log where there is one.
 run::Outcome run_logged(const RunOptions& options, run::KeptRun& kept) {
   std::atomic<std::int64_t> tick{0};
-  const Interrupt interrupt;
+  Interrupt interrupt;
   run::RunOptions run_options{.pace = options.pace, .progress = &tick, .stop = &interrupt.asked()};
   if (options.pace > 0 && kept.place().board_keeps_time())
     config::fail({options.run.experiment, 0, 0}, "--pace", fmt::format("{}", options.pace),
                  "no pace: the board keeps the time");
   kept.apply(run_options);
+  std::optional<SpaceBar> space_bar;
+  if (kept.place().board() != nullptr) space_bar.emplace([&] { interrupt.ask(); });
+  if (space_bar && space_bar->listens() && !options.quiet)
+    fmt::print(stderr, "the space bar stops the machine\n");
   const ProgressBar bar(tick, experiment::last_tick(kept.experiment()),
                         Steps{signals::tick_seconds, "s", 1}, options.quiet);
   return run::run(kept.experiment(), run_options);

@@ -236,12 +236,14 @@ const link::Telemetry* RemoteBoard::next(double seconds) noexcept {
 }
 
 bool RemoteBoard::shut_down() noexcept {
-  for (int i = 0; i < 600 && why_ != Why::gone; ++i) {  // of 10 ms
+  constexpr int longest = 600, longest_silence = 150;  // of 10 ms
+  for (int i = 0, silent = 0; i < longest && silent < longest_silence && why_ != Why::gone; ++i) {
     if (state_ <= BoardState::idle || state_ == BoardState::dump) return true;
     if (i % 50 == 0 && state_ != BoardState::vent) (void)send(link::ShutDown{});
     telemetry_ = nullptr;
     for (double left = 0.01; left > 0 && telemetry_ == nullptr && why_ != Why::gone;)
       if (!listen(left)) left = 0;
+    silent = telemetry_ == nullptr ? silent + 1 : 0;
   }
   return false;
 }

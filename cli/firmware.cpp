@@ -1,0 +1,67 @@
+// cli/firmware.cpp - `sinew firmware`: the program of a robot's board.
+#include <fmt/format.h>
+
+#include "cli/command.h"
+#include "cli/terminal.h"
+#include "sinew/run/bring_up/firmware.h"
+
+namespace sinew::cli {
+
+namespace {
+
+struct Options {
+  std::string robot, board, out, sources = ".";
+  bool force = false;
+};
+
+std::string names_of_boards() {
+  std::string out;
+  for (const run::FirmwareBoard& b : run::firmware_boards())
+    out += (out.empty() ? "" : ", ") + std::string(b.name);
+  return out;
+}
+
+void print_flash(const run::FirmwareBoard& board, const std::string& file) {
+  const std::string command = run::flash_command(board, file);
+  fmt::print("{}\n", command.empty() ? fmt::format("sinew run EXPERIMENT --port emulated:{}", file)
+                                     : command);
+}
+
+ExitCode build(const Options& o) {
+  const run::FirmwareBoard& board = run::firmware_board(o.board);
+  run::require_fits(o.robot, board);
+  run::build_firmware(o.sources, board, o.out, o.force);
+  Messages(false).note("built " + o.out + "; onto the board with");
+  print_flash(board, o.out);
+  return ok;
+}
+
+}  // namespace
+
+void add_firmware(Command app, Action& action) {
+  auto o = std::make_shared<Options>();
+  Command group = app.subcommand("firmware", "the program of a robot's board",
+                                 "sinew firmware build robots/leg/robot.toml stm32f405 -o leg.elf");
+  group.require_subcommand();
+  Command made =
+      group.subcommand("build", "does the robot fit on the board, and its program",
+                       "sinew firmware build robots/leg/robot.toml stm32f405 -o leg.elf");
+  made.add_option("ROBOT", o->robot, "file of the robot").required();
+  made.add_option("BOARD", o->board, names_of_boards()).required();
+  made.add_option("-o,--output", o->out, "FILE.elf or FILE.bin").required();
+  made.add_option("--sources", o->sources, "folder of Sinew's sources; else this one");
+  made.add_flag("--force", o->force, "replace the file");
+  made.callback([=, &action] { action = [=] { return build(*o); }; });
+  Command flash = group.subcommand("flash", "shows the command that brings a file onto a board",
+                                   "sinew firmware flash stm32f405 leg.elf");
+  flash.add_option("BOARD", o->board, names_of_boards()).required();
+  flash.add_option("FILE", o->out, "what was built").required();
+  flash.callback([=, &action] {
+    action = [=] {
+      print_flash(run::firmware_board(o->board), o->out);
+      return ok;
+    };
+  });
+}
+
+}  // namespace sinew::cli

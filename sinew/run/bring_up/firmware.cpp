@@ -1,0 +1,149 @@
+#include "sinew/run/bring_up/firmware.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <vector>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/control/link/baud.h"
+#include "sinew/control/setup/boards.h"
+#include "sinew/experiment/machine_file.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/run/setup/installation.h"
+
+namespace sinew::run {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uint32_t line_rate = 921'600;  // of every board's application [bits/s]
+
+constexpr FirmwareBoard boards[] = {
+    {"mps2-an386", "Arm's MPS2 with image AN386, in an emulator", 32, 32, ""},
+    {"stm32f405", "a board with an STM32F405RG and a crystal of 8 MHz", 14, 16,
+     "openocd -f interface/stlink.cfg -f target/stm32f4x.cfg -c \"program {file} verify reset "
+     "exit\""},
+};
+
+std::string quoted(const std::string& word) {
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+// A folder that is gone with this.
+struct Workshop {
+  Workshop() : path((fs::temp_directory_path() / "sinew-firmware-XXXXXX").string()) {
+    if (::mkdtemp(path.data()) == nullptr) throw std::runtime_error(path + ": cannot be made");
+  }
+  ~Workshop() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  Workshop(const Workshop&) = delete;
+  Workshop& operator=(const Workshop&) = delete;
+  std::string path;
+};
+
+std::string last_lines(const fs::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  std::string out;
+  for (std::size_t i = lines.size() > 15 ? lines.size() - 15 : 0; i < lines.size(); ++i)
+    out += "\n" + lines[i];
+  return out;
+}
+
+void work(const std::string& command, const fs::path& said) {
+  const std::string line = command + " > " + quoted(said.string()) + " 2>&1";
+  if (std::system(line.c_str()) != 0)
+    throw std::runtime_error("the firmware was not built; " + command + last_lines(said));
+}
+
+bool has_program(const std::string& name) {
+  return std::system(("command -v " + name + " > /dev/null 2>&1").c_str()) == 0;
+}
+
+}  // namespace
+
+std::span<const FirmwareBoard> firmware_boards() { return boards; }
+
+const FirmwareBoard& firmware_board(const std::string& name) {
+  std::vector<std::string_view> names;
+  for (const FirmwareBoard& b : boards) {
+    if (name == b.name) return b;
+    names.push_back(b.name);
+  }
+  config::fail({"firmware", 0, 0}, "board", config::in_quotes(name), config::either(names),
+               config::closest_in_quotes(name, names));
+}
+
+void require_fits(const std::string& robot, const FirmwareBoard& board) {
+  const std::vector<control::Board> needed =
+      control::boards(installation(experiment::load_machine_file(robot).experiment));
+  const auto refuse = [&](const std::string& key, const std::string& found,
+                          const std::string& expected) {
+    config::fail({robot, 0, 0}, key, found,
+                 fmt::format("{}, to run it on {}", expected, board.name));
+  };
+  if (needed.size() != 1)
+    refuse("board", fmt::format("{} boards", needed.size()), "one: a line leads to one");
+  const control::Board& b = needed.front();
+  if (b.channel.size() > board.inputs)
+    refuse("sensor", fmt::format("{} sensors", b.channel.size()),
+           fmt::format("{} at most", board.inputs));
+  if (b.valve.size() > board.outputs)
+    refuse("muscle", fmt::format("{} valves", b.valve.size()),
+           fmt::format("{} at most", board.outputs));
+  if (!link::carries(line_rate, link::load_of(b.spine, true), b.spine.period))
+    refuse("sensor", "telemetry that its line does not carry",
+           fmt::format("what {} bits/s carry", line_rate));
+}
+
+void build_firmware(const fs::path& sources, const FirmwareBoard& board, const fs::path& out,
+                    bool force) {
+  if (!fs::exists(sources / "firmware" / "application.cpp"))
+    config::fail({sources.string(), 0, 0}, "", "no sources of Sinew",
+                 "the folder that they were cloned into");
+  refuse_to_overwrite(out, force, {}, out.extension().string());
+  require_folder_of(out);
+  for (const char* tool : {"cmake", "ninja", "arm-none-eabi-g++"})
+    if (!has_program(tool))
+      config::fail({tool, 0, 0}, "", "no such program", "the cross compiler and its tools",
+                   "sudo apt install cmake ninja-build gcc-arm-none-eabi "
+                   "libstdc++-arm-none-eabi-newlib");
+  const Workshop workshop;
+  std::string name = board.name;
+  std::ranges::replace(name, '-', '_');
+  const std::string image = "application-" + name + ".elf";
+  const fs::path said = fs::path(workshop.path) / "said", build = fs::path(workshop.path) / "build";
+  work(fmt::format("cmake -S {} -B {} -G Ninja --toolchain {} -DCMAKE_BUILD_TYPE=Release",
+                   quoted(sources.string()), quoted(build.string()),
+                   quoted((sources / "firmware" / "cortex-m4f.cmake").string())),
+       said);
+  work(fmt::format("cmake --build {} --target {}", quoted(build.string()), image), said);
+  fs::path made = build / "firmware" / image;
+  if (out.extension() == ".bin") {
+    const fs::path bare = build / "bare.bin";
+    work(fmt::format("arm-none-eabi-objcopy -O binary {} {}", quoted(made.string()),
+                     quoted(bare.string())),
+         said);
+    made = bare;
+  }
+  std::ifstream in(made, std::ios::binary);
+  write_file(out, std::string(std::istreambuf_iterator<char>(in), {}));
+}
+
+std::string flash_command(const FirmwareBoard& board, const fs::path& file) {
+  std::string out = board.flash;
+  if (const std::size_t at = out.find("{file}"); at != out.npos) out.replace(at, 6, file.string());
+  return out;
+}
+
+}  // namespace sinew::run

@@ -1,0 +1,36 @@
+// run/bring_up/firmware.h - the program of a robot's board: does the robot fit on it, how it is
+// built, and by what command it gets there.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace sinew::run {
+
+// A board of firmware/boards.
+struct FirmwareBoard {
+  const char* name;
+  const char* what;
+  std::size_t inputs, outputs;  // that its pins have
+  const char* flash;            // command line, with {file}; empty: it only runs in an emulator
+};
+std::span<const FirmwareBoard> firmware_boards();
+
+// Throws config::Error for a board that is not there, with those that are.
+const FirmwareBoard& firmware_board(const std::string& name);
+
+// Throws config::Error where the robot's low level does not fit on the board: too many sensors or
+// valves, several boards, telemetry that its line does not carry.
+void require_fits(const std::string& robot, const FirmwareBoard& board);
+
+// Builds the board's program from Sinew's sources, into `out`; ".bin" is the bare memory, anything
+// else an ELF file. Throws config::Error where the sources or the compiler are missing, or where
+// `out` is there already, and std::runtime_error with the compiler's last words.
+void build_firmware(const std::filesystem::path& sources, const FirmwareBoard& board,
+                    const std::filesystem::path& out, bool force);
+
+// Returns the command line that brings the file onto the board.
+std::string flash_command(const FirmwareBoard& board, const std::filesystem::path& file);
+
+}  // namespace sinew::run

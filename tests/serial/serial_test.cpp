@@ -1,0 +1,198 @@
+// `sinew run --port serial:…` with a board at the other end, and what becomes of the board when its
+// host is asked to stop, dies, or loses its line.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <pty.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+
+#include "tests/cli/program.h"
+#include "tests/serial/board_on_pty.h"
+
+namespace sinew::test {
+namespace {
+
+using control::BoardFault;
+using control::BoardState;
+using ::testing::HasSubstr;
+
+constexpr std::uint32_t inlets = 0x55555555;
+
+experiment::Experiment loaded(const std::string& name) {
+  return experiment::load(SINEW_SOURCE_DIR "/experiments/" + name + ".toml", {});
+}
+
+Words run_at(const BoardOnPty& board, const std::string& name) {
+  return {"run",        "experiments/" + name + ".toml",
+          "--port",     "serial:" + board.device(),
+          "-o",         "ran",
+          "--no-report"};
+}
+
+// Hold is none: on a busy computer a host may be late.
+bool has_ended(const BoardOnPty& board) {
+  const BoardState state = board.state();
+  return state != BoardState::running && state != BoardState::hold;
+}
+
+// A run that goes on, a second after its start.
+struct Running {
+  explicit Running(BoardOnPty& b, const std::string& name = "walk-test-1")
+      : board(b), host(w.start(run_at(b, name))) {
+    EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::running; }, 20));
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::running; }, 1));
+  }
+  ~Running() {
+    if (host > 0) ::kill(host, SIGKILL);
+    wait();
+  }
+  // What the program ended with.
+  int wait() {
+    int status = 0;
+    if (host > 0) ::waitpid(host, &status, 0);
+    host = -1;
+    return status;
+  }
+
+  Workspace w;
+  BoardOnPty& board;
+  pid_t host;
+};
+
+TEST(Serial, AnExperimentRunsToItsEndAndTheBoardRests) {
+  const Workspace w;
+  BoardOnPty board(loaded("kick"));
+  const Result r = w.sinew(run_at(board, "kick"));
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("board: pty"));
+  EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::idle; }, 3));
+  EXPECT_EQ(board.open(), 0u);
+  EXPECT_THAT(read_text(w / "ran/summary.json"), HasSubstr("\"board\": \"pty"));
+  EXPECT_EQ(read_text(w / "ran/summary.json").find("_true_"), std::string::npos)
+      << "what only a simulation knows is absent";
+}
+
+TEST(Serial, AStopThatIsAskedForVents) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    BoardOnPty board(loaded("walk-test-1"));
+    Running run(board);
+    ::kill(run.host, signal);
+    EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::vent; }, 0.5)) << signal;
+    EXPECT_EQ(board.open() & inlets, 0u);
+    EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::idle; }, 5)) << signal;
+    EXPECT_EQ(board.fault(), BoardFault::asked);
+    const int status = run.wait();
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << "interrupted, and said so";
+  }
+}
+
+TEST(Serial, AHostThatDiesIsHeldThenVented) {
+  BoardOnPty board(loaded("walk-test-1"));
+  Running run(board);
+  ::kill(run.host, SIGKILL);
+  run.wait();
+  EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::hold; }, 0.5));
+  EXPECT_EQ(board.open(), 0u);
+  EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::vent; }, 2));
+  EXPECT_EQ(board.open() & inlets, 0u);
+  EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::fault; }, 5));
+  EXPECT_EQ(board.fault(), BoardFault::host_silent);
+  EXPECT_EQ(board.open(), 0u);
+}
+
+TEST(Serial, ACableThatIsPulledEndsTheRunAndVentsTheBoard) {
+  BoardOnPty board(loaded("walk-test-1"));
+  Running run(board);
+  board.unplug();
+  const auto pulled = std::chrono::steady_clock::now();
+  const int status = run.wait();
+  EXPECT_LT(std::chrono::steady_clock::now() - pulled, std::chrono::seconds(2));
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1);
+  EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::fault; }, 6));
+  EXPECT_EQ(board.fault(), BoardFault::host_silent);
+}
+
+TEST(Serial, ASecondHostIsRefusedAndTheFirstGoesOn) {
+  BoardOnPty board(loaded("walk-test-1"));
+  Running run(board);
+  const Workspace other;
+  const Result second = other.sinew(run_at(board, "walk-test-1"));
+  EXPECT_EQ(second.code, 1);
+  EXPECT_THAT(second.err, HasSubstr("another program has it"));
+  EXPECT_FALSE(std::filesystem::exists(other / "ran"));
+  EXPECT_FALSE(has_ended(board));
+}
+
+// Its log cannot grow: the run is told of, and the machine is not left under air.
+TEST(Serial, AFullDiskLeavesTheBoardAtRest) {
+  BoardOnPty board(loaded("kick"));
+  const Workspace w;
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{200'000, before.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &small);
+  const Result r = w.sinew(run_at(board, "kick"));
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(r.code, 1) << r.err;
+  EXPECT_THAT(r.err, HasSubstr("log.mcap"));
+  EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::idle; }, 5));
+  EXPECT_EQ(board.open(), 0u);
+}
+
+// --- at a terminal ------------------------------------------------------------------------------
+
+struct AtTerminal {
+  AtTerminal(BoardOnPty& b, const Workspace& w) : board(b) {
+    const Words words = run_at(b, "walk-test-1");
+    host = ::forkpty(&terminal, nullptr, nullptr, nullptr);
+    if (host == 0) {
+      std::vector<char*> arguments{const_cast<char*>("sinew")};
+      for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+      arguments.push_back(nullptr);
+      if (::chdir(w.path().c_str()) == 0) ::execv(SINEW_PROGRAM, arguments.data());
+      ::_exit(126);
+    }
+    EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::running; }, 20));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  }
+  ~AtTerminal() {
+    if (terminal >= 0) ::close(terminal);
+    ::kill(host, SIGKILL);
+    ::waitpid(host, nullptr, 0);
+  }
+
+  BoardOnPty& board;
+  int terminal = -1;
+  pid_t host = -1;
+};
+
+TEST(Serial, TheSpaceBarVents) {
+  const Workspace w;
+  BoardOnPty board(loaded("walk-test-1"));
+  AtTerminal run(board, w);
+  ASSERT_EQ(::write(run.terminal, "x ", 2), 2);
+  EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::vent; }, 0.5));
+  EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::idle; }, 5));
+}
+
+TEST(Serial, AnyOtherKeyIsNoStop) {
+  const Workspace w;
+  BoardOnPty board(loaded("walk-test-1"));
+  AtTerminal run(board, w);
+  ASSERT_EQ(::write(run.terminal, "xyz\n", 4), 4);
+  EXPECT_FALSE(board.wait([&] { return has_ended(board); }, 0.5));
+}
+
+TEST(Serial, ATerminalThatClosesVents) {
+  const Workspace w;
+  BoardOnPty board(loaded("walk-test-1"));
+  AtTerminal run(board, w);
+  ::close(std::exchange(run.terminal, -1));
+  EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::vent; }, 0.5));
+  EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::idle; }, 5));
+}
+
+}  // namespace
+}  // namespace sinew::test
