@@ -123,11 +123,12 @@ void build_firmware(const fs::path& sources, const FirmwareBoard& board, const f
   std::ranges::replace(name, '-', '_');
   const std::string image = "application-" + name + ".elf";
   const fs::path said = fs::path(workshop.path) / "said", build = fs::path(workshop.path) / "build";
-  work(fmt::format("cmake -S {} -B {} -G Ninja --toolchain {} -DCMAKE_BUILD_TYPE=Release",
-                   quoted(sources.string()), quoted(build.string()),
-                   quoted((sources / "firmware" / "cortex-m4f.cmake").string())),
-       said);
-  work(fmt::format("cmake --build {} --target {}", quoted(build.string()), image), said);
+  work(
+      fmt::format("cmake -S {} -B {} -G Ninja -DCMAKE_TOOLCHAIN_FILE={} -DCMAKE_BUILD_TYPE=Release",
+                  quoted(sources.string()), quoted(build.string()),
+                  quoted((sources / "firmware" / "cortex-m4f.cmake").string())),
+      said);
+  work(fmt::format("ninja -C {} {}", quoted(build.string()), image), said);
   fs::path made = build / "firmware" / image;
   if (out.extension() == ".bin") {
     const fs::path bare = build / "bare.bin";
