@@ -1,10 +1,15 @@
 // cli/bring_up.cpp - `sinew bring-up`: the first day of a machine at the bench.
 #include <fmt/format.h>
+#include <poll.h>
 
+#include <atomic>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 #include "cli/command.h"
+#include "cli/emergency.h"
+#include "cli/interrupt.h"
 #include "cli/terminal.h"
 #include "sinew/run/bring_up/bring_up.h"
 #include "sinew/run/simulation/place.h"
@@ -19,7 +24,16 @@ struct Options {
   bool yes = false;
 };
 
-std::optional<bool> asked(const std::string& question, bool yes) {
+// False: a signal came first. poll() is ended by one, a read is not.
+bool can_read(const Interrupt& interrupt) {
+  while (!interrupt.asked() && std::cin.rdbuf()->in_avail() <= 0) {
+    pollfd in{0, POLLIN, 0};
+    if (::poll(&in, 1, -1) > 0) break;
+  }
+  return !interrupt.asked();
+}
+
+std::optional<bool> asked(const std::string& question, bool yes, const Interrupt& interrupt) {
   for (std::string line;;) {
     fmt::print("    {} [y/n] ", question);
     std::fflush(stdout);
@@ -27,7 +41,7 @@ std::optional<bool> asked(const std::string& question, bool yes) {
       fmt::print("y\n");
       return true;
     }
-    if (!std::getline(std::cin, line)) {
+    if (!can_read(interrupt) || !std::getline(std::cin, line)) {
       fmt::print("\n");
       return {};
     }
@@ -42,17 +56,28 @@ ExitCode bring_up(const Options& o) {
       o.folder.empty() ? std::filesystem::path("bring-up") / robot.parent_path().filename()
                        : std::filesystem::path(o.folder);
   const experiment::Experiment bench = run::bench_of(o.robot, folder, o.sets);
+  // From before the board is there until it rests.
+  const Interrupt interrupt(Interrupt::Of::machine);
   run::Place place(o.place, bench);
   if (place.board() == nullptr)
     throw std::runtime_error("--port: found simulated; expected a board");
-  run::BringUp steps(bench, o.robot, *place.board(), place.lead(),
-                     {.tell =
-                          [](const std::string& line) {
-                            fmt::print("{}\n", line);
-                            std::fflush(stdout);
-                          },
-                      .ask = [&](const std::string& question) { return asked(question, o.yes); }},
-                     folder);
+  std::atomic<bool> space{false};
+  std::optional<SpaceBar> space_bar;  // while valves move; else keys are answers
+  run::BringUp steps(
+      bench, o.robot, *place.board(), place.lead(),
+      {.tell =
+           [](const std::string& line) {
+             fmt::print("{}\n", line);
+             std::fflush(stdout);
+           },
+       .ask = [&](const std::string& question) { return asked(question, o.yes, interrupt); },
+       .moves =
+           [&](bool now) {
+             space_bar.reset();
+             if (now) space_bar.emplace([&] { space = true; });
+           },
+       .stops = [&] { return interrupt.asked() || space; }},
+      folder);
   return steps.go() ? ok : failed;
 }
 

@@ -35,7 +35,7 @@ void listen(int end, const std::function<void()>& stop) {
     if (::poll(both, 2, -1) < 0) continue;
     if (both[1].revents != 0) return;
     char key = 0;
-    if (::read(0, &key, 1) != 1) return;  // the terminal is gone: SIGHUP says so
+    if (::read(0, &key, 1) != 1) return stop();  // the terminal is gone, with or without SIGHUP
     if (key == ' ') stop();
   }
 }

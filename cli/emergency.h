@@ -6,8 +6,8 @@
 
 namespace sinew::cli {
 
-// While it lives, the space bar calls `stop`; nothing where stdin is no terminal. The terminal is
-// as it was afterwards.
+// While it lives, the space bar calls `stop`, and so does a terminal that is gone; nothing where
+// stdin is no terminal. The terminal is as it was afterwards.
 class SpaceBar {
  public:
   explicit SpaceBar(std::function<void()> stop);

@@ -4,6 +4,7 @@
 #include "cli/command.h"
 #include "cli/terminal.h"
 #include "sinew/run/bring_up/firmware.h"
+#include "sinew/run/folder/files.h"
 
 namespace sinew::cli {
 
@@ -36,6 +37,12 @@ ExitCode build(const Options& o) {
   return ok;
 }
 
+ExitCode wiring(const Options& o) {
+  run::refuse_to_overwrite(o.out, o.force, {o.robot}, ".svg");
+  run::write_file(o.out, run::wiring_on(o.robot, run::firmware_board(o.board)));
+  return ok;
+}
+
 }  // namespace
 
 void add_firmware(Command app, Action& action) {
@@ -48,10 +55,18 @@ void add_firmware(Command app, Action& action) {
                        "sinew firmware build robots/leg/robot.toml stm32f405 -o leg.elf");
   made.add_option("ROBOT", o->robot, "file of the robot").required();
   made.add_option("BOARD", o->board, names_of_boards()).required();
-  made.add_option("-o,--output", o->out, "FILE.elf or FILE.bin").required();
+  made.add_option("-o,--output", o->out, "FILE.elf, FILE.hex or FILE.bin").required();
   made.add_option("--sources", o->sources, "folder of Sinew's sources; else this one");
   made.add_flag("--force", o->force, "replace the file");
   made.callback([=, &action] { action = [=] { return build(*o); }; });
+  Command drawn =
+      group.subcommand("wiring", "which wire goes to which pin, as a picture",
+                       "sinew firmware wiring robots/leg/robot.toml teensy41 -o leg.svg");
+  drawn.add_option("ROBOT", o->robot, "file of the robot").required();
+  drawn.add_option("BOARD", o->board, names_of_boards()).required();
+  drawn.add_option("-o,--output", o->out, "FILE.svg").required();
+  drawn.add_flag("--force", o->force, "replace the file");
+  drawn.callback([=, &action] { action = [=] { return wiring(*o); }; });
   Command flash = group.subcommand("flash", "shows the command that brings a file onto a board",
                                    "sinew firmware flash stm32f405 leg.elf");
   flash.add_option("BOARD", o->board, names_of_boards()).required();

@@ -4,15 +4,19 @@
 
 #include <signal.h>
 
+#include <array>
 #include <atomic>
 
 namespace sinew::cli {
 
-// While it lives, the first of these signals only sets asked(); a second one ends the program as if
-// nobody had listened.
+// While it lives, the first of these signals only sets asked(). A second one ends the program as if
+// nobody had listened; where a machine is driven only after ten seconds, in which it is brought to
+// rest, and Ctrl-Z and Ctrl-\ are signals like the others. One of them lives at a time.
 class Interrupt {
  public:
-  Interrupt();
+  enum class Of { work, machine };
+
+  explicit Interrupt(Of of = Of::work);
   ~Interrupt();
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
@@ -21,7 +25,8 @@ class Interrupt {
   void ask();  // as a signal would
 
  private:
-  struct sigaction before_[3]{};
+  std::array<struct sigaction, 5> before_{};
+  std::size_t count_ = 0;
 };
 
 // A file that may not grow further is an error of write(), which is told, and not this program's

@@ -1,6 +1,5 @@
 // cli/run.cpp - `sinew run`: an experiment from its file to a folder with its log and its numbers.
 #include "cli/run.h"
-#include "cli/emergency.h"
 
 #include <charconv>
 #include <cmath>
@@ -17,16 +16,12 @@ namespace sinew::cli {
 namespace {
 
 // The run itself, with its log where there is one.
-run::Outcome run_logged(const RunOptions& options, run::KeptRun& kept) {
+run::Outcome run_logged(const RunOptions& options, run::KeptRun& kept, Interrupt& interrupt) {
   std::atomic<std::int64_t> tick{0};
-  Interrupt interrupt;
   run::RunOptions run_options{.pace = options.pace, .progress = &tick, .stop = &interrupt.asked()};
-  if (options.pace > 0 && kept.place().board_keeps_time())
-    config::fail({options.run.experiment, 0, 0}, "--pace", fmt::format("{}", options.pace),
-                 "no pace: the board keeps the time");
   kept.apply(run_options);
   std::optional<SpaceBar> space_bar;
-  if (kept.place().board() != nullptr) space_bar.emplace([&] { interrupt.ask(); });
+  if (run::is_elsewhere(options.run.port)) space_bar.emplace([&] { interrupt.ask(); });
   if (space_bar && space_bar->listens() && !options.quiet)
     fmt::print(stderr, "the space bar stops the machine\n");
   const ProgressBar bar(tick, experiment::last_tick(kept.experiment()),
@@ -49,9 +44,14 @@ ExitCode run_stand(const RunOptions& o, const Messages& messages) {
 ExitCode run_experiment(const RunOptions& options) {
   const Messages messages(options.quiet);
   if (run::is_on_stand(options.run.experiment)) return run_stand(options, messages);
+  if (options.pace > 0 && run::keeps_its_own_time(options.run.port))
+    config::fail({options.run.experiment, 0, 0}, "--pace", fmt::format("{}", options.pace),
+                 "no pace: the machine keeps its own time");
+  // From before a board is there until it rests.
+  Interrupt interrupt(run::is_elsewhere(options.run.port) ? Interrupt::Of::machine
+                                                          : Interrupt::Of::work);
   run::KeptRun kept(options.run, messages.notices());
-  if (!kept.place().who().empty()) messages.note("board: " + kept.place().who());
-  tell(kept.keep(run_logged(options, kept)), options.json, messages);
+  tell(kept.keep(run_logged(options, kept, interrupt)), options.json, messages);
   return ok;
 }
 
@@ -71,8 +71,11 @@ std::string a_pace(const std::string& text) {
 void add_run_options(Command sub, const std::string& port, RunOptions& options) {
   run::RunRequest& request = options.run;
   sub.add_option(port, request.port,
-                 "where it runs: simulated, serial:DEVICE[@RATE], emulated:FILE or lock-step:FILE")
+                 "where it runs: simulated, serial:DEVICE[@RATE], emulated:FILE, lock-step:FILE or "
+                 "comedi:DEVICE")
       .check(run::problem_of_place);
+  sub.add_flag("--clear-fault", request.clear_fault,
+               "a board that dumped by itself, or whose watchdog has bitten, was looked into");
   sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
   sub.add_flag("--force", request.force, "replace the run that is in the folder");
   add_sets(sub, request.sets);

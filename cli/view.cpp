@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
+#include "cli/emergency.h"
 #include "cli/run.h"
 #include "sinew/live/browser.h"
 #include "sinew/live/live_run.h"
@@ -52,6 +55,9 @@ ExitCode view_live(const ViewOptions& o) {
     fmt::print("{}\n", run.url());
   std::fflush(stdout);
   const live::Browser browser(o.open ? run.url() : "");
+  std::optional<SpaceBar> space_bar;
+  if (run.machine()) space_bar.emplace([&] { run.stop(); });
+  if (space_bar && space_bar->listens()) messages.note("the space bar stops the machine");
   run.go();
   return ok;
 }
@@ -80,8 +86,8 @@ void add_view(Command app, Action& action) {
   sub.add_flag("--paused", options->paused, "the run waits for the page's button").needs(live);
   sub.add_flag("--once", options->once, "end with the run").needs(live);
   add_run_options(sub, "--place", options->live);
-  for (const char* of_a_run :
-       {"--place", "--output", "--force", "--set", "--allow-unreachable", "--no-report", "--json"})
+  for (const char* of_a_run : {"--place", "--clear-fault", "--output", "--force", "--set",
+                               "--allow-unreachable", "--no-report", "--json"})
     sub.option(of_a_run).needs(live);
   sub.callback([=, &action] {
     action = [=] {

@@ -42,7 +42,7 @@ install(FILES ${PROJECT_BINARY_DIR}/sinewConfig.cmake ${PROJECT_BINARY_DIR}/sine
 if(TARGET sinew)
   install(TARGETS sinew RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
-foreach(module sinew_mpi sinew_pagmo)
+foreach(module sinew_mpi sinew_pagmo sinew_comedi)
   if(TARGET ${module})
     install(TARGETS ${module} LIBRARY DESTINATION ${sinew_modules})
   endif()

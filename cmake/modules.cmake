@@ -3,6 +3,7 @@
 #
 # sinew_mpi    the MPI library, for processes that mpirun started
 # sinew_pagmo  the methods of `sinew tune`
+# sinew_comedi the card of `sinew run --port comedi:…`
 #
 # Where a library is missing the program is built without, and says so when it is asked for.
 
@@ -32,6 +33,17 @@ if(SINEW_PAGMO AND NOT SINEW_FUZZ)
     sinew_optimize_little(sinew_pagmo)
   else()
     message(STATUS "pagmo: built without `sinew tune`; libpagmo-dev brings it")
+  endif()
+endif()
+
+if(SINEW_COMEDI AND NOT SINEW_FUZZ)
+  find_path(SINEW_COMEDI_HEADERS comedilib.h)
+  find_library(SINEW_COMEDI_LIBRARY comedi)
+  if(SINEW_COMEDI_HEADERS AND SINEW_COMEDI_LIBRARY)
+    sinew_module(sinew_comedi plant/comedi/module/module.cpp ${SINEW_COMEDI_LIBRARY})
+    target_include_directories(sinew_comedi SYSTEM PRIVATE ${SINEW_COMEDI_HEADERS})
+  else()
+    message(STATUS "comedi: built without machines at a card; libcomedi-dev brings them")
   endif()
 endif()
 

@@ -9,6 +9,7 @@
 #include "firmware/board.h"
 #include "firmware/line_ring.h"
 #include "sinew/control/board/program.h"
+#include "sinew/control/link/baud.h"
 
 namespace sinew::firmware {
 namespace {
@@ -18,8 +19,9 @@ using signals::Reading;
 using signals::Status;
 using signals::Tick;
 
-constexpr std::uint32_t baud = 921'600;
-constexpr std::uint32_t patience = 1'000;  // [ticks] without a round of run(), that end feeding
+// [ticks] without a round of run(), that end feeding. The longest round takes a configuration; in
+// the emulator, by a clock that counts instructions, that passes with a patience of 2 as well.
+constexpr std::uint32_t patience = 200;
 
 // Built by run(): nothing of the language's start-up runs on a board.
 alignas(board::Program) constinit std::array<std::uint8_t, sizeof(board::Program)> room{};
@@ -106,7 +108,8 @@ void speak() {
 board::Identification identification() {
   board::Identification who{.firmware = {'0', '.', '1', '.', '0'},
                             .nonce = hardware::nonce(),
-                            .bitten = hardware::bitten()};
+                            .bitten = hardware::bitten(),
+                            .active_low = hardware::active_low()};
   const char* name = hardware::name();
   for (std::size_t i = 0; i + 1 < who.board.size() && name[i] != 0; ++i)
     who.board[i] = static_cast<decltype(who.board)::value_type>(name[i]);
@@ -140,7 +143,7 @@ void run() {
   new (room.data()) board::Program(identification());
   driven.coils = control::rest_word(hardware::active_low());
   hardware::drive(driven);
-  hardware::start_line(baud);
+  hardware::start_line(link::firmware_baud);
   hardware::start_watchdog();
   hardware::start_ticks();
   for (;;) {

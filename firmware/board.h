@@ -3,6 +3,7 @@
 //
 //   interrupt of the timer, 10 kHz, the lower priority:   tick()
 //   interrupts of the line, the higher priority:          received(byte), next_to_send(byte)
+//   interrupt of an edge, above both, where there is one:  puts what drive() left (edges.h)
 //   everything else:                                      run() on the main stack, for ever
 //
 // "Anywhere" means: from the interrupts and from run(). Times are bounds for a processor of 100
@@ -48,7 +49,7 @@ void start();        // clocks and pins; before anything else no coil gets curre
 const char* name();  // up to 15 letters
 bool bitten();       // was it the watchdog that has reset the board?
 std::uint32_t nonce();                // another number after each reset
-bool active_low();                    // do the drivers of coils have 0 for current?
+bool active_low();                    // do the drivers of coils have 0 for current? Told to hosts
 void start_line(std::uint32_t baud);  // 8 bits, no parity, 1 stop bit; its interrupts come
 std::uint32_t longest_pause();        // [ticks] of the line within a frame; a longer one ends it
 void start_watchdog();  // bites unless it is fed within 20 ms, or so; cannot be stopped again
@@ -58,7 +59,10 @@ void start_ticks();     // every 100 us tick() is called, from here on
 std::uint32_t ticks_passed();  // since the last call: 1, or more where some were missed
 void start_conversion(signals::Channel channel);  // samples now, does not wait
 signals::Reading reading(signals::Tick run);      // of the conversion started last; late: not done
-void drive(const Drive& drive);  // whenever something has changed; all pins of a port at once
+// Whenever something has changed; all pins of a port at once. A run's word reaches them at one
+// instant of its tick where the board has a compare (edges.h), and without one now; a word without
+// current, supply or run always now, and whatever waited is forgotten.
+void drive(const Drive& drive);
 void feed_watchdog();
 
 // Called by run(), again and again.

@@ -17,8 +17,12 @@ inline volatile std::uint32_t& reg(std::uintptr_t address) {
   return *reinterpret_cast<volatile std::uint32_t*>(address);
 }
 
+inline volatile std::uint16_t& half_reg(std::uintptr_t address) {
+  return *reinterpret_cast<volatile std::uint16_t*>(address);
+}
+
 // Priorities; less is more urgent. Four bits of them are there on every board.
-inline constexpr std::uint8_t of_line = 0x40, of_tick = 0x80;
+inline constexpr std::uint8_t of_edge = 0x20, of_line = 0x40, of_tick = 0x80;
 
 inline void enable(std::uint32_t interrupt, std::uint8_t priority) {
   *reinterpret_cast<volatile std::uint8_t*>(0xE000E400 + interrupt) = priority;
@@ -31,6 +35,14 @@ inline void request(std::uint32_t interrupt) {
 // Keeps interrupts of the tick's priority away; those of the line come.
 inline void keep_ticks_away() { asm volatile("msr basepri, %0" ::"r"(of_tick) : "memory"); }
 inline void let_ticks_come() { asm volatile("msr basepri, %0" ::"r"(0) : "memory"); }
+
+// All of them but faults.
+inline void keep_all_away() { asm volatile("cpsid i" ::: "memory"); }
+inline void let_all_come() { asm volatile("cpsie i" ::: "memory"); }
+
+// Until what was written has arrived. An interrupt's request that is cleared as the last thing may
+// come again without.
+inline void wait_for_writes() { asm volatile("dsb" ::: "memory"); }
 
 inline void wait_for_interrupt() { asm volatile("dsb\n wfi" ::: "memory"); }
 

@@ -35,6 +35,7 @@ list='
     quick  gnuplot             gnuplot-nox                      draws figures
     quick  clang-format-14     clang-format-14                  one layout of code; versions differ
     check  -                   libopenmpi-dev                   sweeps over the processes of mpirun
+    check  -                   libcomedi-dev                    a machine at a card
     check  mpirun              openmpi-bin                      starts them in tests
     check  chromium            chromium                         opens that page in tests
     check  -                   fonts-dejavu-core                what its reference pictures are set in

@@ -9,6 +9,7 @@
 layers='
     units
     signals
+    host            signals
     gas             units
     actuator        units
     air/stiff       gas
@@ -34,6 +35,7 @@ layers='
     plant/recorded  air robot signals log
     plant/mujoco    air robot signals
     plant/hardware  control/link control/board signals
+    plant/comedi    control/supervise host signals
     experiment      robot config control/gait
     experiment/rig  experiment plant/slide
     identify/fit    actuator config
@@ -53,11 +55,11 @@ layers='
     report/text
     report/compare  report/page report/text
     run/setup       experiment control plant report/text
-    run/simulation  run/setup log
+    run/simulation  run/setup log host
     run/stand       run/simulation experiment/rig
     run/folder      run/simulation run/stand log analysis report
     run/bring_up    run/folder report
-    tune            run/folder
+    tune            run/folder host
     tune/results    tune
     tune/mpi        tune/results
     tune/optimizer  tune/results
@@ -86,6 +88,7 @@ libraries='
     sqlite3[.]h     sinew/tune/results
     mpi[.]h         sinew/tune/mpi/module
     pagmo/          sinew/tune/optimizer/module
+    comedi          sinew/plant/comedi/module
     ceres/          sinew/identify/fit
     Eigen/          sinew/identify
 '

@@ -21,6 +21,12 @@ void Feed::push(std::size_t topic, std::int64_t time_ns, std::span<const double>
   if (!ring_.put(sample)) left_out_.fetch_add(1, std::memory_order_relaxed);
 }
 
+std::vector<signals::Topic> Feed::topics() const {
+  std::vector<signals::Topic> out;
+  for (const signals::Series& s : table_.series) out.push_back(s.topic);
+  return out;
+}
+
 void Feed::collect() {
   ring_.take_all([this](const log::Sample& sample) { take(sample); });
 }

@@ -28,6 +28,8 @@ class Feed {
 
   // --- the watchers' side ---
 
+  std::vector<signals::Topic> topics() const;
+
   // Takes in what has come: whole rows, and edges.
   void collect();
 

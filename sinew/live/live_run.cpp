@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <csignal>
 #include <exception>
 #include <fstream>
@@ -22,16 +23,33 @@ namespace sinew::live {
 
 namespace {
 
+// What watchers are shown: a machine's log has nothing of what only a simulation knows.
+struct Shown {
+  std::vector<signals::Topic> topics;
+  std::vector<std::uint16_t> of_topic;  // place among them of each of the run's, or not_tapped
+};
+
+Shown shown_of(const experiment::Experiment& e, bool simulated) {
+  Shown out;
+  for (signals::Topic& topic : run::topics(e)) {
+    const bool there = simulated || !topic.name.starts_with("/true/");
+    out.of_topic.push_back(there ? static_cast<std::uint16_t>(out.topics.size()) : run::not_tapped);
+    if (there) out.topics.push_back(std::move(topic));
+  }
+  return out;
+}
+
 // Into the log what belongs there, everything to the watchers.
 struct Tee {
   run::Tap log;
   std::vector<std::uint16_t> logged;  // topic in the log of each, or not_tapped
+  const std::vector<std::uint16_t>& shown;
   live::Feed& feed;
 
   static void push(void* self, std::uint16_t topic, std::int64_t time_ns,
                    std::span<const double> values) noexcept {
     const Tee& tee = *static_cast<Tee*>(self);
-    tee.feed.push(topic, time_ns, values);
+    if (tee.shown[topic] != run::not_tapped) tee.feed.push(tee.shown[topic], time_ns, values);
     if (tee.log.push && tee.logged[topic] != run::not_tapped)
       tee.log.push(tee.log.object, tee.logged[topic], time_ns, values);
   }
@@ -53,22 +71,27 @@ class LiveRun::Impl {
         notices_(std::move(notices)),
         kept_(request, notices_),
         values_(kept_.values()),
-        feed_(run::topics(kept_.experiment())),
-        show_(kept_.experiment(), values_, steering_, feed_, tick_),
-        server_(options_.port, {.get = [this](std::string_view path) { return get(path); },
-                                .tick = [this] { feed_.collect(); },
-                                .frame = [this](Server::Watcher w) { return frame(w); },
-                                .message =
-                                    [this](Server::Watcher, std::string_view text) {
-                                      return over() ? "" : show_.answer(text);
-                                    },
-                                .left = [this](Server::Watcher w) { positions_.erase(w); },
-                                .interrupted = [this] { interrupted(); }}) {
+        shown_(shown_of(kept_.experiment(), !run::is_elsewhere(request.port))),
+        feed_(shown_.topics),
+        show_(kept_.experiment(), values_, steering_, feed_, tick_, machine() ? &stop_ : nullptr),
+        server_(
+            options_.port,
+            {.get = [this](std::string_view path) { return get(path); },
+             .tick = [this] { feed_.collect(); },
+             .frame = [this](Server::Watcher w) { return frame(w); },
+             .message = [this](Server::Watcher,
+                               std::string_view text) { return over() ? "" : show_.answer(text); },
+             .left = [this](Server::Watcher w) { positions_.erase(w); },
+             .interrupted = [this] { interrupted(); },
+             .signals = machine() ? std::vector{SIGQUIT, SIGTSTP} : std::vector<int>{}}) {
     steering_.pace(options_.pace);
     steering_.pause(options_.paused);
   }
 
   std::string url() const { return server_.url(); }
+
+  bool machine() const noexcept { return kept_.place().board_keeps_time(); }
+  void stop() noexcept { stop_.store(true, std::memory_order_relaxed); }
 
   void go() {
     std::thread runner([this] { run(); });
@@ -83,14 +106,14 @@ class LiveRun::Impl {
   // On the runner's thread, which alone touches what `over` publishes.
   void run() {
     try {
-      Tee tee{{}, {}, feed_};
-      run::RunOptions o{.steering = &steering_, .progress = &tick_};
+      Tee tee{{}, {}, shown_.of_topic, feed_};
+      run::RunOptions o{.steering = &steering_, .progress = &tick_, .stop = &stop_};
       kept_.apply(o);
       tee.log = o.tap;
       tee.logged = std::move(o.tapped);
       o.tap = {&tee, &Tee::push};
       o.tapped.clear();
-      for (std::size_t i = 0; i < run::topics(kept_.experiment()).size(); ++i)
+      for (std::size_t i = 0; i < shown_.of_topic.size(); ++i)
         o.tapped.push_back(static_cast<std::uint16_t>(i));
       const auto kept = kept_.keep(run::run(kept_.experiment(), o));
       if (options_.kept) options_.kept(kept);
@@ -124,12 +147,21 @@ class LiveRun::Impl {
     return "{\"over\":true}";
   }
 
-  // The run is brought to its end, so that what it leaves is whole.
+  // A simulation is brought to its end, so that what it leaves is whole.
   void interrupted() {
     if (over()) return server_.stop();
-    if (ending_.exchange(true)) {
+    const auto now = std::chrono::steady_clock::now();
+    const bool first = !ending_.exchange(true);
+    if (first) asked_at_ = now;
+    // A window that closes sends several signals: a machine gets its time to come to rest.
+    if (!first && machine() && now - asked_at_ < std::chrono::seconds(10)) return;
+    if (!first) {
       std::signal(SIGINT, SIG_DFL);
       std::raise(SIGINT);
+    }
+    if (machine()) {
+      notices_.note("the machine is stopped");
+      return stop();
     }
     notices_.note("the run goes to its end at full speed; Ctrl-C again breaks it off");
     steering_.pace(0);
@@ -146,10 +178,13 @@ class LiveRun::Impl {
   run::KeptRun kept_;
   const config::Node values_;
   run::Steering steering_;
+  const Shown shown_;
   Feed feed_;
   std::atomic<std::int64_t> tick_{0};
+  std::atomic<bool> stop_{false};
   Show show_;
   std::map<Server::Watcher, Watching> positions_;
+  std::chrono::steady_clock::time_point asked_at_;
   std::atomic<bool> over_{false}, ending_{false};
 
   // The runner's, until `over`.
@@ -178,12 +213,20 @@ void require_live(const std::string& experiment, std::uint16_t port) {
 
 LiveRun::LiveRun(const run::RunRequest& request, LiveOptions options, run::Notices notices) {
   require_live(request.experiment, options.port);
+  if (run::keeps_its_own_time(request.port) && (options.paused || options.pace != 1))
+    config::fail({request.experiment, 0, 0}, options.paused ? "paused" : "pace",
+                 options.paused ? "true" : fmt::format("{}", options.pace),
+                 "neither pause nor pace: the machine keeps its own time");
   impl_ = std::make_unique<Impl>(request, std::move(options), std::move(notices));
 }
 
 LiveRun::~LiveRun() = default;
 
 std::string LiveRun::url() const { return impl_->url(); }
+
+bool LiveRun::machine() const noexcept { return impl_->machine(); }
+
+void LiveRun::stop() noexcept { impl_->stop(); }
 
 void LiveRun::go() { impl_->go(); }
 

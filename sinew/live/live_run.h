@@ -27,7 +27,8 @@ struct LiveOptions {
 class LiveRun {
  public:
   // Loads the experiment, opens its folder and listens. Throws config::Error for what cannot be run
-  // or kept, std::runtime_error where the port is taken or the library was built without its page.
+  // or kept, or a machine that is to be paused or to have a pace, std::runtime_error where the port
+  // is taken or the library was built without its page.
   LiveRun(const run::RunRequest& request, LiveOptions options, run::Notices notices = {});
   ~LiveRun();
   LiveRun(const LiveRun&) = delete;
@@ -35,9 +36,14 @@ class LiveRun {
 
   std::string url() const;  // where its page is, with the token
 
-  // Runs, and serves until the end. Ctrl-C once brings the run to its end at full speed, so that
-  // what it leaves is whole; a second one breaks it off. Throws what the run or its keeping throws.
+  // Runs, and serves until the end. Ctrl-C, SIGTERM or a terminal that closes brings a simulation
+  // to its end at full speed, so that what it leaves is whole, and stops a machine at once; a
+  // second one breaks it off. Throws what the run or its keeping throws.
   void go();
+
+  // Is it a machine that keeps its own time? Then stop() vents it; any thread may call.
+  bool machine() const noexcept;
+  void stop() noexcept;
 
  private:
   class Impl;

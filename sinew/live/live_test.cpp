@@ -147,7 +147,7 @@ TEST(Request, AnythingElseIsRefusedInWords) {
            std::string("{"),
            std::string("{}"),
            std::string(R"({"do":1})"),
-           std::string(R"({"do":"stop"})"),
+           std::string(R"({"do":"jump"})"),
            std::string(R"({"do":"pause","value":1})"),
            std::string(R"({"do":"pause","more":1})"),
            std::string(R"({"do":"pace"})"),
@@ -169,7 +169,7 @@ TEST(Request, AnythingElseIsRefusedInWords) {
            std::string(100000, '['),
        })
     EXPECT_NE(wrong(bad), "") << bad.substr(0, 80);
-  EXPECT_NE(wrong(R"({"do":"stop"})").find("found \"stop\"; expected pause, resume"),
+  EXPECT_NE(wrong(R"({"do":"jump"})").find("found \"jump\"; expected pause, resume"),
             std::string::npos);
 }
 
@@ -238,6 +238,25 @@ TEST(Show, WhatAPageAsksIsDoneAndKept) {
   EXPECT_EQ(state["values"][knee], 1.5);
   EXPECT_EQ(state["overridden"][knee], true);
   EXPECT_EQ(state["paused"], false);
+}
+
+TEST(Show, AMachineIsStoppedAndNotPaused) {
+  const Experiment e = in_air();
+  const config::Node resolved = config::parse_text(experiment::resolved(e, "0"), "resolved.toml");
+  Steering steering;
+  Feed feed(run::topics(e));
+  std::atomic<std::int64_t> tick{0};
+  std::atomic<bool> stop{false};
+  Show machine(e, resolved, steering, feed, tick, &stop),
+      simulation(e, resolved, steering, feed, tick);
+  for (const char* of_time :
+       {R"({"do":"pause"})", R"({"do":"resume"})", R"({"do":"pace","value":2})"})
+    EXPECT_NE(machine.answer(of_time).find("expected stop"), std::string::npos) << of_time;
+  EXPECT_FALSE(steering.paused());
+  EXPECT_NE(simulation.answer(R"({"do":"stop"})").find("expected pause"), std::string::npos);
+  EXPECT_FALSE(stop.load());
+  EXPECT_EQ(machine.answer(R"({"do":"stop"})"), "");
+  EXPECT_TRUE(stop.load());
 }
 
 TEST(Show, WhatIsWrongIsAnsweredAndChangesNothing) {

@@ -23,9 +23,13 @@ struct Form {
   bool key, value;
 };
 constexpr Form forms[] = {
-    {"pause", Kind::pause, false, false},    {"resume", Kind::resume, false, false},
-    {"pace", Kind::pace, false, true},       {"set", Kind::set, true, true},
-    {"release", Kind::release, true, false}, {"release all", Kind::release_all, false, false},
+    {"pause", Kind::pause, false, false},
+    {"resume", Kind::resume, false, false},
+    {"pace", Kind::pace, false, true},
+    {"stop", Kind::stop, false, false},
+    {"set", Kind::set, true, true},
+    {"release", Kind::release, true, false},
+    {"release all", Kind::release_all, false, false},
 };
 
 const Form& form_of(const Json& json) {
@@ -34,7 +38,7 @@ const Form& form_of(const Json& json) {
   for (const Form& form : forms)
     if (form.word == word->get<std::string>()) return form;
   refuse(word->dump(-1, ' ', true, Json::error_handler_t::replace),
-         "pause, resume, pace, set, release or release all");
+         "pause, resume, pace, stop, set, release or release all");
 }
 
 double number(const Json& json, double least, double most, bool or_zero = false) {

@@ -3,6 +3,7 @@
 //   {"do": "pause"}   {"do": "resume"}   {"do": "pace", "value": 0.5}      0: as fast as it goes
 //   {"do": "set", "key": "control.gains.hip.angle", "value": 0.003}        in the key's SI unit
 //   {"do": "release", "key": "control.gains.hip.angle"}   {"do": "release all"}
+//   {"do": "stop"}      a machine that keeps its own time, in place of pause, resume and pace
 #pragma once
 
 #include <string_view>
@@ -13,7 +14,7 @@
 namespace sinew::live {
 
 struct Request {
-  enum class Kind { pause, resume, pace, set, release, release_all };
+  enum class Kind { pause, resume, pace, stop, set, release, release_all };
 
   Kind kind = Kind::pause;
   std::size_t setting = 0;  // its number

@@ -185,6 +185,8 @@ Server::Server(std::uint16_t port, Handlers handlers)
   impl_->listen(port);
   impl_->signals.add(SIGINT);
   impl_->signals.add(SIGTERM);
+  impl_->signals.add(SIGHUP);
+  for (const int more : impl_->handlers.signals) impl_->signals.add(more);
 }
 
 // What holds the parts together is undone: each of them holds the server.

@@ -17,6 +17,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace sinew::live {
 
@@ -38,6 +39,7 @@ class Server {
     std::function<std::string(Watcher, std::string_view message)> message = {};
     std::function<void(Watcher)> left = {};
     std::function<void()> interrupted = {};  // by Ctrl-C; without it the server stops
+    std::vector<int> signals = {};           // that are as Ctrl-C, SIGTERM and SIGHUP to it
   };
 
   // Listens from now on. `port` 0: a free one. Throws std::runtime_error where it is taken.

@@ -7,7 +7,6 @@
 
 #include "sinew/live/request.h"
 #include "sinew/report/page/page_template.h"
-#include "sinew/run/simulation/columns.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/signals/tick.h"
 
@@ -88,16 +87,17 @@ double largest(const gait::Plan& plan, const gait::Setting& s) {
 }
 
 Show::Show(const experiment::Experiment& e, const config::Node& resolved, run::Steering& steering,
-           Feed& feed, const std::atomic<std::int64_t>& tick)
+           Feed& feed, const std::atomic<std::int64_t>& tick, std::atomic<bool>* stop)
     : experiment_(e),
       steering_(steering),
       feed_(feed),
       tick_(tick),
+      stop_(stop),
       settings_(gait::settings(e.plan)),
-      growing_(run::topics(e), {.resolved = resolved,
-                                .name = e.name,
-                                .duration = end_of(e),
-                                .foot_path = has_foot_path(e.plan)}) {}
+      growing_(feed.topics(), {.resolved = resolved,
+                               .name = e.name,
+                               .duration = end_of(e),
+                               .foot_path = has_foot_path(e.plan)}) {}
 
 std::string Show::controls() const {
   Json out = Json::array();
@@ -126,6 +126,8 @@ std::string Show::state() const {
   }
   return text_of(
       {{"time", static_cast<double>(tick_.load(std::memory_order_relaxed)) * signals::tick_seconds},
+       {"machine", stop_ != nullptr},
+       {"stopping", stop_ != nullptr && stop_->load(std::memory_order_relaxed)},
        {"paused", steering_.paused()},
        {"pace", steering_.pace()},
        {"values", std::move(values)},
@@ -142,6 +144,16 @@ std::string Show::frame(Position& position) {
   return out + "}";
 }
 
+// A machine goes by its own clock, and a simulation has a plan that it goes through.
+std::string Show::refusal(Request::Kind kind) const {
+  using enum Request::Kind;
+  const bool of_time = kind == pause || kind == resume || kind == pace;
+  if (stop_ != nullptr && of_time)
+    return "found pause or pace; expected stop: the machine keeps its own time";
+  if (stop_ == nullptr && kind == stop) return "found stop; expected pause: no machine moves";
+  return "";
+}
+
 std::string Show::answer(std::string_view text) {
   using Kind = Request::Kind;
   const auto error = [](std::string_view what) { return text_of({{"error", what}}); };
@@ -151,8 +163,12 @@ std::string Show::answer(std::string_view text) {
   } catch (const std::invalid_argument& wrong) {
     return error(wrong.what());
   }
+  if (const std::string why = refusal(r.kind); !why.empty()) return error(why);
   bool taken = true;
   switch (r.kind) {
+    case Kind::stop:
+      stop_->store(true, std::memory_order_relaxed);
+      break;
     case Kind::pause:
     case Kind::resume:
       steering_.pause(r.kind == Kind::pause);

@@ -10,6 +10,7 @@
 
 #include "sinew/experiment/experiment.h"
 #include "sinew/live/feed.h"
+#include "sinew/live/request.h"
 #include "sinew/report/page/growing.h"
 #include "sinew/run/simulation/steering.h"
 
@@ -20,9 +21,11 @@ class Show {
   // Where a page has got; each has its own.
   using Position = Feed::Position;
 
-  // All of them outlive this; `resolved` is what runs.
+  // All of them outlive this; `resolved` is what runs. `stop`: where a page's button stops a
+  // machine that keeps its own time; nullptr for a simulation, which can be paused.
   Show(const experiment::Experiment& experiment, const config::Node& resolved,
-       run::Steering& steering, Feed& feed, const std::atomic<std::int64_t>& tick);
+       run::Steering& steering, Feed& feed, const std::atomic<std::int64_t>& tick,
+       std::atomic<bool>* stop = nullptr);
 
   // The page without samples. `server`: where it may connect to, "127.0.0.1:8080".
   std::string page(std::string_view server) const;
@@ -38,12 +41,14 @@ class Show {
 
  private:
   std::string state() const;
+  std::string refusal(Request::Kind) const;
   std::string controls() const;
 
   const experiment::Experiment& experiment_;
   run::Steering& steering_;
   Feed& feed_;
   const std::atomic<std::int64_t>& tick_;
+  std::atomic<bool>* stop_;
   std::vector<gait::Setting> settings_;
   report::Growing growing_;
 };

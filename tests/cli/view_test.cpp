@@ -1,11 +1,8 @@
 // `sinew view` among other users of the machine: without the token of its address nobody is told or
 // steers anything, and who connects and says nothing, or half of something, blocks nobody.
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <signal.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
@@ -13,6 +10,7 @@
 #include <thread>
 
 #include "tests/cli/program.h"
+#include "tests/cli/wire.h"
 
 namespace sinew::test {
 namespace {
@@ -25,45 +23,6 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using namespace std::string_literals;
 using Clock = std::chrono::steady_clock;
-
-// A connection as anybody can open one.
-class Wire {
- public:
-  explicit Wire(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_port = htons(static_cast<std::uint16_t>(port));
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    open_ = ::connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to) == 0;
-  }
-  ~Wire() { ::close(socket_); }
-  Wire(const Wire&) = delete;
-  Wire& operator=(const Wire&) = delete;
-
-  void send(const std::string& text) {
-    if (open_) open_ = ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) >= 0;
-  }
-
-  // Returns what comes until the words are among it, the other side closes, or the time is over.
-  std::string hear(const std::string& words, seconds at_most) {
-    const auto until = Clock::now() + at_most;
-    std::string all;
-    while (!closed_ && Clock::now() < until && (words.empty() || all.find(words) == all.npos)) {
-      const timeval patience{0, 50000};
-      setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-      char piece[4096];
-      const ssize_t n = ::recv(socket_, piece, sizeof piece, 0);
-      if (n > 0) all.append(piece, static_cast<std::size_t>(n));
-      closed_ = n == 0 || (n < 0 && errno != EAGAIN && errno != EWOULDBLOCK);
-    }
-    return all;
-  }
-  bool closed() const { return closed_; }
-
- private:
-  int socket_;
-  bool open_ = false, closed_ = false;
-};
 
 class View : public ::testing::Test {
  protected:
@@ -85,9 +44,8 @@ class View : public ::testing::Test {
     url_ = read_text(workspace_ / "out");
     ASSERT_THAT(url_, StartsWith("http://127.0.0.1:")) << read_text(workspace_ / "err");
     url_.pop_back();
-    const std::size_t colon = url_.rfind(':'), slash = url_.find('/', colon);
-    port_ = std::stoi(url_.substr(colon + 1));
-    path_ = url_.substr(slash);
+    port_ = port_of(url_);
+    path_ = path_of(url_);
   }
   void TearDown() override {
     if (child_ > 0) (void)end();
@@ -110,15 +68,11 @@ class View : public ::testing::Test {
     return -1;
   }
 
-  std::string host() const { return "127.0.0.1:" + std::to_string(port_); }
+  std::string host() const { return host_at(port_); }
   std::string request(const std::string& path, const std::string& more = "") const {
-    return "GET " + path + " HTTP/1.1\r\nHost: " + host() + "\r\n" + more + "\r\n";
+    return request_to(port_, path, more);
   }
-  std::string upgrade(const std::string& path) const {
-    return request(path, "Origin: http://" + host() +
-                             "\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Key: "
-                             "c2luZXcgaXMgd2F0Y2hlZA==\r\nSec-WebSocket-Version: 13\r\n");
-  }
+  std::string upgrade(const std::string& path) const { return upgrade_to(port_, path); }
   std::string answer(const std::string& text) const {
     Wire wire(port_);
     wire.send(text);
@@ -130,11 +84,6 @@ class View : public ::testing::Test {
   std::string url_, path_;  // path_: "/" and the token and "/"
   int port_ = 0;
 };
-
-// A message of a WebSocket that is shorter than 126 bytes, masked with zeros.
-std::string masked(const std::string& text) {
-  return std::string{'\x81', static_cast<char>(0x80 | text.size()), 0, 0, 0, 0} + text;
-}
 
 TEST_F(View, WithoutTheTokenNobodyIsToldOrSteers) {
   ASSERT_THAT(path_, MatchesRegex("/[0-9a-f]{32}/"));

@@ -16,7 +16,7 @@ using control::BoardState;
 using link::Code;
 
 // 2,048 are the goal; 1,320 of them are part_of()'s copy of a state message.
-constexpr int deepest_stack = 3'072;  // [bytes]
+constexpr int deepest_stack = 2'048;  // [bytes]
 
 bool send_configuration(Host& host, const link::ConfigurationSender& sender) {
   if (host.ask(sender.begin()) != Code::done) return false;
@@ -50,7 +50,9 @@ void run(Host& host, int periods) {
   const int end = host.telemetries + periods;
   for (int known = host.telemetries; host.telemetries < end; known = host.telemetries) {
     if (!host.wait([&] { return host.telemetries > known; })) break;
-    if (host.telemetry.state != BoardState::running) continue;
+    // A host that stood still for 100 ms has its board hold, until the next command.
+    if (host.telemetry.state != BoardState::running && host.telemetry.state != BoardState::hold)
+      continue;
     message.from = host.telemetry.tick + 200;
     host.send(message);
   }

@@ -20,7 +20,8 @@ const std::vector<gait::Setting>& settings() {
 }
 
 std::string written(const live::Request& r) {
-  constexpr std::string_view kinds[] = {"pause", "resume", "pace", "set", "release", "release all"};
+  constexpr std::string_view kinds[] = {"pause", "resume",  "pace",       "stop",
+                                        "set",   "release", "release all"};
   std::string text = fmt::format("{{\"do\":\"{}\"", kinds[static_cast<std::size_t>(r.kind)]);
   if (r.kind == Kind::set || r.kind == Kind::release)
     text += fmt::format(",\"key\":\"{}\"", settings()[r.setting].key);

@@ -22,8 +22,14 @@ namespace sinew::test {
 
 class BoardOnPty {
  public:
-  explicit BoardOnPty(const experiment::Experiment& e)
-      : body_(e), wires_(body_.wires()), file_(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
+  // Its drivers are those of the leg's wiring.
+  explicit BoardOnPty(const experiment::Experiment& e,
+                      const board::Identification& who = {.board = {'p', 't', 'y'},
+                                                          .active_low = true})
+      : body_(e),
+        wires_(body_.wires()),
+        program_(who),
+        file_(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC)) {
     if (file_ < 0 || ::grantpt(file_) != 0 || ::unlockpt(file_) != 0)
       throw std::runtime_error("no pseudo-terminal");
     device_ = ::ptsname(file_);
@@ -120,7 +126,7 @@ class BoardOnPty {
 
   run::WiredBody body_;
   plant::Wires wires_;
-  board::Program program_{board::Identification{.board = {'p', 't', 'y'}}};
+  board::Program program_;
   board::Outputs last_;
   int file_ = -1, keeper_ = -1;
   std::mutex plug_;

@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include "sinew/run/bring_up/bring_up.h"
 #include "tests/cli/program.h"
 #include "tests/serial/board_on_pty.h"
 
@@ -74,6 +75,33 @@ TEST(Serial, AnExperimentRunsToItsEndAndTheBoardRests) {
       << "what only a simulation knows is absent";
 }
 
+TEST(Serial, ABoardWhoseWatchdogHasBittenRunsOnlyAfterSomebodyHasSaidSo) {
+  const Workspace w;
+  BoardOnPty board(loaded("kick"), {.board = {'p', 't', 'y'}, .bitten = true, .active_low = true});
+  const Result refused = w.sinew(run_at(board, "kick"));
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("the board is in dump: its watchdog has reset it"));
+  EXPECT_EQ(board.state(), BoardState::dump);
+  Words again = run_at(board, "kick");
+  again.push_back("--clear-fault");
+  const Result ran = w.sinew(again);
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("the board was in dump: its watchdog has reset it"));
+}
+
+TEST(Serial, ABoardWithTheOtherLevelIsRefusedBeforeItIsArmed) {
+  const Workspace w;
+  BoardOnPty board(loaded("kick"), {.board = {'p', 't', 'y'}});
+  const Result refused = w.sinew(run_at(board, "kick"));
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err,
+              HasSubstr("wiring.polarity: found \"low opens\"; expected \"high opens\""));
+  EXPECT_EQ(board.state(), BoardState::fault);
+  Words other = run_at(board, "kick");
+  other.insert(other.end(), {"--set", "wiring.polarity=high opens"});
+  EXPECT_EQ(w.sinew(other).code, 0);
+}
+
 TEST(Serial, AStopThatIsAskedForVents) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     BoardOnPty board(loaded("walk-test-1"));
@@ -86,6 +114,58 @@ TEST(Serial, AStopThatIsAskedForVents) {
     const int status = run.wait();
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << "interrupted, and said so";
   }
+}
+
+// A window that closes sends several signals, and who is impatient presses twice; Ctrl-Z would
+// leave the machine as it is.
+TEST(Serial, SeveralSignalsVentAsOneDoes) {
+  for (const int signal : {SIGINT, SIGHUP, SIGQUIT, SIGTSTP}) {
+    BoardOnPty board(loaded("walk-test-1"));
+    Running run(board);
+    for (int i = 0; i < 3; ++i) {
+      ::kill(run.host, signal);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20 * i));
+    }
+    EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::vent; }, 0.5)) << signal;
+    EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::idle; }, 5)) << signal;
+    EXPECT_EQ(board.fault(), BoardFault::asked) << "the host was there to ask";
+    const int status = run.wait();
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << signal;
+  }
+}
+
+TEST(Serial, AStopInABringUpVents) {
+  const Workspace w;
+  BoardOnPty board(run::bench_of((w / "robots/leg/robot.toml").string(), w / "bench", {}));
+  const pid_t host = w.start({"bring-up", "robots/leg/robot.toml", "--port",
+                              "serial:" + board.device(), "-o", "day", "--yes"});
+  EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::running; }, 20));
+  ::kill(host, SIGINT);
+  EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::vent; }, 0.5));
+  int status = 0;
+  ::waitpid(host, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1);
+  EXPECT_THAT(read_text(w / "out"), HasSubstr("Stopped: the muscles were vented"));
+}
+
+TEST(Serial, ABringUpThatAsksEndsWithCtrlC) {
+  BoardOnPty board(loaded("walk-test-1"));
+  const Workspace w;
+  int question[2];
+  ASSERT_EQ(::pipe(question), 0);  // nobody answers
+  const int before = ::dup(0);
+  ::dup2(question[0], 0);
+  const pid_t host = w.start(
+      {"bring-up", "robots/leg/robot.toml", "--port", "serial:" + board.device(), "-o", "day"});
+  ::dup2(before, 0);
+  for (int i = 0; i < 500 && read_text(w / "out").find("[y/n]") == std::string::npos; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  ::kill(host, SIGINT);
+  int status = 0;
+  ::waitpid(host, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1);
+  EXPECT_THAT(read_text(w / "out"), HasSubstr("Stopped. The same command goes on from here."));
+  for (const int end : {question[0], question[1], before}) ::close(end);
 }
 
 TEST(Serial, AHostThatDiesIsHeldThenVented) {

@@ -113,10 +113,29 @@ export class LiveControls {
     this.word = element('strong', {});
     this.clock = element('span', { class: 'run-clock' });
     this.note = element('span', { class: 'run-note', role: 'status' });
+    this.stop = button('stop-machine', 'Stop the machine', () => this.stop_machine(), 'Shut its valves and let the air out, at once; the space bar does it too');
+    this.stop.hidden = true;
+    this.speed = element('label', {}, element('span', { class: 'quiet' }, 'Speed of the run '), this.pace);
     return element('section', { class: 'live-strip no-print', id: 'live', 'aria-label': 'The run' },
-      this.lamp, this.word, this.clock, this.pause,
-      element('label', {}, element('span', { class: 'quiet' }, 'Speed of the run '), this.pace),
-      this.tail, this.release, this.note);
+      this.lamp, this.word, this.clock, this.stop, this.pause, this.speed, this.tail, this.release, this.note);
+  }
+
+  stop_machine() {
+    this.stop.disabled = true;
+    this.live.ask({ do: 'stop' });
+  }
+
+  // A machine is stopped in place of being paused. Its space bar is not the replay's.
+  make_stoppable() {
+    if (!this.stop.hidden) return;
+    this.stop.hidden = false;
+    this.pause.hidden = this.speed.hidden = true;
+    addEventListener('keydown', (event) => {
+      if (event.key !== ' ' || !this.stop.isConnected) return;
+      event.preventDefault();
+      event.stopImmediatePropagation();
+      this.stop_machine();
+    }, { capture: true });
   }
 
   make_panel() {
@@ -129,8 +148,10 @@ export class LiveControls {
 
   show(state) {
     this.paused = state.paused;
+    if (state.machine) this.make_stoppable();
+    this.stop.disabled = state.stopping;
     this.lamp.className = `lamp ${state.paused ? 'paused' : 'on'}`;
-    this.word.textContent = state.paused ? 'Paused' : 'Live';
+    this.word.textContent = state.stopping ? 'Stopping' : state.paused ? 'Paused' : 'Live';
     this.clock.textContent = `${state.time.toFixed(1)} s of ${this.live.run.duration.toFixed(1)} s at most`;
     if (this.pause.dataset.shows !== String(state.paused)) {
       this.pause.dataset.shows = String(state.paused);

@@ -14,6 +14,7 @@
 
 #include "firmware/cortex_m.h"
 #include "firmware/semihosting.h"
+#include "firmware/tick_count.h"
 #include "sinew/control/board/lock_step.h"
 
 namespace sinew::firmware {
@@ -127,11 +128,20 @@ void look_at_stack() {
 namespace hardware {
 
 namespace {
-std::uint32_t last_tick = 0;  // as the running timer counts
+constinit TickCount count;
+std::uint32_t clocks() { return ~reg(running + value); }  // up
+
 signals::Channel converted;
+
+// Within an interrupt of the tick: nothing else goes on but the line.
+void stand_still(std::uint32_t ticks) {
+  const std::uint32_t since = clocks();
+  while (clocks() - since < ticks * clocks_a_tick) {}
+}
 }  // namespace
 
 void start() {
+  asm volatile("" : : "r"(board::application_image));  // stays in the image
   bitten_ = kept.why == watchdog_bit;
   kept.why = 0;
   ++kept.starts;
@@ -167,20 +177,14 @@ void feed_watchdog() {
 }
 
 void start_ticks() {
-  last_tick = last_look = reg(running + value);
+  last_look = reg(running + value);
+  count.start(clocks_a_tick, clocks());
   reg(ticking + reload) = clocks_a_tick - 1;
   reg(ticking + control) = enabled | interrupts;
   cortex_m::enable(time_is_over, cortex_m::of_tick);
 }
 
-// The interrupt comes some clocks after the tick: half of one tells early from late.
-std::uint32_t ticks_passed() {
-  const std::uint32_t clocks = last_tick - reg(running + value);
-  std::uint32_t passed = (clocks + clocks_a_tick / 2) / clocks_a_tick;
-  if (passed == 0) passed = 1;
-  last_tick -= passed * clocks_a_tick;
-  return passed;
-}
+std::uint32_t ticks_passed() { return count.passed(clocks()); }
 
 void start_conversion(signals::Channel channel) { converted = channel; }
 
@@ -191,10 +195,15 @@ signals::Reading reading(Tick run) {
   std::uint8_t* end = put(ask.data(), record::reading);
   end = put(end, static_cast<std::uint64_t>(run));
   put(end, converted.index);
-  host->to.write(ask);
-  std::array<std::uint8_t, 3> b;
-  host->from.read(b);
-  return {static_cast<std::uint16_t>(b[0] | b[1] << 8), static_cast<Status>(b[2])};
+  for (;;) {
+    host->to.write(ask);
+    std::array<std::uint8_t, 3> b;
+    host->from.read(b);
+    const auto number = static_cast<std::uint16_t>(b[0] | b[1] << 8);
+    if (b[2] < board::mishap::stalls) return {number, static_cast<Status>(b[2])};
+    if (b[2] == board::mishap::resets) cortex_m::reset_all();
+    stand_still(number);
+  }
 }
 
 void drive(const Drive& d) {

@@ -11,9 +11,11 @@
 //   line              PA9 out, PA10 in
 #include "firmware/board.h"
 
-#include <new>
+#include <array>
 
 #include "firmware/cortex_m.h"
+#include "firmware/edges.h"
+#include "firmware/tick_count.h"
 
 namespace sinew::firmware {
 namespace {
@@ -24,7 +26,7 @@ using signals::Tick;
 
 constexpr std::uint32_t crystal = 8;  // [MHz], another board's may be 12 or 25
 constexpr std::uint32_t timer_clock = 84'000'000, line_clock = 84'000'000;  // [Hz]
-constexpr std::uint32_t clocks_a_tick = timer_clock / 10'000;
+constexpr std::uint32_t clocks_a_tick = timer_clock / 10'000, clocks_a_us = timer_clock / 1'000'000;
 
 // --- registers ----------------------------------------------------------------------------------
 
@@ -38,7 +40,7 @@ constexpr std::uintptr_t mode = 0x00, speed = 0x08, set_reset = 0x18, alternate_
 constexpr std::uintptr_t ticking = 0x40000000, running = 0x40000C00;  // TIM2, TIM5: 32 bits
 constexpr std::uintptr_t timer_control = 0x00, timer_interrupts = 0x0C, timer_state = 0x10,
                          timer_events = 0x14, timer_count = 0x24, timer_prescaler = 0x28,
-                         timer_reload = 0x2C;
+                         timer_reload = 0x2C, timer_compare = 0x34;
 constexpr std::uintptr_t line = 0x40011000;  // USART1
 constexpr std::uintptr_t line_state = line, line_data = line + 0x04, line_divider = line + 0x08,
                          line_control = line + 0x0C;
@@ -54,7 +56,9 @@ constexpr std::uint32_t line_came = 1u << 5, line_room = 1u << 7, line_overrun =
 constexpr std::uint32_t line_on = 1u << 13 | 1u << 3 | 1u << 2 | line_came;
 constexpr std::uint32_t conversion_done = 1u << 1, conversion_start = 1u << 30;
 
-constexpr std::uint32_t interrupt_of_ticks = 28, interrupt_of_line = 37;
+constexpr std::uint32_t compared = 1u << 1;  // of a timer's state and interrupts
+
+constexpr std::uint32_t interrupt_of_ticks = 28, interrupt_of_line = 37, interrupt_of_edges = 50;
 
 // --- what survives a reset ----------------------------------------------------------------------
 
@@ -77,11 +81,37 @@ void set_mode(std::uintptr_t port, std::uint32_t pin, std::uint32_t to) {
 }
 constexpr std::uint32_t output = 1, alternate = 2, analog = 3;
 
+// --- pins ---------------------------------------------------------------------------------------
+
+// The upper half of a word resets pins, the lower half sets them: a port changes at once.
+struct Pins {
+  std::uint32_t b = 0xFFF0u << 16, c = 0x13C0u << 16;  // off
+};
+constexpr Pins pins(std::uint32_t coils, bool supply) {
+  const std::uint32_t b = (coils & 0xFFFu) << 4;
+  const std::uint32_t c = (coils >> 12 & 0xFu) << 6 | (supply ? 1u << 12 : 0);
+  return {(~b & 0xFFF0u) << 16 | b, (~c & 0x13C0u) << 16 | c};
+}
+
+void put(const Pins& p) {
+  reg(port_b + set_reset) = p.b;
+  reg(port_c + set_reset) = p.c;
+}
+
+constinit WaitingWord<Pins> waiting;
+constinit volatile std::uint32_t late_edges = 0;  // words that missed their instant; for a debugger
+
+void put_late() {
+  Pins p;
+  if (!waiting.take(p)) return;
+  put(p);
+  late_edges = late_edges + 1;
+}
+
 // All coils off before their pins become outputs.
 void start_pins() {
   reg(rcc_ahb1) = reg(rcc_ahb1) | 7u;
-  reg(port_b + set_reset) = 0xFFF0u << 16;
-  reg(port_c + set_reset) = 0x13C0u << 16;
+  put({});
   for (std::uint32_t pin = 4; pin < 16; ++pin) set_mode(port_b, pin, output);
   for (const std::uint32_t pin : {6u, 7u, 8u, 9u, 12u}) set_mode(port_c, pin, output);
   for (std::uint32_t pin = 0; pin < 8; ++pin) set_mode(port_a, pin, analog);
@@ -124,7 +154,7 @@ void start_converter() {
 namespace hardware {
 
 namespace {
-std::uint32_t last_tick = 0;  // as the running timer counts
+constinit TickCount count;
 }
 
 void start() {
@@ -141,6 +171,8 @@ void start() {
   start_converter();
   reg(running + timer_reload) = 0xFFFFFFFF;
   reg(running + timer_events) = 1;
+  reg(running + timer_state) = 0;
+  reg(running + timer_interrupts) = compared;
   reg(running + timer_control) = 1;
 }
 
@@ -163,7 +195,7 @@ void start_line(std::uint32_t baud) {
 // A USB adapter may hold bytes back for 16 ms.
 std::uint32_t longest_pause() { return 200; }
 
-// 20 ms by a clock that may be between 17 and 47 kHz: 12 to 34 ms. The prescaler is 4.
+// 20 ms by a clock that may be between 17 and 47 kHz: 14 to 38 ms. The prescaler is 4.
 void start_watchdog() {
   reg(watchdog) = 0xCCCC;
   reg(watchdog) = 0x5555;
@@ -174,22 +206,16 @@ void start_watchdog() {
 void feed_watchdog() { reg(watchdog) = 0xAAAA; }
 
 void start_ticks() {
-  last_tick = reg(running + timer_count);
+  count.start(clocks_a_tick, reg(running + timer_count));
   reg(ticking + timer_prescaler) = 0;
   reg(ticking + timer_reload) = clocks_a_tick - 1;
   reg(ticking + timer_interrupts) = 1;
   reg(ticking + timer_control) = 1;
+  cortex_m::enable(interrupt_of_edges, cortex_m::of_edge);
   cortex_m::enable(interrupt_of_ticks, cortex_m::of_tick);
 }
 
-// The interrupt comes some clocks after the tick: half of one tells early from late.
-std::uint32_t ticks_passed() {
-  const std::uint32_t clocks = reg(running + timer_count) - last_tick;
-  std::uint32_t passed = (clocks + clocks_a_tick / 2) / clocks_a_tick;
-  if (passed == 0) passed = 1;
-  last_tick += passed * clocks_a_tick;
-  return passed;
-}
+std::uint32_t ticks_passed() { return count.passed(reg(running + timer_count)); }
 
 void start_conversion(signals::Channel channel) {
   reg(converter_input) = channel.index < 8 ? channel.index : channel.index + 2u;
@@ -202,13 +228,17 @@ signals::Reading reading(Tick) {
   return {static_cast<std::uint16_t>(reg(converter_data)), Status::ok};
 }
 
-// The upper half of the word resets pins, the lower half sets them: a port changes at once.
 void drive(const Drive& d) {
-  const std::uint32_t coils = d.current ? d.coils : 0;
-  const std::uint32_t b = (coils & 0xFFFu) << 4;
-  const std::uint32_t c = (coils >> 12 & 0xFu) << 6 | (d.supply ? 1u << 12 : 0);
-  reg(port_b + set_reset) = (~b & 0xFFF0u) << 16 | b;
-  reg(port_c + set_reset) = (~c & 0x13C0u) << 16 | c;
+  const Pins p = pins(d.current ? d.coils : 0, d.supply);
+  if (!waits(d)) {
+    waiting.forget();
+    put(p);
+    return;
+  }
+  const std::uint32_t instant = count.began() + edge_delay * clocks_a_us;
+  waiting.leave(p);
+  reg(running + timer_compare) = instant;
+  if (is_late(reg(running + timer_count), instant, clocks_a_us)) put_late();
 }
 
 void keep_ticks_away() { cortex_m::keep_ticks_away(); }
@@ -238,8 +268,8 @@ extern "C" {
 // All coils off, until the watchdog bites.
 void fault() {
   using namespace sinew::firmware;
-  reg(port_b + set_reset) = 0xFFF0u << 16;
-  reg(port_c + set_reset) = 0x13C0u << 16;
+  cortex_m::keep_all_away();
+  put({});
   for (;;) {}
 }
 
@@ -259,23 +289,43 @@ void line_works() {
   }
 }
 
+// No word waits for longer than a tick, whatever becomes of the compare.
 void time_over() {
   using namespace sinew::firmware;
   reg(ticking + timer_state) = 0;
+  put_late();
   tick();
 }
 
+// Pins first: all that is before them moves the edge.
+void edge_due() {
+  using namespace sinew::firmware;
+  Pins p;
+  if (waiting.take(p)) put(p);
+  reg(running + timer_state) = ~compared;
+  cortex_m::wait_for_writes();
+}
+
+}  // extern "C"
+
+namespace {
+
 using Handler = void (*)();
+constexpr std::array<Handler, 51> interrupts() {
+  std::array<Handler, 51> out{};
+  for (Handler& h : out) h = fault;
+  out[sinew::firmware::interrupt_of_ticks] = time_over;
+  out[sinew::firmware::interrupt_of_line] = line_works;
+  out[sinew::firmware::interrupt_of_edges] = edge_due;
+  return out;
+}
 [[gnu::section(".vectors"), gnu::used]] const struct {
   std::uint32_t* stack;
   Handler handler[15];
-  Handler interrupt[38];
+  std::array<Handler, 51> interrupt;
 } vectors = {stack_top,
              {reset, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault,
               fault, fault, fault},
-             {fault, fault, fault, fault, fault, fault, fault, fault,     fault,     fault,
-              fault, fault, fault, fault, fault, fault, fault, fault,     fault,     fault,
-              fault, fault, fault, fault, fault, fault, fault, fault,     time_over, fault,
-              fault, fault, fault, fault, fault, fault, fault, line_works}};
+             interrupts()};
 
-}  // extern "C"
+}  // namespace

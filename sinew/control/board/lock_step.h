@@ -3,7 +3,9 @@
 // little-endian.
 //
 //   board to host   V  tick i64  open u32  flags u8    valves from that tick on
-//                   R  tick i64  channel u8            answered: counts u16, status u8
+//                   R  tick i64  channel u8            answered: counts u16, status u8; or ticks
+//                                                      u16, a mishap u8: the application suffers
+//                                                      it and asks again
 //                   L  size u16  bytes                 out of the line
 //                   W  tick i64                        a period begins; answered: size u16, bytes
 //                                                      into the line, or the size `ends`
@@ -19,6 +21,14 @@ namespace sinew::board {
 namespace record {
 inline constexpr std::uint8_t valves = 'V', reading = 'R', line = 'L', waits = 'W', sizes = 'S';
 }
+namespace mishap {                            // in place of a status
+inline constexpr std::uint8_t stalls = 0xf0;  // for so many ticks
+inline constexpr std::uint8_t resets = 0xf1;
+}  // namespace mishap
+// By these a host knows the two programs for the emulator.
+inline constexpr char lock_step_image[] = "sinew firmware in lock step";
+inline constexpr char application_image[] = "sinew firmware at a serial line";
+
 inline constexpr std::uint16_t ends = 0xffff;
 inline constexpr std::uint8_t has_current = 1, has_supply = 2;  // flags
 

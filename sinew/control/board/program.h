@@ -39,6 +39,7 @@ struct Identification {
   std::uint8_t number = 1;  // on its line
   std::uint32_t nonce = 1;  // where those of arming begin: another one after each reset
   bool bitten = false;      // the watchdog has reset it
+  bool active_low = false;  // its outputs have 0 for current in a coil
 };
 
 // What valves and the supply are to have from a tick on.

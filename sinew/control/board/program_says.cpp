@@ -118,7 +118,9 @@ bool Program::speak() noexcept {
                        .joints = control::max_joints,
                        .channels = control::max_channels,
                        .conversions = control::max_conversions,
-                       .tick = now_});
+                       .tick = now_,
+                       .fault = safety_.fault(),
+                       .active_low = who_.active_low});
   identity_wanted_ = false;
   if (log_wanted_) speak_log();
   if (!speaking_.load(std::memory_order_acquire)) return log_wanted_;

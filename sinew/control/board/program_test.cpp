@@ -43,7 +43,7 @@ TEST(Program, SaysWhoItIsAndThatItHasStarted) {
 TEST(Program, AnswersAnotherVersionAndObeysNothingOfIt) {
   Bench b;
   Bytes frame = link::frame_of(link::ClearFault{}, {1, 0});
-  frame[5] = 2;
+  frame[5] = link::protocol_version - 1;
   const std::span<std::uint8_t> bytes(frame);
   link::Writer sums(bytes.subspan(7));
   sums.whole(signals::crc32(bytes.subspan(2, 5)));

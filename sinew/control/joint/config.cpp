@@ -90,38 +90,52 @@ const char* problem_of_joint(const JointControllerConfig& config,
 
 // One coil, one pulse train: valves differ, but for the two of a muscle over two joints.
 struct Owner {
-  bool taken = false;
-  std::uint8_t times = 0;                // as an inlet
-  std::uint8_t joint = 0;                // that named it first
-  const MuscleConfig* muscle = nullptr;  // as an inlet
+  std::uint8_t valve = 0, joint = 0;  // the joint that named it first
+  std::uint8_t times = 0;             // as an inlet; 0: it is an exhaust
+  std::uint8_t exhaust = 0;           // beside this inlet
 };
 
-const char* problem_of_inlet(const JointControllerConfig& config, std::size_t j,
-                             const MuscleConfig& m, Owner& owner) noexcept {
-  if (!owner.taken) {
-    owner = {true, 1, static_cast<std::uint8_t>(j), &m};
+// Small, for a board's stack.
+struct Owners {
+  std::array<Owner, 4 * max_joints> owner{};
+  std::size_t count = 0;
+
+  Owner* find(signals::Valve valve) noexcept {
+    for (std::size_t i = 0; i < count; ++i)
+      if (owner[i].valve == valve.index) return &owner[i];
     return nullptr;
   }
+  void add(const Owner& o) noexcept { owner[count++] = o; }
+};
+
+constexpr const char* same_valve = "two muscles use the same valve";
+
+// May `owner`'s valve also be the inlet of this muscle of joint `j`?
+const char* problem_of_inlet(const JointControllerConfig& config, std::size_t j,
+                             const MuscleConfig& m, Owner& owner) noexcept {
   const bool both_seal = config.joint[owner.joint].kind == JointKind::antagonist &&
                          config.joint[j].kind == JointKind::antagonist;
-  if (!owner.muscle || owner.joint == j || ++owner.times > 2 || !both_seal ||
-      owner.muscle->exhaust.index != m.exhaust.index)
-    return "two muscles use the same valve";
+  if (owner.times == 0 || owner.joint == j || ++owner.times > 2 || !both_seal ||
+      owner.exhaust != m.exhaust.index)
+    return same_valve;
   return nullptr;
 }
 
 const char* problem_of_valves(const JointControllerConfig& config) noexcept {
-  std::array<Owner, 256> owner{};
+  Owners owners;
   for (std::size_t j = 0; j < config.joints; ++j) {
     const JointConfig& joint = config.joint[j];
+    const auto number = static_cast<std::uint8_t>(j);
     for (const MuscleConfig* m : {&joint.flexor, &joint.extensor}) {
       if (!m->present) continue;
-      Owner& inlet = owner[m->inlet.index];
-      const bool shared = inlet.muscle != nullptr;
-      if (const char* p = problem_of_inlet(config, j, *m, inlet)) return p;
-      if (shared || !has_exhaust(joint.kind)) continue;
-      if (owner[m->exhaust.index].taken) return "two muscles use the same valve";
-      owner[m->exhaust.index].taken = true;
+      if (Owner* owner = owners.find(m->inlet)) {
+        if (const char* p = problem_of_inlet(config, j, *m, *owner)) return p;
+        continue;
+      }
+      owners.add({m->inlet.index, number, 1, m->exhaust.index});
+      if (!has_exhaust(joint.kind)) continue;
+      if (owners.find(m->exhaust) != nullptr) return same_valve;
+      owners.add({.valve = m->exhaust.index, .joint = number});
       if (m->exhaust_inverted && config.startup_vent == 0)
         return "an inverted exhaust is open until it is driven: it needs a startup_vent";
     }

@@ -1,5 +1,7 @@
 #include "sinew/control/joint/joint_controller.h"
 
+#include <bit>
+
 namespace sinew::control {
 
 using signals::Channel;
@@ -246,8 +248,7 @@ std::span<const Edge> JointController::edges(Tick t) noexcept {
   if (t >= phase_end_) seen_.phase = next_phase_;
   out_count_ = 0;
   if (next_edge_ <= t) {
-    hand_out(t, false);
-    hand_out(t, true);
+    hand_out(t);
     hand_out_levels(t);
     for (std::size_t j = 0; j < config_.joints; ++j)
       if (next_of_[j] <= t) find_next_edge_of(j);
@@ -257,21 +258,34 @@ std::span<const Edge> JointController::edges(Tick t) noexcept {
 }
 
 // Closing edges go first, so that no muscle is open to both sides even for an instant.
-void JointController::hand_out(Tick t, bool open) noexcept {
+void JointController::hand_out(Tick t) noexcept {
+  static_assert(max_joints * valves_per_joint <= 32);
+  std::uint32_t opening = 0;
   for (std::size_t j = 0; j < config_.joints; ++j) {
     if (next_of_[j] > t) continue;
-    const JointConfig& joint = config_.joint[j];
-    const signals::Valve index[] = {joint.flexor.inlet, joint.flexor.exhaust, joint.extensor.inlet,
-                                    joint.extensor.exhaust};
-    const bool inverted[] = {false, joint.flexor.exhaust_inverted, false,
-                             joint.extensor.exhaust_inverted};
     for (std::size_t v = 0; v < valves_per_joint; ++v) {
-      PulseTrain& train = valves_[j][v];
-      if (train.next() > t || train.next_opens() != open || out_count_ == out_.size()) continue;
-      train.drive();
-      out_[out_count_++] = {t, index[v], open != inverted[v]};
+      const PulseTrain& train = valves_[j][v];
+      if (train.next() > t) continue;
+      if (!train.next_opens()) drive(j, v, t);
+      if (train.next() <= t && train.next_opens()) opening |= 1u << (j * valves_per_joint + v);
     }
   }
+  for (; opening != 0; opening &= opening - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(opening));
+    drive(i / valves_per_joint, i % valves_per_joint, t);
+  }
+}
+
+// The train's next edge.
+void JointController::drive(std::size_t j, std::size_t valve, Tick t) noexcept {
+  if (out_count_ == out_.size()) return;
+  const MuscleConfig& m = muscle(j, valve <= flexor_exhaust ? flexor : extensor);
+  const bool exhaust = valve == flexor_exhaust || valve == extensor_exhaust;
+  PulseTrain& train = valves_[j][valve];
+  const bool open = train.next_opens();
+  train.drive();
+  out_[out_count_++] =
+      exhaust ? Edge{t, m.exhaust, open != m.exhaust_inverted} : Edge{t, m.inlet, open};
 }
 
 void JointController::hand_out_levels(Tick t) noexcept {

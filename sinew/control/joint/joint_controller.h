@@ -134,7 +134,8 @@ class JointController {
   void schedule(std::size_t joint, signals::Tick t) noexcept;
   void schedule_level(std::size_t joint, Side side, signals::Tick t) noexcept;
   void vent(signals::Tick from, std::uint32_t ticks, Phase during, Phase after) noexcept;
-  void hand_out(signals::Tick t, bool open) noexcept;
+  void hand_out(signals::Tick t) noexcept;
+  void drive(std::size_t joint, std::size_t valve, signals::Tick t) noexcept;
   void hand_out_levels(signals::Tick t) noexcept;
   void find_next_edge() noexcept;
   void find_next_edge_of(std::size_t joint) noexcept;

@@ -27,6 +27,9 @@ Load load_of(const control::JointControllerConfig& config, bool edges_wanted) no
 // Does a line of so many bits a second carry it?
 bool carries(std::uint32_t baud, const Load& load, std::uint16_t period) noexcept;
 
+// The rate of firmware/application.cpp  [bits/s].
+inline constexpr std::uint32_t firmware_baud = 921'600;
+
 // The slowest of the choices that carries all, 0 where none does.
 std::uint32_t choose_baud(const control::JointControllerConfig& config, bool edges_wanted,
                           std::span<const std::uint32_t> choices) noexcept;

@@ -20,7 +20,7 @@
 
 namespace sinew::link {
 
-inline constexpr std::uint8_t protocol_version = 1;
+inline constexpr std::uint8_t protocol_version = 2;
 
 inline constexpr std::uint8_t sync_first = 0xaa, sync_second = 0x55;
 inline constexpr std::size_t header_size = 5, before_body = 2, crc32_size = 4, crc16_size = 2;

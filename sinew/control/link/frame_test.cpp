@@ -28,7 +28,8 @@ Bytes noise(std::mt19937& random, std::size_t most) {
 TEST(Frame, HasTheFormOfTheLaboratory) {
   const Bytes frame = frame_of(Identify{}, {.board = 3, .sequence = 7});
   ASSERT_EQ(frame.size(), min_frame);
-  EXPECT_EQ(Bytes(frame.begin(), frame.begin() + 7), (Bytes{0xaa, 0x55, 1, 7, 6, 1, 3}));
+  EXPECT_EQ(Bytes(frame.begin(), frame.begin() + 7),
+            (Bytes{0xaa, 0x55, 1, 7, 6, protocol_version, 3}));
   const std::span<const std::uint8_t> all(frame);
   EXPECT_EQ(signals::crc16(all.subspan(2, 9)), frame[11] | frame[12] << 8);
   EXPECT_EQ(signals::crc32(all.subspan(2, 5)),

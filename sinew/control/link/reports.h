@@ -27,6 +27,8 @@ struct Identity {
   std::uint16_t configuration_bytes = 0;
   std::uint8_t joints = 0, channels = 0, conversions = 0;  // it has room for
   signals::Tick tick = 0;
+  control::BoardFault fault = control::BoardFault::none;  // why it is in its state
+  bool active_low = false;  // its outputs have 0 for current in a coil
 };
 
 inline constexpr std::size_t max_text = 100;
@@ -67,6 +69,16 @@ struct State {
   control::Seen seen;              // without joints and readings
   control::Supervised supervised;  // without sensors
   LinkSeen link;
+};
+// A State that is written from where its parts stand: a board's stack has no room for copies.
+struct StateView {
+  Part of;
+  control::BoardState state;
+  control::BoardFault fault;
+  std::uint8_t joints, channels;
+  const control::Seen& seen;
+  const control::Supervised& supervised;
+  const LinkSeen& link;
 };
 
 struct ChannelSeen {
@@ -146,6 +158,8 @@ constexpr void fields(Io& io, M& m) noexcept {
   count(io, m.channels, 254);
   count(io, m.conversions, 254);
   tick(io, m.tick);
+  choice(io, m.fault, control::BoardFault::asked);
+  flag(io, m.active_low);
 }
 template <class Io, Is<Answer> M>
 constexpr void fields(Io& io, M& m) noexcept {
@@ -186,8 +200,8 @@ constexpr void fields(Io& io, M& m) noexcept {
   io.whole(m.high);
   io.whole(m.joint);
 }
-template <class Io, Is<State> M>
-constexpr void fields(Io& io, M& m) noexcept {
+template <class Io, class M>
+requires(Is<M, State> || Is<M, StateView>) constexpr void fields(Io& io, M& m) noexcept {
   fields(io, m.of);
   choice(io, m.state, control::BoardState::dump);
   choice(io, m.fault, control::BoardFault::asked);

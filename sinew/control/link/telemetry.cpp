@@ -27,7 +27,7 @@ Place place_of(std::size_t part, std::size_t joints, std::size_t channels) noexc
   return {Type::joints, first, least(joints - first, joints_in_message)};
 }
 
-State state_of(const Telemetry& t, const Part& part) noexcept {
+StateView state_of(const Telemetry& t, const Part& part) noexcept {
   return {.of = part,
           .state = t.state,
           .fault = t.fault,

@@ -217,7 +217,10 @@ void Safety::watch_vent(Tick now) noexcept {
   bool empty = true;
   for (std::size_t i = 0; i < max_channels; ++i)
     if (config_.empty_at[i] > 0) empty = empty && empty_[i] >= config_.empty_scans;
-  if (empty) return end_vent();
+  if (empty) {
+    if (over) end_vent();
+    return;
+  }
   if (now - vent_since_ >= static_cast<Tick>(config_.vent_limit))
     return dump(BoardFault::not_empty);
   if (over) out_.vent(now);  // longer than the controller would
@@ -232,48 +235,47 @@ void Safety::end_vent() noexcept {
 // --- parameters ---------------------------------------------------------------------------------
 
 // The constants as they came, and those that a run goes by.
-std::array<Safety::Span, 5> Safety::parameters() const noexcept {
-  std::array<Span, 5> out{{{&machine_, size_of(machine_)},
-                           {&limits_, size_of(limits_)},
-                           {&config_, size_of(config_)},
-                           {nullptr, 0},
-                           {nullptr, 0}}};
-  if (run_) {
-    out[3] = {&run_->config(), size_of(run_->config())};
-    out[4] = {&run_->limits(), size_of(run_->limits())};
-  }
-  return out;
+Safety::Span Safety::parameters(std::uint8_t which) const noexcept {
+  if (which == 0) return {&machine_, size_of(machine_)};
+  if (which == 1) return {&limits_, size_of(limits_)};
+  if (which == 2) return {&config_, size_of(config_)};
+  if (!run_) return {nullptr, 0};
+  return which == 3 ? Span{&run_->config(), size_of(run_->config())}
+                    : Span{&run_->limits(), size_of(run_->limits())};
 }
 
 void Safety::restart_check() noexcept {
-  place_ = sum_ = total_ = 0;
+  span_ = 0;
+  place_ = sum_ = 0;
   known_yet_ = false;
-  for (const Span& span : parameters()) total_ += span.size;
-  per_tick_ = total_ / config_.check_every + 1;
+  std::uint32_t total = 0;
+  for (std::uint8_t i = 0; i < spans; ++i) total += parameters(i).size;
+  per_tick_ = total / config_.check_every + 1;
+}
+
+void Safety::next_parameters() noexcept {
+  place_ = 0;
+  do ++span_;
+  while (span_ < spans && parameters(span_).size == 0);
 }
 
 // A few bytes a tick. The first look is what later ones are held against.
 void Safety::check_parameters() noexcept {
-  std::uint32_t left = per_tick_, begin = 0;
-  for (const Span& span : parameters()) {
-    const std::uint32_t end = begin + span.size;
-    if (place_ < end && left > 0) {
-      const std::uint32_t take = left < end - place_ ? left : end - place_;
-      const auto* bytes = static_cast<const std::uint8_t*>(span.at) + (place_ - begin);
-      sum_ = signals::crc32({bytes, take}, sum_);
-      place_ += take;
-      left -= take;
-    }
-    begin = end;
+  for (std::uint32_t left = per_tick_; left > 0 && span_ < spans;) {
+    const Span span = parameters(span_);
+    const std::uint32_t rest = span.size - place_, take = left < rest ? left : rest;
+    sum_ = signals::crc32({static_cast<const std::uint8_t*>(span.at) + place_, take}, sum_);
+    place_ += take;
+    left -= take;
+    if (place_ == span.size) next_parameters();
   }
-  if (place_ < total_) return;
+  if (span_ < spans) return;
   if (known_yet_ && sum_ != known_) return dump(BoardFault::parameters);
   known_ = sum_;
   known_yet_ = true;
-  place_ = sum_ = 0;
+  span_ = 0;
+  sum_ = 0;
 }
-
-// --- a tick -------------------------------------------------------------------------------------
 
 void Safety::begin(Tick now) noexcept {
   begun_ = now;

@@ -60,9 +60,9 @@ struct SafetyConfig {
   std::uint32_t hold_limit = 20'000;  // [ticks] of hold, that end the run
   std::uint32_t arm_window = 10'000;  // [ticks] from the first of the two frames to the second
 
-  // Venting ends when every watched channel was at most `empty_at` in so many scans in a row, and
-  // lasts no longer than vent_limit. With no channel watched it lasts as long as the controller's
-  // own (shutdown_vent, or a second).
+  // Venting lasts as long as the controller's own (shutdown_vent, or a second), for what nobody
+  // measures; and on until every watched channel was at most `empty_at` in so many scans in a row,
+  // but no longer than vent_limit.
   std::array<std::uint16_t, max_channels> empty_at{};  // [count]; 0: not watched
   std::uint32_t empty_scans = 3;
   std::uint32_t vent_limit = 50'000;  // [ticks]
@@ -158,7 +158,9 @@ class Safety {
     const void* at;
     std::uint32_t size;
   };
-  std::array<Span, 5> parameters() const noexcept;
+  static constexpr std::uint8_t spans = 5;
+  Span parameters(std::uint8_t which) const noexcept;
+  void next_parameters() noexcept;
   void check_parameters() noexcept;
   void restart_check() noexcept;
 
@@ -183,7 +185,8 @@ class Safety {
   std::uint16_t scan_tick_ = 0;  // of a scan of its own then
 
   // Of the parameters: how far this look is, its sum, and what the last one had.
-  std::uint32_t place_ = 0, sum_ = 0, known_ = 0, per_tick_ = 1, total_ = 0;
+  std::uint32_t place_ = 0, sum_ = 0, known_ = 0, per_tick_ = 1;
+  std::uint8_t span_ = 0;
   bool known_yet_ = false;
 
   signals::Tick begun_ = -1, driven_ = -1, opened_ = -1;

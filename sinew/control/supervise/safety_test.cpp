@@ -293,7 +293,7 @@ TEST(Safety, WhateverComesAirGoesInOnlyWhileItRuns) {
     };
     bool talks = true;
     BoardState before = b.board.state();
-    while (b.now < 40'000) {
+    while (b.now < 60'000) {
       if (one_in(50)) b.board.clear(random() % 2, b.now);
       if (one_in(20)) b.board.arm_first(b.now);
       if (one_in(20)) b.board.arm_second(b.now);

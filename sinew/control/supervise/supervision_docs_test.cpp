@@ -53,6 +53,16 @@ std::string cell(const std::string& fault, std::size_t column) {
   return "";
 }
 
+// [ticks] without a round of run(), that end feeding.
+std::uint32_t patience_of_the_application() {
+  std::ifstream file(std::string(SINEW_SOURCE_DIR) + "/firmware/application.cpp");
+  const std::string before = "std::uint32_t patience = ";
+  for (std::string line; std::getline(file, line);)
+    if (const std::size_t at = line.find(before); at != std::string::npos)
+      return static_cast<std::uint32_t>(std::stoul(line.substr(at + before.size())));
+  return 0;
+}
+
 TEST(SupervisionDocs, EachFaultHasATestThatIsThere) {
   const std::set<std::string> there = tests();
   const std::vector<Row> rows = faults();
@@ -80,6 +90,9 @@ TEST(SupervisionDocs, BoundsAreTheDefaults) {
   EXPECT_EQ(cell("a sensor out of rate", bound), three_scans);
   EXPECT_EQ(cell("bad commands", bound), milliseconds(100 * (supervise.hold_commands - 1)) + "; " +
                                              milliseconds(100 * (supervise.vent_commands - 1)));
+  EXPECT_EQ(cell("what works between ticks hangs, so that no host is heard", bound)
+                .find(milliseconds(patience_of_the_application()) + " and "),
+            0u);
   EXPECT_EQ(supervise.gap_shut, 2u);
   EXPECT_EQ(supervise.gap_vent, 100u) << "10 ms missed";
 }

@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,11 +12,11 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "sinew/control/board/lock_step.h"
 #include "sinew/plant/hardware/remote_board.h"
-
-extern char** environ;
 
 namespace sinew::plant {
 
@@ -29,6 +29,56 @@ std::string pipe_at(const std::string& path) {
 
 void set_blocking(int file) { ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK); }
 
+// What goes on in the child: it ends with this program, whatever that ends by. Does not return.
+[[noreturn]] void be(char* const* arguments, pid_t parent, int line, int its_line, int why) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);
+  // A Ctrl-C is the program's: it ends the run and vents the board, which has to be there then.
+  ::setpgid(0, 0);
+  // Where it fails it prints its registers, which say nothing to a user.
+  const int nothing = ::open("/dev/null", O_RDWR);
+  for (const int file : {0, 1, 2}) ::dup2(nothing, file);
+  if (line >= 0) ::dup2(line, its_line);
+  ::execvp(arguments[0], arguments);
+  const int error = errno;
+  (void)!::write(why, &error, sizeof error);
+  ::_exit(127);
+}
+
+// Starts it, and waits until it is another program.
+pid_t become(char* const* arguments, int line, int its_line) {
+  int why[2];
+  if (::pipe2(why, O_CLOEXEC) != 0)
+    throw BoardError(std::string("no pipe: ") + std::strerror(errno));
+  const pid_t parent = ::getpid(), child = ::fork();
+  if (child == 0) be(arguments, parent, line, its_line, why[1]);
+  int error = child < 0 ? errno : 0;
+  ::close(why[1]);
+  ssize_t n = 0;
+  while (child > 0 && (n = ::read(why[0], &error, sizeof error)) < 0 && errno == EINTR) {}
+  ::close(why[0]);
+  if (error == 0) return child;
+  if (child > 0) ::waitpid(child, nullptr, 0);
+  throw BoardError(std::string("qemu-system-arm cannot be started: ") + std::strerror(error) +
+                   "; Debian: apt install qemu-system-arm");
+}
+
+// Its image says what it is for.
+void require_kind(const std::string& image, bool in_lock_step) {
+  std::ifstream in(image, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const auto is = [&](const char* kind) { return bytes.find(kind) != bytes.npos; };
+  if (is(in_lock_step ? board::lock_step_image : board::application_image)) return;
+  if (is(in_lock_step ? board::application_image : board::lock_step_image))
+    throw BoardError(fmt::format("{}: found the program {}; expected {}", image,
+                                 in_lock_step
+                                     ? "for an emulated serial line, application-mps2_an386.elf"
+                                     : "for lock step, lock-step.elf",
+                                 in_lock_step ? "lock-step.elf" : "application-mps2_an386.elf"));
+  throw BoardError(image +
+                   ": found no program of firmware/ for mps2-an386, or one of an older version");
+}
+
 }  // namespace
 
 // --- its process --------------------------------------------------------------------------------
@@ -36,6 +86,7 @@ void set_blocking(int file) { ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O
 Emulator::Emulator(const std::string& image, Wires wires, int line) : wires_(std::move(wires)) {
   if (!std::filesystem::is_regular_file(image))
     throw BoardError(image + ": there is no such program for the emulator");
+  require_kind(image, line < 0);
   std::string folder = std::filesystem::temp_directory_path() / "sinew-board-XXXXXX";
   if (::mkdtemp(folder.data()) == nullptr) throw BoardError(folder + ": " + std::strerror(errno));
   folder_ = folder;
@@ -67,24 +118,7 @@ void Emulator::start(const std::string& image, int line) {
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
 
-  // A Ctrl-C is this program's: it ends the run and vents the board, which has to be there then.
-  posix_spawnattr_t own_group;
-  ::posix_spawnattr_init(&own_group);
-  ::posix_spawnattr_setflags(&own_group, POSIX_SPAWN_SETPGROUP);
-  // Where it fails it prints its registers, which say nothing to a user.
-  posix_spawn_file_actions_t files;
-  ::posix_spawn_file_actions_init(&files);
-  for (const int file : {0, 1, 2})
-    ::posix_spawn_file_actions_addopen(&files, file, "/dev/null", O_RDWR, 0);
-  if (line >= 0) ::posix_spawn_file_actions_adddup2(&files, line, its_line);
-  const int error =
-      ::posix_spawnp(&process_, arguments[0], &files, &own_group, arguments.data(), environ);
-  ::posix_spawn_file_actions_destroy(&files);
-  ::posix_spawnattr_destroy(&own_group);
-  if (error == 0) return;
-  process_ = -1;
-  throw BoardError(std::string("qemu-system-arm cannot be started: ") + std::strerror(error) +
-                   "; Debian: apt install qemu-system-arm");
+  process_ = become(arguments.data(), line, its_line);
 }
 
 // The board opens both pipes before it says anything; whoever opens one to write waits for a
@@ -177,9 +211,23 @@ void Emulator::valves() {
   wires_.valves(tick, open, (flags & board::has_current) != 0);
 }
 
+// A board that suffers asks for the same reading again, or not any more.
+bool Emulator::suffers(signals::Tick tick) {
+  const Mishap mishap = wires_.mishap ? wires_.mishap(tick) : Mishap{};
+  if (mishap.what == Mishap::What::none) return false;
+  const bool stalls = mishap.what == Mishap::What::stall;
+  const std::uint8_t answer[] = {static_cast<std::uint8_t>(mishap.ticks),
+                                 static_cast<std::uint8_t>(mishap.ticks >> 8),
+                                 stalls ? board::mishap::stalls : board::mishap::resets};
+  put(answer);
+  return true;
+}
+
 void Emulator::reading() {
   const signals::Tick tick = number(8);
-  const signals::Reading r = wires_.read({byte()}, tick);
+  const signals::Channel channel{byte()};
+  if (suffers(tick)) return;
+  const signals::Reading r = wires_.read(channel, tick);
   const std::uint8_t answer[] = {static_cast<std::uint8_t>(r.counts),
                                  static_cast<std::uint8_t>(r.counts >> 8),
                                  static_cast<std::uint8_t>(r.status)};

@@ -14,12 +14,21 @@
 
 namespace sinew::plant {
 
+// What befalls the program of a board itself, for tests: it stands still for so many ticks, as one
+// that hangs where they are more than its watchdog waits, or is reset.
+struct Mishap {
+  enum class What : std::uint8_t { none, stall, reset } what = What::none;
+  std::uint16_t ticks = 0;
+};
+
 // What the board's valves and its converter are connected to, in the board's numbers and the run's
 // ticks; -1 while nothing runs.
 struct Wires {
   // Valves have changed: bit i is open now. Without current all coils are at rest.
   std::function<void(signals::Tick tick, std::uint32_t open, bool current)> valves;
   std::function<signals::Reading(signals::Channel, signals::Tick tick)> read;
+  // Asked before each reading, of an application only; empty: nothing ever does.
+  std::function<Mishap(signals::Tick tick)> mishap = {};
 };
 
 class Emulator {
@@ -50,6 +59,7 @@ class Emulator {
   std::uint8_t byte();
   void valves();
   void reading();
+  bool suffers(signals::Tick tick);
 
   Wires wires_;
   std::string folder_, from_path_, to_path_;

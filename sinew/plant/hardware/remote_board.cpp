@@ -19,7 +19,28 @@ bool runs(BoardState state) noexcept {
   return state == BoardState::running || state == BoardState::hold || state == BoardState::vent;
 }
 
+bool is_latched(BoardState state) noexcept {
+  return state == BoardState::fault || state == BoardState::dump;
+}
+
+const char* in_words(BoardState latched) noexcept {
+  return latched == BoardState::dump ? "dump" : "fault";
+}
+
+[[noreturn]] void refuse_version(std::uint8_t version) {
+  throw BoardError(fmt::format("the board speaks version {} of the protocol, this program {}",
+                               version, link::protocol_version));
+}
+
 }  // namespace
+
+std::string fault_found(const link::Identity& who) {
+  using control::BoardFault;
+  const bool usual = who.fault == BoardFault::none || who.fault == BoardFault::power_up ||
+                     who.fault == BoardFault::asked || who.fault == BoardFault::host_silent;
+  if (usual || !is_latched(who.state)) return "";
+  return fmt::format("the board was in {}: {}", in_words(who.state), link::in_words(who.fault));
+}
 
 RemoteBoard::RemoteBoard(BoardLine line, std::uint8_t number, std::uint16_t period)
     : line_(std::move(line)), number_(number), joiner_(period) {
@@ -71,8 +92,19 @@ void RemoteBoard::hear(const link::Edges& edges) noexcept {
   }
 }
 
+// Records come in order; behind one that is lost none is taken, it is asked for again.
+void RemoteBoard::hear(const link::FaultLog& record) {
+  if (record.part != fault_log_.size()) return;
+  if (record.count > 0)
+    fault_log_.push_back(record);
+  else
+    logged_all_ = record.part == record.parts;
+}
+
 void RemoteBoard::hear(const link::Frame& frame) noexcept {
   if (frame.envelope.board != number_) return;
+  if (frame.version != link::protocol_version) other_version_ = frame.version;
+  if (link::FaultLog m; wants_log_ && link::decode(frame, m) == Code::done) hear(m);
   if (link::Answer m; link::decode(frame, m) == Code::done) {
     answer_ = m;
     if (m.code != Code::done) refusal_ = m;
@@ -87,6 +119,7 @@ void RemoteBoard::hear(const link::Frame& frame) noexcept {
     telemetry_ = t;
     state_ = t->state;
     fault_ = t->fault;
+    line_there_ = t->link;
   }
 }
 
@@ -130,6 +163,7 @@ link::Identity RemoteBoard::identify() {
   }
   if (why_ == Why::gone) throw BoardError("the line to the board is gone");
   if (identity_) return *identity_;
+  if (other_version_) refuse_version(*other_version_);
   const link::LineCount& came = decoder_.line();
   if (came.frames > 0)
     throw BoardError(
@@ -180,15 +214,32 @@ void RemoteBoard::arm() {
   if (second.code != Code::done) refuse(second, "to be armed");
 }
 
+void RemoteBoard::refuse_as_found(const link::Identity& who) const {
+  if (runs(who.state) || who.state == BoardState::armed)
+    throw BoardError("the board is in a run already: is another program at this line?");
+  if (expected_low_ && *expected_low_ != who.active_low) {
+    const auto level = [](bool low) { return low ? "low" : "high"; };
+    throw BoardError(
+        fmt::format("wiring.polarity: found \"{0} opens\"; expected \"{1} opens\": this board's "
+                    "outputs are {1} for current in a coil, so that with the other drivers all "
+                    "coils have current while it is at rest; other drivers, or another "
+                    "active_low() in the board's port",
+                    level(*expected_low_), level(who.active_low)));
+  }
+  if (is_latched(who.state) && is_grave(who.fault) && !may_clear_)
+    throw BoardError(
+        fmt::format("the board is in {}: {}; look for the cause, then say clear_fault, or switch "
+                    "the board off and on",
+                    in_words(who.state), link::in_words(who.fault)));
+}
+
 link::Identity RemoteBoard::prepare(const link::Configuration& configuration) {
   if (why_ != Why::gone) why_ = Why::none;
   const link::Identity who = identify();
-  if (who.protocol != link::protocol_version)
-    throw BoardError(fmt::format("the board speaks version {} of the protocol, this program {}",
-                                 who.protocol, link::protocol_version));
+  if (who.protocol != link::protocol_version) refuse_version(who.protocol);
   state_ = who.state;
-  if (runs(state_) || state_ == BoardState::armed)
-    throw BoardError("the board is in a run already: is another program at this line?");
+  fault_ = who.fault;
+  refuse_as_found(who);
   configure(configuration);
   clear_fault();
   const link::Answer edges = ask(link::EdgesWanted{true});
@@ -246,6 +297,34 @@ bool RemoteBoard::shut_down() noexcept {
     silent = telemetry_ == nullptr ? silent + 1 : 0;
   }
   return false;
+}
+
+// --- after a run --------------------------------------------------------------------------------
+
+std::vector<link::Telemetry> RemoteBoard::fault_log() {
+  constexpr double silence = 0.3;  // between two records
+  constexpr int most = 20;         // questions in all
+  fault_log_.clear();
+  logged_all_ = false;
+  wants_log_ = true;
+  for (int i = 0; i < most && !logged_all_ && why_ != Why::gone; ++i) {
+    if (!send(link::ReadFaultLog{static_cast<std::uint16_t>(fault_log_.size())})) break;
+    for (double left = silence; left > 0 && !logged_all_ && why_ != Why::gone;) {
+      const std::size_t had = fault_log_.size();
+      telemetry_ = nullptr;
+      if (!listen(0.01) || telemetry_ != nullptr) left -= 0.01;
+      if (fault_log_.size() > had) left = silence;
+    }
+  }
+  wants_log_ = false;
+  if (!logged_all_) throw BoardError("the board's log of its fault did not come whole");
+
+  std::vector<link::Telemetry> out;
+  link::TelemetryJoiner joiner(1);
+  for (const link::FaultLog& record : fault_log_)
+    if (const link::Telemetry* t = joiner.take(record.kind, {record.data.data(), record.count}))
+      out.push_back(*t);
+  return out;
 }
 
 }  // namespace sinew::plant

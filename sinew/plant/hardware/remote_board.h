@@ -29,6 +29,17 @@ struct BoardError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Has a board that is found so to be looked into before it drives again? Its watchdog has bitten,
+// its memory has changed, or a muscle did not let its air out.
+constexpr bool is_grave(control::BoardFault fault) noexcept {
+  using enum control::BoardFault;
+  return fault == watchdog || fault == parameters || fault == state || fault == not_empty;
+}
+
+// "the board was in fault: readings did not come", of a board that prepare() found so; "" where it
+// was only switched on, or left by its host.
+std::string fault_found(const link::Identity& who);
+
 class RemoteBoard {
  public:
   // `number` is the board's on its line, `period` that of its controller [ticks].
@@ -44,8 +55,15 @@ class RemoteBoard {
   void clear_fault();
   // Lets it take a first command; valves still do not move.
   void arm();
-  // All of it, with edges wanted.
+  // All of it, with edges wanted. Refuses a board whose outputs have other levels than its valves'
+  // drivers are said to take, and one whose fault somebody should look into, but for what the next
+  // two allow. The identity is that of before: its state and fault were what is cleared.
   link::Identity prepare(const link::Configuration& configuration);
+  // The drivers between its outputs and the coils take 0 for current, or 1. Never told: there are
+  // no wires.
+  void expect_levels(bool active_low) noexcept { expected_low_ = active_low; }
+  // A fault that has to be looked into has been.
+  void allow_clearing() noexcept { may_clear_ = true; }
 
   // Waits for the next telemetry, of a run or of none. nullptr: none came.
   const link::Telemetry* look(double seconds) noexcept;
@@ -62,6 +80,13 @@ class RemoteBoard {
   // Ends the run at once and waits for the valves to be at rest. True: the board says so.
   bool shut_down() noexcept;
 
+  // --- after a run ---
+
+  // The telemetry that the board keeps until it is armed again, oldest first, also what a spoiled
+  // line never brought: of the 200 ms before its fault, or of a run's end where there was none.
+  // Empty: nothing has run. Throws BoardError where it does not come whole.
+  std::vector<link::Telemetry> fault_log();
+
   // --- for whoever looks ---
 
   // Why next() has returned nullptr: it ended, it is silent, or the line is gone.
@@ -73,6 +98,8 @@ class RemoteBoard {
   // The last answer that was no `done`.
   const std::optional<link::Answer>& refusal() const noexcept { return refusal_; }
   const link::LineCount& line() const noexcept { return decoder_.line(); }
+  // The line as the board has it, by its last telemetry.
+  const link::LinkSeen& line_there() const noexcept { return line_there_; }
 
  private:
   template <class M>
@@ -85,7 +112,9 @@ class RemoteBoard {
   bool work_off() noexcept;
   bool listen(double seconds) noexcept;
   void hear(const link::Frame& frame) noexcept;
+  void refuse_as_found(const link::Identity& who) const;
   void hear(const link::Edges& edges) noexcept;
+  void hear(const link::FaultLog& record);
   [[noreturn]] void refuse(const link::Answer& answer, const std::string& what) const;
 
   BoardLine line_;
@@ -99,11 +128,17 @@ class RemoteBoard {
   std::optional<link::Identity> identity_;
   std::optional<link::Answer> answer_, refusal_;
   const link::Telemetry* telemetry_ = nullptr;
+  std::optional<std::uint8_t> other_version_;  // of the protocol, that the board speaks
+  std::optional<bool> expected_low_;
+  bool may_clear_ = false;
   bool has_run_ = false;
   Why why_ = Why::none;
   control::BoardState state_ = control::BoardState::fault;
   control::BoardFault fault_ = control::BoardFault::none;
+  link::LinkSeen line_there_;
   std::vector<signals::Edge> edge_;
+  std::vector<link::FaultLog> fault_log_;  // its records, from the first one on
+  bool logged_all_ = false, wants_log_ = false;
 };
 
 }  // namespace sinew::plant

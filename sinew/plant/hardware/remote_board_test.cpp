@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "sinew/control/link/test_wire.h"
+#include "sinew/control/link/words.h"
+#include "sinew/signals/crc.h"
 
 namespace sinew::plant {
 namespace {
@@ -25,10 +29,14 @@ struct Parrot {
   link::Bytes says, waiting;
 };
 
-std::string refusal(const link::Identity& who, std::uint8_t number = 1) {
+constexpr const char* goes_on = "board 1 does not answer: is it on this line, at this rate?";
+
+std::string refusal_of(
+    const link::Bytes& says, const std::function<void(RemoteBoard&)>& with = [](RemoteBoard&) {}) {
   Parrot parrot;
-  parrot.says = link::frame_of(who, {number, 0});
+  parrot.says = says;
   RemoteBoard board(parrot.line(), 1, 100);
+  with(board);
   try {
     board.prepare({});
   } catch (const BoardError& e) {
@@ -37,8 +45,66 @@ std::string refusal(const link::Identity& who, std::uint8_t number = 1) {
   return "";
 }
 
+std::string refusal(
+    const link::Identity& who, std::uint8_t number = 1,
+    const std::function<void(RemoteBoard&)>& with = [](RemoteBoard&) {}) {
+  return refusal_of(link::frame_of(who, {number, 0}), with);
+}
+
 TEST(RemoteBoard, AnotherVersionOfTheProtocolIsRefused) {
-  EXPECT_EQ(refusal({.protocol = 2}), "the board speaks version 2 of the protocol, this program 1");
+  EXPECT_EQ(refusal({.protocol = 3}), "the board speaks version 3 of the protocol, this program 2");
+  // The first version's identity as it came over the wire: 51 bytes.
+  link::Bytes old = {0xaa, 0x55, 0x81, 0, 6 + 51, 1, 1};
+  old.resize(old.size() + 51);
+  old[7] = 1;
+  const auto put = [&](std::uint32_t sum, int bytes) {
+    for (int i = 0; i < bytes; ++i) old.push_back(static_cast<std::uint8_t>(sum >> 8 * i));
+  };
+  put(signals::crc32(std::span(old).subspan(2)), 4);
+  put(signals::crc16(std::span(old).subspan(2)), 2);
+  EXPECT_EQ(refusal_of(old), "the board speaks version 1 of the protocol, this program 2");
+}
+
+// Coils would have current while the board rests, and none while it drives.
+TEST(RemoteBoard, OutputsOfTheOtherLevelAreRefusedBeforeAnythingIsConfigured) {
+  for (const bool board : {false, true})
+    for (const bool robot : {false, true}) {
+      const std::string said =
+          refusal({.active_low = board}, 1, [&](RemoteBoard& b) { b.expect_levels(robot); });
+      if (board == robot) {
+        EXPECT_EQ(said, goes_on);
+      } else {
+        EXPECT_NE(said.find(board ? "found \"high opens\"; expected \"low opens\""
+                                  : "found \"low opens\"; expected \"high opens\""),
+                  std::string::npos)
+            << said;
+      }
+    }
+  EXPECT_EQ(refusal({.active_low = true}), goes_on) << "no wires";
+}
+
+TEST(RemoteBoard, AGraveFaultIsClearedOnlyWhereThatIsAllowed) {
+  using enum control::BoardFault;
+  using control::BoardState;
+  const auto allow = [](RemoteBoard& b) { b.allow_clearing(); };
+  for (const auto fault : {watchdog, parameters, control::BoardFault::state, not_empty}) {
+    const link::Identity who{.state = BoardState::dump, .fault = fault};
+    EXPECT_EQ(refusal(who), std::string("the board is in dump: ") + link::in_words(fault) +
+                                "; look for the cause, then say clear_fault, or switch the board "
+                                "off and on");
+    EXPECT_EQ(refusal(who, 1, allow), goes_on);
+    EXPECT_EQ(fault_found(who), std::string("the board was in dump: ") + link::in_words(fault));
+  }
+  for (const auto fault : {supervisor, controller, held_too_long}) {
+    const link::Identity who{.state = BoardState::fault, .fault = fault};
+    EXPECT_EQ(refusal(who), goes_on);
+    EXPECT_EQ(fault_found(who), std::string("the board was in fault: ") + link::in_words(fault));
+  }
+  for (const auto fault : {none, power_up, host_silent, asked}) {
+    const link::Identity who{.state = BoardState::fault, .fault = fault};
+    EXPECT_EQ(refusal(who), goes_on);
+    EXPECT_EQ(fault_found(who), "");
+  }
 }
 
 TEST(RemoteBoard, ABoardThatRunsAlreadyIsLeftAlone) {

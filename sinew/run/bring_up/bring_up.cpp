@@ -106,13 +106,17 @@ struct BringUp::Impl {
         robot(std::move(robot_file)),
         board(only_board(bench)),
         configuration(configuration_of(bench)),
-        muscles(bench_muscles(bench, board)),
+        muscles(bench_muscles(bench, board, nullptr)),
         remote(&b),
         lead(l),
         person(std::move(p)),
         folder(where),
         progress(read_progress(folder.path() / "bring-up.json", robot)) {
-    write_file(folder.path() / "wiring.svg", wiring_drawing(e, board));
+    draw_wiring();
+  }
+
+  void draw_wiring() const {
+    write_file(folder.path() / "wiring.svg", wiring_drawing(e, board, pins));
   }
 
   // --- what a step does ---
@@ -123,6 +127,9 @@ struct BringUp::Impl {
       return std::string(name.begin(), std::find(name.begin(), name.end(), '\0'));
     };
     progress.board = fmt::format("{}, firmware {}", text(who.board), text(who.firmware));
+    pins = pins_of(text(who.board));
+    muscles = bench_muscles(e, board, pins);
+    draw_wiring();
     Result out{.said = {progress.board}};
     if (who.protocol != link::protocol_version)
       out.wrong.push_back(
@@ -133,7 +140,7 @@ struct BringUp::Impl {
   }
 
   std::string wire_of(const std::string& sensor) const {
-    for (const Wire& wire : sensor_wires(e, board))
+    for (const Wire& wire : sensor_wires(e, board, pins))
       if (wire.name == sensor) return wire.in_words();
     return "";
   }
@@ -190,7 +197,7 @@ struct BringUp::Impl {
     Result out;
     for (const BenchMuscle& m : muscles)
       for (const bool inlet : {true, false}) {
-        const Trial t = try_out(*remote, configuration, lead, click(m, inlet));
+        const Trial t = tried(click(m, inlet));
         const std::string what = fmt::format("the {} of {} ({})", inlet ? "inlet" : "exhaust",
                                              m.name, inlet ? m.inlet : m.exhaust);
         if (!t.problem.empty()) return {{"the board ended the trial: " + t.problem}, {}};
@@ -219,7 +226,7 @@ struct BringUp::Impl {
   // Coils without current let no air in.
   Result rest_with_air() {
     ask_for("Now open the supply's air, and stay clear of the machine. Is it open?");
-    const Trial t = try_out(*remote, configuration, lead, {{1.5, {}}});
+    const Trial t = tried({{1.5, {}}});
     Result out;
     if (!t.problem.empty()) out.wrong.push_back("the board ended the trial: " + t.problem);
     for (const BenchMuscle& m : muscles) {
@@ -241,8 +248,7 @@ struct BringUp::Impl {
   }
 
   Result muscle(std::size_t which) {
-    const Trial t = try_out(*remote, configuration, lead,
-                            stages_for(muscles[which], configuration.spine.joints));
+    const Trial t = tried(stages_for(muscles[which], configuration.spine.joints));
     const Judgement j = judge(muscles, which, t);
     filled_angle[muscles[which].name] = j.filled_angle;
     return {j.wrong, {j.said}};
@@ -253,7 +259,7 @@ struct BringUp::Impl {
     std::vector<control::Duties> all(configuration.spine.joints);
     for (const BenchMuscle& m : muscles)
       if (m.flexor) all[m.board_joint] = {100, 0, 0, 0};
-    const Trial t = try_out(*remote, configuration, lead, {{0.4, all}}, End::at_once);
+    const Trial t = tried({{0.4, all}}, End::at_once);
     Result out;
     if (!t.problem.empty()) out.wrong.push_back("the board ended the trial: " + t.problem);
     const Recording after = listen(*remote, configuration, 1.0);
@@ -273,6 +279,19 @@ struct BringUp::Impl {
           "the emergency stop does not let the air out: nobody works at this machine "
           "until it does");
     return out;
+  }
+
+  // While valves move a person can stop them.
+  Trial tried(const std::vector<Stage>& stages, End end = End::by_plan) {
+    struct Moves {
+      explicit Moves(const Person& p) : person(p) { tell(true); }
+      ~Moves() { tell(false); }
+      void tell(bool now) const {
+        if (person.moves) person.moves(now);
+      }
+      const Person& person;
+    } const moves(person);
+    return try_out(*remote, configuration, lead, stages, end, person.stops);
   }
 
   // --- the person ---
@@ -318,6 +337,7 @@ struct BringUp::Impl {
   experiment::Experiment e;
   std::string robot;
   control::Board board;
+  const Pins* pins = nullptr;  // of the board that has answered
   link::Configuration configuration;
   std::vector<BenchMuscle> muscles;
   plant::RemoteBoard* remote;
@@ -343,6 +363,9 @@ bool BringUp::go() {
         impl_->person.tell("Mend that, then run the same command again: it goes on from here.");
         return false;
       }
+  } catch (const Stopped&) {
+    impl_->person.tell("Stopped: the muscles were vented. The same command goes on from here.");
+    return false;
   } catch (const NobodyAnswers&) {
     impl_->person.tell("Stopped. The same command goes on from here.");
     return false;

@@ -25,6 +25,10 @@ struct Person {
   std::function<void(const std::string&)> tell;
   // Yes, no, or nobody who answers.
   std::function<std::optional<bool>(const std::string&)> ask;
+  // Called with true before valves move and with false after it; may be empty.
+  std::function<void(bool)> moves = {};
+  // Asked in each period in which they move: is there a stop? May be empty.
+  std::function<bool()> stops = {};
 };
 
 // Returns an experiment in which a robot hangs empty and does nothing, for its board's constants

@@ -70,7 +70,11 @@ struct Day {
     };
     BoardInThread board(cables.between(body.wires()));
     plant::RemoteBoard remote(board.line(), 1, 100);
-    return BringUp(bench, robot, remote, 0, {tell, ask}, folder.path).go();
+    const bool done =
+        BringUp(bench, robot, remote, 0, {.tell = tell, .ask = ask, .stops = stops}, folder.path)
+            .go();
+    left = remote.state();
+    return done;
   }
   bool has_said(const std::string& words) const { return said.find(words) != said.npos; }
   // The board's number of a sensor's channel.
@@ -88,6 +92,8 @@ struct Day {
   WiredBody body;
   Cables cables;
   std::function<std::optional<bool>(const std::string&)> answers;
+  std::function<bool()> stops;
+  control::BoardState left = control::BoardState::fault;  // the board, at the end
   std::string said;
 };
 
@@ -115,6 +121,18 @@ TEST(BringUp, OtherRobotsPassAsWell) {
     Day day({}, std::string(SINEW_SOURCE_DIR "/robots/") + name + "/robot.toml");
     EXPECT_TRUE(day.go()) << name << "\n" << day.said;
   }
+}
+
+TEST(BringUp, AStopWhileValvesMoveVentsAndIsGoneOnFrom) {
+  Day day;
+  int periods = 0;
+  day.stops = [&] { return ++periods == 250; };
+  EXPECT_FALSE(day.go());
+  EXPECT_TRUE(day.has_said("Stopped: the muscles were vented.")) << day.said;
+  EXPECT_EQ(day.left, control::BoardState::idle);
+  EXPECT_EQ(periods, 250) << "nothing moves after it";
+  day.stops = {};
+  EXPECT_TRUE(day.go()) << day.said;
 }
 
 TEST(BringUp, GoesOnWhereItStopped) {

@@ -12,6 +12,7 @@
 #include "sinew/control/link/baud.h"
 #include "sinew/control/setup/boards.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/run/bring_up/wiring_drawing.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/setup/installation.h"
 
@@ -24,10 +25,13 @@ namespace {
 constexpr std::uint32_t line_rate = 921'600;  // of every board's application [bits/s]
 
 constexpr FirmwareBoard boards[] = {
-    {"mps2-an386", "Arm's MPS2 with image AN386, in an emulator", 32, 32, ""},
+    {"mps2-an386", "Arm's MPS2 with image AN386, in an emulator", 32, 32, "", ""},
     {"stm32f405", "a board with an STM32F405RG and a crystal of 8 MHz", 14, 16,
      "openocd -f interface/stlink.cfg -f target/stm32f4x.cfg -c \"program {file} verify reset "
-     "exit\""},
+     "exit\"",
+     ""},
+    {"teensy41", "PJRC's Teensy 4.1, an i.MX RT1062", 14, 16,
+     "teensy_loader_cli -mmcu=TEENSY41 -w -v {file}", ".hex"},
 };
 
 std::string quoted(const std::string& word) {
@@ -64,6 +68,23 @@ void work(const std::string& command, const fs::path& said) {
   const std::string line = command + " > " + quoted(said.string()) + " 2>&1";
   if (std::system(line.c_str()) != 0)
     throw std::runtime_error("the firmware was not built; " + command + last_lines(said));
+}
+
+// The program in another form: bare memory, or as a text of addresses and bytes.
+fs::path converted(const fs::path& image, const std::string& extension, const fs::path& said) {
+  const bool bare = extension == ".bin";
+  if (!bare && extension != ".hex") return image;
+  const fs::path out = image.string() + extension;
+  work(fmt::format("arm-none-eabi-objcopy -O {} {} {}", bare ? "binary" : "ihex",
+                   quoted(image.string()), quoted(out.string())),
+       said);
+  return out;
+}
+
+void require_form(const FirmwareBoard& board, const fs::path& file) {
+  if (*board.form == 0 || file.extension() == board.form) return;
+  config::fail({file.string(), 0, 0}, "file", config::in_quotes(file.extension().string()),
+               fmt::format("\"{}\", which is what {} is loaded with", board.form, board.name));
 }
 
 bool has_program(const std::string& name) {
@@ -106,11 +127,18 @@ void require_fits(const std::string& robot, const FirmwareBoard& board) {
            fmt::format("what {} bits/s carry", line_rate));
 }
 
+std::string wiring_on(const std::string& robot, const FirmwareBoard& board) {
+  require_fits(robot, board);
+  const experiment::Experiment bench = experiment::load_machine_file(robot).experiment;
+  return wiring_drawing(bench, control::boards(installation(bench)).front(), pins_of(board.name));
+}
+
 void build_firmware(const fs::path& sources, const FirmwareBoard& board, const fs::path& out,
                     bool force) {
   if (!fs::exists(sources / "firmware" / "application.cpp"))
     config::fail({sources.string(), 0, 0}, "", "no sources of Sinew",
                  "the folder that they were cloned into");
+  require_form(board, out);
   refuse_to_overwrite(out, force, {}, out.extension().string());
   require_folder_of(out);
   for (const char* tool : {"cmake", "ninja", "arm-none-eabi-g++"})
@@ -129,21 +157,17 @@ void build_firmware(const fs::path& sources, const FirmwareBoard& board, const f
                   quoted((sources / "firmware" / "cortex-m4f.cmake").string())),
       said);
   work(fmt::format("ninja -C {} {}", quoted(build.string()), image), said);
-  fs::path made = build / "firmware" / image;
-  if (out.extension() == ".bin") {
-    const fs::path bare = build / "bare.bin";
-    work(fmt::format("arm-none-eabi-objcopy -O binary {} {}", quoted(made.string()),
-                     quoted(bare.string())),
-         said);
-    made = bare;
-  }
+  const fs::path made = converted(build / "firmware" / image, out.extension().string(), said);
   std::ifstream in(made, std::ios::binary);
   write_file(out, std::string(std::istreambuf_iterator<char>(in), {}));
 }
 
 std::string flash_command(const FirmwareBoard& board, const fs::path& file) {
+  require_form(board, file);
   std::string out = board.flash;
-  if (const std::size_t at = out.find("{file}"); at != out.npos) out.replace(at, 6, file.string());
+  const std::string where = file.extension() == ".bin" ? " 0x08000000" : "";  // an ELF file says it
+  if (const std::size_t at = out.find("{file}"); at != out.npos)
+    out.replace(at, 6, file.string() + where);
   return out;
 }
 

@@ -14,6 +14,7 @@ struct FirmwareBoard {
   const char* what;
   std::size_t inputs, outputs;  // that its pins have
   const char* flash;            // command line, with {file}; empty: it only runs in an emulator
+  const char* form;             // ".hex", if the command takes no other; empty: any
 };
 std::span<const FirmwareBoard> firmware_boards();
 
@@ -24,13 +25,19 @@ const FirmwareBoard& firmware_board(const std::string& name);
 // valves, several boards, telemetry that its line does not carry.
 void require_fits(const std::string& robot, const FirmwareBoard& board);
 
-// Builds the board's program from Sinew's sources, into `out`; ".bin" is the bare memory, anything
-// else an ELF file. Throws config::Error where the sources or the compiler are missing, or where
-// `out` is there already, and std::runtime_error with the compiler's last words.
+// Returns which wire goes where on such a board, as a picture (wiring_drawing.h). Throws as
+// require_fits() does.
+std::string wiring_on(const std::string& robot, const FirmwareBoard& board);
+
+// Builds the board's program from Sinew's sources, into `out`; ".bin" is the bare memory, ".hex" an
+// Intel HEX file, anything else an ELF file. Throws config::Error where the sources or the compiler
+// are missing, where `out` is there already or the board is not loaded with such a file, and
+// std::runtime_error with the compiler's last words.
 void build_firmware(const std::filesystem::path& sources, const FirmwareBoard& board,
                     const std::filesystem::path& out, bool force);
 
-// Returns the command line that brings the file onto the board.
+// Returns the command line that brings the file onto the board. Throws config::Error for a form of
+// file that the command does not take.
 std::string flash_command(const FirmwareBoard& board, const std::filesystem::path& file);
 
 }  // namespace sinew::run

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "sinew/config/diagnostics.h"
+#include "sinew/run/bring_up/pins.h"
 
 namespace sinew::run {
 namespace {
@@ -56,6 +60,37 @@ TEST(Firmware, TheCommandThatFlashesNamesTheFile) {
   EXPECT_NE(flash_command(firmware_board("stm32f405"), "leg.elf").find("program leg.elf verify"),
             std::string::npos);
   EXPECT_EQ(flash_command(firmware_board("mps2-an386"), "leg.elf"), "");
+  EXPECT_EQ(flash_command(firmware_board("teensy41"), "leg.hex"),
+            "teensy_loader_cli -mmcu=TEENSY41 -w -v leg.hex");
+}
+
+TEST(Firmware, AFileThatTheBoardIsNotLoadedWithIsRefusedBeforeItIsBuilt) {
+  const FirmwareBoard& board = firmware_board("teensy41");
+  const std::string expected = "found \".elf\"; expected \".hex\", which is what teensy41";
+  const std::string shown = refusal([&] { flash_command(board, "leg.elf"); });
+  EXPECT_NE(shown.find(expected), std::string::npos) << shown;
+  const std::string built =
+      refusal([&] { build_firmware(SINEW_SOURCE_DIR, board, "/tmp/not-written.elf", false); });
+  EXPECT_NE(built.find(expected), std::string::npos) << built;
+}
+
+TEST(Firmware, TheWiringNamesEachPinOfTheBoardOnce) {
+  const std::string leg = SINEW_SOURCE_DIR "/robots/leg/robot.toml";
+  for (const Pins& pins : all_pins()) {
+    const FirmwareBoard& board = firmware_board(std::string(pins.board));
+    EXPECT_EQ(pins.inputs.size(), board.inputs);
+    EXPECT_EQ(pins.outputs.size(), board.outputs);
+    std::vector<std::string_view> all{pins.supply};
+    all.insert(all.end(), pins.inputs.begin(), pins.inputs.end());
+    all.insert(all.end(), pins.outputs.begin(), pins.outputs.end());
+    std::ranges::sort(all);
+    EXPECT_EQ(std::ranges::adjacent_find(all), all.end()) << pins.board;
+
+    const std::string svg = wiring_on(leg, board);
+    EXPECT_NE(svg.find("input 6" + in_brackets(pins.inputs, 6)), std::string::npos);
+    EXPECT_NE(svg.find("output 7" + in_brackets(pins.outputs, 7)), std::string::npos);
+    EXPECT_NE(svg.find(std::string(pins.supply)), std::string::npos);
+  }
 }
 
 }  // namespace

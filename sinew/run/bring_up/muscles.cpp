@@ -132,9 +132,9 @@ double loss(const BenchMuscle& m, const Trial& t) {
 
 }  // namespace
 
-std::vector<BenchMuscle> bench_muscles(const experiment::Experiment& e,
-                                       const control::Board& board) {
-  const std::vector<Wire> valves = valve_wires(e, board);
+std::vector<BenchMuscle> bench_muscles(const experiment::Experiment& e, const control::Board& board,
+                                       const Pins* pins) {
+  const std::vector<Wire> valves = valve_wires(e, board, pins);
   std::vector<BenchMuscle> out;
   for (std::size_t j = 0; j < board.spine.joints; ++j) {
     const control::JointConfig& c = board.spine.joint[j];

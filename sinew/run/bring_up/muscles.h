@@ -8,6 +8,7 @@
 
 #include "sinew/control/setup/boards.h"
 #include "sinew/experiment/experiment.h"
+#include "sinew/run/bring_up/pins.h"
 #include "sinew/run/bring_up/trial.h"
 
 namespace sinew::run {
@@ -24,9 +25,9 @@ struct BenchMuscle {
   std::string angle_sensor, tension_sensor;
 };
 
-// Those of antagonistic joints, in the order of the joints, flexor first.
+// Those of antagonistic joints, in the order of the joints, flexor first; `pins` as of wires.h.
 std::vector<BenchMuscle> bench_muscles(const experiment::Experiment& experiment,
-                                       const control::Board& board);
+                                       const control::Board& board, const Pins* pins);
 
 // The stages that try one of them (`judge` reads what comes of them).
 std::vector<Stage> stages_for(const BenchMuscle& muscle, std::size_t joints);

@@ -56,11 +56,15 @@ class Run {
         lead_(lead) {}
 
   // False: it is over.
-  bool work_off(const Stage& stage, Recording& out) {
+  bool work_off(const Stage& stage, Recording& out, const std::function<bool()>& stops) {
     const Tick begun = now_;
     for (;;) {
       const double time = signals::tick_seconds * static_cast<double>(now_ - begun);
       if (time >= stage.seconds - 1e-9) return true;
+      if (stops && stops()) {
+        (void)board_->shut_down();
+        throw Stopped{};
+      }
       if (!send(command_of(stage, joints_, now_ == 0 ? 0 : now_ + lead_ * period_)) || !hear())
         return false;
       out.samples.push_back(sample_of(*told_, time + signals::tick_seconds * period_));
@@ -109,13 +113,13 @@ double Recording::after(std::size_t channel) const {
 }
 
 Trial try_out(plant::RemoteBoard& board, const link::Configuration& configuration, int lead,
-              const std::vector<Stage>& stages, End end) {
+              const std::vector<Stage>& stages, End end, const std::function<bool()>& stops) {
   board.prepare(configuration);
   Run run(board, configuration, lead);
   Trial out;
   out.stages.resize(stages.size());
   for (std::size_t i = 0; i < stages.size(); ++i)
-    if (!run.work_off(stages[i], out.stages[i])) {
+    if (!run.work_off(stages[i], out.stages[i], stops)) {
       out.problem = run.problem();
       return out;
     }

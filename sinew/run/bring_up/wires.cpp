@@ -27,11 +27,13 @@ std::string owner_of(const robot::Robot& robot, std::size_t valve) {
 
 }  // namespace
 
-std::vector<Wire> sensor_wires(const experiment::Experiment& e, const control::Board& board) {
+std::vector<Wire> sensor_wires(const experiment::Experiment& e, const control::Board& board,
+                               const Pins* pins) {
   std::vector<Wire> out;
   for (std::size_t i = 0; i < board.channel.size(); ++i) {
     const robot::Sensor& s = e.robot.sensors[board.channel[i]];
-    Wire wire{s.name, fmt::format("input {}", i), fmt::format("channel {}", s.channel)};
+    Wire wire{s.name, fmt::format("input {}{}", i, pins ? in_brackets(pins->inputs, i) : ""),
+              fmt::format("channel {}", s.channel)};
     for (const robot::Wiring::Signal& signal : e.wiring.signals)
       if (e.wiring.present && signal.name == s.name)
         wire.elsewhere += fmt::format(", pins {} and {}", signal.pin, signal.ground);
@@ -40,7 +42,8 @@ std::vector<Wire> sensor_wires(const experiment::Experiment& e, const control::B
   return out;
 }
 
-std::vector<Wire> valve_wires(const experiment::Experiment& e, const control::Board& board) {
+std::vector<Wire> valve_wires(const experiment::Experiment& e, const control::Board& board,
+                              const Pins* pins) {
   const std::vector<robot::ValveBit> bits = robot::bits_of(e.robot, e.wiring);
   std::vector<Wire> out;
   for (std::size_t i = 0; i < board.valve.size(); ++i) {
@@ -50,7 +53,7 @@ std::vector<Wire> valve_wires(const experiment::Experiment& e, const control::Bo
     const auto bit = std::ranges::find_if(
         bits, [&](const robot::ValveBit& b) { return b.of == of && b.which == which; });
     out.push_back(
-        {of + " " + which, fmt::format("output {}", i),
+        {of + " " + which, fmt::format("output {}{}", i, pins ? in_brackets(pins->outputs, i) : ""),
          (bit == bits.end() ? "no bit" : fmt::format("bit {}", bit->bit)) + pins_of(e, of, inlet)});
   }
   return out;

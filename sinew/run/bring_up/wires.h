@@ -6,19 +6,23 @@
 
 #include "sinew/control/setup/boards.h"
 #include "sinew/experiment/experiment.h"
+#include "sinew/run/bring_up/pins.h"
 
 namespace sinew::run {
 
 struct Wire {
   std::string name;       // "hip_angle", "hip_flexor inlet"
-  std::string at;         // on the board: "input 1", "output 0"
+  std::string at;         // on the board: "input 1 (PA1)", "output 0"
   std::string elsewhere;  // the robot's own numbers: "bit 0, pins 31 and 32"
 
   std::string in_words() const { return at + ": " + elsewhere; }
 };
 
-// By the board's channels and by its valves: input i is its channel i, output i its valve i.
-std::vector<Wire> sensor_wires(const experiment::Experiment& e, const control::Board& board);
-std::vector<Wire> valve_wires(const experiment::Experiment& e, const control::Board& board);
+// By the board's channels and by its valves: input i is its channel i, output i its valve i. `pins`
+// of the board that is there; nullptr: its pins are not known.
+std::vector<Wire> sensor_wires(const experiment::Experiment& e, const control::Board& board,
+                               const Pins* pins);
+std::vector<Wire> valve_wires(const experiment::Experiment& e, const control::Board& board,
+                              const Pins* pins);
 
 }  // namespace sinew::run

@@ -39,8 +39,10 @@ std::string drawn(const Wire& wire, int y, bool sensor) {
 
 }  // namespace
 
-std::string wiring_drawing(const experiment::Experiment& e, const control::Board& board) {
-  const std::vector<Wire> sensors = sensor_wires(e, board), valves = valve_wires(e, board);
+std::string wiring_drawing(const experiment::Experiment& e, const control::Board& board,
+                           const Pins* pins) {
+  const std::vector<Wire> sensors = sensor_wires(e, board, pins),
+                          valves = valve_wires(e, board, pins);
   const int rows = static_cast<int>(std::max(sensors.size(), valves.size()));
   const int bottom = top + row * rows, height = bottom + 100;
   std::string out = fmt::format(
@@ -53,7 +55,10 @@ line {{ stroke: #555; }} circle {{ fill: #555; }} rect {{ fill: #f4f4f0; stroke:
   out += fmt::format(R"(<rect x="{}" y="{}" width="{}" height="{}" rx="6"/>)"
                      "\n",
                      left_edge, top - 45, right_edge - left_edge, bottom - top + 50);
-  out += text((left_edge + right_edge) / 2, top - 25, "middle", "controller board", "head");
+  out +=
+      text((left_edge + right_edge) / 2, top - 25, "middle",
+           pins ? fmt::format("{}, serial line {}", pins->board, pins->line) : "controller board",
+           "head");
   out += text(left_edge - 46, top - 25, "end", "sensors", "head");
   out += text(right_edge + 46, top - 25, "start", "valves, each behind a driver", "head");
   int y = top;
@@ -71,7 +76,8 @@ line {{ stroke: #555; }} circle {{ fill: #555; }} rect {{ fill: #f4f4f0; stroke:
                   "\n",
                   right_edge - 120, bottom + 5, bottom + 63, right_edge - 60);
   out += text(right_edge - 128, bottom + 59, "end",
-              "supply output, in series with the emergency stop");
+              fmt::format("supply output{}, in series with the emergency stop",
+                          pins ? fmt::format(" ({})", pins->supply) : ""));
   return out + "</svg>\n";
 }
 

@@ -8,6 +8,7 @@
 #include "sinew/run/folder/page.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/runnable.h"
+#include "sinew/run/simulation/fault_log.h"
 
 namespace sinew::run {
 
@@ -37,7 +38,9 @@ KeptRun::KeptRun(RunRequest request, Notices notices)
       experiment_(load(request_, notices_)),
       logged_(run::logged_topics(experiment_)),
       place_(std::make_unique<Place>(request_.port, experiment_)) {
-  place_->prepare();
+  place_->prepare(request_.clear_fault);
+  if (!place_->who().empty()) notices_.note("board: " + place_->who());
+  for (const std::string& line : place_->told()) notices_.note(line);
   resolve();
   folder_.emplace(run_folder(request_.folder, request_.force, experiment_.name));
   if (!experiment_.log.enabled) return;
@@ -83,6 +86,21 @@ void KeptRun::keep_trip(const run::Outcome& outcome) {
   write_into(*folder_, summary_name, summary_json(summary, experiment_, *place_, outcome));
 }
 
+// What the board knows of its fault, and the line may not have brought. Returns where it is.
+std::string KeptRun::keep_fault_log() try {
+  plant::RemoteBoard* board = place_->board();
+  const bool there = board != nullptr && board->why() != plant::RemoteBoard::Why::gone;
+  if (!there) return "";
+  const std::vector<link::Telemetry> log = board->fault_log();
+  if (log.empty()) return "";
+  write_into(*folder_, fault_log_name, fault_log_csv(log, experiment_));
+  return fmt::format("\nthe board's own log of its last {} ms: {}", 10 * log.size(),
+                     (folder_->work() / fault_log_name).string());
+} catch (const plant::BoardError& e) {
+  notices_.warning(e.what());
+  return "";
+}
+
 // Leaves the log without an index, as one that was cut off, and throws with its name.
 void KeptRun::break_off(const run::Outcome& outcome) {
   const bool logged = log_.has_value();
@@ -123,7 +141,7 @@ Kept<analysis::Machine> KeptRun::keep(run::Outcome outcome) try {
   if (outcome.ended_early()) {
     warn(analysis::texts(analysis::warnings(outcome.table, machine)), outcome);
     keep_trip(outcome);
-    throw std::runtime_error(black_box(experiment_, outcome));
+    throw std::runtime_error(black_box(experiment_, outcome) + keep_fault_log());
   }
   return keep_files(outcome, std::move(machine));
 } catch (const std::exception& e) {

@@ -28,6 +28,7 @@ struct RunRequest {
   bool allow_unreachable = false;  // aim at the nearest point where the foot path is out of reach
   bool report = true;              // leave report.html
   std::string port;                // where it runs (place.h); empty: simulated
+  bool clear_fault = false;        // a board's fault that has to be looked into has been
 };
 
 // The files and figures that a run left. Machine is analysis::Machine or, of a stand,
@@ -71,6 +72,7 @@ class KeptRun {
   Kept<analysis::Machine> keep_files(run::Outcome& outcome, analysis::Machine machine);
   void warn(const std::vector<std::string>& of_the_log, const run::Outcome& outcome) const;
   void keep_trip(const run::Outcome& outcome);
+  std::string keep_fault_log();
 
   RunRequest request_;
   Notices notices_;

@@ -107,6 +107,9 @@ std::vector<std::string> warnings_beside_the_log(const experiment::Experiment& e
        fmt::format("came later than announced, by {} at worst", supervised.worst_gap));
   tell(outcome.lost, "period", "periods",
        "of the board's telemetry did not come: they are gaps in the log");
+  tell(outcome.foreign, "message", "messages",
+       "named a valve or a time that the board does not have, and were left out: is it another "
+       "robot's board, or a line that spoils what it carries?");
   add_sensors(e, outcome, out);
   add_idle_faults(e, outcome, out);
   tell(seen.missed, "tick", "ticks",

@@ -18,7 +18,7 @@ namespace sinew::run {
 namespace {
 
 constexpr std::string_view serial = "serial:", emulated = "emulated:", lock_step = "lock-step:",
-                           simulated = "simulated";
+                           comedi = "comedi:", simulated = "simulated";
 
 // A device and its rate, 0 where none is given.
 struct Device {
@@ -48,6 +48,12 @@ std::string text_of(const link::Name& name) {
   config::fail({e.path, 0, 0}, key, found, fmt::format("{}, to run it at {}", expected, place));
 }
 
+void refuse_faults(const experiment::Experiment& e, const std::string& place) {
+  if (!e.faults.empty())
+    refuse(e, place, "fault", fmt::format("{} of them", e.faults.size()),
+           "none: only a simulated machine is broken by a word");
+}
+
 void refuse_what_no_board_can(const experiment::Experiment& e, const std::string& place) {
   const std::vector<control::Board> boards = control::boards(installation(e));
   if (boards.size() != 1)
@@ -58,35 +64,32 @@ void refuse_what_no_board_can(const experiment::Experiment& e, const std::string
     refuse(e, place, "log.period", fmt::format("{:g} s", e.log.period),
            fmt::format("a multiple of {:g} s, the period in which a board tells what it knows",
                        period));
-  if (!e.faults.empty() && place.starts_with(serial))
-    refuse(e, place, "fault", fmt::format("{} of them", e.faults.size()),
-           "none: only a simulated machine is broken by a word");
+  if (place.starts_with(serial)) refuse_faults(e, place);
 }
 
+// The firmware's, unless another one is asked for: a port of somebody else may have it.
 std::uint32_t rate_for(const Device& device, const link::Configuration& configuration) {
-  if (device.baud > 0) {
-    if (link::carries(device.baud, link::load_of(configuration.spine, true),
-                      configuration.spine.period))
-      return device.baud;
-    throw plant::BoardError(fmt::format(
-        "{}: {} bits/s do not carry this robot's telemetry; expected {} at least", device.path,
-        device.baud, link::choose_baud(configuration.spine, true, plant::serial_rates())));
-  }
-  const std::uint32_t chosen = link::choose_baud(configuration.spine, true, plant::serial_rates());
-  if (chosen == 0)
-    throw plant::BoardError(device.path +
-                            ": no rate of a serial line carries this robot's telemetry");
-  return chosen;
+  const control::JointControllerConfig& spine = configuration.spine;
+  const std::uint32_t rate = device.baud > 0 ? device.baud : link::firmware_baud;
+  if (link::carries(rate, link::load_of(spine, true), spine.period)) return rate;
+  const std::uint32_t least = link::choose_baud(spine, true, plant::serial_rates());
+  const std::string at = device.path + "@" + std::to_string(least);
+  throw plant::BoardError(fmt::format(
+      "{}: {} bits/s do not carry this robot's telemetry; expected {}", device.path, rate,
+      least == 0        ? std::string("fewer sensors or joints: no rate of a serial line does")
+      : device.baud > 0 ? fmt::format("{} at least", least)
+                        : fmt::format("{}, if your board's firmware has that rate", at)));
 }
 
 }  // namespace
 
 std::string problem_of_place(const std::string& place) {
   const std::string expected =
-      "expected simulated, serial:DEVICE, serial:DEVICE@RATE, emulated:FILE or lock-step:FILE";
+      "expected simulated, serial:DEVICE, serial:DEVICE@RATE, emulated:FILE, lock-step:FILE or "
+      "comedi:DEVICE";
   const std::string_view text = place;
   if (!is_elsewhere(place)) return "";
-  for (const std::string_view kind : {serial, emulated, lock_step})
+  for (const std::string_view kind : {serial, emulated, lock_step, comedi})
     if (text.starts_with(kind) && text.size() > kind.size()) {
       if (kind != serial || device_of(text.substr(kind.size())).good) return "";
       return fmt::format("found \"{}\", of which the rate is no number; {}", place, expected);
@@ -95,6 +98,10 @@ std::string problem_of_place(const std::string& place) {
 }
 
 bool is_elsewhere(const std::string& place) { return !place.empty() && place != simulated; }
+
+bool keeps_its_own_time(const std::string& place) {
+  return is_elsewhere(place) && !place.starts_with(lock_step);
+}
 
 struct Place::Serial {
   Serial(const Device& device, const link::Configuration& configuration)
@@ -117,15 +124,22 @@ struct Place::AtMachine {
   plant::RemoteBoard board;
 };
 
-Place::Place(const std::string& place, const experiment::Experiment& experiment) : place_(place) {
+Place::Place(const std::string& place, const experiment::Experiment& experiment)
+    : keeps_time_(keeps_its_own_time(place)), place_(place) {
   if (const std::string wrong = problem_of_place(place); !wrong.empty())
     throw std::invalid_argument(wrong);
   if (!is_elsewhere(place)) return;
+  if (place.starts_with(comedi)) {
+    open_card(place.substr(comedi.size()), experiment, place);
+    return;
+  }
   refuse_what_no_board_can(experiment, place);
-  configuration_ = configuration_of(experiment);
+  configuration_ = keeps_time_ ? bench_configuration_of(experiment) : configuration_of(experiment);
   if (place.starts_with(serial)) {
     serial_ = std::make_unique<Serial>(device_of(place.substr(serial.size())), configuration_);
     board_ = &serial_->board;
+    if (const robot::Wiring& w = experiment.wiring; w.present)
+      board_->expect_levels(w.polarity == robot::Wiring::Polarity::low_opens);
   } else if (place.starts_with(emulated)) {
     emulated_ = std::make_unique<AtMachine<plant::EmulatedBoard>>(place.substr(emulated.size()),
                                                                   experiment);
@@ -138,15 +152,26 @@ Place::Place(const std::string& place, const experiment::Experiment& experiment)
   }
 }
 
-void Place::prepare() {
+void Place::prepare(bool clear_fault) {
   if (board_ == nullptr) return;
+  if (clear_fault) board_->allow_clearing();
   const link::Identity who = board_->prepare(configuration_);
+  if (const std::string found = plant::fault_found(who); !found.empty()) told_.push_back(found);
   who_ = fmt::format("{}, firmware {}, at {}", text_of(who.board), text_of(who.firmware), place_);
+}
+
+void Place::open_card(const std::string& device, const experiment::Experiment& e,
+                      const std::string& place) {
+  refuse_faults(e, place);
+  card_ = std::make_unique<CardPlace>(device, e, place);
+  who_ = fmt::format("{}, at {}", card_->port.board(), place);
+  told_ = card_->told();
 }
 
 Place::~Place() = default;
 
 void Place::apply(RunOptions& options) const {
+  if (card_) options.body = {&card_->port, &card_->beat};
   options.board = board_;
   options.lead = lead_;
   options.board_keeps_time = board_keeps_time();

@@ -22,9 +22,9 @@ std::string refusal(const std::string& name, std::vector<std::string> sets,
 
 TEST(Place, IsASimulationADeviceOrAFile) {
   for (const char* good : {"", "simulated", "serial:/dev/ttyACM0", "serial:/dev/ttyACM0@2000000",
-                           "emulated:a.elf", "lock-step:lock-step.elf"})
+                           "emulated:a.elf", "lock-step:lock-step.elf", "comedi:/dev/comedi0"})
     EXPECT_EQ(problem_of_place(good), "") << good;
-  for (const char* bad : {"serial", "serial:", "emulated:", "Simulated", "/dev/ttyACM0"})
+  for (const char* bad : {"serial", "serial:", "emulated:", "comedi:", "Simulated", "/dev/ttyACM0"})
     EXPECT_NE(problem_of_place(bad).find("expected simulated, serial:DEVICE"), std::string::npos)
         << bad;
   for (const char* bad : {"serial:/dev/ttyACM0@", "serial:/dev/ttyACM0@fast", "serial:a@0",
@@ -50,9 +50,50 @@ TEST(Place, WhatNoBoardCanRunIsRefusedBeforeAnythingIsOpened) {
             std::string::npos);
 }
 
+TEST(Place, WhatNoCardCanDriveIsRefusedBeforeItIsOpened) {
+  const std::string device = "comedi:/dev/no-such-card";
+  EXPECT_NE(refusal("faults/valve-stuck-open", {}, device).find("fault: found 1 of them"),
+            std::string::npos);
+  EXPECT_NE(refusal("walk-with-regulators", {}, device).find("a digital output sets no pressure"),
+            std::string::npos);
+  EXPECT_NE(refusal("cylinder-following", {"cylinder.board=2", "wiring.present=false"}, device)
+                .find("driven by 2 boards; expected one"),
+            std::string::npos);
+}
+
+// What stands in wiring.toml is what a card is told: B.1's bits of the leg, table C-1's on request.
+TEST(Place, ACardHasTheRobotsChannelsAndBits) {
+  const auto machine = [](std::vector<std::string> sets) {
+    return card_machine(experiment::load(SINEW_SOURCE_DIR "/experiments/kick.toml", sets), "");
+  };
+  const plant::CardMachine leg = machine({});
+  ASSERT_EQ(leg.inputs.size(), 7u);
+  for (std::size_t i = 0; i < leg.inputs.size(); ++i)
+    EXPECT_EQ(leg.inputs[i].channel, 24 + static_cast<int>(i)) << leg.inputs[i].sensor;
+  EXPECT_EQ(leg.outputs[0].valve, "hip_flexor inlet");
+  EXPECT_EQ(leg.outputs[0].bit + 8, leg.outputs[1].bit) << "exhausts have the second port";
+  EXPECT_TRUE(leg.outputs[0].inlet && !leg.outputs[0].vents);
+  EXPECT_TRUE(leg.outputs[1].vents && !leg.outputs[1].inlet);
+  EXPECT_TRUE(leg.active_low);
+  EXPECT_FALSE(machine({"wiring.polarity=high opens"}).active_low);
+  EXPECT_EQ(leg.vent, 10'000);
+  EXPECT_EQ(machine({"wiring.bits=table"}).outputs[0].bit, 2);
+}
+
 TEST(Place, ARateThatDoesNotCarryTheTelemetryIsRefusedWithOneThatDoes) {
   const std::string said = refusal("kick", {}, "serial:/dev/no-such-board@9600");
   EXPECT_NE(said.find("9600 bits/s do not carry this robot's telemetry; expected "),
+            std::string::npos)
+      << said;
+}
+
+TEST(Place, WithoutARateItIsTheFirmwaresOrNone) {
+  EXPECT_NE(refusal("kick", {}, "serial:/dev/no-such-board").find("No such file"),
+            std::string::npos)
+      << "921,600 carries it, so that the line is opened";
+  const std::string said = refusal("pwm-200", {}, "serial:/dev/no-such-board");
+  EXPECT_NE(said.find("921600 bits/s do not carry this robot's telemetry; expected "
+                      "/dev/no-such-board@1500000, if your board's firmware has that rate"),
             std::string::npos)
       << said;
 }

@@ -48,6 +48,7 @@ Outcome RecordedRun::finish() {
   if (const RemoteBoards* far = simulation_.remote()) {
     out.line = far->problem();
     out.lost = far->lost();
+    out.foreign = far->foreign();
   }
   out.seen = simulation_.boards().seen_totals();
   out.supervised = simulation_.boards().supervised_totals();

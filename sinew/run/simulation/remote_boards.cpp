@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "sinew/control/link/words.h"
 #include "sinew/run/setup/installation.h"
+#include "sinew/units/constants.h"
 
 namespace sinew::run {
 
@@ -20,6 +23,9 @@ namespace {
 constexpr double silence = 1.5;
 // A frame may be lost, and the next one as well.
 constexpr std::uint8_t good_for = 3;
+// A board that has said something is ahead of what it said last by less. What names a later tick
+// was not said by one: a run goes on for as long.
+constexpr Tick farthest = 10 * 60 * 10'000;
 
 }  // namespace
 
@@ -36,6 +42,56 @@ control::Board only_board(const experiment::Experiment& e) {
 link::Configuration configuration_of(const experiment::Experiment& e) {
   const control::Board board = only_board(e);
   return {board.spine, board.limits, {}};
+}
+
+namespace {
+
+using Kind = robot::Sensor::Kind;
+
+// Air that a muscle may have when it counts as empty: less moves no joint.
+constexpr double empty_pressure = 2 * units::psi;  // gauge
+constexpr double noise_bound = 6;                  // standard deviations, robot/sensing.h
+
+// The count up to which a gauge says so, by the real scale or by the one that is assumed; 0 where
+// it cannot, as it would stand at the converter's top.
+std::uint16_t empty_count(const robot::Sensor& s, const robot::Converter& converter) {
+  const double pascal = converter.counts_per_volt() * empty_pressure;
+  const double most =
+      std::max(s.at_rest + pascal * s.scale, s.assumed_at_rest + pascal * s.assumed_scale);
+  const double count = std::ceil(most + noise_bound * s.noise);
+  return count >= 1 && count < converter.top() ? static_cast<std::uint16_t>(count) : 0;
+}
+
+// Muscles that valves open and shut: what a regulator holds is no air that is left.
+bool has_valves(const experiment::Experiment& e, const control::Board& board,
+                const std::string& muscle) {
+  const int m = robot::find_muscle(e.robot, muscle);
+  if (m < 0) return false;
+  const int j = robot::find_joint(e.robot, e.robot.muscles[static_cast<std::size_t>(m)].joint);
+  const auto at = std::ranges::find(board.joint, j);
+  if (at == board.joint.end()) return false;
+  const auto kind = board.spine.joint[static_cast<std::size_t>(at - board.joint.begin())].kind;
+  return kind == control::JointKind::antagonist || kind == control::JointKind::three_way;
+}
+
+void watch_pressures(const experiment::Experiment& e, control::SafetyConfig& out) {
+  const control::Board board = only_board(e);
+  for (std::size_t i = 0; i < board.channel.size() && i < out.empty_at.size(); ++i) {
+    const robot::Sensor& s = e.robot.sensors[board.channel[i]];
+    if (s.kind == Kind::pressure && has_valves(e, board, s.of))
+      out.empty_at[i] = empty_count(s, e.robot.converter);
+  }
+}
+
+}  // namespace
+
+link::Configuration bench_configuration_of(const experiment::Experiment& e) {
+  constexpr std::uint32_t most_missing = 3;
+  link::Configuration out = configuration_of(e);
+  if (out.spine.hold_limit == 0) out.spine.hold_limit = most_missing;
+  watch_pressures(e, out.safety);
+  out.safety.vent_limit = std::max(out.safety.vent_limit, 2 * out.spine.shutdown_vent);
+  return out;
 }
 
 RemoteBoards::RemoteBoards(Boards& shown, plant::RemoteBoard& board, int lead)
@@ -69,11 +125,11 @@ Tick RemoteBoards::next_event(Tick t) noexcept {
     return t + 1;
   }
   const link::Telemetry* told = send(t) ? board_->next(silence) : nullptr;
-  while (told != nullptr && told->tick <= t) told = board_->next(silence);
-  for (Edge edge : board_->edges()) {
-    edge.valve.index = valve_[edge.valve.index];
-    if (edges_.size() < edges_.capacity()) edges_.push_back(edge);
+  while (told != nullptr && (told->tick <= t || told->tick > t + farthest)) {
+    if (told->tick > t) ++foreign_;
+    told = board_->next(silence);
   }
+  take_edges(t);
   handed_on_ = false;
   if (told == nullptr) {
     over_ = true;  // but for the edges that came with it
@@ -83,6 +139,18 @@ Tick RemoteBoards::next_event(Tick t) noexcept {
   next_ = told->tick;
   shown_->show(told->seen, told->supervised, {next_ - period_ + last_read_, next_});
   return next_;
+}
+
+// Numbers off a line: no valve, and no time, that the board does not have.
+void RemoteBoards::take_edges(Tick t) noexcept {
+  for (Edge edge : board_->edges()) {
+    if (edge.valve.index >= valve_.size() || edge.at < 0 || edge.at > t + farthest) {
+      ++foreign_;
+      continue;
+    }
+    edge.valve.index = valve_[edge.valve.index];
+    if (edges_.size() < edges_.capacity()) edges_.push_back(edge);
+  }
 }
 
 // An edge is recorded once, at the next tick that the loop visits.
@@ -100,8 +168,10 @@ std::string RemoteBoards::problem() const {
   using Why = plant::RemoteBoard::Why;
   if (board_->why() == Why::silent) return fmt::format("the board was not heard for {} s", silence);
   if (board_->why() == Why::gone) return "the line to the board is gone";
-  const bool explained =
-      end_sent_ || shown_->supervised_totals().trip.cause != control::Trip::Cause::none;
+  if (board_->state() == control::BoardState::dump)
+    return fmt::format("the board is in dump: {}", link::in_words(board_->fault()));
+  const bool explained = end_sent_ || shown_->seen_totals().fault != Status::ok ||
+                         shown_->supervised_totals().trip.cause != control::Trip::Cause::none;
   if (board_->why() == Why::over && !explained)
     return fmt::format("the board has left the run: {}", link::in_words(board_->fault()));
   return "";

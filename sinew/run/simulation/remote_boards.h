@@ -28,6 +28,12 @@ control::Board only_board(const experiment::Experiment& experiment);
 // Returns what that board needs to know of the machine.
 link::Configuration configuration_of(const experiment::Experiment& experiment);
 
+// As before, for a board at a machine: where the robot bears any number of readings that do not
+// come, three of a channel in a row end the run; and where the pressure of a muscle with valves is
+// measured, a vent goes on until it is below 2 psi gauge, and ends in a dump where it is not after
+// vent_limit. A simulation may try what a cable must not.
+link::Configuration bench_configuration_of(const experiment::Experiment& experiment);
+
 class RemoteBoards final : public signals::Port {
  public:
   // The board is armed; it and `shown` outlive this.
@@ -64,12 +70,15 @@ class RemoteBoards final : public signals::Port {
   // --- for whoever looks ---
 
   std::uint32_t lost() const noexcept { return lost_; }  // periods of which nothing came
+  // Edges and periods that were left out: of a valve or at a time that the board does not have.
+  std::uint32_t foreign() const noexcept { return foreign_; }
   // Why the run ended before its end, where that was the line's or the board's doing; else empty.
   std::string problem() const;
 
  private:
   std::span<const signals::Edge> edges() noexcept;
   bool send(signals::Tick t) noexcept;
+  void take_edges(signals::Tick t) noexcept;
 
   Boards* shown_;
   plant::RemoteBoard* board_;
@@ -78,7 +87,7 @@ class RemoteBoards final : public signals::Port {
   MachineCommand command_;
   signals::Tick next_ = 0;  // of the next telemetry: nothing happens before
   bool ends_ = false, end_sent_ = false, over_ = false;
-  std::uint32_t lost_ = 0;
+  std::uint32_t lost_ = 0, foreign_ = 0;
   std::vector<signals::Edge> edges_;
   bool handed_on_ = false;
   std::array<Told, 1> told_;

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "sinew/control/link/test_wire.h"
+#include "sinew/run/simulation/fault_log.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/test_board.h"
 #include "sinew/run/simulation/test_log.h"
@@ -77,6 +81,105 @@ TEST(RemoteBoards, LostTelemetryIsAGapInTheLogAndACount) {
   EXPECT_EQ(widest, (1 + lost_for) * 10'000'000) << "nothing is put between two samples";
 }
 
+// What is no board's comes with both checksums right: from another robot's board, or another
+// version of this one.
+TEST(RemoteBoards, AValveOrATimeThatTheBoardDoesNotHaveIsLeftOutAndCounted) {
+  Bench bench(loaded("kick"));
+  const Outcome simulated = run(bench.experiment);
+  bench.in_period(50, [&, done = false](auto& bytes) mutable {
+    if (std::exchange(done, true)) return;
+    link::Edges edges{.tick = 5'000, .count = 3};
+    const auto valves = static_cast<std::uint8_t>(only_board(bench.experiment).valve.size());
+    edges.edge[0] = {.valve = valves, .open = true};
+    edges.edge[1] = {.valve = 200, .open = true};
+    edges.edge[2] = {.valve = 255, .open = true};
+    link::Edges late{.tick = link::max_tick, .count = 1};
+    link::Edges early{.tick = -1, .count = 1};
+    for (const link::Edges& m : {edges, late, early}) {
+      const link::Bytes frame = link::frame_of(m, {1, 0});
+      bytes.insert(bytes.begin(), frame.begin(), frame.end());
+    }
+  });
+  const Outcome far = bench.run();
+  EXPECT_FALSE(far.ended_early());
+  EXPECT_EQ(far.foreign, 5u);
+  ASSERT_NO_FATAL_FAILURE(expect_same_log(simulated.table, far.table));
+}
+
+TEST(RemoteBoards, TelemetryOfATimeThatIsNotYetIsLeftOutAndCounted) {
+  Bench bench(loaded("kick"));
+  const Outcome simulated = run(bench.experiment);
+  bench.in_period(50, [&, done = false](auto& bytes) mutable {
+    if (std::exchange(done, true)) return;
+    link::Telemetry far_ahead{.tick = link::max_tick, .state = control::BoardState::running};
+    link::Bytes all;
+    for (std::uint8_t p = 0; p < link::parts_of(0, 0); ++p) {
+      const link::TelemetryMessage m = link::part_of(far_ahead, p);
+      link::Bytes frame(link::max_frame);
+      frame.resize(link::encode(static_cast<std::uint8_t>(m.type), {1, 0}, m.body.span(), frame));
+      all.insert(all.end(), frame.begin(), frame.end());
+    }
+    bytes.insert(bytes.begin(), all.begin(), all.end());
+  });
+  const Outcome far = bench.run();
+  EXPECT_EQ(far.line, "");
+  EXPECT_FALSE(far.ended_early());
+  EXPECT_EQ(far.foreign, 1u);
+  EXPECT_EQ(far.lost, 0u);
+  ASSERT_NO_FATAL_FAILURE(expect_same_log(simulated.table, far.table));
+}
+
+TEST(RemoteBoards, AtAMachineThreeReadingsThatDoNotComeEndTheRun) {
+  const experiment::Experiment e =
+      loaded("walk-test-1", {"fault=[{at=\"2 s\", of=\"hip_angle\", what=\"dropout\"}]"});
+  ASSERT_EQ(configuration_of(e).spine.hold_limit, 0u) << "a simulation bears any number";
+  Bench bench(e);
+  bench.remote.prepare(bench_configuration_of(e));
+  const Outcome far = run::run(e, {.board = &bench.remote, .lead = 0});
+  EXPECT_TRUE(far.ended_early());
+  EXPECT_NEAR(far.duration, 2.03 + 1, 0.02) << "three scans, then a vent of a second";
+  EXPECT_NE(cause_of(e, far).find("late reading of sensor hip_angle"), std::string::npos)
+      << cause_of(e, far);
+}
+
+TEST(RemoteBoards, AtAMachineMeasuredPressuresSayWhenMusclesAreEmpty) {
+  const experiment::Experiment e = loaded("walk-with-pressures");
+  const link::Configuration here = configuration_of(e), there = bench_configuration_of(e);
+  for (const std::uint16_t at : here.safety.empty_at) EXPECT_EQ(at, 0) << "the simulation's bits";
+  const control::Board board = only_board(e);
+  std::size_t watched = 0;
+  for (std::size_t i = 0; i < there.safety.empty_at.size(); ++i) {
+    const bool pressure = i < board.channel.size() &&
+                          e.robot.sensors[board.channel[i]].kind == robot::Sensor::Kind::pressure;
+    // 0.04 V/psi and 4095 counts of 5 or 10 V; 6 counts of noise.
+    const double per_psi = 0.04 * e.robot.converter.counts_per_volt();
+    EXPECT_EQ(there.safety.empty_at[i], pressure ? std::ceil(2 * per_psi + 6) : 0) << i;
+    watched += pressure;
+  }
+  EXPECT_EQ(watched, 4u);
+  for (const char* unmeasured : {"kick", "cylinder-following", "walk-with-regulators"})
+    for (const std::uint16_t at : bench_configuration_of(loaded(unmeasured)).safety.empty_at)
+      EXPECT_EQ(at, 0) << unmeasured;
+}
+
+// The whole chain, from the robot's file to the dump: an exhaust that does not open.
+TEST(RemoteBoards, AtAMachineAMuscleThatDoesNotEmptyEndsInADump) {
+  const std::vector<std::string> stuck = {
+      "fault=[{at=\"1 s\", of=\"knee_flexor.exhaust\", what=\"stuck shut\"}]"};
+  for (const bool fails : {false, true}) {
+    SCOPED_TRACE(fails);
+    const experiment::Experiment e =
+        loaded("walk-with-pressures", fails ? stuck : std::vector<std::string>{});
+    Bench bench(e);
+    bench.remote.prepare(bench_configuration_of(e));
+    const Outcome far = run::run(e, {.board = &bench.remote, .lead = 0});
+    EXPECT_EQ(far.foreign, 0u);
+    EXPECT_TRUE(bench.remote.shut_down());
+    EXPECT_EQ(bench.remote.state(), fails ? control::BoardState::dump : control::BoardState::idle);
+    EXPECT_EQ(bench.remote.fault() == control::BoardFault::not_empty, fails);
+  }
+}
+
 TEST(RemoteBoards, ABoardThatHearsNothingHoldsThenVentsAndTheRunSaysWhy) {
   Bench bench(loaded("walk-test-1"));
   bench.in_period(100, [&](auto&) { bench.board.deaf = true; });
@@ -85,6 +188,58 @@ TEST(RemoteBoards, ABoardThatHearsNothingHoldsThenVentsAndTheRunSaysWhy) {
   const std::string cause = cause_of(bench.experiment, far);
   EXPECT_NE(cause.find("no command for 1 s"), std::string::npos) << cause;
   EXPECT_NEAR(far.duration, 1.0 + 1.0 + 1.0, 0.05) << "silent for a second, then a vent of one";
+}
+
+// A whole log of a fault: one line of telemetry per period, up to the state that followed it.
+void expect_fault_log(const std::vector<link::Telemetry>& log) {
+  ASSERT_EQ(log.size(), 20u);
+  for (std::size_t i = 1; i < log.size(); ++i) EXPECT_EQ(log[i].tick, log[i - 1].tick + 100);
+  EXPECT_EQ(log.front().state, control::BoardState::running);
+  EXPECT_EQ(log.back().state, control::BoardState::vent);
+  EXPECT_EQ(log.back().fault, control::BoardFault::supervisor);
+}
+
+experiment::Experiment with_an_open_sensor() { return loaded("faults/sensor-open"); }
+
+TEST(RemoteBoards, AFaultsLogIsKeptByTheBoardUntilItIsArmedAgain) {
+  Bench bench(with_an_open_sensor());
+  const Outcome far = bench.run();
+  ASSERT_TRUE(far.ended_early());
+  const std::vector<link::Telemetry> log = bench.remote.fault_log();
+  expect_fault_log(log);
+  EXPECT_EQ(log.back().supervised.trip.at, far.supervised.trip.at);
+
+  const std::string csv = fault_log_csv(log, bench.experiment);
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + std::ssize(log));
+  const auto commas = [](const std::string& line) {
+    std::ptrdiff_t out = 0;
+    bool quoted = false;
+    for (const char c : line) {
+      if (c == '"') quoted = !quoted;
+      if (c == ',' && !quoted) ++out;
+    }
+    return out;
+  };
+  const std::size_t first = csv.find('\n'), last = csv.rfind('\n', csv.size() - 2);
+  EXPECT_EQ(commas(csv.substr(0, first)), commas(csv.substr(last))) << "a name for each column";
+  EXPECT_NE(csv.find(",vent,\"a reading, a command"), std::string::npos) << csv;
+
+  Bench faultless(loaded("kick"));
+  (void)faultless.run();
+  for (const link::Telemetry& t : faultless.remote.fault_log())
+    EXPECT_TRUE(t.fault == control::BoardFault::none || t.fault == control::BoardFault::asked);
+}
+
+TEST(RemoteBoards, AFaultsLogComesOverALineThatSpoilsEveryFourthAnswer) {
+  Bench bench(with_an_open_sensor());
+  (void)bench.run();
+  int heard = 0;
+  bench.board.spoil = [&](auto& bytes) {
+    if (++heard % 4 == 0 && !bytes.empty()) bytes[bytes.size() / 2] ^= 0x10;
+  };
+  expect_fault_log(bench.remote.fault_log());
+  bench.board.spoil = [](auto& bytes) { bytes.clear(); };
+  EXPECT_THROW((void)bench.remote.fault_log(), plant::BoardError);
 }
 
 TEST(RemoteBoards, ABoardThatIsNotHeardEndsTheRun) {

@@ -1,5 +1,6 @@
 #include "sinew/run/simulation/run.h"
 
+#include "sinew/host/realtime.h"
 #include "sinew/plant/recorded/recorded.h"
 #include "sinew/run/simulation/clock.h"
 #include "sinew/run/simulation/recorded_run.h"
@@ -37,9 +38,26 @@ Outcome by_its_clock(Simulation& simulation, const experiment::Experiment& e,
   return to_the_end(simulation, options, clock);
 }
 
+// The recorder has its memory before memory is locked; the machine is safe before it is not.
+Outcome in_real_time(const experiment::Experiment& e, const RunOptions& options) {
+  signals::Port& body = *options.body.port;
+  Simulation simulation(e, body, options.steering);
+  RecordedRun run(simulation, options);
+  Outcome out;
+  {
+    const host::RealTime real_time;
+    options.body.beat->start();
+    run.advance(simulation.last(), *options.body.beat);
+    out = run.finish();
+  }
+  out.line = options.body.port->problem();
+  return out;
+}
+
 }  // namespace
 
 Outcome run(const experiment::Experiment& e, const RunOptions& options) {
+  if (options.body.port) return in_real_time(e, options);
   if (options.board) {
     Simulation simulation(e, *options.board, options.lead, options.steering);
     return by_its_clock(simulation, e, options);

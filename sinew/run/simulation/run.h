@@ -8,6 +8,8 @@
 
 #include "sinew/air/failure.h"
 #include "sinew/experiment/experiment.h"
+#include "sinew/host/beat.h"
+#include "sinew/plant/comedi/comedi_port.h"
 #include "sinew/plant/hardware/remote_board.h"
 #include "sinew/plant/planar/setup.h"
 #include "sinew/run/simulation/boards.h"
@@ -16,6 +18,12 @@
 #include "sinew/signals/table.h"
 
 namespace sinew::run {
+
+// A machine that is there, at a card in this computer, and the clock by which it is driven.
+struct RealBody {
+  plant::ComediPort* port = nullptr;
+  host::Beat* beat = nullptr;
+};
 
 struct RunOptions {
   double pace = 0;               // simulated per wall second; 0: as fast as it goes
@@ -27,6 +35,7 @@ struct RunOptions {
   bool every_tick = false;                        // visit each tick: slower, the same bits
   bool recorded = true;                           // false: the outcome's table is empty
   int extra_readers = 0;                          // looks at the world per event: the same bits
+  RealBody body;                                  // in place of the simulated machine, in real time
   plant::RemoteBoard* board = nullptr;  // drives the machine in place of the simulation; armed
   int lead = 1;                         // of its commands [periods] (remote_boards.h)
   bool board_keeps_time = true;         // false: it waits for the host, who may set a pace
@@ -36,8 +45,9 @@ struct Outcome {
   signals::Status status = signals::Status::ok;
   bool stopped = false;  // by RunOptions::stop
   signals::Table table;
-  std::string line;                   // what was wrong with the line to a board; empty: nothing
+  std::string line;                   // what was wrong with a card or the line to a board
   std::uint32_t lost = 0;             // periods of which a board's telemetry did not come
+  std::uint32_t foreign = 0;          // edges and periods of valves or times that no board has
   std::string no_room;                // why the table is not complete, and what to do; empty: it is
   SeenTotals seen;                    // the low level's last word
   SupervisedTotals supervised;        // what was not believed, and what ended the run

@@ -76,11 +76,12 @@ Simulation::Simulation(const experiment::Experiment& experiment, Steering* steer
 Simulation::Simulation(const experiment::Experiment& experiment, const plant::LegLane& lane)
     : Simulation(experiment, lane, nullptr) {}
 
-Simulation::Simulation(const experiment::Experiment& experiment, signals::Port& body)
+Simulation::Simulation(const experiment::Experiment& experiment, signals::Port& body,
+                       Steering* steering)
     : experiment_(experiment),
       port_(&body),
       boards_(experiment_),
-      high_level_(experiment_.robot, experiment_.plan),
+      high_level_(experiment_.robot, experiment_.plan, steering),
       last_(experiment::last_tick(experiment_)) {
   list_channels();
 }

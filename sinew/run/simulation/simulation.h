@@ -47,7 +47,8 @@ class Simulation {
 
   // The experiment's controllers before another body, which outlives this: a recorded one, for
   // instance. Nothing is simulated then: no truth, and nothing to save.
-  Simulation(const experiment::Experiment& experiment, signals::Port& body);
+  Simulation(const experiment::Experiment& experiment, signals::Port& body,
+             Steering* steering = nullptr);
 
   // The experiment's plan before a board at the end of a line, which is armed and outlives this
   // (remote_boards.h has `lead`). Nothing is simulated then either.

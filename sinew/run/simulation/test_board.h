@@ -4,9 +4,11 @@
 
 #include <semaphore>
 #include <thread>
+#include <utility>
 
 #include "sinew/control/board/program.h"
 #include "sinew/plant/hardware/emulator.h"
+#include "sinew/plant/hardware/line.h"
 
 namespace sinew::run {
 
@@ -35,6 +37,7 @@ class BoardInThread {
   bool deaf = false;                                      // what a host says gets lost
   bool gone = false;                                      // the line
   bool resets = false;                                    // the board, in the next period
+  std::uint32_t misses = 0;                               // ticks of its clock, after this one
   int periods = 0;                                        // so far, of any kind
 
  private:
@@ -95,6 +98,7 @@ class BoardInThread {
       if (const signals::Conversion* c = program_->due())
         program_->take(*c, wires_.read(c->channel, tick()));
       (void)program_->end_tick();
+      program_->miss(std::exchange(misses, 0u));
     }
     board_waits_.release();
   }

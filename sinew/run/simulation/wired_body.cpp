@@ -55,10 +55,10 @@ void WiredBody::drive(Tick tick, std::uint32_t changed, std::uint32_t open) {
 }
 
 // Closing edges of a tick come first. Without current an inverted valve is open, every other one
-// shut.
+// shut. Between runs the body's time stands still; a board that was reset lets its coils go.
 void WiredBody::valves(Tick tick, std::uint32_t open, bool current) {
-  if (tick < 0) return;
-  tick = at(tick);
+  if (tick < 0 && !started_) return;
+  tick = tick < 0 ? now_ : at(tick);
   if (!current) open = inverted_;
   drive(tick, open_ & ~open, open);
   drive(tick, open & ~open_, open);

@@ -25,6 +25,10 @@ class WiredBody {
   // To it; valid as long as this is there.
   plant::Wires wires();
 
+  // The machine itself, and how far its time has come: for who wants to know what is so.
+  plant::Machine& machine() noexcept { return machine_; }
+  signals::Tick now() const noexcept { return now_; }
+
  private:
   void valves(signals::Tick tick, std::uint32_t open, bool current);
   void drive(signals::Tick tick, std::uint32_t changed, std::uint32_t open);

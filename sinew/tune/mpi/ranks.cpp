@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "sinew/tune/module.h"
+#include "sinew/host/module.h"
 #include "sinew/tune/mpi/module/messages.h"
 
 namespace sinew::tune {
@@ -34,7 +34,7 @@ bool one_of_several() {
 }
 
 void* module_with_mpi() {
-  if (void* module = open_module("sinew_mpi.so")) return module;
+  if (void* module = host::open_module("sinew_mpi.so")) return module;
   fail(
       "started by mpirun, and this program was built without MPI; try: apt-get install "
       "libopenmpi-dev, and build again; or shards, which need none");
@@ -45,7 +45,7 @@ void* module_with_mpi() {
 Ranks::Ranks() {
   if (!one_of_several()) return;
   const auto messages = reinterpret_cast<const SinewMessages* (*)()>(
-      function_of(module_with_mpi(), "sinew_messages_1"));
+      host::function_of(module_with_mpi(), "sinew_messages_1"));
   if (!messages) fail("sinew_mpi.so is of another version of Sinew; build and install both again");
   if (!messages()->begin(&rank_, &size_)) fail("MPI cannot begin; its own words stand above");
   messages_ = messages();

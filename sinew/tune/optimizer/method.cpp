@@ -3,20 +3,20 @@
 #include <stdexcept>
 #include <string>
 
-#include "sinew/tune/module.h"
+#include "sinew/host/module.h"
 #include "sinew/tune/optimizer/module/methods.h"
 
 namespace sinew::tune {
 namespace {
 
 const SinewMethods* methods() {
-  void* module = open_module("sinew_pagmo.so");
+  void* module = host::open_module("sinew_pagmo.so");
   if (!module)
     throw std::runtime_error(
         "this program was built without pagmo, which tuning needs; try: apt-get install "
         "libpagmo-dev, and build again");
   const auto get =
-      reinterpret_cast<const SinewMethods* (*)()>(function_of(module, "sinew_methods_1"));
+      reinterpret_cast<const SinewMethods* (*)()>(host::function_of(module, "sinew_methods_1"));
   if (!get)
     throw std::runtime_error(
         "sinew_pagmo.so is of another version of Sinew; build and install both again");

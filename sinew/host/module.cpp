@@ -1,10 +1,10 @@
-#include "sinew/tune/module.h"
+#include "sinew/host/module.h"
 
 #include <dlfcn.h>
 
 #include <filesystem>
 
-namespace sinew::tune {
+namespace sinew::host {
 
 namespace fs = std::filesystem;
 
@@ -18,4 +18,4 @@ void* open_module(const char* file) {
 
 void* function_of(void* module, const char* name) { return dlsym(module, name); }
 
-}  // namespace sinew::tune
+}  // namespace sinew::host

@@ -1,8 +1,8 @@
-// tune/module.h - parts of the program that are files of their own, opened by those who need them:
+// host/module.h - parts of the program that are files of their own, opened by those who need them:
 // whoever does not neither needs nor loads the libraries behind them.
 #pragma once
 
-namespace sinew::tune {
+namespace sinew::host {
 
 // Opens a module beside the program, as it is built and as it is installed, else wherever the
 // system finds it. Returns nullptr where there is none. It stays open.
@@ -11,4 +11,4 @@ void* open_module(const char* file);
 // Returns a function of it by its name; nullptr where it has none.
 void* function_of(void* module, const char* name);
 
-}  // namespace sinew::tune
+}  // namespace sinew::host

@@ -1,0 +1,89 @@
+// cli/doctor.cpp - `sinew doctor`: is this computer ready to drive a machine, and what to do.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/json_text.h"
+#include "cli/terminal.h"
+#include "sinew/host/doctor.h"
+#include "sinew/host/realtime.h"
+
+namespace sinew::cli {
+
+namespace {
+
+using host::Verdict;
+
+struct Options {
+  std::string place = "simulated";
+  bool json = false;
+};
+
+std::string_view word(Verdict v) {
+  if (v == Verdict::good) return "good";
+  return v == Verdict::advice ? "advice" : "missing";
+}
+
+void print(const std::vector<host::Finding>& findings) {
+  for (const host::Finding& f : findings) {
+    const std::string verdict = fmt::format("{:<8}", word(f.verdict));
+    fmt::print("{}{}: {}\n", f.verdict == Verdict::missing ? in_red(verdict) : verdict, f.subject,
+               f.found);
+    if (f.verdict == Verdict::good) continue;
+    fmt::print("        {}{}\n", f.why, f.place.empty() ? "" : fmt::format(" ({}:)", f.place));
+    if (!f.todo.empty()) fmt::print("        {}\n", f.todo);
+  }
+}
+
+void print_json(const std::vector<host::Finding>& findings, const Options& options, bool ready) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const host::Finding& f : findings) {
+    nlohmann::ordered_json item{
+        {"subject", f.subject}, {"verdict", word(f.verdict)}, {"found", f.found}, {"why", f.why}};
+    if (!f.place.empty()) item["place"] = f.place;
+    if (!f.todo.empty()) item["todo"] = f.todo;
+    list.push_back(std::move(item));
+  }
+  const nlohmann::ordered_json all{{"format", "sinew.doctor/1"},
+                                   {"place", options.place},
+                                   {"ready", ready},
+                                   {"findings", std::move(list)}};
+  fmt::print("{}\n", json_text(all, 2));
+}
+
+// As the loop itself would run.
+host::Latency measure() {
+  const host::RealTime real_time;
+  return host::measure_latency(1);
+}
+
+ExitCode examine(const Options& options) {
+  const std::vector<host::Finding> findings = host::examine({.latency = measure});
+  const bool ready = host::is_ready(findings, options.place);
+  if (options.json)
+    print_json(findings, options, ready);
+  else
+    print(findings);
+  if (!ready)
+    error(fmt::format("{}: something that it needs is missing; what to do stands with it",
+                      options.place));
+  return ready ? ok : failed;
+}
+
+}  // namespace
+
+void add_doctor(Command app, Action& action) {
+  auto options = std::make_shared<Options>();
+  Command sub = app.subcommand("doctor", "is this computer ready to drive a machine?",
+                               "sinew doctor --for comedi");
+  sub.add_option("--for", options->place,
+                 "exit 1 where what such a place needs is missing: simulated, serial, emulated, "
+                 "comedi")
+      .is_one_of({"simulated", "serial", "emulated", "comedi"})
+      .show_default();
+  sub.add_flag("--json", options->json, "print the findings as JSON");
+  sub.callback([=, &action] { action = [=] { return examine(*options); }; });
+}
+
+}  // namespace sinew::cli

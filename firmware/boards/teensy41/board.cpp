@@ -1,0 +1,343 @@
+// firmware/boards/teensy41/board.cpp - PJRC's Teensy 4.1: an i.MX RT1062, a Cortex-M7 (NXP i.MX
+// RT1060 reference manual; ARMv7-M). Never run on one by us, and no emulator here knows the chip
+// (docs/how-to-port-firmware.md says what to check first). It takes no more than 3.3 V at any pin.
+//
+//   inputs 0 … 9      pins 14 … 23            A0 … A9
+//          10, 11     pins 24, 25             A10, A11
+//          12, 13     pins 40, 41             A16, A17
+//   outputs 0 … 6     pins 6 … 12             valves, 1 is current; a pull-down of its own, 10 kohm
+//           7         pin 32                  or less, at each driver
+//           8 … 11    pins 34 … 37
+//           12 … 15   pins 2 … 5
+//   supply            pin 33                  the dump valve's coil
+//   line              pin 1 out, pin 0 in     LPUART6
+//
+// The core runs at the 396 MHz that the boot ROM leaves behind: enough, and one thing less that may
+// go wrong. All that has to do with time runs by the crystal of 24 MHz, whatever the core does.
+#include "firmware/board.h"
+
+#include "firmware/cortex_m.h"
+#include "firmware/edges.h"
+#include "firmware/tick_count.h"
+
+namespace sinew::firmware {
+namespace {
+
+using cortex_m::reg;
+using signals::Status;
+using signals::Tick;
+
+constexpr std::uint32_t crystal = 24'000'000;  // [Hz]
+constexpr std::uint32_t clocks_a_tick = crystal / 10'000, clocks_a_us = crystal / 1'000'000;
+
+// --- registers ----------------------------------------------------------------------------------
+
+// CCM: which clock goes where, and who gets one. Two bits for each device in a gate, 3 is on.
+constexpr std::uintptr_t ccm = 0x400FC000;
+constexpr std::uintptr_t clock_of_timers = ccm + 0x1C, clock_of_line = ccm + 0x24,
+                         gate_1 = ccm + 0x6C, gate_3 = ccm + 0x74, gate_5 = ccm + 0x7C,
+                         gate_6 = ccm + 0x80;
+
+// IOMUXC: what a pad is for (mux) and its resistors (pad). Its own ports hang on the slow bus; GPR
+// gives their pins to ports beside the processor: 1 becomes 6, 2 becomes 7, 4 becomes 9.
+constexpr std::uintptr_t iomux = 0x401F8000, gpr = 0x400AC000;
+constexpr std::uintptr_t mux_of_port_1 = iomux + 0x0BC, mux_of_port_2 = iomux + 0x13C,
+                         mux_of_port_4 = iomux + 0x014;  // 4 bytes for each bit of the port
+constexpr std::uintptr_t from_mux_to_pad = 0x1F0, pad_of_received = iomux + 0x550;
+constexpr std::uintptr_t port_2_is_7 = gpr + 0x6C, port_4_is_9 = gpr + 0x74;
+constexpr std::uintptr_t port_7 = 0x42004000, port_9 = 0x4200C000;
+constexpr std::uintptr_t port_data = 0x00, port_directions = 0x04;
+
+constexpr std::uintptr_t ticking = 0x40084000;  // PIT: counts down, and anew
+constexpr std::uintptr_t ticking_off = ticking, ticking_reload = ticking + 0x100,
+                         ticking_control = ticking + 0x108, ticking_state = ticking + 0x10C;
+constexpr std::uintptr_t running = 0x401EC000;  // GPT1: 32 bits, for ever
+constexpr std::uintptr_t running_control = running, running_prescaler = running + 0x04,
+                         running_state = running + 0x08, running_interrupts = running + 0x0C,
+                         running_compare = running + 0x10, running_count = running + 0x24;
+constexpr std::uintptr_t line = 0x40198000;  // LPUART6
+constexpr std::uintptr_t line_divider = line + 0x10, line_state = line + 0x14,
+                         line_control = line + 0x18, line_data = line + 0x1C,
+                         line_queues = line + 0x28, line_marks = line + 0x2C;
+constexpr std::uintptr_t converter = 0x400C4000;  // ADC1
+constexpr std::uintptr_t converter_start = converter, converter_state = converter + 0x20,
+                         converter_data = converter + 0x24, converter_mode = converter + 0x44,
+                         converter_control = converter + 0x48;
+constexpr std::uintptr_t watchdog = 0x400BC000;  // RTWDOG, the third one
+constexpr std::uintptr_t watchdog_control = watchdog, watchdog_key = watchdog + 0x04,
+                         watchdog_time = watchdog + 0x08, watchdog_window = watchdog + 0x0C;
+constexpr std::uintptr_t noise = 0x400CC000;  // TRNG
+constexpr std::uintptr_t why_reset = 0x400F8008;
+
+constexpr std::uint32_t line_came = 1u << 21, line_room = 1u << 23, line_errors = 0xFu << 16;
+constexpr std::uint32_t line_on = 1u << 27 | 1u << 21 | 1u << 19 | 1u << 18;  // overrun, in, out
+constexpr std::uint32_t compared = 1;  // of the running timer's state and interrupts
+constexpr std::uint32_t interrupt_of_line = 25, interrupt_of_edges = 100, interrupt_of_ticks = 122;
+
+// --- pins ---------------------------------------------------------------------------------------
+
+// The bit of its port for each output and input. Input i is the converter's (bit - 11) modulo 16.
+constexpr std::uint8_t output_0_of_7[] = {10, 17, 16, 11, 0, 2, 1, 12, 29, 28, 18, 19};
+constexpr std::uint8_t output_12_of_9[] = {4, 5, 6, 8};
+constexpr std::uint32_t supply_of_9 = 1u << 7;
+constexpr std::uint8_t input_of_1[] = {18, 19, 23, 22, 17, 16, 26, 27, 24, 25, 12, 13, 20, 21};
+
+struct Pins {
+  std::uint32_t of_7 = 0, of_9 = 0;
+};
+constexpr Pins pins(std::uint32_t coils, bool supply) {
+  Pins out;
+  for (const std::uint8_t bit : output_0_of_7) out.of_7 |= (coils & 1u) << bit, coils >>= 1;
+  for (const std::uint8_t bit : output_12_of_9) out.of_9 |= (coils & 1u) << bit, coils >>= 1;
+  if (supply) out.of_9 |= supply_of_9;
+  return out;
+}
+constexpr Pins all = pins(~0u, true);
+
+// Nothing else of these ports is an output of ours: a port changes at once.
+void put(const Pins& p) {
+  reg(port_7 + port_data) = p.of_7;
+  reg(port_9 + port_data) = p.of_9;
+}
+
+constinit WaitingWord<Pins> waiting;
+constinit volatile std::uint32_t late_edges = 0;  // words that missed their instant; for a debugger
+
+void put_late() {
+  Pins p;
+  if (!waiting.take(p)) return;
+  put(p);
+  late_edges = late_edges + 1;
+}
+
+void set_pad(std::uintptr_t mux, std::uint32_t for_what, std::uint32_t resistors) {
+  reg(mux) = for_what;
+  reg(mux + from_mux_to_pad) = resistors;
+}
+
+// All coils off before their pins become outputs. Until then, from a reset on, a pad keeps what it
+// had last, weakly: the driver's own resistor is stronger.
+void start_pins() {
+  constexpr std::uint32_t port = 5, pulled_down = 0x30B0, nothing_pulls = 0x00B0;
+  put({});
+  reg(port_2_is_7) = ~0u;
+  reg(port_4_is_9) = ~0u;
+  put({});
+  for (const std::uint8_t bit : output_0_of_7) set_pad(mux_of_port_2 + 4u * bit, port, pulled_down);
+  for (std::uint32_t bit = 4; bit <= 8; ++bit) set_pad(mux_of_port_4 + 4 * bit, port, pulled_down);
+  reg(port_7 + port_directions) = reg(port_7 + port_directions) | all.of_7;
+  reg(port_9 + port_directions) = reg(port_9 + port_directions) | all.of_9;
+  for (const std::uint8_t bit : input_of_1) set_pad(mux_of_port_1 + 4u * bit, port, nothing_pulls);
+}
+
+// --- what survives a reset ----------------------------------------------------------------------
+
+struct Kept {
+  std::uint32_t starts;
+};
+[[gnu::section(".kept")]] Kept kept;
+bool bitten_ = false;
+
+// Waits for a bit, 0.2 s or so, and gives up.
+bool wait_for(std::uintptr_t address, std::uint32_t bits, std::uint32_t value) {
+  for (std::uint32_t i = 0; i < 2'000'000; ++i)
+    if ((reg(address) & bits) == value) return true;
+  return false;
+}
+
+// Timers and line get the crystal, undivided; then each device its clock.
+void start_clocks() {
+  constexpr std::uint32_t by_crystal = 1u << 6, divider = 0x3F;
+  reg(clock_of_timers) = (reg(clock_of_timers) & ~divider) | by_crystal;
+  reg(clock_of_line) = (reg(clock_of_line) & ~divider) | by_crystal;
+  reg(gate_1) = reg(gate_1) | 0xFu << 20 | 3u << 16 | 3u << 12;  // GPT1, ADC1, PIT
+  reg(gate_3) = reg(gate_3) | 3u << 6;                           // LPUART6
+  reg(gate_5) = reg(gate_5) | 3u << 4;                           // RTWDOG
+  reg(gate_6) = reg(gate_6) | 3u << 12;                          // TRNG
+}
+
+// 12 bits by its own clock of 10 MHz, 24 clocks of sampling and 25 of conversion: 5 us. It measures
+// its own errors once.
+void start_converter() {
+  constexpr std::uint32_t calibrating = 1u << 7;
+  reg(converter_mode) = 1u << 10 | 3u << 8 | 1u << 5 | 1u << 4 | 2u << 2 | 3u;
+  reg(converter_control) = calibrating;
+  wait_for(converter_control, calibrating, 0);
+}
+
+}  // namespace
+
+// --- board.h ------------------------------------------------------------------------------------
+
+namespace hardware {
+
+namespace {
+constinit TickCount count;
+std::uint32_t hungry = 0;  // calls since the watchdog was fed
+}  // namespace
+
+void start() {
+  constexpr std::uint32_t by_watchdog = 1u << 7;
+  start_pins();
+  bitten_ = reg(why_reset) & by_watchdog;
+  reg(why_reset) = reg(why_reset);  // a one that is written is forgotten
+  ++kept.starts;
+  start_clocks();
+  reg(noise) = 1u << 16 | 1u << 6;  // as after a reset, stopped; then it runs
+  reg(noise) = 2;
+  [[maybe_unused]] const std::uint32_t last = reg(noise + 0x7C);  // read: new ones are made
+  start_converter();
+  reg(running_control) = 0;
+  reg(running_prescaler) = 0;
+  reg(running_interrupts) = compared;
+  reg(running_state) = 0x3F;
+  reg(running_control) =
+      1u << 9 | 1u << 6 | 1u << 2 | 1u << 1 | 1u;  // never back to 0 but by itself
+}
+
+const char* name() { return "teensy41"; }
+bool bitten() { return bitten_; }
+bool active_low() { return false; }
+
+// Noise where there is some, after a tenth of a second.
+std::uint32_t nonce() {
+  constexpr std::uint32_t there = 1u << 10;
+  return (wait_for(noise, there, there) ? reg(noise + 0x40) : 0) ^ (kept.starts << 16 | 1u);
+}
+
+// Each bit is sampled as often as the crystal has clocks in it: 26 at 921,600 baud, which makes
+// 923,077. Both ways there are four places to wait in.
+void start_line(std::uint32_t baud) {
+  const std::uint32_t samples = (crystal + baud / 2) / baud;  // 9 … 32
+  set_pad(mux_of_port_1 + 4 * 2, 2, 0x00D9);
+  set_pad(mux_of_port_1 + 4 * 3, 2, 0x1F038);  // pulled up, so that an open pin is silent
+  reg(pad_of_received) = 1;
+  reg(line_control) = 0;
+  reg(line_divider) = (samples - 1) << 24 | 1;
+  reg(line_queues) = 1u << 15 | 1u << 14 | 1u << 7 | 1u << 3;
+  reg(line_marks) = 2;  // an interrupt with the first byte that came, and where two are left to go
+  reg(line_control) = line_on;
+  cortex_m::enable(interrupt_of_line, cortex_m::of_line);
+}
+
+// A USB adapter may hold bytes back for 16 ms.
+std::uint32_t longest_pause() { return 200; }
+
+// 20 ms by the crystal of 32,768 Hz. Its registers are open for 128 clocks of the bus after the
+// key; it goes on in debug, in wait and in stop, and cannot be changed again.
+void start_watchdog() {
+  constexpr std::uint32_t key = 0xD928C520, wide = 1u << 13, taken = 1u << 10;
+  cortex_m::keep_all_away();
+  if (reg(watchdog_control) & wide) {
+    reg(watchdog_key) = key;
+  } else {
+    cortex_m::half_reg(watchdog_key) = key & 0xFFFF;
+    cortex_m::half_reg(watchdog_key) = key >> 16;
+  }
+  reg(watchdog_window) = 0;
+  reg(watchdog_time) = 655;
+  reg(watchdog_control) = wide | 1u << 8 | 1u << 7 | 7u;
+  cortex_m::let_all_come();
+  wait_for(watchdog_control, taken, taken);
+}
+
+// Once a millisecond is often enough: its clock is slower than the ticks are many.
+void feed_watchdog() {
+  if (++hungry < 10) return;
+  hungry = 0;
+  reg(watchdog_key) = 0xB480A602;
+}
+
+void start_ticks() {
+  count.start(clocks_a_tick, reg(running_count));
+  reg(ticking_off) = 0;
+  reg(ticking_reload) = clocks_a_tick - 1;
+  reg(ticking_state) = 1;
+  reg(ticking_control) = 3;
+  cortex_m::enable(interrupt_of_edges, cortex_m::of_edge);
+  cortex_m::enable(interrupt_of_ticks, cortex_m::of_tick);
+}
+
+std::uint32_t ticks_passed() { return count.passed(reg(running_count)); }
+
+void start_conversion(signals::Channel channel) {
+  reg(converter_start) = (input_of_1[channel.index] + 5u) % 16;
+}
+
+signals::Reading reading(Tick) {
+  if (!(reg(converter_state) & 1u)) return {0, Status::late};
+  return {static_cast<std::uint16_t>(reg(converter_data)), Status::ok};
+}
+
+void drive(const Drive& d) {
+  const Pins p = pins(d.current ? d.coils : 0, d.supply);
+  if (!waits(d)) {
+    waiting.forget();
+    put(p);
+    return;
+  }
+  const std::uint32_t instant = count.began() + edge_delay * clocks_a_us;
+  waiting.leave(p);
+  reg(running_compare) = instant;
+  if (is_late(reg(running_count), instant, clocks_a_us)) put_late();
+}
+
+void keep_ticks_away() { cortex_m::keep_ticks_away(); }
+void let_ticks_come() { cortex_m::let_ticks_come(); }
+
+void wake_sender() { reg(line_control) = line_on | line_room; }
+
+// It does not sleep: the chip would stop clocks that are wanted, unless told otherwise, and take
+// its time to wake up.
+void idle() {}
+
+}  // namespace hardware
+}  // namespace sinew::firmware
+
+// --- interrupts ---------------------------------------------------------------------------------
+
+extern "C" {
+
+// All coils off, until the watchdog bites.
+void fault() {
+  using namespace sinew::firmware;
+  cortex_m::keep_all_away();
+  put({});
+  for (;;) {}
+}
+
+// An overrun stops the line until it is said to be known; the frame is thrown away by its CRC.
+void line_works() {
+  using namespace sinew::firmware;
+  while (reg(line_state) & line_came) received(static_cast<std::uint8_t>(reg(line_data)));
+  reg(line_state) = line_errors;
+  if (!(reg(line_control) & line_room)) return;
+  while (reg(line_state) & line_room) {
+    std::uint8_t byte = 0;
+    if (!next_to_send(byte)) {
+      reg(line_control) = line_on;
+      return;
+    }
+    reg(line_data) = byte;
+  }
+}
+
+// No word waits for longer than a tick, whatever becomes of the compare.
+void time_over() {
+  using namespace sinew::firmware;
+  reg(ticking_state) = 1;
+  put_late();
+  tick();
+}
+
+// Pins first: all that is before them moves the edge. The request must be gone before the end, or
+// this processor comes again.
+void edge_due() {
+  using namespace sinew::firmware;
+  Pins p;
+  if (waiting.take(p)) put(p);
+  reg(running_state) = compared;
+  cortex_m::wait_for_writes();
+}
+
+}  // extern "C"

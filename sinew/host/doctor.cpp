@@ -1,0 +1,207 @@
+#include "sinew/host/doctor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sinew/host/doctor_files.h"
+#include "sinew/host/realtime.h"
+
+namespace sinew::host {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Findings = std::vector<Finding>;
+
+// --- devices ---
+
+struct Kind {
+  std::string subject, place, group;  // group: that which usually has them
+  std::vector<std::string> names;     // below /dev
+  std::string if_none;                // what to do
+};
+
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> all = {
+      {"serial devices", "serial", "dialout", {"ttyACM", "ttyUSB"}, "sudo dmesg | tail"},
+      {"cards", "comedi", "iocard", {"comedi"}, "lsmod | grep comedi"}};
+  return all;
+}
+
+void look_at_devices(const Kind& kind, const DoctorAsked& asked, Findings& out) {
+  const User user = user_of(asked.root);
+  const std::string why = kind.place == "serial"
+                              ? "a board is spoken to over one"
+                              : "a card reads the sensors and switches the valves";
+  std::vector<fs::path> devices = named(asked.root / "dev", kind.names);
+  // A card's device has a number alone; comedi0_subd1 is a part of it.
+  std::erase_if(devices, [](const fs::path& d) {
+    return d.filename().string().find("_subd") != std::string::npos;
+  });
+  if (devices.empty())
+    out.push_back({kind.subject, kind.place, Verdict::missing,
+                   "none; is it plugged in, and its "
+                   "driver loaded?",
+                   why, kind.if_none});
+  for (const fs::path& device : devices) {
+    const std::string name = "/dev/" + device.filename().string();
+    if (may_use(device, user)) {
+      out.push_back({kind.subject, kind.place, Verdict::good, name + " may be used", why, ""});
+      continue;
+    }
+    const std::string group = group_of(device, asked.root);
+    const bool usual = group == kind.group;
+    out.push_back(
+        {kind.subject, kind.place, Verdict::missing,
+         fmt::format("{} may not be used by this user; its group is {}", name, group), why,
+         usual ? fmt::format("sudo usermod -aG {} $USER   # then log in again", group)
+               : fmt::format("sudo chgrp {0} {1} && sudo chmod 660 {1}", kind.group, name)});
+  }
+}
+
+// --- USB adapters ---
+
+// A driver of FTDI's collects bytes for so long before it hands them on  [ms].
+void look_at_adapters(const DoctorAsked& asked, Findings& out) {
+  const fs::path folder = asked.root / "sys/bus/usb-serial/devices";
+  for (const fs::path& device : named(folder, {"tty"})) {
+    const std::string text = text_of(device / "latency_timer");
+    if (text.empty()) continue;
+    const std::string name = device.filename().string();
+    const bool good = text == "1" || text == "2";
+    out.push_back({"USB adapter", "serial", good ? Verdict::good : Verdict::advice,
+                   fmt::format("{} collects bytes for {} ms", name, text),
+                   "a board's word is due every 10 ms; one that waits comes a period late",
+                   good ? ""
+                        : fmt::format("echo 1 | sudo tee /sys/bus/usb-serial/devices/{}/"
+                                      "latency_timer",
+                                      name)});
+  }
+}
+
+// --- real time ---
+
+void look_at_limits(const DoctorAsked& asked, Findings& out) {
+  const bool first_user = user_of(asked.root).id == 0;
+  const double most = limit_of(asked.root, "Max realtime priority");
+  const double memory = limit_of(asked.root, "Max locked memory");
+  const bool first = first_user || most < 0 || most >= priority;
+  // A run's memory is its log above all; a gigabyte is more than any has needed.
+  const bool locked = first_user || memory < 0 || memory >= 1e9;
+  const auto said = [](double limit) {
+    return limit < 0 ? std::string("unlimited") : fmt::format("{:.0f}", limit);
+  };
+  const char* file = "/etc/security/limits.d/sinew.conf   # then log in again";
+  out.push_back({"real-time priority", "", first ? Verdict::good : Verdict::advice,
+                 first_user ? "this is root, who may" : "RLIMIT_RTPRIO is " + said(most),
+                 fmt::format("the loop asks for priority {}, before all other programs", priority),
+                 first ? "" : fmt::format("echo '@iocard - rtprio 90' | sudo tee -a {}", file)});
+  out.push_back(
+      {"locked memory", "", locked ? Verdict::good : Verdict::advice,
+       first_user ? "this is root, who may"
+                  : "RLIMIT_MEMLOCK is " + said(memory) + (memory < 0 ? "" : " bytes"),
+       "a page that was put out costs the loop milliseconds",
+       locked ? "" : fmt::format("echo '@iocard - memlock unlimited' | sudo tee -a {}", file)});
+}
+
+void look_at_kernel(const DoctorAsked& asked, Findings& out) {
+  const std::string version = text_of(asked.root / "proc/sys/kernel/version");
+  const bool real_time = text_of(asked.root / "sys/kernel/realtime") == "1" ||
+                         version.find("PREEMPT_RT") != std::string::npos;
+  out.push_back({"kernel", "", real_time ? Verdict::good : Verdict::advice,
+                 version.empty() ? "its version is not told" : version,
+                 "one with PREEMPT_RT wakes a program within a bound, any other as a rule",
+                 real_time ? "" : "sudo apt-get install linux-image-rt-amd64   # then start it"});
+
+  const fs::path clock = asked.root / "sys/devices/system/clocksource/clocksource0";
+  const std::string source = text_of(clock / "current_clocksource");
+  const bool slow = source == "hpet" || source == "acpi_pm" || source == "jiffies";
+  out.push_back({"clock source", "", slow ? Verdict::advice : Verdict::good,
+                 source.empty() ? "not told" : source,
+                 "reading hpet or acpi_pm costs a microsecond or more, tsc some nanoseconds",
+                 slow ? "sudo dmesg | grep -i tsc   # says why it was given up" : ""});
+
+  // Each processor has its own; the slowest of them is the one that the loop is on.
+  std::string slowest;
+  for (const fs::path& cpu : named(asked.root / "sys/devices/system/cpu", {"cpu"})) {
+    const std::string governor = text_of(cpu / "cpufreq/scaling_governor");
+    if (!governor.empty() && governor != "performance") slowest = governor;
+  }
+  out.push_back({"CPU governor", "", slowest.empty() ? Verdict::good : Verdict::advice,
+                 slowest.empty() ? "performance, or none" : slowest,
+                 "a processor that has slowed down wakes up late",
+                 slowest.empty() ? "" : "sudo cpupower frequency-set -g performance"});
+}
+
+void look_at_latency(const DoctorAsked& asked, Findings& out) {
+  if (!asked.latency) return;
+  const Latency latency = asked.latency();
+  const LatencyClass c = class_of(latency);
+  out.push_back(
+      {"timer latency", "", c == LatencyClass::real_time ? Verdict::good : Verdict::advice,
+       in_words(latency), "an edge of a valve is as late as the wake-up before it",
+       c == LatencyClass::real_time ? ""
+                                    : "sinew doctor   # again, once the advice above is followed"});
+}
+
+// --- programs and libraries ---
+
+bool has_program(const DoctorAsked& asked, const std::string& name) {
+  return std::ranges::any_of(asked.programs, [&](const std::string& folder) {
+    return fs::exists(asked.root / fs::path(folder).relative_path() / name);
+  });
+}
+
+bool has_library(const DoctorAsked& asked, const std::string& name) {
+  for (const char* folder : {"usr/lib", "usr/local/lib", "lib"}) {
+    const fs::path here = asked.root / folder;
+    if (!named(here, {name}).empty()) return true;
+    for (const fs::path& below : named(here, {"x86_64-linux", "aarch64-linux", "arm-linux"}))
+      if (!named(below, {name}).empty()) return true;
+  }
+  return false;
+}
+
+void look_for_parts(const DoctorAsked& asked, Findings& out) {
+  const auto add = [&](bool there, const char* name, const char* place, const char* why,
+                       const char* package) {
+    out.push_back({name, place, there ? Verdict::good : Verdict::missing,
+                   there ? "there" : "not found", why,
+                   there ? "" : fmt::format("sudo apt-get install {}", package)});
+  };
+  add(has_program(asked, "qemu-system-arm"), "qemu-system-arm", "emulated",
+      "runs a board's program without a board", "qemu-system-arm");
+  add(has_program(asked, "arm-none-eabi-gcc"), "arm-none-eabi-gcc", "emulated",
+      "compiles the board's program", "gcc-arm-none-eabi libstdc++-arm-none-eabi-newlib");
+  add(has_library(asked, "libcomedi.so"), "libcomedi", "comedi", "speaks to the card",
+      "libcomedi-dev   # then build again");
+}
+
+}  // namespace
+
+std::vector<Finding> examine(const DoctorAsked& asked) {
+  Findings out;
+  for (const Kind& kind : kinds()) look_at_devices(kind, asked, out);
+  look_at_adapters(asked, out);
+  look_for_parts(asked, out);
+  look_at_limits(asked, out);
+  look_at_kernel(asked, out);
+  look_at_latency(asked, out);
+  return out;
+}
+
+// One device that may be used is enough.
+bool is_ready(const std::vector<Finding>& findings, const std::string& place) {
+  for (const Finding& f : findings) {
+    if (f.place != place || f.verdict != Verdict::missing) continue;
+    const bool another = std::ranges::any_of(findings, [&](const Finding& other) {
+      return other.subject == f.subject && other.verdict == Verdict::good;
+    });
+    if (!another) return false;
+  }
+  return true;
+}
+
+}  // namespace sinew::host

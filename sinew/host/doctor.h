@@ -1,0 +1,43 @@
+// host/doctor.h - is this computer ready to drive a machine? Each finding says what was found, why
+// it matters, and what to do.
+//
+// All but the timer's latency is read from files below a root: /, or a tree that a test has made
+// up.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sinew/host/latency.h"
+
+namespace sinew::host {
+
+enum class Verdict {
+  good,
+  advice,   // it goes, and would go better otherwise
+  missing,  // what needs it does not go
+};
+
+struct Finding {
+  std::string subject;  // "serial devices"
+  std::string place;  // what needs it: serial, emulated, comedi; empty: whatever runs in real time
+  Verdict verdict = Verdict::good;
+  std::string found, why, todo;  // todo: a command; empty where there is nothing to do
+};
+
+struct DoctorAsked {
+  std::filesystem::path root = "/";
+  std::vector<std::string> programs = {"/usr/local/bin", "/usr/bin", "/bin"};  // where they are
+  std::function<Latency()> latency;  // none: it is not measured
+};
+
+// Looks, and changes nothing. In the order in which one would read them.
+std::vector<Finding> examine(const DoctorAsked& asked);
+
+// Does anything lack that this kind of place needs? `simulated` needs nothing.
+bool is_ready(const std::vector<Finding>& findings, const std::string& place);
+
+}  // namespace sinew::host

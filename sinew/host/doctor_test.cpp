@@ -1,0 +1,195 @@
+// A made-up system with one defect after the other: each is found, and what to do is said.
+#include "sinew/host/doctor.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "sinew/host/doctor_files.h"
+
+namespace sinew::host {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A computer on which nothing is wrong, until a test breaks something.
+class Doctor : public ::testing::Test {
+ protected:
+  Doctor() {
+    std::string name = (fs::temp_directory_path() / "sinew-doctor-XXXXXX").string();
+    root_ = mkdtemp(name.data());
+    // Nobody who runs this test has that number, so that modes alone decide.
+    put("proc/self/status",
+        "Name:\tsinew\nUid:\t64001\t64001\nGid:\t64001\t64001\nGroups:\t64002\n");
+    put("proc/self/limits",
+        "Limit                     Soft Limit           Hard Limit           Units\n"
+        "Max locked memory         unlimited            unlimited            bytes\n"
+        "Max realtime priority     90                   90                   \n");
+    put("proc/sys/kernel/version", "#1 SMP PREEMPT_RT Debian 6.1.99-1");
+    put("sys/kernel/realtime", "1");
+    put("sys/devices/system/clocksource/clocksource0/current_clocksource", "tsc");
+    put("sys/devices/system/cpu/cpu0/cpufreq/scaling_governor", "performance");
+    put("sys/devices/system/cpu/cpu1/cpufreq/scaling_governor", "performance");
+    put("sys/bus/usb-serial/devices/ttyUSB0/latency_timer", "1");
+    put("usr/bin/qemu-system-arm", "");
+    put("usr/bin/arm-none-eabi-gcc", "");
+    put("usr/lib/libcomedi.so.0", "");
+    put("dev/ttyUSB0", "");
+    put("dev/comedi0", "");
+    mode("dev/ttyUSB0", 0666);
+    mode("dev/comedi0", 0666);
+  }
+  ~Doctor() override {
+    std::error_code none;
+    fs::remove_all(root_, none);
+  }
+
+  void put(const std::string& file, const std::string& text) const {
+    fs::create_directories((root_ / file).parent_path());
+    std::ofstream(root_ / file) << text << "\n";
+  }
+  void mode(const std::string& file, mode_t bits) const {
+    ASSERT_EQ(::chmod((root_ / file).c_str(), bits), 0);
+  }
+  std::vector<Finding> look(Latency latency = {1e-6, 5e-6, 20e-6, 10'000}) const {
+    return examine({.root = root_, .latency = [=] { return latency; }});
+  }
+  static Finding find(const std::vector<Finding>& all, const std::string& subject) {
+    for (const Finding& f : all)
+      if (f.subject == subject) return f;
+    ADD_FAILURE() << "nothing said of " << subject;
+    return {};
+  }
+  // Only this is not good; returns what was said of it.
+  Finding only(const std::string& subject) const {
+    const std::vector<Finding> all = look();
+    for (const Finding& f : all) {
+      const bool as_meant = f.subject == subject || f.verdict == Verdict::good;
+      EXPECT_TRUE(as_meant) << f.subject << ": " << f.found;
+    }
+    const Finding out = find(all, subject);
+    EXPECT_NE(out.verdict, Verdict::good) << subject;
+    EXPECT_FALSE(out.found.empty() || out.why.empty() || out.todo.empty()) << subject;
+    return out;
+  }
+
+  fs::path root_;
+};
+
+TEST_F(Doctor, OfAComputerOnWhichNothingIsWrongAllIsGood) {
+  for (const Finding& f : look()) {
+    EXPECT_EQ(f.verdict, Verdict::good) << f.subject << ": " << f.found;
+    EXPECT_EQ(f.todo, "") << f.subject;
+  }
+  for (const char* place : {"simulated", "serial", "emulated", "comedi"})
+    EXPECT_TRUE(is_ready(look(), place)) << place;
+}
+
+TEST_F(Doctor, OfATreeWithNothingInItASimulationIsReadyAndNothingElse) {
+  const std::vector<Finding> all = examine({.root = root_ / "nowhere"});
+  EXPECT_TRUE(is_ready(all, "simulated"));
+  for (const char* place : {"serial", "emulated", "comedi"}) EXPECT_FALSE(is_ready(all, place));
+}
+
+TEST_F(Doctor, ADeviceOfAnotherGroupNamesTheGroup) {
+  struct stat is {};
+  ASSERT_EQ(::stat((root_ / "dev/comedi0").c_str(), &is), 0);
+  put("etc/group", "root:x:99999:\niocard:x:" + std::to_string(is.st_gid) + ":\n");
+  mode("dev/comedi0", 0660);
+  EXPECT_EQ(only("cards").todo, "sudo usermod -aG iocard $USER   # then log in again");
+  EXPECT_FALSE(is_ready(look(), "comedi"));
+  EXPECT_TRUE(is_ready(look(), "serial"));
+
+  put("etc/group", "wheel:x:" + std::to_string(is.st_gid) + ":\n");
+  EXPECT_EQ(only("cards").todo, "sudo chgrp iocard /dev/comedi0 && sudo chmod 660 /dev/comedi0");
+}
+
+TEST_F(Doctor, MembersOfTheGroupAndTheOwnerMayUseADevice) {
+  struct stat is {};
+  ASSERT_EQ(::stat((root_ / "dev/comedi0").c_str(), &is), 0);
+  const auto as = [&](long user, long group) {
+    put("proc/self/status", "Uid:\t1\t" + std::to_string(user) + "\nGid:\t1\t1\nGroups:\t7 " +
+                                std::to_string(group) + "\n");
+    return may_use(root_ / "dev/comedi0", user_of(root_));
+  };
+  const auto owner = static_cast<long>(is.st_uid), group = static_cast<long>(is.st_gid);
+  mode("dev/comedi0", 0660);
+  EXPECT_TRUE(as(64001, group));
+  EXPECT_FALSE(as(64001, 64002));
+  EXPECT_TRUE(as(0, 64002));
+  EXPECT_TRUE(as(owner, 64002));
+  mode("dev/comedi0", 0640);  // reading alone drives no machine
+  EXPECT_FALSE(as(64001, group));
+}
+
+TEST_F(Doctor, APartOfACardIsNoCardAndOneDeviceThatMayBeUsedIsEnough) {
+  put("dev/ttyACM0", "");
+  mode("dev/ttyACM0", 0600);
+  EXPECT_TRUE(is_ready(look(), "serial"));
+  fs::remove(root_ / "dev/ttyACM0");
+  fs::rename(root_ / "dev/comedi0", root_ / "dev/comedi0_subd1");
+  EXPECT_NE(only("cards").found.find("none"), std::string::npos);
+}
+
+TEST_F(Doctor, WhatIsNotPluggedInOrNotInstalledIsMissing) {
+  fs::remove(root_ / "usr/lib/libcomedi.so.0");
+  EXPECT_EQ(only("libcomedi").todo, "sudo apt-get install libcomedi-dev   # then build again");
+  EXPECT_FALSE(is_ready(look(), "comedi"));
+  put("usr/lib/x86_64-linux-gnu/libcomedi.so.0", "");
+  EXPECT_TRUE(is_ready(look(), "comedi"));
+  for (const char* program : {"qemu-system-arm", "arm-none-eabi-gcc"}) {
+    fs::remove(root_ / "usr/bin" / program);
+    EXPECT_NE(only(program).todo.find("sudo apt-get install "), std::string::npos);
+    EXPECT_FALSE(is_ready(look(), "emulated"));
+    put(std::string("usr/local/bin/") + program, "");
+  }
+  fs::remove(root_ / "dev/ttyUSB0");
+  EXPECT_EQ(only("serial devices").todo, "sudo dmesg | tail");
+}
+
+TEST_F(Doctor, LimitsThatForbidRealTimeAreAdviceAndRootHasNone) {
+  put("proc/self/limits", "Max locked memory         unlimited\nMax realtime priority     0\n");
+  EXPECT_EQ(only("real-time priority").found, "RLIMIT_RTPRIO is 0");
+  put("proc/self/limits", "Max locked memory         8388608\nMax realtime priority     90\n");
+  EXPECT_EQ(only("locked memory").found, "RLIMIT_MEMLOCK is 8388608 bytes");
+  EXPECT_TRUE(is_ready(look(), "comedi"));
+  put("proc/self/status", "Uid:\t0\t0\n");
+  for (const Finding& f : look()) EXPECT_EQ(f.verdict, Verdict::good) << f.subject;
+}
+
+TEST_F(Doctor, AKernelWithoutAPromiseIsAdviceHoweverTheOtherTellsIt) {
+  put("proc/sys/kernel/version", "#1 SMP PREEMPT_DYNAMIC Debian 6.1.99-1");
+  EXPECT_EQ(find(look(), "kernel").verdict, Verdict::good) << "/sys/kernel/realtime says 1";
+  fs::remove(root_ / "sys/kernel/realtime");
+  EXPECT_NE(only("kernel").todo.find("linux-image-rt-amd64"), std::string::npos);
+  put("proc/sys/kernel/version", "#1 SMP PREEMPT_RT");
+  EXPECT_EQ(find(look(), "kernel").verdict, Verdict::good);
+}
+
+TEST_F(Doctor, ASlowClockAndOneProcessorThatSlowsDownAreAdvice) {
+  put("sys/devices/system/clocksource/clocksource0/current_clocksource", "hpet");
+  EXPECT_EQ(only("clock source").found, "hpet");
+  put("sys/devices/system/clocksource/clocksource0/current_clocksource", "kvm-clock");
+  put("sys/devices/system/cpu/cpu1/cpufreq/scaling_governor", "powersave");
+  EXPECT_EQ(only("CPU governor").found, "powersave");
+}
+
+TEST_F(Doctor, AnAdapterThatCollectsFor16MillisecondsIsToldHowToStop) {
+  put("sys/bus/usb-serial/devices/ttyUSB0/latency_timer", "16");
+  const Finding said = only("USB adapter");
+  EXPECT_EQ(said.found, "ttyUSB0 collects bytes for 16 ms");
+  EXPECT_EQ(said.todo, "echo 1 | sudo tee /sys/bus/usb-serial/devices/ttyUSB0/latency_timer");
+}
+
+TEST_F(Doctor, ALateTimerIsAdviceAndSaidByItsClass) {
+  const Finding late = find(look({1e-6, 2e-4, 5e-3, 10'000}), "timer latency");
+  EXPECT_EQ(late.verdict, Verdict::advice);
+  EXPECT_TRUE(late.found.starts_with("unfit: ")) << late.found;
+  // Where nobody measures, nothing is said.
+  for (const Finding& f : examine({.root = root_})) EXPECT_NE(f.subject, "timer latency");
+}
+
+}  // namespace
+}  // namespace sinew::host
