@@ -31,8 +31,11 @@ void print_flash(const run::FirmwareBoard& board, const std::string& file) {
 ExitCode build(const Options& o) {
   const run::FirmwareBoard& board = run::firmware_board(o.board);
   run::require_fits(o.robot, board);
-  run::build_firmware(o.sources, board, o.out, o.force);
-  Messages(false).note("built " + o.out + "; onto the board with");
+  const bool low = run::low_gives_current(o.robot);
+  run::build_firmware(o.sources, board, o.out, low, o.force);
+  Messages(false).note(
+      fmt::format("built {}, whose outputs are {} where a coil has current; onto the board with",
+                  o.out, low ? "0, as wiring.polarity says," : "1"));
   print_flash(board, o.out);
   return ok;
 }

@@ -48,8 +48,8 @@ struct Drive {
 void start();        // clocks and pins; before anything else no coil gets current. <= 1 s, or reset
 const char* name();  // up to 15 letters
 bool bitten();       // was it the watchdog that has reset the board?
-std::uint32_t nonce();                // another number after each reset
-bool active_low();                    // do the drivers of coils have 0 for current? Told to hosts
+std::uint32_t nonce();  // another number after each reset
+bool active_low();      // does 0 at an output give a coil current (level.h)? Told to hosts
 void start_line(std::uint32_t baud);  // 8 bits, no parity, 1 stop bit; its interrupts come
 std::uint32_t longest_pause();        // [ticks] of the line within a frame; a longer one ends it
 void start_watchdog();  // bites unless it is fed within 20 ms, or so; cannot be stopped again

@@ -10,6 +10,7 @@
 #include <new>
 
 #include "firmware/cortex_m.h"
+#include "firmware/level.h"
 #include "firmware/same_bits.h"
 #include "firmware/semihosting.h"
 #include "sinew/control/joint/test_leg.h"
@@ -143,7 +144,7 @@ void start() {
 
 const char* name() { return "counted"; }
 bool bitten() { return false; }
-bool active_low() { return false; }
+bool active_low() { return low_gives_current; }
 std::uint32_t nonce() { return 1; }
 void start_line(std::uint32_t) {}
 std::uint32_t longest_pause() { return 50; }

@@ -13,6 +13,7 @@
 #include <new>
 
 #include "firmware/cortex_m.h"
+#include "firmware/level.h"
 #include "firmware/semihosting.h"
 #include "firmware/tick_count.h"
 #include "sinew/control/board/lock_step.h"
@@ -152,7 +153,7 @@ void start() {
 
 const char* name() { return "mps2-an386"; }
 bool bitten() { return bitten_; }
-bool active_low() { return false; }
+bool active_low() { return low_gives_current; }
 std::uint32_t nonce() { return kept.starts << 16 | 1u; }
 
 void start_line(std::uint32_t baud) {

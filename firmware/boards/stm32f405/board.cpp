@@ -5,7 +5,8 @@
 //
 //   inputs 0 … 7      PA0 … PA7      the converter's inputs 0 … 7
 //          8 … 13     PC0 … PC5                          10 … 15
-//   outputs 0 … 11    PB4 … PB15     valves, 1 is current; a pull-down of its own at each driver
+//   outputs 0 … 11    PB4 … PB15     valves; at each driver a resistor of its own towards no
+//   current
 //           12 … 15   PC6 … PC9
 //   supply            PC12           the dump valve's coil
 //   line              PA9 out, PA10 in
@@ -15,6 +16,7 @@
 
 #include "firmware/cortex_m.h"
 #include "firmware/edges.h"
+#include "firmware/level.h"
 #include "firmware/tick_count.h"
 
 namespace sinew::firmware {
@@ -85,13 +87,14 @@ constexpr std::uint32_t output = 1, alternate = 2, analog = 3;
 
 // The upper half of a word resets pins, the lower half sets them: a port changes at once.
 struct Pins {
-  std::uint32_t b = 0xFFF0u << 16, c = 0x13C0u << 16;  // off
+  std::uint32_t b = 0, c = 0;  // nothing changes
 };
 constexpr Pins pins(std::uint32_t coils, bool supply) {
   const std::uint32_t b = (coils & 0xFFFu) << 4;
-  const std::uint32_t c = (coils >> 12 & 0xFu) << 6 | (supply ? 1u << 12 : 0);
+  const std::uint32_t c = (coils >> 12 & 0xFu) << 6 | (supply != low_gives_current ? 1u << 12 : 0);
   return {(~b & 0xFFF0u) << 16 | b, (~c & 0x13C0u) << 16 | c};
 }
+constexpr Pins no_current = pins(control::rest_word(low_gives_current), false);
 
 void put(const Pins& p) {
   reg(port_b + set_reset) = p.b;
@@ -111,7 +114,7 @@ void put_late() {
 // All coils off before their pins become outputs.
 void start_pins() {
   reg(rcc_ahb1) = reg(rcc_ahb1) | 7u;
-  put({});
+  put(no_current);
   for (std::uint32_t pin = 4; pin < 16; ++pin) set_mode(port_b, pin, output);
   for (const std::uint32_t pin : {6u, 7u, 8u, 9u, 12u}) set_mode(port_c, pin, output);
   for (std::uint32_t pin = 0; pin < 8; ++pin) set_mode(port_a, pin, analog);
@@ -178,7 +181,7 @@ void start() {
 
 const char* name() { return "stm32f405"; }
 bool bitten() { return bitten_; }
-bool active_low() { return false; }
+bool active_low() { return low_gives_current; }
 
 // Noise where there is some: what a battery kept may be the same after a while without current.
 std::uint32_t nonce() {
@@ -229,7 +232,8 @@ signals::Reading reading(Tick) {
 }
 
 void drive(const Drive& d) {
-  const Pins p = pins(d.current ? d.coils : 0, d.supply);
+  const Pins p =
+      d.current ? pins(d.coils, d.supply) : pins(control::rest_word(low_gives_current), d.supply);
   if (!waits(d)) {
     waiting.forget();
     put(p);
@@ -269,7 +273,7 @@ extern "C" {
 void fault() {
   using namespace sinew::firmware;
   cortex_m::keep_all_away();
-  put({});
+  put(no_current);
   for (;;) {}
 }
 

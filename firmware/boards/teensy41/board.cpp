@@ -5,8 +5,8 @@
 //   inputs 0 … 9      pins 14 … 23            A0 … A9
 //          10, 11     pins 24, 25             A10, A11
 //          12, 13     pins 40, 41             A16, A17
-//   outputs 0 … 6     pins 6 … 12             valves, 1 is current; a pull-down of its own, 10 kohm
-//           7         pin 32                  or less, at each driver
+//   outputs 0 … 6     pins 6 … 12             valves; at each driver a resistor of its own towards
+//           7         pin 32                  no current, 10 kohm or less
 //           8 … 11    pins 34 … 37
 //           12 … 15   pins 2 … 5
 //   supply            pin 33                  the dump valve's coil
@@ -18,6 +18,7 @@
 
 #include "firmware/cortex_m.h"
 #include "firmware/edges.h"
+#include "firmware/level.h"
 #include "firmware/tick_count.h"
 
 namespace sinew::firmware {
@@ -89,10 +90,11 @@ constexpr Pins pins(std::uint32_t coils, bool supply) {
   Pins out;
   for (const std::uint8_t bit : output_0_of_7) out.of_7 |= (coils & 1u) << bit, coils >>= 1;
   for (const std::uint8_t bit : output_12_of_9) out.of_9 |= (coils & 1u) << bit, coils >>= 1;
-  if (supply) out.of_9 |= supply_of_9;
+  if (supply != low_gives_current) out.of_9 |= supply_of_9;
   return out;
 }
-constexpr Pins all = pins(~0u, true);
+constexpr Pins all = pins(~0u, !low_gives_current);
+constexpr Pins no_current = pins(control::rest_word(low_gives_current), false);
 
 // Nothing else of these ports is an output of ours: a port changes at once.
 void put(const Pins& p) {
@@ -118,13 +120,16 @@ void set_pad(std::uintptr_t mux, std::uint32_t for_what, std::uint32_t resistors
 // All coils off before their pins become outputs. Until then, from a reset on, a pad keeps what it
 // had last, weakly: the driver's own resistor is stronger.
 void start_pins() {
-  constexpr std::uint32_t port = 5, pulled_down = 0x30B0, nothing_pulls = 0x00B0;
-  put({});
+  constexpr std::uint32_t port = 5, towards_no_current = low_gives_current ? 0xF0B0 : 0x30B0,
+                          nothing_pulls = 0x00B0;
+  put(no_current);
   reg(port_2_is_7) = ~0u;
   reg(port_4_is_9) = ~0u;
-  put({});
-  for (const std::uint8_t bit : output_0_of_7) set_pad(mux_of_port_2 + 4u * bit, port, pulled_down);
-  for (std::uint32_t bit = 4; bit <= 8; ++bit) set_pad(mux_of_port_4 + 4 * bit, port, pulled_down);
+  put(no_current);
+  for (const std::uint8_t bit : output_0_of_7)
+    set_pad(mux_of_port_2 + 4u * bit, port, towards_no_current);
+  for (std::uint32_t bit = 4; bit <= 8; ++bit)
+    set_pad(mux_of_port_4 + 4 * bit, port, towards_no_current);
   reg(port_7 + port_directions) = reg(port_7 + port_directions) | all.of_7;
   reg(port_9 + port_directions) = reg(port_9 + port_directions) | all.of_9;
   for (const std::uint8_t bit : input_of_1) set_pad(mux_of_port_1 + 4u * bit, port, nothing_pulls);
@@ -197,7 +202,7 @@ void start() {
 
 const char* name() { return "teensy41"; }
 bool bitten() { return bitten_; }
-bool active_low() { return false; }
+bool active_low() { return low_gives_current; }
 
 // Noise where there is some, after a tenth of a second.
 std::uint32_t nonce() {
@@ -270,7 +275,8 @@ signals::Reading reading(Tick) {
 }
 
 void drive(const Drive& d) {
-  const Pins p = pins(d.current ? d.coils : 0, d.supply);
+  const Pins p =
+      d.current ? pins(d.coils, d.supply) : pins(control::rest_word(low_gives_current), d.supply);
   if (!waits(d)) {
     waiting.forget();
     put(p);
@@ -302,7 +308,7 @@ extern "C" {
 void fault() {
   using namespace sinew::firmware;
   cortex_m::keep_all_away();
-  put({});
+  put(no_current);
   for (;;) {}
 }
 

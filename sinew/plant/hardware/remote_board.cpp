@@ -222,8 +222,8 @@ void RemoteBoard::refuse_as_found(const link::Identity& who) const {
     throw BoardError(
         fmt::format("wiring.polarity: found \"{0} opens\"; expected \"{1} opens\": this board's "
                     "outputs are {1} for current in a coil, so that with the other drivers all "
-                    "coils have current while it is at rest; other drivers, or another "
-                    "active_low() in the board's port",
+                    "coils have current while it is at rest; a program that was built for this "
+                    "robot (sinew firmware build), or other drivers",
                     level(*expected_low_), level(who.active_low)));
   }
   if (is_latched(who.state) && is_grave(who.fault) && !may_clear_)

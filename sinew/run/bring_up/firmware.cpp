@@ -133,8 +133,13 @@ std::string wiring_on(const std::string& robot, const FirmwareBoard& board) {
   return wiring_drawing(bench, control::boards(installation(bench)).front(), pins_of(board.name));
 }
 
+bool low_gives_current(const std::string& robot) {
+  const robot::Wiring w = experiment::load_machine_file(robot).experiment.wiring;
+  return w.present && w.polarity == robot::Wiring::Polarity::low_opens;
+}
+
 void build_firmware(const fs::path& sources, const FirmwareBoard& board, const fs::path& out,
-                    bool force) {
+                    bool low_gives_current, bool force) {
   if (!fs::exists(sources / "firmware" / "application.cpp"))
     config::fail({sources.string(), 0, 0}, "", "no sources of Sinew",
                  "the folder that they were cloned into");
@@ -152,9 +157,11 @@ void build_firmware(const fs::path& sources, const FirmwareBoard& board, const f
   const std::string image = "application-" + name + ".elf";
   const fs::path said = fs::path(workshop.path) / "said", build = fs::path(workshop.path) / "build";
   work(
-      fmt::format("cmake -S {} -B {} -G Ninja -DCMAKE_TOOLCHAIN_FILE={} -DCMAKE_BUILD_TYPE=Release",
+      fmt::format("cmake -S {} -B {} -G Ninja -DCMAKE_TOOLCHAIN_FILE={} -DCMAKE_BUILD_TYPE=Release "
+                  "-DSINEW_LOW_GIVES_CURRENT={}",
                   quoted(sources.string()), quoted(build.string()),
-                  quoted((sources / "firmware" / "cortex-m4f.cmake").string())),
+                  quoted((sources / "firmware" / "cortex-m4f.cmake").string()),
+                  low_gives_current ? "ON" : "OFF"),
       said);
   work(fmt::format("ninja -C {} {}", quoted(build.string()), image), said);
   const fs::path made = converted(build / "firmware" / image, out.extension().string(), said);

@@ -29,12 +29,16 @@ void require_fits(const std::string& robot, const FirmwareBoard& board);
 // require_fits() does.
 std::string wiring_on(const std::string& robot, const FirmwareBoard& board);
 
-// Builds the board's program from Sinew's sources, into `out`; ".bin" is the bare memory, ".hex" an
-// Intel HEX file, anything else an ELF file. Throws config::Error where the sources or the compiler
-// are missing, where `out` is there already or the board is not loaded with such a file, and
-// std::runtime_error with the compiler's last words.
+// Returns whether 0 at an output gives a coil current: what the robot's wiring says; false, where
+// it has none. Throws config::Error for a robot that cannot be read.
+bool low_gives_current(const std::string& robot);
+
+// Builds the board's program from Sinew's sources, into `out`, for that level of its outputs;
+// ".bin" is the bare memory, ".hex" an Intel HEX file, anything else an ELF file. Throws
+// config::Error where the sources or the compiler are missing, where `out` is there already or the
+// board is not loaded with such a file, and std::runtime_error with the compiler's last words.
 void build_firmware(const std::filesystem::path& sources, const FirmwareBoard& board,
-                    const std::filesystem::path& out, bool force);
+                    const std::filesystem::path& out, bool low_gives_current, bool force);
 
 // Returns the command line that brings the file onto the board. Throws config::Error for a form of
 // file that the command does not take.

@@ -78,6 +78,11 @@ line {{ stroke: #555; }} circle {{ fill: #555; }} rect {{ fill: #f4f4f0; stroke:
   out += text(right_edge - 128, bottom + 59, "end",
               fmt::format("supply output{}, in series with the emergency stop",
                           pins ? fmt::format(" ({})", pins->supply) : ""));
+  if (e.wiring.present)
+    out += text(left_edge, bottom + 85, "middle",
+                fmt::format("a coil has current where its output is {}, the supply's too",
+                            e.wiring.polarity == robot::Wiring::Polarity::low_opens ? 0 : 1),
+                "small");
   return out + "</svg>\n";
 }
 

@@ -68,10 +68,12 @@ class Board : public testing::Test {
   std::uint32_t tick_ = 1'000;  // its beginning, as the running timer counts
 };
 
+// `coils`: those that are to have current.
+std::uint32_t levels(std::uint32_t coils) { return low_gives_current ? ~coils : coils; }
 Drive of_run(std::uint32_t coils) {
-  return {.tick = 5, .open = coils, .coils = coils, .current = true, .supply = true};
+  return {.tick = 5, .open = coils, .coils = levels(coils), .current = true, .supply = true};
 }
-Drive at_rest(std::uint32_t coils) { return {.tick = -1, .coils = coils}; }
+Drive at_rest(std::uint32_t coils) { return {.tick = -1, .coils = levels(coils)}; }
 
 TEST_F(Board, NoPinBecomesAnOutputThatHasCurrent) {
   cortex_m::registers().on_write = [](std::uintptr_t address, std::uint32_t written) {
@@ -89,10 +91,16 @@ TEST_F(Board, EachOutputIsItsPinAndNoOther) {
     hardware::drive(at_rest(1u << i));
     EXPECT_EQ(current(), 1u << i);
   }
-  hardware::drive({.tick = -1, .supply = true});
+  hardware::drive({.tick = -1, .coils = levels(0), .supply = true});
   EXPECT_EQ(current(), supply());
-  hardware::drive({.tick = -1, .coils = ~0u, .current = false});
+  hardware::drive({.tick = -1, .coils = levels(~0u), .current = false});
   EXPECT_EQ(current(), 0u);
+}
+
+TEST_F(Board, AHostIsToldWhichLevelGivesCurrent) {
+  started();
+  hardware::drive(at_rest(0));
+  EXPECT_EQ(hardware::active_low(), low_gives_current);
 }
 
 TEST_F(Board, EachInputIsTheConvertersThatTheTableSays) {
@@ -129,7 +137,7 @@ TEST_F(Board, AWordThatIsLateGoesAtOnce) {
 
 TEST_F(Board, OffIsAtOnceAndStays) {
   started();
-  const Drive dump{.tick = 5, .coils = ~0u, .current = false};
+  const Drive dump{.tick = 5, .coils = levels(~0u), .current = false};
   Drive fault = of_run(0);
   fault.supply = false;
   for (const Drive& off : {dump, fault, at_rest(0)}) {

@@ -31,7 +31,7 @@ bool drives(std::uint32_t output) {
 }
 bool has_current(std::uint32_t output) {
   const Pin p = pin(output);
-  return at(p.port + odr) >> p.bit & 1u;
+  return (at(p.port + odr) >> p.bit & 1u) != low_gives_current;
 }
 std::uint32_t converter_input() { return at(adc_1 + sqr_3); }
 std::uint32_t input_of(std::uint32_t input) { return input < 8 ? input : input + 2; }
@@ -43,7 +43,8 @@ void act(std::uintptr_t address, std::uint32_t value) {
           (at(port + odr) & ~(value >> 16)) | (value & 0xFFFFu);
 }
 void power_on() {
-  cortex_m::registers().value[gpio_b + odr] = cortex_m::registers().value[gpio_c + odr] = 0xFFFF;
+  cortex_m::registers().value[gpio_b + odr] = cortex_m::registers().value[gpio_c + odr] =
+      low_gives_current ? 0 : 0xFFFF;
 }
 
 }  // namespace

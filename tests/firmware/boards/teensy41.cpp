@@ -44,14 +44,15 @@ std::string name_of(std::uint32_t output) { return "pin " + std::to_string(pins[
 
 bool drives(std::uint32_t output) { return at(pins[output].port + gdir) >> pins[output].bit & 1u; }
 bool has_current(std::uint32_t output) {
-  return at(pins[output].port + dr) >> pins[output].bit & 1u;
+  return (at(pins[output].port + dr) >> pins[output].bit & 1u) != low_gives_current;
 }
 std::uint32_t converter_input() { return at(adc_1 + hc_0); }
 std::uint32_t input_of(std::uint32_t input) { return inputs[input]; }
 
 void act(std::uintptr_t, std::uint32_t) {}
 void power_on() {
-  cortex_m::registers().value[gpio_7 + dr] = cortex_m::registers().value[gpio_9 + dr] = ~0u;
+  cortex_m::registers().value[gpio_7 + dr] = cortex_m::registers().value[gpio_9 + dr] =
+      low_gives_current ? 0 : ~0u;
 }
 
 }  // namespace

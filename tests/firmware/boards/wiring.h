@@ -7,6 +7,7 @@
 
 #include "firmware/board.h"
 #include "firmware/cortex_m.h"
+#include "firmware/level.h"
 
 extern "C" void edge_due();
 extern "C" void time_over();
@@ -27,7 +28,7 @@ struct Wiring {
 
   // As the chip does it: a register that acts when it is written.
   void (*act)(std::uintptr_t address, std::uint32_t value);
-  void (*power_on)();  // as bad as may be: latches of outputs are full of ones
+  void (*power_on)();  // as bad as may be: latches of outputs would give current
 };
 extern const Wiring wiring;
 
