@@ -3,6 +3,7 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/run/bring_up/firmware.h"
 #include "sinew/run/folder/files.h"
 
@@ -24,7 +25,8 @@ std::string names_of_boards() {
 
 void print_flash(const run::FirmwareBoard& board, const std::string& file) {
   const std::string command = run::flash_command(board, file);
-  fmt::print("{}\n", command.empty() ? fmt::format("sinew run EXPERIMENT --port emulated:{}", file)
+  fmt::print("{}\n", command.empty() ? fmt::format("sinew run EXPERIMENT --port {}",
+                                                   run::shell_word("emulated:" + file))
                                      : command);
 }
 
@@ -76,7 +78,10 @@ void add_firmware(Command app, Action& action) {
   flash.add_option("FILE", o->out, "what was built").required();
   flash.callback([=, &action] {
     action = [=] {
-      print_flash(run::firmware_board(o->board), o->out);
+      const run::FirmwareBoard& board = run::firmware_board(o->board);
+      if (!std::filesystem::is_regular_file(o->out))
+        config::fail({o->out, 0, 0}, "", "no such file", "what sinew firmware build has made");
+      print_flash(board, o->out);
       return ok;
     };
   });

@@ -37,6 +37,25 @@ bool has_ended(const BoardOnPty& board) {
   return state != BoardState::running && state != BoardState::hold;
 }
 
+// What a program that is started in its life can read, and then waits for.
+class AnswersThatCome {
+ public:
+  explicit AnswersThatCome(const std::string& answers) : before_(::dup(0)) {
+    if (::pipe(ends_) != 0) throw std::runtime_error("no pipe");
+    EXPECT_EQ(::write(ends_[1], answers.data(), answers.size()), ssize_t(answers.size()));
+    ::dup2(ends_[0], 0);
+  }
+  ~AnswersThatCome() {
+    ::dup2(before_, 0);
+    for (const int end : {ends_[0], ends_[1], before_}) ::close(end);
+  }
+  AnswersThatCome(const AnswersThatCome&) = delete;
+  AnswersThatCome& operator=(const AnswersThatCome&) = delete;
+
+ private:
+  int before_, ends_[2];
+};
+
 // A run that goes on, a second after its start.
 struct Running {
   explicit Running(BoardOnPty& b, const std::string& name = "walk-test-1")
@@ -137,8 +156,9 @@ TEST(Serial, SeveralSignalsVentAsOneDoes) {
 TEST(Serial, AStopInABringUpVents) {
   const Workspace w;
   BoardOnPty board(run::bench_of((w / "robots/leg/robot.toml").string(), w / "bench", {}));
-  const pid_t host = w.start({"bring-up", "robots/leg/robot.toml", "--port",
-                              "serial:" + board.device(), "-o", "day", "--yes"});
+  const AnswersThatCome yes("y\ny\ny\n");
+  const pid_t host = w.start(
+      {"bring-up", "robots/leg/robot.toml", "--port", "serial:" + board.device(), "-o", "day"});
   EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::running; }, 20));
   ::kill(host, SIGINT);
   EXPECT_TRUE(board.wait([&] { return board.state() == BoardState::vent; }, 0.5));
@@ -151,13 +171,9 @@ TEST(Serial, AStopInABringUpVents) {
 TEST(Serial, ABringUpThatAsksEndsWithCtrlC) {
   BoardOnPty board(loaded("walk-test-1"));
   const Workspace w;
-  int question[2];
-  ASSERT_EQ(::pipe(question), 0);  // nobody answers
-  const int before = ::dup(0);
-  ::dup2(question[0], 0);
+  const AnswersThatCome none("");
   const pid_t host = w.start(
       {"bring-up", "robots/leg/robot.toml", "--port", "serial:" + board.device(), "-o", "day"});
-  ::dup2(before, 0);
   for (int i = 0; i < 500 && read_text(w / "out").find("[y/n]") == std::string::npos; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   ::kill(host, SIGINT);
@@ -165,7 +181,6 @@ TEST(Serial, ABringUpThatAsksEndsWithCtrlC) {
   ::waitpid(host, &status, 0);
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1);
   EXPECT_THAT(read_text(w / "out"), HasSubstr("Stopped. The same command goes on from here."));
-  for (const int end : {question[0], question[1], before}) ::close(end);
 }
 
 TEST(Serial, AHostThatDiesIsHeldThenVented) {

@@ -5,63 +5,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sinew/config/node.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
-#include "sinew/run/bring_up/muscles.h"
+#include "sinew/run/bring_up/at_rest.h"
+#include "sinew/run/bring_up/clicks.h"
 #include "sinew/run/bring_up/progress.h"
 #include "sinew/run/bring_up/wires.h"
 #include "sinew/run/bring_up/wiring_drawing.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/output_folder.h"
 #include "sinew/run/simulation/remote_boards.h"
+#include "sinew/units/hash.h"
 
 namespace sinew::run {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-// Each joint where the sensors' rest counts are taken, without stiffness.
-config::Node joints_of(const robot::Robot& robot, std::string_view key, bool angles) {
-  config::Node out = config::make_table(key);
-  for (const robot::Joint& j : robot.joints)
-    if (angles)
-      out.put(config::make_text(j.name, fmt::format("{} rad", j.rest_angle)));
-    else if (j.kind == robot::Joint::Kind::driven)
-      out.put(config::make_text(j.name, "0 N m/rad"));
-  return out;
-}
-
-}  // namespace
-
-experiment::Experiment bench_of(const std::string& robot, const fs::path& folder,
-                                const std::vector<std::string>& sets) {
-  config::Node root = config::parse_text(
-      "format = \"sinew.experiment/1\"\n"
-      "title = \"The robot hangs empty and does nothing\"\n"
-      "[sequence]\nphases = [\"rest\"]\n"
-      "[phase.rest]\nsource = \"sinew bring-up\"\nduration = \"1 s\"\n",
-      "bench.toml");
-  const robot::Robot machine = experiment::load_machine_file(robot).experiment.robot;
-  config::Node start = config::make_table("start"), control = config::make_table("control");
-  start.put(config::make_text("pressure", "0 psi gauge"));
-  start.put(config::make_text("settle", "1 s"));
-  start.put(joints_of(machine, "joint_angles", true));
-  control.put(joints_of(machine, "stiffness", false));
-  if (machine.ground.present) {
-    config::Node ground = config::make_table("ground");
-    ground.put(config::make_flag("present", false));
-    root.put(std::move(ground));
-  }
-  root.put(std::move(start));
-  root.put(std::move(control));
-  const fs::path there = fs::absolute(folder);
-  root.put(config::make_text("robot", fs::absolute(robot).lexically_relative(there).string()));
-  make_folders(there);
-  write_file(there / "bench.toml", config::to_toml(root));
-  return experiment::load((there / "bench.toml").string(), sets);
-}
 
 // --- the steps ----------------------------------------------------------------------------------
 
@@ -77,24 +36,13 @@ struct NobodyAnswers {};
 struct Step {
   std::string name, title;
   std::function<Result()> work;
+  bool with_air = false;
 };
 
-struct Rest {
-  double mean = 0, deviation = 0;
-  int readings = 0, bad = 0;
-};
-
-Rest rest_of(const Recording& r, std::size_t channel) {
-  Rest out;
-  for (const Sample& s : r.samples) {
-    out.mean += s.counts[channel];
-    out.bad += s.status[channel] != signals::Status::ok;
-    ++out.readings;
-  }
-  out.mean /= std::max(out.readings, 1);
-  for (const Sample& s : r.samples) out.deviation += std::pow(s.counts[channel] - out.mean, 2);
-  out.deviation = std::sqrt(out.deviation / std::max(out.readings - 1, 1));
-  return out;
+// A number for all values of the robot and its settings.
+std::string machine_of(const experiment::Experiment& bench) {
+  return fmt::format("{:016x}",
+                     units::hash(config::to_toml(experiment::values_in_si({"experiment", bench}))));
 }
 
 }  // namespace
@@ -103,15 +51,19 @@ struct BringUp::Impl {
   Impl(const experiment::Experiment& bench, std::string robot_file, plant::RemoteBoard& b, int l,
        Person p, const fs::path& where)
       : e(bench),
-        robot(std::move(robot_file)),
+        robot(fs::weakly_canonical(robot_file).string()),
         board(only_board(bench)),
-        configuration(configuration_of(bench)),
+        configuration(bench_configuration_of(bench)),
         muscles(bench_muscles(bench, board, nullptr)),
         remote(&b),
         lead(l),
         person(std::move(p)),
         folder(where),
         progress(read_progress(folder.path() / "bring-up.json", robot)) {
+    begin_again_if(progress.machine != machine_of(bench),
+                   "the robot's values are others than at the last time");
+    progress.machine = machine_of(bench);
+
     draw_wiring();
   }
 
@@ -126,11 +78,16 @@ struct BringUp::Impl {
     const auto text = [](const auto& name) {
       return std::string(name.begin(), std::find(name.begin(), name.end(), '\0'));
     };
-    progress.board = fmt::format("{}, firmware {}", text(who.board), text(who.firmware));
+    const std::string found = fmt::format("{}, firmware {}", text(who.board), text(who.firmware));
+    begin_again_if(progress.board != found,
+                   "this is another board or program than " + config::in_quotes(progress.board));
+    progress.board = found;
     pins = pins_of(text(who.board));
     muscles = bench_muscles(e, board, pins);
     draw_wiring();
     Result out{.said = {progress.board}};
+    if (const std::string fault = plant::fault_found(who); !fault.empty())
+      out.said.push_back(fault);
     if (who.protocol != link::protocol_version)
       out.wrong.push_back(
           fmt::format("it speaks version {} of the protocol, this program {}: flash "
@@ -156,76 +113,33 @@ struct BringUp::Impl {
       const Rest rest = rest_of(heard, i);
       out.said.push_back(fmt::format("{}: {:.1f} count, noise {:.2f} ({})", s.name, rest.mean,
                                      rest.deviation, wire_of(s.name)));
-      if (const std::string wrong = wrong_with(s, rest, board.limits.sensor[i]); !wrong.empty())
+      if (const std::string wrong =
+              wrong_with(s, rest, board.limits.sensor[i], e.robot.converter.top(), wire_of(s.name));
+          !wrong.empty())
         out.wrong.push_back(wrong);
       progress.learned[s.name] = {rest.mean, rest.deviation, rest.readings};
     }
     return out;
   }
 
-  std::string wrong_with(const robot::Sensor& s, const Rest& rest,
-                         const control::SensorLimits& limits) const {
-    const double top = e.robot.converter.top(), share = 0.05 * top;
-    const std::string wire = wire_of(s.name);
-    if (rest.bad > 0)
-      return fmt::format("{}: {} of {} readings did not come in time or are none ({})", s.name,
-                         rest.bad, rest.readings, wire);
-    // A transducer may rest at the scale's end; whether it is alive a muscle will show.
-    const bool rests_there = s.assumed_at_rest < 4 || s.assumed_at_rest > top - 4;
-    if ((rest.mean < 4 || rest.mean > top - 4) && !rests_there)
-      return fmt::format(
-          "{} reads {:.0f}, an end of the converter's scale: look at its cable and its "
-          "supply ({})",
-          s.name, rest.mean, wire);
-    if (rest.mean < limits.low || rest.mean > limits.high)
-      return fmt::format("{} reads {:.0f}; expected {} to {}: is its cable another's? ({})", s.name,
-                         rest.mean, limits.low, limits.high, wire);
-    const bool has_zero = s.kind == robot::Sensor::Kind::tension ||
-                          s.kind == robot::Sensor::Kind::pressure ||
-                          s.kind == robot::Sensor::Kind::angle;
-    if (has_zero && std::abs(rest.mean - s.assumed_at_rest) > share)
-      return fmt::format(
-          "{} reads {:.0f} at rest; expected {:.0f}, within {:.0f}: is it loaded, or "
-          "its cable another's? ({}); a robot whose sensor is so says it with "
-          "sensor.{}.assumed.at_rest",
-          s.name, rest.mean, s.assumed_at_rest, share, wire, s.name);
-    return "";
-  }
-
   Result clicks() {
     ask_for("Is the supply's air still off? Each valve is to click five times now.");
     Result out;
-    for (const BenchMuscle& m : muscles)
-      for (const bool inlet : {true, false}) {
-        const Trial t = tried(click(m, inlet));
-        const std::string what = fmt::format("the {} of {} ({})", inlet ? "inlet" : "exhaust",
-                                             m.name, inlet ? m.inlet : m.exhaust);
-        if (!t.problem.empty()) return {{"the board ended the trial: " + t.problem}, {}};
-        if (answer("Did " + what + " click five times, and no other valve until the end?"))
-          out.said.push_back(what);
-        else
-          out.wrong.push_back(what +
-                              " did not click alone: look at its wire, its driver and the "
-                              "driver's supply");
-      }
-    return out;
-  }
-  std::vector<Stage> click(const BenchMuscle& m, bool inlet) const {
-    std::vector<control::Duties> open(configuration.spine.joints);
-    control::Duties& d = open[m.board_joint];
-    (m.flexor ? (inlet ? d.flexor_inlet : d.flexor_exhaust)
-              : (inlet ? d.extensor_inlet : d.extensor_exhaust)) = 100;
-    std::vector<Stage> out;
-    for (int i = 0; i < 5; ++i) {
-      out.push_back({0.15, open});
-      out.push_back({0.25, {}});
+    for (const BenchValve& valve : bench_valves(e, board, muscles, pins)) {
+      const Trial t = tried(clicks_of(valve, configuration.spine.joints));
+      if (!t.problem.empty()) return {{"the board ended the trial: " + t.problem}, {}};
+      if (answer("Did " + valve.what + " click five times, and no other valve until the end?"))
+        out.said.push_back(valve.what);
+      else
+        out.wrong.push_back(valve.what +
+                            " did not click alone: look at its wire, its driver and the "
+                            "driver's supply");
     }
     return out;
   }
 
   // Coils without current let no air in.
   Result rest_with_air() {
-    ask_for("Now open the supply's air, and stay clear of the machine. Is it open?");
     const Trial t = tried({{1.5, {}}});
     Result out;
     if (!t.problem.empty()) out.wrong.push_back("the board ended the trial: " + t.problem);
@@ -250,7 +164,6 @@ struct BringUp::Impl {
   Result muscle(std::size_t which) {
     const Trial t = tried(stages_for(muscles[which], configuration.spine.joints));
     const Judgement j = judge(muscles, which, t);
-    filled_angle[muscles[which].name] = j.filled_angle;
     return {j.wrong, {j.said}};
   }
 
@@ -258,7 +171,7 @@ struct BringUp::Impl {
   Result stop() {
     std::vector<control::Duties> all(configuration.spine.joints);
     for (const BenchMuscle& m : muscles)
-      if (m.flexor) all[m.board_joint] = {100, 0, 0, 0};
+      if (m.flexor) all[m.board_joint] = fill(m);
     const Trial t = tried({{0.4, all}}, End::at_once);
     Result out;
     if (!t.problem.empty()) out.wrong.push_back("the board ended the trial: " + t.problem);
@@ -291,7 +204,9 @@ struct BringUp::Impl {
       }
       const Person& person;
     } const moves(person);
-    return try_out(*remote, configuration, lead, stages, end, person.stops);
+    Trial out = try_out(*remote, configuration, lead, stages, end, person.stops);
+    if (!out.found.empty()) person.tell("    " + out.found);
+    return out;
   }
 
   // --- the person ---
@@ -305,6 +220,23 @@ struct BringUp::Impl {
     if (!answer(question)) throw NobodyAnswers{};
   }
 
+  // Once in each session: who goes on from the day before may stand in the machine.
+  void ask_for_air() {
+    if (!air_is_open)
+      ask_for(
+          "Now open the supply's air, and stay clear of the machine. Is it open, and is "
+          "everybody clear?");
+    air_is_open = true;
+  }
+
+  // What was learned of another machine says nothing of this one.
+  void begin_again_if(bool other, const std::string& why) {
+    if (!other || progress.done.empty()) return;
+    person.tell("All steps are to be done again: " + why);
+    progress.done.clear();
+    progress.learned.clear();
+  }
+
   // --- all of it ---
 
   std::vector<Step> steps() {
@@ -312,11 +244,11 @@ struct BringUp::Impl {
         {"board", "who is at the line", [this] { return identify(); }},
         {"sensors", "what the sensors read at rest", [this] { return sensors(); }},
         {"clicks", "each valve clicks", [this] { return clicks(); }},
-        {"rest", "with air, nothing moves by itself", [this] { return rest_with_air(); }}};
+        {"rest", "with air, nothing moves by itself", [this] { return rest_with_air(); }, true}};
     for (std::size_t i = 0; i < muscles.size(); ++i)
       out.push_back({"muscle " + muscles[i].name, "fill, hold and empty " + muscles[i].name,
-                     [this, i] { return muscle(i); }});
-    out.push_back({"stop", "stop in an emergency", [this] { return stop(); }});
+                     [this, i] { return muscle(i); }, true});
+    out.push_back({"stop", "stop in an emergency", [this] { return stop(); }, true});
     return out;
   }
 
@@ -326,6 +258,7 @@ struct BringUp::Impl {
       return true;
     }
     person.tell(fmt::format("{}/{} {}", number, count, step.title));
+    if (step.with_air) ask_for_air();
     const Result r = step.work();
     for (const std::string& line : r.said) person.tell("    " + line);
     for (const std::string& line : r.wrong) person.tell("    wrong: " + line);
@@ -345,7 +278,7 @@ struct BringUp::Impl {
   Person person;
   OutputFolder folder;
   Progress progress;
-  std::map<std::string, double> filled_angle;
+  bool air_is_open = false;
 };
 
 BringUp::BringUp(const experiment::Experiment& bench, std::string robot, plant::RemoteBoard& board,
@@ -372,7 +305,13 @@ bool BringUp::go() {
   }
   const fs::path out = impl_->folder.path() / "robot.toml";
   write_file(out, learned_robot(impl_->progress, impl_->robot, impl_->folder.path()));
-  impl_->person.tell("All steps are done. What was learned is " + out.string());
+  std::string left;
+  for (const std::string& what : not_tried(impl_->e, impl_->board))
+    left += (left.empty() ? "" : ", ") + what;
+  impl_->person.tell((left.empty()
+                          ? "All steps are done."
+                          : "All steps that there are have been done; not tried: " + left + ".") +
+                     std::string(" What was learned is ") + out.string());
   return true;
 }
 

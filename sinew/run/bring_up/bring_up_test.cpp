@@ -9,6 +9,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/control/setup/boards.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/run/bring_up/trial.h"
 #include "sinew/run/simulation/remote_boards.h"
 #include "sinew/run/simulation/test_board.h"
 #include "sinew/run/simulation/wired_body.h"
@@ -117,7 +118,8 @@ TEST(BringUp, AWholeBenchPassesEveryStepAndItsRobotsFileIsLearned) {
 }
 
 TEST(BringUp, OtherRobotsPassAsWell) {
-  for (const char* name : {"one-joint", "leg-with-pressures", "three-muscle-leg", "cricket"}) {
+  for (const char* name :
+       {"one-joint", "leg-with-pressures", "three-muscle-leg", "cricket", "leg-3-way"}) {
     Day day({}, std::string(SINEW_SOURCE_DIR "/robots/") + name + "/robot.toml");
     EXPECT_TRUE(day.go()) << name << "\n" << day.said;
   }
@@ -149,6 +151,75 @@ TEST(BringUp, GoesOnWhereItStopped) {
   EXPECT_TRUE(day.go()) << day.said;
   EXPECT_TRUE(day.has_said("what the sensors read at rest: done before")) << day.said;
   EXPECT_FALSE(day.has_said("hang still")) << "what is done is not asked again";
+}
+
+TEST(BringUp, AsksForTheAirInEachSessionThatMovesValvesWithIt) {
+  Day day;
+  day.answers = [](const std::string& question) -> std::optional<bool> {
+    return question.find("emergency stop") == question.npos;
+  };
+  EXPECT_FALSE(day.go());
+  const std::string air = "Is it open, and is everybody clear?";
+  EXPECT_EQ(day.said.find(air), day.said.rfind(air)) << "once";
+  day.said.clear();
+  day.answers = [&](const std::string& question) -> std::optional<bool> {
+    if (question.find(air) != question.npos) return false;
+    return true;
+  };
+  int periods = 0;
+  day.stops = [&] { return ++periods < 0; };
+  EXPECT_FALSE(day.go()) << "all steps with air but the last one are done before";
+  EXPECT_TRUE(day.has_said("fill, hold and empty knee_extensor: done before")) << day.said;
+  EXPECT_EQ(periods, 0) << "no valve has moved";
+}
+
+TEST(BringUp, BeginsAgainWithARobotOfOtherValuesAndAtAnotherBoard) {
+  Day day;
+  EXPECT_TRUE(day.go()) << day.said;
+  day.said.clear();
+  day.bench = bench_of(day.robot, day.folder.path, {"joint.hip.angle_gain=0.3 %/count"});
+  day.answers = [](const std::string&) -> std::optional<bool> { return {}; };
+  EXPECT_FALSE(day.go());
+  EXPECT_TRUE(day.has_said("done again: the robot's values are others")) << day.said;
+  EXPECT_FALSE(day.has_said("done before"));
+
+  const fs::path kept = day.folder.path / "bring-up.json";
+  std::ifstream in(kept);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t at = text.find("\"board\": \"") + 10;
+  text.insert(at, "another ");
+  std::ofstream(kept) << text;
+  day.said.clear();
+  EXPECT_FALSE(day.go());
+  EXPECT_TRUE(day.has_said("done again: this is another board or program than \"another "))
+      << day.said;
+  EXPECT_FALSE(day.has_said("done before"));
+}
+
+TEST(BringUp, ACylindersValvesClickAndWhatIsNotTriedWithAirIsSaid) {
+  Day day({"cylinder.mode=valves"});
+  EXPECT_TRUE(day.go()) << day.said;
+  for (const char* valve :
+       {"the inlet of cylinder_up (output 8", "the exhaust of cylinder_up (output 9",
+        "the inlet of cylinder_down (output 10", "the exhaust of cylinder_down (output 11"})
+    EXPECT_TRUE(day.has_said(valve)) << valve << day.said;
+  EXPECT_TRUE(day.has_said("not tried: the cylinder with air.")) << day.said;
+}
+
+TEST(BringUp, AThreeWayValveIsOneWireAndItsMuscleIsNotHeld) {
+  Day day({}, SINEW_SOURCE_DIR "/robots/leg-3-way/robot.toml");
+  EXPECT_TRUE(day.go()) << day.said;
+  EXPECT_TRUE(day.has_said("the inlet of hip_flexor (output 0"));
+  EXPECT_FALSE(day.has_said("the exhaust of")) << day.said;
+  EXPECT_FALSE(day.has_said("% lost")) << day.said;
+}
+
+TEST(BringUp, ABoardThatForgetsItsConfigurationIsNoBoardToReadFrom) {
+  const experiment::Experiment e = experiment::load(SINEW_SOURCE_DIR "/experiments/kick.toml", {});
+  WiredBody body(e);
+  BoardInThread board(body.wires());
+  plant::RemoteBoard remote(board.line(), 1, 100);
+  EXPECT_THROW(listen(remote, configuration_of(e), 0.1), plant::BoardError);
 }
 
 // --- broken benches -----------------------------------------------------------------------------

@@ -40,6 +40,12 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
+bool is_plain(const std::string& word) {
+  return word.find_first_not_of(
+             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+             "-_./:=@%+,") == word.npos;
+}
+
 // A folder that is gone with this.
 struct Workshop {
   Workshop() : path((fs::temp_directory_path() / "sinew-firmware-XXXXXX").string()) {
@@ -95,6 +101,8 @@ bool has_program(const std::string& name) {
 
 std::span<const FirmwareBoard> firmware_boards() { return boards; }
 
+std::string shell_word(const std::string& word) { return is_plain(word) ? word : quoted(word); }
+
 const FirmwareBoard& firmware_board(const std::string& name) {
   std::vector<std::string_view> names;
   for (const FirmwareBoard& b : boards) {
@@ -116,6 +124,10 @@ void require_fits(const std::string& robot, const FirmwareBoard& board) {
   if (needed.size() != 1)
     refuse("board", fmt::format("{} boards", needed.size()), "one: a line leads to one");
   const control::Board& b = needed.front();
+  for (std::size_t j = 0; j < b.spine.joints; ++j)
+    if (b.spine.joint[j].kind == control::JointKind::regulated)
+      refuse("control.joints", "pressure regulators",
+             "valves: no output of a board sets a pressure");
   if (b.channel.size() > board.inputs)
     refuse("sensor", fmt::format("{} sensors", b.channel.size()),
            fmt::format("{} at most", board.inputs));
@@ -172,10 +184,19 @@ void build_firmware(const fs::path& sources, const FirmwareBoard& board, const f
 std::string flash_command(const FirmwareBoard& board, const fs::path& file) {
   require_form(board, file);
   std::string out = board.flash;
+  const std::size_t at = out.find("{file}");
+  if (at == out.npos) return out;
   const std::string where = file.extension() == ".bin" ? " 0x08000000" : "";  // an ELF file says it
-  if (const std::size_t at = out.find("{file}"); at != out.npos)
-    out.replace(at, 6, file.string() + where);
-  return out;
+  const std::size_t quote = out.find('"');
+  if (quote == out.npos) return out.replace(at, 6, shell_word(file.string()));
+  // A command of openocd, whose braces hold a name together, as one word of the shell.
+  const std::string name =
+      is_plain(file.string()) ? file.string() : fmt::format("{{{}}}", file.string());
+  out.replace(at, 6, fmt::format("{}{}", name, where));
+  if (is_plain(file.string())) return out;
+  const std::size_t end = out.rfind('"');
+  const std::string words = out.substr(quote + 1, end - quote - 1);
+  return out.replace(quote, end - quote + 1, quoted(words));
 }
 
 }  // namespace sinew::run

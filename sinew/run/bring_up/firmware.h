@@ -40,8 +40,11 @@ bool low_gives_current(const std::string& robot);
 void build_firmware(const std::filesystem::path& sources, const FirmwareBoard& board,
                     const std::filesystem::path& out, bool low_gives_current, bool force);
 
-// Returns the command line that brings the file onto the board. Throws config::Error for a form of
-// file that the command does not take.
+// Returns the word as a shell takes it: in quotes where it has to be.
+std::string shell_word(const std::string& word);
+
+// Returns the command line that brings the file onto the board, as a shell takes it. Throws
+// config::Error for a form of file that the command does not take.
 std::string flash_command(const FirmwareBoard& board, const std::filesystem::path& file);
 
 }  // namespace sinew::run

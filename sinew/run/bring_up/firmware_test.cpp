@@ -70,6 +70,21 @@ TEST(Firmware, TheCommandThatFlashesNamesTheFile) {
             "teensy_loader_cli -mmcu=TEENSY41 -w -v leg.hex");
 }
 
+TEST(Firmware, TheCommandThatFlashesIsAShellsEvenForNamesWithSpacesAndQuotes) {
+  EXPECT_EQ(flash_command(firmware_board("teensy41"), "my leg's.hex"),
+            "teensy_loader_cli -mmcu=TEENSY41 -w -v 'my leg'\\''s.hex'");
+  EXPECT_EQ(flash_command(firmware_board("stm32f405"), "my $leg.bin"),
+            "openocd -f interface/stlink.cfg -f target/stm32f4x.cfg -c 'program {my $leg.bin} "
+            "0x08000000 verify reset exit'");
+}
+
+TEST(Firmware, ARobotWithRegulatorsIsRefused) {
+  EXPECT_NE(refusal([] {
+              require_fits(robot("leg-with-regulators"), firmware_board("stm32f405"));
+            }).find("found pressure regulators; expected valves"),
+            std::string::npos);
+}
+
 TEST(Firmware, AFileThatTheBoardIsNotLoadedWithIsRefusedBeforeItIsBuilt) {
   const FirmwareBoard& board = firmware_board("teensy41");
   const std::string expected = "found \".elf\"; expected \".hex\", which is what teensy41";

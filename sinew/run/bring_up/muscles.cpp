@@ -18,6 +18,8 @@ constexpr double full = 600;
 // What a joint with dry friction and a soft cord may lose while its muscle is shut, and more than
 // which is a leak  [1/s].
 constexpr double leak_limit = 0.10;
+// What keeps some air in a muscle that a 3-way valve cannot shut  [%].
+constexpr std::int32_t three_way_hold = 30;
 // What may be left after a vent.
 constexpr double left_limit = 0.3;
 
@@ -98,7 +100,7 @@ std::string wrong_with_filling(const std::vector<BenchMuscle>& all, std::size_t 
 }
 
 std::string wrong_with_holding(const BenchMuscle& m, double lost) {
-  if (!m.tension || lost <= leak_limit) return "";
+  if (!m.tension || !m.has_exhaust || lost <= leak_limit) return "";
   return fmt::format(
       "it loses {:.0f} % in a second with its valves shut; expected {:.0f} % at most: "
       "look for bubbles at its ends, fittings and the exhaust valve",
@@ -138,7 +140,8 @@ std::vector<BenchMuscle> bench_muscles(const experiment::Experiment& e, const co
   std::vector<BenchMuscle> out;
   for (std::size_t j = 0; j < board.spine.joints; ++j) {
     const control::JointConfig& c = board.spine.joint[j];
-    if (c.kind != control::JointKind::antagonist) continue;
+    const bool three_way = c.kind == control::JointKind::three_way;
+    if (c.kind != control::JointKind::antagonist && !three_way) continue;
     const int joint = board.joint[j];
     for (const auto role : {robot::Muscle::Role::flexor, robot::Muscle::Role::extensor}) {
       const bool flexor = role == robot::Muscle::Role::flexor;
@@ -151,19 +154,21 @@ std::vector<BenchMuscle> bench_muscles(const experiment::Experiment& e, const co
       const auto sensor = [&](int which) {
         return which < 0 ? robot::Sensor{} : e.robot.sensors[static_cast<std::size_t>(which)];
       };
-      out.push_back({.name = m.name,
-                     .joint = e.robot.joints[static_cast<std::size_t>(joint)].name,
-                     .board_joint = j,
-                     .flexor = flexor,
-                     .two_joints = !m.second.joint.empty(),
-                     .direction = flexor ? c.flexion : -c.flexion,
-                     .tension = channel_of(board, tension),
-                     .angle = channel_of(board, angle),
-                     .tension_sign = sensor(tension).assumed_scale < 0 ? -1 : 1,
-                     .inlet = valves[muscle.inlet.index].in_words(),
-                     .exhaust = valves[muscle.exhaust.index].in_words(),
-                     .angle_sensor = sensor(angle).name,
-                     .tension_sensor = sensor(tension).name});
+      out.push_back(
+          {.name = m.name,
+           .joint = e.robot.joints[static_cast<std::size_t>(joint)].name,
+           .board_joint = j,
+           .flexor = flexor,
+           .two_joints = !m.second.joint.empty(),
+           .has_exhaust = !three_way,
+           .direction = flexor ? c.flexion : -c.flexion,
+           .tension = channel_of(board, tension),
+           .angle = channel_of(board, angle),
+           .tension_sign = sensor(tension).assumed_scale < 0 ? -1 : 1,
+           .inlet = valves[muscle.inlet.index].in_words(),
+           .exhaust = valves[(three_way ? muscle.inlet : muscle.exhaust).index].in_words(),
+           .angle_sensor = sensor(angle).name,
+           .tension_sensor = sensor(tension).name});
     }
   }
   return out;
@@ -178,9 +183,13 @@ std::vector<Stage> stages_for(const BenchMuscle& m, std::size_t joints) {
   std::vector<control::Duties> filled = all_empty, closed = all_empty;
   filled[m.board_joint] = fill(m);
   closed[m.board_joint] = fill(m);
-  (m.flexor ? closed[m.board_joint].flexor_inlet : closed[m.board_joint].extensor_inlet) = 0;
-  std::vector<Stage> out{
-      {0.5, all_empty}, {0.3, {}}, {0.6, filled}, {2.0, closed}, {1.5, all_empty}};
+  (m.flexor ? closed[m.board_joint].flexor_inlet : closed[m.board_joint].extensor_inlet) =
+      m.has_exhaust ? 0 : three_way_hold;
+  std::vector<Stage> out{{0.5, all_empty},
+                         {0.3, {}},
+                         {0.6, filled},
+                         {m.has_exhaust ? 2.0 : 0.5, closed},
+                         {1.5, all_empty}};
   if (m.tension)
     out[filling].ends = [start = std::optional<double>(), m](const Sample& s) mutable {
       if (!start) start = s.counts[*m.tension];
@@ -197,9 +206,11 @@ Judgement judge(const std::vector<BenchMuscle>& all, std::size_t which, const Tr
     return out;
   }
   const double lost = loss(m, t);
-  if (m.angle) out.filled_angle = t.stages[held].after(*m.angle);
-  out.said = fmt::format("tension {:+.0f} count, {} {:+.0f} count, {:.1f} % lost in a second",
-                         pull(m, t), m.joint, m.direction * turned(m, t, held), 100 * lost);
+  out.said = fmt::format("tension {:+.0f} count, {} {:+.0f} count", pull(m, t), m.joint,
+                         m.direction * turned(m, t, held));
+  if (m.angle)
+    out.said += fmt::format(" to {:.0f}, its end with this air", t.stages[held].after(*m.angle));
+  if (m.has_exhaust) out.said += fmt::format(", {:.1f} % lost in a second", 100 * lost);
   for (const std::string& wrong :
        {wrong_with_filling(all, which, t), wrong_with_holding(m, lost), wrong_with_emptying(m, t)})
     if (!wrong.empty()) out.wrong.push_back(wrong);

@@ -18,14 +18,15 @@ struct BenchMuscle {
   std::string name, joint;
   std::size_t board_joint = 0;
   bool flexor = true, two_joints = false;
-  int direction = 1;                          // of its joint's counts while it shortens
+  bool has_exhaust = true;  // false: a 3-way valve, which empties it whenever it does not fill it
+  int direction = 1;        // of its joint's counts while it shortens
   std::optional<std::size_t> tension, angle;  // channels of the board
   int tension_sign = 1;                       // of its counts while it pulls
   std::string inlet, exhaust;  // where they are wired, for a message: "bit 0 (pin 31)"
   std::string angle_sensor, tension_sensor;
 };
 
-// Those of antagonistic joints, in the order of the joints, flexor first; `pins` as of wires.h.
+// Those that valves fill, in the order of the joints, flexor first; `pins` as of wires.h.
 std::vector<BenchMuscle> bench_muscles(const experiment::Experiment& experiment,
                                        const control::Board& board, const Pins* pins);
 
@@ -35,7 +36,6 @@ std::vector<Stage> stages_for(const BenchMuscle& muscle, std::size_t joints);
 struct Judgement {
   std::vector<std::string> wrong;  // what, and what to look at; empty: nothing
   std::string said;                // in figures
-  double filled_angle = 0;         // count of its joint's angle, filled
 };
 Judgement judge(const std::vector<BenchMuscle>& all, std::size_t which, const Trial& trial);
 

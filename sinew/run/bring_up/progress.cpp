@@ -39,6 +39,7 @@ Progress read_progress(const std::filesystem::path& file, const std::string& rob
     if (root.at("format") != format) throw std::runtime_error("format");
     out.robot = root.at("robot");
     out.board = root.at("board");
+    out.machine = root.value("machine", "");
     for (const auto& [name, said] : root.at("steps").items())
       out.done[name] = said.get<std::vector<std::string>>();
     for (const auto& [name, l] : root.at("sensors").items())
@@ -54,11 +55,8 @@ Progress read_progress(const std::filesystem::path& file, const std::string& rob
 }
 
 void write_progress(const Progress& p, const std::filesystem::path& file) {
-  Json root{{"format", format},
-            {"robot", p.robot},
-            {"board", p.board},
-            {"steps", Json::object()},
-            {"sensors", Json::object()}};
+  Json root{{"format", format},     {"robot", p.robot},        {"board", p.board},
+            {"machine", p.machine}, {"steps", Json::object()}, {"sensors", Json::object()}};
   for (const auto& [name, said] : p.done) root["steps"][name] = said;
   for (const auto& [name, l] : p.learned)
     root["sensors"][name] = {
@@ -71,8 +69,9 @@ std::string learned_robot(const Progress& p, const std::filesystem::path& base,
   namespace fs = std::filesystem;
   config::Node root = config::make_table("");
   root.put(config::make_text("format", "sinew.robot/1"));
-  root.put(config::make_text("base",
-                             fs::absolute(base).lexically_relative(fs::absolute(folder)).string()));
+  root.put(config::make_text(
+      "base",
+      fs::weakly_canonical(base).lexically_relative(fs::weakly_canonical(folder)).string()));
   config::Node sensors = config::make_table("sensor");
   for (const auto& [name, l] : p.learned) {
     config::Node sensor = config::make_table(name);

@@ -15,6 +15,7 @@ struct Learned {
 
 struct Progress {
   std::string robot, board;
+  std::string machine;                                   // stands for all of the robot's values
   std::map<std::string, std::vector<std::string>> done;  // by the step's name: what it said
   std::map<std::string, Learned> learned;                // by the sensor's name
 };

@@ -1,5 +1,7 @@
 #include "sinew/run/bring_up/trial.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +27,13 @@ double mean(const std::vector<Sample>& samples, std::size_t channel, double from
   return n > 0 ? sum / n : std::nan("");
 }
 
-Sample sample_of(const link::Telemetry& told, double time) {
+// A board that was reset knows no sensors, or those of another robot.
+Sample sample_of(const link::Telemetry& told, std::size_t channels, double time) {
+  if (told.channels != channels)
+    throw plant::BoardError(
+        fmt::format("the board tells of {} sensors; expected {}: it was reset, or another program "
+                    "is at its line; the same command goes on from here",
+                    told.channels, channels));
   Sample out{.time = time};
   for (std::size_t i = 0; i < told.channels; ++i) {
     out.counts.push_back(told.seen.reading[i].counts);
@@ -52,6 +60,7 @@ class Run {
   Run(plant::RemoteBoard& board, const link::Configuration& configuration, int lead)
       : board_(&board),
         joints_(configuration.spine.joints),
+        channels_(link::channels_of(configuration.spine)),
         period_(configuration.spine.period),
         lead_(lead) {}
 
@@ -67,7 +76,7 @@ class Run {
       }
       if (!send(command_of(stage, joints_, now_ == 0 ? 0 : now_ + lead_ * period_)) || !hear())
         return false;
-      out.samples.push_back(sample_of(*told_, time + signals::tick_seconds * period_));
+      out.samples.push_back(sample_of(*told_, channels_, time + signals::tick_seconds * period_));
       if (stage.ends && stage.ends(out.samples.back())) return true;
     }
   }
@@ -99,7 +108,7 @@ class Run {
   }
 
   plant::RemoteBoard* board_;
-  std::size_t joints_;
+  std::size_t joints_, channels_;
   Tick period_, lead_, now_ = 0;
   const link::Telemetry* told_ = nullptr;
 };
@@ -114,9 +123,9 @@ double Recording::after(std::size_t channel) const {
 
 Trial try_out(plant::RemoteBoard& board, const link::Configuration& configuration, int lead,
               const std::vector<Stage>& stages, End end, const std::function<bool()>& stops) {
-  board.prepare(configuration);
+  const std::string found = plant::fault_found(board.prepare(configuration));
   Run run(board, configuration, lead);
-  Trial out;
+  Trial out{.found = found};
   out.stages.resize(stages.size());
   for (std::size_t i = 0; i < stages.size(); ++i)
     if (!run.work_off(stages[i], out.stages[i], stops)) {
@@ -135,7 +144,7 @@ Recording listen(plant::RemoteBoard& board, const link::Configuration& configura
     const link::Telemetry* told = board.look(1.0);
     if (told == nullptr) throw plant::BoardError("the board does not say what its sensors read");
     const double time = period * static_cast<double>(out.samples.size());
-    out.samples.push_back(sample_of(*told, time));
+    out.samples.push_back(sample_of(*told, link::channels_of(configuration.spine), time));
   }
   return out;
 }

@@ -37,6 +37,7 @@ struct Recording {
 struct Trial {
   std::vector<Recording> stages;
   std::string problem;  // why it ended before its end; empty: it did not
+  std::string found;    // the fault that the board was in before it; empty: none that matters
 };
 
 // Somebody has asked for a stop in the middle of a trial; the board has vented.
@@ -46,12 +47,13 @@ enum class End { by_plan, at_once };  // at once: as a person asks for it in an 
 
 // Arms the board, works off the stages and ends the run: the board vents. `lead` is that of
 // commands (remote_boards.h). Throws plant::BoardError where the board does not come to an armed
-// state, and Stopped as soon as `stops` says so in a period.
+// state or tells of other sensors, and Stopped as soon as `stops` says so in a period.
 Trial try_out(plant::RemoteBoard& board, const link::Configuration& configuration, int lead,
               const std::vector<Stage>& stages, End end = End::by_plan,
               const std::function<bool()>& stops = {});
 
-// Hears the board for so long while nothing runs. Throws plant::BoardError where it says nothing.
+// Hears the board for so long while nothing runs. Throws plant::BoardError where it says nothing,
+// or has left what it was told, as after a reset.
 Recording listen(plant::RemoteBoard& board, const link::Configuration& configuration,
                  double seconds);
 

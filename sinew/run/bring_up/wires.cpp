@@ -25,6 +25,23 @@ std::string owner_of(const robot::Robot& robot, std::size_t valve) {
   return valve - of_muscles < 2 ? "cylinder_up" : "cylinder_down";
 }
 
+// A bit for each output that drives a valve: a 3-way valve empties its muscle by itself, and what
+// sets a regulator is none.
+std::uint32_t driven_outputs(const control::JointControllerConfig& spine) {
+  using control::JointKind;
+  std::uint32_t out = 0;
+  for (std::size_t j = 0; j < spine.joints; ++j) {
+    const control::JointConfig& c = spine.joint[j];
+    if (c.kind == JointKind::passive || c.kind == JointKind::regulated) continue;
+    for (const control::MuscleConfig* m : {&c.flexor, &c.extensor}) {
+      if (!m->present) continue;
+      out |= 1u << m->inlet.index;
+      if (c.kind != JointKind::three_way) out |= 1u << m->exhaust.index;
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<Wire> sensor_wires(const experiment::Experiment& e, const control::Board& board,
@@ -45,6 +62,7 @@ std::vector<Wire> sensor_wires(const experiment::Experiment& e, const control::B
 std::vector<Wire> valve_wires(const experiment::Experiment& e, const control::Board& board,
                               const Pins* pins) {
   const std::vector<robot::ValveBit> bits = robot::bits_of(e.robot, e.wiring);
+  const std::uint32_t driven = driven_outputs(board.spine);
   std::vector<Wire> out;
   for (std::size_t i = 0; i < board.valve.size(); ++i) {
     const std::string of = owner_of(e.robot, board.valve[i]);
@@ -54,7 +72,8 @@ std::vector<Wire> valve_wires(const experiment::Experiment& e, const control::Bo
         bits, [&](const robot::ValveBit& b) { return b.of == of && b.which == which; });
     out.push_back(
         {of + " " + which, fmt::format("output {}{}", i, pins ? in_brackets(pins->outputs, i) : ""),
-         (bit == bits.end() ? "no bit" : fmt::format("bit {}", bit->bit)) + pins_of(e, of, inlet)});
+         (bit == bits.end() ? "no bit" : fmt::format("bit {}", bit->bit)) + pins_of(e, of, inlet),
+         (driven >> i & 1u) != 0});
   }
   return out;
 }

@@ -14,6 +14,7 @@ struct Wire {
   std::string name;       // "hip_angle", "hip_flexor inlet"
   std::string at;         // on the board: "input 1 (PA1)", "output 0"
   std::string elsewhere;  // the robot's own numbers: "bit 0, pins 31 and 32"
+  bool driven = true;     // false: a number for a valve that is not there, as a 3-way's exhaust
 
   std::string in_words() const { return at + ": " + elsewhere; }
 };

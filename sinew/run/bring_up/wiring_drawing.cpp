@@ -41,8 +41,9 @@ std::string drawn(const Wire& wire, int y, bool sensor) {
 
 std::string wiring_drawing(const experiment::Experiment& e, const control::Board& board,
                            const Pins* pins) {
-  const std::vector<Wire> sensors = sensor_wires(e, board, pins),
-                          valves = valve_wires(e, board, pins);
+  const std::vector<Wire> sensors = sensor_wires(e, board, pins);
+  std::vector<Wire> valves = valve_wires(e, board, pins);
+  std::erase_if(valves, [](const Wire& wire) { return !wire.driven; });
   const int rows = static_cast<int>(std::max(sensors.size(), valves.size()));
   const int bottom = top + row * rows, height = bottom + 100;
   std::string out = fmt::format(

@@ -64,7 +64,13 @@ void refuse_what_no_board_can(const experiment::Experiment& e, const std::string
     refuse(e, place, "log.period", fmt::format("{:g} s", e.log.period),
            fmt::format("a multiple of {:g} s, the period in which a board tells what it knows",
                        period));
-  if (place.starts_with(serial)) refuse_faults(e, place);
+  if (!place.starts_with(serial)) return;
+  refuse_faults(e, place);
+  const control::JointControllerConfig& spine = boards.front().spine;
+  for (std::size_t j = 0; j < spine.joints; ++j)
+    if (spine.joint[j].kind == control::JointKind::regulated)
+      refuse(e, place, "muscle", "pressure regulators",
+             "valves: no output of a board sets a pressure");
 }
 
 // The firmware's, unless another one is asked for: a port of somebody else may have it.
