@@ -350,6 +350,26 @@ TEST(Usage, APaceMustBeOneThatAClockCanKeep) {
   }
 }
 
+TEST(BadBringUp, IsRefusedBeforeAnythingIsOpenedOrWritten) {
+  const Workspace w;
+  for (const char* place : {"comedi:/dev/comedi0", "simulated"}) {
+    const Result r = w.sinew({"bring-up", robot, "--port", place});
+    EXPECT_EQ(r.code, 2);
+    EXPECT_THAT(r.err + r.out, HasSubstr(std::string("found \"") + place + "\"; expected a board"));
+  }
+  const Result yes = w.sinew({"bring-up", robot, "--port", "serial:/dev/null", "--yes"});
+  EXPECT_EQ(yes.code, 1);
+  EXPECT_THAT(yes.err, HasSubstr("expected a person who answers"));
+  EXPECT_FALSE(std::filesystem::exists(w / "bring-up"));
+}
+
+TEST(BadFlash, NamesAFileThatIsNotThere) {
+  const Workspace w;
+  const Result r = w.sinew({"firmware", "flash", "stm32f405", "nothing.elf"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_THAT(r.err, HasSubstr("nothing.elf: found no such file"));
+}
+
 // Beside robots/, and in a folder whose name only ends so, numbers need no source.
 TEST(Check, AsksForSourcesInRobotsAlone) {
   const Workspace w;

@@ -80,7 +80,7 @@ line {{ stroke: #555; }} circle {{ fill: #555; }} rect {{ fill: #f4f4f0; stroke:
               fmt::format("supply output{}, in series with the emergency stop",
                           pins ? fmt::format(" ({})", pins->supply) : ""));
   if (e.wiring.present)
-    out += text(left_edge, bottom + 85, "middle",
+    out += text(right_edge - 128, bottom + 75, "end",
                 fmt::format("a coil has current where its output is {}, the supply's too",
                             e.wiring.polarity == robot::Wiring::Polarity::low_opens ? 0 : 1),
                 "small");
