@@ -11,6 +11,7 @@
 #include "sinew/run/bring_up/at_rest.h"
 #include "sinew/run/bring_up/clicks.h"
 #include "sinew/run/bring_up/progress.h"
+#include "sinew/run/bring_up/strokes.h"
 #include "sinew/run/bring_up/wires.h"
 #include "sinew/run/bring_up/wiring_drawing.h"
 #include "sinew/run/folder/files.h"
@@ -167,6 +168,22 @@ struct BringUp::Impl {
     return {j.wrong, {j.said}};
   }
 
+  Result stroke(const BenchJoint& joint) {
+    Result out;
+    std::vector<double> ends;
+    for (const std::size_t m : joint.muscles) {
+      const Trial t = tried(stroke_of(muscles[m], configuration.spine.joints));
+      if (!t.problem.empty()) return {{"the board ended the trial: " + t.problem}, {}};
+      ends.push_back(end_of_stroke(joint, t));
+      out.said.push_back(fmt::format("{} pulls {} to {:.0f} count", muscles[m].name,
+                                     joint.angle_sensor, ends.back()));
+    }
+    out.wrong = wrong_with_ends(joint, muscles, ends);
+    const auto [lowest, highest] = std::ranges::minmax(ends);
+    progress.strokes[joint.name] = {lowest, highest};
+    return out;
+  }
+
   // The board's own stop, and a person's.
   Result stop() {
     std::vector<control::Duties> all(configuration.spine.joints);
@@ -235,6 +252,7 @@ struct BringUp::Impl {
     person.tell("All steps are to be done again: " + why);
     progress.done.clear();
     progress.learned.clear();
+    progress.strokes.clear();
   }
 
   // --- all of it ---
@@ -248,6 +266,9 @@ struct BringUp::Impl {
     for (std::size_t i = 0; i < muscles.size(); ++i)
       out.push_back({"muscle " + muscles[i].name, "fill, hold and empty " + muscles[i].name,
                      [this, i] { return muscle(i); }, true});
+    for (const BenchJoint& joint : bench_joints(board, muscles))
+      out.push_back({"stroke " + joint.name, joint.name + " from end to end",
+                     [this, joint] { return stroke(joint); }, true});
     out.push_back({"stop", "stop in an emergency", [this] { return stop(); }, true});
     return out;
   }

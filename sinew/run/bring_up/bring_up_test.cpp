@@ -9,6 +9,8 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/control/setup/boards.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/run/bring_up/progress.h"
+#include "sinew/run/bring_up/strokes.h"
 #include "sinew/run/bring_up/trial.h"
 #include "sinew/run/simulation/remote_boards.h"
 #include "sinew/run/simulation/test_board.h"
@@ -101,7 +103,7 @@ struct Day {
 TEST(BringUp, AWholeBenchPassesEveryStepAndItsRobotsFileIsLearned) {
   Day day;
   EXPECT_TRUE(day.go()) << day.said;
-  EXPECT_TRUE(day.has_said("9/9")) << day.said;
+  EXPECT_TRUE(day.has_said("11/11")) << day.said;
   const experiment::MachineFile learned =
       experiment::load_machine_file(day.folder.path / "robot.toml");
   const robot::Robot& robot = learned.experiment.robot;
@@ -111,6 +113,11 @@ TEST(BringUp, AWholeBenchPassesEveryStepAndItsRobotsFileIsLearned) {
   EXPECT_NEAR(at("hip_angle").assumed_at_rest, 1'895, 1);
   EXPECT_NEAR(at("hip_flexor_tension").assumed_at_rest, 53, 5);
   EXPECT_EQ(at("hip_flexor_tension").assumed_at_rest, at("hip_flexor_tension").at_rest);
+  const Progress kept =
+      read_progress(day.folder.path / "bring-up.json", fs::weakly_canonical(leg).string());
+  ASSERT_EQ(kept.strokes.size(), 2u);
+  for (const auto& [joint, stroke] : kept.strokes)
+    EXPECT_GT(stroke.highest - stroke.lowest, 300) << joint;
   std::ifstream svg(day.folder.path / "wiring.svg");
   const std::string drawing{std::istreambuf_iterator<char>(svg), {}};
   EXPECT_NE(drawing.find("hip_flexor inlet"), std::string::npos);
@@ -283,6 +290,24 @@ TEST(BrokenBench, AValveDoesNotClick) {
   EXPECT_TRUE(
       day.has_said("the exhaust of knee_flexor (output 5: bit 10, pins 47 and 48) did not click"))
       << day.said;
+}
+
+TEST(BrokenBench, AJointsEndIsBeyondItsSensor) {
+  Day day;
+  const control::Board board = only_board(day.bench);
+  std::vector<BenchMuscle> muscles = bench_muscles(day.bench, board, nullptr);
+  for (const BenchJoint& joint : bench_joints(board, muscles)) {
+    ASSERT_EQ(joint.muscles.size(), 2u);
+    const double middle = 0.5 * (joint.lowest + joint.top);
+    const double flexed = middle + 200 * muscles[joint.muscles[0]].direction;
+    EXPECT_TRUE(wrong_with_ends(joint, muscles, {flexed, middle}).empty());
+    const auto beyond = wrong_with_ends(joint, muscles, {flexed, flexed > middle ? 3.0 : 4'094.0});
+    ASSERT_EQ(beyond.size(), 1u);
+    EXPECT_NE(beyond[0].find("turn the sensor on its shaft"), std::string::npos) << beyond[0];
+    const auto stuck = wrong_with_ends(joint, muscles, {middle, middle});
+    ASSERT_EQ(stuck.size(), 1u);
+    EXPECT_NE(stuck[0].find("from end to end; expected 60 at least"), std::string::npos);
+  }
 }
 
 TEST(BrokenBench, TheEmergencyStopLetsNoAirOut) {

@@ -208,8 +208,7 @@ Judgement judge(const std::vector<BenchMuscle>& all, std::size_t which, const Tr
   const double lost = loss(m, t);
   out.said = fmt::format("tension {:+.0f} count, {} {:+.0f} count", pull(m, t), m.joint,
                          m.direction * turned(m, t, held));
-  if (m.angle)
-    out.said += fmt::format(" to {:.0f}, its end with this air", t.stages[held].after(*m.angle));
+  if (m.angle) out.said += fmt::format(", to {:.0f}", t.stages[held].after(*m.angle));
   if (m.has_exhaust) out.said += fmt::format(", {:.1f} % lost in a second", 100 * lost);
   for (const std::string& wrong :
        {wrong_with_filling(all, which, t), wrong_with_holding(m, lost), wrong_with_emptying(m, t)})

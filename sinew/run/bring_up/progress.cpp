@@ -44,6 +44,9 @@ Progress read_progress(const std::filesystem::path& file, const std::string& rob
       out.done[name] = said.get<std::vector<std::string>>();
     for (const auto& [name, l] : root.at("sensors").items())
       out.learned[name] = {l.at("at_rest_count"), l.at("noise_count"), l.at("readings")};
+    const Json joints = root.value("joints", Json::object());
+    for (const auto& [name, s] : joints.items())
+      out.strokes[name] = {s.at("lowest_count"), s.at("highest_count")};
   } catch (const std::exception&) {
     config::fail({file.string(), 0, 0}, "", "no bring-up of ours", std::string("format ") + format,
                  "another folder");
@@ -61,6 +64,9 @@ void write_progress(const Progress& p, const std::filesystem::path& file) {
   for (const auto& [name, l] : p.learned)
     root["sensors"][name] = {
         {"at_rest_count", l.at_rest}, {"noise_count", l.noise}, {"readings", l.readings}};
+  root["joints"] = Json::object();
+  for (const auto& [name, s] : p.strokes)
+    root["joints"][name] = {{"lowest_count", s.lowest}, {"highest_count", s.highest}};
   write_file(file, root.dump(2) + "\n");
 }
 

@@ -13,11 +13,17 @@ struct Learned {
   int readings = 0;
 };
 
+// Of a joint, pulled to its ends by its muscles [count].
+struct Stroke {
+  double lowest = 0, highest = 0;
+};
+
 struct Progress {
   std::string robot, board;
   std::string machine;                                   // stands for all of the robot's values
   std::map<std::string, std::vector<std::string>> done;  // by the step's name: what it said
   std::map<std::string, Learned> learned;                // by the sensor's name
+  std::map<std::string, Stroke> strokes;                 // by the joint's name
 };
 
 // Returns what is in the file, or nothing done where there is none. Throws config::Error for a file
