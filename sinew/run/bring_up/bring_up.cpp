@@ -64,7 +64,6 @@ struct BringUp::Impl {
     begin_again_if(progress.machine != machine_of(bench),
                    "the robot's values are others than at the last time");
     progress.machine = machine_of(bench);
-
     draw_wiring();
   }
 
@@ -249,7 +248,10 @@ struct BringUp::Impl {
   // What was learned of another machine says nothing of this one.
   void begin_again_if(bool other, const std::string& why) {
     if (!other || progress.done.empty()) return;
-    person.tell("All steps are to be done again: " + why);
+    const fs::path before = folder.path() / "bring-up-before.json";
+    write_progress(progress, before);
+    person.tell(fmt::format("All steps are to be done again: {}; what they said is in {}", why,
+                            before.string()));
     progress.done.clear();
     progress.learned.clear();
     progress.strokes.clear();

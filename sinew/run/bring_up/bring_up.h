@@ -3,7 +3,8 @@
 // is done, so that after a mended wire it goes on where it was.
 //
 //   <folder>/bring-up.json   steps that are done, and what was measured
-//   <folder>/robot.toml      the robot with what was learned of its sensors
+//   <folder>/bring-up-before.json  the same of another robot, board or firmware, that was there
+//   before <folder>/robot.toml      the robot with what was learned of its sensors
 //   <folder>/wiring.svg      which wire goes where
 //   <folder>/bench.toml      an experiment in which the robot hangs empty and does nothing
 #pragma once

@@ -190,6 +190,10 @@ TEST(BringUp, BeginsAgainWithARobotOfOtherValuesAndAtAnotherBoard) {
   EXPECT_TRUE(day.has_said("done again: the robot's values are others")) << day.said;
   EXPECT_FALSE(day.has_said("done before"));
 
+  EXPECT_EQ(
+      read_progress(day.folder.path / "bring-up-before.json", fs::weakly_canonical(leg).string())
+          .done.size(),
+      11u);
   const fs::path kept = day.folder.path / "bring-up.json";
   std::ifstream in(kept);
   std::string text{std::istreambuf_iterator<char>(in), {}};
