@@ -2,147 +2,23 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
 #include "cli/json_text.h"
-#include "sinew/config/compose.h"
-#include "sinew/config/gains.h"
-#include "sinew/config/valve_timing.h"
-#include "sinew/experiment/faults.h"
-#include "sinew/experiment/machine_file.h"
-#include "sinew/experiment/rig/rig.h"
-#include "sinew/log/reader.h"
-#include "sinew/run/folder/run_folder.h"
-#include "sinew/run/folder/runnable.h"
-#include "sinew/run/setup/buildable.h"
-#include "sinew/run/simulation/run.h"
-#include "sinew/run/stand/run.h"
-#include "sinew/tune/optimizer/tuning.h"
-#include "sinew/tune/study.h"
+#include "sinew/files/check.h"
 
 namespace sinew::cli {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Problems = std::vector<config::Problem>;
+using files::Finding;
 
 struct Options {
   std::vector<std::string> files;
   bool json = false;
 };
-
-struct Finding {
-  std::string file;
-  std::vector<std::string> problems, warnings;
-  std::vector<std::string> faults;  // what the experiment breaks
-
-  void add(const Problems& found, std::vector<std::string>& to) {
-    for (const config::Problem& problem : found) to.push_back(config::to_text(problem));
-  }
-};
-
-void check_log(const std::filesystem::path& file, Finding& out) {
-  const signals::Table table = log::read(file);
-  if (table.series.empty())
-    out.problems.push_back(file.string() + ": found no topic with numbers; expected a run's log");
-  if (!table.complete)
-    out.warnings.push_back(file.string() +
-                           ": was cut off or is damaged; everything before can be read");
-}
-
-void check_run(const std::filesystem::path& folder, Finding& out) {
-  const run::RecordedRun run = run::recorded_run(folder);
-  check_log(run.log, out);
-  if (const auto file = run::machine_of(run, ""); run::is_on_stand(file)) {
-    out.add(rig::load(file).warnings, out.warnings);
-    return;
-  }
-  out.add(experiment::load_machine_file(run::machine_of(run, "")).experiment.warnings,
-          out.warnings);
-}
-
-// One line per file: an experiment's own choices need no more.
-void tell_of_sources(const Problems& unsourced, Finding& out) {
-  std::map<std::string, std::vector<std::string>> keys;
-  for (const config::Problem& p : unsourced)
-    keys[p.where.file].push_back(fmt::format("{} ({})", p.key, p.where.line));
-  for (const auto& [file, list] : keys)
-    out.warnings.push_back(fmt::format("{}: {} value{} without a source (line): {}", file,
-                                       list.size(), list.size() == 1 ? "" : "s",
-                                       fmt::join(list, ", ")));
-}
-
-// Tells what breaks and when, and warns of what changes nothing: why(fault).
-template <class Why>
-void tell_of_faults(const std::string& path, const std::vector<experiment::Fault>& faults, Why why,
-                    Finding& out) {
-  for (std::size_t i = 0; i < faults.size(); ++i) {
-    out.faults.push_back(experiment::in_words(faults[i]));
-    if (const std::string idle = why(faults[i]); !idle.empty())
-      out.warnings.push_back(fmt::format("{}: fault[{}] never acts: {}", path, i, idle));
-  }
-}
-
-void check_rig(const std::string& path, Finding& out) {
-  const rig::Experiment e = run::runnable_on_stand(path, {});
-  out.add(e.warnings, out.warnings);
-  tell_of_sources(e.unsourced, out);
-  const auto why = [&](const experiment::Fault& f) { return why_idle(f, rig::last_tick(e)); };
-  tell_of_faults(path, e.faults, why, out);
-}
-
-void check_machine(const std::string& path, Finding& out) {
-  const bool runs = config::format_kind(config::parse_file(path)) == "experiment";
-  experiment::MachineFile file;
-  if (runs) {
-    file = {"experiment", run::runnable(path, {}, false)};
-  } else {
-    file = experiment::load_machine_file(path);
-    run::refuse_unbuildable(file);
-  }
-  const experiment::Experiment& e = file.experiment;
-  out.add(e.warnings, out.warnings);
-  tell_of_sources(e.unsourced, out);
-  if (!runs) return;
-  const auto why = [&](const experiment::Fault& f) {
-    return why_idle(e, f, experiment::last_tick(e));
-  };
-  tell_of_faults(e.path, e.faults, why, out);
-}
-
-Finding check(const std::string& path) {
-  Finding out{.file = path};
-  try {
-    const std::filesystem::path file(path);
-    if (std::filesystem::is_directory(file)) {
-      check_run(file, out);
-    } else if (file.extension() == ".mcap") {
-      check_log(file, out);
-    } else if (file.extension() == ".dat" && file.filename().string().starts_with("gain")) {
-      config::read_gains(path);
-    } else if (file.extension() == ".dat") {
-      config::read_valve_timing(path);
-    } else if (const config::Node root = config::parse_file(path);
-               config::format_kind(root) == "plan") {
-      tune::check(tune::sweep_of(tune::load_study(path)));
-    } else if (config::format_kind(root) == "tuning") {
-      tune::load_tuning(path);
-    } else if (run::is_on_stand(path)) {
-      check_rig(path, out);
-    } else {
-      check_machine(path, out);
-    }
-  } catch (const config::Error& e) {
-    out.add(e.problems(), out.problems);
-  } catch (const std::exception& e) {
-    out.problems.push_back(e.what());
-  }
-  return out;
-}
 
 void print(const Finding& finding) {
   for (const std::string& text : finding.problems) fmt::print("{}\n", text);
@@ -163,7 +39,7 @@ ExitCode check_all(const Options& options) {
   bool good = true;
   Json report = Json::array();
   for (const std::string& file : options.files) {
-    const Finding finding = check(file);
+    const Finding finding = files::check(file);
     good = good && finding.problems.empty();
     report.push_back(
         {{"file", finding.file}, {"problems", finding.problems}, {"warnings", finding.warnings}});

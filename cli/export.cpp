@@ -1,8 +1,6 @@
 // cli/export.cpp - `sinew export`: a run's log for everything that reads columns.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include <filesystem>
 #include <iostream>
 
@@ -17,6 +15,7 @@
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/run_folder.h"
 #include "thesis/out_dat/out_dat.h"
+#include "thesis/out_dat/ports.h"
 
 namespace sinew::cli {
 
@@ -51,31 +50,6 @@ experiment::Experiment experiment_of(const run::RecordedRun& run, const Options&
   return experiment::load(run::machine_of(run, options.machine).string());
 }
 
-// Prints what B.1 writes to its two ports, and when; of a board whose valves have more bits, all of
-// its ports. One board after the other, where there are several.
-std::string ports_text(const signals::Table& table, const experiment::Experiment& e) {
-  const auto bits = robot::bits_of(e.robot, e.wiring);
-  int boards = 1, highest = 15;
-  for (const robot::ValveBit& b : bits)
-    boards = std::max(boards, b.board), highest = std::max(highest, b.bit);
-  const auto ports = static_cast<std::size_t>(highest / 8 + 1);
-
-  std::string out = boards > 1 ? "time [s],board [1]" : "time [s]";
-  for (std::size_t p = 0; p < ports; ++p) out += fmt::format(",port {} [1]", p);
-  out += "\n";
-  for (int board = 1; board <= boards; ++board) {
-    auto its = bits;
-    std::erase_if(its, [&](const robot::ValveBit& b) { return b.board != board; });
-    for (const robot::PortBytes& b : robot::port_bytes(table, its, e.wiring.polarity)) {
-      out += fmt::format("{:.4f}", 1e-9 * static_cast<double>(b.time_ns));
-      if (boards > 1) out += fmt::format(",{}", board);
-      for (std::size_t p = 0; p < ports; ++p) out += fmt::format(",{}", b.port[p]);
-      out += "\n";
-    }
-  }
-  return out;
-}
-
 // Line by line, since a long run's text is longer than memory.
 void put_csv(const run::RecordedRun& run, const Options& options, signals::Table table) {
   if (options.derived) {
@@ -96,7 +70,7 @@ void put(const run::RecordedRun& run, const Options& options, signals::Table tab
   if (options.format == "csv") return put_csv(run, options, std::move(table));
   const experiment::Experiment e = experiment_of(run, options);
   const std::string text =
-      options.format == "ports" ? ports_text(table, e) : thesis::write_out_dat(table, e);
+      options.format == "ports" ? thesis::write_ports(table, e) : thesis::write_out_dat(table, e);
   if (!options.out.empty()) return run::write_file(options.out, text);
   fmt::print("{}", text);
 }

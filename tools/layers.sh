@@ -65,6 +65,7 @@ layers='
     tune/optimizer  tune/results
     tune/page       tune/results report/page
     live            run/folder tune/page
+    files           run/folder tune/optimizer
 '
 
 # What only the tests of a folder may include besides (*_test.cpp, *_test.h, test_*.h, testing.h).

@@ -1,0 +1,135 @@
+#include "sinew/files/check.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <map>
+
+#include "sinew/config/compose.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/gains.h"
+#include "sinew/config/valve_timing.h"
+#include "sinew/experiment/faults.h"
+#include "sinew/experiment/machine_file.h"
+#include "sinew/experiment/rig/rig.h"
+#include "sinew/log/reader.h"
+#include "sinew/run/folder/run_folder.h"
+#include "sinew/run/folder/runnable.h"
+#include "sinew/run/setup/buildable.h"
+#include "sinew/run/simulation/run.h"
+#include "sinew/run/stand/run.h"
+#include "sinew/tune/optimizer/tuning.h"
+#include "sinew/tune/study.h"
+
+namespace sinew::files {
+
+namespace {
+
+using Problems = std::vector<config::Problem>;
+
+void add(const Problems& found, std::vector<std::string>& to) {
+  for (const config::Problem& problem : found) to.push_back(config::to_text(problem));
+}
+
+void check_log(const std::filesystem::path& file, Finding& out) {
+  const signals::Table table = log::read(file);
+  if (table.series.empty())
+    out.problems.push_back(file.string() + ": found no topic with numbers; expected a run's log");
+  if (!table.complete)
+    out.warnings.push_back(file.string() +
+                           ": was cut off or is damaged; everything before can be read");
+}
+
+void check_run(const std::filesystem::path& folder, Finding& out) {
+  const run::RecordedRun run = run::recorded_run(folder);
+  check_log(run.log, out);
+  if (const auto file = run::machine_of(run, ""); run::is_on_stand(file)) {
+    add(rig::load(file).warnings, out.warnings);
+    return;
+  }
+  add(experiment::load_machine_file(run::machine_of(run, "")).experiment.warnings, out.warnings);
+}
+
+// One line per file: an experiment's own choices need no more.
+void tell_of_sources(const Problems& unsourced, Finding& out) {
+  std::map<std::string, std::vector<std::string>> keys;
+  for (const config::Problem& p : unsourced)
+    keys[p.where.file].push_back(fmt::format("{} ({})", p.key, p.where.line));
+  for (const auto& [file, list] : keys)
+    out.warnings.push_back(fmt::format("{}: {} value{} without a source (line): {}", file,
+                                       list.size(), list.size() == 1 ? "" : "s",
+                                       fmt::join(list, ", ")));
+}
+
+// Tells what breaks and when, and warns of what changes nothing: why(fault).
+template <class Why>
+void tell_of_faults(const std::string& path, const std::vector<experiment::Fault>& faults, Why why,
+                    Finding& out) {
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    out.faults.push_back(experiment::in_words(faults[i]));
+    if (const std::string idle = why(faults[i]); !idle.empty())
+      out.warnings.push_back(fmt::format("{}: fault[{}] never acts: {}", path, i, idle));
+  }
+}
+
+void check_rig(const std::string& path, Finding& out) {
+  const rig::Experiment e = run::runnable_on_stand(path, {});
+  add(e.warnings, out.warnings);
+  tell_of_sources(e.unsourced, out);
+  const auto why = [&](const experiment::Fault& f) { return why_idle(f, rig::last_tick(e)); };
+  tell_of_faults(path, e.faults, why, out);
+}
+
+void check_machine(const std::string& path, Finding& out) {
+  const bool runs = config::format_kind(config::parse_file(path)) == "experiment";
+  experiment::MachineFile file;
+  if (runs) {
+    file = {"experiment", run::runnable(path, {}, false)};
+  } else {
+    file = experiment::load_machine_file(path);
+    run::refuse_unbuildable(file);
+  }
+  const experiment::Experiment& e = file.experiment;
+  add(e.warnings, out.warnings);
+  tell_of_sources(e.unsourced, out);
+  if (!runs) return;
+  const auto why = [&](const experiment::Fault& f) {
+    return why_idle(e, f, experiment::last_tick(e));
+  };
+  tell_of_faults(e.path, e.faults, why, out);
+}
+
+}  // namespace
+
+Finding check(const std::string& path) {
+  Finding out{.file = path};
+  try {
+    const std::filesystem::path file(path);
+    if (std::filesystem::is_directory(file)) {
+      check_run(file, out);
+    } else if (file.extension() == ".mcap") {
+      check_log(file, out);
+    } else if (file.extension() == ".dat" && file.filename().string().starts_with("gain")) {
+      config::read_gains(path);
+    } else if (file.extension() == ".dat") {
+      config::read_valve_timing(path);
+    } else if (const config::Node root = config::parse_file(path);
+               config::format_kind(root) == "plan") {
+      tune::check(tune::sweep_of(tune::load_study(path)));
+    } else if (config::format_kind(root) == "tuning") {
+      tune::load_tuning(path);
+    } else if (run::is_on_stand(path)) {
+      check_rig(path, out);
+    } else {
+      check_machine(path, out);
+    }
+  } catch (const config::Error& e) {
+    add(e.problems(), out.problems);
+  } catch (const std::exception& e) {
+    out.problems.push_back(e.what());
+  }
+  return out;
+}
+
+}  // namespace sinew::files

@@ -1,0 +1,22 @@
+// files/check.h - what is wrong with a file, or a run's folder, of any kind that Sinew reads,
+// without running anything.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace sinew::files {
+
+// Sentences as they are printed, each with its place.
+struct Finding {
+  std::string file;
+  std::vector<std::string> problems, warnings;
+  std::vector<std::string> faults;  // what the experiment breaks, and when
+};
+
+// Looks at an experiment, rig, plan, tuning, robot, actuator, valves or wiring file, predict.dat,
+// gain*.dat, a run's folder or log; which of them the file says. Never throws for what is wrong
+// with it: that is what it returns.
+Finding check(const std::string& path);
+
+}  // namespace sinew::files
