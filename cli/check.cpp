@@ -1,6 +1,5 @@
 // cli/check.cpp - `sinew check`: everything that is wrong with files, without running anything.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
@@ -20,21 +19,6 @@ struct Options {
   bool json = false;
 };
 
-void print(const Finding& finding) {
-  for (const std::string& text : finding.problems) fmt::print("{}\n", text);
-  for (const std::string& text : finding.warnings) fmt::print("warning: {}\n", text);
-  const auto count = [](std::size_t n, std::string_view what) {
-    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-  };
-  if (!finding.faults.empty())
-    fmt::print("{}: {}: {}\n", finding.file, count(finding.faults.size(), "fault"),
-               fmt::join(finding.faults, "; "));
-  const bool good = finding.problems.empty();
-  std::string line = good ? "ok" : count(finding.problems.size(), "problem");
-  if (!finding.warnings.empty()) line += ", " + count(finding.warnings.size(), "warning");
-  fmt::print("{}: {}\n", finding.file, line);
-}
-
 ExitCode check_all(const Options& options) {
   bool good = true;
   Json report = Json::array();
@@ -44,7 +28,7 @@ ExitCode check_all(const Options& options) {
     report.push_back(
         {{"file", finding.file}, {"problems", finding.problems}, {"warnings", finding.warnings}});
     if (!finding.faults.empty()) report.back()["faults"] = finding.faults;
-    if (!options.json) print(finding);
+    if (!options.json) fmt::print("{}", files::text_of(finding));
   }
   if (options.json) fmt::print("{}\n", json_text(report, 2));
   return good ? ok : failed;

@@ -1,16 +1,9 @@
 // cli/show.cpp - `sinew show`: every value as it is used, and where it came from.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
-#include "cli/json_text.h"
-#include "sinew/config/lookup.h"
-#include "sinew/experiment/machine_file.h"
-#include "sinew/experiment/rig/rig.h"
-#include "sinew/report/text/text_table.h"
-#include "sinew/run/folder/runnable.h"
+#include "sinew/files/values.h"
 
 namespace sinew::cli {
 
@@ -25,91 +18,12 @@ struct Options {
   bool json = false;
 };
 
-std::string si_text(const config::Node& values, const config::Origin& origin) {
-  if (origin.unit.empty()) return "";
-  const config::Node* node = config::value_at(values, origin.path);
-  if (!node) return "";
-  return config::written(node->is_value_table() ? *node->find("value") : *node);
-}
-
-std::string mark(const config::Origin& o) {
-  return o.fit ? "fit" : o.guess ? "guess" : o.is_default ? "default" : "";
-}
-
-std::string place(const config::Origin& o) {
-  if (o.is_default) return "";
-  return o.where.line > 0 ? fmt::format("{}:{}", o.where.file, o.where.line) : o.where.file;
-}
-
-// Those that were asked for by their key or by how they begin; all, where none was.
-config::Origins chosen(const config::Origins& all, const std::vector<std::string>& keys) {
-  if (keys.empty()) return all;
-  config::Origins out;
-  std::vector<bool> found(keys.size(), false), whole(keys.size(), false);
-  for (const config::Origin& origin : all)
-    for (std::size_t k = 0; k < keys.size(); ++k) whole[k] = whole[k] || origin.path == keys[k];
-  for (const config::Origin& origin : all) {
-    bool wanted = false;
-    for (std::size_t k = 0; k < keys.size(); ++k)
-      if (whole[k] ? origin.path == keys[k] : origin.path.starts_with(keys[k]))
-        found[k] = wanted = true;
-    if (wanted) out.push_back(origin);
-  }
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    if (found[k]) continue;
-    std::vector<std::string_view> paths;
-    for (const config::Origin& origin : all) paths.push_back(origin.path);
-    const std::string near(config::closest(keys[k], paths));
-    config::fail({"sinew show", 0, 0}, "", config::in_quotes(keys[k]),
-                 "a key of the file, or the beginning of one",
-                 near.empty() ? "sinew show without a key" : near);
-  }
-  return out;
-}
-
-Json to_json(const config::Origin& o, const config::Node& values) {
-  Json out{{"key", o.path}, {"written", o.text}};
-  if (const std::string si = si_text(values, o); !si.empty()) out["si"] = si;
-  if (!o.unit.empty()) out["unit"] = o.unit;
-  if (!o.source.empty()) out["source"] = o.source;
-  for (const auto& [name, value] :
-       {std::pair{"fit", o.fit}, {"guess", o.guess}, {"default", o.is_default}})
-    if (value) out[name] = true;
-  if (!o.range.empty()) out["range"] = o.range;
-  if (o.range_si) out["range_si"] = *o.range_si;
-  if (!o.uncertainty.empty()) out["uncertainty"] = o.uncertainty;
-  if (!o.is_default) out["file"] = o.where.file;
-  if (o.where.line > 0) out["line"] = o.where.line;
-  return out;
-}
-
-// Every value in SI, and its origin.
-std::pair<config::Node, config::Origins> read(const Options& options) {
-  if (run::is_on_stand(options.file)) {
-    const rig::Experiment e = rig::load(options.file, options.sets);
-    return {rig::values_in_si(e), e.origins};
-  }
-  const auto file = experiment::load_machine_file(options.file, options.sets);
-  return {experiment::values_in_si(file), file.experiment.origins};
-}
-
 ExitCode show(const Options& options) {
-  const auto [values, all] = read(options);
-  const config::Origins origins = chosen(all, options.keys);
-
-  if (options.json) {
-    Json out = Json::array();
-    for (const config::Origin& origin : origins) out.push_back(to_json(origin, values));
-    fmt::print("{}\n", json_text(out, 2));
-    return ok;
-  }
-  report::TextTable table({"key", "as written", "SI", "", "range", "where", "source"});
-  for (const config::Origin& o : origins) {
-    const std::string si = si_text(values, o);
-    const std::string range = fmt::format("{}", fmt::join(o.range, " to "));
-    table.add({o.path, o.text, si == o.text ? "" : si, mark(o), range, place(o), o.source});
-  }
-  fmt::print("{}", table.text());
+  const files::Values values = files::values(options.file, options.sets, options.keys);
+  if (options.json)
+    fmt::print("{}\n", Json::parse(files::json_of(values)).dump(2));
+  else
+    fmt::print("{}", files::text_of(values));
   return ok;
 }
 

@@ -132,4 +132,20 @@ Finding check(const std::string& path) {
   return out;
 }
 
+std::string text_of(const Finding& finding) {
+  std::string out;
+  for (const std::string& text : finding.problems) out += text + "\n";
+  for (const std::string& text : finding.warnings) out += "warning: " + text + "\n";
+  const auto count = [](std::size_t n, std::string_view what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+  };
+  if (!finding.faults.empty())
+    out += fmt::format("{}: {}: {}\n", finding.file, count(finding.faults.size(), "fault"),
+                       fmt::join(finding.faults, "; "));
+  const bool good = finding.problems.empty();
+  std::string line = good ? "ok" : count(finding.problems.size(), "problem");
+  if (!finding.warnings.empty()) line += ", " + count(finding.warnings.size(), "warning");
+  return out + fmt::format("{}: {}\n", finding.file, line);
+}
+
 }  // namespace sinew::files

@@ -19,4 +19,7 @@ struct Finding {
 // with it: that is what it returns.
 Finding check(const std::string& path);
 
+// Returns lines of text: its sentences, then how many there are.
+std::string text_of(const Finding& finding);
+
 }  // namespace sinew::files

@@ -1,0 +1,107 @@
+#include "sinew/files/values.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/lookup.h"
+#include "sinew/experiment/machine_file.h"
+#include "sinew/experiment/rig/rig.h"
+#include "sinew/report/text/text_table.h"
+#include "sinew/run/folder/runnable.h"
+
+namespace sinew::files {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string si_text(const config::Node& values, const config::Origin& origin) {
+  if (origin.unit.empty()) return "";
+  const config::Node* node = config::value_at(values, origin.path);
+  if (!node) return "";
+  return config::written(node->is_value_table() ? *node->find("value") : *node);
+}
+
+std::string mark(const config::Origin& o) {
+  return o.fit ? "fit" : o.guess ? "guess" : o.is_default ? "default" : "";
+}
+
+std::string place(const config::Origin& o) {
+  if (o.is_default) return "";
+  return o.where.line > 0 ? fmt::format("{}:{}", o.where.file, o.where.line) : o.where.file;
+}
+
+// Those that were asked for by their key or by how they begin; all, where none was.
+config::Origins chosen(const config::Origins& all, const std::vector<std::string>& keys,
+                       const std::string& path) {
+  if (keys.empty()) return all;
+  config::Origins out;
+  std::vector<bool> found(keys.size(), false), whole(keys.size(), false);
+  for (const config::Origin& origin : all)
+    for (std::size_t k = 0; k < keys.size(); ++k) whole[k] = whole[k] || origin.path == keys[k];
+  for (const config::Origin& origin : all) {
+    bool wanted = false;
+    for (std::size_t k = 0; k < keys.size(); ++k)
+      if (whole[k] ? origin.path == keys[k] : origin.path.starts_with(keys[k]))
+        found[k] = wanted = true;
+    if (wanted) out.push_back(origin);
+  }
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    if (found[k]) continue;
+    std::vector<std::string_view> paths;
+    for (const config::Origin& origin : all) paths.push_back(origin.path);
+    const std::string near(config::closest(keys[k], paths));
+    config::fail({path, 0, 0}, "", config::in_quotes(keys[k]),
+                 "a key of the file, or the beginning of one", near);
+  }
+  return out;
+}
+
+Json to_json(const config::Origin& o, const config::Node& values) {
+  Json out{{"key", o.path}, {"written", o.text}};
+  if (const std::string si = si_text(values, o); !si.empty()) out["si"] = si;
+  if (!o.unit.empty()) out["unit"] = o.unit;
+  if (!o.source.empty()) out["source"] = o.source;
+  for (const auto& [name, value] :
+       {std::pair{"fit", o.fit}, {"guess", o.guess}, {"default", o.is_default}})
+    if (value) out[name] = true;
+  if (!o.range.empty()) out["range"] = o.range;
+  if (o.range_si) out["range_si"] = *o.range_si;
+  if (!o.uncertainty.empty()) out["uncertainty"] = o.uncertainty;
+  if (!o.is_default) out["file"] = o.where.file;
+  if (o.where.line > 0) out["line"] = o.where.line;
+  return out;
+}
+
+}  // namespace
+
+Values values(const std::string& path, const std::vector<std::string>& sets,
+              const std::vector<std::string>& keys) {
+  if (run::is_on_stand(path)) {
+    const rig::Experiment e = rig::load(path, sets);
+    return {rig::values_in_si(e), chosen(e.origins, keys, path)};
+  }
+  const auto file = experiment::load_machine_file(path, sets);
+  return {experiment::values_in_si(file), chosen(file.experiment.origins, keys, path)};
+}
+
+std::string text_of(const Values& v) {
+  report::TextTable table({"key", "as written", "SI", "", "range", "where", "source"});
+  for (const config::Origin& o : v.origins) {
+    const std::string si = si_text(v.in_si, o);
+    const std::string range = fmt::format("{}", fmt::join(o.range, " to "));
+    table.add({o.path, o.text, si == o.text ? "" : si, mark(o), range, place(o), o.source});
+  }
+  return table.text();
+}
+
+std::string json_of(const Values& v) {
+  Json out = Json::array();
+  for (const config::Origin& origin : v.origins) out.push_back(to_json(origin, v.in_si));
+  return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace sinew::files
