@@ -139,10 +139,17 @@ Trial try_out(plant::RemoteBoard& board, const link::Configuration& configuratio
 Recording listen(plant::RemoteBoard& board, const link::Configuration& configuration,
                  double seconds) {
   const double period = signals::tick_seconds * configuration.spine.period;
-  Recording out;
-  while (out.seconds() < seconds) {
+  const auto look = [&] {
     const link::Telemetry* told = board.look(1.0);
     if (told == nullptr) throw plant::BoardError("the board does not say what its sensors read");
+    return told;
+  };
+  // The scan was begun anew somewhere within a period: that period lacks the conversions before,
+  // and one more may have been on the line already.
+  for (int i = 0; i < 2; ++i) (void)look();
+  Recording out;
+  while (out.seconds() < seconds) {
+    const link::Telemetry* told = look();
     const double time = period * static_cast<double>(out.samples.size());
     out.samples.push_back(sample_of(*told, link::channels_of(configuration.spine), time));
   }

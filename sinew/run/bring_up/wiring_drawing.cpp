@@ -23,15 +23,15 @@ std::string text(int x, int y, const std::string& anchor, const std::string& wor
 }
 
 std::string drawn(const Wire& wire, int y, bool sensor) {
-  const int edge = sensor ? left_edge : right_edge, outer = sensor ? edge - 40 : edge + 40;
+  const int side = sensor ? left_edge : right_edge, outer = sensor ? side - 40 : side + 40;
   const int inward = sensor ? 10 : -10;
   std::string out = fmt::format(R"(<line x1="{}" y1="{}" x2="{}" y2="{}"/>)"
                                 "\n",
-                                edge, y, outer, y);
+                                side, y, outer, y);
   out += fmt::format(R"(<circle cx="{}" cy="{}" r="4"/>)"
                      "\n",
-                     edge, y);
-  out += text(edge + inward, y + 4, sensor ? "start" : "end", wire.at);
+                     side, y);
+  out += text(side + inward, y + 4, sensor ? "start" : "end", wire.at);
   out += text(outer + (sensor ? -6 : 6), y, sensor ? "end" : "start", wire.name);
   out += text(outer + (sensor ? -6 : 6), y + 11, sensor ? "end" : "start", wire.elsewhere, "small");
   return out;

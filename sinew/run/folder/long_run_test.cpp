@@ -51,7 +51,7 @@ class LongRun : public ::testing::Test {
   RunRequest request(const std::string& name) const {
     return {.experiment = std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml",
             .folder = folder_.string(),
-            .sets = {"sequence.repeat=36", "log.period=1 ms"},
+            .sets = {"sequence.repeat=30", "log.period=1 ms"},
             .report = false};
   }
 
