@@ -136,14 +136,24 @@ std::size_t Simulation::find(std::string_view channel) const {
 double Simulation::read(std::string_view channel) { return read(find(channel)); }
 
 double Simulation::read(std::size_t channel) noexcept {
-  const auto [column, field] = column_of_[channel];
+  double value = 0;
+  read(std::span(&channel, 1), std::span(&value, 1));
+  return value;
+}
+
+void Simulation::read(std::span<const std::size_t> channels, std::span<double> values) noexcept {
   const MachineSeen seen = boards_.seen();
   const gait::MachineMeasured measured = high_level_.believe(seen);
-  const plant::Truth known = columns_[column].of_truth() ? truth() : plant::Truth{};
+  const bool of_truth = std::ranges::any_of(
+      channels, [&](std::size_t c) { return columns_[column_of_[c].first].of_truth(); });
+  const plant::Truth known = of_truth ? truth() : plant::Truth{};
   const Snapshot now{seen, measured, high_level_.desired(), known, time()};
-  double numbers[2] = {};
-  columns_[column].value(now, numbers);
-  return numbers[field];
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const auto [column, field] = column_of_[channels[i]];
+    double numbers[2] = {};
+    columns_[column].value(now, numbers);
+    values[i] = numbers[field];
+  }
 }
 
 plant::Truth Simulation::truth() noexcept {
@@ -154,9 +164,19 @@ air::Failure Simulation::failure() const noexcept {
   return machine_ ? machine_->failure() : air::Failure{};
 }
 
+std::string Simulation::cause() const {
+  Outcome so_far;
+  so_far.status = loop_.status;
+  so_far.failure = failure();
+  so_far.seen = boards_.seen_totals();
+  so_far.supervised = boards_.supervised_totals();
+  so_far.duration = time();
+  return so_far.ended_early() ? cause_of(experiment_, so_far) : "";
+}
+
 // --- changing ---
 
-std::size_t Simulation::setting(std::string_view key) const {
+std::size_t Simulation::find_setting(std::string_view key) const {
   const int found = gait::find_setting(settings(), key);
   if (found >= 0) return static_cast<std::size_t>(found);
   std::string all;
@@ -174,16 +194,21 @@ int Simulation::leg_number(std::string_view leg) const {
                                          : config::either(config::names_of(legs))));
 }
 
-void Simulation::change(std::string_view key, double value, std::string_view leg) {
-  const std::size_t s = setting(key);
+void Simulation::wish(std::size_t setting, double value, int leg) {
   if (!(value >= 0 && value <= gait::Setting::most))
-    refuse(std::string(key) + ": found " + std::to_string(value) + "; expected 0 to 1e6 " +
-           std::string(settings()[s].unit));
-  (void)high_level_.wish({s, value, false, leg_number(leg)});
+    refuse(settings()[setting].key + ": found " + std::to_string(value) + "; expected 0 to 1e6 " +
+           std::string(settings()[setting].unit));
+  (void)high_level_.wish({setting, value, false, leg});
 }
 
+void Simulation::change(std::string_view key, double value, std::string_view leg) {
+  wish(find_setting(key), value, leg_number(leg));
+}
+
+void Simulation::change(std::size_t setting, double value) { wish(setting, value, -1); }
+
 void Simulation::release(std::string_view key, std::string_view leg) {
-  (void)high_level_.wish({setting(key), 0, true, leg_number(leg)});
+  (void)high_level_.wish({find_setting(key), 0, true, leg_number(leg)});
 }
 
 // --- saving ---

@@ -102,12 +102,17 @@ class Simulation {
   // std::invalid_argument for a channel that there is not.
   double read(std::size_t channel) noexcept;
   double read(std::string_view channel);
+  // Values of many channels, by their numbers, at once: cheaper than one by one. `values` is as
+  // long as `channels`.
+  void read(std::span<const std::size_t> channels, std::span<double> values) noexcept;
   std::size_t find(std::string_view channel) const;
 
   // Returns what only a simulation knows, now. Not for a body that is none.
   plant::Truth truth() noexcept;
   // Returns what of the machine was no number any more.
   air::Failure failure() const noexcept;
+  // Returns why it has ended before its plan did, in words; empty where it has not.
+  std::string cause() const;
 
   // --- changing ---
 
@@ -116,8 +121,16 @@ class Simulation {
   // empty: every leg's. Throws std::invalid_argument for a key or a leg that there is not, or a
   // value that it cannot have.
   void change(std::string_view key, double value, std::string_view leg = {});
+  void change(std::size_t setting, double value);  // by its number in settings(), of every leg
   void release(std::string_view key, std::string_view leg = {});
   const std::vector<gait::Setting>& settings() const noexcept { return high_level_.settings(); }
+  // Returns what a setting, by its number, is at now, the plan's or what was set in its place; of
+  // the first leg  [its SI unit].
+  double value_of(std::size_t setting) const noexcept {
+    return gait::value_of(settings()[setting], high_level_.desired().front());
+  }
+  // Returns the number of a setting by its key; throws as change() does.
+  std::size_t find_setting(std::string_view key) const;
 
   // --- saving ---
 
@@ -143,7 +156,7 @@ class Simulation {
 
   signals::Port& port() noexcept { return *port_; }
   void list_channels();
-  std::size_t setting(std::string_view key) const;
+  void wish(std::size_t setting, double value, int leg);
   int leg_number(std::string_view leg) const;  // -1: every leg's
   std::uint64_t model();
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 
@@ -149,6 +150,42 @@ TEST(Simulation, AChangeIsThatOfTheExperimentsList) {
   for (Simulation* s : {&listed, &plain}) s->advance_to(s->last());
   expect_same(held, listed);
   EXPECT_NE(all(held), all(plain));
+}
+
+// By their numbers settings and channels are what they are by name.
+TEST(Simulation, NumbersStandForNames) {
+  const experiment::Experiment e = load({"walk-test-1", {}});
+  Simulation by_name(e), by_number(e);
+  by_name.advance_by(1.0);
+  by_number.advance_by(1.0);
+  const std::size_t hip = by_number.find_setting("control.stiffness.hip");
+  EXPECT_NEAR(by_number.value_of(hip), 35 * 0.112984829, 1e-6);  // 35 lbf in/rad
+  by_name.change("control.stiffness.hip", 2.5);
+  by_number.change(hip, 2.5);
+  by_name.advance_by(0.5);
+  by_number.advance_by(0.5);
+  EXPECT_EQ(by_number.value_of(hip), 2.5);
+
+  std::vector<std::size_t> every(by_number.channels().size());
+  std::iota(every.begin(), every.end(), 0u);
+  std::vector<double> values(every.size());
+  by_number.read(every, values);
+  EXPECT_EQ(values, all(by_name));
+  EXPECT_THROW(by_number.change(hip, -1), std::invalid_argument);
+}
+
+TEST(Simulation, SaysWhyItEndedEarly) {
+  experiment::Experiment e = load({"walk-test-1", {}});
+  Simulation whole(e);
+  whole.advance_to(whole.last());
+  EXPECT_TRUE(whole.ended());
+  EXPECT_EQ(whole.cause(), "");
+
+  for (actuator::Actuator& a : e.actuators) a.loss.viscous = 5000;  // beyond what is refused
+  Simulation runs_away(e);
+  runs_away.advance_to(runs_away.last());
+  EXPECT_TRUE(runs_away.ended());
+  EXPECT_NE(runs_away.cause().find("plant_steps.body"), std::string::npos) << runs_away.cause();
 }
 
 std::string refusal(auto&& what) {
