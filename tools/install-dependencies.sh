@@ -36,6 +36,11 @@ list='
     quick  clang-format-14     clang-format-14                  one layout of code; versions differ
     check  -                   libopenmpi-dev                   sweeps over the processes of mpirun
     check  -                   libcomedi-dev                    a machine at a card
+    check  -                   pybind11-dev                     the Python package
+    check  -                   python3-dev                      what that is compiled with
+    check  -                   python3-numpy                    its arrays
+    check  -                   python3-pandas                   tables of them, in tests
+    check  -                   mypy                             types of its interface
     check  mpirun              openmpi-bin                      starts them in tests
     check  chromium            chromium                         opens that page in tests
     check  -                   fonts-dejavu-core                what its reference pictures are set in

@@ -5,7 +5,7 @@
 
 # A folder of sinew/ may include itself, what its row names, and everything that those may. A name
 # stands for the rows below it too: `plant` for plant/planar. Every folder with sources needs a row.
-# thesis/ may include all of them, cli/ those and thesis/.
+# thesis/ may include all of them, cli/ and python/ those and thesis/.
 layers='
     units
     signals
@@ -84,6 +84,7 @@ libraries='
     mujoco/         sinew/plant/mujoco
     cvode/          sinew/plant/slide
     CLI/            cli
+    pybind11/       python/binding
     boost/(asio|beast|system)  sinew/live
     boost/random/   sinew/tune
     sqlite3[.]h     sinew/tune/results
@@ -103,7 +104,7 @@ export LC_ALL=C.UTF-8
 check_tree() {  # check_tree ROOT: findings on stdout, status 1 if there are any
   (
     cd "$1"
-    find sinew thesis cli -type f \( -name '*.h' -o -name '*.cpp' \) 2>/dev/null | sort |
+    find sinew thesis cli python -type f \( -name '*.h' -o -name '*.cpp' \) 2>/dev/null | sort |
       awk -v layers="$layers" -v test_layers="$test_layers" -v libraries="$libraries" \
           -v longest_file="$longest_file" "$program"
   )
@@ -173,8 +174,8 @@ function check_include(file, line, target,   folder, mine, theirs, name) {
   for (name in library)
     if (target ~ ("^" name) && !below(file, library[name]))
       say(file, line, "<" target "> belongs behind " library[name])
-  if (file ~ /^sinew\// && target ~ /^(thesis|cli)\//) say(file, line, "sinew may not include " target)
-  if (file ~ /^thesis\// && target ~ /^cli\//) say(file, line, "thesis may not include " target)
+  if (file ~ /^sinew\// && target ~ /^(thesis|cli|python)\//) say(file, line, "sinew may not include " target)
+  if (file ~ /^thesis\// && target ~ /^(cli|python)\//) say(file, line, "thesis may not include " target)
   if (target !~ /^sinew\//) return
   if (file !~ /^sinew\//) return
 
@@ -290,6 +291,9 @@ self_test() {
   expect thesis/figures/a.cpp     'void f() { std::cout << 1; }'               'does not print'
   expect cli/a.cpp                '#include <zlib.h>'                          'behind sinew/log'
   expect cli/a.cpp                '#include <CLI/CLI.hpp>'                     ''
+  expect sinew/log/a.cpp          '#include <pybind11/stl.h>'                  'behind python/binding'
+  expect python/binding/a.cpp     '#include <pybind11/stl.h>'                  ''
+  expect sinew/report/a.cpp       '#include "python/binding/bind.h"'           'sinew may not include'
   expect sinew/log/a.cpp          '#include <CLI/CLI.hpp>'                     'behind cli'
   expect sinew/gas/a.h            'struct A { virtual void f(); };'            'virtual'
   expect sinew/gas/a.h            'int a;  // virtual work'                    ''

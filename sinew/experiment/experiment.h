@@ -81,6 +81,10 @@ void refuse_unreachable(const Experiment& experiment);
 // The last tick that a run can reach.
 signals::Tick last_tick(const Experiment& experiment);
 
+// Returns the experiment with the numbers of predict.dat in place of that file's name: the same,
+// wherever its files are.
+Experiment without_files(Experiment experiment);
+
 // What was run, as a file that runs again: every value in SI, with its source.
 std::string resolved(const Experiment& experiment, const std::string& version);
 

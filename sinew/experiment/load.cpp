@@ -110,11 +110,15 @@ config::Node values_in_si(MachineFile file) {
   return writer.root();
 }
 
-std::string resolved(const Experiment& experiment, const std::string& version) {
-  Experiment e = experiment;  // visitors take what they print by reference
+Experiment without_files(Experiment e) {
   e.pulses.closing.assign(e.timing.closing.begin(), e.timing.closing.end());
   e.pulses.opening.assign(e.timing.opening.begin(), e.timing.opening.end());
   e.robot.low_level.valve_timing.clear();
+  return e;
+}
+
+std::string resolved(const Experiment& experiment, const std::string& version) {
+  Experiment e = without_files(experiment);  // visitors take what they print by reference
   config::Writer writer(&e.origins);
   writer.format("experiment");
   std::string sinew = version;

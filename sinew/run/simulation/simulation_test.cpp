@@ -9,6 +9,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "sinew/config/node.h"
+#include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/run.h"
 
 namespace sinew::run {
@@ -117,6 +119,20 @@ TEST(Simulation, GoesOnFromASaveWithTheSameBits) {
     held->advance_to(held->last());
     expect_same(straight, *held);
     EXPECT_EQ(straight.finish(), held->finish()) << kind.file;
+  }
+}
+
+// A save does not know where the experiment's files were.
+TEST(Simulation, ASaveIsThatOfTheResolvedExperimentToo) {
+  for (const Kind& kind : kinds) {
+    const experiment::Experiment e = load(kind);
+    const experiment::Experiment again = buildable(
+        config::parse_text(experiment::resolved(e, "any"), "resolved.toml"), "resolved.toml");
+    Simulation there(e), here(again);
+    there.advance_by(1.0);
+    here.restore(there.save());
+    for (Simulation* s : {&there, &here}) s->advance_by(0.5);
+    expect_same(there, here);
   }
 }
 

@@ -1,0 +1,61 @@
+// python/binding/bind.h - the parts of the Python module `sinew._sinew`: a function for each of its
+// files, and what they share.
+//
+// The module only asks the library. Whatever takes longer than some microseconds is done without
+// Python's lock, so that other threads of the program go on.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sinew/experiment/experiment.h"
+
+namespace sinew::python {
+
+namespace py = pybind11;
+
+void bind_errors(py::module_& m);
+void bind_experiment(py::module_& m);
+void bind_simulation(py::module_& m);
+void bind_loop(py::module_& m);
+void bind_episode(py::module_& m);
+void bind_recording(py::module_& m);
+void bind_run(py::module_& m);
+void bind_sweep(py::module_& m);
+void bind_laws(py::module_& m);
+
+// A run ended before its plan did: a muscle burst, the supervisor tripped. What was recorded until
+// then is in the words.
+struct RunError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// An experiment as Python holds it: read once, never changed.
+struct HeldExperiment {
+  std::string path;               // of its file
+  std::vector<std::string> sets;  // key=value in place of the file's
+  std::string text;               // in place of the file: a resolved one that was pickled
+  experiment::Experiment read;
+};
+using ExperimentPointer = std::shared_ptr<const HeldExperiment>;
+
+// Returns a path that was given as text or as pathlib's. Throws TypeError for anything else.
+std::string path_of(const py::handle& meant);
+
+// Returns the experiment that is meant: one that is read already, or a path. Throws TypeError for
+// anything else, and config::Error.
+ExperimentPointer experiment_of(const py::object& meant, const py::object& sets);
+
+// Does the work on a thread of its own, without Python's lock, until it returns; what it throws is
+// thrown here. Meanwhile `look` is called some times a second, with Python's lock. Ctrl-C, and
+// whatever else a signal handler of Python or `look` raises, sets `stop`, waits for the work's end,
+// and is raised.
+void do_interruptibly(std::atomic<bool>& stop, const std::function<void()>& work,
+                      const std::function<void()>& look = {});
+
+}  // namespace sinew::python

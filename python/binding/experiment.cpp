@@ -1,0 +1,298 @@
+// python/binding/experiment.cpp - experiments: read, looked at by key, varied, pickled.
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <charconv>
+
+#include "python/binding/bind.h"
+#include "sinew/config/compose.h"
+#include "sinew/config/lookup.h"
+#include "sinew/config/node.h"
+#include "sinew/config/quantity.h"
+#include "sinew/control/gait/change.h"
+#include "sinew/experiment/machine_file.h"
+#include "sinew/run/setup/buildable.h"
+#include "sinew/signals/tick.h"
+
+namespace sinew::python {
+
+namespace {
+
+using experiment::Experiment;
+
+// Returns the text that stands for a value behind "key=". A number is meant in the SI unit that the
+// key has.
+std::string text_of(const std::string& key, const py::handle& value, const Experiment& of) {
+  if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
+  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+  if (!PyNumber_Check(value.ptr()) || py::hasattr(value, "__len__"))
+    throw py::type_error(
+        fmt::format("{}: found {}; expected a number in SI, True or False, or text with a unit",
+                    key, py::repr(value).cast<std::string>()));
+  const config::Origin* origin = config::find_origin(of.origins, key);
+  const auto number = py::reinterpret_borrow<py::object>(value);
+  if (origin && !origin->unit.empty())
+    return config::format_quantity(py::float_(number).cast<double>(), origin->unit);
+  if (PyIndex_Check(value.ptr()) != 0) return fmt::format("{}", number.cast<std::int64_t>());
+  return config::format_number(py::float_(number).cast<double>());
+}
+
+// `read` knows the units of the keys; called only where a value is no text.
+std::vector<std::string> sets_of(const py::object& sets,
+                                 const std::function<const Experiment&()>& read) {
+  std::vector<std::string> out;
+  if (sets.is_none()) return out;
+  if (py::isinstance<py::dict>(sets)) {
+    for (const auto& [name, value] : sets.cast<py::dict>()) {
+      if (!py::isinstance<py::str>(name))
+        throw py::type_error("settings: found a key that is no text");
+      const auto key = name.cast<std::string>();
+      out.push_back(fmt::format("{}={}", key, text_of(key, value, read())));
+    }
+    return out;
+  }
+  if (py::isinstance<py::list>(sets) || py::isinstance<py::tuple>(sets)) {
+    for (const py::handle set : sets) {
+      if (!py::isinstance<py::str>(set))
+        throw py::type_error("settings: found a member that is no text; expected \"key=value\"");
+      out.push_back(set.cast<std::string>());
+    }
+    return out;
+  }
+  throw py::type_error(fmt::format(
+      "settings: found {}; expected a dict of keys and values, or a list of \"key=value\"",
+      py::repr(sets).cast<std::string>()));
+}
+
+ExperimentPointer read(const std::string& path, std::vector<std::string> sets,
+                       const std::string& text) {
+  auto held = std::make_shared<HeldExperiment>(HeldExperiment{path, std::move(sets), text, {}});
+  if (text.empty()) {
+    held->read = run::buildable(path, held->sets);
+  } else {
+    config::Node root = config::parse_text(text, path);
+    for (const std::string& set : held->sets) config::apply_set(root, set);
+    held->read = run::buildable(root, path);
+  }
+  return held;
+}
+
+ExperimentPointer varied(const ExperimentPointer& of, const py::object& sets) {
+  std::vector<std::string> all = of->sets;
+  for (std::string& set : sets_of(sets, [&]() -> const Experiment& { return of->read; }))
+    all.push_back(std::move(set));
+  return read(of->path, std::move(all), of->text);
+}
+
+ExperimentPointer load(const py::object& path, const py::object& sets) {
+  const std::string file = path_of(path);
+  if (sets.is_none()) return read(file, {}, "");
+  ExperimentPointer plain;  // for the units of numbers
+  return read(file,
+              sets_of(sets,
+                      [&]() -> const Experiment& {
+                        if (!plain) plain = read(file, {}, "");
+                        return plain->read;
+                      }),
+              "");
+}
+
+// A value as Python has it. The writer gives quantities as text, "5.24 rad", in SI.
+py::object value_of(const config::Node& node, bool quantity) {
+  using Kind = config::Node::Kind;
+  switch (node.kind) {
+    case Kind::table:
+      return value_of(*node.find("value"), quantity);
+    case Kind::array: {
+      py::list out;
+      for (const config::Node& child : node.children) out.append(value_of(child, quantity));
+      return out;
+    }
+    case Kind::text: {
+      double number = 0;
+      const char* end = node.text.data() + node.text.size();
+      if (quantity && std::from_chars(node.text.data(), end, number).ec == std::errc())
+        return py::float_(number);
+      return py::str(node.text);
+    }
+    case Kind::integer:
+      return quantity ? py::object(py::float_(static_cast<double>(node.integer)))
+                      : py::object(py::int_(node.integer));
+    case Kind::real:
+      return py::float_(node.real);
+    case Kind::flag:
+      return py::bool_(node.flag);
+  }
+  return py::none();
+}
+
+// Raises KeyError for a key that the experiment does not have.
+const config::Origin& origin_at(const HeldExperiment& held, const std::string& key) {
+  if (const config::Origin* origin = config::find_origin(held.read.origins, key)) return *origin;
+  std::vector<std::string_view> keys;
+  for (const config::Origin& o : held.read.origins) keys.push_back(o.path);
+  const std::string near = config::closest_in_quotes(key, keys);
+  throw py::key_error(fmt::format("found {}; expected a key of the experiment{}",
+                                  config::in_quotes(key), near.empty() ? "" : "; try " + near));
+}
+
+// In SI; None where the key is there and nothing is set.
+py::object in_si(const HeldExperiment& held, const std::string& key) {
+  const config::Origin& origin = origin_at(held, key);
+  const config::Node root = experiment::values_in_si({"experiment", held.read});
+  const config::Node* node = config::value_at(root, key);
+  if (!node || (node->is_table() && !node->is_value_table())) return py::none();
+  return value_of(*node, !origin.unit.empty());
+}
+
+// The experiment with other noise, without reading its files again.
+std::shared_ptr<HeldExperiment> with_seed(const HeldExperiment& of, int seed) {
+  if (seed < 0)
+    throw std::invalid_argument(fmt::format("seed: found {}; expected 0 to 2147483647", seed));
+  auto out = std::make_shared<HeldExperiment>(of);
+  out->read.seed = seed;
+  out->sets.push_back(fmt::format("seed={}", seed));
+  return out;
+}
+
+py::dict values_of(const HeldExperiment& held) {
+  const config::Node root = experiment::values_in_si({"experiment", held.read});
+  py::dict out;
+  for (const config::Origin& origin : held.read.origins) {
+    const config::Node* node = config::value_at(root, origin.path);
+    if (node && (!node->is_table() || node->is_value_table()))
+      out[py::str(origin.path)] = value_of(*node, !origin.unit.empty());
+  }
+  return out;
+}
+
+py::dict origin_of(const HeldExperiment& held, const std::string& key) {
+  const config::Origin* o = &origin_at(held, key);
+  py::dict out;
+  out["text"] = o->text;
+  out["unit"] = o->unit;
+  out["source"] = o->source;
+  out["file"] = o->where.file;
+  out["line"] = o->where.line;
+  out["default"] = o->is_default;
+  out["fit"] = o->fit;
+  out["guess"] = o->guess;
+  out["uncertainty"] = o->uncertainty;
+  out["range"] = o->range_si ? py::object(py::make_tuple((*o->range_si)[0], (*o->range_si)[1]))
+                             : py::object(py::none());
+  return out;
+}
+
+double converted(double value, const std::string& unit, const std::string& display) try {
+  return config::convert(value, unit, display);
+} catch (const std::exception& e) {
+  throw std::invalid_argument(fmt::format("convert: {}; expected units of one kind", e.what()));
+}
+
+std::vector<std::string> keys_of(const HeldExperiment& held) {
+  std::vector<std::string> out;
+  for (const config::Origin& o : held.read.origins) out.push_back(o.path);
+  return out;
+}
+
+std::string resolved(const HeldExperiment& held) {
+  return experiment::resolved(held.read, SINEW_VERSION);
+}
+
+}  // namespace
+
+std::string path_of(const py::handle& meant) {
+  if (py::isinstance<py::str>(meant) || py::hasattr(meant, "__fspath__"))
+    return py::module_::import("os").attr("fsdecode")(meant).cast<std::string>();
+  throw py::type_error(fmt::format("found {}; expected a path, or an Experiment",
+                                   py::repr(meant).cast<std::string>()));
+}
+
+ExperimentPointer experiment_of(const py::object& meant, const py::object& sets) {
+  if (!py::isinstance<HeldExperiment>(meant)) return load(meant, sets);
+  const auto held = meant.cast<std::shared_ptr<HeldExperiment>>();
+  return sets.is_none() ? held : varied(held, sets);
+}
+
+void bind_experiment(py::module_& m) {
+  py::class_<HeldExperiment, std::shared_ptr<HeldExperiment>>(
+      m, "Experiment",
+      "An experiment file with the robot that it names, read and checked; it does not change.")
+      .def(py::init([](const py::object& path, const py::object& sets) {
+             return std::const_pointer_cast<HeldExperiment>(load(path, sets));
+           }),
+           py::arg("path"), py::arg("sets") = py::none(),
+           "Reads the file, with settings in place of its own: {\"control.stiffness.hip\": 3.0}.\n"
+           "A number is in the key's SI unit, text has a unit of its own (\"35 lbf in/rad\").\n"
+           "Raises InputError with everything that is wrong.")
+      .def_property_readonly(
+          "path", [](const HeldExperiment& e) { return e.path; }, "Its file.")
+      .def_property_readonly(
+          "name", [](const HeldExperiment& e) { return e.read.name; },
+          "The file's name without its ending.")
+      .def_property_readonly(
+          "title", [](const HeldExperiment& e) { return e.read.title; },
+          "What it is, in a sentence.")
+      .def_property_readonly(
+          "sets", [](const HeldExperiment& e) { return e.sets; },
+          "Settings in place of the file's, as \"key=value\".")
+      .def_property_readonly(
+          "seed", [](const HeldExperiment& e) { return e.read.seed; },
+          "Of the noise of the sensors.")
+      .def_property_readonly(
+          "duration",
+          [](const HeldExperiment& e) {
+            return static_cast<double>(experiment::last_tick(e.read)) * signals::tick_seconds;
+          },
+          "Of its plan, in seconds.")
+      .def_property_readonly(
+          "warnings",
+          [](const HeldExperiment& e) {
+            std::vector<std::string> out;
+            for (const config::Problem& p : e.read.warnings) out.push_back(config::to_text(p));
+            return out;
+          },
+          "What is doubtful about it, a sentence each.")
+      .def(
+          "vary",
+          [](const std::shared_ptr<HeldExperiment>& e, const py::object& sets) {
+            return std::const_pointer_cast<HeldExperiment>(varied(e, sets));
+          },
+          py::arg("sets"), "Returns the experiment with these settings besides.")
+      .def("with_seed", &with_seed, py::arg("seed"),
+           "Returns the experiment with other noise of its sensors. Raises ValueError.")
+      .def("keys", &keys_of, "Returns the keys of all values, dotted.")
+      .def("__getitem__", &in_si, py::arg("key"),
+           "Returns the value of a key in SI. Raises KeyError.")
+      .def("values", &values_of, "Returns all values by their keys, in SI.")
+      .def("origin", &origin_of, py::arg("key"),
+           "Returns where a value came from: text as written, SI unit, source, file and line,\n"
+           "range, uncertainty. Raises KeyError.")
+      .def("resolved", &resolved,
+           "Returns a file with every value in SI and its source, which runs again.")
+      .def("__repr__",
+           [](const HeldExperiment& e) { return fmt::format("<sinew.Experiment {}>", e.path); })
+      .def("__copy__", [](const std::shared_ptr<HeldExperiment>& e) { return e; })
+      .def(
+          "__deepcopy__",
+          [](const std::shared_ptr<HeldExperiment>& e, const py::dict&) { return e; },
+          py::arg("memo"))
+      .def(py::pickle([](const HeldExperiment& e) { return py::make_tuple(e.path, resolved(e)); },
+                      [](const py::tuple& state) {
+                        return std::const_pointer_cast<HeldExperiment>(
+                            read(state[0].cast<std::string>(), {}, state[1].cast<std::string>()));
+                      }));
+  m.def(
+      "quantity",
+      [](const std::string& text, const std::string& unit) {
+        return config::quantity(text, unit, "text");
+      },
+      py::arg("text"), py::arg("unit"),
+      "Returns a quantity in the SI unit: quantity(\"60 psi gauge\", \"Pa abs\"). Raises\n"
+      "InputError.");
+  m.def("convert", &converted, py::arg("value"), py::arg("unit"), py::arg("display"),
+        "Returns a value of an SI unit in another: convert(0.0254, \"m\", \"in\"). Raises\n"
+        "ValueError.");
+}
+
+}  // namespace sinew::python

@@ -1,0 +1,16 @@
+// python/binding/module.cpp - the Python module `sinew._sinew`, which the package `sinew` shows.
+#include "python/binding/bind.h"
+
+PYBIND11_MODULE(_sinew, m) {
+  m.doc() = "The library of Sinew. Use `import sinew`.";
+  m.attr("version") = SINEW_VERSION;
+  sinew::python::bind_errors(m);
+  sinew::python::bind_experiment(m);
+  sinew::python::bind_recording(m);
+  sinew::python::bind_simulation(m);
+  sinew::python::bind_loop(m);
+  sinew::python::bind_episode(m);
+  sinew::python::bind_run(m);
+  sinew::python::bind_sweep(m);
+  sinew::python::bind_laws(m);
+}

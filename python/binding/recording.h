@@ -1,0 +1,54 @@
+// python/binding/recording.h - what a run recorded, as Python holds it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "python/binding/bind.h"
+#include "sinew/analysis/record/machine.h"
+#include "sinew/signals/table.h"
+
+namespace sinew::python {
+
+// Recording gives its samples out as arrays that stand in its own memory.
+class Recording {
+ public:
+  signals::Table table;
+  std::string summary;                       // summary.json
+  std::string verdicts;                      // what is reported of the run, beside it: JSON
+  std::optional<analysis::Machine> machine;  // what its numbers mean; of a test stand: none
+  std::vector<std::string> warnings;
+  std::string folder;  // where it is kept; empty: nowhere
+
+  // "/joint/hip/angle", "/foot/position.x": every channel that there is, with its unit.
+  struct Channel {
+    std::string name, unit, description;
+  };
+  std::vector<Channel> channels() const;
+
+  // Throw py::key_error for a channel that there is not.
+  const std::vector<double>& values(const std::string& channel);
+  const std::vector<double>& time(const std::string& channel);
+
+ private:
+  struct Place {
+    std::size_t series = 0, field = 0;
+  };
+  Place find(const std::string& channel) const;
+
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<double>> values_;  // once asked for
+  std::map<std::size_t, std::vector<double>> times_;
+};
+
+// Fills summary and verdicts of a table; a part of a run has no verdicts.
+template <class Machine>
+void sum_up(Recording& recording, Machine machine);
+
+// Returns what a kept run's folder, or a log, holds. Throws config::Error and log::Error.
+std::shared_ptr<Recording> read_run(const std::string& named);
+
+}  // namespace sinew::python

@@ -1,0 +1,130 @@
+// python/binding/sweep.cpp - many runs of one experiment, on all cores.
+#include "sinew/tune/sweep.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <thread>
+
+#include "python/binding/numbers.h"
+#include "sinew/config/quantity.h"
+#include "sinew/tune/study.h"
+#include "sinew/tune/table.h"
+
+namespace sinew::python {
+
+namespace {
+
+// A list of texts, or one text. Throws TypeError for anything else.
+std::vector<std::string> texts_of(const py::object& given, const char* name) {
+  if (py::isinstance<py::str>(given)) return {given.cast<std::string>()};
+  std::vector<std::string> out;
+  if (py::isinstance<py::list>(given) || py::isinstance<py::tuple>(given)) {
+    for (const py::handle text : given) {
+      if (!py::isinstance<py::str>(text)) break;
+      out.push_back(text.cast<std::string>());
+    }
+    if (out.size() == py::len(given)) return out;
+  }
+  throw py::type_error(fmt::format("{}: found {}; expected text, or a list of texts", name,
+                                   py::repr(given).cast<std::string>()));
+}
+
+// "KEY=a,b,c unit": of numbers in the SI unit that the key has in the experiment.
+std::string axis_of(const std::string& key, const py::handle& values, const HeldExperiment& e) {
+  if (py::isinstance<py::str>(values)) return key + "=" + values.cast<std::string>();
+  const py::array given = py::array::ensure(values);
+  if (given && given.dtype().kind() == 'U') {
+    std::string words;
+    for (const py::handle word : given.attr("ravel")())
+      words += (words.empty() ? "" : ",") + py::str(word).cast<std::string>();
+    return key + "=" + words;
+  }
+  const Numbers all = numbers(values, key.c_str());
+  if (all.size() == 0)
+    throw std::invalid_argument(fmt::format("{}: found no values; expected one at least", key));
+  std::string text;
+  for (py::ssize_t i = 0; i < all.size(); ++i)
+    text += (i > 0 ? "," : "") + config::format_number(all.data()[i]);
+  const config::Origin* origin = config::find_origin(e.read.origins, key);
+  const bool bare = !origin || origin->unit.empty() || origin->unit == "1";
+  return key + "=" + text + (bare ? "" : " " + origin->unit);
+}
+
+std::vector<std::string> axes_of(const py::object& vary, const HeldExperiment& e) {
+  if (!py::isinstance<py::dict>(vary)) return texts_of(vary, "vary");
+  std::vector<std::string> out;
+  for (const auto& [key, values] : vary.cast<py::dict>())
+    out.push_back(axis_of(py::str(key).cast<std::string>(), values, e));
+  return out;
+}
+
+// A function of Python that is told how far it is.
+void tell(const py::object& progress, std::int64_t done, std::size_t points) {
+  if (!progress.is_none()) progress(done, points);
+}
+
+py::object sweep(const py::object& experiment, const py::object& vary, const py::object& report,
+                 const py::object& sets, int seeds, int threads, const py::object& where,
+                 const std::string& largest, const py::object& ranges, int points,
+                 const py::object& progress) {
+  const ExperimentPointer e = experiment_of(experiment, sets);
+  if (!e->text.empty())
+    throw std::invalid_argument(
+        "experiment: found one that was pickled; expected one that was read from its file");
+  for (const auto& [name, value] :
+       {std::pair{"seeds", seeds}, {"threads", threads}, {"points", points}})
+    if (value < 0)
+      throw std::invalid_argument(fmt::format("{}: found {}; expected 0 or more", name, value));
+  const tune::Sweep asked = tune::sweep_of({.experiment = e->path,
+                                            .set = e->sets,
+                                            .vary = axes_of(vary, *e),
+                                            .where = texts_of(where, "where"),
+                                            .report = texts_of(report, "report"),
+                                            .range = texts_of(ranges, "ranges"),
+                                            .points = points,
+                                            .largest = largest,
+                                            .seeds = seeds});
+  std::atomic<bool> stop = false;
+  std::atomic<std::int64_t> done = 0;
+  std::vector<tune::Row> rows;
+  const auto cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const std::size_t all = tune::points(asked);
+  do_interruptibly(
+      stop,
+      [&] {
+        tune::check(asked);
+        rows = tune::sweep(
+            asked, {.threads = threads > 0 ? threads : cores, .stop = &stop, .progress = &done});
+      },
+      [&] { tell(progress, done.load(), all); });
+  tell(progress, static_cast<std::int64_t>(all), all);
+  tune::refuse_empty_columns(rows, asked);
+  return py::module_::import("json").attr("loads")(
+      tune::json_of(tune::headings(asked), rows))["rows"];
+}
+
+}  // namespace
+
+void bind_sweep(py::module_& m) {
+  m.def(
+      "sweep", &sweep, py::arg("experiment"), py::arg("vary") = py::list(), py::kw_only(),
+      py::arg("report") = py::list(), py::arg("sets") = py::none(), py::arg("seeds") = 0,
+      py::arg("threads") = 0, py::arg("where") = py::list(), py::arg("largest") = "",
+      py::arg("ranges") = py::list(), py::arg("points") = 0, py::arg("progress") = py::none(),
+      "Runs an experiment many times, on all cores or so many `threads`, and returns a list of\n"
+      "dicts, one for each run: what was varied, what is reported, and \"status\".\n"
+      "\n"
+      "`vary`: {key: values in SI}, all combinations; or texts as `sinew sweep --vary` takes.\n"
+      "`report`: keys of the summary, each with a unit if you like: \"trolley.distance_m [in]\";\n"
+      "without, what is reported of the experiment. `seeds`: each with the noise of seeds 1 to\n"
+      "so many. `where`, `largest`, `ranges` and `points` are those of `sinew sweep`.\n"
+      "`progress` is called with how many are done, and of how many; what it raises ends the\n"
+      "sweep, as Ctrl-C does. The rows are the same for any number of threads. Raises\n"
+      "InputError.");
+}
+
+}  // namespace sinew::python

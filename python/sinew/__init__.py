@@ -1,0 +1,65 @@
+"""Sinew: braided pneumatic actuators, their air and valves, and the robots that they move.
+
+    import sinew
+
+    recording = sinew.run(sinew.shipped("experiments/walk-test-1.toml"))
+    angle = recording["/joint/hip/angle"]          # an array, in rad
+    recording.summary["joints"]["hip"]             # figures, in SI
+
+    leg = sinew.Simulation(sinew.shipped("experiments/walk-test-1.toml"))
+    leg.advance(2.0)
+    leg.change("control.stiffness.hip", 3.0)       # N m/rad
+
+Values are in SI wherever nothing else is said; channels have the unit that they name. What is wrong
+with a file is raised as InputError, with the words that `sinew check` prints.
+"""
+
+from sinew._sinew import (
+    Actuator,
+    Channel,
+    Experiment,
+    InputError,
+    LogError,
+    Loop,
+    Problem,
+    RecordedChannel,
+    Recording,
+    RunError,
+    Setting,
+    Simulation,
+    Valve,
+    convert,
+    quantity,
+    read_run,
+    run,
+    step_all,
+    sweep,
+)
+from sinew._sinew import version as __version__
+from sinew._shipped import shipped
+from sinew._pandas import to_pandas
+
+__all__ = [
+    "Actuator",
+    "Channel",
+    "Experiment",
+    "InputError",
+    "LogError",
+    "Loop",
+    "Problem",
+    "RecordedChannel",
+    "Recording",
+    "RunError",
+    "Setting",
+    "Simulation",
+    "Valve",
+    "convert",
+    "quantity",
+    "read_run",
+    "run",
+    "shipped",
+    "step_all",
+    "sweep",
+    "to_pandas",
+    "__version__",
+]

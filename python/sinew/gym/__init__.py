@@ -1,0 +1,19 @@
+"""Robots of braided actuators as environments in the shape of Gymnasium, which need not be there.
+
+    import sinew.gym
+
+    env = sinew.gym.Env("walk")
+    seen, info = env.reset(seed=1)
+    over = False
+    while not over:
+        seen, reward, terminated, truncated, info = env.step(env.action_space.sample())
+        over = terminated or truncated
+
+Where Gymnasium is installed, Env is a gymnasium.Env and its spaces are Gymnasium's.
+"""
+
+from sinew.gym.env import Env, VectorEnv
+from sinew.gym.spaces import Box
+from sinew.gym.tasks import Action, Sight, Task, names, task
+
+__all__ = ["Action", "Box", "Env", "Sight", "Task", "VectorEnv", "names", "task"]

@@ -1,0 +1,245 @@
+"""One environment, and several side by side."""
+
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+
+import numpy
+import numpy.typing
+
+from sinew import _sinew
+from sinew._sinew import Experiment, Simulation
+from sinew.gym import spaces
+from sinew.gym.drawing import Drawing
+from sinew.gym.tasks import Task, task as task_of
+
+Info = Dict[str, Any]
+
+try:
+    import gymnasium  # type: ignore[import]
+
+    _Base: Any = gymnasium.Env
+except ImportError:
+    _Base = object
+
+
+class _Shared:
+    """What the episodes of a task share: experiment, spaces, and the plan's own settings."""
+
+    def __init__(self, task: Union[str, Task]) -> None:
+        self.task = task_of(task) if isinstance(task, str) else task
+        t = self.task
+        for action in t.actions:
+            if action.kind not in ("offset", "factor"):
+                raise ValueError(
+                    f"action {action.setting}: found kind {action.kind!r}; expected offset or factor"
+                )
+            if not action.size > 0:
+                raise ValueError(
+                    f"action {action.setting}: found size {action.size}; expected more than 0"
+                )
+        for sight in t.sights:
+            if not sight.scale > 0:
+                raise ValueError(
+                    f"sight {sight.channel}: found scale {sight.scale}; expected more than 0"
+                )
+        self.experiment = Experiment(t.experiment, dict(t.sets))
+        self.course = _sinew.Course(
+            Simulation(self.experiment),
+            [a.setting for a in t.actions],
+            [a.size if a.kind == "offset" else 0.0 for a in t.actions],
+            [a.size if a.kind == "factor" else 1.0 for a in t.actions],
+            [s.channel for s in t.sights],
+            [s.middle for s in t.sights],
+            [s.scale for s in t.sights],
+            list(t.measures),
+            t.begin,
+            t.period,
+        )
+        ones = numpy.ones(len(t.actions))
+        free = numpy.full(len(t.sights), numpy.inf)
+        self.action_space = spaces.box(-ones, ones)
+        self.observation_space = spaces.box(-free, free)
+
+    def begin(self, seed: int) -> _sinew.Episode:
+        return _sinew.Episode(self.course, Simulation(self.experiment.with_seed(seed)))
+
+
+class _Seeds:
+    """Seeds of episodes: the one that is asked for, then others that follow from it."""
+
+    def __init__(self) -> None:
+        self._random = numpy.random.default_rng()
+
+    def next(self, seed: Optional[int]) -> int:
+        if seed is not None:
+            if not 0 <= seed < 2**31:
+                raise ValueError(f"seed: found {seed}; expected 0 to 2147483647")
+            self._random = numpy.random.default_rng(seed)
+            return int(seed)
+        return int(self._random.integers(2**31))
+
+
+class Env(_Base):  # type: ignore[misc]
+    """A robot's run as an environment in Gymnasium's shape.
+
+    task: a name (sinew.gym.names) or a Task. render_mode: None, "rgb_array" (an image of the
+    machine) or "ansi" (a line of text).
+
+    An action has a number from -1 to 1 for each of the task's actions; 0 is what the plan does. An
+    episode is terminated where the run fails, and truncated where the plan ends. The same seed and
+    actions give the same bits.
+    """
+
+    metadata = {"render_modes": ["rgb_array", "ansi"], "render_fps": 20}
+
+    def __init__(self, task: Union[str, Task] = "walk", render_mode: Optional[str] = None) -> None:
+        if render_mode not in (None, "rgb_array", "ansi"):
+            raise ValueError(
+                f"render_mode: found {render_mode!r}; expected None, 'rgb_array' or 'ansi'"
+            )
+        self._shared = _Shared(task)
+        self.task = self._shared.task
+        self.metadata = dict(Env.metadata, render_fps=round(1.0 / self.task.period))
+        self.render_mode = render_mode
+        self.action_space = self._shared.action_space
+        self.observation_space = self._shared.observation_space
+        self._seeds = _Seeds()
+        self._episode: Optional[_sinew.Episode] = None
+        self._over = False
+        self._drawing: Optional[Drawing] = None
+
+    @property
+    def simulation(self) -> Simulation:
+        """The run of this episode. Raises RuntimeError before reset()."""
+        return self._running().simulation
+
+    def _running(self) -> _sinew.Episode:
+        if self._episode is None:
+            raise RuntimeError("env: found no episode; expected reset() before")
+        return self._episode
+
+    def reset(
+        self, *, seed: Optional[int] = None, options: Optional[Dict[str, Any]] = None
+    ) -> Tuple["numpy.typing.NDArray[numpy.float64]", Info]:
+        """Begin an episode. Without a seed it has one that follows from the last one given."""
+        del options
+        number = self._seeds.next(seed)
+        self._episode = self._shared.begin(number)
+        self._over = False
+        seen, self._measured = self._episode.look()
+        return seen, {"seed": number, "time": self._episode.simulation.time}
+
+    def step(
+        self, action: numpy.typing.ArrayLike
+    ) -> Tuple["numpy.typing.NDArray[numpy.float64]", float, bool, bool, Info]:
+        """Run on by a period: observation, reward, terminated, truncated, info."""
+        episode = self._episode
+        if episode is None or self._over:
+            raise RuntimeError("env: found no episode under way; expected reset() before")
+        info: Info = {}
+        before, terminated = self._measured, False
+        try:
+            seen, self._measured, ended = episode.step(action)
+        except _sinew.RunError as failed:
+            seen, self._measured = episode.look()
+            ended, terminated, info["failure"] = False, True, str(failed)
+        if self.task.failed is not None and self.task.failed(self._measured):
+            terminated = True
+        reward = self.task.reward(before, self._measured, self.task.period)
+        truncated = ended and not terminated
+        self._over = ended or terminated
+        return seen, reward, terminated, truncated, info
+
+    def render(self) -> Any:
+        """Return the machine as it stands, in the way of `render_mode`."""
+        if self.render_mode is None:
+            return None
+        if self._drawing is None:
+            self._drawing = Drawing(self._shared.experiment)
+        if self.render_mode == "ansi":
+            return self._drawing.text(self.simulation)
+        return self._drawing.image(self.simulation)
+
+    def close(self) -> None:
+        """End the episode."""
+        self._episode = None
+
+
+class VectorEnv:
+    """Several environments of a task side by side, each step with one call.
+
+    Observations, rewards and flags have a row for each. An environment whose episode has ended
+    begins the next one by itself in the next step, as Gymnasium's vector environments do; its
+    action is then not looked at, and its reward is 0.
+    """
+
+    def __init__(self, task: Union[str, Task] = "walk", num_envs: int = 16) -> None:
+        if num_envs < 1:
+            raise ValueError(f"num_envs: found {num_envs}; expected 1 or more")
+        self._shared = _Shared(task)
+        self.task = self._shared.task
+        self.num_envs = num_envs
+        self.single_action_space = self._shared.action_space
+        self.single_observation_space = self._shared.observation_space
+        self.action_space = spaces.box(
+            numpy.tile(self.single_action_space.low, (num_envs, 1)),
+            numpy.tile(self.single_action_space.high, (num_envs, 1)),
+        )
+        self.observation_space = spaces.box(
+            numpy.tile(self.single_observation_space.low, (num_envs, 1)),
+            numpy.tile(self.single_observation_space.high, (num_envs, 1)),
+        )
+        self._seeds = [_Seeds() for _ in range(num_envs)]
+        self._episodes: List[_sinew.Episode] = []
+        self._over = numpy.zeros(num_envs, bool)
+
+    def reset(
+        self,
+        *,
+        seed: Optional[Union[int, Sequence[int]]] = None,
+        options: Optional[Dict[str, Any]] = None,
+    ) -> Tuple["numpy.typing.NDArray[numpy.float64]", Info]:
+        """Begin all anew. `seed`: of the first, the others follow; or one for each."""
+        del options
+        seeds: "Sequence[Optional[int]]"
+        if seed is None:
+            seeds = [None] * self.num_envs
+        elif isinstance(seed, int):
+            seeds = [seed + i for i in range(self.num_envs)]
+        else:
+            seeds = list(seed)
+        if len(seeds) != self.num_envs:
+            raise ValueError(f"seed: found {len(seeds)}; expected one, or {self.num_envs}")
+        numbers = [s.next(one) for s, one in zip(self._seeds, seeds)]
+        self._episodes = [self._shared.begin(n) for n in numbers]
+        self._over[:] = False
+        looks = [e.look() for e in self._episodes]
+        self._measured = numpy.array([measured for _, measured in looks])
+        return numpy.array([seen for seen, _ in looks]), {"seed": numpy.array(numbers)}
+
+    def step(self, actions: numpy.typing.ArrayLike) -> Tuple[Any, Any, Any, Any, Info]:
+        """Run all on by a period: observations, rewards, terminated, truncated, info."""
+        if not self._episodes:
+            raise RuntimeError("env: found no episodes; expected reset() before")
+        skipped = self._over
+        for i in numpy.flatnonzero(skipped):
+            self._episodes[i] = self._shared.begin(self._seeds[i].next(None))
+        before = self._measured
+        seen, self._measured, ended, failed = _sinew.step_episodes(
+            self._episodes, actions, skipped
+        )
+        reward, period = self.task.reward, self.task.period
+        rewards = numpy.array(
+            [
+                0.0 if skip else reward(b, a, period)
+                for b, a, skip in zip(before, self._measured, skipped)
+            ]
+        )
+        terminated = failed
+        if self.task.failed is not None:
+            terminated = failed | [bool(self.task.failed(m)) for m in self._measured]
+        self._over = ended | terminated
+        return seen, rewards, terminated, ended & ~terminated, {}
+
+    def close(self) -> None:
+        """End all episodes."""
+        self._episodes = []

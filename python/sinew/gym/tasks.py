@@ -1,0 +1,188 @@
+"""What an environment is about: an experiment, what may be done, what is seen, what is wanted.
+
+A Task is plain data and three functions, so that one of your own is as good as those here:
+
+    task = dataclasses.replace(sinew.gym.tasks["walk"], sets={"payload.mass": 1.0})
+    env = sinew.gym.Env(task)
+"""
+
+import dataclasses
+from typing import Any, Callable, Dict, Mapping, Optional, Sequence, Tuple
+
+import numpy
+
+from sinew._shipped import shipped
+
+@dataclasses.dataclass(frozen=True)
+class Action:
+    """A number of the action, from -1 to 1, and what it does to a setting of the run.
+
+    setting: its key, "control.stiffness.hip".
+    kind: "offset" adds `size` times the number to what the plan has there; "factor" multiplies what
+        the plan has there by `size` to the power of the number. So 0 is the plan itself.
+    size: of an offset in the setting's SI unit, of a factor without unit.
+    """
+
+    setting: str
+    kind: str
+    size: float
+
+
+@dataclasses.dataclass(frozen=True)
+class Sight:
+    """A number of the observation: a channel of the run, divided by `scale`, in its unit."""
+
+    channel: str
+    scale: float = 1.0
+    middle: float = 0.0
+
+
+@dataclasses.dataclass(frozen=True)
+class Task:
+    """An environment's task. See the module's text.
+
+    experiment: a path; of one that comes with Sinew, sinew.shipped("experiments/…").
+    sets: settings in place of the experiment's, as for sinew.Experiment.
+    actions, sights: what may be done and what is seen.
+    measures: channels that `reward` needs besides, in their units; "plan:KEY" is what the plan has
+        of the setting of an action, whatever the action makes of it.
+    reward: of the measures before and after a step, and its time [s]: a number.
+    failed: of the measures after a step: has it failed for good? Then the episode is terminated.
+    period: of a step [s]; a multiple of the gait controller's 0.01 s is advisable.
+    begin: when an episode begins [s]: what comes before goes as planned.
+    """
+
+    experiment: str
+    actions: Sequence[Action]
+    sights: Sequence[Sight]
+    measures: Sequence[str]
+    reward: Callable[[Any, Any, float], float]
+    failed: Optional[Callable[[Any], bool]] = None
+    sets: Mapping[str, Any] = dataclasses.field(default_factory=dict)
+    period: float = 0.05
+    begin: float = 0.6
+
+
+_angles = tuple(
+    Sight(f"/joint/{joint}/angle", 0.5, middle) for joint, middle in (("hip", 4.9), ("knee", 5.2))
+)
+_desired = tuple(
+    Sight(f"/desired/joint/{joint}/angle", 0.5, middle)
+    for joint, middle in (("hip", 4.9), ("knee", 5.2))
+)
+_speeds = tuple(Sight(f"/true/joint/{joint}/velocity", 3.0) for joint in ("hip", "knee"))
+_tensions = tuple(
+    Sight(f"/muscle/{muscle}/tension", 200.0)
+    for muscle in ("hip_flexor", "hip_extensor", "knee_flexor", "knee_extensor")
+)
+_stiffness = tuple(Sight(f"/joint/{joint}/stiffness", 4.0) for joint in ("hip", "knee"))
+_ways = (
+    Action("control.angle.hip", "offset", 0.2),
+    Action("control.angle.knee", "offset", 0.2),
+    Action("control.stiffness.hip", "factor", 2.0),
+    Action("control.stiffness.knee", "factor", 2.0),
+)
+
+
+_foot = (
+    "/true/foot/position.x",
+    "/true/foot/position.y",
+    "/desired/foot/position.x",
+    "/desired/foot/position.y",
+)
+
+
+def _progress(before: Any, after: Any, period: float) -> float:
+    return float(after[0] - before[0])
+
+
+def _walk() -> Task:
+    return Task(
+        experiment=shipped("experiments/walk-test-1.toml"),
+        # The thesis's track is as long as its walk: a better one would stand at its end.
+        sets={"trolley.track_length": 20.0, "sequence.repeat": 4},
+        actions=_ways,
+        sights=_angles
+        + _desired
+        + _speeds
+        + _stiffness
+        + _tensions
+        + (Sight("/plan/phase"), Sight("/true/trolley/velocity", 0.3)),
+        measures=("/true/trolley/position",),
+        reward=_progress,
+    )
+
+
+def _distance(before: Any, after: Any, period: float) -> float:
+    return -period * float(numpy.hypot(after[0] - after[2], after[1] - after[3]))
+
+
+def _kick() -> Task:
+    return Task(
+        experiment=shipped("experiments/kick.toml"),
+        actions=_ways
+        + (
+            Action("control.gains.hip.angle", "factor", 3.0),
+            Action("control.gains.knee.angle", "factor", 3.0),
+        ),
+        sights=_angles + _desired + _speeds + _tensions + (Sight("/plan/phase"),),
+        measures=_foot,
+        reward=_distance,
+        period=0.01,
+        begin=1.5,
+    )
+
+
+def _reach() -> Task:
+    return Task(
+        experiment=shipped("experiments/leg-in-air.toml"),
+        actions=_ways,
+        sights=_angles + _desired + _speeds + _tensions,
+        measures=_foot,
+        reward=_distance,
+        period=0.02,
+    )
+
+
+def _stiffness_error(before: Any, after: Any, period: float) -> float:
+    hip, hip_wanted, knee, knee_wanted = (float(x) for x in after)
+    return -period * (abs(hip / hip_wanted - 1.0) + abs(knee / knee_wanted - 1.0))
+
+
+def _hold_stiffness() -> Task:
+    return Task(
+        experiment=shipped("experiments/leg-in-air.toml"),
+        actions=(
+            Action("control.stiffness.hip", "factor", 3.0),
+            Action("control.stiffness.knee", "factor", 3.0),
+            Action("control.gains.hip.stiffness", "factor", 3.0),
+            Action("control.gains.knee.stiffness", "factor", 3.0),
+        ),
+        sights=_angles + _speeds + _stiffness + _tensions,
+        measures=("/joint/hip/stiffness", "plan:control.stiffness.hip")
+        + ("/joint/knee/stiffness", "plan:control.stiffness.knee"),
+        reward=_stiffness_error,
+        period=0.02,
+    )
+
+
+_made: "Dict[str, Callable[[], Task]]" = {
+    "walk": _walk,
+    "kick": _kick,
+    "reach": _reach,
+    "hold-stiffness": _hold_stiffness,
+}
+names: Tuple[str, ...] = tuple(_made)
+
+
+def task(name: str) -> Task:
+    """Return a task that comes with Sinew: "walk", "kick", "reach", "hold-stiffness".
+
+    walk: progress of the trolley in a step [m]. kick and reach:
+    distance of the foot from where the plan wants it, times the time, below 0 [m s]. hold-stiffness:
+    how far the joints' stiffnesses are from the plan's, relative, times the time, below 0 [s].
+    Raises ValueError for another name.
+    """
+    if name not in _made:
+        raise ValueError(f"task: found {name!r}; expected one of {', '.join(names)}")
+    return _made[name]()

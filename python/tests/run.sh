@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# run.sh [BUILD]   the Python package's tests: types, then everything in test_*.py.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+build=$PWD/${1:-build/dev}
+python=${PYTHON:-/usr/bin/python3}
+export PYTHONPATH=$build/python:$PWD/python/tests SINEW=$build/bin/sinew PYTHONDONTWRITEBYTECODE=1
+[[ -e $build/python/sinew/_where.py ]] || { echo "$build has no Python package: is pybind11-dev installed?" >&2; exit 1; }
+mypy=("$python" -m mypy --strict --no-error-summary --cache-dir "$build/python/mypy")
+MYPYPATH=$build/python "${mypy[@]}" -p sinew
+MYPYPATH=$build/python:python/tests "${mypy[@]}" python/tests/*.py
+"$python" -m unittest discover -s python/tests -t python/tests "${@:2}"

@@ -1,0 +1,238 @@
+"""Environments: what Gymnasium's own checker asks, and that they are the runs that they stand for."""
+
+import dataclasses
+import os
+import unittest
+from typing import Any, List, Tuple
+
+import numpy
+
+import sinew
+import sinew.gym
+from common import WALK, Refusals
+
+
+def episode(env: sinew.gym.Env, actions: Any, seed: int) -> Tuple[List[Any], float]:
+    """Return what is seen in an episode, and its rewards' sum."""
+    seen, _ = env.reset(seed=seed)
+    out, rewards, over = [seen], 0.0, False
+    while not over:
+        seen, reward, terminated, truncated, _ = env.step(actions(len(out)))
+        out.append(seen)
+        rewards += reward
+        over = terminated or truncated
+    return out, rewards
+
+
+class Env(unittest.TestCase):
+    def test_has_gymnasiums_shape(self) -> None:
+        for name in sinew.gym.names:
+            with self.subTest(task=name):
+                env = sinew.gym.Env(name)
+                seen, info = env.reset(seed=3)
+                self.assertEqual(info["seed"], 3)
+                env.action_space.seed(1)
+                for _ in range(30):
+                    self.assertTrue(env.observation_space.contains(seen))
+                    action = env.action_space.sample()
+                    self.assertTrue(env.action_space.contains(action))
+                    seen, reward, terminated, truncated, info = env.step(action)
+                    self.assertIsInstance(reward, float)
+                    self.assertIsInstance(terminated, bool)
+                    self.assertIsInstance(truncated, bool)
+                    self.assertIsInstance(info, dict)
+                self.assertIsNone(env.render())
+                env.close()
+
+    def test_no_action_is_the_plan_to_the_last_bit(self) -> None:
+        for name in sinew.gym.names:
+            env = sinew.gym.Env(name)
+            zero = numpy.zeros(env.action_space.shape)
+            episode(env, lambda k: zero, 4)
+            task = env.task
+            plain = sinew.Simulation(
+                sinew.Experiment(task.experiment, dict(task.sets)).with_seed(4)
+            )
+            plain.advance_to(env.simulation.tick)
+            for channel in plain.channels:
+                self.assertEqual(
+                    env.simulation.read(channel.name), plain.read(channel.name), channel.name
+                )
+
+    def test_a_seed_and_actions_give_the_same_bits(self) -> None:
+        def actions(k: int) -> Any:
+            return numpy.random.default_rng(k).uniform(-1, 1, 4)
+
+        first, again = sinew.gym.Env("walk"), sinew.gym.Env("walk")
+        a, b = episode(first, actions, 7), episode(again, actions, 7)
+        self.assertEqual(numpy.array(a[0]).tobytes(), numpy.array(b[0]).tobytes())
+        self.assertEqual(a[1], b[1])
+        c = episode(again, actions, 8)
+        self.assertNotEqual(numpy.array(a[0]).tobytes(), numpy.array(c[0]).tobytes())
+        # Without a seed: others than before, that follow from the last one given.
+        seeds = [first.reset()[1]["seed"] for _ in range(3)]
+        again.reset(seed=7)
+        self.assertEqual(seeds, [again.reset()[1]["seed"] for _ in range(3)])
+        self.assertEqual(len(set(seeds)), 3)
+
+    def test_an_action_is_what_it_says(self) -> None:
+        env = sinew.gym.Env("walk")
+        plan = sinew.Simulation(WALK, dict(env.task.sets))
+        keys = ("control.angle.hip", "control.stiffness.hip")
+        for action in ([1.0, 0.0, 0.5, 0.0], [-9.0, 0.0, -1.0, 0.0]):
+            env.reset(seed=1)
+            env.step(action)
+            plan.restore(sinew.Simulation(WALK, dict(env.task.sets)).save())
+            plan.advance_to(env.simulation.tick)
+            offset = 0.2 * max(-1, action[0])
+            self.assertAlmostEqual(
+                env.simulation.setting(keys[0]), plan.setting(keys[0]) + offset, 12
+            )
+            self.assertAlmostEqual(
+                env.simulation.setting(keys[1]), plan.setting(keys[1]) * 2.0 ** action[2], 12
+            )
+
+    def test_walks_reward_is_the_way(self) -> None:
+        env = sinew.gym.Env("walk")
+        _, rewards = episode(env, lambda k: numpy.zeros(4), 1)
+        self.assertAlmostEqual(rewards, env.simulation.read("/true/trolley/position"), 6)
+        self.assertGreater(rewards, 1.5)
+
+    def test_a_failure_terminates(self) -> None:
+        task = dataclasses.replace(
+            sinew.gym.task("walk"), failed=lambda measured: bool(measured[0] > 0.1)
+        )
+        env = sinew.gym.Env(task)
+        env.reset(seed=1)
+        over = truncated = False
+        while not over:
+            _, _, over, truncated, _ = env.step(numpy.zeros(4))
+        self.assertFalse(truncated)
+        with self.assertRaises(RuntimeError):
+            env.step(numpy.zeros(4))
+        env.reset()
+
+    def test_pictures_show_the_machine(self) -> None:
+        env = sinew.gym.Env("walk", render_mode="rgb_array")
+        env.reset(seed=1)
+        first = env.render()
+        self.assertEqual((first.shape, first.dtype), ((320, 480, 3), numpy.uint8))
+        for _ in range(20):
+            env.step(numpy.zeros(4))
+        self.assertGreater(int((first != env.render()).sum()), 1000)
+        words = sinew.gym.Env("kick", render_mode="ansi")
+        words.reset(seed=1)
+        self.assertIn("hip", words.render())
+
+    def test_the_drawn_foot_is_the_true_one(self) -> None:
+        from sinew.gym.drawing import Drawing
+
+        leg = sinew.Simulation(WALK)
+        drawing = Drawing(leg.experiment)
+        for _ in range(20):
+            leg.advance(0.3)
+            x, y = drawing.points(leg)[-1]
+            self.assertAlmostEqual(x, leg.read("/true/foot/position.x"), 9)
+            self.assertAlmostEqual(y, leg.read("/true/foot/position.y"), 9)
+
+
+def memory() -> int:
+    """Return what of this process is in memory [bytes]."""
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE")
+
+
+class Memory(unittest.TestCase):
+    def test_does_not_grow_with_resets(self) -> None:
+        resets = int(os.environ.get("SINEW_RESETS", "3000"))
+        env = sinew.gym.Env("walk")
+
+        def reset(times: int) -> None:
+            for k in range(times):
+                env.reset(seed=k)
+                env.step(numpy.zeros(4))
+
+        reset(300)
+        before = memory()
+        reset(resets)
+        grown = memory() - before
+        print(f"memory: {resets} resets, {grown / 1e6:.2f} MB more")
+        self.assertLess(grown, 1_000_000)
+
+
+class Vector(unittest.TestCase):
+    def test_side_by_side_is_one_by_one(self) -> None:
+        task = dataclasses.replace(sinew.gym.task("walk"), sets={"sequence.repeat": 1})
+        many = sinew.gym.VectorEnv(task, num_envs=3)
+        dice = numpy.random.default_rng(2)
+        actions = dice.uniform(-1, 1, (400, 3, 4))
+        seen, info = many.reset(seed=[5, 6, 7])
+        rows, sums = [seen], numpy.zeros(3)
+        ends = 0
+        k = 0
+        while ends == 0:
+            seen, reward, terminated, truncated, _ = many.step(actions[k])
+            rows.append(seen)
+            sums += reward
+            ends += int((terminated | truncated).sum())
+            k += 1
+        self.assertEqual(ends, 3)
+        for i in range(3):
+            alone, total = episode(sinew.gym.Env(task), lambda n: actions[n - 1][i], 5 + i)
+            self.assertEqual(numpy.array(alone).tobytes(), numpy.array(rows)[:, i].tobytes())
+            self.assertAlmostEqual(total, sums[i], 12)
+        # The next step begins their next episodes.
+        seen, reward, terminated, truncated, _ = many.step(actions[k])
+        self.assertEqual(list(reward), [0.0, 0.0, 0.0])
+        self.assertFalse(truncated.any())
+        self.assertFalse(numpy.array_equal(seen, rows[-1]))
+
+
+class Wrong(Refusals):
+    def test_inputs_are_refused_in_words(self) -> None:
+        env, many = sinew.gym.Env("walk"), sinew.gym.VectorEnv("walk", num_envs=2)
+        fresh = sinew.gym.Env("walk")
+        env.reset(seed=1)
+        many.reset(seed=1)
+        walk = sinew.gym.task("walk")
+        nan = float("nan")
+        action, sight = sinew.gym.Action, sinew.gym.Sight
+
+        def made(**parts: Any) -> sinew.gym.Env:
+            return sinew.gym.Env(dataclasses.replace(walk, **parts))
+
+        hip = "control.stiffness.hip"
+        self.refused(
+            [
+                (lambda: sinew.gym.Env("run"), ValueError, "expected one of walk"),
+                (lambda: sinew.gym.Env("walk", render_mode="human"), ValueError, "'human'"),
+                (lambda: fresh.step(numpy.zeros(4)), RuntimeError, "expected reset() before"),
+                (lambda: fresh.simulation, RuntimeError, "expected reset() before"),
+                (lambda: env.reset(seed=-1), ValueError, "found -1"),
+                (lambda: env.reset(seed=2**31), ValueError, "expected 0 to"),
+                (lambda: env.step([0, 0, 0]), ValueError, "shape (3,); expected (4,)"),
+                (lambda: env.step([0, 0, nan, 0]), ValueError, "found nan in place 2"),
+                (lambda: env.step("abcd"), TypeError, "expected real numbers"),
+                (lambda: env.step(None), TypeError, "found None"),  # type: ignore[arg-type]
+                (lambda: many.step([[0.0] * 4]), ValueError, "expected (2, 4)"),
+                (lambda: many.reset(seed=[1]), ValueError, "expected one, or 2"),
+                (lambda: sinew.gym.VectorEnv("walk", 0), ValueError, "num_envs: found 0"),
+                (lambda: made(period=0.005), ValueError, "a multiple of the gait"),
+                (lambda: made(period=0.015), ValueError, "a multiple of the gait"),
+                (lambda: made(begin=0.013), ValueError, "begin: found 0.013"),
+                (lambda: made(begin=-1.0), ValueError, "found -1"),
+                (lambda: made(actions=[action("x", "offset", 1.0)]), ValueError, "expected one of"),
+                (lambda: made(actions=[action(hip, "sum", 1.0)]), ValueError, "offset or factor"),
+                (lambda: made(actions=[action(hip, "factor", 0.0)]), ValueError, "more than 0"),
+                (lambda: made(sights=[sight("/x")]), ValueError, "/x"),
+                (lambda: made(sights=[sight("/joint/hip/angle", 0)]), ValueError, "scale 0"),
+                (lambda: made(measures=["plan:control.gains.hip.angle"]), ValueError, "the setting"),
+                (lambda: made(sets={"x": 1}), sinew.InputError, "x"),
+                (lambda: sinew.gym.Box([0, 1], [1]), ValueError, "expected one shape"),
+            ]
+        )
+        env.step(numpy.zeros(4))  # and goes on
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,94 @@
+"""Sweeps: the program's rows, on any number of threads."""
+
+import os
+import signal
+import threading
+import unittest
+from typing import Any, List, Tuple
+
+import numpy
+
+import sinew
+from common import AIR, WALK, Refusals, program_json
+
+GAIN = "joint.hip.angle_gain"
+ERROR = "joints.hip.tracking_rms_rad"
+
+
+class Sweep(unittest.TestCase):
+    def test_rows_are_the_programs(self) -> None:
+        said = program_json(
+            "sweep", AIR, "--vary", f"{GAIN}=0.02:0.1:5 %/count", "--vary",
+            "joint.knee.enabled=true,false", "--report", ERROR, "--quiet", "--json",
+        )  # fmt: skip
+        vary = [f"{GAIN}=0.02:0.1:5 %/count", "joint.knee.enabled=true,false"]
+        for threads in (1, 3):
+            rows = sinew.sweep(AIR, vary, report=ERROR, threads=threads)
+            self.assertEqual(rows, said["rows"], threads)
+
+    def test_arrays_are_in_si(self) -> None:
+        gains = numpy.linspace(2e-4, 1e-3, 4)
+        rows = sinew.sweep(AIR, {GAIN: gains, "seed": [1, 2]}, report=[ERROR])
+        self.assertEqual(len(rows), 8)
+        self.assertEqual([row[f"{GAIN} [1/count]"] for row in rows[::2]], list(gains))
+        alone = sinew.run(AIR, {GAIN: float(gains[2]), "seed": 2})
+        self.assertEqual(
+            rows[5]["joints.hip.tracking_rms [rad]"],
+            alone.summary["joints"]["hip"]["tracking_rms_rad"],
+        )
+
+    def test_progress_is_told_and_may_end_it(self) -> None:
+        told: List[Tuple[int, int]] = []
+        sinew.sweep(AIR, {"seed": range(1, 40)}, report=ERROR, progress=lambda n, of: told.append((n, of)))
+        self.assertEqual(told[-1], (39, 39))
+        self.assertEqual(sorted(told), told)
+
+        def tired(done: int, of: int) -> None:
+            raise KeyError("enough")
+
+        with self.assertRaisesRegex(KeyError, "enough"):
+            sinew.sweep(WALK, {"seed": range(1, 2000)}, report="trolley.distance_m", progress=tired)
+
+    def test_ctrl_c_ends_it(self) -> None:
+        threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            sinew.sweep(WALK, {"seed": range(1, 5000)}, report="trolley.distance_m")
+
+
+class Wrong(Refusals):
+    def test_inputs_are_refused_in_words(self) -> None:
+        anything: Any = object()
+
+        def swept(*words: Any, **more: Any) -> Any:
+            call: Any = sinew.sweep
+            return call(AIR, *words, **{"report": ERROR, **more})
+
+        self.refused(
+            [
+                (lambda: sinew.sweep("nowhere.toml"), sinew.InputError, "nowhere.toml"),
+                (lambda: swept(anything), TypeError, "vary: found"),
+                (lambda: swept([1]), TypeError, "vary: found [1]"),
+                (lambda: swept("x"), sinew.InputError, "x"),
+                (lambda: swept({"joint.hpi.angle_gain": [1.0]}), sinew.InputError, "hip"),
+                (lambda: swept({GAIN: []}), ValueError, "found no values"),
+                (lambda: swept({GAIN: [None]}), TypeError, "expected real numbers"),
+                (lambda: swept({GAIN: ["1 m"]}), sinew.InputError, "1 m"),
+                (lambda: swept({GAIN: [-1.0]}), RuntimeError, "expected at least 0"),
+                (lambda: swept({GAIN: [float("nan")]}), sinew.InputError, "nan"),
+                (lambda: swept({}, report="joints.hpi.x"), sinew.InputError, "joints.hpi.x"),
+                (lambda: swept({}, report=3), TypeError, "report: found 3"),
+                (lambda: swept({}, seeds=-1), ValueError, "seeds: found -1"),
+                (lambda: swept({}, threads=-2), ValueError, "threads: found -2"),
+                (lambda: swept({}, threads="all"), TypeError, "threads"),
+                (lambda: swept({}, points=-1), ValueError, "points: found -1"),
+                (lambda: swept({}, where="x <"), sinew.InputError, "where"),
+                (lambda: swept({}, largest="x"), sinew.InputError, "largest"),
+                (lambda: swept({}, ranges="x"), sinew.InputError, "range"),
+                (lambda: swept({}, sets={"x": 1}), sinew.InputError, "x"),
+                (lambda: swept({}, progress=3), TypeError, "callable"),
+            ]
+        )
+
+
+if __name__ == "__main__":
+    unittest.main()
