@@ -9,4 +9,7 @@ export PYTHONPATH=$build/python:$PWD/python/tests SINEW=$build/bin/sinew PYTHOND
 mypy=("$python" -m mypy --strict --no-error-summary --cache-dir "$build/python/mypy")
 MYPYPATH=$build/python "${mypy[@]}" -p sinew
 MYPYPATH=$build/python:python/tests "${mypy[@]}" python/tests/*.py
+for script in examples/*/*.py; do
+  MYPYPATH=$build/python "${mypy[@]}" "$script"
+done
 "$python" -m unittest discover -s python/tests -t python/tests "${@:2}"
