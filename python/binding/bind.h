@@ -21,6 +21,7 @@ namespace py = pybind11;
 
 void bind_errors(py::module_& m);
 void bind_experiment(py::module_& m);
+void bind_values(py::module_& m);
 void bind_simulation(py::module_& m);
 void bind_loop(py::module_& m);
 void bind_episode(py::module_& m);
@@ -46,6 +47,11 @@ using ExperimentPointer = std::shared_ptr<const HeldExperiment>;
 
 // Returns a path that was given as text or as pathlib's. Throws TypeError for anything else.
 std::string path_of(const py::handle& meant);
+
+// Returns settings as "key=value": of None, a list of such texts, or a dict, whose numbers are in
+// the SI units that `origins` has of the keys. Throws TypeError for anything else.
+std::vector<std::string> sets_of(const py::object& sets,
+                                 const std::function<const config::Origins&()>& origins);
 
 // Returns the experiment that is meant: one that is read already, or a path. Throws TypeError for
 // anything else, and config::Error.

@@ -2,9 +2,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <charconv>
-
-#include "python/binding/bind.h"
+#include "python/binding/values.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/lookup.h"
 #include "sinew/config/node.h"
@@ -22,46 +20,20 @@ using experiment::Experiment;
 
 // Returns the text that stands for a value behind "key=". A number is meant in the SI unit that the
 // key has.
-std::string text_of(const std::string& key, const py::handle& value, const Experiment& of) {
+std::string text_of(const std::string& key, const py::handle& value,
+                    const config::Origins& origins) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
   if (py::isinstance<py::str>(value)) return value.cast<std::string>();
   if (!PyNumber_Check(value.ptr()) || py::hasattr(value, "__len__"))
     throw py::type_error(
         fmt::format("{}: found {}; expected a number in SI, True or False, or text with a unit",
                     key, py::repr(value).cast<std::string>()));
-  const config::Origin* origin = config::find_origin(of.origins, key);
+  const config::Origin* origin = config::find_origin(origins, key);
   const auto number = py::reinterpret_borrow<py::object>(value);
   if (origin && !origin->unit.empty())
     return config::format_quantity(py::float_(number).cast<double>(), origin->unit);
   if (PyIndex_Check(value.ptr()) != 0) return fmt::format("{}", number.cast<std::int64_t>());
   return config::format_number(py::float_(number).cast<double>());
-}
-
-// `read` knows the units of the keys; called only where a value is no text.
-std::vector<std::string> sets_of(const py::object& sets,
-                                 const std::function<const Experiment&()>& read) {
-  std::vector<std::string> out;
-  if (sets.is_none()) return out;
-  if (py::isinstance<py::dict>(sets)) {
-    for (const auto& [name, value] : sets.cast<py::dict>()) {
-      if (!py::isinstance<py::str>(name))
-        throw py::type_error("settings: found a key that is no text");
-      const auto key = name.cast<std::string>();
-      out.push_back(fmt::format("{}={}", key, text_of(key, value, read())));
-    }
-    return out;
-  }
-  if (py::isinstance<py::list>(sets) || py::isinstance<py::tuple>(sets)) {
-    for (const py::handle set : sets) {
-      if (!py::isinstance<py::str>(set))
-        throw py::type_error("settings: found a member that is no text; expected \"key=value\"");
-      out.push_back(set.cast<std::string>());
-    }
-    return out;
-  }
-  throw py::type_error(fmt::format(
-      "settings: found {}; expected a dict of keys and values, or a list of \"key=value\"",
-      py::repr(sets).cast<std::string>()));
 }
 
 ExperimentPointer read(const std::string& path, std::vector<std::string> sets,
@@ -79,7 +51,8 @@ ExperimentPointer read(const std::string& path, std::vector<std::string> sets,
 
 ExperimentPointer varied(const ExperimentPointer& of, const py::object& sets) {
   std::vector<std::string> all = of->sets;
-  for (std::string& set : sets_of(sets, [&]() -> const Experiment& { return of->read; }))
+  for (std::string& set :
+       sets_of(sets, [&]() -> const config::Origins& { return of->read.origins; }))
     all.push_back(std::move(set));
   return read(of->path, std::move(all), of->text);
 }
@@ -90,40 +63,11 @@ ExperimentPointer load(const py::object& path, const py::object& sets) {
   ExperimentPointer plain;  // for the units of numbers
   return read(file,
               sets_of(sets,
-                      [&]() -> const Experiment& {
+                      [&]() -> const config::Origins& {
                         if (!plain) plain = read(file, {}, "");
-                        return plain->read;
+                        return plain->read.origins;
                       }),
               "");
-}
-
-// A value as Python has it. The writer gives quantities as text, "5.24 rad", in SI.
-py::object value_of(const config::Node& node, bool quantity) {
-  using Kind = config::Node::Kind;
-  switch (node.kind) {
-    case Kind::table:
-      return value_of(*node.find("value"), quantity);
-    case Kind::array: {
-      py::list out;
-      for (const config::Node& child : node.children) out.append(value_of(child, quantity));
-      return out;
-    }
-    case Kind::text: {
-      double number = 0;
-      const char* end = node.text.data() + node.text.size();
-      if (quantity && std::from_chars(node.text.data(), end, number).ec == std::errc())
-        return py::float_(number);
-      return py::str(node.text);
-    }
-    case Kind::integer:
-      return quantity ? py::object(py::float_(static_cast<double>(node.integer)))
-                      : py::object(py::int_(node.integer));
-    case Kind::real:
-      return py::float_(node.real);
-    case Kind::flag:
-      return py::bool_(node.flag);
-  }
-  return py::none();
 }
 
 // Raises KeyError for a key that the experiment does not have.
@@ -155,34 +99,6 @@ std::shared_ptr<HeldExperiment> with_seed(const HeldExperiment& of, int seed) {
   return out;
 }
 
-py::dict values_of(const HeldExperiment& held) {
-  const config::Node root = experiment::values_in_si({"experiment", held.read});
-  py::dict out;
-  for (const config::Origin& origin : held.read.origins) {
-    const config::Node* node = config::value_at(root, origin.path);
-    if (node && (!node->is_table() || node->is_value_table()))
-      out[py::str(origin.path)] = value_of(*node, !origin.unit.empty());
-  }
-  return out;
-}
-
-py::dict origin_of(const HeldExperiment& held, const std::string& key) {
-  const config::Origin* o = &origin_at(held, key);
-  py::dict out;
-  out["text"] = o->text;
-  out["unit"] = o->unit;
-  out["source"] = o->source;
-  out["file"] = o->where.file;
-  out["line"] = o->where.line;
-  out["default"] = o->is_default;
-  out["fit"] = o->fit;
-  out["guess"] = o->guess;
-  out["uncertainty"] = o->uncertainty;
-  out["range"] = o->range_si ? py::object(py::make_tuple((*o->range_si)[0], (*o->range_si)[1]))
-                             : py::object(py::none());
-  return out;
-}
-
 double converted(double value, const std::string& unit, const std::string& display) try {
   return config::convert(value, unit, display);
 } catch (const std::exception& e) {
@@ -200,6 +116,32 @@ std::string resolved(const HeldExperiment& held) {
 }
 
 }  // namespace
+
+std::vector<std::string> sets_of(const py::object& sets,
+                                 const std::function<const config::Origins&()>& origins) {
+  std::vector<std::string> out;
+  if (sets.is_none()) return out;
+  if (py::isinstance<py::dict>(sets)) {
+    for (const auto& [name, value] : sets.cast<py::dict>()) {
+      if (!py::isinstance<py::str>(name))
+        throw py::type_error("settings: found a key that is no text");
+      const auto key = name.cast<std::string>();
+      out.push_back(fmt::format("{}={}", key, text_of(key, value, origins())));
+    }
+    return out;
+  }
+  if (py::isinstance<py::list>(sets) || py::isinstance<py::tuple>(sets)) {
+    for (const py::handle set : sets) {
+      if (!py::isinstance<py::str>(set))
+        throw py::type_error("settings: found a member that is no text; expected \"key=value\"");
+      out.push_back(set.cast<std::string>());
+    }
+    return out;
+  }
+  throw py::type_error(fmt::format(
+      "settings: found {}; expected a dict of keys and values, or a list of \"key=value\"",
+      py::repr(sets).cast<std::string>()));
+}
 
 std::string path_of(const py::handle& meant) {
   if (py::isinstance<py::str>(meant) || py::hasattr(meant, "__fspath__"))
@@ -264,10 +206,20 @@ void bind_experiment(py::module_& m) {
       .def("keys", &keys_of, "Returns the keys of all values, dotted.")
       .def("__getitem__", &in_si, py::arg("key"),
            "Returns the value of a key in SI. Raises KeyError.")
-      .def("values", &values_of, "Returns all values by their keys, in SI.")
-      .def("origin", &origin_of, py::arg("key"),
-           "Returns where a value came from: text as written, SI unit, source, file and line,\n"
-           "range, uncertainty. Raises KeyError.")
+      .def(
+          "values",
+          [](const HeldExperiment& e) {
+            return values_of(experiment::values_in_si({"experiment", e.read}), e.read.origins);
+          },
+          "Returns all values by their keys, in SI.")
+      .def(
+          "origin",
+          [](const HeldExperiment& e, const std::string& key) {
+            return origin_of(origin_at(e, key));
+          },
+          py::arg("key"),
+          "Returns where a value came from: text as written, SI unit, source, file and line,\n"
+          "range, uncertainty. Raises KeyError.")
       .def("resolved", &resolved,
            "Returns a file with every value in SI and its source, which runs again.")
       .def("__repr__",

@@ -13,6 +13,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/log/reader.h"
 #include "sinew/report/page/content.h"
+#include "sinew/report/page/page.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/run_log.h"
 
@@ -40,6 +41,32 @@ py::object parsed(const std::string& json) {
   return py::module_::import("json").attr("loads")(json);
 }
 
+template <class Machine>
+void sum_up_as(Recording& recording, Machine machine) {
+  if (!recording.table.complete) machine.reported.clear();
+  analysis::Summary summary = analysis::summarize(recording.table, machine);
+  summary.cut_off = !recording.table.complete;
+  recording.warnings = summary.warnings;
+  recording.summary = to_json(summary);
+  recording.verdicts = report::to_json(compare(summary, machine.reported, machine.atmosphere));
+}
+
+std::string page(const Recording& recording) {
+  if (recording.name.empty())
+    throw std::invalid_argument("page: found what follows from a run; expected the run itself");
+  const py::gil_scoped_release others;
+  return report::page(
+      {.table = recording.table, .resolved = recording.resolved, .name = recording.name});
+}
+
+// A cell of a notebook shows the page within.
+py::object cell(const Recording& recording) {
+  if (recording.name.empty() || !report::has_page()) return py::none();
+  const py::object escape = py::module_::import("html").attr("escape");
+  return py::str("<iframe srcdoc=\"") + py::str(escape(page(recording), true)) +
+         py::str("\" style=\"width: 100%; height: 720px; border: 0\"></iframe>");
+}
+
 Pointer derived(const Pointer& of) {
   if (!of->machine)
     throw std::invalid_argument("derived: found a run of a test stand; expected one of a machine");
@@ -57,17 +84,14 @@ Pointer derived(const Pointer& of) {
 
 }  // namespace
 
-template <class Machine>
-void sum_up(Recording& recording, Machine machine) {
-  if (!recording.table.complete) machine.reported.clear();
-  analysis::Summary summary = analysis::summarize(recording.table, machine);
-  summary.cut_off = !recording.table.complete;
-  recording.warnings = summary.warnings;
-  recording.summary = to_json(summary);
-  recording.verdicts = report::to_json(compare(summary, machine.reported, machine.atmosphere));
+void sum_up(Recording& recording) {
+  if (config::format_kind(recording.resolved) == "rig") {
+    sum_up_as(recording, analysis::read_stand(recording.resolved));
+    return;
+  }
+  recording.machine = analysis::read_machine(recording.resolved);
+  sum_up_as(recording, *recording.machine);
 }
-template void sum_up(Recording&, analysis::Machine);
-template void sum_up(Recording&, analysis::StandFile);
 
 std::vector<Recording::Channel> Recording::channels() const {
   std::vector<Channel> out;
@@ -113,15 +137,11 @@ Pointer read_run(const std::string& named) {
   auto out = std::make_shared<Recording>();
   const run::RecordedRun run = run::recorded_run(named);
   run::require_finished(run.log);
-  const config::Node file = config::compose(run::machine_of(run, "").string());
+  out->resolved = config::compose(run::machine_of(run, "").string());
   out->table = log::read(run.log);
+  out->name = run::experiment_in(run.log);
   out->folder = run.log.parent_path().string();
-  if (config::format_kind(file) == "rig") {
-    sum_up(*out, analysis::read_stand(file));
-  } else {
-    out->machine = analysis::read_machine(file);
-    sum_up(*out, *out->machine);
-  }
+  sum_up(*out);
   return out;
 }
 
@@ -159,6 +179,10 @@ void bind_recording(py::module_& m) {
       .def_property_readonly(
           "verdicts", [](const Recording& r) { return parsed(r.verdicts); },
           "What is reported of the experiment beside what came out: a list of dicts.")
+      .def("page", &page,
+           "Returns the page that shows the run, report.html, which needs no network: HTML.\n"
+           "Raises RuntimeError where the library was built without it.")
+      .def("_repr_html_", &cell)
       .def("derive", &derived,
            "Returns what follows from the samples: the foot's way and forces, torques, errors\n"
            "(docs/analysis.md). Raises ValueError for a test stand's.");

@@ -10,6 +10,7 @@
 
 #include "python/binding/bind.h"
 #include "sinew/analysis/record/machine.h"
+#include "sinew/config/node.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::python {
@@ -22,7 +23,9 @@ class Recording {
   std::string verdicts;                      // what is reported of the run, beside it: JSON
   std::optional<analysis::Machine> machine;  // what its numbers mean; of a test stand: none
   std::vector<std::string> warnings;
-  std::string folder;  // where it is kept; empty: nowhere
+  config::Node resolved;  // what was run, as resolved.toml says it
+  std::string name;       // of the experiment
+  std::string folder;     // where it is kept; empty: nowhere
 
   // "/joint/hip/angle", "/foot/position.x": every channel that there is, with its unit.
   struct Channel {
@@ -44,9 +47,9 @@ class Recording {
   std::map<std::size_t, std::vector<double>> times_;
 };
 
-// Fills summary and verdicts of a table; a part of a run has no verdicts.
-template <class Machine>
-void sum_up(Recording& recording, Machine machine);
+// Fills what follows from table and `resolved`: the machine, summary and verdicts; a part of a run
+// has no verdicts.
+void sum_up(Recording& recording);
 
 // Returns what a kept run's folder, or a log, holds. Throws config::Error and log::Error.
 std::shared_ptr<Recording> read_run(const std::string& named);

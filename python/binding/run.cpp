@@ -8,13 +8,17 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "python/binding/recording.h"
 #include "sinew/config/node.h"
+#include "sinew/experiment/rig/rig.h"
 #include "sinew/run/folder/kept_run.h"
+#include "sinew/run/folder/kept_stand_run.h"
 #include "sinew/run/folder/outcome.h"
 #include "sinew/run/folder/runnable.h"
+#include "sinew/run/stand/run.h"
 
 namespace sinew::python {
 
@@ -29,25 +33,25 @@ void run_here(const HeldExperiment& e, std::atomic<bool>& stop, Recording& out) 
   if (outcome.ended_early()) throw RunError(run::black_box(e.read, outcome));
   if (!outcome.no_room.empty()) throw std::runtime_error(outcome.no_room);
   out.table = std::move(outcome.table);
-  out.machine = analysis::read_machine(
-      config::parse_text(experiment::resolved(e.read, SINEW_VERSION), "resolved.toml"));
-  sum_up(out, *out.machine);
+  out.resolved = config::parse_text(experiment::resolved(e.read, SINEW_VERSION), "resolved.toml");
+  out.name = e.read.name;
+  sum_up(out);
   for (std::string& text : run::warnings_beside_the_log(e.read, outcome))
     out.warnings.push_back(std::move(text));
 }
 
 // The run kept in a folder, as `sinew run` keeps it.
-void run_kept(const HeldExperiment& e, const run::RunRequest& where, std::atomic<bool>& stop,
-              Recording& out) {
-  run::RunRequest request = where;
-  request.experiment = e.path;
-  request.sets = e.sets;
-  run::KeptRun kept(
-      request, {.on_warning = [&](std::string_view text) { out.warnings.emplace_back(text); }});
+void run_kept(const run::RunRequest& request, std::atomic<bool>& stop, Recording& out) {
+  std::vector<std::string> warnings;
+  run::KeptRun kept(request,
+                    {.on_warning = [&](std::string_view text) { warnings.emplace_back(text); }});
   run::RunOptions options{.stop = &stop};
   kept.apply(options);
   run::Outcome outcome = run::run(kept.experiment(), options);
   if (outcome.stopped) return;
+  out.table = outcome.table;
+  out.resolved = kept.values();
+  out.name = kept.experiment().name;
   if (outcome.ended_early()) {
     const std::string words = run::black_box(kept.experiment(), outcome);
     try {
@@ -57,29 +61,58 @@ void run_kept(const HeldExperiment& e, const run::RunRequest& where, std::atomic
     }
     throw RunError(words);
   }
-  out.table = outcome.table;
-  auto left = kept.keep(std::move(outcome));
-  std::vector<std::string> warnings = std::move(out.warnings);
-  out.folder = left.folder.string();
-  out.machine = std::move(left.machine);
-  sum_up(out, *out.machine);
+  out.folder = kept.keep(std::move(outcome)).folder.string();
+  sum_up(out);
   out.warnings = std::move(warnings);
 }
 
-Pointer run(const py::object& experiment, const py::object& sets, const py::object& where,
+// On the test stand, in memory or kept.
+void run_on_stand(const run::RunRequest& request, Recording& out) {
+  if (!request.folder.empty()) {
+    out = std::move(*read_run(run::run_on_stand(request).folder.string()));
+    return;
+  }
+  const rig::Experiment e = run::runnable_on_stand(request.experiment, request.sets);
+  rig::Outcome outcome = rig::run(e);
+  if (outcome.failure || outcome.status != signals::Status::ok)
+    throw RunError(rig::cause_of(e, outcome));
+  out.table = std::move(outcome.table);
+  out.resolved = config::parse_text(rig::resolved(e, SINEW_VERSION), "resolved.toml");
+  out.name = e.name;
+  sum_up(out);
+}
+
+bool is_on_stand(const py::object& experiment) {
+  return !py::isinstance<HeldExperiment>(experiment) && run::is_on_stand(path_of(experiment));
+}
+
+Pointer run(const py::object& experiment, const py::object& sets, const py::object& folder,
             bool force, bool report) {
-  const std::string folder = where.is_none() ? "" : path_of(where);
+  auto out = std::make_shared<Recording>();
+  run::RunRequest request{
+      .folder = folder.is_none() ? "" : path_of(folder), .force = force, .report = report};
+  std::atomic<bool> stop = false;
+  if (is_on_stand(experiment)) {
+    request.experiment = path_of(experiment);
+    std::optional<rig::Experiment> plain;  // for the units of numbers
+    request.sets = sets_of(sets, [&]() -> const config::Origins& {
+      if (!plain) plain = rig::load(request.experiment);
+      return plain->origins;
+    });
+    do_interruptibly(stop, [&] { run_on_stand(request, *out); });
+    return out;
+  }
   const ExperimentPointer e = experiment_of(experiment, sets);
-  if (!folder.empty() && !e->text.empty())
+  if (!request.folder.empty() && !e->text.empty())
     throw std::invalid_argument(
         "folder: found an experiment that was pickled; expected one that was read from its file");
-  auto out = std::make_shared<Recording>();
-  std::atomic<bool> stop = false;
+  request.experiment = e->path;
+  request.sets = e->sets;
   do_interruptibly(stop, [&] {
-    if (folder.empty())
+    if (request.folder.empty())
       run_here(*e, stop, *out);
     else
-      run_kept(*e, {.folder = folder, .force = force, .report = report}, stop, *out);
+      run_kept(request, stop, *out);
   });
   return out;
 }
@@ -127,7 +160,8 @@ void bind_run(py::module_& m) {
         py::arg("folder") = py::none(), py::arg("force") = false, py::arg("report") = true,
         "Runs an experiment to its end and returns what it recorded; in memory, or kept in\n"
         "`folder` as `sinew run` keeps it, where `force` replaces a run and `report` leaves its\n"
-        "page. `experiment` is a path or an Experiment, `sets` as for Experiment. Ctrl-C ends it.\n"
+        "page. `experiment` is a path, also of an experiment on the test stand, or an Experiment;\n"
+        "`sets` are as for Experiment. Ctrl-C ends it.\n"
         "Raises InputError, and RunError where it ends before its plan does.");
 }
 

@@ -11,6 +11,8 @@
 
 #include "python/binding/numbers.h"
 #include "sinew/config/quantity.h"
+#include "sinew/tune/optimizer/kept.h"
+#include "sinew/tune/optimizer/tuned_text.h"
 #include "sinew/tune/study.h"
 #include "sinew/tune/table.h"
 
@@ -62,6 +64,11 @@ std::vector<std::string> axes_of(const py::object& vary, const HeldExperiment& e
   return out;
 }
 
+// As many as the computer has, where none were asked for.
+int threads_of(int asked) {
+  return asked > 0 ? asked : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
 // A function of Python that is told how far it is.
 void tell(const py::object& progress, std::int64_t done, std::size_t points) {
   if (!progress.is_none()) progress(done, points);
@@ -91,20 +98,46 @@ py::object sweep(const py::object& experiment, const py::object& vary, const py:
   std::atomic<bool> stop = false;
   std::atomic<std::int64_t> done = 0;
   std::vector<tune::Row> rows;
-  const auto cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const std::size_t all = tune::points(asked);
   do_interruptibly(
       stop,
       [&] {
         tune::check(asked);
-        rows = tune::sweep(
-            asked, {.threads = threads > 0 ? threads : cores, .stop = &stop, .progress = &done});
+        rows =
+            tune::sweep(asked, {.threads = threads_of(threads), .stop = &stop, .progress = &done});
       },
       [&] { tell(progress, done.load(), all); });
   tell(progress, static_cast<std::int64_t>(all), all);
   tune::refuse_empty_columns(rows, asked);
   return py::module_::import("json").attr("loads")(
       tune::json_of(tune::headings(asked), rows))["rows"];
+}
+
+// What `sinew tune --json` prints, of a tuning's file.
+py::object tune_file(const py::object& path, const py::object& results, const py::object& sets,
+                     int generations, int threads, const py::object& progress) {
+  for (const auto& [name, value] : {std::pair{"generations", generations}, {"threads", threads}})
+    if (value < 0)
+      throw std::invalid_argument(fmt::format("{}: found {}; expected 0 or more", name, value));
+  const std::string file = path_of(path), kept = path_of(results);
+  const tune::Tuning tuning = tune::load_tuning(
+      file,
+      sets_of(sets,
+              [&]() -> const config::Origins& {
+                throw py::type_error(
+                    "sets: found a number; expected text with a unit, \"3 N m/rad\"");
+              }),
+      generations);
+  std::atomic<bool> stop = false;
+  std::atomic<std::int64_t> done = 0;
+  tune::Tuned tuned;
+  tune::KeptOptions options{.ask_to_stop = [&] { stop.store(true); }};
+  options.tune.runs = {.threads = threads_of(threads), .stop = &stop, .progress = &done};
+  const std::size_t all = tune::points(tuning.runs);
+  do_interruptibly(
+      stop, [&] { tuned = tune::optimize_kept(tuning, kept, options); },
+      [&] { tell(progress, done.load(), all); });
+  return py::module_::import("json").attr("loads")(tune::json_of(tuning, tuned));
 }
 
 }  // namespace
@@ -125,6 +158,14 @@ void bind_sweep(py::module_& m) {
       "`progress` is called with how many are done, and of how many; what it raises ends the\n"
       "sweep, as Ctrl-C does. The rows are the same for any number of threads. Raises\n"
       "InputError.");
+  m.def("tune", &tune_file, py::arg("path"), py::arg("results"), py::kw_only(),
+        py::arg("sets") = py::none(), py::arg("generations") = 0, py::arg("threads") = 0,
+        py::arg("progress") = py::none(),
+        "Searches the best values of an experiment's keys, as a tuning's file says, and returns\n"
+        "what `sinew tune --json` prints. Every run is kept in the file `results`, with which a\n"
+        "tuning that was interrupted goes on. `generations` stands in place of the file's number.\n"
+        "`threads` and `progress` are those of sweep(). Raises InputError, and RuntimeError where\n"
+        "the library was built without pagmo.");
 }
 
 }  // namespace sinew::python

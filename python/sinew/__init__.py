@@ -34,10 +34,12 @@ from sinew._sinew import (
     run,
     step_all,
     sweep,
+    tune,
 )
 from sinew._sinew import version as __version__
 from sinew._shipped import shipped
 from sinew._pandas import to_pandas
+from sinew._parts import Part, Robot
 
 __all__ = [
     "Actuator",
@@ -46,9 +48,11 @@ __all__ = [
     "InputError",
     "LogError",
     "Loop",
+    "Part",
     "Problem",
     "RecordedChannel",
     "Recording",
+    "Robot",
     "RunError",
     "Setting",
     "Simulation",
@@ -61,5 +65,6 @@ __all__ = [
     "step_all",
     "sweep",
     "to_pandas",
+    "tune",
     "__version__",
 ]

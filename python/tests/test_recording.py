@@ -1,6 +1,7 @@
 """What a run recorded: arrays of its own memory, figures, tables."""
 
 import gc
+import html
 import os
 import tempfile
 import unittest
@@ -60,6 +61,33 @@ class Recording(unittest.TestCase):
         measured = self.walk["/joint/hip/angle"] - self.walk["/desired/joint/hip/angle"]
         self.assertLess(float(numpy.abs(error - measured).max()), 1e-9)
 
+    def test_shows_itself_as_the_programs_page(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            walk = sinew.run(WALK, folder=folder + "/run")
+            with open(walk.folder + "/report.html", encoding="utf-8") as file:
+                page = file.read()
+            self.assertEqual(walk.page(), page)
+            self.assertEqual(sinew.read_run(walk.folder).page(), page)
+        self.assertEqual(sinew.run(WALK).page(), page)
+        cell = walk._repr_html_()
+        assert cell is not None
+        inside = html.unescape(cell[cell.index('srcdoc="') + 8 : cell.rindex('" style=')])
+        self.assertEqual(inside, page)
+
+    def test_a_run_on_the_stand_is_the_programs(self) -> None:
+        stand = sinew.shipped("experiments/rig/pwm-50hz-1lb.toml")
+        with tempfile.TemporaryDirectory() as folder:
+            program("run", stand, "-o", folder + "/run", "--quiet", "--no-report")
+            kept = sinew.read_run(folder + "/run")
+            again = sinew.run(stand, folder=folder + "/again", report=False)
+        here = sinew.run(stand)
+        for channel in here.channels:
+            self.assertEqual(here[channel.name].tobytes(), kept[channel.name].tobytes())
+            self.assertEqual(here[channel.name].tobytes(), again[channel.name].tobytes())
+        self.assertEqual(here.summary, kept.summary)
+        heavier = sinew.run(stand, {"load.mass": 1.0})
+        self.assertNotEqual(heavier.summary, here.summary)
+
     def test_becomes_a_table_of_pandas(self) -> None:
         table = sinew.to_pandas(self.walk)
         self.assertTrue(
@@ -107,6 +135,7 @@ class Wrong(Refusals):
                     (lambda: sinew.run(WALK, {}, kept), TypeError, "run"),  # type: ignore[misc]
                     (lambda: sinew.run("/nowhere.toml"), sinew.InputError, "/nowhere.toml"),
                     (lambda: sinew.to_pandas(walk, ["/x"]), KeyError, "/x"),
+                    (lambda: walk.derive().page(), ValueError, "expected the run itself"),
                 ]
             )
             self.assertTrue(sinew.read_run(kept).complete)

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import tempfile
 import threading
 import unittest
 from typing import Any, List, Tuple
@@ -53,6 +54,36 @@ class Sweep(unittest.TestCase):
         threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
         with self.assertRaises(KeyboardInterrupt):
             sinew.sweep(WALK, {"seed": range(1, 5000)}, report="trolley.distance_m")
+
+
+TUNING = """
+format     = "sinew.tuning/1"
+title      = "A hip that tracks"
+experiment = "EXPERIMENT"
+tune       = ["joint.hip.angle_gain=0.02:0.15 %/count log"]
+minimize   = ["joints.hip.tracking_rms_rad [deg]"]
+population = 6
+generations = 4
+"""
+
+
+class Tune(unittest.TestCase):
+    def test_is_the_programs(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            file = folder + "/hip.toml"
+            with open(file, "w", encoding="utf-8") as text:
+                text.write(TUNING.replace("EXPERIMENT", AIR))
+            said = program_json("tune", file, "--results", folder + "/a.db", "--quiet", "--json")
+            told: List[Tuple[int, int]] = []
+            tuned = sinew.tune(
+                file, folder + "/b.db", progress=lambda n, of: told.append((n, of)), threads=2
+            )
+            self.assertEqual(tuned, said)
+            self.assertEqual(sinew.tune(file, folder + "/b.db"), said)  # nothing is run again
+            with self.assertRaises(sinew.InputError):
+                sinew.tune(AIR, folder + "/c.db")
+            with self.assertRaisesRegex(TypeError, "with a unit"):
+                sinew.tune(file, folder + "/c.db", sets={"joint.hip.damping": 1.0})  # type: ignore[dict-item]
 
 
 class Wrong(Refusals):

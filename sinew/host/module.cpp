@@ -3,15 +3,39 @@
 #include <dlfcn.h>
 
 #include <filesystem>
+#include <vector>
 
 namespace sinew::host {
 
 namespace fs = std::filesystem;
 
-void* open_module(const char* file) {
+namespace {
+
+// Where modules may be: beside the program's folder; and where this code is in a library that a
+// program of somebody else has loaded (Python's), beside a folder above that library.
+std::vector<fs::path> folders() {
   std::error_code none;
-  const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path();
-  for (const fs::path& path : {program / SINEW_MODULES / file, fs::path(file)})
+  const fs::path program = fs::read_symlink("/proc/self/exe", none);
+  std::vector<fs::path> out{program.parent_path() / SINEW_MODULES};
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&open_module), &info) == 0 || !info.dli_fname)
+    return out;
+  fs::path above = fs::weakly_canonical(info.dli_fname, none);
+  if (above == program) return out;
+  for (int up = 0; up < 4; ++up) {
+    above = above.parent_path();
+    out.push_back(above / SINEW_MODULES);
+  }
+  return out;
+}
+
+}  // namespace
+
+void* open_module(const char* file) {
+  std::vector<fs::path> places;
+  for (const fs::path& folder : folders()) places.push_back(folder / file);
+  places.emplace_back(file);
+  for (const fs::path& path : places)
     if (void* module = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return module;
   return nullptr;
 }
