@@ -1,0 +1,99 @@
+"""What Python adds to a step, by turns in one run: a walk advanced at one go, by its own steps, by a
+loop, as one environment and as sixteen. Prints microseconds of processor time for each step of 50 ms.
+
+    PYTHONPATH=build/release/python python3 bench/python_speed.py
+"""
+
+import statistics
+import time
+from typing import Any, Callable, Dict, List
+
+import numpy
+
+import sinew
+import sinew.gym
+
+STEP = 0.05
+task = sinew.gym.task("walk")
+walk = sinew.Experiment(task.experiment, dict(task.sets))
+steps = round((walk.duration - task.begin) / STEP) - 2
+
+
+def at_one_go() -> int:
+    """Python does nothing between the steps: the library's own time."""
+    leg = sinew.Simulation(walk)
+    leg.advance(task.begin)
+    began = time.process_time_ns()
+    leg.advance(steps * STEP)
+    return time.process_time_ns() - began
+
+
+def in_steps() -> int:
+    """Advance and one reading."""
+    leg = sinew.Simulation(walk)
+    leg.advance(task.begin)
+    began = time.process_time_ns()
+    for _ in range(steps):
+        leg.advance(STEP)
+        leg.read("/true/trolley/position")
+    return time.process_time_ns() - began
+
+
+def in_a_loop() -> int:
+    """Two settings and twelve readings."""
+    leg = sinew.Simulation(walk)
+    leg.advance(task.begin)
+    names = [sight.channel for sight in task.sights][:12]
+    loop = sinew.Loop(leg, ["control.stiffness.hip", "control.stiffness.knee"], names, STEP)
+    wanted = numpy.array([walk["control.stiffness.hip"], walk["control.stiffness.knee"]])
+    began = time.process_time_ns()
+    for _ in range(steps):
+        loop.step(wanted)
+    return time.process_time_ns() - began
+
+
+one = sinew.gym.Env("walk")
+many = sinew.gym.VectorEnv("walk", num_envs=16)
+still: Any = numpy.zeros(4)
+all_still: Any = numpy.zeros((16, 4))
+
+
+def as_an_environment() -> int:
+    """Observations, reward, flags."""
+    one.reset(seed=1)
+    began = time.process_time_ns()
+    for _ in range(steps):
+        one.step(still)
+    return time.process_time_ns() - began
+
+
+def as_sixteen() -> int:
+    """Sixteen of these; the time of each."""
+    many.reset(seed=1)
+    began = time.process_time_ns()
+    for _ in range(steps):
+        many.step(all_still)
+    return (time.process_time_ns() - began) // 16
+
+
+ways: Dict[str, Callable[[], int]] = {
+    "at one go": at_one_go,
+    "in steps": in_steps,
+    "in a loop": in_a_loop,
+    "an environment": as_an_environment,
+    "sixteen, each": as_sixteen,
+}
+times: Dict[str, List[float]] = {name: [] for name in ways}
+for _ in range(15):
+    for name, way in ways.items():
+        times[name].append(way() / steps / 1000)
+ratios = {
+    name: statistics.median(t / own for t, own in zip(times[name], times["at one go"]))
+    for name in ways
+}
+for name, all_times in times.items():
+    extra = statistics.median(t - own for t, own in zip(all_times, times["at one go"]))
+    print(
+        f"{name:16s} {statistics.median(all_times):6.1f} us a step, {extra:5.1f} us more, "
+        f"{ratios[name]:.2f} times"
+    )
