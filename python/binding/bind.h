@@ -29,6 +29,10 @@ void bind_recording(py::module_& m);
 void bind_run(py::module_& m);
 void bind_sweep(py::module_& m);
 void bind_laws(py::module_& m);
+void bind_identify(py::module_& m);
+
+// Returns a new exception of the module, sinew.NAME, below `base`.
+py::handle new_exception(py::module_& m, const char* name, const char* doc, const py::handle& base);
 
 // A run ended before its plan did: a muscle burst, the supervisor tripped. What was recorded until
 // then is in the words.

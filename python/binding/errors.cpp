@@ -18,6 +18,8 @@ void raise_input_error(const py::handle& type, const config::Error& error) {
   PyErr_SetObject(type.ptr(), exception.ptr());
 }
 
+}  // namespace
+
 py::handle new_exception(py::module_& m, const char* name, const char* doc,
                          const py::handle& base) {
   const std::string full = std::string("sinew.") + name;
@@ -27,8 +29,6 @@ py::handle new_exception(py::module_& m, const char* name, const char* doc,
   m.attr(name) = type;
   return type.release();  // lives as long as the interpreter
 }
-
-}  // namespace
 
 void bind_errors(py::module_& m) {
   py::class_<config::Problem>(m, "Problem", "One thing that is wrong with a file or a setting.")

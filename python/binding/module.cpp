@@ -14,4 +14,5 @@ PYBIND11_MODULE(_sinew, m) {
   sinew::python::bind_run(m);
   sinew::python::bind_sweep(m);
   sinew::python::bind_laws(m);
+  sinew::python::bind_identify(m);
 }

@@ -37,6 +37,7 @@ class InputError(ValueError):
 
 class LogError(OSError): ...
 class RunError(RuntimeError): ...
+class RefusalError(RuntimeError): ...
 
 class Experiment:
     def __init__(self, path: _Path, sets: _Sets = None) -> None: ...
@@ -252,3 +253,15 @@ class Valve:
     def choked(
         self, upstream: numpy.typing.ArrayLike, downstream: numpy.typing.ArrayLike
     ) -> Any: ...
+
+def identify_static(
+    length: numpy.typing.ArrayLike,
+    pressure: numpy.typing.ArrayLike,
+    force: numpy.typing.ArrayLike,
+    rest_length: Optional[numpy.typing.ArrayLike],
+    fitted: numpy.typing.ArrayLike,
+    model: str,
+    hold_out: str,
+    name: str,
+    source: str,
+) -> Tuple[Dict[str, Any], List[str]]: ...

@@ -1,0 +1,100 @@
+// python/binding/identify.cpp - parameters from measurements that Python holds as arrays.
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "python/binding/numbers.h"
+#include "sinew/identify/actuator/static.h"
+#include "sinew/identify/actuator/static_data.h"
+#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/fit/report_json.h"
+
+namespace sinew::python {
+
+namespace {
+
+using identify::StaticData;
+
+// Returns the numbers of an argument: as many as there are points, or one for all.
+std::vector<double> each(const py::object& given, const char* name, py::ssize_t points) {
+  const Numbers all = numbers(given, name);
+  if (all.size() != 1 && (all.ndim() != 1 || all.size() != points))
+    throw std::invalid_argument(
+        fmt::format("{}: found an array of shape {}; expected {} numbers, or one", name,
+                    py::str(all.attr("shape")).cast<std::string>(), points));
+  for (py::ssize_t i = 0; i < all.size(); ++i)
+    if (!std::isfinite(all.data()[i]))
+      throw std::invalid_argument(
+          fmt::format("{}: found {} in place {}; expected finite numbers", name, all.data()[i], i));
+  if (all.size() == 1) return std::vector<double>(static_cast<std::size_t>(points), all.data()[0]);
+  return {all.data(), all.data() + all.size()};
+}
+
+identify::HoldOut hold_out_of(const std::string& word) {
+  if (word.empty()) return identify::HoldOut::none;
+  if (word == "pressure") return identify::HoldOut::pressure;
+  if (word == "length") return identify::HoldOut::length;
+  throw std::invalid_argument(
+      fmt::format("hold_out: found \"{}\"; expected \"pressure\", \"length\" or \"\"", word));
+}
+
+// As the rows of a table with these columns would be.
+StaticData data_of(const py::object& length, const py::object& pressure, const py::object& force,
+                   const py::object& rest_length, const py::object& fitted,
+                   const std::string& source) {
+  const py::ssize_t points = numbers(force, "force").size();
+  identify::Measured table{.file = source};
+  table.columns = {{"force", "N", each(force, "force", points)},
+                   {"pressure", "Pa gauge", each(pressure, "pressure", points)},
+                   {"length", "m", each(length, "length", points)}};
+  if (!rest_length.is_none())
+    table.columns.push_back({"rest_length", "m", each(rest_length, "rest_length", points)});
+  for (int row = 1; row <= points; ++row) table.lines.push_back(row);
+  const std::vector<double> fit = each(fitted, "fitted", points);
+  StaticData out;
+  identify::add_points(table, {}, out);
+  for (std::size_t i = 0; i < out.points.size(); ++i) out.points[i].fitted = fit[i] != 0;
+  return out;
+}
+
+// The report as `sinew identify static --json` has it, and the parameter file of each muscle.
+py::tuple identify_static(const py::object& length, const py::object& pressure,
+                          const py::object& force, const py::object& rest_length,
+                          const py::object& fitted, const std::string& model,
+                          const std::string& hold_out, const std::string& name,
+                          const std::string& source) {
+  const StaticData data = data_of(length, pressure, force, rest_length, fitted, source);
+  identify::StaticOptions options{.model = model, .hold_out = hold_out_of(hold_out)};
+  options.subject = "static law from " + source;
+  std::optional<identify::StaticResult> found;
+  std::atomic<bool> unstoppable = false;
+  do_interruptibly(unstoppable, [&] { found = identify::identify_static(data, options); });
+  py::list files;
+  for (std::size_t i = 0; i < found->muscles.size(); ++i)
+    files.append(identify::static_file(*found, i, name, source, ""));
+  return py::make_tuple(
+      py::module_::import("json").attr("loads")(identify::to_json(found->report).dump()), files);
+}
+
+}  // namespace
+
+void bind_identify(py::module_& m) {
+  static const py::handle refusal = new_exception(
+      m, "RefusalError", "Data cannot support the model that was asked of them; the words say why.",
+      PyExc_RuntimeError);
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const identify::Refusal& e) {
+      PyErr_SetString(refusal.ptr(), e.what());
+    }
+  });
+  m.def("identify_static", &identify_static, py::arg("length"), py::arg("pressure"),
+        py::arg("force"), py::arg("rest_length"), py::arg("fitted"), py::arg("model"),
+        py::arg("hold_out"), py::arg("name"), py::arg("source"));
+}
+
+}  // namespace sinew::python

@@ -1,0 +1,103 @@
+"""Identification from arrays: the program's law, its file, and what is refused."""
+
+import csv
+import os
+import tempfile
+import unittest
+from typing import Any, Tuple
+
+import numpy
+
+import sinew
+import sinew.identify
+from common import ACTUATOR, Refusals, program_json
+
+MAP = os.path.join(
+    os.path.dirname(os.path.abspath(__file__)),
+    "../../data/martens_boblan_2017/DMSP-10-250_force_map.csv",
+)
+
+
+def measured() -> Tuple[Any, Any, Any]:
+    """Return lengths, pressures and forces of a public muscle."""
+    with open(MAP, encoding="utf-8") as file:
+        rows = [row for row in csv.reader(file) if row and row[0][:1].isdigit()]
+    table = numpy.array(rows, float)
+    return table[:, 1], table[:, 0], table[:, 2]
+
+
+class Static(unittest.TestCase):
+    def test_is_the_programs(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            theirs = folder + "/theirs.toml"
+            said = program_json(
+                "identify", "static", MAP, "--map", "force=F_N,pressure=P_gauge_Pa,length=L_m",
+                "--unit", "F_N=N", "--unit", "P_gauge_Pa=Pa gauge", "--unit", "L_m=m",
+                "--hold-out", "length", "--json", "--quiet", "-o", theirs,
+            )  # fmt: skip
+            length, pressure, force = measured()
+            found = sinew.identify.static(length, pressure, force, hold_out="length")
+            self.assertEqual(found.model, said["chosen"])
+            self.assertEqual(found.report["parameters"], said["parameters"])
+            self.assertEqual(found.report["held_out"], said["held_out"])
+            mine = folder + "/mine.toml"
+            found.write(mine)
+            with self.assertRaises(FileExistsError):
+                found.write(mine)
+            found.write(mine, force=True)
+            grid = numpy.linspace(0.2, 0.245, 9)[:, None], numpy.linspace(1e5, 6e5, 6)
+            self.assertEqual(
+                sinew.Actuator(mine).tension(*grid).tobytes(),
+                sinew.Actuator(theirs).tension(*grid).tobytes(),
+            )
+
+    def test_the_law_that_made_the_forces_comes_back(self) -> None:
+        truth = sinew.Actuator(ACTUATOR)
+        ends = 1.02 * truth.shortest_length, 0.97 * truth.greatest_length
+        length = numpy.repeat(numpy.linspace(*ends, 12), 6)
+        pressure = numpy.tile(numpy.linspace(1e5, 5e5, 6), 12)
+        noise = numpy.random.default_rng(4).normal(0, 0.05, length.size)
+        found = sinew.identify.static(
+            length, pressure, truth.tension(length, pressure) + noise,
+            rest_length=truth.greatest_length,
+        )  # fmt: skip
+        with tempfile.TemporaryDirectory() as folder:
+            found.write(folder + "/again.toml")
+            again = sinew.Actuator(folder + "/again.toml").tension(length, pressure)
+        error = again - truth.tension(length, pressure)
+        self.assertLess(float(numpy.sqrt((error**2).mean())), 0.2)
+
+
+class Wrong(Refusals):
+    def test_inputs_are_refused_in_words(self) -> None:
+        length, pressure, force = measured()
+        few = slice(0, 3)
+        nan = force.copy()
+        nan[4] = numpy.nan
+        static: Any = sinew.identify.static
+        refusal = sinew.identify.RefusalError
+        self.refused(
+            [
+                (lambda: static(length[few], pressure[few], force[few]), refusal, "expected"),
+                (lambda: static(length, 3e5, force), refusal, "pressure"),
+                (lambda: static([], [], []), refusal, "no rows"),
+                (lambda: static(length[:5], pressure, force), ValueError, "length: found an array"),
+                (lambda: static(length, pressure[:5], force), ValueError, "pressure: found"),
+                (lambda: static(length, pressure, nan), ValueError, "found nan in place 4"),
+                (lambda: static(length, pressure, "many"), TypeError, "expected real numbers"),
+                (lambda: static(length, pressure, None), TypeError, "force: found None"),
+                (lambda: static(length[:, None], pressure, force), ValueError, "85 numbers"),
+                (lambda: static(-length, pressure, force), Exception, "length"),
+                (lambda: static(length, pressure, force, model="x"), refusal, "expected one of ideal"),
+                (lambda: static(length, pressure, force, hold_out="x"), ValueError, "hold_out"),
+                (lambda: static(length, pressure, force, fitted=[True] * 3), ValueError, "fitted"),
+                (lambda: static(length, pressure, force, rest_length="x"), TypeError, "rest_length"),
+                (lambda: static(length, pressure, force, fitted=False), Exception, ""),
+            ]
+        )
+        with self.assertRaises(IndexError):
+            static(length, pressure, force).write("/nowhere/x.toml", muscle=7)
+
+
+if __name__ == "__main__":
+    unittest.main()
