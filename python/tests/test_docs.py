@@ -1,0 +1,42 @@
+"""Every public name has its text, and every function of the library says what it takes."""
+
+import inspect
+import types
+import unittest
+from typing import Any, Iterator, Tuple
+
+import sinew
+import sinew.gym
+import sinew.identify
+
+
+def public(module: types.ModuleType) -> Iterator[Tuple[str, Any]]:
+    """Yield the names that a module shows, and those of its classes."""
+    for name in module.__all__:
+        thing = getattr(module, name)
+        yield f"{module.__name__}.{name}", thing
+        if inspect.isclass(thing):
+            for inner, member in vars(thing).items():
+                described = callable(member) or isinstance(member, property)
+                if not inner.startswith("_") and described:
+                    yield f"{module.__name__}.{name}.{inner}", member
+
+
+class Documentation(unittest.TestCase):
+    def test_every_public_name_has_its_text(self) -> None:
+        count = 0
+        for module in (sinew, sinew.gym, sinew.identify):
+            self.assertTrue(module.__doc__)
+            for name, thing in public(module):
+                if isinstance(thing, (str, tuple)):
+                    continue
+                count += 1
+                text = inspect.getdoc(thing) or ""
+                # pybind11's first line is the signature alone.
+                words = text.split("\n", 1)[-1] if text.startswith(name.split(".")[-1] + "(") else text
+                self.assertGreater(len(words.strip()), 8, f"{name}: {text!r}")
+        self.assertGreater(count, 100)
+
+
+if __name__ == "__main__":
+    unittest.main()
