@@ -203,11 +203,17 @@ void bind_experiment(py::module_& m) {
           py::arg("sets"), "Returns the experiment with these settings besides.")
       .def("with_seed", &with_seed, py::arg("seed"),
            "Returns the experiment with other noise of its sensors. Raises ValueError.")
+      .def("__contains__",
+           [](const HeldExperiment& e, const std::string& key) {
+             return config::find_origin(e.read.origins, key) != nullptr;
+           })
+      .def("__iter__", [](const HeldExperiment& e) { return py::iter(py::cast(keys_of(e))); })
+      .def("__len__", [](const HeldExperiment& e) { return e.read.origins.size(); })
       .def("keys", &keys_of, "Returns the keys of all values, dotted.")
       .def("__getitem__", &in_si, py::arg("key"),
            "Returns the value of a key in SI. Raises KeyError.")
       .def(
-          "values",
+          "to_dict",
           [](const HeldExperiment& e) {
             return values_of(experiment::values_in_si({"experiment", e.read}), e.read.origins);
           },

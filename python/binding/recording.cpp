@@ -54,7 +54,7 @@ void sum_up_as(Recording& recording, Machine machine) {
 std::string page(const Recording& recording) {
   if (recording.name.empty())
     throw std::invalid_argument("page: found what follows from a run; expected the run itself");
-  const py::gil_scoped_release others;
+  // With the lock: samples that stand in a file are read by one thread at a time.
   return report::page(
       {.table = recording.table, .resolved = recording.resolved, .name = recording.name});
 }
@@ -71,10 +71,7 @@ Pointer derived(const Pointer& of) {
   if (!of->machine)
     throw std::invalid_argument("derived: found a run of a test stand; expected one of a machine");
   auto out = std::make_shared<Recording>();
-  {
-    const py::gil_scoped_release others;
-    out->table = analysis::derive(of->table, *of->machine);
-  }
+  out->table = analysis::derive(of->table, *of->machine);
   out->machine = of->machine;
   out->summary = of->summary;
   out->verdicts = of->verdicts;

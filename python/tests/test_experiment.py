@@ -50,6 +50,15 @@ class Experiment(unittest.TestCase):
         self.assertEqual(both.with_seed(9).seed, 9)
         self.assertTrue(sinew.Experiment(AIR, {"ground.present": True})["ground.present"])
 
+    def test_is_a_mapping_of_its_values(self) -> None:
+        walk = sinew.Experiment(WALK)
+        self.assertIn("joint.hip.damping", walk)
+        self.assertNotIn("joint.hip", walk)
+        self.assertEqual(list(walk), walk.keys())
+        self.assertEqual(len(walk), len(walk.keys()))
+        for key, value in walk.to_dict().items():
+            self.assertEqual(walk[key], value, key)
+
     def test_is_the_same_pickled_and_copied(self) -> None:
         walk = sinew.Experiment(WALK, {"control.stiffness.hip": 3.25})
         for other in (copy.copy(walk), copy.deepcopy(walk), pickle.loads(pickle.dumps(walk))):

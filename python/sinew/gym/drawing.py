@@ -20,7 +20,7 @@ class Drawing:
     """
 
     def __init__(self, experiment: Experiment) -> None:
-        values = experiment.values()
+        values = experiment.to_dict()
         if any(key.startswith("leg.") for key in values):
             raise ValueError("render: found a robot with several legs; expected one chain of links")
         self._lengths = [
