@@ -41,6 +41,8 @@ list='
     check  -                   python3-numpy                    its arrays
     check  -                   python3-pandas                   tables of them, in tests
     check  -                   mypy                             types of its interface
+    check  -                   python3-nbclient                 runs notebooks
+    check  -                   python3-ipykernel                their interpreter
     check  mpirun              openmpi-bin                      starts them in tests
     check  chromium            chromium                         opens that page in tests
     check  -                   fonts-dejavu-core                what its reference pictures are set in

@@ -180,6 +180,11 @@ void bind_recording(py::module_& m) {
            "Returns the page that shows the run, report.html, which needs no network: HTML.\n"
            "Raises RuntimeError where the library was built without it.")
       .def("_repr_html_", &cell)
+      .def("__repr__",
+           [](const Recording& r) {
+             return fmt::format("<sinew.Recording of {}: {} channels>",
+                                r.name.empty() ? "derived values" : r.name, r.channels().size());
+           })
       .def("derive", &derived,
            "Returns what follows from the samples: the foot's way and forces, torques, errors\n"
            "(docs/analysis.md). Raises ValueError for a test stand's.");
