@@ -55,7 +55,8 @@ layers='
     report/text
     report/compare  report/page report/text
     run/setup       experiment control plant report/text
-    run/simulation  run/setup log host
+    run/controllers run/setup
+    run/simulation  run/controllers log host
     run/stand       run/simulation experiment/rig
     run/folder      run/simulation run/stand log analysis report
     run/bring_up    run/folder report

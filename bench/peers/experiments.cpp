@@ -1,8 +1,8 @@
 #include "bench/peers/experiments.h"
 
-#include "sinew/run/simulation/boards.h"
+#include "sinew/run/controllers/boards.h"
+#include "sinew/run/controllers/high_level.h"
 #include "sinew/run/simulation/clock.h"
-#include "sinew/run/simulation/high_level.h"
 #include "sinew/run/simulation/loop.h"
 
 namespace sinew::bench {

@@ -157,7 +157,9 @@ class Threads(unittest.TestCase):
     def test_ctrl_c_ends_what_takes_long(self) -> None:
         for work in ("leg.advance(1e5)", "sinew.run(leg.experiment)"):
             code = (
-                "import sinew, sys\n"
+                "import signal, sinew, sys\n"
+                # What is started in the background by a shell ignores Ctrl-C.
+                "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
                 f"leg = sinew.Simulation({WALK!r}, {{'sequence.repeat': 30000}})\n"
                 "print('begun', flush=True)\n"
                 f"try:\n    {work}\nexcept KeyboardInterrupt:\n    sys.exit(7)\n"

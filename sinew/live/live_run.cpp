@@ -15,9 +15,9 @@
 #include "sinew/live/server.h"
 #include "sinew/live/show.h"
 #include "sinew/report/page/page.h"
+#include "sinew/run/controllers/columns.h"
 #include "sinew/run/folder/page.h"
 #include "sinew/run/folder/runnable.h"
-#include "sinew/run/simulation/columns.h"
 
 namespace sinew::live {
 

@@ -10,7 +10,7 @@
 #include "sinew/live/feed.h"
 #include "sinew/live/request.h"
 #include "sinew/live/show.h"
-#include "sinew/run/simulation/columns.h"
+#include "sinew/run/controllers/columns.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/simulation/test_same.h"
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "sinew/run/simulation/steering.h"
+#include "sinew/run/controllers/steering.h"
 
 namespace sinew::live {
 namespace {

@@ -12,7 +12,7 @@
 #include "sinew/live/feed.h"
 #include "sinew/live/request.h"
 #include "sinew/report/page/growing.h"
-#include "sinew/run/simulation/steering.h"
+#include "sinew/run/controllers/steering.h"
 
 namespace sinew::live {
 

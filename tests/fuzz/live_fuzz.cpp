@@ -5,7 +5,7 @@
 
 #include "sinew/experiment/experiment.h"
 #include "sinew/live/request.h"
-#include "sinew/run/simulation/steering.h"
+#include "sinew/run/controllers/steering.h"
 #include "tests/fuzz/law.h"
 
 namespace sinew::fuzz {

@@ -13,7 +13,7 @@
 #include "sinew/config/compose.h"
 #include "sinew/log/reader.h"
 #include "sinew/log/writer.h"
-#include "sinew/run/simulation/columns.h"
+#include "sinew/run/controllers/columns.h"
 #include "sinew/run/simulation/logged.h"
 #include "sinew/run/simulation/run.h"
 #include "sinew/run/stand/run.h"

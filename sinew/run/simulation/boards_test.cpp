@@ -1,5 +1,5 @@
 // A machine on several boards: what each of them does is what one board did.
-#include "sinew/run/simulation/boards.h"
+#include "sinew/run/controllers/boards.h"
 #include "sinew/run/setup/installation.h"
 
 #include <gtest/gtest.h>

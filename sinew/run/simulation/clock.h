@@ -5,7 +5,7 @@
 #include <chrono>
 #include <thread>
 
-#include "sinew/run/simulation/steering.h"
+#include "sinew/run/controllers/steering.h"
 #include "sinew/signals/tick.h"
 
 namespace sinew::run {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "sinew/experiment/globs.h"
-#include "sinew/run/simulation/columns.h"
+#include "sinew/run/controllers/columns.h"
 #include "sinew/run/simulation/recorder.h"
 
 namespace sinew::run {

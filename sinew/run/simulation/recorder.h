@@ -17,9 +17,9 @@
 
 #include "sinew/experiment/experiment.h"
 #include "sinew/plant/planar/setup.h"
-#include "sinew/run/simulation/boards.h"
-#include "sinew/run/simulation/columns.h"
-#include "sinew/run/simulation/high_level.h"
+#include "sinew/run/controllers/boards.h"
+#include "sinew/run/controllers/columns.h"
+#include "sinew/run/controllers/high_level.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::run {

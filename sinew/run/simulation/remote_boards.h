@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "sinew/plant/hardware/remote_board.h"
-#include "sinew/run/simulation/boards.h"
+#include "sinew/run/controllers/boards.h"
 
 namespace sinew::run {
 

@@ -12,9 +12,9 @@
 #include "sinew/plant/comedi/comedi_port.h"
 #include "sinew/plant/hardware/remote_board.h"
 #include "sinew/plant/planar/setup.h"
-#include "sinew/run/simulation/boards.h"
+#include "sinew/run/controllers/boards.h"
+#include "sinew/run/controllers/steering.h"
 #include "sinew/run/simulation/recorder.h"
-#include "sinew/run/simulation/steering.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::run {

@@ -1,6 +1,6 @@
 // A run that is steered: what is changed takes effect at period starts and can be repeated; pausing
 // and another speed change no bit.
-#include "sinew/run/simulation/steering.h"
+#include "sinew/run/controllers/steering.h"
 
 #include <gtest/gtest.h>
 

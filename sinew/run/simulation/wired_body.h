@@ -10,7 +10,7 @@
 #include "sinew/experiment/experiment.h"
 #include "sinew/plant/hardware/emulator.h"
 #include "sinew/plant/machine/machine.h"
-#include "sinew/run/simulation/boards.h"
+#include "sinew/run/controllers/boards.h"
 #include "sinew/run/simulation/faulty_port.h"
 
 namespace sinew::run {

@@ -1,9 +1,9 @@
-// run/simulation/true_columns.cpp - what only a simulation knows.
+// run/controllers/true_columns.cpp - what only a simulation knows.
 #include <algorithm>
 #include <cmath>
 
 #include "sinew/experiment/faults.h"
-#include "sinew/run/simulation/column_list.h"
+#include "sinew/run/controllers/column_list.h"
 
 namespace sinew::run {
 namespace {

@@ -1,4 +1,4 @@
-#include "sinew/run/simulation/boards.h"
+#include "sinew/run/controllers/boards.h"
 #include "sinew/run/setup/installation.h"
 
 #include <algorithm>

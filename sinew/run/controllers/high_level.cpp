@@ -1,4 +1,4 @@
-#include "sinew/run/simulation/high_level.h"
+#include "sinew/run/controllers/high_level.h"
 
 #include <cmath>
 

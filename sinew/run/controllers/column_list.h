@@ -1,4 +1,4 @@
-// run/simulation/column_list.h - how columns.cpp and true_columns.cpp make their columns.
+// run/controllers/column_list.h - how columns.cpp and true_columns.cpp make their columns.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sinew/robot/legs.h"
-#include "sinew/run/simulation/columns.h"
+#include "sinew/run/controllers/columns.h"
 
 namespace sinew::run {
 

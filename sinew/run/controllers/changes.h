@@ -1,4 +1,4 @@
-// run/simulation/changes.h - what stands in place of the plan's now: by the plan's own list, then
+// run/controllers/changes.h - what stands in place of the plan's now: by the plan's own list, then
 // by whoever steers. Both take effect at period starts; what was steered is kept.
 #pragma once
 
@@ -11,7 +11,7 @@
 #include "sinew/control/gait/gait_controller.h"
 #include "sinew/control/gait/plan.h"
 #include "sinew/robot/legs.h"
-#include "sinew/run/simulation/steering.h"
+#include "sinew/run/controllers/steering.h"
 #include "sinew/signals/tick.h"
 
 namespace sinew::run {

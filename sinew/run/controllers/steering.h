@@ -1,6 +1,6 @@
-// run/simulation/steering.h - how a run is steered while it goes: paused, set to another speed, its
-// gains and desired stiffnesses changed. One thread steers, the run's loop obeys; neither waits for
-// the other, and the loop takes no memory and no lock.
+// run/controllers/steering.h - how a run is steered while it goes: paused, set to another speed,
+// its gains and desired stiffnesses changed. One thread steers, the run's loop obeys; neither waits
+// for the other, and the loop takes no memory and no lock.
 //
 // Pause and speed move the wall's clock alone: the run keeps its bits. A change takes effect at the
 // next period start and is kept, so that the run can be repeated (Outcome::changes).

@@ -1,4 +1,4 @@
-#include "sinew/run/simulation/changes.h"
+#include "sinew/run/controllers/changes.h"
 
 #include <algorithm>
 #include <cmath>

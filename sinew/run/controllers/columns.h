@@ -1,4 +1,4 @@
-// run/simulation/columns.h - what a run's log holds: every topic with where its numbers come from.
+// run/controllers/columns.h - what a run's log holds: every topic with where its numbers come from.
 //
 // What hardware would log as well comes first, what only a simulation knows (/true/...) last, then
 // the valves, whose edges are logged one by one. A topic is there if the machine has the part.
@@ -12,7 +12,7 @@
 #include "sinew/control/gait/legs.h"
 #include "sinew/experiment/experiment.h"
 #include "sinew/plant/planar/setup.h"
-#include "sinew/run/simulation/boards.h"
+#include "sinew/run/controllers/boards.h"
 #include "sinew/signals/table.h"
 
 namespace sinew::run {

@@ -1,5 +1,5 @@
-// run/simulation/boards.h - the low level of a machine: one controller per board, each with its own
-// numbers and its own scan, driven together under the machine's numbers.
+// run/controllers/boards.h - the low level of a machine: one controller per board, each with its
+// own numbers and its own scan, driven together under the machine's numbers.
 //
 // Within a tick the boards come in the order of their numbers: first all of their edges, then all
 // of their conversions. What ends one board's run ends the machine's: the others are shut down in

@@ -1,4 +1,4 @@
-// run/simulation/high_level.h - joins brains and spinal cord: SI on one side, counts on the other;
+// run/controllers/high_level.h - joins brains and spinal cord: SI on one side, counts on the other;
 // each leg's joints and muscles on one side, the machine's on the other.
 #pragma once
 
@@ -7,8 +7,8 @@
 
 #include "sinew/control/gait/legs.h"
 #include "sinew/robot/robot.h"
-#include "sinew/run/simulation/boards.h"
-#include "sinew/run/simulation/changes.h"
+#include "sinew/run/controllers/boards.h"
+#include "sinew/run/controllers/changes.h"
 
 namespace sinew::run {
 

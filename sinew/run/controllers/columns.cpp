@@ -1,11 +1,11 @@
-#include "sinew/run/simulation/columns.h"
+#include "sinew/run/controllers/columns.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "sinew/control/setup/joint_controllers.h"
 #include "sinew/control/setup/supervision.h"
-#include "sinew/run/simulation/column_list.h"
+#include "sinew/run/controllers/column_list.h"
 
 namespace sinew::run {
 namespace {
