@@ -32,7 +32,7 @@ std::string text_of(const std::string& key, const py::handle& value,
   const auto number = py::reinterpret_borrow<py::object>(value);
   if (origin && !origin->unit.empty())
     return config::format_quantity(py::float_(number).cast<double>(), origin->unit);
-  if (PyIndex_Check(value.ptr()) != 0) return fmt::format("{}", number.cast<std::int64_t>());
+  if (PyIndex_Check(value.ptr()) != 0) return py::str(number).cast<std::string>();
   return config::format_number(py::float_(number).cast<double>());
 }
 

@@ -45,10 +45,14 @@ void advance_to(HeldSimulation& s, Tick tick) {
 double read(HeldSimulation& s, const py::object& channel) {
   const Use use(s);
   if (py::isinstance<py::str>(channel)) return use->read(channel.cast<std::string>());
-  const auto number = py::cast<std::int64_t>(channel.attr("__index__")());
+  if (PyIndex_Check(channel.ptr()) == 0)
+    throw py::type_error(fmt::format("channel: found {}; expected a name, or a place in channels",
+                                     py::repr(channel).cast<std::string>()));
+  const py::ssize_t number = PyNumber_AsSsize_t(channel.ptr(), nullptr);  // huge: the nearest
   if (number < 0 || static_cast<std::size_t>(number) >= use->channels().size())
-    throw py::index_error(
-        fmt::format("channel: found {}; expected 0 to {}", number, use->channels().size() - 1));
+    throw py::index_error(fmt::format("channel: found {}; expected 0 to {}",
+                                      py::str(channel).cast<std::string>(),
+                                      use->channels().size() - 1));
   return use->read(static_cast<std::size_t>(number));
 }
 

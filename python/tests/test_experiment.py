@@ -104,6 +104,8 @@ class Wrong(Refusals):
                     (lambda: sinew.Experiment(WALK, {stiff: "3 m"}), sinew.InputError, stiff),
                     (lambda: sinew.Experiment(WALK, {stiff: -3.0}), sinew.InputError, stiff),
                     (lambda: sinew.Experiment(WALK, {stiff: float("nan")}), sinew.InputError, stiff),
+                    (lambda: sinew.Experiment(WALK, {"seed": 10**30}), sinew.InputError, "seed"),
+                    (lambda: sinew.Experiment(WALK, {"seed": 1.5}), sinew.InputError, "seed"),
                     (lambda: sinew.Experiment(WALK, {"control.stif": 3}), sinew.InputError, "stif"),
                     (lambda: sinew.Experiment(WALK, ["no sign"]), sinew.InputError, "no sign"),
                     (lambda: walk["control.stiffness.hpi"], KeyError, "control.stiffness.hip"),

@@ -2,6 +2,9 @@
 
 import dataclasses
 import os
+import subprocess
+import sys
+import tempfile
 import unittest
 from typing import Any, List, Tuple
 
@@ -134,6 +137,42 @@ class Env(unittest.TestCase):
             x, y = drawing.points(leg)[-1]
             self.assertAlmostEqual(x, leg.read("/true/foot/position.x"), 9)
             self.assertAlmostEqual(y, leg.read("/true/foot/position.y"), 9)
+
+
+STAND_IN = """
+class Env:
+    metadata = {}
+    spec = None
+"""
+STAND_IN_SPACES = """
+class Box:
+    def __init__(self, low, high, shape=None, dtype=None):
+        assert shape is None and low.shape == high.shape
+        self.low, self.high, self.shape, self.dtype = low, high, low.shape, dtype
+"""
+USES_IT = """
+import gymnasium, gymnasium.spaces, numpy, sinew.gym
+env = sinew.gym.Env("walk")
+assert isinstance(env, gymnasium.Env)
+for space in (env.action_space, env.observation_space):
+    assert type(space) is gymnasium.spaces.Box and space.dtype is numpy.float64
+seen, _ = env.reset(seed=1)
+assert env.step(numpy.zeros(4))[0].shape == env.observation_space.shape == seen.shape
+"""
+
+
+class Gymnasium(unittest.TestCase):
+    def test_where_it_is_an_environment_is_one_of_its(self) -> None:
+        # Debian 12 has no Gymnasium: a stand-in with the two names that are used.
+        with tempfile.TemporaryDirectory() as folder:
+            os.mkdir(folder + "/gymnasium")
+            for name, text in (("__init__", STAND_IN), ("spaces", STAND_IN_SPACES)):
+                with open(f"{folder}/gymnasium/{name}.py", "w", encoding="utf-8") as file:
+                    file.write(text)
+            path = folder + os.pathsep + os.environ["PYTHONPATH"]
+            subprocess.run(
+                [sys.executable, "-c", USES_IT], check=True, env={**os.environ, "PYTHONPATH": path}
+            )
 
 
 def memory() -> int:

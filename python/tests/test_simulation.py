@@ -244,6 +244,9 @@ class Wrong(Refusals):
                 (lambda: leg.read("/joint/hpi/angle"), ValueError, "/joint/hpi/angle"),
                 (lambda: leg.read(10**6), IndexError, "expected 0 to"),
                 (lambda: leg.read(-1), IndexError, "found -1"),
+                (lambda: leg.read(10**30), IndexError, "expected 0 to"),
+                (lambda: leg.read(1.5), TypeError, "channel: found 1.5"),  # type: ignore[arg-type]
+                (lambda: leg.read(None), TypeError, "channel: found None"),  # type: ignore[arg-type]
                 (lambda: leg.change(hip, -1.0), ValueError, "expected 0 to 1e6 N m/rad"),
                 (lambda: leg.change(hip, float("nan")), ValueError, "N m/rad"),
                 (lambda: leg.change("control.stiffness.toe", 1.0), ValueError, "expected one of"),
