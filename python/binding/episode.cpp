@@ -57,6 +57,10 @@ class Course {
       seen_.push_back({middles.at(i), scales.at(i)});
     }
     for (const std::string& name : measures) measure(*use, name);
+    if (begin_ >= use->last())
+      throw std::invalid_argument(
+          fmt::format("begin: found {} s; expected less than the plan's {} s", begin,
+                      static_cast<double>(use->last()) * signals::tick_seconds));
     learn_plan(*use);
   }
 
@@ -244,8 +248,8 @@ void bind_episode(py::module_& m) {
            py::arg("begin"), py::arg("period"))
       .def_property_readonly("period", &Course::period);
   py::class_<Episode, std::shared_ptr<Episode>>(m, "Episode")
-      .def(py::init<std::shared_ptr<Course>, HeldPointer>(), py::arg("course"),
-           py::arg("simulation"))
+      .def(py::init<std::shared_ptr<Course>, HeldPointer>(), py::arg("course").none(false),
+           py::arg("simulation").none(false))
       .def_property_readonly("simulation", &Episode::simulation)
       .def("look", &look)
       .def("step", &step, py::arg("action"));

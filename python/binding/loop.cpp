@@ -92,7 +92,8 @@ void bind_loop(py::module_& m) {
                    "A simulation with what a controller of yours writes and reads each period.")
       .def(py::init<HeldPointer, const std::vector<std::string>&, const std::vector<std::string>&,
                     double>(),
-           py::arg("simulation"), py::arg("write"), py::arg("read"), py::arg("period") = 0.01,
+           py::arg("simulation").none(false), py::arg("write"), py::arg("read"),
+           py::arg("period") = 0.01,
            "`write` are keys of settings, `read` names of channels; `period` in seconds, the\n"
            "gait controller's 0.01 if not said. Raises ValueError for what there is not.")
       .def_property_readonly("simulation", &Loop::simulation, "What it steps.")

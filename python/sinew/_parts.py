@@ -54,19 +54,13 @@ class Part:
         except KeyError:
             raise KeyError(self._missing(name)) from None
 
-    def __setattr__(self, name: str, value: Any) -> None:
-        try:
-            self._get(name)
-        except KeyError:
-            raise AttributeError(self._missing(name)) from None
+    def __setitem__(self, name: str, value: Any) -> None:
+        self[name]  # raises KeyError where there is none
         self._robot._change(self._below(name), value)
 
-    def __setitem__(self, name: str, value: Any) -> None:
-        try:
-            self._get(name)
-        except KeyError:
-            raise KeyError(self._missing(name)) from None
-        self._robot._change(self._below(name), value)
+    def __setattr__(self, name: str, value: Any) -> None:
+        getattr(self, name)  # raises AttributeError where there is none
+        self[name] = value
 
     def __iter__(self) -> Iterator[str]:
         begin = self._key + "." if self._key else ""

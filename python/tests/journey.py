@@ -26,6 +26,16 @@ print(
     f"tracks to {numpy.degrees(best[figure]):.2f} deg, the thesis's to {numpy.degrees(plain):.2f} deg"
 )
 
+# The installed package finds the module of the search, which is not beside it.
+with open("hip.toml", "w", encoding="utf-8") as file:
+    file.write(
+        f'format = "sinew.tuning/1"\ntitle = "A hip that tracks"\nexperiment = "{air}"\n'
+        f'tune = ["{key}=0.02:0.15 %/count log"]\n'
+        'minimize = ["joints.hip.tracking_rms_rad [deg]"]\npopulation = 6\ngenerations = 3\n'
+    )
+tuned = sinew.tune("hip.toml", "hip.db")
+print(f"journey: a search of {len(tuned['candidates'])} candidates, {len(tuned['best'])} best")
+
 # 2. Ten thousand steps of an environment.
 began, steps, episodes, way = time.monotonic(), 0, 0, 0.0
 env = sinew.gym.Env("walk")

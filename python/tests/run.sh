@@ -12,7 +12,7 @@ MYPYPATH=$build/python:python/tests "${mypy[@]}" python/tests/*.py
 for script in examples/*/*.py; do
   MYPYPATH=$build/python "${mypy[@]}" "$script"
 done
-# The stub says what the module has. That pybind11's classes have a metaclass, and that those which
+# _sinew.pyi says what the module has. That pybind11's classes have a metaclass, and that those which
 # nobody makes have no constructor, it need not say.
 differs=$(MYPYPATH=$build/python "$python" -m mypy.stubtest sinew._sinew --concise 2>&1 |
   grep -v 'metaclass differs$\|__init__ is inconsistent, stub does not have \*args argument' || true)

@@ -260,6 +260,8 @@ class Wrong(Refusals):
                 (lambda: made(period=0.015), ValueError, "a multiple of the gait"),
                 (lambda: made(begin=0.013), ValueError, "begin: found 0.013"),
                 (lambda: made(begin=-1.0), ValueError, "found -1"),
+                (lambda: made(begin=1000.0), ValueError, "expected less than the plan's"),
+                (lambda: made(measures=["plan:x"]), ValueError, "expected one of control.angle"),
                 (lambda: made(actions=[action("x", "offset", 1.0)]), ValueError, "expected one of"),
                 (lambda: made(actions=[action(hip, "sum", 1.0)]), ValueError, "offset or factor"),
                 (lambda: made(actions=[action(hip, "factor", 0.0)]), ValueError, "more than 0"),

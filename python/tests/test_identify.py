@@ -92,7 +92,7 @@ class Wrong(Refusals):
                 (lambda: static(length, pressure, force, hold_out="x"), ValueError, "hold_out"),
                 (lambda: static(length, pressure, force, fitted=[True] * 3), ValueError, "fitted"),
                 (lambda: static(length, pressure, force, rest_length="x"), TypeError, "rest_length"),
-                (lambda: static(length, pressure, force, fitted=False), Exception, ""),
+                (lambda: static(length, pressure, force, fitted=False), refusal, "expected"),
             ]
         )
         with self.assertRaises(IndexError):

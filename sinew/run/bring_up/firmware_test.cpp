@@ -51,9 +51,8 @@ TEST(Firmware, OfAnUnknownBoardNamesThoseThatAreThere) {
 }
 
 TEST(Firmware, IsBuiltFromSourcesOnly) {
-  const std::string said = refusal([] {
-    build_firmware("/", firmware_board("stm32f405"), "/tmp/not-written.elf", false, false);
-  });
+  const std::string said = refusal(
+      [] { build_firmware("/", firmware_board("stm32f405"), "not-written.elf", false, false); });
   EXPECT_NE(said.find("no sources of Sinew"), std::string::npos) << said;
 }
 
@@ -90,8 +89,8 @@ TEST(Firmware, AFileThatTheBoardIsNotLoadedWithIsRefusedBeforeItIsBuilt) {
   const std::string expected = "found \".elf\"; expected \".hex\", which is what teensy41";
   const std::string shown = refusal([&] { flash_command(board, "leg.elf"); });
   EXPECT_NE(shown.find(expected), std::string::npos) << shown;
-  const std::string built = refusal(
-      [&] { build_firmware(SINEW_SOURCE_DIR, board, "/tmp/not-written.elf", false, false); });
+  const std::string built =
+      refusal([&] { build_firmware(SINEW_SOURCE_DIR, board, "not-written.elf", false, false); });
   EXPECT_NE(built.find(expected), std::string::npos) << built;
 }
 
