@@ -59,6 +59,7 @@ layers='
     run/simulation  run/controllers log host
     run/stand       run/simulation experiment/rig
     run/folder      run/simulation run/stand log analysis report
+    run/muscle      run/setup experiment/rig
     run/bring_up    run/folder report
     tune            run/folder host
     tune/results    tune

@@ -1,11 +1,10 @@
 // python/binding/simulation.h - a simulation as Python holds it.
 #pragma once
 
-#include <atomic>
 #include <memory>
-#include <stdexcept>
 
 #include "python/binding/bind.h"
+#include "python/binding/used.h"
 #include "sinew/run/simulation/simulation.h"
 
 namespace sinew::python {
@@ -22,27 +21,20 @@ class HeldSimulation {
   // has one.
   class Use {
    public:
-    explicit Use(HeldSimulation& held) : held_(held) {
-      if (held.used_.exchange(true, std::memory_order_acquire))
-        throw std::runtime_error(
-            "simulation: another thread is at it; expected one thread at a time; try a copy for "
-            "each thread (copy.copy)");
-    }
-    Use(const Use&) = delete;
-    Use& operator=(const Use&) = delete;
-    ~Use() { held_.used_.store(false, std::memory_order_release); }
+    explicit Use(HeldSimulation& held) : held_(held), now_(held.used_, "simulation") {}
 
     run::Simulation* operator->() const { return &held_.simulation_; }
     run::Simulation& operator*() const { return held_.simulation_; }
 
    private:
     HeldSimulation& held_;
+    Used::Now now_;
   };
 
  private:
   ExperimentPointer experiment_;
   run::Simulation simulation_;
-  std::atomic<bool> used_{false};
+  Used used_;
 };
 
 // Advances by seconds, rounded to ticks, or to the plan's end. Looks for Ctrl-C on the way. Throws

@@ -17,6 +17,7 @@ with a file is raised as InputError, with the words that `sinew check` prints.
 from sinew._sinew import (
     Actuator,
     Channel,
+    DrivenMuscle,
     Experiment,
     InputError,
     LogError,
@@ -44,6 +45,7 @@ from sinew._parts import Part, Robot
 __all__ = [
     "Actuator",
     "Channel",
+    "DrivenMuscle",
     "Experiment",
     "InputError",
     "LogError",

@@ -95,7 +95,10 @@ Experiment load(const config::Node& root, const std::string& path) {
 }
 
 MachineFile load_machine_file(const std::string& path, const std::vector<std::string>& sets) {
-  const config::Node root = config::compose(path, sets);
+  return load_machine_file(config::compose(path, sets), path);
+}
+
+MachineFile load_machine_file(const config::Node& root, const std::string& path) {
   const std::string kind(config::format_kind(root));
   if (kind != "experiment" && kind != "robot" && kind != "actuator" && kind != "valves" &&
       kind != "wiring")
@@ -117,14 +120,19 @@ Experiment without_files(Experiment e) {
   return e;
 }
 
-std::string resolved(const Experiment& experiment, const std::string& version) {
-  Experiment e = without_files(experiment);  // visitors take what they print by reference
+std::string resolved(const MachineFile& file, const std::string& version) {
+  Experiment e = without_files(file.experiment);  // visitors take what they print by reference
   config::Writer writer(&e.origins);
-  writer.format("experiment");
+  writer.format(file.kind);
   std::string sinew = version;
-  writer.text({.name = "sinew_version", .optional = true, .doc = "that ran"}, sinew);
-  write(writer, "experiment", e);
+  if (file.kind == "experiment")
+    writer.text({.name = "sinew_version", .optional = true, .doc = "that ran"}, sinew);
+  write(writer, file.kind, e);
   return writer.text();
+}
+
+std::string resolved(const Experiment& experiment, const std::string& version) {
+  return resolved(MachineFile{"experiment", experiment}, version);
 }
 
 }  // namespace sinew::experiment

@@ -19,7 +19,13 @@ struct MachineFile {
 // values without a source.
 MachineFile load_machine_file(const std::string& path, const std::vector<std::string>& sets = {});
 
+// The same from a tree that is composed already.
+MachineFile load_machine_file(const config::Node& root, const std::string& path);
+
 // Every value as it is used, in SI, under the keys that its origin has.
 config::Node values_in_si(MachineFile file);
+
+// What the file says, as a file that needs no other: every value in SI, with its source.
+std::string resolved(const MachineFile& file, const std::string& version);
 
 }  // namespace sinew::experiment

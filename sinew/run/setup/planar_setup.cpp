@@ -40,8 +40,8 @@ std::optional<air::Cylinder> cylinder_of(const Experiment& e) {
 
 }  // namespace
 
-plant::Setup planar_setup(const Experiment& e) {
-  plant::Setup s{.robot = e.robot, .air = e.air, .supply = e.supply};
+std::vector<air::Muscle> muscles_of(const Experiment& e) {
+  std::vector<air::Muscle> muscles;
   for (const robot::Muscle& m : e.robot.muscles) {
     air::Muscle out{.name = m.name, .count = m.count, .external_volume = m.external_volume};
     out.actuator = robot::actuator_of(m, e.actuators);
@@ -49,8 +49,13 @@ plant::Setup planar_setup(const Experiment& e) {
     if (const gas::Valve* v = find_valve(e, m.exhaust)) out.exhaust = *v;
     out.hose = m.hose;
     out.leak = m.leak;
-    s.muscles.push_back(std::move(out));
+    muscles.push_back(std::move(out));
   }
+  return muscles;
+}
+
+plant::Setup planar_setup(const Experiment& e) {
+  plant::Setup s{.robot = e.robot, .muscles = muscles_of(e), .air = e.air, .supply = e.supply};
   for (const robot::Joint& j : e.robot.joints) {
     s.start.joint_angle.push_back(e.start.joint_angles.at(j.name));
     bool blocked = false;

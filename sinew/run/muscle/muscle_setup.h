@@ -1,0 +1,42 @@
+// run/muscle/muscle_setup.h - one muscle of a file, with its valves, its hose and what feeds it,
+// for a loop that is somebody's own (air/driven_muscle.h).
+//
+//   const MuscleSetup read = muscle_setup("muscle.toml");            // a rig's element
+//   const MuscleSetup read = muscle_setup("robot.toml", "hip_flexor");
+//   air::DrivenMuscle pull(read.muscle, read.air, read.supply, read.length, read.pressure);
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sinew/air/muscle.h"
+#include "sinew/gas/air.h"
+#include "sinew/gas/supply.h"
+
+namespace sinew::run {
+
+struct MuscleSetup {
+  air::Muscle muscle;
+  gas::Air air;
+  gas::Supply supply;
+
+  // Where the file has it at its start: a rig's length, a robot's mount length; 0 where it does not
+  // say [m]. Pressure of its air there, absolute [Pa].
+  double length = 0, pressure = 0;
+
+  std::string text;         // a file that says the same wherever it is, with every source
+  std::uint64_t model = 0;  // stands for the muscle's name and all values of the file: save.h
+};
+
+// Reads a muscle of a rig, robot or experiment file, with settings over it ("element.count=2"). An
+// empty `name` is the only muscle there is. Throws config::Error with all that is wrong.
+MuscleSetup muscle_setup(const std::string& path, const std::string& name = "",
+                         const std::vector<std::string>& sets = {});
+
+// Returns the setup of a muscle by a setup's text; the path's last name is for messages. Throws as
+// above.
+MuscleSetup muscle_setup_of(const std::string& text, const std::string& path,
+                            const std::string& name = "");
+
+}  // namespace sinew::run
