@@ -1,5 +1,8 @@
 # cmake --install gives find_package(sinew) and one target for everything, sinew::sinew; each folder
 # of sinew/ is a target too: sinew::air, sinew::control_joint, …
+#
+# Components are those of the packages that cpack makes (package.cmake): program, mpi, comedi,
+# development, python. A plain installation has them all.
 
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -19,36 +22,53 @@ foreach(folder ${folders})
   string(APPEND SINEW_COMPONENTS " ${name}")
 endforeach()
 
-set(package ${CMAKE_INSTALL_LIBDIR}/cmake/sinew)
-install(TARGETS sinew_all ${folders} EXPORT sinew
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-        INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(EXPORT sinew NAMESPACE sinew:: FILE sinewTargets.cmake DESTINATION ${package})
-
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/sinew ${PROJECT_SOURCE_DIR}/thesis DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN "*.h"
-        PATTERN "*_test.h" EXCLUDE PATTERN "test_*.h" EXCLUDE PATTERN "testing.h" EXCLUDE)
-
-configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/sinewConfig.cmake.in
-                              ${PROJECT_BINARY_DIR}/sinewConfig.cmake
-                              INSTALL_DESTINATION ${package})
 # Unstable until 1.0: a program built for 0.1 asks for 0.1.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/sinewConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/sinewConfig.cmake ${PROJECT_BINARY_DIR}/sinewConfigVersion.cmake
-        DESTINATION ${package})
+
+# The archives and the CMake package, below the prefix in `libraries`. What follows are install()'s
+# own words.
+function(sinew_install_libraries export libraries)
+  set(package ${libraries}/cmake/sinew)
+  set(config ${PROJECT_BINARY_DIR}/${export}/sinewConfig.cmake)
+  install(TARGETS sinew_all ${folders} EXPORT ${export}
+          ARCHIVE DESTINATION ${libraries} ${ARGN}
+          INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT ${export} NAMESPACE sinew:: FILE sinewTargets.cmake DESTINATION ${package} ${ARGN})
+  configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/sinewConfig.cmake.in ${config}
+                                INSTALL_DESTINATION ${package})
+  install(FILES ${config} ${PROJECT_BINARY_DIR}/sinewConfigVersion.cmake DESTINATION ${package} ${ARGN})
+endfunction()
+sinew_install_libraries(sinew ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+
+set(headers_only FILES_MATCHING PATTERN "*.h"
+    PATTERN "*_test.h" EXCLUDE PATTERN "test_*.h" EXCLUDE PATTERN "testing.h" EXCLUDE)
+if(SINEW_ONLY)
+  foreach(folder units signals gas actuator air)
+    install(DIRECTORY sinew/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew
+            COMPONENT development ${headers_only} PATTERN "packs" EXCLUDE)
+  endforeach()
+  install(FILES sinew/muscle.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sinew COMPONENT development)
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
+  return()
+endif()
+install(DIRECTORY sinew thesis DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
+        ${headers_only})
 
 # The program, and the robots and experiments it comes with.
 if(TARGET sinew)
-  install(TARGETS sinew RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS sinew RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 endif()
-foreach(module sinew_mpi sinew_pagmo sinew_comedi)
-  if(TARGET ${module})
-    install(TARGETS ${module} LIBRARY DESTINATION ${sinew_modules})
+foreach(module pagmo mpi comedi)
+  set(component ${module})
+  if(module STREQUAL "pagmo")
+    set(component program)
+  endif()
+  if(TARGET sinew_${module})
+    install(TARGETS sinew_${module} LIBRARY DESTINATION ${sinew_modules} COMPONENT ${component})
   endif()
 endforeach()
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/robots ${PROJECT_SOURCE_DIR}/experiments
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
-              ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR})  # headers name its pages
+install(DIRECTORY robots experiments DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew COMPONENT program)
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT texts)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)  # headers name its pages

@@ -43,6 +43,8 @@ list='
     check  -                   mypy                             types of its interface
     check  -                   python3-nbclient                 runs notebooks
     check  -                   python3-ipykernel                their interpreter
+    check  dpkg-shlibdeps      dpkg-dev                         finds what the .deb depend on
+    check  file                file                             tells programs from other files there
     check  mpirun              openmpi-bin                      starts them in tests
     check  chromium            chromium                         opens that page in tests
     check  -                   fonts-dejavu-core                what its reference pictures are set in

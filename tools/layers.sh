@@ -15,6 +15,7 @@ layers='
     air/stiff       gas
     air             air/stiff gas actuator signals
     air/packs       air
+    muscle.h        air
     robot           gas actuator signals
     robot/wiring    robot
     control/joint   signals
@@ -58,8 +59,8 @@ layers='
     run/controllers run/setup
     run/simulation  run/controllers log host
     run/stand       run/simulation experiment/rig
-    run/folder      run/simulation run/stand log analysis report
     run/muscle      run/setup experiment/rig
+    run/folder      run/simulation run/stand log analysis report
     run/bring_up    run/folder report
     tune            run/folder host
     tune/results    tune

@@ -34,7 +34,7 @@ with open("hip.toml", "w", encoding="utf-8") as file:
         'minimize = ["joints.hip.tracking_rms_rad [deg]"]\npopulation = 6\ngenerations = 3\n'
     )
 tuned = sinew.tune("hip.toml", "hip.db")
-print(f"journey: a search of {len(tuned['candidates'])} candidates, {len(tuned['best'])} best")
+print(f"journey: a search of {tuned['candidates']} candidates, {len(tuned['best'])} best")
 
 # 2. Ten thousand steps of an environment.
 began, steps, episodes, way = time.monotonic(), 0, 0, 0.0

@@ -1,0 +1,101 @@
+# Debian packages: `cpack -G DEB` in the folder of a build makes
+#
+#   sinew          the program, the module of its searches, robots, experiments, documentation
+#   sinew-mpi      a module: sweeps over the processes of mpirun
+#   sinew-comedi   a module: a machine at a card
+#   libsinew-dev   headers, archives, find_package(sinew)
+#   python3-sinew  `import sinew`
+#
+# each where the build has it. What they depend on dpkg-shlibdeps finds out. Everything goes below
+# /usr whatever prefix the build was configured for: archives and Python files, whose places depend
+# on that, are installed twice, and packages take those of component *_deb.
+
+find_program(SINEW_DPKG dpkg)
+if(NOT SINEW_DPKG OR NOT TARGET sinew)
+  return()
+endif()
+
+set(arch ${CMAKE_LIBRARY_ARCHITECTURE})
+sinew_install_libraries(sinew_deb lib/${arch} COMPONENT development_deb EXCLUDE_FROM_ALL)
+install(DIRECTORY sinew thesis DESTINATION include COMPONENT development_deb EXCLUDE_FROM_ALL
+        ${headers_only})
+if(TARGET sinew_python)
+  sinew_install_python(lib/python3/dist-packages COMPONENT python_deb EXCLUDE_FROM_ALL)
+endif()
+
+# --- which packages, of which components ---
+
+set(CPACK_PACKAGE_NAME sinew)
+set(CPACK_PACKAGE_CONTACT "The Sinew authors <authors@sinew.invalid>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_COMPONENTS_ALL "")
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+# Licence and changes, as every package of Debian has them.
+set(changes ${PROJECT_BINARY_DIR}/changelog.gz)
+add_custom_command(OUTPUT ${changes} COMMAND gzip -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md > ${changes}
+                   DEPENDS CHANGELOG.md VERBATIM)
+add_custom_target(sinew_changes ALL DEPENDS ${changes})
+
+# sinew_package(NAME COMPONENT SECTION DEPENDS SUMMARY DESCRIPTION)
+macro(sinew_package name component section depends summary description)
+  string(TOUPPER ${component} upper)
+  list(APPEND CPACK_COMPONENTS_ALL ${component})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_DEPENDS "${depends}")
+  set(CPACK_COMPONENT_${upper}_DESCRIPTION "${summary}\n${description}")
+  install(FILES LICENSE DESTINATION share/doc/${name} RENAME copyright COMPONENT ${component} EXCLUDE_FROM_ALL)
+  install(FILES ${changes} DESTINATION share/doc/${name} COMPONENT ${component} EXCLUDE_FROM_ALL)
+endmacro()
+
+set(same "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
+
+sinew_package(sinew program science ""
+  "robots driven by braided pneumatic actuators"
+  "Simulates, identifies, tunes and controls robots that are pulled by braided
+pneumatic actuators (McKibben muscles): actuator, air, valves, sensors, controller
+and body in one loop. Comes with the walking leg of Colbrunn (2000).")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-sinew, libsinew-dev, sinew-mpi, sinew-comedi, www-browser")
+
+if(TARGET sinew_mpi)
+  sinew_package(sinew-mpi mpi science "sinew ${same}, openmpi-bin"
+    "sweeps of sinew over the processes of mpirun"
+    "A module that sinew loads where mpirun started it.")
+endif()
+
+if(TARGET sinew_comedi)
+  sinew_package(sinew-comedi comedi science "sinew ${same}"
+    "machines at a data acquisition card, for sinew"
+    "A module that sinew loads for machines at a card that comedi drives.")
+endif()
+
+sinew_package(libsinew-dev development_deb libdevel
+  "libfmt-dev, nlohmann-json3-dev, zlib1g-dev, libsqlite3-dev, libceres-dev, libeigen3-dev"
+  "robots driven by braided pneumatic actuators: library"
+  "Headers, static libraries and the CMake package of sinew: a muscle with its air,
+whole robots, controllers, simulations, identification and tuning in C++20.")
+set(CPACK_DEBIAN_DEVELOPMENT_DEB_PACKAGE_SUGGESTS "sinew, cmake, g++")
+
+if(TARGET sinew_python)
+  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  sinew_package(python3-sinew python_deb python
+    "sinew ${same}, python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next}), python3-numpy"
+    "robots driven by braided pneumatic actuators: Python"
+    "Runs as arrays, simulations that are held, sweeps, tuning, laws of actuators and
+environments in the shape of Gymnasium.")
+  set(CPACK_DEBIAN_PYTHON_DEB_PACKAGE_RECOMMENDS "python3-pandas")
+  set(scripts ${PROJECT_SOURCE_DIR}/cmake/debian)
+  set(CPACK_DEBIAN_PYTHON_DEB_PACKAGE_CONTROL_EXTRA "${scripts}/postinst;${scripts}/prerm")
+endif()
+
+include(CPack)
