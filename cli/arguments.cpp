@@ -30,28 +30,6 @@ std::vector<std::string_view> split(std::string_view text, char at) {
                std::move(try_this));
 }
 
-std::string in_words(const Range& range, std::string_view unit) {
-  const std::string low = config::format_quantity(range.low, unit, unit);
-  const std::string high = config::format_quantity(range.high, unit, unit);
-  std::string out = range.above ? "more than " + low : low;
-  if (range.low == -units::unbounded)
-    out = "at most " + high;
-  else if (range.high == units::unbounded)
-    out = range.above ? out : "at least " + low;
-  else
-    out += (range.above ? ", at most " : " to ") + high;
-  return out + (range.why.empty() ? "" : ": ") + std::string(range.why);
-}
-
-void refuse_outside(std::string_view option, const std::string& text, double si,
-                    std::string_view unit, const Range& range) {
-  if ((range.above ? si > range.low : si >= range.low) && si <= range.high) return;
-  std::string found = text;
-  const std::string plain = config::format_quantity(si, unit, unit);
-  if (text != config::in_quotes(plain) && text != plain) found += ", which is " + plain;
-  config::fail({std::string(option), 0, 0}, "", found, in_words(range, unit));
-}
-
 // "1 in:2 in:0.1 in", in the unit's usual words; a step of pressures is neither gauge nor absolute.
 std::string example_of(std::string_view unit) {
   if (unit == "1") return "\"0:1:0.1\"";
@@ -79,22 +57,6 @@ Range gauge_air_pressure(double atmosphere) {
   out.low -= atmosphere;
   out.high -= atmosphere;
   return out;
-}
-
-double argument(std::string_view option, std::string_view text, std::string_view unit,
-                double atmosphere, const Range& range) {
-  const config::Parsed parsed = config::parse_quantity(text, unit, atmosphere);
-  if (parsed.mistake) {
-    const config::Mistake& m = *parsed.mistake;
-    config::fail({std::string(option), 0, 0}, "", m.found, m.expected, m.try_this);
-  }
-  refuse_outside(option, config::in_quotes(text), parsed.si, unit, range);
-  return parsed.si;
-}
-
-double number_argument(std::string_view option, double value, const Range& range) {
-  refuse_outside(option, config::format_number(value), value, "1", range);
-  return value;
 }
 
 Values arguments(std::string_view option, std::string_view text, std::string_view unit,

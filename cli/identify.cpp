@@ -8,14 +8,15 @@
 #include <filesystem>
 #include <fstream>
 
-#include "cli/arguments.h"
 #include "cli/identify_page.h"
 #include "cli/json_text.h"
 #include "cli/settings.h"
 #include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
+#include "sinew/config/setting.h"
 #include "sinew/identify/fit/report_json.h"
+#include "sinew/identify/task/tables.h"
 #include "sinew/report/page/page.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/files.h"
@@ -107,19 +108,6 @@ void print(const identify::Report& report) {
 
 }  // namespace
 
-std::vector<std::string> at_commas(const std::string& text) {
-  std::vector<std::string> out;
-  std::size_t from = 0;
-  while (from <= text.size() && !text.empty()) {
-    const std::size_t to = std::min(text.find(',', from), text.size());
-    const std::string piece = text.substr(from, to - from);
-    const std::size_t first = piece.find_first_not_of(' ');
-    out.push_back(first == piece.npos ? "" : piece.substr(first));
-    from = to + 1;
-  }
-  return out;
-}
-
 void add_data_options(Command sub, DataOptions& options) {
   sub.add_option("data", options.files, "measurements as CSV").required();
   sub.add_option("--map", options.maps, "name=NAME: the file's name for a column; may be repeated")
@@ -140,32 +128,14 @@ void add_data_options(Command sub, DataOptions& options) {
 }
 
 std::vector<identify::Source> sources_of(const DataOptions& options) {
-  identify::Source source;
-  for (const std::string& map : options.maps) add_pair("--map", map, source.names);
-  for (const std::string& unit : options.units) add_pair("--unit", unit, source.units);
-  for (const std::string& where : options.where) add_pair("--where", where, source.where);
-  source.columns = at_commas(options.columns);
-  source.drop_incomplete = options.drop_incomplete;
-  source.atmosphere = argument("--atmosphere", options.atmosphere + " abs", "Pa abs",
-                               units::atmosphere, air_pressure);
-  std::vector<identify::Source> out;
-  for (const std::string& file : options.files) {
-    // Twice the same rows would make every interval too narrow, and hold nothing out.
-    if (std::ranges::count(options.files, file) > 1)
-      config::fail({"data", 0, 0}, "", file + " twice", "each file once");
-    out.push_back(source);
-    out.back().path = file;
-  }
-  return out;
-}
-
-void refuse_data_file(std::string_view option, const std::string& file,
-                      const DataOptions& options) {
-  std::error_code none;  // files that are not there are told elsewhere
-  for (const std::string& data : options.files)
-    if (std::filesystem::equivalent(file, data, none))
-      config::fail({std::string(option), 0, 0}, "", config::in_quotes(file),
-                   "another file than those that are fitted");
+  identify::Source how;
+  for (const std::string& map : options.maps) add_pair("--map", map, how.names);
+  for (const std::string& unit : options.units) add_pair("--unit", unit, how.units);
+  for (const std::string& where : options.where) add_pair("--where", where, how.where);
+  how.columns = config::at_commas(options.columns);
+  how.drop_incomplete = options.drop_incomplete;
+  how.atmosphere = identify::atmosphere_setting(options.atmosphere);
+  return identify::sources_of(options.files, how);
 }
 
 void add_result_options(Command sub, ResultOptions& options) {
@@ -215,14 +185,12 @@ void write_parameter_file(const std::string& text, const ResultOptions& options)
 }
 
 void tell(const identify::Report& report, const std::string& parameter_file,
-          const DataOptions& data, const ResultOptions& options, const Json& extra) {
+          const DataOptions& data, const ResultOptions& options, const Json& json) {
   const Messages messages(options.quiet);
   for (const std::string& note : report.notes) messages.note(note);
   for (const std::string& warning : report.warnings) messages.warning(warning);
   if (options.json) {
-    Json out = to_json(report);
-    if (extra.is_object()) out.update(extra);
-    fmt::print("{}\n", json_text(out, 2));
+    fmt::print("{}\n", json_text(json.is_null() ? to_json(report) : json, 2));
   } else {
     print(report);
   }

@@ -35,14 +35,8 @@ struct DataOptions {
 };
 void add_data_options(Command sub, DataOptions& options);
 
-// "6 lb, 11 lb": the pieces between commas, without blanks before them.
-std::vector<std::string> at_commas(const std::string& text);
-
 // One source per file. Throws config::Error for what is no name=value.
 std::vector<identify::Source> sources_of(const DataOptions& options);
-
-// Throws config::Error where the option's file is one of those that are fitted.
-void refuse_data_file(std::string_view option, const std::string& file, const DataOptions& options);
 
 // What is done with a result.
 struct ResultOptions {
@@ -64,10 +58,10 @@ void check_result_options(const ResultOptions& options);
 // Writes the parameter file where one is wanted, and says so.
 void write_parameter_file(const std::string& text, const ResultOptions& options);
 
-// Prints the report, as words or JSON (`extra` is added to it), and writes the parameter file
-// and the page where they are wanted. Notes and warnings go to stderr.
+// Prints the report, as words or as JSON, `json` in its place, and writes the parameter file and
+// the page where they are wanted. Notes and warnings go to stderr.
 void tell(const identify::Report& report, const std::string& parameter_file,
           const DataOptions& data, const ResultOptions& options,
-          const nlohmann::ordered_json& extra = {});
+          const nlohmann::ordered_json& json = {});
 
 }  // namespace sinew::cli

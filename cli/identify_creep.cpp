@@ -1,7 +1,6 @@
 // cli/identify_creep.cpp - `sinew identify creep`: shares and times of creep from a hold.
 #include "cli/identify.h"
-#include "sinew/config/diagnostics.h"
-#include "sinew/identify/actuator/creep.h"
+#include "sinew/identify/task/creep_task.h"
 
 namespace sinew::cli {
 
@@ -24,12 +23,8 @@ void add_identify_creep(Command identify, Action& action) {
   sub.callback([options, &action] {
     action = [options] {
       check_result_options(options->result);
-      const std::vector<identify::Source> sources = sources_of(options->data);
-      if (sources.size() != 1) config::fail({"data", 0, 0}, "", "several files", "one");
-      const auto found =
-          identify::identify_creep(identify::read_measured(sources[0], identify::creep_columns()));
-      tell(found.report, "", options->data, options->result,
-           {{"creep", {{"share", found.creep.share}, {"time_s", found.creep.time}}}});
+      const auto found = identify::find_creep(sources_of(options->data));
+      tell(found.report, "", options->data, options->result, to_json(found));
       return ok;
     };
   });

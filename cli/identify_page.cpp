@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/arguments.h"
 #include "cli/terminal.h"
 #include "sinew/identify/page/fit_page.h"
+#include "sinew/identify/task/tables.h"
 #include "sinew/run/folder/files.h"
 
 namespace sinew::cli {
@@ -29,14 +29,12 @@ void leave_page(const std::string& title, const std::vector<const identify::Repo
                 const ResultOptions& options) {
   const std::string file = page_of(options);
   if (file.empty()) return;
-  run::write_file(file,
-                  identify::page({.title = title,
-                                  .version = SINEW_VERSION,
-                                  .data = in_words(data),
-                                  .atmosphere = argument("--atmosphere", data.atmosphere + " abs",
-                                                         "Pa abs", units::atmosphere, air_pressure),
-                                  .reports = reports,
-                                  .parameter_file = parameter_file}));
+  run::write_file(file, identify::page({.title = title,
+                                        .version = SINEW_VERSION,
+                                        .data = in_words(data),
+                                        .atmosphere = identify::atmosphere_setting(data.atmosphere),
+                                        .reports = reports,
+                                        .parameter_file = parameter_file}));
   Messages(options.quiet).note(fmt::format("{}: written", file));
 }
 

@@ -16,55 +16,30 @@ constexpr Renamed renamed[] = {{"names", "map"}, {"units", "unit"}};
 
 // The settings that messages of the library name. A word that is not here stays a word: "time=0" is
 // no option.
-constexpr std::string_view settings[] = {"actuator",
-                                         "align",
-                                         "bits",
-                                         "candidate",
-                                         "columns",
-                                         "conductance",
-                                         "down",
-                                         "exponent",
-                                         "flexion",
-                                         "force",
-                                         "frequency",
-                                         "full_scale",
-                                         "drop_incomplete",
-                                         "hold_out",
-                                         "keep_force",
-                                         "known",
-                                         "largest",
-                                         "external_volume",
-                                         "flexor_length",
-                                         "length",
-                                         "lever",
-                                         "load",
-                                         "machine",
-                                         "model",
-                                         "moment_arm",
-                                         "names",
-                                         "per_volume",
-                                         "points",
-                                         "port",
-                                         "pressure",
-                                         "range",
-                                         "report",
-                                         "rest_length",
-                                         "root",
-                                         "sensors",
-                                         "shard",
-                                         "units",
-                                         "vary",
-                                         "volume",
-                                         "where"};
+constexpr std::string_view settings =
+    " actuator align base bits candidate columns conductance down drop_incomplete exponent "
+    "external_volume flexion flexor_length force frequency full_scale hold_out keep_force "
+    "known largest length lever load machine model moment_arm names per_volume points "
+    "port pressure range report rest rest_length root sensors shard units vary volume "
+    "where ";
 
 // Settings that can be the subject of a problem: at the begin of a line, or behind a file without a
 // line of it. What has a line is a key of that file.
-constexpr std::string_view subjects[] = {"candidate", "known", "model",  "names",
-                                         "points",    "range", "report", "sensors",
-                                         "shard",     "units", "vary",   "where"};
+constexpr std::string_view subjects =
+    " candidate known model names points range report sensors shard units vary where ";
 
-bool is_one_of(std::string_view word, const auto& words) {
-  return std::ranges::find(words, word) != std::end(words);
+// Settings that are so at the begin of a line alone: a file may have a column of that name.
+constexpr std::string_view quantities =
+    " atmosphere base bits branch bridge concentration conductance count down excitation "
+    "exponent extensor_length external_volume fit_where flexion flexor_length frequency "
+    "full_scale gage_factor gages gain height hold_out kind length lever limb limb_lever "
+    "load mass modulus moment_arm name poisson port predict_dat pressure rest rest_angle "
+    "rest_length sensitivity side temperature thread_thickness trapezoids volume width "
+    "yield ";
+
+// Words between blanks, " one two ".
+bool is_one_of(std::string_view word, std::string_view words) {
+  return words.find(" " + std::string(word) + " ") != words.npos;
 }
 
 bool is_letter_of_a_name(char c) {
@@ -80,8 +55,10 @@ std::string option_of(std::string_view setting) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
+bool begins_a_line(std::string_view before) { return before.empty() || before.ends_with('\n'); }
+
 bool can_be_subject(std::string_view before) {
-  if (before.empty() || before.ends_with('\n')) return true;
+  if (begins_a_line(before)) return true;
   return before.size() > 2 && before.ends_with(": ") && !is_digit(before[before.size() - 3]);
 }
 
@@ -95,6 +72,9 @@ std::string option_at(std::string_view whole, std::size_t at, std::size_t& taken
   taken = end;
   if (is_one_of(name, subjects) && rest.starts_with(": found ") &&
       can_be_subject(whole.substr(0, at)))
+    return option_of(name);
+  if (is_one_of(name, quantities) && rest.starts_with(": found ") &&
+      begins_a_line(whole.substr(0, at)))
     return option_of(name);
   if (!is_one_of(name, settings) || rest.size() < 2) return "";
   const bool named = std::ranges::count(renamed, name, &Renamed::setting) > 0;

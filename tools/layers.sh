@@ -47,6 +47,7 @@ layers='
     identify/valve  identify/data gas signals
     identify/sensor identify/data robot report/text
     identify/page   identify/fit report
+    identify/task   identify experiment
     analysis/verdict   signals config
     analysis/measures  signals robot gas actuator
     analysis/record    analysis/verdict analysis/measures signals robot gas actuator config

@@ -375,8 +375,12 @@ Measured parse_measured(std::string_view text, const Source& source,
   return Table(grid, source).read(wanted);
 }
 
+std::string text_of(const Source& source, std::string_view what) {
+  return source.text ? *source.text : config::read_text_file(source.path, std::string(what));
+}
+
 Measured read_measured(const Source& source, std::span<const Wanted> wanted) {
-  return parse_measured(config::read_text_file(source.path, "measurements as CSV"), source, wanted);
+  return parse_measured(text_of(source, "measurements as CSV"), source, wanted);
 }
 
 }  // namespace sinew::identify

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -36,6 +37,7 @@ struct Wanted {
 // A file and what its columns mean.
 struct Source {
   std::string path;
+  std::optional<std::string> text;           // in place of the file's; `path` is what it is called
   std::vector<std::string> columns;          // "force [N]", ... for a file without a header
   std::map<std::string, std::string> names;  // wanted name -> the file's name for it
   std::map<std::string, std::string> units;  // the file's name -> its unit, for a header without
@@ -68,6 +70,9 @@ struct Measured {
 
 // Throws config::Error. A wanted `time` must not run backwards.
 Measured read_measured(const Source& source, std::span<const Wanted> wanted);
+
+// Returns the source's text, or that of its file; `what` it holds. Throws config::Error.
+std::string text_of(const Source& source, std::string_view what);
 
 // The same from a text, for tests and tools; `source.path` is what messages call it.
 Measured parse_measured(std::string_view text, const Source& source,

@@ -14,6 +14,8 @@ class Refusal : public std::runtime_error {
           const std::string& try_this)
       : std::runtime_error(subject + ": found " + found + "; expected " + expected +
                            (try_this.empty() ? "" : "; try " + try_this)) {}
+  // In words that somebody has already found.
+  explicit Refusal(const std::string& words) : std::runtime_error(words) {}
 };
 
 }  // namespace sinew::identify

@@ -211,8 +211,8 @@ SensorData parse_sensor_data(std::string_view text, const Source& source,
 
 SensorData read_sensor_data(const Source& source, const CountScale& converter,
                             const std::string& known, const std::vector<std::string>& sensors) {
-  return parse_sensor_data(config::read_text_file(source.path, "a calibration as CSV"), source,
-                           converter, known, sensors);
+  return parse_sensor_data(text_of(source, "a calibration as CSV"), source, converter, known,
+                           sensors);
 }
 
 }  // namespace sinew::identify

@@ -1,0 +1,45 @@
+// config/setting.h - a quantity that somebody sets by its name: "60 psi gauge" for the setting
+// `pressure`, within the range that such a quantity can have.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/units/constants.h"
+#include "sinew/units/field.h"
+
+namespace sinew::config {
+
+// Range says how small and how large a quantity may be, in the SI unit that is asked for, and why.
+// Both ends belong to it, except a `low` that the quantity must be above.
+struct Range {
+  double low = -units::unbounded;
+  double high = units::unbounded;
+  std::string_view why = "";
+  bool above = false;
+};
+
+constexpr Range above_zero(double high, std::string_view why) { return {0, high, why, true}; }
+constexpr Range from_zero(double high, std::string_view why) { return {0, high, why}; }
+
+// Up to here air is the ideal gas of the laws within about 5 %.
+inline constexpr double greatest_pressure = 2e7;  // absolute [Pa]
+inline constexpr Range air_pressure = above_zero(
+    greatest_pressure, "absolute pressures are positive, and above it air is no ideal gas");
+inline constexpr Range air_volume = from_zero(1000, "room for air in a laboratory");
+inline constexpr Range polytropic = {1, 5.0 / 3, "from isothermal to adiabatic"};
+inline constexpr Range pulses = above_zero(1e4, "a pulse has at least a tick of 0.1 ms");
+
+// Returns the quantity in SI; gauges read against `atmosphere` [Pa]. Throws Error that begins with
+// the setting's name.
+double quantity_setting(std::string_view name, std::string_view text, std::string_view unit,
+                        double atmosphere = units::atmosphere, const Range& range = {});
+
+// Returns the number; throws Error as above where it is out of range.
+double number_setting(std::string_view name, double value, const Range& range);
+
+// "6 lb, 11 lb": the pieces between commas, without blanks before them.
+std::vector<std::string> at_commas(const std::string& text);
+
+}  // namespace sinew::config

@@ -1,0 +1,92 @@
+#include "sinew/identify/task/joint_task.h"
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/named.h"
+#include "sinew/config/setting.h"
+#include "sinew/experiment/machine_file.h"
+#include "sinew/identify/fit/report_json.h"
+#include "sinew/identify/fit/robot_over.h"
+#include "sinew/identify/task/tables.h"
+
+namespace sinew::identify {
+
+namespace {
+
+JointSetup setup_of(const JointSettings& settings, const actuator::Actuator& a, double atmosphere) {
+  using config::Range;
+  const auto value = [&](std::string_view name, const std::string& text, std::string_view unit,
+                         const Range& range) {
+    return text.empty() ? to_be_found
+                        : config::quantity_setting(name, text, unit, atmosphere, range);
+  };
+  constexpr double turns = 4 * std::numbers::pi;
+  constexpr Range angle{-turns, turns, "two turns; a joint makes less than one"};
+  constexpr Range mass = config::from_zero(1e6, "of what hangs on a joint");
+  constexpr Range lever = config::from_zero(1000, "from the joint's axis");
+  constexpr Range size = config::above_zero(1000, "of a robot");
+  JointSetup s{.actuator = a, .count = settings.count, .atmosphere = atmosphere};
+  s.gravity = units::standard_gravity;
+  s.flexion_raises = settings.names.flexion == "raises angle";
+  s.rest_angle = value("rest_angle", settings.rest_angle, "rad", angle);
+  s.load = value("load", settings.load, "kg", mass);
+  s.lever = value("lever", settings.lever, "m", lever);
+  s.down = value("down", settings.down, "rad", angle);
+  s.limb = value("limb", settings.limb, "kg", mass);
+  s.limb_lever = value("limb_lever", settings.limb_lever, "m", lever);
+  s.moment_arm = value("moment_arm", settings.moment_arm, "m", size);
+  s.flexor_length = value("flexor_length", settings.flexor_length, "m", size);
+  s.extensor_length = value("extensor_length", settings.extensor_length, "m", size);
+  s.keep_force = settings.keep_force;
+  return s;
+}
+
+JointNames names_of(const JointSettings& settings) {
+  JointNames names = settings.names;
+  if (names.flexor.empty()) names.flexor = names.joint + "_flexor";
+  if (names.extensor.empty()) names.extensor = names.joint + "_extensor";
+  if (names.flexion != "raises angle" && names.flexion != "lowers angle")
+    config::fail({"flexion", 0, 0}, "", config::in_quotes(names.flexion),
+                 "\"raises angle\" or \"lowers angle\"");
+  return names;
+}
+
+}  // namespace
+
+JointFound find_joint(const std::vector<Source>& sources, const JointSettings& settings) {
+  const Source& source = only_of(sources);
+  (void)config::number_setting("count", settings.count, {1, 100, "actuators in parallel"});
+  if (settings.keep_force && settings.model.ends_with("pressure"))
+    config::fail({"model", 0, 0}, "", config::in_quotes(settings.model),
+                 "with keep_force=true round or hinge");
+  const JointNames names = names_of(settings);
+  const experiment::MachineFile start = experiment::load_machine_file(settings.actuator);
+  const actuator::Actuator& a =
+      config::named(start.experiment.actuators, settings.name, "name", "actuator");
+  const JointSetup setup = setup_of(settings, a, source.atmosphere);
+  std::optional<Measured> held_out;
+  if (settings.held_out) held_out = read_measured(*settings.held_out, joint_columns());
+  JointFound out{.result = identify_joint(read_measured(source, joint_columns()), held_out, setup,
+                                          settings.model),
+                 .setup = setup,
+                 .names = names,
+                 .base = settings.base};
+  out.source = "sinew identify joint " + source.path + ": " + out.result.report.best().model;
+  out.actuator_file = effectiveness_file(start.experiment.origins, settings.actuator, a, out.result,
+                                         settings.keep_force, out.source);
+  return out;
+}
+
+std::string JointFound::file(const std::string& out) const {
+  return joint_file(result, setup, names, source, robot_over(base, out));
+}
+
+nlohmann::ordered_json to_json(const JointFound& found) {
+  nlohmann::ordered_json out = to_json(found.result.report);
+  out.update(describe(found.result));
+  return out;
+}
+
+}  // namespace sinew::identify

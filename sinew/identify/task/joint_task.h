@@ -1,0 +1,49 @@
+// identify/task/joint_task.h - `sinew identify joint`: force law and moment arm of a joint's
+// muscles, without a length rig.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sinew/identify/joint/joint.h"
+#include "sinew/identify/joint/joint_file.h"
+
+namespace sinew::identify {
+
+// Empty quantities are not known: a column has them, or they are fitted.
+struct JointSettings {
+  std::string actuator;                            // file with the braid: a start
+  std::string name;                                // which actuator, where the file has several
+  int count = 1;                                   // actuators in parallel in a muscle
+  JointNames names{.flexor = "", .extensor = ""};  // empty: <joint>_flexor, <joint>_extensor
+  std::string rest_angle = "0 rad";                // at which the muscles' lengths are told
+  std::string load, lever = "0 m";                 // a mass, and how far from the joint it hangs
+  std::string down = "270 deg";                    // angle at which the lever points straight down
+  std::string limb = "0 kg", limb_lever = "0 m";   // the limb's own mass and where it is
+  std::string moment_arm, flexor_length, extensor_length;  // known, at the rest angle
+  bool keep_force = false;         // the effectiveness of the actuator's file is right
+  std::optional<Source> held_out;  // scores the models; else every third row
+  std::string model;               // this one alone; empty: all
+  std::string base;                // the robot's file whose joint it is; empty: none
+};
+
+struct JointFound {
+  JointResult result;
+  JointSetup setup;
+  JointNames names;
+  std::string base, source;
+  std::string actuator_file;  // with the effectiveness
+
+  // The robot's file, as it would stand at `out`. Throws config::Error.
+  std::string file(const std::string& out) const;
+};
+
+// Throws config::Error and Refusal; std::invalid_argument for a model that there is not.
+JointFound find_joint(const std::vector<Source>& sources, const JointSettings& settings);
+
+// Returns the report with moment arm, lengths and what the data tell apart, as `--json` prints it.
+nlohmann::ordered_json to_json(const JointFound& found);
+
+}  // namespace sinew::identify

@@ -1,0 +1,111 @@
+// A method is asked with tables and settings as a person gives them; what is wrong with a setting
+// is told by its name.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/task/creep_task.h"
+#include "sinew/identify/task/dynamic_task.h"
+#include "sinew/identify/task/geometry_task.h"
+#include "sinew/identify/task/joint_task.h"
+#include "sinew/identify/task/sensor_task.h"
+#include "sinew/identify/task/static_task.h"
+#include "sinew/identify/task/tables.h"
+#include "sinew/identify/task/valve_task.h"
+
+namespace sinew::identify {
+namespace {
+
+const std::string actuator = std::string(SINEW_SOURCE_DIR) + "/robots/leg/actuator.toml";
+
+std::vector<Source> table(const std::string& text, const std::string& name = "numbers") {
+  return {{.path = name, .text = text}};
+}
+
+// Of a braid whose threads are 100 mm long and wind around once.
+std::vector<Source> mesh() {
+  std::string text = "length [mm],diameter [mm]\n";
+  for (double length = 60; length <= 90; length += 5) {
+    const double diameter = std::sqrt(1e4 - length * length) / std::numbers::pi;
+    text += std::to_string(length) + "," + std::to_string(diameter) + "\n";
+  }
+  return table(text);
+}
+
+std::string refusal(const std::function<void()>& ask) {
+  try {
+    ask();
+  } catch (const config::Error& error) {
+    return error.what();
+  } catch (const Refusal& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+void expect_begins(const std::string& said, const std::string& begin) {
+  EXPECT_EQ(said.substr(0, begin.size()), begin);
+}
+
+TEST(Task, FindsTheBraidOfATable) {
+  const GeometryFound found = find_geometry(mesh(), {});
+  EXPECT_NEAR(found.braid.thread_length, 0.1, 1e-6);
+  EXPECT_NEAR(found.braid.turns, 1, 1e-5);
+  EXPECT_NE(found.file.find("sinew identify geometry numbers"), std::string::npos);
+  const nlohmann::ordered_json json = to_json(found);
+  EXPECT_EQ(json["format"], "sinew.identification/1");
+  EXPECT_EQ(json["thread_length_m"], found.braid.thread_length);
+}
+
+TEST(Task, CountsTrapezoidsWithoutATable) {
+  const GeometryFound found = count_geometry({.trapezoids = "37,16", .side = "0.057 in"});
+  EXPECT_FALSE(found.report.has_value());
+  EXPECT_FALSE(to_json(found).contains("format"));
+  expect_begins(refusal([] { count_geometry({.trapezoids = "37", .side = "1 mm"}); }),
+                "trapezoids: found \"37\"");
+  expect_begins(refusal([] { count_geometry({.trapezoids = "37,16", .side = "2 m"}); }),
+                "side: found \"2 m\"");
+}
+
+TEST(Task, WantsItsTables) {
+  expect_begins(refusal([] { find_creep({}); }), "data: found 0 files; expected one");
+  expect_begins(refusal([] { find_static({}, {}); }), "data: found no files");
+  expect_begins(refusal([] { sources_of({"a.csv", "a.csv"}, {}); }), "data: found a.csv twice");
+  expect_begins(refusal([] { refuse_fitted({{.path = actuator}}, "hold_out", actuator); }),
+                "hold_out: found ");
+  expect_begins(refusal([] { atmosphere_setting("14.7 in"); }), "atmosphere: found ");
+}
+
+TEST(Task, TellsASettingByItsName) {
+  const std::vector<Source> any = table("time [s],pressure [Pa gauge]\n0,1\n");
+  const auto dynamic = [&](const DynamicSettings& s) {
+    return [&any, s] { find_dynamic(any, s); };
+  };
+  expect_begins(refusal(dynamic({.actuator = actuator, .mass = "-1 kg"})), "mass: found \"-1 kg\"");
+  expect_begins(refusal(dynamic({.actuator = actuator, .mass = "1 kg,2 kg"})),
+                "mass: found 2 values");
+  expect_begins(refusal(dynamic({.actuator = actuator, .name = "x", .mass = "1 kg"})),
+                "name: found");
+  expect_begins(refusal(dynamic({.actuator = actuator, .mass = "1 kg", .count = 0})),
+                "count: found");
+  expect_begins(
+      refusal([&] { find_joint(any, {.actuator = actuator, .names = {.flexion = "up"}}); }),
+      "flexion: found \"up\"");
+  expect_begins(refusal([&] { find_joint(any, {.actuator = actuator, .lever = "1 s"}); }),
+                "lever: found");
+  expect_begins(refusal([&] { find_valve(any, {.kind = "curve"}); }), "kind: found \"curve\"");
+  expect_begins(refusal([&] { find_valve(any, {.temperature = "0 K"}); }), "temperature: found");
+  expect_begins(refusal([&] { find_sensors(any, {.bits = 40}); }), "bits: found 40");
+  expect_begins(refusal([] { find_geometry(mesh(), {.thread_thickness = "1 m"}); }),
+                "thread_thickness: found");
+  expect_begins(refusal([&] { find_static(any, {.branch = "up"}); }), "numbers");
+}
+
+}  // namespace
+}  // namespace sinew::identify

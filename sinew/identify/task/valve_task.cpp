@@ -1,0 +1,119 @@
+#include "sinew/identify/task/valve_task.h"
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/named.h"
+#include "sinew/config/setting.h"
+#include "sinew/experiment/machine_file.h"
+#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/fit/report_json.h"
+#include "sinew/identify/task/tables.h"
+#include "sinew/identify/valve/timing.h"
+
+namespace sinew::identify {
+
+namespace {
+
+struct Kind {
+  std::string_view name;
+  ValveData data;
+};
+constexpr std::array<Kind, 5> kinds{{{"chart", ValveData::chart},
+                                     {"fill", ValveData::fill},
+                                     {"pulses", ValveData::pulses},
+                                     {"coil", ValveData::coil},
+                                     {"duty", ValveData::duty}}};
+
+ValveOptions options_of(const ValveSettings& s, double atmosphere) {
+  ValveOptions out{.name = s.name};
+  out.valve.profile = gas::Valve::Profile::ideal;
+  if (!s.base.empty()) {
+    const auto file = experiment::load_machine_file(s.base);
+    out.valve = config::named(file.experiment.valves, s.name, "name", "valve");
+    out.provenance = Provenance(file.experiment.origins, s.base);
+  }
+  out.air.atmosphere = atmosphere;
+  out.air.temperature = config::quantity_setting("temperature", s.temperature, "K", atmosphere,
+                                                 {200, 400, "of air in a laboratory"});
+  const auto optional = [&](std::string_view name, const std::string& text, const char* unit,
+                            const config::Range& range) {
+    std::optional<double> value;
+    if (!text.empty()) value = config::quantity_setting(name, text, unit, atmosphere, range);
+    return value;
+  };
+  out.volume = optional("volume", s.volume, "m3",
+                        config::above_zero(config::air_volume.high, config::air_volume.why));
+  out.conductance = optional("conductance", s.conductance, "m3/(s Pa)",
+                             config::above_zero(1, "a valve of this size fills a hall"));
+  out.port = optional("port", s.port, "Pa abs", config::air_pressure);
+  out.frequency = optional("frequency", s.frequency, "Hz", config::pulses);
+  out.exponent = optional("exponent", s.exponent, "1", config::polytropic);
+  out.per_volume = s.per_volume;
+  return out;
+}
+
+ValveData kind_of(const std::string& name, const Measured& data) {
+  if (name.empty()) return valve_data(data);
+  for (const Kind& kind : kinds)
+    if (kind.name == name) return valve_data(data, kind.data);
+  config::fail({"kind", 0, 0}, "", config::in_quotes(name),
+               config::either(config::names_of(kinds)));
+}
+
+ValveResult identified(const Measured& data, const ValveOptions& how,
+                       const ValveSettings& settings) {
+  switch (kind_of(settings.kind, data)) {
+    case ValveData::chart:
+      return identify_chart(data, how);
+    case ValveData::pulses:
+      return identify_pulses(data, how);
+    case ValveData::coil:
+      return identify_coil(data, how);
+    case ValveData::duty:
+      return identify_duty(data, how);
+    case ValveData::fill:
+      break;
+  }
+  if (!settings.held_out) return identify_fill(data, how);
+  const Measured unseen = read_measured(*settings.held_out, valve_columns());
+  return identify_fill(data, how, &unseen);
+}
+
+}  // namespace
+
+ValveFound find_valve(const std::vector<Source>& sources, const ValveSettings& settings) {
+  const Source& source = only_of(sources);
+  const Measured data = read_measured(source, valve_columns());
+  return {identified(data, options_of(settings, source.atmosphere), settings)};
+}
+
+std::string ValveFound::file(const std::string& out) const {
+  if (!result.refused.empty()) throw Refusal(result.refused);
+  const gas::Flow& flow = result.valve.flow;
+  if (!(flow.area > 0) && !(flow.sonic_conductance > 0))
+    throw Refusal(out, "delays, but no flow of the valve", "both for a file",
+                  "base=VALVES.toml with a valve of that name, whose flow is kept");
+  return valve_file(result.valve, result.provenance);
+}
+
+nlohmann::ordered_json to_json(const ValveFound& found) {
+  nlohmann::ordered_json out = to_json(found.result.report);
+  if (!found.result.refused.empty()) out["refused"] = found.result.refused;
+  return out;
+}
+
+TimingFile timing_of(const ValveFound& found, const std::string& frequency) {
+  const ValveResult& r = found.result;
+  if (!r.opening_known || !r.closing_known)
+    throw Refusal("predict_dat", "no opening and closing delay", "both",
+                  "a map of duties, or pulses and their pressure");
+  const double hertz =
+      config::quantity_setting("frequency", frequency.empty() ? "100 Hz" : frequency, "Hz",
+                               units::atmosphere, config::pulses);
+  const CompensatedTiming timing = compensated(r.valve.opening_delay, r.valve.closing_delay, hertz);
+  return {predict_dat(timing.timing), hertz, timing.worst};
+}
+
+}  // namespace sinew::identify
