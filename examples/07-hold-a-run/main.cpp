@@ -1,5 +1,9 @@
 // A walk that the program holds: advanced by periods, looked at, changed, saved and restored.
+//
+//   hold_a_run [SHARE]     the folder that has experiments/: the sources, or <prefix>/share/sinew
 #include <cstdio>
+#include <exception>
+#include <string>
 
 #include "sinew/run/setup/buildable.h"
 #include "sinew/run/simulation/simulation.h"
@@ -15,10 +19,8 @@ void print(Simulation& leg, const char* what) {
               1e6 * leg.read("/true/muscle/hip_extensor/air_in"));
 }
 
-}  // namespace
-
-int main(int, char** words) {
-  Simulation leg(sinew::run::buildable(words[1]));
+void hold(const std::string& file) {
+  Simulation leg(sinew::run::buildable(file));
   print(leg, "at its start");
   leg.advance_by(2.2);
   print(leg, "in the first stance");
@@ -44,4 +46,16 @@ int main(int, char** words) {
     leg.advance_by(0.01);
   }
   print(leg, "a second of our own words");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::string share = argc > 1 ? argv[1] : "../..";
+  try {
+    hold(share + "/experiments/walk-test-1.toml");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
 }

@@ -1,7 +1,7 @@
 // A mass on a lever against one muscle, in a loop of 10 kHz that is not Sinew's: the muscle, its
 // valves, its hose and its supply come from a file.
 //
-//   own_loop muscle.toml
+//   own_loop     in this lesson's folder, where muscle.toml is
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -43,9 +43,9 @@ void walk_through(const char* file) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main() {
   try {
-    walk_through(argc > 1 ? argv[1] : "muscle.toml");
+    walk_through("muscle.toml");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

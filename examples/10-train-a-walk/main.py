@@ -15,10 +15,26 @@ import sinew.gym
 
 GENERATIONS = int(sys.argv[1]) if len(sys.argv) > 1 else 15
 ROUNDS, KEPT, ENVS = 3, 10, 16
+TRIED = ROUNDS * ENVS
 
 envs = sinew.gym.VectorEnv("walk", num_envs=ENVS)
 actions = envs.single_action_space.shape[0]
 phase_at = [sight.channel for sight in envs.task.sights].index("/plan/phase")
+
+
+def dice(generation: int, count: int) -> Any:
+    """Return random bits of a generation, a hash of their number: main.cpp has the same."""
+    z = numpy.arange(generation * 2**32 + 1, generation * 2**32 + count + 1, dtype=numpy.uint64)
+    z *= numpy.uint64(0x9E3779B97F4A7C15)
+    z = (z ^ (z >> numpy.uint64(30))) * numpy.uint64(0xBF58476D1CE4E5B9)
+    z = (z ^ (z >> numpy.uint64(27))) * numpy.uint64(0x94D049BB133111EB)
+    return z ^ (z >> numpy.uint64(31))
+
+
+def normals(generation: int, shape: Any) -> Any:
+    """Return numbers that are normal but for their tails: the sum of twelve uniform ones, less six."""
+    uniform = (dice(generation, 12 * int(numpy.prod(shape))) >> numpy.uint64(11)) * 2.0**-53
+    return sum(uniform.reshape(-1, 12).T).reshape(shape) - 6
 
 
 def features(seen: Any) -> Any:
@@ -32,8 +48,9 @@ def walk(gaits: Any, seeds: Any) -> Any:
     seen, _ = envs.reset(seed=[int(s) for s in seeds])
     way, walks = numpy.zeros(ENVS), numpy.ones(ENVS, bool)
     while walks.any():
-        action = numpy.clip(numpy.einsum("eij,ej->ei", gaits, features(seen)), -1, 1)
-        seen, reward, terminated, truncated, _ = envs.step(action)
+        # One after the other, as in C++: numpy's own product adds in an order of the computer's.
+        action = sum(gaits[:, :, j] * f[:, None] for j, f in enumerate(features(seen).T))
+        seen, reward, terminated, truncated, _ = envs.step(numpy.clip(action, -1, 1))
         way += reward * walks
         walks &= ~(terminated | truncated)
     return way
@@ -45,7 +62,6 @@ def judged(gait: Any, seeds: Any) -> Any:
     return numpy.concatenate([walk(numpy.tile(gait, (ENVS, 1, 1)), row) for row in rows])[: len(seeds)]
 
 
-dice = numpy.random.default_rng(1)
 unseen = numpy.arange(10_000, 10_020)
 shape = (actions, envs.single_observation_space.shape[0] + 2)
 mean, spread = numpy.zeros(shape), numpy.full(shape, 0.3)
@@ -53,15 +69,16 @@ plan = judged(mean, unseen)
 print(f"the plan: {plan.mean():.2f} m in four steps")
 
 for generation in range(1, GENERATIONS + 1):
-    tried, ways = [], []
-    for _ in range(ROUNDS):
-        tried.append(mean + spread * dice.standard_normal((ENVS, *shape)))
-        ways.append(walk(tried[-1], dice.integers(1, 10_000, ENVS)))
-    best = numpy.concatenate(tried)[numpy.argsort(-numpy.concatenate(ways))[:KEPT]]
+    seeds = dice(generation + 2**20, TRIED) % numpy.uint64(9_999) + numpy.uint64(1)
+    tried = mean + spread * normals(generation, (TRIED, *shape))
+    ways = numpy.concatenate(
+        [walk(tried[i : i + ENVS], seeds[i : i + ENVS]) for i in range(0, TRIED, ENVS)]
+    )
+    best = tried[numpy.argsort(-ways)[:KEPT]]
     mean = 0.3 * mean + 0.7 * best.mean(axis=0)
     spread = 0.01 + 0.3 * spread + 0.7 * best.std(axis=0)
     if generation % 5 == 0:
-        print(f"generation {generation}: {numpy.concatenate(ways).mean():.2f} m on average")
+        print(f"generation {generation}: {ways.mean():.2f} m on average")
 
 trained = judged(mean, unseen)
 gain = trained / plan - 1

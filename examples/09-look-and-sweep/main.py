@@ -1,4 +1,4 @@
-"""A walk from Python: its samples, its figures, another gait of the same leg, and the best of some gains."""
+"""A walk's samples and figures, another gait of the same leg, the best of some gains, a muscle's law."""
 
 import numpy
 
@@ -15,7 +15,8 @@ print(
 # A run is arrays and figures.
 recording = sinew.run(walk)
 angle = numpy.degrees(recording["/joint/hip/angle"])
-print(f"{len(recording.channels)} channels; the hip moves from {angle.min():.0f} to {angle.max():.0f} deg")
+topics = {channel.name.partition(".")[0] for channel in recording.channels}
+print(f"{len(topics)} topics; the hip moves from {angle.min():.0f} to {angle.max():.0f} deg")
 print(f"the trolley goes {recording.summary['trolley']['distance_m']:.3f} m")
 for verdict in recording.verdicts[:3]:
     print(f"  {verdict['key']}: {verdict['ours']}, reported {verdict['reported']}: {verdict['is']}")
@@ -29,12 +30,13 @@ for one, name in ((leg, "as planned"), (soft, "with a soft hip")):
     one.advance(1.5)
     print(f"{name}: at {one.time:.1f} s the trolley is at {one.read('/true/trolley/position'):.3f} m")
 
-# Many runs, on all cores. Numbers are in SI.
+# Many runs, on two cores. Numbers are in SI.
 key = "joint.hip.angle_gain"
 rows = sinew.sweep(
     sinew.shipped("experiments/leg-in-air.toml"),
     {key: numpy.linspace(1e-4, 2e-3, 20)},
     report="joints.hip.tracking_rms_rad [deg]",
+    threads=2,
 )
 best = min(rows, key=lambda row: float(row["joints.hip.tracking_rms [deg]"]))
 print(
