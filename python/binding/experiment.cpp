@@ -242,9 +242,7 @@ void bind_experiment(py::module_& m) {
                       }));
   m.def(
       "quantity",
-      [](const std::string& text, const std::string& unit) {
-        return config::quantity(text, unit);
-      },
+      [](const std::string& text, const std::string& unit) { return config::quantity(text, unit); },
       py::arg("text"), py::arg("unit"),
       "Returns a quantity in the SI unit: quantity(\"60 psi gauge\", \"Pa abs\"). Raises\n"
       "InputError.");
