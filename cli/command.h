@@ -27,6 +27,7 @@ void add_merge(Command app, Action& action);
 void add_sensitivity(Command app, Action& action);
 void add_show(Command app, Action& action);
 void add_check(Command app, Action& action);
+void add_migrate(Command app, Action& action);
 void add_actuator(Command app, Action& action);
 void add_valve(Command app, Action& action);
 void add_kinematics(Command app, Action& action);

@@ -69,6 +69,7 @@ int main(int argc, char** argv) {
   cli::add_sensitivity(command, action);
   cli::add_show(command, action);
   cli::add_check(command, action);
+  cli::add_migrate(command, action);
   cli::add_actuator(command, action);
   cli::add_valve(command, action);
   cli::add_kinematics(command, action);

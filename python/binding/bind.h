@@ -21,6 +21,7 @@ namespace py = pybind11;
 
 void bind_errors(py::module_& m);
 void bind_experiment(py::module_& m);
+void bind_files(py::module_& m);
 void bind_values(py::module_& m);
 void bind_simulation(py::module_& m);
 void bind_loop(py::module_& m);
@@ -31,6 +32,7 @@ void bind_sweep(py::module_& m);
 void bind_laws(py::module_& m);
 void bind_muscle(py::module_& m);
 void bind_identify(py::module_& m);
+void bind_identify_tables(py::module_& m);
 
 // Returns a new exception of the module, sinew.NAME, below `base`.
 py::handle new_exception(py::module_& m, const char* name, const char* doc, const py::handle& base);

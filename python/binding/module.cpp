@@ -6,6 +6,7 @@ PYBIND11_MODULE(_sinew, m) {
   m.attr("version") = SINEW_VERSION;
   sinew::python::bind_errors(m);
   sinew::python::bind_experiment(m);
+  sinew::python::bind_files(m);
   sinew::python::bind_values(m);
   sinew::python::bind_recording(m);
   sinew::python::bind_simulation(m);
@@ -16,4 +17,5 @@ PYBIND11_MODULE(_sinew, m) {
   sinew::python::bind_laws(m);
   sinew::python::bind_muscle(m);
   sinew::python::bind_identify(m);
+  sinew::python::bind_identify_tables(m);
 }

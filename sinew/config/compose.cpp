@@ -6,6 +6,7 @@
 #include <charconv>
 #include <filesystem>
 
+#include "sinew/config/changes.h"
 #include "sinew/config/gains.h"
 #include "sinew/config/quantity.h"
 
@@ -15,55 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int newest_format = 1;
 const char* const set_origin = "--set";
-
-std::vector<std::string_view> kinds() {
-  return {"robot", "actuator", "valves", "wiring", "experiment", "rig", "plan", "tuning"};
-}
-
-// --- format = "sinew.robot/1" ---
-
-struct Format {
-  std::string_view kind;
-  int version = 0;
-};
-
-Format split_format(std::string_view text) {
-  const std::size_t slash = text.find('/');
-  if (text.substr(0, 6) != "sinew." || slash == text.npos) return {};
-  Format format{text.substr(6, slash - 6), 0};
-  const std::string_view number = text.substr(slash + 1);
-  const auto [end, error] =
-      std::from_chars(number.data(), number.data() + number.size(), format.version);
-  if (error != std::errc{} || end != number.data() + number.size()) format.version = 0;
-  return format;
-}
-
-std::string likely_format(std::string_view kind) {
-  const std::string_view near = closest(kind, kinds());
-  return fmt::format("format = \"sinew.{}/{}\"", near.empty() ? "experiment" : near, newest_format);
-}
-
-void check_format(const Node& root) {
-  const Node* node = root.find("format");
-  const std::string expected =
-      fmt::format("\"sinew.<kind>/{}\", kind being {}", newest_format, either(kinds()));
-  if (!node)
-    fail(root.where, "format", "nothing", expected, likely_format("") + " as the first line");
-  node->used = true;
-  const Format format = split_format(node->text);
-  const auto all = kinds();
-  const bool known = std::ranges::count(all, format.kind) == 1;
-  if (node->kind != Node::Kind::text || !known || format.version < 1) {
-    fail(node->where, "format", shown(*node), expected, likely_format(format.kind));
-  }
-  if (format.version > newest_format) {
-    fail(node->where, "format", shown(*node),
-         fmt::format("\"sinew.{}/{}\" or older", format.kind, newest_format),
-         "a newer Sinew: the file was written for one");
-  }
-}
 
 // --- names of other files ---
 
@@ -311,7 +264,7 @@ void set_element(Node& table, std::string_view segment, std::string_view text,
 
 std::string_view format_kind(const Node& root) {
   const Node* node = root.find("format");
-  return node ? split_format(node->text).kind : std::string_view{};
+  return node ? format_of(node->text).kind : std::string_view{};
 }
 
 void apply_set(Node& root, std::string_view set) {

@@ -328,6 +328,17 @@ std::vector<const Node*> Reader::tables_in(const Node& container) {
 
 // --- the end ---
 
+void Reader::refuse_unused(const Node& child, const std::string& path,
+                           const std::vector<std::string_view>& known) {
+  const std::string expected =
+      known.empty() || known.size() > 12 ? "a key that is read here" : either(known);
+  if (const KeyChange* gone = taken_away(path, *options_.changes))
+    return add_problem(child, path, "a key that is gone", expected, in_words(*gone));
+  const std::string_view near = closest(child.key, known);
+  add_problem(child, path, "an unknown key", expected,
+              near.empty() ? "" : fmt::format("{}; did you mean that?", near));
+}
+
 void Reader::find_unused(const Node& table, const std::string& path) {
   const auto asked = asked_.find(&table);
   std::vector<std::string_view> known;
@@ -347,10 +358,7 @@ void Reader::find_unused(const Node& table, const std::string& path) {
     if (child.used) {
       find_unused(child, child_path);
     } else if (!list && !describes_values(child)) {
-      const std::string_view near = closest(child.key, known);
-      add_problem(child, child_path, "an unknown key",
-                  known.empty() || known.size() > 12 ? "a key that is read here" : either(known),
-                  near.empty() ? "" : fmt::format("{}; did you mean that?", near));
+      refuse_unused(child, child_path, known);
     }
   }
 }

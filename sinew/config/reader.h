@@ -20,6 +20,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "sinew/config/changes.h"
 #include "sinew/config/node.h"
 #include "sinew/config/origin.h"
 #include "sinew/units/constants.h"
@@ -31,6 +32,7 @@ struct ReaderOptions {
   double atmosphere = units::atmosphere;  // [Pa], between gauge and absolute
   // Is a number without a source in this file a problem? Absent: in none.
   std::function<bool(const std::string& file)> needs_source = {};
+  const Changes* changes = &config::changes();  // what became of keys that are gone
 };
 
 // What the file's own gauge pressures stand on: its air.atmosphere, or else the standard one. To be
@@ -122,6 +124,8 @@ class Reader {
   void leave() { scopes_.pop_back(); }
   std::vector<const Node*> tables_in(const Node& container);
   void find_unused(const Node& table, const std::string& path);
+  void refuse_unused(const Node& child, const std::string& path,
+                     const std::vector<std::string_view>& known);
 
   void add_problem(const Node& at, std::string path, std::string found, std::string expected,
                    std::string try_this = "");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "sinew/config/migrate.h"
 #include "sinew/config/node.h"
 #include "sinew/config/text_file.h"
 
@@ -116,8 +117,17 @@ Node parse_text(std::string_view text, const std::string& name) {
   return root;
 }
 
-Node parse_file(const std::string& path) {
-  return parse_text(read_text_file(path, "a TOML file"), path);
+// A file of an older format is read as if it were migrated.
+Node parse_file(const std::string& path, const Changes& changes) {
+  const std::string text = read_text_file(path, "a TOML file");
+  Node root = parse_text(text, path);
+  const Node* said = root.find("format");
+  const Format format = said ? format_of(said->text) : Format{};
+  const Kind* kind = changes.find(format.kind);
+  if (!kind || format.number < 1 || format.number >= kind->newest) return root;
+  return parse_text(migrated(text, path, changes).text, path);
 }
+
+Node parse_file(const std::string& path) { return parse_file(path, changes()); }
 
 }  // namespace sinew::config

@@ -1,0 +1,144 @@
+#include "sinew/config/changes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace sinew::config {
+
+namespace {
+
+// Without the indices behind names of lists.
+std::vector<std::string> segments(std::string_view path) {
+  std::vector<std::string> out(1);
+  bool index = false;
+  for (const char c : path) {
+    if (c == '.') {
+      out.emplace_back();
+      index = false;
+    } else if (c == '[' || index) {
+      index = true;
+    } else {
+      out.back() += c;
+    }
+  }
+  return out;
+}
+
+std::vector<std::string_view> names_of_kinds(const Changes& changes) {
+  std::vector<std::string_view> names;
+  for (const Kind& kind : changes.kinds) names.push_back(kind.name);
+  return names;
+}
+
+std::string format_line(const Kind* kind) {
+  return fmt::format("format = \"sinew.{}/{}\"", kind ? kind->name : "experiment",
+                     kind ? kind->newest : 1);
+}
+
+}  // namespace
+
+const Kind* Changes::find(std::string_view kind) const {
+  const auto it = std::ranges::find(kinds, kind, &Kind::name);
+  return it == kinds.end() ? nullptr : &*it;
+}
+
+// Every format stands at its first number: no key has been taken away since.
+const Changes& changes() {
+  static const Changes all{.kinds = {{"robot"},
+                                     {"actuator"},
+                                     {"valves"},
+                                     {"wiring"},
+                                     {"experiment"},
+                                     {"rig"},
+                                     {"plan"},
+                                     {"tuning"}},
+                           .keys = {}};
+  return all;
+}
+
+Format format_of(std::string_view text) {
+  constexpr std::string_view ours = "sinew.";
+  const std::size_t slash = text.find('/');
+  if (!text.starts_with(ours) || slash == text.npos) return {};
+  Format format{text.substr(ours.size(), slash - ours.size()), 0};
+  const std::string_view number = text.substr(slash + 1);
+  const char* last = number.data() + number.size();
+  const auto [end, error] = std::from_chars(number.data(), last, format.number);
+  if (error != std::errc{} || end != last) format.number = 0;
+  return format;
+}
+
+Format check_format(const Node& root, const Changes& changes) {
+  const Node* node = root.find("format");
+  const auto names = names_of_kinds(changes);
+  const std::string expected = fmt::format("\"sinew.<kind>/1\", kind being {}", either(names));
+  if (!node)
+    fail(root.where, "format", "nothing", expected,
+         format_line(changes.find(likely_kind(root))) +
+             " as the first line; sinew migrate puts it there");
+  node->used = true;
+  const Format format = format_of(node->text);
+  const Kind* kind = changes.find(format.kind);
+  if (node->kind != Node::Kind::text || !kind || format.number < 1)
+    fail(node->where, "format", shown(*node), expected,
+         format_line(kind ? kind : changes.find(closest(format.kind, names))));
+  if (format.number > kind->newest)
+    fail(node->where, "format", shown(*node),
+         fmt::format("\"sinew.{}/{}\" or older", format.kind, kind->newest),
+         "a newer Sinew: the file was written for one");
+  return format;
+}
+
+bool matches(std::string_view path, std::string_view pattern) {
+  return std::ranges::equal(segments(path), segments(pattern),
+                            [](const std::string& segment, const std::string& wanted) {
+                              return wanted == "*" || segment == wanted;
+                            });
+}
+
+const KeyChange* taken_away(std::string_view path, const Changes& changes) {
+  for (const KeyChange& change : changes.keys) {
+    // An actuator's file stands below its name.
+    const bool below = change.kind == "actuator";
+    const std::string pattern = fmt::format("{}{}", below ? "actuator.*." : "", change.from);
+    if (matches(path, pattern)) return &change;
+  }
+  return nullptr;
+}
+
+std::string in_words(const KeyChange& change) {
+  const std::string since = fmt::format("since sinew.{}/{}", change.kind, change.format);
+  if (change.to.empty()) return fmt::format("{}; it is gone {}", change.why, since);
+  return fmt::format("{}, which stands in its place {}; sinew migrate puts it there", change.to,
+                     since);
+}
+
+std::string_view likely_kind(const Node& root) {
+  // The first of these keys that the file has decides: an experiment may have any table of a robot.
+  struct Sign {
+    std::string_view key, kind;
+  };
+  static constexpr Sign signs[] = {{"tune", "tuning"},
+                                   {"vary", "plan"},
+                                   {"experiment", "plan"},
+                                   {"element", "rig"},
+                                   {"load", "rig"},
+                                   {"robot", "experiment"},
+                                   {"phase", "experiment"},
+                                   {"sequence", "experiment"},
+                                   {"link", "robot"},
+                                   {"muscle", "robot"},
+                                   {"joint", "robot"},
+                                   {"braid", "actuator"},
+                                   {"effectiveness", "actuator"},
+                                   {"loss", "actuator"},
+                                   {"wiring", "wiring"},
+                                   {"valve", "valves"}};
+  for (const Sign& sign : signs)
+    if (root.find(sign.key)) return sign.kind;
+  return {};
+}
+
+}  // namespace sinew::config

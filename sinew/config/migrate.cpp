@@ -1,0 +1,194 @@
+#include "sinew/config/migrate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "sinew/config/key_places.h"
+
+namespace sinew::config {
+
+namespace {
+
+using Problems = std::vector<Problem>;
+
+// --- a file that does not say its format ---
+
+// Its base is of its kind; else its keys tell.
+std::string kind_without_format(const Node& root) {
+  const Node* base = root.find("base");
+  if (base && base->kind == Node::Kind::text) {
+    namespace fs = std::filesystem;
+    const fs::path file = fs::path(root.where.file).parent_path() / base->text;
+    const Node* format = nullptr;
+    Node read;
+    if (std::error_code none; fs::is_regular_file(file, none)) {
+      read = parse_file(file.string());
+      format = read.find("format");
+    }
+    if (format) return std::string(format_of(format->text).kind);
+  }
+  return std::string(likely_kind(root));
+}
+
+// Behind the comments with which a file begins, as files of ours have it.
+std::size_t place_of_format(std::string_view text) {
+  std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  while (at < text.size()) {
+    const std::size_t end = text.find('\n', at);
+    if (text[at] != '#' || end == text.npos) break;
+    at = end + 1;
+  }
+  return at;
+}
+
+void add_format(const std::string& kind, Migrated& out) {
+  const std::size_t at = place_of_format(out.text);
+  const bool dos = out.text.find("\r\n") != std::string::npos;
+  const std::string line = fmt::format("format = \"sinew.{}/1\"", kind);
+  const auto before = out.text.begin() + static_cast<std::ptrdiff_t>(at);
+  out.edits.push_back({1 + static_cast<int>(std::count(out.text.begin(), before, '\n')), "", line});
+  out.text.insert(at, line + (dos ? "\r\n" : "\n"));
+}
+
+// --- from a number to the next ---
+
+std::vector<const KeyChange*> changes_to(int number, std::string_view kind, const Changes& all) {
+  std::vector<const KeyChange*> out;
+  for (const KeyChange& change : all.keys)
+    if (change.kind == kind && change.format == number) out.push_back(&change);
+  return out;
+}
+
+// The path with `to` in the place of its last segment.
+std::string beside(const std::vector<std::string>& path, std::string_view to) {
+  const std::string table = dotted({path.begin(), path.end() - 1});
+  return fmt::format("{}{}{}", table, table.empty() ? "" : ".", to);
+}
+
+void complain(const KeyPlace& place, std::string_view text, const std::string& name,
+              std::string expected, std::string try_this, Problems& problems) {
+  const std::size_t line = text.rfind('\n', place.begin);
+  const std::size_t column = line == text.npos ? place.begin : place.begin - line - 1;
+  problems.push_back({{name, place.line, static_cast<int>(column) + 1},
+                      dotted(place.path),
+                      "a key that is gone",
+                      std::move(expected),
+                      std::move(try_this)});
+}
+
+// Puts what one change says into the text. Lines stay as many as they were.
+void apply(const KeyChange& change, const std::string& name, Migrated& out, Problems& problems) {
+  const std::vector<KeyPlace> places = key_places(out.text);
+  std::set<std::string> mentioned;
+  for (const KeyPlace& place : places) mentioned.insert(dotted(place.path));
+  // From the end on, so that places stay true.
+  std::vector<Migrated::Edit> edits;
+  for (std::size_t i = places.size(); i-- > 0;) {
+    const KeyPlace& place = places[i];
+    const std::string was = dotted(place.path);
+    if (!matches(was, change.from)) continue;
+    if (change.to.empty()) {
+      complain(place, out.text, name, std::string(change.why), "", problems);
+      continue;
+    }
+    const std::string is = beside(place.path, change.to);
+    if (mentioned.contains(is)) {
+      complain(place, out.text, name, fmt::format("{} alone, which the file has too", is),
+               "to take one of them away", problems);
+      continue;
+    }
+    out.text.replace(place.begin, place.end - place.begin, change.to);
+    edits.push_back({place.line, was, is});
+  }
+  out.edits.insert(out.edits.end(), edits.rbegin(), edits.rend());
+}
+
+void set_number(int number, Migrated& out) {
+  for (const KeyPlace& place : key_places(out.text)) {
+    if (dotted(place.path) != "format") continue;
+    const std::size_t slash = out.text.find('/', place.value);
+    const std::size_t end = out.text.find_first_not_of("0123456789", slash + 1);
+    out.edits.push_back({place.line, fmt::format("sinew.{}/{}", out.kind, out.from),
+                         fmt::format("sinew.{}/{}", out.kind, number)});
+    out.text.replace(slash + 1, end - slash - 1, std::to_string(number));
+    return;
+  }
+}
+
+// --- is it the same file? ---
+
+// All values by their keys, and how they are written. What is in a list has the list's key.
+void list_values(const Node& node, const std::string& path,
+                 std::vector<std::pair<std::string, std::string>>& out) {
+  if (node.kind != Node::Kind::table && node.kind != Node::Kind::array)
+    out.emplace_back(path, shown(node));
+  for (const Node& child : node.children) {
+    const bool dot = !path.empty() && !child.key.empty();
+    list_values(child, path + (dot ? "." : "") + child.key, out);
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> values_of(std::string_view text,
+                                                           const std::string& name) {
+  std::vector<std::pair<std::string, std::string>> out;
+  list_values(parse_text(text, name), "", out);
+  std::erase_if(out, [](const auto& value) { return value.first == "format"; });
+  return out;
+}
+
+std::string under_new_name(std::string path, const std::vector<Migrated::Edit>& edits) {
+  for (const Migrated::Edit& edit : edits) {
+    const bool below = path.starts_with(edit.was + ".");
+    if (!edit.was.empty() && (path == edit.was || below))
+      path = edit.is + path.substr(edit.was.size());
+  }
+  return path;
+}
+
+// Throws Error where a value was lost or changed: better no file than another one.
+void require_same_values(std::string_view old_text, const std::string& name, const Migrated& out) {
+  auto expected = values_of(old_text, name);
+  for (auto& [path, value] : expected) path = under_new_name(std::move(path), out.edits);
+  auto found = values_of(out.text, name);
+  std::ranges::sort(expected);
+  std::ranges::sort(found);
+  if (expected == found) return;
+  fail({name, 0, 0}, "", "a file whose keys cannot be renamed where they stand",
+       "each of them in a line of its own", "by hand: docs/versions.md lists what has changed");
+}
+
+}  // namespace
+
+Migrated migrated(std::string_view text, const std::string& name, const Changes& changes) {
+  const Node root = parse_text(text, name);
+  Migrated out{.text = std::string(text)};
+  if (!root.find("format")) {
+    out.kind = kind_without_format(root);
+    const Kind* kind = changes.find(out.kind);
+    if (!kind) check_format(root, changes);  // throws
+    add_format(out.kind, out);
+    out.to = 1;
+  } else {
+    const Format format = check_format(root, changes);
+    out.kind = format.kind;
+    out.from = out.to = format.number;
+  }
+
+  const int newest = changes.find(out.kind)->newest;
+  Problems problems;
+  for (int number = std::max(out.from, 1) + 1; number <= newest; ++number) {
+    for (const KeyChange* change : changes_to(number, out.kind, changes))
+      apply(*change, name, out, problems);
+    out.to = number;
+  }
+  if (!problems.empty()) throw Error(problems);
+  if (out.to > std::max(out.from, 1)) set_number(out.to, out);
+  require_same_values(text, name, out);
+  return out;
+}
+
+}  // namespace sinew::config
