@@ -33,7 +33,7 @@ fi
 build=$PWD/${SINEW_BUILD:-build/release} work=$(mktemp -d)
 [[ ${SINEW_BUILD:-} != /* ]] || build=$SINEW_BUILD
 trap 'rm -rf "$work"' EXIT
-declare -A source=([program]=run.sh [cpp]=main.cpp [python]=main.py)
+declare -A accepted=() source=([program]=run.sh [cpp]=main.cpp [python]=main.py)
 
 has() { [[ -e examples/$2/${source[$1]} ]]; }  # has WAY NAME
 
@@ -102,8 +102,10 @@ judge() {  # judge WAY NAME
   local found=$work/$1-$2 expected
   expected=$(expected_file "$1" "$2")
   [[ ! -e $found.failed ]] || { cat "$found" "$found.words"; echo "$2: examples/$2/${source[$1]} failed" >&2; return 1; }
-  if [[ $accept ]]; then
+  # What C++ has written, Python has to print too.
+  if [[ $accept && ! ${accepted[$expected]:-} ]]; then
     cp "$found" "$expected"
+    accepted[$expected]=yes
     echo "$2: $1 accepted"
     return
   fi
@@ -134,4 +136,4 @@ for way in "${ways[@]}"; do
   done
 done
 ((count)) || { echo "examples.sh: ${names[*]}: nothing there to run as ${ways[*]}" >&2; exit 1; }
-echo "examples: $count $([[ $accept ]] && echo accepted || echo as expected)"
+echo "examples: $count as expected"

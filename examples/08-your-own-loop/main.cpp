@@ -7,7 +7,7 @@
 #include <exception>
 
 #include "sinew/air/driven_muscle.h"
-#include "sinew/experiment/rig/rig.h"
+#include "sinew/run/muscle/muscle_setup.h"
 
 namespace {
 
@@ -18,7 +18,7 @@ constexpr double arm = 0.02, inertia = 0.02;   // of the muscle [m]; of the leve
 constexpr double weight = 1.2, damping = 0.3;  // torque of the load [N m]; [N m s/rad]
 
 void walk_through(const char* file) {
-  const plant::StandSetup read = rig::setup_of(rig::load(file));
+  const run::MuscleSetup read = run::muscle_setup(file);
   const double rest = 0.0864;  // length at angle 0 [m]
   air::DrivenMuscle pull(read.muscle, read.air, read.supply, rest);
 

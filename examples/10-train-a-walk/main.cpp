@@ -74,6 +74,7 @@ double normal(std::uint64_t generation, std::uint64_t number) {
 // The walk of the thesis on a track of 20 m: its own ends where its walk does.
 class Track {
  public:
+  // The course runs an example once, to learn what the plan does.
   explicit Track(const std::string& file)
       : walk_(run::buildable(file, {"trolley.track_length=20 m", "sequence.repeat=4"})),
         course_(task(), *std::make_unique<run::Simulation>(walk_)) {}

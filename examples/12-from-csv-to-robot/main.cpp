@@ -10,7 +10,7 @@
 #include <fstream>
 #include <string>
 
-#include "sinew/identify/actuator/static.h"
+#include "sinew/identify/task/static_task.h"
 #include "sinew/run/folder/kept_run.h"
 #include "sinew/tune/study.h"
 
@@ -23,23 +23,20 @@ const std::string csv = "../../data/martens_boblan_2017/DMSP-10-250_force_map.cs
 
 // The columns of the file are not named as ours are; a force map says nothing of the rest length.
 std::string actuator_file() {
-  const identify::Measured map = identify::read_measured(
-      {.path = csv,
-       .names = {{"pressure", "P_gauge_Pa"}, {"length", "L_m"}, {"force", "F_N"}},
-       .units = {{"P_gauge_Pa", "Pa gauge"}, {"L_m", "m"}, {"F_N", "N"}}},
-      identify::static_columns());
-  identify::StaticData data;
-  identify::add_points(map, {.rest_length = 0.25}, data);
-  const identify::StaticResult found = identify::identify_static(data, {});
+  const identify::Source map{
+      .path = csv,
+      .names = {{"pressure", "P_gauge_Pa"}, {"length", "L_m"}, {"force", "F_N"}},
+      .units = {{"P_gauge_Pa", "Pa gauge"}, {"L_m", "m"}, {"F_N", "N"}}};
+  const identify::StaticFound found = identify::find_static({map}, {.rest_length = "250 mm"});
 
-  const identify::Fit& law = found.report.best();
+  const identify::Fit& law = found.result.report.best();
   std::printf("%zu points: %s, to %.2f %% of the largest force, %.2f %% of what it did not see\n",
-              data.points.size(), law.model.c_str(), law.fit.rmse_percent,
+              found.result.report.rows.size(), law.model.c_str(), law.fit.rmse_percent,
               law.cross_validated->rmse_percent);
   for (const identify::Estimate& p : law.parameters)
     std::printf("  %-20s %10.4g%s\n", p.name.c_str(), p.value,
                 p.unit == "1" ? "" : (" " + p.unit).c_str());
-  return identify::static_file(found, 0, "bpa", csv, "");
+  return found.files.front();
 }
 
 // Returns the gain that tracks best, as the table has it.
