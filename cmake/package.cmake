@@ -1,4 +1,4 @@
-# Debian packages: `cpack -G DEB` in the folder of a build makes
+# Debian packages: `cpack --preset release`, or `cpack -G DEB` in the folder of a build, makes
 #
 #   sinew          the program, the module of its searches, robots, experiments, documentation
 #   sinew-mpi      a module: sweeps over the processes of mpirun
@@ -17,7 +17,7 @@ endif()
 
 set(arch ${CMAKE_LIBRARY_ARCHITECTURE})
 sinew_install_libraries(sinew_deb lib/${arch} COMPONENT development_deb EXCLUDE_FROM_ALL)
-install(DIRECTORY sinew thesis DESTINATION include COMPONENT development_deb EXCLUDE_FROM_ALL
+install(DIRECTORY sinew thesis fmu DESTINATION include COMPONENT development_deb EXCLUDE_FROM_ALL
         ${headers_only})
 if(TARGET sinew_python)
   sinew_install_python(lib/python3/dist-packages COMPONENT python_deb EXCLUDE_FROM_ALL)
@@ -26,6 +26,7 @@ endif()
 # --- which packages, of which components ---
 
 set(CPACK_PACKAGE_NAME sinew)
+set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/package_date.cmake)
 set(CPACK_PACKAGE_CONTACT "The Sinew authors <authors@sinew.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -81,7 +82,7 @@ if(TARGET sinew_comedi)
 endif()
 
 sinew_package(libsinew-dev development_deb libdevel
-  "libfmt-dev, nlohmann-json3-dev, zlib1g-dev, libsqlite3-dev, libceres-dev, libeigen3-dev"
+  "libfmt-dev, nlohmann-json3-dev, zlib1g-dev, libsqlite3-dev, libceres-dev, libeigen3-dev, libminizip-dev"
   "robots driven by braided pneumatic actuators: library"
   "Headers, static libraries and the CMake package of sinew: a muscle with its air,
 whole robots, controllers, simulations, identification and tuning in C++20.")

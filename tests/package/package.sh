@@ -21,7 +21,7 @@ dpkg_in_root() {
 
 # 1. The packages. Compressed quickly: what users get is smaller.
 make_into() {
-  (cd "$build" && SOURCE_DATE_EPOCH=0 cpack -G DEB -B "$1" -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip \
+  (cd "$build" && cpack -G DEB -B "$1" -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip \
      ${2:+-D "CPACK_COMPONENTS_ALL=$2"}) >"$folder/cpack.log" 2>&1 || { cat "$folder/cpack.log"; fail "cpack failed"; }
   rm -rf "$1/_CPack_Packages"
 }
