@@ -20,9 +20,9 @@ struct Harness {
 };
 void PrintTo(const Harness& harness, std::ostream* out) { *out << harness.name; }
 
-constexpr Harness harnesses[] = {{"toml", toml},       {"mcap", mcap}, {"csv", csv},
-                                 {"predict", predict}, {"gain", gain}, {"out", out},
-                                 {"set", set},         {"live", live}, {"wire", wire}};
+constexpr Harness harnesses[] = {
+    {"toml", toml}, {"mcap", mcap}, {"csv", csv},   {"predict", predict}, {"gain", gain},
+    {"out", out},   {"set", set},   {"live", live}, {"wire", wire},       {"migrate", migrate}};
 
 std::string text_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);

@@ -34,6 +34,7 @@ inline void law_of_refusal(const config::Error& error, std::string_view file) {
 }
 
 void toml(std::string_view input);     // config::parse_text
+void migrate(std::string_view input);  // config::migrated
 void mcap(std::string_view input);     // log::read
 void csv(std::string_view input);      // identify::parse_measured
 void predict(std::string_view input);  // config::parse_valve_timing
