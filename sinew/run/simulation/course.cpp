@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "sinew/units/math.h"
+
 namespace sinew::run {
 
 namespace {
@@ -23,6 +25,12 @@ Tick ticks(double time) {
   return static_cast<Tick>(std::llround(time / signals::tick_seconds));
 }
 
+void check_above_zero(double value, std::string_view what, const std::string& whose) {
+  if (!(value > 1e-300 && value < 1e300))
+    throw std::invalid_argument(
+        fmt::format("{}: {}: found {}; expected a finite number above 0", whose, what, value));
+}
+
 }  // namespace
 
 Course::Course(const Task& task, Simulation& example)
@@ -30,9 +38,12 @@ Course::Course(const Task& task, Simulation& example)
       step_(ticks(task.period)),
       control_(ticks(example.experiment().plan.brain_period)) {
   check_times(example, task);
-  for (const Task::Action& a : task.actions)
-    ways_.push_back({example.find_setting(a.setting), a.offset, std::log(a.factor)});
+  for (const Task::Action& a : task.actions) {
+    check_above_zero(a.factor, "factor", a.setting);
+    ways_.push_back({example.find_setting(a.setting), a.offset, units::log(a.factor)});
+  }
   for (const Task::Sight& s : task.sights) {
+    check_above_zero(s.scale, "scale", s.channel);
     channels_.push_back(example.find(s.channel));
     seen_.push_back({s.middle, s.scale});
   }
@@ -89,7 +100,7 @@ void Course::step(Simulation& s, std::span<const double> action) const {
       for (std::size_t i = 0; i < ways_.size(); ++i) {
         const double a = std::clamp(action[i], -1.0, 1.0);
         const double wanted = (plan_[row * ways_.size() + i] + ways_[i].offset * a) *
-                              std::exp(ways_[i].logarithm * a);
+                              units::exp(ways_[i].logarithm * a);
         s.change(ways_[i].setting, std::clamp(wanted, 0.0, gait::Setting::most));
       }
     s.advance_to(s.tick() + control_);

@@ -94,6 +94,8 @@ TEST_F(CourseTest, RefusesWhatThereIsNot) {
   refused("control.angel", [](Task& t) { t.actions[0].setting = "control.angel.hip"; });
   refused("/joint/hop", [](Task& t) { t.sights[0].channel = "/joint/hop/angle"; });
   refused("expected the setting of one", [](Task& t) { t.measures = {"plan:control.angle.knee"}; });
+  refused("knee: factor: found 0", [](Task& t) { t.actions[1].factor = 0; });
+  refused("angle: scale: found -1", [](Task& t) { t.sights[0].scale = -1; });
   refused("period: found 0.015 s", [](Task& t) { t.period = 0.015; });
   refused("period: found 0 s", [](Task& t) { t.period = 0; });
   refused("begin: found 0.605 s", [](Task& t) { t.begin = 0.605; });
