@@ -57,12 +57,13 @@ std::string best_gain(const std::string& experiment) {
 
 // How heavy a forearm it moves within five degrees: the largest value for which that holds.
 double heaviest(const std::string& experiment, const std::string& gain) {
-  const tune::Sweep masses = tune::sweep_of({.experiment = experiment,
-                                             .set = {"joint.elbow.angle_gain=" + gain + " %/count"},
-                                             .where = {"joints.elbow.tracking_rms_rad < 5 deg"},
-                                             .report = {"passiveness"},
-                                             .largest = "link.forearm.mass=0.5:4:8 kg"});
-  return std::stod(tune::sweep(masses, {.threads = 2}).front().cells[0]);
+  tune::Study question{.experiment = experiment};
+  question.set = {"joint.elbow.angle_gain=" + gain + " %/count"};
+  question.largest = "link.forearm.mass=0.5:4:8 kg";
+  question.where = {"joints.elbow.tracking_rms_rad < 5 deg"};
+  question.report = {"passiveness"};
+  const std::vector<tune::Row> rows = tune::sweep(tune::sweep_of(question), {.threads = 2});
+  return std::stod(rows.front().cells[0]);
 }
 
 void build(const std::string& share, const fs::path& folder) {

@@ -53,9 +53,9 @@ with tempfile.TemporaryDirectory() as folder:
     tuned = experiment.vary({"joint.elbow.angle_gain": f"{gain} %/count"})
     masses = sinew.sweep(
         tuned,
-        report="passiveness",
-        where="joints.elbow.tracking_rms_rad < 5 deg",
         largest="link.forearm.mass=0.5:4:8 kg",
+        where="joints.elbow.tracking_rms_rad < 5 deg",
+        report="passiveness",
         threads=2,
     )
     mass = masses[0]["largest link.forearm.mass [kg]"]
