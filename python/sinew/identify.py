@@ -1,16 +1,25 @@
 """Parameters from measurements.
 
-    import sinew.identify
+    import sinew.identify as identify
 
-    found = sinew.identify.static(length, pressure, force, rest_length=0.25)
+    found = identify.static(length, pressure, force, rest_length=0.25)
     found.model, found.report["parameters"], found.report["cross_validated"]
     found.write("my-actuator.toml")
     sinew.Actuator("my-actuator.toml").tension(0.22, 3e5)
 
-What the numbers mean, and what is refused: docs/how-to-characterise.md and docs/theory/static-models.md.
+    identify.valve("fill.csv", volume="0.5 L").write("my-valve.toml")
+    identify.valve({"time": t, "pressure": p}, volume=5e-4)
+
+Each method of `sinew identify` is a function: the same report, the same file. It takes measurements as
+one table, or several where it says so: a CSV file's path; a dict, pandas frame or structured array of
+columns; or a Table, which says what foreign columns mean. Settings are as the program's: a number in the
+SI unit that is told here, or text with a unit, "6 lb".
+
+Functions raise RefusalError where the data support no answer, sinew.InputError for what is wrong with a
+table or a setting, and TypeError for what is none. What the numbers mean, and what is refused:
+docs/how-to-characterise.md and the pages of docs/theory that it names.
 """
 
-import dataclasses
 import os
 from typing import Any, Dict, List, Optional, Sequence, Union
 
@@ -18,33 +27,31 @@ import numpy.typing
 
 from sinew import _sinew
 from sinew._sinew import RefusalError
+from sinew._found import Found, Joint, Static, Valve
+from sinew._tables import Table, held_out_of, tables_of
 
-__all__ = ["RefusalError", "Static", "static"]
+__all__ = [
+    "Found",
+    "Joint",
+    "RefusalError",
+    "Static",
+    "Table",
+    "Valve",
+    "creep",
+    "dynamic",
+    "force_beam",
+    "geometry",
+    "geometry_from_trapezoids",
+    "joint",
+    "sensor",
+    "static",
+    "static_from",
+    "valve",
+]
 
-
-@dataclasses.dataclass(frozen=True)
-class Static:
-    """The static law of an actuator, or of several of one make.
-
-    report: what was found, as `sinew identify static --json` prints it: all models that were tried, with
-        values, intervals and errors, and the chosen one.
-    files: the text of an actuator file for each muscle, the longest first.
-    """
-
-    report: Dict[str, Any]
-    files: Sequence[str]
-
-    @property
-    def model(self) -> str:
-        """The name of the law that was chosen."""
-        return str(self.report["chosen"])
-
-    def write(self, path: "Union[str, os.PathLike[str]]", muscle: int = 0, force: bool = False) -> None:
-        """Write the actuator file of a muscle. Raises FileExistsError, unless `force` replaces it."""
-        if not 0 <= muscle < len(self.files):
-            raise IndexError(f"muscle: found {muscle}; expected 0 to {len(self.files) - 1}")
-        with open(path, "w" if force else "x", encoding="utf-8") as file:
-            file.write(self.files[muscle])
+_Path = Union[str, "os.PathLike[str]"]
+_Quantity = Union[float, int, str]
+_Quantities = Union[_Quantity, Sequence[_Quantity]]
 
 
 def static(
@@ -75,3 +82,269 @@ def static(
     )
     texts: List[str] = files
     return Static(report, tuple(texts))
+
+
+def static_from(
+    data: Any,
+    *,
+    rest_length: Optional[_Quantity] = None,
+    lengths: Union[str, Sequence[str]] = (),
+    actuator: Optional[_Path] = None,
+    branch: str = "both",
+    fit_where: Union[str, Sequence[str]] = (),
+    hold_out: Any = "",
+    model: str = "",
+    name: str = "bpa",
+) -> Static:
+    """Return the static law of an actuator from tables, or recordings with a column of time.
+
+    Columns force [N] or load [kg], pressure [Pa gauge], length [m]; rest_length, branch, time where there
+    are such. data: a table, or several. lengths: of files without that column, "205 mm", or "PART=205 mm"
+    for those with PART in their name. actuator: a file whose braid is known. branch: "fill", "vent" or
+    "both". fit_where: only rows with "NAME=VALUE,..." are fitted, the others held out. hold_out: "pressure"
+    (every second), "length" (each once), or another table.
+    """
+    settings: Dict[str, Any] = {
+        "rest_length": rest_length,
+        "lengths": lengths,
+        "actuator": actuator,
+        "branch": branch,
+        "fit_where": fit_where,
+        "model": model,
+        "name": name,
+    }
+    if isinstance(hold_out, str) and hold_out in ("", "pressure", "length"):
+        settings["hold_out"] = hold_out
+    else:
+        settings["held_out"] = held_out_of("static", hold_out)
+    found = _sinew.identify_tables("static", tables_of("static", data), settings)
+    return Static(found.report, tuple(found.text(i, "") for i in range(found.files)))
+
+
+def geometry(data: Any, *, thread_thickness: _Quantity = 0.0, name: str = "bpa") -> Found:
+    """Return thread length and turns of a braid from columns length and diameter [m].
+
+    thread_thickness [m] is taken off diameters that were measured outside the threads.
+    """
+    settings = {"thread_thickness": thread_thickness, "name": name}
+    return Found(_sinew.identify_tables("geometry", tables_of("geometry", data), settings))
+
+
+def geometry_from_trapezoids(
+    lengthwise: Union[float, int], around: Union[float, int], side: _Quantity, *, name: str = "bpa"
+) -> Found:
+    """Return thread length and turns of a braid from trapezoids counted on the opened mesh.
+
+    lengthwise and around: how many; side [m] of one between two threads. The report has no models.
+    """
+    settings = {"trapezoids": f"{lengthwise},{around}", "side": side, "name": name}
+    return Found(_sinew.identify_tables("geometry", [], settings))
+
+
+def creep(data: Any) -> Found:
+    """Return shares and times of creep from force that goes on growing at one length.
+
+    Columns time [s], force [N], pressure [Pa gauge]. What was found is in report["creep"]; there is no
+    file: it belongs into an actuator's [creep].
+    """
+    return Found(_sinew.identify_tables("creep", tables_of("creep", data), {}))
+
+
+def dynamic(
+    data: Any,
+    *,
+    actuator: _Path,
+    mass: _Quantities,
+    pressure: Optional[_Quantities] = None,
+    external_volume: _Quantities = 0.0,
+    exponent: Optional[_Quantity] = None,
+    count: int = 1,
+    hold_out: Any = (),
+    model: str = "",
+    name: str = "",
+) -> Found:
+    """Return viscous loss and dry friction of an actuator from a mass that swings on trapped air.
+
+    data: a table for each swing, with columns time [s], length [m], and pressure [Pa abs] where it was
+    measured. actuator: file with braid, tension and ends, a start; name: which one in it. mass [kg] that
+    moves, pressure [Pa abs] of the air as it hangs (None: the measured one) and external_volume [m3] of hose and
+    fittings up to the shut valve: one, or one for each table. exponent of the trapped air (None: from the
+    pressure, else 1.4). count: actuators in parallel. hold_out: tables that score the laws and are not
+    fitted; else each table in turn, or the last third of the only one. model: that law alone.
+    """
+    others = hold_out if isinstance(hold_out, (list, tuple)) else [hold_out]
+    settings = {
+        "actuator": actuator,
+        "name": name,
+        "mass": mass,
+        "pressure": pressure,
+        "external_volume": external_volume,
+        "exponent": exponent,
+        "count": count,
+        "held_out": tables_of("dynamic", list(others), "held out arrays of Python"),
+        "model": model,
+    }
+    return Found(_sinew.identify_tables("dynamic", tables_of("dynamic", data), settings))
+
+
+def joint(
+    data: Any,
+    *,
+    actuator: _Path,
+    load: Optional[_Quantity] = None,
+    lever: _Quantity = 0.0,
+    down: _Quantity = "270 deg",
+    limb: _Quantity = 0.0,
+    limb_lever: _Quantity = 0.0,
+    rest_angle: _Quantity = 0.0,
+    moment_arm: Optional[_Quantity] = None,
+    flexor_length: Optional[_Quantity] = None,
+    extensor_length: Optional[_Quantity] = None,
+    keep_force: bool = False,
+    count: int = 1,
+    flexion: str = "raises angle",
+    hold_out: Any = None,
+    model: str = "",
+    name: str = "",
+    joint_name: str = "joint",
+    flexor: str = "",
+    extensor: str = "",
+    base: Optional[_Path] = None,
+) -> Joint:
+    """Return force law and moment arm of a joint's muscles from its angle, pressures and a known load.
+
+    Columns angle [rad], flexor_pressure or extensor_pressure [Pa abs], and torque [N m] or load [kg]
+    where there is one. actuator: file with the braid, a start; name: which one in it; count: actuators in
+    parallel. load [kg] at the lever [m], which points straight down at the angle down [rad]; limb [kg] at
+    limb_lever [m]. moment_arm, flexor_length, extensor_length [m] at rest_angle [rad], where they are
+    known; keep_force: the actuator's effectiveness is right. flexion: what a shorter flexor does, "raises
+    angle" or "lowers angle". hold_out: a table that scores the models; else every third row. joint_name,
+    flexor, extensor: in the robot's file; base: that file, which the written one adds to.
+    """
+    settings = {
+        "actuator": actuator,
+        "name": name,
+        "count": count,
+        "joint": joint_name,
+        "flexor": flexor,
+        "extensor": extensor,
+        "flexion": flexion,
+        "rest_angle": rest_angle,
+        "load": load,
+        "lever": lever,
+        "down": down,
+        "limb": limb,
+        "limb_lever": limb_lever,
+        "moment_arm": moment_arm,
+        "flexor_length": flexor_length,
+        "extensor_length": extensor_length,
+        "keep_force": keep_force,
+        "held_out": held_out_of("joint", hold_out),
+        "model": model,
+        "base": base,
+    }
+    return Joint(_sinew.identify_tables("joint", tables_of("joint", data), settings))
+
+
+def sensor(
+    data: Any,
+    *,
+    known: str = "",
+    sensors: Union[str, Sequence[str]] = (),
+    rest: Optional[_Quantity] = None,
+    bits: int = 12,
+    full_scale: _Quantity = 5.0,
+    hold_out: Any = None,
+    average: bool = False,
+    base: Optional[_Path] = None,
+) -> Found:
+    """Return scale, offset, linearity, hysteresis and noise of calibrated sensors.
+
+    Columns: what was set, and what each sensor made of it, with their units: {"load [kg]": ..., "gage [V]":
+    ...}; volts, or counts. known: the column that was set, where there are several. sensors: columns to
+    calibrate; else all. rest: the known value at rest, in SI. bits and full_scale [V] of the converter.
+    hold_out: another calibration; else each known value is predicted from the others. average: the
+    controller believes in one scale for all of them. base: the robot's file whose sensors these are.
+    """
+    settings = {
+        "known": known,
+        "sensors": sensors,
+        "rest": rest,
+        "bits": bits,
+        "full_scale": full_scale,
+        "held_out": held_out_of("sensor", hold_out),
+        "average": average,
+        "base": base,
+    }
+    return Found(_sinew.identify_tables("sensor", tables_of("sensor", data), settings))
+
+
+def valve(
+    data: Any,
+    *,
+    kind: str = "",
+    volume: Optional[_Quantity] = None,
+    conductance: Optional[_Quantity] = None,
+    per_volume: bool = False,
+    port: Optional[_Quantity] = None,
+    exponent: Optional[_Quantity] = None,
+    temperature: _Quantity = "20 degC",
+    frequency: Optional[_Quantity] = None,
+    hold_out: Any = None,
+    name: str = "valve",
+    base: Optional[_Path] = None,
+) -> Valve:
+    """Return flow and delays of a valve from a chart, a filling, pulses, a coil's current or duties.
+
+    kind, by its columns where it is empty: "chart" has upstream, downstream [Pa abs] and flow [m3/s] or
+    mass_flow [kg/s]; "fill" time [s] and pressure [Pa abs]; "pulses" command [1] beside; "coil" time and
+    current [A]; "duty" duty [1], delivered [1] or flow, and frequency [Hz]. Of a filling or pulses: the
+    chamber's volume [m3], or the valve's conductance [m3/(s Pa)], or per_volume where their ratio is
+    enough; port: pressure on the valve's other side [Pa abs], fitted without; exponent of the chamber,
+    tried without. temperature [K] of the air. frequency [Hz] of the pulses of a map of duties. hold_out:
+    a table that scores the model of a filling. name: of the valve; base: a valves file with it, whose
+    values stay where none was found.
+    """
+    settings = {
+        "name": name,
+        "base": base,
+        "kind": kind,
+        "volume": volume,
+        "conductance": conductance,
+        "per_volume": per_volume,
+        "port": port,
+        "exponent": exponent,
+        "temperature": temperature,
+        "frequency": frequency,
+        "held_out": held_out_of("valve", hold_out),
+    }
+    return Valve(_sinew.identify_tables("valve", tables_of("valve", data), settings))
+
+
+def force_beam(
+    *,
+    length: Optional[_Quantity] = None,
+    width: Optional[_Quantity] = None,
+    height: Optional[_Quantity] = None,
+    gages: Optional[_Quantity] = None,
+    modulus: Optional[_Quantity] = None,
+    poisson: Optional[float] = None,
+    yield_stress: Optional[_Quantity] = None,
+    concentration: Optional[float] = None,
+    bridge: str = "poisson",
+    gage_factor: Optional[float] = None,
+    excitation: Optional[_Quantity] = None,
+    gain: Optional[float] = None,
+    full_scale: Optional[_Quantity] = None,
+    bits: Optional[int] = None,
+    load: Optional[_Quantity] = None,
+    sensitivity: Optional[_Quantity] = None,
+) -> Dict[str, Any]:
+    """Return strain, safety and output of a beam with strain gages, as `sinew force-beam --json` prints.
+
+    length [m] from the load to the mount, width, height [m], gages [m]: from the load to their middle;
+    modulus and yield_stress [Pa], concentration of stress at the mount; bridge: "quarter", "half", "poisson"
+    or "bending"; excitation and full_scale [V]; load [N]; sensitivity [V/N] that is wanted tells where the
+    gages must be. None: the thesis's.
+    """
+    return dict(_sinew.force_beam(dict(locals())))

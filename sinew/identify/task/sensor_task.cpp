@@ -48,9 +48,9 @@ SensorFound find_sensors(const std::vector<Source>& sources, const SensorSetting
   const Source& source = only_of(sources);
   const CountScale converter = converter_of(settings);
   const SensorData data = read_sensor_data(source, converter, settings.known, settings.sensors);
-  const std::string_view unit = facts_of(data.kind).unit;
-  const double rest =
-      settings.rest.empty() ? 0 : config::quantity_setting("rest", settings.rest, unit);
+  const double rest = settings.rest.empty() ? settings.rest_value.value_or(0)
+                                            : config::quantity_setting("rest", settings.rest,
+                                                                       facts_of(data.kind).unit);
   std::optional<SensorData> other;
   if (settings.held_out)
     other = read_sensor_data(*settings.held_out, converter, settings.known, settings.sensors);

@@ -13,7 +13,8 @@ namespace sinew::identify {
 struct SensorSettings {
   std::string known;                 // the column that was set; empty: the only one
   std::vector<std::string> sensors;  // columns to calibrate; empty: all in volts or counts
-  std::string rest;                  // the known value at rest; empty: 0
+  std::string rest;                  // the known value at rest; empty: 0, or …
+  std::optional<double> rest_value;  // … the same in SI
   int bits = 12;                     // of the converter
   std::string full_scale = "5 V";    // of the converter
   std::optional<Source> held_out;    // another calibration; else each known value by the others

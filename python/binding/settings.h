@@ -1,0 +1,47 @@
+// python/binding/settings.h - what Python says of a method of identification: its settings and the
+// tables that it is asked about.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "python/binding/bind.h"
+#include "sinew/identify/data/measured.h"
+
+namespace sinew::python {
+
+// Settings by their names. Each of its functions leaves `out` as it is where the setting is None,
+// or not there, and throws TypeError for what is no such setting.
+class Settings {
+ public:
+  explicit Settings(const py::dict& given) : given_(given) {}
+
+  // A text with a unit, or a number in `unit`, as a text.
+  void quantity(const char* name, std::string_view unit, std::string& out) const;
+  // One for all tables, or a list with one for each: with commas between.
+  void quantities(const char* name, std::string_view unit, std::string& out) const;
+
+  void text(const char* name, std::string& out) const;
+  void texts(const char* name, std::vector<std::string>& out) const;
+  void path(const char* name, std::string& out) const;
+  void integer(const char* name, int& out) const;
+  void number(const char* name, double& out) const;
+  void flag(const char* name, bool& out) const;
+  void table(const char* name, std::optional<identify::Source>& out) const;
+  void tables(const char* name, std::vector<identify::Source>& out) const;
+
+  bool is_number(const char* name) const;
+
+ private:
+  // None where it is not there.
+  py::object at(const char* name) const;
+
+  py::dict given_;
+};
+
+// Returns a table of `sinew.identify.Table`'s parts: {path, text, names, …}.
+identify::Source source_of(const py::handle& parts);
+
+}  // namespace sinew::python

@@ -1,0 +1,100 @@
+"""What a method of identification found."""
+
+import dataclasses
+import os
+from typing import Any, Dict, Sequence, Union
+
+from sinew import _sinew
+from sinew._tables import Path
+
+
+def _write(path: Path, text: str, force: bool) -> None:
+    with open(path, "w" if force else "x", encoding="utf-8") as file:
+        file.write(text)
+
+
+class Found:
+    """What a method found: its report, and the parameter file that it makes."""
+
+    report: Dict[str, Any]
+    """As `sinew identify --json` prints it: all models that were tried, with values, intervals, errors."""
+
+    def __init__(self, found: _sinew.Identified) -> None:
+        """Hold what the library found."""
+        self._found = found
+        self.report = found.report
+
+    @property
+    def model(self) -> str:
+        """The name of the law that was chosen."""
+        return str(self.report["chosen"])
+
+    def text(self, path: Path = "") -> str:
+        """Return the parameter file, as it would stand at `path`: a base is named from there.
+
+        Raises RefusalError where the data support no file, IndexError where the method makes none.
+        """
+        return self._found.text(0, os.fspath(path))
+
+    def write(self, path: Path, force: bool = False) -> None:
+        """Write the parameter file. Raises FileExistsError, unless `force` replaces it; and as text()."""
+        _write(path, self.text(path), force)
+
+    def __repr__(self) -> str:
+        """Return the method's subject."""
+        return f"<sinew.identify.{type(self).__name__} {self.report.get('subject', '')}>"
+
+
+class Joint(Found):
+    """What was found of a joint: a part of its robot's file, and its actuator's."""
+
+    def actuator_text(self) -> str:
+        """Return the actuator's file, with the effectiveness that was found."""
+        return self._found.text(1, "")
+
+    def write_actuator(self, path: Path, force: bool = False) -> None:
+        """Write the actuator's file. Raises FileExistsError, unless `force` replaces it."""
+        _write(path, self.actuator_text(), force)
+
+
+class Valve(Found):
+    """What was found of a valve."""
+
+    @property
+    def refused(self) -> str:
+        """What the data do not support, beside what the report has; empty where they support all."""
+        return self._found.refused
+
+    def timing(self, frequency: Union[float, int, str, None] = None) -> str:
+        """Return predict.dat: when to switch the coil, so that the valve itself is open for the duty.
+
+        frequency [Hz] of the pulses; None: the one that was asked with, or 100 Hz. Raises RefusalError
+        where the delays are not known.
+        """
+        return self._found.timing(frequency)[0]
+
+
+@dataclasses.dataclass(frozen=True)
+class Static:
+    """The static law of an actuator, or of several of one make.
+
+    report: what was found, as `sinew identify static --json` prints it: all models that were tried, with
+        values, intervals and errors, and the chosen one.
+    files: the text of an actuator file for each muscle, the longest first.
+    """
+
+    report: Dict[str, Any]
+    files: Sequence[str]
+
+    @property
+    def model(self) -> str:
+        """The name of the law that was chosen."""
+        return str(self.report["chosen"])
+
+    def write(self, path: Path, muscle: int = 0, force: bool = False) -> None:
+        """Write the actuator file of a muscle. Raises FileExistsError, unless `force` replaces it."""
+        if not 0 <= muscle < len(self.files):
+            raise IndexError(f"muscle: found {muscle}; expected 0 to {len(self.files) - 1}")
+        _write(path, self.files[muscle], force)
+
+

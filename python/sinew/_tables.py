@@ -1,0 +1,120 @@
+"""Tables of measurements as the library reads them: files, or columns of numbers."""
+
+import dataclasses
+import os
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Union
+
+import numpy
+
+from sinew import _sinew
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+@dataclasses.dataclass(frozen=True)
+class Table:
+    """A table of measurements, and what its columns mean.
+
+    data: the path of a CSV file; or columns by their names, each an array or one number for all rows: a
+        dict, a pandas frame, a structured array. A column is called "force [lbf]", or "force" in SI.
+    names: what the table calls a column, {"force": "F_N"}. units: of its columns, {"F_N": "N"}.
+    where: only rows with these values, {"phase": "fill"}. columns: the header of a file without one,
+        ["force [N]", "time [s]"]. atmosphere: that gauges read against [Pa], absolute.
+    drop_incomplete: leave out rows with cells that are no numbers.
+    """
+
+    data: Any
+    names: Optional[Mapping[str, str]] = None
+    units: Optional[Mapping[str, str]] = None
+    where: Optional[Mapping[str, str]] = None
+    columns: Optional[Sequence[str]] = None
+    atmosphere: Union[float, int, str, None] = None
+    drop_incomplete: bool = False
+
+
+def names_of(data: Any) -> "Optional[List[str]]":
+    """Return the names of columns; None for what has none."""
+    if isinstance(data, numpy.ndarray):
+        return list(data.dtype.names) if data.dtype.names else None
+    keys = getattr(data, "keys", None)
+    return [str(key) for key in keys()] if callable(keys) else None
+
+
+def cells(name: str, values: Any) -> "List[str]":
+    """Return the texts of a column. Raises TypeError for what a table cannot have."""
+    column = numpy.asarray(values)
+    if column.ndim > 1:
+        raise ValueError(f"{name}: found an array of shape {column.shape}; expected one number a row")
+    if column.dtype.kind in "fiub":
+        return [repr(one) for one in column.astype(float).ravel().tolist()]
+    texts = [str(one) for one in column.ravel().tolist()]
+    for text in texts:
+        if column.dtype.kind not in "UO" or any(mark in text for mark in ",;\t\n\r"):
+            raise TypeError(f"{name}: found {text!r}; expected numbers, or words without separators")
+    return texts
+
+
+def text_of(table: Table, names: "List[str]", units: "Mapping[str, str]") -> str:
+    """Return columns as the text of a CSV file."""
+    called = {theirs: name for name, theirs in (table.names or {}).items()}
+    header: "List[str]" = []
+    columns: "List[List[str]]" = []
+    for name in names:
+        if any(mark in name for mark in ",;\t\n\r"):
+            raise ValueError(f"column: found {name!r}; expected a name without separators")
+        unit = units.get(called.get(name, name))
+        told = "[" in name or name in (table.units or {})
+        header.append(name if told or unit is None else f"{name} [{unit}]")
+        columns.append(cells(name, table.data[name]))
+    rows = max((len(column) for column in columns), default=0)
+    for name, column in zip(names, columns):
+        if len(column) not in (1, rows):
+            raise ValueError(f"{name}: found {len(column)} numbers; expected {rows}, or one")
+    full = [column * rows if len(column) != rows else column for column in columns]
+    lines: "Iterable[str]" = (",".join(row) for row in zip(*full))
+    return "\n".join([",".join(header), *lines, ""])
+
+
+def parts_of(data: Any, units: "Mapping[str, str]", label: str) -> "Dict[str, Any]":
+    """Return a table as the library takes it; `label` is what a table without a file is called."""
+    table = data if isinstance(data, Table) else Table(data)
+    parts: "Dict[str, Any]" = {
+        "path": label,
+        "text": None,
+        "names": dict(table.names) if table.names is not None else None,
+        "units": dict(table.units) if table.units is not None else None,
+        "where": dict(table.where) if table.where is not None else None,
+        "columns": list(table.columns) if table.columns is not None else None,
+        "atmosphere": table.atmosphere,
+        "drop_incomplete": table.drop_incomplete,
+    }
+    if isinstance(table.data, (str, os.PathLike)):
+        parts["path"] = os.fspath(table.data)
+        return parts
+    names = names_of(table.data)
+    if names is None:
+        shown = repr(table.data)
+        raise TypeError(
+            f"data: found {shown[:60]}; expected the path of a CSV file, or columns by their names"
+        )
+    parts["text"] = text_of(table, names, units)
+    return parts
+
+
+def tables_of(method: str, data: Any, word: str = "arrays of Python") -> "List[Dict[str, Any]]":
+    """Return one table, or a list of them, as the library takes them."""
+    units = _sinew.identify_columns(method)
+    if not isinstance(data, (list, tuple)):
+        return [parts_of(data, units, word)]
+    several = len(data) > 1
+    return [
+        parts_of(one, units, f"{word} {number}" if several else word)
+        for number, one in enumerate(data, 1)
+    ]
+
+
+def held_out_of(method: str, data: Any) -> "Optional[Dict[str, Any]]":
+    """Return the table that is not fitted, where there is one."""
+    if data is None:
+        return None
+    return parts_of(data, _sinew.identify_columns(method), "held out arrays of Python")
