@@ -8,6 +8,7 @@ mkdir -p "$2"
 folder=$(cd "$2" && pwd)
 root=$folder/root debs=$folder/debs
 rm -rf "$root" "$debs" "$folder/again"
+export SOURCE_DATE_EPOCH=1000000000  # both times, though somebody commits meanwhile
 
 fail() { echo "package: $*" >&2; exit 1; }
 packages() { dpkg-query --admindir="$root/var/lib/dpkg" -W -f '${Package} ${db:Status-Status}\n' 2>/dev/null; }
@@ -41,6 +42,11 @@ for deb in "$debs"/*.deb; do
   wrong=$(grep -vE '^\./usr/(bin|include|lib|share)?(/|$)' <<<"$list" || true)
   wrong+=$(grep -E '_test\.h$|__pycache__|\.pyc$|/local/|/test_[^/]*\.h$' <<<"$list" || true)
   [[ ! $wrong ]] || fail "$name holds $wrong"
+done
+zcat_of() { dpkg-deb --fsys-tarfile "$1" | tar -xO "$2" | zcat; }
+manual=$(zcat_of "$debs"/sinew_*.deb ./usr/share/man/man1/sinew.1.gz)
+for word in run sweep check migrate 'identify static'; do
+  grep -q "^\.SS \"sinew $word\"" <<<"$manual" || fail "sinew(1) lacks $word"
 done
 depends() { dpkg-deb -f "$debs/$1"_*.deb Depends; }
 [[ $(depends sinew) == *libpagmo* && $(depends sinew) != *mpi* ]] || fail "sinew depends on $(depends sinew)"

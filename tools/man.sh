@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# man.sh PROGRAM VERSION   prints the manual page sinew(1): what the program says of itself, all
+# subcommands one after another, so that the page cannot say anything else.
+set -euo pipefail
+program=$1 version=$2
+
+help_of() { (exec -a sinew "$program" "$@" --help); }
+
+# Letters that roff would take for its own; what is aligned stays so.
+as_text() { sed -e 's/\\/\\e/g' -e 's/-/\\-/g' -e "s/^\([.']\)/\\\\\&\1/"; }
+
+subcommands_in() { awk '/^Subcommands:/ { on = 1; next } /^[^ ]/ { on = 0 } on && /^  [a-z]/ { print $1 }'; }
+
+section() {  # section WORDS...: a command, then those below it
+  local help name
+  help=$(help_of "$@")
+  printf '.SS "sinew %s"\n' "$*"
+  head -n 1 <<<"$help" | as_text
+  printf '.PP\n.nf\n'
+  tail -n +2 <<<"$help" | grep -v '^  -h,--help' | as_text
+  printf '.fi\n'
+  for name in $(subcommands_in <<<"$help"); do section "$@" "$name"; done
+}
+
+cat <<END
+.TH SINEW 1 "" "sinew $version" "User Commands"
+.SH NAME
+sinew \\- robots driven by braided pneumatic actuators
+.SH SYNOPSIS
+.B sinew
+.I SUBCOMMAND
+[\\fIOPTIONS\\fR]
+.SH DESCRIPTION
+Simulates, identifies, tunes and controls robots that are pulled by braided pneumatic actuators, also
+called McKibben muscles. Results go to standard output, progress and messages to standard error.
+.SH SUBCOMMANDS
+END
+for name in $(help_of | subcommands_in); do section "$name"; done
+cat <<'END'
+.SH EXIT STATUS
+0 done, 1 failed, 2 wrong usage.
+.SH FILES
+.TP
+.I ../share/sinew
+robots and experiments, beside the program's folder
+.TP
+.I ../share/doc/sinew
+documentation
+END
