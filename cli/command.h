@@ -37,6 +37,7 @@ void add_view(Command app, Action& action);
 void add_bring_up(Command app, Action& action);
 void add_firmware(Command app, Action& action);
 void add_force_beam(Command app, Action& action);
+void add_fmu(Command app, Action& action);
 void add_doctor(Command app, Action& action);
 
 // `--set key=value`, any number of times; one value each, so that what follows stays what it is.

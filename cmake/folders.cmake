@@ -1,5 +1,5 @@
 # sinew_folder(PATH DEPS...)   the library of sinew/PATH, its tests beside its sources (*_test.cpp);
-# thesis/… stands beside sinew/. A folder with headers only becomes an interface library.
+# thesis/… and fmu/… stand beside sinew/. A folder with headers only becomes an interface library.
 
 function(sinew_target path out)
   string(REPLACE "/" "_" name "${path}")
@@ -33,7 +33,7 @@ set(sinew_apart live tune)
 function(sinew_folder path)
   sinew_target(${path} target)
   set(dir ${PROJECT_SOURCE_DIR}/sinew/${path})
-  if(path MATCHES "^thesis/")
+  if(path MATCHES "^(thesis|fmu)/")
     set(dir ${PROJECT_SOURCE_DIR}/${path})
   endif()
   file(GLOB sources CONFIGURE_DEPENDS ${dir}/*.cpp)

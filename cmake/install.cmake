@@ -52,7 +52,7 @@ if(SINEW_ONLY)
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
   return()
 endif()
-install(DIRECTORY sinew thesis DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
+install(DIRECTORY sinew thesis fmu DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
         ${headers_only})
 
 # The program, and the robots and experiments it comes with.
@@ -68,6 +68,11 @@ foreach(module pagmo mpi comedi)
     install(TARGETS sinew_${module} LIBRARY DESTINATION ${sinew_modules} COMPONENT ${component})
   endif()
 endforeach()
+# What FMUs are made of.
+install(TARGETS sinew_fmu_muscle_module sinew_fmu_machine_module LIBRARY DESTINATION ${sinew_modules}
+        COMPONENT program)
+install(DIRECTORY ${PROJECT_BINARY_DIR}/${sinew_modules}/fmu_sources DESTINATION ${sinew_modules}
+        COMPONENT program)
 install(DIRECTORY robots experiments DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew COMPONENT program)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT texts)

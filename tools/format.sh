@@ -18,7 +18,7 @@ done
 [[ -n $tool ]] || { echo "format.sh: needs clang-format $version" >&2; exit 1; }
 
 folders=()
-for folder in sinew thesis cli python firmware tests bench examples; do [[ -d $folder ]] && folders+=("$folder"); done
+for folder in sinew thesis cli python fmu firmware tests bench examples; do [[ -d $folder ]] && folders+=("$folder"); done
 found=$(mktemp)
 trap 'rm -f "$found"' EXIT
 find "${folders[@]}" -name node_modules -prune -o -type f \( -name '*.h' -o -name '*.cpp' \) -print0 |

@@ -26,6 +26,7 @@ list='
     demo   -                   libceres-dev                     least squares of identification
     demo   -                   libsqlite3-dev                   keeps studies
     demo   -                   libboost-dev                     serves pages to the browser here
+    demo   -                   libminizip-dev                   packs FMUs
     demo   -                   libpagmo-dev                     searches for better walks
     demo   node                nodejs                           bundles the page that shows a run
     demo   npm                 npm                              installs what that needs

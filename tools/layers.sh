@@ -5,7 +5,7 @@
 
 # A folder of sinew/ may include itself, what its row names, and everything that those may. A name
 # stands for the rows below it too: `plant` for plant/planar. Every folder with sources needs a row.
-# thesis/ may include all of them, cli/ and python/ those and thesis/.
+# thesis/ may include all of them, cli/, python/ and fmu/ those and thesis/; cli/ and python/ fmu/ too.
 layers='
     units
     signals
@@ -89,6 +89,7 @@ libraries='
     cvode/          sinew/plant/slide
     CLI/            cli
     pybind11/       python/binding
+    minizip/        fmu/export
     boost/(asio|beast|system)  sinew/live
     boost/random/   sinew/tune
     sqlite3[.]h     sinew/tune/results
@@ -108,7 +109,7 @@ export LC_ALL=C.UTF-8
 check_tree() {  # check_tree ROOT: findings on stdout, status 1 if there are any
   (
     cd "$1"
-    find sinew thesis cli python -type f \( -name '*.h' -o -name '*.cpp' \) 2>/dev/null | sort |
+    find sinew thesis cli python fmu -type f \( -name '*.h' -o -name '*.cpp' \) 2>/dev/null | sort |
       awk -v layers="$layers" -v test_layers="$test_layers" -v libraries="$libraries" \
           -v longest_file="$longest_file" "$program"
   )
@@ -178,8 +179,9 @@ function check_include(file, line, target,   folder, mine, theirs, name) {
   for (name in library)
     if (target ~ ("^" name) && !below(file, library[name]))
       say(file, line, "<" target "> belongs behind " library[name])
-  if (file ~ /^sinew\// && target ~ /^(thesis|cli|python)\//) say(file, line, "sinew may not include " target)
-  if (file ~ /^thesis\// && target ~ /^(cli|python)\//) say(file, line, "thesis may not include " target)
+  if (file ~ /^sinew\// && target ~ /^(thesis|cli|python|fmu)\//) say(file, line, "sinew may not include " target)
+  if (file ~ /^fmu\// && target ~ /^(cli|python)\//) say(file, line, "fmu may not include " target)
+  if (file ~ /^thesis\// && target ~ /^(cli|python|fmu)\//) say(file, line, "thesis may not include " target)
   if (target !~ /^sinew\//) return
   if (file !~ /^sinew\//) return
 
@@ -228,7 +230,7 @@ function check_file(file,   text, line, code, name, folder) {
       say(file, line, "virtual: the port is the one virtual class")
     if (code ~ /^[ \t]*#[ \t]*define[ \t]+[A-Za-z0-9_]+\(/ && !is_test)
       say(file, line, "a macro with arguments: write a function")
-    if (file ~ /^(sinew|thesis)\// && !is_test &&
+    if (file ~ /^(sinew|thesis|fmu)\// && !is_test &&
         (code ~ /std::(cout|cerr|clog)/ || code ~ /(^|[^A-Za-z0-9_])v?(printf|puts|putchar)[ \t]*\(/ ||
          code ~ /(^|[^A-Za-z0-9_])fprintf[ \t]*\([ \t]*std(out|err)/ || code ~ /fmt::print(ln)?[ \t]*\(/))
       say(file, line, "the library does not print: return it, or throw it")
@@ -292,6 +294,8 @@ self_test() {
   expect sinew/report/a.cpp       '#include "cli/terminal.h"'                  'sinew may not include'
   expect thesis/figures/a.cpp     '#include "cli/terminal.h"'                  'thesis may not include'
   expect thesis/figures/a.cpp     '#include "sinew/report/a.h"'                ''
+  expect sinew/report/a.cpp       '#include "fmu/export/export.h"'             'sinew may not include'
+  expect fmu/export/a.cpp         '#include "sinew/report/a.h"'                ''
   expect thesis/figures/a.cpp     'void f() { std::cout << 1; }'               'does not print'
   expect cli/a.cpp                '#include <zlib.h>'                          'behind sinew/log'
   expect cli/a.cpp                '#include <CLI/CLI.hpp>'                     ''

@@ -17,5 +17,6 @@ PYBIND11_MODULE(_sinew, m) {
   sinew::python::bind_laws(m);
   sinew::python::bind_muscle(m);
   sinew::python::bind_identify(m);
+  sinew::python::bind_fmu(m);
   sinew::python::bind_identify_tables(m);
 }

@@ -31,6 +31,13 @@ std::vector<fs::path> folders() {
 
 }  // namespace
 
+fs::path find_module(const char* file) {
+  std::error_code none;
+  for (const fs::path& folder : folders())
+    if (fs::is_regular_file(folder / file, none)) return fs::canonical(folder / file, none);
+  return {};
+}
+
 void* open_module(const char* file) {
   std::vector<fs::path> places;
   for (const fs::path& folder : folders()) places.push_back(folder / file);

@@ -1,0 +1,227 @@
+#include "fmu/export/export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "fmu/export/archive.h"
+#include "fmu/export/model_description.h"
+#include "fmu/machine/machine.h"
+#include "fmu/muscle/joint.h"
+#include "fmu/muscle/muscle.h"
+#include "fmu/muscle/tube.h"
+#include "sinew/config/compose.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/named.h"
+#include "sinew/experiment/machine_file.h"
+#include "sinew/host/module.h"
+#include "sinew/run/muscle/muscle_setup.h"
+#include "sinew/run/setup/buildable.h"
+#include "sinew/run/setup/planar_setup.h"
+
+namespace sinew::fmu {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// A model that is to be packed.
+struct Made {
+  std::string kind, name, doc;
+  Description description;
+  std::vector<Variable> variables;
+  std::string module;  // that has its functions
+  bool sources = false;
+  double stop_time = 1, step = 1e-3;  // [s]
+};
+
+[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+template <class Model>
+Made make_light(Description description, std::string name, std::string doc) {
+  Made out{.kind = std::string(Model::kind),
+           .name = std::move(name),
+           .doc = std::move(doc),
+           .module = "sinew_fmu_muscle.so",
+           .sources = true};
+  out.variables = Model(description).sheet().variables();
+  out.description = std::move(description);
+  return out;
+}
+
+Made make_tube(const Asked& asked, const std::string& kind) {
+  if (kind == "actuator") {
+    const auto file = experiment::load_machine_file(asked.file, asked.sets);
+    const actuator::Actuator& a =
+        config::named(file.experiment.actuators, asked.actuator, asked.file, "actuator");
+    return make_light<Tube>(Tube::describe(a, file.experiment.air, 1, 0), a.name,
+                            "A braided pneumatic muscle whose pressure is given");
+  }
+  const run::MuscleSetup read = run::muscle_setup(asked.file, asked.muscle, asked.sets);
+  const air::Muscle& m = read.muscle;
+  return make_light<Tube>(Tube::describe(m.actuator, read.air, m.count, m.external_volume), m.name,
+                          "A braided pneumatic muscle whose pressure is given");
+}
+
+Made make_muscle(const Asked& asked) {
+  const run::MuscleSetup read = run::muscle_setup(asked.file, asked.muscle, asked.sets);
+  const double length = read.length > 0 ? read.length : read.muscle.actuator.long_end.length;
+  return make_light<Muscle>(
+      Muscle::describe(read.muscle, read.air, read.supply, {length, read.pressure}),
+      read.muscle.name, "A braided pneumatic muscle with its valves");
+}
+
+Made make_joints(const Asked& asked) {
+  const auto file = experiment::load_machine_file(asked.file, asked.sets);
+  const experiment::Experiment& e = file.experiment;
+  std::vector<std::string> joints = asked.joints;
+  if (joints.empty())
+    for (const robot::Joint& j : e.robot.joints)
+      if (j.kind == robot::Joint::Kind::driven) joints.push_back(j.name);
+  const double pressure = e.start.pressure > 0 ? e.start.pressure : e.air.atmosphere;
+  std::string name = fs::path(asked.file).stem().string();
+  if (!asked.joints.empty()) name = fmt::format("{}", fmt::join(joints, "_"));
+  return make_light<Joint>(
+      Joint::describe(e.robot, run::muscles_of(e), joints, e.air, e.supply, pressure), name,
+      fmt::format("Joints with their braided muscles and valves: {}", fmt::join(joints, ", ")));
+}
+
+Made make_machine(const Asked& asked) {
+  const experiment::Experiment e = run::buildable(asked.file, asked.sets);
+  Made out{.kind = std::string(Machine::kind),
+           .name = e.name,
+           .doc = e.title.empty() ? "A machine with its controllers" : e.title,
+           .module = "sinew_fmu_machine.so",
+           .step = 0.01};
+  out.description = Machine::describe(e, {asked.inputs, asked.outputs, asked.parameters});
+  const Machine machine(out.description);
+  out.variables = machine.sheet().variables();
+  out.stop_time = machine.duration();
+  return out;
+}
+
+Made make(const Asked& asked) {
+  const std::string kind(config::format_kind(config::compose(asked.file, asked.sets)));
+  const bool of_machine =
+      !asked.inputs.empty() || !asked.outputs.empty() || !asked.parameters.empty();
+  const bool of_joint = !asked.joints.empty(), of_muscle = !asked.muscle.empty();
+  if (of_joint && of_muscle) refuse("found a muscle and joints; expected one of them");
+  if (of_machine && (of_joint || of_muscle || kind != "experiment"))
+    refuse(
+        "inputs, outputs and parameters: expected an experiment, and no muscle or joint of it; "
+        "other FMUs show all that they have");
+  if (of_joint && asked.without_valves)
+    refuse("found joints without valves; expected a muscle for that");
+  if (!asked.actuator.empty() && kind != "actuator")
+    refuse("actuator: found a " + kind + " file; expected an actuator file");
+  if (kind == "actuator") {
+    if (of_joint || of_muscle)
+      refuse("found an actuator file; expected a robot for muscle or joint");
+    return make_tube(asked, kind);
+  }
+  if (kind == "rig" || of_muscle) {
+    if (of_joint) refuse("joint: found a rig, which has none; expected a robot or an experiment");
+    return asked.without_valves ? make_tube(asked, kind) : make_muscle(asked);
+  }
+  if (asked.without_valves) refuse("found no muscle whose valves are to be left out; expected one");
+  if (kind == "robot" || of_joint) return make_joints(asked);
+  if (kind == "experiment") return make_machine(asked);
+  config::fail({asked.file, 0, 0}, "format", config::in_quotes(kind),
+               "an actuator, rig, robot or experiment file");
+}
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string out{std::istreambuf_iterator<char>(in), {}};
+  if (!in || out.empty()) throw std::runtime_error(file.string() + ": cannot be read");
+  return out;
+}
+
+// What a C compiler and a file system both take for a name.
+std::string identifier_of(const std::string& name) {
+  std::string out;
+  for (const char c : name) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    const bool digit = c >= '0' && c <= '9';
+    out += letter || (digit && !out.empty()) ? c : '_';
+  }
+  return out.empty() ? "model" : out;
+}
+
+fs::path module_of(const Made& made) {
+  const fs::path found = host::find_module(made.module.c_str());
+  if (found.empty())
+    throw std::runtime_error(
+        made.module +
+        ": found no such module beside the program; expected it in lib/sinew of "
+        "this installation: build and install Sinew whole");
+  return found;
+}
+
+void add_sources(std::vector<ArchiveFile>& files, const fs::path& folder, int version) {
+  if (!fs::is_directory(folder))
+    throw std::runtime_error(folder.string() +
+                             ": found no sources of FMUs there; expected them "
+                             "beside the modules: build and install Sinew whole");
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) found.push_back(entry.path());
+  std::ranges::sort(found);
+  const std::string other = version == 2 ? "fmi3" : "fmi2";
+  for (const fs::path& file : found)
+    if (!file.filename().string().starts_with(other))
+      files.push_back({"sources/" + fs::relative(file, folder).generic_string(), bytes_of(file)});
+}
+
+// The names that FMI has for this kind of computer.
+std::string platform_folder(int version) {
+#if defined(__x86_64__) && defined(__linux__)
+  return version == 2 ? "linux64" : "x86_64-linux";
+#elif defined(__aarch64__) && defined(__linux__)
+  return version == 2 ? "linux64" : "aarch64-linux";
+#else
+#error "say what FMI calls this kind of computer"
+#endif
+}
+
+}  // namespace
+
+Fmu make_fmu(const Asked& asked) {
+  if (asked.version != 2 && asked.version != 3)
+    refuse(fmt::format("version: found {}; expected 2 or 3", asked.version));
+  Made made = make(asked);
+  if (!asked.name.empty()) made.name = asked.name;
+
+  Described model{.name = made.name,
+                  .identifier = identifier_of(made.name),
+                  .token = made.description.hash(),
+                  .description = made.doc,
+                  .version = SINEW_VERSION,
+                  .stop_time = made.stop_time,
+                  .step = made.step,
+                  .sources = made.sources,
+                  .variables = made.variables};
+  std::vector<ArchiveFile> files;
+  files.push_back({"modelDescription.xml",
+                   asked.version == 2 ? fmi2_description(model) : fmi3_description(model)});
+  files.push_back({"documentation/index.html", variables_page(model)});
+  const fs::path module = module_of(made);
+  files.push_back(
+      {fmt::format("binaries/{}/{}.so", platform_folder(asked.version), model.identifier),
+       bytes_of(module)});
+  files.push_back({"resources/model.txt", made.description.text()});
+  for (const auto& [name, text] : made.description.attached())
+    files.push_back({"resources/" + name, text});
+  if (made.sources) {
+    add_sources(files, module.parent_path() / "fmu_sources", asked.version);
+    if (asked.version == 3)
+      files.push_back({"sources/buildDescription.xml", build_description(model)});
+  }
+  return {made.kind, made.name, model.identifier, model.token, made.variables, archive_of(files)};
+}
+
+}  // namespace sinew::fmu

@@ -1,0 +1,76 @@
+// fmu/machine/machine.h - a whole machine with its controllers: an experiment, as run::Simulation
+// runs it. The same instants give its bits.
+//
+// Inputs are settings of the plan that somebody else decides ("control.stiffness.hip"): from the
+// first value other than the start they hold in the plan's place, from the next period on. Outputs
+// are channels of the log; parameters are values of the experiment's files.
+//
+// Controllers live in ticks of 0.1 ms. At a communication point between two ticks outputs are those
+// of the tick before.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fmu/slave/sheet.h"
+#include "sinew/run/simulation/simulation.h"
+
+namespace sinew::fmu {
+
+// What of an experiment an importer sees; all by their names here.
+struct MachineShown {
+  std::vector<std::string> inputs;      // keys of settings
+  std::vector<std::string> outputs;     // channels; empty: all
+  std::vector<std::string> parameters;  // keys of the experiment's numbers
+};
+
+class Machine {
+ public:
+  static constexpr std::string_view kind = "machine";
+
+  explicit Machine(const Description& description);
+  // Throws config::Error or std::exception for an experiment that cannot be built and for names
+  // that it does not have.
+  static Description describe(const experiment::Experiment& experiment, const MachineShown& shown);
+
+  const Sheet& sheet() const { return sheet_; }
+  Sheet& sheet() { return sheet_; }
+
+  void begin(double start_time);
+  double output(std::size_t place) const;
+  const char* advance(double end, double step) noexcept;
+  bool ended() const noexcept { return simulation_->ended(); }
+
+  std::vector<std::byte> save() const;
+  void restore(std::span<const std::byte> saved);
+
+  // Returns how long the plan takes  [s].
+  double duration() const;
+
+ private:
+  struct Shown {
+    std::size_t place = 0, number = 0;  // of the variable; of the setting or the channel
+    std::string key;
+    std::string unit;
+    double told = 0;  // inputs: what the simulation was told last
+  };
+
+  experiment::Experiment experiment() const;
+  void place_variables(const Description& description);
+
+  Sheet sheet_;
+  config::Node tree_;
+  std::vector<Shown> inputs_, outputs_, parameters_;
+  std::unique_ptr<run::Simulation> simulation_;
+
+  // Outputs at the tick that the simulation stands at, read together once one is asked for.
+  std::vector<std::size_t> channels_;
+  mutable std::vector<double> read_;
+  mutable bool fresh_ = false;
+  std::string cause_;
+};
+
+}  // namespace sinew::fmu

@@ -1,0 +1,12 @@
+// fmu/machine/models.h - the model of the module sinew_fmu_machine.
+#pragma once
+
+#include <variant>
+
+#include "fmu/machine/machine.h"
+
+namespace sinew::fmu {
+
+using Models = std::variant<Machine>;
+
+}  // namespace sinew::fmu

@@ -1,0 +1,45 @@
+// fmu/muscle/muscle_fields.h - the keys under which an FMU's parameters stand: those of our files,
+// joined for one muscle.
+#pragma once
+
+#include "fmu/slave/parameters.h"
+#include "sinew/actuator/actuator.fields.h"
+#include "sinew/air/muscle.h"
+#include "sinew/gas/air.fields.h"
+#include "sinew/gas/hose.fields.h"
+#include "sinew/gas/leak.fields.h"
+#include "sinew/gas/valve.fields.h"
+
+namespace sinew::fmu {
+
+template <class Visitor>
+void bundle_fields(Visitor& v, int& count, double& external_volume) {
+  v.integer({.name = "count", .min = 1, .max = 100, .doc = "actuators in parallel"}, count);
+  v.number({.name = "external_volume",
+            .unit = "m3",
+            .min = 0,
+            .max = 1,
+            .doc = "of hoses and fittings, downstream of the valves, of the whole bundle"},
+           external_volume);
+}
+
+template <class Visitor>
+void fields(Visitor& v, air::Muscle& muscle) {
+  bundle_fields(v, muscle.count, muscle.external_volume);
+  v.group({.name = "actuator"}, [&](auto& g) { actuator::fields(g, muscle.actuator); });
+  v.group({.name = "inlet"}, [&](auto& g) { gas::fields(g, muscle.inlet); });
+  if (muscle.inlet.kind == gas::Valve::Kind::two_way)
+    v.group({.name = "exhaust"}, [&](auto& g) { gas::fields(g, muscle.exhaust); });
+  v.group({.name = "hose"}, [&](auto& g) { gas::fields(g, muscle.hose); });
+  v.group({.name = "leak"}, [&](auto& g) { gas::fields(g, muscle.leak); });
+}
+
+// Returns whether an importer has no use for it: what a coil takes, since an FMU does not count
+// electrical energy; and the counted mesh, whose thread and turns stand beside it.
+inline bool is_idle(const Parameter& p) {
+  for (const char* part : {".coil.", ".circuit.", ".trapezoids."})
+    if (p.name.find(part) != std::string::npos) return true;
+  return false;
+}
+
+}  // namespace sinew::fmu

@@ -1,0 +1,114 @@
+#include "fmu/muscle/tube.h"
+
+#include <algorithm>
+
+#include "fmu/muscle/muscle_fields.h"
+#include "sinew/actuator/body.h"
+#include "sinew/actuator/loss.h"
+#include "sinew/actuator/stiffness.h"
+
+namespace sinew::fmu {
+
+namespace {
+
+struct TubeParts {
+  actuator::Actuator& actuator;
+  gas::Air& air;
+  int& count;
+  double& external_volume;
+};
+
+template <class Visitor>
+void fields(Visitor& v, TubeParts parts) {
+  bundle_fields(v, parts.count, parts.external_volume);
+  v.group({.name = "actuator"}, [&](auto& g) { actuator::fields(g, parts.actuator); });
+  v.group({.name = "air"}, [&](auto& g) { gas::fields(g, parts.air); });
+}
+
+}  // namespace
+
+Description Tube::describe(const actuator::Actuator& actuator, const gas::Air& air, int count,
+                           double external_volume) {
+  actuator::Actuator a = actuator;  // visitors take what they list by reference
+  gas::Air surroundings = air;
+  Lister list("");
+  fields(list, {a, surroundings, count, external_volume});
+  Description out;
+  out.add("kind", std::string(kind));
+  write(list.found, out);
+  return out;
+}
+
+Tube::Tube(const Description& description) {
+  const std::vector<Parameter> read = parameters_of(description);
+  Filler fill(read, "");
+  fields(fill, {actuator_, air_, count_, external_volume_});
+  Lister list("");
+  fields(list, {actuator_, air_, count_, external_volume_});
+  place_variables(list.found);
+}
+
+void Tube::place_variables(const std::vector<Parameter>& list) {
+  using C = Variable::Causality;
+  const double threads = actuator_.braid.thread_length;
+  at_.length = sheet_.add({.name = "length",
+                           .causality = C::input,
+                           .unit = "m",
+                           .start = actuator_.long_end.length,
+                           .min = 0,
+                           .max = actuator_.caps.length + 1.5 * threads,
+                           .doc = "from end to end, with its caps",
+                           .rate = static_cast<int>(sheet_.variables().size()) + 1});
+  at_.rate = sheet_.add({.name = "rate",
+                         .causality = C::input,
+                         .unit = "m/s",
+                         .min = -100,
+                         .max = 100,
+                         .doc = "of the length, below 0 while it contracts"});
+  at_.pressure = sheet_.add({.name = "gauge_pressure",
+                             .causality = C::input,
+                             .unit = "Pa",
+                             .min = -air_.atmosphere,
+                             .max = 1e7,
+                             .doc = "of its air, above the atmosphere"});
+  const std::vector<int> all{static_cast<int>(at_.length), static_cast<int>(at_.rate),
+                             static_cast<int>(at_.pressure)};
+  const std::vector<int> still{all[0], all[2]};
+  const auto output = [&](const char* name, const char* unit, const char* doc,
+                          const std::vector<int>& follows) {
+    return sheet_.add(
+        {.name = name, .causality = C::output, .unit = unit, .doc = doc, .follows = follows});
+  };
+  at_.tension = output("tension", "N", "pull on both ends, without dry friction", all);
+  at_.friction = output("friction", "N", "bound of the dry friction [33], [34]", still);
+  at_.stiffness = output("stiffness", "N/m", "dF/dL at constant pressure [26]", still);
+  at_.volume = output("volume", "m3", "of its air, with hoses", {all[0]});
+  sheet_.add(list, is_idle);
+}
+
+void Tube::begin(double) {
+  const std::vector<Parameter> set = sheet_.parameters();
+  Filler fill(set, "");
+  fields(fill, {actuator_, air_, count_, external_volume_});
+}
+
+double Tube::output(std::size_t place) const {
+  const double length = sheet_.value(at_.length), pressure = sheet_.value(at_.pressure);
+  const double room = air_.atmosphere, n = count_;
+  const actuator::Actuator& a = actuator_;
+  if (place == at_.volume) return n * actuator::volume(a, length) + external_volume_;
+  if (place == at_.tension) {
+    const double rate = sheet_.value(at_.rate);
+    return n * std::max(actuator::tension(a, length, rate, pressure, room), 0.0);
+  }
+  if (place == at_.stiffness)
+    return n * (actuator::stiffness_at_constant_pressure(a, length, pressure, room) +
+                actuator::passive_stiffness(a, length));
+  double sealed = 0;
+  if (a.loss.coulomb_scale == actuator::Loss::Scale::sealed)
+    sealed = actuator::stiffness_sealed(a, length, pressure + room, room, external_volume_ / n,
+                                        air_.polytropic_exponent);
+  return n * actuator::coulomb_bound(a, length, pressure, room, sealed);
+}
+
+}  // namespace sinew::fmu

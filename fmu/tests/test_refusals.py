@@ -1,0 +1,331 @@
+"""What is wrong is refused in words, changes nothing and ends nobody's process: at the interface, in
+the unpacked files, and at the program."""
+
+import ctypes
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+from ctypes import byref, c_double, c_int, c_size_t, c_uint, c_void_p
+from typing import Any, Callable, List, Tuple
+
+from common import ACTUATOR, RIG, ROBOT, ROOT, WALK, WORK, exported, fmu, program
+from importer import DISCARD, Failed, Fmu, Slave
+
+NAN, INFINITE = float("nan"), float("inf")
+
+
+class Interface(unittest.TestCase):
+    def refused(self, cases: "List[Tuple[Callable[[], Any], str]]") -> None:
+        for number, (call, words) in enumerate(cases):
+            with self.subTest(number=number, words=words):
+                with self.assertRaises(Failed) as raised:
+                    call()
+                self.assertIn(words, str(raised.exception))
+
+    def test_instances_that_cannot_be_made(self) -> None:
+        for version in "23":
+            f = fmu(RIG, "--fmi", version)
+            nowhere = os.path.join(WORK, "nowhere")
+
+            def made(**other: Any) -> Callable[[], Any]:
+                return lambda: f.instantiate(**other)
+
+            cases = [
+                (made(token="{another}"), "found the token {another}; expected"),
+                (made(token=None), "found no "),
+                (made(name=None), "found no name"),
+                (made(name=""), "found no name"),
+                (made(resources=None), "found no place of resources"),
+                (made(resources=nowhere), "found no file"),
+                (made(resources="https://example.org/x"), "expected a file: URI"),
+                (made(resources=f.binary), "found no file"),
+            ]
+            self.refused(cases)
+            if version == "2":
+                self.refused([(made(kind=0), "expected co-simulation")])
+
+    def test_an_importer_without_a_log_hears_nothing(self) -> None:
+        for version in "23":
+            f = fmu(RIG, "--fmi", version)
+            with self.assertRaises(Failed):
+                f.instantiate(token="x", logger=False)
+            slave = f.instantiate(logger=False)
+            with self.assertRaises(Failed):
+                slave.step(0.0, 0.1)
+            slave.free()
+
+    def test_values_and_times(self) -> None:
+        for version in "23":
+            f = fmu(RIG, "--fmi", version)
+            slave = f.instantiate()
+            v = f.variables
+            length, inlet = v["length"].reference, v["inlet"].reference
+            self.refused(
+                [
+                    (lambda: slave.get("tension"), "tension is read at the wrong time"),
+                    (lambda: slave.step(0.0, 0.1), "a step is made at the wrong time"),
+                    (lambda: slave.call("ExitInitializationMode"), "at the wrong time"),
+                    (lambda: slave.call("Terminate"), "at the wrong time"),
+                    (lambda: slave.raw("Get", "Real", [10**6], [0]), "value reference: found 1000000"),
+                    (lambda: slave.raw("Get", "Real", [2**32 - 1], [0]), "value reference"),
+                    (lambda: slave.raw("Get", "Real", [inlet], [0]), "is a Boolean"),
+                    (lambda: slave.raw("Get", "Boolean", [length], [0]), "is a real number"),
+                    (lambda: slave.raw("Set", "Integer", [length], [1]), "is a real number"),
+                    (lambda: slave.set("tension", 1.0), "is no input and no parameter"),
+                    (lambda: slave.set("time", 1.0), "is no input and no parameter"),
+                    (lambda: slave.set("length", NAN), "length: found nan; expected 0 to"),
+                    (lambda: slave.set("length", INFINITE), "length: found inf"),
+                    (lambda: slave.set("length", -0.1), "length: found -0.1; expected 0 to"),
+                    (lambda: slave.set("count", 0), "count: found 0; expected 1 to 100"),
+                    (lambda: slave.set("initial_pressure", 0.0), "initial_pressure: found 0"),
+                    (lambda: slave.set("air.polytropic_exponent", 3.0), "found 3; expected 1 to"),
+                ]
+            )
+            slave.initialize()
+            self.refused(
+                [
+                    (lambda: slave.enter(), "at the wrong time"),
+                    (lambda: slave.set("count", 2), "a parameter, is set at the wrong time"),
+                    (lambda: slave.step(0.5, 0.1), "communication point: found 0.5 s; expected 0 s"),
+                    (lambda: slave.step(NAN, 0.1), "communication point"),
+                    (lambda: slave.step(0.0, 0.0), "step: found 0 s; expected more than 0"),
+                    (lambda: slave.step(0.0, -0.1), "step: found -0.1 s"),
+                    (lambda: slave.step(0.0, NAN), "step: found nan"),
+                    (lambda: slave.step(0.0, INFINITE), "step: found inf"),
+                ]
+            )
+            before = slave.get("pressure")
+            slave.step(0.0, 0.1)  # what was refused has changed nothing
+            self.assertAlmostEqual(slave.get("pressure"), before, delta=1.0)
+            slave.call("Terminate")
+            self.refused([(lambda: slave.step(0.1, 0.1), "at the wrong time")])
+            slave.free()
+
+    def test_parameters_that_do_not_go_together(self) -> None:
+        """The words are those of the file's reader."""
+        for version in "23":
+            slave = fmu(RIG, "--fmi", version).instantiate()
+            slave.set("actuator.effectiveness.valid[0]", 5e5)
+            slave.set("actuator.effectiveness.valid[1]", 1e5)
+            slave.enter()
+            self.refused(
+                [
+                    (lambda: slave.call("ExitInitializationMode"), "no range of pressures"),
+                    (lambda: slave.get("tension"), "no range of pressures"),
+                ]
+            )
+            slave.set("actuator.effectiveness.valid[1]", 7e5)
+            slave.call("ExitInitializationMode")
+            slave.free()
+
+    def test_states(self) -> None:
+        for version in "23":
+            slave = fmu(RIG, "--fmi", version).instantiate().initialize()
+            other = fmu(ROBOT, "--muscle", "hip_flexor", "--fmi", version).instantiate().initialize()
+            saved = slave.serialized()
+            spoilt = bytearray(saved)
+            spoilt[len(saved) // 2] ^= 1
+
+            def back(to: bytes) -> Callable[[], Any]:
+                return lambda: slave.back_to(slave.deserialized(to))
+
+            self.refused(
+                [
+                    (back(saved[:40]), "a saved state is cut off"),
+                    (back(saved[:-1]), "cut off or spoilt"),
+                    (back(bytes(spoilt)), "cut off or spoilt"),
+                    (back(b"nothing of the kind " * 10), "cut off or spoilt"),
+                    (back(other.serialized()), "of another FMU or another version"),
+                    (lambda: slave.back_to(c_void_p()), "found no state"),
+                ]
+            )
+            state, size = slave.state(), c_size_t()
+            name = "FMUstate" if version == "2" else "FMUState"
+            room = ctypes.create_string_buffer(10)
+            self.refused(
+                [
+                    (lambda: slave.call("Get" + name, None), "found no place"),
+                    (lambda: slave.call(f"Serialized{name}Size", state, None), "found no place"),
+                    (lambda: slave.call(f"Serialize{name}", state, room, c_size_t(10)), "room for 10"),
+                ]
+            )
+            slave.call(f"Serialized{name}Size", state, byref(size))
+            self.assertEqual(size.value, len(saved))
+            slave.free_state(state)
+            slave.call("Free" + name, None)  # nothing to free is no mistake
+            slave.free()
+            other.free()
+
+    def test_null_pointers_and_what_is_not_provided(self) -> None:
+        slave = fmu(RIG).instantiate().initialize()
+        one, vr = c_size_t(1), (c_uint * 1)(1)
+        order, value = (c_int * 1)(2), (c_double * 1)(1.0)
+        self.refused(
+            [
+                (lambda: slave.call("GetReal", None, one, None), "found no array"),
+                (lambda: slave.call("SetReal", vr, one, None), "found no array"),
+                (lambda: slave.call("GetString", vr, one, None), "no text variables"),
+                (lambda: slave.call("SetRealInputDerivatives", vr, one, order, value), "of order 2"),
+                (lambda: slave.call("GetRealOutputDerivatives", vr, one, order, value), "no deriv"),
+                (lambda: slave.call("CancelStep"), "there is none to cancel"),
+                (lambda: slave.call("GetStatus", 0, byref(c_int())), "ever pending"),
+                (lambda: slave.call("GetRealStatus", 0, None), "expected fmi2LastSuccessfulTime"),
+                (
+                    lambda: slave.call("GetDirectionalDerivative", vr, one, vr, one, value, value),
+                    "no directional derivatives",
+                ),
+            ]
+        )
+        slave.free()
+        entry = slave.lib.fmi2DoStep
+        entry.restype = c_int
+        self.assertEqual(entry(None, c_double(0), c_double(1), 1), 3)  # no instance: error
+
+    def test_derivative_of_the_length_is_its_rate(self) -> None:
+        slave = fmu(RIG).instantiate().initialize()
+        vr = (c_uint * 1)(fmu(RIG).variables["length"].reference)
+        slave.call("SetRealInputDerivatives", vr, c_size_t(1), (c_int * 1)(1), (c_double * 1)(-0.2))
+        self.assertEqual(slave.get("rate"), -0.2)
+        slave.free()
+
+    def test_a_plan_comes_to_its_end(self) -> None:
+        """The step that reaches it is done; the one after it is discarded."""
+        for version in "23":
+            f = fmu(f"{ROOT}/experiments/one-joint.toml", "--fmi", version)
+            end = f.root.find("DefaultExperiment")
+            assert end is not None
+            stop = float(end.get("stopTime", "0"))
+            slave = f.instantiate().initialize()
+            slave.step(0.0, stop - 0.5)
+            over = slave.step(stop - 0.5, 1.0)
+            self.assertEqual(over, version == "3")
+            with self.assertRaises(Failed) as raised:
+                slave.step(stop + 0.5, 1.0)
+            self.assertEqual(raised.exception.status, DISCARD)
+            if version == "2":
+                ended = c_int()
+                slave.call("GetBooleanStatus", 3, byref(ended))
+                self.assertEqual(ended.value, 1)
+            slave.free()
+
+    def test_a_machine_that_fails_says_why(self) -> None:
+        """The supervisor trips: the FMU answers an error with the run's own words, as long as asked."""
+        path = f"{ROOT}/experiments/faults/valve-stuck-open.toml"
+        slave = fmu(path).instantiate().initialize()
+        at, status = 0.0, 0
+        while at < 60.0 and status == 0:
+            try:
+                slave.step(at, 0.05)
+            except Failed as failed:
+                status = failed.status
+                self.assertGreater(len(str(failed)), 20)
+            at += 0.05
+        self.assertNotEqual(status, 0)
+        slave.free()
+
+
+class Files(unittest.TestCase):
+    """An unpacked FMU whose files were changed: refused at once, with the file's name."""
+
+    def changed(self, words: "Tuple[str, ...]", name: str, change: Callable[[bytes], bytes]) -> str:
+        f = Fmu(exported(*words))
+        path = os.path.join(f.folder, "resources", name)
+        with open(path, "rb") as file:
+            text = file.read()
+        with open(path, "wb") as file:
+            file.write(change(text))
+        with self.assertRaises(Failed) as raised:
+            f.instantiate()
+        return str(raised.exception)
+
+    def test_that_are_damaged(self) -> None:
+        cases = [
+            (lambda t: t.replace(b"turns = 2.3125", b"turns = 2.4"), "was changed by hand"),
+            (lambda t: t[: len(t) // 2], "the file is damaged"),
+            (lambda t: b"", "is empty"),
+            (lambda t: b"\x00\xff" * 100, "expected \"sinew fmu 1\""),
+            (lambda t: t.replace(b"fmu 1", b"fmu 9", 1), "expected \"sinew fmu 1\""),
+            (lambda t: t.replace(b" = ", b" ", 1), "is no \"key = value\""),
+            (lambda t: t + b"more = 1\n", "the file is damaged"),
+        ]
+        for number, (change, words) in enumerate(cases):
+            with self.subTest(number=number):
+                self.assertIn(words, self.changed((RIG,), "model.txt", change))
+        said = self.changed((WALK,), "machine.toml", lambda t: t.replace(b"hip", b"hop"))
+        self.assertIn("machine.toml: the file is cut off or was changed", said)
+
+    def test_that_are_gone(self) -> None:
+        f = Fmu(exported(RIG))
+        shutil.rmtree(os.path.join(f.folder, "resources"))
+        with self.assertRaises(Failed) as raised:
+            f.instantiate()
+        self.assertIn("found no file", str(raised.exception))
+
+
+class Killed(unittest.TestCase):
+    def test_an_importer_may_unload_and_load_it(self) -> None:
+        script = (
+            "import sys, _ctypes; from importer import Fmu\n"
+            "for _ in range(20):\n"
+            "    f = Fmu(sys.argv[1]); s = f.instantiate().initialize(); s.step(0.0, 0.1); s.free()\n"
+            "    _ctypes.dlclose(f.library._handle)\n"
+            "print('unloaded')"
+        )
+        done = subprocess.run(
+            [sys.executable, "-c", script, exported(RIG)], capture_output=True, text=True,
+            cwd=f"{ROOT}/fmu/tests", check=False,
+        )  # fmt: skip
+        self.assertEqual(done.stdout.strip(), "unloaded", done.stderr)
+
+
+class Program(unittest.TestCase):
+    def test_wrong_words(self) -> None:
+        rig_of_cylinder = f"{ROOT}/experiments/rig/sealed-cylinder.toml"
+        out = os.path.join(WORK, "wrong.fmu")
+        cases: "List[Tuple[List[str], int, str]]" = [
+            (["nowhere.toml"], 1, "nowhere.toml"),
+            ([ROOT], 1, "folder"),
+            ([f"{ROOT}/robots/leg/valves.toml"], 1, "an actuator, rig, robot or experiment file"),
+            ([ROBOT, "--muscle", "hip"], 1, "hip_flexor"),
+            ([ROBOT, "--joint", "ankle"], 1, "which the robot has not"),
+            ([ROBOT, "--joint", "hip", "--muscle", "hip_flexor"], 1, "expected one of them"),
+            ([ROBOT, "--input", "control.stiffness.hip"], 1, "expected an experiment"),
+            ([ROBOT, "--without-valves"], 1, "no muscle whose valves"),
+            ([ROBOT, "--joint", "hip", "--without-valves"], 1, "joints without valves"),
+            ([ROBOT, "--actuator", "bpa"], 1, "expected an actuator file"),
+            ([ROBOT, "--fmi", "4"], 2, "--fmi"),
+            ([ROBOT, "--set", "joint.hip.moment_arm=-1 in"], 1, "moment_arm"),
+            ([ROBOT, "--set", "air.supply.kind=tank", "--set", "air.supply.volume=10 L",
+              "--set", "air.supply.initial_pressure=200 psi abs"], 1, "empty together"),
+            ([ACTUATOR, "--muscle", "x"], 1, "expected a robot"),
+            ([ACTUATOR, "--actuator", "x"], 1, "x"),
+            ([RIG, "--joint", "hip"], 1, "a rig"),
+            ([rig_of_cylinder], 1, "an air cylinder"),
+            ([WALK, "--input", "control.stiffness.ankle"], 1, "control.stiffness.hip"),
+            ([WALK, "--output", "/joint/ankle/angle"], 1, "/joint/ankle/angle"),
+            ([WALK, "--parameter", "joint.hip.dampin"], 1, "try \"joint.hip.damping\""),
+            ([WALK, "--parameter", "title"], 1, "expected the key of a number"),
+            ([WALK, "--parameter", "phase.swing.joint_angles.hip"], 1, "parameter: found"),
+            ([], 2, "FILE"),
+        ]  # fmt: skip
+        for words, code, said in cases:
+            with self.subTest(words=words):
+                done = program("fmu", "export", *words, "-o", out)
+                self.assertEqual(done.returncode, code, done.stderr)
+                self.assertIn(said, done.stderr + done.stdout)
+                self.assertFalse(os.path.exists(out))
+
+    def test_nothing_is_overwritten_silently(self) -> None:
+        out = os.path.join(WORK, "kept.fmu")
+        with open(out, "w", encoding="utf-8") as file:
+            file.write("mine")
+        refused = program("fmu", "export", ACTUATOR, "-o", out)
+        self.assertEqual(refused.returncode, 1)
+        with open(out, encoding="utf-8") as file:
+            self.assertEqual(file.read(), "mine")
+        self.assertEqual(program("fmu", "export", ACTUATOR, "-o", out, "--force").returncode, 0)
+        for target in (ACTUATOR, WORK, os.path.join(WORK, "no", "folder.fmu")):
+            refused = program("fmu", "export", ACTUATOR, "-o", target, "--force")
+            self.assertEqual(refused.returncode, 1, refused.stdout)

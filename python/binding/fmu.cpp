@@ -1,0 +1,95 @@
+// python/binding/fmu.cpp - files of ours as FMUs.
+#include <pybind11/stl.h>
+
+#include "fmu/export/export.h"
+#include "python/binding/bind.h"
+#include "sinew/files/values.h"
+#include "sinew/run/folder/files.h"
+
+namespace sinew::python {
+
+namespace {
+
+using Causality = fmu::Variable::Causality;
+using Names = std::vector<std::string>;
+
+const char* word(Causality causality) {
+  if (causality == Causality::time) return "time";
+  if (causality == Causality::parameter) return "parameter";
+  return causality == Causality::input ? "input" : "output";
+}
+
+py::dict told(const fmu::Fmu& made, const std::string& path) {
+  py::dict out;
+  out["file"] = path;
+  out["kind"] = made.kind;
+  out["name"] = made.name;
+  out["model_identifier"] = made.identifier;
+  out["token"] = made.token;
+  py::list variables;
+  for (std::size_t k = 0; k < made.variables.size(); ++k) {
+    const fmu::Variable& v = made.variables[k];
+    py::dict entry;
+    entry["name"] = v.name;
+    entry["value_reference"] = k;
+    entry["causality"] = word(v.causality);
+    if (!v.unit.empty()) entry["unit"] = v.unit;
+    if (v.causality == Causality::parameter || v.causality == Causality::input)
+      entry["start"] = v.start;
+    entry["meaning"] = v.doc;
+    variables.append(entry);
+  }
+  out["variables"] = variables;
+  return out;
+}
+
+py::dict export_fmu(const py::object& file, const py::object& path, const std::string& muscle,
+                    const Names& joints, const std::string& actuator, bool without_valves,
+                    const Names& inputs, const Names& outputs, const Names& parameters,
+                    const py::object& sets, int fmi, const std::string& name, bool force) {
+  fmu::Asked asked{.file = path_of(file), .name = name, .version = fmi};
+  config::Origins plain;  // for the units of numbers
+  asked.sets = sets_of(sets, [&]() -> const config::Origins& {
+    if (plain.empty()) plain = files::values(asked.file).origins;
+    return plain;
+  });
+  asked.actuator = actuator;
+  asked.muscle = muscle;
+  asked.joints = joints;
+  asked.without_valves = without_valves;
+  asked.inputs = inputs;
+  asked.outputs = outputs;
+  asked.parameters = parameters;
+  const std::string out = path_of(path);
+  fmu::Fmu made;
+  {
+    const py::gil_scoped_release unlocked;
+    made = fmu::make_fmu(asked);
+    run::refuse_to_overwrite(out, force, {asked.file}, ".fmu");
+    run::write_file(out, made.bytes);
+  }
+  return told(made, out);
+}
+
+}  // namespace
+
+void bind_fmu(py::module_& m) {
+  m.def(
+      "export_fmu", &export_fmu, py::arg("file"), py::arg("path"), py::kw_only(),
+      py::arg("muscle") = "", py::arg("joints") = Names(), py::arg("actuator") = "",
+      py::arg("without_valves") = false, py::arg("inputs") = Names(), py::arg("outputs") = Names(),
+      py::arg("parameters") = Names(), py::arg("sets") = py::none(), py::arg("fmi") = 2,
+      py::arg("name") = "", py::arg("force") = false,
+      "Writes an FMU for somebody else's co-simulation, and returns what is in it: its kind and\n"
+      "a dict for each variable, with name, value_reference, causality, unit (SI), start, "
+      "meaning.\n\n"
+      "An actuator file becomes a tube (length, rate, gauge pressure -> tension); a rig, or a\n"
+      "`muscle` of a robot, a muscle with its valves, or without them a tube; a robot its "
+      "`joints`,\n"
+      "all that have muscles if none is named; an experiment the machine with its controllers,\n"
+      "with settings of the plan as `inputs`, channels as `outputs` (all if none is named) and\n"
+      "values of its files as `parameters`. `fmi` is 2 or 3. Raises InputError for what is wrong\n"
+      "with the file or the path, ValueError for what does not go together.");
+}
+
+}  // namespace sinew::python
