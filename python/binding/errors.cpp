@@ -6,6 +6,8 @@
 #include "python/binding/bind.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/log/error.h"
+#include "sinew/plant/comedi/comedi_port.h"
+#include "sinew/plant/hardware/remote_board.h"
 
 namespace sinew::python {
 
@@ -56,6 +58,8 @@ void bind_errors(py::module_& m) {
   static const py::handle run = new_exception(
       m, "RunError", "A run ended before its plan did; the words say why, and what was last seen.",
       PyExc_RuntimeError);
+  static const py::handle board = new_exception(
+      m, "BoardError", "A board, or a card, is not there, or not as it should be.", PyExc_OSError);
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
       std::rethrow_exception(thrown);
@@ -65,6 +69,10 @@ void bind_errors(py::module_& m) {
       PyErr_SetString(log.ptr(), e.what());
     } catch (const RunError& e) {
       PyErr_SetString(run.ptr(), e.what());
+    } catch (const plant::BoardError& e) {
+      PyErr_SetString(board.ptr(), e.what());
+    } catch (const plant::CardError& e) {
+      PyErr_SetString(board.ptr(), e.what());
     } catch (const std::filesystem::filesystem_error& e) {
       PyErr_SetString(PyExc_OSError, e.what());
     }

@@ -76,6 +76,7 @@ Pointer derived(const Pointer& of) {
   out->summary = of->summary;
   out->verdicts = of->verdicts;
   out->folder = of->folder;
+  out->board = of->board;
   return out;
 }
 
@@ -170,6 +171,8 @@ void bind_recording(py::module_& m) {
           "False: it was read from a log that was cut off.")
       .def_readonly("warnings", &Recording::warnings, "What is doubtful about it.")
       .def_readonly("folder", &Recording::folder, "Where it is kept; empty: nowhere.")
+      .def_readonly("board", &Recording::board,
+                    "Who answered at the port of the run; empty: it was simulated, or read.")
       .def_property_readonly(
           "summary", [](const Recording& r) { return parsed(r.summary); },
           "Its figures, as `sinew run` writes them to summary.json: dicts, SI.")

@@ -26,6 +26,7 @@ class Recording {
   config::Node resolved;  // what was run, as resolved.toml says it
   std::string name;       // of the experiment
   std::string folder;     // where it is kept; empty: nowhere
+  std::string board;      // who answered at the port; empty: simulated, or not known
 
   // "/joint/hip/angle", "/foot/position.x": every channel that there is, with its unit.
   struct Channel {

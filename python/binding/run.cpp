@@ -18,6 +18,7 @@
 #include "sinew/run/folder/kept_stand_run.h"
 #include "sinew/run/folder/outcome.h"
 #include "sinew/run/folder/runnable.h"
+#include "sinew/run/simulation/place.h"
 #include "sinew/run/stand/run.h"
 
 namespace sinew::python {
@@ -26,9 +27,16 @@ namespace {
 
 using Pointer = std::shared_ptr<Recording>;
 
-// The run in memory alone.
-void run_here(const HeldExperiment& e, std::atomic<bool>& stop, Recording& out) {
-  run::Outcome outcome = run::run(e.read, {.stop = &stop});
+// The run in memory alone, simulated or on a board that is ready then.
+void run_here(const HeldExperiment& e, const run::RunRequest& request, std::atomic<bool>& stop,
+              Recording& out) {
+  run::Place place(request.port, e.read);
+  place.prepare(request.clear_fault);
+  out.board = place.who();
+  out.warnings = place.told();
+  run::RunOptions options{.stop = &stop};
+  place.apply(options);
+  run::Outcome outcome = run::run(e.read, options);
   if (outcome.stopped) return;
   if (outcome.ended_early()) throw RunError(run::black_box(e.read, outcome));
   if (!outcome.no_room.empty()) throw std::runtime_error(outcome.no_room);
@@ -47,6 +55,8 @@ void run_kept(const run::RunRequest& request, std::atomic<bool>& stop, Recording
                     {.on_warning = [&](std::string_view text) { warnings.emplace_back(text); }});
   run::RunOptions options{.stop = &stop};
   kept.apply(options);
+  out.board = kept.place().who();
+  for (const std::string& line : kept.place().told()) warnings.push_back(line);
   run::Outcome outcome = run::run(kept.experiment(), options);
   if (outcome.stopped) return;
   out.table = outcome.table;
@@ -82,17 +92,31 @@ void run_on_stand(const run::RunRequest& request, Recording& out) {
   sum_up(out);
 }
 
+// Throws std::invalid_argument for what is no place.
+void check_place(const std::string& place, bool on_stand) {
+  if (const std::string wrong = run::problem_of_place(place); !wrong.empty())
+    throw std::invalid_argument("port: " + wrong);
+  if (on_stand && run::is_elsewhere(place))
+    throw std::invalid_argument("port: found " + place +
+                                "; expected simulated: no board drives a test stand yet");
+}
+
 bool is_on_stand(const py::object& experiment) {
   return !py::isinstance<HeldExperiment>(experiment) && run::is_on_stand(path_of(experiment));
 }
 
 Pointer run(const py::object& experiment, const py::object& sets, const py::object& folder,
-            bool force, bool report) {
+            bool force, bool report, const std::string& port, bool clear_fault) {
   auto out = std::make_shared<Recording>();
-  run::RunRequest request{
-      .folder = folder.is_none() ? "" : path_of(folder), .force = force, .report = report};
+  run::RunRequest request{.folder = folder.is_none() ? "" : path_of(folder),
+                          .force = force,
+                          .report = report,
+                          .port = port,
+                          .clear_fault = clear_fault};
   std::atomic<bool> stop = false;
-  if (is_on_stand(experiment)) {
+  const bool on_stand = is_on_stand(experiment);
+  check_place(port, on_stand);
+  if (on_stand) {
     request.experiment = path_of(experiment);
     std::optional<rig::Experiment> plain;  // for the units of numbers
     request.sets = sets_of(sets, [&]() -> const config::Origins& {
@@ -110,7 +134,7 @@ Pointer run(const py::object& experiment, const py::object& sets, const py::obje
   request.sets = e->sets;
   do_interruptibly(stop, [&] {
     if (request.folder.empty())
-      run_here(*e, stop, *out);
+      run_here(*e, request, stop, *out);
     else
       run_kept(request, stop, *out);
   });
@@ -158,11 +182,18 @@ void do_interruptibly(std::atomic<bool>& stop, const std::function<void()>& work
 void bind_run(py::module_& m) {
   m.def("run", &run, py::arg("experiment"), py::arg("sets") = py::none(), py::kw_only(),
         py::arg("folder") = py::none(), py::arg("force") = false, py::arg("report") = true,
+        py::arg("port") = "", py::arg("clear_fault") = false,
         "Runs an experiment to its end and returns what it recorded; in memory, or kept in\n"
         "`folder` as `sinew run` keeps it, where `force` replaces a run and `report` leaves its\n"
         "page. `experiment` is a path, also of an experiment on the test stand, or an Experiment;\n"
         "`sets` are as for Experiment. Ctrl-C ends it.\n"
-        "Raises InputError, and RunError where it ends before its plan does.");
+        "\n"
+        "`port` is where it runs: \"simulated\", \"serial:DEVICE[@RATE]\", \"emulated:FILE\",\n"
+        "\"lock-step:FILE\" or \"comedi:DEVICE\", as behind `sinew run --port`; `clear_fault`: a\n"
+        "board that dumped by itself was looked into. Ctrl-C lets the air out of a machine.\n"
+        "\n"
+        "Raises InputError, BoardError where a board or card is not there or not as it should be,\n"
+        "and RunError where the run ends before its plan does.");
 }
 
 }  // namespace sinew::python

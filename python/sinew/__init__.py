@@ -16,6 +16,7 @@ with a file is raised as InputError, with the words that `sinew check` prints.
 
 from sinew._sinew import (
     Actuator,
+    BoardError,
     Channel,
     DrivenMuscle,
     Experiment,
@@ -46,6 +47,7 @@ from sinew._parts import Part, Robot
 
 __all__ = [
     "Actuator",
+    "BoardError",
     "Channel",
     "DrivenMuscle",
     "Experiment",

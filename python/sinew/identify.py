@@ -69,8 +69,8 @@ def static(
     """Return the static law of an actuator from forces [N] at lengths [m] and gauge pressures [Pa].
 
     Arrays with a number for each point, or one number for all. rest_length [m] of the muscle without
-    pressure and load (None: the longest length; several say which points are of which muscle). fitted: False for
-    points that are held out, to score what was not seen; hold_out does that with every second
+    pressure and load (None: the longest length; several say which points are of which muscle). fitted:
+    False for points that are held out, to score what was not seen; hold_out does that with every second
     "pressure" or each "length" once. model: that law alone; else the data choose. source: where the data
     are from, for the file.
 
@@ -167,10 +167,10 @@ def dynamic(
 
     data: a table for each swing, with columns time [s], length [m], and pressure [Pa abs] where it was
     measured. actuator: file with braid, tension and ends, a start; name: which one in it. mass [kg] that
-    moves, pressure [Pa abs] of the air as it hangs (None: the measured one) and external_volume [m3] of hose and
-    fittings up to the shut valve: one, or one for each table. exponent of the trapped air (None: from the
-    pressure, else 1.4). count: actuators in parallel. hold_out: tables that score the laws and are not
-    fitted; else each table in turn, or the last third of the only one. model: that law alone.
+    moves, pressure [Pa abs] of the air as it hangs (None: the measured one) and external_volume [m3] of
+    hose and fittings up to the shut valve: one, or one for each table. exponent of the trapped air (None:
+    from the pressure, else 1.4). count: actuators in parallel. hold_out: tables that score the laws and
+    are not fitted; else each table in turn, or the last third of the only one. model: that law alone.
     """
     others = hold_out if isinstance(hold_out, (list, tuple)) else [hold_out]
     settings = {
