@@ -46,6 +46,9 @@ list='
     check  -                   python3-ipykernel                their interpreter
     check  dpkg-shlibdeps      dpkg-dev                         finds what the .deb depend on
     check  file                file                             tells programs from other files there
+    check  -                   mkdocs-material                  builds the docs site, with MkDocs
+    check  doxygen             doxygen                          reads the headers for its reference
+    check  -                   libjs-katex                      sets its formulas
     check  mpirun              openmpi-bin                      starts them in tests
     check  chromium            chromium                         opens that page in tests
     check  -                   fonts-dejavu-core                what its reference pictures are set in

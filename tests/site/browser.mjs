@@ -1,0 +1,140 @@
+// browser.mjs SITE [PICTURES]   reads the docs site as a person would: serves it on this computer,
+// types into its search, follows the first hit, and looks at every formula. Nothing may be asked of
+// anybody else. Pictures of some pages go where they are wanted.
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { readdirSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { open_browser } from '../../web/test/chromium.mjs';
+
+const [site, pictures] = process.argv.slice(2);
+let server, url, browser;
+
+before(async () => {
+  server = spawn('python3', ['-u', '-m', 'http.server', '--bind', '127.0.0.1', '--directory', site, '0'],
+    { stdio: ['ignore', 'pipe', 'ignore'] });
+  url = await new Promise((found, wrong) => {
+    server.stdout.on('data', (text) => {
+      const port = /port (\d+)/.exec(text);
+      if (port) found(`http://127.0.0.1:${port[1]}/`);
+    });
+    server.on('close', () => wrong(new Error('python3 -m http.server ended')));
+  });
+  browser = await open_browser();
+});
+
+after(async () => {
+  await browser?.close();
+  server?.kill();
+});
+
+// Opens a page, lets `does` happen, and sees that nothing went wrong and nobody else was asked.
+async function visit(path, does, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+  context.setDefaultTimeout(15000);
+  const page = await context.newPage(), wrong = [];
+  page.on('console', (m) => ['error', 'warning'].includes(m.type()) && wrong.push(m.text()));
+  page.on('pageerror', (e) => wrong.push(e.message));
+  page.on('requestfailed', (r) => r.failure().errorText !== 'net::ERR_ABORTED' && wrong.push(`failed: ${r.url()}`));
+  page.on('request', (r) => r.url().startsWith(url) || r.url().startsWith('data:') || wrong.push(`asked for ${r.url()}`));
+  try {
+    await page.goto(url + path);
+    await does(page);
+    assert.deepEqual(wrong, []);
+  } finally {
+    await context.close();
+  }
+}
+
+// Types into the search box and follows the first hit: the first section of the first page, or that
+// page where its own words are meant. Returns the path, the heading there, and the page's words.
+async function search(page, words) {
+  await page.click('.md-search__input');
+  await page.fill('.md-search__input', words);
+  const item = page.locator('.md-search-result__item').first();
+  await item.waitFor();
+  const section = item.locator('> a').nth(1);
+  const first = (await section.count()) ? section : item.locator('> a').first();
+  const found = await first.getAttribute('href');
+  await first.click();
+  await page.waitForURL((now) => now.href.split('?')[0] === new URL(found, url).href.split('?')[0]);
+  return page.evaluate(() => {
+    const at = location.hash ? document.getElementById(decodeURIComponent(location.hash.slice(1))) : null;
+    return { path: location.pathname.slice(1), at: at?.textContent ?? '', text: document.querySelector('article').textContent };
+  });
+}
+
+// What is typed, the page that the first hit must be on, and what stands at its place.
+const searches = [
+  ['effectiveness', /actuator/, /effectiveness/i],
+  ['inlet', /./, /inlet/i],
+  ['predict.dat', /./, /predict[._]dat/],
+  ['AirNetwork::move_valves', /^reference\/cpp\/air\.html/, /AirNetwork::move_valves/],
+  ['stiffness_at_constant_pressure', /^reference\/cpp\/actuator\.html/, /stiffness_at_constant_pressure/],
+  ['sinew.Simulation.advance_to', /^reference\/python\/sinew\.html/, /advance_to/],
+];
+for (const [words, where, what] of searches)
+  test(`search finds ${words}`, () =>
+    visit('index.html', async (page) => {
+      const { path, at, text } = await search(page, words);
+      assert.match(path, where);
+      assert.match(at || text, what, `${path} has it where the hit leads`);
+    }));
+
+test('every formula is set', async () => {
+  const has_some = (name) => name.endsWith('.html') && readFileSync(join(site, 'docs', name), 'utf8').includes('"arithmatex"');
+  const folders = ['.', 'theory'].flatMap((folder) => readdirSync(join(site, 'docs', folder)).map((name) => join(folder, name)));
+  const pages = folders.filter(has_some);
+  let count = 0;
+  for (const name of pages)
+    await visit(`docs/${name}`, async (page) => {
+      const formulas = await page.locator('.arithmatex').count();
+      await page.waitForSelector('body[data-math]');
+      const wrong = await page.locator('.katex-error').evaluateAll((all) => all.map((e) => `${e.title}: ${e.textContent}`));
+      assert.deepEqual(wrong, [], `${name}: formulas that KaTeX does not know`);
+      assert.equal(await page.locator('.arithmatex .katex').count() >= formulas, true);
+      count += formulas;
+    });
+  assert.ok(count > 500, `found ${count} formulas`);
+  console.log(`# ${count} formulas`);
+});
+
+test('a theory page leads to the reference and back', () =>
+  visit('docs/theory/actuator.html', async (page) => {
+    await page.locator('article a:has(code:text-is("sliding_tension"))').first().click();
+    assert.match(page.url(), /reference\/cpp\/actuator\.html#sliding_tension/);
+    await page.locator('h3#sliding_tension ~ .api a:has-text("The braided actuator")').first().click();
+    assert.match(page.url(), /docs\/theory\/actuator\.html/);
+  }));
+
+test('no page is wider than a telephone', async () => {
+  for (const path of ['index.html', 'docs/theory/actuator.html', 'reference/cpp/air.html', 'reference/python/sinew.html'])
+    await visit(path, async (page) => {
+      const width = await page.evaluate(() => document.documentElement.scrollWidth);
+      assert.ok(width <= 390, `${path}: ${width} px wide`);
+    }, { viewport: { width: 390, height: 844 } });
+});
+
+if (pictures)
+  test('pictures', async () => {
+    const views = { light: {}, dark: { colorScheme: 'dark' }, narrow: { viewport: { width: 390, height: 844 } } };
+    const pages = {
+      front: 'index.html', theory: 'docs/theory/actuator.html#tension', cpp: 'reference/cpp/air.html#DrivenMuscle',
+      folders: 'reference/cpp/index.html', python: 'reference/python/sinew.html', source: 'source/sinew/air/driven_muscle.h.html#L42',
+    };
+    for (const [view, options] of Object.entries(views)) {
+      for (const [name, path] of Object.entries(pages))
+        await visit(path, async (page) => {
+          await page.waitForTimeout(500);
+          await page.screenshot({ path: join(pictures, `${name}-${view}.png`) });
+        }, options);
+      await visit('index.html', async (page) => {
+        await page.click(view === 'narrow' ? 'label.md-header__button[for="__search"]' : '.md-search__input');
+        await page.fill('.md-search__input', 'effectiveness');
+        await page.locator('.md-search-result__item a').first().waitFor();
+        await page.waitForTimeout(500);
+        await page.screenshot({ path: join(pictures, `search-${view}.png`) });
+      }, options);
+    }
+  });

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# site.sh [OUT]   builds the docs site in build/site, or OUT: docs, examples, README and changelog,
+# the reference of the C++ library and of the Python package, and the sources, with one search.
+#
+#   python3 -m http.server --bind 127.0.0.1 --directory build/site 8000
+#
+# then shows it at http://127.0.0.1:8000; pages alone also open as files, their search does not.
+# Nothing is asked of the network, neither by this nor by the site. A link that leads nowhere, a
+# warning of Doxygen or MkDocs, and a public name without words in the folders that programs begin
+# with (tools/site/undocumented.py) are errors.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+export LC_ALL=C.UTF-8
+
+case ${1:-} in
+  -*) awk 'NR > 1 && /^#/ { print substr($0, 3); next } NR > 1 { exit }' "$0"; exit 2 ;;
+esac
+out=${1:-build/site}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# What was there goes when the new one is whole.
+/usr/bin/python3 tools/site/build.py . "$work/site" "$work/work"
+/usr/bin/python3 tools/site/check_links.py "$work/site"
+/usr/bin/python3 tools/site/undocumented.py "$work/work"
+mkdir -p "$(dirname "$out")"
+rm -rf "$out"
+cp -r "$work/site" "$out"
