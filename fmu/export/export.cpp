@@ -152,8 +152,19 @@ std::string identifier_of(const std::string& name) {
   return out.empty() ? "model" : out;
 }
 
-fs::path module_of(const Made& made) {
-  const fs::path found = host::find_module(made.module.c_str());
+fs::path module_of(const Made& made, const std::string& folder) {
+  if (!folder.empty()) {
+    if (!fs::is_regular_file(fs::path(folder) / made.module))
+      refuse(fmt::format(
+          "modules: found no {} in {}; expected the folder lib/sinew of an installation",
+          made.module, folder));
+    return fs::path(folder) / made.module;
+  }
+  fs::path found = host::find_module(made.module.c_str());
+  for (const char* place : {"/usr/local/lib/sinew", "/usr/lib/sinew"})
+    if (std::error_code none;
+        found.empty() && fs::is_regular_file(place / fs::path(made.module), none))
+      found = place / fs::path(made.module);
   if (found.empty())
     throw std::runtime_error(
         made.module +
@@ -209,7 +220,7 @@ Fmu make_fmu(const Asked& asked) {
   files.push_back({"modelDescription.xml",
                    asked.version == 2 ? fmi2_description(model) : fmi3_description(model)});
   files.push_back({"documentation/index.html", variables_page(model)});
-  const fs::path module = module_of(made);
+  const fs::path module = module_of(made, asked.modules);
   files.push_back(
       {fmt::format("binaries/{}/{}.so", platform_folder(asked.version), model.identifier),
        bytes_of(module)});

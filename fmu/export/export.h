@@ -33,6 +33,10 @@ struct Asked {
   std::vector<std::string> joints;
   bool without_valves = false;
   std::vector<std::string> inputs, outputs, parameters;  // of an experiment, machine.h
+
+  // The folder lib/sinew of an installation, whose modules become the FMU's binary; empty: beside
+  // the program, or below /usr/local or /usr.
+  std::string modules;
 };
 
 struct Fmu {
