@@ -49,7 +49,7 @@ class Slave {
   Slave(const Slave&) = delete;
   Slave& operator=(const Slave&) = delete;
 
-  void set(std::vector<unsigned> at, const double* values) {
+  void set(const std::vector<unsigned>& at, const double* values) {
     set_(handle_, at.data(), at.size(), values);
   }
   void get(const std::vector<unsigned>& at, double* values) {
@@ -78,13 +78,14 @@ double time_of(const Work& work) {  // [s]
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Medians of both by turns: microseconds a step, and how many times the library's the FMU's is.
+// Medians of both by turns, which each answer how long their steps took [s]: microseconds a step,
+// and how many times the library's the FMU's is.
 template <class Library, class Through>
 void by_turns(benchmark::State& state, int steps, const Library& library, const Through& through) {
   std::vector<double> ours, theirs, ratios;
   for (auto _ : state) {
-    ours.push_back(time_of(library) / steps);
-    theirs.push_back(time_of(through) / steps);
+    ours.push_back(library() / steps);
+    theirs.push_back(through() / steps);
     ratios.push_back(theirs.back() / ours.back());
   }
   const auto median = [](std::vector<double>& of) {
@@ -107,23 +108,27 @@ void fmu_muscle(benchmark::State& state) {
       state, steps,
       [&] {
         air::DrivenMuscle muscle(read.muscle, read.air, read.supply, read.length, 4e5);
-        for (int k = 0; k < steps; ++k) {
-          muscle.advance(h, length_at(k));
-          benchmark::DoNotOptimize(muscle.tension());
-        }
+        return time_of([&] {
+          for (int k = 0; k < steps; ++k) {
+            muscle.advance(h, length_at(k));
+            benchmark::DoNotOptimize(muscle.tension());
+          }
+        });
       },
       [&] {
         Slave muscle("sinew_fmu_muscle.so",
                      fmu::Muscle::describe(read.muscle, read.air, read.supply, {read.length, 4e5}));
         double in[2] = {}, out = 0;
         const std::vector<unsigned> inputs{1, 2}, outputs{5};
-        for (int k = 0; k < steps; ++k) {
-          in[0] = length_at(k);
-          muscle.set(inputs, in);
-          muscle.step(k * h, h);
-          muscle.get(outputs, &out);
-          benchmark::DoNotOptimize(out);
-        }
+        return time_of([&] {
+          for (int k = 0; k < steps; ++k) {
+            in[0] = length_at(k);
+            muscle.set(inputs, in);
+            muscle.step(k * h, h);
+            muscle.get(outputs, &out);
+            benchmark::DoNotOptimize(out);
+          }
+        });
       });
 }
 
@@ -143,21 +148,25 @@ void fmu_machine(benchmark::State& state) {
         std::vector<std::size_t> at;
         for (const std::string& name : channels) at.push_back(leg.find(name));
         std::vector<double> values(at.size());
-        for (int k = 0; k < steps; ++k) {
-          leg.advance_by(h);
-          leg.read(at, values);
-          benchmark::DoNotOptimize(values.data());
-        }
+        return time_of([&] {
+          for (int k = 0; k < steps; ++k) {
+            leg.advance_by(h);
+            leg.read(at, values);
+            benchmark::DoNotOptimize(values.data());
+          }
+        });
       },
       [&] {
         Slave leg("sinew_fmu_machine.so", fmu::Machine::describe(walk, {.outputs = channels}));
         const std::vector<unsigned> outputs{1, 2, 3, 4, 5, 6};
         double values[6] = {};
-        for (int k = 0; k < steps; ++k) {
-          leg.step(k * h, h);
-          leg.get(outputs, values);
-          benchmark::DoNotOptimize(values);
-        }
+        return time_of([&] {
+          for (int k = 0; k < steps; ++k) {
+            leg.step(k * h, h);
+            leg.get(outputs, values);
+            benchmark::DoNotOptimize(values);
+          }
+        });
       });
 }
 

@@ -334,3 +334,24 @@ class States(unittest.TestCase):
                 thread.join()
             self.assertIsNotNone(results[0])
             self.assertEqual(results[0], results[1])
+
+    def test_memory_does_not_grow(self) -> None:
+        """Resets, states that are kept, and instances that come and go."""
+
+        def resident() -> int:  # [KB]
+            with open("/proc/self/status", encoding="utf-8") as file:
+                return next(int(line.split()[1]) for line in file if line.startswith("VmRSS"))
+
+        for words, rounds in (((RIG,), 3000), ((WALK,), 60)):
+            f, first = fmu(*words), 0
+            for k in range(2 * rounds):
+                slave = f.instantiate().initialize()
+                slave.step(0.0, 0.01)
+                slave.free_state(slave.deserialized(slave.serialized()))
+                slave.call("Terminate")
+                slave.call("Reset")
+                slave.initialize()
+                slave.free()
+                if k == rounds:
+                    first = resident()
+            self.assertLess(resident() - first, 1000)
