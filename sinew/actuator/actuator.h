@@ -37,6 +37,7 @@ struct LongEnd {
 // holds a load that has gone past it; `stop` is an end stop that pushes back, `empirical` the line
 // that appendix A has commented out, "empirical guesses that match data".
 struct ShortEnd {
+  // Which force holds a length below the shortest one.
   enum class Law { stop, zero, empirical };
   Law law = Law::stop;
   double stiffness = 0;  // [N/m]
@@ -46,6 +47,7 @@ struct ShortEnd {
 // [33], [34]: viscous loss, and dry friction between bladder and mesh of at most Q times a
 // stiffness.
 struct Loss {
+  // Which stiffness the dry friction is Q times of.
   enum class Scale { secant, sealed, constant };
   double viscous = 0;         // c [N s/m]
   double coulomb_length = 0;  // Q [m]

@@ -20,6 +20,7 @@
 
 namespace sinew::actuator {
 
+// Returns the length, or the end of the fitted lengths that is next to it  [m].
 constexpr double held(const Bladder& bladder, double length) {
   const double low = length < bladder.valid_from ? bladder.valid_from : length;
   return low > bladder.valid_to ? bladder.valid_to : low;

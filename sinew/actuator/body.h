@@ -31,6 +31,7 @@ constexpr double taper_gain(const Taper& taper, double gauge_pressure) {
   return taper.gain + taper.extra_gain * units::exp(x > -700 ? x : -700);
 }
 
+// Does the tube narrow at its ends? Else the taper changes nothing.
 constexpr bool tapers(const Taper& taper) { return taper.gain != 1 || taper.extra_gain != 0; }
 
 // x, at which the braid pulls  [m]. A taper ends at 0, far below where it pushes.

@@ -19,6 +19,7 @@
 
 namespace sinew::actuator {
 
+// Is there any creep to be integrated?
 constexpr bool has_creep(const Creep& creep) {
   for (const double share : creep.share)
     if (share != 0) return true;

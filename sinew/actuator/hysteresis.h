@@ -27,6 +27,7 @@
 
 namespace sinew::actuator {
 
+// Is there any friction that the pressure turns?
 constexpr bool has_hysteresis(const Hysteresis& h) {
   return h.half_width > 0 || h.width_per_pressure > 0 || h.width_per_contraction > 0;
 }

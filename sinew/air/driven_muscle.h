@@ -1,8 +1,8 @@
 // air/driven_muscle.h - one muscle with its valves, hose and leak on a supply, moved by a loop
 // that is not ours: somebody else's robot, simulator or controller.
 //
-//   air::DrivenMuscle m(muscle, air, supply, 0.08);   // 80 mm long, at the atmosphere's
-//   pressure for (;;) {
+//   air::DrivenMuscle m(muscle, air, supply, 0.08);      // 80 mm long, at the room's pressure
+//   for (;;) {
 //     m.inlet(now_open);
 //     m.advance(1e-4, your_length());                    // 0.1 ms later it is so long
 //     pull_with(m.tension());
@@ -27,6 +27,7 @@ class DrivenMuscle {
   using Air = AirNetwork<4>;
 
  public:
+  // Everything that its future depends on, and what it was like at the last step.
   struct State {
     double time = 0;              // since it was made [s]
     double length = 0, rate = 0;  // [m], [m/s]
@@ -74,6 +75,7 @@ class DrivenMuscle {
   // Is its state no number any more? From then on it stands still.
   bool failed() const noexcept { return state_.failed; }
 
+  // Returns its state, to be copied; and goes on from one of a muscle of equal description.
   const State& state() const noexcept { return state_; }
   void restore(const State& state) noexcept { state_ = state; }
 

@@ -45,6 +45,7 @@ double delivered_passiveness(const Figures&, const robot::Muscle&);
 // That went into a cylinder between two rows  [kg]; 0 where there is none.
 double cylinder_air(const Figures&, std::size_t first, std::size_t last);
 
+// Each adds its part of the summary, as far as the log has what it takes.
 void add_run(Figures&);
 void add_trolley(Figures&);
 void add_joints(Figures&);
@@ -57,6 +58,7 @@ void add_valves(Figures&);
 void add_air_balance(Figures&);
 void add_machine(Figures&);
 void add_sole(Figures&);  // the discs of a leg's foot
+// These add theirs too: of the phases, and of what stood before the controller.
 void add_phases(Figures&);
 void add_supervision(Figures&);
 

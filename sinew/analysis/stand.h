@@ -34,6 +34,7 @@ struct StandFile {
 // Throws config::Error with everything that is wrong in what is read.
 StandFile read_stand(const config::Node& root);
 
+// Returns the figures of a run of the stand, those that its log allows.
 Summary summarize(const signals::Table&, const StandFile&);
 
 }  // namespace sinew::analysis

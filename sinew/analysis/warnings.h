@@ -11,10 +11,12 @@ namespace sinew::analysis {
 
 class Summary;
 
+// A stretch of time.
 struct Span {
   double from = 0, to = 0;  // [s]
 };
 
+// Holds what went on in a run that no figure shows, and when.
 struct Warning {
   std::string text;
   std::vector<Span> spans;  // when; those less than 0.1 s apart are one
@@ -73,6 +75,7 @@ std::vector<Warning> overturned_joints(const signals::Table&, const Machine&);
 std::vector<Warning> warnings(const signals::Table&, const Machine&);
 std::vector<Warning> warnings(const signals::Table&, const Summary& of_the_stand);
 
+// Returns their words alone.
 std::vector<std::string> texts(const std::vector<Warning>&);
 
 }  // namespace sinew::analysis

@@ -12,6 +12,7 @@
 namespace sinew::experiment {
 
 struct Fault {
+  // Says what breaks.
   enum class What {
     // of a sensor
     open,     // its wire is broken: the converter's input is pulled up to its top count

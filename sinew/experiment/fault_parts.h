@@ -29,6 +29,7 @@ FaultPart::Kind kind_of_valve(std::span<const gas::Valve> valves, const std::str
 // Returns the part of that name, of several the one that the fault's word is for.
 std::optional<FaultPart> part_of(const Fault& fault, const std::vector<FaultPart>& parts);
 
+// A word of the list [[fault]], and what happens to a part by it.
 struct FaultWord {
   Fault::What what;
   std::string_view text;

@@ -19,6 +19,7 @@ std::vector<bool> select(const std::vector<std::string>& patterns,
                          const std::vector<std::string_view>& topics, const config::Location& where,
                          const std::string& key = "");
 
+// Returns the names of all topics, in the table's order.
 std::vector<std::string_view> names_of(const signals::Table& table);
 
 }  // namespace sinew::experiment

@@ -7,6 +7,8 @@ namespace sinew::robot {
 
 // How the speed of a joint is found, 6.5 and 7.3; the laws stand in control/joint/velocity.h.
 struct Velocity {
+  // Names how the speed is found: by two angles, several, a model that trusts its acceleration, one
+  // of known noise, or a sensor of its own.
   enum class Estimator { difference, weighted_average, bounded_observer, kalman, sensor };
 
   Estimator estimator = Estimator::difference;

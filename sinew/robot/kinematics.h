@@ -28,6 +28,7 @@ struct Pose {
   std::array<Point, max_joints + 1> joint;  // joint[0] is the origin
   int links = 0;
 
+  // Returns where the chain ends  [m].
   Point foot() const { return joint[static_cast<std::size_t>(links)]; }
 };
 
@@ -43,6 +44,7 @@ struct LinkPlace {
 };
 std::vector<LinkPlace> places(const Robot&, std::span<const double> angles);
 
+// Returns where the foot is, from the first joint  [m].
 Point foot_position(const TwoLinks&, double theta1, double theta2);
 
 // The angle in 0 .. 2 pi  [rad].
@@ -51,7 +53,9 @@ double normalised(double angle);
 // Which way the knee points: theta2 in pi .. 2 pi as the leg's does [code of B.1], or in 0 .. pi.
 enum class Knee { above_pi, below_pi };
 
+// The angles that bring the foot to a target, or next to it.
 struct Inverse {
+  // Could the target be reached, and why not?
   enum class Status { reached, too_far, too_near, not_a_number };
 
   Status status = Status::reached;
@@ -60,6 +64,7 @@ struct Inverse {
   double shortest = 0, longest = 0;  // that can be reached [m]
   Point nearest;                     // the target, or the reachable point next to it [m]
 
+  // Is the foot at the target itself?
   bool reached() const { return status == Status::reached; }
 };
 
@@ -80,6 +85,7 @@ struct Jacobian {
 
   double determinant() const { return x1 * y2 - x2 * y1; }  // l1 l2 sin theta2
 };
+// Returns it at these angles  [rad].
 Jacobian jacobian(const TwoLinks&, double theta1, double theta2);
 
 // The force on the foot by the ground, from the torques of the muscles  [N]:
@@ -117,6 +123,7 @@ double pull_at(const Muscle&, const Joint&, double angle);
 // The muscles across a joint, found once for many torques. The robot outlives it.
 class JointMuscles {
  public:
+  // Looks for the muscles across the joint of that number.
   JointMuscles(const Robot& robot, int joint);
 
   // Torque of all of them, from their tensions in the robot's order  [N m].
@@ -127,6 +134,7 @@ class JointMuscles {
   const Joint& joint_;
   int flexor_ = -1, extensor_ = -1;  // of a plain robot
 };
+// Returns the torque of all muscles across a joint, for once  [N m].
 double torque_of_muscles(const Robot&, int joint, double angle, std::span<const double> tensions);
 
 // Torque of a joint from its muscles, > 0 raises the angle  [N m]: [71]'s T with the sign of each.

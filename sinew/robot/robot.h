@@ -35,6 +35,7 @@ inline constexpr double not_set = std::numeric_limits<double>::quiet_NaN();
 // The name that a link gives as its parent if it hangs on the body.
 inline constexpr std::string_view body_name = "body";
 
+// A rigid part between two joints, or between a joint and the foot.
 struct Link {
   std::string name;
   double length = 0;          // joint to joint, or joint to foot [m]
@@ -60,10 +61,13 @@ struct Stop {
   double stiffness = 0;       // [N m/rad]
   double damping = 0;         // [N m s/rad]
 
+  // Has the joint one?
   bool present() const { return range.size() == 2; }
 };
 
+// A joint: it has what two links turn about, with what drives, brakes and stops it.
 struct Joint {
+  // Which way the flexor turns the joint.
   enum class Flexion { raises_angle, lowers_angle };
   enum class Kind { driven, passive };  // passive: no muscles, no sensors, the low level knows none
 
@@ -85,6 +89,7 @@ struct Joint {
   bool enabled = true;  // the low level may leave a joint alone
   int board = 0;        // of the low level, from 1; 0: the next that has room (boards.h)
 
+  // Returns 1 where flexion raises the angle, else -1.
   double sign() const { return flexion == Flexion::raises_angle ? 1.0 : -1.0; }
 };
 
@@ -97,6 +102,7 @@ struct Cam {
 
 // Actuators in parallel that pull one joint one way, with their air and valves.
 struct Muscle {
+  // Which way the muscle turns its joint.
   enum class Role { flexor, extensor };
 
   // The other joint that a muscle runs across.
@@ -123,6 +129,7 @@ struct Muscle {
   gas::Leak leak;                        // to the room
 };
 
+// The foot, which stands on the ground.
 struct Foot {
   // A disc fixed to the last link, which touches the ground.
   struct Point {
@@ -150,6 +157,7 @@ struct Leg {
   double offset = 0;                // by which its sequence is ahead, as a share of a step [-]
 };
 
+// A level ground as a spring and a damper that only push.
 struct Ground {
   bool present = false;
   double height = 0;            // of the ankle point at contact [m]
@@ -168,6 +176,7 @@ struct Trolley {
   double stop_damping = 0;    // [N s/m]
   double payload = 0;         // rides on it, beside the total mass [kg]
 
+  // Returns what has to be accelerated along the track  [kg].
   double moving_mass() const { return total_mass + payload; }
 
   // Bound of its dry friction, from what the last step held and could have held  [N]: less than
@@ -198,7 +207,9 @@ struct Rollers {
 // Joint 0 of 4.2: an air cylinder between trolley and body moves the first joint up and down.
 // Travel counts upwards from the extended stop, where the first joint is at the origin.
 struct Cylinder {
+  // Says what the air in it does.
   enum class Mode { locked, regulator, valves, free };
+  // One side of the piston with its two valves.
   struct Chamber {
     double dead_volume = 0;      // with its hoses, at its end of the stroke [m^3]
     std::string inlet, exhaust;  // names in the valves file
@@ -221,10 +232,12 @@ struct Cylinder {
   double up_feedforward = 0, down_feedforward = 0;  // duties of inlet and exhaust alike, B.1 [-]
 };
 
+// Turns volts into counts, behind every sensor of a board.
 struct Converter {
   int bits = 12;
   double full_scale = 5;  // [V]
 
+  // Returns the highest count, and how many counts a volt makes.
   int top() const { return (1 << bits) - 1; }
   double counts_per_volt() const { return (1 << bits) / full_scale; }
 };
@@ -256,6 +269,7 @@ struct Sensor {
 
 // The low level's hardware: timing, and how it rounds.
 struct LowLevel {
+  // Where duties lose their fraction of a percent: each law's, their sum, or never.
   enum class Rounding { truncate_each_law, truncate_sum, none };
 
   int pwm_ticks = 100;   // per period

@@ -41,14 +41,17 @@ Axis seeds(int n);
 // Parts of a list at its commas, those in brackets and quotes apart; without the blanks around.
 std::vector<std::string_view> list_of(std::string_view text);
 
+// Returns the text without the blanks around it.
 std::string_view trimmed(std::string_view text);
 
 // All combinations of the axes' values, the last axis counting fastest.
 class Grid {
  public:
+  // `axes` outlive the grid.
   explicit Grid(const std::vector<Axis>& axes) : axes_(&axes) {}
 
   std::size_t size() const;  // 1 without axes
+  // Returns the values of a point, one of each axis.
   std::vector<const Value*> point(std::size_t index) const;
 
  private:

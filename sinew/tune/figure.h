@@ -33,7 +33,9 @@ std::vector<Figure> parse_figures(std::string_view text, std::string_view settin
 std::vector<Figure> reported_figures(const std::vector<config::Reported>& reported,
                                      double atmosphere = units::atmosphere);
 
+// A bound for a figure of a run.
 struct Condition {
+  // Says on which side of the limit the figure has to be.
   enum class Is { below, at_most, above, at_least };
 
   std::string key;

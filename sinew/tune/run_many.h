@@ -12,6 +12,7 @@
 
 namespace sinew::tune {
 
+// A run that somebody wants.
 struct Wanted {
   std::size_t point = 0;  // whoever asks knows it by this
   std::string experiment;

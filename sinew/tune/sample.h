@@ -16,7 +16,9 @@
 
 namespace sinew::tune {
 
+// A range of values of a key, from one to another.
 struct Range {
+  // How values lie in between: evenly, evenly in the logarithm, or as whole numbers.
   enum class Scale { linear, log, whole };
 
   Axis axis;  // its values are both ends

@@ -22,8 +22,11 @@
 
 namespace sinew::tune {
 
+// How a figure's dependence on ranges is looked for: each range alone; Morris's paths; Sobol's
+// shares of the variance.
 enum class Method { one_at_a_time, morris, sobol };
 
+// Which points are run.
 struct Design {
   Method method = Method::sobol;
   std::size_t ranges = 0;  // d

@@ -55,6 +55,7 @@ struct Sweep {
   bool allow_unreachable = false;
 };
 
+// A row of a sweep's table.
 struct Row {
   std::size_t point = 0;           // of the sweep
   std::vector<std::string> cells;  // as many as headings(); empty: does not apply
@@ -67,6 +68,7 @@ struct Row {
 struct Share {
   std::size_t i = 1, n = 1;
 
+  // Does the point belong to the share?
   bool has(std::size_t point) const { return point % n == i - 1; }
   std::size_t size(std::size_t points) const { return points / n + (points % n >= i ? 1 : 0); }
 };
@@ -101,6 +103,7 @@ std::vector<std::string> headings(const Sweep&);
 
 inline constexpr std::size_t most_points = 1'000'000;  // each keeps a row of the table in memory
 
+// Returns how many points a sweep has.
 std::size_t points(const Sweep&);
 
 // Returns the keys of a summary that the sweep reports or has conditions on, each once.
@@ -118,6 +121,7 @@ std::vector<Row> sweep(const Sweep&, const Options&);
 // was made.
 class Runner {
  public:
+  // Draws the values of all points.
   explicit Runner(const Sweep& sweep);
   ~Runner();
 
@@ -138,8 +142,11 @@ struct Ran {
   bool no_air = false;               // no muscle took any, whatever was commanded
   std::vector<std::string> differs;  // keys of what is reported, where the verdict is "differs"
 
+  // Are there figures?
   bool ok() const { return status == "ok"; }
 };
+// Runs an experiment's file with settings in place of its own. The status tells why there are no
+// figures.
 Ran run_once(const std::string& file, const std::vector<std::string>& sets,
              bool allow_unreachable = false);
 

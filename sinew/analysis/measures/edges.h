@@ -17,6 +17,7 @@ struct EdgeDifference {
   std::string recorded, replayed;  // "opens", "shuts" or "nothing"
 };
 
+// How recorded edges of a valve compare with those that were decided again.
 struct EdgeComparison {
   std::size_t recorded = 0, replayed = 0;  // edges
   std::optional<EdgeDifference> first;     // none: all are equal

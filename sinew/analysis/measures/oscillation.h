@@ -17,6 +17,7 @@
 
 namespace sinew::analysis {
 
+// Where a series stops rising or falling.
 struct TurningPoint {
   std::size_t row = 0;  // the first one with that value
   double value = 0;

@@ -17,6 +17,8 @@ namespace sinew::analysis {
 using Values = const signals::Column&;
 using Seconds = const signals::Column&;
 
+// Figures of a series by the time that each value holds [s]: rows of no time do not count. NaN
+// where no row does.
 double mean(Values values, Seconds seconds);
 double rms(Values values, Seconds seconds);
 double deviation(Values values, Seconds seconds);

@@ -16,6 +16,7 @@
 
 namespace sinew::analysis {
 
+// Where the trolley is, and how fast.
 struct TrolleyState {
   double position = 0;  // [m]
   double velocity = 0;  // [m/s]
@@ -24,6 +25,7 @@ struct TrolleyState {
 // Over `dt` seconds under the mean push of that time.
 TrolleyState pushed(TrolleyState state, double push, double drag, double mass, double dt);
 
+// How far the trolley came, and how fast.
 struct TrolleyMotion {
   signals::Column position, velocity;  // [m], [m/s]
 };

@@ -11,6 +11,7 @@
 
 namespace sinew::analysis {
 
+// A valve opens or shuts.
 struct Edge {
   double time = 0;  // [s]
   bool open = false;
@@ -21,6 +22,7 @@ using Edges = signals::PagedVector<Edge>;
 // Shut before the first one; an edge to where the valve stands already is none.
 Edges edges_of(const signals::Times& time_ns, const signals::Column& open);
 
+// Returns when the shutter moves, of electrical edges and delays  [s].
 Edges delivered(const Edges& electrical, double opening_delay, double closing_delay);
 
 // Within [from, to), as the last edge before `to` leaves it  [s].

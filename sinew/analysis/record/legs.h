@@ -13,6 +13,7 @@
 
 namespace sinew::analysis {
 
+// One leg of a machine, as a machine of its own.
 struct MachineLeg {
   std::string name;
   Machine machine;  // with the joints, muscles and foot of that leg alone, named as within it

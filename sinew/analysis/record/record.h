@@ -35,9 +35,10 @@ class Record {
   Record(const signals::Table& table, const Machine& machine, const signals::Table* more = nullptr,
          std::string leg = "");
 
+  // How many rows there are, and when one begins.
   std::size_t rows() const { return seconds_.size(); }
   const signals::Times& time_ns() const { return time_ns_; }
-  double time(std::size_t row) const { return static_cast<double>(time_ns_[row]) / 1e9; }
+  double time(std::size_t row) const { return static_cast<double>(time_ns_[row]) / 1e9; }  // [s]
   double end_of(std::size_t row) const { return static_cast<double>(end_ns(row)) / 1e9; }  // [s]
   // From the start of row `first` to the end of row `last`  [s].
   double lasting(std::size_t first, std::size_t last) const {
@@ -62,8 +63,10 @@ class Record {
   // Rows of that phase (-1: any), with progress in [from, to) of its time.
   Column part(int phase, double from, double to) const;
 
+  // The phases of all steps, as they came.
   const signals::PagedVector<Stretch>& stretches() const { return stretches_; }
   std::optional<Stretch> last_of(int phase) const;  // none: the phase never was
+  // Is there a sequence of phases at all? Its first and last row are asked for only then.
   bool has_sequence() const { return !stretches_.empty(); }
   std::size_t first_row() const { return stretches_.front().first; }
   std::size_t last_row() const { return stretches_.back().last - 1; }

@@ -38,6 +38,7 @@ struct Band {
   bool holds(double value) const { return value >= lowest && value <= highest; }  // NaN: never
 };
 
+// Each returns the values that its wording allows, by the rule of rule_of().
 Band measured(double value, double last_digit, double reading_error = 0);
 Band percentage(double percents, double reading_error = 0);
 Band about(double value, double reading_error = 0);

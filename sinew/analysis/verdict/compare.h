@@ -27,7 +27,10 @@
 
 namespace sinew::analysis {
 
+// How the samples of two channels meet: not at all, at the same times, between each other's, or as
+// edges that hold until the next one.
 enum class Meeting { never, together, between, held };
+// Returns it in words.
 std::string_view to_text(Meeting how);
 
 // A channel's samples, in ascending time; points into a table.
@@ -36,16 +39,20 @@ struct Recording {
   const signals::Column* values = nullptr;
 };
 
+// Where the samples of two channels meet, and by how much they differ there.
 struct Meetings {
   Meeting how = Meeting::never;
   signals::Times time_ns;      // of the first; of the sparser one where it is `between`
   signals::Column difference;  // b - a
 };
 
+// Brings two channels together. Where neither has the other's times, the denser one is taken
+// between its samples.
 Meetings meet(Recording a, Recording b);
 // Edges within [from, to)  [ns]. A time for every change of their difference, the first at `from`.
 Meetings meet_edges(Recording a, Recording b, std::int64_t from, std::int64_t to);
 
+// How far two channels are from each other.
 struct Difference {
   Meeting how = Meeting::never;
   bool same = false;        // the same times, and the same bits in every sample
@@ -61,11 +68,13 @@ struct Difference {
   double share() const { return span > 0 && std::isfinite(rms) ? rms / span : 0; }
 };
 
+// Sums up where two channels meet; the second one is of edges within [from, to)  [ns].
 Difference difference(Recording a, Recording b, const Meetings& met);
 Difference difference_of_edges(Recording a, Recording b, std::int64_t from, std::int64_t to);
 
 // --- tables ---
 
+// One field of a channel that two tables have, and how far they are from each other.
 struct ChannelDifference {
   std::string topic, field, unit;
   Difference difference;
@@ -77,6 +86,7 @@ bool is_edges(std::string_view topic);  // "/valve/…/open"
 struct Times {
   std::int64_t first = 0, last = 0;
 };
+// Returns them for a table.
 std::optional<Times> times_of(const signals::Table&);
 
 // Of all fields that both have, by name and unit, in the first one's order.
@@ -87,6 +97,7 @@ void shift(signals::Table&, std::int64_t by);
 
 // --- figures ---
 
+// One key of several summaries.
 struct FigureRow {
   std::string key;
   std::vector<std::optional<double>> values;  // one per run

@@ -43,6 +43,7 @@ std::string spoken_unit(const Reported&, double atmosphere = units::atmosphere);
 std::optional<config::Mistake> mistake_in_band(const Reported&,
                                                double atmosphere = units::atmosphere);
 
+// Holds what a source reports of a run beside what the run did, and whether they agree.
 struct Verdict {
   // differs_as_known: with the reason; agrees_after_all: the reason is no more.
   enum class Is { agrees, differs, not_applicable, differs_as_known, agrees_after_all };

@@ -12,6 +12,7 @@
 
 namespace sinew::analysis {
 
+// A figure by its key, in the SI unit that the key ends with.
 struct Entry {
   std::string key;
   double value = 0;

@@ -55,9 +55,14 @@ struct Charge {
 
 // What opens and shuts the valves: drive.h.
 struct Drive {
+  // Names the law: nothing; pulses of a duty; single pulses; by the model to a length; by a sensor
+  // to a length.
   enum class Kind { none, pwm, pulses, feed_forward, feedback };
+  // Names how the feedback answers an error: by full pulses beyond the dead band, or a duty by the
+  // error.
   enum class Law { on_off, proportional };
 
+  // One opening of a valve.
   struct Pulse {
     double at = 0, open = 0;  // [s]
     bool exhaust = false;
@@ -88,6 +93,7 @@ struct Measured {
   double from = 0;    // the first [s]
 };
 
+// An experiment on the test stand.
 struct Experiment {
   std::string path, name;  // of the file; without its ending
   std::string title, reproduces;

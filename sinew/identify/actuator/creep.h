@@ -19,6 +19,7 @@ namespace sinew::identify {
 // time, force, pressure.
 std::span<const Wanted> creep_columns();
 
+// The creep that was found, and how well it fits.
 struct CreepResult {
   Report report;
   actuator::Creep creep;  // of the chosen model

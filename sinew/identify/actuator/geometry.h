@@ -21,6 +21,7 @@ namespace sinew::identify {
 // Columns `length` and `diameter`.
 std::span<const Wanted> geometry_columns();
 
+// The braid that was found, and how well it fits.
 struct GeometryResult {
   actuator::Braid braid;
   Report report;

@@ -17,8 +17,11 @@
 
 namespace sinew::identify {
 
+// Which points judge the models: none; every second pressure, which is not fitted; each length
+// once, all others fitted.
 enum class HoldOut { none, pressure, length };
 
+// Holds what is known besides the points, and which models are tried.
 struct StaticOptions {
   std::string subject = "static law";
   double atmosphere = units::atmosphere;  // [Pa]
@@ -35,6 +38,7 @@ struct StaticMuscle {
   double lowest = 0, highest = 0;    // gauge pressures that were fitted [Pa]
 };
 
+// The models that were fitted, and the muscles of the chosen one.
 struct StaticResult {
   Report report;
   std::vector<StaticMuscle> muscles;  // the reference, the longest, first

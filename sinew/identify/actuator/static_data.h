@@ -16,8 +16,10 @@
 
 namespace sinew::identify {
 
+// Did the pressure fall or rise before the reading?
 enum class Branch { vent = -1, unknown = 0, fill = 1 };
 
+// A reading at rest.
 struct StaticPoint {
   double length = 0;       // [m]
   double pressure = 0;     // gauge, zero taken off [Pa]
@@ -37,6 +39,7 @@ struct StaticData {
   std::vector<std::string> notes, warnings;
 };
 
+// Holds what is known of a file's points beside its columns.
 struct StaticInput {
   double length = 0;       // of a file without that column; 0: none [m]
   double rest_length = 0;  // 0: not known [m]

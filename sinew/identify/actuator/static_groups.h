@@ -9,6 +9,7 @@
 
 namespace sinew::identify {
 
+// The points that are fitted, and those that judge.
 struct StaticSplit {
   std::vector<StaticPoint> fitted, held_out;
 };

@@ -27,6 +27,7 @@
 
 namespace sinew::identify {
 
+// A parameter that a model may set free.
 enum class Knob {
   thread_length,
   turns,
@@ -64,6 +65,7 @@ struct StaticScales {
   std::optional<actuator::Braid> braid;  // given: thread length and turns are not searched
 };
 
+// Holds what is expected of a knob before the data are looked at.
 struct Prior {
   double mean = 0, deviation = 0;
   bool logarithmic = false;  // deviation of ln(value/mean)
@@ -74,6 +76,7 @@ struct StaticModel {
   std::vector<Knob> knobs;  // beside the braid's
 };
 
+// Returns all of them.
 std::span<const StaticModel> static_models();
 
 // All that a model sets free with this data: the braid (or, where it is given, the effectiveness),

@@ -23,11 +23,13 @@ struct Heading {
   int column = 1;        // of the header's line
 };
 
+// A line of the table.
 struct Row {
   int line = 0;
   std::vector<Cell> cells;
 };
 
+// A table as the file has it, not yet understood.
 struct Grid {
   std::string file;
   int header_line = 1;  // 0: the header came from elsewhere
@@ -40,6 +42,7 @@ struct Grid {
 Grid read_grid(std::string_view text, const std::string& file,
                const std::vector<std::string>& columns);
 
+// Is the text a number?
 bool is_number(std::string_view text);
 std::optional<double> number_in(std::string_view text);  // nothing where it is none
 

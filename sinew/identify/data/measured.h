@@ -47,18 +47,21 @@ struct Source {
   double atmosphere = units::atmosphere;  // [Pa]
 };
 
+// Values of one quantity, in the unit that was wanted.
 struct Column {
   std::string name;  // the wanted name
   std::string unit;  // the wanted unit
   std::vector<double> values;
 };
 
+// A table of measurements, its columns called as they were wanted.
 struct Measured {
   std::string file;
   std::vector<Column> columns;
   std::vector<int> lines;          // of the file, one per row
   std::vector<std::string> notes;  // what was left out
 
+  // How many rows there are; is there a column of that name?
   std::size_t rows() const { return lines.size(); }
   bool has(std::string_view name) const;
   // Throws std::out_of_range for a column that is not there.

@@ -24,6 +24,7 @@ struct Clipping {
 // clipped: plateaus at exactly 0 do not count.
 Clipping clipping(std::span<const double> values, std::size_t shortest = 5);
 
+// Each is 0 where there are no values.
 double smallest(std::span<const double> values);
 double largest(std::span<const double> values);
 double median(std::span<const double> values);

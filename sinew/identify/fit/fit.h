@@ -10,6 +10,7 @@
 
 namespace sinew::identify {
 
+// How large residuals are.
 struct Score {
   std::size_t points = 0;
   double rmse = 0, max = 0;  // of the residuals, in the report's unit
@@ -18,6 +19,7 @@ struct Score {
   double rmse_percent = 0, max_percent = 0;
 };
 
+// Returns it; `full_scale` is what 100 % are, in the residuals' unit.
 Score score(std::span<const double> residuals, double full_scale);
 
 struct Fit {
@@ -49,6 +51,7 @@ struct Rows {
   std::size_t size() const { return at.size(); }
 };
 
+// Models of one quantity beside each other, and which one was chosen.
 struct Report {
   std::string subject;        // "static model of DMSP-10-250"
   std::string quantity;       // what the residuals are: "force"
@@ -62,6 +65,7 @@ struct Report {
   Rows rows;
   std::vector<std::string> notes, warnings;
 
+  // Returns the chosen one.
   const Fit& best() const { return fits[chosen]; }
 };
 

@@ -24,6 +24,7 @@ namespace sinew::identify {
 
 inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 
+// A number that is searched, and between which bounds.
 struct Parameter {
   std::string name;
   std::string unit;  // SI, as a field's
@@ -50,6 +51,7 @@ struct SolverOptions {
   double difference = 6e-6;
 };
 
+// A number that was found, and how sure it is.
 struct Estimate {
   std::string name, unit;
   double value = 0;
@@ -59,6 +61,7 @@ struct Estimate {
   bool at_bound = false;  // no interval: it would like to be elsewhere
 };
 
+// Where the search has ended.
 struct Solution {
   std::vector<Estimate> estimates;  // in the parameters' order
   std::vector<double> values;

@@ -27,6 +27,7 @@ class Provenance {
   void given(std::string_view path, std::string_view source);
   void guessed(std::string_view path, std::string_view source);
 
+  // Returns where each value came from, as a file tells it.
   const config::Origins& origins() const { return origins_; }
   // Of keys that no origin names.
   const std::string& elsewhere() const { return elsewhere_; }

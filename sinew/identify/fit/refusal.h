@@ -10,6 +10,7 @@ namespace sinew::identify {
 // what() reads `subject: found …; expected …; try …`.
 class Refusal : public std::runtime_error {
  public:
+  // Makes the words of these four; `try_this` may be empty.
   Refusal(const std::string& subject, const std::string& found, const std::string& expected,
           const std::string& try_this)
       : std::runtime_error(subject + ": found " + found + "; expected " + expected +

@@ -15,6 +15,7 @@ namespace sinew::identify {
 // The residuals over scaled parameters, for Ceres and for the covariance alike.
 class Scaled {
  public:
+  // `count` residuals; `difference` is the derivatives' step, in the parameters' scales.
   Scaled(const Residuals& residuals, std::size_t count, std::span<const Parameter> parameters,
          double difference)
       : residuals_(residuals),
@@ -23,11 +24,13 @@ class Scaled {
         difference_(difference),
         p_(parameters.size()) {}
 
+  // How many residuals and parameters there are, and the bounds of one in its scale.
   std::size_t count() const { return count_; }
   std::size_t size() const { return parameters_.size(); }
   double low(std::size_t i) const { return parameters_[i].low / parameters_[i].scale; }
   double high(std::size_t i) const { return parameters_[i].high / parameters_[i].scale; }
 
+  // Writes the residuals at u. False where the model has no answer, or none in numbers.
   bool operator()(const double* u, double* r) const {
     for (std::size_t i = 0; i < p_.size(); ++i)
       p_[i] = std::clamp(u[i] * parameters_[i].scale, parameters_[i].low, parameters_[i].high);

@@ -15,8 +15,10 @@
 
 namespace sinew::identify {
 
+// How a muscle is led over a joint: round a cam, or straight between two points.
 class Hinge {
  public:
+  // A cam of that radius  [m].
   static Hinge round(double arm) { return Hinge(arm, 0, 0, 0); }
 
   // `ratio` is a sin(angle)/arm, above 1; 0 < angle < pi.
@@ -27,12 +29,14 @@ class Hinge {
     return Hinge(arm, origin, insertion, angle);
   }
 
+  // Returns the moment arm at that angle from rest  [m].
   double arm(double q) const {
     if (origin_ == 0) return arm_;
     const double phi = angle_ - q;
     return origin_ * insertion_ * std::sin(phi) / distance(phi);
   }
 
+  // Returns by how much the muscle is shorter there than at rest  [m].
   double shortening(double q) const {
     return origin_ == 0 ? arm_ * q : distance(angle_) - distance(angle_ - q);
   }

@@ -32,6 +32,7 @@ namespace sinew::identify {
 
 inline constexpr double to_be_found = std::numeric_limits<double>::quiet_NaN();
 
+// Holds what is known of the joint, its muscles and its load.
 struct JointSetup {
   actuator::Actuator actuator;  // braid and bladder are taken as they are
   int count = 1;                // N

@@ -13,6 +13,7 @@
 
 namespace sinew::identify {
 
+// One model of a joint's torque.
 struct JointLaw {
   const char* name;
   const char* law;
@@ -27,18 +28,23 @@ struct JointValues {
   double c0 = 1, c1 = 0;                                      // [1], [1/Pa]
 };
 
+// The measured joint: what its load asks for, and what a model's muscles give.
 class JointTorque {
  public:
   // `setup` outlives it.
   JointTorque(const Measured& data, const JointSetup& setup);
 
+  // Do the data have the pressures of that muscle?
   bool has_flexor() const { return !flexor_.empty(); }
   bool has_extensor() const { return !extensor_.empty(); }
   const std::vector<double>& torque() const { return torque_; }  // of the load [N m]
+  // Returns 1 where flexion raises the angle, else -1; and how many rows there are.
   double sign() const { return sign_; }
   std::size_t rows() const { return angle_.size(); }
   double highest_gauge() const;  // [Pa]
 
+  // Returns what the values mean: how the muscles are led, and which share of their tension
+  // arrives.
   static Hinge hinge(const JointLaw& law, const JointValues& v);
   actuator::Effectiveness effectiveness(const JointValues& v) const;
 

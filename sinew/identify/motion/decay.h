@@ -23,6 +23,7 @@
 
 namespace sinew::identify {
 
+// The thesis's approximation of a decay, or the decay itself.
 enum class DecayForm { printed, exact };
 
 struct Damping {

@@ -41,6 +41,7 @@ struct DecaySummary {
   DecayFit all;  // of all turns
 };
 
+// The losses that were found, and how well each law fits.
 struct DynamicResult {
   actuator::Loss loss;  // of the chosen law
   Report report;

@@ -21,6 +21,7 @@
 
 namespace sinew::identify {
 
+// A mass that hangs on a sealed muscle.
 struct Hanging {
   actuator::Actuator actuator;
   double mass = 0;                 // M [kg]

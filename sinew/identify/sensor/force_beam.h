@@ -35,7 +35,9 @@ struct ForceBeam {
   double stress_concentration = 1;  // at the mount
 };
 
+// Strain gages on a beam, and what amplifies them.
 struct Bridge {
+  // How many gages there are, and where: the table at the head of this file has each.
   enum class Arms { quarter, half, poisson, bending };
 
   Arms arms = Arms::poisson;
@@ -45,12 +47,15 @@ struct Bridge {
 };
 
 double bending_stress(const ForceBeam& beam, double load, double distance);  // [Pa]
+// Returns the strain under the gages  [-].
 double gage_strain(const ForceBeam& beam, double load);
 double mount_stress(const ForceBeam& beam, double load);  // with its concentration  [Pa]
 double yield_load(const ForceBeam& beam);                 // [N]
+// Returns how many times the load the beam would bear before it yields  [-].
 double factor_of_safety(const ForceBeam& beam, double load);
 double deflection(const ForceBeam& beam, double load);  // [m]
 
+// Returns B by the table at the head of this file  [-].
 double bridge_factor(Bridge::Arms arms, double poisson_ratio);
 // Before the amplifier  [V].
 double bridge_output(const ForceBeam& beam, const Bridge& bridge, double load);

@@ -23,6 +23,7 @@ struct Point {
 // are one.
 std::vector<Point> points_of(std::span<const double> known, std::span<const double> output);
 
+// Returns at how many different known values there are readings.
 std::size_t level_count(std::span<const Point> points);
 
 // Of the readings: all are whole multiples of it apart. Known values at equal distances make such

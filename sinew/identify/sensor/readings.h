@@ -19,6 +19,7 @@ namespace sinew::identify {
 // What a sensor measures, with the words of a robot's file.
 enum class SensorKind { angle, tension, pressure, velocity, cylinder };
 
+// The words for one kind of sensor.
 struct KindFacts {
   SensorKind kind;
   std::string_view word;         // "tension"
@@ -26,6 +27,7 @@ struct KindFacts {
   std::string_view sensitivity;  // volts per that: "V/N"
   std::string_view curvature;    // and per its square: "V/N2"
 };
+// Returns them.
 const KindFacts& facts_of(SensorKind kind);
 
 // The converter behind the sensors: 2^bits counts are its full scale.
@@ -33,6 +35,7 @@ struct CountScale {
   int bits = 12;
   double full_scale = 5;  // [V]
 
+  // Returns what a count is worth  [V].
   double volts_per_count() const { return full_scale / (1 << bits); }
   double top() const { return full_scale - volts_per_count(); }  // [V]
 };
@@ -43,6 +46,7 @@ struct SensorReadings {
   bool counted = false;       // the file has counts
 };
 
+// Readings of sensors at known values.
 struct SensorData {
   std::string file;
   SensorKind kind = SensorKind::tension;

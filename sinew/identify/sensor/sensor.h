@@ -36,6 +36,7 @@ struct SensorResult {
   double deviation = 0;   // (average - s)/s over all sensors [-]
 };
 
+// The scales of sensors of one kind.
 struct Calibration {
   SensorKind kind = SensorKind::tension;
   std::string file;

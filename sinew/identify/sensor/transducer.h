@@ -27,6 +27,7 @@ struct TransducerPoint {
   double clip_load = 0;                   // at which the converter ends [N]
 };
 
+// Returns what the beam, the bridge and the converter do under its load.
 TransducerPoint evaluate(const Transducer& t);
 
 // Returns what is doubtful under the load, in words: the beam yields, is no slender beam, or the

@@ -23,6 +23,7 @@ struct DynamicSettings {
   std::string model;                     // this law alone; empty: all
 };
 
+// Holds what was found, with the actuator's file.
 struct DynamicFound {
   DynamicResult result;
   std::string file;  // the actuator's, with its loss

@@ -18,6 +18,7 @@ struct GeometrySettings {
   std::string side;                       // of one trapezoid
 };
 
+// Holds what was found, with the actuator's file.
 struct GeometryFound {
   actuator::Braid braid;
   std::optional<Report> report;  // none: it was counted

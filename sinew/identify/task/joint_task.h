@@ -29,6 +29,7 @@ struct JointSettings {
   std::string base;                // the robot's file whose joint it is; empty: none
 };
 
+// Holds what was found, with the files of robot and actuator.
 struct JointFound {
   JointResult result;
   JointSetup setup;

@@ -22,6 +22,7 @@ struct SensorSettings {
   std::string base;                  // the robot's file whose sensors these are; empty: none
 };
 
+// Holds what was found, and the robot's file that is written with it.
 struct SensorFound {
   Calibration calibration;
   std::string display;  // unit of the known values, as they were given

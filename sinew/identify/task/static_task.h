@@ -23,6 +23,7 @@ struct StaticSettings {
   std::optional<Source> held_out;      // another table in place of a file
 };
 
+// Holds what was found, with the actuators' files.
 struct StaticFound {
   StaticResult result;
   std::vector<std::string> files;  // the actuator's, of each muscle; the longest first

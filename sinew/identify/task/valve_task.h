@@ -25,6 +25,7 @@ struct ValveSettings {
   std::optional<Source> held_out;       // scores the model of a filling
 };
 
+// Holds what was found, and the valves file that is written with it.
 struct ValveFound {
   ValveResult result;
 

@@ -23,6 +23,8 @@
 namespace sinew::identify {
 
 struct Chamber {
+  // Says what the valve fills: walls that do not give way, a muscle's that do, or a hose on the way
+  // to it.
   enum class Shape { rigid, soft, hose };
 
   Shape shape = Shape::rigid;

@@ -18,6 +18,7 @@ struct Curve {
   double rate = 0;                     // dP/dt between 15 and 50 % of the way [Pa/s]
   std::vector<std::string> notes;
 
+  // Does the pressure rise? And by how much does it change  [Pa].
   bool fills() const { return end > start; }
   double range() const { return fills() ? end - start : start - end; }
   double share(double p) const { return (p - start) / (end - start); }  // of the way

@@ -13,6 +13,7 @@
 
 namespace sinew::identify {
 
+// A law by which a chamber may fill.
 struct FillModel {
   std::string_view name, law, source;
   Chamber::Shape shape = Chamber::Shape::rigid;
@@ -21,6 +22,7 @@ struct FillModel {
   bool leak = false;
 };
 
+// Returns all of them.
 std::span<const FillModel> fill_models();
 
 // A parameter and where it goes; no member: the opening instant.
@@ -29,6 +31,7 @@ struct FreeValue {
   double Chamber::*member = nullptr;
 };
 
+// A chamber with the values that are tried.
 struct FillCase {
   Chamber chamber;
   double opening = 0;  // [s]

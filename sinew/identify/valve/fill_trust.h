@@ -16,6 +16,7 @@ struct Tried {
 };
 
 constexpr double well_known = 0.25;  // half an interval of C/V, of its value
+// Returns half an estimate's interval, as a share of its value.
 inline double half_of(const Estimate& e) { return 0.5 * (e.high - e.low) / e.value; }
 
 // Throws Refusal where the curve does not tell C/V at all.

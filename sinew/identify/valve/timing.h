@@ -14,6 +14,7 @@
 
 namespace sinew::identify {
 
+// Pulses that deliver the duties that were asked for, as far as delays allow.
 struct CompensatedTiming {
   signals::ValveTiming timing;
   std::array<double, signals::max_duty + 1> delivered{};  // what comes of each percent [-]

@@ -23,8 +23,10 @@
 
 namespace sinew::identify {
 
+// Says what was measured: the table at the head of this file has the columns of each.
 enum class ValveData { chart, fill, pulses, coil, duty };
 
+// Holds what is known besides the data.
 struct ValveOptions {
   std::string name = "valve";  // of the valve, in the file that is written
   gas::Valve valve;            // what is not identified, and where it came from
@@ -39,6 +41,7 @@ struct ValveOptions {
   double worst_fit = 3;               // a fill that no model meets better is refused [% of range]
 };
 
+// The valve as far as it was found, and how well it fits.
 struct ValveResult {
   gas::Valve valve;
   bool flow_known = false, opening_known = false, closing_known = false;  // of the valve

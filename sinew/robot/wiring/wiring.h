@@ -17,8 +17,10 @@
 
 namespace sinew::robot {
 
+// Which wire of a terminal block leads where.
 struct Wiring {
   enum class Polarity { low_opens, high_opens };  // what a port's bit does
+  // Whose numbers of output bits count: the robot's file's or the table's.
   enum class Bits { robot, table };
 
   // A sensor's wire, by the sensor's name.

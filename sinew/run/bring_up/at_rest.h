@@ -14,6 +14,7 @@ struct Rest {
   double mean = 0, deviation = 0;  // [count]
   int readings = 0, bad = 0;       // bad: did not come in time, or are none
 };
+// Returns what a channel read while nothing moved.
 Rest rest_of(const Recording& recording, std::size_t channel);
 
 // Returns what is wrong with it and what to look at, in a sentence; empty: nothing. `top` is the

@@ -8,6 +8,7 @@
 
 namespace sinew::run {
 
+// A valve that is to be heard clicking.
 struct BenchValve {
   std::string what;  // "the inlet of hip_flexor (output 0: bit 0, pins 31 and 32)"
   std::size_t board_joint = 0;

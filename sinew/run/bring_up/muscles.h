@@ -37,6 +37,7 @@ struct Judgement {
   std::vector<std::string> wrong;  // what, and what to look at; empty: nothing
   std::string said;                // in figures
 };
+// Returns what is wrong with one of the muscles, by what its trial recorded.
 Judgement judge(const std::vector<BenchMuscle>& all, std::size_t which, const Trial& trial);
 
 // Only this of a joint's valves, in whole percent.

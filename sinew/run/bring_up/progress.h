@@ -8,6 +8,7 @@
 
 namespace sinew::run {
 
+// Holds what a channel reads while nothing moves.
 struct Learned {
   double at_rest = 0, noise = 0;  // mean and standard deviation [count]
   int readings = 0;

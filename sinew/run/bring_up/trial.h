@@ -29,6 +29,7 @@ struct Stage {
 struct Recording {
   std::vector<Sample> samples;
 
+  // Returns how long it lasted  [s]; and what the channel read at its two ends  [count].
   double seconds() const { return samples.empty() ? 0 : samples.back().time; }
   double before(std::size_t channel) const;
   double after(std::size_t channel) const;
@@ -43,6 +44,7 @@ struct Trial {
 // Somebody has asked for a stop in the middle of a trial; the board has vented.
 struct Stopped {};
 
+// How a trial may end.
 enum class End { by_plan, at_once };  // at once: as a person asks for it in an emergency
 
 // Arms the board, works off the stages and ends the run: the board vents. `lead` is that of

@@ -16,6 +16,7 @@ struct Wire {
   std::string elsewhere;  // the robot's own numbers: "bit 0, pins 31 and 32"
   bool driven = true;     // false: a number for a valve that is not there, as a 3-way's exhaust
 
+  // Returns both in a line: on the board, and by the robot's numbers.
   std::string in_words() const { return at + ": " + elsewhere; }
 };
 

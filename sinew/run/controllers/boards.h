@@ -25,6 +25,7 @@ namespace sinew::run {
 // One board before the machine's port: what goes in and out has the machine's numbers.
 class Board {
  public:
+  // Makes the controller of that board.
   explicit Board(const control::Board& board);
 
   // As of control::Supervisor.
@@ -33,6 +34,7 @@ class Board {
   // The conversion is one that due() gave.
   void take(const signals::Conversion&, signals::Reading, signals::Tick t) noexcept;
 
+  // Returns its scan, and the machine's numbers of its joints, channels and valves, by its own.
   std::span<const signals::Conversion> conversions() const noexcept { return conversion_; }
   std::span<const std::uint8_t> joints() const noexcept { return joint_; }
   std::span<const std::uint8_t> channels() const noexcept { return channel_; }
@@ -69,6 +71,7 @@ class Boards;
 // Answers what all boards know, by the machine's numbers. It looks at the boards, which outlive it.
 class MachineSeen {
  public:
+  // Looks at these boards.
   explicit MachineSeen(const Boards& boards) noexcept;
 
   control::Phase phase;  // of the board that is least far
@@ -78,6 +81,7 @@ class MachineSeen {
   const signals::Reading& reading(std::size_t sensor) const noexcept;
   const control::SensorSeen& supervised(std::size_t sensor) const noexcept;
 
+  // Returns the counters of all boards together, and whether one has ended the run.
   std::uint32_t overruns() const noexcept;
   std::uint32_t rejected_commands() const noexcept;
   std::uint32_t gaps() const noexcept;
@@ -96,6 +100,7 @@ struct SeenTotals {
   signals::Channel fault_channel;               // the machine's
 };
 
+// Holds what was not believed on any board, and why the run ended.
 struct SupervisedTotals {
   std::vector<control::SensorSeen> sensor;  // in the robot's order
   std::uint32_t rejected = 0, rejected_commands = 0;
@@ -138,12 +143,14 @@ class Boards {
 
   // --- for whoever looks ---
 
+  // Returns the boards, in the order of their numbers; and what they have counted, together.
   std::span<const Board> each() const noexcept { return boards_; }
   SeenTotals seen_totals() const;
   SupervisedTotals supervised_totals() const;
 
   // --- for whoever saves: everything that the boards' future depends on, copied like bytes ---
 
+  // Returns how many bytes it takes; writes so many; goes on from them.
   std::size_t state_size() const noexcept;
   void save(std::span<std::byte> out) const noexcept;
   void restore(std::span<const std::byte> saved) noexcept;

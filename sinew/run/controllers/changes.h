@@ -34,6 +34,7 @@ class Changes {
   // The plan's list, and behind it what was steered, at the times at which it took effect.
   std::vector<gait::Change> all() const;
 
+  // Returns what can be changed, by number.
   const std::vector<gait::Setting>& settings() const noexcept {
     return overrides_.front().settings();
   }

@@ -13,12 +13,14 @@ namespace sinew::run {
 // Columns, one behind the other.
 class Columns {
  public:
+  // Adds a column of one field.
   template <class Value>
   void scalar(std::string name, std::string unit, std::string description, Value value) {
     list.push_back({{std::move(name), std::move(description), {{"value", std::move(unit)}}},
                     [value](const Snapshot& m, double* out) { *out = value(m); }});
   }
 
+  // Adds a column of the fields x and y.
   template <class Value>
   void vector(std::string name, std::string unit, std::string description, Value value) {
     list.push_back({{std::move(name), std::move(description), {{"x", unit}, {"y", unit}}},
@@ -33,9 +35,11 @@ struct LegAt {
   std::size_t leg = 0;
   robot::LegParts parts;
 
+  // Returns the leg's topic of that name.
   std::string topic(const std::string& name) const { return robot::topic_of_leg(parts.name, name); }
 };
 
+// Returns the legs in the robot's order.
 inline std::vector<LegAt> legs_at(const robot::Robot& robot) {
   std::vector<LegAt> out;
   for (robot::LegParts& parts : robot::legs_of(robot))
@@ -43,6 +47,7 @@ inline std::vector<LegAt> legs_at(const robot::Robot& robot) {
   return out;
 }
 
+// Does the cylinder move the body up and down?
 inline bool moves(const robot::Cylinder& c) {
   return c.present && c.mode != robot::Cylinder::Mode::locked;
 }

@@ -30,6 +30,7 @@ struct Column {
   signals::Topic topic;                                     // of one or two fields
   std::function<void(const Snapshot&, double* out)> value;  // no heap, no exceptions
 
+  // Does only a simulation know it?
   bool of_truth() const { return topic.name.starts_with("/true/"); }
 };
 

@@ -23,6 +23,7 @@ struct Believed {
   int cylinder_channel = -1;
 };
 
+// Returns the scales and offsets that the robot's file gives its controller.
 Believed believed(const robot::Robot& robot);
 
 class HighLevel {
@@ -35,6 +36,7 @@ class HighLevel {
   // Is the body to be vented now? A plan that ends without goes on to the run's end as it is.
   bool finished() const noexcept { return vents_ && legs_.finished(); }
 
+  // Returns the brains of all legs.
   const gait::Legs& legs() const noexcept { return legs_; }
   // The word of each leg's brain with what stands in place of it, as it was passed on.
   std::span<const gait::Desired> desired() const noexcept {
@@ -52,6 +54,7 @@ class HighLevel {
   // A wish of whoever holds the run, as Changes has it.
   bool wish(const Steering::Wish& wish) noexcept { return changes_.wish(wish); }
 
+  // Returns what can be changed of it, by number.
   const std::vector<gait::Setting>& settings() const noexcept { return changes_.settings(); }
 
   // Everything that its next word depends on, beside what it will be told. Copied like bytes.

@@ -21,6 +21,7 @@ class Steering {
 
   // --- the steering thread's side ---
 
+  // Lets the run stand, or go on.
   void pause(bool paused) noexcept { paused_.store(paused, std::memory_order_relaxed); }
   // Simulated seconds per second of wall time; 0: as fast as it goes.
   void pace(double pace) noexcept { pace_.store(pace, std::memory_order_relaxed); }
@@ -32,6 +33,7 @@ class Steering {
 
   // --- either's ---
 
+  // Does it stand? At which pace does it go, or would it?
   bool paused() const noexcept { return paused_.load(std::memory_order_relaxed); }
   double pace() const noexcept { return pace_.load(std::memory_order_relaxed); }
   // As it stood at the last period start, in SI; by the number of the setting.
@@ -46,17 +48,21 @@ class Steering {
 
   // --- the loop's side ---
 
+  // A setting that somebody wants to be otherwise, or as the plan has it.
   struct Wish {
     std::size_t setting = 0;
     double value = 0;
     bool release = false;
     int leg = -1;  // its number; -1: every leg's
   };
+  // Calls `use` for every wish that came since.
   template <class Use>
   void take(Use&& use) noexcept {
     wishes_.take_all(use);
   }
+  // Counts a wish that was not followed.
   void refuse() noexcept { refused_.fetch_add(1, std::memory_order_relaxed); }
+  // Tells what a setting stands at, and whether that is somebody's wish.
   void show(std::size_t setting, double value, bool overridden) noexcept {
     value_[setting].store(value, std::memory_order_relaxed);
     overridden_[setting].store(overridden, std::memory_order_relaxed);

@@ -12,6 +12,7 @@
 
 namespace sinew::run {
 
+// Which figures of a run are drawn, and how.
 struct DrawingRequest {
   std::string machine;  // what was run; empty: the run's resolved.toml
   report::RunFigureOptions options;

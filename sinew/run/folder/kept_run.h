@@ -50,11 +50,14 @@ class KeptRun {
   // its log. Throws config::Error for what cannot be run, or kept, and plant::BoardError.
   explicit KeptRun(RunRequest request, Notices notices = {});
 
+  // Returns what is run, as it is written and as it was read.
   const experiment::Experiment& experiment() const { return experiment_; }
   const std::string& resolved() const { return resolved_; }  // the text of resolved.toml
   const config::Node& values() const { return values_; }     // what it says
+  // Returns where it is kept.
   const std::filesystem::path& folder() const { return folder_->path(); }
   RunLog* log() { return log_ ? &*log_ : nullptr; }  // nullptr where the experiment wants none
+  // Returns where it runs.
   const Place& place() const { return *place_; }
 
   // The run goes to its place and into its log, where it has one.

@@ -10,9 +10,11 @@ namespace sinew::run {
 struct Notices {
   std::function<void(std::string_view)> on_warning = {}, on_note = {};
 
+  // Tells what somebody should look at.
   void warning(std::string_view text) const {
     if (on_warning) on_warning(text);
   }
+  // Tells what goes on.
   void note(std::string_view text) const {
     if (on_note) on_note(text);
   }

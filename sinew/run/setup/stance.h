@@ -17,6 +17,7 @@ struct MuscleAt {
   std::string name;
   double length = 0, shortest = 0, longest = 0;  // [m]
 
+  // Can the muscle be so long?
   bool within() const { return length >= shortest && length <= longest; }
 };
 
@@ -27,6 +28,7 @@ struct Stance {
   std::optional<robot::Jacobian> jacobian;  // of the foot by the angles: of two links [m/rad]
   std::vector<double> torques;              // of the joints [N m]; empty where no force is asked of
 
+  // Can every muscle be as long as it would have to be?
   bool within() const {
     return std::ranges::all_of(muscles, [](const MuscleAt& m) { return m.within(); });
   }

@@ -12,6 +12,7 @@ namespace sinew::run {
 
 // As fast as it goes.
 struct SimulatedClock {
+  // Does not wait.
   bool wait_until(signals::Tick) noexcept { return true; }
 };
 
@@ -19,8 +20,10 @@ struct SimulatedClock {
 // a tick of wall time.
 class PacedClock {
  public:
+  // Its time starts now.
   explicit PacedClock(double speed) : speed_(speed), start_(std::chrono::steady_clock::now()) {}
 
+  // Waits until the tick is due. False: it came too late.
   bool wait_until(signals::Tick t) noexcept {
     using seconds = std::chrono::duration<double>;
     const auto due = start_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
@@ -40,6 +43,7 @@ class PacedClock {
 // `at_once` seconds pass at once, so that a run that starts paused has something to show.
 class SteeredClock {
  public:
+  // `steering` outlives the clock and says when it stands and how fast it goes.
   explicit SteeredClock(const Steering& steering, double at_once = 0)
       : steering_(steering),
         pace_(steering.pace()),
@@ -47,6 +51,8 @@ class SteeredClock {
         at_once_(at_once),
         at_(at_once) {}
 
+  // Waits until the tick is due, however often the pace changes meanwhile. False: it came far too
+  // late.
   bool wait_until(signals::Tick t) noexcept {
     const double target = static_cast<double>(t) * signals::tick_seconds;
     for (;;) {

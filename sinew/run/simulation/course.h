@@ -30,6 +30,7 @@
 
 namespace sinew::run {
 
+// Holds what an action changes, what is seen of it, and what a reward needs.
 struct Task {
   struct Action {
     std::string setting;  // "control.stiffness.hip"
@@ -57,6 +58,7 @@ class Course {
   // fails.
   Course(const Task& task, Simulation& example);
 
+  // How many numbers an action, what is seen, and the measures have.
   std::size_t actions() const { return ways_.size(); }
   std::size_t sights() const { return seen_.size(); }
   std::size_t measures() const { return measured_.size(); }

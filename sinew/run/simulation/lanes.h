@@ -29,6 +29,7 @@ struct Lanes {
   int most = 8;
   bool recorded = true;  // false: an outcome has no table, nor what is taken from it
 };
+// Runs all that `next` answers, side by side, and returns when the last is done.
 void run_in_lanes(const Lanes& lanes);
 
 // Lanes that are worth it on this computer: 8 with AVX-512, 4 with AVX2, else 1.

@@ -22,10 +22,12 @@ struct Watch {
   const std::atomic<bool>* stop = nullptr;
   bool was_stopped = false;
 
+  // Has somebody asked for a stop? It is remembered.
   bool stopped() noexcept {
     was_stopped = was_stopped || (stop && stop->load(std::memory_order_relaxed));
     return was_stopped;
   }
+  // The loop's side: a command, an edge, the instant of a sample, and the next tick to be visited.
   void command(signals::Tick t) noexcept {
     if (recorder) recorder->command(t);
   }

@@ -36,13 +36,16 @@ class Recorder {
   // `truth` answers what only a simulation knows, at a tick; empty for a body that is none.
   using TruthAt = std::function<plant::Truth(signals::Tick)>;
 
+  // Looks at boards and high level, which outlive it, up to the tick `end`.
   Recorder(const experiment::Experiment& experiment, const Boards& spine,
            const HighLevel& high_level, TruthAt truth, signals::Tick end);
 
+  // Hands each sample to somebody else too, with the topic that each series has there.
   void tap(Tap t, std::vector<std::uint16_t> topic_of_series) {
     tap_ = t;
     tapped_ = std::move(topic_of_series);
   }
+  // Tells how far the run is.
   void progress(std::atomic<std::int64_t>* tick) { progress_ = tick; }
 
   // The loop's side.

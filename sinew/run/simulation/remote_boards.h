@@ -41,6 +41,8 @@ class RemoteBoards final : public signals::Port {
 
   // --- the loop's low level ---
 
+  // Returns the scan and the last word of the board as if it were here, and takes the command of a
+  // period.
   signals::Scan scan() const noexcept { return shown_->scan(); }
   MachineSeen seen() const noexcept { return shown_->seen(); }
   void command(const MachineCommand& command) noexcept;
@@ -53,6 +55,7 @@ class RemoteBoards final : public signals::Port {
   // The board, as far as the loop asks: its edges, each once.
   struct Told {
     RemoteBoards* of;
+    // Answers the loop: edges that the board has told of; nothing to convert here.
     std::span<const signals::Edge> edges(signals::Tick) noexcept { return of->edges(); }
     const signals::Conversion* due(signals::Tick) noexcept { return nullptr; }
     void take(const signals::Conversion&, signals::Reading, signals::Tick) noexcept {}

@@ -25,6 +25,7 @@ struct RealBody {
   host::Beat* beat = nullptr;
 };
 
+// How a run goes, who watches it, and where its machine is.
 struct RunOptions {
   double pace = 0;               // simulated per wall second; 0: as fast as it goes
   Steering* steering = nullptr;  // in place of pace; outlives the run
@@ -41,6 +42,7 @@ struct RunOptions {
   bool board_keeps_time = true;         // false: it waits for the host, who may set a pace
 };
 
+// Holds what came of a run.
 struct Outcome {
   signals::Status status = signals::Status::ok;
   bool stopped = false;  // by RunOptions::stop

@@ -143,6 +143,8 @@ class Simulation {
 
   // --- the parts, for whoever records ---
 
+  // Returns what is run; the boards and the high level that control it; a board far away and the
+  // simulated machine, nullptr where there is none.
   const experiment::Experiment& experiment() const noexcept { return experiment_; }
   const Boards& boards() const noexcept { return boards_; }
   const HighLevel& high_level() const noexcept { return high_level_; }

@@ -26,19 +26,23 @@ struct Wish {
 // Of schedules, at the start of each period.
 class Wishes {
  public:
+  // Takes the schedules of the experiment's drive.
   explicit Wishes(const Experiment& experiment);
 
+  // Returns what is wished for the period that starts at t.
   template <class Seen>
   Wish update(const Seen&, signals::Tick t) noexcept {
     const double at = static_cast<double>(t) * signals::tick_seconds;
     return {length_.at(at), duty_.at(at)};
   }
+  // Never: a run of the stand ends by its time.
   bool finished() const noexcept { return false; }
 
  private:
   plant::Schedule length_, duty_;
 };
 
+// Holds what the stand's controller knows at the end of a period.
 struct DriveSeen {
   control::Phase phase = control::Phase::running;
   Wish wish;
@@ -47,10 +51,13 @@ struct DriveSeen {
   signals::Status fault = signals::Status::ok;
 };
 
+// Opens and shuts the stand's valves by the law of its drive.
 class Controller {
  public:
+  // `end` is the tick at which the run is over.
   Controller(const Experiment& experiment, signals::Tick end);
 
+  // Returns which transducer is converted when; and what was read of them.
   const signals::Scan& scan() const noexcept { return scan_; }
   const DriveSeen& seen() const noexcept { return seen_; }
 

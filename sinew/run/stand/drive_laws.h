@@ -24,6 +24,7 @@ struct Shares {
   double inlet = 0, exhaust = 0;
 };
 
+// Cuts a share to what it can be.
 constexpr double within_0_and_1(double x) { return x < 0 ? 0.0 : x > 1 ? 1.0 : x; }
 
 // Of a valve between supply and room that keeps the pressure on the mean  [-].

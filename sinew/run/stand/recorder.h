@@ -13,6 +13,7 @@
 
 namespace sinew::rig {
 
+// Everything that can be recorded at one instant.
 struct Snapshot {
   const DriveSeen& seen;
   const plant::StandTruth& truth;
@@ -24,14 +25,19 @@ struct Column {
   std::function<double(const Snapshot&)> value;  // no heap, no exceptions
 };
 
+// Returns what is recorded of the stand, in the order of its table; and the topics of its valves.
 std::vector<Column> columns(const Experiment& experiment);
 std::vector<signals::Topic> valve_topics(const Experiment& experiment);
 
 class Recorder {
  public:
+  // Looks at the controller and the stand, which outlive it, up to the tick `end`; at each tick
+  // where `every_tick`.
   Recorder(const Experiment& experiment, const Controller& controller, plant::Stand& stand,
            signals::Tick end, bool every_tick);
 
+  // The loop's side: a command, an edge, the instant of a sample, and the next tick at which there
+  // is one.
   void command(signals::Tick) noexcept {}
   void edge(const signals::Edge& edge) noexcept;
   void sample(signals::Tick t) noexcept;

@@ -14,6 +14,7 @@
 
 namespace sinew::rig {
 
+// Holds what came of a run of the stand.
 struct Outcome {
   signals::Status status = signals::Status::ok;
   signals::Table table;

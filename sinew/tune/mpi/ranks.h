@@ -23,8 +23,10 @@ class Ranks {
 
   int rank() const { return rank_; }  // from 0
   int size() const { return size_; }  // 1: alone
+  // Is this another process than the first?
   bool is_worker() const { return rank_ > 0; }
 
+  // Holds what another process has sent.
   struct Message {
     int from = 0;
     std::string text;

@@ -19,8 +19,10 @@
 
 namespace sinew::tune {
 
+// Hands out a sweep's points to the other processes.
 class Master {
  public:
+  // `ranks` outlives it.
   explicit Master(const Ranks& ranks) : ranks_(ranks) {}
 
   // Lets the workers go.

@@ -18,11 +18,13 @@
 
 namespace sinew::tune {
 
+// A figure that is to become small, or large.
 struct Goal {
   Figure figure;
   bool maximize = false;
 };
 
+// A figure that has to keep to one side of a value.
 struct Limit {
   Figure figure;
   Condition::Is is = Condition::Is::at_most;
@@ -50,12 +52,14 @@ struct Figures {
 
 inline constexpr double without_figures = 1000;  // a violation that no figure reaches
 
+// Holds what a candidate's runs come to.
 struct Judgement {
   std::vector<double> goals;   // over the runs that have figures; not a number where none has
   std::vector<double> limits;  // the worst of those runs
   double violation = 0;
   double holds = 1;
 
+  // Are all limits kept?
   bool feasible() const { return violation == 0; }
 };
 

@@ -10,6 +10,7 @@
 
 namespace sinew::tune {
 
+// How a tuning is run that is kept in a file.
 struct KeptOptions {
   TuneOptions tune;                        // without known and done
   std::function<void()> ask_to_stop = {};  // called where a row cannot be written

@@ -19,8 +19,10 @@ struct SinewMethods;
 
 namespace sinew::tune {
 
+// CMA-ES, for one goal; NSGA-II, for several.
 enum class MethodKind { cmaes, nsga2 };
 
+// Holds what a method of search is made with.
 struct MethodAsked {
   MethodKind kind = MethodKind::cmaes;
   std::size_t dimensions = 0;   // of a point, above 0
@@ -30,6 +32,7 @@ struct MethodAsked {
   double step = 0.3;  // cmaes: the standard deviation it begins with, a share of each range
 };
 
+// A search that is asked for points and told what they cost, generation by generation.
 class OptimizerMethod {
  public:
   // Throws std::runtime_error where the program was built without pagmo.
@@ -42,6 +45,7 @@ class OptimizerMethod {
   // Returns the next generation's points, each in [0, 1]; none where the method has converged.
   std::vector<double> ask();
 
+  // Tells what the points cost that were asked for last.
   void tell(const std::vector<double>& costs);
 
  private:

@@ -18,6 +18,7 @@
 
 namespace sinew::tune {
 
+// Values that were tried, and what their runs came to.
 struct Candidate {
   std::size_t number = 0, generation = 0;  // from 0
   std::vector<Value> values;               // of the tuned ranges

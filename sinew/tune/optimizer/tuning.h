@@ -29,6 +29,7 @@ struct TuningFile {
   std::string title, reproduces, experiment;
   std::vector<std::string> set, tune, maximize, minimize, where, report, spread;
   std::vector<Case> cases;
+  // Which method searches; automatic: by the number of goals.
   enum class Method { automatic, cmaes, nsga2 } method = Method::automatic;
   Goals::Over over = Goals::Over::mean;
   double hold = 1, step = 0.3;
@@ -53,6 +54,7 @@ struct Tuning {
   std::size_t generations = 0;
   std::vector<double> start = {};  // shares of what the experiment has; the first candidate
 
+  // How many runs a candidate has, and a generation.
   std::size_t runs_of_candidate() const { return points(runs) / (generations * method.population); }
   std::size_t runs_of_generation() const { return points(runs) / generations; }
 };

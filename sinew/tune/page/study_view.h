@@ -16,7 +16,9 @@
 
 namespace sinew::tune {
 
+// A column of a study's page.
 struct StudyColumn {
+  // Says what it is to the study.
   enum class Role { parameter, objective, constraint, figure, other };
 
   std::string heading;  // "joint.hip.angle_gain [%/count]"

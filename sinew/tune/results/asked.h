@@ -15,6 +15,7 @@
 
 namespace sinew::tune {
 
+// A column of a study's table.
 struct Column {
   // parameter     a sweep varies it, a tuner chooses it
   // circumstance  a parameter has to serve in it: a seed, a case, a draw of what is not known
@@ -26,6 +27,7 @@ struct Column {
   bool number = true;  // its cells are numbers, or empty
   Role role = Role::other;
 };
+// Returns the word that the study's file has for it.
 const char* to_text(Column::Role role);
 
 struct Asked {

@@ -19,11 +19,13 @@ class Database {
   // To read: others may write meanwhile. Nothing is made, nothing changed.
   enum class Use { write, read };
 
+  // Opens the file; to write it is made where it is missing.
   Database(const std::filesystem::path& file, Use use);
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
+  // Runs statements that answer nothing.
   void run(const std::string& sql);
   std::int64_t number(const std::string& sql);  // the first cell of its answer
 
@@ -38,6 +40,7 @@ class Database {
 // A statement with places ?1, ?2, … Its database must outlive it.
 class Statement {
  public:
+  // Prepares the statement.
   Statement(Database& database, std::string_view sql);
   ~Statement();
   Statement(const Statement&) = delete;

@@ -6,6 +6,7 @@
 
 namespace sinew::tune {
 
+// Holds what came of putting files of one study together.
 struct Merged {
   std::size_t points = 0;  // of the study
   std::size_t there = 0;   // those with a row in `to`

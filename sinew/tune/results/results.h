@@ -66,6 +66,7 @@ class Results {
   // Throws log::Error where a row could not be written.
   void throw_failure() const;
 
+  // Returns where the study is kept.
   const std::filesystem::path& file() const { return file_; }
 
  private:

@@ -7,6 +7,7 @@
 
 extern "C" {
 
+// MethodAsked in the words of C, for the module.
 struct SinewMethodAsked {
   int nsga2;               // 1: NSGA-II; 0: CMA-ES
   std::size_t dimensions;  // of a point
