@@ -115,6 +115,12 @@ def behind(lines: List[str], i: int, code: str, out: List[str]) -> int:
     goes_on = re.compile(r"\s{%d}//" % len(split_comment(lines[i])[0]))
     while end < len(lines) and goes_on.match(lines[end]):
         end += 1
+    if end == i + 1 and re.match(r"\s*enum\b", code):
+        # Behind an enum Doxygen would give the words to its last value.
+        words = split_comment(lines[i])[1]
+        margin = code[: len(code) - len(code.lstrip())]
+        out.append(f"{margin}/** @verbatim{BEHIND}{words} @endverbatim */ {code.strip()}")
+        return end
     made = verbatim([split_comment(line)[1] or "" for line in lines[i:end]], "///<")
     out.append(code + made[0])
     out += [" " * len(code) + line for line in made[1:]]
