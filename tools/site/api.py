@@ -186,12 +186,21 @@ def read_compound(element: ElementTree.Element) -> Name:
     return name
 
 
+def share_lines(variables: List[Name]) -> None:
+    """double length = 0, rate = 0;  // [m], [m/s]: each its part, or all of them the whole."""
+    lines: Dict[int, List[Name]] = {}
+    for name in variables:
+        lines.setdefault(name.line, []).append(name)
+    for together in lines.values():
+        text = next((name.behind for name in reversed(together) if name.behind), "")
+        parts = text.split(", ")
+        for i, name in enumerate(together):
+            name.behind = parts[i] if len(parts) == len(together) and all(p.startswith("[") for p in parts) else text
+
+
 def share_texts(names: List[Name], source: List[str]) -> None:
     """Let declarations without a blank line between them share the comment in front of the first."""
-    for name in names:  # double length = 0, rate = 0;  // [m], [m/s]
-        for other in names:
-            if name.kind == other.kind == "variable" and name.line == other.line and not name.behind:
-                name.behind = other.behind
+    share_lines([name for name in names if name.kind == "variable"])
     leader: Optional[Name] = None
     last = 0
     for name in sorted(names, key=lambda n: n.line):

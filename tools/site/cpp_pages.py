@@ -93,6 +93,9 @@ class FolderPage:
             parts.append(at + self.prose.signature(name))
         first = group[0]
         parts += [self.prose.text(t, first.owner or first) for t in self.words(group) if t]
+        if first.by_file:
+            file = os.path.basename(first.file)
+            parts.append(f'<p>It is what <a href="#{file}"><code>{file}</code></a> describes.</p>')
         if first.kind in ("struct", "class", "union"):
             parts.append(self.fields([m for m in first.members if m.kind == "variable"], first))
         if first.kind == "enum":

@@ -191,10 +191,6 @@ def is_setter(node: ast.stmt) -> bool:
 
 def prose(text: str) -> str:
     """A docstring: paragraphs, and what is indented as it stands."""
-    lines = text.strip().split("\n")
-    rest = [line for line in lines[1:] if line.strip()]
-    margin = min((len(line) - len(line.lstrip()) for line in rest), default=0)
-    text = "\n".join([lines[0]] + [line[margin:] for line in lines[1:]])
     out = []
     for kind, block in blocks_of(text):
         inner = re.sub(r"`([^`]+)`", r"<code>\1</code>", html.escape("\n".join(block), quote=False))
