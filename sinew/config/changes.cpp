@@ -74,10 +74,12 @@ Format check_format(const Node& root, const Changes& changes) {
   const Node* node = root.find("format");
   const auto names = names_of_kinds(changes);
   const std::string expected = fmt::format("\"sinew.<kind>/1\", kind being {}", either(names));
-  if (!node)
+  if (!node) {
+    const Kind* likely = changes.find(likely_kind(root));
+    const char* who = likely ? "; sinew migrate puts it there" : "";
     fail(root.where, "format", "nothing", expected,
-         format_line(changes.find(likely_kind(root))) +
-             " as the first line; sinew migrate puts it there");
+         format_line(likely) + " as the first line" + who);
+  }
   node->used = true;
   const Format format = format_of(node->text);
   const Kind* kind = changes.find(format.kind);

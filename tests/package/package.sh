@@ -3,6 +3,10 @@
 # own without being root, uses what is installed there, removes it, and looks that nothing is left.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+if ! command -v dpkg-deb >/dev/null; then
+  echo "package: left out, for this system has no dpkg"
+  exit
+fi
 build=$(cd "$1" && pwd)
 mkdir -p "$2"
 folder=$(cd "$2" && pwd)
