@@ -9,21 +9,6 @@
 
 namespace sinew::cli {
 
-namespace {
-
-// "a.csv; force is F_N; F_N in N; only phase=fill"
-std::vector<std::string> in_words(const DataOptions& data) {
-  std::vector<std::string> out = data.files;
-  for (const std::string& map : data.maps) out.push_back("column " + map);
-  for (const std::string& unit : data.units) out.push_back("unit " + unit);
-  for (const std::string& where : data.where) out.push_back("only rows with " + where);
-  if (!data.columns.empty()) out.push_back("header " + data.columns);
-  if (data.drop_incomplete) out.emplace_back("incomplete rows left out");
-  return out;
-}
-
-}  // namespace
-
 void leave_page(const std::string& title, const std::vector<const identify::Report*>& reports,
                 const std::string& parameter_file, const DataOptions& data,
                 const ResultOptions& options) {
@@ -31,7 +16,7 @@ void leave_page(const std::string& title, const std::vector<const identify::Repo
   if (file.empty()) return;
   run::write_file(file, identify::page({.title = title,
                                         .version = SINEW_VERSION,
-                                        .data = in_words(data),
+                                        .data = identify::words_of(sources_of(data)),
                                         .atmosphere = identify::atmosphere_setting(data.atmosphere),
                                         .reports = reports,
                                         .parameter_file = parameter_file}));

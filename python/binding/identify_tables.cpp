@@ -7,9 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "python/binding/recording.h"
 #include "python/binding/settings.h"
+#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/motion/decay.h"
+#include "sinew/identify/page/fit_page.h"
 #include "sinew/identify/sensor/sensor_file.h"
 #include "sinew/identify/sensor/transducer_settings.h"
 #include "sinew/identify/sensor/transducer_text.h"
@@ -21,6 +24,7 @@
 #include "sinew/identify/task/static_task.h"
 #include "sinew/identify/task/tables.h"
 #include "sinew/identify/task/valve_task.h"
+#include "sinew/report/page/page.h"
 
 namespace sinew::python {
 
@@ -36,6 +40,12 @@ struct Identified {
   std::vector<File> files;  // texts of parameter files, as they would stand at `out`
   std::string refused;      // what the data do not support
   std::function<identify::TimingFile(const std::string&)> timing;  // a valve's
+
+  // What its page shows.
+  std::string title;
+  std::vector<identify::Report> reports;
+  std::vector<std::string> read;  // tables, in words
+  double atmosphere = 0;          // [Pa]
 };
 
 // Asks without Python's lock.
@@ -60,7 +70,9 @@ Identified geometry(const Sources& sources, const Settings& given) {
   const auto found = away([&] {
     return s.trapezoids.empty() ? identify::find_geometry(sources, s) : identify::count_geometry(s);
   });
-  return {to_json(found).dump(), {fixed(found.file)}, "", {}};
+  Identified out{.report = to_json(found).dump(), .files = {fixed(found.file)}};
+  if (found.report) out.reports = {*found.report};
+  return out;
 }
 
 Identified of_static(const Sources& sources, const Settings& given) {
@@ -75,7 +87,7 @@ Identified of_static(const Sources& sources, const Settings& given) {
   given.text("hold_out", s.hold_out);
   given.table("held_out", s.held_out);
   const auto found = away([&] { return identify::find_static(sources, s); });
-  Identified out{to_json(found.result.report).dump(), {}, "", {}};
+  Identified out{.report = to_json(found.result.report).dump(), .reports = {found.result.report}};
   for (const std::string& file : found.files) out.files.push_back(fixed(file));
   return out;
 }
@@ -92,11 +104,14 @@ Identified dynamic(const Sources& sources, const Settings& given) {
   given.tables("held_out", s.held_out);
   given.text("model", s.model);
   const auto found = away([&] { return identify::find_dynamic(sources, s); });
-  return {to_json(found).dump(), {fixed(found.file)}, "", {}};
+  return {.report = to_json(found).dump(),
+          .files = {fixed(found.file)},
+          .reports = {found.result.report}};
 }
 
 Identified creep(const Sources& sources, const Settings&) {
-  return {to_json(away([&] { return identify::find_creep(sources); })).dump(), {}, "", {}};
+  const auto found = away([&] { return identify::find_creep(sources); });
+  return {.report = to_json(found).dump(), .reports = {found.report}};
 }
 
 Identified joint(const Sources& sources, const Settings& given) {
@@ -123,11 +138,10 @@ Identified joint(const Sources& sources, const Settings& given) {
   given.path("base", s.base);
   const auto found = std::make_shared<identify::JointFound>(
       away([&] { return identify::find_joint(sources, s); }));
-  return {
-      to_json(*found).dump(),
-      {[found](const std::string& out) { return found->file(out); }, fixed(found->actuator_file)},
-      "",
-      {}};
+  return {.report = to_json(*found).dump(),
+          .files = {[found](const std::string& out) { return found->file(out); },
+                    fixed(found->actuator_file)},
+          .reports = {found->result.report}};
 }
 
 Identified sensor(const Sources& sources, const Settings& given) {
@@ -145,10 +159,11 @@ Identified sensor(const Sources& sources, const Settings& given) {
   given.path("base", s.base);
   const auto found = std::make_shared<identify::SensorFound>(
       away([&] { return identify::find_sensors(sources, s); }));
-  return {to_json(found->calibration).dump(),
-          {[found](const std::string& out) { return found->file(out); }},
-          "",
-          {}};
+  Identified out{.report = to_json(found->calibration).dump(),
+                 .files = {[found](const std::string& at) { return found->file(at); }},
+                 .title = "calibration of sensors from " + found->calibration.file};
+  for (const auto& one : found->calibration.sensors) out.reports.push_back(one.report);
+  return out;
 }
 
 Identified valve(const Sources& sources, const Settings& given) {
@@ -166,12 +181,14 @@ Identified valve(const Sources& sources, const Settings& given) {
   given.table("held_out", s.held_out);
   const auto found = std::make_shared<identify::ValveFound>(
       away([&] { return identify::find_valve(sources, s); }));
-  return {to_json(*found).dump(),
-          {[found](const std::string& out) { return found->file(out); }},
-          found->result.refused,
-          [found, s](const std::string& frequency) {
-            return identify::timing_of(*found, frequency.empty() ? s.frequency : frequency);
-          }};
+  return {.report = to_json(*found).dump(),
+          .files = {[found](const std::string& out) { return found->file(out); }},
+          .refused = found->result.refused,
+          .timing =
+              [found, s](const std::string& frequency) {
+                return identify::timing_of(*found, frequency.empty() ? s.frequency : frequency);
+              },
+          .reports = {found->result.report}};
 }
 
 // --- methods by their names ---
@@ -201,7 +218,10 @@ Identified identify_tables(const std::string& name, const py::list& tables, cons
   Sources sources;
   for (const py::handle table : tables) sources.push_back(source_of(table));
   const Settings settings(given);
-  return method.ask(sources, settings);
+  Identified found = method.ask(sources, settings);
+  found.read = identify::words_of(sources);
+  if (!sources.empty()) found.atmosphere = sources.front().atmosphere;
+  return found;
 }
 
 // The SI units of the columns that a method wants, by their names.
@@ -244,6 +264,33 @@ std::string text_of(const Identified& found, std::size_t which, const std::strin
   return found.files[which](out);
 }
 
+// The values of the file stand on the page, where the data support one.
+std::string file_for_page(const Identified& found) try {
+  return found.files.empty() ? "" : found.files[0]("");
+} catch (const identify::Refusal&) {
+  return "";
+}
+
+// The page with the data beside the models, as `--report` leaves it.
+std::string page_of(const Identified& found) {
+  if (found.reports.empty())
+    throw std::invalid_argument("page: found a braid that was counted; expected a table to show");
+  std::vector<const identify::Report*> reports;
+  for (const identify::Report& report : found.reports) reports.push_back(&report);
+  return identify::page({.title = found.title.empty() ? found.reports[0].subject : found.title,
+                         .version = SINEW_VERSION,
+                         .data = found.read,
+                         .atmosphere = found.atmosphere,
+                         .reports = reports,
+                         .parameter_file = file_for_page(found)});
+}
+
+// A cell of a notebook shows the page within.
+py::object cell(const Identified& found) {
+  if (found.reports.empty() || !report::has_page()) return py::none();
+  return in_a_cell(page_of(found));
+}
+
 py::tuple timing(const Identified& found, const py::object& given) {
   if (!found.timing) throw std::invalid_argument("timing: found no valve");
   std::string frequency;
@@ -269,6 +316,8 @@ void bind_identify_tables(py::module_& m) {
                     "What the data do not support; empty: nothing.")
       .def("text", &text_of, py::arg("which"), py::arg("out"),
            "Returns the text of a parameter file, as it would stand at `out`.")
+      .def("page", &page_of, "Returns the page with the data beside the models, as HTML.")
+      .def("cell", &cell, "Returns the page as HTML for a notebook; None without one.")
       .def("timing", &timing, py::arg("frequency"),
            "Returns predict.dat of a valve, and by how much a duty is off at most.");
   m.def("identify_tables", &identify_tables, py::arg("method"), py::arg("tables"),

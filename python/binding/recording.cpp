@@ -62,9 +62,7 @@ std::string page(const Recording& recording) {
 // A cell of a notebook shows the page within.
 py::object cell(const Recording& recording) {
   if (recording.name.empty() || !report::has_page()) return py::none();
-  const py::object escape = py::module_::import("html").attr("escape");
-  return py::str("<iframe srcdoc=\"") + py::str(escape(page(recording), true)) +
-         py::str("\" style=\"width: 100%; height: 720px; border: 0\"></iframe>");
+  return in_a_cell(page(recording));
 }
 
 Pointer derived(const Pointer& of) {
@@ -81,6 +79,12 @@ Pointer derived(const Pointer& of) {
 }
 
 }  // namespace
+
+py::object in_a_cell(const std::string& page) {
+  const py::object escape = py::module_::import("html").attr("escape");
+  return py::str("<iframe srcdoc=\"") + py::str(escape(page, true)) +
+         py::str("\" style=\"width: 100%; height: 720px; border: 0\"></iframe>");
+}
 
 void sum_up(Recording& recording) {
   if (config::format_kind(recording.resolved) == "rig") {

@@ -52,6 +52,9 @@ class Recording {
 // has no verdicts.
 void sum_up(Recording& recording);
 
+// Returns a page as HTML that a cell of a notebook shows.
+py::object in_a_cell(const std::string& page);
+
 // Returns what a kept run's folder, or a log, holds. Throws config::Error and log::Error.
 std::shared_ptr<Recording> read_run(const std::string& named);
 

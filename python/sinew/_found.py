@@ -2,7 +2,7 @@
 
 import dataclasses
 import os
-from typing import Any, Dict, Sequence, Union
+from typing import Any, Dict, Optional, Sequence, Union
 
 from sinew import _sinew
 from sinew._tables import Path
@@ -39,6 +39,17 @@ class Found:
     def write(self, path: Path, force: bool = False) -> None:
         """Write the parameter file. Raises FileExistsError, unless `force` replaces it; and as text()."""
         _write(path, self.text(path), force)
+
+    def page(self) -> str:
+        """Return the page with the data beside the models, as HTML: what `--report` leaves.
+
+        Raises ValueError for what was counted, RuntimeError where the library was built without a page.
+        """
+        return self._found.page()
+
+    def _repr_html_(self) -> Optional[str]:
+        """Return the page for a cell of a notebook."""
+        return self._found.cell()
 
     def __repr__(self) -> str:
         """Return the method's subject."""

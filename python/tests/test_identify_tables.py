@@ -164,12 +164,23 @@ class SameAsTheProgram(unittest.TestCase):
             "geometry", [mesh()], ask, "--thread-thickness", "0.2 mm", "--name", "mine"
         )
         self.assertAlmostEqual(found.report["thread_length_m"], 0.1, 3)
+        if found._repr_html_() is None:
+            self.skipTest("built without npm: no page")
+        page = os.path.join(self.folder, "page.html")
+        program(
+            "identify", "geometry", os.path.join(self.folder, "geometry-0.csv"), "--report", page,
+            "--thread-thickness", "0.2 mm", "--name", "mine", "--quiet",
+        )  # fmt: skip
+        with open(page, encoding="utf-8") as file:
+            self.assertEqual(file.read(), found.page())
 
     def test_geometry_from_trapezoids(self) -> None:
         said = program_json("identify", "geometry", "--trapezoids", "37,16", "--side", "0.057 in", "--json")
         found = identify.geometry_from_trapezoids(37, 16, "0.057 in")
         self.assertEqual(found.report, said)
         self.assertIn("37 x 16 trapezoids", found.text())
+        self.assertIsNone(found._repr_html_())
+        self.assertRaises(ValueError, found.page)
 
     def test_creep(self) -> None:
         found = self.compare("creep", [hold()], identify.creep, file="")

@@ -158,7 +158,8 @@ class Threads(unittest.TestCase):
         self.assertGreater(seen_at_it, 10)
 
     def test_ctrl_c_ends_what_takes_long(self) -> None:
-        for work in ("leg.advance(1e5)", "sinew.run(leg.experiment)"):
+        pull = f"sinew.DrivenMuscle({WALK!r}, 'hip_flexor').follow(10.0, [0.08] * 100000)"
+        for work in ("leg.advance(1e5)", "sinew.run(leg.experiment)", pull):
             code = (
                 "import signal, sinew, sys\n"
                 # What is started in the background by a shell ignores Ctrl-C.

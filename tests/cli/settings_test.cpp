@@ -30,6 +30,10 @@ TEST(Settings, BeginAProblemOrDoNot) {
   EXPECT_EQ(as_options("a.csv: names: found \"x\""), "a.csv: --map: found \"x\"");
   EXPECT_EQ(as_options("a.toml:3:1: where: found \"x\""), "a.toml:3:1: where: found \"x\"");
   EXPECT_EQ(as_options("the model: found none"), "the model: found none");
+  EXPECT_EQ(as_options("mass: found \"-1 kg\"\nrest_length: found \"1 s\""),
+            "--mass: found \"-1 kg\"\n--rest-length: found \"1 s\"");
+  EXPECT_EQ(as_options("a.csv: pressure: found none"), "a.csv: pressure: found none")
+      << "a column of that name";
 }
 
 TEST(Settings, WhatAUserWroteStays) {
@@ -50,13 +54,33 @@ TEST(Settings, TheOptionsExist) {
   };
   struct Case {
     Words command;
-    const char* settings;
+    std::string settings;
+  };
+  // Of problems that begin a line each.
+  const auto subjects = [](std::initializer_list<const char*> names) {
+    std::string out;
+    for (const char* name : names)
+      out += (out.empty() ? "" : "\n") + std::string(name) + ": found ";
+    return out;
   };
   const Case cases[] = {
       {{"identify", "static"},
        "names.a=b units.a=b columns=a where=a drop_incomplete=true length=a rest_length=a "
        "actuator=a "
        "hold_out=a model=a"},
+      {{"identify", "static"}, subjects({"length", "rest_length", "fit_where", "branch", "name"})},
+      {{"identify", "geometry"}, subjects({"thread_thickness", "trapezoids", "side"})},
+      {{"identify", "dynamic"}, subjects({"mass", "count", "pressure", "atmosphere"})},
+      {{"identify", "joint"},
+       subjects({"load", "lever", "down", "limb", "limb_lever", "moment_arm", "flexor_length",
+                 "extensor_length", "rest_angle", "flexion", "base", "hold_out"})},
+      {{"identify", "valve"},
+       subjects({"kind", "volume", "conductance", "port", "exponent", "temperature", "frequency",
+                 "predict_dat"})},
+      {{"identify", "sensor"}, subjects({"rest", "bits", "full_scale"})},
+      {{"force-beam"},
+       subjects({"length", "width", "height", "gages", "modulus", "yield", "poisson",
+                 "concentration", "bridge", "gage_factor", "excitation", "gain", "sensitivity"})},
       {{"identify", "joint"},
        "load=a lever=a down=a flexion=a moment_arm=a flexor_length=a keep_force=true"},
       {{"identify", "valve"},
@@ -72,11 +96,11 @@ TEST(Settings, TheOptionsExist) {
     const std::string text = help(c.command), options = as_options(c.settings);
     std::size_t count = 0;
     for (std::size_t at = 0; (at = options.find("--", at)) != options.npos; at += 2, ++count) {
-      const std::string option = options.substr(at, options.find(' ', at) - at);
+      const std::string option = options.substr(at, options.find_first_of(" :", at) - at);
       EXPECT_NE(text.find(option), text.npos) << c.command.back() << ": " << option;
     }
-    EXPECT_EQ(count,
-              1 + static_cast<std::size_t>(std::ranges::count(std::string_view(c.settings), ' ')));
+    const char between = c.settings.find('\n') != c.settings.npos ? '\n' : ' ';
+    EXPECT_EQ(count, 1 + static_cast<std::size_t>(std::ranges::count(c.settings, between)));
   }
 }
 

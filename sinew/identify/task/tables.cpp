@@ -43,6 +43,22 @@ Source beside(const std::vector<Source>& sources, std::string_view setting,
   return out;
 }
 
+std::vector<std::string> words_of(const std::vector<Source>& sources) {
+  std::vector<std::string> out;
+  for (const Source& source : sources) out.push_back(source.path);
+  if (sources.empty()) return out;
+  const Source& how = sources.front();
+  for (const auto& [name, theirs] : how.names) out.push_back("column " + name + "=" + theirs);
+  for (const auto& [name, unit] : how.units) out.push_back("unit " + name + "=" + unit);
+  for (const auto& [name, values] : how.where)
+    out.push_back("only rows with " + name + "=" + values);
+  std::string header;
+  for (const std::string& column : how.columns) header += (header.empty() ? "" : ",") + column;
+  if (!header.empty()) out.push_back("header " + header);
+  if (how.drop_incomplete) out.emplace_back("incomplete rows left out");
+  return out;
+}
+
 double atmosphere_setting(const std::string& text) {
   return config::quantity_setting("atmosphere", text + " abs", "Pa abs", units::atmosphere,
                                   config::air_pressure);

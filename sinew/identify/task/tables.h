@@ -29,6 +29,9 @@ Source beside(const std::vector<Source>& sources, std::string_view setting,
 void refuse_fitted(const std::vector<Source>& sources, std::string_view setting,
                    const std::string& file);
 
+// Returns what is read, and how, in sentences for a page: "a.csv", "column force=F_N".
+std::vector<std::string> words_of(const std::vector<Source>& sources);
+
 // Returns the pressure that gauges read against, "14.7 psi", absolute  [Pa]. Throws config::Error.
 double atmosphere_setting(const std::string& text);
 
