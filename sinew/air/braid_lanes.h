@@ -30,6 +30,7 @@ namespace sinew::air {
 
 class BraidLanes {
  public:
+  // Takes the muscles in the order of their lanes.
   BraidLanes(std::span<const Muscle> muscles, const gas::Air& air);
 
   int size() const { return size_; }
@@ -40,6 +41,7 @@ class BraidLanes {
   // From now on a table answers beyond the reach of the series: for steps that go there often.
   void go_by_table() { table_.emplace(air_.polytropic_exponent / 7.0); }
 
+  // Returns what the series stand on before any look: the atmosphere.
   template <int Most>
   Reference<Most> reference() const {  // at the atmosphere
     Reference<Most> r{};

@@ -30,6 +30,7 @@ struct BraidConstants {
   S mesh_secant, mesh_constant;                    // Q for [34], or the bound itself
 };
 
+// Returns a bundle's law for this air.
 BraidConstants<double> braid_constants(const Muscle& muscle, const gas::Air& air);
 
 // Absolute pressure [Pa]; tension of the bundle, and that of one held at both ends, which may push
@@ -46,6 +47,7 @@ template <class S>
   return units::select(inside > 0.0, inside, 0.0) + k.external;
 }
 
+// Returns what a bundle pulls at a length [m], a rate of it [m/s] and y.
 template <class S>
 [[gnu::always_inline]] inline BraidPull<S> braid_pull(const BraidConstants<S>& k,
                                                       const S& atmosphere, const S& length,

@@ -19,6 +19,7 @@
 
 namespace sinew::air {
 
+// The two chambers, by the way in which they push the body.
 enum Side : int { up = 0, down = 1 };
 
 struct Cylinder {

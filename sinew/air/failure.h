@@ -7,6 +7,7 @@
 namespace sinew::air {
 
 struct Failure {
+  // Names what was no number any more.
   enum class Of { nothing, air, cylinder, motion };
 
   Of of = Of::nothing;
@@ -20,6 +21,8 @@ struct Failure {
 // Beyond these no state of a machine is one  [Pa], [rad] or [m], [kg/m^3].
 inline constexpr double most_pressure = 1e12, farthest = 1e6, most_density = 1e6;
 
+// Each asks whether a number can be that quantity of a machine at all: [Pa], a density of the
+// reference's [-], [m] or [rad].
 constexpr bool is_pressure(double p) { return p > 0 && p < most_pressure; }
 constexpr bool is_density(double sigma) { return sigma > 0 && sigma < most_density; }
 constexpr bool is_place(double at) { return at < farthest && at > -farthest; }

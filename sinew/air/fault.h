@@ -24,7 +24,10 @@
 
 namespace sinew::air {
 
+// One thing that breaks, from when to when.
 struct AirFault {
+  // Names what breaks: a valve is stuck, either way, or leaks at its seat; a muscle has a hole; a
+  // hose is blocked; the supply stands at another pressure.
   enum class What { stuck_open, stuck_shut, seat_leak, hole, blocked, supply };
 
   What what = What::stuck_open;
@@ -35,6 +38,7 @@ struct AirFault {
   gas::Leak leak;                                        // seat_leak, hole
   double pressure = 0;                                   // supply: absolute [Pa]
 
+  // Is a valve broken? Else a muscle, its hose, or the supply.
   bool of_valve() const { return what <= What::seat_leak; }
 };
 
@@ -51,9 +55,11 @@ struct ActingFaults {
   std::uint64_t acting = 0;  // a bit each
   std::int32_t passed = 0;   // instants of the schedule
 
+  // Is anything broken now?
   bool any() const { return acting != 0; }
 };
 
+// All faults of a machine, and which of them act at an instant.
 class FaultSchedule {
  public:
   static constexpr std::size_t capacity = 64;
@@ -76,6 +82,7 @@ class FaultSchedule {
   }
 
   bool empty() const noexcept { return faults_.empty(); }
+  // Returns all of them, as they were given.
   const std::vector<AirFault>& all() const noexcept { return faults_; }
 
   // The next instant at which a fault begins or ends, or infinity  [s].

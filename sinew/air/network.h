@@ -63,6 +63,7 @@ class AirNetwork {
   AirNetwork(std::span<const Muscle> muscles, const gas::Air& air, const gas::Supply& supply,
              const std::optional<Cylinder>& cylinder = {}, std::span<const AirFault> faults = {});
 
+  // How many muscles there are, and how many bodies of air beside theirs.
   int muscles() const noexcept { return size_; }
   int others() const noexcept { return others_; }
   double atmosphere() const noexcept { return air_.atmosphere; }  // [Pa]
@@ -163,6 +164,7 @@ class AirNetwork {
   void correct(State& out, const State& from, double h, const Answer& before, const Answer& after,
                const Valves& valves, const Course& course) const noexcept;
 
+  // Returns the air of muscle i, and what has passed its valves and leaks since the start  [kg].
   Account account(const State& s, int i) const noexcept {
     return {.mass = s.mass[i], .in = s.in[i], .out = s.out[i], .leak = s.leak[i]};
   }

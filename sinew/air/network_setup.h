@@ -23,6 +23,7 @@ namespace quick {
 inline constexpr double from_rate = 2.5;  // rate times step from which a body of air goes ahead
 }
 
+// Is the valve a regulator, which follows a set point?
 inline bool regulates(const gas::Valve& valve) { return valve.kind == gas::Valve::Kind::regulator; }
 
 template <int Most>

@@ -37,12 +37,14 @@ struct AirState {
 // Where the valves and regulators are.
 template <int Most>
 struct AirValves {
+  // A valve until the next node.
   struct Valve {
     gas::Shutter shutter;
     double share = 0;                      // of its area that is open
     double set = 0, set_y = 0;             // set point of a regulator in force [Pa]
     double next_set = 0, next_set_at = 0;  // and the one to come [Pa], [s]
   };
+  // A valve that is open, and how far.
   struct Open {
     int valve = 0;
     double share = 0;  // of its area

@@ -25,6 +25,7 @@ struct KeyChange {
   std::string_view why;  // where nothing does: what to do by hand
 };
 
+// A kind of file, and the number of its newest format.
 struct Kind {
   std::string_view name;
   int newest = 1;  // number

@@ -17,6 +17,7 @@ struct Location {
   int column = 0;
 };
 
+// One thing that is wrong with a file or a setting: where, what, and what to do.
 struct Problem {
   Location where;
   std::string key;  // dotted path in the resolved namespace; empty where there is none
@@ -25,15 +26,18 @@ struct Problem {
   std::string try_this;  // empty: nothing to suggest
 };
 
+// Returns "file:line:column: key: found …; expected …; try …".
 std::string to_text(const Problem& problem);
 std::string to_text(const std::vector<Problem>& problems);  // one line each
 
 // All problems of one file. what() is their text.
 class Error : public std::exception {
  public:
+  // Makes the words of all problems, or of one.
   explicit Error(std::vector<Problem> problems);
   explicit Error(const Problem& problem);
 
+  // Returns each of them; and all of them as one text.
   const std::vector<Problem>& problems() const { return problems_; }
   const char* what() const noexcept override { return text_.c_str(); }
 

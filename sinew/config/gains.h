@@ -14,6 +14,7 @@
 
 namespace sinew::config {
 
+// The gains of one joint.
 struct GainRow {
   double angle = 0, stiffness = 0, velocity = 0;  // as written
   int line = 0;

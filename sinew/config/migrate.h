@@ -10,10 +10,12 @@
 
 namespace sinew::config {
 
+// A file in today's format, and what became of its lines.
 struct Migrated {
   std::string text;
   std::string kind;      // "robot"
   int from = 0, to = 0;  // number of its format; from 0: it did not say one
+  // One line that reads otherwise.
   struct Edit {
     int line = 0;  // of the old text
     std::string was, is;

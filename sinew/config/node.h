@@ -11,6 +11,7 @@
 namespace sinew::config {
 
 struct Node {
+  // Names what stands there.
   enum class Kind { table, array, text, integer, real, flag };
 
   Kind kind = Kind::table;
@@ -27,11 +28,13 @@ struct Node {
 
   mutable bool used = false;  // somebody asked for it; what stays unused is an unknown key
 
+  // Is it a table, or a number of either kind?
   bool is_table() const { return kind == Kind::table; }
   bool is_number() const { return kind == Kind::integer || kind == Kind::real; }
   // { value = …, source = … }
   bool is_value_table() const { return is_table() && find("value") != nullptr; }
 
+  // Returns the child of that key; nullptr where there is none.
   const Node* find(std::string_view child_key) const;
   Node* find(std::string_view child_key);
   // Adds the child, or puts it in the place of the one with its key.
@@ -39,6 +42,7 @@ struct Node {
   void erase(std::string_view child_key);
 };
 
+// Each makes a node of that kind, by the key; `where` is what messages point to.
 Node make_text(std::string_view key, std::string text, Location where = {});
 Node make_table(std::string_view key, Location where = {});
 Node make_number(std::string_view key, double value, Location where = {});

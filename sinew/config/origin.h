@@ -27,6 +27,7 @@ struct Origin {
 
 using Origins = std::vector<Origin>;
 
+// Returns the origin of the value at that path; nullptr where none is known.
 const Origin* find_origin(const Origins& origins, std::string_view path);
 
 }  // namespace sinew::config

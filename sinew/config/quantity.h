@@ -24,6 +24,7 @@ struct Mistake {
   std::string try_this;
 };
 
+// A quantity in SI, or why the text is none.
 struct Parsed {
   double si = 0;
   std::optional<Mistake> mistake;

@@ -75,6 +75,8 @@ class Reader {
   // The same for a reader that wants only a part of the file.
   void finish_part();
 
+  // Returns where each value came from; what is wrong, for which there is an Error to throw; and
+  // what is doubtful.
   const Origins& origins() const { return origins_; }
   const std::vector<Problem>& problems() const { return problems_; }
   const std::vector<Problem>& warnings() const { return warnings_; }

@@ -83,10 +83,12 @@ struct Reported {
   std::string band_reason;             // why `accept` is as it is
 };
 
+// Is there a band by which the figure agrees or differs?
 inline bool is_judged(const Reported& r) {
   return !r.accept.empty() || r.wording != Wording::another;
 }
 
+// Visits the keys of one [[reported]].
 template <class Visitor>
 void fields(Visitor& v, Reported& r) {
   v.text({.name = "key", .doc = "of summary.json"}, r.key);

@@ -11,6 +11,7 @@ namespace sinew::config {
 
 std::string_view trimmed_row(std::string_view text);  // without blanks and carriage return
 
+// A number's text, and where it stands.
 struct Cell {
   std::string_view text;
   int column = 1;  // of the line
@@ -20,8 +21,10 @@ std::vector<Cell> cells_of(std::string_view line);  // at the commas
 // Collects what is wrong, row by row; stops talking after a handful.
 class RowProblems {
  public:
+  // `name` is the file's, for the words.
   explicit RowProblems(std::string name) : name_(std::move(name)) {}
 
+  // Keeps one thing that is wrong.
   void add(int line, int column, std::string_view key, std::string found, std::string expected,
            std::string try_this = "");
   // Throws Error if there is any.

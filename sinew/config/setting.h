@@ -20,6 +20,7 @@ struct Range {
   bool above = false;
 };
 
+// A range up to `high`, without zero or with it; `why` says what the bound means.
 constexpr Range above_zero(double high, std::string_view why) { return {0, high, why, true}; }
 constexpr Range from_zero(double high, std::string_view why) { return {0, high, why}; }
 

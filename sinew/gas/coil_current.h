@@ -32,6 +32,7 @@ struct CurrentPiece {
   double start = 0, end = 0;  // current at `from`, and what it tends to [A]
   double rate = 0;            // R/L [1/s]
 
+  // Returns the current at t  [A].
   double at(double t) const { return end + (start - end) * std::exp(-(t - from) * rate); }
 };
 

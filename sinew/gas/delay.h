@@ -55,6 +55,7 @@ constexpr double delay_at(const Valve& valve, bool open, double pressure_differe
   return delay > 0 ? delay : 0.0;
 }
 
+// Where a valve's shutter stands, and when it will move.
 struct Shutter {
   // Shut, command off.
   Shutter() = default;
@@ -91,6 +92,7 @@ struct Shutter {
   void free(double t, double delay, bool lifts = true) noexcept;
 
   bool command() const noexcept { return command_; }  // of the coil: true is on
+  // Is it held where it stands, by a fault?
   bool jammed() const noexcept { return jammed_; }
 
   // More instants were waiting than fit: the oldest was taken too early.

@@ -16,9 +16,11 @@
 
 namespace sinew::gas {
 
+// Returns the heat that a kilogram takes per kelvin at constant volume  [J/(kg K)].
 constexpr double heat_capacity_volume(const Air& air) {  // c_v [J/(kg K)]
   return air.gas_constant / (heat_capacity_ratio - 1.0);
 }
+// Returns the heat that a kilogram takes per kelvin at constant pressure  [J/(kg K)].
 constexpr double heat_capacity_pressure(const Air& air) {  // c_p [J/(kg K)]
   return heat_capacity_ratio * heat_capacity_volume(air);
 }
@@ -28,9 +30,11 @@ constexpr double energy_at_rest(const Air& air, double mass) {
   return mass * heat_capacity_volume(air) * air.temperature;
 }
 
+// Returns the temperature of air by its energy and mass  [K].
 constexpr double temperature(const Air& air, double energy, double mass) {  // T [K]
   return energy / (mass * heat_capacity_volume(air));
 }
+// Returns the absolute pressure of air by its energy and volume  [Pa].
 constexpr double pressure_of_energy(double energy, double volume) {  // P [Pa]
   return (heat_capacity_ratio - 1.0) * energy / volume;
 }

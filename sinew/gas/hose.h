@@ -23,6 +23,7 @@
 namespace sinew::gas {
 
 struct Hose {
+  // Names the law: no hose; a conductance as of a valve; a pipe by length and diameter.
   enum class Law { none, iso6358, pipe };
   Law law = Law::none;
 
@@ -64,6 +65,7 @@ struct HoseConstants {
   double choked = 0;     // per upstream atmosphere [kg/s]
 };
 
+// Returns the hose's law for this air.
 inline HoseConstants hose_constants(const Hose& hose, const Air& air) {
   HoseConstants c;
   c.pipe = hose.law == Hose::Law::pipe;

@@ -17,13 +17,16 @@ struct Leak {
   double conductance = 0;  // G [kg/(s Pa)]
 };
 
+// A leak for one air: the hole's flow, and the wall's by its slope.
 struct LeakConstants {
   FlowConstants hole;
   double slope = 0;  // of P/P_atm [kg/s]
 
+  // Does nothing leak?
   bool tight() const { return hole.gain == 0 && slope == 0; }
 };
 
+// Returns the leak's law for this air.
 inline LeakConstants leak_constants(const Leak& leak, const Air& air) {
   return {flow_constants({.area = leak.area}, air), leak.conductance * air.atmosphere};
 }

@@ -209,6 +209,7 @@ inline S flow_y(const FlowConstantsOf<S>& c, const std::type_identity_t<S>& y_a,
   return units::select(y_a >= y_b, size, -size);
 }
 
+// Returns the law of a valve's flow for this air.
 inline FlowConstants flow_constants(const Flow& flow, const Air& air) {
   FlowConstants c;
   c.iso = flow.law == Flow::Law::iso6358 ? 1 : 0;

@@ -23,11 +23,13 @@ class PowerSeriesOf {
   static constexpr double rebase = 0.02;  // |x| from which a new base is worth its power
 
   constexpr PowerSeriesOf() = default;
+  // Works out the terms of the exponent.
   constexpr explicit PowerSeriesOf(const S& exponent) : exponent_(exponent) {
     term_[0] = 1.0;
     for (int k = 1; k < 7; ++k) term_[k] = term_[k - 1] * (exponent - (k - 1)) / k;
   }
 
+  // Returns it.
   constexpr S exponent() const { return exponent_; }
 
   // Puts (1 + x)^e into `power`, of a number or a vector; the terms go in pairs, which wait less

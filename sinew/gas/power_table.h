@@ -21,6 +21,7 @@ namespace sinew::gas {
 
 class PowerTable {
  public:
+  // Fills the table for that exponent.
   explicit PowerTable(double exponent) : series_(exponent) {
     for (std::size_t i = 0; i < parts; ++i) {
       const double middle = 1.0 + (static_cast<double>(i) + 0.5) / parts;

@@ -30,6 +30,7 @@ SlopedFlow both_ways(double y_a, double y_b, const Law& law) {
   return {-back.flow, -back.by_b, -back.by_a};
 }
 
+// Returns y^7.
 inline double seventh(double y) {
   const double y3 = y * y * y;
   return y3 * y3 * y;

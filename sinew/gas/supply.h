@@ -15,6 +15,7 @@
 namespace sinew::gas {
 
 struct Supply {
+  // Is the line's pressure constant, or that of a tank that empties?
   enum class Kind { constant, tank };
   Kind kind = Kind::constant;
   double pressure = 790828.661526411;  // of the line, absolute [Pa], 100 psi gauge

@@ -18,6 +18,7 @@ struct ValveFlow {
   double critical_ratio = 0, ratio = 0;
   double sonic_conductance = 0, area = 0;  // of either law, and what it equals in the other
 
+  // Does the pressure downstream no longer matter?
   bool choked() const { return ratio <= critical_ratio; }
 };
 

@@ -15,12 +15,14 @@
 
 namespace sinew::host {
 
+// How serious a finding is.
 enum class Verdict {
   good,
   advice,   // it goes, and would go better otherwise
   missing,  // what needs it does not go
 };
 
+// One thing that was looked at, and what it means for whoever drives a machine.
 struct Finding {
   std::string subject;  // "serial devices"
   std::string place;  // what needs it: serial, emulated, comedi; empty: whatever runs in real time
@@ -28,6 +30,7 @@ struct Finding {
   std::string found, why, todo;  // todo: a command; empty where there is nothing to do
 };
 
+// Where the doctor looks.
 struct DoctorAsked {
   std::filesystem::path root = "/";
   std::vector<std::string> programs = {"/usr/local/bin", "/usr/bin", "/bin"};  // where they are

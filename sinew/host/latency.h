@@ -30,6 +30,7 @@ Latency measure_latency(double seconds, double tick = signals::tick_seconds);
 // Of wake-ups that were that late; any order. Empty: all 0.
 Latency latency_of(std::vector<double> late);
 
+// Returns what a computer that wakes so late may drive, in ticks of that many seconds.
 LatencyClass class_of(const Latency& latency, double tick = signals::tick_seconds);
 
 // "real-time: 10000 wake-ups, worst 31 us, 99.9 % within 12 us".

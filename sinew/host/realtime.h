@@ -10,6 +10,7 @@ namespace sinew::host {
 // Above a kernel's threads of interrupts (50), below those that keep the kernel itself alive.
 inline constexpr int priority = 80;
 
+// Puts the thread first when it is made, and back when it ends.
 class RealTime {
  public:
   // Take memory before: what comes later is not locked. Never throws: what is not permitted is

@@ -11,6 +11,7 @@ namespace sinew::live {
 // user alone may read and that leads to the address. It is removed with this.
 class Browser {
  public:
+  // Opens the page, where there is somebody to see it.
   explicit Browser(const std::string& url);
   ~Browser();
   Browser(const Browser&) = delete;

@@ -28,6 +28,7 @@ class Feed {
 
   // --- the watchers' side ---
 
+  // Returns what is recorded, in the order of its numbers.
   std::vector<signals::Topic> topics() const;
 
   // Takes in what has come: whole rows, and edges.
@@ -42,6 +43,7 @@ class Feed {
   // What was taken in since; `position` is then where it ends.
   signals::Table since(Position& position) const;
 
+  // How many samples came too fast to be taken in.
   std::uint64_t left_out() const noexcept { return left_out_.load(std::memory_order_relaxed); }
 
  private:

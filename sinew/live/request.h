@@ -14,6 +14,7 @@
 namespace sinew::live {
 
 struct Request {
+  // Names what is asked for.
   enum class Kind { pause, resume, pace, stop, set, release, release_all };
 
   Kind kind = Kind::pause;

@@ -19,6 +19,7 @@ class RowRuns {
   RowRuns(const RowRuns&) = delete;
   RowRuns& operator=(const RowRuns&) = delete;
 
+  // Was that row's run made, or is it being made?
   bool has(std::size_t row) const { return runs_.contains(row); }
 
   // Whether one more would have to wait for those that go.

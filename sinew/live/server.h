@@ -21,6 +21,7 @@
 
 namespace sinew::live {
 
+// The answer to a request over HTTP.
 struct Reply {
   int status = 200;
   std::string body;
@@ -48,6 +49,7 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
+  // Returns where it listens.
   std::uint16_t port() const;
   std::string url() const;  // "http://127.0.0.1:8080/0f…32 digits…/"
 

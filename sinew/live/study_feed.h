@@ -21,6 +21,7 @@ class StudyFeed {
   // stays.
   void look();
 
+  // Returns the study as it was read last, and how many changes of it there were.
   const tune::StudyView& study() const { return study_; }
   std::size_t changes() const { return changes_.size(); }
 

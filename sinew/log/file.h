@@ -19,6 +19,7 @@ class Mapping {
   Mapping(const Mapping&) = delete;
   Mapping& operator=(const Mapping&) = delete;
 
+  // Returns the whole file, for as long as this lives.
   std::string_view bytes() const { return {data_, size_}; }
 
   // CRC-32 of its first bytes.
@@ -49,8 +50,10 @@ class Output {
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
+  // Appends. False: it did not get there.
   bool write(std::string_view bytes) noexcept;
   bool sync() noexcept;  // to the disk
+  // False: the system could not keep what was written before.
   bool close() noexcept;
 
   // Does this very file still stand under that name?
@@ -69,6 +72,7 @@ class Output {
   std::uint32_t crc_ = 0;
 };
 
+// Returns the checksum of MCAP, of the bytes behind those that had the checksum `before`.
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0);
 
 // "No space left on device": the system's words for an errno.

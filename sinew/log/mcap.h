@@ -16,6 +16,7 @@ namespace sinew::log {
 
 inline constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
 
+// The kinds of records, by the number in the file.
 enum class Op : std::uint8_t {
   header = 0x01,
   footer = 0x02,
@@ -40,6 +41,7 @@ using Pairs = std::vector<std::pair<std::string, std::string>>;
 // Puts fields one behind the other.
 class Bytes {
  public:
+  // Each appends a number, little end first; bytes as they are; a text behind its length.
   void u8(std::uint8_t v) { data_.push_back(static_cast<char>(v)); }
   void u16(std::uint16_t v) { put(v, 2); }
   void u32(std::uint32_t v) { put(v, 4); }
@@ -54,9 +56,11 @@ class Bytes {
   std::size_t open_list();
   void close_list(std::size_t opened);
 
+  // Returns what was appended; and forgets it.
   std::string& data() { return data_; }
   std::string_view view() const { return data_; }
   std::size_t size() const { return data_.size(); }
+  // Forgets all of it.
   void clear() { data_.clear(); }
 
  private:
@@ -71,6 +75,8 @@ class Bytes {
 // Takes fields from bytes that may be damaged: past the end it gives zeros and is no longer ok().
 class Fields {
  public:
+  // Each takes the next field off the bytes: a number, a text behind its length, so many bytes.
+  // Beyond the end they are 0 and empty, and ok() is false.
   explicit Fields(std::string_view bytes) : rest_(bytes) {}
   std::uint16_t u16() { return static_cast<std::uint16_t>(take(2)); }
   std::uint32_t u32() { return static_cast<std::uint32_t>(take(4)); }
@@ -94,8 +100,11 @@ struct Record {
   std::string_view whole;  // with opcode and length
 };
 
+// Takes records off the bytes of a file, one after the other.
 class Records {
  public:
+  // Returns the next one, until there is no whole one; torn() then says whether a part of one was
+  // left.
   explicit Records(std::string_view bytes) : rest_(bytes) {}
   std::optional<Record> next();
   bool torn() const { return torn_; }
@@ -133,6 +142,7 @@ std::optional<Message> parse_message(std::string_view content);
 std::optional<Chunk> parse_chunk(std::string_view content);
 std::optional<std::pair<std::string, Pairs>> parse_metadata(std::string_view content);
 
+// Each appends one record of that kind.
 void put_header(Bytes& out, std::string_view library);
 void put_schema(Bytes& out, const Schema& schema);
 void put_channel(Bytes& out, const Channel& channel);

@@ -22,11 +22,15 @@ std::string to_schema(const signals::Topic& topic);
 // kinds, which foreign logs have, are left out.
 std::optional<signals::Topic> from_schema(std::string_view schema, std::string_view topic);
 
+// Writes and reads the messages of one topic.
 class MessageFormat {
  public:
+  // Takes the fields of the topic, in their order.
   explicit MessageFormat(const signals::Topic& topic);
 
+  // How many values a message has.
   std::size_t fields() const { return keys_.size(); }
+  // Appends a message; what is not a number is null.
   void append(std::string& out, std::span<const double> values) const;
 
   // Reads any flat object; what append() has written is read without building a document. A field

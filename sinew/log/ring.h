@@ -10,6 +10,7 @@ namespace sinew::log {
 
 inline constexpr std::size_t kMaxFields = 4;  // of a topic
 
+// Holds what the loop hands over: one message of a topic.
 struct Sample {
   std::int64_t time_ns = 0;
   std::uint16_t topic = 0;

@@ -20,6 +20,7 @@ namespace sinew::signals {
 
 namespace crc_tables {
 
+// Returns the checksum of each half byte by the 16-bit polynomial.
 constexpr std::array<std::uint16_t, 16> ccitt() noexcept {
   std::array<std::uint16_t, 16> out{};
   for (std::uint32_t i = 0; i < 16; ++i) {
@@ -30,6 +31,7 @@ constexpr std::array<std::uint16_t, 16> ccitt() noexcept {
   return out;
 }
 
+// Returns the checksum of each half byte by the 32-bit polynomial.
 constexpr std::array<std::uint32_t, 16> ieee() noexcept {
   std::array<std::uint32_t, 16> out{};
   for (std::uint32_t i = 0; i < 16; ++i) {

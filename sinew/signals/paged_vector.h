@@ -36,6 +36,7 @@ class PagedVector {
   using iterator = const_iterator;
 
   PagedVector() = default;
+  // Begins empty, with pages in that file; or holds these values.
   explicit PagedVector(const PageFile& file) : store_(std::make_shared<Store>(file)) {}
   PagedVector(std::vector<T> values) : store_(std::make_shared<Store>(std::move(values))) {}
   PagedVector(std::initializer_list<T> values) : PagedVector(std::vector<T>(values)) {}
@@ -45,6 +46,7 @@ class PagedVector {
   }
 
   PagedVector(const PagedVector& other) : store_(other.store_) {}  // without the page it has read
+  // Leaves the other one empty.
   PagedVector(PagedVector&& other) noexcept { swap(other); }
   PagedVector& operator=(PagedVector other) noexcept {
     swap(other);
@@ -52,6 +54,7 @@ class PagedVector {
   }
   ~PagedVector() = default;
 
+  // Exchanges all that they hold.
   void swap(PagedVector& other) noexcept {
     store_.swap(other.store_);
     seen_.swap(other.seen_);
@@ -68,13 +71,16 @@ class PagedVector {
     const std::size_t paged = store_->paged();
     return i >= paged ? store_->tail[i - paged] : seen(i / page_size)[i % page_size];
   }
+  // Returns the first and the last value; there has to be one.
   T front() const { return (*this)[0]; }
   T back() const { return (*this)[size() - 1]; }
   const_iterator begin() const { return {this, 0}; }
   const_iterator end() const { return {this, size()}; }
   std::vector<T> slice(std::size_t first, std::size_t last) const;  // in memory
+  // Returns all of them, in memory.
   std::vector<T> in_memory() const { return slice(0, size()); }
 
+  // Adds a value behind the others. Throws std::runtime_error where its file has no more room.
   void push_back(T value) {
     own();
     if (!store_->push(value)) fail(store_->file);
@@ -89,6 +95,7 @@ class PagedVector {
     store_->reserve(elements);
   }
 
+  // Takes the last one away; changes one; takes all away; holds n equal ones.
   void pop_back();
   void set(std::size_t i, T value);
   void clear() { *this = PagedVector(file()); }
@@ -159,6 +166,7 @@ class PagedVector {
   mutable std::size_t seen_page_ = none;
 };
 
+// Goes over the values; it is one of random access.
 template <class T>
 class PagedVector<T>::const_iterator {
  public:
@@ -169,6 +177,7 @@ class PagedVector<T>::const_iterator {
   using reference = T;
 
   const_iterator() = default;
+  // Stands at the value of that number.
   const_iterator(const PagedVector* of, std::size_t at) : of_(of), at_(at) {}
 
   T operator*() const { return (*of_)[at_]; }

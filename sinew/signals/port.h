@@ -28,6 +28,7 @@ enum class Status : std::uint8_t { ok, late, invalid, ended, fault };  // ended 
 inline constexpr std::uint16_t max_counts = 4095;  // of the 12-bit converter, 4.1
 inline constexpr std::uint16_t max_level = 4095;   // of a regulator's set point, 12 bits as well
 
+// Holds what a conversion has given, and whether it may be believed.
 struct Reading {
   std::uint16_t counts = 0;  // the last good value unless status == ok
   Status status = Status::ok;

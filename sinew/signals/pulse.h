@@ -17,6 +17,8 @@
 
 namespace sinew::signals {
 
+// Returns how long a valve is really open in each period, of a duty and its delays, all in the same
+// unit of time.
 template <std::floating_point Real>
 constexpr Real delivered_open_time(Real duty, Real period, Real opening_delay,
                                    Real closing_delay) noexcept {

@@ -15,6 +15,7 @@ class Ring {
   // All memory is taken here; the size is rounded up to a power of two.
   explicit Ring(std::size_t items) : slots_(std::bit_ceil(items < 2 ? 2 : items)) {}
 
+  // How many items can wait.
   std::size_t capacity() const { return slots_.size(); }
 
   // The putting thread. False: full.

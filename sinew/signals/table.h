@@ -24,12 +24,14 @@ struct Field {
   std::string unit;  // "m", "N", "rad", "Pa", "count", "1"
 };
 
+// A channel by its name, with the units of its fields.
 struct Topic {
   std::string name;         // "/true/foot/force"
   std::string description;  // one sentence
   std::vector<Field> fields;
 };
 
+// Holds what one channel recorded.
 struct Series {
   Topic topic;
   Times time_ns;
@@ -43,6 +45,7 @@ struct Table {
   std::vector<Series> series;
   bool complete = true;  // false: read from a log that was cut off
 
+  // Returns the channel of that name; nullptr where there is none.
   const Series* find(std::string_view topic) const;
 
   // Column `field` of `topic`; nullptr where the table has no such thing.

@@ -19,11 +19,13 @@ namespace sinew::signals {
 
 inline constexpr int max_duty = 100;  // [%]
 
+// The ticks of a period at which a valve shuts and opens, by the percent of its duty.
 struct ValveTiming {
   std::array<std::uint16_t, max_duty + 1> closing{},
       opening{};  // [ticks]; beyond the period: never
 };
 
+// Returns the timing of a valve without delays.
 constexpr ValveTiming identity_timing(std::uint16_t period = 100) noexcept {
   const std::uint16_t never = static_cast<std::uint16_t>(period + 1);
   ValveTiming t;

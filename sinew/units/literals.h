@@ -9,6 +9,8 @@
 
 namespace sinew::units::literals {
 
+// Each returns the quantity in SI: m, m2, m3, kg, N, Pa of a pressure difference, s, K of a
+// temperature above absolute zero, rad.
 constexpr double operator""_in(long double v) { return static_cast<double>(v) * inch; }
 constexpr double operator""_ft(long double v) { return static_cast<double>(v) * foot; }
 constexpr double operator""_mm(long double v) { return static_cast<double>(v) / 1000; }

@@ -20,6 +20,7 @@
 
 namespace sinew::units {
 
+// A sine and a cosine of one angle.
 template <class S>
 struct SinCosOf {
   S sin, cos;

@@ -39,9 +39,11 @@ namespace sinew::units {
 // Returns `a` where the mask is set, else `b`.
 constexpr double select(bool mask, double a, double b) { return mask ? a : b; }
 
+// Does it hold for any lane, for all of them? A double is its own only one.
 constexpr bool any(bool mask) { return mask; }
 constexpr bool all(bool mask) { return mask; }
 
+// Each is the function of that name, of a double as of every lane of a pack.
 inline double abs(double x) { return std::fabs(x); }
 inline double sqrt(double x) { return std::sqrt(x); }
 
@@ -77,6 +79,7 @@ struct PackMask {
   Bits bits;  // of a lane all are set, or none
 
   [[gnu::always_inline]] bool operator[](int lane) const { return bits[lane] != 0; }
+  // Sets one lane.
   [[gnu::always_inline]] void set(int lane, bool to) { bits[lane] = to ? -1 : 0; }
 
   [[gnu::always_inline]] friend PackMask operator&(const PackMask& a, const PackMask& b) {
@@ -107,6 +110,7 @@ struct Pack {
   [[gnu::always_inline]] explicit Pack(const Lanes& of) : lanes(of) {}
 
   [[gnu::always_inline]] double operator[](int lane) const { return lanes[lane]; }
+  // Sets one lane.
   [[gnu::always_inline]] void set(int lane, double to) { lanes[lane] = to; }
 
   [[gnu::always_inline]] Pack& operator+=(const Pack& b) { return *this = *this + b; }
@@ -156,12 +160,14 @@ template <int W>
   return Pack<W>(mask.bits ? a.lanes : b.lanes);
 }
 
+// Is bit k of each lane's pattern set?
 template <int W>
 [[gnu::always_inline]] inline PackMask<W> bit(const Pack<W>& x, int k) {
   const auto bits = reinterpret_cast<typename PackMask<W>::Bits>(x.lanes);
   return {-(bits >> k & 1)};
 }
 
+// Does it hold for any lane?
 template <int W>
 [[gnu::always_inline]] inline bool any(const PackMask<W>& mask) {
 // One instruction, which GCC does not find.
@@ -176,11 +182,13 @@ template <int W>
   return some != 0;
 }
 
+// Does it hold for all lanes?
 template <int W>
 [[gnu::always_inline]] inline bool all(const PackMask<W>& mask) {
   return !any(!mask);
 }
 
+// Returns the magnitude of each lane.
 template <int W>
 [[gnu::always_inline]] inline Pack<W> abs(const Pack<W>& x) {
   using Bits = typename PackMask<W>::Bits;
@@ -189,6 +197,7 @@ template <int W>
   return Pack<W>(reinterpret_cast<typename Pack<W>::Lanes>(size));
 }
 
+// Returns the square root of each lane, rounded as that of a double.
 template <int W>
 [[gnu::always_inline]] inline Pack<W> sqrt(const Pack<W>& x) {
   const auto each = [&]<int... k>(std::integer_sequence<int, k...>) __attribute__((always_inline)) {

@@ -9,6 +9,7 @@
 
 namespace sinew::units {
 
+// How large a quantity of one unit can be, and why.
 struct Range {
   std::string_view unit;  // as a field table writes it, SI
   double most = 0;        // of its magnitude, in that unit
@@ -70,6 +71,7 @@ inline constexpr std::array ranges = {
 // The range of a unit that has no row, such as 1/Pa2 of a polynomial.
 inline constexpr Range any_range{"", 1e12, "no number of a machine is larger"};
 
+// Returns the range of quantities in that unit; any_range for one that is not listed.
 constexpr const Range& range_of(std::string_view unit) {
   for (const Range& range : ranges)
     if (range.unit == unit) return range;

@@ -27,10 +27,12 @@ struct Unit {
   double denominator = 1;
   double offset = 0;
 
+  // Returns a number of this unit in SI.
   constexpr double to_si(double number) const {
     const double scaled = number * numerator / denominator;
     return offset == 0 ? scaled : scaled + offset;  // adding 0 would lose the sign of -0
   }
+  // Returns a number of SI in this unit.
   constexpr double from_si(double si) const { return (si - offset) * denominator / numerator; }
 };
 
@@ -100,8 +102,10 @@ struct UnitReading {
 // Reads one expression from left to right; `ok` goes false once and stays so.
 class UnitReader {
  public:
+  // Takes the text of a unit, "lbf in s/rad".
   constexpr explicit UnitReader(std::string_view text) : text_(text) {}
 
+  // Returns the unit, or what of the text is none.
   constexpr UnitReading read() {
     Unit unit = expression(0);
     skip_spaces();
@@ -198,6 +202,7 @@ class UnitReader {
   std::string_view trouble_;
 };
 
+// Returns the unit that the text names, or what of it is none.
 constexpr UnitReading read_unit(std::string_view text) { return UnitReader(text).read(); }
 
 }  // namespace sinew::units

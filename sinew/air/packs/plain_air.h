@@ -43,6 +43,7 @@ class PlainAir {
   // on.
   explicit PlainAir(const std::array<const Network*, W>& each);
 
+  // How many muscles each machine has.
   int muscles() const noexcept { return size_; }
 
   // One muscle of one machine, a little after its node.
@@ -57,6 +58,7 @@ class PlainAir {
   // Takes over what one machine's valves let through.
   void set_shares(int lane, const AirValves<Most>& valves, Shares& shares) const noexcept;
 
+  // The law itself, of all machines at once.
   void evaluate(const Ends& ends, const State& state, const Shares& shares, const Memory& memory,
                 Answer& out) const noexcept;
 

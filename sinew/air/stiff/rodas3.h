@@ -47,6 +47,7 @@ namespace rodas3 {
 template <int N>
 class Solver {
  public:
+  // Inverts 1/(h gamma) less the slopes, once for all stages of a step.
   Solver(double inverse_step, const std::array<std::array<double, N>, N>& slopes) {
     const double shift = 2.0 * inverse_step;  // 1/(h gamma), gamma = 1/2
     if constexpr (N == 1) {
@@ -59,6 +60,7 @@ class Solver {
     }
   }
 
+  // Returns the x for a right side b.
   std::array<double, N> solve(const std::array<double, N>& b) const {
     std::array<double, N> x{};
     for (std::size_t i = 0; i < N; ++i)

@@ -16,6 +16,7 @@
 
 namespace sinew::config {
 
+// A key as a table for people has it.
 struct DocumentedField {
   std::string key;    // muscle.<name>.mount_length
   std::string unit;   // "m", "text", "whole number", "a or b"
@@ -72,6 +73,7 @@ class Documenter {
     path_.pop_back();
   }
 
+  // Returns the keys that were visited, in their order.
   const std::vector<DocumentedField>& fields() const { return fields_; }
   std::string markdown() const;  // | key | unit | range | what it is |
 

@@ -74,6 +74,7 @@ class Writer {
     leave();
   }
 
+  // Returns the TOML of what was visited.
   std::string text() const;
   // The tree so far; complete when the outermost fields() has returned.
   const Node& root() const { return open_.front(); }

@@ -56,6 +56,7 @@ class Program {
   static constexpr std::size_t line_in = 512, line_out = 4'096, log_size = 12'288;
   static constexpr std::size_t edges_kept = 128, logged_periods = 20;  // 200 ms
 
+  // `who` is what the board says of itself.
   explicit Program(const Identification& who) noexcept;
 
   // --- a tick ---
@@ -110,6 +111,7 @@ class Program {
 
   // --- for whoever looks ---
 
+  // Returns the board's states and valves; and the tick that it is at.
   const control::Safety& safety() const noexcept { return safety_; }
   signals::Tick now() const noexcept { return now_; }
   std::uint32_t dropped() const noexcept { return dropped_; }  // messages the line had no room for

@@ -13,6 +13,7 @@ template <std::size_t Size>
 class Ring {
  public:
   std::size_t size() const noexcept { return size_; }
+  // How many more bytes there is room for.
   std::size_t room() const noexcept { return Size - size_; }
 
   // All of them or, false, none.
@@ -46,6 +47,7 @@ class Ring {
 template <std::size_t Size>
 class Log {
  public:
+  // One of the records that wait.
   struct Record {
     std::uint8_t kind = 0, size = 0;
     std::size_t place = 0;  // of its first byte, for byte()
@@ -70,12 +72,14 @@ class Log {
     ++records_;
   }
 
+  // Gives all of them up.
   void clear() noexcept {
     bytes_.drop(bytes_.size());
     records_ = periods_ = 0;
     opens_ = false;
   }
 
+  // How many records wait, and how many periods they are of.
   std::size_t records() const noexcept { return records_; }
   std::size_t periods() const noexcept { return periods_; }
   // i < records()

@@ -30,6 +30,7 @@ struct Change {
 
 // What can be changed, one for each key; its place in settings() is its number.
 struct Setting {
+  // Names what of a joint is set.
   enum class What { angle, stiffness, angle_gain, stiffness_gain, velocity_gain };
   static constexpr double most = 1e6;  // that is taken, in the key's SI unit
 
@@ -57,15 +58,18 @@ class Overrides {
  public:
   static constexpr std::size_t most = 5 * robot::max_leg_joints;
 
+  // Lists the settings of the plan's joints.
   explicit Overrides(const Plan& plan);
 
   // Both by the setting's number, which is below settings().size().
   void set(std::size_t setting, double value) noexcept { slots_[setting] = {true, value}; }
   void release(std::size_t setting) noexcept { slots_[setting].given = false; }
 
+  // Is that one set in place of the plan's? And what can be set at all, by number.
   bool given(std::size_t setting) const noexcept { return slots_[setting].given; }
   const std::vector<Setting>& settings() const noexcept { return settings_; }
 
+  // Puts what is set into the plan's word.
   void apply(Desired& desired) const noexcept;
 
   // The value that is set of each setting, by its number. Copied like bytes.

@@ -34,6 +34,7 @@ struct MeasuredOf {
 
 using Measured = MeasuredOf<robot::max_leg_joints, robot::max_leg_muscles>;
 
+// Holds what the brain wants of a joint.
 struct DesiredJoint {
   double angle = 0;      // [rad] 0 .. 2 pi
   double stiffness = 0;  // [N m/rad]
@@ -53,8 +54,10 @@ struct DesiredCylinder {
   double down_inlet = 0, down_exhaust = 0;  // [-]
 };
 
+// How far the plan is.
 enum class Stage : std::uint8_t { settling, walking, finished };
 
+// The brain's word for a leg, for one period.
 struct Desired {
   std::array<DesiredJoint, robot::max_leg_joints> joint;
   DesiredCylinder cylinder;
@@ -84,6 +87,8 @@ class GaitController {
   // [brain periods].
   std::int64_t planned_periods() const noexcept;
 
+  // Returns its word for this period; whether its plan is over; in how many periods the foot could
+  // not reach its path.
   const Desired& desired() const noexcept { return desired_; }
   bool finished() const noexcept { return desired_.stage == Stage::finished; }
   std::int64_t unreachable_periods() const noexcept { return unreachable_periods_; }
@@ -91,6 +96,7 @@ class GaitController {
   // [75] from the tensions  [N], on the foot by the ground; no force at a singular pose.
   robot::Point ground_reaction(const Measured&) const noexcept;
 
+  // Returns what it follows.
   const Plan& plan() const noexcept { return plan_; }
 
   // Everything that its next word depends on, beside its plan and what it will be told. Copied like

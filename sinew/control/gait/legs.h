@@ -30,6 +30,7 @@ class Legs {
   // the robot's order.
   void update(const MachineMeasured& machine, std::int64_t period_index) noexcept;
 
+  // How many legs there are; and of one its parts, its brain, and what that wants.
   std::size_t count() const noexcept { return brains_.size(); }
   const robot::LegParts& parts(std::size_t leg) const noexcept { return parts_[leg]; }
   const GaitController& brain(std::size_t leg) const noexcept { return brains_[leg]; }

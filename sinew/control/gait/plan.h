@@ -27,12 +27,14 @@ using Profile = std::vector<double>;
 
 // One coordinate of the foot path, about the first joint  [m].
 struct Coordinate {
+  // Says by which variable the polynomial goes: the share of the phase, or the foot's x.
   enum class Of { s, x };
 
   double from = robot::not_set, to = robot::not_set;  // straight in s, in place of a polynomial
   Profile polynomial;                                 // c0 + c1 u + c2 u^2 + ..., u = s or x
   Of of = Of::s;
 
+  // Does it go straight from one value to another? Is it given at all?
   bool straight() const { return std::isfinite(from) || std::isfinite(to); }
   bool given() const { return straight() || !polynomial.empty(); }
 };
@@ -41,6 +43,7 @@ struct Coordinate {
 struct Points {
   std::vector<double> x, y;  // [m]
 
+  // Are there any points?
   bool given() const { return !x.empty() || !y.empty(); }
 };
 
@@ -54,6 +57,7 @@ struct GainProfiles {
 struct DutyProfiles {
   Profile flexor_inlet, flexor_exhaust, extensor_inlet, extensor_exhaust;  // [-] 0 .. 1
 
+  // Is any of the four given?
   bool given() const {
     return !(flexor_inlet.empty() && flexor_exhaust.empty() && extensor_inlet.empty() &&
              extensor_exhaust.empty());
@@ -72,6 +76,7 @@ struct JointPhase {
 // extended stop. None: stays where it was; before the first one, at the stop. Or open loop; the
 // chamber `up` then is the flexor, and inlet and exhaust of a chamber may be open together.
 struct CylinderPhase {
+  // Says by which variable the polynomial goes: the share of the phase, or the foot's height.
   enum class Of { s, foot_y };
 
   Profile position;    // over the phase [m]
@@ -79,6 +84,7 @@ struct CylinderPhase {
   Of of = Of::s;
   DutyProfiles feedforward;
 
+  // Is there a position to go to? Is anything given at all?
   bool placed() const { return !position.empty() || !polynomial.empty(); }
   bool given() const { return placed() || feedforward.given(); }
 };
@@ -92,12 +98,14 @@ struct GroundForce {
   double gain = 0;     // [m/N]; 0: the path stays as it is
   double limit = 0;    // of the correction, either way [m]
 
+  // Is the force controlled at all?
   bool given() const { return gain != 0; }
 };
 
 // Ends the phase early: at the first period, its own first one excepted, at which the measure
 // stands beyond the level. The phase's duration is the latest end.
 struct Until {
+  // Says on which side of the level the phase ends.
   enum class Is { above, below };
 
   std::string measure;  // "foot.normal_force", "joint.hip.angle", ...; empty: by time alone
@@ -105,6 +113,7 @@ struct Until {
   double level = 0;  // in the measure's SI unit
 };
 
+// A part of a step: where the foot goes, how stiff, and for how long.
 struct Phase {
   std::string name;
   double duration = 0;         // [s]
@@ -118,6 +127,7 @@ struct Phase {
   std::vector<std::string> disabled;  // joints that the low level leaves alone in this phase
   Until until;
 
+  // Does the foot have a path in it?
   bool has_path() const { return x.given() || y.given() || points.given(); }
 };
 
@@ -162,11 +172,13 @@ double within(const std::vector<double>& range, double angle) noexcept;
 
 // What ends a phase, and what it is measured in.
 struct Measure {
+  // Names the quantity.
   enum class Kind { none, normal_force, friction_force, angle, stiffness, tension, unknown };
 
   Kind kind = Kind::none;
   int index = -1;  // joint or muscle
 };
+// Returns the measure that a name stands for.
 Measure find_measure(const robot::Robot&, std::string_view name);
 std::string_view unit_of(std::string_view measure);  // SI; by the name alone, "" where it is none
 

@@ -29,6 +29,7 @@ struct Gains {
   float velocity = 0;   // [% s/count], on the measured speed (appendix B)
 };
 
+// Holds what is desired of one joint for a period.
 struct JointCommand {
   std::int32_t angle = 0;  // theta_des [count]
   float stiffness = 0;     // K_des [lbf in/rad]

@@ -51,6 +51,7 @@ enum class Truncation : std::uint8_t {
   none,      // their sum to the nearest percent; the schedule knows no parts of a percent
 };
 
+// A muscle as the low level knows it.
 struct MuscleConfig {
   bool present = true;  // false: a spring or gravity pulls this way
   signals::Channel tension;
@@ -74,6 +75,7 @@ struct MuscleConfig {
   float other_travel = 0;  // length gained per count of the other joint's angle [count/count]
 };
 
+// A joint as the low level knows it.
 struct JointConfig {
   bool enabled = true;  // false: no command opens its valves
   JointKind kind = JointKind::antagonist;
@@ -111,8 +113,10 @@ struct Readings {
   const signals::Channel* begin() const noexcept { return channel.data(); }
   const signals::Channel* end() const noexcept { return channel.data() + count; }
 };
+// Returns the channels that the joint's laws read.
 Readings readings_of(const JointConfig&) noexcept;
 
+// Everything that a board's controller is made with.
 struct JointControllerConfig {
   std::array<JointConfig, max_joints> joint;
   std::size_t joints = 0;

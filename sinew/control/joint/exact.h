@@ -21,6 +21,7 @@ struct Exact {
   float high = 0, low = 0;  // the value is high + low, high its nearest float
 };
 
+// Returns the sum without rounding.
 constexpr Exact two_sum(float a, float b) noexcept {
   const float sum = a + b;
   const float b_part = sum - a;
@@ -35,6 +36,7 @@ constexpr Exact split(float x) noexcept {
   return {high, x - high};
 }
 
+// Returns the product without rounding, while nothing of it underflows.
 constexpr Exact two_product(float a, float b) noexcept {
   const float product = a * b;
   const Exact x = split(a), y = split(b);
@@ -63,6 +65,7 @@ constexpr float clamped(float x, float limit) noexcept {
   return x == x ? x : 0.0f;
 }
 
+// Cuts x to the two bounds.
 constexpr std::int32_t clamped(std::int32_t x, std::int32_t low, std::int32_t high) noexcept {
   return x < low ? low : x > high ? high : x;
 }

@@ -65,6 +65,7 @@ class JointController {
   // Its result. Runs the laws that wait for it.
   void take(const signals::Conversion&, signals::Reading, signals::Tick t) noexcept;
 
+  // Returns what it knows of its body; and what it was made with.
   const Seen& seen() const noexcept { return seen_; }
   const JointControllerConfig& config() const noexcept { return config_; }
 

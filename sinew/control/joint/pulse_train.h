@@ -62,6 +62,7 @@ class PulseTrain {
     if (on_) toggle_at(at);
   }
 
+  // Returns when the next edge is due, and whether it opens the valve.
   constexpr signals::Tick next() const noexcept { return waiting_ ? edge_[first_] : never; }
   constexpr bool next_opens() const noexcept { return !driven_; }
 

@@ -52,10 +52,12 @@ struct RegulatorInput {
   float angle_step = 0;      // and to I_theta [%]
 };
 
+// Cuts x to the two bounds.
 constexpr float held_between(float x, float low, float high) noexcept {
   return x < low ? low : x > high ? high : x;
 }
 
+// Returns the set points of flexor and extensor, and moves the integrals on by a period.
 constexpr Levels regulate(RegulatorState& state, const RegulatorInput& in) noexcept {
   const auto mean = [&] { return in.bias + in.u_k + state.mean; };
   const auto turn = [&] { return in.u_theta + state.difference; };

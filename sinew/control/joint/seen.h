@@ -10,6 +10,7 @@
 
 namespace sinew::control {
 
+// How far a run is, from filling up to rest.
 enum class Phase : std::uint8_t {
   startup,  // all exhausts open, no law runs
   running,

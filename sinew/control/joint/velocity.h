@@ -28,6 +28,7 @@ namespace sinew::control {
 inline constexpr std::size_t max_samples = 16;
 inline constexpr float speed_limit = 1e6f;  // [count/s], of any estimate
 
+// Names how the speed is found.
 enum class Estimator : std::uint8_t {
   difference,
   weighted_average,
@@ -36,6 +37,7 @@ enum class Estimator : std::uint8_t {
   sensor,
 };
 
+// A joint's estimator as its controller is made with it.
 struct VelocityConfig {
   Estimator estimator = Estimator::difference;
 
@@ -59,6 +61,7 @@ struct VelocityConfig {
   float scale = 0;           // speed of one count [count/s]
 };
 
+// The estimator's memory.
 struct VelocityState {
   std::array<std::int32_t, max_samples> angle{};  // newest first [count]
   float predicted = 0;                            // Kalman's own angle [count]

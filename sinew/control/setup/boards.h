@@ -11,6 +11,7 @@
 
 namespace sinew::control {
 
+// A board of the low level as it is to be built.
 struct Board {
   JointControllerConfig spine;
   SuperviseConfig limits;

@@ -48,6 +48,7 @@ class OutputStage {
   // What is open from now on; to be asked once a tick.
   OpenMask at(signals::Tick now) noexcept;
 
+  // Returns which valves their coils shut; and which are exhausts.
   OpenMask inverted() const noexcept { return inverted_; }
   OpenMask exhausts() const noexcept { return exhausts_; }
   // Set point of a regulator, by its valve.

@@ -37,6 +37,7 @@
 
 namespace sinew::control {
 
+// How far valves may move, from not at all to as they are told.
 enum class BoardState : std::uint8_t { fault, idle, armed, running, hold, vent, dump };
 
 // Why the board is, or last was, in hold, vent, dump or fault.
@@ -123,6 +124,7 @@ class Safety {
 
   // --- for whoever looks ---
 
+  // Returns how far valves may move, and why not further.
   BoardState state() const noexcept { return state_; }
   BoardFault fault() const noexcept { return fault_; }
   // Has the supply's dump valve current? Without, it lets the supply's air out.

@@ -20,6 +20,7 @@ struct SensorSeen {
 
 // Why the run was ended; what is not of the cause is 0. The last three are a board's (safety.h).
 struct Trip {
+  // Names what was not believed any more.
   enum class Cause : std::uint8_t {
     none,
     range,

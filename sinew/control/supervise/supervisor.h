@@ -64,6 +64,7 @@ class Supervisor {
   // Vents from t on, without the delay of a law.
   void end_run(Trip::Cause cause, std::uint32_t limit, signals::Tick t) noexcept;
 
+  // Returns what was counted; and the limits that it goes by.
   const Supervised& supervised() const noexcept { return supervised_; }
   const SuperviseConfig& limits() const noexcept { return limits_; }
 
