@@ -227,7 +227,7 @@ def share_file_texts(header: Header) -> None:
 
 
 # Nobody asks what these do: it is what they do everywhere.
-USUAL = re.compile(r"= ?(default|delete)$|^~|^(begin|end|empty|size)\(\)|operator(==|=|<=>|\[\]|bool| bool)\W")
+USUAL = re.compile(r"= ?(default|delete)$|^~|^(begin|end|empty|size)\(\)|operator(?!\(\)|\"\")(?: bool|\W)")
 
 
 def documented(name: Name) -> bool:
@@ -274,6 +274,7 @@ def read_api(xml: str, sources: str) -> Dict[str, Header]:
     """Return the headers by their paths. `sources` is the folder that the paths stand in."""
     headers: Dict[str, Header] = {}
     names: List[Name] = []
+    hidden = set()  # classes that stand in the private part of others
     for path in sorted(glob.glob(os.path.join(xml, "*.xml"))):
         if os.path.basename(path) == "index.xml":
             continue
@@ -285,14 +286,17 @@ def read_api(xml: str, sources: str) -> Dict[str, Header]:
                 header = read_header(element)
                 headers[header.path] = header
             elif kind in KINDS:
-                if element.get("prot") != "private":
-                    names.append(read_compound(element))
+                hidden.update(flat(inner) for inner in element.findall("innerclass[@prot='private']"))
+                names.append(read_compound(element))
+                if names[-1].name == "Impl":  # Doxygen forgets that its declaration is private
+                    hidden.add(names[-1].qualified)
             elif kind == "namespace":
                 names += [read_member(member) for member in element.iter("memberdef")]
     source = {}
     for path in headers:
         with open(os.path.join(sources, path), encoding="utf-8") as file:
             source[path] = file.read().split("\n")
+    names = [n for n in names if n.qualified not in hidden and not any(n.qualified.startswith(h + "::") for h in hidden)]
     names = [n for n in names if n.file in headers and "@" not in n.qualified and "::detail" not in n.qualified]
     join(names, source)
     for name in names:

@@ -74,7 +74,7 @@ class Scopes:
     def kind(self) -> str:
         if self.inside() == "body":
             return "body"
-        words = TEMPLATE.sub("", self.statement)
+        words = re.sub(r"alignas\([^()]*(?:\([^()]*\))?[^()]*\)|\[\[[^\]]*\]\]", "", TEMPLATE.sub("", self.statement))
         if not DECLARES.search(words) or re.search(r"[(=]", words):
             return "body"
         return "enum" if re.search(r"\benum\b", words) else "declares"

@@ -17,8 +17,10 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from api import Header, documented, read_api  # noqa: E402
 
 # Where a program of somebody else begins; all that is below these too.
-COMPLETE = ("sinew/actuator", "sinew/air/driven_muscle.h", "sinew/analysis", "sinew/experiment", "sinew/files",
-            "sinew/identify", "sinew/muscle.h", "sinew/robot", "sinew/run", "sinew/tune")
+COMPLETE = ("sinew/actuator", "sinew/air", "sinew/analysis", "sinew/config", "sinew/control/board",
+            "sinew/control/gait", "sinew/control/joint", "sinew/control/setup", "sinew/control/supervise",
+            "sinew/experiment", "sinew/files", "sinew/gas", "sinew/host", "sinew/identify", "sinew/live", "sinew/log",
+            "sinew/muscle.h", "sinew/robot", "sinew/run", "sinew/signals", "sinew/tune", "sinew/units")
 KINDS = {"function", "class", "struct", "union", "enum", "concept"}
 
 
