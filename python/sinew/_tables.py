@@ -27,7 +27,7 @@ class Table:
     names: Optional[Mapping[str, str]] = None
     units: Optional[Mapping[str, str]] = None
     where: Optional[Mapping[str, str]] = None
-    columns: Optional[Sequence[str]] = None
+    columns: Union[str, Sequence[str], None] = None
     atmosphere: Union[float, int, str, None] = None
     drop_incomplete: bool = False
 
@@ -75,16 +75,37 @@ def text_of(table: Table, names: "List[str]", units: "Mapping[str, str]") -> str
     return "\n".join([",".join(header), *lines, ""])
 
 
+def texts_of(name: str, given: Any) -> "Optional[Dict[str, str]]":
+    """Return texts by names, or None. Raises TypeError for anything else."""
+    if given is None:
+        return None
+    pairs = dict(given) if isinstance(given, Mapping) else None
+    if pairs is None or not all(isinstance(one, str) for pair in pairs.items() for one in pair):
+        raise TypeError(f"{name}: found {given!r}; expected a dict of texts")
+    return pairs
+
+
+def header_of(given: Any) -> "Optional[List[str]]":
+    """Return the columns of a file without a header: a list of texts, or a text with commas."""
+    if given is None:
+        return None
+    if isinstance(given, str):
+        return [one.strip() for one in given.split(",")]
+    if not isinstance(given, (list, tuple)) or not all(isinstance(one, str) for one in given):
+        raise TypeError(f"columns: found {given!r}; expected texts, \"force [N]\"")
+    return list(given)
+
+
 def parts_of(data: Any, units: "Mapping[str, str]", label: str) -> "Dict[str, Any]":
     """Return a table as the library takes it; `label` is what a table without a file is called."""
     table = data if isinstance(data, Table) else Table(data)
     parts: "Dict[str, Any]" = {
         "path": label,
         "text": None,
-        "names": dict(table.names) if table.names is not None else None,
-        "units": dict(table.units) if table.units is not None else None,
-        "where": dict(table.where) if table.where is not None else None,
-        "columns": list(table.columns) if table.columns is not None else None,
+        "names": texts_of("names", table.names),
+        "units": texts_of("units", table.units),
+        "where": texts_of("where", table.where),
+        "columns": header_of(table.columns),
         "atmosphere": table.atmosphere,
         "drop_incomplete": table.drop_incomplete,
     }
@@ -113,8 +134,17 @@ def tables_of(method: str, data: Any, word: str = "arrays of Python") -> "List[D
     ]
 
 
-def held_out_of(method: str, data: Any) -> "Optional[Dict[str, Any]]":
-    """Return the table that is not fitted, where there is one."""
-    if data is None:
+def like(data: Any, other: Any) -> Any:
+    """Return another table, whose columns mean what those of the first do, unless it says so itself."""
+    first = data[0] if isinstance(data, (list, tuple)) and data else data
+    if isinstance(first, Table) and not isinstance(other, Table):
+        return dataclasses.replace(first, data=other)
+    return other
+
+
+def held_out_of(method: str, data: Any, other: Any) -> "Optional[Dict[str, Any]]":
+    """Return the table that is not fitted beside `data`, where there is one."""
+    if other is None:
         return None
-    return parts_of(data, _sinew.identify_columns(method), "held out arrays of Python")
+    units = _sinew.identify_columns(method)
+    return parts_of(like(data, other), units, "held out arrays of Python")

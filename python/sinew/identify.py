@@ -28,7 +28,7 @@ import numpy.typing
 from sinew import _sinew
 from sinew._sinew import RefusalError
 from sinew._found import Found, Joint, Static, Valve
-from sinew._tables import Table, held_out_of, tables_of
+from sinew._tables import Table, held_out_of, like, tables_of
 
 __all__ = [
     "Found",
@@ -113,10 +113,10 @@ def static_from(
         "model": model,
         "name": name,
     }
-    if isinstance(hold_out, str) and hold_out in ("", "pressure", "length"):
+    if isinstance(hold_out, str):
         settings["hold_out"] = hold_out
     else:
-        settings["held_out"] = held_out_of("static", hold_out)
+        settings["held_out"] = held_out_of("static", data, hold_out)
     found = _sinew.identify_tables("static", tables_of("static", data), settings)
     return Static(found.report, tuple(found.text(i, "") for i in range(found.files)))
 
@@ -172,7 +172,7 @@ def dynamic(
     from the pressure, else 1.4). count: actuators in parallel. hold_out: tables that score the laws and
     are not fitted; else each table in turn, or the last third of the only one. model: that law alone.
     """
-    others = hold_out if isinstance(hold_out, (list, tuple)) else [hold_out]
+    others = [like(data, one) for one in (hold_out if isinstance(hold_out, (list, tuple)) else [hold_out])]
     settings = {
         "actuator": actuator,
         "name": name,
@@ -181,7 +181,7 @@ def dynamic(
         "external_volume": external_volume,
         "exponent": exponent,
         "count": count,
-        "held_out": tables_of("dynamic", list(others), "held out arrays of Python"),
+        "held_out": tables_of("dynamic", others, "held out arrays of Python"),
         "model": model,
     }
     return Found(_sinew.identify_tables("dynamic", tables_of("dynamic", data), settings))
@@ -239,7 +239,7 @@ def joint(
         "flexor_length": flexor_length,
         "extensor_length": extensor_length,
         "keep_force": keep_force,
-        "held_out": held_out_of("joint", hold_out),
+        "held_out": held_out_of("joint", data, hold_out),
         "model": model,
         "base": base,
     }
@@ -272,7 +272,7 @@ def sensor(
         "rest": rest,
         "bits": bits,
         "full_scale": full_scale,
-        "held_out": held_out_of("sensor", hold_out),
+        "held_out": held_out_of("sensor", data, hold_out),
         "average": average,
         "base": base,
     }
@@ -316,7 +316,7 @@ def valve(
         "exponent": exponent,
         "temperature": temperature,
         "frequency": frequency,
-        "held_out": held_out_of("valve", hold_out),
+        "held_out": held_out_of("valve", data, hold_out),
     }
     return Valve(_sinew.identify_tables("valve", tables_of("valve", data), settings))
 

@@ -320,9 +320,32 @@ class Columns(unittest.TestCase):
         self.assertAlmostEqual(value, plain[0]["value"], 9)
 
 
+    def test_what_is_held_out_has_the_same_columns(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            swing = {"t [s]": swings()[0]["time"], "x [m]": swings()[0]["length"]}
+            one, other = (written(folder, f"{name}.csv", swing, {}) for name in "ab")
+            names = {"time": "t", "length": "x"}
+            settings: Any = {"actuator": ACTUATOR, "mass": "6 lb", "pressure": "60 psi gauge"}
+            settings.update(external_volume="0.114 in3", model="viscous")
+            found = identify.dynamic(identify.Table(one, names=names), hold_out=other, **settings)
+            said = program_json(
+                "identify", "dynamic", one, "--hold-out", other, "--map", "time=t,length=x",
+                "--actuator", ACTUATOR, "--mass", "6 lb", "--pressure", "60 psi gauge",
+                "--external-volume", "0.114 in3", "--model", "viscous", "--json", "--quiet",
+            )  # fmt: skip
+            self.assertEqual(found.report, said)
+            bare = os.path.join(folder, "bare.csv")
+            numpy.savetxt(bare, numpy.column_stack(list(mesh().values())), delimiter=",")
+            header = "length [m], diameter [m]"
+            for columns in (header, header.split(", ")):
+                table = identify.Table(bare, columns=columns)
+                self.assertAlmostEqual(identify.geometry(table).report["thread_length_m"], 0.1, 3)
+
+
 class Wrong(Refusals):
     def test_inputs_are_refused_in_words(self) -> None:
         geometry: Any = identify.geometry
+        table: Any = identify.Table
         valve: Any = identify.valve
         dynamic: Any = identify.dynamic
         joint: Any = identify.joint
@@ -348,8 +371,12 @@ class Wrong(Refusals):
                 (lambda: geometry(columns, thread_thickness="1 s"), wrong, "thread_thickness: found"),
                 (lambda: geometry(columns, thread_thickness=[1]), TypeError, "a number [m], or text"),
                 (lambda: geometry(columns, name=3), TypeError, "name: found 3; expected text"),
-                (lambda: geometry(identify.Table(columns, names={"lenght": "L"})), wrong, "lenght"),
-                (lambda: geometry(identify.Table(columns, atmosphere=-1.0)), wrong, "atmosphere: found"),
+                (lambda: geometry(table(columns, names={"lenght": "L"})), wrong, "lenght"),
+                (lambda: geometry(table(columns, names="x")), TypeError, "names: found 'x'"),
+                (lambda: geometry(table(columns, units={"m": 1})), TypeError, "units: found"),
+                (lambda: geometry(table("a.csv", columns=3)), TypeError, "columns: found 3"),
+                (lambda: identify.static_from(columns, hold_out="presure"), wrong, "hold_out: found"),
+                (lambda: geometry(table(columns, atmosphere=-1.0)), wrong, "atmosphere: found"),
                 (lambda: identify.geometry_from_trapezoids(0, 16, 1e-3), wrong, "trapezoids: found"),
                 (lambda: identify.creep(swing), wrong, "force"),
                 (lambda: identify.creep({"time": [1.0], "force": 1.0, "pressure": 3e5}), refusal, "12"),
