@@ -32,6 +32,7 @@ struct Sources {
   gas::Valve chapter3;          // of the test stand
   gas::Valve inlet, exhaust;    // at the bench
 
+  // Returns where a file of the project stands.
   std::string path(const std::string& file) const;
 };
 
@@ -45,6 +46,7 @@ std::int64_t steps();
 // Throws config::Error where an experiment cannot be read.
 report::Gallery gallery(const Sources&, std::atomic<std::int64_t>& done);
 
+// Each returns the figures of a chapter, or of a part of it.
 Exhibits chapter_2(const Sources&);
 Exhibits valve_laws(const Sources&);    // 3-4, 3-13
 Exhibits trapped_air(const Sources&);   // 3-6 to 3-11: a load let go with the air shut in
@@ -60,6 +62,7 @@ using report::StatementClass;
 // Section collects the statements of one section, a number each; `because` says why ours differs.
 class Section {
  public:
+  // `where` is the section, as the claims name it.
   explicit Section(std::string where) : where_(std::move(where)) {}
   report::Claim number(StatementClass statement_class, const char* says, const char* theirs,
                        const char* quantity, double ours, const char* unit, report::Band accept,
@@ -75,6 +78,7 @@ report::Claim in_words(const analysis::Verdict& verdict);
 // Returns "knee flexor" of knee_flexor.
 std::string in_words(std::string name);
 
+// Returns the points of a curve, to be measured.
 inline report::Trace trace(const report::Curve& curve) { return {curve.xs, curve.ys}; }
 
 }  // namespace sinew::thesis

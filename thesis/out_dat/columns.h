@@ -11,9 +11,11 @@ namespace sinew::thesis {
 struct GaugeScale {
   double counts_at_zero = 0, newtons_per_count = 0;  // of the transducer itself
 
+  // Returns the tension that counts of the transducer stand for  [N].
   double newtons(double counts) const { return (counts - counts_at_zero) * newtons_per_count; }
 };
 
+// A joint with its muscles, as their columns need them.
 struct OutDatJoint {
   std::string name, flexor, extensor;                   // joint and muscles
   std::string angle, flexor_tension, extensor_tension;  // sensors
@@ -21,10 +23,12 @@ struct OutDatJoint {
   GaugeScale flexor_scale, extensor_scale;
 };
 
+// All columns of a robot.
 struct OutDatColumns {
   std::string cylinder;  // sensor of joint 0; empty: none
   std::vector<OutDatJoint> joints;
 
+  // Returns the first line of the file.
   std::string heading() const;
 };
 

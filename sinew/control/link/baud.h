@@ -22,6 +22,7 @@ struct Load {
   std::uint32_t to_host = 0, to_board = 0;  // [bytes] in a period, at most
 };
 
+// Returns the bytes that a board of this configuration says and is told.
 Load load_of(const control::JointControllerConfig& config, bool edges_wanted) noexcept;
 
 // Does a line of so many bits a second carry it?

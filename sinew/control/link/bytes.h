@@ -38,15 +38,19 @@ constexpr bool is_finite(float x) noexcept {
   return (std::bit_cast<std::uint32_t>(x) & 0x7f800000u) != 0x7f800000u;
 }
 
+// Writes numbers into a place of bytes, one behind the other.
 class Writer {
  public:
   static constexpr bool reads = false;
 
+  // Begins at the front of `out`.
   constexpr explicit Writer(std::span<std::uint8_t> out) noexcept : out_(out) {}
 
+  // Has everything fitted, and was it within its bounds? And how many bytes there are by now.
   constexpr bool ok() const noexcept { return ok_; }
   constexpr std::size_t size() const noexcept { return size_; }
 
+  // Writes the bytes of a number, the lowest first.
   template <class T>
   constexpr void whole(const T& x) noexcept {
     require(out_.size() - size_ >= sizeof(T));
@@ -58,6 +62,7 @@ class Writer {
     }
   }
 
+  // Writes a number that has to lie within the bounds, or be finite.
   template <class T>
   constexpr void limited(const T& x, T low, T high) noexcept {
     require(x >= low && x <= high);
@@ -81,13 +86,16 @@ class Reader {
  public:
   static constexpr bool reads = true;
 
+  // Begins at the front of `in`.
   constexpr explicit Reader(std::span<const std::uint8_t> in) noexcept : in_(in) {}
 
+  // Was everything there, and within its bounds?
   constexpr bool ok() const noexcept { return ok_; }
   // Bytes that were expected and are not there; else a refusal is one of a value.
   constexpr bool too_short() const noexcept { return too_short_; }
   constexpr std::size_t left() const noexcept { return in_.size() - size_; }
 
+  // Reads a number.
   template <class T>
   constexpr void whole(T& x) noexcept {
     if (!ok_) return;
@@ -105,6 +113,7 @@ class Reader {
     x = std::bit_cast<T>(bits);
   }
 
+  // Reads a number that has to lie within the bounds, or be finite; else `x` stays as it is.
   template <class T>
   constexpr void limited(T& x, T low, T high) noexcept {
     T found = low;
@@ -132,6 +141,7 @@ class Sizer {
 
   constexpr std::size_t size() const noexcept { return size_; }
 
+  // Counts the bytes that a Writer would write.
   template <class T>
   constexpr void whole(const T&) noexcept {
     size_ += sizeof(T);

@@ -22,6 +22,7 @@ class CommandQueue {
  public:
   static constexpr std::size_t ahead = 4;  // periods that a command may come before its time
 
+  // `period` in ticks.
   constexpr explicit CommandQueue(std::uint16_t period) noexcept : period_(period) {}
 
   // `begun`: the first tick of the period that runs now, whose command is taken already. Done,
@@ -50,6 +51,7 @@ class CommandQueue {
     return out && begins < out->from + signals::Tick{out->periods} * period_ ? out : nullptr;
   }
 
+  // Forgets all of them.
   constexpr void clear() noexcept { *this = CommandQueue(period_); }
 
  private:

@@ -40,9 +40,11 @@ class ConfigurationSender {
   // ok() is false where a field has a value that cannot be.
   explicit ConfigurationSender(const Configuration& configuration) noexcept;
 
+  // Can it be sent at all? And the checksum of its bytes.
   bool ok() const noexcept { return ok_; }
   std::uint32_t crc() const noexcept { return crc_; }
   ConfigureBegin begin() const noexcept;
+  // Returns the i-th part of its bytes.
   ConfigureChunk chunk(std::size_t i) const noexcept;
   ConfigureEnd end() const noexcept { return {crc_}; }
 
@@ -55,6 +57,7 @@ class ConfigurationSender {
 // A board's side.
 class ConfigurationReceiver {
  public:
+  // Answers each message of a transfer, in their order.
   Code take(const ConfigureBegin& begin) noexcept;
   Code take(const ConfigureChunk& chunk) noexcept;
   // Where the answer is not done, `out` is not whole.

@@ -17,6 +17,7 @@
 
 namespace sinew::link {
 
+// Everything that a board is told of its machine.
 struct Configuration {
   control::JointControllerConfig spine;
   control::SuperviseConfig limits;

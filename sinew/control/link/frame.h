@@ -83,6 +83,7 @@ class Decoder {
   // The line was silent for longer than it may within a frame: what is incomplete was none.
   void silent() noexcept { silence_ = end_; }
 
+  // Returns what the line has done to the frames so far.
   const LineCount& line() const noexcept { return line_; }
 
  private:

@@ -6,6 +6,7 @@
 
 namespace sinew::link {
 
+// Stands for a member of any type.
 struct AnyMember {
   template <class T>
   operator T() const;  // never defined: only asked whether it would do

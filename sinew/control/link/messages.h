@@ -29,6 +29,7 @@
 
 namespace sinew::link {
 
+// The number of each message on the wire.
 enum class Type : std::uint8_t {
   identify = 0x01,
   configure_begin,
@@ -87,21 +88,25 @@ inline constexpr signals::Tick max_tick = signals::Tick{1} << 60;
 
 // --- a host's messages --------------------------------------------------------------------------
 
+// Asks the board who it is.
 struct Identify {
   static constexpr Type type = Type::identify;
 };
+// Announces a configuration; its bytes follow in chunks, and an end.
 struct ConfigureBegin {
   static constexpr Type type = Type::configure_begin;
   std::uint16_t bytes = 0;  // of the whole configuration
   std::uint32_t crc = 0;    // crc32 over all of them
 };
 inline constexpr std::size_t max_chunk = 200;
+// Carries a part of a configuration.
 struct ConfigureChunk {
   static constexpr Type type = Type::configure_chunk;
   std::uint16_t offset = 0;
   std::uint8_t count = 0;  // 1 .. max_chunk
   std::array<std::uint8_t, max_chunk> data{};
 };
+// Ends a configuration, which the board then takes or refuses.
 struct ConfigureEnd {
   static constexpr Type type = Type::configure_end;
   std::uint32_t crc = 0;  // the same again
@@ -146,33 +151,41 @@ struct Enable {
   bool enabled = false;
 };
 
+// Asks for all readings.
 struct ReadSensors {  // answered by readings
   static constexpr Type type = Type::read_sensors;
 };
+// Asks for the valves' edges to be told, or no more.
 struct EdgesWanted {
   static constexpr Type type = Type::edges_wanted;
   bool wanted = false;
 };
+// Asks for the last periods before a fault.
 struct ReadFaultLog {  // answered by fault_log, from that part on
   static constexpr Type type = Type::read_fault_log;
   std::uint16_t from = 0;
 };
+// Says that somebody has looked into the fault.
 struct ClearFault {
   static constexpr Type type = Type::clear_fault;
 };
+// Says that the host lives.
 struct Heartbeat {  // where no command says that the host lives
   static constexpr Type type = Type::heartbeat;
 };
+// Lets the board speak as the thesis's computers did, or no more.
 struct ThesisWords {  // thesis_words.h
   static constexpr Type type = Type::thesis_words;
   bool on = false;
 };
+// Vents, and ends the run.
 struct ShutDown {  // at once, in every state
   static constexpr Type type = Type::shut_down;
 };
 
 // --- their fields -------------------------------------------------------------------------------
 
+// Reads or writes a tick that a run can have.
 template <class Io, class M>
 constexpr void tick(Io& io, M& t) noexcept {
   io.limited(t, signals::Tick{-1}, max_tick);
@@ -237,6 +250,7 @@ constexpr void fields(Io& io, M& m) noexcept {
   count(io, m.joints, control::max_joints);
   first_of(m.joint, m.joints, [&](auto& x) { fields(io, x); });
 }
+// Reads or writes the number of a joint.
 template <class Io, class M>
 constexpr void joint_number(Io& io, M& joint) noexcept {
   count(io, joint, control::max_joints - 1);
@@ -277,9 +291,11 @@ struct Body {
   std::size_t size = 0;
   bool ok = false;
 
+  // Returns the bytes that are used.
   std::span<const std::uint8_t> span() const noexcept { return {bytes.data(), size}; }
 };
 
+// Returns a message as bytes; `ok` is false where one of its values cannot be sent.
 template <class M>
 Body body_of(const M& message) noexcept {
   Body out;
@@ -307,6 +323,7 @@ Code read(std::span<const std::uint8_t> body, M& out) noexcept {
   return from.left() == 0 ? Code::done : Code::length;
 }
 
+// Reads the message of a frame. Returns why it is none, or done.
 template <class M>
 Code decode(const Frame& frame, M& out) noexcept {
   if (frame.version != protocol_version) return Code::version;

@@ -18,6 +18,7 @@ namespace sinew::link {
 inline constexpr std::size_t name_size = 16;
 using Name = std::array<char, name_size>;  // zeros behind the last letter
 
+// Says who the board is, and in which state.
 struct Identity {
   static constexpr Type type = Type::identity;
   std::uint8_t protocol = protocol_version;
@@ -32,6 +33,7 @@ struct Identity {
 };
 
 inline constexpr std::size_t max_text = 100;
+// Answers a message that wants one.
 struct Answer {
   static constexpr Type type = Type::answer;
   std::uint8_t to = 0, sequence = 0;  // type and sequence of what it answers
@@ -81,10 +83,12 @@ struct StateView {
   const LinkSeen& link;
 };
 
+// A channel as the board sees it.
 struct ChannelSeen {
   signals::Reading reading;
   std::uint16_t counts = 0;  // as converted last, believed or not
 };
+// Tells all channels.
 struct Readings {
   static constexpr Type type = Type::readings;
   Part of;
@@ -93,6 +97,7 @@ struct Readings {
 };
 
 inline constexpr std::size_t counters_in_message = 16;
+// Tells how often readings of some channels were not believed.
 struct Counters {
   static constexpr Type type = Type::counters;
   Part of;
@@ -101,6 +106,7 @@ struct Counters {
 };
 
 inline constexpr std::size_t joints_in_message = 4;
+// Tells some joints' laws.
 struct Joints {
   static constexpr Type type = Type::joints;
   Part of;
@@ -108,6 +114,7 @@ struct Joints {
   std::array<control::JointSeen, joints_in_message> joint;
 };
 
+// Tells that the board has done something by itself.
 struct Event {
   static constexpr Type type = Type::event;
   enum class What : std::uint8_t {
@@ -120,6 +127,7 @@ struct Event {
   control::BoardFault fault = control::BoardFault::none;  // why
 };
 
+// A valve's edge, as it was driven.
 struct EdgeSeen {
   std::uint16_t offset = 0;  // [ticks] since `tick`
   std::uint8_t valve = 0;
@@ -127,6 +135,7 @@ struct EdgeSeen {
   std::uint16_t level = 0;
 };
 inline constexpr std::size_t max_edges = 32;
+// Tells edges of a period.
 struct Edges {
   static constexpr Type type = Type::edges;
   signals::Tick tick = 0;

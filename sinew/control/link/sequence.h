@@ -28,6 +28,7 @@ class SequenceWindow {
   // The next frame is taken, whatever its number.
   constexpr void restart() noexcept { begun_ = false; }
 
+  // How many frames were lost, and how many came twice.
   constexpr std::uint32_t lost() const noexcept { return lost_; }
   constexpr std::uint32_t repeated() const noexcept { return repeated_; }
 

@@ -27,9 +27,11 @@ struct Telemetry {
 // One more than the last channel that is converted.
 std::uint8_t channels_of(const control::JointControllerConfig& config) noexcept;
 
+// Returns how many messages so many things take.
 constexpr std::size_t messages_for(std::size_t things, std::size_t in_message) noexcept {
   return (things + in_message - 1) / in_message;
 }
+// Returns how many messages the telemetry of a period has.
 constexpr std::size_t parts_of(std::size_t joints, std::size_t channels) noexcept {
   return 2 + messages_for(channels, counters_in_message) + messages_for(joints, joints_in_message);
 }
@@ -48,6 +50,7 @@ Readings readings_alone(const Telemetry& telemetry) noexcept;
 // A host's side.
 class TelemetryJoiner {
  public:
+  // `period` in ticks.
   explicit TelemetryJoiner(std::uint16_t period) noexcept : period_(period) {}
 
   // A message of a board, of any type. The telemetry of a period whose last part this was, until

@@ -41,6 +41,7 @@ ThesisJoints thesis_joints(const control::JointControllerConfig& config) noexcep
 
 // What a byte leads to.
 struct WordStep {
+  // Names it.
   enum class What : std::uint8_t {
     nothing,   // more bytes are needed, none is asked for
     frame,     // the byte is of a frame: to the decoder with it
@@ -71,11 +72,13 @@ std::size_t write_readings(const WordStep& step, const ThesisJoints& joints,
                            const control::JointControllerConfig& config, const control::Seen& seen,
                            std::span<std::uint8_t> out) noexcept;
 
+// Understands the thesis's bytes, one after the other.
 class WordReader {
  public:
   // joints.found must be true.
   explicit WordReader(const ThesisJoints& joints) noexcept : joints_(joints) {}
 
+  // Takes the next byte.
   WordStep take(std::uint8_t byte) noexcept;
 
   // The line was silent in the midst of a value or a frame: it is given up. True: answer B.

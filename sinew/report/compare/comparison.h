@@ -36,6 +36,7 @@ struct RecordedRun {
   config::Node resolved;  // resolved.toml
 };
 
+// A run as one of several.
 struct ComparedRun {
   std::string label;
   std::string title, reproduces, robot, seed, version;

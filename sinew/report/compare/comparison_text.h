@@ -9,6 +9,7 @@
 namespace sinew::report {
 
 struct ComparisonText {
+  // In whose units the tables are.
   enum class Units { thesis, si };
 
   Units units = Units::thesis;

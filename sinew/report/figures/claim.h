@@ -61,9 +61,11 @@ Claim claim(const analysis::Verdict& verdict);
 // Statements by class and verdict.
 class Tally {
  public:
+  // Counts one statement.
   void add(StatementClass statement_class, Is verdict) {
     ++count_[row(statement_class)][row(verdict)];
   }
+  // Returns how many there are of that class and verdict, of either alone, or at all.
   int of(StatementClass statement_class, Is verdict) const {
     return count_[row(statement_class)][row(verdict)];
   }
@@ -78,6 +80,7 @@ class Tally {
   }
   std::array<std::array<int, 5>, 6> count_{};
 };
+// Counts the statements of claims.
 void count(Tally& tally, const std::vector<Claim>& claims);
 
 // In the order of tables, `none` last among the classes.

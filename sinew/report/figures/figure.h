@@ -16,6 +16,7 @@
 
 namespace sinew::report {
 
+// An axis with its range and unit.
 struct Axis {
   static constexpr double automatic = std::numeric_limits<double>::quiet_NaN();
 
@@ -34,6 +35,7 @@ struct Axis {
   std::string title() const;  // "joint angle [deg]"; a plain number has its name alone
 };
 
+// One quantity over another, and how it is drawn.
 struct Curve {
   // Steps: a value holds until the next one. Marked: a line with a mark on each sample.
   enum class Style { line, marked, steps, points, bars };
@@ -53,11 +55,13 @@ struct Curve {
 
 // Shaded from bottom to top: stance; or, between two lines, the time of a fault.
 struct Span {
+  // Why it is shaded.
   enum class Of { stance, fault };
   double from = 0, to = 0;  // in x
   Of of = Of::stance;
 };
 
+// Curves in one pair of axes.
 struct Plot {
   // Of its curves: above the data, or each where it ends on the right. None: rows have theirs, and
   // lines need no dashes.
@@ -96,6 +100,7 @@ struct Place {
   std::size_t sheet = 0, column = 0;
 };
 
+// A figure's numbers as tables, and where in them each curve stands.
 struct FigureData {
   std::vector<Sheet> sheets;
   std::vector<std::vector<Place>> places;  // of each curve of each plot
@@ -111,6 +116,7 @@ FigureData data(const Figure& figure);
 // an empty cell.
 std::string csv(const Sheet& sheet);
 
+// Returns its word.
 std::string_view to_text(Curve::Kind kind);
 
 // A path without the points at which it was before: dashes that run over each other would look like

@@ -28,12 +28,14 @@ struct Scale {
   double step = 0.5;  // between ticks; logarithmic: a factor
 };
 
+// A curve's name in the legend.
 struct LegendEntry {
   std::size_t curve = 0;
   std::string text;
   double x = 0, y = 0;  // middle of its sample's left end, from the left and from the top [pt]
 };
 
+// Where one plot of a figure stands.
 struct PlotLayout {
   Scale x, y;
   double left = 0, right = 0;  // of the data, from the picture's edges [pt]
@@ -48,6 +50,7 @@ struct FigureLayout {
   std::vector<PlotLayout> plots;
 };
 
+// Returns where everything in the figure stands.
 FigureLayout layout(const Figure& figure);
 
 // Where that curve has its name: points have no end, so theirs stands above the data.

@@ -12,6 +12,7 @@
 
 namespace sinew::report {
 
+// The formats in which gnuplot draws.
 enum class Picture { svg, png };
 
 // To be run in the folder of the sheets; leaves <name>.svg and <name>.png there. The same figure

@@ -30,12 +30,14 @@ struct Gallery {
   bool scripts = false;                    // are <figure>.gp there?
 };
 
+// Returns the page with all figures.
 std::string index_html(const Gallery& gallery);
 
 // "sinew.figures/1": figures with their curves, the files that hold them, what is missing, claims
 // with class and verdict, and how many there are of each.
 std::string index_json(const Gallery& gallery);
 
+// Counts the statements of all figures.
 Tally tally(const Gallery& gallery);
 
 }  // namespace sinew::report

@@ -24,6 +24,7 @@ double first_at_most(const Trace& trace, double level, double from = -1e300);
 // Largest distance in y from the line of least squares, as a share of y's range. x in any order.
 double bend(const Trace& trace);
 
+// y = slope x + offset.
 struct StraightLine {
   double slope = 0, offset = 0;
 };
@@ -32,6 +33,7 @@ StraightLine line_of(const Trace& trace);  // least squares; x in any order
 // Largest drop of y from one sample to a later one; 0: y never falls. x in any order.
 double largest_fall(const Trace& trace);
 
+// Returns the smallest and the largest y; NaN of an empty trace.
 double least(const Trace& trace);
 double greatest(const Trace& trace);
 

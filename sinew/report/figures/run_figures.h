@@ -18,6 +18,7 @@
 
 namespace sinew::report {
 
+// How the figures of a run are made.
 struct RunFigureOptions {
   UnitSystem units = UnitSystem::si;
   double from = -std::numeric_limits<double>::infinity();  // samples that are shown [s]

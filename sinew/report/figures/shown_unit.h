@@ -9,6 +9,7 @@
 
 namespace sinew::report {
 
+// In whose units figures show things.
 enum class UnitSystem { si, thesis };
 
 // shown = (value + offset) * scale
@@ -17,6 +18,7 @@ struct ShownUnit {
   double scale = 1;
   double offset = 0;  // [SI]
 
+  // Returns the number that is shown for a value of SI.
   double of(double value) const { return (value + offset) * scale; }
 };
 

@@ -27,6 +27,7 @@ class Blob {
  public:
   static constexpr std::size_t most = 65536;  // samples of a clock
 
+  // Says what a column is for: a curve, or a machine that is drawn.
   enum class As { line, pose };
 
   // Position of its column; that of the first time, where it was added before.
@@ -39,6 +40,7 @@ class Blob {
     std::vector<std::size_t> clocks;  // samples of each
     std::vector<int> columns;         // the clock of each
   };
+  // Returns where each column stands in the text; and the text.
   Layout layout() const;
   std::string base64() const;
 
@@ -55,6 +57,7 @@ class Blob {
   std::map<std::pair<const void*, As>, int> known_;  // columns by their values
 };
 
+// Returns bytes as letters that any text can hold.
 std::string to_base64(std::string_view bytes);
 
 }  // namespace sinew::report

@@ -15,6 +15,7 @@ struct Channel {
   std::string topic;  // empty: none
   std::string field = "value";
 
+  // Does it stand for no channel?
   bool none() const { return topic.empty(); }
 };
 
@@ -31,6 +32,7 @@ struct Samples {
 class Channels {
  public:
   void add(const signals::Table& table) { tables_.push_back(&table); }  // outlives this
+  // Returns its samples, of the first table that has it; empty where none has.
   Samples find(const Channel& channel) const;
   bool has(const Channel& channel) const { return static_cast<bool>(find(channel)); }
   // The first of them that is there; none where none is.

@@ -26,6 +26,7 @@ struct ChartCurve {
   bool hidden = false;           // until it is asked for
 };
 
+// A quantity against another, in one picture.
 struct Chart {
   std::string title;
   ChartAxis x, y;

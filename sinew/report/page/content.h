@@ -21,7 +21,10 @@ class Columns {
  public:
   static constexpr int none = -1;
 
+  // Both outlive it.
   Columns(const Channels& channels, Blob& blob) : channels_(channels), blob_(blob) {}
+  // Returns the number of the channel's column, added where it is new; `none` where there are no
+  // samples.
   int of(const Channel& channel, Blob::As as) {
     const Samples samples = channels_.find(channel);
     if (!samples) return none;

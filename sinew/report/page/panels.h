@@ -9,6 +9,7 @@
 
 namespace sinew::report {
 
+// One channel of a panel.
 struct Line {
   enum class Style { measured, desired, hidden };  // full, dashed; not shown until asked for
 
@@ -18,6 +19,7 @@ struct Line {
   Style style = Style::measured;
 };
 
+// Channels that are plotted together.
 struct Panel {
   std::string group;  // "Joints"
   std::string title;  // "Joint angles"

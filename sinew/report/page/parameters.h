@@ -9,6 +9,7 @@
 
 namespace sinew::report {
 
+// A value as its row of the table shows it.
 struct Parameter {
   std::string key;          // joint.hip.damping
   std::string value;        // as resolved.toml has it: SI

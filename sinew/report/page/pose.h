@@ -16,6 +16,7 @@ struct Poses {
   analysis::Column trolley, lift;       // of the body [m]; zeros where it does not move
   bool is_true = false;                 // as simulated, not as measured
 
+  // Does the log say how the machine stood?
   bool known() const { return !angle.empty(); }
 };
 

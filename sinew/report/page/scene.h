@@ -19,11 +19,13 @@
 
 namespace sinew::report {
 
+// A place that moves, in which shapes are drawn.
 struct Frame {
   std::string name;
   Channel x, y, heading;  // [m], [rad]
 };
 
+// A link from its frame's origin along its x.
 struct LinkShape {
   int frame = 0;
   double length = 0;  // [m]
@@ -46,6 +48,7 @@ struct MuscleShape {
   Channel inlet, exhaust;                 // valve edges; none where there are none
 };
 
+// A line within a frame.
 struct Cord {
   int frame = 0;
   robot::Point from, to;  // [m]

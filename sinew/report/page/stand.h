@@ -18,6 +18,7 @@ namespace sinew::report {
 
 struct Stand {
   enum class Load { hanging, driven, clamped };  // clamped: driven, at one length
+  // Where the element's air comes from.
   enum class Air {
     sealed,
     regulated,

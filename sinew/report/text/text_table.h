@@ -9,6 +9,7 @@ namespace sinew::report {
 
 class TextTable {
  public:
+  // On which side the words of a column line up.
   enum class Align { left, right };
 
   // Titles of the columns; `align` is that of the values, left where it says nothing.
