@@ -27,14 +27,15 @@ class LegRun {
   LegRun(const LegRun&) = delete;
   LegRun& operator=(const LegRun&) = delete;
 
+  // Returns the machine that went, and what it recorded.
   const analysis::Machine& machine() const { return machine_; }
   const analysis::Record& record() const { return record_; }
-  double summary(std::string_view key) const;  // NaN: no such key
-  std::string caption(const std::string& what) const;
+  double summary(std::string_view key) const;          // NaN: no such key
+  std::string caption(const std::string& what) const;  // says of which run it is
 
   Window sequence() const;                    // from the first phase to the last one's end
   Window phase(std::string_view name) const;  // the first time that it goes
-  std::vector<report::Span> stance() const;
+  std::vector<report::Span> stance() const;   // each time that the foot stood, by the plan
 
   // Over time; `sign` turns what is drawn downwards.
   report::Curve curve(const std::string& label, const report::Channel& channel,

@@ -36,6 +36,6 @@ struct OutDatColumns {
 OutDatColumns out_dat_columns(const experiment::Experiment& experiment);
 
 std::string mode_of_phase(const std::string& phase);  // "plant" of "foot_plant"
-std::string phase_of_mode(const std::string& mode);
+std::string phase_of_mode(const std::string& mode);   // "foot_plant" of "plant"
 
 }  // namespace sinew::thesis

@@ -24,6 +24,7 @@
 
 namespace sinew::plant {
 
+// Says why a card cannot be opened or driven, and what to do.
 class CardError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -31,6 +32,7 @@ class CardError : public std::runtime_error {
 
 // The machine as a card has it before it.
 struct CardMachine {
+  // A sensor's wire.
   struct Input {
     std::string sensor;
     int channel = 0;  // of the converter
@@ -70,6 +72,7 @@ class ComediPort final : public signals::Port {
   // signal ends it.
   signals::Status stop(signals::Tick) noexcept override;
 
+  // Returns the card's name.
   const std::string& board() const noexcept { return board_; }
   // Why it failed in the loop; empty where it did not.
   std::string problem() const;

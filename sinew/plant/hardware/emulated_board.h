@@ -18,6 +18,7 @@
 
 namespace sinew::plant {
 
+// A board's program that is run tick by tick.
 class LockStepBoard {
  public:
   // Starts `lock-step.elf`. Throws BoardError.

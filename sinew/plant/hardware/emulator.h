@@ -17,6 +17,7 @@ namespace sinew::plant {
 // What befalls the program of a board itself, for tests: it stands still for so many ticks, as one
 // that hangs where they are more than its watchdog waits, or is reset.
 struct Mishap {
+  // Names it: nothing; the board hangs for so many ticks; it is reset.
   enum class What : std::uint8_t { none, stall, reset } what = What::none;
   std::uint16_t ticks = 0;
 };

@@ -47,6 +47,7 @@ class Machine {
   // One that goes side by side with others; whoever holds them outlives this.
   explicit Machine(const LegLane& lane);
 
+  // Returns it as a controller sees it.
   signals::Port& port() noexcept;
 
   // As World's.

@@ -35,6 +35,7 @@ const BatchCalls& batch_calls<4>();
 template <>
 const BatchCalls& batch_calls<8>();
 
+// Legs side by side, in as many lanes as the processor has.
 class Batch {
  public:
   // Lanes that this processor has, and this library was compiled for.
@@ -49,6 +50,7 @@ class Batch {
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
 
+  // Returns how many lanes there are, and one of them.
   int width() const noexcept { return calls_->width; }
   LegLane lane(int k) const noexcept { return {calls_->lane, batch_, k}; }
 
@@ -56,6 +58,7 @@ class Batch {
   void replace(int k, const Setup& setup) { calls_->replace(batch_, k, setup); }
 
   static constexpr double over = std::numeric_limits<double>::infinity();
+  // Runs all of them as ChainBatch does. Returns what it returns.
   template <class Turn>
   int go(Turn& turn) noexcept {
     const auto ask = [](void* context, int k) noexcept {

@@ -39,6 +39,7 @@ class ChainBatch {
   // Can this machine stand side by side with others? With whom says alike().
   static bool holds(const Setup& setup);
 
+  // Can the two stand side by side?
   static bool alike(const Setup& a, const Setup& b) {
     return plant::alike(chain_routing_of(a.robot), chain_routing_of(b.robot));
   }
@@ -72,6 +73,7 @@ class ChainBatch {
   }
   std::int64_t nodes(int k) const noexcept { return nodes_[static_cast<std::size_t>(k)]; }
 
+  // Returns machine k as it stands.
   World& world(int k) noexcept;
 
   // Machine k goes on from there: its own state, or one of a world with an equal setup.

@@ -29,6 +29,7 @@ ChainRoutingOf<units::Pack<W>> side_by_side(const std::array<const ChainRouting*
   return out;
 }
 
+// Returns W bodies as one, each in its lane.
 template <int N, std::size_t W>
 ChainBody<N, units::Pack<W>> side_by_side(const std::array<const ChainBody<N>*, W>& each) {
   std::array<ChainModel<N>, W> models;

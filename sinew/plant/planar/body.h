@@ -60,8 +60,8 @@ struct BodyConstants {
   std::array<int, N + 2> above{};
   bool chain = false;  // exact, one link on the other on a trolley that moves
 
-  constexpr std::size_t links() const { return exact ? N : count; }
-  constexpr std::size_t coordinates() const { return first_link + links(); }
+  constexpr std::size_t links() const { return exact ? N : count; }           // how many there are
+  constexpr std::size_t coordinates() const { return first_link + links(); }  // the same
   // Position of the parent among the links, for links that have one.
   std::size_t on(std::size_t link) const { return static_cast<std::size_t>(parent[link]); }
   bool hangs_on_link(std::size_t link) const { return parent[link] >= 0; }
@@ -94,10 +94,10 @@ struct BodyState {
 template <int N>
 class Body {
  public:
-  Body(const BodyConstants<N>& constants, const BodyState<N>& motion);
+  Body(const BodyConstants<N>& constants, const BodyState<N>& motion);  // both outlive it
 
-  double sin(std::size_t link) const { return sin_[link]; }
-  double cos(std::size_t link) const { return cos_[link]; }
+  double sin(std::size_t link) const { return sin_[link]; }  // of its angle
+  double cos(std::size_t link) const { return cos_[link]; }  // the same
 
   // Under the given forces, gravity and the velocities' own terms.
   Coordinates<N> accelerations(Coordinates<N> force) const;

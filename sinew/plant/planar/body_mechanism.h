@@ -44,8 +44,11 @@ class BodyMechanism : public PlanarMechanism<M> {
     return plant::holds<N>(robot) && robot::discs_of(robot) <= D && robot.muscles.size() <= M;
   }
 
+  // Takes a planar machine of at most N links, D discs and M muscles.
   explicit BodyMechanism(const Setup& setup);
 
+  // Returns the constants, the motion at the start, the number of muscles; and of one its first
+  // joint and its arm there.
   const BodyConstants<N>& constants() const noexcept { return constants_; }
   const Motion& start() const noexcept { return start_; }
   int muscles() const noexcept { return cords_.count(); }
@@ -53,12 +56,14 @@ class BodyMechanism : public PlanarMechanism<M> {
   double arm(const Arms& arms, int muscle) const noexcept {  // at its first joint [m]
     return arms[static_cast<std::size_t>(muscle)][0];
   }
+  // Returns all that a node needs to know of where the machine is.
   Pose pose(double, const Motion& motion) const noexcept {
     Pose pose(constants_, motion);
     rubs_.place(motion, pose);
     return pose;
   }
 
+  // Returns the angle of a joint [rad], its rate [rad/s], and how far the body is up [m].
   double joint_angle(const Motion& m, std::size_t j) const noexcept {
     return m.at[first_link + j] -
            (constants_.hangs_on_link(j) ? m.at[first_link + constants_.on(j)] : 0.0);
@@ -87,18 +92,21 @@ class BodyMechanism : public PlanarMechanism<M> {
   }
   std::int64_t most_steps_on_ground() const noexcept { return steps_on_ground_; }
 
+  // Lets a motion have these rates of the joints [rad/s] and of the body [m/s].
   void set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
                  double y_rate) const;
 
   // Lengths of the muscles, the piston's travel, their rates; the muscles' arms.
   void route(double, const Motion& m, air::Ends<M>& ends, Arms& arms) const noexcept;
 
+  // Works out all forces but dry friction's, from what the air pulls and pushes.
   template <class Answer>
   void load(const Pose& body, const Motion& m, const Arms& arms, const Answer& air,
             Load& out) const noexcept {
     load(body, m, arms, air.tension, air.cylinder_force, out);
   }
 
+  // Returns the acceleration under the load and the dry friction that is held.
   Acceleration accelerate(const Pose& body, const Motion& m, const Load& load,
                           const Forces& held) const noexcept;
 
@@ -138,6 +146,7 @@ class BodyMechanism : public PlanarMechanism<M> {
   void finish(Motion& now, double h, const Motion* const (&stage)[4],
               const Acceleration (&a)[4]) const noexcept;
 
+  // Adds what a muscle's tension does to its joints  [N m].
   void add_torque(const Arms& arms, int muscle, double tension,
                   std::array<double, most_joints>& torque) const noexcept;
 

@@ -63,6 +63,7 @@ GeneralizedVector<N, S> select(const Mask& mask, const GeneralizedVector<N, S>& 
 template <int N, class S = double>
 class Chain {
  public:
+  // Works out sines, cosines and the mass matrix at that motion. Both outlive it.
   Chain(const ChainConstants<N, S>& constants, const GeneralizedState<N, S>& motion)
       : k_(constants), motion_(motion) {
     for (int i = 0; i < N; ++i) {
@@ -74,6 +75,7 @@ class Chain {
     factor();
   }
 
+  // Returns the sine and the cosine of link i's angle.
   S sin(int i) const { return sin_[i]; }
   S cos(int i) const { return cos_[i]; }
 

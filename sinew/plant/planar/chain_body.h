@@ -33,6 +33,7 @@ struct ChainModel {
   S drag = 0, breakaway = 0;                                 // of the trolley [N]
 };
 
+// Returns the constants of a setup whose machine is such a chain.
 template <int N>
 ChainModel<N> chain_model_of(const Setup& setup) {
   const robot::Robot& robot = setup.robot;
@@ -67,23 +68,28 @@ class ChainBody {
 
   struct Arms {};  // they are constant
 
+  // All forces but dry friction's.
   struct Load {
     GeneralizedVector<N, S> force;  // muscles, dampers, springs, ground, track's stop; no friction
     S normal = 0;                   // on the foot [N]
     S ankle_x = 0, ankle_y = 0;
   };
 
+  // Takes the constants, and how the muscles run.
   ChainBody(const ChainModel<N, S>& model, const ChainRoutingOf<S>& routes)
       : model_(model), routes_(routes), contacts_(model.chain, model.footing) {}
 
+  // Returns them; the number of muscles; and all that a node needs to know of where the machine is.
   const ChainModel<N, S>& model() const noexcept { return model_; }
   const ChainRoutingOf<S>& routes() const noexcept { return routes_; }
   int muscles() const noexcept { return routes_.count; }
   Pose pose(double, const Motion& motion) const noexcept { return Pose(model_.chain, motion); }
 
+  // Returns the angle of a joint [rad], and its rate [rad/s].
   S joint_angle(const Motion& m, std::size_t j) const noexcept {
     return m.angle[j] - (j > 0 ? m.angle[j - 1] : S(0.0));
   }
+  // Returns the rate of a joint  [rad/s].
   S joint_rate(const Motion& m, std::size_t j) const noexcept {
     return m.rate[j] - (j > 0 ? m.rate[j - 1] : S(0.0));
   }
@@ -111,6 +117,7 @@ class ChainBody {
       }
   }
 
+  // Works out all forces but dry friction's, from what the air pulls.
   template <class Answer>
   void load(const Pose& chain, const Motion& motion, const Arms&, const Answer& air,
             Load& out) const noexcept {
@@ -136,6 +143,7 @@ class ChainBody {
     ground(chain, motion, out);
   }
 
+  // Returns the acceleration under the load and the dry friction that is held.
   Acceleration accelerate(const Pose& chain, const Motion&, const Load& load,
                           const Forces& held) const noexcept {
     GeneralizedVector<N, S> force = load.force;

@@ -32,9 +32,11 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
   using typename Equations::Motion;
   using typename Equations::Pose;
 
+  // These are the body's own.
   using Equations::joint_angle;
   using Equations::joint_rate;
 
+  // Takes a machine that is such a chain (chain_body.h).
   explicit ChainMechanism(const Setup& setup)
       : Equations(chain_model_of<N>(setup), chain_routing_of(setup.robot)), robot_(setup.robot) {
     double absolute = 0;
@@ -43,10 +45,12 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
     start_.x = setup.start.trolley;
   }
 
+  // Returns the constants, the motion at the start, and the joint of a muscle.
   const ChainConstants<N>& constants() const noexcept { return model_.chain; }
   const Motion& start() const noexcept { return start_; }
   int joint(int muscle) const noexcept { return routes_.joint[static_cast<std::size_t>(muscle)]; }
   double arm(const Arms&, int muscle) const noexcept { return routes_.moment_arm[muscle]; }  // [m]
+  // A chain has no lift: 0  [m].
   double lift(const Motion&) const noexcept { return 0; }
 
   // The body step, or a whole part of it that suits the fastest rate of the machine at its start.
@@ -58,6 +62,7 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
                        this->contacts_.stiffest_rate(Pose(model_.chain, start_), damping, spring));
   }
 
+  // Lets a motion have these rates of the joints [rad/s] and of the trolley [m/s].
   void set_rates(Motion& m, std::initializer_list<double> joint_rates, double x_rate,
                  double) const {
     double absolute = 0;
@@ -66,6 +71,7 @@ class ChainMechanism : public PlanarMechanism<chain_muscles>, public ChainBody<N
     m.x_rate = x_rate;
   }
 
+  // Adds what a muscle's tension does to its joint  [N m].
   void add_torque(const Arms&, int muscle, double tension,
                   std::array<double, most_joints>& torque) const noexcept {
     torque[static_cast<std::size_t>(joint(muscle))] += routes_.moment_arm[muscle] * tension;

@@ -28,6 +28,7 @@ struct Footing {
   S friction = 0, radius = 0;                           // of the foot [-], [m]
 };
 
+// Returns foot and ground of a robot; without either, one that touches nothing.
 inline Footing<double> footing_of(const robot::Robot& robot) {
   Footing<double> f{.friction = robot.foot.friction, .radius = robot.foot.radius};
   if (!robot.ground.present || !robot.foot.present) return f;
@@ -44,6 +45,7 @@ class Contacts {
   static constexpr int trolley = N, foot = N + 1;
   using Forces = std::array<S, count>;  // [N m] of the joints, [N] of the others
 
+  // Takes the constants, which outlive it.
   Contacts(const ChainConstants<N, S>& chain, const Footing<S>& footing)
       : k_(chain), footing_(footing) {}
 
@@ -144,6 +146,7 @@ class Contacts {
     return a;
   }
 
+  // Returns the bound of a contact's dry friction, as hold() has last found it.
   S bound(int c) const { return problem_.bound[c]; }
 
  private:

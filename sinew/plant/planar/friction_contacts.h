@@ -42,6 +42,7 @@ namespace sinew::plant {
 struct FastestRates {
   double joints = 0, ground_spring = 0, ground_damper = 0;
 
+  // Takes the larger of each.
   void include(const FastestRates& other) {
     joints = std::max(joints, other.joints);
     ground_spring = std::max(ground_spring, other.ground_spring);
@@ -86,8 +87,10 @@ class FrictionContacts {
     double start = 0;  // of the first link, ahead of the body's origin [m]
   };
 
+  // Takes the robot's feet and friction; the body outlives it.
   FrictionContacts(const BodyConstants<N>& body, const robot::Robot& robot);
 
+  // How many discs and feet there are.
   int discs() const { return disc_count_; }
   std::size_t feet() const { return foot_count_; }
   // By leg, also of one whose foot is not present.
@@ -139,6 +142,7 @@ class FrictionContacts {
   // Accelerations under the friction f, given those without any.
   Coordinates<N> accelerations(Coordinates<N> without, const Forces& f) const;
 
+  // Returns the bound of a contact's dry friction, as it was found last.
   double bound(int c) const { return bound_[static_cast<std::size_t>(c)]; }
 
  private:

@@ -23,8 +23,10 @@ struct ChainRoutingOf {
 };
 using ChainRouting = ChainRoutingOf<double>;
 
+// Returns how the muscles of a chain run.
 ChainRouting chain_routing_of(const robot::Robot& robot);
 
+// Returns lengths, masses and inertias of a chain.
 template <int N>
 ChainConstants<N> chain_of(const robot::Robot& robot) {
   ChainConstants<N> k;

@@ -22,8 +22,10 @@ namespace sinew::plant {
 class CamLaw {
  public:
   CamLaw() = default;
+  // Takes the cam; a round one without a radius has the joint's.
   CamLaw(const robot::Cam& cam, const robot::Joint& joint);
 
+  // Returns the radius at that angle of the joint  [m].
   double radius(double angle) const noexcept {  // [m]
     return round_ ? first_radius_ : radius_of_table(angle);
   }
@@ -32,6 +34,7 @@ class CamLaw {
     return round_ ? first_radius_ * (angle - rest_) : area(angle) - area_at_rest_;
   }
 
+  // Is the radius the same at every angle?
   bool round() const noexcept { return round_; }
   double rest() const noexcept { return rest_; }  // angle at which nothing has run over it [rad]
 
@@ -52,8 +55,10 @@ class MuscleRouting {
   template <int M>
   using MomentArms = std::array<std::array<double, most>, M>;
 
+  // Takes the cams of all muscles.
   explicit MuscleRouting(const robot::Robot& robot);
 
+  // How many muscles there are.
   int count() const { return static_cast<int>(cords_.size()); }
 
   // Of muscle i: its joints; the second is -1 where there is none.

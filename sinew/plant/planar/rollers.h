@@ -34,6 +34,7 @@ struct RollerLoads {
   double front = 0, rear = 0;  // [N], up > 0
 };
 
+// Returns them, by what hangs on the trolley and how it moves.
 inline RollerLoads roller_loads(const robot::Robot& robot, const Hanging& hanging) {
   const robot::Rollers& r = robot.rollers;
   const double own = robot::trolley_own_mass(robot) + robot.trolley.payload;

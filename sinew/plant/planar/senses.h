@@ -16,6 +16,7 @@ class PlanarSenses {
  public:
   using Truth = plant::Truth;
 
+  // Finds what each sensor measures.
   explicit PlanarSenses(const Setup& setup)
       : robot_(setup.robot), atmosphere_(setup.air.atmosphere), seed_(setup.seed) {
     using Kind = robot::Sensor::Kind;
@@ -27,6 +28,7 @@ class PlanarSenses {
     }
   }
 
+  // How many sensors there are.
   std::size_t channels() const noexcept { return robot_.sensors.size(); }
 
   // Returns the quantity that the sensor measures at t, in SI; of something that stands still, 0.
@@ -57,6 +59,7 @@ class PlanarSenses {
     return robot::counts(sensor, robot_.converter, value, added_noise);
   }
 
+  // Returns what only a simulation knows, at t.
   template <class World>
   Truth truth(World& world, double t) const noexcept {
     const auto& mechanism = world.mechanism();

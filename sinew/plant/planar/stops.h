@@ -11,6 +11,7 @@
 
 namespace sinew::plant {
 
+// A joint's stop, of a double or of a pack; without bounds there is none.
 template <class S>
 struct JointStopOf {
   S low = -std::numeric_limits<double>::infinity();
@@ -18,6 +19,7 @@ struct JointStopOf {
   S stiffness = 0, damping = 0;                      // [N m/rad], [N m s/rad]
 
   JointStopOf() = default;
+  // Takes the stop of a robot's joint.
   explicit JointStopOf(const robot::Stop& stop) {
     if (!stop.present()) return;
     low = stop.range[0];

@@ -22,6 +22,7 @@ class Recorded final : public signals::Port {
   signals::Reading read(signals::Channel channel, signals::Tick now) noexcept override;
   signals::Status stop(signals::Tick now) noexcept override;
 
+  // Returns the edges that it was told to drive.
   const std::vector<signals::Edge>& driven() const { return driven_; }
 
  private:

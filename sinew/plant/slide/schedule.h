@@ -22,6 +22,7 @@ struct Point {
 struct Line {
   double from = 0, value = 0, slope = 0;
 
+  // Returns its value at t.
   double at(double t) const { return value + (t - from) * slope; }
 };
 
@@ -29,6 +30,7 @@ struct Schedule {
   std::vector<Point> points;
 
   Schedule() = default;
+  // It stays there; or goes through these points, in ascending time.
   Schedule(double constant) : points{{0.0, constant}} {}
   Schedule(std::vector<Point> p) : points(std::move(p)) {}
 
@@ -44,6 +46,7 @@ struct Schedule {
     return {p.at, p.value, (points[next].value - p.value) / (points[next].at - p.at)};
   }
 
+  // Returns its value at t.
   double at(double t) const noexcept { return piece(t).at(t); }
 
   // The next point after t, or infinity  [s].

@@ -15,9 +15,11 @@ class StandSenses {
  public:
   using Truth = StandTruth;
 
+  // Takes the stand's transducers.
   explicit StandSenses(const StandSetup& setup)
       : transducers_(setup.transducers), atmosphere_(setup.air.atmosphere), seed_(setup.seed) {}
 
+  // How many there are.
   std::size_t channels() const noexcept { return transducers_.size(); }
 
   // Returns what the transducer stands before at t; of a conversion that began before the last node
@@ -40,6 +42,7 @@ class StandSenses {
     return 0;
   }
 
+  // Returns the counts of a transducer that stands before a value.
   std::uint16_t counts(std::size_t index, double value, signals::Tick sampled) const noexcept {
     const Transducer& t = transducers_[index];
     const auto channel = static_cast<std::uint8_t>(index);
@@ -47,6 +50,7 @@ class StandSenses {
     return plant::counts(t, value, added_noise);
   }
 
+  // Returns what only a simulation knows, at t.
   template <class World>
   StandTruth truth(World& world, double t) const noexcept {
     const auto& mechanism = world.mechanism();

@@ -53,6 +53,7 @@ struct StandStart {
   double displacement = 0;              // hanging: from there, with the same air, down > 0 [m]
 };
 
+// Everything that a stand is made from.
 struct StandSetup {
   air::Muscle muscle;                     // a bundle with its valves, hose and leak
   std::optional<air::Cylinder> cylinder;  // single-acting, in the muscle's place

@@ -66,18 +66,22 @@ class SlideMechanism {
   // Throws std::invalid_argument for a set-up that is no stand.
   explicit SlideMechanism(const Setup& setup);
 
+  // Returns what it was made from, how it starts, and the longest step  [s].
   const Setup& constants() const noexcept { return setup_; }
   const Motion& start() const noexcept { return start_; }
   double node_step(const Setup& setup) const noexcept { return setup.step; }
+  // Makes the air of the stand, its state and its memory at the start.
   template <class Air>
   Air make_air(const Setup&) const {
     return Air(setup_);
   }
+  // Returns the air's state at the start.
   template <class Air>
   typename Air::State start_air(const Air& air, const Setup&, const Ends&) const {
     Ends sealed = ends_at(setup_.start.length, 0.0);  // there, and displaced afterwards
     return air.initial(setup_.start.pressure, sealed.length, sealed.travel);
   }
+  // Returns the air's memory at the start.
   template <class Air>
   typename Air::Memory start_memory(const Air& air, const Setup&, const Ends&) const {
     return air.memory_at_rest(setup_.start.pressure, ends_at(setup_.start.length, 0.0).length);
@@ -99,17 +103,21 @@ class SlideMechanism {
   }
   double corner() const noexcept { return now_.end; }
 
+  // Says how long the element is, and how fast that changes; and its pressure where that is
+  // prescribed.
   void route(double t, const Motion& m, Ends& ends, Arms&) const noexcept {
     const double length = driven_ ? now_.length.at(t) : std::clamp(m.length, shortest_, longest_);
     put(ends, length, driven_ ? now_.length.slope : m.velocity);
     if (regulated_) ends.pressure = now_.pressure.at(t);
   }
 
+  // Returns the mass that is moved at t, and what pulls it down.
   Pose pose(double t, const Motion&) const noexcept {
     const double mass = now_.mass.at(t);
     return {mass, mass * setup_.load.gravity + now_.force.at(t)};
   }
 
+  // Works out the force that is left, and the bound of the dry friction.
   template <class Answer>
   void load(const Pose& at, const Motion&, const Arms&, const Answer& air,
             Load& out) const noexcept {
@@ -132,11 +140,13 @@ class SlideMechanism {
                        : static_cast<double>(held) * load.bound;
   }
 
+  // Returns the acceleration under the load and the friction that is held  [m/s^2].
   Acceleration accelerate(const Pose&, const Motion&, const Load& load, Way held) const noexcept {
     if (driven_ || rests(held)) return 0;
     return (load.asks - static_cast<double>(held) * load.bound) / load.mass;
   }
 
+  // Is the element moved by a machine?
   bool driven() const noexcept { return driven_; }
 
   // At rest the load is what may break it.
@@ -158,12 +168,14 @@ class SlideMechanism {
   }
   double cut_within() const noexcept { return cut_within_; }
 
+  // Lets what has turned back against its friction rest.
   void stop(Motion& m, Way& held) const noexcept {
     if (driven_ || !rubs_ || !(m.velocity * static_cast<double>(held) < 0)) return;
     m.velocity = 0;
     held = Way::rests;
   }
 
+  // Returns the longest step that suits the swing of load and air there  [s].
   template <class Answer>
   double longest_piece(const Motion& m, const Load& load, const Answer& air) const noexcept {
     if (driven_) return infinite;

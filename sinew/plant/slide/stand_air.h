@@ -19,6 +19,7 @@ struct StandEnds : ElementAir::Ends {
   double pressure = 0;  // absolute; 0: nothing is prescribed [Pa]
 };
 
+// Returns the network of the stand's element.
 inline ElementAir air_of(const StandSetup& s) {
   if (s.cylinder) return {{}, s.air, s.supply, s.cylinder, s.faults};
   return {std::span(&s.muscle, 1), s.air, s.supply, {}, s.faults};
@@ -51,6 +52,7 @@ class StandAir : public ElementAir {
     passed += std::fabs(gained);
   }
 
+  // The law: the network's, or that of a prescribed pressure.
   void evaluate(double t, const StandEnds& ends, const State& state, const Valves& valves,
                 const Memory& memory, Answer& out, std::uint64_t = 0) const noexcept {
     if (!(ends.pressure > 0)) {
@@ -71,6 +73,7 @@ class StandAir : public ElementAir {
                      longest_settling_ / settling_rate(look, s, valves));
   }
 
+  // Returns the element's pressure, absolute [Pa]; and what air it has and had.
   double pressure(const Answer& look) const noexcept {
     return cylinder_ ? look.cylinder_pressure[air::up] : look.pressure[0];
   }

@@ -57,6 +57,7 @@
 
 namespace sinew::plant {
 
+// A mechanism: it has all of the first list.
 template <class M>
 concept IsMechanism = std::is_trivially_copyable_v<typename M::Motion> &&
     std::is_trivially_copyable_v<typename M::Forces> &&
@@ -77,6 +78,7 @@ concept IsMechanism = std::is_trivially_copyable_v<typename M::Motion> &&
   { m.sum(q) } -> std::same_as<double>;
 };
 
+// A mechanism whose steps are never cut.
 template <class M>
 concept WholeSteps = IsMechanism<M> && !M::cuts_steps &&
                      requires(const M& m, double h, typename M::Motion& q,
@@ -86,12 +88,14 @@ concept WholeSteps = IsMechanism<M> && !M::cuts_steps &&
   m.glide(q, h, a);
 };
 
+// A mechanism that may leave out nodes where nothing happens.
 template <class M>
 concept SkipsNodes = WholeSteps<M> &&
     requires(const M& m, const typename M::Pose& pose, const typename M::Motion& q, double step) {
   { m.next_multiple(std::int64_t{}, step, pose, q) } -> std::same_as<std::int64_t>;
 };
 
+// A mechanism that takes a quick damper into the later stages.
 template <class M>
 concept RelaxesStages = WholeSteps<M> &&
     requires(const M& m, double h, const typename M::Load& load,
@@ -99,6 +103,7 @@ concept RelaxesStages = WholeSteps<M> &&
   m.relax(h, h, load, before, a);
 };
 
+// A mechanism whose steps end where a law breaks off.
 template <class M>
 concept CutsSteps = IsMechanism<M> && M::cuts_steps &&
     requires(M& m, double t, typename M::Motion& q, typename M::Forces& held,
@@ -112,6 +117,7 @@ concept CutsSteps = IsMechanism<M> && M::cuts_steps &&
   { m.hold(q, load, held) } -> std::same_as<typename M::Forces>;
 };
 
+// Air that goes with the mechanism.
 template <class A, class M>
 concept IsAirOf = IsMechanism<M> && std::is_trivially_copyable_v<typename A::State> &&
     std::is_trivially_copyable_v<typename A::Valves> &&

@@ -100,6 +100,9 @@ class World final : public signals::Port {
   // Commits every node up to t.
   void advance(double t) noexcept;
 
+  // Returns where the machine is at the last node; its constants; the air in it [kg]; the node's
+  // time [s]; the shortest step of body and air [s]; how many nodes there were; and what of it is
+  // no number any more.
   const Motion& motion() const noexcept { return state_.now.motion; }
   const auto& constants() const noexcept { return mechanism_.constants(); }
   double air_mass() const noexcept {  // in chambers, hoses and tank [kg]
@@ -112,6 +115,7 @@ class World final : public signals::Port {
   std::int64_t nodes() const noexcept { return state_.nodes; }
   const air::Failure& failure() const noexcept { return state_.failure; }
 
+  // Returns everything that its future depends on.
   const State& state() const noexcept { return state_; }
   // Goes on from there as the world did whose state it was: the same bits.
   void restore(const State& state) noexcept;

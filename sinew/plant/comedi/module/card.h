@@ -6,6 +6,7 @@
 
 extern "C" {
 
+// What a card has.
 struct SinewCardFacts {
   char board[64];
   int input;          // subdevice of the converter; -1: none

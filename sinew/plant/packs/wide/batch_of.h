@@ -14,8 +14,10 @@ struct BatchOf {
   using Legs = ChainBatch<2, W>;
   using World = typename Legs::World;
 
+  // Returns the batch behind the pointer.
   static Legs& of(void* batch) noexcept { return *static_cast<Legs*>(batch); }
 
+  // Each is the function of BatchCalls of that name.
   static void* make(const Setup& everywhere) {
     const std::vector<Setup> setups(W, everywhere);
     auto* legs = new Legs(std::span<const Setup, static_cast<std::size_t>(W)>(setups));
@@ -28,6 +30,7 @@ struct BatchOf {
     return of(batch).go([&](int k) { return turn(context, k); });
   }
 
+  // Each asks machine k, as the function of BatchCalls of that name.
   static signals::Status start(void* batch, int k, const signals::Scan& scan) noexcept {
     return of(batch).start(k, scan);
   }
@@ -48,6 +51,7 @@ struct BatchOf {
     of(batch).restore(k, state);
   }
 
+  // Returns all of them.
   static constexpr BatchCalls calls() {
     return {W,       make,
             destroy, replace,
