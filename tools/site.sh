@@ -6,8 +6,8 @@
 #
 # then shows it at http://127.0.0.1:8000; pages alone also open as files, their search does not.
 # Nothing is asked of the network, neither by this nor by the site. A link that leads nowhere, a
-# warning of Doxygen or MkDocs, and a public name without words in the folders that programs begin
-# with (tools/site/undocumented.py) are errors.
+# warning of Doxygen or MkDocs, and a public name without words (tools/site/undocumented.py) are
+# errors.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export LC_ALL=C.UTF-8

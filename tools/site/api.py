@@ -226,8 +226,8 @@ def share_file_texts(header: Header) -> None:
             name.by_file = True
 
 
-# Nobody asks what these do: it is what they do everywhere.
-USUAL = re.compile(r"= ?(default|delete)$|^~|^(begin|end|empty|size)\(\)|operator(?!\(\)|\"\")(?: bool|\W)")
+# Nobody asks what these do: it is what they do everywhere. `fields` visits the fields of what it is given.
+USUAL = re.compile(r"= ?(default|delete)$|^~|^(begin|end|empty|size|fields)\(\)|operator(?!\(\)|\"\")(?: bool|\W)")
 
 
 def documented(name: Name) -> bool:
@@ -270,6 +270,30 @@ def read_header(element: ElementTree.Element) -> Header:
     return header
 
 
+def declared_private(names: List[Name], source: Dict[str, List[str]]) -> List[str]:
+    """Classes that are declared in the private part of another one, and defined outside of it.
+
+    Doxygen takes those for public.
+    """
+    by_name = {n.qualified: n for n in names if n.kind in KINDS}
+    found = []
+    for qualified, name in by_name.items():
+        outer = by_name.get(qualified.rpartition("::")[0])
+        if outer is None or outer.file not in source:
+            continue
+        access = "private" if outer.kind == "class" else "public"
+        for line in source[outer.file][outer.line :]:
+            if match := re.match(r"\s*(public|protected|private):", line):
+                access = match.group(1)
+            elif re.match(rf"\s*(class|struct) {name.name};", line):
+                if access == "private":
+                    found.append(qualified)
+                break
+            elif line.startswith("};"):
+                break
+    return found
+
+
 def read_api(xml: str, sources: str) -> Dict[str, Header]:
     """Return the headers by their paths. `sources` is the folder that the paths stand in."""
     headers: Dict[str, Header] = {}
@@ -288,14 +312,13 @@ def read_api(xml: str, sources: str) -> Dict[str, Header]:
             elif kind in KINDS:
                 hidden.update(flat(inner) for inner in element.findall("innerclass[@prot='private']"))
                 names.append(read_compound(element))
-                if names[-1].name == "Impl":  # Doxygen forgets that its declaration is private
-                    hidden.add(names[-1].qualified)
             elif kind == "namespace":
                 names += [read_member(member) for member in element.iter("memberdef")]
     source = {}
     for path in headers:
         with open(os.path.join(sources, path), encoding="utf-8") as file:
             source[path] = file.read().split("\n")
+    hidden.update(declared_private(names, source))
     names = [n for n in names if n.qualified not in hidden and not any(n.qualified.startswith(h + "::") for h in hidden)]
     names = [n for n in names if n.file in headers and "@" not in n.qualified and "::detail" not in n.qualified]
     join(names, source)
