@@ -41,10 +41,18 @@ set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-# Licence and changes, as every package of Debian has them.
-set(changes ${PROJECT_BINARY_DIR}/changelog.gz)
-add_custom_command(OUTPUT ${changes} COMMAND gzip -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md > ${changes}
-                   DEPENDS CHANGELOG.md VERBATIM)
+# Licence and changes, as every package of Debian has them: of Sinew, and of its packages, whose
+# versions have a number of their own behind Sinew's.
+set(changes "")
+foreach(pair "changelog CHANGELOG.md" "changelog.Debian cmake/debian/changelog")
+  separate_arguments(pair)
+  list(GET pair 0 name)
+  list(GET pair 1 source)
+  set(packed ${PROJECT_BINARY_DIR}/${name}.gz)
+  add_custom_command(OUTPUT ${packed} COMMAND gzip -9nc ${PROJECT_SOURCE_DIR}/${source} > ${packed}
+                     DEPENDS ${source} VERBATIM)
+  list(APPEND changes ${packed})
+endforeach()
 add_custom_target(sinew_changes ALL DEPENDS ${changes})
 
 # sinew_package(NAME COMPONENT SECTION DEPENDS SUMMARY DESCRIPTION)
@@ -64,8 +72,8 @@ set(same "(= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 sinew_package(sinew program science ""
   "robots driven by braided pneumatic actuators"
   "Simulates, identifies, tunes and controls robots that are pulled by braided
-pneumatic actuators (McKibben muscles): actuator, air, valves, sensors, controller
-and body in one loop. Comes with the walking leg of Colbrunn (2000).")
+pneumatic actuators (McKibben muscles): actuator, air, valves, sensors,
+controller and body in one loop. Comes with the walking leg of Colbrunn (2000).")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-sinew, libsinew-dev, sinew-mpi, sinew-comedi, www-browser")
 
@@ -84,8 +92,8 @@ endif()
 sinew_package(libsinew-dev development_deb libdevel
   "libfmt-dev, nlohmann-json3-dev, zlib1g-dev, libsqlite3-dev, libceres-dev, libeigen3-dev, libminizip-dev"
   "robots driven by braided pneumatic actuators: library"
-  "Headers, static libraries and the CMake package of sinew: a muscle with its air,
-whole robots, controllers, simulations, identification and tuning in C++20.")
+  "Headers, static libraries and the CMake package of sinew: a muscle with its
+air, whole robots, controllers, simulations, identification and tuning in C++20.")
 set(CPACK_DEBIAN_DEVELOPMENT_DEB_PACKAGE_SUGGESTS "sinew, cmake, g++")
 
 if(TARGET sinew_python)
@@ -93,8 +101,8 @@ if(TARGET sinew_python)
   sinew_package(python3-sinew python_deb python
     "sinew ${same}, python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next}), python3-numpy"
     "robots driven by braided pneumatic actuators: Python"
-    "Runs as arrays, simulations that are held, sweeps, tuning, laws of actuators and
-environments in the shape of Gymnasium.")
+    "Runs as arrays, simulations that are held, sweeps, tuning, laws of actuators
+and environments in the shape of Gymnasium.")
   set(CPACK_DEBIAN_PYTHON_DEB_PACKAGE_RECOMMENDS "python3-pandas")
   set(scripts ${PROJECT_SOURCE_DIR}/cmake/debian)
   set(CPACK_DEBIAN_PYTHON_DEB_PACKAGE_CONTROL_EXTRA "${scripts}/postinst;${scripts}/prerm")

@@ -40,7 +40,7 @@ cmp "$debs"/sinew_*.deb "$folder/again"/sinew_*.deb || fail "made twice, the pac
 for deb in "$debs"/*.deb; do
   name=$(dpkg-deb -f "$deb" Package)
   list=$(dpkg-deb -c "$deb" | awk '{ print $6 }')
-  for file in "./usr/share/doc/$name/copyright" "./usr/share/doc/$name/changelog.gz"; do
+  for file in "./usr/share/doc/$name/copyright" "./usr/share/doc/$name/changelog.gz" "./usr/share/doc/$name/changelog.Debian.gz"; do
     grep -qx "$file" <<<"$list" || fail "$name lacks $file"
   done
   wrong=$(grep -vE '^\./usr/(bin|include|lib|share)?(/|$)' <<<"$list" || true)
@@ -48,6 +48,9 @@ for deb in "$debs"/*.deb; do
   [[ ! $wrong ]] || fail "$name holds $wrong"
 done
 zcat_of() { dpkg-deb --fsys-tarfile "$1" | tar -xO "$2" | zcat; }
+version=$(dpkg-deb -f "$debs"/sinew_*.deb Version)
+zcat_of "$debs"/sinew_*.deb ./usr/share/doc/sinew/changelog.Debian.gz | head -n 1 | grep -qF "sinew ($version) " ||
+  fail "cmake/debian/changelog does not begin with version $version"
 manual=$(zcat_of "$debs"/sinew_*.deb ./usr/share/man/man1/sinew.1.gz)
 for word in run sweep check migrate 'identify static'; do
   grep -q "^\.SS \"sinew $word\"" <<<"$manual" || fail "sinew(1) lacks $word"
