@@ -93,7 +93,7 @@ sinew_package(libsinew-dev development_deb libdevel
   "libfmt-dev, nlohmann-json3-dev, zlib1g-dev, libsqlite3-dev, libceres-dev, libeigen3-dev, libminizip-dev"
   "robots driven by braided pneumatic actuators: library"
   "Headers, static libraries and the CMake package of sinew: a muscle with its
-air, whole robots, controllers, simulations, identification and tuning in C++20.")
+air, whole robots, controllers, simulations, identification, tuning. C++20.")
 set(CPACK_DEBIAN_DEVELOPMENT_DEB_PACKAGE_SUGGESTS "sinew, cmake, g++")
 
 if(TARGET sinew_python)
