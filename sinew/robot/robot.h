@@ -65,7 +65,7 @@ struct Stop {
   bool present() const { return range.size() == 2; }
 };
 
-// A joint: it has what two links turn about, with what drives, brakes and stops it.
+// A joint, about which two links turn, with what drives, brakes and stops it.
 struct Joint {
   // Which way the flexor turns the joint.
   enum class Flexion { raises_angle, lowers_angle };
