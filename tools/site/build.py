@@ -94,7 +94,8 @@ def run_mkdocs(config: str) -> None:
     made = subprocess.run(["mkdocs", "build", "--strict", "--clean", "--config-file", config],
                           env=environment, capture_output=True, text=True)
     # The rest is what it does, which nobody asked for.
-    said = "\n".join(re.findall(r".*(?:WARNING|ERROR|CRITICAL|Error).*", made.stdout + made.stderr))
+    words = re.sub(r"\x1b\[[0-9;]*m", "", made.stdout + made.stderr)  # without colours
+    said = "\n".join(re.findall(r".*(?:WARNING|ERROR|CRITICAL|Error).*", words))
     if made.returncode or said:
         raise SystemExit(f"{said}\nmkdocs: found warnings; expected none")
 
