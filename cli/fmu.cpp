@@ -21,11 +21,10 @@ struct Options {
   bool force = false, json = false;
 };
 
-std::string_view word(fmu::Variable::Causality causality) {
-  using C = fmu::Variable::Causality;
-  if (causality == C::time) return "time";
-  if (causality == C::parameter) return "parameter";
-  return causality == C::input ? "input" : "output";
+Json start_of(const fmu::Variable& v) {
+  using T = fmu::Variable::Type;
+  if (v.type == T::boolean) return v.start != 0;
+  return v.type == T::integer ? Json(static_cast<int>(v.start)) : Json(v.start);
 }
 
 void print_json(const fmu::Fmu& made, const std::string& file) {
@@ -36,10 +35,13 @@ void print_json(const fmu::Fmu& made, const std::string& file) {
            {"token", made.token}};
   for (std::size_t k = 0; k < made.variables.size(); ++k) {
     const fmu::Variable& v = made.variables[k];
-    Json entry{{"name", v.name}, {"value_reference", k}, {"causality", word(v.causality)}};
+    Json entry{{"name", v.name},
+               {"value_reference", k},
+               {"type", fmu::word(v.type)},
+               {"causality", fmu::word(v.causality)}};
     if (!v.unit.empty()) entry["unit"] = v.unit;
     using C = fmu::Variable::Causality;
-    if (v.causality == C::parameter || v.causality == C::input) entry["start"] = v.start;
+    if (v.causality == C::parameter || v.causality == C::input) entry["start"] = start_of(v);
     entry["meaning"] = v.doc;
     out["variables"].push_back(entry);
   }

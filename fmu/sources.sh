@@ -14,6 +14,7 @@ for number in 2 3; do
   {
     echo "// The whole model as one source, for FMI $number.0. Made by Sinew $version. For GCC or Clang:"
     echo "//   g++ -std=c++20 -O2 -ffp-contract=off -fvisibility=hidden -fPIC -shared -I. fmi$number.cpp -o MODEL.so"
+    printf '%s\n' '#if __cplusplus < 202002L' '#error "compile this with -std=c++20"' '#endif'
     echo "#define SINEW_VERSION \"$version\""
     sed '/^#/d; s/.*/#include "&"/' fmu/muscle/sources.txt
     echo "#include \"fmu/muscle/module/fmi$number.cpp\""

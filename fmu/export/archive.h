@@ -8,6 +8,7 @@
 
 namespace sinew::fmu {
 
+// Holds a file of the archive.
 struct ArchiveFile {
   std::string name;  // with folders: "resources/model.txt"
   std::string bytes;

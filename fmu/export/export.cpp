@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 
 #include "fmu/export/archive.h"
@@ -182,21 +183,40 @@ void add_sources(std::vector<ArchiveFile>& files, const fs::path& folder, int ve
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file()) found.push_back(entry.path());
   std::ranges::sort(found);
+  // The one of the other version stays out.
   const std::string other = version == 2 ? "fmi3" : "fmi2";
   for (const fs::path& file : found)
     if (!file.filename().string().starts_with(other))
       files.push_back({"sources/" + fs::relative(file, folder).generic_string(), bytes_of(file)});
 }
 
-// The names that FMI has for this kind of computer.
+// The names that FMI has for this kind of computer; 2.0 has none for others than x86-64.
 std::string platform_folder(int version) {
-#if defined(__x86_64__) && defined(__linux__)
+#if defined(__x86_64__)
   return version == 2 ? "linux64" : "x86_64-linux";
-#elif defined(__aarch64__) && defined(__linux__)
-  return version == 2 ? "linux64" : "aarch64-linux";
 #else
-#error "say what FMI calls this kind of computer"
+  if (version == 2) refuse("version: FMI 2.0 has no name for this kind of computer; expected 3");
+  return "aarch64-linux";
 #endif
+}
+
+// An importer finds variables by their names.
+void refuse_twins(const std::vector<Variable>& variables) {
+  std::set<std::string> names;
+  for (const Variable& v : variables)
+    if (!names.insert(v.name).second)
+      refuse(v.name +
+             ": found twice among the variables; expected each joint, input, output and "
+             "parameter once");
+}
+
+void refuse_unprintable(const std::string& name) {
+  const bool blank = name.find_first_not_of(' ') == std::string::npos;
+  if (!name.empty() && !blank &&
+      std::ranges::all_of(name, [](char c) { return c >= ' ' && c <= '~'; }))
+    return;
+  refuse("name: found " + std::string(blank ? "nothing" : "characters that are no letters") +
+         "; expected a name in plain letters");
 }
 
 }  // namespace
@@ -206,6 +226,8 @@ Fmu make_fmu(const Asked& asked) {
     refuse(fmt::format("version: found {}; expected 2 or 3", asked.version));
   Made made = make(asked);
   if (!asked.name.empty()) made.name = asked.name;
+  refuse_unprintable(made.name);
+  refuse_twins(made.variables);
 
   Described model{.name = made.name,
                   .identifier = identifier_of(made.name),

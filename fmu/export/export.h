@@ -22,6 +22,7 @@
 
 namespace sinew::fmu {
 
+// Says of which file an FMU is to be made, and what an importer is to see of it.
 struct Asked {
   std::string file;
   std::vector<std::string> sets;  // key=value in place of the file's
@@ -39,6 +40,7 @@ struct Asked {
   std::string modules;
 };
 
+// Holds an FMU that was made.
 struct Fmu {
   std::string kind, name, identifier, token;
   std::vector<Variable> variables;

@@ -83,6 +83,8 @@ std::string log_categories(std::string_view description) {
   return fmt::format(
       "  <LogCategories>\n"
       "    <Category name=\"logStatusError\"{0}=\"why a call was refused or has failed\"/>\n"
+      "    <Category name=\"logStatusDiscard\"{0}=\"what could not be done and may be tried "
+      "otherwise\"/>\n"
       "    <Category name=\"logEvents\"{0}=\"what happens\"/>\n"
       "  </LogCategories>\n",
       std::string(" ") + std::string(description));
@@ -93,23 +95,9 @@ std::string experiment_of(const Described& model) {
          attribute("stepSize", model.step) + "/>\n";
 }
 
-std::string_view causality_word(Causality c) {
-  switch (c) {
-    case Causality::time:
-      return "independent";
-    case Causality::parameter:
-      return "parameter";
-    case Causality::input:
-      return "input";
-    case Causality::output:
-      return "output";
-  }
-  return "";
-}
-
 std::string_view variability_word(const Variable& v) {
   if (v.causality == Causality::parameter) return "fixed";
-  return v.type == Type::real ? "continuous" : "discrete";
+  return v.type == Type::real && !v.discrete ? "continuous" : "discrete";
 }
 
 bool has_start(const Variable& v) {
@@ -136,6 +124,14 @@ std::string numbers(const std::vector<int>& of, int more) {
   return out;
 }
 
+// "0 to 1", "at least 0"; empty where anything goes.
+std::string range_of(const Variable& v) {
+  const bool least = std::isfinite(v.min), most = std::isfinite(v.max);
+  if (v.type == Type::boolean || (!least && !most)) return "";
+  if (!most) return "at least " + text_of(v.min);
+  return (least ? text_of(v.min) + " to " : "at most ") + text_of(v.max);
+}
+
 std::vector<std::size_t> places_of(const Described& model, Causality causality) {
   std::vector<std::size_t> out;
   for (std::size_t k = 0; k < model.variables.size(); ++k)
@@ -157,7 +153,7 @@ std::string named(const Variable& v, std::size_t place) {
   return attribute("name", std::string_view(v.name)) +
          fmt::format(" valueReference=\"{}\"", place) +
          attribute("description", std::string_view(v.doc)) +
-         attribute("causality", causality_word(v.causality)) +
+         attribute("causality", std::string_view(word(v.causality))) +
          attribute("variability", variability_word(v)) +
          (v.causality == Causality::parameter ? " initial=\"exact\"" : "");
 }
@@ -225,7 +221,8 @@ std::string fmi3_description(const Described& model) {
 std::string build_description(const Described& model) {
   return std::string(xml_head) + "<fmiBuildDescription fmiVersion=\"3.0\">\n  <BuildConfiguration" +
          attribute("modelIdentifier", std::string_view(model.identifier)) +
-         ">\n    <SourceFileSet language=\"C++20\" compilerOptions=\"-ffp-contract=off\">\n"
+         ">\n    <SourceFileSet language=\"C++20\" compiler=\"gcc\" "
+         "compilerOptions=\"-ffp-contract=off\">\n"
          "      <SourceFile name=\"fmi3.cpp\"/>\n      <IncludeDirectory name=\".\"/>\n"
          "    </SourceFileSet>\n  </BuildConfiguration>\n</fmiBuildDescription>\n";
 }
@@ -241,15 +238,17 @@ std::string variables_page(const Described& model) {
   for (const Causality c : {Causality::input, Causality::output, Causality::parameter}) {
     const std::vector<std::size_t> places = places_of(model, c);
     if (places.empty()) continue;
-    out += fmt::format("<h2>{}s</h2>\n<table><tr><th>name<th>unit<th>start<th>meaning</tr>\n",
-                       c == Causality::input    ? "Input"
-                       : c == Causality::output ? "Output"
-                                                : "Parameter");
+    out +=
+        fmt::format("<h2>{}s</h2>\n<table><tr><th>name<th>unit<th>start<th>range<th>meaning</tr>\n",
+                    c == Causality::input    ? "Input"
+                    : c == Causality::output ? "Output"
+                                             : "Parameter");
     for (const std::size_t k : places) {
       const Variable& v = model.variables[k];
       const std::string unit = v.unit == "1" ? "" : v.unit;
-      out += fmt::format("<tr><td>{}<td>{}<td>{}<td>{}</tr>\n", escaped(v.name), escaped(unit),
-                         has_start(v) ? text_of(v.start) : "", escaped(v.doc));
+      out +=
+          fmt::format("<tr><td>{}<td>{}<td>{}<td>{}<td>{}</tr>\n", escaped(v.name), escaped(unit),
+                      has_start(v) ? text_of(v.start) : "", range_of(v), escaped(v.doc));
     }
     out += "</table>\n";
   }

@@ -9,6 +9,7 @@
 
 namespace sinew::fmu {
 
+// Holds what a description says of a model.
 struct Described {
   std::string name;        // of the model, for people
   std::string identifier;  // a C identifier: the binary's file name
@@ -21,6 +22,7 @@ struct Described {
   std::vector<Variable> variables;  // the time first
 };
 
+// Return modelDescription.xml.
 std::string fmi2_description(const Described& model);
 std::string fmi3_description(const Described& model);
 

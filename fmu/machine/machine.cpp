@@ -1,9 +1,9 @@
 #include "fmu/machine/machine.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <stdexcept>
 
 #include "fmu/slave/saved.h"
@@ -24,7 +24,7 @@ constexpr const char* file_name = "machine.toml";
 
 // The number of a key of the experiment, in SI; and its unit.
 struct Number {
-  double value = 0, least = -units::unbounded, most = units::unbounded;
+  double value = 0;
   std::string unit, source;
 };
 
@@ -43,8 +43,8 @@ Number number_of_key(const experiment::Experiment& e, const config::Node& in_si,
                                 (near.empty() ? "" : "; try " + near));
   }
   Number out{.unit = origin->unit, .source = origin->source};
-  if (node->kind == config::Node::Kind::text)
-    out.value = std::strtod(node->text.c_str(), nullptr);
+  if (node->kind == config::Node::Kind::text)  // "0.23 N m s/rad"
+    std::from_chars(node->text.data(), node->text.data() + node->text.size(), out.value);
   else if (node->is_number())
     out.value =
         node->kind == config::Node::Kind::integer ? static_cast<double>(node->integer) : node->real;
@@ -84,20 +84,21 @@ void Machine::place_variables(const Description& description) {
                     .start = simulation_->value_of(number),
                     .min = 0,
                     .max = gait::Setting::most,
-                    .doc = "in the plan's place, once it is another than at the start"});
+                    .doc = "in the plan's place, once it is another than at the start",
+                    .discrete = true});
     inputs_.push_back({place, number, key, {}, sheet_.value(place)});
   }
 
   std::vector<std::string> outputs = description.all("output");
   if (outputs.empty())
     for (const run::Simulation::Channel& c : simulation_->channels()) outputs.push_back(c.name);
+  first_output_ = sheet_.variables().size();
   for (const std::string& name : outputs) {
     const std::size_t number = simulation_->find(name);
-    const std::size_t place = sheet_.add({.name = structured(name),
-                                          .causality = Causality::output,
-                                          .unit = simulation_->channels()[number].unit,
-                                          .doc = "channel " + name});
-    outputs_.push_back({place, number, name, {}, 0});
+    sheet_.add({.name = structured(name),
+                .causality = Causality::output,
+                .unit = simulation_->channels()[number].unit,
+                .doc = "channel " + name});
     channels_.push_back(number);
   }
   read_.resize(channels_.size());
@@ -121,7 +122,7 @@ experiment::Experiment Machine::experiment() const {
   return run::buildable(tree, file_name);
 }
 
-void Machine::begin(double) {
+void Machine::begin() {
   simulation_ = std::make_unique<run::Simulation>(experiment());
   fresh_ = false;
 }
@@ -131,9 +132,7 @@ double Machine::output(std::size_t place) const {
     simulation_->read(channels_, read_);
     fresh_ = true;
   }
-  for (std::size_t k = 0; k < outputs_.size(); ++k)
-    if (outputs_[k].place == place) return read_[k];
-  return std::numeric_limits<double>::quiet_NaN();  // every output has its place above
+  return read_[place - first_output_];
 }
 
 const char* Machine::advance(double end, double) noexcept {
@@ -149,7 +148,8 @@ const char* Machine::advance(double end, double) noexcept {
   // A communication point that is a tick but for rounding is that tick.
   constexpr double slack = 1e-3;  // [ticks]
   const double ticks = end / signals::tick_seconds;
-  simulation_->advance_to(static_cast<signals::Tick>(std::floor(ticks + slack)));
+  const auto last = static_cast<double>(simulation_->last());
+  simulation_->advance_to(static_cast<signals::Tick>(std::min(std::floor(ticks + slack), last)));
   fresh_ = false;
   if (!simulation_->ended() || simulation_->tick() >= simulation_->last()) return nullptr;
   cause_ = simulation_->cause();
@@ -170,7 +170,7 @@ void Machine::restore(std::span<const std::byte> saved) {
   fresh_ = false;
 }
 
-double Machine::duration() const {
+double Machine::duration() const noexcept {
   return static_cast<double>(simulation_->last()) * signals::tick_seconds;
 }
 

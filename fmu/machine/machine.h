@@ -31,24 +31,29 @@ class Machine {
  public:
   static constexpr std::string_view kind = "machine";
 
+  // Takes the model that the description tells of. Throws std::exception for what is wrong with it.
   explicit Machine(const Description& description);
   // Throws config::Error or std::exception for an experiment that cannot be built and for names
   // that it does not have.
   static Description describe(const experiment::Experiment& experiment, const MachineShown& shown);
 
+  // The variables, with the values of those that are set.
   const Sheet& sheet() const { return sheet_; }
   Sheet& sheet() { return sheet_; }
 
-  void begin(double start_time);
+  void begin();
+  // See instance.h: an output, what forbids a step, the step, and where the plan ends.
   double output(std::size_t place) const;
+  std::string wrong(double) const { return {}; }
   const char* advance(double end, double step) noexcept;
-  bool ended() const noexcept { return simulation_->ended(); }
+  double last() const noexcept { return simulation_->ended() ? simulation_->time() : duration(); }
 
+  // The model's own state as bytes, and back.
   std::vector<std::byte> save() const;
   void restore(std::span<const std::byte> saved);
 
   // Returns how long the plan takes  [s].
-  double duration() const;
+  double duration() const noexcept;
 
  private:
   struct Shown {
@@ -63,10 +68,12 @@ class Machine {
 
   Sheet sheet_;
   config::Node tree_;
-  std::vector<Shown> inputs_, outputs_, parameters_;
+  std::vector<Shown> inputs_, parameters_;
   std::unique_ptr<run::Simulation> simulation_;
 
-  // Outputs at the tick that the simulation stands at, read together once one is asked for.
+  // Outputs at the tick that the simulation stands at, read together once one is asked for; the
+  // first one's place, after which the others follow.
+  std::size_t first_output_ = 0;
   std::vector<std::size_t> channels_;
   mutable std::vector<double> read_;
   mutable bool fresh_ = false;

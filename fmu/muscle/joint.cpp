@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "fmu/muscle/muscle_fields.h"
+#include "fmu/slave/discarded.h"
 #include "fmu/slave/saved.h"
 #include "sinew/robot/muscle.fields.h"
 
@@ -58,6 +59,15 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::ranges::find(names, name) != names.end();
 }
 
+// Returns the robot's joint of that name. Throws where there is none, and where nothing pulls it.
+const robot::Joint& pulled_joint(const robot::Robot& robot, const std::string& name) {
+  const int at = robot::find_joint(robot, name);
+  if (at < 0) throw std::invalid_argument("joint: found \"" + name + "\", which the robot has not");
+  if (std::ranges::none_of(robot.muscles, [&](const auto& m) { return crosses(m, name); }))
+    throw std::invalid_argument("joint: found \"" + name + "\", which no muscle pulls");
+  return robot.joints[static_cast<std::size_t>(at)];
+}
+
 void refuse_unnamed(const robot::Muscle& m, const std::vector<std::string>& joints) {
   for (const std::string& crossed : {m.joint, m.second.joint})
     if (!crossed.empty() && !has(joints, crossed))
@@ -101,12 +111,7 @@ Description Joint::describe(const robot::Robot& robot, const std::vector<air::Mu
     list.insert(list.end(), lister.found.begin(), lister.found.end());
   };
   for (const std::string& name : joints) {
-    const int at = robot::find_joint(robot, name);
-    if (at < 0)
-      throw std::invalid_argument("joint: found \"" + name + "\", which the robot has not");
-    robot::Joint joint = robot.joints[static_cast<std::size_t>(at)];
-    if (std::ranges::none_of(robot.muscles, [&](const auto& m) { return crosses(m, name); }))
-      throw std::invalid_argument("joint: found \"" + name + "\", which no muscle pulls");
+    robot::Joint joint = pulled_joint(robot, name);
     out.add("joint", name);
     keep("joint." + name + ".", [&](Lister& v) { route_fields(v, joint); });
   }
@@ -152,14 +157,14 @@ void Joint::place_variables(double pressure) {
                            .start = joint.rest_angle,
                            .min = -turns,
                            .max = turns,
-                           .doc = "at the step's begin",
+                           .doc = "at the step's begin, counter-clockwise",
                            .rate = static_cast<int>(sheet_.variables().size()) + 1});
     at.rate = sheet_.add({.name = structured(joint.name) + ".rate",
                           .causality = Causality::input,
                           .unit = "rad/s",
                           .min = -1e5,
                           .max = 1e5,
-                          .doc = "of the angle"});
+                          .doc = "of the angle, > 0 raises it"});
   }
   for (Pull& pull : pulls_)
     pull.valves = add_valves(sheet_, pull.muscle, structured(pull.muscle.name) + ".");
@@ -200,16 +205,37 @@ void Joint::lengths_at(std::span<const double> angles, Lengths& lengths,
   routing_->at<most>(angles.data(), still.data(), lengths, rates, arms);
 }
 
-void Joint::begin(double) {
+// Says which muscle would have a length that it cannot have; empty: none.
+std::string Joint::wrong_at(std::span<const double> angles) const {
+  Lengths lengths;
+  Arms arms{};
+  lengths_at(angles, lengths, arms);
+  for (std::size_t m = 0; m < pulls_.size(); ++m) {
+    const air::Muscle& muscle = pulls_[m].muscle;
+    const double length = lengths[static_cast<int>(m)];
+    std::string why = wrong_length(muscle.actuator, muscle.name + ".length", length);
+    if (!why.empty()) return why + ", by the angles of its joints, which are in rad";
+  }
+  return {};
+}
+
+std::vector<double> Joint::angles_after(double step) const {
+  std::vector<double> out;
+  for (const Places& at : at_) out.push_back(sheet_.value(at.angle) + sheet_.value(at.rate) * step);
+  return out;
+}
+
+std::string Joint::wrong(double step) const { return wrong_at(angles_after(step)); }
+
+void Joint::begin() {
   const std::vector<Parameter> set = sheet_.parameters();
   Filler fill(set, "");
   visit(fill);
   routing_.emplace(robot_);
-  angles_.clear();
-  for (const Places& at : at_) angles_.push_back(sheet_.value(at.angle));
+  angles_ = angles_after(0);
+  if (const std::string why = wrong_at(angles_); !why.empty()) throw Discarded(why);
   Lengths lengths;
-  Arms arms{};
-  lengths_at(angles_, lengths, arms);
+  lengths_at(angles_, lengths, arms_);
   for (std::size_t m = 0; m < pulls_.size(); ++m) {
     pulls_[m].driven.emplace(pulls_[m].muscle, air_, supply_, lengths[static_cast<int>(m)],
                              sheet_.value(initial_pressure_));
@@ -219,11 +245,8 @@ void Joint::begin(double) {
 
 // Torque of the muscles, or the bound of their dry friction  [N m].
 double Joint::of_joint(std::size_t joint, bool friction) const noexcept {
-  Lengths lengths;
-  Arms arms{};
-  lengths_at(angles_, lengths, arms);
   double sum = 0;
-  routing_->each(arms, [&](int m, std::size_t j, double arm) {
+  routing_->each(arms_, [&](int m, std::size_t j, double arm) {
     const air::DrivenMuscle& muscle = *pulls_[static_cast<std::size_t>(m)].driven;
     if (j == joint) sum += friction ? std::abs(arm) * muscle.friction() : arm * muscle.tension();
   });
@@ -247,8 +270,7 @@ const char* Joint::advance(double, double step) noexcept {
   for (std::size_t j = 0; j < at_.size(); ++j)
     angles_[j] = sheet_.value(at_[j].angle) + sheet_.value(at_[j].rate) * step;
   Lengths lengths;
-  Arms arms{};
-  lengths_at(angles_, lengths, arms);
+  lengths_at(angles_, lengths, arms_);
   for (std::size_t m = 0; m < pulls_.size(); ++m) {
     Pull& pull = pulls_[m];
     command(*pull.driven, sheet_, pull.valves, pull.commanded);
@@ -272,6 +294,8 @@ std::vector<std::byte> Joint::save() const {
 
 void Joint::restore(std::span<const std::byte> saved) {
   for (double& angle : angles_) angle = take<double>(saved);
+  Lengths lengths;
+  lengths_at(angles_, lengths, arms_);
   for (Pull& pull : pulls_) {
     pull.driven->restore(take<air::DrivenMuscle::State>(saved));
     pull.commanded = take<Commanded>(saved);

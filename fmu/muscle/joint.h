@@ -27,6 +27,7 @@ class Joint {
  public:
   static constexpr std::string_view kind = "joint";
 
+  // Takes the model that the description tells of. Throws std::exception for what is wrong with it.
   explicit Joint(const Description& description);
   // Describes the named joints of a robot with every muscle that crosses one of them; `muscles` are
   // the robot's, in its order. Throws std::invalid_argument for a joint that there is not, for one
@@ -35,14 +36,19 @@ class Joint {
                               const std::vector<std::string>& joints, const gas::Air& air,
                               const gas::Supply& supply, double pressure);
 
+  // The variables, with the values of those that are set.
   const Sheet& sheet() const { return sheet_; }
   Sheet& sheet() { return sheet_; }
 
-  void begin(double start_time);
+  // Throws std::exception for parameters that do not go together, and for angles at which a muscle
+  // would be longer or shorter than it can be.
+  void begin();
   double output(std::size_t place) const;
+  std::string wrong(double step) const;
   const char* advance(double end, double step) noexcept;
-  bool ended() const noexcept { return false; }
+  double last() const noexcept { return units::unbounded; }
 
+  // The model's own state as bytes, and back.
   std::vector<std::byte> save() const;
   void restore(std::span<const std::byte> saved);
 
@@ -66,7 +72,9 @@ class Joint {
   void visit(Visitor& v);
   void place_variables(double pressure);
   void place_outputs();
+  std::vector<double> angles_after(double step) const;
   void lengths_at(std::span<const double> angles, Lengths& lengths, Arms& arms) const noexcept;
+  std::string wrong_at(std::span<const double> angles) const;
   double of_joint(std::size_t joint, bool friction) const noexcept;
 
   Sheet sheet_;
@@ -78,6 +86,7 @@ class Joint {
   std::size_t initial_pressure_ = 0;
   std::optional<plant::MuscleRouting> routing_;
   std::vector<double> angles_;  // where the last step ended [rad]
+  Arms arms_{};                 // there [m]
 };
 
 }  // namespace sinew::fmu

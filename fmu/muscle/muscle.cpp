@@ -1,6 +1,7 @@
 #include "fmu/muscle/muscle.h"
 
 #include "fmu/muscle/muscle_fields.h"
+#include "fmu/slave/discarded.h"
 #include "fmu/slave/saved.h"
 
 namespace sinew::fmu {
@@ -37,9 +38,10 @@ ValvePlaces add_valves(Sheet& sheet, const air::Muscle& muscle, const std::strin
     return out;
   }
   const bool three_way = muscle.inlet.kind == Kind::three_way;
-  out.inlet = current("inlet", three_way ? "current of the 3-way valve's coil: supply or room"
-                                         : "current of the inlet's coil");
-  if (!three_way) out.exhaust = current("exhaust", "current of the exhaust's coil");
+  out.inlet =
+      current("inlet", three_way ? "has the 3-way valve's coil current? on: supply, off: room"
+                                 : "has the inlet's coil current? on: it opens");
+  if (!three_way) out.exhaust = current("exhaust", "has the exhaust's coil current? on: it opens");
   return out;
 }
 
@@ -92,13 +94,11 @@ Muscle::Muscle(const Description& description) {
 }
 
 void Muscle::place_variables(const std::vector<Parameter>& list, const MuscleStart& start) {
-  const double threads = muscle_.actuator.braid.thread_length;
   at_.length = sheet_.add({.name = "length",
                            .causality = Causality::input,
                            .unit = "m",
                            .start = start.length,
                            .min = 0,
-                           .max = muscle_.actuator.caps.length + 1.5 * threads,
                            .doc = "from end to end at the step's begin, with its caps",
                            .rate = static_cast<int>(sheet_.variables().size()) + 1});
   at_.rate = sheet_.add({.name = "rate",
@@ -126,12 +126,14 @@ void Muscle::place_variables(const std::vector<Parameter>& list, const MuscleSta
   sheet_.add(list, is_idle);
 }
 
-void Muscle::begin(double) {
+void Muscle::begin() {
   const std::vector<Parameter> set = sheet_.parameters();
   Filler fill(set, "");
   all_fields(fill, muscle_, air_, supply_);
-  driven_.emplace(muscle_, air_, supply_, sheet_.value(at_.length),
-                  sheet_.value(at_.initial_pressure));
+  const double length = sheet_.value(at_.length);
+  if (const std::string why = wrong_length(muscle_.actuator, "length", length); !why.empty())
+    throw Discarded(why);
+  driven_.emplace(muscle_, air_, supply_, length, sheet_.value(at_.initial_pressure));
   commanded_ = {};
 }
 
@@ -144,9 +146,13 @@ double Muscle::output(std::size_t place) const {
   return driven_->account().in;
 }
 
+std::string Muscle::wrong(double step) const {
+  return wrong_length(muscle_.actuator, "length + rate x step", length_after(step));
+}
+
 const char* Muscle::advance(double, double step) noexcept {
   command(*driven_, sheet_, at_.valves, commanded_);
-  driven_->advance(step, sheet_.value(at_.length) + sheet_.value(at_.rate) * step);
+  driven_->advance(step, length_after(step));
   return driven_->failed() ? "the muscle's state is no number any more: its length or its "
                              "parameters are beyond what the laws hold for"
                            : nullptr;

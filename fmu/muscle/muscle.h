@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fmu/slave/sheet.h"
@@ -44,24 +45,33 @@ class Muscle {
  public:
   static constexpr std::string_view kind = "muscle";
 
+  // Takes the model that the description tells of. Throws std::exception for what is wrong with it.
   explicit Muscle(const Description& description);
+  // Returns what the exporter writes of a muscle.
   static Description describe(const air::Muscle& muscle, const gas::Air& air,
                               const gas::Supply& supply, const MuscleStart& start);
 
+  // The variables, with the values of those that are set.
   const Sheet& sheet() const { return sheet_; }
   Sheet& sheet() { return sheet_; }
 
-  // Throws std::exception for parameters that do not go together.
-  void begin(double start_time);
+  // Throws std::exception for parameters that do not go together, and for a length that it cannot
+  // have.
+  void begin();
   double output(std::size_t place) const;
+  std::string wrong(double step) const;
   const char* advance(double end, double step) noexcept;
-  bool ended() const noexcept { return false; }
+  double last() const noexcept { return units::unbounded; }
 
+  // The model's own state as bytes, and back.
   std::vector<std::byte> save() const;
   void restore(std::span<const std::byte> saved);
 
  private:
   void place_variables(const std::vector<Parameter>& list, const MuscleStart& start);
+  double length_after(double step) const {
+    return sheet_.value(at_.length) + sheet_.value(at_.rate) * step;
+  }
 
   struct Places {
     std::size_t length, rate, initial_pressure, tension, friction, pressure, gauge, mass, used;

@@ -2,6 +2,8 @@
 // joined for one muscle.
 #pragma once
 
+#include <string>
+
 #include "fmu/slave/parameters.h"
 #include "sinew/actuator/actuator.fields.h"
 #include "sinew/air/muscle.h"
@@ -12,6 +14,7 @@
 
 namespace sinew::fmu {
 
+// What a muscle has beside its actuator, valves and hose.
 template <class Visitor>
 void bundle_fields(Visitor& v, int& count, double& external_volume) {
   v.integer({.name = "count", .min = 1, .max = 100, .doc = "actuators in parallel"}, count);
@@ -32,6 +35,16 @@ void fields(Visitor& v, air::Muscle& muscle) {
     v.group({.name = "exhaust"}, [&](auto& g) { gas::fields(g, muscle.exhaust); });
   v.group({.name = "hose"}, [&](auto& g) { gas::fields(g, muscle.hose); });
   v.group({.name = "leak"}, [&](auto& g) { gas::fields(g, muscle.leak); });
+}
+
+// Says what is wrong with a length of an actuator, by the name that the importer knows it by: it is
+// shorter than the caps alone or longer than they and one and a half threads. Empty: nothing.
+inline std::string wrong_length(const actuator::Actuator& a, const std::string& name,
+                                double length) {
+  const double least = a.caps.length, most = least + 1.5 * a.braid.thread_length;
+  if (length > least && length <= most) return {};
+  return name + ": found " + text_of(length) + " m; expected more than " + text_of(least) +
+         " m (the caps alone), at most " + text_of(most) + " m (one and a half threads)";
 }
 
 // Returns whether an importer has no use for it: what a coil takes, since an FMU does not count

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fmu/muscle/muscle_fields.h"
+#include "fmu/slave/discarded.h"
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/loss.h"
 #include "sinew/actuator/stiffness.h"
@@ -50,13 +51,11 @@ Tube::Tube(const Description& description) {
 
 void Tube::place_variables(const std::vector<Parameter>& list) {
   using C = Variable::Causality;
-  const double threads = actuator_.braid.thread_length;
   at_.length = sheet_.add({.name = "length",
                            .causality = C::input,
                            .unit = "m",
                            .start = actuator_.long_end.length,
                            .min = 0,
-                           .max = actuator_.caps.length + 1.5 * threads,
                            .doc = "from end to end, with its caps",
                            .rate = static_cast<int>(sheet_.variables().size()) + 1});
   at_.rate = sheet_.add({.name = "rate",
@@ -86,7 +85,7 @@ void Tube::place_variables(const std::vector<Parameter>& list) {
   sheet_.add(list, is_idle);
 }
 
-void Tube::begin(double) {
+void Tube::begin() {
   const std::vector<Parameter> set = sheet_.parameters();
   Filler fill(set, "");
   fields(fill, {actuator_, air_, count_, external_volume_});
@@ -94,6 +93,8 @@ void Tube::begin(double) {
 
 double Tube::output(std::size_t place) const {
   const double length = sheet_.value(at_.length), pressure = sheet_.value(at_.pressure);
+  if (const std::string why = wrong_length(actuator_, "length", length); !why.empty())
+    throw Discarded(why);
   const double room = air_.atmosphere, n = count_;
   const actuator::Actuator& a = actuator_;
   if (place == at_.volume) return n * actuator::volume(a, length) + external_volume_;

@@ -6,11 +6,13 @@
 //   friction = bound of the dry friction, [33], [34]: whoever integrates decides whether it sticks
 //   stiffness = dF/dL at constant pressure with that of ends and bladder, [26]
 //
-// Valid where docs/theory/actuator.md says so; caps to one and a half threads are accepted.
+// Valid where docs/theory/actuator.md says so; beyond possible lengths (muscle_fields.h) nothing is
+// answered.
 #pragma once
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "fmu/slave/sheet.h"
@@ -23,20 +25,25 @@ class Tube {
  public:
   static constexpr std::string_view kind = "tube";
 
+  // Takes the model that the description tells of. Throws std::exception for what is wrong with it.
   explicit Tube(const Description& description);
   // What the exporter writes.
   static Description describe(const actuator::Actuator& actuator, const gas::Air& air, int count,
                               double external_volume);
 
+  // The variables, with the values of those that are set.
   const Sheet& sheet() const { return sheet_; }
   Sheet& sheet() { return sheet_; }
 
-  void begin(double start_time);
+  void begin();
+  // Returns an output. Throws Discarded for a length that the actuator cannot have.
   double output(std::size_t place) const;
-  // Nothing moves by itself. Returns what went wrong; nullptr: nothing.
+  // Nothing moves by itself.
+  std::string wrong(double) const { return {}; }
   const char* advance(double, double) noexcept { return nullptr; }
-  bool ended() const noexcept { return false; }
+  double last() const noexcept { return units::unbounded; }
 
+  // A tube has no state of its own.
   std::vector<std::byte> save() const { return {}; }
   void restore(std::span<const std::byte>) {}
 

@@ -15,8 +15,9 @@
 
 namespace sinew::fmu {
 
-// The two categories that modelDescription.xml names.
+// The categories that modelDescription.xml names.
 inline constexpr const char* error_category = "logStatusError";
+inline constexpr const char* discard_category = "logStatusDiscard";
 inline constexpr const char* event_category = "logEvents";
 
 // `Importer` has log(status, category, message) and, of the version's Status, the same enumerators.
@@ -27,13 +28,25 @@ struct Held {
   Instance<Models> instance;
   Importer importer;
   bool logging = false;
-  bool ended = false;  // a step came to the end of what the model has
 
+  // Tells the importer; of what is no trouble only where it has asked for it.
   void log(Status status, const std::string& message) const {
-    if (logging || status != Status::ok)
-      importer.log(status, status == Status::ok ? event_category : error_category, message);
+    if (status == Status::ok && !logging) return;
+    const char* category = status == Status::ok ? event_category : error_category;
+    importer.log(status, status == Status::discard ? discard_category : category, message);
   }
 };
+
+// Tells the importer why a call answers so, and answers so.
+template <class HeldInstance>
+typename HeldInstance::Status told(const HeldInstance& held, typename HeldInstance::Status status,
+                                   const char* function, const char* why) noexcept {
+  try {
+    held.log(status, std::string(function) + ": " + why);
+  } catch (...) {  // no memory for the message
+  }
+  return status;
+}
 
 // Calls `work(held)`, which may throw. Answers error, and tells the importer why, where it does or
 // where there is no instance.
@@ -50,13 +63,30 @@ typename HeldInstance::Status guarded(void* component, const char* function,
     } else {
       return work(held);
     }
+  } catch (const Discarded& e) {
+    return told(held, Status::discard, function, e.what());
   } catch (const std::exception& e) {
-    try {
-      held.log(Status::error, std::string(function) + ": " + e.what());
-    } catch (...) {  // no memory for the message
-    }
-    return Status::error;
+    return told(held, Status::error, function, e.what());
   }
+}
+
+// Makes a step. Done where it came to its end, or to where the model ends; discarded where the
+// model had ended before; `short_of` is what a step answers that the model's end has cut.
+template <class HeldInstance>
+typename HeldInstance::Status do_step(HeldInstance& held, const char* function, double from,
+                                      double length, typename HeldInstance::Status short_of) {
+  using Status = typename HeldInstance::Status;
+  auto& instance = held.instance;
+  const bool before = instance.ended();
+  const auto became = instance.step(from, length);
+  using Step = decltype(became);
+  if (became == Step::failed) return told(held, Status::error, function, instance.trouble());
+  if (instance.ended() && !before) held.log(Status::ok, "the model has come to its end");
+  if (became == Step::done) return Status::ok;
+  if (before) return told(held, Status::discard, function, "the model had come to its end before");
+  return short_of == Status::ok
+             ? Status::ok
+             : told(held, short_of, function, "the model has come to its end within the step");
 }
 
 // Reads values by their references. `convert` makes of the number what the caller's array holds.
@@ -99,6 +129,7 @@ inline void hand_over(void** state, Saved bytes) {
     *state = new Saved(std::move(bytes));
 }
 
+// Gives the state's bytes back and leaves the handle empty; of an empty one there is nothing to do.
 inline void free_state(void** state) {
   if (!state) return;
   delete static_cast<Saved*>(*state);

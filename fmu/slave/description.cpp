@@ -50,6 +50,13 @@ int hex_digit(char c) {
   return -1;
 }
 
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
+
 std::string without_percents(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -80,9 +87,8 @@ double number_of(std::string_view key, const std::string& text) {
   return out;
 }
 
-Description Description::parse(std::string_view text, const std::filesystem::path& folder) {
+Description Description::parse(std::string_view text) {
   Description out;
-  out.folder_ = folder;
   std::string stated;
   std::size_t number = 0;
   for (std::size_t begin = 0; begin < text.size(); ++number) {
@@ -112,7 +118,16 @@ Description Description::parse(std::string_view text, const std::filesystem::pat
 }
 
 Description Description::read(const std::filesystem::path& resources) {
-  return parse(read_text(resources / file_name), resources);
+  Description out = parse(read_text(resources / file_name));
+  for (const auto& [name, hash] : out.lines_of("file.")) {
+    std::string text = read_text(resources / name);
+    if (sixteen_digits(units::hash(text)) != hash)
+      throw std::runtime_error(
+          "resources/" + name +
+          ": the file is cut off or was changed by hand; export the FMU again");
+    out.files_.push_back({name, std::move(text)});
+  }
+  return out;
 }
 
 std::string Description::lines() const {
@@ -133,14 +148,10 @@ void Description::attach(const std::string& name, std::string text) {
   files_.push_back({name, std::move(text)});
 }
 
-std::string Description::file(const std::string& name) const {
+const std::string& Description::file(const std::string& name) const {
   for (const File& file : files_)
     if (file.name == name) return file.text;
-  const std::string text = read_text(folder_ / name);
-  if (sixteen_digits(units::hash(text)) != at("file." + name))
-    throw std::runtime_error("resources/" + name +
-                             ": the file is cut off or was changed by hand; export the FMU again");
-  return text;
+  throw std::runtime_error("resources: found no file " + name);
 }
 
 void Description::add(std::string key, std::string value) {
@@ -180,7 +191,8 @@ std::filesystem::path resource_folder(const char* location) {
         "found no place of resources; expected a file: URI or a path of the unpacked FMU's "
         "resources");
   const std::string_view text(location);
-  if (!text.starts_with("file:")) {
+  const bool is_file = text.size() > 5 && lower(text.substr(0, 5)) == "file:";
+  if (!is_file) {
     if (text.find("://") != std::string_view::npos)
       throw std::runtime_error("found resources at \"" + std::string(text) +
                                "\"; expected a file: URI or a path");

@@ -25,18 +25,19 @@ class Description {
 
   // Reads the file in the folder of resources. Throws std::runtime_error with what is wrong.
   static Description read(const std::filesystem::path& resources);
-  // The same from the file's text; `folder` is where other files of the model stand.
-  static Description parse(std::string_view text, const std::filesystem::path& folder = {});
+  // The same from the file's text, without the files beside it.
+  static Description parse(std::string_view text);
 
+  // Returns the file's text, its hash last.
   std::string text() const;
   // Hash of the text as 16 digits: equal descriptions have equal ones.
   std::string hash() const;
 
-  // A file beside it: its text is what was attached, or what stands in the folder. Throws
-  // std::runtime_error where there is none, or where it is not the one that was attached when the
-  // description was written.
+  // Files that stand beside it; read() has read them, and throws std::runtime_error where one is
+  // not the one that was attached when the description was written.
   void attach(const std::string& name, std::string text);
-  std::string file(const std::string& name) const;
+  // Returns the file's text. Throws std::runtime_error where there is none of that name.
+  const std::string& file(const std::string& name) const;
   struct File {
     std::string name, text;
   };
@@ -60,7 +61,6 @@ class Description {
   };
   std::vector<Line> lines_;
   std::vector<File> files_;  // in memory
-  std::filesystem::path folder_;
 };
 
 // Returns the folder that an importer names: a path, or a file: URI with percent signs undone.

@@ -16,21 +16,18 @@ using Boolean = int;
 using Byte = char;
 using String = const char*;
 
+// The standard's enumerations, in its order.
 enum class Status { ok, warning, discard, error, fatal, pending };
 enum class Type { model_exchange, co_simulation };
 enum class StatusKind { do_step, pending, last_successful_time, terminated };
 
+// Holds what an importer lets a slave call.
 struct Callbacks {
   void (*logger)(Environment, String instance, Status, String category, String format, ...);
   void* (*allocate)(std::size_t, std::size_t);
   void (*free)(void*);
   void (*step_finished)(Environment, Status);
   Environment environment;
-};
-
-struct EventInfo {
-  Boolean new_discrete_states_needed, terminate, nominals_changed, values_changed, next_event_known;
-  Real next_event;
 };
 
 }  // namespace sinew::fmu::fmi2

@@ -12,11 +12,13 @@
 
 namespace sinew::fmu::fmi2 {
 
+// Tells the importer, through the logger that it has given.
 struct Importer {
   using Status = fmi2::Status;
   Callbacks callbacks{};
   std::string name;
 
+  // Writes into the importer's log, if it has one.
   void log(Status status, const char* category, const std::string& message) const {
     if (callbacks.logger)
       callbacks.logger(callbacks.environment, name.c_str(), status, category, "%s",
@@ -27,15 +29,18 @@ struct Importer {
 using Slave = Held<Models, Importer>;
 using Variable = sinew::fmu::Variable;
 
+// Calls `work(slave)` and answers its status; error, in words, where it throws (component.h).
 template <class Work>
 Status call(Component c, const char* function, const Work& work) noexcept {
   return guarded<Slave>(c, function, work);
 }
 
+// Answers an error for what this model does not provide.
 inline Status refuse(Component c, const char* function, const char* why) noexcept {
   return call(c, function, [&](Slave&) { throw std::runtime_error(why); });
 }
 
+// Makes an instance; nullptr, and a word in the log, for what is wrong with what is asked.
 inline Component instantiate(String name, Type type, String guid, String resources,
                              const Callbacks* callbacks, bool logging) noexcept {
   Importer importer;
@@ -57,25 +62,9 @@ inline Component instantiate(String name, Type type, String guid, String resourc
   }
 }
 
-inline Status do_step(Slave& slave, Real from, Real length) {
-  using Step = Instance<Models>::Step;
-  switch (slave.instance.step(from, length)) {
-    case Step::done:
-      return Status::ok;
-    case Step::ended:
-      // The step that comes to the end is done; the one after it is not.
-      if (!slave.ended && slave.instance.time() > from) {
-        slave.ended = true;
-        return Status::ok;
-      }
-      slave.ended = true;
-      slave.log(Status::discard, "fmi2DoStep: the run has come to its end");
-      return Status::discard;
-    case Step::failed:
-      break;
-  }
-  slave.log(Status::error, std::string("fmi2DoStep: ") + slave.instance.trouble());
-  return Status::error;
+// FMI 2.0 answers so where a slave does not have the status that is asked for.
+inline Status no_status(Component c, const char* function, const char* why) noexcept {
+  return call(c, function, [&](Slave&) -> Status { throw Discarded(why); });
 }
 
 }  // namespace sinew::fmu::fmi2
@@ -107,16 +96,19 @@ Status fmi2EnterInitializationMode(Component c) {
   return call(c, __func__, [](Slave& s) { s.instance.enter_initialization(); });
 }
 Status fmi2ExitInitializationMode(Component c) {
-  return call(c, __func__, [](Slave& s) { s.instance.exit_initialization(); });
+  return call(c, __func__, [](Slave& s) {
+    s.instance.exit_initialization();
+    s.log(Status::ok, "the model has begun");
+  });
 }
 Status fmi2Terminate(Component c) {
-  return call(c, __func__, [](Slave& s) { s.instance.terminate(); });
+  return call(c, __func__, [](Slave& s) {
+    s.instance.terminate();
+    s.log(Status::ok, "the run is terminated");
+  });
 }
 Status fmi2Reset(Component c) {
-  return call(c, __func__, [](Slave& s) {
-    s.instance.reset();
-    s.ended = false;
-  });
+  return call(c, __func__, [](Slave& s) { s.instance.reset(); });
 }
 
 // --- values ---
@@ -163,10 +155,7 @@ Status fmi2GetFMUstate(Component c, State* state) {
   return call(c, __func__, [&](Slave& s) { sinew::fmu::hand_over(state, s.instance.save()); });
 }
 Status fmi2SetFMUstate(Component c, State state) {
-  return call(c, __func__, [&](Slave& s) {
-    s.instance.restore(sinew::fmu::bytes_of(state));
-    s.ended = s.instance.ended();
-  });
+  return call(c, __func__, [&](Slave& s) { s.instance.restore(sinew::fmu::bytes_of(state)); });
 }
 Status fmi2FreeFMUstate(Component c, State* state) {
   return call(c, __func__, [&](Slave&) { sinew::fmu::free_state(state); });
@@ -187,24 +176,28 @@ Status fmi2DeSerializeFMUstate(Component c, const Byte* bytes, std::size_t size,
 // --- steps ---
 
 Status fmi2DoStep(Component c, Real from, Real length, Boolean) {
-  return call(c, __func__, [&](Slave& s) { return do_step(s, from, length); });
+  return call(c, __func__, [&](Slave& s) {
+    return sinew::fmu::do_step(s, "fmi2DoStep", from, length, Status::discard);
+  });
 }
 Status fmi2CancelStep(Component c) {
   return refuse(c, __func__, "a step is done when fmi2DoStep returns: there is none to cancel");
 }
 
-// The first derivative of an input that has one, such as a muscle's length, is its rate.
+// The first derivative of a muscle's length or a joint's angle is its rate. What this model has no
+// use for - rates of rates, of pressures, higher orders - is heard and left.
 Status fmi2SetRealInputDerivatives(Component c, const Reference* at, std::size_t n,
                                    const Integer* orders, const Real* values) {
   return call(c, __func__, [&](Slave& s) {
     if (n > 0 && (!at || !orders || !values)) throw std::runtime_error("found no array of values");
     for (std::size_t k = 0; k < n; ++k) {
       const Variable& v = s.instance.variable(at[k], Variable::Type::real);
-      if (orders[k] != 1 || v.rate == 0)
+      if (v.causality != Variable::Causality::input || orders[k] < 1)
         throw std::runtime_error(v.name + ": found a derivative of order " +
                                  std::to_string(orders[k]) +
-                                 "; expected the first, of an input that has one");
-      s.instance.set(static_cast<std::size_t>(v.rate), Variable::Type::real, values[k]);
+                                 "; expected order 1 or more, of an input");
+      if (orders[k] == 1 && v.rate > 0)
+        s.instance.set(static_cast<std::size_t>(v.rate), Variable::Type::real, values[k]);
     }
   });
 }
@@ -220,27 +213,28 @@ Status fmi2GetDirectionalDerivative(Component c, const Reference*, std::size_t, 
 // --- what became of the last step ---
 
 Status fmi2GetStatus(Component c, StatusKind, Status*) {
-  return refuse(c, __func__, "no step of this model is ever pending");
+  return no_status(c, __func__, "no step of this model is ever pending");
 }
 Status fmi2GetRealStatus(Component c, StatusKind kind, Real* value) {
+  if (kind != StatusKind::last_successful_time)
+    return no_status(c, __func__, "expected fmi2LastSuccessfulTime");
   return call(c, __func__, [&](Slave& s) {
-    if (kind != StatusKind::last_successful_time || !value)
-      throw std::runtime_error("expected fmi2LastSuccessfulTime and a place for it");
+    if (!value) throw std::runtime_error("found no place for the time");
     *value = s.instance.time();
   });
 }
 Status fmi2GetIntegerStatus(Component c, StatusKind, Integer*) {
-  return refuse(c, __func__, "this model has no status that is a whole number");
+  return no_status(c, __func__, "this model has no status that is a whole number");
 }
 Status fmi2GetBooleanStatus(Component c, StatusKind kind, Boolean* value) {
+  if (kind != StatusKind::terminated) return no_status(c, __func__, "expected fmi2Terminated");
   return call(c, __func__, [&](Slave& s) {
-    if (kind != StatusKind::terminated || !value)
-      throw std::runtime_error("expected fmi2Terminated and a place for it");
-    *value = s.ended ? 1 : 0;
+    if (!value) throw std::runtime_error("found no place for the answer");
+    *value = s.instance.ended() ? 1 : 0;
   });
 }
 Status fmi2GetStringStatus(Component c, StatusKind, String*) {
-  return refuse(c, __func__, "no step of this model is ever pending");
+  return no_status(c, __func__, "no step of this model is ever pending");
 }
 
 }  // extern "C"

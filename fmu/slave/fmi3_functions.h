@@ -13,6 +13,7 @@
 
 namespace sinew::fmu::fmi3 {
 
+// The standard's, in its order.
 enum class Status { ok, warning, discard, error, fatal };
 
 using Instance = void*;
@@ -23,11 +24,13 @@ using String = const char*;
 using Binary = const std::uint8_t*;
 using Log = void (*)(Environment, Status, String category, String message);
 
+// Tells the importer, through the function that it has given.
 struct Importer {
   using Status = fmi3::Status;
   Environment environment = nullptr;
   Log write = nullptr;
 
+  // Writes into the importer's log, if it has one.
   void log(Status status, const char* category, const std::string& message) const {
     if (write) write(environment, status, category, message.c_str());
   }
@@ -36,11 +39,13 @@ struct Importer {
 using Slave = Held<Models, Importer>;
 using Variable = sinew::fmu::Variable;
 
+// Calls `work(slave)` and answers its status; error, in words, where it throws (component.h).
 template <class Work>
 Status call(Instance c, const char* function, const Work& work) noexcept {
   return guarded<Slave>(c, function, work);
 }
 
+// Answers an error for what this model does not provide.
 inline Status refuse(Instance c, const char* function, const char* why) noexcept {
   return call(c, function, [&](Slave&) { throw std::runtime_error(why); });
 }
@@ -50,6 +55,7 @@ inline constexpr const char* no_clocks = "this model has no clocks";
 inline constexpr const char* no_exchange =
     "this model is for co-simulation, not for model exchange";
 
+// Says in the log why there is no instance, and answers none.
 inline Instance refuse_instance(const char* function, Environment environment, Log write,
                                 const std::string& why) noexcept {
   try {
@@ -58,21 +64,6 @@ inline Instance refuse_instance(const char* function, Environment environment, L
   } catch (...) {  // no memory for the message
   }
   return nullptr;
-}
-
-inline Status do_step(Slave& slave, double from, double length, bool* ended) {
-  using Step = sinew::fmu::Instance<Models>::Step;
-  const double before = slave.instance.time();
-  const Step step = slave.instance.step(from, length);
-  if (step == Step::failed) {
-    slave.log(Status::error, std::string("fmi3DoStep: ") + slave.instance.trouble());
-    return Status::error;
-  }
-  if (step == Step::ended) {
-    *ended = slave.ended = true;
-    if (!(slave.instance.time() > before)) return Status::discard;
-  }
-  return Status::ok;
 }
 
 // A getter or a setter of a type that no variable has: right where nothing is asked for.
@@ -130,7 +121,10 @@ Status fmi3EnterInitializationMode(Instance c, bool, double, double start, bool,
   });
 }
 Status fmi3ExitInitializationMode(Instance c) {
-  return call(c, __func__, [](Slave& s) { s.instance.exit_initialization(); });
+  return call(c, __func__, [](Slave& s) {
+    s.instance.exit_initialization();
+    s.log(Status::ok, "the model has begun");
+  });
 }
 Status fmi3EnterEventMode(Instance c) {
   return refuse(c, __func__, "this model has no event mode");
@@ -143,13 +137,13 @@ Status fmi3ExitConfigurationMode(Instance c) {
   return refuse(c, __func__, "this model has no structural parameters");
 }
 Status fmi3Terminate(Instance c) {
-  return call(c, __func__, [](Slave& s) { s.instance.terminate(); });
+  return call(c, __func__, [](Slave& s) {
+    s.instance.terminate();
+    s.log(Status::ok, "the run is terminated");
+  });
 }
 Status fmi3Reset(Instance c) {
-  return call(c, __func__, [](Slave& s) {
-    s.instance.reset();
-    s.ended = false;
-  });
+  return call(c, __func__, [](Slave& s) { s.instance.reset(); });
 }
 
 // --- values; none of them is an array, so that there are as many values as references ---
@@ -237,14 +231,14 @@ Status fmi3SetClock(Instance c, At, Size n, const bool*) { return none(c, __func
 Status fmi3GetNumberOfVariableDependencies(Instance c, Reference at, Size* count) {
   return call(c, __func__, [&](Slave& s) {
     if (!count) throw std::runtime_error("found no place for the count");
-    *count = s.instance.follows(at).size();
+    *count = s.instance.variable(at).follows.size();
   });
 }
 Status fmi3GetVariableDependencies(Instance c, Reference at, Size* of, Reference* references,
                                    Size* in, int* kinds, Size count) {
   return call(c, __func__, [&](Slave& s) {
-    constexpr int dependent = 0;
-    const std::vector<int>& follows = s.instance.follows(at);
+    constexpr int dependent = 5;
+    const std::vector<int>& follows = s.instance.variable(at).follows;
     if (count != follows.size() || (count > 0 && (!of || !references || !in || !kinds)))
       throw std::runtime_error("expected room for " + std::to_string(follows.size()) +
                                " dependencies");
@@ -262,10 +256,7 @@ Status fmi3GetFMUState(Instance c, State* state) {
   return call(c, __func__, [&](Slave& s) { sinew::fmu::hand_over(state, s.instance.save()); });
 }
 Status fmi3SetFMUState(Instance c, State state) {
-  return call(c, __func__, [&](Slave& s) {
-    s.instance.restore(sinew::fmu::bytes_of(state));
-    s.ended = s.instance.ended();
-  });
+  return call(c, __func__, [&](Slave& s) { s.instance.restore(sinew::fmu::bytes_of(state)); });
 }
 Status fmi3FreeFMUState(Instance c, State* state) {
   return call(c, __func__, [&](Slave&) { sinew::fmu::free_state(state); });
@@ -288,10 +279,9 @@ Status fmi3DeserializeFMUState(Instance c, const std::uint8_t* bytes, Size size,
 Status fmi3DoStep(Instance c, double from, double length, bool, bool* event_needed, bool* ended,
                   bool* early, double* last_time) {
   return call(c, __func__, [&](Slave& s) {
-    bool over = false;
-    const Status out = do_step(s, from, length, &over);
+    const Status out = sinew::fmu::do_step(s, "fmi3DoStep", from, length, Status::ok);
     if (event_needed) *event_needed = false;
-    if (ended) *ended = over;
+    if (ended) *ended = s.instance.ended();
     if (early) *early = false;
     if (last_time) *last_time = s.instance.time();
     return out;

@@ -3,23 +3,24 @@
 //
 // `Models` is a std::variant of what the binary knows. A model has
 //
-//   static constexpr std::string_view kind        the word in resources/model.txt
-//   explicit Model(const Description&)            throws
-//   Sheet& sheet()                                variables, and values that are set
-//   void begin(double start_time)                 from parameters and inputs as they are; throws
-//   double output(std::size_t place)              of a variable that is an output, once it has
-//   begun const char* advance(double end, double step) noexcept     to `end` seconds after the
-//   start;
-//                                                 what went wrong, nullptr: nothing
-//   bool ended() const noexcept                   is there no more to advance?
-//   std::vector<std::byte> save(), void restore(std::span<const std::byte>)
+//   kind          the word in resources/model.txt
+//   Model(d)      from a Description; throws
+//   sheet()       variables, and values that are set
+//   begin()       takes parameters and inputs as they are; throws
+//   output(k)     the value of the output at place k, once it has begun; may throw
+//   wrong(h)      what forbids a step of h seconds, in words; empty: nothing. Changes nothing
+//   advance(end, h)   goes to `end` seconds after the start. Returns what went wrong, or nullptr
+//   last()        seconds after the start at which it has come to its end; infinite: it has none
+//   save(), restore(bytes)   its own state, once it has begun
 //
 // Every function but step() throws std::exception with a sentence for the importer's log; the C
 // functions around it catch. Nothing is shared between instances.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -27,6 +28,7 @@
 #include <vector>
 
 #include "fmu/slave/description.h"
+#include "fmu/slave/discarded.h"
 #include "fmu/slave/saved.h"
 #include "fmu/slave/sheet.h"
 #include "sinew/units/hash.h"
@@ -49,22 +51,31 @@ Models make_model(const Description& description) {
 template <class Models>
 class Instance {
  public:
-  enum class Phase { made, initializing, stepping, terminated, failed };
+  // Says how far an instance's life has come.
+  enum class Phase : std::uint32_t { made, initializing, stepping, terminated, failed };
+
+  // What became of a step: done; done up to where the model ends, in it or before it; failed.
   enum class Step { done, ended, failed };
 
+  // Makes the model. Throws where the token is not the description's.
   Instance(const Description& description, const std::string& token)
-      : description_(description), model_(make_model<Models>(description)) {
-    if (token != description.hash())
-      throw std::runtime_error("found the token " + token + "; expected " + description.hash() +
+      : description_(description),
+        stamp_(units::hash(SINEW_VERSION, units::hash(description_.text()))),
+        model_(make_model<Models>(description_)) {
+    if (token != description_.hash())
+      throw std::runtime_error("found the token " + token + "; expected " + description_.hash() +
                                ", which modelDescription.xml of this FMU has");
     sheet().to_start();
   }
 
+  // How far it is; and the simulated time that the last step has ended at [s].
   Phase phase() const { return phase_; }
   double time() const { return time_; }
 
   // --- phases ---
 
+  // The phases, in their order. Each throws where another one comes first; reset begins again with
+  // the description's values.
   void set_start(double time) {
     require(phase_ == Phase::made, "the start time is set", "before initialization");
     if (!std::isfinite(time)) throw std::runtime_error("start time: found no finite number");
@@ -95,15 +106,19 @@ class Instance {
 
   // --- values, by place ---
 
+  // Returns a value. Throws for a place or a type that there is not, and for an output before
+  // initialization.
   double get(std::size_t place, Variable::Type type) {
     const Variable& v = variable(place, type);
     if (v.causality == Variable::Causality::time) return time_;
     if (v.causality != Variable::Causality::output) return sheet().value(place);
-    require(phase_ != Phase::made, v.name + " is read", "in initialization or later");
+    require(phase_ != Phase::made, "an output is read", "in initialization or later");
     if (phase_ == Phase::initializing && !begun_) begin();
     return std::visit([&](auto& m) { return m.output(place); }, model_);
   }
 
+  // Sets a parameter or an input. Throws for others, at the wrong time, and Discarded out of its
+  // range.
   void set(std::size_t place, Variable::Type type, double value) {
     const Variable& v = variable(place, type);
     using C = Variable::Causality;
@@ -111,66 +126,73 @@ class Instance {
       throw std::runtime_error(v.name + ": is no input and no parameter, and cannot be set");
     const bool early = phase_ == Phase::made || phase_ == Phase::initializing;
     if (v.causality == C::parameter)
-      require(early, v.name + ", a parameter, is set", "before or in initialization");
+      require(early, "a parameter is set", "before or in initialization");
     else
-      require(early || phase_ == Phase::stepping, v.name + " is set", "before the run's end");
+      require(early || phase_ == Phase::stepping, "an input is set", "before the run's end");
     if (!(value >= v.min && value <= v.max) || !std::isfinite(value))
-      throw std::runtime_error(v.name + ": found " + text_of(value) + "; expected " +
-                               text_of(v.min) + " to " + text_of(v.max) +
-                               (v.unit.empty() || v.unit == "1" ? "" : " " + v.unit));
+      throw Discarded(v.name + ": found " + text_of(value) + "; expected " + text_of(v.min) +
+                      " to " + text_of(v.max) +
+                      (v.unit.empty() || v.unit == "1" ? "" : " " + v.unit));
     if (value != sheet().value(place)) begun_ = begun_ && phase_ != Phase::initializing;
     sheet().set(place, value);
   }
 
   // Returns the place's variable. Throws where there is none of that type.
   const Variable& variable(std::size_t place, Variable::Type type) const {
-    const std::vector<Variable>& all = sheet().variables();
-    if (place >= all.size())
-      throw std::runtime_error("value reference: found " + std::to_string(place) +
-                               "; expected less than " + std::to_string(all.size()));
-    if (all[place].type != type)
-      throw std::runtime_error(all[place].name + ": is " + word(all[place].type) +
-                               "; asked for as " + word(type));
-    return all[place];
+    const Variable& v = variable(place);
+    if (v.type != type)
+      throw std::runtime_error(v.name + ": is " + word(v.type) + "; asked for as " + word(type));
+    return v;
   }
-  // Returns what an output follows at once.
-  const std::vector<int>& follows(std::size_t place) const {
-    return sheet().variables().at(place).follows;
+  const Variable& variable(std::size_t place) const {
+    const std::vector<Variable>& all = sheet().variables();
+    if (place < all.size()) return all[place];
+    throw std::runtime_error("value reference: found " + std::to_string(place) +
+                             "; expected less than " + std::to_string(all.size()));
   }
 
   // --- time ---
 
-  // Advances from `from`, where it stands, by `step` [s]. Throws, and changes nothing, for times
-  // that do not go on from each other; what the physics does is answered.
+  // Advances from `from`, where it stands, by `length` [s]. Throws, and changes nothing, for times
+  // that do not go on from each other and for what the model refuses beforehand; what the physics
+  // does is answered.
   Step step(double from, double length) {
     require(phase_ == Phase::stepping, "a step is made", "after initialization");
     const double slack = 1e-9 * (1.0 + std::abs(time_));
     if (!(std::abs(from - time_) <= slack))
       throw std::runtime_error("communication point: found " + text_of(from) + " s; expected " +
                                text_of(time_) + " s, where the last step has ended");
-    if (!(length > 0) || !std::isfinite(length))
-      throw std::runtime_error("step: found " + text_of(length) + " s; expected more than 0");
+    if (!(length > 0 && length <= longest_step))
+      throw Discarded("step: found " + text_of(length) + " s; expected more than 0, at most " +
+                      text_of(longest_step));
     if (ended()) return Step::ended;
+    if (const std::string why = std::visit([&](auto& m) { return m.wrong(length); }, model_);
+        !why.empty())
+      throw Discarded(why);
+
     const double end = from + length;
     trouble_ = std::visit([&](auto& m) { return m.advance(end - start_, length); }, model_);
     if (trouble_) {
       phase_ = Phase::failed;
       return Step::failed;
     }
-    time_ = end;
-    return ended() ? Step::ended : Step::done;
+    const double last = start_ + std::visit([](const auto& m) { return m.last(); }, model_);
+    const bool whole = last >= end - slack;
+    time_ = whole ? end : last;
+    ended_ = last <= end + slack;
+    return whole ? Step::done : Step::ended;
   }
   // Returns why the last step failed.
   const char* trouble() const { return trouble_ ? trouble_ : ""; }
-  bool ended() const {
-    return begun_ && std::visit([](const auto& m) { return m.ended(); }, model_);
-  }
+  // Has a step come to where the model ends?
+  bool ended() const { return begun_ && ended_; }
 
   // --- saved states: parameters, inputs, time and the model's own ---
 
+  // Returns everything as bytes, with a hash behind them.
   std::vector<std::byte> save() {
     std::vector<std::byte> out;
-    append(out, Header{stamp(), phase_, begun_, start_, time_});
+    append(out, Header{stamp_, phase_, begun_ ? 1u : 0u, ended_ ? 1u : 0u, 0, start_, time_});
     for (const double value : sheet().values()) append(out, value);
     if (begun_) {
       const std::vector<std::byte> own = std::visit([](auto& m) { return m.save(); }, model_);
@@ -189,30 +211,31 @@ class Instance {
     if (take<std::uint64_t>(end) != units::hash(from))
       throw std::runtime_error("a saved state is cut off or spoilt");
     const Header header = take<Header>(from);
-    if (header.stamp != stamp())
+    if (header.stamp != stamp_)
       throw std::runtime_error("a saved state is of another FMU or another version of it");
-    Models fresh = make_model<Models>(description_);
-    Sheet& values = std::visit([](auto& m) -> Sheet& { return m.sheet(); }, fresh);
-    for (double& value : values.values()) value = take<double>(from);
-    if (header.begun)
-      std::visit(
-          [&](auto& m) {
-            m.begin(header.start);
-            m.restore(from);
-          },
-          fresh);
-    model_ = std::move(fresh);
+    std::vector<double> values(sheet().variables().size());
+    for (double& value : values) value = take<double>(from);
+
+    if (header.begun && begun_ && same_parameters(values)) {
+      std::visit([&](auto& m) { m.restore(from); }, model_);
+      std::ranges::copy(values, sheet().values().begin());
+    } else {
+      model_ = made_anew(values, header.begun != 0, from);
+    }
     phase_ = header.phase;
-    begun_ = header.begun;
+    begun_ = header.begun != 0;
+    ended_ = header.ended != 0;
     start_ = header.start;
     time_ = header.time;
   }
 
  private:
-  struct Header {
+  static constexpr double longest_step = 1e5;  // [s]
+
+  struct Header {  // without padding
     std::uint64_t stamp = 0;
     Phase phase = Phase::made;
-    bool begun = false;
+    std::uint32_t begun = 0, ended = 0, none = 0;
     double start = 0, time = 0;
   };
 
@@ -220,16 +243,38 @@ class Instance {
     if (type == Variable::Type::boolean) return "a Boolean";
     return type == Variable::Type::integer ? "a whole number" : "a real number";
   }
-  static void require(bool right, const std::string& what, const char* when) {
-    if (!right) throw std::runtime_error(what + " at the wrong time; expected " + when);
+  static void require(bool right, const char* what, const char* when) {
+    if (!right)
+      throw std::runtime_error(std::string(what) + " at the wrong time; expected " + when);
   }
 
   void begin() {
-    std::visit([&](auto& m) { m.begin(start_); }, model_);
+    std::visit([](auto& m) { m.begin(); }, model_);
     begun_ = true;
+    ended_ = false;
   }
-  std::uint64_t stamp() const {
-    return units::hash(SINEW_VERSION, units::hash(description_.text()));
+
+  bool same_parameters(const std::vector<double>& values) const {
+    const std::vector<Variable>& all = sheet().variables();
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (all[k].causality == Variable::Causality::parameter && values[k] != sheet().value(k))
+        return false;
+    return true;
+  }
+
+  // A model with those values and, where it had begun, that state of its own.
+  Models made_anew(const std::vector<double>& values, bool begun,
+                   std::span<const std::byte> own) const {
+    Models out = make_model<Models>(description_);
+    std::visit(
+        [&](auto& m) {
+          std::ranges::copy(values, m.sheet().values().begin());
+          if (!begun) return;
+          m.begin();
+          m.restore(own);
+        },
+        out);
+    return out;
   }
 
   Sheet& sheet() {
@@ -240,9 +285,10 @@ class Instance {
   }
 
   Description description_;
+  std::uint64_t stamp_;  // of the description and the library's version
   Models model_;
   Phase phase_ = Phase::made;
-  bool begun_ = false;
+  bool begun_ = false, ended_ = false;
   double start_ = 0, time_ = 0;  // [s]
   const char* trouble_ = nullptr;
 };

@@ -23,7 +23,9 @@
 
 namespace sinew::fmu {
 
+// Holds one value of a struct under its key.
 struct Parameter {
+  // A word is a choice, a flag or a text: no variable of an FMU.
   enum class Kind { number, integer, word };
   std::string name;  // "actuator.effectiveness.polynomial[1]"
   Kind kind = Kind::number;
@@ -38,10 +40,12 @@ struct Parameter {
 class Lister {
  public:
   using Field = units::Field;
+  // Lists below `prefix`.
   explicit Lister(std::string prefix) : prefix_(std::move(prefix)) {}
 
   std::vector<Parameter> found;
 
+  // The functions of a visitor, units/field.h.
   void number(const Field& f, double& value) { add(f, std::string(f.name), f.unit, value); }
   void numbers(const Field& f, std::vector<double>& values) {
     for (std::size_t k = 0; k < values.size(); ++k) add(f, element(f, k), f.unit, values[k]);
@@ -104,9 +108,11 @@ class Lister {
 class Filler {
  public:
   using Field = units::Field;
+  // Fills from what stands below `prefix` in the list, which outlives this.
   Filler(const std::vector<Parameter>& from, std::string prefix)
       : from_(from), prefix_(std::move(prefix)) {}
 
+  // The functions of a visitor, units/field.h.
   void number(const Field& f, double& value) {
     if (const Parameter* p = find(std::string(f.name))) value = p->number;
   }
@@ -150,6 +156,7 @@ class Filler {
     inside(*this);
     prefix_ = outer;
   }
+  // Throws what does not go together.
   [[noreturn]] void complain(std::string_view key, const std::string& found,
                              const std::string& expected, const std::string& try_this) {
     throw std::runtime_error(prefix_ + std::string(key) + ": found " + found + "; expected " +
@@ -177,6 +184,7 @@ inline void write(const std::vector<Parameter>& list, Description& out) {
   }
 }
 
+// Returns the lines of values as a list with names and values alone.
 inline std::vector<Parameter> parameters_of(const Description& description) {
   std::vector<Parameter> out;
   for (const auto& [key, value] : description.lines_of("value.")) {

@@ -1,4 +1,5 @@
-// fmu/slave/saved.h - plain structs as bytes, one after the other.
+// fmu/slave/saved.h - plain structs as bytes, one after the other. An importer may compare saved
+// states, and must not see this process's memory in them: whoever makes a struct makes all of it.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +11,7 @@
 
 namespace sinew::fmu {
 
+// Puts the value's bytes behind the others.
 template <class T>
 void append(std::vector<std::byte>& out, const T& value) {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -14,6 +14,7 @@ namespace sinew::fmu {
 
 class Sheet {
  public:
+  // Begins with the time.
   Sheet() { add(time_variable()); }
 
   // Returns the variable's place.
@@ -53,11 +54,13 @@ class Sheet {
     return out;
   }
 
+  // The variables, and the value at a place: as a number, as on or off, and set.
   const std::vector<Variable>& variables() const { return variables_; }
   double value(std::size_t place) const { return values_[place]; }
   bool on(std::size_t place) const { return values_[place] != 0; }
   void set(std::size_t place, double value) { values_[place] = value; }
 
+  // All values by place; and the start values in their stead.
   std::span<const double> values() const { return values_; }
   std::span<double> values() { return values_; }
   void to_start() {

@@ -11,7 +11,7 @@ from ctypes import byref, c_double, c_int, c_size_t, c_uint, c_void_p
 from typing import Any, Callable, List, Tuple
 
 from common import ACTUATOR, RIG, ROBOT, ROOT, WALK, WORK, exported, fmu, program
-from importer import DISCARD, Failed, Fmu, Slave
+from importer import DISCARD, ERROR, Failed, Fmu
 
 NAN, INFINITE = float("nan"), float("inf")
 
@@ -64,7 +64,7 @@ class Interface(unittest.TestCase):
             length, inlet = v["length"].reference, v["inlet"].reference
             self.refused(
                 [
-                    (lambda: slave.get("tension"), "tension is read at the wrong time"),
+                    (lambda: slave.get("tension"), "an output is read at the wrong time"),
                     (lambda: slave.step(0.0, 0.1), "a step is made at the wrong time"),
                     (lambda: slave.call("ExitInitializationMode"), "at the wrong time"),
                     (lambda: slave.call("Terminate"), "at the wrong time"),
@@ -77,7 +77,7 @@ class Interface(unittest.TestCase):
                     (lambda: slave.set("time", 1.0), "is no input and no parameter"),
                     (lambda: slave.set("length", NAN), "length: found nan; expected 0 to"),
                     (lambda: slave.set("length", INFINITE), "length: found inf"),
-                    (lambda: slave.set("length", -0.1), "length: found -0.1; expected 0 to"),
+                    (lambda: slave.set("length", -0.1), "length: found -0.1; expected 0 to inf"),
                     (lambda: slave.set("count", 0), "count: found 0; expected 1 to 100"),
                     (lambda: slave.set("initial_pressure", 0.0), "initial_pressure: found 0"),
                     (lambda: slave.set("air.polytropic_exponent", 3.0), "found 3; expected 1 to"),
@@ -87,13 +87,14 @@ class Interface(unittest.TestCase):
             self.refused(
                 [
                     (lambda: slave.enter(), "at the wrong time"),
-                    (lambda: slave.set("count", 2), "a parameter, is set at the wrong time"),
+                    (lambda: slave.set("count", 2), "a parameter is set at the wrong time"),
                     (lambda: slave.step(0.5, 0.1), "communication point: found 0.5 s; expected 0 s"),
                     (lambda: slave.step(NAN, 0.1), "communication point"),
                     (lambda: slave.step(0.0, 0.0), "step: found 0 s; expected more than 0"),
                     (lambda: slave.step(0.0, -0.1), "step: found -0.1 s"),
                     (lambda: slave.step(0.0, NAN), "step: found nan"),
                     (lambda: slave.step(0.0, INFINITE), "step: found inf"),
+                    (lambda: slave.step(0.0, 1e300), "at most 1e+05"),
                 ]
             )
             before = slave.get("pressure")
@@ -161,17 +162,20 @@ class Interface(unittest.TestCase):
     def test_null_pointers_and_what_is_not_provided(self) -> None:
         slave = fmu(RIG).instantiate().initialize()
         one, vr = c_size_t(1), (c_uint * 1)(1)
-        order, value = (c_int * 1)(2), (c_double * 1)(1.0)
+        order, no_order, value = (c_int * 1)(2), (c_int * 1)(0), (c_double * 1)(1.0)
+        out = (c_uint * 1)(fmu(RIG).variables["tension"].reference)
         self.refused(
             [
                 (lambda: slave.call("GetReal", None, one, None), "found no array"),
                 (lambda: slave.call("SetReal", vr, one, None), "found no array"),
                 (lambda: slave.call("GetString", vr, one, None), "no text variables"),
-                (lambda: slave.call("SetRealInputDerivatives", vr, one, order, value), "of order 2"),
+                (lambda: slave.call("SetRealInputDerivatives", vr, one, no_order, value), "of order 0"),
+                (lambda: slave.call("SetRealInputDerivatives", out, one, order, value), "of an input"),
                 (lambda: slave.call("GetRealOutputDerivatives", vr, one, order, value), "no deriv"),
                 (lambda: slave.call("CancelStep"), "there is none to cancel"),
                 (lambda: slave.call("GetStatus", 0, byref(c_int())), "ever pending"),
                 (lambda: slave.call("GetRealStatus", 0, None), "expected fmi2LastSuccessfulTime"),
+                (lambda: slave.call("GetRealStatus", 2, None), "found no place for the time"),
                 (
                     lambda: slave.call("GetDirectionalDerivative", vr, one, vr, one, value, value),
                     "no directional derivatives",
@@ -184,14 +188,57 @@ class Interface(unittest.TestCase):
         self.assertEqual(entry(None, c_double(0), c_double(1), 1), 3)  # no instance: error
 
     def test_derivative_of_the_length_is_its_rate(self) -> None:
-        slave = fmu(RIG).instantiate().initialize()
-        vr = (c_uint * 1)(fmu(RIG).variables["length"].reference)
-        slave.call("SetRealInputDerivatives", vr, c_size_t(1), (c_int * 1)(1), (c_double * 1)(-0.2))
+        """What the model has no use for, an importer that has all derivatives may set as well."""
+        f = fmu(RIG)
+        slave = f.instantiate().initialize()
+        vr = (c_uint * 3)(*[f.variables[name].reference for name in ("length", "rate", "length")])
+        orders, values = (c_int * 3)(1, 1, 2), (c_double * 3)(-0.2, 5.0, 7.0)
+        slave.call("SetRealInputDerivatives", vr, c_size_t(3), orders, values)
         self.assertEqual(slave.get("rate"), -0.2)
         slave.free()
 
+    def test_lengths_that_no_muscle_has_are_refused_before_a_step(self) -> None:
+        """They say which and what is possible; then the run goes on."""
+        for version in "23":
+            muscle = fmu(RIG, "--fmi", version).instantiate().initialize()
+            muscle.set("rate", 100.0)
+            before = muscle.get("pressure")
+            with self.assertRaises(Failed) as raised:
+                muscle.step(0.0, 0.01)
+            self.assertEqual(raised.exception.status, DISCARD)
+            self.assertIn("length + rate x step: found 1.08", str(raised.exception))
+            muscle.set("rate", 0.0)
+            muscle.step(0.0, 0.01)
+            self.assertAlmostEqual(muscle.get("pressure"), before, delta=1.0)
+            muscle.free()
+            joint = fmu(ROBOT, "--joint", "hip", "--fmi", version).instantiate()
+            joint.set("hip.angle", 50.0)  # somebody's degrees
+            with self.assertRaises(Failed) as raised:
+                joint.initialize()
+            self.assertIn("which are in rad", str(raised.exception))
+            joint.free()
+        tube = fmu(ACTUATOR).instantiate().initialize(length=1.0)
+        with self.assertRaises(Failed) as raised:
+            tube.get("tension")
+        self.assertIn("length: found 1 m; expected more than 0 m", str(raised.exception))
+        tube.free()
+
+    def test_what_an_importer_may_do_otherwise_is_discarded(self) -> None:
+        for version in "23":
+            slave = fmu(RIG, "--fmi", version).instantiate().initialize()
+            with self.assertRaises(Failed) as raised:
+                slave.set("rate", 200.0)
+            self.assertEqual(raised.exception.status, DISCARD)
+            with self.assertRaises(Failed) as raised:
+                slave.step(0.0, -1.0)
+            self.assertEqual(raised.exception.status, DISCARD)
+            with self.assertRaises(Failed) as raised:
+                slave.step(1.0, 0.1)
+            self.assertEqual(raised.exception.status, ERROR)
+            slave.free()
+
     def test_a_plan_comes_to_its_end(self) -> None:
-        """The step that reaches it is done; the one after it is discarded."""
+        """A step goes as far as the plan does and says so; the one after it is discarded."""
         for version in "23":
             f = fmu(f"{ROOT}/experiments/one-joint.toml", "--fmi", version)
             end = f.root.find("DefaultExperiment")
@@ -199,15 +246,38 @@ class Interface(unittest.TestCase):
             stop = float(end.get("stopTime", "0"))
             slave = f.instantiate().initialize()
             slave.step(0.0, stop - 0.5)
-            over = slave.step(stop - 0.5, 1.0)
-            self.assertEqual(over, version == "3")
-            with self.assertRaises(Failed) as raised:
-                slave.step(stop + 0.5, 1.0)
-            self.assertEqual(raised.exception.status, DISCARD)
-            if version == "2":
-                ended = c_int()
+            state = slave.state()
+            if version == "3":
+                self.assertTrue(slave.step(stop - 0.5, 1.0))
+            else:
+                with self.assertRaises(Failed) as raised:
+                    slave.step(stop - 0.5, 1.0)
+                self.assertEqual(raised.exception.status, DISCARD)
+                ended, last = c_int(), c_double()
                 slave.call("GetBooleanStatus", 3, byref(ended))
-                self.assertEqual(ended.value, 1)
+                slave.call("GetRealStatus", 2, byref(last))
+                self.assertEqual((ended.value, last.value), (1, slave.get("time")))
+            reached = slave.get("time")  # the last phase is over a little before the run's last tick
+            self.assertTrue(stop - 0.02 < reached <= stop)
+            with self.assertRaises(Failed) as raised:
+                slave.step(reached, 1.0)
+            self.assertEqual(raised.exception.status, DISCARD)
+            slave.back_to(state)  # before the end, from where it goes on
+            slave.step(stop - 0.5, 0.25)
+            slave.free_state(state)
+            slave.free()
+
+    def test_a_long_step_is_a_plan_to_its_end(self) -> None:
+        for version in "23":
+            f = fmu(f"{ROOT}/experiments/one-joint.toml", "--fmi", version)
+            slave = f.instantiate().initialize()
+            try:
+                slave.step(0.0, 9e4)
+            except Failed as failed:
+                self.assertEqual(failed.status, DISCARD)
+            end = f.root.find("DefaultExperiment")
+            assert end is not None
+            self.assertAlmostEqual(slave.get("time"), float(end.get("stopTime", "0")), delta=0.02)
             slave.free()
 
     def test_a_machine_that_fails_says_why(self) -> None:
@@ -308,6 +378,12 @@ class Program(unittest.TestCase):
             ([WALK, "--parameter", "joint.hip.dampin"], 1, "try \"joint.hip.damping\""),
             ([WALK, "--parameter", "title"], 1, "expected the key of a number"),
             ([WALK, "--parameter", "phase.swing.joint_angles.hip"], 1, "parameter: found"),
+            ([WALK, "--output", "/joint/hip/angle", "--output", "/joint/hip/angle"], 1, "twice"),
+            ([WALK, "--input", "control.stiffness.hip", "--parameter", "control.stiffness.hip"],
+             1, "twice"),
+            ([ROBOT, "--joint", "hip", "--joint", "hip"], 1, "twice"),
+            ([ROBOT, "--name", "a\x01b"], 1, "a name in plain letters"),
+            ([ROBOT, "--name", "  "], 1, "a name in plain letters"),
             ([], 2, "FILE"),
         ]  # fmt: skip
         for words, code, said in cases:

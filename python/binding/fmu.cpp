@@ -13,10 +13,11 @@ namespace {
 using Causality = fmu::Variable::Causality;
 using Names = std::vector<std::string>;
 
-const char* word(Causality causality) {
-  if (causality == Causality::time) return "time";
-  if (causality == Causality::parameter) return "parameter";
-  return causality == Causality::input ? "input" : "output";
+py::object start_of(const fmu::Variable& v) {
+  using T = fmu::Variable::Type;
+  if (v.type == T::boolean) return py::bool_(v.start != 0);
+  return v.type == T::integer ? py::object(py::int_(static_cast<int>(v.start)))
+                              : py::object(py::float_(v.start));
 }
 
 py::dict told(const fmu::Fmu& made, const std::string& path) {
@@ -32,10 +33,11 @@ py::dict told(const fmu::Fmu& made, const std::string& path) {
     py::dict entry;
     entry["name"] = v.name;
     entry["value_reference"] = k;
-    entry["causality"] = word(v.causality);
+    entry["type"] = fmu::word(v.type);
+    entry["causality"] = fmu::word(v.causality);
     if (!v.unit.empty()) entry["unit"] = v.unit;
     if (v.causality == Causality::parameter || v.causality == Causality::input)
-      entry["start"] = v.start;
+      entry["start"] = start_of(v);
     entry["meaning"] = v.doc;
     variables.append(entry);
   }
@@ -81,7 +83,8 @@ void bind_fmu(py::module_& m) {
       py::arg("parameters") = Names(), py::arg("sets") = py::none(), py::arg("fmi") = 2,
       py::arg("name") = "", py::arg("force") = false,
       "Writes an FMU for somebody else's co-simulation, and returns what is in it: its kind and\n"
-      "a dict for each variable, with name, value_reference, causality, unit (SI), start, "
+      "a dict for each variable, with name, value_reference, type, causality, unit (SI), start "
+      "and\n"
       "meaning.\n\n"
       "An actuator file becomes a tube (length, rate, gauge pressure -> tension); a rig, or a\n"
       "`muscle` of a robot, a muscle with its valves, or without them a tube; a robot its "

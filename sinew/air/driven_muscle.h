@@ -31,10 +31,10 @@ class DrivenMuscle {
   struct State {
     double time = 0;              // since it was made [s]
     double length = 0, rate = 0;  // [m], [m/s]
-    Air::State air;
-    Air::Valves valves;
-    Air::Memory memory;
-    Air::Answer look;
+    Air::State air{};             // lanes that no muscle uses are 0: states are compared as bytes
+    Air::Valves valves{};
+    Air::Memory memory{};
+    Air::Answer look{};
     bool failed = false;
   };
 
@@ -87,7 +87,7 @@ class DrivenMuscle {
   void node() noexcept;
 
   Air air_;
-  State state_;
+  State state_{};
 };
 
 }  // namespace sinew::air

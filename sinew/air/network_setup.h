@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 #include "sinew/actuator/braid.h"
@@ -309,9 +310,10 @@ auto AirNetwork<Most>::initial(double pressure, const Lanes& length, double trav
 
 template <int Most>
 auto AirNetwork<Most>::valves_at_rest() const -> Valves {
-  Valves valves;
+  Valves valves{};
   for (std::size_t v = 0; v < taps_.size(); ++v) {
-    valves[v].shutter = gas::Shutter(taps_[v].valve);
+    // In its place, so that what lies between its members stays 0 (driven_muscle.h).
+    std::construct_at(&valves[v].shutter, taps_[v].valve);
     valves[v].set = air_.atmosphere;
     valves[v].set_y = 1;
     valves[v].next_set_at = never;

@@ -27,7 +27,7 @@ from sources import write_sources  # noqa: E402
 HERE = os.path.dirname(os.path.abspath(__file__))
 KATEX = "/usr/share/javascript/katex"
 OTHERS = re.compile(r"(^|/)(\.[^/]+|node_modules|runs|__pycache__|build[^/]*)(/|$)")
-INSTALLED = re.compile(r"^(sinew|thesis)/.*\.h$")
+INSTALLED = re.compile(r"^(sinew|thesis|fmu)/.*\.h$")
 TESTING = re.compile(r"(_test|/testing)\.h$|/test_[^/]*\.h$")
 
 
@@ -45,7 +45,7 @@ def run_doxygen(headers: str, out: str) -> None:
     """Doxygen over the converted headers; a warning is an error."""
     with open(os.path.join(HERE, "Doxyfile"), encoding="utf-8") as file:
         settings = file.read()
-    settings += f"\nOUTPUT_DIRECTORY = \"{out}\"\nINPUT = sinew thesis\n"
+    settings += f"\nOUTPUT_DIRECTORY = \"{out}\"\nINPUT = sinew thesis fmu\n"
     made = subprocess.run(["doxygen", "-"], input=settings, cwd=headers, capture_output=True, text=True)
     if made.returncode or made.stderr.strip():
         raise SystemExit(f"{made.stderr}doxygen: found warnings; expected none. Lines are those of the headers.")
