@@ -26,7 +26,7 @@ std::optional<double> gained(const signals::Table& table, const std::string& top
 }
 
 struct Pulses {
-  Times times;
+  Occasions times;
   double longest = 0;  // [s]
   bool opens = false;  // one lasts until the shutter moves
 };
@@ -117,7 +117,7 @@ std::vector<Warning> ended_tracks(const signals::Table& table, const Machine& ma
   const Record record(table, machine);
   const Column x = record.column("/true/trolley/position");
   if (x.empty() || !record.has_sequence()) return {};
-  Times times;
+  Occasions times;
   for (std::size_t i = record.first_row(); i <= record.last_row(); ++i)
     if (x[i] >= track) times.add(record.time_ns()[i]);
   if (times.count == 0) return {};
@@ -195,7 +195,7 @@ std::vector<Warning> overturned_joints(const signals::Table& table, const Machin
       if (std::abs(t) > std::abs(furthest)) furthest = t;
     const std::string text = what_is_beyond(machine, joint, furthest);
     if (text.empty()) continue;
-    Times times;
+    Occasions times;
     for (std::size_t i = 0; i < turned.size(); ++i)
       if (!what_is_beyond(machine, joint, turned[i]).empty()) times.add(series->time_ns[i]);
     out.push_back({fmt::format("{}: turned {:.0f} deg from its rest angle: {}", joint.name,

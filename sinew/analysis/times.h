@@ -11,7 +11,8 @@
 
 namespace sinew::analysis {
 
-struct Times {
+// Holds how many samples were so, of how many, and when.
+struct Occasions {
   std::size_t count = 0, of = 0;  // samples
   std::vector<Span> spans;
 
@@ -26,9 +27,9 @@ struct Times {
 };
 
 // The samples of a topic for which `is` holds; none where there is no such topic.
-inline Times times_when(const signals::Table& table, const std::string& topic,
-                        const std::function<bool(double)>& is) {
-  Times out;
+inline Occasions times_when(const signals::Table& table, const std::string& topic,
+                            const std::function<bool(double)>& is) {
+  Occasions out;
   const signals::Series* series = table.find(topic);
   if (!series || series->columns.empty()) return out;
   const signals::Column& values = series->columns.front();

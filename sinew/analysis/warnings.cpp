@@ -14,7 +14,8 @@ namespace {
 constexpr double whole_period = 0.9999;  // a duty of 100 % as a double [-]
 
 // "<before> 3 of 100 <after>", where it ever was.
-void add(std::vector<Warning>& out, Times times, std::string_view before, std::string_view after) {
+void add(std::vector<Warning>& out, Occasions times, std::string_view before,
+         std::string_view after) {
   if (times.count == 0) return;
   out.push_back({fmt::format("{} {} of {} {}", before, times.count, times.of, after),
                  std::move(times.spans)});
@@ -74,7 +75,7 @@ std::vector<Warning> saturated_duties(const signals::Table& table, const robot::
   std::vector<Warning> out;
   for (const robot::Muscle& muscle : robot.muscles)
     for (const std::string which : {"inlet", "exhaust"}) {
-      Times times = times_when(
+      Occasions times = times_when(
           table, robot::logged_topic(robot, "/muscle/" + muscle.name + "/" + which + "_duty"),
           [](double duty) { return duty >= whole_period; });
       if (10 * times.count <= times.of) continue;
@@ -103,7 +104,7 @@ std::vector<Warning> counted(const signals::Table& table, const std::string& top
                              const std::string& before, std::string_view thing,
                              std::string_view things, std::string_view after) {
   double most = 0;
-  Times times = times_when(table, topic, [&](double so_far) {
+  Occasions times = times_when(table, topic, [&](double so_far) {
     const bool more = so_far > most;
     most = std::max(most, so_far);
     return more;
