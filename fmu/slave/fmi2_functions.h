@@ -52,7 +52,7 @@ inline Component instantiate(String name, Type type, String guid, String resourc
       throw std::runtime_error("found another type; expected co-simulation, the one that there is");
     if (!guid) throw std::runtime_error("found no GUID");
     const auto description = Description::read(resource_folder(resources));
-    return new Slave{Instance<Models>(description, guid), importer, logging};
+    return new Slave{Instance<Models>(description, guid, SINEW_VERSION), importer, logging};
   } catch (const std::exception& e) {
     try {
       importer.log(Status::error, error_category, std::string("fmi2Instantiate: ") + e.what());

@@ -93,7 +93,7 @@ Instance fmi3InstantiateCoSimulation(String name, String token, String resources
     if (!name || !*name) throw std::runtime_error("found no name of the instance");
     if (!token) throw std::runtime_error("found no instantiation token");
     const auto description = sinew::fmu::Description::read(sinew::fmu::resource_folder(resources));
-    return new Slave{sinew::fmu::Instance<sinew::fmu::Models>(description, token),
+    return new Slave{sinew::fmu::Instance<sinew::fmu::Models>(description, token, SINEW_VERSION),
                      {environment, write},
                      logging};
   } catch (const std::exception& e) {

@@ -57,10 +57,11 @@ class Instance {
   // What became of a step: done; done up to where the model ends, in it or before it; failed.
   enum class Step { done, ended, failed };
 
-  // Makes the model. Throws where the token is not the description's.
-  Instance(const Description& description, const std::string& token)
+  // Makes the model; `version` is that of the library, whose states it takes. Throws where the
+  // token is not the description's.
+  Instance(const Description& description, const std::string& token, const char* version)
       : description_(description),
-        stamp_(units::hash(SINEW_VERSION, units::hash(description_.text()))),
+        stamp_(units::hash(version, units::hash(description_.text()))),
         model_(make_model<Models>(description_)) {
     if (token != description_.hash())
       throw std::runtime_error("found the token " + token + "; expected " + description_.hash() +

@@ -78,6 +78,12 @@ alone sinew check "$share"/robots/*/*.toml "$share"/experiments/*.toml >"$folder
 rm -rf walk
 alone sinew run "$share/experiments/walk-test-1.toml" -o walk --quiet >/dev/null
 [[ -s walk/log.mcap && -s walk/summary.json ]] || fail "the walk left no log"
+alone sinew fmu export "$share/robots/leg/robot.toml" --muscle hip_flexor -o muscle.fmu --force >/dev/null
+alone PYTHONPATH="$OLDPWD/fmu/tests" PYTHONDONTWRITEBYTECODE=1 "${PYTHON:-/usr/bin/python3}" -c '
+from importer import Fmu
+slave = Fmu("muscle.fmu").instantiate().initialize(inlet=True)
+slave.step(0.0, 0.05)
+assert slave.get("tension") > 10, slave.get("tension")' || fail "the FMU does not pull"
 cd "$OLDPWD"
 SINEW_PREFIX=$root/usr tools/examples.sh 04-consumer
 python/tests/journey.sh "$root/usr"

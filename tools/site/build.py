@@ -33,7 +33,7 @@ TESTING = re.compile(r"(_test|/testing)\.h$|/test_[^/]*\.h$")
 
 def all_files(root: str) -> List[str]:
     """What the repository has; without git, what is there and was not built."""
-    if os.path.exists(os.path.join(root, ".git")):
+    if os.path.exists(os.path.join(root, ".git")) and shutil.which("git"):
         listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=root, capture_output=True, text=True, check=True)
         found = listed.stdout.split("\0")
     else:
@@ -68,7 +68,7 @@ def navigation(pages: Pages, folders: List[str]) -> List[Any]:
     results = take(r"^docs/(experiments|tuned|stability|thesis-figures|evidence|departures|calibration|performance|reliability)\.md$")
     cpp = ["reference/cpp/index.md"] + [{re.sub("^sinew/", "", f): page_of(f) + ".md"} for f in folders]
     python = [{m: f"reference/python/{m.replace('.', '-')}.md"} for m in ("sinew", "sinew.gym", "sinew.identify")]
-    formats = take(r"^docs/(analysis|study-file|wire|supervision|versions)\.md$")
+    formats = take(r"^docs/(keys|analysis|study-file|wire|supervision|versions)\.md$")
     more = take(r"")
     return [
         {"Start": start}, {"Lessons": lessons + ([{"Notebooks": notebooks}] if notebooks else [])}, {"How to": how},
