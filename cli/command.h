@@ -26,6 +26,7 @@ void add_tune(Command app, Action& action);
 void add_merge(Command app, Action& action);
 void add_sensitivity(Command app, Action& action);
 void add_show(Command app, Action& action);
+void add_keys(Command app, Action& action);
 void add_check(Command app, Action& action);
 void add_migrate(Command app, Action& action);
 void add_actuator(Command app, Action& action);

@@ -68,6 +68,7 @@ int main(int argc, char** argv) {
   cli::add_merge(command, action);
   cli::add_sensitivity(command, action);
   cli::add_show(command, action);
+  cli::add_keys(command, action);
   cli::add_check(command, action);
   cli::add_migrate(command, action);
   cli::add_actuator(command, action);

@@ -1,0 +1,66 @@
+// cli/keys.cpp - `sinew keys`: every key that a file can have.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.h"
+#include "cli/json_text.h"
+#include "cli/terminal.h"
+#include "sinew/files/key_text.h"
+#include "sinew/files/keys.h"
+
+namespace sinew::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  std::vector<std::string> words;
+  std::string kind, schema;
+  bool json = false, page = false;
+};
+
+ExitCode keys(const Options& options) {
+  const bool all = options.words.empty() && options.kind.empty();
+  if (options.page) {
+    fmt::print("{}", files::page_of_keys());
+  } else if (!options.schema.empty()) {
+    fmt::print("{}", files::schema_of(options.schema));
+  } else if (options.json) {
+    const std::vector<files::Key> found = files::find_keys(options.words, options.kind);
+    fmt::print("{}\n", json_text(Json::parse(files::json_of(found)), 2));
+  } else if (all) {
+    fmt::print("{}", files::overview_of_keys(width_of_output()));
+  } else {
+    const std::vector<files::Key> found = files::find_keys(options.words, options.kind);
+    fmt::print("{}", files::text_of(found, width_of_output()));
+  }
+  return ok;
+}
+
+}  // namespace
+
+void add_keys(Command app, Action& action) {
+  auto options = std::make_shared<Options>();
+  Command sub = app.subcommand("keys", "every key of every file: unit, range, default, meaning",
+                               "sinew keys damping\n  sinew keys joint.hip.damping");
+  sub.add_option("WORD", options->words,
+                 "a key, how it begins, or words of its description; without one, the tables");
+  const Option kind = sub.add_option("--kind", options->kind,
+                                     "of one kind of file: robot, actuator, valves, wiring, "
+                                     "experiment, rig, plan, tuning or any");
+  const Option json = sub.add_flag("--json", options->json, "as JSON");
+  Option schema = sub.add_option("--schema", options->schema,
+                                 "a JSON schema of that kind of file, for an editor");
+  Option page = sub.add_flag("--page", options->page, "all keys as Markdown, docs/keys.md");
+  const Option words = sub.option("WORD");
+  for (const Option& other : {kind, json, words}) {
+    schema.excludes(other);
+    page.excludes(other);
+  }
+  page.excludes(schema);
+  sub.callback([=, &action] { action = [=] { return keys(*options); }; });
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,71 @@
+// files/key_tables.h - the field tables that a file of each kind is read by.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sinew/control/gait/plan.h"
+#include "sinew/experiment/experiment.fields.h"
+#include "sinew/experiment/rig/rig.fields.h"
+#include "sinew/tune/optimizer/tuning.fields.h"
+#include "sinew/tune/study.fields.h"
+
+namespace sinew::files {
+
+// Visits the robot's own tables: without actuators, valves and wiring, which have files.
+template <class Visitor>
+void robot_tables(Visitor& v) {
+  experiment::Experiment e;
+  robot::fields(v, e.robot);
+  v.group({.name = "air", .doc = "atmosphere and supply"},
+          [&](auto& g) { gas::fields(g, e.air, e.supply); });
+  v.group({.name = "pulses",
+           .optional = true,
+           .doc = "low_level.valve_timing as numbers, in a resolved file"},
+          [&](auto& g) { experiment::fields(g, e.pulses); });
+}
+
+// Visits the tables of a test stand, without actuators and valves.
+template <class Visitor>
+void rig_tables(Visitor& v) {
+  rig::Experiment e;
+  rig::fields(v, e);
+  v.group({.name = "air", .doc = "atmosphere and supply"},
+          [&](auto& g) { gas::fields(g, e.air, e.supply); });
+}
+
+// Visits what belongs to that kind of file alone. Where names of joints are keys, there is one
+// joint, <name>.
+template <class Visitor>
+void visit_tables(Visitor& v, std::string_view kind) {
+  if (kind == "robot") return robot_tables(v);
+  if (kind == "rig") return rig_tables(v);
+  if (kind == "experiment") {
+    experiment::Experiment e;
+    e.plan.joints = {{.name = "<name>"}};
+    return experiment::run_fields(v, e);
+  }
+  if (kind == "actuator") {
+    std::vector<actuator::Actuator> actuators;
+    return actuator::fields(v, actuators);
+  }
+  if (kind == "valves") {
+    std::vector<gas::Valve> valves;
+    return gas::fields(v, valves);
+  }
+  if (kind == "wiring") {
+    robot::Wiring wiring;
+    return robot::fields(v, wiring);
+  }
+  if (kind == "plan") {
+    tune::Study study;
+    return tune::fields(v, study);
+  }
+  if (kind == "tuning") {
+    tune::TuningFile tuning;
+    return tune::fields(v, tuning);
+  }
+}
+
+}  // namespace sinew::files

@@ -1,0 +1,193 @@
+#include "sinew/files/key_text.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+#include "sinew/report/text/text_table.h"
+
+namespace sinew::files {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string title_of(std::string_view kind) {
+  if (kind == "any") return "Every file";
+  if (kind == "robot") return "Robot: robots/*/robot.toml";
+  if (kind == "actuator") return "Actuator: robots/*/actuator.toml";
+  if (kind == "valves") return "Valves: robots/*/valves.toml";
+  if (kind == "wiring") return "Wiring: robots/*/wiring.toml";
+  if (kind == "experiment") return "Experiment: experiments/*.toml";
+  if (kind == "rig") return "Rig, the test stand of one muscle: experiments/rig/*.toml";
+  if (kind == "plan") return "Plan of a sweep or a sensitivity: studies/*.toml";
+  return "Tuning: studies/*.toml";
+}
+
+// What a person has to know about keys that a file of that kind has elsewhere.
+std::string note_of(std::string_view kind) {
+  if (kind == "actuator")
+    return "In the actuator's own file they stand without actuator.<name>: [braid], not "
+           "[actuator.bpa.braid].";
+  if (kind == "experiment")
+    return "An experiment may change every key of its robot, its actuators, valves and wiring.";
+  if (kind == "robot" || kind == "rig")
+    return "Actuators and valves may stand here too, or in files of their own.";
+  if (kind == "any")
+    return "source, fit, guess and range stand beside values, or in { value = … }.";
+  return "";
+}
+
+bool is_container(const Key& key) {
+  return key.type == KeyType::table || key.type == KeyType::tables || key.type == KeyType::list;
+}
+
+std::string unit_text(const Key& key) {
+  std::string out = key.unit == "1" ? "number" : key.unit;
+  if (key.type == KeyType::polynomial)
+    out = fmt::format("{}, then per {}", out, key.per == "1" ? "one" : key.per);
+  return out;
+}
+
+std::string holds(const Key& key) {
+  switch (key.type) {
+    case KeyType::number:
+      return unit_text(key);
+    case KeyType::numbers:
+    case KeyType::polynomial:
+      return "list: " + unit_text(key);
+    case KeyType::whole:
+      return "whole number";
+    case KeyType::flag:
+      return "true, false";
+    case KeyType::text:
+      return "text";
+    case KeyType::texts:
+      return "list of texts";
+    case KeyType::choice:
+      return "a word";
+    case KeyType::table:
+      return "table";
+    case KeyType::tables:
+      return "tables by name";
+    case KeyType::list:
+      return "list of tables";
+  }
+  return "";
+}
+
+std::string stands_instead(const Key& key) {
+  if (key.required) return "required";
+  return key.default_text;
+}
+
+std::vector<std::string> quoted(const std::vector<std::string>& words) {
+  std::vector<std::string> out;
+  for (const std::string& word : words) out.push_back(fmt::format("\"{}\"", word));
+  return out;
+}
+
+// The line of a key, with its words and where it is so.
+std::string line_of(const Key& key) {
+  std::string out = key.doc;
+  if (!key.choices.empty()) {
+    const std::vector<std::string> words = quoted(key.choices);
+    out += (out.empty() ? "" : "; ") + config::either({words.begin(), words.end()});
+  }
+  if (!key.when.empty()) out += (out.empty() ? "" : "; ") + ("where " + key.when);
+  return out;
+}
+
+Json to_json(const Key& key) {
+  Json out{{"kind", key.kind}, {"key", key.path}, {"type", to_text(key.type)}};
+  if (!key.unit.empty()) {
+    out["unit"] = key.unit;
+    if (key.unit != "1") out["written"] = config::usual_units(key.unit);
+  }
+  if (!key.per.empty()) out["per"] = key.per;
+  if (std::isfinite(key.min)) out["min"] = key.min;
+  if (std::isfinite(key.max)) out["max"] = key.max;
+  if (key.least > 0) out["least"] = key.least;
+  if (std::isfinite(key.most)) out["most"] = key.most;
+  if (!key.why.empty()) out["why"] = key.why;
+  out["required"] = key.required;
+  if (!key.required && !is_container(key)) out["default"] = key.default_text;
+  if (!key.choices.empty()) out["choices"] = key.choices;
+  if (!key.when.empty()) out["when"] = key.when;
+  out["doc"] = key.doc;
+  return out;
+}
+
+// A cell of Markdown: a bar would end it, and names in brackets would be HTML.
+std::string cell(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '|' || c == '*') out += '\\';
+    if (c == '<')
+      out += "&lt;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string overview_of_keys(std::size_t width) {
+  report::TextTable table({"kind", "keys and tables at the top"});
+  for (const std::string& kind : key_kinds()) {
+    std::vector<std::string> tops;
+    for (const Key& key : keys_of(kind))
+      if (key.path.find('.') == std::string::npos) tops.push_back(key.path);
+    const auto last = std::unique(tops.begin(), tops.end());
+    tops.erase(last, tops.end());
+    table.add({kind, fmt::format("{}", fmt::join(tops, " "))});
+  }
+  return table.text_within(width);
+}
+
+std::string text_of(const std::vector<Key>& keys, std::size_t width) {
+  std::string out;
+  for (const std::string& kind : key_kinds()) {
+    report::TextTable table({"key", "holds", "range", "default", "what it is"});
+    for (const Key& key : keys)
+      if (key.kind == kind)
+        table.add({key.path, holds(key), range_of(key), stands_instead(key), line_of(key)});
+    if (table.empty()) continue;
+    out += (out.empty() ? "" : "\n") + title_of(kind) + "\n" + table.text_within(width);
+    if (const std::string note = note_of(kind); !note.empty()) out += note + "\n";
+  }
+  return out;
+}
+
+std::string json_of(const std::vector<Key>& keys) {
+  Json out = Json::array();
+  for (const Key& key : keys) out.push_back(to_json(key));
+  return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string page_of_keys() {
+  std::string out =
+      "# Every key of every file\n\n"
+      "`sinew keys WORD` finds them in a terminal, `sinew.keys(\"damping\")` from Python, "
+      "`files::find_keys` from C++; `sinew keys` has a JSON schema of each kind of file too, by "
+      "which editors complete and check. Units are SI; a file may say any other of the same "
+      "quantity (`\"3.2 in\"`, `\"60 psi gauge\"`). `<name>` is a name of yours, `[]` a list of "
+      "tables. The program writes this page from the tables by which it reads files.\n";
+  for (const std::string& kind : key_kinds()) {
+    out += fmt::format("\n## {}\n\n", cell(title_of(kind)));
+    if (const std::string note = note_of(kind); !note.empty()) out += cell(note) + "\n\n";
+    out += "| key | holds | range | default | what it is |\n| --- | --- | --- | --- | --- |\n";
+    for (const Key& key : keys_of(kind))
+      out += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.path, cell(holds(key)),
+                         cell(range_of(key)), cell(stands_instead(key)), cell(line_of(key)));
+  }
+  return out;
+}
+
+}  // namespace sinew::files

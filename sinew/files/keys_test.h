@@ -1,0 +1,27 @@
+// files/keys_test.h - the TOML files that are shipped, for tests.
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "sinew/config/compose.h"
+
+namespace sinew::files {
+
+// Returns each file with its kind.
+inline std::map<std::string, std::string> shipped_files() {
+  std::map<std::string, std::string> out;
+  for (const char* folder : {"robots", "experiments", "studies"}) {
+    const std::string root = std::string(SINEW_SOURCE_DIR) + "/" + folder;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+      if (entry.path().extension() != ".toml") continue;
+      const config::Node file = config::parse_file(entry.path().string());
+      out[entry.path().string()] = config::format_kind(file);
+    }
+  }
+  return out;
+}
+
+}  // namespace sinew::files
