@@ -17,16 +17,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string title_of(std::string_view kind) {
-  if (kind == "any") return "Every file";
-  if (kind == "robot") return "Robot: robots/*/robot.toml";
-  if (kind == "actuator") return "Actuator: robots/*/actuator.toml";
-  if (kind == "valves") return "Valves: robots/*/valves.toml";
-  if (kind == "wiring") return "Wiring: robots/*/wiring.toml";
-  if (kind == "experiment") return "Experiment: experiments/*.toml";
-  if (kind == "rig") return "Rig, the test stand of one muscle: experiments/rig/*.toml";
-  if (kind == "plan") return "Plan of a sweep or a sensitivity: studies/*.toml";
-  return "Tuning: studies/*.toml";
+// A kind in words, and where its files stand; no place for what all of them have.
+struct Title {
+  std::string_view words, files;
+};
+
+Title title_of(std::string_view kind) {
+  if (kind == "any") return {"Every file", ""};
+  if (kind == "robot") return {"Robot", "robots/*/robot.toml"};
+  if (kind == "actuator") return {"Actuator", "robots/*/actuator.toml"};
+  if (kind == "valves") return {"Valves", "robots/*/valves.toml"};
+  if (kind == "wiring") return {"Wiring", "robots/*/wiring.toml"};
+  if (kind == "experiment") return {"Experiment", "experiments/*.toml"};
+  if (kind == "rig") return {"Rig, the test stand of one muscle", "experiments/rig/*.toml"};
+  if (kind == "plan") return {"Plan of a sweep or a sensitivity", "studies/*.toml"};
+  return {"Tuning", "studies/*.toml"};
 }
 
 // What a person has to know about keys that a file of that kind has elsewhere.
@@ -47,22 +52,29 @@ bool is_container(const Key& key) {
   return key.type == KeyType::table || key.type == KeyType::tables || key.type == KeyType::list;
 }
 
-std::string unit_text(const Key& key) {
-  std::string out = key.unit == "1" ? "number" : key.unit;
-  if (key.type == KeyType::polynomial)
-    out = fmt::format("{}, then per {}", out, key.per == "1" ? "one" : key.per);
-  return out;
+// The range says the unit too; "number" where there is none.
+std::string quantity_text(const Key& key) {
+  const std::string range = range_of(key);
+  if (key.unit == "1") return range.empty() ? "number" : "number, " + range;
+  return range.empty() ? key.unit : range;
+}
+
+std::string polynomial_text(const Key& key) {
+  const std::string unit = key.unit == "1" ? "number" : key.unit;
+  return fmt::format("list: {}, then per {}", unit, key.per == "1" ? "one" : key.per);
 }
 
 std::string holds(const Key& key) {
+  const std::string range = range_of(key);
   switch (key.type) {
     case KeyType::number:
-      return unit_text(key);
+      return quantity_text(key);
     case KeyType::numbers:
+      return "list: " + quantity_text(key);
     case KeyType::polynomial:
-      return "list: " + unit_text(key);
+      return polynomial_text(key);
     case KeyType::whole:
-      return "whole number";
+      return range.empty() ? "whole number" : "whole number, " + range;
     case KeyType::flag:
       return "true, false";
     case KeyType::text:
@@ -154,12 +166,14 @@ std::string overview_of_keys(std::size_t width) {
 std::string text_of(const std::vector<Key>& keys, std::size_t width) {
   std::string out;
   for (const std::string& kind : key_kinds()) {
-    report::TextTable table({"key", "holds", "range", "default", "what it is"});
+    report::TextTable table({"key", "holds", "default", "what it is"});
     for (const Key& key : keys)
-      if (key.kind == kind)
-        table.add({key.path, holds(key), range_of(key), stands_instead(key), line_of(key)});
+      if (key.kind == kind) table.add({key.path, holds(key), stands_instead(key), line_of(key)});
     if (table.empty()) continue;
-    out += (out.empty() ? "" : "\n") + title_of(kind) + "\n" + table.text_within(width);
+    const Title title = title_of(kind);
+    out += fmt::format("{}{}{}{}\n", out.empty() ? "" : "\n", title.words,
+                       title.files.empty() ? "" : ": ", title.files);
+    out += table.text_within(width);
     if (const std::string note = note_of(kind); !note.empty()) out += note + "\n";
   }
   return out;
@@ -180,12 +194,15 @@ std::string page_of_keys() {
       "quantity (`\"3.2 in\"`, `\"60 psi gauge\"`). `<name>` is a name of yours, `[]` a list of "
       "tables. The program writes this page from the tables by which it reads files.\n";
   for (const std::string& kind : key_kinds()) {
-    out += fmt::format("\n## {}\n\n", cell(title_of(kind)));
-    if (const std::string note = note_of(kind); !note.empty()) out += cell(note) + "\n\n";
-    out += "| key | holds | range | default | what it is |\n| --- | --- | --- | --- | --- |\n";
+    const Title title = title_of(kind);
+    out += fmt::format("\n## {}\n\n", title.words);
+    const std::string note = cell(note_of(kind));
+    if (!title.files.empty()) out += fmt::format("`{}`.{}", title.files, note.empty() ? "" : " ");
+    out += note + "\n\n";
+    out += "| key | holds | default | what it is |\n| --- | --- | --- | --- |\n";
     for (const Key& key : keys_of(kind))
-      out += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.path, cell(holds(key)),
-                         cell(range_of(key)), cell(stands_instead(key)), cell(line_of(key)));
+      out += fmt::format("| `{}` | {} | {} | {} |\n", key.path, cell(holds(key)),
+                         cell(stands_instead(key)), cell(line_of(key)));
   }
   return out;
 }
