@@ -40,6 +40,8 @@ void add_firmware(Command app, Action& action);
 void add_force_beam(Command app, Action& action);
 void add_fmu(Command app, Action& action);
 void add_doctor(Command app, Action& action);
+void add_list(Command app, Action& action);
+void add_new(Command app, Action& action);
 
 // `--set key=value`, any number of times; one value each, so that what follows stays what it is.
 inline void add_sets(Command sub, std::vector<std::string>& sets) {

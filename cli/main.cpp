@@ -79,6 +79,8 @@ int main(int argc, char** argv) {
   cli::add_fmu(command, action);
   cli::add_force_beam(command, action);
   cli::add_doctor(command, action);
+  cli::add_list(command, action);
+  cli::add_new(command, action);
 
   try {
     app.parse(argc, argv);

@@ -73,7 +73,8 @@ install(TARGETS sinew_fmu_muscle_module sinew_fmu_machine_module LIBRARY DESTINA
         COMPONENT program)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/${sinew_modules}/fmu_sources DESTINATION ${sinew_modules}
         COMPONENT program)
-install(DIRECTORY robots experiments DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew COMPONENT program)
+install(DIRECTORY robots experiments studies DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew COMPONENT program)
+install(DIRECTORY data/templates DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew/data COMPONENT program)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT texts)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)  # headers name its pages

@@ -1,0 +1,295 @@
+#include "sinew/files/new_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <numbers>
+#include <set>
+
+#include "sinew/config/compose.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+#include "sinew/config/text_file.h"
+#include "sinew/files/check.h"
+#include "sinew/files/shipped.h"
+#include "sinew/log/replacement.h"
+
+namespace sinew::files {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 5> kinds{"robot", "actuator", "experiment", "plan", "rig"};
+constexpr std::size_t longest_name = 64;
+
+// The joint of the templates, and the angle about which it moves there.
+constexpr std::string_view template_joint = "lever";
+constexpr double template_rest_deg = 270;
+
+struct Joint {
+  std::string name;
+  std::string in_plan;  // without its leg: what drives one leg drives them all
+  double rest_deg = template_rest_deg;
+  bool driven = true;  // by muscles
+};
+
+// What the new file is about: a robot's file or an experiment's, and the joints that it drives.
+struct Subject {
+  fs::path file;
+  std::vector<Joint> joints{{std::string(template_joint), std::string(template_joint)}};
+};
+
+void require_kind(const std::string& kind) {
+  if (std::ranges::count(kinds, kind) > 0) return;
+  const std::vector<std::string_view> words(kinds.begin(), kinds.end());
+  config::fail({"new", 0, 0}, "", config::in_quotes(kind), config::either(words),
+               config::closest_in_quotes(kind, words));
+}
+
+// A name is a folder's or a file's, and stands in keys and comments.
+void require_name(const std::string& name) {
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+           c == '_';
+  };
+  if (!name.empty() && name.size() <= longest_name && name[0] != '-' &&
+      std::ranges::all_of(name, is_plain))
+    return;
+  std::string plain = fs::path(name).stem().string();
+  std::ranges::replace(plain, ' ', '-');
+  if (!std::ranges::all_of(plain, is_plain) || plain.starts_with('-') || plain == name)
+    plain.clear();
+  config::fail(
+      {"new", 0, 0}, "",
+      name.size() > longest_name ? fmt::format("a name of {} letters", name.size())
+                                 : config::in_quotes(name),
+      fmt::format("a name of a to z, 0 to 9, - and _, {} letters at most; the folder is an "
+                  "option of its own",
+                  longest_name),
+      plain.empty() ? "" : "\"" + plain.substr(0, longest_name) + "\"");
+}
+
+void replace_all(std::string& text, std::string_view from, const std::string& to) {
+  for (std::size_t at = text.find(from); at != text.npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+// "3.15 in | 80 mm" stands in a template for either.
+void choose_units(std::string& text, bool metric) {
+  constexpr std::string_view between = " | ";
+  for (std::size_t at = text.find(between); at != text.npos; at = text.find(between, at)) {
+    const std::size_t begin = text.rfind('"', at) + 1, end = text.find('"', at);
+    if (metric)
+      text.erase(begin, at + between.size() - begin);
+    else
+      text.erase(at, end - at);
+  }
+}
+
+// NEW is the name as a value, `name = "NEW"`, and the file everywhere else, which is in comments.
+void put_name(std::string& text, const std::string& name, const std::string& file) {
+  constexpr std::string_view mark = "NEW", before_value = "= \"";
+  for (std::size_t at = text.find(mark); at != text.npos;) {
+    const bool is_value = std::string_view(text).substr(0, at).ends_with(before_value);
+    const std::string& word = is_value ? name : file;
+    text.replace(at, mark.size(), word);
+    at = text.find(mark, at + word.size());
+  }
+}
+
+// A file's name in a comment, as a shell takes it.
+std::string in_comment(const fs::path& file) {
+  const std::string name = file.string();
+  const auto is_control = [](char c) { return (c >= 0 && c < 0x20) || c == 0x7F; };
+  if (std::ranges::any_of(name, is_control)) return file.filename().string();
+  return name.find(' ') == name.npos ? name : "\"" + name + "\"";
+}
+
+// Text between double quotes in TOML.
+std::string in_toml(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if ((c >= 0 && c < 0x20) || c == 0x7F)
+      out += fmt::format("\\u{:04X}", static_cast<int>(c));
+    else
+      out += c;
+  }
+  return "\"" + out + "\"";
+}
+
+// "290 deg" of the template is 20 deg beyond the rest angle, at any joint.
+std::string about(const Joint& joint, std::string text) {
+  for (std::size_t end = text.find(" deg\""); end != text.npos;
+       end = text.find(" deg\"", end + 5)) {
+    const std::size_t begin = text.rfind('"', end) + 1;
+    const double angle = std::stod(text.substr(begin, end - begin));
+    const std::string moved = fmt::format("{:g}", angle - template_rest_deg + joint.rest_deg);
+    text.replace(begin, end - begin, moved);
+    end = begin + moved.size();
+  }
+  return text;
+}
+
+// "{ lever = X }" is said of each joint: of all at the start, of one leg's in a plan.
+void name_joints(std::string& text, const std::vector<Joint>& joints) {
+  const std::string opening = fmt::format("{{ {} = ", template_joint);
+  for (std::size_t at = text.find(opening); at != text.npos; at = text.find(opening, at + 1)) {
+    const std::size_t end = text.find(" }", at);
+    const std::string value = text.substr(at + opening.size(), end - at - opening.size());
+    const bool at_start = text.compare(text.rfind("\n[", at) + 1, 7, "[start]") == 0;
+    std::string all;
+    std::set<std::string> named;
+    for (const Joint& joint : joints)
+      if (const std::string& name = at_start ? joint.name : joint.in_plan;
+          (at_start || joint.driven) && named.insert(name).second)
+        all += fmt::format("{}{} = {}", all.empty() ? "{ " : ", ", name, about(joint, value));
+    text.replace(at, end - at, all);
+  }
+  // A plan's keys name one joint.
+  const Joint& first = *std::ranges::find_if(joints, &Joint::driven);
+  for (const char* before : {"joint.", "joints."})
+    replace_all(text, fmt::format("{}{}.", before, template_joint), before + first.name + ".");
+  replace_all(text, fmt::format("stiffness.{}=", template_joint),
+              "stiffness." + first.in_plan + "=");
+}
+
+const config::Node* value_of(const config::Node& table, const char* key) {
+  const config::Node* node = table.find(key);
+  return node && node->is_value_table() ? node->find("value") : node;
+}
+
+// "hip" of left_hip, where the robot has a leg of that name.
+std::string without_leg(const std::string& joint, const config::Node& root) {
+  if (const config::Node* legs = root.find("leg"))
+    for (const config::Node& leg : legs->children)
+      if (joint.starts_with(leg.key + "_")) return joint.substr(leg.key.size() + 1);
+  return joint;
+}
+
+// The joints, with their rest angles.
+std::vector<Joint> joints_of(const config::Node& root) {
+  std::vector<Joint> out;
+  if (const config::Node* table = root.find("joint"))
+    for (const config::Node& joint : table->children) {
+      const config::Node* kind = value_of(joint, "kind");
+      const config::Node* rest = value_of(joint, "rest_angle");
+      const double angle =
+          rest ? config::quantity(rest->text, "rad", joint.key + ".rest_angle") : 0;
+      out.push_back({joint.key, without_leg(joint.key, root), angle * 180 / std::numbers::pi,
+                     !kind || kind->text != "passive"});
+    }
+  return out;
+}
+
+// What it is of: the file that was named, or one that comes with Sinew.
+Subject subject_of(const std::string& kind, const NewOptions& options) {
+  const bool is_plan = kind == "plan";
+  if (kind != "experiment" && !is_plan) {
+    if (options.of.empty()) return {};
+    config::fail({options.of, 0, 0}, "", fmt::format("a file for a new {} to be of", kind),
+                 "an experiment, which is of a robot, or a plan, which is of an experiment");
+  }
+  if (options.of.empty())
+    return {shipped_folder() /
+            (is_plan ? "experiments/one-joint.toml" : "robots/one-joint/robot.toml")};
+  const config::Node root = config::compose(options.of);
+  const std::string_view wanted = is_plan ? "experiment" : "robot";
+  if (const std::string_view found = config::format_kind(root); found != wanted)
+    config::fail(
+        {options.of, 0, 0}, "", fmt::format("format = \"sinew.{}/1\"", found),
+        fmt::format("the {} that the new {} is of, format = \"sinew.{}/1\"", wanted, kind, wanted));
+  Subject out{options.of, joints_of(root)};
+  if (std::ranges::none_of(out.joints, &Joint::driven))
+    config::fail({options.of, 0, 0}, "joint", "no joint with muscles", "one at least");
+  return out;
+}
+
+// Relative to the new file where somebody named it; one that comes with Sinew has its whole name.
+std::string reference(const Subject& subject, const fs::path& from, bool named) {
+  if (!named) return subject.file.string();
+  const fs::path folder = fs::weakly_canonical(fs::absolute(from));
+  return fs::weakly_canonical(fs::absolute(subject.file)).lexically_relative(folder).string();
+}
+
+struct Draft {
+  fs::path file;
+  std::string text;
+};
+
+// What was asked for.
+struct Task {
+  std::string kind, name;
+  const NewOptions& options;
+  Subject subject;
+};
+
+// `part` is the template: robot, actuator, …
+Draft draft(const Task& task, const std::string& part, const fs::path& file) {
+  const fs::path from = shipped_folder() / "data/templates" / (part + ".toml");
+  Draft out{file, config::read_text_file(from.string(), "a template of Sinew")};
+  choose_units(out.text, task.options.metric);
+  if (task.kind == "actuator") replace_all(out.text, "= \"bpa\"", "= \"NEW\"");
+  name_joints(out.text, task.subject.joints);
+  put_name(out.text, task.name, in_comment(file));
+  if (part == "experiment" || part == "plan") {
+    const std::string key = part == "plan" ? "experiment = " : "robot  = ";
+    const std::string quoted = part == "plan" ? "\"experiment.toml\"" : "\"robot.toml\"";
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    replace_all(out.text, key + quoted,
+                key + in_toml(reference(task.subject, folder, !task.options.of.empty())));
+  }
+  return out;
+}
+
+// A robot and a rig have their actuator and valves beside them in a folder of their own.
+std::vector<Draft> drafts(const std::string& kind, const std::string& name,
+                          const NewOptions& options) {
+  const fs::path folder(options.folder);
+  if (!options.folder.empty() && fs::exists(folder) && !fs::is_directory(folder))
+    config::fail({options.folder, 0, 0}, "", "a file", "a folder, or a name that is free");
+  const Task task{kind, name, options, subject_of(kind, options)};
+  if (kind != "robot" && kind != "rig") return {draft(task, kind, folder / (name + ".toml"))};
+  std::vector<Draft> out;
+  for (const std::string& part : {kind, std::string("actuator"), std::string("valves")})
+    out.push_back(draft(task, part, folder / name / (part + ".toml")));
+  return out;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code bad;
+  if (!folder.empty()) fs::create_directories(folder, bad);
+  if (bad)
+    config::fail({folder.string(), 0, 0}, "",
+                 fmt::format("no folder, and none can be made: {}", bad.message()),
+                 "a folder that can be written");
+}
+
+}  // namespace
+
+std::span<const std::string_view> new_kinds() { return kinds; }
+
+NewFiles write_new(const std::string& kind, const std::string& name, const NewOptions& options) {
+  require_kind(kind);
+  require_name(name);
+  const std::vector<Draft> all = drafts(kind, name, options);
+  for (const Draft& one : all)
+    if (fs::exists(fs::symlink_status(one.file)))
+      config::fail({one.file.string(), 0, 0}, "", "a file that is there already",
+                   "a name that is free", "another name, or to take it away");
+  NewFiles out;
+  for (const Draft& one : all) {
+    make_folder(one.file.parent_path());
+    log::Replacement whole(one.file);
+    whole.write(one.text);
+    whole.commit();
+    out.files.push_back(one.file.string());
+  }
+  out.problems = check(out.files[0]).problems;
+  return out;
+}
+
+}  // namespace sinew::files

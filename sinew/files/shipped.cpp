@@ -1,0 +1,57 @@
+#include "sinew/files/shipped.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "sinew/config/diagnostics.h"
+
+namespace sinew::files {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// An installation's share/sinew is at most so far above the program or Python's module, and so are
+// the sources above what was built in them.
+constexpr int furthest = 5;
+
+bool is_it(const fs::path& folder) {
+  std::error_code none;
+  return fs::is_regular_file(folder / "robots/one-joint/robot.toml", none) &&
+         fs::is_directory(folder / "experiments", none) &&
+         fs::is_directory(folder / "data/templates", none);
+}
+
+// The folders of the program and of the library that this code is in, where that is another file.
+std::vector<fs::path> beginnings() {
+  std::error_code none;
+  std::vector<fs::path> out;
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&shipped_folder), &info) != 0 && info.dli_fname)
+    out.push_back(fs::weakly_canonical(info.dli_fname, none).parent_path());
+  out.push_back(fs::read_symlink("/proc/self/exe", none).parent_path());
+  return out;
+}
+
+}  // namespace
+
+fs::path shipped_folder() {
+  std::error_code none;
+  if (const char* named = std::getenv("SINEW_SHARE"); named && *named) {
+    if (is_it(named)) return fs::canonical(named, none);
+    config::fail({named, 0, 0}, "SINEW_SHARE", "no robots/, experiments/ and data/templates/ there",
+                 "the folder share/sinew of an installation, or Sinew's sources",
+                 "to unset it: then it is looked for beside the program");
+  }
+  for (fs::path folder : beginnings())
+    for (int up = 0; up <= furthest && !folder.empty(); ++up, folder = folder.parent_path())
+      for (const fs::path& place : {folder / "share/sinew", folder})
+        if (is_it(place)) return fs::canonical(place, none);
+  config::fail({"share/sinew", 0, 0}, "", "nothing near the program",
+               "the robots and experiments that come with Sinew",
+               "SINEW_SHARE=FOLDER in the environment");
+}
+
+}  // namespace sinew::files
