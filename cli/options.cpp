@@ -8,6 +8,42 @@
 
 namespace sinew::cli {
 
+namespace {
+
+// "TEXT:{sobol,latin,random}" names the words that is_one_of() takes.
+std::vector<std::string> choices_of(const std::string& type) {
+  const std::size_t begin = type.find('{'), end = type.find('}');
+  if (begin == type.npos || end == type.npos) return {};
+  return CLI::detail::split(type.substr(begin + 1, end - begin - 1), ',');
+}
+
+CommandTree::Shape shape_of(const CLI::Option& option) {
+  CommandTree::Shape out{{}, option.get_description(), choices_of(option.get_type_name()), false};
+  for (const std::string& name : option.get_lnames()) out.names.push_back("--" + name);
+  for (const std::string& name : option.get_snames()) out.names.push_back("-" + name);
+  out.takes_value = option.get_items_expected_max() > 0;
+  return out;
+}
+
+// A group of options has no name: they are the command's own.
+void add_options(const CLI::App& app, CommandTree& out) {
+  for (const CLI::Option* option : app.get_options()) out.options.push_back(shape_of(*option));
+  for (const CLI::App* group :
+       app.get_subcommands([](const CLI::App* a) { return a->get_name().empty(); }))
+    add_options(*group, out);
+}
+
+CommandTree tree_of(const CLI::App& app) {
+  CommandTree out{app.get_name(), app.get_description(), {}, {}};
+  add_options(app, out);
+  for (const CLI::App* sub :
+       app.get_subcommands([](const CLI::App* a) { return !a->get_name().empty(); }))
+    out.commands.push_back(tree_of(*sub));
+  return out;
+}
+
+}  // namespace
+
 Option Option::required(bool needed) {
   option_->required(needed);
   return *this;
@@ -99,6 +135,8 @@ Option Command::add_flag(const std::string& names, bool& value, const std::strin
 }
 
 Option Command::option(const std::string& name) { return Option(*app_->get_option(name)); }
+
+CommandTree Command::tree() const { return tree_of(*app_); }
 
 void Command::callback(std::function<void()> understood) { app_->callback(std::move(understood)); }
 

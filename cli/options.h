@@ -37,6 +37,19 @@ class Option {
   CLI::Option* option_;
 };
 
+// A command as it was described, with those below it: for what is made of descriptions.
+struct CommandTree {
+  struct Shape {
+    std::vector<std::string> names;  // --json, -o; empty: a positional argument
+    std::string description;
+    std::vector<std::string> choices;  // the only words that it takes, where they are known
+    bool takes_value = false;
+  };
+  std::string name, description;
+  std::vector<Shape> options;
+  std::vector<CommandTree> commands;
+};
+
 // A command with its options, or a group of them. A copy is the same command.
 class Command {
  public:
@@ -54,6 +67,8 @@ class Command {
   Option add_option(const std::string& names, Value& value, const std::string& description);
   Option add_flag(const std::string& names, bool& value, const std::string& description);
   Option option(const std::string& name);  // one that was added
+
+  CommandTree tree() const;
 
   // `understood` is called once the line was read and has what is required. Where what it says does
   // not go together, it calls refuse.
