@@ -81,6 +81,7 @@ int main(int argc, char** argv) {
   cli::add_doctor(command, action);
   cli::add_list(command, action);
   cli::add_new(command, action);
+  cli::add_completion(command, action);
 
   try {
     app.parse(argc, argv);
