@@ -78,6 +78,9 @@ alone sinew check "$share"/robots/*/*.toml "$share"/experiments/*.toml >"$folder
 rm -rf walk
 alone sinew run "$share/experiments/walk-test-1.toml" -o walk --quiet >/dev/null
 [[ -s walk/log.mcap && -s walk/summary.json ]] || fail "the walk left no log"
+rm -rf arm
+alone sinew list robots | grep 'leg/robot.toml' >/dev/null || fail "sinew list does not know the leg"
+alone sinew new robot arm >/dev/null && alone sinew check arm/robot.toml >/dev/null || fail "a new robot is not in order"
 alone sinew fmu export "$share/robots/leg/robot.toml" --muscle hip_flexor -o muscle.fmu --force >/dev/null
 alone PYTHONPATH="$OLDPWD/fmu/tests" PYTHONDONTWRITEBYTECODE=1 "${PYTHON:-/usr/bin/python3}" -c '
 from importer import Fmu
