@@ -68,12 +68,22 @@ TEST(Application, IsConfiguredArmedRunAndShutDownOverItsSerialLine) {
   EXPECT_EQ(host.identity->state, BoardState::fault);
 
   arm(host, configure(host));
-  const int before = host.telemetries;
-  run(host, 100);
+  // A run in which a busy computer let this host stand still says nothing of what gets lost.
+  std::uint32_t lost = 0, lost_to_board = 0;
+  for (int tries = 0; tries < 10; ++tries) {
+    host.longest_pause();
+    const int before = host.telemetries;
+    const std::uint32_t lost_before = host.joined().lost();
+    const std::uint32_t to_board_before = host.telemetry.link.lost;
+    run(host, 100);
+    EXPECT_GE(host.telemetries - before, 100);
+    lost = host.joined().lost() - lost_before;
+    lost_to_board = host.telemetry.link.lost - to_board_before;
+    if (host.longest_pause() < milliseconds(6)) break;
+  }
   EXPECT_EQ(host.telemetry.state, BoardState::running);
-  EXPECT_GE(host.telemetries - before, 100);
-  EXPECT_EQ(host.joined().lost(), 0u);
-  EXPECT_EQ(host.telemetry.link.lost, 0u) << "frames to the board";
+  EXPECT_EQ(lost, 0u);
+  EXPECT_EQ(lost_to_board, 0u) << "frames to the board";
   EXPECT_EQ(host.telemetry.seen.reading[1].counts, 2'048);
   EXPECT_EQ(host.telemetry.seen.late, 0u);
   EXPECT_EQ(host.telemetry.supervised.gaps, 0u) << "missed ticks";

@@ -9,11 +9,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sinew/control/link/configuration.h"
@@ -125,6 +127,13 @@ class Host {
     return came ? answer->code : link::Code::type;
   }
 
+  // The longest time that it has not looked at its line since the last call. The line holds some
+  // milliseconds of telemetry: what comes after them is lost, and no fault of the board.
+  Clock::duration longest_pause() {
+    looked_ = Clock::now();
+    return std::exchange(longest_pause_, Clock::duration{});
+  }
+
   // Listens until it is so; false: it has not been within the time.
   template <class So>
   bool wait(So so, milliseconds longest = milliseconds(15'000)) {
@@ -136,7 +145,11 @@ class Host {
   }
   void listen(milliseconds time) {
     pollfd p{line_, POLLIN, 0};
-    if (poll(&p, 1, static_cast<int>(time.count())) <= 0) return;
+    const int ready = poll(&p, 1, static_cast<int>(time.count()));
+    const Clock::time_point now = Clock::now();
+    longest_pause_ = std::max(longest_pause_, now - looked_);
+    looked_ = now;
+    if (ready <= 0) return;
     link::Bytes bytes(4'096);
     const ssize_t n = read(line_, bytes.data(), bytes.size());
     if (n <= 0) return;
@@ -152,6 +165,8 @@ class Host {
   const link::TelemetryJoiner& joined() const { return joiner_; }
 
  private:
+  Clock::time_point looked_ = Clock::now();
+  Clock::duration longest_pause_{};
   void hear(const link::Frame& f) {
     if (link::Identity m; link::decode(f, m) == link::Code::done) identity = m;
     if (link::Answer m; link::decode(f, m) == link::Code::done) answer = m;
