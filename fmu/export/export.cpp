@@ -142,7 +142,7 @@ std::string bytes_of(const fs::path& file) {
   return out;
 }
 
-// What a C compiler and a file system both take for a name.
+// Returns a name that a C compiler and a file system both take.
 std::string identifier_of(const std::string& name) {
   std::string out;
   for (const char c : name) {

@@ -52,7 +52,7 @@ std::string base_unit(const std::string& unit) {
          (factor == 1 ? "" : attribute("factor", factor)) + "/>";
 }
 
-// In what laboratories read it: value there = factor x value in SI.
+// Units that laboratories read: a value in one of them = factor x the value in SI.
 struct Display {
   std::string_view si, name;
 };
@@ -148,7 +148,7 @@ std::string head(const Described& model, std::string_view version, std::string_v
          " variableNamingConvention=\"structured\">\n";
 }
 
-// What stands in front of the values: name, reference, meaning, causality and variability.
+// Returns what stands in front of the values: name, reference, meaning, causality and variability.
 std::string named(const Variable& v, std::size_t place) {
   return attribute("name", std::string_view(v.name)) +
          fmt::format(" valueReference=\"{}\"", place) +

@@ -20,7 +20,7 @@
 
 namespace sinew::fmu {
 
-// What of an experiment an importer sees; all by their names here.
+// Names what of an experiment an importer sees.
 struct MachineShown {
   std::vector<std::string> inputs;      // keys of settings
   std::vector<std::string> outputs;     // channels; empty: all

@@ -16,7 +16,7 @@ namespace {
 
 using Causality = Variable::Causality;
 
-// What of a joint a muscle's route asks for.
+// Visits what a muscle's route asks of a joint.
 template <class Visitor>
 void route_fields(Visitor& v, robot::Joint& joint) {
   using Flexion = robot::Joint::Flexion;

@@ -17,7 +17,7 @@
 
 namespace sinew::fmu {
 
-// What a muscle starts from.
+// Says where a muscle starts.
 struct MuscleStart {
   double length = 0;    // [m]
   double pressure = 0;  // of its air, absolute [Pa]
@@ -33,7 +33,7 @@ ValvePlaces add_valves(Sheet& sheet, const air::Muscle& muscle, const std::strin
 // Returns the kind of a muscle's inlet in a list of its parameters: it says which keys there are.
 gas::Valve::Kind inlet_kind(const std::vector<Parameter>& list, const std::string& prefix);
 
-// What was commanded last, so that a valve is told only of changes.
+// Remembers what was commanded last, so that a valve is told only of changes.
 struct Commanded {
   double inlet = 0, exhaust = 0, set_point = 0;
 };

@@ -14,7 +14,7 @@
 
 namespace sinew::fmu {
 
-// What a muscle has beside its actuator, valves and hose.
+// Visits what a muscle has beside its actuator, valves and hose.
 template <class Visitor>
 void bundle_fields(Visitor& v, int& count, double& external_volume) {
   v.integer({.name = "count", .min = 1, .max = 100, .doc = "actuators in parallel"}, count);

@@ -27,7 +27,7 @@ class Tube {
 
   // Takes the model that the description tells of. Throws std::exception for what is wrong with it.
   explicit Tube(const Description& description);
-  // What the exporter writes.
+  // Returns what the exporter writes of an actuator.
   static Description describe(const actuator::Actuator& actuator, const gas::Air& air, int count,
                               double external_volume);
 

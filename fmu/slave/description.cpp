@@ -25,7 +25,7 @@ std::string sixteen_digits(std::uint64_t number) {
   return out;
 }
 
-// What is no printed character as a question mark.
+// Returns the text with a question mark for each character that is not printed.
 std::string printable(std::string_view text) {
   std::string out(text);
   for (char& c : out)

@@ -25,7 +25,7 @@ class Description {
 
   // Reads the file in the folder of resources. Throws std::runtime_error with what is wrong.
   static Description read(const std::filesystem::path& resources);
-  // The same from the file's text, without the files beside it.
+  // Reads the file's text, without the files beside it.
   static Description parse(std::string_view text);
 
   // Returns the file's text, its hash last.

@@ -54,7 +54,7 @@ class Instance {
   // Says how far an instance's life has come.
   enum class Phase : std::uint32_t { made, initializing, stepping, terminated, failed };
 
-  // What became of a step: done; done up to where the model ends, in it or before it; failed.
+  // Says what became of a step: done; done up to where the model ends, in it or before it; failed.
   enum class Step { done, ended, failed };
 
   // Makes the model; `version` is that of the library, whose states it takes. Throws where the
