@@ -27,6 +27,7 @@ layers='
     config          units
     config/write    config
     log             signals
+    recording       signals log config
     plant/world     air signals
     plant/friction  units
     plant/planar    plant/world plant/friction air robot signals
@@ -40,7 +41,7 @@ layers='
     experiment      robot config control/gait
     experiment/rig  experiment plant/slide
     identify/fit    actuator config
-    identify/data   identify/fit config
+    identify/data   identify/fit recording
     identify/actuator  identify/data
     identify/motion identify/data
     identify/joint  identify/data robot

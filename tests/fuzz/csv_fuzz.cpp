@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-#include "sinew/identify/data/measured.h"
+#include "sinew/recording/measured.h"
 #include "tests/fuzz/law.h"
 
 namespace sinew::fuzz {
 namespace {
 
-using identify::Measured;
-using identify::Wanted;
+using recording::Measured;
+using recording::Wanted;
 
 constexpr std::pair<std::string_view, double> words[] = {{"fill", 1}, {"vent", -1}};
 constexpr Wanted wanted[] = {
@@ -22,12 +22,12 @@ constexpr Wanted wanted[] = {
     {.name = "force", .unit = "N", .least = 1, .most = 1e5, .doc = "it pulls with"}};
 
 Measured read(std::string_view text, const std::string& name) {
-  return identify::parse_measured(text, {.path = name}, wanted);
+  return recording::parse_measured(text, {.path = name}, wanted);
 }
 
 std::string written(const Measured& m) {
   std::string text;
-  for (const identify::Column& c : m.columns)
+  for (const recording::Column& c : m.columns)
     text += fmt::format("{}{} [{}]", text.empty() ? "" : ",", c.name, c.unit);
   text += '\n';
   for (std::size_t row = 0; row < m.rows(); ++row) {
@@ -47,7 +47,7 @@ void csv(std::string_view input) {
   } catch (const config::Error& error) {
     return law_of_refusal(error, "a.csv");
   }
-  for (const identify::Column& c : m.columns) {
+  for (const recording::Column& c : m.columns) {
     law(c.values.size() == m.rows(), "a value for each row: " + c.name);
     for (const double v : c.values) law(std::isfinite(v), "a number: " + c.name);
   }

@@ -9,12 +9,15 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/text_file.h"
-#include "sinew/identify/data/csv_grid.h"
+#include "sinew/recording/grid.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::identify {
 
 namespace {
+
+using recording::Grid;
+using recording::Heading;
 
 constexpr std::array kinds{
     KindFacts{SensorKind::angle, "angle", "rad", "V/rad", "V/rad2"},
@@ -164,7 +167,7 @@ const KindFacts& facts_of(SensorKind kind) {
 SensorData parse_sensor_data(std::string_view text, const Source& source,
                              const CountScale& converter, const std::string& known,
                              const std::vector<std::string>& sensors) {
-  const Grid grid = read_grid(text, source.path, source.columns);
+  const Grid grid = recording::read_grid(text, source.path, source.columns);
   const Finder finder(grid, source);
   const Layout layout = finder.find(known, sensors);
 

@@ -1,4 +1,4 @@
-#include "sinew/identify/data/csv_grid.h"
+#include "sinew/recording/grid.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/utf8.h"
 
-namespace sinew::identify {
+namespace sinew::recording {
 
 namespace {
 
@@ -157,4 +157,4 @@ Grid read_grid(std::string_view text, const std::string& file,
   return grid;
 }
 
-}  // namespace sinew::identify
+}  // namespace sinew::recording

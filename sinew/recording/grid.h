@@ -1,4 +1,4 @@
-// identify/data/csv_grid.h - a CSV file as cells of text under a header, before anybody asks what
+// recording/grid.h - a CSV file as cells of text under a header, before anybody asks what
 // they mean.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sinew::identify {
+namespace sinew::recording {
 
 struct Cell {
   std::string_view text;  // trimmed; into the text that was read
@@ -46,4 +46,4 @@ Grid read_grid(std::string_view text, const std::string& file,
 bool is_number(std::string_view text);
 std::optional<double> number_in(std::string_view text);  // nothing where it is none
 
-}  // namespace sinew::identify
+}  // namespace sinew::recording

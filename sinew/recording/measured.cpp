@@ -1,4 +1,4 @@
-#include "sinew/identify/data/measured.h"
+#include "sinew/recording/measured.h"
 
 #include <fmt/format.h>
 
@@ -12,10 +12,10 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/text_file.h"
-#include "sinew/identify/data/csv_grid.h"
+#include "sinew/recording/grid.h"
 #include "sinew/units/unit.h"
 
-namespace sinew::identify {
+namespace sinew::recording {
 
 namespace {
 
@@ -383,4 +383,4 @@ Measured read_measured(const Source& source, std::span<const Wanted> wanted) {
   return parse_measured(text_of(source, "measurements as CSV"), source, wanted);
 }
 
-}  // namespace sinew::identify
+}  // namespace sinew::recording
