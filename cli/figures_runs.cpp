@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 report::RunFigureOptions options_of(const RunFiguresRequest& request) {
   report::RunFigureOptions out;
-  if (request.units == "thesis") out.units = report::UnitSystem::thesis;
+  if (request.units == "thesis") out.units = units::UnitSet::thesis;
   if (!request.from.empty()) out.from = argument("--from", request.from, "s", units::atmosphere);
   if (!request.to.empty()) out.to = argument("--to", request.to, "s", units::atmosphere);
   if (out.from >= out.to)

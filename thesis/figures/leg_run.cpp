@@ -66,10 +66,10 @@ bool LegRun::within(const Window& window, std::int64_t time_ns) const {
 }
 
 // A duty is a share, which a log does not tell from another number.
-report::ShownUnit LegRun::unit_of(const report::Channel& channel) const {
+units::ShownUnit LegRun::unit_of(const report::Channel& channel) const {
   const report::Samples samples = channels().find(channel);
-  return report::shown_unit(channel.topic.ends_with("_duty") ? "share" : samples.unit,
-                            report::UnitSystem::thesis, 0, machine_.atmosphere);
+  return units::ShownUnits(units::UnitSet::thesis)
+      .of(channel.topic.ends_with("_duty") ? "share" : samples.unit, 0, machine_.atmosphere);
 }
 
 report::Curve LegRun::curve(const std::string& label, const report::Channel& channel,
@@ -77,7 +77,7 @@ report::Curve LegRun::curve(const std::string& label, const report::Channel& cha
   report::Curve out{.label = label, .color = color, .source = file_ + ", " + channel.topic};
   const report::Samples samples = channels().find(channel);
   if (!samples) return out;
-  const report::ShownUnit unit = unit_of(channel);
+  const units::ShownUnit unit = unit_of(channel);
   for (std::size_t i = 0; i < samples.values->size(); ++i) {
     const std::int64_t at = (*samples.time_ns)[i];
     if (!within(window, at)) continue;
@@ -104,7 +104,7 @@ report::Curve LegRun::path(const std::string& label, const std::string& topic,
 
 analysis::Column LegRun::rows(const report::Channel& channel) const {
   analysis::Column out;
-  const report::ShownUnit unit = unit_of(channel);
+  const units::ShownUnit unit = unit_of(channel);
   for (const double si : record_.column(channel.topic, channel.field)) out.push_back(unit.of(si));
   return out;
 }

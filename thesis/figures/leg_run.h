@@ -9,8 +9,8 @@
 #include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/record/record.h"
 #include "sinew/analysis/summary.h"
-#include "sinew/report/figures/shown_unit.h"
 #include "sinew/report/page/channels.h"
+#include "sinew/units/shown.h"
 #include "thesis/figures/thesis.h"
 
 namespace sinew::thesis {
@@ -54,7 +54,7 @@ class LegRun {
 
  private:
   report::Channels channels() const;
-  report::ShownUnit unit_of(const report::Channel& channel) const;
+  units::ShownUnit unit_of(const report::Channel& channel) const;
   bool within(const Window& window, std::int64_t time_ns) const;
 
   std::string file_;

@@ -19,9 +19,13 @@
 namespace sinew::report {
 namespace {
 
+using units::ShownUnit;
 using Kind = Curve::Kind;
 
 constexpr int most_colors = 4;  // in one plot; more go into the next one below
+
+// An axis of plain numbers says so.
+std::string unit_on_axis(const ShownUnit& unit) { return unit.name.empty() ? "-" : unit.label(); }
 
 // What all captions of a run begin and end with.
 struct About {
@@ -73,7 +77,7 @@ class Maker {
              const ShownUnit& y_unit, Kind kind) const;
   // For numbers of that size  [SI].
   ShownUnit unit(std::string_view of, double largest) const {
-    return shown_unit(of, options_.units, largest, atmosphere_);
+    return options_.units.of(of, largest, atmosphere_);
   }
   double largest(const Channel& channel) const;
   Kind kind() const { return about_.kind; }
@@ -203,7 +207,7 @@ void Maker::panel(const Panel& all) {
     Plot& plot = plots[part];
     plot.name = std::to_string(part + 1);
     plot.x = {"time", "s"};
-    plot.y = {in_sentence(panel.title), unit.name};
+    plot.y = {in_sentence(panel.title), unit_on_axis(unit)};
     plot.spans = stance_;
     plot.spans.insert(plot.spans.end(), faults_.begin(), faults_.end());
     plot.curves.push_back(curve(line, unit, steps));
@@ -249,8 +253,8 @@ void add_foot_path(Maker& make, const Channels& channels, const std::string& leg
     return make.pair(label, {topic, "x"}, {topic, "y"}, unit, unit, kind);
   };
   make.over(leg.empty() ? "foot-path" : "foot-path-" + leg,
-            leg.empty() ? "Foot path" : "Foot path of leg " + leg, {"x forward", unit.name},
-            {"y up", unit.name},
+            leg.empty() ? "Foot path" : "Foot path of leg " + leg,
+            {"x forward", unit_on_axis(unit)}, {"y up", unit_on_axis(unit)},
             {path("actual", which, make.kind()), once(path("desired", desired, Kind::desired))},
             true,
             which == measured
@@ -287,8 +291,8 @@ void add_chart(Maker& make, const Chart& chart) {
     else
       curves.push_back(std::move(curve));
   }
-  make.over(file_name_of(chart.title), chart.title, {in_sentence(chart.x.label), x.name},
-            {in_sentence(chart.y.label), y.name}, std::move(curves), false, "");
+  make.over(file_name_of(chart.title), chart.title, {in_sentence(chart.x.label), unit_on_axis(x)},
+            {in_sentence(chart.y.label), unit_on_axis(y)}, std::move(curves), false, "");
 }
 
 std::vector<Figure> of_robot(const Run& run, const RunFigureOptions& options) {

@@ -13,14 +13,14 @@
 #include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/record/record.h"
 #include "sinew/report/figures/figure.h"
-#include "sinew/report/figures/shown_unit.h"
 #include "sinew/report/page/page.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::report {
 
 // How the figures of a run are made.
 struct RunFigureOptions {
-  UnitSystem units = UnitSystem::si;
+  units::ShownUnits units = {};
   double from = -std::numeric_limits<double>::infinity();  // samples that are shown [s]
   double to = std::numeric_limits<double>::infinity();
 };

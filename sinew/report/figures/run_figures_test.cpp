@@ -51,14 +51,14 @@ TEST(RunFigures, ShowTheSamplesOfTheLogInTheirUnit) {
   const signals::Table table = logged();
   const signals::Column& angle = *table.column("/joint/hip/angle");
   for (const auto& [units, scale] :
-       {std::pair(UnitSystem::si, 1.0), std::pair(UnitSystem::thesis, 180 / M_PI)}) {
+       {std::pair(units::UnitSet::si, 1.0), std::pair(units::UnitSet::thesis, 180 / M_PI)}) {
     const std::vector<Figure> list = figures(table, {.units = units});
     const Curve& hip = labelled(named(list, "joint-angles"), "hip");
     ASSERT_EQ(hip.ys.size(), angle.size());
     for (std::size_t i = 0; i < angle.size(); ++i)
       EXPECT_NEAR(hip.ys[i] / scale, angle[i], 1e-12 * angle[i]);
   }
-  const std::vector<Figure> list = figures(table, {.units = UnitSystem::thesis});
+  const std::vector<Figure> list = figures(table, {.units = units::UnitSet::thesis});
   EXPECT_EQ(named(list, "pressure").plots[0].y.unit, "psi gauge");
   EXPECT_EQ(named(list, "joint-angles").plots[0].y.title(), "joint angles [deg]");
 }
@@ -148,33 +148,6 @@ TEST(RunFigures, ShadeTheTimesOfFaults) {
   EXPECT_NEAR(whole[1].to, end, 0.02);
   EXPECT_EQ(faults({.from = 0.7, .to = 0.8}).size(), 0u);
   EXPECT_EQ(faults({.from = 0.5, .to = 0.8}).size(), 1u);
-}
-
-// --- units ---
-
-TEST(ShownUnit, ChoosesTheFirstOfThoseThatDifferByAThousand) {
-  const auto name = [](std::string_view unit, double largest, UnitSystem system = UnitSystem::si) {
-    return shown_unit(unit, system, largest).name;
-  };
-  EXPECT_EQ(name("m", 0.99), "mm");
-  EXPECT_EQ(name("m", 1.5), "m");
-  EXPECT_EQ(name("m", 5000), "m");
-  EXPECT_EQ(name("kg", 1e-7), "mg");
-  EXPECT_EQ(name("kg", 0.9), "g");
-  EXPECT_EQ(name("kg", 20), "kg");
-  EXPECT_EQ(name("N", 1e9), "N");
-  EXPECT_EQ(name("m", 1.5, UnitSystem::thesis), "in");
-  EXPECT_EQ(name("furlong", 1), "furlong");
-  EXPECT_EQ(name("", 1), "-");
-}
-
-TEST(ShownUnit, IsWhatItsNameSays) {
-  EXPECT_NEAR(shown_unit("Pa", UnitSystem::thesis, 1).of(units::atmosphere + 62 * units::psi), 62,
-              1e-9);
-  EXPECT_NEAR(shown_unit("Pa", UnitSystem::si, 1).of(101325), 101.325, 1e-9);
-  EXPECT_NEAR(shown_unit("N m/rad", UnitSystem::thesis, 1).of(35 * 4.4482216152605 * 0.0254), 35,
-              1e-9);
-  EXPECT_NEAR(shown_unit("share", UnitSystem::si, 1).of(0.55), 55, 1e-12);
 }
 
 }  // namespace

@@ -1,0 +1,225 @@
+#include "sinew/units/shown.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "sinew/units/shown_table.h"
+
+namespace sinew::units {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, UnitSet>, 3> sets = {
+    {{"si", UnitSet::si}, {"thesis", UnitSet::thesis}, {"metric", UnitSet::metric}}};
+
+// A pressure whose reference is asked for keeps it: "Pa gauge" is shown in "bar gauge".
+std::string_view reference_asked(std::string_view unit) {
+  return unit == "Pa abs" ? "abs" : unit == "Pa gauge" ? "gauge" : "";
+}
+
+const ShownQuantity* quantity_in(std::string_view unit) {
+  if (!reference_asked(unit).empty()) unit = "Pa";
+  for (const ShownQuantity& q : shown_quantities)
+    if (q.unit == unit) return &q;
+  return nullptr;
+}
+
+const ShownQuantity* quantity_named(std::string_view name) {
+  for (const ShownQuantity& q : shown_quantities)
+    if (q.name == name) return &q;
+  return nullptr;
+}
+
+const ShownChoice& choice_of(const ShownQuantity& q, UnitSet set) {
+  return set == UnitSet::si ? q.si : set == UnitSet::thesis ? q.thesis : q.metric;
+}
+
+// The shown unit of that name; `held` is the unit of SI in which values come.
+ShownUnit made(std::string_view name, std::string_view held, double room) {
+  const auto [text, reference] = unit_and_reference(name);
+  const Unit unit = read_unit(text).unit;
+  ShownUnit out{std::string(name), unit.denominator / unit.numerator, -unit.offset};
+  if (out.offset == 0) out.offset = 0;  // not -0
+  const std::string_view from = reference_asked(held);
+  if (!from.empty()) {
+    out.name = std::string(text) + " " + std::string(from);
+  } else if (held == "Pa" && reference == "gauge") {
+    out.gauge = true;
+    out.offset = -room;
+  }
+  return out;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::string in_quotes(std::string_view text) {
+  std::string out = "\"";
+  out += text;
+  return out += '"';
+}
+
+std::string names_of_quantities() {
+  std::string out;
+  for (const ShownQuantity& q : shown_quantities)
+    out += (out.empty() ? "" : ", ") + std::string(q.name);
+  return out;
+}
+
+const char* const example = "\"metric\", or \"metric,pressure=kPa gauge,length=cm\"";
+
+// The word nearest to a wrong one: it begins alike, else nothing.
+std::string hint_for(std::string_view word) {
+  for (const auto& [name, set] : sets)
+    if (word.size() > 1 && name.starts_with(word.substr(0, 2))) return in_quotes(name);
+  return example;
+}
+
+// Returns how a reading with `units` so far fails.
+ShownUnitsReading wrong(std::string found, std::string expected, std::string try_this) {
+  return {{}, std::move(found), std::move(expected), std::move(try_this)};
+}
+
+// Why a unit is none for the quantity; understood where it is one. `unit` gets its full name.
+ShownUnitsReading check_unit(const ShownQuantity& q, std::string& unit) {
+  const auto [text, reference] = unit_and_reference(unit);
+  const std::string usual(q.metric.usual);
+  const std::string wanted =
+      "a unit of " + std::string(q.name) + ", as " + std::string(q.thesis.usual) + " or " + usual;
+  if (!read_unit(text).ok || text.empty())
+    return wrong(in_quotes(unit) + ", which is no unit", wanted, std::string(q.name) + "=" + usual);
+  if (!measures(text, q.unit))
+    return wrong(in_quotes(unit) + ", which measures something else", wanted,
+                 std::string(q.name) + "=" + usual);
+  const bool difference = q.unit == "Pa diff";
+  const std::string bare(text);
+  if (difference) {
+    if (!reference.empty() && reference != "diff")
+      return wrong(in_quotes(unit), "a difference of pressures", std::string(q.name) + "=" + bare);
+    unit = bare + " diff";
+  } else if (q.unit == "Pa" && reference != "gauge" && reference != "abs") {
+    return wrong(in_quotes(unit) + ", a pressure without its reference", wanted,
+                 "pressure=" + bare + " gauge, or pressure=" + bare + " abs");
+  } else if (q.unit != "Pa" && !reference.empty()) {
+    return wrong(in_quotes(unit), wanted, std::string(q.name) + "=" + bare);
+  }
+  return {};
+}
+
+ShownUnitsReading read_choice(std::string_view piece, std::size_t equals, ShownUnits& units) {
+  std::string name(trimmed(piece.substr(0, equals)));
+  for (char& c : name)
+    if (c == '-' || c == '_') c = ' ';
+  const ShownQuantity* q = quantity_named(name);
+  if (!q) return wrong(in_quotes(name) + ", which is no quantity", names_of_quantities(), example);
+  std::string unit(trimmed(piece.substr(equals + 1)));
+  if (ShownUnitsReading no = check_unit(*q, unit); !no.ok()) return no;
+  units.choose(q->name, unit);
+  return {};
+}
+
+}  // namespace
+
+std::string_view to_text(UnitSet set) {
+  for (const auto& [name, each] : sets)
+    if (each == set) return name;
+  return "";
+}
+
+std::string ShownUnit::label() const {
+  return name.ends_with(" diff") ? name.substr(0, name.size() - 5) : name;
+}
+
+const std::string* ShownUnits::choice(std::string_view quantity) const {
+  for (const auto& [name, unit] : choices_)
+    if (name == quantity) return &unit;
+  return nullptr;
+}
+
+void ShownUnits::choose(std::string_view quantity, std::string_view unit) {
+  for (auto& [name, chosen] : choices_)
+    if (name == quantity) {
+      chosen = unit;
+      return;
+    }
+  choices_.emplace_back(quantity, unit);
+}
+
+ShownUnit ShownUnits::of(std::string_view unit, double largest, double room) const {
+  if (unit == "share") return {"%", 100};
+  if (unit == "1" || unit.empty()) return {};
+  const ShownQuantity* q = quantity_in(unit);
+  if (!q) return {std::string(unit)};
+  if (const std::string* chosen = choice(q->name)) return made(*chosen, unit, room);
+  // A difference of pressures follows the pressures' own unit.
+  if (const std::string* of_pressure = choice("pressure"); of_pressure && q->unit == "Pa diff")
+    return made(std::string(unit_and_reference(*of_pressure)[0]) + " diff", unit, room);
+  const ShownChoice& shown = choice_of(*q, set_);
+  ShownUnit usual = made(shown.usual, unit, room);
+  if (std::isnan(largest)) return usual;
+  if (!shown.small.empty())
+    if (ShownUnit small = made(shown.small, unit, room); small.scale * largest < 1000) return small;
+  if (!shown.large.empty() && usual.scale * largest >= 1000) return made(shown.large, unit, room);
+  return usual;
+}
+
+std::string ShownUnits::text(double value, std::string_view unit, int digits, double room) const {
+  const ShownUnit shown = of(unit, not_known, room);
+  char buffer[64];
+  const auto end = std::to_chars(std::begin(buffer), std::end(buffer), shown.of(value),
+                                 std::chars_format::general, digits);
+  std::string out(buffer, end.ptr);
+  return shown.name.empty() ? out : out + " " + shown.name;
+}
+
+std::string ShownUnits::text() const {
+  std::string out(to_text(set_));
+  for (const auto& [name, unit] : choices_) out += "," + name + "=" + unit;
+  return out;
+}
+
+ShownUnitsReading read_shown_units(std::string_view text, const ShownUnits& below) {
+  ShownUnits units = below;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const std::string_view piece = trimmed(text.substr(at, comma - at));
+    const bool first = at == 0;
+    at = comma + 1;
+    if (const std::size_t equals = piece.find('='); equals != piece.npos) {
+      if (ShownUnitsReading no = read_choice(piece, equals, units); !no.ok()) return no;
+      continue;
+    }
+    const auto set = std::ranges::find(sets, piece, [](const auto& s) { return s.first; });
+    if (set == sets.end())
+      return wrong(in_quotes(piece), "si, thesis or metric, then QUANTITY=UNIT", hint_for(piece));
+    if (!first) return wrong(in_quotes(text), "one set, named first", in_quotes(piece) + " alone");
+    units = ShownUnits(set->second);
+  }
+  return {units, "", "", ""};
+}
+
+std::vector<ShownEntry> shown_entries(const ShownUnits& units) {
+  std::vector<ShownEntry> out{{"share", "share", {units.of("share")}, 0}};
+  const auto add = [&](const ShownQuantity& q, std::string_view unit) {
+    ShownEntry entry{unit, q.name, {}, 0};
+    // Each size that the unit depends on, from small to large; a chosen one depends on none.
+    for (const double size : {0.0, ShownUnits::not_known, 1e30})
+      if (ShownUnit u = units.of(unit, size, 0);
+          entry.shown.empty() || entry.shown.back().name != u.name) {
+        if (std::isnan(size)) entry.usual = entry.shown.size();
+        entry.shown.push_back(std::move(u));
+      }
+    out.push_back(std::move(entry));
+  };
+  for (const ShownQuantity& q : shown_quantities) {
+    add(q, q.unit);
+    if (q.unit == "Pa")
+      for (const std::string_view unit : {"Pa abs", "Pa gauge"}) add(q, unit);
+  }
+  return out;
+}
+
+}  // namespace sinew::units

@@ -1,0 +1,105 @@
+// units/shown.h - the units in which people see what Sinew holds in SI: three sets, and any other
+// choice for a single quantity on top of one.
+//
+//   si        m · N · kPa abs · rad · s            the library's own
+//   thesis    in · lbf · psi gauge · deg · s       the ones of Colbrunn (2000)
+//   metric    mm · N · bar gauge · deg · ms        those of a laboratory with a metric rig
+//
+//   metric,pressure=kPa gauge,length=cm            the same set but for two quantities
+//
+// Every table, figure, page and calculator asks here, so a unit that is chosen once is shown
+// everywhere. The table itself is units/shown_table.h, and docs/units.md shows it.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sinew/units/constants.h"
+
+namespace sinew::units {
+
+enum class UnitSet { si, thesis, metric };
+
+// Returns the word for a set, as files and options say it.
+std::string_view to_text(UnitSet set);
+
+// One unit in which a quantity of SI is shown:  shown = (value + offset) * scale
+struct ShownUnit {
+  std::string name;  // as a file writes it, "psi gauge", "bar diff"; empty for a plain number
+  double scale = 1;
+  double offset = 0;  // [SI]
+  // The number counts from the room's pressure, which `offset` takes off.
+  bool gauge = false;
+
+  // Returns the number that is shown for a value of SI.
+  double of(double value) const { return (value + offset) * scale; }
+  // Returns the value of SI for a number that is shown.
+  double back(double number) const { return number / scale - offset; }
+  // Returns the name beside an axis or in a column's title, where a difference of pressures needs
+  // no word for it.
+  std::string label() const;
+};
+
+// A set of units with the choices on top of it. A copy is cheap enough to be handed around.
+class ShownUnits {
+ public:
+  // The units of a set, without choices.
+  ShownUnits(UnitSet set = UnitSet::si) : set_(set) {}  // NOLINT: a set is its own units
+
+  // Returns the unit for a quantity that the library holds in `unit`, as fields and channels name
+  // it: "m", "Pa" (absolute), "Pa diff", "N m/rad", "share" for a share of 1. A unit that the table
+  // does not have stays what it is. `largest` is the greatest size of what is shown, in SI: of
+  // units that differ by a thousand the first one in which it is below 1000; without it the usual
+  // one. Gauges count from the pressure of the `room` [Pa].
+  ShownUnit of(std::string_view unit, double largest = not_known, double room = atmosphere) const;
+
+  // Returns a value of SI with its unit: "62.31 psi gauge".
+  std::string text(double value, std::string_view unit, int digits = 4,
+                   double room = atmosphere) const;
+
+  UnitSet set() const { return set_; }
+  bool has_choices() const { return !choices_.empty(); }
+  // Returns what read_shown_units reads: "metric,pressure=kPa gauge".
+  std::string text() const;
+
+  // Shows a quantity of that name in this unit; both are known to be right.
+  void choose(std::string_view quantity, std::string_view unit);
+
+  bool operator==(const ShownUnits&) const = default;
+
+  static constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+ private:
+  const std::string* choice(std::string_view quantity) const;
+
+  UnitSet set_;
+  std::vector<std::pair<std::string, std::string>> choices_;  // quantity, unit
+};
+
+// Units as a text names them, or why it names none: the parts of a message.
+struct ShownUnitsReading {
+  ShownUnits units;
+  std::string found, expected, try_this;  // all empty where the text was understood
+
+  bool ok() const { return found.empty(); }
+};
+
+// Reads "thesis", "metric,pressure=kPa gauge" or "length=cm": the set and then choices. Where no
+// set is named, the choices stand on top of `below`.
+ShownUnitsReading read_shown_units(std::string_view text, const ShownUnits& below = {});
+
+// One row of what a page needs: a unit of SI and the one in which it is shown, the usual one first.
+struct ShownEntry {
+  std::string_view unit;         // of SI
+  std::string_view quantity;     // "pressure"
+  std::vector<ShownUnit> shown;  // from small to large
+  std::size_t usual = 0;         // of these
+};
+
+// Returns all that the table has. Offsets of gauges are left out: a page knows its own atmosphere.
+std::vector<ShownEntry> shown_entries(const ShownUnits& units);
+
+}  // namespace sinew::units

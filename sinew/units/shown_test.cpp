@@ -1,0 +1,134 @@
+// units/shown_test.cpp - the laws of the units in which numbers are shown.
+#include "sinew/units/shown.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sinew/units/shown_table.h"
+
+namespace sinew::units {
+namespace {
+
+constexpr UnitSet all_sets[] = {UnitSet::si, UnitSet::thesis, UnitSet::metric};
+
+ShownUnits chosen(std::string_view text) {
+  const ShownUnitsReading reading = read_shown_units(text);
+  EXPECT_TRUE(reading.ok()) << text << ": found " << reading.found << "; expected "
+                            << reading.expected << "; try " << reading.try_this;
+  return reading.units;
+}
+
+TEST(ShownUnits, ShowingAndGoingBackGivesTheValueInEverySetAndUnit) {
+  const ShownUnits custom = chosen("metric,pressure=kPa gauge,length=cm,temperature=degR");
+  for (const ShownUnits& units :
+       {ShownUnits(UnitSet::si), ShownUnits(UnitSet::thesis), ShownUnits(UnitSet::metric), custom})
+    for (const ShownEntry& entry : shown_entries(units))
+      for (const double si : {-3.5e5, -0.02, 0.0, 1e-6, 0.37, 101353.0, 4e7})
+        for (const double size : {ShownUnits::not_known, std::abs(si)}) {
+          const ShownUnit shown = units.of(entry.unit, size);
+          EXPECT_NEAR(shown.back(shown.of(si)), si, 1e-12 * (std::abs(si) + 2e5)) << shown.name;
+        }
+}
+
+// A shown unit is the one that files are read in: its scale is the grammar's.
+TEST(ShownUnits, AreWhatTheirNamesSay) {
+  for (const UnitSet set : all_sets)
+    for (const ShownEntry& entry : shown_entries(set))
+      for (const ShownUnit& shown : entry.shown) {
+        const Unit unit = read_unit(unit_and_reference(shown.name)[0]).unit;
+        const double zero = shown.gauge ? atmosphere : 0;
+        const ShownUnit whole = ShownUnits(set).of(entry.unit, 1 / shown.scale);
+        EXPECT_NEAR(whole.of(unit.to_si(7) + zero), 7, 1e-9) << entry.unit << " " << shown.name;
+      }
+}
+
+TEST(ShownUnits, MetricIsThatOfALaboratory) {
+  const ShownUnits metric(UnitSet::metric);
+  EXPECT_EQ(metric.text(0.08, "m"), "80 mm");
+  EXPECT_EQ(metric.text(120, "N"), "120 N");
+  EXPECT_EQ(metric.text(atmosphere + 4.2 * bar, "Pa"), "4.2 bar gauge");
+  EXPECT_EQ(metric.text(0.1 * bar, "Pa diff"), "0.1 bar diff");
+  EXPECT_EQ(metric.of("Pa diff").label(), "bar");
+  EXPECT_EQ(metric.text(30 * degree, "rad"), "30 deg");
+  EXPECT_EQ(metric.text(0.35e-3, "s"), "0.35 ms");
+  EXPECT_EQ(metric.text(293.15, "K"), "20 degC");
+  EXPECT_EQ(metric.text(0.55, "share"), "55 %");
+  EXPECT_EQ(metric.text(0.55, "1"), "0.55");
+  EXPECT_EQ(metric.text(3, "furlong"), "3 furlong");
+}
+
+TEST(ShownUnits, OfUnitsThatDifferByAThousandTheFirstBelowAThousandIsShown) {
+  const auto name = [](std::string_view unit, double largest, UnitSet set = UnitSet::si) {
+    return ShownUnits(set).of(unit, largest).name;
+  };
+  EXPECT_EQ(name("m", 0.99), "mm");
+  EXPECT_EQ(name("m", 1.5), "m");
+  EXPECT_EQ(name("m", 5000), "m");
+  EXPECT_EQ(name("m", ShownUnits::not_known), "m");
+  EXPECT_EQ(name("kg", 1e-7), "mg");
+  EXPECT_EQ(name("kg", 0.9), "g");
+  EXPECT_EQ(name("kg", 20), "kg");
+  EXPECT_EQ(name("N", 1e9), "N");
+  EXPECT_EQ(name("m", 1.5, UnitSet::thesis), "in");
+  EXPECT_EQ(name("m", 1.5, UnitSet::metric), "mm");
+  EXPECT_EQ(name("s", 0.3, UnitSet::metric), "ms");
+  EXPECT_EQ(name("s", 13.7, UnitSet::metric), "s");
+}
+
+TEST(ShownUnits, APressureKeepsTheReferenceThatIsAskedFor) {
+  const ShownUnits thesis(UnitSet::thesis);
+  EXPECT_EQ(thesis.text(62 * psi, "Pa abs"), "62 psi abs");
+  EXPECT_EQ(thesis.text(62 * psi, "Pa gauge"), "62 psi gauge");
+  EXPECT_EQ(thesis.text(atmosphere + 62 * psi, "Pa"), "62 psi gauge");
+  EXPECT_EQ(ShownUnits().text(101325, "Pa"), "101.3 kPa abs");
+  EXPECT_NEAR(thesis.of("Pa", 0, 95000).of(95000 + psi), 1, 1e-12);  // a room on a mountain
+}
+
+TEST(ShownUnits, ChoicesStandOnTopOfASet) {
+  const ShownUnits units = chosen("metric, pressure=kPa gauge,length=cm");
+  EXPECT_EQ(units.text(0.08, "m"), "8 cm");
+  EXPECT_EQ(units.text(atmosphere + 4.2 * bar, "Pa"), "420 kPa gauge");
+  EXPECT_EQ(units.of("Pa diff").name, "kPa diff") << "a difference follows the pressure";
+  EXPECT_EQ(units.of("m/s").name, "mm/s") << "what nobody chose is the set's";
+  EXPECT_EQ(chosen(units.text()), units) << "its text reads back";
+  EXPECT_EQ(chosen("si,pressure-difference=psi").of("Pa diff").name, "psi diff");
+}
+
+TEST(ShownUnits, ChoicesWithoutASetStandOnTopOfWhatWouldHold) {
+  const ShownUnits below = chosen("metric,length=cm");
+  const ShownUnits units = read_shown_units("force=kN", below).units;
+  EXPECT_EQ(units.text(), "metric,length=cm,force=kN");
+  EXPECT_EQ(read_shown_units("thesis", below).units.text(), "thesis") << "a set begins anew";
+}
+
+TEST(ShownUnits, WrongWordsNameTheChoices) {
+  const auto message = [](std::string_view text) {
+    const ShownUnitsReading r = read_shown_units(text);
+    return "found " + r.found + "; expected " + r.expected + "; try " + r.try_this;
+  };
+  EXPECT_EQ(
+      message("imperial"),
+      "found \"imperial\"; expected si, thesis or metric, then QUANTITY=UNIT; try \"metric\", "
+      "or \"metric,pressure=kPa gauge,length=cm\"");
+  EXPECT_EQ(message("meter"),
+            "found \"meter\"; expected si, thesis or metric, then QUANTITY=UNIT; try \"metric\"");
+  EXPECT_NE(
+      message("metric,width=cm").find("found \"width\", which is no quantity; expected length"),
+      std::string::npos);
+  EXPECT_EQ(message("length=bar"),
+            "found \"bar\", which measures something else; expected a unit of length, as in or mm; "
+            "try length=mm");
+  EXPECT_EQ(message("pressure=kPa"),
+            "found \"kPa\", a pressure without its reference; expected a unit of pressure, as psi "
+            "gauge or bar gauge; try pressure=kPa gauge, or pressure=kPa abs");
+  EXPECT_EQ(message("length=cm,metric"),
+            "found \"length=cm,metric\"; expected one set, named first; try \"metric\" alone");
+  EXPECT_FALSE(read_shown_units("").ok());
+  EXPECT_FALSE(read_shown_units("metric,").ok());
+  EXPECT_FALSE(read_shown_units("length=mm gauge").ok());
+  EXPECT_FALSE(read_shown_units("length=").ok());
+}
+
+}  // namespace
+}  // namespace sinew::units
