@@ -62,6 +62,8 @@ void add_new(Command app, Action& action) {
   sub.add_option("--of", options->how.of,
                  "experiment: the robot's file; plan: the experiment's; else one that comes with "
                  "Sinew");
+  sub.add_option("--actuator", options->how.actuator,
+                 "robot: the file of its muscles, as sinew identify static writes it");
   sub.add_flag("--metric", options->how.metric,
                "mm, N and bar; else in, lbf and psi, as in the thesis");
   sub.callback([=, &action] { action = [=] { return write(*options); }; });

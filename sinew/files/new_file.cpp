@@ -13,6 +13,7 @@
 #include "sinew/config/quantity.h"
 #include "sinew/config/text_file.h"
 #include "sinew/files/check.h"
+#include "sinew/files/new_muscle.h"
 #include "sinew/files/shipped.h"
 #include "sinew/log/replacement.h"
 
@@ -108,19 +109,6 @@ std::string in_comment(const fs::path& file) {
   return name.find(' ') == name.npos ? name : "\"" + name + "\"";
 }
 
-// Text between double quotes in TOML.
-std::string in_toml(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if ((c >= 0 && c < 0x20) || c == 0x7F)
-      out += fmt::format("\\u{:04X}", static_cast<int>(c));
-    else
-      out += c;
-  }
-  return "\"" + out + "\"";
-}
-
 // "290 deg" of the template is 20 deg beyond the rest angle, at any joint.
 std::string about(const Joint& joint, std::string text) {
   for (std::size_t end = text.find(" deg\""); end != text.npos;
@@ -208,11 +196,15 @@ Subject subject_of(const std::string& kind, const NewOptions& options) {
   return out;
 }
 
+// A file as one in the folder `from` calls it.
+std::string relative_to(const fs::path& from, const fs::path& file) {
+  const fs::path folder = fs::weakly_canonical(fs::absolute(from));
+  return fs::weakly_canonical(fs::absolute(file)).lexically_relative(folder).string();
+}
+
 // Relative to the new file where somebody named it; one that comes with Sinew has its whole name.
 std::string reference(const Subject& subject, const fs::path& from, bool named) {
-  if (!named) return subject.file.string();
-  const fs::path folder = fs::weakly_canonical(fs::absolute(from));
-  return fs::weakly_canonical(fs::absolute(subject.file)).lexically_relative(folder).string();
+  return named ? relative_to(from, subject.file) : subject.file.string();
 }
 
 struct Draft {
@@ -232,6 +224,9 @@ Draft draft(const Task& task, const std::string& part, const fs::path& file) {
   const fs::path from = shipped_folder() / "data/templates" / (part + ".toml");
   Draft out{file, config::read_text_file(from.string(), "a template of Sinew")};
   choose_units(out.text, task.options.metric);
+  if (const std::string& muscle = task.options.actuator; part == "robot" && !muscle.empty())
+    out.text = with_muscle(std::move(out.text), muscle,
+                           in_toml(relative_to(file.parent_path(), muscle)), task.options.metric);
   if (task.kind == "actuator") replace_all(out.text, "= \"bpa\"", "= \"NEW\"");
   name_joints(out.text, task.subject.joints);
   put_name(out.text, task.name, in_comment(file));
@@ -251,11 +246,16 @@ std::vector<Draft> drafts(const std::string& kind, const std::string& name,
   const fs::path folder(options.folder);
   if (!options.folder.empty() && fs::exists(folder) && !fs::is_directory(folder))
     config::fail({options.folder, 0, 0}, "", "a file", "a folder, or a name that is free");
+  const bool has_muscle = !options.actuator.empty();
+  if (has_muscle && kind != "robot")
+    config::fail({options.actuator, 0, 0}, "", fmt::format("an actuator for a new {}", kind),
+                 "a robot, whose muscles it becomes");
   const Task task{kind, name, options, subject_of(kind, options)};
   if (kind != "robot" && kind != "rig") return {draft(task, kind, folder / (name + ".toml"))};
   std::vector<Draft> out;
   for (const std::string& part : {kind, std::string("actuator"), std::string("valves")})
-    out.push_back(draft(task, part, folder / name / (part + ".toml")));
+    if (!(has_muscle && part == "actuator"))
+      out.push_back(draft(task, part, folder / name / (part + ".toml")));
   return out;
 }
 

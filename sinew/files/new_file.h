@@ -1,6 +1,7 @@
 // files/new_file.h - a commented file to begin with: valid as it is written, every number a guess.
 //
 //   files::write_new("robot", "my-arm");   // my-arm/robot.toml, actuator.toml and valves.toml
+//   files::write_new("robot", "my-arm", {.actuator = "muscle.toml"});   // of a muscle of your own
 //   files::write_new("experiment", "lift", {.of = "my-arm/robot.toml"});   // lift.toml
 //
 // Its text is that of data/templates, with the name in it. Nothing is overwritten.
@@ -18,9 +19,10 @@ std::span<const std::string_view> new_kinds();
 
 // How a new file is to be.
 struct NewOptions {
-  std::string folder;   // where it is written; empty: here
-  std::string of;       // experiment: the robot's file; plan: the experiment's; empty: Sinew's own
-  bool metric = false;  // mm, N, bar in place of in, lbf, psi
+  std::string folder;    // where it is written; empty: here
+  std::string of;        // experiment: the robot's file; plan: the experiment's; empty: Sinew's own
+  bool metric = false;   // mm, N, bar in place of in, lbf, psi
+  std::string actuator;  // robot: the file of its muscles, which it does not write then
 };
 
 // What was written.

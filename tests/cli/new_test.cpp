@@ -206,6 +206,9 @@ TEST(New, WrongInputsAreRefusedInWords) {
       {{"experiment", "x", "--of", "cut.toml"}, 1, "cut.toml:2:"},
       {{"experiment", "x", "--of", "bare.toml"}, 1, "no joint with muscles"},
       {{"plan", "x", "--of", robot}, 1, "expected the experiment that the new plan is of"},
+      {{"robot", "x", "--actuator", robot}, 1, "expected an actuator's file"},
+      {{"robot", "x", "--actuator", "none.toml"}, 1, "none.toml: found no readable file"},
+      {{"plan", "x", "--actuator", "none.toml"}, 1, "an actuator for a new plan"},
       {{"plan", "x", "--force"}, 2, "--force"},
   };
   for (const Case& c : cases) {
@@ -218,6 +221,40 @@ TEST(New, WrongInputsAreRefusedInWords) {
   }
   EXPECT_THAT(names_in(w.path()),
               ElementsAre("bare.toml", "cut.toml", "experiments", "file", "robots"));
+}
+
+// A muscle from somebody's forces gets a robot around it: mounted within the lengths that were
+// measured, on a load cell that reaches its force, at a supply within its pressures.
+TEST(New, RobotOfAMuscleOfOnesOwnIsValidAndRuns) {
+  const Workspace w;
+  const std::string map =
+      SINEW_SOURCE_DIR "/data/martens_boblan_2017/DMSP-10-250_force_map.csv";
+  ASSERT_EQ(w.sinew({"identify", "static", map, "--map",
+                     "length=L_m,pressure=P_gauge_Pa,force=F_N", "--unit", "L_m=m", "--unit",
+                     "P_gauge_Pa=Pa gauge", "--unit", "F_N=N", "--rest-length", "250 mm", "--name",
+                     "dmsp", "-o", "dmsp.toml", "--no-report", "--quiet"})
+                .code,
+            0);
+  for (const bool metric : {false, true}) {
+    const std::string name = metric ? "arm-mm" : "arm-in";
+    const Result made =
+        w.sinew(with_units({"new", "robot", name, "--actuator", "dmsp.toml"}, metric));
+    EXPECT_EQ(made.code, 0) << made.err;
+    EXPECT_EQ(made.out, name + "/robot.toml\n" + name + "/valves.toml\n");
+    const Result shown = w.sinew({"show", name + "/robot.toml", "muscle.flexor.mount_length",
+                                  "air.supply.pressure", "--json"});
+    EXPECT_EQ(shown.code, 0) << shown.err;
+    EXPECT_EQ(w.sinew({"check", name + "/robot.toml"}).code, 0);
+    expect_made(w, with_units({"new", "experiment", name + "-lifts", "--of", name + "/robot.toml"},
+                              metric));
+    EXPECT_EQ(w.sinew({"run", name + "-lifts.toml", "-o", name + "-run", "--no-report", "--quiet"})
+                  .code,
+              0);
+    const Json summary = Json::parse(read_text(w / (name + "-run/summary.json")));
+    EXPECT_LT(summary["joints"]["lever"]["tracking_rms_rad"].get<double>(), 0.12);
+  }
+  EXPECT_THAT(read_text(w / "arm-mm/robot.toml"), HasSubstr("value = \"224 mm\""));
+  EXPECT_THAT(read_text(w / "arm-mm/robot.toml"), HasSubstr("value = \"6.5 bar gauge\""));
 }
 
 }  // namespace
