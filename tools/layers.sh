@@ -50,9 +50,10 @@ layers='
     identify/page   identify/fit report
     identify/task   identify experiment
     analysis/verdict   signals config
+    analysis/align     analysis/verdict signals config
     analysis/measures  signals robot gas actuator
     analysis/record    analysis/verdict analysis/measures signals robot gas actuator config
-    analysis           analysis/record
+    analysis           analysis/record analysis/align
     report/page     analysis log robot
     report/figures  report/page
     report/text

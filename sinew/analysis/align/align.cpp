@@ -1,0 +1,281 @@
+#include "sinew/analysis/align/align.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+
+namespace sinew::analysis {
+namespace {
+
+constexpr double least_correlation = 0.6;
+constexpr double least_fall = 0.01;      // of r within a tenth of the shorter recording
+constexpr double clearly_higher = 0.01;  // a peak above the next one
+
+// A wish that cannot be met; align() says of which recording.
+struct Refusal {
+  std::string found, expected, try_this;
+};
+
+[[noreturn]] void refuse(std::string found, std::string expected, std::string try_this) {
+  throw Refusal{std::move(found), std::move(expected), std::move(try_this)};
+}
+
+// --- which channels ---
+
+bool holds(const signals::Series& s, const signals::Field& field) {
+  return std::ranges::any_of(s.topic.fields, [&](const signals::Field& f) {
+    return f.name == field.name && f.unit == field.unit;
+  });
+}
+
+std::string name_of(const signals::Series& s, const signals::Field& f) {
+  return s.topic.fields.size() > 1 ? s.topic.name + "." + f.name : s.topic.name;
+}
+
+// Every channel that both have, with its samples.
+std::vector<Pair> common_pairs(const signals::Table& first, const signals::Table& other) {
+  std::vector<Pair> out;
+  for (const signals::Series& a : first.series) {
+    const signals::Series* b = other.find(a.topic.name);
+    if (!b) continue;
+    for (std::size_t i = 0; i < a.topic.fields.size(); ++i) {
+      const signals::Field& field = a.topic.fields[i];
+      if (!holds(*b, field)) continue;
+      const std::string name = name_of(a, field);
+      Pair pair{signal_of(name, {&a.time_ns, &a.columns[i]}),
+                signal_of(name, {&b->time_ns, other.column(b->topic.name, field.name)}),
+                field.unit};
+      if (!pair.first.empty() && !pair.other.empty()) out.push_back(std::move(pair));
+    }
+  }
+  return out;
+}
+
+bool is_measured(const Pair& pair) {
+  const std::string& name = pair.first.channel;
+  return !name.starts_with("/true/") && !name.starts_with("/desired/") &&
+         !signals::is_of_valve(name) && !name.ends_with("_duty") && !name.starts_with("/plan/");
+}
+
+bool moves(const Pair& pair) {
+  return spread_of(pair.first).moves() && spread_of(pair.other).moves();
+}
+
+// The place of a channel's kind in the order in which kinds are asked.
+std::size_t kind_of(const Pair& pair) {
+  static constexpr std::array<std::string_view, 5> kinds = {"/angle", "/length", "/position",
+                                                            "/tension", "/pressure"};
+  const std::string& name = pair.first.channel;
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+    if (name.find(kinds[k]) != name.npos) return k;
+  return name.ends_with("/count") ? kinds.size() + 1 : kinds.size();
+}
+
+// What moves in both, of the first kind of which there is anything.
+std::vector<Pair> chosen_pairs(std::vector<Pair> all) {
+  std::erase_if(all, [](const Pair& p) { return !is_measured(p) || !moves(p); });
+  std::size_t first = 100;
+  for (const Pair& p : all) first = std::min(first, kind_of(p));
+  std::erase_if(all, [&](const Pair& p) { return kind_of(p) != first; });
+  constexpr std::size_t most = 8;
+  if (all.size() > most) all.resize(most);
+  if (all.empty())
+    refuse(
+        "no common channel that moves in both recordings",
+        "a channel that both have, and that is neither constant nor nothing but noise",
+        "a mapping of the measurement's columns to the run's channels, as sinew import makes it");
+  return all;
+}
+
+const Pair& named_pair(const std::vector<Pair>& all, const std::string& name) {
+  const auto at = std::ranges::find(all, name, [](const Pair& p) { return p.first.channel; });
+  if (at != all.end()) return *at;
+  std::vector<std::string> names;
+  for (const Pair& p : all) names.push_back(p.first.channel);
+  const std::string near = config::closest_in_quotes(name, {names.begin(), names.end()});
+  refuse(config::in_quotes(name) + ", which is not in both recordings", "a channel that both have",
+         near.empty() ? "another channel" : near);
+}
+
+std::vector<Pair> wished_pairs(const std::vector<Pair>& all,
+                               const std::vector<std::string>& names) {
+  std::vector<Pair> out;
+  for (const std::string& name : names) {
+    const Pair& pair = named_pair(all, name);
+    if (!moves(pair))
+      refuse(name + ", which is constant or nothing but noise in one of the recordings",
+             "a channel that moves in both", "another channel");
+    out.push_back(pair);
+  }
+  return out;
+}
+
+bool same_samples(const std::vector<Pair>& pairs) {
+  return std::ranges::all_of(pairs, [](const Pair& p) {
+    return p.first.time == p.other.time && p.first.value == p.other.value;
+  });
+}
+
+// --- by an event ---
+
+EventPair wished_event(const std::vector<Pair>& all, const AlignRequest& request) {
+  const Event event = parse_event(request.event);
+  const Pair& pair = named_pair(all, event.channel);
+  const double level = config::quantity(event.level, pair.unit, "event", request.atmosphere);
+  const auto first = first_crossing(pair.first, level, event.upwards);
+  const auto other = first_crossing(pair.other, level, event.upwards);
+  if (!first || !other)
+    refuse(fmt::format("{}: it never crosses {} {} in the {} recording", event.channel, event.level,
+                       event.upwards ? "upwards" : "downwards", first ? "other" : "first"),
+           "an event that happens in both", "another level or channel");
+  return {*first, *other, request.event};
+}
+
+// Returns when it happens in the first one.
+double align_by_event(const std::vector<Pair>& all, const AlignRequest& request, Alignment& out) {
+  EventPair found;
+  if (!request.event.empty()) {
+    found = wished_event(all, request);
+  } else {
+    const std::vector<Pair> pairs = chosen_pairs(all);
+    const auto surest = surest_motion(pairs);
+    if (!surest)
+      refuse("no channel that stands still first and then begins to move, in both recordings",
+             "recordings that begin at rest", "an event of your own, or align=correlation");
+    found = *surest;
+  }
+  out.event = found.words;
+  out.clock = {found.shift(), 0};
+  out.shift_uncertainty = found.uncertainty();
+  return found.first.time;
+}
+
+// --- by correlation ---
+
+void require_clear(const Found& found, const std::string& channels) {
+  if (found.r < least_correlation)
+    refuse(fmt::format("a correlation of {:.2f} at best, of {}", found.r, channels),
+           fmt::format("at least {}", least_correlation),
+           "other channels, an event, or a longer piece of the same motion");
+  if (found.fall < least_fall)
+    refuse(fmt::format("a correlation of {:.3f} that hardly changes with the shift, of {}", found.r,
+                       channels),
+           "a motion that can be told from itself later", "another channel, or an event");
+  if (found.second_r > found.r - clearly_higher)
+    refuse(fmt::format(
+               "a correlation of {:.3f} at a shift of {:.3f} s, and of {:.3f} at {:.3f} s, of {}",
+               found.r, found.clock.shift, found.second_r, found.second_shift, channels),
+           "one shift that is clearly the best: the motion repeats itself",
+           "an event, or a limit of the shift below half of its period");
+}
+
+std::string list_of(const std::vector<std::string>& channels) {
+  return fmt::format("{}", fmt::join(channels, ", "));
+}
+
+// How wide the peak of a motion is over the shift: its own, beside itself.
+double own_width(const std::vector<Pair>& pairs) {
+  std::vector<Pair> own;
+  for (const Pair& p : pairs) own.push_back({p.first, p.first, p.unit});
+  const auto found = search(own, INFINITY, false);
+  return found ? found->half_width : 10 * longest_step(pairs);
+}
+
+// Shift, and rate where it is wished, from the shifts of pieces; twice, since a clock that is known
+// better makes the pieces more alike.
+void follow_clock(const std::vector<Pair>& pairs, double known_at, double half_width,
+                  const AlignRequest& request, Alignment& out) {
+  for (int again = 0; again < 2; ++again) {
+    const std::vector<LocalShift> shifts = local_shifts(pairs, out.clock, known_at, half_width);
+    out.pieces = shifts.size();
+    if (shifts.size() < least_pieces) break;
+    const ClockFit fit = fit_clock(shifts);
+    if (request.fit_clock) {
+      out.clock = fit.clock;
+      out.shift_uncertainty = fit.shift_uncertainty;
+      out.rate_uncertainty = fit.rate_uncertainty;
+      continue;
+    }
+    if (std::abs(fit.clock.rate) > 3 * fit.rate_uncertainty) {
+      out.rate_seen = fit.clock.rate;
+      out.rate_seen_uncertainty = fit.rate_uncertainty;
+    }
+    if (request.by == AlignBy::correlation)
+      out.shift_uncertainty = fit_shift(shifts, 0).shift_uncertainty;
+    break;
+  }
+  if (request.fit_clock && out.pieces < least_pieces)
+    refuse(fmt::format("{} pieces of the recording with a shift of their own, of {}", out.pieces,
+                       list_of(out.channels)),
+           fmt::format("{} or more, for the clock's rate", least_pieces),
+           "a longer recording, or a clock that is taken as it is");
+}
+
+Alignment aligned(const signals::Table& first, const signals::Table& other,
+                  const AlignRequest& request) {
+  const std::vector<Pair> all = common_pairs(first, other);
+  Alignment out{.clock = {request.by == AlignBy::known ? request.shift : 0, 0}};
+  const bool correlated = request.by == AlignBy::correlation || request.fit_clock;
+  double known_at = request.known_at;
+  if (request.by == AlignBy::event) known_at = align_by_event(all, request, out);
+  if (!correlated) return out;
+
+  const std::vector<Pair> pairs =
+      request.channels.empty() ? chosen_pairs(all) : wished_pairs(all, request.channels);
+  for (const Pair& p : pairs) out.channels.push_back(p.first.channel);
+  if (same_samples(pairs)) {
+    out.same = true;
+    out.clock = {};
+    out.correlation = 1;
+    out.shift_uncertainty = out.rate_uncertainty = 0;
+    return out;
+  }
+  double half_width = 0;
+  if (request.by == AlignBy::correlation) {
+    const auto found = search(pairs, request.most_shift, request.fit_clock);
+    if (!found)
+      refuse("recordings that overlap by less than half of the shorter one at every shift",
+             "two recordings of one motion", "a greater limit of the shift");
+    require_clear(*found, list_of(out.channels));
+    half_width = found->half_width;
+    known_at = 0.5 * (pairs.front().first.time.front() + pairs.front().first.time.back());
+    const double width = std::max(longest_step(pairs), 0.25 * half_width);
+    out.clock = refine(pairs, found->clock, width).clock;
+  } else {
+    half_width = own_width(pairs);
+  }
+  follow_clock(pairs, known_at, half_width, request, out);
+  if (const auto reached = likeness(pairs, out.clock)) out.correlation = reached->r;
+  return out;
+}
+
+}  // namespace
+
+Alignment align(const signals::Table& first, const signals::Table& other,
+                const AlignRequest& request) {
+  try {
+    return aligned(first, other, request);
+  } catch (const Refusal& r) {
+    config::fail({request.name.empty() ? "recording" : request.name, 0, 0}, "align", r.found,
+                 r.expected, r.try_this);
+  }
+}
+
+void reclock(signals::Table& table, const Clock& clock) {
+  if (clock.shift == 0 && clock.rate == 0) return;
+  for (signals::Series& s : table.series) {
+    signals::Times times(s.time_ns.file());
+    for (const std::int64_t t : s.time_ns)
+      times.push_back(
+          std::llround((static_cast<double>(t) - 1e9 * clock.shift) / (1 + clock.rate)));
+    s.time_ns = std::move(times);
+  }
+}
+
+}  // namespace sinew::analysis

@@ -1,0 +1,74 @@
+// analysis/align/correlation.h - the shift of a clock at which two recordings are most alike.
+//
+// The other recording's clock shows t_B = s + (1 + rho)·t where the first one's shows t.
+//
+//   r(s, rho) = cov(a, b')/sqrt(var(a)·var(b'))     b'(t) = b(s + (1 + rho)·t), over all samples of
+//                                                   a at which there is a b; mean of the channels
+//
+// Normalised like this r is 1 for equal shapes, whatever their scales and offsets. Where both
+// overlap by less than half of the shorter one, r says nothing.
+//
+//   search    on a grid of at most 4096 steps r of all shifts and of rates within 2 %
+//   vertex    of the parabola through r(s - w), r(s), r(s + w); w is a quarter of the peak's half
+//             width, at least a sample's step
+//   refine    from there a ~ alpha·b' + beta + gamma·db'/ds by least squares, s += gamma/alpha,
+//   until
+//             it stays: the top of r exactly, also where the peak is lopsided; db'/ds over +-w
+//   u(s)      sigma/(alpha·sqrt(S)), sigma that of the residuals, S = sum (db'/ds)^2 of what is no
+//             combination of b' and 1. A ramp, which is like itself at every shift, has S = 0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "sinew/analysis/align/event.h"
+
+namespace sinew::analysis {
+
+// How the other recording's clock goes beside the first one's.
+struct Clock {
+  double shift = 0;  // what it shows where the first one shows 0 [s]
+  double rate = 0;   // by how much faster it goes [-]
+  double other(double first) const { return shift + (1 + rate) * first; }
+  double first(double other) const { return (other - shift) / (1 + rate); }
+};
+
+// Where an interval of the first one's time is looked at; everything, without one.
+struct Interval {
+  double from, to;  // [s]
+};
+
+struct Likeness {
+  double r = 0;             // -1 to 1
+  std::size_t samples = 0;  // that have a partner; of the channel with the most
+};
+// Returns how alike both are under a clock; nothing where too few samples meet, or a channel does
+// not change there in either.
+std::optional<Likeness> likeness(std::span<const Pair> pairs, const Clock& clock,
+                                 std::optional<Interval> within = {});
+
+// The best of all shifts and rates.
+struct Found {
+  Clock clock = {};
+  double r = 0;
+  double half_width = 0;  // of the peak over the shift, where r is half as high [s]
+  double fall = 0;        // of r within a tenth of the shorter recording [-]
+  double second_r = -1, second_shift = 0;  // the highest peak beside it
+};
+// Searches shifts up to `most` in magnitude [s], and rates too where `rates`. Nothing where no
+// shift lets them overlap.
+std::optional<Found> search(std::span<const Pair> pairs, double most, bool rates);
+
+struct Peak {
+  Clock clock = {};
+  double r = 0, uncertainty = 0;  // of the shift [s]; infinite where there is no peak
+};
+// The peak about a clock's shift; `width` is w  [s].
+Peak refine(std::span<const Pair> pairs, Clock clock, double width,
+            std::optional<Interval> within = {});
+
+// The longest step between samples of any of them  [s].
+double longest_step(std::span<const Pair> pairs);
+
+}  // namespace sinew::analysis
