@@ -3,7 +3,6 @@
 import { LiveControls } from './live_controls.js';
 import { append_stretches, GrowingColumns } from './growing.js';
 import { read_samples } from './samples.js';
-import { Slices } from './slices.js';
 
 const plots_every = 100;   // [ms]
 const refit_every = 500;   // [ms]
@@ -49,6 +48,7 @@ export class Live {
     if (message.error) return this.controls?.complain(message.error);
     if (message.piece) await this.append(message.piece);
     this.state = message.state;
+    if (message.changes) this.take_changes(message.changes);
     ++this.frames;
     this.controls?.show(this.state);
     if (this.first && this.time >= 0) {
@@ -62,6 +62,12 @@ export class Live {
     append_stretches(this.run.phases.stretches, piece.phases.stretches);
     this.time = this.growing.clocks.reduce((t, c) => Math.max(t, c.length ? c.room[c.length - 1] : 0), 0);
     if (this.page) this.grow();
+  }
+
+  // What was set since, by a slider or the file's list.
+  take_changes(changes) {
+    (this.run.changes ??= []).push(...changes);
+    this.page?.marks.refresh();
   }
 
   // --- the page ---
@@ -83,7 +89,7 @@ export class Live {
     page.player.clock = page.clock();
     if (now - (this.plotted ?? -Infinity) >= plots_every) {
       this.plotted = now;
-      for (const panel of page.plots.panels) panel.slices = new Slices(panel.columns);
+      page.desk.grow();
       page.plots.refresh();
       page.draw_phases();
     }

@@ -3,14 +3,16 @@ import { pressure_gradient } from './colors.js';
 import { Charts } from './charts.js';
 import { Live } from './live.js';
 import { Look } from './look.js';
+import { Marks } from './marks.js';
 import { by_id, element } from './page.js';
 import { Player } from './player.js';
+import { PlotDesk } from './plot_desk.js';
 import { Plots } from './plots.js';
 import { held, index_at, open_within, read_samples } from './samples.js';
 import { Scene } from './scene.js';
 import { as_scene, StandScene } from './stand.js';
 import {
-  count_verdicts, counts_in_words, faults_at, Figures, mark_faults, show_faults, show_parameters, show_results, show_warnings,
+  count_verdicts, counts_in_words, faults_at, mark_faults, Numbers, show_faults, show_parameters, show_results, show_warnings,
 } from './tables.js';
 import { Units } from './units.js';
 
@@ -24,12 +26,13 @@ class Page {
     this.head();
     this.plots = new Plots(by_id('panels'), run, columns, this.units, (t) => this.seek(t));
     this.plots.on_view = () => this.draw_phases();
+    this.desk = new PlotDesk(run, this.plots, columns);
+    this.marks = new Marks(by_id('changes'), run, this.plots, this.units, (t) => this.seek(t));
     this.charts = run.charts?.length ? new Charts(by_id('charts'), run.charts, columns, this.units) : null;
     this.replay();
     this.player = new Player(run.duration, this.clock(), (t) => this.show(t));
     this.tables();
     this.controls();
-    this.groups();
     this.seek(run.phases.stretches[0]?.from ?? 0);
   }
 
@@ -60,7 +63,7 @@ class Page {
       out.push(chip('warnings', `${run.warnings.length} warning${run.warnings.length > 1 ? 's' : ''}`, 'warn'));
     const faults = run.faults?.length ?? 0;
     if (faults) out.push(chip('faults', `${faults} fault${faults > 1 ? 's' : ''}`, 'bad'));
-    out.push(chip('figures', 'Figures', ''), chip('parameters', 'Parameters', ''));
+    out.push(chip('numbers', 'Numbers', ''), chip('parameters', 'Parameters', ''));
     by_id('chips').append(...out);
   }
 
@@ -73,7 +76,7 @@ class Page {
     };
     show_warnings(this.run, seek);
     show_faults(this.run, seek);
-    this.figures = new Figures(this.run, this.units);
+    this.numbers = new Numbers(this.run, this.units);
     show_parameters(this.run);
   }
 
@@ -149,6 +152,8 @@ class Page {
       for (const [from, to] of w.spans) ctx.fillRect(x(from), height / 2 + 7, Math.max(1.5, x(to) - x(from)), 2.5);
     ctx.fillStyle = css.getPropertyValue('--bad');
     for (const f of this.run.faults ?? []) ctx.fillRect(x(f.from), height / 2 - 9.5, Math.max(1.5, x(f.to) - x(f.from)), 2.5);
+    ctx.fillStyle = css.getPropertyValue('--mark');
+    for (const m of this.marks?.moves ?? []) ctx.fillRect(x(m.from) - 0.75, height / 2 - 9.5, 1.5, 8);
     const [from, to] = this.plots.view;
     if (to - from < this.run.duration) {
       ctx.strokeStyle = css.getPropertyValue('--accent');
@@ -215,7 +220,7 @@ class Page {
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const tag = event.target.tagName;
-    if (event.target.type === 'search' || event.target.closest?.('.control') || tag === 'SELECT' || tag === 'TEXTAREA') return;
+    if (['search', 'text', 'number', 'checkbox'].includes(event.target.type) || event.target.closest?.('.control') || tag === 'SELECT' || tag === 'TEXTAREA') return;
     const big = event.shiftKey ? 10 : 1;
     const does = {
       ' ': () => this.player.toggle(),
@@ -249,9 +254,10 @@ class Page {
 
   // Other units.
   reword() {
+    this.marks.refresh();
     this.plots.rebuild();
     this.charts?.rebuild();
-    this.figures.refresh();
+    this.numbers.refresh();
     if (this.scene) this.legend();
     this.show(this.player.time);
   }
@@ -270,21 +276,6 @@ class Page {
     this.plots.print(begins);
     this.charts?.print(begins);
     if (this.scene) by_id('scene').style.cssText = begins ? paper_scene : '';
-  }
-
-  groups() {
-    const names = [...new Set(this.run.panels.map((p) => p.group))];
-    by_id('groups').append(...names.map((name) => {
-      const shown = name !== 'Other' || names.length === 1;
-      const button = element('button', { type: 'button', 'aria-pressed': String(shown) }, name);
-      const set = (on) => {
-        button.setAttribute('aria-pressed', String(on));
-        this.plots.show_group(name, on);
-      };
-      button.addEventListener('click', () => set(button.getAttribute('aria-pressed') !== 'true'));
-      set(shown);
-      return button;
-    }));
   }
 }
 

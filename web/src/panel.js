@@ -1,5 +1,6 @@
 // One plot with its heading: its lines' names, which show and hide them, and their values.
 import uPlot from 'uplot';
+import { range_of, spoiling_start } from './axis.js';
 import { element } from './page.js';
 import { held } from './samples.js';
 import { Slices } from './slices.js';
@@ -8,30 +9,61 @@ import { number, signed, tick_text } from './units.js';
 const axis_width = 58;
 const height = 132;
 const paper_width = 680;  // of A4 and of Letter, between their margins [px]
+const scales = ['y', 'y2'];  // at the left, and of a second unit at the right
 
 export class Panel {
+  // `spec`: title, unit, lines; a line has a place among `columns` or brings its own, `data`, and may
+  // have another unit than the plot, which then has a second axis.
   constructor(spec, columns, plots) {
     this.spec = spec;
     this.plots = plots;
-    this.columns = spec.lines.map((line) => columns[line.column]);
-    this.slices = new Slices(this.columns);
-    this.shown = spec.lines.map((line) => line.style !== 'hidden');
+    this.all = columns;
     this.visible = false;
     this.stale = true;
     this.build_frame();
+    this.set_lines(spec.lines);
   }
 
   build_frame() {
     this.root = element('article', { class: 'panel', 'data-group': this.spec.group });
     this.title = element('h3', {});
-    this.readouts = this.spec.lines.map((line, i) => this.readout(line, i));
-    this.root.append(
-      element('header', {}, this.title, element('div', { class: 'lines' }, ...this.readouts.map((r) => r.button))),
-      (this.box = element('div', { class: 'box' })),
-    );
-    this.height = this.spec.height ?? height;
-    this.box.style.height = `${this.height}px`;
+    this.lines = element('div', { class: 'lines' });
+    this.note = element('span', { class: 'note', hidden: '' });
+    this.root.append(element('header', {}, this.title, this.lines), (this.box = element('div', { class: 'box' })));
+    this.set_height(this.spec.height ?? height);
+  }
+
+  set_height(pixels) {
+    this.height = pixels;
+    this.box.style.height = `${pixels}px`;
+  }
+
+  // Other lines than before; those that stay are shown or hidden as they were.
+  set_lines(lines) {
+    const was = new Map((this.readouts ?? []).map((r, i) => [this.spec.lines[i].id, this.shown[i]]));
+    this.spec = { ...this.spec, lines };
+    this.units = [...new Set(lines.map((l) => l.unit ?? this.spec.unit))];
+    if (!this.units.length) this.units = [this.spec.unit];
+    this.shown = lines.map((line) => (line.id === undefined ? undefined : was.get(line.id)) ?? line.style !== 'hidden');
+    this.readouts = lines.map((line, i) => this.readout(line, i));
+    this.lines.replaceChildren(...this.readouts.map((r) => r.button));
     this.name_units();
+    this.renew();
+    if (this.plot) this.build();
+    this.show_values(this.plots.shown_time());
+  }
+
+  // After samples have come, or a formula's column has changed.
+  renew() {
+    this.columns = this.spec.lines.map((line) => line.data ?? this.all[line.column]);
+    this.slices = new Slices(this.columns);
+    this.starts = null;
+    this.stale = true;
+  }
+
+  // A plot without a number of its own is not shown.
+  is_empty() {
+    return !this.columns.some((c) => c.values.some((v) => v === v));
   }
 
   readout(line, i) {
@@ -47,6 +79,7 @@ export class Panel {
 
   toggle(i) {
     this.show_line(i, !this.shown[i]);
+    this.plots.on_toggle?.(this, i);
   }
 
   show_line(i, on) {
@@ -57,20 +90,29 @@ export class Panel {
     this.show_values(this.plots.shown_time());
   }
 
+  unit_of(i) {
+    return this.spec.lines[i].unit ?? this.spec.unit;
+  }
+
   name_units() {
-    const label = this.plots.units.of(this.spec.unit).label;
-    this.title.replaceChildren(this.spec.title, element('span', { class: 'unit' }, label));
+    const labels = this.units.map((u) => this.plots.units.of(u).label);
+    const words = labels.length > 1 ? labels.map((l, i) => `${l || '1'} ${i ? 'right' : 'left'}`).join(', ') : labels[0];
+    this.title.replaceChildren(this.spec.title, element('span', { class: 'unit' }, words), this.note);
   }
 
   // --- the plot ---
 
+  color(i) {
+    return this.plots.palette[this.spec.lines[i].color % this.plots.palette.length];
+  }
+
   build() {
     this.plot?.destroy();
-    const color = (i) => this.plots.palette[this.spec.lines[i].color % this.plots.palette.length];
-    this.readouts.forEach((r, i) => r.button.style.setProperty('--line', color(i)));
+    this.readouts.forEach((r, i) => r.button.style.setProperty('--line', this.color(i)));
     const series = this.spec.lines.map((line, i) => ({
       label: line.label,
-      stroke: color(i),
+      scale: scales[this.units.indexOf(this.unit_of(i))] ?? 'y',
+      stroke: this.color(i),
       width: line.width ?? (line.style === 'full' ? 1.5 : 1.25),
       dash: line.dash ?? (line.style === 'dashed' ? [6, 4] : undefined),
       show: this.shown[i],
@@ -84,13 +126,11 @@ export class Panel {
   }
 
   options(series) {
-    const { ink, grid, font } = this.plots.look;
-    const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { show: false }, font, gap: 4 };
     return {
       width: this.plots.printing ? paper_width : this.box.clientWidth || 600,
       height: this.height,
       legend: { show: false },
-      padding: [6, 14, 0, 0],
+      padding: [6, this.units.length > 1 ? 4 : 14, 0, 0],
       cursor: {
         sync: { key: 'run', setSeries: false, scales: ['x', null] },
         drag: { x: true, y: false, setScale: false, dist: 5 },
@@ -99,12 +139,9 @@ export class Panel {
       },
       scales: {
         x: { time: false, range: () => this.plots.view },
-        y: { range: (u, low, high) => padded(low, high) },
+        ...Object.fromEntries(this.units.slice(0, 2).map((unit, k) => [scales[k], { range: () => this.range(k) }])),
       },
-      axes: [
-        { ...axis, size: 22, values: (u, ticks) => ticks.map((t) => `${+t.toFixed(6)} s`) },
-        { ...axis, size: axis_width, space: 26, values: (u, ticks) => ticks.map(tick_text) },
-      ],
+      axes: this.axes(),
       series: [{}, ...series],
       hooks: {
         drawClear: [(u) => this.plots.draw_phases(u)],
@@ -113,6 +150,16 @@ export class Panel {
         setScale: [() => this.head && this.place(this.plots.time)],  // which comes after a zoom
       },
     };
+  }
+
+  // Time, and at each side a unit.
+  axes() {
+    const { ink, grid, font } = this.plots.look;
+    const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { show: false }, font, gap: 4 };
+    const upright = { ...axis, size: axis_width, space: 26, values: (u, ticks) => ticks.map(tick_text) };
+    const right = { ...upright, scale: 'y2', side: 1, grid: { show: false } };
+    return [{ ...axis, size: 22, values: (u, ticks) => ticks.map((t) => `${+t.toFixed(6)} s`) }, { ...upright, scale: 'y' },
+            ...(this.units.length > 1 ? [right] : [])];
   }
 
   zoom_to(u) {
@@ -138,6 +185,45 @@ export class Panel {
     this.refresh();
   }
 
+  // --- the axes ---
+
+  // Of the values that are drawn, on the axis with this number, in the unit shown.
+  range(axis, drawn = this.drawn ?? [[]]) {
+    const unit = this.units[axis], { scale } = this.plots.units.of(unit), [x, ...lines] = drawn;
+    const [from, to] = this.plots.view;
+    let low = Infinity, high = -Infinity;
+    lines.forEach((line, i) => {
+      if (!this.shown[i] || this.unit_of(i) !== unit) return;
+      const start = this.start_of(i);  // what is before would spoil the axis
+      for (let k = 0; k < line.length; ++k) {
+        const v = line[k];
+        if (v === null || v === undefined || x[k] < from || x[k] > to || x[k] < start) continue;
+        if (v < low) low = v;
+        if (v > high) high = v;
+      }
+    });
+    return range_of(low, high, unit, scale);
+  }
+
+  // The time from which a line's samples count for its axis.
+  start_of(i) {
+    this.starts ??= [];
+    if (this.starts[i] === undefined) {
+      const count = spoiling_start(this.columns[i], this.unit_of(i));
+      this.starts[i] = count ? this.columns[i].time[count] : -Infinity;
+    }
+    return this.starts[i];
+  }
+
+  // A line that leaves its axis at the start says so.
+  note_start() {
+    const [from] = this.plots.view;
+    const off = this.columns.flatMap((c, i) => (this.shown[i] && this.start_of(i) > from
+      ? [`${this.spec.lines[i].label} begins at ${this.plots.units.text(c.values[0], this.unit_of(i))}`] : []));
+    this.note.textContent = off.length ? `off the axis: ${off.join(', ')}` : '';
+    this.note.hidden = !off.length;
+  }
+
   // --- what is drawn ---
 
   refresh() {
@@ -146,8 +232,15 @@ export class Panel {
     if (!this.plot) return this.build();
     this.stale = false;
     const pixels = Math.max(200, this.box.clientWidth - axis_width);
-    this.plot.setData(this.slices.of(this.plots.view, pixels, this.plots.units.of(this.spec.unit)), true);
+    this.drawn = this.slice(pixels);
+    this.note_start();
+    this.plot.setData(this.drawn, true);
     this.place(this.plots.time);
+  }
+
+  // Of the time in view, times and values in the units shown.
+  slice(pixels) {
+    return this.slices.of(this.plots.view, pixels, this.columns.map((c, i) => this.plots.units.of(this.unit_of(i))));
   }
 
   place(t) {
@@ -156,6 +249,7 @@ export class Panel {
     const inside = x >= 0 && x <= this.plot.over.clientWidth;
     this.head.style.display = inside ? '' : 'none';
     if (inside) this.head.style.transform = `translateX(${x.toFixed(2)}px)`;
+    this.plots.on_place?.(this);
   }
 
   show_values(t) {
@@ -167,16 +261,10 @@ export class Panel {
 
   // And by how much it differs from another run, where the line knows that.
   value_text(i, t) {
-    const { units } = this.plots, { unit, lines } = this.spec;
+    const { units } = this.plots, { lines } = this.spec, unit = this.unit_of(i);
     if (t > lines[i].ends) return number(NaN);  // of a run that is over
     const value = number(units.convert(held(this.columns[i], t), unit));
     const { difference } = lines[i];
     return difference && value !== number(NaN) ? `${value} (${signed(held(difference, t) * units.of(unit).scale)})` : value;
   }
-}
-
-function padded(low, high) {
-  if (low === null || !Number.isFinite(low)) return [0, 1];
-  const room = high > low ? 0.06 * (high - low) : Math.max(1e-6, 0.1 * Math.abs(high));
-  return [low - room, high + room];
 }

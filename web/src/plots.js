@@ -9,25 +9,53 @@ export class Plots {
     this.time = 0;
     this.hovered = null;
     this.read_look();
+    this.columns = columns;
+    this.groups_shown = new Map();
     this.panels = run.panels.map((spec) => new Panel(spec, columns, this));
     root.append(...this.panels.map((p) => p.root));
     this.watch();
+  }
+
+  // One that a person made: it comes first.
+  add_panel(spec) {
+    const panel = new Panel(spec, this.columns, this);
+    this.panels.unshift(panel);
+    this.by_root.set(panel.root, panel);
+    this.root.prepend(panel.root);
+    this.observer.observe(panel.root);
+    return panel;
+  }
+
+  remove_panel(panel) {
+    this.observer.unobserve(panel.root);
+    this.by_root.delete(panel.root);
+    this.panels.splice(this.panels.indexOf(panel), 1);
+    panel.plot?.destroy();
+    panel.root.remove();
+  }
+
+  // Puts the plots in this order.
+  put_in_order(panels) {
+    if (panels.every((p, i) => p === this.panels[i])) return;
+    this.panels = panels;
+    this.root.append(...panels.map((p) => p.root));
   }
 
   read_look() {
     const css = getComputedStyle(document.documentElement);
     const get = (name) => css.getPropertyValue(name).trim();
     this.palette = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => get(`--line-${i}`));
-    this.look = { ink: get('--quiet'), grid: get('--grid'), stance: get('--stance'), fault: get('--fault'), edge: get('--bad'),
+    this.look = { ink: get('--quiet'), grid: get('--grid'), stance: get('--stance'), fault: get('--fault'), edge: get('--bad'), mark: get('--mark'),
                   font: `11px ${get('--sans')}` };
   }
 
   // Only what can be seen is drawn.
   watch() {
-    const by_root = new Map(this.panels.map((p) => [p.root, p]));
+    this.by_root = new Map(this.panels.map((p) => [p.root, p]));
     this.observer = new IntersectionObserver((entries) => {
       for (const entry of entries) {
-        const panel = by_root.get(entry.target);
+        const panel = this.by_root.get(entry.target);
+        if (!panel) continue;
         panel.visible = entry.isIntersecting;
         if (panel.visible && panel.stale) panel.refresh();
         if (panel.visible) panel.place(this.time), panel.show_values(this.shown_time());
@@ -51,6 +79,7 @@ export class Plots {
       for (const t of [f.from, f.to])
         if (t >= this.view[0] && t <= this.view[1]) ctx.fillRect(u.valToPos(t, 'x', true) - px / 2, bbox.top, px, bbox.height);
     }
+    this.marks?.draw(u);
     ctx.restore();
   }
 
@@ -150,6 +179,13 @@ export class Plots {
   }
 
   show_group(group, shown) {
-    for (const p of this.panels) if (p.spec.group === group) p.root.hidden = !shown;
+    this.groups_shown.set(group, shown);
+    this.arrange();
+  }
+
+  // Which plots are there: of a group that is shown, not put away, and with something in them.
+  arrange() {
+    for (const p of this.panels)
+      p.root.hidden = !(this.groups_shown.get(p.spec.group) ?? true) || Boolean(p.away) || p.is_empty();
   }
 }

@@ -22,21 +22,23 @@ export class Slices {
   }
 
   // uPlot's data: times, then a line per column. A column has nothing to say (undefined) at times of
-  // other clocks, and a gap (null) where it is no number.
+  // other clocks, and a gap (null) where it is no number. `unit`: of all columns, or a list of each.
   of(view, pixels, unit) {
-    const tables = this.clocks.map((clock) => this.of_clock(clock, view, pixels, unit));
+    if (!this.clocks.length) return [[]];
+    const units = Array.isArray(unit) ? unit : this.columns.map(() => unit);
+    const tables = this.clocks.map((clock) => this.of_clock(clock, view, pixels, units));
     if (tables.length === 1) return tables[0];
     const [time, ...lines] = uPlot.join(tables);
     return [time, ...this.places.map((place) => lines[place])];
   }
 
   // Samples in view and one on either side.
-  of_clock({ time, lines }, [from, to], pixels, unit) {
+  of_clock({ time, lines }, [from, to], pixels, units) {
     const first = Math.max(0, index_at(time, from));
     const last = Math.min(time.length, index_at(time, to) + 2);
     const level = level_for(last - first, pixels, this.pyramid_of(lines[0]).length);
-    if (level >= 0) return this.buckets(time, lines, first, last, level, unit);
-    return [time.subarray(first, last), ...lines.map((i) => this.samples(i, first, last, unit))];
+    if (level >= 0) return this.buckets(time, lines, first, last, level, units);
+    return [time.subarray(first, last), ...lines.map((i) => this.samples(i, first, last, units[i]))];
   }
 
   pyramid_of(i) {
@@ -50,7 +52,7 @@ export class Slices {
     return line;
   }
 
-  buckets(time, lines, first, last, level, unit) {
+  buckets(time, lines, first, last, level, units) {
     const size = bucket_size(level);
     const from = Math.floor(first / size), to = Math.ceil(last / size);
     const x = new Float64Array(2 * (to - from));
@@ -62,8 +64,8 @@ export class Slices {
       const { low, high, first_low } = this.pyramid_of(i)[level];
       const line = new Array(x.length);
       for (let b = from; b < to; ++b) {
-        line[2 * (b - from)] = in_unit(first_low[b] ? low[b] : high[b], unit);
-        line[2 * (b - from) + 1] = in_unit(first_low[b] ? high[b] : low[b], unit);
+        line[2 * (b - from)] = in_unit(first_low[b] ? low[b] : high[b], units[i]);
+        line[2 * (b - from) + 1] = in_unit(first_low[b] ? high[b] : low[b], units[i]);
       }
       return line;
     })];

@@ -1,4 +1,4 @@
-// Results beside what is reported, all figures, warnings, and every value that was used.
+// Results beside what is reported, all numbers, warnings, and every value that was used.
 import { by_id, element } from './page.js';
 import { number, unit_of_key, words_of_key } from './units.js';
 
@@ -89,7 +89,7 @@ export function mark_faults(run, t) {
   by_id('faults').querySelectorAll('button').forEach((button, i) => button.classList.toggle('now', now.has(run.faults[i])));
 }
 
-// --- all figures of the summary ---
+// --- all numbers of the summary ---
 
 function* leaves(object, path = '') {
   for (const [key, value] of Object.entries(object)) {
@@ -99,18 +99,18 @@ function* leaves(object, path = '') {
   }
 }
 
-export class Figures {
+export class Numbers {
   constructor(run, units) {
     this.units = units;
-    this.root = by_id('figures');
+    this.root = by_id('numbers');
     this.rows = [...leaves(run.summary)].map(([key, value]) => {
       const shown = element('td', { class: 'number' });
       const row = element('tr', { 'data-key': key, 'data-value': value, title: `${key}: ${value}` },
         element('th', { scope: 'row' }, words_of_key(key)), shown, element('td', { class: 'unit' }));
       return { key, value, shown, row, unit: row.lastChild };
     });
-    const list = table('Figures of the run', ['', '', ''], this.rows.map((r) => r.row));
-    this.root.append(heading('Figures', 'summary.json'), searched(list, this.rows, 'Search figures'));
+    const list = table('Numbers of the run', ['', '', ''], this.rows.map((r) => r.row));
+    this.root.append(heading('Numbers', 'summary.json'), searched(list, this.rows, 'Search numbers'));
     this.refresh();
   }
 

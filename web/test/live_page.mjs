@@ -102,7 +102,7 @@ test('a run is watched, paused, steered; its file repeats it', async () => {
     // At the end it is the finished run's.
     await page.locator('#run-pace').selectOption('0');
     await until(page, () => !window.sinew?.live && document.documentElement.dataset.ready);
-    assert.ok((await page.locator('#figures tr[data-key]').count()) > 20);
+    assert.ok((await page.locator('#numbers tr[data-key]').count()) > 20);
     assert.ok((await page.locator('#parameters tr[data-key^="change["]').count()) >= 6);
   });
   run.child.kill('SIGINT');

@@ -138,7 +138,7 @@ test('numbers are those of summary.json, in either unit', () => with_page('walk-
   const summary = summary_of('walk-test-1');
   delete summary.host;
   const at = (key) => key.split('.').reduce((node, part) => node[part], summary);
-  const rows = () => page.locator('#figures tr[data-key]').evaluateAll((all) => all.map((row) => ({
+  const rows = () => page.locator('#numbers tr[data-key]').evaluateAll((all) => all.map((row) => ({
     key: row.dataset.key, exact: Number(row.dataset.value), shown: row.querySelector('.number').textContent,
     unit: row.querySelector('.unit').textContent })));
   const leaves = (node) => Object.values(node).flatMap((v) =>

@@ -1,0 +1,58 @@
+// What an axis shows of its values: never noise alone, never a first sample alone, round ticks.
+
+// Below that a quantity is at rest, whatever its last digits do: [the unit], in SI.
+const least_span = {
+  rad: 1e-4, 'rad/s': 1e-3, 'rad/s^2': 1e-2, N: 1e-2, Pa: 10, 'Pa diff': 10, 'Pa abs': 10, 'Pa gauge': 10, m: 1e-5, 'm/s': 1e-4,
+  'm/s^2': 1e-3, kg: 1e-8, 'kg/s': 1e-8, share: 1e-3, 'N m': 1e-4, 'N m/rad': 1e-4, 'N/m': 1e-2, count: 0.5, s: 1e-6, V: 1e-5,
+};
+const share_of_size = 1e-5;  // of a large value, which single precision and a solver's tolerance leave
+
+// Is what lies between two values no more than noise? `scale`: of the unit shown, by that of SI.
+function is_at_rest(low, high, unit, scale) {
+  return high - low <= Math.max((least_span[unit] ?? 1e-9) * scale, share_of_size * Math.max(Math.abs(low), Math.abs(high)));
+}
+
+// The range of an axis for values from `low` to `high`; null: there are none. `unit`: in SI.
+export function range_of(low, high, unit, scale = 1) {
+  if (low === null || !Number.isFinite(low) || !Number.isFinite(high)) return [0, 1];
+  if (!is_at_rest(low, high, unit, scale)) {
+    const room = 0.06 * (high - low);
+    return [low - room, high + room];
+  }
+  // A constant stands in the middle; a zero does so on an axis of its unit, not of its last digits.
+  const middle = (low + high) / 2, least = 20 * (least_span[unit] ?? 1e-9) * scale;
+  const size = Math.abs(middle) < least ? least : 0.1 * Math.abs(middle);
+  const about = Math.abs(middle) < least / 10 ? 0 : middle;
+  return [about - size, about + size];
+}
+
+const most_of_start = 0.02;  // of all samples
+const jump = 0.5;            // of what all others span
+
+// How many samples at the start would spoil an axis: a value from before the first reading, or the
+// first step of an estimate, from which the second value jumps away, outside of all that follows.
+export function spoiling_start({ values }, unit) {
+  const most = Math.max(1, Math.floor(most_of_start * values.length));
+  const first = values[0];
+  if (first !== first || values.length < 20) return 0;
+  let count = 1;
+  while (count <= most && values[count] === first) ++count;
+  if (count > most) return 0;
+  let low = Infinity, high = -Infinity;
+  for (let i = count; i < values.length; ++i) {
+    if (values[i] < low) low = values[i];
+    if (values[i] > high) high = values[i];
+  }
+  if (!(low <= high) || is_at_rest(low, high, unit, 1)) return 0;
+  const outside = Math.max(low - first, first - high), step = Math.abs(values[count] - first);
+  return outside > jump * (high - low) && step > jump * (high - low) ? count : 0;
+}
+
+// Round values within an axis, about so many, for pictures that are not drawn by uPlot.
+export function ticks(low, high, about) {
+  const raw = (high - low) / Math.max(1, about), size = 10 ** Math.floor(Math.log10(raw));
+  const step = [1, 2, 5, 10].map((k) => k * size).find((k) => k >= raw * (1 - 1e-9));
+  const out = [];
+  for (let k = Math.ceil(low / step - 1e-9); k <= high / step + 1e-9; ++k) out.push(+(k * step).toPrecision(12));
+  return out;
+}

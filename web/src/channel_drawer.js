@@ -1,0 +1,47 @@
+// The list of a run's channels: found by words, dragged onto a plot, or added from a menu.
+import { element } from './page.js';
+import { menu_button } from './menu.js';
+import { dragged } from './dragging.js';
+
+const most = 400;  // rows at once
+
+export class ChannelDrawer {
+  // `entries_for` gives the menu of a channel: where it can be added to.
+  constructor(root, channels, units, { entries_for, on_formula }) {
+    Object.assign(this, { root, channels, units, entries_for });
+    this.field = element('input', { type: 'search', placeholder: 'Search channels', 'aria-label': 'Search channels' });
+    this.field.addEventListener('input', () => this.list());
+    const formula = element('button', { type: 'button', class: 'new-formula' }, 'Formula…');
+    formula.addEventListener('click', on_formula);
+    this.rows = element('ul', { class: 'channel-rows' });
+    root.append(element('div', { class: 'search' }, this.field, formula),
+      element('p', { class: 'quiet' }, 'Drag a channel onto a plot, or between the plots for a new one. A plot can be dragged onto another, too.'), this.rows);
+  }
+
+  toggle() {
+    this.root.hidden = !this.root.hidden;
+    if (this.root.hidden) return;
+    this.list();
+    this.field.focus();
+  }
+
+  list() {
+    if (this.root.hidden) return;
+    const words = this.field.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const found = this.channels.with_samples().filter((c) => {
+      const text = `${this.channels.words(c)} ${c.id}`.toLowerCase();
+      return words.every((w) => text.includes(w));
+    });
+    this.rows.replaceChildren(...found.slice(0, most).map((c) => this.row(c)));
+    if (!found.length) this.rows.append(element('li', { class: 'quiet' }, 'No channel has these words.'));
+  }
+
+  row(channel) {
+    const row = element('li', { draggable: 'true', title: channel.id },
+      element('span', { class: 'name' }, this.channels.words(channel)),
+      element('span', { class: 'unit' }, this.units.of(channel.unit).label),
+      menu_button('+', `Add ${this.channels.words(channel)} to a plot`, () => this.entries_for(channel)));
+    dragged.from(row, () => [channel.id]);
+    return row;
+  }
+}

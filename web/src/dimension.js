@@ -1,0 +1,68 @@
+// Units of formulas: which dimensions a unit of the log has, and which unit a result has.
+
+const bases = ['m', 'kg', 's', 'rad', 'count', 'K', 'A'];
+const dims = (powers) => bases.map((b) => powers[b] ?? 0);
+
+// Of a unit's word: its size in SI and the powers of its dimensions. An angle and a converter's count
+// are dimensions, as everywhere in Sinew.
+const words = {
+  m: [1, { m: 1 }], mm: [1e-3, { m: 1 }], cm: [1e-2, { m: 1 }], in: [0.0254, { m: 1 }], ft: [0.3048, { m: 1 }],
+  kg: [1, { kg: 1 }], g: [1e-3, { kg: 1 }], lb: [0.45359237, { kg: 1 }],
+  s: [1, { s: 1 }], ms: [1e-3, { s: 1 }], Hz: [1, { s: -1 }],
+  rad: [1, { rad: 1 }], deg: [Math.PI / 180, { rad: 1 }], count: [1, { count: 1 }], K: [1, { K: 1 }], A: [1, { A: 1 }],
+  V: [1, { kg: 1, m: 2, s: -3, A: -1 }],
+  N: [1, { kg: 1, m: 1, s: -2 }], lbf: [4.4482216152605, { kg: 1, m: 1, s: -2 }],
+  Pa: [1, { kg: 1, m: -1, s: -2 }], kPa: [1e3, { kg: 1, m: -1, s: -2 }], MPa: [1e6, { kg: 1, m: -1, s: -2 }],
+  bar: [1e5, { kg: 1, m: -1, s: -2 }], mbar: [100, { kg: 1, m: -1, s: -2 }],
+  psi: [6894.757293168361, { kg: 1, m: -1, s: -2 }],
+  J: [1, { kg: 1, m: 2, s: -2 }], W: [1, { kg: 1, m: 2, s: -3 }],
+  share: [1, {}],
+};
+
+export const unit_words = Object.keys(words).filter((w) => w !== 'share');
+export const none = dims({});
+
+export function unit_word(word) {
+  const found = Object.hasOwn(words, word) ? words[word] : null;
+  return found && { scale: found[0], dims: dims(found[1]) };
+}
+
+export const times = (a, b, power = 1) => a.map((p, i) => p + power * b[i]);
+export const same = (a, b) => a.every((p, i) => Math.abs(p - b[i]) < 1e-9);
+
+// Dimensions of an SI unit as the log writes it, "N m/rad", "m/s^2", "Pa gauge"; null: not known.
+export function dims_of(unit) {
+  const text = unit.replace(/ (abs|diff|gauge)$/, '');
+  let out = none, power = 1;
+  for (const part of text.match(/[^\s/]+|\//g) ?? []) {
+    if (part === '/') {
+      if (power < 0) return null;
+      power = -1;
+      continue;
+    }
+    const [, word, exponent] = part.match(/^([A-Za-z]+|1)(?:\^(\d))?$/) ?? [];
+    const found = word === '1' ? { dims: none } : word && unit_word(word);
+    if (!found) return null;
+    out = times(out, found.dims, power * Number(exponent ?? 1));
+  }
+  return out;
+}
+
+// What results are called where there is a name, the log's spelling first.
+const named = ['1', 'm', 'm/s', 'm/s^2', 'N', 'Pa', 'N/m', 'N/s', 'Pa/s', 'kg', 'kg/s', 'rad', 'rad/s', 'rad/s^2', 'N m',
+  'N m/rad', 'N m s/rad', 'count', 'count/s', 's', '1/s', 'm^2', 'm^3', 'W', 'V', 'K', 'A'].map((name) => [name, dims_of(name)]);
+
+export function name_of(powers) {
+  const found = named.find(([, of]) => same(of, powers));
+  if (found) return found[0];
+  // Forces are told as forces.
+  const newton = dims({ kg: 1, m: 1, s: -2 });
+  const of_force = powers[1] === 1 && powers[2] <= -2;
+  const rest = of_force ? times(powers, newton, -1) : powers;
+  const part = (sign) => bases.flatMap((base, i) => {
+    const p = sign * rest[i];
+    return p > 1e-9 ? [p === 1 ? base : `${base}^${+p.toFixed(3)}`] : [];
+  });
+  const above = [...(of_force ? ['N'] : []), ...part(1)].join(' ') || '1', below = part(-1);
+  return below.length ? `${above}/${below.length > 1 ? `(${below.join(' ')})` : below[0]}` : above;
+}

@@ -1,0 +1,45 @@
+// Channels that are dragged: from the list, from a plot's heading or from a line's name, onto a plot.
+
+const kind = 'application/x-sinew-channels';
+
+export const dragged = {
+  lines: null,
+
+  // `lines_of` gives what is dragged from there, in the words of a layout.
+  from(root, lines_of) {
+    root.addEventListener('dragstart', (event) => {
+      event.stopPropagation();
+      this.lines = lines_of();
+      event.dataTransfer.setData(kind, JSON.stringify(this.lines));
+      event.dataTransfer.effectAllowed = 'copy';
+      // The page changes only after the browser has taken its picture of what is dragged.
+      setTimeout(() => document.documentElement.classList.toggle('dragging', Boolean(this.lines)));
+    });
+    root.addEventListener('dragend', () => this.end());
+  },
+
+  end() {
+    this.lines = null;
+    document.documentElement.classList.remove('dragging');
+    document.querySelectorAll('.drop-here').forEach((r) => r.classList.remove('drop-here'));
+  },
+
+  // `does` is given what is dropped there.
+  onto(root, does) {
+    const ours = (event) => this.lines && event.dataTransfer.types.includes(kind);
+    root.addEventListener('dragover', (event) => {
+      if (!ours(event)) return;
+      event.preventDefault();
+      event.dataTransfer.dropEffect = 'copy';
+      root.classList.add('drop-here');
+    });
+    root.addEventListener('dragleave', (event) => !root.contains(event.relatedTarget) && root.classList.remove('drop-here'));
+    root.addEventListener('drop', (event) => {
+      if (!ours(event)) return;
+      event.preventDefault();
+      const { lines } = this;
+      this.end();
+      does(lines);
+    });
+  },
+};

@@ -1,0 +1,62 @@
+// How a person has arranged the plots of a robot in an experiment: kept in this browser, under a name
+// of both, so that the next run of it looks the same. Only what differs from the page is kept.
+//
+//   { format, own: [{ id, title, lines }], added: { plot: [line] }, away: [plot], order: [plot],
+//     shown: { plot: { line: true } }, groups: { group: true } }
+//
+// A line is the id of a channel, or { formula, name }. What a run has not is passed over and kept.
+import { recall, remember } from './memory.js';
+
+const format = 'sinew.layout/1';
+const most = 200000;  // characters that are read
+
+const is_object = (v) => v !== null && typeof v === 'object' && !Array.isArray(v);
+const is_text = (v) => typeof v === 'string' && v.length <= 500;
+
+export const nothing = () => ({ format, own: [], added: {}, away: [], order: [], shown: {}, groups: {} });
+
+const line_of = (line) => (is_text(line) ? line : is_object(line) && is_text(line.formula)
+  ? { formula: line.formula, name: is_text(line.name) ? line.name : '' } : null);
+const lines_of = (lines) => (Array.isArray(lines) ? lines.map(line_of).filter((l) => l !== null) : []);
+const texts_of = (list) => (Array.isArray(list) ? list.filter(is_text) : []);
+const flags_of = (object) => Object.fromEntries(Object.entries(is_object(object) ? object : {}).filter(([, v]) => typeof v === 'boolean'));
+const each = (object, does) => Object.fromEntries(Object.entries(is_object(object) ? object : {}).map(([k, v]) => [k, does(v)]));
+
+// Whatever stands in the browser: what cannot be understood counts as nothing.
+export function read_layout(text) {
+  const out = nothing();
+  if (!text || text.length > most) return out;
+  let read;
+  try {
+    read = JSON.parse(text);
+  } catch {
+    return out;
+  }
+  if (!is_object(read) || read.format !== format) return out;
+  out.own = (Array.isArray(read.own) ? read.own : []).filter((p) => is_object(p) && is_text(p.id) && p.id.startsWith('own/'))
+    .map((p) => ({ id: p.id, title: is_text(p.title) ? p.title : '', lines: lines_of(p.lines) }));
+  out.added = each(read.added, lines_of);
+  out.away = texts_of(read.away);
+  out.order = texts_of(read.order);
+  out.shown = each(read.shown, flags_of);
+  out.groups = flags_of(read.groups);
+  return out;
+}
+
+export const is_nothing = (layout) => JSON.stringify(layout) === JSON.stringify(nothing());
+
+export class KeptLayout {
+  constructor(run) {
+    this.key = `plots of ${[run.robot, run.name].filter(Boolean).join(', ') || 'a run'}`;
+    this.layout = read_layout(recall(this.key));
+  }
+
+  keep() {
+    remember(this.key, is_nothing(this.layout) ? '' : JSON.stringify(this.layout));
+  }
+
+  reset() {
+    this.layout = nothing();
+    this.keep();
+  }
+}

@@ -1,0 +1,106 @@
+// What was set while the run went, by the file's list or by a slider: a mark on the time axis of every
+// plot. A slider that is dragged sends many values; what follows within a moment is one move.
+import { element } from './page.js';
+
+const moment = 1;      // between values of one move [s]
+const most_shown = 60; // handles in view of one plot
+const reach = 5;       // of the pointer [px]
+
+// "control.gains.hip.angle" as the sliders call it.
+export function setting_in_words(key) {
+  const [, what, joint, of] = key.match(/^control\.(?:(gains)\.)?(.*)\.([^.]+)$/) ?? [];
+  if (!joint) return key;
+  const words = what ? `${joint} ${of} gain` : `${of} desired ${joint}`;
+  return words.replaceAll('_', ' ');
+}
+
+// Changes in order of time as moves: { key, leg, from, to (times), before, value; null: released }.
+export function moves_of(changes) {
+  const last = new Map(), out = [];
+  for (const c of [...changes].sort((a, b) => a.time - b.time)) {
+    const of = `${c.leg ?? ''} ${c.key}`, before = last.get(of);
+    if (before && c.value !== null && before.value !== null && c.time - before.to <= moment) {
+      Object.assign(before, { to: c.time, value: c.value, count: before.count + 1 });
+      continue;
+    }
+    const move = { key: c.key, leg: c.leg ?? '', unit: c.unit, from: c.time, to: c.time,
+                   before: before?.value ?? null, value: c.value, count: 1 };
+    last.set(of, move);
+    out.push(move);
+  }
+  return out;
+}
+
+export class Marks {
+  // `run.changes` as the program writes them; on a live page they grow.
+  constructor(root, run, plots, units, seek) {
+    Object.assign(this, { root, run, plots, units, seek });
+    plots.marks = this;
+    plots.on_place = (panel) => this.place(panel);
+    this.refresh();
+  }
+
+  // More changes have come, or they are told in other units.
+  refresh() {
+    this.moves = moves_of(this.run.changes ?? []);
+    this.root.hidden = !this.moves.length;
+    const most = 12, shown = this.moves.slice(0, most).map((move) => {
+      const button = element('button', { type: 'button', class: 'time' }, `${this.words(move)}, ${this.when(move)}`);
+      button.addEventListener('click', () => this.seek(move.from));
+      return button;
+    });
+    this.root.replaceChildren(element('span', { class: 'key' }, 'set while it ran'), ...shown,
+      this.moves.length > most ? element('span', {}, `and ${this.moves.length - most} more`) : '');
+    for (const panel of this.plots.panels) panel.marked = null;
+  }
+
+  text(value, unit) {
+    return value === null ? "the plan's own" : this.units.text(value, unit);
+  }
+
+  words(move) {
+    const of = `${move.leg ? `${move.leg} ` : ''}${setting_in_words(move.key)}`;
+    return move.value === null ? `${of}: the plan's own again`
+      : `${of}: ${move.before === null ? '' : `${this.text(move.before, move.unit)} → `}${this.text(move.value, move.unit)}`;
+  }
+
+  when = ({ from, to }) => (to > from ? `${from.toFixed(2)}–${to.toFixed(2)} s` : `${from.toFixed(2)} s`);
+
+  in_view() {
+    const [from, to] = this.plots.view;
+    return this.moves.filter((m) => m.from >= from && m.from <= to);
+  }
+
+  // Under the curves of a plot: a dashed line at each.
+  draw(u) {
+    const { ctx, bbox } = u, px = devicePixelRatio || 1;
+    ctx.strokeStyle = this.plots.look.mark;
+    ctx.lineWidth = px;
+    ctx.setLineDash([3 * px, 3 * px]);
+    for (const move of this.in_view()) {
+      const x = Math.round(u.valToPos(move.from, 'x', true)) + px / 2;
+      ctx.beginPath();
+      ctx.moveTo(x, bbox.top);
+      ctx.lineTo(x, bbox.top + bbox.height);
+      ctx.stroke();
+    }
+    ctx.setLineDash([]);
+  }
+
+  // Handles at the top of the lines, which tell what was set. They are made anew where the view is.
+  place(panel) {
+    const of = `${this.plots.view} ${panel.plot.over.clientWidth} ${this.moves.length} ${this.units.system}`;
+    if (panel.marked === of && panel.plot.over.querySelector('.mark-handle, .no-marks')) return;
+    panel.marked = of;
+    panel.plot.over.querySelectorAll('.mark-handle, .no-marks').forEach((m) => m.remove());
+    const moves = this.in_view().slice(0, most_shown);
+    const handles = moves.map((move) => {
+      const handle = element('div', { class: 'mark-handle' }, element('i', {}), element('span', {}, `${this.words(move)} at ${this.when(move)}`));
+      const x = panel.plot.valToPos(move.from, 'x');
+      handle.style.left = `${(x - reach).toFixed(1)}px`;
+      handle.classList.toggle('to-left', x > panel.plot.over.clientWidth / 2);
+      return handle;
+    });
+    panel.plot.over.append(...(handles.length ? handles : [element('i', { class: 'no-marks' })]));
+  }
+}

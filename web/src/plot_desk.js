@@ -1,0 +1,190 @@
+// What a person does with the plots of a run: groups, enlarging, saving, arranging, formulas.
+import { ChannelDrawer } from './channel_drawer.js';
+import { ChannelList } from './channels.js';
+import { dragged } from './dragging.js';
+import { Enlarged } from './enlarged.js';
+import { open_formula_sheet } from './formula_sheet.js';
+import { menu_button } from './menu.js';
+import { own_group, OwnPlots } from './own_plots.js';
+import { by_id, element, set_icon } from './page.js';
+import { file_name, png_of, save_as, svg_of } from './plot_picture.js';
+import { open_sheet, tell } from './sheet.js';
+
+const in_layout = (line) => line.kept ?? line.id;
+
+export class PlotDesk {
+  constructor(run, plots, columns) {
+    Object.assign(this, { run, plots });
+    this.channels = new ChannelList(run, columns);
+    this.enlarged = new Enlarged(plots, (panel, large) => this.show_large(panel, large));
+    this.drawer = new ChannelDrawer(by_id('channels'), this.channels, plots.units, {
+      entries_for: (channel) => this.places_for([channel.id]),
+      on_formula: () => this.write_formula(null),
+    });
+    this.tools();
+    this.usual_groups = new Map();
+    for (const p of run.panels) this.usual_groups.set(p.group, p.group !== 'Other' || run.panels.every((o) => o.group === 'Other'));
+    for (const [group, on] of this.usual_groups) plots.groups_shown.set(group, on);
+    this.own = new OwnPlots(run, plots, this.channels, () => this.refresh());
+    this.refresh();
+  }
+
+  tools() {
+    const tool = (id, does) => by_id(id).addEventListener('click', does);
+    tool('show-channels', () => {
+      this.drawer.toggle();
+      by_id('show-channels').setAttribute('aria-pressed', String(!by_id('channels').hidden));
+    });
+    tool('reset-layout', () => {
+      this.own.reset();
+      for (const [group, on] of this.usual_groups) this.plots.show_group(group, on);
+      this.refresh();
+    });
+    this.new_plot = element('div', { class: 'new-plot no-print' }, 'Drop here for a new plot');
+    by_id('panels').before(this.new_plot);
+    dragged.onto(this.new_plot, (lines) => this.add(null, lines));
+  }
+
+  // After any change of the layout, and of the samples of a run that goes.
+  refresh() {
+    if (!this.own) return;  // it is being made
+    for (const panel of this.plots.panels) {
+      if (!panel.tools) this.equip(panel);
+      panel.spec.lines.forEach((line, i) => this.make_draggable(panel, i));
+    }
+    by_id('reset-layout').hidden = !this.own.is_changed();
+    this.groups();
+  }
+
+  // --- groups ---
+
+  groups() {
+    const { plots, own } = this;
+    const names = [...(own.layout.own.length ? [own_group] : []), ...this.usual_groups.keys()]
+      .filter((name) => plots.panels.some((p) => p.spec.group === name && !p.away && !p.is_empty()));
+    const of = names.map((name) => `${name} ${plots.groups_shown.get(name) ?? true}`).join();
+    if (this.grouped === of) return;
+    this.grouped = of;
+    by_id('groups').replaceChildren(...names.map((name) => {
+      const on = plots.groups_shown.get(name) ?? true;
+      const button = element('button', { type: 'button', 'aria-pressed': String(on) }, name);
+      button.addEventListener('click', () => {
+        const next = button.getAttribute('aria-pressed') !== 'true';
+        plots.show_group(name, next);
+        button.setAttribute('aria-pressed', String(next));
+        this.grouped = null;
+        own.keep_group(name, next, name === own_group ? undefined : this.usual_groups.get(name));
+      });
+      return button;
+    }));
+  }
+
+  // --- a plot's tools ---
+
+  equip(panel) {
+    const large = element('button', { type: 'button', class: 'icon small enlarge no-print', 'aria-label': 'Enlarge', title: 'As large as the window (Escape ends it)' });
+    set_icon(large, 'enlarge');
+    large.addEventListener('click', () => this.enlarged.toggle(panel));
+    const more = menu_button('⋯', 'More of this plot', () => this.entries(panel));
+    panel.tools = element('div', { class: 'panel-tools' }, large, more);
+    panel.root.querySelector('header').append(panel.tools);
+    panel.title.draggable = true;
+    dragged.from(panel.title, () => panel.spec.lines.filter((l, i) => panel.shown[i]).map(in_layout));
+    dragged.onto(panel.root, (lines) => this.add(panel, lines));
+  }
+
+  make_draggable(panel, i) {
+    const { button } = panel.readouts[i];
+    if (button.draggable) return;
+    button.draggable = true;
+    dragged.from(button, () => [in_layout(panel.spec.lines[i])]);
+  }
+
+  show_large(panel, large) {
+    const button = panel.root.querySelector('.enlarge');
+    button.setAttribute('aria-label', large ? 'Back into the page' : 'Enlarge');
+    set_icon(button, large ? 'shrink' : 'enlarge');
+  }
+
+  entries(panel) {
+    const { own } = this, shown = panel.spec.lines.filter((l, i) => panel.shown[i]);
+    const large = this.enlarged.panel === panel;
+    return [
+      ['Save as SVG', () => this.save(panel, 'svg')],
+      ['Save as PNG', () => this.save(panel, 'png')],
+      ['Add a formula…', () => this.write_formula(panel)],
+      !large && shown.length && ['Add its lines to…', () => this.choose_place(panel, shown.map(in_layout))],
+      panel.own && ['Rename…', () => this.rename(panel)],
+      ...panel.spec.lines.filter((l) => l.kept).map((l) => [`Take out ${l.label}`, () => own.take_out(panel, l)]),
+      !large && ['Move up', () => own.move(panel, -1)],
+      !large && ['Move down', () => own.move(panel, 1)],
+      !large && [panel.own ? 'Remove this plot' : 'Put this plot away', () => this.put_away(panel)],
+    ];
+  }
+
+  put_away(panel) {
+    const { title } = panel.spec, { own } = panel;
+    this.own.put_away(panel);
+    if (!own) tell(`${title} is put away; "Usual plots" brings it back.`);
+  }
+
+  async save(panel, kind) {
+    const name = `${file_name(this.run, panel)}.${kind}`;
+    try {
+      save_as(name, kind === 'svg' ? new Blob([svg_of(panel)], { type: 'image/svg+xml' }) : await png_of(panel));
+    } catch (error) {
+      tell(`${name} was not saved: ${error.message}`);
+    }
+  }
+
+  rename(panel) {
+    const field = element('input', { type: 'text', maxlength: 80, 'aria-label': 'Title of the plot' });
+    field.value = panel.spec.title;
+    open_sheet('Title of the plot', [field], 'Rename', () => {
+      this.own.rename(panel, field.value.trim());
+      return '';
+    });
+    field.select();
+  }
+
+  // --- lines ---
+
+  add(panel, lines) {
+    const why = panel && this.own.refusal(panel, lines);
+    if (why) return tell(why), panel;
+    const made = this.own.add(panel, lines);
+    if (!panel) made.root.scrollIntoView({ block: 'nearest' });
+    return made;
+  }
+
+  // A menu's entries: every plot that is shown, and a new one.
+  places_for(lines, but = null) {
+    return ['Add to', ['a new plot', () => this.add(null, lines)],
+      ...this.plots.panels.filter((p) => p !== but && !p.root.hidden).map((p) => [p.spec.title, () => this.add(p, lines)])];
+  }
+
+  choose_place(panel, lines) {
+    const places = this.places_for(lines, panel).slice(1);
+    const select = element('select', { 'aria-label': 'Plot' }, ...places.map(([words], i) => element('option', { value: i }, words)));
+    open_sheet('Add its lines to', [select], 'Add', () => {
+      places[Number(select.value)][1]();
+      return '';
+    });
+  }
+
+  write_formula(panel) {
+    open_formula_sheet(this.channels, this.plots.units, (line) => {
+      const why = panel ? this.own.refusal(panel, [line]) : '';
+      if (!why) this.add(panel, [line]);
+      return why;
+    });
+  }
+
+  // Of a run that goes: samples have come.
+  grow() {
+    this.own.recompute();
+    for (const panel of this.plots.panels) panel.renew();
+    this.plots.arrange();
+    this.groups();
+  }
+}
