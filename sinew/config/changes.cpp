@@ -53,7 +53,8 @@ const Changes& changes() {
                                      {"experiment"},
                                      {"rig"},
                                      {"plan"},
-                                     {"tuning"}},
+                                     {"tuning"},
+                                     {"settings"}},
                            .keys = {}};
   return all;
 }

@@ -101,6 +101,8 @@ void run_fields(Visitor& v, Experiment& e) {
     fields(g, e.log);
     g.flag({.name = "gains", .optional = true, .doc = "those in effect, too"}, e.log.gains);
   });
+  v.group({.name = "page", .optional = true, .doc = "how people see the run"},
+          [&](auto& g) { config::fields(g, e.page); });
   v.list({.name = "fault", .optional = true, .doc = "what breaks while it runs"}, e.faults,
          [](auto& g, Fault& f) { fields(g, f); });
   v.list({.name = "reported", .optional = true, .doc = "printed beside our figures"}, e.reported,

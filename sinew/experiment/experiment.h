@@ -10,6 +10,7 @@
 #include "sinew/config/origin.h"
 #include "sinew/config/reader.h"
 #include "sinew/config/reported.h"
+#include "sinew/config/shown_units.h"
 #include "sinew/control/gait/plan.h"
 #include "sinew/experiment/fault.h"
 #include "sinew/experiment/log_table.h"
@@ -58,6 +59,7 @@ struct Experiment {
   Start start;
   gait::Plan plan;
   Log log;
+  config::PageTable page;
   std::vector<Fault> faults;
   std::vector<config::Reported> reported;
 

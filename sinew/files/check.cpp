@@ -9,6 +9,7 @@
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/gains.h"
+#include "sinew/config/user_settings.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/experiment/faults.h"
 #include "sinew/experiment/machine_file.h"
@@ -117,6 +118,8 @@ Finding check(const std::string& path) {
     } else if (const config::Node root = config::parse_file(path);
                config::format_kind(root) == "plan") {
       tune::check(tune::sweep_of(tune::load_study(path)));
+    } else if (config::format_kind(root) == "settings") {
+      config::read_user_settings(path);
     } else if (config::format_kind(root) == "tuning") {
       tune::load_tuning(path);
     } else if (run::is_on_stand(path)) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/config/user_settings.h"
 #include "sinew/control/gait/plan.h"
 #include "sinew/experiment/experiment.fields.h"
 #include "sinew/experiment/rig/rig.fields.h"
@@ -65,6 +66,10 @@ void visit_tables(Visitor& v, std::string_view kind) {
   if (kind == "tuning") {
     tune::TuningFile tuning;
     return tune::fields(v, tuning);
+  }
+  if (kind == "settings") {
+    config::UserSettings settings;
+    return config::fields(v, settings);
   }
 }
 

@@ -271,8 +271,9 @@ std::vector<Key> list_keys(std::string_view kind) {
 }  // namespace
 
 const std::vector<std::string>& key_kinds() {
-  static const std::vector<std::string> kinds = {
-      "robot", "actuator", "valves", "wiring", "experiment", "rig", "plan", "tuning", "any"};
+  static const std::vector<std::string> kinds = {"robot",      "actuator", "valves", "wiring",
+                                                 "experiment", "rig",      "plan",   "tuning",
+                                                 "settings",   "any"};
   return kinds;
 }
 

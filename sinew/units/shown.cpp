@@ -166,8 +166,16 @@ ShownUnit ShownUnits::of(std::string_view unit, double largest, double room) con
   return usual;
 }
 
+ShownUnit ShownUnits::of_difference(std::string_view unit, double largest) const {
+  const bool pressure = unit == "Pa" || !reference_asked(unit).empty();
+  ShownUnit out = of(pressure ? "Pa diff" : unit, largest);
+  out.offset = 0;
+  return out;
+}
+
 std::string ShownUnits::text(double value, std::string_view unit, int digits, double room) const {
-  const ShownUnit shown = of(unit, not_known, room);
+  ShownUnit shown = of(unit, not_known, room);
+  if (std::abs(shown.of(value)) >= 1000) shown = of(unit, std::abs(value), room);
   char buffer[64];
   const auto end = std::to_chars(std::begin(buffer), std::end(buffer), shown.of(value),
                                  std::chars_format::general, digits);

@@ -56,7 +56,11 @@ class ShownUnits {
   // one. Gauges count from the pressure of the `room` [Pa].
   ShownUnit of(std::string_view unit, double largest = not_known, double room = atmosphere) const;
 
-  // Returns a value of SI with its unit: "62.31 psi gauge".
+  // Returns the unit for a difference between two such quantities, which counts from nothing.
+  ShownUnit of_difference(std::string_view unit, double largest = not_known) const;
+
+  // Returns a value of SI with its unit, "62.31 psi gauge": the usual one, or from 1000 of it on a
+  // larger one where there is one.
   std::string text(double value, std::string_view unit, int digits = 4,
                    double room = atmosphere) const;
 

@@ -52,6 +52,8 @@ TEST(ShownUnits, MetricIsThatOfALaboratory) {
   EXPECT_EQ(metric.of("Pa diff").label(), "bar");
   EXPECT_EQ(metric.text(30 * degree, "rad"), "30 deg");
   EXPECT_EQ(metric.text(0.35e-3, "s"), "0.35 ms");
+  EXPECT_EQ(metric.text(13.71, "s"), "13.71 s");
+  EXPECT_EQ(metric.text(1.432, "m"), "1432 mm");
   EXPECT_EQ(metric.text(293.15, "K"), "20 degC");
   EXPECT_EQ(metric.text(0.55, "share"), "55 %");
   EXPECT_EQ(metric.text(0.55, "1"), "0.55");
@@ -83,6 +85,15 @@ TEST(ShownUnits, APressureKeepsTheReferenceThatIsAskedFor) {
   EXPECT_EQ(thesis.text(atmosphere + 62 * psi, "Pa"), "62 psi gauge");
   EXPECT_EQ(ShownUnits().text(101325, "Pa"), "101.3 kPa abs");
   EXPECT_NEAR(thesis.of("Pa", 0, 95000).of(95000 + psi), 1, 1e-12);  // a room on a mountain
+}
+
+TEST(ShownUnits, ADifferenceCountsFromNothing) {
+  const ShownUnits units = chosen("metric,temperature=degC");
+  EXPECT_EQ(units.of_difference("Pa").name, "bar diff");
+  EXPECT_EQ(units.of_difference("Pa gauge").name, "bar diff");
+  EXPECT_EQ(units.of_difference("K").of(5), 5);
+  for (const ShownEntry& entry : shown_entries(units))
+    EXPECT_EQ(units.of_difference(entry.unit).of(0), 0) << entry.unit;
 }
 
 TEST(ShownUnits, ChoicesStandOnTopOfASet) {

@@ -267,6 +267,8 @@ void fields(Visitor& v, Experiment& e) {
           [&](auto& g) { fields(g, e.measured); });
   v.group({.name = "log", .optional = true, .doc = "what is recorded"},
           [&](auto& g) { experiment::fields(g, e.log); });
+  v.group({.name = "page", .optional = true, .doc = "how people see the run"},
+          [&](auto& g) { config::fields(g, e.page); });
   v.list({.name = "reported", .optional = true, .doc = "printed beside our figures"}, e.reported,
          [](auto& g, config::Reported& r) {
            config::fields(g, r);

@@ -11,6 +11,7 @@
 #include "sinew/config/origin.h"
 #include "sinew/config/reader.h"
 #include "sinew/config/reported.h"
+#include "sinew/config/shown_units.h"
 #include "sinew/experiment/fault.h"
 #include "sinew/experiment/log_table.h"
 #include "sinew/gas/air.h"
@@ -114,6 +115,7 @@ struct Experiment {
   std::vector<experiment::Fault> faults;  // of the air
   Measured measured;
   experiment::Log log{.period = 1e-3};
+  config::PageTable page;
   std::vector<config::Reported> reported;
 
   std::vector<actuator::Actuator> actuators;

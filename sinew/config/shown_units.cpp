@@ -1,0 +1,36 @@
+#include "sinew/config/shown_units.h"
+
+#include <cstdlib>
+
+#include "sinew/config/lookup.h"
+#include "sinew/config/quantity.h"
+#include "sinew/config/user_settings.h"
+
+namespace sinew::config {
+
+units::ShownUnits parse_shown_units(std::string_view text, const Location& where,
+                                    const std::string& key, const units::ShownUnits& below) {
+  units::ShownUnitsReading read = units::read_shown_units(text, below);
+  if (!read.ok()) fail(where, key, read.found, read.expected, read.try_this);
+  return std::move(read.units);
+}
+
+UnitsToShow units_to_show(const UnitsAsked& asked, const units::ShownUnits& otherwise) {
+  UnitsToShow out{otherwise, false};
+  const auto say = [&](std::string_view text, const Location& where, const std::string& key) {
+    if (trimmed(text).empty()) return;
+    out = {parse_shown_units(text, where, key, out.units), true};
+  };
+  const UserSettings own = user_settings();
+  say(own.units, own.units_at, "units");
+  if (asked.run)
+    if (const Node* node = value_at(*asked.run, "page.units")) {
+      const Node* value = node->is_value_table() ? node->find("value") : node;
+      say(value->text, value->where, "page.units");
+    }
+  if (const char* variable = std::getenv(units_variable)) say(variable, {units_variable, 0, 0}, "");
+  say(asked.now, {asked.now_is, 0, 0}, "");
+  return out;
+}
+
+}  // namespace sinew::config

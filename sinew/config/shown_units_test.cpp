@@ -1,0 +1,125 @@
+// config/shown_units_test.cpp - who says in which units numbers are shown, and whom it is taken
+// from.
+#include "sinew/config/shown_units.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "sinew/config/user_settings.h"
+
+namespace sinew::config {
+namespace {
+
+namespace fs = std::filesystem;
+using units::UnitSet;
+
+// A person's folder with or without settings; the environment is as it was afterwards.
+class UnitsAskedOf : public testing::Test {
+ protected:
+  UnitsAskedOf() {
+    folder_ = fs::path(testing::TempDir()) / "sinew-units-asked-of";
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "sinew");
+    setenv("XDG_CONFIG_HOME", folder_.c_str(), 1);
+    unsetenv(units_variable);
+  }
+  ~UnitsAskedOf() override {
+    unsetenv("XDG_CONFIG_HOME");
+    unsetenv(units_variable);
+    fs::remove_all(folder_);
+  }
+
+  std::string file() const { return (folder_ / "sinew" / "settings.toml").string(); }
+  void settings(const std::string& text) const {
+    std::ofstream(file()) << "format = \"sinew.settings/1\"\n" << text;
+  }
+  static std::string shown(const UnitsAsked& asked) {
+    return units_to_show(asked, UnitSet::thesis).units.text();
+  }
+  // What is wrong, as one text.
+  static std::string wrong(const UnitsAsked& asked) {
+    try {
+      units_to_show(asked);
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "";
+  }
+
+  fs::path folder_;
+};
+
+Node run_in(const std::string& units) {
+  return parse_text("[page]\nunits = \"" + units + "\"\n", "run.toml");
+}
+
+TEST_F(UnitsAskedOf, NobodyTheCallersAreShown) {
+  EXPECT_EQ(shown({}), "thesis");
+  EXPECT_FALSE(units_to_show({}, UnitSet::thesis).asked);
+  setenv(units_variable, "", 1);
+  EXPECT_FALSE(units_to_show({}).asked) << "an empty variable says nothing";
+  EXPECT_FALSE(units_to_show({.now = " "}).asked);
+}
+
+TEST_F(UnitsAskedOf, TheStrongerOneWins) {
+  settings("units = \"si,length=cm\"\n");
+  EXPECT_EQ(shown({}), "si,length=cm");
+  const Node run = run_in("metric");
+  EXPECT_EQ(shown({.run = &run}), "metric");
+  setenv(units_variable, "thesis,force=N", 1);
+  EXPECT_EQ(shown({.run = &run}), "thesis,force=N");
+  EXPECT_EQ(shown({.now = "si", .run = &run}), "si");
+}
+
+TEST_F(UnitsAskedOf, ChoicesAloneStandOnTopOfWhatAWeakerOneSays) {
+  settings("units = \"metric,length=cm\"\n");
+  setenv(units_variable, "pressure=kPa gauge", 1);
+  EXPECT_EQ(shown({}), "metric,length=cm,pressure=kPa gauge");
+  EXPECT_EQ(shown({.now = "length=m"}), "metric,length=m,pressure=kPa gauge");
+}
+
+TEST_F(UnitsAskedOf, AResolvedRunSaysItToo) {
+  const Node run =
+      parse_text("[page]\nunits = { value = \"metric\", source = \"here\" }\n", "r.toml");
+  EXPECT_EQ(shown({.run = &run}), "metric");
+  const Node silent =
+      parse_text("[page]\nunits = { value = \"\", source = \"default\" }\n", "r.toml");
+  EXPECT_EQ(shown({.run = &silent}), "thesis");
+}
+
+TEST_F(UnitsAskedOf, MessagesSayWhereAWrongWordStands) {
+  EXPECT_EQ(wrong({.now = "mertic", .now_is = "--units"}),
+            "--units: found \"mertic\"; expected si, thesis or metric, then QUANTITY=UNIT; try "
+            "\"metric\"");
+  const Node run = run_in("length=s");
+  EXPECT_EQ(wrong({.run = &run}),
+            "run.toml:2:1: page.units: found \"s\", which measures something else; expected a unit "
+            "of length, as in or mm; try length=mm");
+  settings("\nunits = \"imperial\"\n");
+  EXPECT_TRUE(wrong({}).starts_with(file() + ":3:1: units: found \"imperial\"; expected"))
+      << wrong({});
+  settings("unit = \"metric\"\n");
+  EXPECT_TRUE(wrong({}).starts_with(file() + ":2:1: unit: found an unknown key")) << wrong({});
+  fs::remove(file());
+  setenv(units_variable, "inch", 1);
+  EXPECT_TRUE(wrong({}).starts_with("SINEW_UNITS: found \"inch\"; expected")) << wrong({});
+}
+
+TEST_F(UnitsAskedOf, SettingsStandWhereTheFreedesktopRulesPutThem) {
+  EXPECT_EQ(user_settings_path(), file());
+  setenv("XDG_CONFIG_HOME", "not/absolute", 1);
+  const char* before = std::getenv("HOME");
+  const std::string home = before ? before : "";
+  setenv("HOME", folder_.c_str(), 1);
+  EXPECT_EQ(user_settings_path(), (folder_ / ".config" / "sinew" / "settings.toml").string());
+  unsetenv("HOME");
+  EXPECT_EQ(user_settings_path(), "");
+  EXPECT_FALSE(units_to_show({}).asked);
+  if (before) setenv("HOME", home.c_str(), 1);
+}
+
+}  // namespace
+}  // namespace sinew::config
