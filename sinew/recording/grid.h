@@ -1,49 +1,60 @@
-// recording/grid.h - a CSV file as cells of text under a header, before anybody asks what
-// they mean.
+// recording/grid.h - a table as cells of text under a header, before anybody asks what they mean.
 #pragma once
 
-#include <optional>
+#include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "sinew/recording/dialect.h"
+#include "sinew/recording/rows.h"
+#include "sinew/recording/source.h"
+
 namespace sinew::recording {
 
-struct Cell {
-  std::string_view text;  // trimmed; into the text that was read
-  int column = 1;         // of the line
-};
-
-// "force [N] @ pressure = 1 bar gauge"
-struct Heading {
-  std::string name;      // force
-  std::string unit;      // N; empty where the header gives none
-  std::string at_name;   // pressure; empty for most columns
-  std::string at_value;  // 1 bar gauge
-  int column = 1;        // of the header's line
-};
-
-// A line of the table.
-struct Row {
-  int line = 0;
-  std::vector<Cell> cells;
-};
-
-// A table as the file has it, not yet understood.
+// A table whose header is known. Its rows stay text until somebody reads them, as files may be
+// large.
 struct Grid {
   std::string file;
-  int header_line = 1;  // 0: the header came from elsewhere
-  std::vector<Heading> headings;
-  std::vector<Row> rows;
+  std::unique_ptr<const std::string> text;  // in UTF-8
+  Dialect dialect;
+  std::vector<std::string> notes;
+
+  const std::vector<Heading>& headings() const { return dialect.headings; }
+  int header_line() const { return dialect.header_line; }  // 0: the header came from elsewhere
+
+  // About how many rows there are, to make room for them.
+  std::size_t rows_about() const;
 };
 
-// `columns`: the header, for a file that has none. Throws config::Error. Separators are commas,
-// semicolons or tabs, as in the first line; lines that begin with # and empty lines are skipped.
-Grid read_grid(std::string_view text, const std::string& file,
-               const std::vector<std::string>& columns);
+// Reads the header of a text in any encoding. Throws config::Error.
+Grid read_grid(std::string bytes, const Source& source);
 
-// Is the text a number?
-bool is_number(std::string_view text);
-std::optional<double> number_in(std::string_view text);  // nothing where it is none
+// Reads the rows of a grid, which outlives it. Each has as many cells as the header.
+class Body {
+ public:
+  explicit Body(const Grid& grid);
+
+  // Reads the next row; rows with other numbers of cells are counted and passed over.
+  bool next(Row& row);
+
+  // Throws config::Error if there was such a row. A last one that is short was cut when the logger
+  // was switched off: that is noted.
+  void finish(std::vector<std::string>& notes) const;
+
+  // Returns how many rows were read.
+  std::size_t count() const { return count_; }
+
+ private:
+  bool fits(Row& row);
+
+  const Grid& grid_;
+  RowReader reader_;
+  std::size_t count_ = 0, ragged_ = 0;
+  int first_line_ = 0;  // of the rows that do not fit
+  std::size_t first_cells_ = 0;
+  std::string cut_;  // what is to be noted of the last row
+};
 
 }  // namespace sinew::recording

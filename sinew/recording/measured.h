@@ -1,24 +1,23 @@
-// recording/measured.h - a table that somebody measured: columns of numbers with units, from
-// CSV.
+// recording/measured.h - a table that somebody measured: those columns of it that are wanted, as
+// numbers in SI.
 //
 //   time [s],force [N],pressure [kPa gauge]        a header of `name [unit]`, then numbers
 //   length [mm],force [N] @ pressure = 1 bar gauge,force [N] @ pressure = 2 bar gauge
 //                                                  a maker's table: each such column becomes rows
 //
-// Foreign files are read by saying what their columns mean (Source). What comes out is SI. What is
-// wrong with the file - a unit, a cell, a value that cannot be - is told with its line, all at
-// once.
+// Separators, decimal marks, encodings and units are those of the file; what a file does not say
+// its Source does. What is wrong with it - a unit, a cell, a value that cannot be - is told with
+// its line, all at once.
 #pragma once
 
-#include <map>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "sinew/units/constants.h"
+#include "sinew/recording/source.h"
+#include "sinew/recording/text.h"
 
 namespace sinew::recording {
 
@@ -34,24 +33,12 @@ struct Wanted {
   std::span<const std::pair<std::string_view, double>> words = {};  // that stand for numbers
 };
 
-// A file and what its columns mean.
-struct Source {
-  std::string path;
-  std::optional<std::string> text;           // in place of the file's; `path` is what it is called
-  std::vector<std::string> columns;          // "force [N]", ... for a file without a header
-  std::map<std::string, std::string> names;  // wanted name -> the file's name for it
-  std::map<std::string, std::string> units;  // the file's name -> its unit, for a header without
-  // The file's name -> "fill" or "100, 200": only rows with one of these values are read.
-  std::map<std::string, std::string> where;
-  bool drop_incomplete = false;           // leave out rows with cells that are no numbers
-  double atmosphere = units::atmosphere;  // [Pa]
-};
-
 // Values of one quantity, in the unit that was wanted.
 struct Column {
   std::string name;  // the wanted name
   std::string unit;  // the wanted unit
   std::vector<double> values;
+  std::string shown;  // unit for messages: the file's, where Sinew has it; empty: `unit`
 };
 
 // A table of measurements, its columns called as they were wanted.
@@ -71,11 +58,9 @@ struct Measured {
   Measured subset(std::span<const std::size_t> keep) const;
 };
 
-// Throws config::Error. A wanted `time` must not run backwards.
+// Throws config::Error. A wanted `time` must not run backwards; dates and times of day become
+// seconds since the first row.
 Measured read_measured(const Source& source, std::span<const Wanted> wanted);
-
-// Returns the source's text, or that of its file; `what` it holds. Throws config::Error.
-std::string text_of(const Source& source, std::string_view what);
 
 // The same from a text, for tests and tools; `source.path` is what messages call it.
 Measured parse_measured(std::string_view text, const Source& source,

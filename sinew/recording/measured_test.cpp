@@ -94,7 +94,7 @@ TEST(Measured, WhatIsWrongIsTold) {
       {"pressure [kPa gauge],force\n1,2\n", "without a unit"},
       {"pressure [kPa gauge],force [lb]\n100,2\n", "lbf: lb is mass, lbf is force"},
       {"pressure [Pa gauge],force [N]\n100,20\n", "units.pressure=kPa gauge"},
-      {"pressure [kPa gauge];force [N]\n100,5;20,1\n", "a decimal point: 100.5"},
+      {"pressure [kPa gauge],force [N]\n100.5,20.5\n101,\"20,5\"\n", "a decimal point: 20.5"},
       {"pressure [kPa gauge],force [N]\n100,5,20,1\n", "found 4 cells (1 such row)"},
       {"time [s],pressure [kPa gauge],force [N]\n0,100,10\n2,110,12\n1,120,13\n",
        "rig.csv:4:1: time: found 1 s after 2 s"},

@@ -55,7 +55,7 @@ class Finder {
     Layout layout;
     for (const Known& known : names_of_known) consider(known, wanted, layout);
     if (!layout.known) refuse_unknown(wanted);
-    for (const Heading& h : grid_.headings)
+    for (const Heading& h : grid_.headings())
       if (is_output(h) && (only.empty() || std::ranges::find(only, h.name) != only.end()))
         add_sensor(h, layout);
     for (const std::string& name : only) refuse_missing(name, layout);
@@ -72,11 +72,11 @@ class Finder {
   }
 
  private:
-  config::Location header() const { return {grid_.file, grid_.header_line, 1}; }
+  config::Location header() const { return {grid_.file, grid_.header_line(), 1}; }
 
   std::string all_names() const {
     std::string out;
-    for (const Heading& h : grid_.headings) out += (out.empty() ? "" : ", ") + h.name;
+    for (const Heading& h : grid_.headings()) out += (out.empty() ? "" : ", ") + h.name;
     return out;
   }
 
@@ -96,8 +96,8 @@ class Finder {
     const auto mapped = source_.names.find(std::string(known.wanted.name));
     const std::string name =
         mapped == source_.names.end() ? std::string(known.wanted.name) : mapped->second;
-    const auto heading = std::ranges::find(grid_.headings, name, &Heading::name);
-    if (heading == grid_.headings.end() || is_output(*heading)) return;
+    const auto heading = std::ranges::find(grid_.headings(), name, &Heading::name);
+    if (heading == grid_.headings().end() || is_output(*heading)) return;
     if (layout.known)
       config::fail(header(), "known quantity",
                    fmt::format("both {} and {}", layout.known->wanted.name, known.wanted.name),
@@ -120,7 +120,7 @@ class Finder {
   void add_sensor(const Heading& h, Layout& layout) const {
     for (const Heading* other : layout.sensors)
       if (other->name == h.name)
-        config::fail({grid_.file, grid_.header_line, h.column}, "sensor",
+        config::fail({grid_.file, grid_.header_line(), h.column}, "sensor",
                      fmt::format("two columns {}", config::in_quotes(h.name)),
                      "a name of its own for each", "");
     layout.sensors.push_back(&h);
@@ -128,7 +128,7 @@ class Finder {
 
   void refuse_missing(const std::string& name, const Layout& layout) const {
     std::vector<std::string_view> names;
-    for (const Heading& h : grid_.headings)
+    for (const Heading& h : grid_.headings())
       if (is_output(h)) names.push_back(h.name);
     if (std::ranges::find(layout.sensors, name, &Heading::name) == layout.sensors.end())
       config::fail({"sensors", 0, 0}, "", config::in_quotes(name),
@@ -167,7 +167,7 @@ const KindFacts& facts_of(SensorKind kind) {
 SensorData parse_sensor_data(std::string_view text, const Source& source,
                              const CountScale& converter, const std::string& known,
                              const std::vector<std::string>& sensors) {
-  const Grid grid = recording::read_grid(text, source.path, source.columns);
+  const Grid grid = recording::read_grid(std::string(text), source);
   const Finder finder(grid, source);
   const Layout layout = finder.find(known, sensors);
 

@@ -1,0 +1,63 @@
+// recording/clock.h - when the rows of a table were written: dates and times of day as seconds,
+// and what is wrong with a clock that is none.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sinew/recording/grid.h"
+#include "sinew/recording/problems.h"
+#include "sinew/recording/stamp.h"
+
+namespace sinew::recording {
+
+// Does such a column hold instants, or a part of them?
+bool tells_time(ColumnKind kind);
+
+// Columns of dates and times of day, read row by row.
+class StampClock {
+ public:
+  // `column` holds stamps, or dates or times of day whose other part stands in the first column of
+  // that kind. Throws config::Error where nobody knows which of 11/03/2026 is the day.
+  StampClock(const Grid& grid, const Source& source, std::size_t column);
+
+  // Returns the instant since 1970, or since a midnight where there is no date  [ns]. Nothing where
+  // a cell is no stamp; `cell` is that one.
+  std::optional<std::int64_t> read(const Row& row, std::size_t& cell);
+
+  // Returns the first instant as text: a date with the time of its own zone, or a time of day.
+  std::string start() const { return start_; }
+
+  // Returns the columns that are read.
+  const std::vector<std::size_t>& columns() const { return columns_; }
+
+ private:
+  void find_order(const Grid& grid, const Source& source);
+
+  std::vector<std::size_t> columns_;
+  DateOrder order_ = DateOrder::unknown;
+  std::int64_t days_ = 0, last_ = 0;  // midnights that were passed; the last instant  [ns]
+  bool first_ = true;
+  std::string start_;
+};
+
+// Returns the time between rows  [s] that "100 Hz" or "10 ms" says. Throws config::Error.
+double period_of_rate(const std::string& rate);
+
+// Returns seconds since the first instant  [ns] -> [s].
+std::vector<double> since_first(const std::vector<std::int64_t>& instants);
+
+// Spreads rows that share a time evenly up to the next one, the last of them as those before.
+// Returns how many shared one.
+std::size_t spread_times(std::vector<double>& time);
+
+// Adds a problem if a time is before the one above it.
+void check_order(const std::vector<double>& time, const std::vector<int>& lines,
+                 Problems& problems);
+
+// Returns how many times are the same as the one above them.
+std::size_t repeated(const std::vector<double>& time);
+
+}  // namespace sinew::recording

@@ -1,0 +1,186 @@
+#include "sinew/recording/columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+#include "sinew/config/spelling.h"
+#include "sinew/recording/clock.h"
+#include "sinew/units/unit.h"
+
+namespace sinew::recording {
+
+namespace {
+
+// What a quantity is told to try, for a unit alone: "0 kPa gauge" -> "kPa gauge".
+std::string without_number(std::string text) {
+  for (std::size_t at = 0; (at = text.find("\"0 ", at)) != text.npos;) text.erase(at + 1, 2);
+  return text;
+}
+
+bool is_pressure(std::string_view unit) { return unit.starts_with("Pa "); }
+
+}  // namespace
+
+std::vector<Found> ColumnFinder::find(std::span<const Wanted> wanted) {
+  std::vector<Found> out;
+  for (const Wanted& w : wanted) find_one(w, out);
+  check_names(wanted);
+  return out;
+}
+
+std::vector<std::string_view> ColumnFinder::names() const {
+  std::vector<std::string_view> out;
+  for (const Heading& h : grid_.headings()) {
+    out.push_back(h.name);
+    if (!h.at_name.empty()) out.push_back(h.at_name);
+  }
+  return out;
+}
+
+void ColumnFinder::find_one(const Wanted& w, std::vector<Found>& out) {
+  const auto mapped = source_.names.find(std::string(w.name));
+  const bool said = mapped != source_.names.end();
+  const std::string name = said ? mapped->second : std::string(w.name);
+  if (w.name == "time" && !source_.rate.empty()) {
+    out.push_back({.wanted = &w, .index = grid_.headings().size()});  // no column has its values
+    return;
+  }
+  for (std::size_t i = 0; i < grid_.headings().size(); ++i) {
+    const Heading& h = grid_.headings()[i];
+    const bool at = h.at_name == name;
+    if (!at && !h.is_called(name)) continue;
+    Found f{.wanted = &w, .index = i, .is_at = at};
+    if (!at) convert(h, w, f);
+    refuse_twice(h.name, i);
+    out.push_back(std::move(f));
+    return;
+  }
+  if (w.optional && !said) return;
+  const std::string near = config::closest_in_quotes(name, names());
+  problems_.add(grid_.header_line(), 1, std::string(w.name),
+                fmt::format("no column {} among {}", config::in_quotes(name), all_names()),
+                fmt::format("`{} [{}]`, {}", w.name, w.unit, w.doc),
+                near.empty() ? fmt::format("names.{}=NAME with the file's name for it", w.name)
+                             : fmt::format("names.{}={}", w.name, near));
+}
+
+// Two columns of one name: nobody knows which is meant. Those with an @ belong together.
+void ColumnFinder::refuse_twice(const std::string& name, std::size_t first) {
+  for (std::size_t i = first + 1; i < grid_.headings().size(); ++i) {
+    const Heading& h = grid_.headings()[i];
+    if (h.name == name && h.at_name.empty())
+      problems_.add(grid_.header_line(), h.column, name, "a second column of this name", "one",
+                    "another name for it in the header");
+  }
+}
+
+std::string ColumnFinder::all_names() const {
+  std::string out;
+  for (const std::string_view name : names()) {
+    if (out.find(name) != out.npos) continue;
+    if (!out.empty()) out += ", ";
+    out += name;
+  }
+  return out;
+}
+
+// Every name in `names` and `units` must be somewhere.
+void ColumnFinder::check_names(std::span<const Wanted> wanted) {
+  const auto known = config::names_of(wanted);
+  for (const auto& [name, file_name] : source_.names)
+    if (std::ranges::find(known, name) == known.end())
+      problems_.add(0, 0, "names", config::in_quotes(name), config::either(known),
+                    config::closest_in_quotes(name, known));
+  const auto columns = names();
+  for (const auto& [column, unit] : source_.units) {
+    const bool there = std::ranges::find(columns, column) != columns.end() ||
+                       std::ranges::any_of(grid_.headings(),
+                                           [&](const Heading& h) { return h.written == column; });
+    if (!there)
+      problems_.add(0, 0, "units", config::in_quotes(column),
+                    "a column of the file: " + all_names(),
+                    config::closest_in_quotes(column, columns));
+  }
+}
+
+std::vector<std::pair<std::size_t, std::string>> ColumnFinder::conditions() {
+  std::vector<std::pair<std::size_t, std::string>> out;
+  for (const auto& [name, values] : source_.where) {
+    const auto at =
+        std::ranges::find_if(grid_.headings(), [&](const Heading& h) { return h.is_called(name); });
+    if (at == grid_.headings().end()) {
+      problems_.add(0, 0, "where", config::in_quotes(name), "a column of the file: " + all_names(),
+                    config::closest_in_quotes(name, names()));
+      continue;
+    }
+    out.emplace_back(static_cast<std::size_t>(at - grid_.headings().begin()), values);
+  }
+  return out;
+}
+
+// The first meaning of the unit's text that has the wanted dimension.
+void ColumnFinder::convert(const Heading& h, const Wanted& w, Found& f) {
+  const bool stamps = tells_time(grid_.dialect.kinds[f.index]) || source_.dates == "excel";
+  if (!w.words.empty() || (w.name == "time" && stamps)) return;
+  auto said = source_.units.find(h.name);
+  if (said == source_.units.end()) said = source_.units.find(h.written);
+  f.unit = said != source_.units.end() ? said->second : h.file_unit;
+  std::vector<config::Spelling> meanings = config::spellings(f.unit);
+  if (meanings.empty()) meanings.push_back({f.unit});
+  std::string try_this;
+  for (const config::Spelling& meaning : meanings) {
+    const auto parse = [&](int number) {
+      return config::parse_quantity(fmt::format("{} {}", number, meaning.unit), w.unit,
+                                    source_.atmosphere);
+    };
+    const config::Parsed zero = parse(0), one = parse(1);
+    if (zero.mistake) {
+      if (try_this.empty()) try_this = without_number(zero.mistake->try_this);
+      continue;
+    }
+    f.conversion = {(one.si - zero.si) * meaning.factor, zero.si};
+    if (meaning.factor == 1) f.shown = meaning.unit;
+    return;
+  }
+  if (is_pressure(w.unit) && !f.unit.empty() && config::is_unit(meanings.front().unit + " gauge"))
+    try_this = fmt::format("\"{0} gauge\" or \"{0} abs\"", f.unit);
+  refuse_unit(h, w, f.unit, try_this);
+}
+
+void ColumnFinder::refuse_unit(const Heading& h, const Wanted& w, const std::string& unit,
+                               const std::string& try_this) {
+  if (unit.empty()) {
+    problems_.add(grid_.header_line(), h.column, std::string(w.name),
+                  fmt::format("the column {} without a unit", config::in_quotes(h.name)),
+                  config::describe_unit(w.unit),
+                  fmt::format("`{0} [{1}]` in the header, or units.{0}=\"{1}\"", h.name, w.unit));
+    return;
+  }
+  problems_.add(grid_.header_line(), h.column, std::string(w.name),
+                fmt::format("the unit {}", config::in_quotes(unit)), config::describe_unit(w.unit),
+                try_this);
+}
+
+std::string possible_units(const Wanted& wanted, double number) {
+  std::string_view unit = wanted.unit, reference;
+  for (const std::string_view word : {" gauge", " abs", " diff"}) {
+    if (!unit.ends_with(word)) continue;
+    reference = word;
+    unit.remove_suffix(word.size());
+  }
+  std::string out;
+  const units::Dimension dimension = units::read_unit(unit).unit.dimension;
+  for (const units::Unit& u : units::known_units) {
+    const double size = std::abs(number) * u.numerator / u.denominator;
+    if (!(u.dimension == dimension) || size < wanted.least || size > wanted.most) continue;
+    if (!out.empty()) out += " or ";
+    out += fmt::format("{}{}", u.name, reference);
+  }
+  return out;
+}
+
+}  // namespace sinew::recording

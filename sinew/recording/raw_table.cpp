@@ -1,0 +1,372 @@
+#include "sinew/recording/raw_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+#include "sinew/config/spelling.h"
+#include "sinew/recording/clock.h"
+#include "sinew/recording/grid.h"
+#include "sinew/recording/text.h"
+
+namespace sinew::recording {
+
+namespace {
+
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+constexpr double seconds_per_day = 86400;
+
+std::string small_letters(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
+
+// What a column of times is usually called, in small letters, and the unit that the name says.
+struct ClockName {
+  std::string_view name, unit;
+};
+constexpr ClockName clock_names[] = {{"time", ""},           {"t", ""},
+                                     {"zeit", ""},           {"timestamp", ""},
+                                     {"time stamp", ""},     {"elapsed", ""},
+                                     {"elapsed time", ""},   {"zeitstempel", ""},
+                                     {"datetime", ""},       {"date/time", ""},
+                                     {"date time", ""},      {"uhrzeit", ""},
+                                     {"date", ""},           {"datum", ""},
+                                     {"epoch", ""},          {"x_value", "s"},
+                                     {"time_s", "s"},        {"t_s", "s"},
+                                     {"zeit_s", "s"},        {"seconds", "s"},
+                                     {"sekunden", "s"},      {"time_ms", "ms"},
+                                     {"t_ms", "ms"},         {"zeit_ms", "ms"},
+                                     {"millis", "ms"},       {"milliseconds", "ms"},
+                                     {"timestamp_ms", "ms"}, {"time_us", "us"},
+                                     {"t_us", "us"},         {"micros", "us"},
+                                     {"timestamp_us", "us"}};
+
+// Reads all columns of one grid.
+class RawReader {
+ public:
+  RawReader(const Grid& grid, const Source& source)
+      : grid_(grid), source_(source), problems_(grid.file) {}
+
+  RawTable read() {
+    RawTable out{.file = grid_.file, .notes = grid_.notes};
+    check_units();
+    find_clock(out);
+    problems_.finish();
+    if (!note_.empty()) out.notes.push_back(note_);
+    choose_columns(out);
+    Body body(grid_);
+    for (Row row; body.next(row);) add(row, body.count() - 1, out);
+    body.finish(out.notes);
+    problems_.finish();
+    finish_clock(out);
+    problems_.finish();
+    tell_missing(out);
+    return out;
+  }
+
+ private:
+  const std::vector<ColumnKind>& kinds() const { return grid_.dialect.kinds; }
+
+  // Each name in `units` must be somewhere.
+  void check_units() {
+    std::vector<std::string_view> names = config::names_of(grid_.headings());
+    for (const auto& [column, unit] : source_.units) {
+      if (std::ranges::any_of(grid_.headings(),
+                              [&](const Heading& h) { return h.is_called(column); }))
+        continue;
+      problems_.add(0, 0, "units", config::in_quotes(column), config::either(names),
+                    config::closest_in_quotes(column, names));
+    }
+  }
+
+  std::optional<std::size_t> column_called(std::string_view name) const {
+    for (std::size_t i = 0; i < grid_.headings().size(); ++i)
+      if (grid_.headings()[i].is_called(name)) return i;
+    return std::nullopt;
+  }
+
+  // The column that is said, one of stamps, or one whose name says it.
+  std::optional<std::size_t> clock_column() {
+    const auto said = source_.names.find("time");
+    if (said != source_.names.end()) {
+      if (const auto column = column_called(said->second)) return column;
+      const auto names = config::names_of(grid_.headings());
+      problems_.add(grid_.header_line(), 1, "time",
+                    fmt::format("no column {}", config::in_quotes(said->second)),
+                    config::either(names), config::closest_in_quotes(said->second, names));
+      return std::nullopt;
+    }
+    for (const ColumnKind kind :
+         {ColumnKind::stamps, ColumnKind::dates, ColumnKind::times_of_day}) {
+      const auto at = std::ranges::find(kinds(), kind);
+      if (at != kinds().end()) return static_cast<std::size_t>(at - kinds().begin());
+    }
+    for (const ClockName& known : clock_names)
+      for (std::size_t i = 0; i < grid_.headings().size(); ++i)
+        if (small_letters(grid_.headings()[i].name) == known.name) return i;
+    return std::nullopt;
+  }
+
+  void find_clock(RawTable& out) {
+    if (!source_.rate.empty()) {
+      period_ = period_of_rate(source_.rate);
+      out.clock = "rate " + source_.rate;
+      return;
+    }
+    const auto column = clock_column();
+    if (!column) return;
+    if (tells_time(kinds()[*column])) {
+      stamps_ = std::make_unique<StampClock>(grid_, source_, *column);
+      for (const std::size_t used : stamps_->columns()) {
+        out.clock += (out.clock.empty() ? "column " : " and ") + grid_.headings()[used].name;
+        of_clock_.insert(used);
+      }
+      return;
+    }
+    const Heading& h = grid_.headings()[*column];
+    numbers_ = *column;
+    of_clock_.insert(*column);
+    out.clock = "column " + h.name;
+    if (source_.dates != "excel") find_unit(h);
+  }
+
+  // Seconds in one of the numbers of the clock.
+  void find_unit(const Heading& h) {
+    const auto said = source_.units.find(h.name);
+    std::string unit = said != source_.units.end() ? said->second : h.file_unit;
+    const auto* known = std::ranges::find(clock_names, small_letters(h.name), &ClockName::name);
+    if (unit.empty() && known != std::end(clock_names)) unit = known->unit;
+    for (const config::Spelling& meaning : config::spellings(unit)) {
+      const config::Parsed one = config::parse_quantity("1 " + meaning.unit, "s");
+      if (one.mistake) continue;
+      slope_ = one.si * meaning.factor;
+      return;
+    }
+    if (unit.empty() && find_unit_since_1970(h)) return;
+    problems_.add(grid_.header_line(), h.column, h.name,
+                  unit.empty() ? "times without a unit" : "the unit " + config::in_quotes(unit),
+                  "s, ms, us, min or h",
+                  looks_like_days() ? std::string("dates=excel, if these are Excel's days")
+                                    : fmt::format("units.{}=s, or rate=\"100 Hz\" in place of "
+                                                  "this clock",
+                                                  h.name));
+  }
+
+  double first_number() const {
+    Body body(grid_);
+    Row row;
+    if (!body.next(row)) return 0;
+    return number_in(row.cells[*numbers_].text, grid_.dialect.numbers).value_or(0);
+  }
+
+  bool looks_like_days() const {
+    const double first = first_number();
+    return first > 30000 && first < 60000;  // 1982 to 2064
+  }
+
+  // Nothing but a clock that counts from 1970 has such numbers.
+  bool find_unit_since_1970(const Heading& h) {
+    constexpr std::pair<std::string_view, double> steps[] = {
+        {"s", 1}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
+    const double first = first_number();
+    for (const auto& [unit, step] : steps) {
+      if (first * step < 1e9 || first * step > 5e9) continue;
+      slope_ = step;
+      note_ = fmt::format("{}: taken for {} since 1970", h.name, unit);
+      return true;
+    }
+    return false;
+  }
+
+  void choose_columns(RawTable& out) {
+    const std::size_t rows = grid_.rows_about();
+    out.lines.reserve(rows);
+    if (has_clock()) out.time.reserve(rows);
+    std::string words;
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < grid_.headings().size(); ++i) {
+      if (of_clock_.contains(i)) continue;
+      const Heading& h = grid_.headings()[i];
+      if (kinds()[i] != ColumnKind::numbers) {
+        words += (words.empty() ? "" : ", ") + (h.name.empty() ? std::to_string(i + 1) : h.name);
+        continue;
+      }
+      add_column(i, names, out);
+      out.columns.back().values.reserve(rows);
+    }
+    if (!words.empty()) out.notes.push_back("columns without numbers left out: " + words);
+  }
+
+  void add_column(std::size_t index, std::set<std::string>& names, RawTable& out) {
+    Heading h = grid_.headings()[index];
+    const auto said = source_.units.find(h.name);
+    if (said != source_.units.end()) set_unit(h, said->second);
+    RawColumn column{.name = h.name, .unit = h.unit, .header = h.written};
+    column.known_unit = !h.unit.empty() && config::is_unit(h.unit);
+    if (column.name.empty()) column.name = fmt::format("column {}", index + 1);
+    for (int again = 2; !names.insert(column.name).second; ++again) {
+      column.name = fmt::format("{} ({})", h.name, again);
+      if (!names.contains(column.name))
+        out.notes.push_back(fmt::format("a second column {}: called {}", config::in_quotes(h.name),
+                                        config::in_quotes(column.name)));
+    }
+    out.columns.push_back(std::move(column));
+    indices_.push_back(index);
+    factors_.push_back(h.factor);
+  }
+
+  bool has_clock() const { return stamps_ || numbers_ || period_ > 0; }
+
+  void add(const Row& row, std::size_t index, RawTable& out) {
+    if (has_clock() && !add_time(row, index, out)) return;
+    out.lines.push_back(row.line);
+    for (std::size_t i = 0; i < indices_.size(); ++i) {
+      const Cell& cell = row.cells[indices_[i]];
+      const auto number = number_in(cell.text, grid_.dialect.numbers);
+      const bool finite = number && std::isfinite(*number);
+      out.columns[i].values.push_back(finite ? *number * factors_[i] : no_value);
+      if (finite) continue;
+      ++out.columns[i].missing;
+      if (!number && !is_missing(cell.text)) refuse(row, cell, out.columns[i].name);
+    }
+  }
+
+  void refuse(const Row& row, const Cell& cell, const std::string& name) {
+    problems_.add(row.line, cell.column, name, config::in_quotes(cell.text), "a number",
+                  hint_for(cell.text, grid_.dialect.numbers));
+  }
+
+  bool add_time(const Row& row, std::size_t index, RawTable& out) {
+    std::size_t column = numbers_.value_or(0);
+    if (period_ > 0) {
+      out.time.push_back(static_cast<double>(index) * period_);
+      return true;
+    }
+    if (stamps_) {
+      if (const auto instant = stamps_->read(row, column)) {
+        if (instants_.empty()) instants_.reserve(grid_.rows_about());
+        instants_.push_back(*instant);
+        return true;
+      }
+    } else {
+      const auto number = number_in(row.cells[column].text, grid_.dialect.numbers);
+      if (number && std::isfinite(*number)) {
+        out.time.push_back(*number);
+        return true;
+      }
+    }
+    return refuse_time(row, row.cells[column]);
+  }
+
+  bool refuse_time(const Row& row, const Cell& cell) {
+    if (source_.drop_incomplete && is_missing(cell.text)) {
+      ++without_time_;
+      return false;
+    }
+    problems_.add(row.line, cell.column, "time",
+                  cell.text.empty() ? "an empty cell" : config::in_quotes(cell.text),
+                  stamps_ ? "a date or a time of day as in the other rows" : "a number",
+                  is_missing(cell.text) ? "drop_incomplete=true to leave such rows out"
+                                        : hint_for(cell.text, grid_.dialect.numbers));
+    return false;
+  }
+
+  void finish_clock(RawTable& out) {
+    if (out.lines.empty() || !has_clock()) return;
+    if (stamps_) {
+      out.time = since_first(instants_);
+      out.start = stamps_->start();
+    } else if (numbers_) {
+      count_from_first(out);
+    }
+    if (source_.spread_times) {
+      if (const std::size_t count = spread_times(out.time); count > 0)
+        out.notes.push_back(
+            fmt::format("{} rows shared the time of another: spread evenly", count));
+    }
+    check_order(out.time, out.lines, problems_);
+    refuse_repeated(out);
+    note_seconds(out);
+  }
+
+  // Numbers of a clock as seconds since the first one. Seconds since 1970 say when that was.
+  void count_from_first(RawTable& out) {
+    const bool days = source_.dates == "excel";
+    const double first = out.time.front(), slope = days ? seconds_per_day : slope_;
+    constexpr double days_from_1900_to_1970 = 25569;
+    const double epoch = days ? (first - days_from_1900_to_1970) * seconds_per_day : first * slope_;
+    if (epoch > 1e9 && epoch < 5e9) {
+      const auto milliseconds = static_cast<std::int64_t>(std::llround(epoch * 1e3));
+      out.start = iso_text(milliseconds * 1'000'000);
+    }
+    out.first = first * slope;
+    for (double& t : out.time) t = (t - first) * slope;
+  }
+
+  void refuse_repeated(const RawTable& out) {
+    const std::size_t count = repeated(out.time);
+    if (count == 0) return;
+    const auto at = std::ranges::adjacent_find(out.time);
+    const auto row = static_cast<std::size_t>(at - out.time.begin()) + 1;
+    problems_.add(
+        out.lines[row], 1, "time",
+        fmt::format("{} rows with the time of the row above, as the clock is coarse", count),
+        "a time of its own for each row",
+        "spread_times=true to spread such rows evenly up to the next time");
+  }
+
+  // A second in which nothing but whole seconds pass may be a millisecond.
+  void note_seconds(RawTable& out) const {
+    if (!numbers_ || slope_ != 1 || source_.dates == "excel" || out.time.size() < 20) return;
+    const bool whole = std::ranges::all_of(out.time, [](double t) { return t == std::floor(t); });
+    const double step = out.time.back() / static_cast<double>(out.time.size() - 1);
+    if (!whole || step < 2) return;
+    const std::string& name = grid_.headings()[*numbers_].name;
+    out.notes.push_back(fmt::format(
+        "{}: a row every {:.4g} s, {:.3g} h in all; if it counts ms, units.{}=ms says so", name,
+        step, out.time.back() / 3600, name));
+  }
+
+  void tell_missing(RawTable& out) const {
+    for (const RawColumn& column : out.columns)
+      if (column.missing > 0)
+        out.notes.push_back(fmt::format("{}: {} of {} values are missing", column.name,
+                                        column.missing, out.rows()));
+    if (without_time_ > 0)
+      out.notes.push_back(fmt::format("{} rows without a time left out", without_time_));
+  }
+
+  const Grid& grid_;
+  const Source& source_;
+  Problems problems_;
+  double period_ = 0;  // of rows that have a rate  [s]
+  std::unique_ptr<StampClock> stamps_;
+  std::optional<std::size_t> numbers_;  // the column of a clock that counts
+  double slope_ = 1;                    // seconds in one of its numbers
+  std::string note_;                    // on the clock
+  std::set<std::size_t> of_clock_;      // columns that it takes
+  std::vector<std::int64_t> instants_;  // [ns]
+  std::vector<std::size_t> indices_;    // of the columns that are read
+  std::vector<double> factors_;         // from their numbers to those in their units
+  std::size_t without_time_ = 0;
+};
+
+}  // namespace
+
+RawTable read_table(const Source& source) {
+  const Grid grid = read_grid(text_of(source, "measurements as CSV"), source);
+  return RawReader(grid, source).read();
+}
+
+}  // namespace sinew::recording

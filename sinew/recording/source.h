@@ -1,0 +1,37 @@
+// recording/source.h - a file of measurements, and how it is to be read: what its columns mean, and
+// what the file itself does not say.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sinew/units/constants.h"
+
+namespace sinew::recording {
+
+struct Source {
+  std::string path;
+  std::optional<std::string> text;           // in place of the file's; `path` is what it is called
+  std::vector<std::string> columns;          // "force [N]", ... for a file without a header
+  std::map<std::string, std::string> names;  // wanted name -> the file's name for it
+  std::map<std::string, std::string> units;  // the file's name -> its unit, for a header without
+  // The file's name -> "fill" or "100, 200": only rows with one of these values are read.
+  std::map<std::string, std::string> where;
+  bool drop_incomplete = false;           // leave out rows with cells that are no numbers
+  double atmosphere = units::atmosphere;  // [Pa]
+
+  // What a file leaves open. Empty: by what the file shows, and a refusal where it shows nothing.
+  std::string encoding;       // "utf-8", "utf-16le", "utf-16be" or "latin1"
+  std::string decimal;        // "." or ","
+  std::string thousands;      // what parts them: ".", ",", " " or "'"
+  std::string dates;          // "day first", "month first", or "excel" for days since 1900
+  std::string rate;           // "100 Hz" or "10 ms": of the rows, in place of a clock
+  bool spread_times = false;  // rows that share a time are spread evenly up to the next one
+};
+
+// Throws config::Error for a setting whose words are none of these.
+void check_settings(const Source& source);
+
+}  // namespace sinew::recording
