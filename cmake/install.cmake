@@ -1,7 +1,7 @@
 # cmake --install gives find_package(sinew) and one target for everything, sinew::sinew; each folder
 # of sinew/ is a target too: sinew::air, sinew::control_joint, …
 #
-# Components are those of the packages that cpack makes (package.cmake): program, mpi, comedi,
+# Components are those of the packages that cpack makes (package.cmake): program, mpi, comedi, matlab,
 # development, python. A plain installation has them all.
 
 include(GNUInstallDirs)
@@ -59,7 +59,7 @@ install(DIRECTORY sinew thesis fmu DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPO
 if(TARGET sinew)
   install(TARGETS sinew RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 endif()
-foreach(module pagmo mpi comedi)
+foreach(module pagmo mpi comedi matlab)
   set(component ${module})
   if(module STREQUAL "pagmo")
     set(component program)

@@ -4,6 +4,7 @@
 # sinew_mpi    the MPI library, for processes that mpirun started
 # sinew_pagmo  the methods of `sinew tune`
 # sinew_comedi the card of `sinew run --port comedi:…`
+# sinew_matlab the .mat files of `sinew import`
 #
 # Where a library is missing the program is built without, and says so when it is asked for.
 
@@ -47,8 +48,23 @@ if(SINEW_COMEDI AND NOT SINEW_FUZZ)
   endif()
 endif()
 
-# Tests of the optimizer look for its module where the program does.
-if(TARGET sinew_tune_optimizer_test)
-  set_target_properties(sinew_tune_optimizer_test PROPERTIES RUNTIME_OUTPUT_DIRECTORY
-                                                             ${PROJECT_BINARY_DIR}/bin)
+if(SINEW_MATLAB AND NOT SINEW_FUZZ)
+  find_path(SINEW_MATIO_HEADERS matio.h)
+  find_library(SINEW_MATIO_LIBRARY matio)
+  if(SINEW_MATIO_HEADERS AND SINEW_MATIO_LIBRARY)
+    sinew_module(sinew_matlab recording/module/module.cpp ${SINEW_MATIO_LIBRARY})
+    target_include_directories(sinew_matlab SYSTEM PRIVATE ${SINEW_MATIO_HEADERS})
+  else()
+    message(STATUS "matio: built without recordings in MATLAB's files; libmatio-dev brings them")
+  endif()
+endif()
+
+# Tests look for a module where the program does.
+foreach(test sinew_tune_optimizer_test sinew_recording_test)
+  if(TARGET ${test})
+    set_target_properties(${test} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  endif()
+endforeach()
+if(TARGET sinew_recording_test AND TARGET sinew_matlab)
+  add_dependencies(sinew_recording_test sinew_matlab)
 endif()

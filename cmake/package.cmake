@@ -3,6 +3,7 @@
 #   sinew          the program, the module of its searches, robots, experiments, documentation
 #   sinew-mpi      a module: sweeps over the processes of mpirun
 #   sinew-comedi   a module: a machine at a card
+#   sinew-matlab   a module: recordings in MATLAB files
 #   libsinew-dev   headers, archives, find_package(sinew)
 #   python3-sinew  `import sinew`
 #
@@ -75,7 +76,7 @@ sinew_package(sinew program science ""
 pneumatic actuators (McKibben muscles): actuator, air, valves, sensors,
 controller and body in one loop. Comes with the walking leg of Colbrunn (2000).")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-sinew, libsinew-dev, sinew-mpi, sinew-comedi, www-browser")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-sinew, libsinew-dev, sinew-mpi, sinew-comedi, sinew-matlab, www-browser")
 
 if(TARGET sinew_mpi)
   sinew_package(sinew-mpi mpi science "sinew ${same}, openmpi-bin"
@@ -87,6 +88,12 @@ if(TARGET sinew_comedi)
   sinew_package(sinew-comedi comedi science "sinew ${same}"
     "machines at a data acquisition card, for sinew"
     "A module that sinew loads for machines at a card that comedi drives.")
+endif()
+
+if(TARGET sinew_matlab)
+  sinew_package(sinew-matlab matlab science "sinew ${same}"
+    "recordings in MATLAB's files, for sinew"
+    "A module that sinew loads to import recordings from MAT files.")
 endif()
 
 sinew_package(libsinew-dev development_deb libdevel

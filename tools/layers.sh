@@ -27,7 +27,7 @@ layers='
     config          units
     config/write    config
     log             signals
-    recording       signals log config
+    recording       signals log config host
     plant/world     air signals
     plant/friction  units
     plant/planar    plant/world plant/friction air robot signals
@@ -63,7 +63,7 @@ layers='
     run/simulation  run/controllers log host
     run/stand       run/simulation experiment/rig
     run/muscle      run/setup experiment/rig
-    run/folder      run/simulation run/stand log analysis report
+    run/folder      run/simulation run/stand log analysis report recording
     run/bring_up    run/folder report
     tune            run/folder host
     tune/results    tune
@@ -71,7 +71,7 @@ layers='
     tune/optimizer  tune/results
     tune/page       tune/results report/page
     live            run/folder tune/page
-    files           run/folder tune/optimizer
+    files           run/folder tune/optimizer recording
 '
 
 # What only the tests of a folder may include besides (*_test.cpp, *_test.h, test_*.h, testing.h).
@@ -98,6 +98,7 @@ libraries='
     mpi[.]h         sinew/tune/mpi/module
     pagmo/          sinew/tune/optimizer/module
     comedi          sinew/plant/comedi/module
+    matio[.]h       sinew/recording/module
     ceres/          sinew/identify/fit
     Eigen/          sinew/identify
 '

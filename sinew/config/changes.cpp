@@ -54,7 +54,8 @@ const Changes& changes() {
                                      {"rig"},
                                      {"plan"},
                                      {"tuning"},
-                                     {"settings"}},
+                                     {"settings"},
+                                     {"mapping"}},
                            .keys = {}};
   return all;
 }

@@ -5,6 +5,7 @@
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/check.h"
 #include "sinew/experiment/experiment.fields.h"
+#include "sinew/experiment/imported.fields.h"
 #include "sinew/experiment/machine_file.h"
 
 namespace sinew::experiment {
@@ -60,9 +61,12 @@ Experiment read(const config::Node& root, std::string_view kind, const std::stri
   config::Reader reader(root,
                         {.atmosphere = config::atmosphere_of(root), .needs_source = in_robots});
   std::string format, written_by;
+  std::vector<ImportedFile> imported;
   reader.text({.name = "format", .doc = "kind and version"}, format);
-  if (runs)  // a resolved.toml says it
+  if (runs) {  // a resolved.toml says it
     reader.text({.name = "sinew_version", .optional = true, .doc = "that ran"}, written_by);
+    fields(reader, imported);
+  }
   machine_fields(reader, kind, e);
   if (runs) read_run(reader, e);
   reader.finish();

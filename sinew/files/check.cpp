@@ -15,6 +15,7 @@
 #include "sinew/experiment/machine_file.h"
 #include "sinew/experiment/rig/rig.h"
 #include "sinew/log/reader.h"
+#include "sinew/recording/mapping.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/runnable.h"
 #include "sinew/run/setup/buildable.h"
@@ -118,6 +119,8 @@ Finding check(const std::string& path) {
     } else if (const config::Node root = config::parse_file(path);
                config::format_kind(root) == "plan") {
       tune::check(tune::sweep_of(tune::load_study(path)));
+    } else if (config::format_kind(root) == "mapping") {
+      recording::load_mapping(path);
     } else if (config::format_kind(root) == "settings") {
       config::read_user_settings(path);
     } else if (config::format_kind(root) == "tuning") {

@@ -8,7 +8,9 @@
 #include "sinew/config/user_settings.h"
 #include "sinew/control/gait/plan.h"
 #include "sinew/experiment/experiment.fields.h"
+#include "sinew/experiment/imported.fields.h"
 #include "sinew/experiment/rig/rig.fields.h"
+#include "sinew/recording/mapping.fields.h"
 #include "sinew/tune/optimizer/tuning.fields.h"
 #include "sinew/tune/study.fields.h"
 
@@ -27,6 +29,13 @@ void robot_tables(Visitor& v) {
           [&](auto& g) { experiment::fields(g, e.pulses); });
 }
 
+// Visits what a resolved file says of a run that was recorded elsewhere.
+template <class Visitor>
+void imported_tables(Visitor& v) {
+  std::vector<experiment::ImportedFile> imported;
+  experiment::fields(v, imported);
+}
+
 // Visits the tables of a test stand, without actuators and valves.
 template <class Visitor>
 void rig_tables(Visitor& v) {
@@ -34,6 +43,7 @@ void rig_tables(Visitor& v) {
   rig::fields(v, e);
   v.group({.name = "air", .doc = "atmosphere and supply"},
           [&](auto& g) { gas::fields(g, e.air, e.supply); });
+  imported_tables(v);
 }
 
 // Visits what belongs to that kind of file alone. Where names of joints are keys, there is one
@@ -45,7 +55,8 @@ void visit_tables(Visitor& v, std::string_view kind) {
   if (kind == "experiment") {
     experiment::Experiment e;
     e.plan.joints = {{.name = "<name>"}};
-    return experiment::run_fields(v, e);
+    experiment::run_fields(v, e);
+    return imported_tables(v);
   }
   if (kind == "actuator") {
     std::vector<actuator::Actuator> actuators;
@@ -66,6 +77,10 @@ void visit_tables(Visitor& v, std::string_view kind) {
   if (kind == "tuning") {
     tune::TuningFile tuning;
     return tune::fields(v, tuning);
+  }
+  if (kind == "mapping") {
+    recording::Mapping mapping;
+    return recording::fields(v, mapping);
   }
   if (kind == "settings") {
     config::UserSettings settings;

@@ -273,7 +273,7 @@ std::vector<Key> list_keys(std::string_view kind) {
 const std::vector<std::string>& key_kinds() {
   static const std::vector<std::string> kinds = {"robot",      "actuator", "valves", "wiring",
                                                  "experiment", "rig",      "plan",   "tuning",
-                                                 "settings",   "any"};
+                                                 "mapping",    "settings", "any"};
   return kinds;
 }
 

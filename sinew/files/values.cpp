@@ -5,10 +5,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/lookup.h"
+#include "sinew/config/reader.h"
+#include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/experiment/rig/rig.h"
+#include "sinew/recording/mapping.fields.h"
 #include "sinew/report/text/text_table.h"
 #include "sinew/run/folder/runnable.h"
 
@@ -76,10 +80,27 @@ Json to_json(const config::Origin& o, const config::Node& values) {
   return out;
 }
 
+// Of a mapping, whose rows are tables in a list.
+Values mapping_values(const std::string& path, const std::vector<std::string>& sets,
+                      const std::vector<std::string>& keys) {
+  const config::Node root = config::compose(path, sets);
+  config::Reader reader(root);
+  recording::Mapping mapping;
+  std::string format;
+  reader.text({.name = "format", .doc = "kind and version"}, format);
+  recording::fields(reader, mapping);
+  reader.finish();
+  config::Writer writer;
+  recording::fields(writer, mapping);
+  return {writer.root(), chosen(reader.origins(), keys, path)};
+}
+
 }  // namespace
 
 Values values(const std::string& path, const std::vector<std::string>& sets,
               const std::vector<std::string>& keys) {
+  if (config::format_kind(config::parse_file(path)) == "mapping")
+    return mapping_values(path, sets, keys);
   if (run::is_on_stand(path)) {
     const rig::Experiment e = rig::load(path, sets);
     return {rig::values_in_si(e), chosen(e.origins, keys, path)};

@@ -14,7 +14,7 @@ struct Values {
   config::Origins origins;  // of those that were asked for
 };
 
-// Reads an experiment, rig, robot, actuator, valves or wiring file, with settings over it
+// Reads an experiment, rig, robot, actuator, valves, wiring or mapping file, with settings over it
 // ("joint.hip.angle_gain=0.3 %/count"), and chooses the values whose key is among `keys` or begins
 // as one of them; no keys are all. Throws config::Error with all that is wrong, and for a key that
 // chooses none.

@@ -1,5 +1,6 @@
 #include "sinew/log/message.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -24,6 +25,41 @@ bool holds_number(const Json& property) {
 double number(const Json& value) {
   if (value.is_boolean()) return value.get<bool>() ? 1.0 : 0.0;
   return value.is_number() ? value.get<double>() : kNaN;
+}
+
+// The instant of a message, which its log time says too: {"sec": …, "nsec": …}.
+bool is_timestamp(const Json& properties) {
+  return properties.size() == 2 && properties.contains("sec") &&
+         (properties.contains("nsec") || properties.contains("nanosec"));
+}
+
+// Fields of objects within the message are called `pose.x`.
+void add_fields(const Json& properties, const std::string& prefix,
+                std::vector<signals::Field>& out) {
+  constexpr std::size_t deepest = 8;  // dots in a name
+  if (static_cast<std::size_t>(std::ranges::count(prefix, '.')) > deepest) return;
+  for (const auto& [name, property] : properties.items()) {
+    if (!property.is_object()) continue;
+    if (holds_number(property)) {
+      out.push_back({prefix + name, text_or_empty(property, "unit")});
+      continue;
+    }
+    const auto within = property.find("properties");
+    if (within == property.end() || !within->is_object() || is_timestamp(*within)) continue;
+    add_fields(*within, prefix + name + ".", out);
+  }
+}
+
+// The value of a field by its name, in the object or within those in it; nullptr: it has none.
+const Json* value_of(const Json& object, std::string_view name) {
+  if (!object.is_object()) return nullptr;
+  if (const auto it = object.find(name); it != object.end()) return &*it;
+  for (std::size_t dot = name.find('.'); dot != name.npos; dot = name.find('.', dot + 1)) {
+    const auto within = object.find(name.substr(0, dot));
+    if (within == object.end()) continue;
+    if (const Json* found = value_of(*within, name.substr(dot + 1))) return found;
+  }
+  return nullptr;
 }
 
 // Removes `start` from the front of `text`, if it stands there.
@@ -57,9 +93,7 @@ std::optional<signals::Topic> from_schema(std::string_view schema, std::string_v
   if (properties == json.end() || !properties->is_object()) return std::nullopt;
 
   signals::Topic result{std::string(topic), text_or_empty(json, "description"), {}};
-  for (const auto& [name, property] : properties->items())
-    if (property.is_object() && holds_number(property))
-      result.fields.push_back({name, text_or_empty(property, "unit")});
+  add_fields(*properties, "", result.fields);
   if (result.fields.empty()) return std::nullopt;
   return result;
 }
@@ -104,8 +138,8 @@ bool MessageFormat::parse_any(std::string_view text, std::span<double> values) c
   const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (!json.is_object()) return false;
   for (std::size_t i = 0; i < names_.size(); ++i) {
-    const auto it = json.find(names_[i]);
-    values[i] = it == json.end() ? kNaN : number(*it);
+    const Json* const value = value_of(json, names_[i]);
+    values[i] = value ? number(*value) : kNaN;
   }
   return true;
 }

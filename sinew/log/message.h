@@ -19,7 +19,7 @@ namespace sinew::log {
 std::string to_schema(const signals::Topic& topic);
 
 // The topic that a schema describes; nothing where it has no field with a number. Fields of other
-// kinds, which foreign logs have, are left out.
+// kinds, which foreign logs have, are left out; those of an object within it are called `pose.x`.
 std::optional<signals::Topic> from_schema(std::string_view schema, std::string_view topic);
 
 // Writes and reads the messages of one topic.
@@ -33,7 +33,7 @@ class MessageFormat {
   // Appends a message; what is not a number is null.
   void append(std::string& out, std::span<const double> values) const;
 
-  // Reads any flat object; what append() has written is read without building a document. A field
+  // Reads any object; what append() has written is read without building a document. A field
   // that is missing gives NaN. False: not a JSON object. `values` has fields() elements.
   bool parse(std::string_view text, std::span<double> values) const;
 

@@ -2,6 +2,7 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/write/writer.h"
+#include "sinew/experiment/imported.fields.h"
 #include "sinew/experiment/rig/check.h"
 #include "sinew/experiment/rig/rig.fields.h"
 
@@ -94,8 +95,10 @@ Experiment load(const config::Node& root, const std::string& path) {
   config::Reader reader(root, {.atmosphere = config::atmosphere_of(root),
                                .needs_source = [](const std::string&) { return false; }});
   std::string format, written_by;
+  std::vector<experiment::ImportedFile> imported;
   reader.text({.name = "format", .doc = "kind and version"}, format);
   reader.text({.name = "sinew_version", .optional = true, .doc = "that ran"}, written_by);
+  experiment::fields(reader, imported);
   machine_fields(reader, e);
   fields(reader, e);
   reader.finish();

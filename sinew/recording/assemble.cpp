@@ -1,0 +1,305 @@
+#include "sinew/recording/assemble.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sinew/config/quantity.h"
+#include "sinew/recording/match.h"
+#include "sinew/recording/stamp.h"
+
+namespace sinew::recording {
+
+namespace {
+
+constexpr double nanoseconds = 1e9;                // of a second
+constexpr std::int64_t own_start = 1'000'000'000;  // up to there a clock is taken for a run's [ns]
+
+// How the times of a file become those of the table: (t - zero) scale + shift  [ns].
+struct Times {
+  std::int64_t zero = 0, shift = 0;
+  double scale = 1;
+
+  std::int64_t operator()(std::int64_t t) const {
+    const std::int64_t since = t - zero;
+    return shift + (scale == 1 ? since : std::llround(scale * static_cast<double>(since)));
+  }
+};
+
+std::int64_t nanoseconds_of(const std::string& text, const std::string& key) {
+  const config::Parsed parsed = config::parse_quantity(text, "s");
+  if (parsed.mistake)
+    config::fail({}, key, parsed.mistake->found, parsed.mistake->expected,
+                 parsed.mistake->try_this);
+  return std::llround(nanoseconds * parsed.si);
+}
+
+bool is_edges(const signals::Topic& topic) {
+  return signals::is_of_valve(topic.name) && topic.name.ends_with("/open");
+}
+
+class Assembler {
+ public:
+  Assembler(const std::vector<Recorded>& files, const Mapping& mapping, const Joining& joining,
+            Matches matches)
+      : files_(files), mapping_(mapping), joining_(joining), matches_(std::move(matches)) {}
+
+  Assembled take() {
+    out_.used = matches_.used;
+    for (std::size_t f = 0; f < files_.size(); ++f) {
+      const Recorded& file = files_[f];
+      Taken taken{.file = file.file, .kind = file.kind, .started = file.started};
+      taken.unused = matches_.unused[f];
+      for (const Clock& clock : file.clocks)
+        taken.rows = std::max(taken.rows, clock.time_ns.size());
+      out_.files.push_back(std::move(taken));
+      for (const std::string& note : file.notes) out_.notes.push_back(file.file + ": " + note);
+      out_.table.complete = out_.table.complete && file.complete;
+    }
+    set_clocks();
+    for (std::size_t t = 0; t < matches_.topics.size(); ++t) topic(t);
+    tell();
+    return std::move(out_);
+  }
+
+ private:
+  // First and last time of the columns that are used  [ns of the file].
+  struct Span {
+    std::int64_t first = std::numeric_limits<std::int64_t>::max();
+    std::int64_t last = std::numeric_limits<std::int64_t>::min();
+    std::int64_t period = 10'000'000;  // of the clock that ends last
+    bool any() const { return first <= last; }
+  };
+  Span span_of(std::size_t f) const {
+    Span out;
+    for (const Matched& m : matches_.columns) {
+      if (m.file != f) continue;
+      const signals::Times& times = clock_of(m).time_ns;
+      if (times.empty()) continue;
+      out.first = std::min(out.first, times.front());
+      if (times.back() <= out.last) continue;
+      out.last = times.back();
+      const std::size_t n = times.size();
+      if (n > 1) out.period = (times.back() - times.front()) / static_cast<std::int64_t>(n - 1);
+    }
+    return out;
+  }
+
+  const Clock& clock_of(const Matched& m) const {
+    const Recorded& file = files_[m.file];
+    return file.clocks[file.columns[m.column].clock];
+  }
+
+  void set_clocks() {
+    times_.resize(files_.size());
+    const std::optional<std::int64_t> wall = wall_start();
+    std::int64_t end = 0;
+    for (std::size_t f = 0; f < files_.size(); ++f) {
+      const Span span = span_of(f);
+      Times& t = times_[f];
+      t.scale = mapping_.clock.scale;
+      const auto shift = joining_.shifts.find(files_[f].file);
+      if (shift != joining_.shifts.end()) t.shift = nanoseconds_of(shift->second, "shift");
+      if (!span.any()) continue;
+      t.zero = zero_of(f, span, wall);
+      if (joining_.at_end && f > 0) {
+        t.zero = span.first;
+        t.shift += end;
+      }
+      end = t(span.last) + std::llround(t.scale * static_cast<double>(span.period));
+    }
+    tell_start(wall);
+  }
+
+  // The earliest sample on the clock on the wall, where every file knows it: absent where one does
+  // not, or there is one file alone.
+  std::optional<std::int64_t> wall_start() const {
+    std::optional<std::int64_t> first;
+    if (files_.size() < 2 || joining_.at_end || !mapping_.clock.start.empty()) return first;
+    for (std::size_t f = 0; f < files_.size(); ++f) {
+      const Span span = span_of(f);
+      if (!span.any()) continue;
+      const std::optional<std::int64_t> origin = origin_of(f);
+      if (!origin) return std::nullopt;
+      first = std::min(first.value_or(*origin + span.first), *origin + span.first);
+    }
+    return first;
+  }
+
+  std::optional<std::int64_t> origin_of(std::size_t f) const {
+    return files_[f].clocks.empty() ? std::nullopt : files_[f].clocks.front().origin;
+  }
+
+  std::int64_t zero_of(std::size_t f, const Span& span, std::optional<std::int64_t> wall) const {
+    if (wall) return *wall - *origin_of(f);
+    if (!mapping_.clock.start.empty()) return nanoseconds_of(mapping_.clock.start, "clock.start");
+    return span.first >= 0 && span.first < own_start ? 0 : span.first;
+  }
+
+  void tell_start(std::optional<std::int64_t> wall) {
+    const std::optional<std::int64_t> origin = origin_of(0);
+    if (wall) {
+      out_.started = iso_text(*wall);
+    } else if (origin) {
+      out_.started = iso_text(*origin + times_[0].zero);
+    } else {
+      out_.started = files_[0].started;
+    }
+    if (times_[0].zero != 0 && !origin)
+      out_.notes.push_back(
+          fmt::format("{}: time 0 of the log is {} s of the recording's clock", files_[0].file,
+                      config::format_number(static_cast<double>(times_[0].zero) / nanoseconds)));
+  }
+
+  // All files' samples of a topic, in the order of their times.
+  void topic(std::size_t t) {
+    signals::Series series{matches_.topics[t], signals::Times(pages_), {}};
+    series.columns.assign(series.topic.fields.size(), signals::Column(pages_));
+    bool any = false;
+    for (std::size_t f = 0; f < files_.size(); ++f) {
+      std::vector<const Matched*> fields(series.topic.fields.size(), nullptr);
+      for (const Matched& m : matches_.columns)
+        if (m.file == f && m.target.topic == t) fields[m.target.field] = &m;
+      if (std::ranges::all_of(fields, [](auto* m) { return m == nullptr; })) continue;
+      any = true;
+      if (is_edges(series.topic))
+        edges(*fields[0], series);
+      else
+        samples(f, fields, series);
+    }
+    if (any) out_.table.series.push_back(std::move(series));
+  }
+
+  void samples(std::size_t f, const std::vector<const Matched*>& fields, signals::Series& series) {
+    const auto given = std::ranges::find_if(fields, [](auto* m) { return m != nullptr; });
+    const signals::Times& times = clock_of(**given).time_ns;
+    std::vector<double> values(fields.size());
+    std::size_t late = 0;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      bool any = false;
+      for (std::size_t k = 0; k < fields.size(); ++k) {
+        values[k] = fields[k] ? value(*fields[k], i) : std::nan("");
+        any = any || std::isfinite(values[k]);
+      }
+      const std::int64_t time = times_[f](times[i]);
+      if (!any || time < 0) {
+        ++out_.files[f].left_out;
+        continue;
+      }
+      if (!series.time_ns.empty() && time <= series.time_ns.back()) {
+        if (time < series.time_ns.back()) backwards(f, series, time);
+        ++late;
+      }
+      series.time_ns.push_back(time);
+      for (std::size_t k = 0; k < values.size(); ++k) series.columns[k].push_back(values[k]);
+      ++out_.files[f].values;
+    }
+    if (late > 0)
+      out_.notes.push_back(fmt::format("{}: {}: {} samples at the time of the one before",
+                                       files_[f].file, series.topic.name, late));
+  }
+
+  // Only what changes; before the first edge a valve is shut.
+  void edges(const Matched& of, signals::Series& series) {
+    const signals::Times& times = clock_of(of).time_ns;
+    double before = series.columns[0].empty() ? 0.0 : series.columns[0].back();
+    bool other = false;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const double number = value(of, i);
+      const std::int64_t time = times_[of.file](times[i]);
+      if (!std::isfinite(number) || time < 0) {
+        ++out_.files[of.file].left_out;
+        continue;
+      }
+      ++out_.files[of.file].values;
+      other = other || (number != 0 && number != 1);
+      const double open = number >= 0.5 ? 1 : 0;
+      if (open == before) continue;
+      if (!series.time_ns.empty() && time < series.time_ns.back()) backwards(of.file, series, time);
+      series.time_ns.push_back(time);
+      series.columns[0].push_back(open);
+      before = open;
+    }
+    if (other)
+      out_.notes.push_back(fmt::format("{}: {}: values of 0.5 and more were taken as open",
+                                       files_[of.file].file, series.topic.name));
+    sampled_edges_ = sampled_edges_ || files_[of.file].kind != "MCAP";
+  }
+
+  double value(const Matched& m, std::size_t i) const {
+    return m.conversion(files_[m.file].columns[m.column].values[i]);
+  }
+
+  [[noreturn]] void backwards(std::size_t f, const signals::Series& series,
+                              std::int64_t time) const {
+    config::fail({files_[f].file, 0, 0}, series.topic.name,
+                 fmt::format("{} s after {} s", static_cast<double>(time) / nanoseconds,
+                             static_cast<double>(series.time_ns.back()) / nanoseconds),
+                 "times that do not run backwards",
+                 "a cut where a new recording begins, or join=end for several");
+  }
+
+  void tell() {
+    for (const std::string& guess : matches_.guessed) out_.notes.push_back(guess + ", by its name");
+    for (const Taken& file : out_.files) {
+      if (!file.unused.empty())
+        out_.notes.push_back(
+            fmt::format("{}: {} not a channel of this machine, left out: {}", file.file,
+                        file.unused.size() == 1 ? "1 column is"
+                                                : fmt::format("{} columns are", file.unused.size()),
+                        some(file.unused)));
+      if (file.left_out > 0)
+        out_.notes.push_back(
+            fmt::format("{}: {} of {} values left out: no numbers, or before time 0", file.file,
+                        file.left_out, file.left_out + file.values));
+    }
+    if (sampled_edges_)
+      out_.notes.push_back("valves: their edges are those of a table, known to one of its rows");
+  }
+
+  static std::string some(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 10;
+    std::string out;
+    for (std::size_t i = 0; i < std::min(names.size(), most); ++i)
+      out += (i > 0 ? ", " : "") + names[i];
+    return names.size() > most ? fmt::format("{} and {} more", out, names.size() - most) : out;
+  }
+
+  const std::vector<Recorded>& files_;
+  const Mapping& mapping_;
+  const Joining& joining_;
+  Matches matches_;
+  Assembled out_;
+  std::vector<Times> times_;  // by file
+  signals::PageFile pages_ = signals::PageFile::make();
+  bool sampled_edges_ = false;
+};
+
+// Every file once, every shift of a file that is there.
+void check_files(const std::vector<Recorded>& files, const Joining& joining) {
+  if (files.empty()) config::fail({}, "files", "none", "a recording");
+  std::vector<std::string_view> names;
+  for (const Recorded& file : files) {
+    if (std::ranges::find(names, file.file) != names.end())
+      config::fail({file.file, 0, 0}, "", "the same file a second time", "each file once");
+    names.push_back(file.file);
+  }
+  for (const auto& [file, shift] : joining.shifts)
+    if (std::ranges::find(names, file) == names.end())
+      config::fail({}, "shift", config::in_quotes(file), config::either(names),
+                   config::closest_in_quotes(file, names));
+}
+
+}  // namespace
+
+Assembled assemble(const std::vector<Recorded>& files, const Mapping& mapping,
+                   std::span<const signals::Topic> topics, const Joining& joining) {
+  check_files(files, joining);
+  return Assembler(files, mapping, joining,
+                   match(files, mapping, topics, joining.atmosphere, joining.at_end))
+      .take();
+}
+
+}  // namespace sinew::recording

@@ -1,0 +1,51 @@
+// recording/assemble.h - recordings become a channel table, by a mapping and a machine's channels.
+//
+// Several recordings stand side by side in time, or one begins where the one before it ends. The
+// table's time 0 is the first sample, unless the clock of the recording begins between 0 and 1 s:
+// then it is a run's own, and stays.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sinew/recording/mapping.h"
+#include "sinew/recording/recorded.h"
+#include "sinew/signals/table.h"
+#include "sinew/units/constants.h"
+
+namespace sinew::recording {
+
+// How several become one.
+struct Joining {
+  bool at_end = false;                        // one behind the other; else side by side
+  std::map<std::string, std::string> shifts;  // file -> "0.12 s", by which its times are later
+  double atmosphere = units::atmosphere;      // between gauge and absolute pressures [Pa]
+};
+
+// What became of one file.
+struct Taken {
+  std::string file, kind;
+  std::string started;              // on the clock on the wall; empty: not known
+  std::size_t rows = 0;             // of its longest clock
+  std::size_t values = 0;           // that went into the table
+  std::size_t left_out = 0;         // values that are no numbers, or stand before time 0
+  std::vector<std::string> unused;  // columns without a channel
+};
+
+// The table, how it came about, and what somebody should know about it.
+struct Assembled {
+  signals::Table table;  // in the order of the machine's channels, then /recorded/…
+  Mapping used;          // with every column that has a channel, also those that need no words
+  std::vector<Taken> files;
+  std::string started;  // the table's time 0 on the clock on the wall; empty: not known
+  std::vector<std::string> notes;
+};
+
+// `topics`: the machine's. Throws config::Error with all that is wrong: a column or a channel that
+// there is not, a unit that is missing or of another dimension, a channel that two files have.
+Assembled assemble(const std::vector<Recorded>& files, const Mapping& mapping,
+                   std::span<const signals::Topic> topics, const Joining& joining = {});
+
+}  // namespace sinew::recording

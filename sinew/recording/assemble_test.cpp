@@ -1,0 +1,259 @@
+#include "sinew/recording/assemble.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/recording/read.h"
+
+namespace sinew::recording {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<signals::Topic> one_joint() {
+  const auto scalar = [](const char* name, const char* unit) {
+    return signals::Topic{name, "", {{"value", unit}}};
+  };
+  return {
+      scalar("/sensor/elbow_angle/count", "count"),     scalar("/joint/elbow/angle", "rad"),
+      scalar("/desired/joint/elbow/angle", "rad"),      scalar("/muscle/flexor/tension", "N"),
+      scalar("/muscle/flexor/pressure", "Pa"),          scalar("/muscle/extensor/pressure", "Pa"),
+      {"/foot/position", "", {{"x", "m"}, {"y", "m"}}}, scalar("/valve/flexor/inlet/open", "1")};
+}
+
+class AssembleTest : public ::testing::Test {
+ protected:
+  AssembleTest() {
+    std::string name = (fs::temp_directory_path() / "sinew-assemble-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~AssembleTest() override { fs::remove_all(folder_); }
+
+  std::string put(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    return (folder_ / name).string();
+  }
+
+  Assembled take(const std::vector<std::string>& files, const Mapping& mapping = {},
+                 const Joining& joining = {}) const {
+    std::vector<Recorded> read;
+    for (const std::string& file : files) read.push_back(read_recording(file, mapping));
+    return assemble(read, mapping, one_joint(), joining);
+  }
+
+  std::string error_of(const std::vector<std::string>& files, const Mapping& mapping = {},
+                       const Joining& joining = {}) const {
+    try {
+      (void)take(files, mapping, joining);
+    } catch (const std::exception& e) {
+      return e.what();
+    }
+    return "no error";
+  }
+
+  fs::path folder_;
+};
+
+Mapping angle_is(const std::string& column, const std::string& unit = "") {
+  Mapping out;
+  map_channel(out, "/joint/elbow/angle", column);
+  if (!unit.empty()) map_unit(out, column, unit);
+  return out;
+}
+
+const signals::Series& series(const Assembled& of, const std::string& topic) {
+  const signals::Series* found = of.table.find(topic);
+  if (!found) throw std::runtime_error("no " + topic);
+  return *found;
+}
+
+bool has_note(const Assembled& of, const std::string& part) {
+  for (const std::string& note : of.notes)
+    if (note.find(part) != note.npos) return true;
+  return false;
+}
+
+// --- values ---
+
+TEST_F(AssembleTest, ValueIsScaleTimesNumberInItsUnitPlusOffset) {
+  Mapping m = angle_is("Winkel", "deg");
+  map_scale(m, "Winkel", -1);
+  map_offset(m, "Winkel", "90 deg");
+  const Assembled a = take({put("a.csv", "time [s],Winkel\n0,0\n0.01,30\n0.02,90\n")}, m);
+  const signals::Series& s = series(a, "/joint/elbow/angle");
+  ASSERT_EQ(s.time_ns.size(), 3u);
+  for (const auto& [i, degrees] : {std::pair{0, 90.0}, {1, 60.0}, {2, 0.0}})
+    EXPECT_NEAR(s.columns[0][static_cast<std::size_t>(i)], degrees * M_PI / 180, 1e-15);
+}
+
+TEST_F(AssembleTest, AGaugePressureBecomesAnAbsoluteOne) {
+  const Assembled a = take({put("a.csv", "time [s],flexor_pressure [bar gauge]\n0,0\n1,2\n")}, {},
+                           {.atmosphere = 1e5});
+  const signals::Series& s = series(a, "/muscle/flexor/pressure");
+  EXPECT_DOUBLE_EQ(s.columns[0][0], 1e5);
+  EXPECT_DOUBLE_EQ(s.columns[0][1], 3e5);
+}
+
+TEST_F(AssembleTest, AChannelsOwnNameAndUnitKeepEveryBit) {
+  const Assembled a = take({put("a.csv",
+                                "time [s],/joint/elbow/angle [rad],/foot/position.x [m],"
+                                "/foot/position.y [m],/muscle/flexor/pressure [Pa]\n"
+                                "0.0013,0.1,-0,1e-300,101325.00000000001\n"
+                                "0.0113,0.30000000000000004,,2,3\n")});
+  EXPECT_EQ(series(a, "/joint/elbow/angle").columns[0][1], 0.1 + 0.2);
+  EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns[0], 1'300'000);
+  const signals::Series& foot = series(a, "/foot/position");
+  ASSERT_EQ(foot.time_ns.size(), 2u);
+  EXPECT_TRUE(std::signbit(foot.columns[0][0]));
+  EXPECT_EQ(foot.columns[1][0], 1e-300);
+  EXPECT_TRUE(std::isnan(foot.columns[0][1]));
+  EXPECT_EQ(series(a, "/muscle/flexor/pressure").columns[0][0], 101325.00000000001);
+  EXPECT_TRUE(a.used.columns.size() == 4);
+}
+
+TEST_F(AssembleTest, ValvesHaveTheEdgesWhereTheyChange) {
+  const Assembled a = take({put("a.csv",
+                                "time [s],/valve/flexor/inlet/open [1]\n"
+                                "0,0\n0.01,1\n0.02,1\n0.03,0\n0.04,0\n")});
+  const signals::Series& s = series(a, "/valve/flexor/inlet/open");
+  ASSERT_EQ(s.time_ns.size(), 2u);
+  EXPECT_EQ(s.time_ns[0], 10'000'000);
+  EXPECT_EQ(s.columns[0][0], 1);
+  EXPECT_EQ(s.time_ns[1], 30'000'000);
+  EXPECT_EQ(s.columns[0][1], 0);
+}
+
+TEST_F(AssembleTest, WhatIsNoNumberIsLeftOutAndCounted) {
+  const Assembled a =
+      take({put("a.csv", "time [s],elbow_angle [rad]\n0,1\n0.01,\n0.02,NaN\n0.03,4\n")});
+  EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns.size(), 2u);
+  EXPECT_EQ(a.files[0].left_out, 2u);
+  EXPECT_TRUE(has_note(a, "2 of 4 values left out"));
+}
+
+// --- names ---
+
+TEST_F(AssembleTest, NamesThatSayTheChannelNeedNoMapping) {
+  for (const char* name : {"elbow_angle", "Elbow angle", "joint.elbow.angle", "/joint/elbow/angle",
+                           "angle", "log/elbow_angle"}) {
+    const Assembled a =
+        take({put("a.csv", "time [s]," + std::string(name) + " [deg]\n0,0\n0.01,180\n")});
+    EXPECT_DOUBLE_EQ(series(a, "/joint/elbow/angle").columns[0][1], M_PI) << name;
+  }
+  // The counts of a sensor of the same name say so by their unit.
+  const Assembled counts = take({put("a.csv", "time [s],elbow_angle [count]\n0,5\n0.01,6\n")});
+  EXPECT_EQ(series(counts, "/sensor/elbow_angle/count").columns[0][0], 5);
+  // Two pressures: which is meant?
+  EXPECT_NE(
+      error_of({put("a.csv", "time [s],pressure [kPa abs]\n0,1\n0.01,2\n")}).find("no column"),
+      std::string::npos);
+}
+
+TEST_F(AssembleTest, ColumnsWithoutAChannelAreToldOrKept) {
+  const std::string file =
+      put("a.csv", "time [s],elbow_angle [rad],Raum T [degC]\n0,1,20\n1,2,21\n");
+  EXPECT_TRUE(
+      has_note(take({file}), "1 column is not a channel of this machine, left out: Raum T"));
+  const Assembled all = take({file}, {.keep_others = true});
+  EXPECT_EQ(series(all, "/recorded/Raum_T").columns[0][1], 21);
+}
+
+// --- clocks ---
+
+TEST_F(AssembleTest, TimeBeginsAtTheFirstSampleUnlessItIsARuns) {
+  const Mapping m = angle_is("w", "rad");
+  EXPECT_EQ(series(take({put("a.csv", "time [s],w\n123.4,1\n123.41,2\n")}, m), "/joint/elbow/angle")
+                .time_ns[1],
+            10'000'000);
+  EXPECT_EQ(
+      series(take({put("a.csv", "time [s],w\n0.0013,1\n0.0113,2\n")}, m), "/joint/elbow/angle")
+          .time_ns[0],
+      1'300'000);
+  Mapping from = m;
+  from.clock.start = "123.405 s";
+  const Assembled later = take({put("a.csv", "time [s],w\n123.4,1\n123.41,2\n")}, from);
+  EXPECT_EQ(series(later, "/joint/elbow/angle").time_ns[0], 5'000'000);
+  EXPECT_EQ(later.files[0].left_out, 1u);
+}
+
+TEST_F(AssembleTest, AClockThatRunsFastIsScaled) {
+  Mapping m = angle_is("w", "rad");
+  m.clock.scale = 0.997;
+  const Assembled a = take({put("a.csv", "time [s],w\n0,1\n10,2\n20,3\n")}, m);
+  EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns[2], 19'940'000'000);
+}
+
+TEST_F(AssembleTest, TwoLoggersKeepTheirOwnTimes) {
+  const std::string fast = put("fast.csv", "time [s],elbow_angle [rad]\n0,1\n0.001,2\n0.002,3\n");
+  const std::string slow = put("slow.csv", "time [s],tension [N]\n0,5\n0.01,6\n");
+  const Assembled a = take({fast, slow}, {}, {.shifts = {{slow, "0.12 s"}}});
+  EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns.size(), 3u);
+  EXPECT_EQ(series(a, "/muscle/flexor/tension").time_ns[1], 130'000'000);
+}
+
+TEST_F(AssembleTest, ClocksOnTheWallLieBesideEachOther) {
+  const std::string a = put(
+      "a.csv", "time,elbow_angle [rad]\n2026-11-24T10:15:30.000,1\n2026-11-24T10:15:30.010,2\n");
+  const std::string b =
+      put("b.csv", "time,tension [N]\n2026-11-24T10:15:31.500,1\n2026-11-24T10:15:31.600,2\n");
+  const Assembled both = take({a, b});
+  EXPECT_EQ(series(both, "/joint/elbow/angle").time_ns[0], 0);
+  EXPECT_EQ(series(both, "/muscle/flexor/tension").time_ns[0], 1'500'000'000);
+  EXPECT_NE(both.started.find("2026-11-24T10:15:30"), std::string::npos) << both.started;
+}
+
+TEST_F(AssembleTest, RecordingsThatFollowEachOtherAreOne) {
+  const std::string a = put("a.csv", "time [s],elbow_angle [rad]\n0,1\n0.01,2\n");
+  const std::string b = put("b.csv", "time [s],elbow_angle [rad]\n7,3\n7.01,4\n");
+  const Assembled both = take({a, b}, {}, {.at_end = true});
+  const signals::Series& s = series(both, "/joint/elbow/angle");
+  ASSERT_EQ(s.time_ns.size(), 4u);
+  EXPECT_EQ(s.time_ns[2], 20'000'000);
+  EXPECT_EQ(s.columns[0][3], 4);
+  EXPECT_NE(error_of({a, b}).find("join=end"), std::string::npos);
+}
+
+TEST_F(AssembleTest, ARateStandsInPlaceOfAColumn) {
+  Mapping m = angle_is("w", "rad");
+  m.clock.rate = "200 Hz";
+  const Assembled a = take({put("a.csv", "w\n1\n2\n3\n")}, m);
+  EXPECT_EQ(series(a, "/joint/elbow/angle").time_ns[2], 10'000'000);
+}
+
+// --- what cannot be ---
+
+TEST_F(AssembleTest, SaysWhatIsWrongAndWhatToDo) {
+  const std::string file = put("a.csv", "time [s],Winkel [deg],F [N],p\n0,1,2,3\n0.01,2,3,4\n");
+  const auto wrong = [&](const Mapping& m, std::vector<std::string> parts,
+                         const Joining& joining = {}) {
+    const std::string text = error_of({file}, m, joining);
+    for (const std::string& part : parts)
+      EXPECT_NE(text.find(part), std::string::npos) << part << "\nin: " << text;
+  };
+  wrong(angle_is("Winkl"), {"no column \"Winkl\"", "Winkel, F, p", "try \"Winkel\""});
+  Mapping channel;
+  map_channel(channel, "/joint/elbwo/angle", "Winkel");
+  wrong(channel, {"/joint/elbwo/angle", "try \"/joint/elbow/angle\""});
+  wrong(angle_is("F"), {"the unit \"N\"", "rad", "/joint/elbow/angle"});
+  wrong(angle_is("p"), {"a column without a unit", "units.p="});
+  wrong(angle_is("Winkel", "dge"), {"the unit \"dge\"", "deg"});
+  Mapping offset = angle_is("Winkel");
+  map_offset(offset, "Winkel", "3 N");
+  wrong(offset, {"Winkel.offset", "3 N"});
+  wrong(angle_is("Winkel"), {"\"b.csv\"", "a.csv"}, {.shifts = {{"b.csv", "1 s"}}});
+  wrong({}, {"no column that is a channel", "Winkel, F, p"});
+
+  const std::string none = error_of({put("n.csv", "Winkel [deg]\n1\n2\n")}, angle_is("Winkel"));
+  EXPECT_NE(none.find("time"), std::string::npos) << none;
+  EXPECT_NE(error_of({file, file}, angle_is("Winkel")).find("a second time"), std::string::npos);
+  const std::string two = put("t.csv", "time [s],elbow_angle [deg],angle [deg]\n0,1,1\n0.01,2,2\n");
+  EXPECT_NE(error_of({two}).find("two columns for it: elbow_angle and angle"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sinew::recording

@@ -1,0 +1,236 @@
+#include "sinew/recording/mapping.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/config/compose.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+#include "sinew/config/reader.h"
+#include "sinew/recording/mapping.fields.h"
+
+namespace sinew::recording {
+
+Mapping load_mapping(const std::string& path) {
+  const config::Node root = config::compose(path);
+  if (config::format_kind(root) != "mapping")
+    config::fail({path, 0, 0}, "format", config::in_quotes(config::format_kind(root)),
+                 "\"sinew.mapping/1\"");
+  Mapping out;
+  config::Reader reader(root);
+  std::string format;
+  reader.text({.name = "format", .doc = "kind and version"}, format);
+  fields(reader, out);
+  reader.finish();
+  check_mapping(out, path);
+  return out;
+}
+
+void check_mapping(const Mapping& mapping, const std::string& file) {
+  std::vector<config::Problem> problems;
+  const auto wrong = [&](std::size_t i, const char* key, std::string found, std::string expected,
+                         std::string try_this = "") {
+    problems.push_back({{file, 0, 0},
+                        fmt::format("column[{}].{}", i, key),
+                        std::move(found),
+                        std::move(expected),
+                        std::move(try_this)});
+  };
+  for (std::size_t i = 0; i < mapping.columns.size(); ++i) {
+    const ColumnMapping& c = mapping.columns[i];
+    if (!c.channel.empty() && !c.channel.starts_with('/'))
+      wrong(i, "channel", config::in_quotes(c.channel), "a channel, which begins with /",
+            "\"/" + c.channel + "\"");
+    if (c.scale == 0 || !std::isfinite(c.scale))
+      wrong(i, "scale", config::format_number(c.scale), "a finite number that is not 0");
+    for (std::size_t k = 0; k < i; ++k)
+      if (mapping.columns[k].name == c.name)
+        wrong(i, "name", fmt::format("{} a second time", config::in_quotes(c.name)),
+              "one row for a column");
+    for (std::size_t k = 0; k < i; ++k)
+      if (!c.channel.empty() && mapping.columns[k].channel == c.channel)
+        wrong(i, "channel", fmt::format("{} a second time", c.channel),
+              fmt::format("one column for it: {} or {}", mapping.columns[k].name, c.name));
+  }
+  if (!mapping.clock.column.empty() && !mapping.clock.rate.empty())
+    problems.push_back(
+        {{file, 0, 0},
+         "clock.rate",
+         fmt::format("{} beside clock.column {}", config::in_quotes(mapping.clock.rate),
+                     config::in_quotes(mapping.clock.column)),
+         "one of the two: a column with times, or a rate",
+         ""});
+  if (!problems.empty()) throw config::Error(problems);
+}
+
+namespace {
+
+ColumnMapping& row_of(Mapping& mapping, const std::string& column) {
+  const auto row = std::ranges::find(mapping.columns, column, &ColumnMapping::name);
+  if (row != mapping.columns.end()) return *row;
+  return mapping.columns.emplace_back(ColumnMapping{.name = column});
+}
+
+template <class T>
+void take(T& first, const T& second) {
+  if (!(second == T{})) first = second;
+}
+
+void take_scale(double& first, double second) {
+  if (second != 1) first = second;
+}
+
+}  // namespace
+
+Mapping merged(Mapping first, const Mapping& second) {
+  take(first.table.encoding, second.table.encoding);
+  take(first.table.decimal, second.table.decimal);
+  take(first.table.thousands, second.table.thousands);
+  take(first.table.dates, second.table.dates);
+  take(first.table.spread_times, second.table.spread_times);
+  take(first.table.columns, second.table.columns);
+  // A rate stands in place of a column, and the other way round.
+  if (!second.clock.rate.empty()) first.clock.column.clear();
+  if (!second.clock.column.empty()) first.clock.rate.clear();
+  take(first.clock.column, second.clock.column);
+  take(first.clock.unit, second.clock.unit);
+  take(first.clock.rate, second.clock.rate);
+  take_scale(first.clock.scale, second.clock.scale);
+  take(first.clock.start, second.clock.start);
+  for (const WhereMapping& w : second.where) {
+    std::erase_if(first.where, [&](const WhereMapping& old) { return old.column == w.column; });
+    first.where.push_back(w);
+  }
+  for (const ColumnMapping& c : second.columns) {
+    if (!c.channel.empty())
+      std::erase_if(first.columns, [&](const ColumnMapping& old) {
+        return old.channel == c.channel && old.name != c.name;
+      });
+    ColumnMapping& row = row_of(first, c.name);
+    take(row.channel, c.channel);
+    take(row.unit, c.unit);
+    take_scale(row.scale, c.scale);
+    take(row.offset, c.offset);
+  }
+  first.keep_others = first.keep_others || second.keep_others;
+  return first;
+}
+
+void map_channel(Mapping& mapping, const std::string& channel, const std::string& column) {
+  std::string& its = row_of(mapping, column).channel;
+  if (!its.empty() && its != channel)
+    config::fail({}, "names", fmt::format("{} for {} and {}", column, its, channel),
+                 "one channel for a column");
+  its = channel;
+}
+
+void map_unit(Mapping& mapping, const std::string& column, const std::string& unit) {
+  row_of(mapping, column).unit = unit;
+}
+
+void map_scale(Mapping& mapping, const std::string& column, double scale) {
+  row_of(mapping, column).scale = scale;
+}
+
+void map_offset(Mapping& mapping, const std::string& column, const std::string& offset) {
+  row_of(mapping, column).offset = offset;
+}
+
+void map_where(Mapping& mapping, const std::string& column, const std::string& values) {
+  mapping.where.push_back({column, values});
+}
+
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (c == '\n') {
+      out += "\\n";
+      continue;
+    }
+    out += c;
+  }
+  return out + '"';
+}
+
+// Lines `key = "value"  # comment`, of those that say something.
+class Lines {
+ public:
+  void comment(const std::string& text) { out_ += "# " + text + "\n"; }
+  void head(const std::string& text) { out_ += "\n" + text + "\n"; }
+  void text(const char* key, const std::string& value, const char* what = "") {
+    if (!value.empty()) put(key, quoted(value), what);
+  }
+  void number(const char* key, double value, double unless, const char* what = "") {
+    if (value != unless) put(key, config::format_number(value), what);
+  }
+  void flag(const char* key, bool value, const char* what = "") {
+    if (value) put(key, "true", what);
+  }
+  void put(const char* key, const std::string& value, const char* what = "") {
+    out_ += fmt::format("{} = {}", key, value);
+    out_ += *what ? fmt::format("  # {}\n", what) : "\n";
+  }
+  std::string take() { return std::move(out_); }
+
+ private:
+  std::string out_;
+};
+
+void put_table(const TableSettings& t, Lines& out) {
+  if (t.encoding.empty() && t.decimal.empty() && t.thousands.empty() && t.dates.empty() &&
+      !t.spread_times && t.columns.empty())
+    return;
+  out.head("[table]  # how the file is written, where it does not show it");
+  out.text("encoding", t.encoding);
+  out.text("decimal", t.decimal);
+  out.text("thousands", t.thousands);
+  out.text("dates", t.dates);
+  out.flag("spread_times", t.spread_times);
+  std::string names;
+  for (const std::string& name : t.columns) names += (names.empty() ? "" : ", ") + quoted(name);
+  if (!names.empty()) out.put("columns", "[" + names + "]", "the file has no header");
+}
+
+void put_clock(const ClockMapping& c, Lines& out) {
+  if (c.column.empty() && c.unit.empty() && c.rate.empty() && c.scale == 1 && c.start.empty())
+    return;
+  out.head("[clock]");
+  out.text("column", c.column, "the times");
+  out.text("unit", c.unit);
+  out.text("rate", c.rate, "of the rows");
+  out.number("scale", c.scale, 1, "true seconds in a second of this clock");
+  out.text("start", c.start, "becomes the log's time 0");
+}
+
+}  // namespace
+
+std::string text_of(const Mapping& mapping) {
+  Lines out;
+  out.put("format", "\"sinew.mapping/1\"");
+  out.comment("What the columns of a recording mean: value = scale x number [unit] + offset.");
+  out.comment("`sinew keys --kind mapping` tells every key.");
+  if (mapping.keep_others) out.head("keep_others = true  # columns without a channel: /recorded/…");
+  put_table(mapping.table, out);
+  put_clock(mapping.clock, out);
+  for (const WhereMapping& w : mapping.where) {
+    out.head("[[where]]  # only rows in which this column has one of these values");
+    out.put("column", quoted(w.column));
+    out.put("values", quoted(w.values));
+  }
+  for (const ColumnMapping& c : mapping.columns) {
+    out.head("[[column]]");
+    out.put("name", quoted(c.name));
+    out.text("channel", c.channel);
+    out.text("unit", c.unit);
+    out.number("scale", c.scale, 1);
+    out.text("offset", c.offset);
+  }
+  return out.take();
+}
+
+}  // namespace sinew::recording

@@ -1,0 +1,141 @@
+#include "sinew/recording/read.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/log/mcap.h"
+#include "sinew/log/reader.h"
+#include "sinew/recording/matlab.h"
+#include "sinew/recording/raw_table.h"
+#include "sinew/recording/stamp.h"
+
+namespace sinew::recording {
+
+namespace {
+
+// A log's times count from the start of a run or, of most other programs, since 1970.
+constexpr std::int64_t since_1970 = 31'536'000'000'000'000;  // one year [ns]
+
+std::string first_bytes(const std::string& path) {
+  std::string bytes(64, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount(), 0)));
+  return bytes;
+}
+
+// The instant that a table says of its first row; nothing where it says no day.
+std::optional<std::int64_t> origin_of(const std::string& start) {
+  const std::optional<Stamp> stamp = stamp_in(start);
+  if (!stamp || !stamp->has_date || !stamp->has_time) return std::nullopt;
+  const std::optional<std::int64_t> days = days_of(*stamp, stamp->order);
+  if (!days) return std::nullopt;
+  constexpr std::int64_t day = 86'400'000'000'000;  // [ns]
+  return *days * day + stamp->time - stamp->offset;
+}
+
+Recorded read_text(const std::string& path, const Mapping& mapping) {
+  RawTable table = read_table(source_of(path, mapping));
+  if (table.time.empty())
+    config::fail({path, 0, 0}, "time", "no column of times",
+                 "one that is called time, t or Zeit, or dates",
+                 "clock.column=NAME, or clock.rate=\"100 Hz\"");
+  Recorded out{.file = path, .kind = "CSV", .started = table.start};
+  out.notes = std::move(table.notes);
+  Clock clock{.column = table.clock, .origin = origin_of(table.start)};
+  const double first = clock.origin ? 0 : table.first;
+  clock.time_ns.reserve(table.time.size());
+  for (const double t : table.time) clock.time_ns.push_back(std::llround(1e9 * (first + t)));
+  out.clocks.push_back(std::move(clock));
+  for (RawColumn& column : table.columns)
+    out.columns.push_back({.name = std::move(column.name),
+                           .unit = std::move(column.unit),
+                           .values = signals::Column(std::move(column.values))});
+  return out;
+}
+
+// Times since 1970 become those since the first message of all.
+void count_from_the_first(Recorded& log) {
+  std::optional<std::int64_t> first;
+  for (const Clock& clock : log.clocks)
+    if (!clock.time_ns.empty())
+      first = std::min(first.value_or(clock.time_ns.front()), clock.time_ns.front());
+  if (!first || *first < since_1970) return;
+  for (Clock& clock : log.clocks) {
+    signals::Times since(clock.time_ns.file());
+    for (const std::int64_t t : clock.time_ns) since.push_back(t - *first);
+    clock.time_ns = std::move(since);
+    clock.origin = *first;
+  }
+  log.started = iso_text(*first) + "Z";
+}
+
+Recorded read_mcap(const std::string& path) {
+  const signals::Table table = log::read(path);
+  Recorded out{.file = path, .kind = "MCAP", .complete = table.complete};
+  if (table.series.empty())
+    config::fail({path, 0, 0}, "", "a log without a topic of numbers in JSON",
+                 "topics with a JSON schema and messages in JSON",
+                 "the program that wrote it to export CSV");
+  if (!table.complete)
+    out.notes.push_back("it was cut off or is damaged; everything before is there");
+  for (const signals::Series& s : table.series) {
+    out.clocks.push_back({.column = s.topic.name, .time_ns = s.time_ns});
+    for (std::size_t f = 0; f < s.columns.size(); ++f) {
+      const signals::Field& field = s.topic.fields[f];
+      const bool whole = s.columns.size() == 1 && field.name == "value";
+      out.columns.push_back({.name = whole ? s.topic.name : s.topic.name + "." + field.name,
+                             .unit = field.unit,
+                             .clock = out.clocks.size() - 1,
+                             .values = s.columns[f]});
+    }
+  }
+  count_from_the_first(out);
+  return out;
+}
+
+// What only a table of text can be told.
+void refuse_table_settings(const std::string& path, const char* kind, const Mapping& mapping) {
+  if (!mapping.where.empty())
+    config::fail({path, 0, 0}, "where", fmt::format("rows of {}", kind),
+                 "a table of text, of which rows are chosen");
+}
+
+}  // namespace
+
+Source source_of(const std::string& path, const Mapping& mapping) {
+  Source out{.path = path};
+  out.columns = mapping.table.columns;
+  out.encoding = mapping.table.encoding;
+  out.decimal = mapping.table.decimal;
+  out.thousands = mapping.table.thousands;
+  out.dates = mapping.table.dates;
+  out.spread_times = mapping.table.spread_times;
+  out.rate = mapping.clock.rate;
+  if (!mapping.clock.column.empty()) {
+    out.names["time"] = mapping.clock.column;
+    if (!mapping.clock.unit.empty()) out.units[mapping.clock.column] = mapping.clock.unit;
+  }
+  for (const WhereMapping& w : mapping.where) out.where[w.column] = w.values;
+  return out;
+}
+
+Recorded read_recording(const std::string& path, const Mapping& mapping) {
+  const std::string bytes = first_bytes(path);
+  if (bytes.starts_with(log::kMagic)) {
+    refuse_table_settings(path, "an MCAP log", mapping);
+    return read_mcap(path);
+  }
+  if (is_matlab(bytes) || std::filesystem::path(path).extension() == ".mat") {
+    refuse_table_settings(path, "a MAT file", mapping);
+    return read_matlab(path, {mapping.clock.column, mapping.clock.unit, mapping.clock.rate});
+  }
+  return read_text(path, mapping);
+}
+
+}  // namespace sinew::recording

@@ -1,0 +1,169 @@
+#include "sinew/recording/read.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "sinew/log/csv.h"
+#include "sinew/log/mcap.h"
+#include "sinew/log/writer.h"
+#include "sinew/recording/assemble.h"
+
+namespace sinew::recording {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ReadTest : public ::testing::Test {
+ protected:
+  ReadTest() {
+    std::string name = (fs::temp_directory_path() / "sinew-read-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~ReadTest() override { fs::remove_all(folder_); }
+
+  std::string put(const std::string& name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+    return (folder_ / name).string();
+  }
+  std::string error_of(const std::string& path, const Mapping& mapping = {}) const {
+    try {
+      (void)read_recording(path, mapping);
+    } catch (const std::exception& e) {
+      return e.what();
+    }
+    return "no error";
+  }
+
+  fs::path folder_;
+};
+
+// A log as another program writes it: objects within objects, times since 1970.
+std::string foreign_log(std::int64_t start) {
+  log::Bytes out;
+  out.raw(log::kMagic);
+  log::put_header(out, "another program");
+  log::put_schema(out, {1, "Joint", "jsonschema",
+                        R"({"type": "object", "properties": {
+                          "timestamp": {"type": "object", "properties":
+                            {"sec": {"type": "integer"}, "nsec": {"type": "integer"}}},
+                          "frame": {"type": "string"},
+                          "state": {"type": "object", "properties":
+                            {"angle": {"type": "number", "unit": "deg"},
+                             "moving": {"type": "boolean"}}}}})"});
+  log::put_channel(out, {7, 1, "/elbow", "json"});
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t message =
+        log::open_message(out, 7, 0, static_cast<std::uint64_t>(start) + 10'000'000ull * i);
+    out.raw(R"({"timestamp": {"sec": 1, "nsec": 2}, "frame": "a", "state": {"moving": true, )");
+    out.raw("\"angle\": " + std::to_string(30 * i) + "}}");
+    out.close(message);
+  }
+  log::put_data_end(out, 0);
+  log::put_footer(out, 0, 0, 0);
+  return out.data();
+}
+
+TEST_F(ReadTest, ALogOfAnotherProgramCountsFromItsFirstMessage) {
+  const std::int64_t start = 1'795'946'400'123'456'789;
+  const Recorded r = read_recording(put("a.mcap", foreign_log(start)), {});
+  EXPECT_EQ(r.kind, "MCAP");
+  ASSERT_EQ(r.columns.size(), 2u);
+  EXPECT_EQ(r.columns[0].name, "/elbow.state.angle");
+  EXPECT_EQ(r.columns[0].unit, "deg");
+  EXPECT_EQ(r.columns[0].values.in_memory(), (std::vector<double>{0, 30, 60}));
+  EXPECT_EQ(r.columns[1].values.in_memory(), (std::vector<double>{1, 1, 1}));
+  EXPECT_EQ(r.clocks[0].time_ns.in_memory(),
+            (std::vector<std::int64_t>{0, 10'000'000, 20'000'000}));
+  EXPECT_EQ(r.clocks[0].origin, start);
+  EXPECT_EQ(r.started.substr(0, 10), "2026-11-29") << r.started;
+  EXPECT_TRUE(r.find("state.angle") == &r.columns[0] || r.find("angle") == &r.columns[0]);
+}
+
+TEST_F(ReadTest, ALogThatIsCompressedSaysWhatToDo) {
+  log::Bytes out;
+  out.raw(log::kMagic);
+  log::put_header(out, "");
+  const std::size_t chunk = out.open(log::Op::chunk);
+  out.u64(0), out.u64(0), out.u64(3), out.u32(0);
+  out.text("zstd");
+  out.u64(3);
+  out.raw("abc");
+  out.close(chunk);
+  const std::string text = error_of(put("a.mcap", out.data()));
+  EXPECT_NE(text.find("compressed with zstd"), std::string::npos) << text;
+  EXPECT_NE(text.find("mcap decompress"), std::string::npos) << text;
+}
+
+TEST_F(ReadTest, WhatNoRecordingIsIsNamed) {
+  EXPECT_NE(error_of((folder_ / "no.csv").string()).find("no.csv"), std::string::npos);
+  EXPECT_NE(error_of(folder_.string()), "no error");
+  EXPECT_NE(error_of(put("empty.csv", "")), "no error");
+  EXPECT_NE(error_of(put("b.xlsx", std::string("PK\x03\x04", 4) + "[Content_Types].xml")),
+            "no error");
+  Mapping where;
+  map_where(where, "a", "1");
+  EXPECT_NE(error_of(put("a.mcap", foreign_log(0)), where).find("where"), std::string::npos);
+}
+
+// --- our own export ---
+
+signals::Table some_run() {
+  signals::Table table;
+  const auto add = [&](const char* topic, std::vector<signals::Field> fields,
+                       std::vector<std::vector<double>> columns, std::vector<std::int64_t> times) {
+    signals::Series& s = table.series.emplace_back();
+    s.topic = {topic, "", std::move(fields)};
+    s.time_ns = signals::Times(std::move(times));
+    for (auto& column : columns) s.columns.emplace_back(std::move(column));
+  };
+  const double nan = std::nan("");
+  add("/joint/elbow/angle", {{"value", "rad"}}, {{0.1, 0.2, 0.30000000000000004}},
+      {1'300'000, 11'300'000, 21'300'000});
+  add("/desired/foot/position", {{"x", "m"}, {"y", "m"}}, {{1e-300, nan, -0.0}, {2, nan, 3}},
+      {1'300'000, 11'300'000, 21'300'000});
+  add("/muscle/flexor/pressure", {{"value", "Pa"}}, {{101325.00000000001}}, {11'300'000});
+  add("/valve/flexor/inlet/open", {{"value", "1"}}, {{1, 0}}, {11'300'000, 21'300'000});
+  return table;
+}
+
+std::string csv_of(const signals::Table& table) {
+  std::ostringstream out;
+  log::write_csv(table, out);
+  return out.str();
+}
+
+TEST_F(ReadTest, OurOwnExportComesBackWithTheSameDigits) {
+  const signals::Table table = some_run();
+  std::vector<signals::Topic> topics;
+  for (const signals::Series& s : table.series) topics.push_back(s.topic);
+  const std::string csv = csv_of(table);
+  const Assembled back = assemble({read_recording(put("run.csv", csv), {})}, {}, topics);
+  EXPECT_EQ(csv_of(back.table), csv);
+}
+
+TEST_F(ReadTest, OurOwnLogComesBackBitForBit) {
+  const signals::Table table = some_run();
+  std::vector<signals::Topic> topics;
+  for (const signals::Series& s : table.series) topics.push_back(s.topic);
+  const std::string file = (folder_ / "log.mcap").string();
+  {
+    log::Writer log(file, topics);
+    for (std::size_t t = 0; t < topics.size(); ++t)
+      for (std::size_t i = 0; i < table.series[t].time_ns.size(); ++i) {
+        std::vector<double> values;
+        for (const signals::Column& column : table.series[t].columns) values.push_back(column[i]);
+        ASSERT_TRUE(log.push(static_cast<std::uint16_t>(t), table.series[t].time_ns[i], values));
+      }
+    log.finish();
+  }
+  const Assembled back = assemble({read_recording(file, {})}, {}, topics);
+  EXPECT_EQ(csv_of(back.table), csv_of(table));
+}
+
+}  // namespace
+}  // namespace sinew::recording
