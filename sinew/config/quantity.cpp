@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/spelling.h"
 #include "sinew/units/unit.h"
 
 namespace sinew::config {
@@ -161,16 +162,24 @@ std::string comma_hint(std::string_view text, std::string_view rest) {
   return fmt::format("{}; or \"{}\", if it parts the thousands", point, without);
 }
 
-std::string unknown_unit_hint(std::string_view piece) {
+// "psi gauge" for "psig": a unit that is one in other people's spelling.
+std::string spelling_hint(const FullUnit& found) {
+  const std::vector<Spelling> meant = spellings(found.text);
+  if (meant.empty()) return {};
+  const auto& [unit, factor] = meant.front();
+  constexpr std::string_view references[] = {"", " abs", " gauge", " diff"};
+  const std::string_view reference = references[static_cast<std::size_t>(found.reference)];
+  const std::string whole = unit + std::string(reference);
+  if (factor == 1) return fmt::format("\"{}\"", whole);
+  return fmt::format("\"{}\": 1 {} is {:.10g} {}", whole, found.text, factor, unit);
+}
+
+std::string unknown_unit_hint(std::string_view piece, const FullUnit& found) {
+  if (std::string spelling = spelling_hint(found); !spelling.empty()) return spelling;
   std::vector<std::string_view> names{"gauge", "abs", "diff"};
   for (const auto& unit : units::known_units) names.push_back(unit.name);
-  if (piece == "psig" || piece == "barg")
-    return fmt::format("\"{} gauge\"", piece.substr(0, piece.size() - 1));
-  if (piece == "psia" || piece == "bara")
-    return fmt::format("\"{} abs\"", piece.substr(0, piece.size() - 1));
   const std::string_view near = closest(piece, names);
   if (!near.empty()) return fmt::format("\"{}\"", near);
-  if (piece == "inch" || piece == "inches" || piece == "\"") return "\"in\"";
   if (piece == "lbs" || piece == "pound" || piece == "pounds") {
     return "\"lb\" for mass, \"lbf\" for force";
   }
@@ -183,7 +192,7 @@ std::optional<Mistake> check_unit(std::string_view text, const FullUnit& found,
     const auto piece = found.reading.trouble;
     return Mistake{fmt::format("{} with the unknown unit {}", in_quotes(text),
                                in_quotes(piece.empty() ? found.text : piece)),
-                   describe_unit(unit), unknown_unit_hint(piece)};
+                   describe_unit(unit), unknown_unit_hint(piece, found)};
   }
   const Dimension has = found.reading.unit.dimension;
   const Dimension needs = wanted.reading.unit.dimension;

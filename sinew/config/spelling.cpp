@@ -247,7 +247,7 @@ constexpr Word known_words[] = {{"sec", "s"},
                                 {"poundforce", "lbf"}};
 
 // Endings that say against what a pressure is measured.
-constexpr std::pair<std::string_view, std::string_view> references[] = {
+constexpr std::pair<std::string_view, std::string_view> reference_words[] = {
     {" gauge", "gauge"}, {" abs", "abs"},      {" diff", "diff"},   {"(g)", "gauge"},
     {"(a)", "abs"},      {"(d)", "diff"},      {" g", "gauge"},     {" a", "abs"},
     {" rel", "gauge"},   {"(rel)", "gauge"},   {" rel.", "gauge"},  {"(abs)", "abs"},
@@ -333,10 +333,9 @@ std::vector<Spelling> spellings(std::string_view unit) {
   while (text.size() > 2 && text.front() == '[' && text.back() == ']')
     text = without_blanks(text.substr(1, text.size() - 2));
   if (text.empty()) return {};
-  if (auto out = bare_spellings(text); !out.empty()) return out;
 
-  // A pressure with its reference: "psig", "MPa(g)", "bar abs".
-  for (const auto& [ending, reference] : references) {
+  // A pressure with its reference: "psig", "bar abs", and "bar g", which is no bar times a gram.
+  for (const auto& [ending, reference] : reference_words) {
     const std::string small = lower(text);
     if (!small.ends_with(ending) || small.size() == ending.size()) continue;
     const std::string_view bare = without_blanks(text.substr(0, text.size() - ending.size()));
@@ -345,7 +344,7 @@ std::vector<Spelling> spellings(std::string_view unit) {
     out.front().unit += " " + std::string(reference);
     return out;
   }
-  return {};
+  return bare_spellings(text);
 }
 
 }  // namespace sinew::config
