@@ -176,13 +176,13 @@ std::string spelling_hint(const FullUnit& found) {
 
 std::string unknown_unit_hint(std::string_view piece, const FullUnit& found) {
   if (std::string spelling = spelling_hint(found); !spelling.empty()) return spelling;
+  if (piece == "lbs" || piece == "pound" || piece == "pounds") {
+    return "\"lb\" for mass, \"lbf\" for force";
+  }
   std::vector<std::string_view> names{"gauge", "abs", "diff"};
   for (const auto& unit : units::known_units) names.push_back(unit.name);
   const std::string_view near = closest(piece, names);
   if (!near.empty()) return fmt::format("\"{}\"", near);
-  if (piece == "lbs" || piece == "pound" || piece == "pounds") {
-    return "\"lb\" for mass, \"lbf\" for force";
-  }
   return "spaces between units, digits for powers, at most one \"/\": \"lbf in/rad\", \"1/psi2\"";
 }
 

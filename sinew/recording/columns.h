@@ -15,7 +15,7 @@
 namespace sinew::recording {
 
 // Numbers of a file's unit to SI: a pressure may have an offset.
-struct Conversion {
+struct ToSi {
   double slope = 1, offset = 0;
   double operator()(double number) const { return offset + slope * number; }
   double back(double si) const { return (si - offset) / slope; }
@@ -26,7 +26,7 @@ struct Found {
   const Wanted* wanted = nullptr;
   std::size_t index = 0;  // of the file's column; of the first one where there are several
   bool is_at = false;     // it is the condition of the columns with an @
-  Conversion conversion;
+  ToSi conversion;
   std::string unit;   // of the file, as it writes it
   std::string shown;  // the same as Sinew writes it; empty where Sinew has no such unit
 };

@@ -16,7 +16,7 @@ bool split_at(std::string_view mark, std::string_view text, Heading& h) {
   const std::size_t at = text.rfind(mark);
   if (at == text.npos || at == 0) return false;
   const std::string_view name = trimmed(text.substr(0, at));
-  const std::string_view unit = trimmed(text.substr(at + mark.size()));
+  const std::string_view unit = without_brackets(text.substr(at + mark.size()));
   // "m/s" as a column's name is one.
   if (name.empty() || config::spellings(unit).empty()) return false;
   if (mark == "/" && !config::spellings(name).empty() && !config::spellings(text).empty())
@@ -84,8 +84,11 @@ Heading heading_of(const Cell& cell) {
     if (equals != condition.npos) h.at_value = trimmed(condition.substr(equals + 1));
     text = trimmed(text.substr(0, at));
   }
-  if (split_at_brackets(text, '[', ']', h) || split_at_brackets(text, '(', ')', h)) return h;
-  if (split_at(" in ", text, h) || split_at("/", text, h) || split_at(", ", text, h)) return h;
+  // The stroke before the bracket: "p / bar(g)".
+  const bool split = split_at_brackets(text, '[', ']', h) || split_at(" in ", text, h) ||
+                     split_at("/", text, h) || split_at_brackets(text, '(', ')', h) ||
+                     split_at(", ", text, h);
+  if (split) return h;
   h.name = text;
   return h;
 }

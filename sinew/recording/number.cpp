@@ -51,10 +51,9 @@ std::string with_ascii(std::string_view text, bool without_blanks) {
 
 // Takes the marks out of "1.234.567" if each stands before three digits and none comes first.
 std::optional<std::string> joined_thousands(std::string_view whole, char mark) {
-  std::string out;
-  std::size_t since = 0, groups = 0;
-  std::size_t at = !whole.empty() && (whole[0] == '-' || whole[0] == '+') ? 1 : 0;
-  out = whole.substr(0, at);
+  const bool sign = !whole.empty() && (whole[0] == '-' || whole[0] == '+');
+  std::size_t at = sign ? 1 : 0, since = 0, groups = 0;
+  std::string out(whole.substr(0, at));
   for (; at < whole.size(); ++at) {
     if (whole[at] == mark) {
       if (since == 0 || since > 3 || (groups > 0 && since != 3)) return std::nullopt;
@@ -75,7 +74,8 @@ std::optional<double> parted_number(std::string_view text, NumberStyle style) {
   const std::size_t mark = std::min(text.substr(0, end).find(style.decimal), end);
   const auto whole = joined_thousands(text.substr(0, mark), style.thousands);
   if (!whole) return std::nullopt;
-  std::string plain = *whole + std::string(text.substr(mark));
+  std::string plain = *whole;
+  plain.append(text.substr(mark));
   if (mark < end) plain[whole->size()] = '.';
   return plain_number(plain);
 }
@@ -96,6 +96,12 @@ constexpr std::string_view missing_words[] = {
     "#wert!",  "#div/0!", "#ref!",     "#bezug!",  "1.#qnan", "-1.#ind", "1.#inf", "-1.#inf",
     "1,#qnan", "-1,#ind", "1,#inf",    "?",        "n.a.",    "k.a.",    "\u221E", "-infinity",
     "nil",     "missing", "-nan(ind)", "\u2013",   "\u2014"};
+
+std::string with_mark(std::string_view text, std::size_t at, char mark) {
+  std::string out(text);
+  out[at] = mark;
+  return out;
+}
 
 // Digits before and behind the only comma or point.
 bool can_part_thousands(std::string_view text, std::size_t mark) {
@@ -161,20 +167,19 @@ std::string hint_for(std::string_view text, NumberStyle style) {
   const Marks marks = marks_in(text);
   const std::size_t point = text.find('.');
   if (style.decimal == ',' && point != text.npos && number_in(text))
-    return can_part_thousands(text, point) ? std::string("thousands=. if the point parts thousands")
-                                           : fmt::format("a decimal comma, as in other rows: {}",
-                                                         std::string(text).replace(point, 1, ","));
+    return can_part_thousands(text, point)
+               ? std::string("thousands=. if the point parts thousands")
+               : fmt::format("a decimal comma, as in other rows: {}", with_mark(text, point, ','));
   if (marks.either)
     return fmt::format("thousands=, if the comma parts thousands, or a decimal point: {}",
-                       std::string(text).replace(text.find(','), 1, "."));
+                       with_mark(text, text.find(','), '.'));
   if (marks.number && marks.thousands) {
     for (const char mark : {'.', ',', '\''})
       if (const char other = mark == '.' ? ',' : '.'; number_in(text, {other, mark}))
         return fmt::format("thousands={}, which parts them here", mark);
     return "thousands=\" \", which parts them here";
   }
-  if (marks.comma)
-    return fmt::format("a decimal point: {}", std::string(text).replace(text.find(','), 1, "."));
+  if (marks.comma) return fmt::format("a decimal point: {}", with_mark(text, text.find(','), '.'));
   const std::size_t blank = text.find_first_not_of("0123456789.,+-eE");
   if (blank != text.npos && blank > 0 && !config::spellings(text.substr(blank)).empty())
     return "the unit in the header alone, as in `force [N]`";

@@ -8,8 +8,9 @@ namespace sinew::recording {
 
 namespace {
 
-constexpr std::int64_t second = 1'000'000'000, minute = 60 * second, hour = 60 * minute;  // [ns]
-constexpr std::int64_t day = 24 * hour;
+constexpr std::int64_t in_second = 1'000'000'000;  // [ns]
+constexpr std::int64_t in_minute = 60 * in_second, in_hour = 60 * in_minute;
+constexpr std::int64_t in_day = 24 * in_hour;
 
 bool is_figure(char c) { return c >= '0' && c <= '9'; }
 
@@ -80,11 +81,11 @@ class StampReader {
     while (take(' ')) {}
   }
 
-  // Of a second, to the nanosecond; digits beyond it are left out.
+  // Reads a part of a second, to the nanosecond; digits beyond it are left out.
   std::int64_t fraction() {
     if (peek() != '.' && peek() != ',') return 0;
     ++at_;
-    std::int64_t value = 0, scale = second;
+    std::int64_t value = 0, scale = in_second;
     while (is_figure(peek())) {
       if (scale > 1) {
         value = 10 * value + (peek() - '0');
@@ -103,13 +104,13 @@ class StampReader {
     if (take(':')) {
       const int c = number(2, 2);
       if (c < 0 || c > 60) return false;
-      out.time = a * hour + b * minute + c * second + fraction();
+      out.time = a * in_hour + b * in_minute + c * in_second + fraction();
     } else if (peek() == '.' || peek() == ',') {
-      out.time = a * minute + b * second + fraction();  // "05:30.5", as Excel shows it
+      out.time = a * in_minute + b * in_second + fraction();  // "05:30.5", as Excel shows it
     } else {
-      out.time = a * hour + b * minute;
+      out.time = a * in_hour + b * in_minute;
     }
-    return half_of_day(out) && zone(out) && (!out.has_date || out.time <= day);
+    return half_of_day(out) && zone(out) && (!out.has_date || out.time <= in_day);
   }
 
   bool half_of_day(Stamp& out) {
@@ -122,10 +123,10 @@ class StampReader {
       return true;
     }
     at_ += 2;
-    const std::int64_t hours = out.time / hour;
+    const std::int64_t hours = out.time / in_hour;
     if (hours < 1 || hours > 12) return false;
-    if (hours == 12) out.time -= 12 * hour;
-    if (evening) out.time += 12 * hour;
+    if (hours == 12) out.time -= 12 * in_hour;
+    if (evening) out.time += 12 * in_hour;
     return true;
   }
 
@@ -147,7 +148,7 @@ class StampReader {
       if (more < 0) return false;
       minutes += more;
     }
-    out.offset = (sign == '-' ? -1 : 1) * minutes * minute;
+    out.offset = (sign == '-' ? -1 : 1) * minutes * in_minute;
     return true;
   }
 
@@ -176,9 +177,9 @@ std::optional<std::int64_t> days_of(const Stamp& stamp, DateOrder order) {
 }
 
 std::string iso_text(std::int64_t nanoseconds) {
-  std::int64_t days = nanoseconds / day, rest = nanoseconds % day;
+  std::int64_t days = nanoseconds / in_day, rest = nanoseconds % in_day;
   if (rest < 0) {
-    rest += day;
+    rest += in_day;
     --days;
   }
   const std::chrono::year_month_day date{
@@ -186,9 +187,9 @@ std::string iso_text(std::int64_t nanoseconds) {
   std::string out =
       fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}", static_cast<int>(date.year()),
                   static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
-                  rest / hour, rest / minute % 60, rest / second % 60);
-  if (rest % second == 0) return out;
-  std::string fraction = fmt::format("{:09}", rest % second);
+                  rest / in_hour, rest / in_minute % 60, rest / in_second % 60);
+  if (rest % in_second == 0) return out;
+  std::string fraction = fmt::format("{:09}", rest % in_second);
   fraction.erase(fraction.find_last_not_of('0') + 1);
   return out + "." + fraction;
 }
