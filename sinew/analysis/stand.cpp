@@ -19,15 +19,33 @@ using signals::Column;
 
 constexpr double seconds_per_ns = 1e-9;
 
+// What a simulation knows, "/true/stand/length", or else what instruments have measured,
+// "/stand/length".
+const signals::Series* known(const signals::Table& table, const std::string& topic) {
+  const signals::Series* series = table.find("/true" + topic);
+  if (!series) series = table.find(topic);
+  return series && !series->time_ns.empty() ? series : nullptr;
+}
+
 struct Log {
   const signals::Table& table;
   const StandFile& file;
   Summary& summary;
+  const signals::Times& time_ns;
   Column time;  // [s]
 
   const Column* find(const std::string& topic) const { return table.column(topic); }
+
+  // Values at `time`; nothing of what was recorded at other times.
+  const Column* of_stand(const std::string& what) const { return at_time("/stand/" + what); }
   const Column* muscle(const std::string& what) const {
-    return find("/true/muscle/" + file.element + "/" + what);
+    return at_time("/muscle/" + file.element + "/" + what);
+  }
+
+ private:
+  const Column* at_time(const std::string& topic) const {
+    const signals::Series* series = known(table, topic);
+    return series && series->time_ns == time_ns ? &series->columns[0] : nullptr;
   }
 };
 
@@ -40,13 +58,13 @@ void add_extremes(Log& log, const Column* values, const std::string& key) {
 
 void add_stand(Log& log) {
   log.summary.add("duration_s", log.time.back());
-  const Column* length = log.find("/true/stand/length");
+  const Column* length = log.of_stand("length");
   if (length && !length->empty()) {
     log.summary.add("stand.start_length_m", length->front());
     log.summary.add("stand.final_length_m", length->back());
   }
   add_extremes(log, length, "length_m");
-  add_extremes(log, log.find("/true/stand/force"), "force_N");
+  add_extremes(log, log.of_stand("force"), "force_N");
   add_extremes(log, log.muscle("pressure"), "pressure_Pa");
   if (const Column* in = log.muscle("air_in"); in && !in->empty())
     log.summary.add("stand.air_used_kg", in->back());
@@ -80,16 +98,16 @@ void add_damping(Log& log, const std::vector<Turn>& turns, double rest, double p
   log.summary.add("swing.damping_ratio", std::log(x1 / (x1 - dx1)) / (2 * std::numbers::pi));
   const double b = 1 - (dx1 - dx3) / (x1 - x3);
   log.summary.add("swing.coulomb_length_m", (dx1 - x1 * (1 - b)) / 4);
-  const Column* mass = log.find("/true/stand/mass");
+  const Column* mass = log.of_stand("mass");
   if (mass && !mass->empty())
     log.summary.add("swing.viscous_N_s_per_m", 2 * mass->front() / period * std::log(1 / b));
 }
 
 // A load that was let go at rest and swings down to rest.
 void add_swing(Log& log) {
-  const Column* length = log.find("/true/stand/length");
-  const Column* speed = log.find("/true/stand/velocity");
-  const Column* mass = log.find("/true/stand/mass");
+  const Column* length = log.of_stand("length");
+  const Column* speed = log.of_stand("velocity");
+  const Column* mass = log.of_stand("mass");
   if (log.file.drive != "none" || !mass || !length || !speed || length->empty()) return;
   if (mass->front() != mass->back() || speed->front() != 0) return;
   std::vector<Turn> turns{{0, length->front()}};
@@ -149,13 +167,13 @@ void add_pulsed(Log& log) {
   if (!pulses(log.file.drive) || log.time.back() < 5 * log.file.period || log.time.size() < 2)
     return;
   const Window w = last_periods(log);
-  add_ripple(log, w, log.find("/true/stand/length"), "length_m", "length_ripple_m");
+  add_ripple(log, w, log.of_stand("length"), "length_m", "length_ripple_m");
   add_ripple(log, w, log.muscle("pressure"), "pressure_Pa", "pressure_ripple_diff_Pa");
-  add_ripple(log, w, log.find("/true/stand/force"), "force_N", "force_ripple_N");
+  add_ripple(log, w, log.of_stand("force"), "force_N", "force_ripple_N");
 }
 
 void add_track(Log& log) {
-  const Column* length = log.find("/true/stand/length");
+  const Column* length = log.of_stand("length");
   const Column* desired = log.find("/desired/length");
   if (!length || !desired || length->empty() || desired->size() != length->size()) return;
   double square = 0;
@@ -212,10 +230,12 @@ Summary summarize(const signals::Table& table, const StandFile& file) {
   summary.reproduces = file.reproduces;
   summary.faults = file.faults;
   add_sweep(table, summary);
-  const signals::Series* rows = table.find("/true/stand/length");
+  const signals::Series* rows = known(table, "/stand/length");
+  if (!rows) rows = known(table, "/stand/force");
+  if (!rows) rows = known(table, "/muscle/" + file.element + "/pressure");
   summary.warnings = texts(warnings(table, summary));
-  if (!rows || rows->time_ns.empty()) return summary;
-  Log log{table, file, summary, Column(rows->time_ns.file())};
+  if (!rows) return summary;
+  Log log{table, file, summary, rows->time_ns, Column(rows->time_ns.file())};
   for (const std::int64_t ns : rows->time_ns)
     log.time.push_back(seconds_per_ns * static_cast<double>(ns));
   summary.faults = begun_by(file.faults, log.time.back());

@@ -44,16 +44,19 @@ std::string joined(std::span<const std::string> parts) {
   return out;
 }
 
-bool has_unit(std::string_view unit, const std::string& channel_unit) {
+bool has_unit(std::string_view unit, const signals::Topic& topic, std::size_t field) {
+  const std::string& channel_unit = topic.fields[field].unit;
   if (unit == channel_unit) return true;
   if (unit.empty()) return channel_unit == "1" || channel_unit == "count";
-  return !config::parse_quantity("1 " + std::string(unit), quantity_unit(channel_unit)).mistake;
+  return !config::parse_quantity("1 " + std::string(unit), quantity_unit(topic, field)).mistake;
 }
 
 }  // namespace
 
-std::string quantity_unit(const std::string& channel_unit) {
-  return channel_unit == "Pa" ? "Pa abs" : channel_unit;
+std::string quantity_unit(const signals::Topic& topic, std::size_t field) {
+  const std::string& unit = topic.fields[field].unit;
+  if (unit != "Pa") return unit;
+  return topic.name.starts_with("/sensor/") ? "Pa gauge" : "Pa abs";
 }
 
 ChannelNames::ChannelNames(std::span<const signals::Topic> topics) : topics_(topics) {
@@ -106,7 +109,7 @@ std::optional<Target> ChannelNames::obvious(std::string_view name, std::string_v
     bool several = false;
     for (const Alias& alias : aliases_) {
       if (alias.words != asked || (alias.counts_only && unit != "count")) continue;
-      if (!has_unit(unit, unit_of(alias.target))) continue;
+      if (!has_unit(unit, topics_[alias.target.topic], alias.target.field)) continue;
       several = several || (found && *found != alias.target);
       found = alias.target;
     }
@@ -119,10 +122,6 @@ std::optional<Target> ChannelNames::obvious(std::string_view name, std::string_v
 std::string ChannelNames::name_of(Target target) const {
   const signals::Topic& topic = topics_[target.topic];
   return topic.fields.size() > 1 ? topic.name + "." + topic.fields[target.field].name : topic.name;
-}
-
-const std::string& ChannelNames::unit_of(Target target) const {
-  return topics_[target.topic].fields[target.field].unit;
 }
 
 }  // namespace sinew::recording

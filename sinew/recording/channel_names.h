@@ -32,9 +32,8 @@ class ChannelNames {
   // named in full.
   std::optional<Target> obvious(std::string_view name, std::string_view unit) const;
 
-  // The name of a channel, its unit, and all names, for messages.
+  // The name of a channel, and all names, for messages.
   std::string name_of(Target target) const;
-  const std::string& unit_of(Target target) const;
   const std::vector<std::string>& all() const { return names_; }
 
  private:
@@ -51,7 +50,8 @@ class ChannelNames {
   std::vector<Alias> aliases_;
 };
 
-// The dimension of a channel's unit as quantities name it: a log's Pa is absolute.
-std::string quantity_unit(const std::string& channel_unit);
+// The unit of a channel as quantities name it: a log's Pa is absolute, but for what a test stand's
+// transducers say by their own scales, which is gauge.
+std::string quantity_unit(const signals::Topic& topic, std::size_t field);
 
 }  // namespace sinew::recording

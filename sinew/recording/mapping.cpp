@@ -119,6 +119,10 @@ Mapping merged(Mapping first, const Mapping& second) {
 }
 
 void map_channel(Mapping& mapping, const std::string& channel, const std::string& column) {
+  if (channel == "time") {
+    mapping.clock.column = column;
+    return;
+  }
   std::string& its = row_of(mapping, column).channel;
   if (!its.empty() && its != channel)
     config::fail({}, "names", fmt::format("{} for {} and {}", column, its, channel),

@@ -70,7 +70,8 @@ std::string text_of(const Mapping& mapping);
 // Returns `first` with what `second` says besides and in its place: its words are the later ones.
 Mapping merged(Mapping first, const Mapping& second);
 
-// Say one thing of a column or a channel; what was said of it before stands otherwise.
+// Say one thing of a column or a channel; what was said of it before stands otherwise. The channel
+// `time` is the clock.
 void map_channel(Mapping& mapping, const std::string& channel, const std::string& column);
 void map_unit(Mapping& mapping, const std::string& column, const std::string& unit);
 void map_scale(Mapping& mapping, const std::string& column, double scale);

@@ -82,8 +82,9 @@ class Matcher {
   void check_columns() {
     const std::vector<std::string> all = all_columns();
     for (const ColumnMapping& c : mapping_.columns) {
-      const bool there = std::ranges::any_of(
-          files_, [&](const Recorded& file) { return file.find(c.name) != nullptr; });
+      const bool there = std::ranges::any_of(files_, [&](const Recorded& file) {
+        return file.find(c.name) || std::ranges::count(file.clocks, c.name, &Clock::column) > 0;
+      });
       if (!there)
         problem(files_.size() == 1 ? files_.front().file : "", "column",
                 fmt::format("no column {} among {}", config::in_quotes(c.name), listed(all)),
@@ -183,19 +184,20 @@ class Matcher {
     return topic.fields.size() > 1 ? topic.name + "." + topic.fields[t.field].name : topic.name;
   }
 
-  Conversion conversion(const Recorded& file, const RecordedColumn& column,
-                        const ColumnMapping& use, const std::string& unit, Target target) {
+  Scaling conversion(const Recorded& file, const RecordedColumn& column, const ColumnMapping& use,
+                     const std::string& unit, Target target) {
     const std::string& wanted = out_.topics[target.topic].fields[target.field].unit;
     const bool raw = out_.topics[target.topic].name.starts_with("/recorded/");
     const bool bare = unit.empty() && (wanted == "1" || wanted == "count");
-    Conversion out;
+    Scaling out;
     if (unit != wanted && !raw && !bare) out = by_units(file, column, unit, target);
     if (use.scale != 1) {
       out.slope *= use.scale;
       out.same = false;
     }
-    if (!use.offset.empty() && !raw) {
-      const std::string quantity(config::difference_unit(quantity_unit(wanted)));
+    if (!use.offset.empty()) {
+      const std::string quantity(
+          config::difference_unit(quantity_unit(out_.topics[target.topic], target.field)));
       const config::Parsed added = config::parse_quantity(use.offset, quantity, atmosphere_);
       if (added.mistake)
         problem(file.file, fmt::format("{}.offset", use.name), added.mistake->found,
@@ -206,9 +208,9 @@ class Matcher {
     return out;
   }
 
-  Conversion by_units(const Recorded& file, const RecordedColumn& column, const std::string& unit,
-                      Target target) {
-    const std::string wanted = quantity_unit(out_.topics[target.topic].fields[target.field].unit);
+  Scaling by_units(const Recorded& file, const RecordedColumn& column, const std::string& unit,
+                   Target target) {
+    const std::string wanted = quantity_unit(out_.topics[target.topic], target.field);
     const auto parse = [&](int number) {
       return config::parse_quantity(fmt::format("{} {}", number, unit), wanted, atmosphere_);
     };

@@ -13,7 +13,7 @@
 namespace sinew::recording {
 
 // Numbers of a file to those of a channel.
-struct Conversion {
+struct Scaling {
   double slope = 1, offset = 0;
   bool same = true;  // bit for bit
 
@@ -24,7 +24,7 @@ struct Conversion {
 struct Matched {
   std::size_t file = 0, column = 0;
   Target target;
-  Conversion conversion;
+  Scaling conversion;
 };
 
 struct Matches {

@@ -185,8 +185,8 @@ class Columns {
       config::fail({out_.file, 0, 0}, "time",
                    fmt::format("no vector of times among {}", names_of_all()),
                    "time, t or tout, as long as the signals",
-                   settings_.column.empty() ? "clock.column=NAME, or clock.rate=\"100 Hz\""
-                                            : "another clock.column");
+                   settings_.column.empty() ? "names.time=NAME, or rate=\"100 Hz\""
+                                            : "names.time=NAME of another");
     const auto note = [&](const std::vector<std::string>& names, const char* why) {
       if (!names.empty()) out_.notes.push_back(fmt::format("{}: left out: {}", joined(names), why));
     };

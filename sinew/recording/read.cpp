@@ -39,15 +39,33 @@ std::optional<std::int64_t> origin_of(const std::string& start) {
   return *days * day + stamp->time - stamp->offset;
 }
 
+// "Zeit" of "column Zeit"; empty where the times are from elsewhere.
+std::string column_of(const std::string& clock) {
+  constexpr std::string_view before = "column ";
+  return clock.starts_with(before) ? clock.substr(before.size()) : "";
+}
+
+// The table; read again where the mapping gives the column that turned out to be the clock a unit.
+RawTable read_table(const std::string& path, const Mapping& mapping) {
+  Source source = source_of(path, mapping);
+  RawTable table = recording::read_table(source);
+  const std::string column = column_of(table.clock);
+  const auto row = std::ranges::find(mapping.columns, column, &ColumnMapping::name);
+  if (column.empty() || row == mapping.columns.end() || row->unit.empty()) return table;
+  source.names["time"] = column;
+  source.units[column] = row->unit;
+  return recording::read_table(source);
+}
+
 Recorded read_text(const std::string& path, const Mapping& mapping) {
-  RawTable table = read_table(source_of(path, mapping));
+  RawTable table = read_table(path, mapping);
   if (table.time.empty())
     config::fail({path, 0, 0}, "time", "no column of times",
                  "one that is called time, t or Zeit, or dates",
-                 "clock.column=NAME, or clock.rate=\"100 Hz\"");
+                 "names.time=NAME, or rate=\"100 Hz\"");
   Recorded out{.file = path, .kind = "CSV", .started = table.start};
   out.notes = std::move(table.notes);
-  Clock clock{.column = table.clock, .origin = origin_of(table.start)};
+  Clock clock{.column = column_of(table.clock), .origin = origin_of(table.start)};
   const double first = clock.origin ? 0 : table.first;
   clock.time_ns.reserve(table.time.size());
   for (const double t : table.time) clock.time_ns.push_back(std::llround(1e9 * (first + t)));
