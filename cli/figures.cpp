@@ -18,17 +18,20 @@ struct Options {
   bool of_thesis = false;
 };
 
+constexpr report::Picture pictures[] = {report::Picture::pdf, report::Picture::svg,
+                                        report::Picture::png};
+
 std::vector<report::Picture> parse_formats(const std::vector<std::string>& words) {
   std::vector<report::Picture> out;
   for (const std::string& list : words) {
     std::istringstream in(list);
     for (std::string word; std::getline(in, word, ',');) {
       if (word == "csv") continue;
-      if (word != "svg" && word != "png")
-        config::fail({"--format", 0, 0}, "", fmt::format("\"{}\"", word), "svg, png or csv",
-                     "--format svg,png");
-      const auto picture = word == "svg" ? report::Picture::svg : report::Picture::png;
-      if (std::ranges::find(out, picture) == out.end()) out.push_back(picture);
+      const auto picture = std::ranges::find(pictures, word, &report::ending);
+      if (picture == std::end(pictures))
+        config::fail({"--format", 0, 0}, "", fmt::format("\"{}\"", word), "pdf, svg, png or csv",
+                     "--format pdf,png");
+      if (std::ranges::find(out, *picture) == out.end()) out.push_back(*picture);
     }
   }
   return out;
@@ -52,11 +55,44 @@ run::FigureFiles files_of(const std::vector<std::string>& formats, bool force) {
   return files;
 }
 
+namespace {
+
+// What is only of runs.
+void add_run_options(Command sub, RunFiguresRequest& runs, Option thesis) {
+  const auto of_runs = [&](Option option) { option.excludes(thesis); };
+  of_runs(sub.add_option("--only", runs.only, "of runs: these figures alone"));
+  of_runs(sub.add_option("--channels", runs.channels,
+                         "of runs: a figure of these, \"/joint/*/angle,/muscle/*/tension\"; a "
+                         "comma begins a plot below; may be repeated")
+              .takes_one());
+  of_runs(sub.add_flag("--overlay", runs.overlay, "the runs in the same axes; needs -o"));
+  of_runs(sub.add_option("--label", runs.labels,
+                         "what a run is called, in their order; the runs are in the same axes")
+              .takes_one());
+  of_runs(sub.add_option("--title", runs.title, "above the picture, of one figure"));
+  of_runs(sub.add_option("--width", runs.width, "of the picture; \"89 mm\""));
+  of_runs(sub.add_option("--height", runs.height, "of the picture; else as its plots want"));
+  of_runs(sub.add_option("--font", runs.font, "size of the letters; \"7 pt\""));
+  of_runs(sub.add_option("--labels", runs.words, "a file with labels in your language"));
+  of_runs(sub.add_flag("--labels-template", runs.labels_template,
+                       "print such a file, with all that these figures say"));
+  of_runs(sub.add_option("--units", runs.units,
+                         "of runs: si, thesis, metric, or metric,length=cm; else as set"));
+  of_runs(sub.add_option("--from", runs.from, "of runs: \"2 s\"; what was before is left out"));
+  of_runs(sub.add_option("--to", runs.to, "of runs: what was after is left out"));
+  of_runs(sub.add_option("--machine", runs.machine,
+                         "of runs: what was run, in place of the folder's resolved.toml"));
+}
+
+}  // namespace
+
 void add_figures(Command app, Action& action) {
   auto options = std::make_shared<Options>();
   Command sub = app.subcommand(
       "figures", "figures for print, with the CSV behind each: of runs, or the thesis's",
-      "sinew figures runs/walk-test-1/1 --units thesis\n  sinew figures --thesis -o figures");
+      "sinew figures runs/walk-test-1/1 --format pdf --width \"84 mm\" --units metric\n"
+      "  sinew figures mine runs/arm/1 --label measured --label simulated -o figures\n"
+      "  sinew figures --thesis -o figures");
   Option runs = sub.add_option("DIR", options->runs.runs, "folders of runs, or log files");
   Option thesis = sub.add_flag("--thesis", options->of_thesis, "those of Colbrunn (2000)");
   runs.excludes(thesis);
@@ -64,24 +100,18 @@ void add_figures(Command app, Action& action) {
                  "folder for the figures and index.json; of runs: else figures/ beside the log");
   sub.add_option("--root", options->thesis.root,
                  "--thesis: the project's folder, with robots/ and experiments/; .");
-  sub.add_option("--format", options->runs.formats, "svg, png or csv; svg,png").takes_one();
-  sub.add_option("--only", options->runs.only, "of runs: these figures alone").excludes(thesis);
-  sub.add_option("--units", options->runs.units, "of runs: si or thesis (in, lbf, psi, deg); si")
-      .is_one_of({"si", "thesis"})
-      .excludes(thesis);
-  sub.add_option("--from", options->runs.from, "of runs: \"2 s\"; what was before is left out")
-      .excludes(thesis);
-  sub.add_option("--to", options->runs.to, "of runs: what was after is left out").excludes(thesis);
-  sub.add_option("--machine", options->runs.machine,
-                 "of runs: what was run, in place of the folder's resolved.toml")
-      .excludes(thesis);
+  sub.add_option("--format", options->runs.formats, "pdf, svg, png or csv; svg,png").takes_one();
+  add_run_options(sub, options->runs, thesis);
   sub.add_flag("--force", options->runs.force, "replace the figures that are there");
   sub.add_flag("--json", options->runs.json, "print index.json; of runs all of them");
   sub.add_flag("--quiet", options->runs.quiet, "only errors on stderr");
   sub.callback([=, &action] {
-    if (!options->of_thesis && options->runs.runs.empty())
+    const RunFiguresRequest& of_runs = options->runs;
+    if (!options->of_thesis && of_runs.runs.empty())
       require("DIR, the folder of a run, or --thesis");
-    if (options->of_thesis && options->runs.out.empty()) require("-o with --thesis");
+    if (options->of_thesis && of_runs.out.empty()) require("-o with --thesis");
+    if (of_runs.overlaid() && !of_runs.labels_template && of_runs.out.empty())
+      require("-o with --overlay or --label");
     action = [=] { return draw(*options); };
   });
 }

@@ -21,12 +21,24 @@ using Json = nlohmann::ordered_json;
 
 report::RunFigureOptions options_of(const RunFiguresRequest& request) {
   report::RunFigureOptions out;
-  if (request.units == "thesis") out.units = units::UnitSet::thesis;
   if (!request.from.empty()) out.from = argument("--from", request.from, "s", units::atmosphere);
   if (!request.to.empty()) out.to = argument("--to", request.to, "s", units::atmosphere);
   if (out.from >= out.to)
     config::fail({"--from", 0, 0}, "", request.from,
                  fmt::format("a time before --to, {}", request.to));
+  return out;
+}
+
+run::DrawingRequest drawing_of(const RunFiguresRequest& request) {
+  run::DrawingRequest out{.machine = request.machine,
+                          .units = request.units,
+                          .options = options_of(request),
+                          .channels = request.channels,
+                          .only = request.only,
+                          .title = request.title,
+                          .paper = report::read_paper(request.width, request.height, request.font),
+                          .files = files_of(request.formats, request.force)};
+  if (!request.words.empty()) out.files.labels = report::read_labels(request.words);
   return out;
 }
 
@@ -36,6 +48,20 @@ fs::path folder_of(const RunFiguresRequest& request, const std::string& named,
   if (request.out.empty()) return run.log.parent_path() / run::figures_name;
   if (request.runs.size() == 1) return request.out;
   return fs::path(request.out) / report::file_name_of(named);
+}
+
+// With what each run is named as.
+std::vector<std::pair<fs::path, std::string>> folders_of(const RunFiguresRequest& request) {
+  std::vector<std::pair<fs::path, std::string>> out;
+  for (const std::string& named : request.runs) {
+    const fs::path folder = folder_of(request, named, run::recorded_run(named));
+    for (const auto& [taken, other] : out)
+      if (taken == folder)
+        config::fail({named, 0, 0}, "", "the same run, or one of the same name, a second time",
+                     "each run once", "without -o");
+    out.emplace_back(folder, named);
+  }
+  return out;
 }
 
 void print(const Json& runs) {
@@ -53,21 +79,22 @@ void print(const Json& runs) {
 
 ExitCode draw_runs(const RunFiguresRequest& request) {
   const Messages messages(request.quiet);
-  run::DrawingRequest drawing{.machine = request.machine,
-                              .options = options_of(request),
-                              .only = request.only,
-                              .files = files_of(request.formats, request.force)};
+  const run::DrawingRequest drawing = drawing_of(request);
+  if (request.labels_template) {
+    fmt::print("{}", run::labels_of_runs({request.runs.begin(), request.runs.end()}, drawing));
+    return ok;
+  }
   Json out{{"format", "sinew.figures/1"}, {"runs", Json::array()}};
-  std::vector<fs::path> folders;
-  for (const std::string& named : request.runs) {
-    const fs::path folder = folder_of(request, named, run::recorded_run(named));
-    if (std::ranges::find(folders, folder) != folders.end())
-      config::fail({named, 0, 0}, "", "the same run, or one of the same name, a second time",
-                   "each run once", "without -o");
-    folders.push_back(folder);
-    const std::string index = run::draw_run(named, folder, drawing, messages.notices());
+  const auto add = [&](const fs::path& folder, const std::string& index) {
     out["runs"].push_back(
         {{"folder", folder.string()}, {"figures", Json::parse(index)["figures"]}});
+  };
+  if (request.overlaid()) {
+    const run::OverlaidRuns runs{{request.runs.begin(), request.runs.end()}, request.labels};
+    add(request.out, run::draw_runs(runs, request.out, drawing, messages.notices()));
+  } else {
+    for (const auto& [folder, named] : folders_of(request))
+      add(folder, run::draw_run(named, folder, drawing, messages.notices()));
   }
   if (request.json)
     fmt::print("{}\n", json_text(out, 2));

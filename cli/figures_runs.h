@@ -13,14 +13,22 @@ struct RunFiguresRequest {
   std::vector<std::string> runs;  // folders, or logs
   std::string out;                // empty: figures/ in each run's folder
   std::string machine;            // in place of resolved.toml
-  std::string units = "si";       // or "thesis"
+  std::string units;              // empty: as the run, the person or the environment says
   std::string from, to;           // "2 s"; empty: all
+  std::string title, width, height, font;
+  std::string words;                  // a file of labels
+  std::vector<std::string> labels;    // of runs in the same axes
+  std::vector<std::string> channels;  // figures of these in place of the page's panels
   std::vector<std::string> only, formats;
+  bool overlay = false, labels_template = false;
   bool force = false, json = false, quiet = false;
+
+  // Are the runs laid on each other?
+  bool overlaid() const { return overlay || !labels.empty(); }
 };
 
-// What --format and --force ask for: "svg,png,csv"; "csv" alone draws nothing. Throws config::Error
-// for another word.
+// What --format and --force ask for: "svg,png,pdf,csv"; "csv" alone draws nothing. Throws
+// config::Error for another word.
 run::FigureFiles files_of(const std::vector<std::string>& formats, bool force);
 
 ExitCode draw_runs(const RunFiguresRequest& request);

@@ -21,7 +21,7 @@ constexpr std::string_view settings =
     "external_volume flexion flexor_length force frequency full_scale hold_out keep_force "
     "known largest length lever load machine model moment_arm names per_volume points "
     "port pressure range report rest rest_length root sensors shard units vary volume "
-    "where ";
+    "where label only ";
 
 // Settings that can be the subject of a problem: at the begin of a line, or behind a file without a
 // line of it. What has a line is a key of that file.
@@ -30,7 +30,8 @@ constexpr std::string_view subjects =
 
 // Settings that are so at the begin of a line alone: a file may have a column of that name.
 constexpr std::string_view quantities =
-    " atmosphere base bits branch bridge concentration conductance count down excitation "
+    " channels font fps from label output speed title to "
+    "atmosphere base bits branch bridge concentration conductance count down excitation "
     "exponent extensor_length external_volume fit_where flexion flexor_length frequency "
     "full_scale gage_factor gages gain height hold_out kind length lever limb limb_lever "
     "load mass modulus moment_arm name poisson port predict_dat pressure rest rest_angle "

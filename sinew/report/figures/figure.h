@@ -16,6 +16,14 @@
 
 namespace sinew::report {
 
+// What a figure is printed on.
+struct Paper {
+  double width = 252;          // of the picture [pt], 72 to the inch: 89 mm, a journal's column
+  double height = 0;           // [pt]; 0: as high as the plots want to be
+  double font = 7;             // size of the letters [pt]
+  bool decimal_comma = false;  // "0,5" at the ticks
+};
+
 // An axis with its range and unit.
 struct Axis {
   static constexpr double automatic = std::numeric_limits<double>::quiet_NaN();
@@ -31,6 +39,7 @@ struct Axis {
     std::string text;
   };
   std::vector<Tick> ticks = {};
+  double scale = 0;  // how much of the unit one of SI is; 0: nobody knows
 
   std::string title() const;  // "joint angle [deg]"; a plain number has its name alone
 };
@@ -49,6 +58,7 @@ struct Curve {
   Kind kind = Kind::computed;
   Style style = Style::line;
   int color = next;       // place in the palette; a desired curve has its actual one's
+  int dash = next;        // place among the dashes; else that of the color
   std::string source;     // law, run or file that the numbers come from
   bool in_legend = true;  // or named where it ends
 };
@@ -86,6 +96,7 @@ struct Figure {
   std::string title, caption;
   std::vector<Plot> plots;
   std::vector<Missing> missing = {};
+  Paper paper = {};
 };
 
 // The numbers of curves with the same x, side by side: one file.

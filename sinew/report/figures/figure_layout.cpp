@@ -1,7 +1,10 @@
 #include "sinew/report/figures/figure_layout.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace sinew::report {
 namespace {
@@ -55,34 +58,46 @@ Scale logarithmic_scale(const Axis& axis, double least, double greatest) {
 
 struct Axes {
   Scale x, y;
-  double left = Print::left, right = Print::right, height = Print::plot;
+  double left, right, height;
 };
 
 // Room for names of rows.
-void make_room(const std::vector<Axis::Tick>& rows, Axes& axes) {
+void make_room(const std::vector<Axis::Tick>& rows, const Print& print, Axes& axes) {
   std::size_t longest = 0;
   for (const Axis::Tick& row : rows) longest = std::max(longest, letters(row.text));
   if (rows.empty()) return;
-  const double wanted = 6 * Print::gap + Print::letter * static_cast<double>(longest);
-  axes.left = std::clamp(wanted, Print::left, 0.6 * Print::width);
-  axes.height = std::max(Print::lowest, 1.1 * Print::line * static_cast<double>(rows.size()));
+  const double wanted = 6 * print.gap + print.letter * static_cast<double>(longest);
+  axes.left = std::clamp(wanted, print.left, 0.6 * print.width);
+  axes.height = std::max(print.lowest, 1.1 * print.line * static_cast<double>(rows.size()));
 }
 
 // As long in x as in y: first the height, then what has to be shown more of where it has an end.
-void make_equal(Axes& axes) {
-  const double width = Print::width - Print::left - Print::right;
+void make_equal(const Print& print, double lowest, double tallest, Axes& axes) {
+  const double width = print.width - print.left - print.right;
   const double wanted = width * (axes.y.to - axes.y.from) / (axes.x.to - axes.x.from);
-  axes.height = std::clamp(wanted, Print::lowest, Print::tallest);
+  axes.height = std::clamp(wanted, lowest, tallest);
   Scale& more = wanted < axes.height ? axes.y : axes.x;
   const double by = wanted < axes.height ? axes.height / wanted : wanted / axes.height;
   const double middle = (more.from + more.to) / 2, half = by * (more.to - more.from) / 2;
   more.from = middle - half;
   more.to = middle + half;
   axes.x.step = round_step((axes.x.to - axes.x.from) / 6);
-  axes.y.step = round_step((axes.y.to - axes.y.from) / std::min(6.0, axes.height / Print::tick));
+  axes.y.step = round_step((axes.y.to - axes.y.from) / std::min(6.0, axes.height / print.tick));
 }
 
-Axes axes_of(const Plot& plot) {
+// Numbers below a narrow axis, or beside a low one, do not run into each other.
+void make_apart(const Plot& plot, const Print& print, Axes& axes) {
+  constexpr double number = 6;  // letters that one takes, with what is between two
+  const auto fewer = [](const Axis& axis, Scale& s, double room) {
+    if (axis.logarithmic || !axis.ticks.empty() || (s.to - s.from) / s.step <= room) return;
+    s.step = round_step((s.to - s.from) / std::max(1.0, room));
+  };
+  fewer(plot.x, axes.x, (print.width - axes.left - axes.right) / (number * print.letter));
+  fewer(plot.y, axes.y, axes.height / (0.8 * print.tick));
+}
+
+// `height`: of the data; 0: as high as the plot wants to be.
+Axes axes_of(const Plot& plot, const Print& print, double height) {
   Extent all;
   for (const Curve& c : plot.curves) all.add(plot, c);
   const bool nothing = all.x.empty();
@@ -91,14 +106,20 @@ Axes axes_of(const Plot& plot) {
   const double none = plot.y.logarithmic ? 1 : 0;
   Axes out{scale(plot.x, nothing ? none : all.x.from, nothing ? 1 : all.x.to,
                  !plot.equal_scale && !bars),
-           scale(plot.y, nothing ? none : all.y.from, nothing ? 1 : all.y.to, false)};
-  if (plot.equal_scale) make_equal(out);
-  make_room(plot.y.ticks, out);
+           scale(plot.y, nothing ? none : all.y.from, nothing ? 1 : all.y.to, false), print.left,
+           print.right, print.plot};
+  make_room(plot.y.ticks, print, out);
+  if (height > 0) out.height = height;
+  make_apart(plot, print, out);
+  if (plot.equal_scale) {
+    make_equal(print, height > 0 ? height : print.lowest, height > 0 ? height : print.tallest, out);
+    make_apart(plot, print, out);
+  }
   if (plot.names == Plot::Names::ends)
     for (const Curve& c : plot.curves)
       if (naming(plot, c) == Plot::Names::ends)
-        out.right = std::max(
-            out.right, 3 * Print::gap + Print::letter * static_cast<double>(letters(c.label)));
+        out.right = std::max(out.right,
+                             3 * print.gap + print.letter * static_cast<double>(letters(c.label)));
   return out;
 }
 
@@ -107,7 +128,7 @@ std::string in_legend(const Curve& curve) {
 }
 
 // Columns of equal width; returns the height of the legend.
-double add_legend(const Plot& plot, PlotLayout& out, double top) {
+double add_legend(const Plot& plot, const Print& print, PlotLayout& out, double top) {
   std::size_t longest = 0;
   for (const std::size_t c : out.curves) {
     if (naming(plot, plot.curves[c]) != Plot::Names::legend) continue;
@@ -115,17 +136,16 @@ double add_legend(const Plot& plot, PlotLayout& out, double top) {
     longest = std::max(longest, letters(out.legend.back().text));
   }
   if (out.legend.empty()) return 0;
-  const double room = Print::width - Print::left - Print::right;
-  const double entry =
-      Print::sample + 3 * Print::gap + Print::letter * static_cast<double>(longest);
+  const double room = print.width - print.left - print.right;
+  const double entry = print.sample + 3 * print.gap + print.letter * static_cast<double>(longest);
   const int n = static_cast<int>(out.legend.size());
   const int most = std::clamp(static_cast<int>(room / entry), 1, 4);
   const int rows = (n + most - 1) / most, columns = (n + rows - 1) / rows;
   for (int i = 0; i < n; ++i) {
-    out.legend[static_cast<std::size_t>(i)].x = Print::left + entry * (i % columns);
-    out.legend[static_cast<std::size_t>(i)].y = top + Print::line * (i / columns + 0.5);
+    out.legend[static_cast<std::size_t>(i)].x = print.left + entry * (i % columns);
+    out.legend[static_cast<std::size_t>(i)].y = top + print.line * (i / columns + 0.5);
   }
-  return Print::line * rows + Print::gap;
+  return print.line * rows + print.gap;
 }
 
 }  // namespace
@@ -158,9 +178,27 @@ Scale scale(const Axis& axis, double least, double greatest, bool tight) {
   return out;
 }
 
-FigureLayout layout(const Figure& figure) {
+Print::Print(const Paper& paper) : width(paper.width), font(paper.font) {
+  const double by = font / 7;  // the letters for which the numbers below were chosen
+  const double wide = std::sqrt(width / 252);
+  left = 38 * by;
+  right = 8 * by;
+  line = 9 * by;
+  letter = 3.75 * by;
+  numbers = 9 * by;
+  plot = 105 * wide;
+  tallest = 290 * wide;
+  tick = 14 * by;
+  sample = 16 * by;
+  gap = 4 * by;
+}
+
+namespace {
+
+// Everything where it stands if the data of each plot are as high as that.
+FigureLayout laid_out(const Figure& figure, const Print& print, double height) {
   FigureLayout out;
-  double y = Print::top;
+  double y = print.top;
   for (const Plot& plot : figure.plots) {
     PlotLayout p;
     for (std::size_t c = 0; c < plot.curves.size(); ++c) {
@@ -168,21 +206,38 @@ FigureLayout layout(const Figure& figure) {
       extent.add(plot, plot.curves[c]);
       if (!extent.x.empty()) p.curves.push_back(c);
     }
-    const Axes axes = axes_of(plot);
+    const Axes axes = axes_of(plot, print, height);
     p.x = axes.x;
     p.y = axes.y;
     p.left = axes.left;
     p.right = axes.right;
-    p.title = y + Print::line / 2;
-    if (!plot.title.empty()) y += Print::line + Print::gap / 2;
-    y += add_legend(plot, p, y);
-    p.top = y + Print::gap;
+    p.title = y + print.line / 2;
+    if (!plot.title.empty()) y += print.line + print.gap / 2;
+    y += add_legend(plot, print, p, y);
+    p.top = y + print.gap;
     p.bottom = y = p.top + axes.height;
-    y += Print::numbers + 1.5 * Print::line + 2 * Print::gap;
+    y += print.numbers + 1.5 * print.line + 2 * print.gap;
     out.plots.push_back(std::move(p));
   }
-  out.height = y - 2 * Print::gap + Print::bottom;
+  out.height = y - 2 * print.gap + print.bottom;
   return out;
+}
+
+}  // namespace
+
+FigureLayout layout(const Figure& figure) {
+  const Print print(figure.paper);
+  FigureLayout out = laid_out(figure, print, 0);
+  if (!(figure.paper.height > 0) || figure.plots.empty()) return out;
+  double data = 0;
+  for (const PlotLayout& p : out.plots) data += p.bottom - p.top;
+  const double beside = out.height - data, n = static_cast<double>(figure.plots.size());
+  const double least = beside + n * 2 * print.tick;
+  if (figure.paper.height < least)
+    throw std::invalid_argument(fmt::format(
+        "{:.0f} mm at least for figure {}, {} plot{} high", std::ceil(least * 25.4 / 72),
+        figure.name, figure.plots.size(), figure.plots.size() == 1 ? "" : "s"));
+  return laid_out(figure, print, (figure.paper.height - beside) / n);
 }
 
 std::size_t letters(std::string_view utf8) {

@@ -10,16 +10,18 @@
 
 namespace sinew::report {
 
-// Sizes in points, 72 to the inch.
+// Sizes in points, 72 to the inch: they grow with the letters.
 struct Print {
-  static constexpr double width = 252;  // 89 mm
-  static constexpr double left = 38, right = 8, top = 6, bottom = 4;
-  static constexpr double font = 7, line = 9;  // from line to line
-  static constexpr double letter = 3.75;       // mean width
-  static constexpr double numbers = 9;         // below the axis, at its ticks
-  static constexpr double plot = 105, lowest = 60, tallest = 290;
-  static constexpr double tick = 14;             // between two numbers above each other
-  static constexpr double sample = 16, gap = 4;  // of a line in the legend; beside it
+  explicit Print(const Paper& paper = {});
+
+  double width, font;
+  double left, right, top = 6, bottom = 4;
+  double line;     // from line to line
+  double letter;   // mean width
+  double numbers;  // below the axis, at its ticks
+  double plot, lowest = 60, tallest;
+  double tick;         // between two numbers above each other
+  double sample, gap;  // of a line in the legend; beside it
 };
 
 // Of one axis, as drawn.
@@ -50,7 +52,8 @@ struct FigureLayout {
   std::vector<PlotLayout> plots;
 };
 
-// Returns where everything in the figure stands.
+// Returns where everything in the figure stands. Throws std::invalid_argument, with the least
+// height, where its plots have no room in the height of its paper.
 FigureLayout layout(const Figure& figure);
 
 // Where that curve has its name: points have no end, so theirs stands above the data.

@@ -40,7 +40,7 @@ std::string rounded(double value) { return fmt::format("{:.4f}", value); }
 class Script {
  public:
   Script(const Figure& figure, const FigureData& data)
-      : figure_(figure), data_(data), layout_(layout(figure)) {}
+      : figure_(figure), data_(data), layout_(layout(figure)), print_(figure.paper) {}
 
   std::string text(const std::vector<Picture>& pictures) {
     begin(pictures);
@@ -57,10 +57,11 @@ class Script {
     out_ += fmt::format(format, std::forward<Parts>(parts)...) + '\n';
   }
   // Parts of the picture, from the left and from below.
-  std::string across(double points) const { return rounded(points / Print::width); }
+  std::string across(double points) const { return rounded(points / print_.width); }
   std::string up(double points) const { return rounded(1 - points / layout_.height); }
 
   void begin(const std::vector<Picture>& pictures);
+  void terminals(const std::vector<Picture>& pictures);
   void draw(std::size_t p);
   void axis(char name, const Axis& axis, const Scale& scale);
   void titles(const Plot& plot, const PlotLayout& at);
@@ -75,6 +76,7 @@ class Script {
   const Figure& figure_;
   const FigureData& data_;
   const FigureLayout layout_;
+  const Print print_;
   std::string out_;
 };
 
@@ -84,17 +86,24 @@ const Look& look_of(const Plot& plot, std::size_t curve) {
   return looks[(own == Curve::next ? curve : static_cast<std::size_t>(own)) % std::size(looks)];
 }
 
+// Its dash goes with its color, unless it has one of its own.
+const Look& dash_of(const Plot& plot, std::size_t curve) {
+  const int own = plot.curves[curve].dash;
+  return own == Curve::next ? look_of(plot, curve)
+                            : looks[static_cast<std::size_t>(own) % std::size(looks)];
+}
+
 bool has_points(const Curve& c) { return c.style == Style::points || c.style == Style::marked; }
 
 // As a property of a curve, an arrow or a label's point.
 std::string line_of(const Plot& plot, std::size_t c) {
-  const Look& look = look_of(plot, c);
+  const Look &look = look_of(plot, c), &dash = dash_of(plot, c);
   const Curve& curve = plot.curves[c];
   const bool desired = curve.kind == Kind::desired;
   return fmt::format("linewidth {} dashtype {} linecolor rgb '{}'", desired ? "1.0" : "0.9",
                      plot.names == Plot::Names::none ? looks[0].dash
-                     : desired                       ? look.dots
-                                                     : look.dash,
+                     : desired                       ? dash.dots
+                                                     : dash.dash,
                      look.color);
 }
 
@@ -120,37 +129,55 @@ std::string drawn_with(const Plot& plot, std::size_t c) {
 }
 
 void Script::begin(const std::vector<Picture>& pictures) {
-  std::string formats;
-  for (const Picture p : pictures)
-    formats += std::string(formats.empty() ? "" : " ") + (p == Picture::svg ? "svg" : "png");
-  const auto pixels = [&](double dots, double points) {
-    return fmt::format("{:.0f}", points * dots / 72);
-  };
-  add("# Draws {}.svg and {}.png from the CSV files beside it: gnuplot {}.gp", figure_.name,
-      figure_.name, figure_.name);
+  std::string formats, files;
+  for (const Picture p : pictures) {
+    formats += fmt::format("{}{}", formats.empty() ? "" : " ", ending(p));
+    files += fmt::format("{}{}.{}", files.empty() ? "" : " and ", figure_.name, ending(p));
+  }
+  add("# Draws {} from the CSV files beside it: gnuplot {}.gp", files, figure_.name);
   add("reset");
   add("set encoding utf8");
   add("set datafile separator comma");
   add("set border 3 linewidth 0.5");
   add("set tics out nomirror scale 0.4");
   add("set minussign");
+  if (figure_.paper.decimal_comma) add("set decimalsign ','");
   add("unset key");
   add("do for [picture in '{}'] {{", formats);
-  add("if (picture eq 'svg') {{");
-  add("set terminal svg size {},{} noenhanced font 'Arial,{:.2f}' linewidth {:.3f} "
-      "background '#ffffff'",
-      pixels(96, Print::width), pixels(96, layout_.height), Print::font * 96 / 72, 96.0 / 72);
-  add("heading = ',{:.2f}'; mark = 0.5", (Print::font + 1) * 96 / 72);
-  add("}} else {{");
-  // Its points are of 96 to the inch.
-  add("set terminal pngcairo size {},{} noenhanced font 'Arial,{}' fontscale {:.3f} "
-      "linewidth {:.3f} pointscale {:.3f} background '#ffffff'",
-      pixels(300, Print::width), pixels(300, layout_.height), Print::font, 300.0 / 96, 300.0 / 72,
-      300.0 / 72);
-  add("heading = ',{}'; mark = 0.3", Print::font + 1);
-  add("}}");
+  terminals(pictures);
   add("set output '{}.'.picture", figure_.name);
   add("set multiplot");
+}
+
+// Of each picture: sizes are in points of 72 to the inch, however large the terminal's own are.
+void Script::terminals(const std::vector<Picture>& pictures) {
+  const auto pixels = [&](double dots, double points) {
+    return fmt::format("{:.0f}", points * dots / 72);
+  };
+  const double font = print_.font;
+  for (const Picture p : pictures) {
+    add("if (picture eq '{}') {{", ending(p));
+    if (p == Picture::svg) {
+      add("set terminal svg size {},{} noenhanced font 'Arial,{:.2f}' linewidth {:.3f} "
+          "background '#ffffff'",
+          pixels(96, print_.width), pixels(96, layout_.height), font * 96 / 72, 96.0 / 72);
+      add("heading = ',{:.2f}'; mark = 0.5", (font + 1) * 96 / 72);
+    } else if (p == Picture::png) {
+      // Its points are of 96 to the inch.
+      add("set terminal pngcairo size {},{} noenhanced font 'Arial,{}' fontscale {:.3f} "
+          "linewidth {:.3f} pointscale {:.3f} background '#ffffff'",
+          pixels(300, print_.width), pixels(300, layout_.height), font, 300.0 / 96, 300.0 / 72,
+          300.0 / 72);
+      add("heading = ',{}'; mark = 0.3", font + 1);
+    } else {
+      // Its points are of 96 to the inch, too, and its lines of half a point.
+      add("set terminal pdfcairo size {:.4f}in,{:.4f}in noenhanced font 'Arial,{}' "
+          "fontscale 0.75 linewidth 2",
+          print_.width / 72, layout_.height / 72, font);
+      add("heading = ',{}'; mark = 0.3", font + 1);
+    }
+    add("}}");
+  }
 }
 
 // A tick's text is a format: a percent sign stands for itself when it is doubled.
@@ -178,12 +205,12 @@ void Script::axis(char name, const Axis& axis, const Scale& s) {
 void Script::titles(const Plot& plot, const PlotLayout& at) {
   if (!plot.title.empty())
     add("set label {} at {} left font heading", as_literal(plot.title),
-        place(Print::left, at.title));
+        place(print_.left, at.title));
   if (!plot.y.name.empty())
     add("set label {} at screen {}, graph 0.5 center rotate by 90", as_literal(plot.y.title()),
-        across(0.75 * Print::line));
+        across(0.75 * print_.line));
   add("set label {} at graph 0.5, screen {} center", as_literal(plot.x.title()),
-      up(at.bottom + Print::numbers + Print::line));
+      up(at.bottom + print_.numbers + print_.line));
   if (at.curves.empty()) add("set label 'no data' at graph 0.5, graph 0.5 center");
 }
 
@@ -191,13 +218,13 @@ void Script::legend(const Plot& plot, const PlotLayout& at) {
   for (const LegendEntry& e : at.legend) {
     const Curve& curve = plot.curves[e.curve];
     if (curve.style != Style::points)
-      add("set arrow from {} to {} nohead {}", place(e.x, e.y), place(e.x + Print::sample, e.y),
+      add("set arrow from {} to {} nohead {}", place(e.x, e.y), place(e.x + print_.sample, e.y),
           line_of(plot, e.curve));
     if (has_points(curve))
-      add("set label '' at {} point {} linecolor rgb '{}'", place(e.x + Print::sample / 2, e.y),
+      add("set label '' at {} point {} linecolor rgb '{}'", place(e.x + print_.sample / 2, e.y),
           point_of(plot, e.curve), look_of(plot, e.curve).color);
     add("set label {} at {} left", as_literal(e.text),
-        place(e.x + Print::sample + Print::gap, e.y));
+        place(e.x + print_.sample + print_.gap, e.y));
   }
 }
 
@@ -250,7 +277,7 @@ void Script::draw(std::size_t p) {
   add("");
   add("unset label; unset arrow; unset object");
   add("set lmargin at screen {}; set rmargin at screen {}", across(at.left),
-      across(Print::width - at.right));
+      across(print_.width - at.right));
   add("set tmargin at screen {}; set bmargin at screen {}", up(at.top), up(at.bottom));
   axis('x', plot.x, at.x);
   axis('y', plot.y, at.y);
@@ -266,6 +293,10 @@ void Script::draw(std::size_t p) {
 }
 
 }  // namespace
+
+std::string_view ending(Picture picture) {
+  return picture == Picture::svg ? "svg" : picture == Picture::png ? "png" : "pdf";
+}
 
 std::string script(const Figure& figure, const FigureData& data,
                    const std::vector<Picture>& pictures) {

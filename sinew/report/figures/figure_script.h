@@ -1,7 +1,7 @@
 // report/figures/figure_script.h - a figure as a script for gnuplot, which draws the CSV files
 // beside it.
 //
-// For print: one column of a journal wide, 8 pt, dashes beside colors so that grey will do, the
+// For print: as wide as its paper, dashes beside colors so that grey will do, the
 // legend above the data. All text comes out as it was typed. Written for gnuplot 5.4.
 #pragma once
 
@@ -13,10 +13,13 @@
 namespace sinew::report {
 
 // The formats in which gnuplot draws.
-enum class Picture { svg, png };
+enum class Picture { svg, png, pdf };
 
-// To be run in the folder of the sheets; leaves <name>.svg and <name>.png there. The same figure
-// gives the same bytes.
+// Returns the ending of its files, "svg".
+std::string_view ending(Picture picture);
+
+// To be run in the folder of the sheets; leaves <name>.svg, <name>.png and <name>.pdf there, those
+// that are asked for. The same figure gives the same bytes.
 std::string script(const Figure& figure, const FigureData& data,
                    const std::vector<Picture>& pictures);
 

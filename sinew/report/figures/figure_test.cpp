@@ -14,6 +14,7 @@
 
 #include "sinew/report/figures/figure_layout.h"
 #include "sinew/report/figures/figure_script.h"
+#include "sinew/report/figures/gnuplot.h"
 
 namespace sinew::report {
 namespace {
@@ -167,7 +168,7 @@ TEST(Layout, ShowsALengthAsLongInXAsInY) {
     Figure figure{.name = "path", .plots = {{.equal_scale = true}}};
     figure.plots[0].curves = {{.label = "foot", .xs = {0, 1, 2}, .ys = {0, height, 0}}};
     const PlotLayout p = layout(figure).plots[0];
-    const double across = (Print::width - Print::left - Print::right) / (p.x.to - p.x.from);
+    const double across = (Print().width - Print().left - Print().right) / (p.x.to - p.x.from);
     EXPECT_NEAR((p.bottom - p.top) / (p.y.to - p.y.from) / across, 1, 1e-9) << height;
     EXPECT_LE(p.y.from, 0);
     EXPECT_GE(p.y.to, height);
@@ -182,9 +183,9 @@ TEST(Layout, KeepsTheLegendAboveTheDataHoweverLongItIs) {
   const PlotLayout p = layout(figure).plots[0];
   ASSERT_EQ(p.legend.size(), 13u);
   for (const LegendEntry& e : p.legend) {
-    EXPECT_LT(e.y + Print::line / 2, p.top);
-    EXPECT_GT(e.y - Print::line / 2, p.title);
-    EXPECT_LT(e.x + Print::sample, Print::width);
+    EXPECT_LT(e.y + Print().line / 2, p.top);
+    EXPECT_GT(e.y - Print().line / 2, p.title);
+    EXPECT_LT(e.x + Print().sample, Print().width);
   }
 }
 
@@ -195,8 +196,8 @@ TEST(Layout, MakesRoomForNamesOfRowsAndAtTheEnds) {
   figure.plots[0].names = Plot::Names::ends;
   figure.plots[0].curves[0].label = "a name at the end";
   const PlotLayout named = layout(figure).plots[0];
-  EXPECT_GE(named.left, usual.left + 21 * Print::letter / 2);
-  EXPECT_GE(named.right, usual.right + 17 * Print::letter / 2);
+  EXPECT_GE(named.left, usual.left + 21 * Print().letter / 2);
+  EXPECT_GE(named.right, usual.right + 17 * Print().letter / 2);
   EXPECT_TRUE(named.legend.empty());
   EXPECT_EQ(usual.legend.size(), 2u);
   figure.plots[0].curves[1].style = Curve::Style::points;  // these have no end
@@ -204,6 +205,23 @@ TEST(Layout, MakesRoomForNamesOfRowsAndAtTheEnds) {
   figure.plots[0].names = Plot::Names::legend;
   figure.plots[0].curves[1].in_legend = false;
   EXPECT_EQ(layout(figure).plots[0].legend.size(), 1u);
+}
+
+TEST(Layout, FollowsThePaper) {
+  Figure figure = walk();
+  const FigureLayout usual = layout(figure);
+  figure.paper = {.width = 510, .font = 9};
+  const FigureLayout wide = layout(figure);
+  EXPECT_GT(wide.height, usual.height);
+  EXPECT_NEAR(wide.plots[0].left / usual.plots[0].left, 9.0 / 7, 1e-12);
+  for (const double height : {250.0, 400.0, 900.0}) {
+    figure.paper.height = height;
+    const FigureLayout l = layout(figure);
+    EXPECT_NEAR(l.height, height, 1e-9);
+    EXPECT_NEAR(l.plots[0].bottom - l.plots[0].top, l.plots[1].bottom - l.plots[1].top, 1e-9);
+  }
+  figure.paper.height = 100;
+  EXPECT_THROW(layout(figure), std::invalid_argument) << "two plots have no room";
 }
 
 // --- script ---
@@ -314,6 +332,36 @@ TEST(Gnuplot, GivesTheSameBytesAgainWithoutADate) {
   EXPECT_TRUE(once.png == again.png);
   EXPECT_GT(once.png.size(), 5000u);
   EXPECT_THAT(once.svg, HasSubstr("<svg"));
+}
+
+std::string bytes_of(const fs::path& file) {
+  std::ostringstream out;
+  out << std::ifstream(file, std::ios::binary).rdbuf();
+  return out.str();
+}
+
+TEST(Gnuplot, DrawsAPdfWithItsFontsAndWithoutADate) {
+  if (!has_gnuplot()) GTEST_SKIP() << "gnuplot is missing";
+  const fs::path folder = fs::path(::testing::TempDir()) / ("pdf-" + std::to_string(::getpid()));
+  fs::create_directory(folder);
+  Figure figure = walk();
+  figure.paper = {.width = 84 / 25.4 * 72, .height = 60 / 25.4 * 72, .decimal_comma = true};
+  figure.plots[0].y.name = "Gelenkwinkel der Hüfte";
+  const FigureData numbers = data(figure);
+  for (const Sheet& sheet : numbers.sheets)
+    std::ofstream(folder / (sheet.name + ".csv")) << csv(sheet);
+  std::ofstream(folder / "walk.gp") << script(figure, numbers, {Picture::pdf});
+  std::vector<std::string> made;
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_TRUE(draw(folder, {"walk.gp"}).empty());
+    take_date_out(folder / "walk.pdf");
+    made.push_back(bytes_of(folder / "walk.pdf"));
+  }
+  fs::remove_all(folder);
+  EXPECT_THAT(made[0], AllOf(::testing::StartsWith("%PDF"), HasSubstr("/FontFile"),
+                             Not(HasSubstr("CreationDate")), HasSubstr("startxref")));
+  EXPECT_THAT(made[0], HasSubstr("/MediaBox [ 0 0 238 170 ]")) << "84 mm by 60 mm";
+  EXPECT_TRUE(made[0] == made[1]);
 }
 
 TEST(Gnuplot, LeavesAGapWhereThereIsNoNumber) {

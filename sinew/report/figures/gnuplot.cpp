@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 #include <thread>
 
 namespace sinew::report {
@@ -51,6 +53,18 @@ std::vector<std::string> draw(const std::filesystem::path& folder,
       if (!succeeds(running[i - first])) failed.push_back(scripts[i]);
   }
   return failed;
+}
+
+// The rest of a PDF knows by their places where its parts are, so blanks take the date's place.
+void take_date_out(const std::filesystem::path& pdf) {
+  std::ostringstream text;
+  text << std::ifstream(pdf, std::ios::binary).rdbuf();
+  std::string bytes = text.str();
+  const std::size_t from = bytes.rfind("/CreationDate (");
+  const std::size_t to = bytes.find(')', from == bytes.npos ? bytes.size() : from);
+  if (to == bytes.npos) return;
+  bytes.replace(from, to + 1 - from, std::string(to + 1 - from, ' '));
+  std::ofstream(pdf, std::ios::binary) << bytes;
 }
 
 }  // namespace sinew::report

@@ -15,4 +15,7 @@ bool has_gnuplot();
 std::vector<std::string> draw(const std::filesystem::path& folder,
                               const std::vector<std::string>& scripts);
 
+// Takes the date out of a PDF that gnuplot has drawn, so that the same figure gives the same bytes.
+void take_date_out(const std::filesystem::path& pdf);
+
 }  // namespace sinew::report

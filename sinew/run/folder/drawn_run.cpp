@@ -7,7 +7,12 @@
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/setting.h"
+#include "sinew/config/shown_units.h"
+#include "sinew/experiment/globs.h"
 #include "sinew/log/reader.h"
+#include "sinew/report/figures/figure_layout.h"
+#include "sinew/report/figures/overlay.h"
 #include "sinew/run/folder/run_log.h"
 
 namespace sinew::run {
@@ -15,24 +20,66 @@ namespace sinew::run {
 namespace {
 
 namespace fs = std::filesystem;
+using Figures = std::vector<report::Figure>;
 
-std::vector<report::Figure> figures_of(const RecordedRun& run, const DrawingRequest& request,
-                                       const Notices& notices) {
-  const config::Node resolved = config::compose(machine_of(run, request.machine).string());
-  const signals::Table table = log::read(run.log);
-  if (!table.complete)
-    notices.warning(run.log.string() +
+// A run as it was read.
+struct Drawn {
+  RecordedRun files;
+  config::Node resolved;
+  signals::Table table;
+  std::string name;  // of its experiment
+
+  report::Run run() const { return {.table = table, .resolved = resolved, .name = name}; }
+};
+
+Drawn read(const fs::path& named, const DrawingRequest& request, const Notices& notices) {
+  const RecordedRun files = recorded_run(named);
+  Drawn out{files, config::compose(machine_of(files, request.machine).string()),
+            log::read(files.log), experiment_in(files.log)};
+  if (!out.table.complete)
+    notices.warning(files.log.string() +
                     " was cut off or is damaged; the figures show what stands before");
-  if (const std::string ended = ended_in(run.log); !ended.empty())
+  if (const std::string ended = ended_in(files.log); !ended.empty())
     notices.warning(fmt::format("{}: the run was ended: {}; the figures show it until then",
-                                run.log.string(), ended));
-  return report::run_figures({.table = table, .resolved = resolved, .name = experiment_in(run.log)},
-                             request.options);
+                                files.log.string(), ended));
+  return out;
+}
+
+// "/joint/*/angle,/muscle/*/tension" as two plots.
+report::ChosenFigure chosen(const std::string& text) {
+  report::ChosenFigure out;
+  for (const std::string& pattern : config::at_commas(text))
+    out.push_back({pattern, [pattern](std::string_view topic) {
+                     return experiment::matches(pattern, topic);
+                   }});
+  return out;
+}
+
+// Does any of the runs have a channel that each pattern asks for?
+void check_channels(const std::vector<report::ChosenFigure>& figures,
+                    const std::vector<Drawn>& runs) {
+  std::vector<std::string> topics;
+  for (const Drawn& drawn : runs)
+    for (std::string& topic : report::topics_of(drawn.run())) topics.push_back(std::move(topic));
+  constexpr std::string_view truth = "/true";
+  const std::vector<std::string_view> names(topics.begin(), topics.end());
+  for (const report::ChosenFigure& figure : figures)
+    for (const report::ChosenChannels& part : figure) {
+      const auto there = [&](std::string_view topic) {
+        return part.has(topic) ||
+               (topic.starts_with(truth) && part.has(topic.substr(truth.size())));
+      };
+      if (std::ranges::any_of(names, there)) continue;
+      const std::string near = config::closest_in_quotes(part.name, names);
+      config::fail({"channels", 0, 0}, "", config::in_quotes(part.name),
+                   runs.size() == 1 ? "a channel of the run, or * in place of its parts"
+                                    : "a channel of one of the runs, or * in place of its parts",
+                   near.empty() ? "\"/joint/*/angle\"" : near);
+    }
 }
 
 // Those that were asked for, all where none were.
-void choose(std::vector<report::Figure>& figures, const std::vector<std::string>& only,
-            const fs::path& run) {
+void choose(Figures& figures, const std::vector<std::string>& only, const fs::path& run) {
   if (only.empty()) return;
   std::vector<std::string> there;
   for (const report::Figure& f : figures) there.push_back(f.name);
@@ -46,20 +93,116 @@ void choose(std::vector<report::Figure>& figures, const std::vector<std::string>
   });
 }
 
+void put_title(Figures& figures, const std::string& title) {
+  if (title.empty()) return;
+  if (figures.size() != 1)
+    config::fail({"title", 0, 0}, "", fmt::format("{} figures", figures.size()),
+                 "one, whose title it is", "only=NAME of a figure");
+  figures[0].plots[0].title = title;
+}
+
+// Has the paper room for what stands on it?
+void put_on_paper(Figures& figures, const report::Paper& paper) {
+  for (report::Figure& f : figures) {
+    f.paper = paper;
+    try {
+      report::layout(f);
+    } catch (const std::invalid_argument& too_low) {
+      config::fail({"height", 0, 0}, "", fmt::format("{:.4g} mm", paper.height / 72 * 25.4),
+                   too_low.what());
+    }
+  }
+}
+
+// Labels may be for other runs too, so what they say for nothing is no error.
+void tell_unsaid(const Figures& figures, const report::Labels& labels, const Notices& notices) {
+  report::Phrases phrases;
+  for (const report::Figure& f : figures) phrases.add(f);
+  for (const config::Problem& p : unsaid(labels, phrases)) notices.warning(config::to_text(p));
+}
+
+std::vector<Figures> figures_of(const std::vector<Drawn>& runs, const DrawingRequest& request) {
+  report::RunFigureOptions options = request.options;
+  options.units =
+      config::units_to_show({.now = request.units, .run = &runs.front().resolved}).units;
+  for (const std::string& text : request.channels) options.channels.push_back(chosen(text));
+  if (!options.channels.empty()) check_channels(options.channels, runs);
+  std::vector<Figures> out;
+  for (const Drawn& drawn : runs) out.push_back(report::run_figures(drawn.run(), options));
+  return out;
+}
+
+// `what`: the run that messages name; `of`: what the folder's page calls the figures.
+std::string finish(Figures figures, const fs::path& what, const std::string& of,
+                   const fs::path& folder, const DrawingRequest& request, const Notices& notices) {
+  if (figures.empty())
+    config::fail({what.string(), 0, 0}, "", "no samples",
+                 "a log with samples in the time that is asked for", "another time");
+  tell_unsaid(figures, request.files.labels, notices);
+  choose(figures, request.only, what);
+  put_title(figures, request.title);
+  put_on_paper(figures, request.paper);
+  report::Gallery gallery{.title = of.empty() ? "Figures" : "Figures of " + of};
+  for (report::Figure& f : figures) gallery.exhibits.push_back({std::move(f), {}});
+  return write_figures(folder, std::move(gallery), request.files, notices);
+}
+
+// "walk-test-1/2" of a numbered folder, else the folder's own name.
+std::string name_of(const fs::path& named) {
+  const fs::path folder = fs::absolute(named).lexically_normal();
+  const fs::path own = folder.has_filename() ? folder : folder.parent_path();
+  const std::string last = own.filename().string();
+  const bool number = !last.empty() && last.find_first_not_of("0123456789") == last.npos;
+  return number ? (own.parent_path().filename() / last).string() : last;
+}
+
+std::vector<std::string> names_of(const OverlaidRuns& asked) {
+  std::vector<std::string> out = asked.labels;
+  if (out.size() > asked.runs.size())
+    config::fail({"label", 0, 0}, "", fmt::format("{} labels", out.size()),
+                 fmt::format("one for each run, {} at most", asked.runs.size()),
+                 "as many as there are runs, in their order");
+  for (std::size_t i = out.size(); i < asked.runs.size(); ++i) {
+    const std::string name = name_of(asked.runs[i]);
+    const bool taken = std::ranges::find(out, name) != out.end();
+    out.push_back(taken ? asked.runs[i].string() : name);
+  }
+  for (const std::string& name : out)
+    if (std::ranges::count(out, name) > 1)
+      config::fail({"label", 0, 0}, "", config::in_quotes(name) + " for two runs",
+                   "labels that tell the runs apart", "label=A label=B");
+  return out;
+}
+
 }  // namespace
 
 std::string draw_run(const fs::path& named, const fs::path& folder, const DrawingRequest& request,
                      const Notices& notices) {
-  const RecordedRun run = recorded_run(named);
-  std::vector<report::Figure> figures = figures_of(run, request, notices);
-  if (figures.empty())
-    config::fail({named.string(), 0, 0}, "", "no samples",
-                 "a log with samples in the time that is asked for", "another time");
-  choose(figures, request.only, named);
-  const std::string name = experiment_in(run.log);
-  report::Gallery gallery{.title = name.empty() ? "Figures" : "Figures of " + name};
-  for (report::Figure& f : figures) gallery.exhibits.push_back({std::move(f), {}});
-  return write_figures(folder, std::move(gallery), request.files, notices);
+  std::vector<Drawn> runs;
+  runs.push_back(read(named, request, notices));
+  return finish(std::move(figures_of(runs, request)[0]), named, runs[0].name, folder, request,
+                notices);
+}
+
+std::string draw_runs(const OverlaidRuns& asked, const fs::path& folder,
+                      const DrawingRequest& request, const Notices& notices) {
+  const std::vector<std::string> names = names_of(asked);
+  std::vector<Drawn> runs;
+  for (const fs::path& named : asked.runs) runs.push_back(read(named, request, notices));
+  std::vector<Figures> each = figures_of(runs, request);
+  std::vector<report::LabelledRun> labelled;
+  for (std::size_t i = 0; i < each.size(); ++i) labelled.push_back({names[i], std::move(each[i])});
+  return finish(report::overlaid(labelled), asked.runs.front(),
+                fmt::format("{}", fmt::join(names, " and ")), folder, request, notices);
+}
+
+std::string labels_of_runs(const std::vector<fs::path>& named, const DrawingRequest& request) {
+  std::vector<Drawn> runs;
+  for (const fs::path& one : named) runs.push_back(read(one, request, {}));
+  report::Phrases phrases;
+  for (const Figures& figures : figures_of(runs, request))
+    for (const report::Figure& f : figures) phrases.add(f);
+  return report::labels_file(phrases);
 }
 
 }  // namespace sinew::run

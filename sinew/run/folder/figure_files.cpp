@@ -22,8 +22,6 @@ constexpr const char* index_name = "index.json";
 constexpr const char* page_name = "index.html";
 constexpr const char* format = "sinew.figures/1";
 
-std::string_view ending(Picture picture) { return picture == Picture::svg ? "svg" : "png"; }
-
 // Names that an index lists, if they are such as it lists: of files that stand in its folder.
 std::set<std::string> files_of(const Json& index) {
   std::set<std::string> files;
@@ -36,6 +34,7 @@ std::set<std::string> files_of(const Json& index) {
   for (const Json& figure : index["figures"]) {
     add(figure, "svg", ".svg");
     add(figure, "png", ".png");
+    add(figure, "pdf", ".pdf");
     add(figure, "script", ".gp");
     if (!figure.is_object() || !figure.contains("curves")) continue;
     for (const Json& curve : figure["curves"]) add(curve, "file", ".csv");
@@ -46,6 +45,9 @@ std::set<std::string> files_of(const Json& index) {
 
 void draw_all(const fs::path& folder, const std::vector<std::string>& scripts) {
   const std::vector<std::string> failed = report::draw(folder, scripts);
+  for (const std::string& script : scripts)
+    if (const fs::path pdf = (folder / script).replace_extension("pdf"); fs::exists(pdf))
+      report::take_date_out(pdf);
   if (failed.empty()) return;
   throw std::runtime_error(fmt::format("{}: gnuplot could not draw {}; its words are above",
                                        folder.string(), fmt::join(failed, ", ")));
@@ -69,7 +71,7 @@ namespace {
 
 // Into the folder where they are drawn; those that gnuplot is to draw come back.
 std::vector<std::string> write_all(const fs::path& folder, const report::Gallery& gallery,
-                                   const std::string& index, const std::vector<Picture>& pictures) {
+                                   const std::string& index, const FigureFiles& options) {
   constexpr auto later = log::Replacement::Sync::later;
   std::vector<std::string> scripts;
   for (const report::Exhibit& exhibit : gallery.exhibits) {
@@ -77,9 +79,10 @@ std::vector<std::string> write_all(const fs::path& folder, const report::Gallery
     const report::FigureData data = report::data(figure);
     for (const report::Sheet& sheet : data.sheets)
       write_file(folder / (sheet.name + ".csv"), report::csv(sheet), later);
-    if (pictures.empty()) continue;
+    if (options.pictures.empty()) continue;
     scripts.push_back(figure.name + ".gp");
-    write_file(folder / scripts.back(), report::script(figure, data, pictures), later);
+    write_file(folder / scripts.back(),
+               report::script(labelled(figure, options.labels), data, options.pictures), later);
   }
   write_file(folder / index_name, index, later);
   write_file(folder / page_name, report::index_html(gallery), later);
@@ -120,7 +123,7 @@ std::string write_figures(const fs::path& folder, report::Gallery gallery,
   const bool drawing = !options.pictures.empty() && report::has_gnuplot();
   gallery.pictures.clear();
   if (drawing)
-    for (const Picture p : options.pictures) gallery.pictures.emplace_back(ending(p));
+    for (const Picture p : options.pictures) gallery.pictures.emplace_back(report::ending(p));
   gallery.scripts = !options.pictures.empty();
   const std::string index = report::index_json(gallery);
 
@@ -129,7 +132,7 @@ std::string write_figures(const fs::path& folder, report::Gallery gallery,
   OutputFolder out(folder);
   const Stage stage(out);
   const std::vector<std::string> replaced = replaceable(folder, index, options.force);
-  const std::vector<std::string> scripts = write_all(out.work(), gallery, index, options.pictures);
+  const std::vector<std::string> scripts = write_all(out.work(), gallery, index, options);
   if (drawing) draw_all(out.work(), scripts);
   out.commit(replaced);
   if (!drawing && !options.pictures.empty()) {

@@ -8,13 +8,15 @@
 
 #include "sinew/report/figures/figure_script.h"
 #include "sinew/report/figures/gallery.h"
+#include "sinew/report/figures/labels.h"
 #include "sinew/run/folder/notices.h"
 
 namespace sinew::run {
 
 struct FigureFiles {
   std::vector<report::Picture> pictures{report::Picture::svg, report::Picture::png};
-  bool must_draw = false;  // the pictures were asked for by name
+  report::Labels labels = {};  // of the pictures
+  bool must_draw = false;      // the pictures were asked for by name
   bool force = false;
 };
 
