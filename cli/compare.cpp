@@ -1,6 +1,8 @@
 // cli/compare.cpp - `sinew compare`: runs beside each other, as tables and as one page.
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "cli/command.h"
 #include "cli/terminal.h"
 #include "sinew/report/compare/comparison_text.h"
@@ -19,7 +21,9 @@ constexpr int most_runs = 8;  // colors that can be told apart
 
 struct Options {
   std::vector<std::string> runs, channels;
-  std::string out, align = "start", units = "thesis";
+  std::vector<std::string> align_by;
+  std::string out, residuals, align = "start", clock = "none", event, units = "thesis";
+  double most_shift = std::numeric_limits<double>::infinity();
   bool json = false, all = false, force = false, quiet = false;
 };
 
@@ -32,25 +36,47 @@ report::ComparisonText shown_as(const Options& options) {
           .color = output_has_color()};
 }
 
+report::AlignWish wish_of(const Options& options) {
+  report::AlignWish wish;
+  for (const auto by : {report::Align::sequence, report::Align::event, report::Align::correlation})
+    if (to_text(by) == options.align) wish.by = by;
+  // What is said of an event or of channels is a wish for them.
+  if (!options.event.empty()) wish.by = report::Align::event;
+  if (!options.align_by.empty() && wish.by == report::Align::start)
+    wish.by = report::Align::correlation;
+  wish.event = options.event;
+  wish.channels = options.align_by;
+  wish.fit_clock = options.clock == "fit";
+  wish.most_shift = options.most_shift;
+  return wish;
+}
+
+// Nothing that was there is written over unasked, nor a run that is read.
+void refuse_outputs(const Options& options) {
+  if (!options.out.empty()) report::require_page(options.out);
+  std::vector<fs::path> inputs;
+  for (const std::string& named : options.runs) {
+    const run::RecordedRun run = run::recorded_run(named);
+    inputs.insert(inputs.end(), {run.log, run.resolved});
+  }
+  for (const std::string& out : {options.out, options.residuals})
+    if (!out.empty()) run::refuse_to_overwrite(out, options.force, inputs);
+}
+
 ExitCode compare_runs(const Options& options) {
   const Messages messages(options.quiet);
-  if (!options.out.empty()) {
-    report::require_page(options.out);
-    std::vector<fs::path> inputs;
-    for (const std::string& named : options.runs) {
-      const run::RecordedRun run = run::recorded_run(named);
-      inputs.insert(inputs.end(), {run.log, run.resolved});
-    }
-    run::refuse_to_overwrite(options.out, options.force, inputs);
-  }
-  const report::Comparison comparison = run::compare_runs(
-      options.runs, options.align == "start" ? report::Align::start : report::Align::sequence,
-      options.channels, messages.notices());
+  refuse_outputs(options);
+  const report::Comparison comparison =
+      run::compare_runs(options.runs, wish_of(options), options.channels, messages.notices());
 
   if (options.json)
     fmt::print("{}", to_json(comparison));
   else
     fmt::print("{}", text_of(comparison, shown_as(options)));
+  if (!options.residuals.empty()) {
+    run::write_file(options.residuals, report::residuals_csv(comparison));
+    messages.note(options.residuals);
+  }
   if (options.out.empty()) return ok;
   const std::string page = report::page(comparison);
   run::write_file(options.out, page);
@@ -69,9 +95,19 @@ void add_compare(Command app, Action& action) {
       .required()
       .takes(2, most_runs, "2 to 8, REQUIRED");
   sub.add_option("-o,--output", options->out, "also write a page with overlaid plots");
+  sub.add_option("--residuals", options->residuals,
+                 "also write what each run differs by, a column per channel, as CSV");
   sub.add_option("--align", options->align,
-                 "where times are counted from: start, or sequence: its first phase")
-      .is_one_of({"start", "sequence"});
+                 "how times are laid on the first run's: start, sequence, event, correlation")
+      .is_one_of({"start", "sequence", "event", "correlation"});
+  sub.add_option("--event", options->event,
+                 "of --align event: '/joint/elbow/angle > 10 deg'; else the surest first motion");
+  sub.add_option("--align-by", options->align_by, "channels that are correlated; else chosen")
+      .takes_all();
+  sub.add_option("--clock", options->clock,
+                 "fit: the rate of a run's clock is found and taken out; none")
+      .is_one_of({"none", "fit"});
+  sub.add_option("--within", options->most_shift, "largest shift that is looked for, in s");
   sub.add_option("--channels", options->channels, "only these: '/joint/*/angle'").takes_all();
   sub.add_option("--units", options->units, "of the tables: thesis or si; --json is in SI")
       .is_one_of({"thesis", "si"});

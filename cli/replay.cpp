@@ -1,70 +1,61 @@
-// cli/replay.cpp - `sinew replay`: recorded readings through today's controller; does it decide the
-// same valve edges?
+// cli/replay.cpp - `sinew replay`: recorded readings through today's controller, or recorded valves
+// through today's plant; where do they part?
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "cli/command.h"
-#include "cli/json_text.h"
 #include "cli/terminal.h"
-#include "sinew/analysis/measures/edges.h"
-#include "sinew/log/reader.h"
-#include "sinew/run/folder/run_folder.h"
-#include "sinew/run/setup/buildable.h"
-#include "sinew/run/simulation/run.h"
+#include "sinew/run/folder/replayed.h"
 
 namespace sinew::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct Options {
-  std::string run, machine;
+  run::ReplayRequest request;
+  std::string of = "controller", folder, units = "thesis";
+  double band = 5;  // [%]
   bool json = false, quiet = false;
 };
 
-void print(const analysis::EdgeComparison& c, bool json) {
-  if (json) {
-    Json out{{"recorded_edges", c.recorded}, {"replayed_edges", c.replayed}, {"equal", !c.first}};
-    if (c.first)
-      out["first_difference"] = {{"time_s", 1e-9 * static_cast<double>(c.first->time_ns)},
-                                 {"topic", c.first->topic},
-                                 {"recorded", c.first->recorded},
-                                 {"replayed", c.first->replayed}};
-    fmt::print("{}\n", json_text(out, 2));
-  } else if (!c.first) {
-    fmt::print("{} edges, all equal\n", c.recorded);
-  } else {
-    fmt::print("{} edges recorded, {} replayed\n", c.recorded, c.replayed);
-    fmt::print("first difference at {:.4f} s: {} {} in the log, {} in the replay\n",
-               1e-9 * static_cast<double>(c.first->time_ns), c.first->topic, c.first->recorded,
-               c.first->replayed);
-  }
+units::ShownUnits units_of(const Options& options) {
+  return options.units == "si" ? units::UnitSet::si : units::UnitSet::thesis;
 }
 
-ExitCode replay_run(const Options& options) {
+ExitCode replay_run(Options options) {
   const Messages messages(options.quiet);
-  const run::RecordedRun run = run::recorded_run(options.run);
-  const auto experiment = run::buildable(run::machine_of(run, options.machine).string());
-  const signals::Table recorded = log::read(run.log);
-  if (!recorded.complete)
-    messages.warning(run.log.string() + " was cut off; compared as far as it goes");
-
-  const run::Outcome outcome = run::replay(experiment, recorded);
-  const analysis::EdgeComparison comparison = analysis::compare_edges(recorded, outcome.table);
-  print(comparison, options.json);
-  return comparison.first ? failed : ok;
+  options.request.of = options.of == "plant" ? run::ReplayOf::plant : run::ReplayOf::controller;
+  options.request.band = 0.01 * options.band;
+  if (!options.folder.empty()) options.request.folder = options.folder;
+  const run::Replayed replayed = run::replay_run(options.request, messages.notices());
+  if (options.json)
+    fmt::print("{}", to_json(replayed));
+  else
+    fmt::print("{}", text_of(replayed, units_of(options), width_of_output()));
+  if (replayed.folder) messages.note(replayed.folder->string());
+  // A plant that parts from a measurement is a result; a controller that does is a change.
+  const bool bad =
+      replayed.of == run::ReplayOf::controller ? !replayed.agrees() : !replayed.cause.empty();
+  return bad ? failed : ok;
 }
 
 }  // namespace
 
 void add_replay(Command app, Action& action) {
   auto options = std::make_shared<Options>();
-  Command sub = app.subcommand("replay", "recorded readings through today's controller",
-                               "sinew replay runs/walk-test-1/1");
-  sub.add_option("DIR", options->run, "a run's folder, or a log file").required();
-  sub.add_option("--machine", options->machine, "what was run, in place of the folder's");
+  Command sub = app.subcommand("replay", "a recording through today's controller, or plant",
+                               "sinew replay runs/walk-test-1/1 --of plant -o runs/replayed");
+  sub.add_option("DIR", options->request.run, "a run's folder, or a log file").required();
+  sub.add_option("--of", options->of,
+                 "controller: it is fed the readings; plant: it is fed the valves' commands")
+      .is_one_of({"controller", "plant"});
+  sub.add_option("--machine", options->request.machine, "what was run, in place of the folder's");
+  add_sets(sub, options->request.sets);
+  sub.add_option("--band", options->band,
+                 "of a plant: has parted beyond this share of a channel's range, in %");
+  sub.add_option("-o,--output", options->folder, "keep the replay in this folder, as a run");
+  sub.add_flag("--force", options->request.force, "replace the run that is in the folder");
+  sub.add_option("--units", options->units, "of the table: thesis or si; --json is in SI")
+      .is_one_of({"thesis", "si"});
   sub.add_flag("--json", options->json, "as JSON");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");
   sub.callback([=, &action] { action = [=] { return replay_run(*options); }; });

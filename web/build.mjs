@@ -35,6 +35,7 @@ const text_of = (name) => readFileSync(join(src, name), 'utf8');
 function page_of(main, style, script, connect = '') {
   let page = text_of('frame.html').replace('/*connect*/', connect);
   page = page.replace('<!-- main -->\n', () => text_of(main));
+  page = page.replace('      <!-- player -->\n', () => text_of('player.html'));
   page = page.replace('/*style*/', () => dark_by_system(bundle(style)));
   page = page.replace('/*script*/', () => bundle(script));
 

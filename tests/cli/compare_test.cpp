@@ -159,5 +159,79 @@ TEST(Compare, WithoutNpmHasNoPageAndSaysSo) {
 
 #endif
 
+// --- on one clock ---
+
+TEST(Compare, ByCorrelationTheSameRunIsMovedByExactlyNothing) {
+  const Workspace w;
+  run(w, bench, "a");
+  const Json c = compared(w, {"a", "a", "--align", "correlation", "--clock", "fit"});
+  const Json& alignment = c["runs"][1]["alignment"];
+  EXPECT_EQ(alignment["shift_s"], 0);
+  EXPECT_EQ(alignment["rate"], 0);
+  EXPECT_TRUE(alignment["same"].get<bool>());
+  EXPECT_FALSE(c["runs"][0].contains("alignment"));
+  EXPECT_THAT(w.sinew({"compare", "a", "a", "--align", "correlation"}).out,
+              HasSubstr("the same samples: nothing is moved"));
+}
+
+TEST(Compare, AnEventAndWhatIsLeftAreTold) {
+  const Workspace w;
+  run(w, bench, "a");
+  run(w, bench, "b", {"--set", "joint.lever.damping=1.6 lbf in s/rad"});
+  const Result text = w.sinew({"compare", "a", "b", "--event", "/joint/lever/angle > 275 deg",
+                               "--residuals", "left.csv", "--channels", "/joint/lever/angle"});
+  ASSERT_EQ(text.code, 0) << text.err;
+  EXPECT_THAT(text.out, AllOf(HasSubstr("B is laid on A by event: /joint/lever/angle > 275 deg"),
+                              HasSubstr("bias"), HasSubstr("of range")));
+  EXPECT_THAT(read_text(w / "left.csv"), StartsWith("time [s],B /joint/lever/angle [rad]\n"));
+  EXPECT_EQ(w.sinew({"compare", "a", "b", "--residuals", "left.csv"}).code, 1) << "not over it";
+}
+
+TEST(Compare, WhatCannotBeLaidOnEachOtherIsRefusedWithAReason) {
+  const Workspace w;
+  run(w, bench, "a");
+  run(w, bench, "b", {"--set", "joint.lever.damping=1.6 lbf in s/rad"});
+  for (const auto& [words, found] :
+       {std::pair{Words{"--event", "/joint/lever/angle > 900 deg"}, "never crosses 900 deg"},
+        {Words{"--align-by", "/joint/leverr/angle"}, "try \"/joint/lever/angle\""},
+        {Words{"--align-by", "/desired/joint/lever/stiffness"}, "constant or nothing but noise"}}) {
+    Words all = {"compare", "a", "b"};
+    all.insert(all.end(), words.begin(), words.end());
+    const Result result = w.sinew(all);
+    EXPECT_EQ(result.code, 1);
+    EXPECT_THAT(result.err, HasSubstr(found));
+    EXPECT_THAT(result.err, StartsWith("b: align"));
+  }
+  EXPECT_THAT(w.sinew({"compare", "a", "b", "--event", "/joint/lever/angle"}).err,
+              StartsWith("event: found \"/joint/lever/angle\", without > or <"));
+  EXPECT_EQ(w.sinew({"compare", "a", "b", "--align", "middle"}).code, 2);
+}
+
+// --- replay ---
+
+TEST(Replay, OfThePlantShowsWhereItPartsAndIsKept) {
+  const Workspace w;
+  run(w, bench, "a");
+  const Result same = w.sinew({"replay", "a", "--of", "plant"});
+  ASSERT_EQ(same.code, 0) << same.err;
+  EXPECT_THAT(same.out, HasSubstr(", 0 part by more than"));
+  const Result other = w.sinew({"replay", "a", "--of", "plant", "-o", "c", "--set",
+                                "joint.lever.damping=1.6 lbf in s/rad", "--json"});
+  ASSERT_EQ(other.code, 0) << other.err;
+  const Json json = Json::parse(other.out);
+  EXPECT_FALSE(json["agrees"].get<bool>());
+  EXPECT_TRUE(json["channels"][0]["parts_at_s"].is_number());
+  EXPECT_EQ(w.sinew({"compare", "a", "c"}).code, 0);
+}
+
+TEST(Replay, OfTheControllerTellsOfEachValve) {
+  const Workspace w;
+  run(w, bench, "a");
+  const Result other = w.sinew({"replay", "a", "--set", "joint.lever.angle_gain=0.15 %/count"});
+  EXPECT_EQ(other.code, 1) << other.err;
+  EXPECT_THAT(other.out, AllOf(HasSubstr("first difference at"), HasSubstr("only in the replay"),
+                               HasSubstr("/valve/")));
+}
+
 }  // namespace
 }  // namespace sinew::test

@@ -1,14 +1,16 @@
 // The page of several runs: the same channel of all in one plot, differences, tables.
 import { Charts } from './charts.js';
+import { Machines } from './compare_scene.js';
 import { ComparisonTables, judged_differently } from './compare_tables.js';
 import { FootPaths } from './foot_path.js';
 import { Look } from './look.js';
 import { by_id, element } from './page.js';
 import { Plan } from './plan.js';
+import { Player } from './player.js';
 import { Plots } from './plots.js';
 import { index_at, read_samples } from './samples.js';
 import { line_of, letter_of, RunLegend } from './runs.js';
-import { difference_unit, Units } from './units.js';
+import { difference_unit, signed, Units } from './units.js';
 
 // What the program left out because it is the first run's column and the difference.
 function sum(first, difference) {
@@ -24,6 +26,49 @@ function columns_of(panel, columns) {
   return { values, differences };
 }
 
+// From the first run's start on, which an alignment may have put before 0.
+class SpanPlayer extends Player {
+  constructor([from, to], clock, show) {
+    super(to, clock, show);
+    this.from = this.time = from;
+    this.slider.min = from;
+  }
+
+  place(t) {
+    this.time = Math.min(this.limit, Math.max(this.from, t));
+    this.slider.value = this.time;
+    this.slider.setAttribute('aria-valuetext', `${this.time.toFixed(3)} s`);
+    this.show(this.time);
+  }
+
+  toggle() {
+    if (!this.playing && this.time >= this.limit) this.seek(this.from);
+    this.set_playing(!this.playing);
+  }
+}
+
+const paper_scene = 'width: 560px; height: 320px;';  // of the drawing, whatever the screen's is
+
+// "+2.500 s ± 0.003 s", with two digits of what is not sure.
+function with_uncertainty(value, uncertainty, unit) {
+  if (uncertainty === null) return `${signed(value)} ${unit}`;
+  const digits = uncertainty > 0 ? Math.min(9, Math.max(0, 1 - Math.floor(Math.log10(uncertainty)))) : 4;
+  const text = `${value >= 0 ? '+' : '−'}${Math.abs(value).toFixed(digits)}`;
+  return `${text} ${unit} ± ${uncertainty.toFixed(digits)} ${unit}`;
+}
+
+// How a run was laid on the first one.
+function alignment_words(run, i, fitted) {
+  const a = run.alignment;
+  if (!a) return '';
+  if (a.same) return `${letter_of(i)} holds the same samples: nothing is moved`;
+  const by = [a.event && `event: ${a.event}`, a.channels.length && `correlation of ${a.channels.join(', ')}`].filter(Boolean).join('; ');
+  return `${letter_of(i)}'s clock shows ${with_uncertainty(a.shift_s, a.shift_uncertainty_s, 's')} at A's 0` +
+    (fitted ? ` and goes ${with_uncertainty(100 * a.rate, a.rate_uncertainty && 100 * a.rate_uncertainty, '%')} faster` : '') +
+    (a.correlation === null ? '' : `, r ${a.correlation.toFixed(4)}`) + ` (${by})` +
+    (a.rate_seen ? `; it seems to go ${with_uncertainty(100 * a.rate_seen, 100 * a.rate_seen_uncertainty, '%')} faster, which is not taken out` : '');
+}
+
 class ComparePage {
   constructor(data, samples) {
     this.data = data;
@@ -33,11 +78,12 @@ class ComparePage {
     this.head();
     this.legend = new RunLegend(by_id('runs'), data.runs, (run) => this.toggle_run(run));
     this.make_plots(samples);
+    this.make_machines(samples);
     this.tables = new ComparisonTables(data, this.units, (channel, t) => this.visit(channel, t));
     this.look = new Look(this.units, {
       on_units: () => this.rebuild(),
       on_colors: () => this.rebuild(),
-      on_print: (begins) => this.plots.print(begins),
+      on_print: (begins) => this.print(begins),
     });
     this.controls();
     this.seek(this.whole[0]);
@@ -47,8 +93,10 @@ class ComparePage {
     const { runs, align, figures, parameters, channels } = this.data;
     const titles = [...new Set(runs.map((r) => r.title || r.label))];
     by_id('title').textContent = titles.length > 2 ? `${titles[0]} and ${titles.length - 1} others` : titles.join(' · ');
-    by_id('facts').textContent = `${runs.length} runs, each beside the first; ` +
-      (align === 'sequence' ? 'their sequences begin together, at the time of the first' : 'times from the start of each run');
+    const laid = { start: 'times from the start of each run', sequence: 'their sequences begin together, at the time of the first',
+                   event: 'laid on each other by an event', correlation: 'laid on each other by the greatest correlation' };
+    by_id('facts').textContent = `${runs.length} runs, each beside the first; ${laid[align]}` +
+      runs.map((run, i) => alignment_words(run, i, this.data.clock === 'fit')).filter(Boolean).map((w) => `. ${w}`).join('');
     const differing = figures.filter((f) => f.values.some((v) => v !== f.values[0])).length;
     const changed = figures.filter((f) => judged_differently(f)).length;
     const several = (count, word) => `${count} ${word}${count === 1 ? ' differs' : 's differ'}`;
@@ -84,12 +132,38 @@ class ComparePage {
     this.plots.on_view = () => this.draw_view();
     this.plots.on_values = (t) => this.show(t);
     document.querySelector('.stage').classList.toggle('without-plots', !specs.length);
-    this.apart = false;
+    // What is laid on each other is looked at by what is left.
+    this.apart = data.align === 'event' || data.align === 'correlation';
+    by_id('show-differences').setAttribute('aria-pressed', String(this.apart));
     this.all = false;
     this.groups_shown = new Map();
     this.groups();
     this.arrange();
     new ResizeObserver(() => this.draw_view()).observe(by_id('plots'));
+  }
+
+  // The machines over each other, and the player that moves them.
+  make_machines(columns) {
+    const clocks = this.plots.panels.flatMap((p) => p.columns.map((c) => c.time));
+    const clock = clocks.reduce((most, c) => (c.length > most.length ? c : most), new Float64Array());
+    this.player = new SpanPlayer(this.whole, clock, (t) => this.go(t));
+    this.machines = new Machines(by_id('scene'), this.data.runs, columns, this.units, this.shown);
+    document.querySelector('.stage').classList.toggle('without-machines', !this.machines.there);
+    by_id('follow').hidden = !this.machines.can_follow();
+    by_id('follow').addEventListener('click', () => this.toggle_follow());
+    if (this.machines.there) by_id('machine-note').textContent = this.machines.note();
+  }
+
+  toggle_follow() {
+    if (this.machines.can_follow()) by_id('follow').setAttribute('aria-pressed', String(this.machines.toggle_follow()));
+  }
+
+  print(begins) {
+    this.player.set_playing(false);
+    this.plots.print(begins);
+    if (!this.machines.there) return;
+    by_id('scene').style.cssText = begins ? paper_scene : '';
+    this.machines.draw(this.player.time);
   }
 
   make_foot() {
@@ -163,6 +237,7 @@ class ComparePage {
       for (const label of new Set(chart.spec.curves.filter((c) => c.run === run).map((c) => c.label)))
         if (chart.shown.has(label) !== this.shown[run])
           chart.buttons?.find((b) => b.button.textContent === label)?.button.click();
+    this.machines.draw(this.player.time);
     this.draw_view();
   }
 
@@ -182,9 +257,15 @@ class ComparePage {
   // --- time ---
 
   seek(t) {
-    const time = Math.min(this.whole[1], Math.max(this.whole[0], t));
+    this.player.seek(t);
+  }
+
+  // What the player says.
+  go(time) {
     this.plots.set_time(time);
     this.plots.keep_in_view(time);
+    this.machines?.draw(time);
+    by_id('machine-clock').textContent = `${time.toFixed(2)} s`;
     this.show(this.plots.shown_time());
   }
 
@@ -212,6 +293,8 @@ class ComparePage {
     this.plots.rebuild();
     this.charts?.rebuild();
     this.tables.refresh();
+    this.machines.read_look();
+    this.machines.draw(this.player.time);
     this.draw_view();
   }
 
@@ -225,7 +308,7 @@ class ComparePage {
   }
 
   key(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.type === 'search') return;
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.type === 'search' || event.target.tagName === 'SELECT') return;
     const by = event.shiftKey ? 10 : 1;
     const run = Number(event.key) - 1;
     const does = {
@@ -233,6 +316,10 @@ class ComparePage {
       ArrowRight: () => this.step(by),
       Home: () => this.seek(this.whole[0]),
       End: () => this.seek(this.whole[1]),
+      ' ': () => this.player.toggle(),
+      '[': () => this.player.faster(-1),
+      ']': () => this.player.faster(1),
+      f: () => this.toggle_follow(),
       d: () => this.switch_differences(),
       '+': () => this.plots.zoom_by(0.5),
       '-': () => this.plots.zoom_by(2),
@@ -257,7 +344,7 @@ function specs_of(panel, { values, differences }, columns, runs) {
   return {
     values: { ...common, title, unit: panel.unit,
               lines: lines(values, (run) => ({ difference: run ? differences[run] ?? none : null })) },
-    differences: { ...common, title: 'difference', unit: difference_unit(panel.unit), height: 84, difference: true,
+    differences: { ...common, title: 'less the first run', unit: difference_unit(panel.unit), height: 84, difference: true,
                    lines: lines(differences, () => ({})) },
   };
 }

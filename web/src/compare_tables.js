@@ -132,7 +132,7 @@ export class ComparisonTables {
     const most = Math.max(...this.channel_rows.map((r) => r.size), 1e-300);
     for (const r of this.channel_rows) r.bar.style.width = `${(100 * r.size) / most}%`;
     const heads = ['channel', '', ...this.others.flatMap((i) =>
-      [`rms, ${letter_of(i)} − A`, 'at most', 'at', '']), ''];
+      [`rms, ${letter_of(i)} − A`, 'of range', 'bias', 'at most', 'at', 'r', '']), ''];
     const sorted = by_size(this.channel_rows);
     const list = table('Differences of channels', heads, sorted.map((r) => r.row));
     list.classList.add('only-differing');
@@ -158,20 +158,23 @@ export class ComparisonTables {
   }
 
   channel_cells(channel, d) {
-    const rms = cell('', 'number'), largest = cell('', 'number'), at = cell('', ''), note = cell(note_of(d), 'quiet');
+    const rms = cell('', 'number'), bias = cell('', 'number'), largest = cell('', 'number'), at = cell('', ''), note = cell(note_of(d), 'quiet');
+    const share = cell(d && d.span > 0 && d.rms > 0 && d.meet !== 'held' ? `${number((100 * d.rms) / d.span)} %` : '', 'number');
+    const r = cell(d && typeof d.correlation === 'number' && !d.same ? d.correlation.toFixed(4) : '', 'number');
     if (d && !d.same && d.at_s !== null && d.largest !== 0) {
       const button = element('button', { type: 'button', class: 'time' }, `${d.at_s.toFixed(3)} s`);
       button.addEventListener('click', () => this.visit(`${channel.topic} ${channel.field}`, d.at_s));
       at.append(button);
     }
-    return { d, rms, largest, all: [rms, largest, at, note] };
+    return { d, rms, bias, largest, all: [rms, share, bias, largest, at, r, note] };
   }
 
   fill_channel({ channel, cells, unit }) {
     const { scale, label } = this.units.of(difference_unit(channel.unit));
-    for (const { d, rms, largest } of cells) {
+    for (const { d, rms, bias, largest } of cells) {
       const drawn = d && !d.same && d.rms !== null && d.largest !== 0 && d.meet !== 'held';
       rms.textContent = drawn ? number(d.rms * scale) : '';
+      bias.textContent = drawn && typeof d.bias === 'number' ? signed(d.bias * scale) : '';
       largest.textContent = drawn ? signed(d.largest * scale) : '';
     }
     unit.textContent = label;

@@ -38,7 +38,7 @@ function swatch(run) {
 export class RunLegend {
   constructor(root, runs, on_toggle) {
     this.buttons = runs.map((run, i) => {
-      const moved = run.shift_s ? `, moved by ${(-run.shift_s).toFixed(2)} s` : '';
+      const moved = run.shift_s ? `, moved by ${(-run.shift_s).toFixed(3).replace('-', '−')} s` : '';
       const button = element('button', { type: 'button', class: 'run', 'aria-pressed': 'true',
                                          title: `${run.title}; show or hide (${i + 1})` },
         swatch(i), element('b', {}, letter_of(i)), element('span', {}, run.label),

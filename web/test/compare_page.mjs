@@ -1,8 +1,9 @@
-// The page of several runs: RUNS/compare/{two,same,stand,long}.html of walk-test-1 and walk-test-2, of
-// a run with itself, of weights-60 and weights-90, and of two runs of 10 min.
+// The page of several runs: RUNS/compare/{two,same,stand,measured,long}.html of walk-test-1 and
+// walk-test-2, of a run with itself, of weights-60 and weights-90, of the bench's lever and a recording
+// of another one's angle alone, laid on it by correlation, and of two runs of 10 min.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { picture, summary_of, with_page } from './pages.mjs';
+import { drawing_of, picture, seek, summary_of, time_of, with_page } from './pages.mjs';
 
 const opens_within = 5000, generous = 5;  // [ms]; times that, where others work too
 
@@ -115,6 +116,89 @@ test('zoom and cursor are one for plots, plan and foot', () => compared('two', a
   assert.notEqual(await page.locator('#clock').textContent(), clock);
 }));
 
+// --- the machines over each other ---
+
+// Pixels of the drawing that are nearly of a color of the page.
+const pixels_like = (page, name) => page.evaluate((variable) => {
+  const canvas = document.getElementById('scene');
+  const probe = document.createElement('canvas').getContext('2d', { willReadFrequently: true });
+  probe.canvas.width = canvas.width, probe.canvas.height = canvas.height;
+  probe.drawImage(canvas, 0, 0);
+  const found = probe.getImageData(0, 0, canvas.width, canvas.height).data;
+  probe.fillStyle = getComputedStyle(document.documentElement).getPropertyValue(variable);
+  probe.fillRect(0, 0, 1, 1);
+  const [r, g, b] = probe.getImageData(0, 0, 1, 1).data;
+  // A ghost lets half of what is below through: its hue counts, not how light it is.
+  const hue = (x, y, z) => Math.atan2(Math.sqrt(3) * (y - z), 2 * x - y - z);
+  const wanted = hue(r, g, b);
+  let count = 0;
+  for (let i = 0; i < found.length; i += 4) {
+    const [x, y, z, alpha] = found.slice(i, i + 4);
+    const apart = Math.abs(Math.atan2(Math.sin(hue(x, y, z) - wanted), Math.cos(hue(x, y, z) - wanted)));
+    if (alpha > 60 && Math.max(x, y, z) - Math.min(x, y, z) > 40 && apart < 0.15) ++count;
+  }
+  return count;
+}, name);
+
+test('the other machine stands over the first one as a ghost in its color', () => compared('two', async (page) => {
+  await seek(page, 3);
+  const both = await drawing_of(page), ghost = await pixels_like(page, '--line-1');
+  assert.ok(ghost > 500, `${ghost} pixels of the ghost`);
+  await page.keyboard.press('2');
+  assert.ok(await pixels_like(page, '--line-1') < 0.2 * ghost, 'hidden with its run');
+  await page.keyboard.press('2');
+  assert.equal(await drawing_of(page), both);
+  await page.keyboard.press('1');
+  assert.notEqual(await drawing_of(page), both, 'the first one is hidden too');
+  await page.keyboard.press('1');
+  await page.locator('#follow').click();
+  assert.notEqual(await drawing_of(page), both, 'where they really were');
+  assert.match(await page.locator('#machine-note').textContent(), /A as it is; B over it as a ghost in its color/);
+}));
+
+test('they play, as on the page of a run; plots and drawing show one time', () => compared('two', async (page) => {
+  await page.keyboard.press('Home');
+  const from = await time_of(page), before = await drawing_of(page);
+  await page.locator('#speed').selectOption('4');
+  await page.locator('#play').click();
+  await page.waitForFunction((t) => window.sinew.page.player.time > t + 0.5, from);
+  assert.equal(await page.locator('#play').getAttribute('aria-label'), 'Pause');
+  await page.keyboard.press(' ');
+  assert.equal(await page.locator('#play').getAttribute('aria-label'), 'Play');
+  assert.notEqual(await drawing_of(page), before);
+  const [player, plots, slider, clock] = await page.evaluate(() => [window.sinew.page.player.time, window.sinew.page.plots.time,
+    Number(document.getElementById('seek').value), parseFloat(document.getElementById('machine-clock').textContent)]);
+  assert.equal(player, plots);
+  assert.ok(Math.abs(player - slider) < 1e-6 && Math.abs(player - clock) < 0.006);
+  await seek(page, 2.5);
+  assert.ok(Math.abs((await page.evaluate(() => window.sinew.page.plots.time)) - 2.5) < 1e-9);
+}));
+
+test('of a recording of angles alone there is a ghost, and what is left stands under each plot', () => compared('measured', async (page) => {
+  await seek(page, 3);
+  assert.ok(await pixels_like(page, '--line-1') > 300, 'links and muscles of the angle');
+  const { align, clock, runs } = await page.evaluate(() => window.sinew.data);
+  assert.deepEqual([align, clock], ['correlation', 'fit']);
+  const { alignment } = runs[1];
+  assert.ok(Math.abs(alignment.rate) < 0.01 && Math.abs(alignment.shift_s) < 0.05 && alignment.correlation > 0.95);
+  assert.match(await page.locator('#facts').textContent(), /B's clock shows [+−]0\.\d+ s ± 0\.\d+ s at A's 0 and goes .* % faster, r 0\.9\d+/);
+  assert.equal(await page.locator('#show-differences').getAttribute('aria-pressed'), 'true');
+  assert.ok(await page.locator('.panel.difference:visible').count() >= 1);
+  const cells = await page.locator('#channels tr[data-key="/joint/lever/angle"] td').allTextContents();
+  const [, rms, share, bias, most, , r] = cells;
+  for (const [text, what] of [[rms, 'rms'], [share, 'share'], [bias, 'bias'], [most, 'largest'], [r, 'correlation']])
+    assert.match(text, /\d/, `${what}: ${cells}`);
+  await picture(page, 'compare-measured');
+}));
+
+test('stands are drawn over each other, too', () => compared('stand', async (page) => {
+  const end = await page.evaluate(() => window.sinew.page.whole[1]);
+  await seek(page, 0.9 * end);
+  const both = await drawing_of(page);
+  await page.keyboard.press('2');
+  assert.notEqual(await drawing_of(page), both);
+}));
+
 test('figures are those of both summaries, in either unit', () => compared('two', async (page) => {
   const summaries = ['walk-test-1', 'walk-test-2'].map(summary_of);
   const at = (key, i) => key.split('.').reduce((node, part) => node?.[part], summaries[i]);
@@ -177,6 +261,8 @@ test('the test stand has its charts, a curve per run', () => compared('stand', a
 
 test('dark, on paper and on a phone', async () => {
   await compared('two', async (page) => {
+    await seek(page, 3);
+    assert.ok(await pixels_like(page, '--line-1') > 500);
     await picture(page, 'compare-dark');
     assert.ok((await page.pdf({ format: 'A4', printBackground: true })).length > 100000);
   }, { colorScheme: 'dark' });

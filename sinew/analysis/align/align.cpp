@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "sinew/analysis/align/parting.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 
@@ -14,8 +16,9 @@ namespace sinew::analysis {
 namespace {
 
 constexpr double least_correlation = 0.6;
-constexpr double least_fall = 0.01;      // of r within a tenth of the shorter recording
-constexpr double clearly_higher = 0.01;  // a peak above the next one
+constexpr double least_fall = 0.01;       // of r within a tenth of the shorter recording
+constexpr double clearly_better = 0.005;  // with what stands still before and after
+constexpr double clearly_higher = 0.01;   // a peak above the next one
 
 // A wish that cannot be met; align() says of which recording.
 struct Refusal {
@@ -57,12 +60,6 @@ std::vector<Pair> common_pairs(const signals::Table& first, const signals::Table
   return out;
 }
 
-bool is_measured(const Pair& pair) {
-  const std::string& name = pair.first.channel;
-  return !name.starts_with("/true/") && !name.starts_with("/desired/") &&
-         !signals::is_of_valve(name) && !name.ends_with("_duty") && !name.starts_with("/plan/");
-}
-
 bool moves(const Pair& pair) {
   return spread_of(pair.first).moves() && spread_of(pair.other).moves();
 }
@@ -77,9 +74,9 @@ std::size_t kind_of(const Pair& pair) {
   return name.ends_with("/count") ? kinds.size() + 1 : kinds.size();
 }
 
-// What moves in both, of the first kind of which there is anything.
+// Keeps what moves in both, of the first kind of which there is anything.
 std::vector<Pair> chosen_pairs(std::vector<Pair> all) {
-  std::erase_if(all, [](const Pair& p) { return !is_measured(p) || !moves(p); });
+  std::erase_if(all, [](const Pair& p) { return !is_of_motion(p.first.channel) || !moves(p); });
   std::size_t first = 100;
   for (const Pair& p : all) first = std::min(first, kind_of(p));
   std::erase_if(all, [&](const Pair& p) { return kind_of(p) != first; });
@@ -167,12 +164,39 @@ void require_clear(const Found& found, const std::string& channels) {
     refuse(fmt::format("a correlation of {:.3f} that hardly changes with the shift, of {}", found.r,
                        channels),
            "a motion that can be told from itself later", "another channel, or an event");
-  if (found.second_r > found.r - clearly_higher)
-    refuse(fmt::format(
-               "a correlation of {:.3f} at a shift of {:.3f} s, and of {:.3f} at {:.3f} s, of {}",
-               found.r, found.clock.shift, found.second_r, found.second_shift, channels),
-           "one shift that is clearly the best: the motion repeats itself",
-           "an event, or a limit of the shift below half of its period");
+}
+
+[[noreturn]] void repeats(const Clock& one, const Clock& other, const std::string& channels) {
+  refuse(
+      fmt::format("shifts of {:.3f} s and of {:.3f} s, at which {} are as much alike", one.shift,
+                  other.shift, channels),
+      "one shift that is clearly the best: the motion repeats itself",
+      "an event, a limit of the shift below half of its period, or recordings that begin and end "
+      "at rest");
+}
+
+// Among peaks that are nearly as high, the one whose beginning and end lie best on each other.
+Clock best_of(const std::vector<Pair>& pairs, const Found& found, const std::string& channels) {
+  if (found.others.empty()) return found.clock;
+  Clock best = found.clock, second = found.others.front();
+  double r = likeness_at_rest(pairs, best).value_or(-1), next = -1;
+  const auto free = likeness(pairs, best);
+  bool as_high = false;
+  for (const Clock& other : found.others) {
+    const auto its = likeness(pairs, other);
+    as_high = as_high || (its && free && its->r > free->r - clearly_higher);
+    const double held = likeness_at_rest(pairs, other).value_or(-1);
+    if (held > r) {
+      second = std::exchange(best, other);
+      next = std::exchange(r, held);
+    } else if (held > next) {
+      second = other;
+      next = held;
+    }
+  }
+  if (!as_high) return found.clock;
+  if (!(r > next + clearly_better)) repeats(best, second, channels);
+  return best;
 }
 
 std::string list_of(const std::vector<std::string>& channels) {
@@ -246,7 +270,7 @@ Alignment aligned(const signals::Table& first, const signals::Table& other,
     half_width = found->half_width;
     known_at = 0.5 * (pairs.front().first.time.front() + pairs.front().first.time.back());
     const double width = std::max(longest_step(pairs), 0.25 * half_width);
-    out.clock = refine(pairs, found->clock, width).clock;
+    out.clock = refine(pairs, best_of(pairs, *found, list_of(out.channels)), width).clock;
   } else {
     half_width = own_width(pairs);
   }

@@ -3,8 +3,8 @@
 //   Alignment found = align(a, b, {.by = AlignBy::correlation, .fit_clock = true});
 //   reclock(b, found.clock);              b's times are those of a's clock now
 //
-// By an event (event.h), by the greatest correlation (correlation.h), or by a shift that is known
-// already; then, where it is wished, the clock's rate too (clock_fit.h). Without a wish the
+// They are laid by an event (event.h), by the greatest correlation (correlation.h), or by a shift
+// known already; then, where it is wished, the clock's rate too (clock_fit.h). Without a wish the
 // channels are those of the first kind that moves in both recordings: angles, lengths, positions,
 // tensions, pressures, all others, counts. What only a simulation knows (/true), plans (/desired)
 // and valves are not asked: a measurement has none, or they would say nothing of the motion.

@@ -121,6 +121,22 @@ TEST(Align, AMotionThatRepeatsItselfIsNotGuessed) {
   EXPECT_NEAR(align(a, b, {.most_shift = 0.7}).clock.shift, 0.2, 0.003);
 }
 
+TEST(Align, RestBeforeAndAfterTellsRepetitionsApart) {
+  const auto thrice = [](double t) {
+    const double u = std::clamp(t - 2, 0.0, 12.0);
+    return 0.5 * (1 - std::cos(2 * std::numbers::pi * u / 4));
+  };
+  for (const double shift : {-3.1, 0.2, 5.4}) {
+    signals::Table a, b;
+    test::add_channel(a, "/joint/hip/angle", "rad", {.duration = 17}, 0.005, thrice);
+    test::add_channel(b, "/joint/hip/angle", "rad",
+                      {.clock = {shift, 0.003}, .duration = 22, .seed = 9}, 0.01, thrice);
+    const Alignment found = align(a, b, {.fit_clock = true});
+    EXPECT_NEAR(found.clock.shift, shift, 0.01);
+    EXPECT_NEAR(found.clock.rate, 0.003, 6e-4);
+  }
+}
+
 TEST(Align, WhatIsConstantOrNoiseOrMissingIsRefused) {
   const signals::Table a = recorded({.seed = 10}), b = recorded({.clock = {1, 0}, .seed = 20});
   EXPECT_TRUE(

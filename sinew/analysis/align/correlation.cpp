@@ -10,6 +10,7 @@ namespace {
 
 constexpr double most_steps = 4096;
 constexpr double rate_step = 0.0025, most_rate = 0.02;
+constexpr double nearly_as_high = 0.05;
 
 // Sums of products of pairs, about a first value, so that no digits are lost.
 struct Moments {
@@ -170,7 +171,7 @@ Shifts shifts_of(std::span<const Pair> pairs, double step, double longest, doubl
   return out;
 }
 
-// Of the peak at `top`: how far to where r is half as high, at the nearer side.
+// Returns how far it is from the peak at `top` to where r is half as high, at the nearer side.
 double half_width(const Shifts& s, std::size_t top) {
   const auto falls = [&](std::ptrdiff_t by) {
     auto i = static_cast<std::ptrdiff_t>(top);
@@ -181,25 +182,66 @@ double half_width(const Shifts& s, std::size_t top) {
   return s.step * static_cast<double>(std::max<std::ptrdiff_t>(1, std::min(falls(-1), falls(1))));
 }
 
-// What stands about the peak: how far r falls near it, and the next peak.
+// Finds how far r falls near the peak, and other peaks.
 void look_around(const Shifts& s, std::size_t top, double near, Found& found) {
   double least = found.r;
+  const double rate = found.clock.rate, shift_of_top = s.from + static_cast<double>(top) * s.step;
   for (std::size_t i = 0; i < s.r.size(); ++i) {
     if (!std::isfinite(s.r[i])) continue;
     const double shift = s.from + static_cast<double>(i) * s.step;
-    const double apart = std::abs(shift - (s.from + static_cast<double>(top) * s.step));
+    const double apart = std::abs(shift - shift_of_top);
     if (apart <= near) least = std::min(least, s.r[i]);
     const bool inner = i > 0 && i + 1 < s.r.size();
     const bool peak = inner && !(s.r[i - 1] > s.r[i]) && !(s.r[i + 1] > s.r[i]);
-    if (peak && apart > 2 * found.half_width && s.r[i] > found.second_r) {
-      found.second_r = s.r[i];
-      found.second_shift = shift;
-    }
+    if (peak && apart > 2 * found.half_width && s.r[i] > found.r - nearly_as_high)
+      found.others.push_back({(1 + rate) * shift, rate});
   }
   found.fall = found.r - least;
 }
 
+// --- beyond beginnings and ends ---
+
+// Does a signal stand still over its first samples, a hundredth of them, or its last? Then the
+// means of both halves are the same, but for noise.
+bool rests(const Signal& s, bool at_the_end) {
+  const std::size_t half = std::clamp<std::size_t>(s.value.size() / 200, 5, 50);
+  if (s.value.size() < 4 * half) return false;
+  const std::size_t from = at_the_end ? s.value.size() - 2 * half : 0;
+  double apart = 0;
+  for (std::size_t i = 0; i < half; ++i) apart += s.value[from + half + i] - s.value[from + i];
+  const auto n = static_cast<double>(half);
+  const Spread spread = spread_of(s);
+  return std::abs(apart / n) <= std::max(0.01 * spread.range, 4 * spread.noise / std::sqrt(n));
+}
+
+bool all_rest(std::span<const Pair> pairs, bool at_the_end) {
+  return std::ranges::all_of(pairs, [&](const Pair& p) {
+    return rests(p.first, at_the_end) && rests(p.other, at_the_end);
+  });
+}
+
 }  // namespace
+
+std::optional<double> likeness_at_rest(std::span<const Pair> pairs, const Clock& clock) {
+  const bool begins = all_rest(pairs, false), ends = all_rest(pairs, true);
+  if (!begins && !ends) return std::nullopt;
+  double sum = 0, count = 0;
+  for (const Pair& p : pairs) {
+    const double first[] = {p.first.time.front(), clock.first(p.other.time.front())};
+    const double last[] = {p.first.time.back(), clock.first(p.other.time.back())};
+    const double from = begins ? std::min(first[0], first[1]) : std::max(first[0], first[1]);
+    const double to = ends ? std::max(last[0], last[1]) : std::min(last[0], last[1]);
+    Reader a(p.first), b(p.other);
+    Moments sums;
+    for (double t = from; t <= to; t += p.first.step()) {
+      const double other = std::clamp(clock.other(t), p.other.time.front(), p.other.time.back());
+      sums.add(a.at(std::clamp(t, p.first.time.front(), p.first.time.back())), b.at(other));
+    }
+    const double r = sums.correlation();
+    if (std::isfinite(r)) sum += r, count += 1;
+  }
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
+}
 
 double longest_step(std::span<const Pair> pairs) {
   double step = 0;

@@ -54,11 +54,18 @@ struct Found {
   double r = 0;
   double half_width = 0;  // of the peak over the shift, where r is half as high [s]
   double fall = 0;        // of r within a tenth of the shorter recording [-]
-  double second_r = -1, second_shift = 0;  // the highest peak beside it
+  // Other peaks, further away than two half widths, that are nearly as high: within 0.05.
+  std::vector<Clock> others = {};
 };
 // Searches shifts up to `most` in magnitude [s], and rates too where `rates`. Nothing where no
 // shift lets them overlap.
 std::optional<Found> search(std::span<const Pair> pairs, double most, bool rates);
+
+// A motion that repeats itself fits at other shifts as well, but for where it begins and ends: a
+// recording that does so at rest says that the machine stood still before, or after. Returns how
+// alike both are from the first beginning to the last end, each standing still beyond its own; from
+// the later beginning, or to the earlier end, where one is on its way then. Nothing where both are.
+std::optional<double> likeness_at_rest(std::span<const Pair> pairs, const Clock& clock);
 
 struct Peak {
   Clock clock = {};

@@ -98,5 +98,29 @@ TEST(CompareEdges, AValveThatTheLogLacksIsAnError) {
   EXPECT_NO_THROW((void)compare_edges(all, fewer));
 }
 
+TEST(CompareEdges, MovedAndLoneEdgesAreCountedByValve) {
+  std::mt19937_64 random(4);
+  signals::Table recorded = machine(random);
+  signals::Series& s = recorded.series[1];
+  for (std::size_t i = 0; i < s.time_ns.size(); ++i)  // far apart, so that each has one partner
+    s.time_ns.set(i, 20'000'000 * static_cast<std::int64_t>(i + 1));
+  signals::Table replayed = recorded;
+  signals::Series& r = replayed.series[1];
+  r.time_ns.set(3, r.time_ns[3] + 400'000);
+  r.time_ns.set(8, r.time_ns[8] - 1'000'000);
+  r.time_ns = without(r.time_ns, 39);
+  r.columns[0] = without(r.columns[0], 39);
+  const EdgeComparison c = compare_edges(recorded, replayed);
+  EXPECT_EQ(c.valves[0].differing(), 0u);
+  EXPECT_EQ(c.valves[2].differing(), 0u);
+  const ValveEdges& v = c.valves[1];
+  EXPECT_EQ(v.topic, "/valve/a/exhaust/open");
+  EXPECT_EQ(v.moved, 2u);
+  EXPECT_EQ(v.only_recorded, 1u);
+  EXPECT_EQ(v.only_replayed, 0u);
+  EXPECT_DOUBLE_EQ(v.largest_move, -0.001);
+  EXPECT_DOUBLE_EQ(v.mean_move, -0.0003);
+}
+
 }  // namespace
 }  // namespace sinew::analysis

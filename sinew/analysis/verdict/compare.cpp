@@ -89,7 +89,7 @@ double span_of(Recording a, Recording b) {
 template <class Weight>
 Difference summed(Recording a, Recording b, const Meetings& met, Weight weight) {
   Difference out{.how = met.how, .same = same_samples(a, b), .span = span_of(a, b)};
-  double sum = 0, all = 0;
+  double sum = 0, square = 0, all = 0;
   for (std::size_t i = 0; i < met.difference.size(); ++i) {
     const double d = met.difference[i];
     if (!std::isfinite(d)) {
@@ -97,14 +97,32 @@ Difference summed(Recording a, Recording b, const Meetings& met, Weight weight) 
       continue;
     }
     ++out.samples;
-    sum += d * d * weight(i);
+    sum += d * weight(i);
+    square += d * d * weight(i);
     all += weight(i);
     if (std::abs(d) <= std::abs(out.largest)) continue;
     out.largest = d == 0 ? 0.0 : d;
     out.at = static_cast<double>(met.time_ns[i]) / 1e9;
   }
-  if (all > 0) out.rms = std::sqrt(sum / all);
+  if (!(all > 0)) return out;
+  out.rms = std::sqrt(square / all);
+  out.bias = sum / all;
   return out;
+}
+
+// Returns that of a and a + d, where they met.
+double correlation(Recording a, const Meetings& met) {
+  double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0, a0 = 0;
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < met.difference.size(); ++i) {
+    const double d = met.difference[i], value = straight_at(a, met.time_ns[i], k);
+    if (!std::isfinite(d) || !std::isfinite(value)) continue;
+    if (n == 0) a0 = value;
+    const double x = value - a0, y = x + d;
+    n += 1, sa += x, sb += y, saa += x * x, sbb += y * y, sab += x * y;
+  }
+  const double va = n * saa - sa * sa, vb = n * sbb - sb * sb;
+  return va > 0 && vb > 0 ? std::clamp((n * sab - sa * sb) / std::sqrt(va * vb), -1.0, 1.0) : none;
 }
 
 bool has_field(const signals::Series& series, const signals::Field& like) {
@@ -161,7 +179,9 @@ Meetings meet_edges(Recording a, Recording b, std::int64_t from, std::int64_t to
 }
 
 Difference difference(Recording a, Recording b, const Meetings& met) {
-  return summed(a, b, met, [](std::size_t) { return 1.0; });
+  Difference out = summed(a, b, met, [](std::size_t) { return 1.0; });
+  out.correlation = correlation(a, met);
+  return out;
 }
 
 Difference difference_of_edges(Recording a, Recording b, std::int64_t from, std::int64_t to) {

@@ -10,6 +10,8 @@
 //   d_i = b_i - a_i        not a number where one of them is none, so gaps stay gaps
 //   rms = sqrt(mean d_i^2) over the samples that met; of edges over time, which makes it the root
 //                          of the share of time in which one is open and the other shut
+//   bias = mean d_i        what one is above the other throughout; rms^2 = bias^2 + var(d)
+//   r = cov(a, b)/sqrt(var(a)·var(b))    over the same samples; none where one is constant
 //
 // Exchanging a and b changes the sign of every d_i and nothing else.
 #pragma once
@@ -59,8 +61,10 @@ struct Difference {
   std::size_t samples = 0;  // that met and are numbers in both
   std::size_t gaps = 0;     // that met and are none in one or both
   double rms = std::numeric_limits<double>::quiet_NaN();
-  double largest = std::numeric_limits<double>::quiet_NaN();  // in magnitude, with its sign
-  double at = std::numeric_limits<double>::quiet_NaN();       // when it first was so [s]
+  double largest = std::numeric_limits<double>::quiet_NaN();      // in magnitude, with its sign
+  double at = std::numeric_limits<double>::quiet_NaN();           // when it first was so [s]
+  double bias = std::numeric_limits<double>::quiet_NaN();         // mean
+  double correlation = std::numeric_limits<double>::quiet_NaN();  // of both, not of edges
   double span = 0;  // greatest less least value of both: what a difference is large or small beside
 
   bool equal() const { return samples > 0 && largest == 0; }  // wherever they meet

@@ -35,29 +35,30 @@ void describe(ComparedRun& run, const analysis::Machine& machine, const config::
   channels.add(run.logged);
   channels.add(run.derived);
   run.panels = panels(channels, machine.robot);
+  run.scene = scene(channels, machine, record, run.drawn);
 }
 
 void describe(ComparedRun& run, const analysis::StandFile& file, const config::Node& resolved) {
   run.phases = R"({"names":[],"stretches":[]})";
   Channels channels;
   channels.add(run.logged);
-  const Stand drawn = stand(channels, resolved, file, run.drawn);
+  run.stand = stand(channels, resolved, file, run.drawn);
   channels.add(run.drawn);
-  run.charts = stand_charts(channels, drawn);
+  run.charts = stand_charts(channels, run.stand);
   run.panels = panels_of_stand(channels, file.element);
 }
 
-// Of a machine or a stand; its times are moved back by `shift_ns`.
+// Of a machine or a stand; its times become those of the first run.
 template <class Machine>
 void open(ComparedRun& run, const Machine& machine, const config::Node& resolved,
-          std::int64_t shift_ns) {
+          const analysis::Clock& clock) {
   run.title = machine.title;
   run.reproduces = machine.reproduces;
   run.atmosphere = machine.atmosphere;
   run.summary = analysis::summarize(run.logged, machine);
   run.verdicts = compare(run.summary, machine.reported, machine.atmosphere);
-  run.shift = static_cast<double>(shift_ns) / 1e9;
-  analysis::shift(run.logged, shift_ns);
+  run.shift = clock.shift;
+  analysis::reclock(run.logged, clock);
   describe(run, machine, resolved);
   if (const auto times = analysis::times_of(run.logged)) {
     run.first = static_cast<double>(times->first) / 1e9;
@@ -70,8 +71,36 @@ void open(ComparedRun& run, const Machine& machine, const config::Node& resolved
                "a run that goes through a sequence", "align=start");
 }
 
-// `sequence` is the first run's start, known after it was opened.
-ComparedRun opened(RecordedRun&& recorded, Align align, std::optional<std::int64_t>& sequence) {
+// What runs are laid on: the first one, when it is there.
+struct Base {
+  const ComparedRun* run = nullptr;
+  std::optional<std::int64_t> sequence;  // its start [ns]
+};
+
+// By how much the run's clock is ahead of the first one's, as it is wished.
+analysis::Clock clock_of(ComparedRun& run, const AlignWish& wish, const Base& first,
+                         std::optional<std::int64_t> sequence) {
+  if (!first.run) return {};
+  analysis::AlignRequest request{.name = run.label,
+                                 .by = analysis::AlignBy::known,
+                                 .event = wish.event,
+                                 .channels = wish.channels,
+                                 .fit_clock = wish.fit_clock,
+                                 .most_shift = wish.most_shift,
+                                 .atmosphere = first.run->atmosphere};
+  if (wish.by == Align::sequence) {
+    request.shift = 1e-9 * static_cast<double>(*sequence - *first.sequence);
+    request.known_at = 1e-9 * static_cast<double>(*first.sequence);
+  }
+  if (wish.by == Align::event) request.by = analysis::AlignBy::event;
+  if (wish.by == Align::correlation) request.by = analysis::AlignBy::correlation;
+  if (request.by == analysis::AlignBy::known && !wish.fit_clock) return {request.shift, 0};
+  run.alignment = analysis::align(first.run->logged, run.logged, request);
+  return run.alignment->clock;
+}
+
+// The first run is told to `first`.
+ComparedRun opened(RecordedRun&& recorded, const AlignWish& wish, Base& first) {
   ComparedRun run;
   run.label = std::move(recorded.label);
   run.logged = std::move(recorded.logged);
@@ -79,20 +108,20 @@ ComparedRun opened(RecordedRun&& recorded, Align align, std::optional<std::int64
   run.seed = value_of(run.parameters, "seed");
   run.version = value_of(run.parameters, "sinew_version");
   if (config::format_kind(recorded.resolved) == "rig") {
-    if (align == Align::sequence) no_sequence(run.label);
-    open(run, analysis::read_stand(recorded.resolved), recorded.resolved, 0);
+    if (wish.by == Align::sequence) no_sequence(run.label);
+    const analysis::StandFile file = analysis::read_stand(recorded.resolved);
+    open(run, file, recorded.resolved, clock_of(run, wish, first, {}));
     return run;
   }
   const analysis::Machine machine = analysis::read_machine(recorded.resolved);
   run.robot = machine.robot.name;
-  std::int64_t shift_ns = 0;
-  if (align == Align::sequence) {
-    const auto start = sequence_start(run.logged, machine);
-    if (!start) no_sequence(run.label);
-    if (!sequence) sequence = start;
-    shift_ns = *start - *sequence;
+  std::optional<std::int64_t> sequence;
+  if (wish.by == Align::sequence) {
+    sequence = sequence_start(run.logged, machine);
+    if (!sequence) no_sequence(run.label);
   }
-  open(run, machine, recorded.resolved, shift_ns);
+  if (!first.run) first.sequence = sequence;
+  open(run, machine, recorded.resolved, clock_of(run, wish, first, sequence));
   return run;
 }
 
@@ -126,10 +155,28 @@ std::string ComparedRun::verdict_of(const std::string& key) const {
   return out;
 }
 
-Comparison compare(std::vector<RecordedRun> runs, Align align) {
-  Comparison out{.align = align};
-  std::optional<std::int64_t> sequence;
-  for (RecordedRun& run : runs) out.runs.push_back(opened(std::move(run), align, sequence));
+std::string_view to_text(Align align) {
+  switch (align) {
+    case Align::start:
+      return "start";
+    case Align::sequence:
+      return "sequence";
+    case Align::event:
+      return "event";
+    case Align::correlation:
+      break;
+  }
+  return "correlation";
+}
+
+Comparison compare(std::vector<RecordedRun> runs, const AlignWish& wish) {
+  Comparison out{.align = wish.by, .clocks_fitted = wish.fit_clock};
+  out.runs.reserve(runs.size());  // the first one stays where it is
+  Base first;
+  for (RecordedRun& run : runs) {
+    out.runs.push_back(opened(std::move(run), wish, first));
+    first.run = &out.runs.front();
+  }
 
   std::vector<const analysis::Summary*> summaries;
   std::vector<const std::vector<Parameter>*> used;

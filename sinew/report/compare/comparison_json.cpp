@@ -23,9 +23,27 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json();
 }
 
+// How a run was laid on the first one.
+Json alignment_of(const analysis::Alignment& a) {
+  Json out{{"shift_s", a.clock.shift},
+           {"shift_uncertainty_s", finite(a.shift_uncertainty)},
+           {"rate", a.clock.rate},
+           {"rate_uncertainty", finite(a.rate_uncertainty)},
+           {"correlation", finite(a.correlation)},
+           {"channels", a.channels},
+           {"event", a.event.empty() ? Json() : Json(a.event)},
+           {"pieces", a.pieces},
+           {"same", a.same}};
+  if (a.rate_seen != 0) {
+    out["rate_seen"] = a.rate_seen;
+    out["rate_seen_uncertainty"] = a.rate_seen_uncertainty;
+  }
+  return out;
+}
+
 Json runs_of(const Comparison& c) {
   Json out = Json::array();
-  for (const ComparedRun& run : c.runs)
+  for (const ComparedRun& run : c.runs) {
     out.push_back({{"label", run.label},
                    {"title", run.title},
                    {"reproduces", run.reproduces},
@@ -36,6 +54,8 @@ Json runs_of(const Comparison& c) {
                    {"shift_s", run.shift},
                    {"first_s", run.first},
                    {"last_s", run.last}});
+    if (run.alignment) out.back()["alignment"] = alignment_of(*run.alignment);
+  }
   return out;
 }
 
@@ -77,9 +97,11 @@ Json parameters_of(const Comparison& c) {
 
 Json difference_of(const std::optional<analysis::Difference>& d) {
   if (!d) return {};
-  return {{"meet", to_text(d->how)}, {"same", d->same},       {"samples", d->samples},
-          {"gaps", d->gaps},         {"rms", finite(d->rms)}, {"largest", finite(d->largest)},
-          {"at_s", finite(d->at)},   {"span", d->span}};
+  return {{"meet", to_text(d->how)}, {"same", d->same},
+          {"samples", d->samples},   {"gaps", d->gaps},
+          {"rms", finite(d->rms)},   {"largest", finite(d->largest)},
+          {"at_s", finite(d->at)},   {"span", d->span},
+          {"bias", finite(d->bias)}, {"correlation", finite(d->correlation)}};
 }
 
 Json channels_of(const Comparison& c) {
@@ -97,7 +119,8 @@ Json channels_of(const Comparison& c) {
 
 Json tables_of(const Comparison& c) {
   return {{"format", "sinew.comparison/1"},
-          {"align", c.align == Align::start ? "start" : "sequence"},
+          {"align", to_text(c.align)},
+          {"clock", c.clocks_fitted ? "fit" : "none"},
           {"runs", runs_of(c)},
           {"figures", figures_of(c)},
           {"parameters", parameters_of(c)},
@@ -235,6 +258,12 @@ Content content(const Comparison& comparison) {
   out["panels"] = panels_of(comparison, samples);
   out["charts"] = charts_of(comparison, samples);
   out["foot"] = foot_of(comparison);
+  for (std::size_t i = 0; i < comparison.runs.size(); ++i) {
+    Columns columns = samples.columns(i);
+    const ComparedRun& run = comparison.runs[i];
+    out["runs"][i]["scene"] = Json::parse(to_json(run.scene, columns));
+    out["runs"][i]["stand"] = Json::parse(to_json(run.stand, columns));
+  }
   out["samples"] = Json::parse(to_json(samples.blob().layout()));
   return {title, text_of(out, -1), samples.blob().base64()};
 }

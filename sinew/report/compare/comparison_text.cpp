@@ -102,15 +102,51 @@ class Figure {
   double atmosphere_;
 };
 
+// "2.500 s ± 0.003 s", with two digits of what is not sure.
+std::string with_uncertainty(double value, double uncertainty, std::string_view unit) {
+  if (!std::isfinite(uncertainty)) return fmt::format("{:+.4g} {}", value, unit);
+  const int digits =
+      uncertainty > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(uncertainty))), 0, 9)
+                      : 4;
+  return fmt::format("{:+.{}f} {} ± {:.{}f} {}", value, digits, unit, uncertainty, digits, unit);
+}
+
+// How a run was laid on the first one, and what that says of its clock.
+std::string alignment_text(const Comparison& c, std::size_t i) {
+  if (!c.runs[i].alignment) return "";
+  const analysis::Alignment& a = *c.runs[i].alignment;
+  const std::string channels = fmt::format("correlation of {}", fmt::join(a.channels, ", "));
+  std::string by = a.event.empty() ? std::string(to_text(c.align)) : "event: " + a.event;
+  if (c.align == Align::correlation)
+    by = channels;
+  else if (!a.channels.empty())
+    by += ", its clock by " + channels;
+  std::string out = fmt::format("\n{} is laid on A by {}\n", letter_of(i), by);
+  if (a.same) return out + "  both hold the same samples: nothing is moved\n";
+  out += fmt::format("  its clock shows {} where A's shows 0\n",
+                     with_uncertainty(a.clock.shift, a.shift_uncertainty, "s"));
+  if (c.clocks_fitted)
+    out +=
+        fmt::format("  its clock goes {} faster, by {} pieces of the motion\n",
+                    with_uncertainty(100 * a.clock.rate, 100 * a.rate_uncertainty, "%"), a.pieces);
+  if (a.rate_seen != 0)
+    out +=
+        fmt::format("  its clock seems to go {} faster, which is not taken out: clock=fit does\n",
+                    with_uncertainty(100 * a.rate_seen, 100 * a.rate_seen_uncertainty, "%"));
+  if (std::isfinite(a.correlation)) out += fmt::format("  correlation {:.4f}\n", a.correlation);
+  return out;
+}
+
 void print_runs(const Comparison& c, std::string& out) {
   TextTable table({"", "", "", "", ""}, {Align::left, Align::left, Align::left, Align::right});
   for (std::size_t i = 0; i < c.runs.size(); ++i) {
     const ComparedRun& run = c.runs[i];
     table.add({letter_of(i), run.label, run.title, fmt::format("{:.2f} s", run.last - run.first),
-               run.shift != 0 ? fmt::format("moved by {:+.2f} s", -run.shift) : ""});
+               run.shift != 0 ? fmt::format("moved by {:+.3f} s", -run.shift) : ""});
   }
   const std::string text = table.text();
   print(out, "{}", text.substr(text.find('\n') + 1));  // without titles
+  for (std::size_t i = 1; i < c.runs.size(); ++i) out += alignment_text(c, i);
 }
 
 // --- figures ---
@@ -257,12 +293,18 @@ std::string difference_text(double si, const std::string& of, Units units) {
 std::vector<std::string> channel_cells(const ChannelRow& row, const analysis::Difference& d,
                                        Units units) {
   if (d.same) return {name_of(row), "same samples"};
-  if (d.equal()) return {name_of(row), "equal", "", "", note_of(d)};
+  if (d.equal()) return {name_of(row), "equal", "", "", "", "", "", note_of(d)};
   if (d.samples == 0) return {name_of(row), "never meet"};
+  const std::string at = fmt::format("{:.4g} s", d.at);
+  if (d.how == analysis::Meeting::held) return {name_of(row), "", "", "", "", at, "", note_of(d)};
   const auto text = [&](double si) { return difference_text(si, row.unit, units); };
-  const bool edges = d.how == analysis::Meeting::held;
-  return {name_of(row), edges ? "" : text(d.rms),
-          edges ? "" : signed_text(text(d.largest), d.largest), fmt::format("{:.4g} s", d.at),
+  return {name_of(row),
+          text(d.rms),
+          d.span > 0 ? fmt::format("{:.2g} %", 100 * d.share()) : "",
+          signed_text(text(d.bias), d.bias),
+          signed_text(text(d.largest), d.largest),
+          at,
+          std::isfinite(d.correlation) ? fmt::format("{:.4f}", d.correlation) : "",
           note_of(d)};
 }
 
@@ -286,8 +328,9 @@ void print_channels(const Comparison& c, std::size_t run, const ComparisonText& 
                              [&](const ChannelRow* row) { return row->differences[run]->share(); });
     rows.resize(std::min(rows.size(), most_channels));
   }
-  TextTable table({"", "rms", letter_of(run) + " − A at most", "at", ""},
-                  {Align::left, Align::right, Align::right, Align::right, Align::left});
+  TextTable table({"", "rms", "of range", "bias", letter_of(run) + " − A at most", "at", "r", ""},
+                  {Align::left, Align::right, Align::right, Align::right, Align::right,
+                   Align::right, Align::right, Align::left});
   for (const ChannelRow* row : rows)
     table.add(channel_cells(*row, *row->differences[run], how.units));
   print_table(table, how, out);

@@ -75,13 +75,13 @@ void keep_chosen(report::Comparison& comparison, const std::vector<std::string>&
 
 }  // namespace
 
-report::Comparison compare_runs(const std::vector<std::string>& runs, report::Align align,
+report::Comparison compare_runs(const std::vector<std::string>& runs, const report::AlignWish& wish,
                                 const std::vector<std::string>& channels, const Notices& notices) {
   const std::vector<std::string> labels = labels_of(runs);
   std::vector<report::RecordedRun> all;
   for (std::size_t i = 0; i < runs.size(); ++i)
     all.push_back(recorded(runs[i], labels[i], notices));
-  report::Comparison comparison = compare(std::move(all), align);
+  report::Comparison comparison = compare(std::move(all), wish);
   keep_chosen(comparison, channels);
   return comparison;
 }

@@ -14,7 +14,7 @@ namespace sinew::run {
 // these patterns, "/joint/*/angle"; all, where there is none. A log that was cut off is a warning.
 // Throws config::Error or log::Error where a run cannot be read, and std::runtime_error for one
 // that was ended early.
-report::Comparison compare_runs(const std::vector<std::string>& runs, report::Align align,
+report::Comparison compare_runs(const std::vector<std::string>& runs, const report::AlignWish& wish,
                                 const std::vector<std::string>& channels = {},
                                 const Notices& notices = {});
 
