@@ -162,7 +162,7 @@ class HeaderReader {
       {source.path, row.line, cell.column}, "",
       fmt::format("{}, and no number that shows what its comma is", config::in_quotes(cell.text)),
       "decimal commas or parted thousands, and to know which",
-      "decimal=, if the comma is the decimal mark, thousands=, if it parts thousands");
+      "decimal=\",\" if the comma is the decimal mark, thousands=\",\" if it parts thousands");
 }
 
 // Commas are decimal marks where they can be nothing else, and more so than points.

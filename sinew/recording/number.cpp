@@ -168,15 +168,15 @@ std::string hint_for(std::string_view text, NumberStyle style) {
   const std::size_t point = text.find('.');
   if (style.decimal == ',' && point != text.npos && number_in(text))
     return can_part_thousands(text, point)
-               ? std::string("thousands=. if the point parts thousands")
+               ? std::string("thousands=\".\" if the point parts thousands")
                : fmt::format("a decimal comma, as in other rows: {}", with_mark(text, point, ','));
   if (marks.either)
-    return fmt::format("thousands=, if the comma parts thousands, or a decimal point: {}",
+    return fmt::format("thousands=\",\" if the comma parts thousands, or a decimal point: {}",
                        with_mark(text, text.find(','), '.'));
   if (marks.number && marks.thousands) {
     for (const char mark : {'.', ',', '\''})
       if (const char other = mark == '.' ? ',' : '.'; number_in(text, {other, mark}))
-        return fmt::format("thousands={}, which parts them here", mark);
+        return fmt::format("thousands=\"{}\", which parts them here", mark);
     return "thousands=\" \", which parts them here";
   }
   if (marks.comma) return fmt::format("a decimal point: {}", with_mark(text, text.find(','), '.'));

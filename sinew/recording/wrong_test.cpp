@@ -96,18 +96,20 @@ TEST(Wrong, NumbersThatCanBeTwoThingsAreNotGuessed) {
   expect_table_refused({
       {header + "1,000;1,234\n2,000;2,345\n",
        "lab.csv:2:1: found \"1,000\", and no number that shows what its comma is; expected decimal "
-       "commas or parted thousands, and to know which; try decimal=, if the comma is the decimal "
-       "mark, thousands=, if it parts thousands"},
+       "commas or parted thousands, and to know which; try decimal=\",\" if the comma is the "
+       "decimal "
+       "mark, thousands=\",\" if it parts thousands"},
       {header + "0,5;1.234\n0,6;12,5\n",
-       "lab.csv:2:5: F: found \"1.234\"; expected a number; try thousands=. if the point parts "
+       "lab.csv:2:5: F: found \"1.234\"; expected a number; try thousands=\".\" if the point parts "
        "thousands"},
       {header + "0,5;1.234,5\n",
-       "found \"1.234,5\"; expected a number; try thousands=., which parts"},
+       "found \"1.234,5\"; expected a number; try thousands=\".\", which parts"},
       {header + "0.5;1,234.5\n",
-       "found \"1,234.5\"; expected a number; try thousands=,, which parts"},
+       "found \"1,234.5\"; expected a number; try thousands=\",\", which parts"},
       {header + "0.5;1 234.5\n",
        "found \"1 234.5\"; expected a number; try thousands=\" \", which"},
-      {header + "0.5;1'234.5\n", "found \"1'234.5\"; expected a number; try thousands=', which"},
+      {header + "0.5;1'234.5\n",
+       "found \"1'234.5\"; expected a number; try thousands=\"'\", which"},
       {header + "0,5;12,5\n0,6;12.5\n", "a decimal comma, as in other rows: 12,5"},
       {header + "0.5;12.5\n0.6;13.5\n0.7;12,5\n",
        "lab.csv:4:5: F: found \"12,5\"; expected a "

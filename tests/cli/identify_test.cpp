@@ -154,7 +154,7 @@ TEST(BrokenInput, ConstantPressure) {
   expect_refused({"a muscle at one pressure",
                   {"static"},
                   map(0),
-                  {"data.csv: pressure: found 1e+05 Pa gauge throughout", "several pressures"}});
+                  {"data.csv: pressure: found 100 kPa gauge throughout", "several pressures"}});
   expect_refused({"a dead sensor",
                   {"sensor"},
                   "load [N],gage [V]\n10,2\n20,2\n30,2\n40,2\n",

@@ -73,14 +73,15 @@ std::vector<double> length_of(const Measured& m, const StaticInput& input) {
 }
 
 // A sensor at its upper end. At the lower one it may well stay: a slack muscle leaves it there.
-void refuse_full(const Measured& m, std::string_view column, const std::vector<double>& values,
-                 std::string_view unit) {
+void refuse_full(const Measured& m, std::string_view column, const std::vector<double>& values) {
   const Clipping c = clipping(values);
   if (c.at_top == 0) return;
-  throw Refusal(fmt::format("{}: {}", m.file, column),
-                fmt::format("{} samples that stay at {}: the sensor or its converter is at its end",
-                            c.at_top, config::format_quantity(c.top, unit, unit, 5)),
-                "readings within its range", "a sensor of a larger range, or less pressure");
+  throw Refusal(
+      fmt::format("{}: {}", m.file, column),
+      fmt::format("{} samples that stay at {}: the sensor or its converter is at its end", c.at_top,
+                  m.has(column) ? in_unit_of_file(m, column, c.top, 5)
+                                : config::format_quantity(c.top, "N", "N", 5)),
+      "readings within its range", "a sensor of a larger range, or less pressure");
 }
 
 // Among rows of one length force rises with the pressure; columns that are swapped, or a sign, do
@@ -109,8 +110,8 @@ void check(const Measured& m, const std::vector<double>& force, const std::vecto
   refuse_constant(m, "pressure", 0.02 * largest(m["pressure"]),
                   "several pressures: a static law says how force grows with them",
                   "fill the muscle step by step");
-  if (m.has("time")) refuse_full(m, "pressure", m["pressure"], "Pa gauge");
-  if (m.has("time")) refuse_full(m, "force", force, "N");
+  if (m.has("time")) refuse_full(m, "pressure", m["pressure"]);
+  if (m.has("time")) refuse_full(m, "force", force);
 
   refuse_falling(m, force, length);
 }

@@ -88,30 +88,32 @@ Clipping clipping(std::span<const double> values, std::size_t shortest) {
   return out;
 }
 
+std::string in_unit_of_file(const Measured& data, std::string_view column, double value,
+                            int digits) {
+  const auto at = std::ranges::find(data.columns, column, &Column::name);
+  if (at == data.columns.end()) return fmt::format("{:.{}g}", value, digits);
+  const std::string& shown = at->shown.empty() ? at->unit : at->shown;
+  return config::format_quantity(value, at->unit, shown, digits);
+}
+
 void refuse_constant(const Measured& data, std::string_view column, double tolerance,
                      std::string_view why, std::string_view try_this) {
   const std::vector<double>& values = data[column];
   const double low = smallest(values), high = largest(values);
   if (high - low > tolerance) return;
-  std::string unit;
-  for (const Column& c : data.columns)
-    if (c.name == column) unit = c.unit;
   throw Refusal(fmt::format("{}: {}", data.file, column),
-                fmt::format("{} throughout", config::format_quantity(low, unit, unit, 4)),
+                fmt::format("{} throughout", in_unit_of_file(data, column, low, 4)),
                 std::string(why), std::string(try_this));
 }
 
 void refuse_clipped(const Measured& data, std::string_view column, std::string_view try_this) {
   const Clipping c = clipping(data[column]);
   if (!c.clipped) return;
-  std::string unit;
-  for (const Column& each : data.columns)
-    if (each.name == column) unit = each.unit;
   const bool top = c.at_top >= c.at_bottom;
   throw Refusal(fmt::format("{}: {}", data.file, column),
                 fmt::format("{} samples that stay at {}: the sensor or its converter is at its end",
                             top ? c.at_top : c.at_bottom,
-                            config::format_quantity(top ? c.top : c.bottom, unit, unit, 5)),
+                            in_unit_of_file(data, column, top ? c.top : c.bottom, 5)),
                 "readings within its range", std::string(try_this));
 }
 

@@ -37,6 +37,10 @@ double spread(std::span<const double> values);
 // spread and than `at_least`. Slips of the pen do; fewer than five residuals tell nothing.
 std::vector<std::size_t> outliers(std::span<const double> residuals, double at_least);
 
+// Returns a value of the column [SI] in the unit that its file has, for messages: "29 psi gauge".
+std::string in_unit_of_file(const Measured& data, std::string_view column, double value,
+                            int digits);
+
 // Throws Refusal if all values of the column lie within `tolerance` of each other.
 void refuse_constant(const Measured& data, std::string_view column, double tolerance,
                      std::string_view why, std::string_view try_this);

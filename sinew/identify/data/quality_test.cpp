@@ -57,7 +57,7 @@ TEST(Quality, ConstantsAreRefusedWithTheReason) {
     refuse_constant(m, "pressure", 5e3, "pressures that differ", "another");
     FAIL();
   } catch (const Refusal& e) {
-    EXPECT_TRUE(says(e.what(), "rig.csv: pressure: found 1e+05 Pa gauge throughout")) << e.what();
+    EXPECT_TRUE(says(e.what(), "rig.csv: pressure: found 100 kPa gauge throughout")) << e.what();
   }
 }
 

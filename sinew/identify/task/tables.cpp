@@ -56,6 +56,13 @@ std::vector<std::string> words_of(const std::vector<Source>& sources) {
   for (const std::string& column : how.columns) header += (header.empty() ? "" : ",") + column;
   if (!header.empty()) out.push_back("header " + header);
   if (how.drop_incomplete) out.emplace_back("incomplete rows left out");
+  for (const auto& [what, is] : {std::pair{"encoding ", &how.encoding},
+                                 {"decimal mark ", &how.decimal},
+                                 {"thousands parted by ", &how.thousands},
+                                 {"dates: ", &how.dates},
+                                 {"rate ", &how.rate}})
+    if (!is->empty()) out.push_back(what + (*is == " " ? "blanks" : *is));
+  if (how.spread_times) out.emplace_back("rows that share a time spread evenly");
   return out;
 }
 
