@@ -1,7 +1,7 @@
 // The page of several runs: the same channel of all in one plot, differences, tables.
 import { Charts } from './charts.js';
 import { Machines } from './compare_scene.js';
-import { ComparisonTables, judged_differently } from './compare_tables.js';
+import { ComparisonTables, differ, judged_differently } from './compare_tables.js';
 import { FootPaths } from './foot_path.js';
 import { Look } from './look.js';
 import { by_id, element } from './page.js';
@@ -97,7 +97,7 @@ class ComparePage {
                    event: 'laid on each other by an event', correlation: 'laid on each other by the greatest correlation' };
     by_id('facts').textContent = `${runs.length} runs, each beside the first; ${laid[align]}` +
       runs.map((run, i) => alignment_words(run, i, this.data.clock === 'fit')).filter(Boolean).map((w) => `. ${w}`).join('');
-    const differing = figures.filter((f) => f.values.some((v) => v !== f.values[0])).length;
+    const differing = figures.filter((f) => differ(f.values)).length;
     const changed = figures.filter((f) => judged_differently(f)).length;
     const several = (count, word) => `${count} ${word}${count === 1 ? ' differs' : 's differ'}`;
     const same = channels.filter((c) => c.differences.every((d) => !d || d.same)).length;
@@ -127,6 +127,7 @@ class ComparePage {
     this.plots = new Plots(by_id('panels'), run, columns, this.units, (t) => this.seek(t));
     for (const p of this.plots.panels) if (p.spec.difference) p.root.classList.add('difference');
     this.plan = new Plan(by_id('plan'), data.runs, this.plots, this.shown);
+    by_id('plan').hidden = !data.runs.some((r) => r.phases.stretches.some((s) => s.stance));
     this.foot = this.make_foot();
     this.charts = this.foot ? null : this.make_charts(samples);
     this.plots.on_view = () => this.draw_view();

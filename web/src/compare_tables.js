@@ -4,7 +4,11 @@ import { letter_of } from './runs.js';
 import { cell, heading, long_cell, searched, table } from './tables.js';
 import { difference_unit, number, signed, unit_of_key, words_of_key } from './units.js';
 
-const differ = (values) => values.some((v) => v !== values[0]);
+// A run that lacks a figure does not differ in it.
+export function differ(values) {
+  const there = values.filter((v) => v !== null);
+  return there.some((v) => v !== there[0]);
+}
 
 // As the program orders them: |b - a| beside the larger of both.
 function size_of_change([first, ...others]) {

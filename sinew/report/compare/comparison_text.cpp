@@ -117,7 +117,7 @@ std::string alignment_text(const Comparison& c, std::size_t i) {
   const analysis::Alignment& a = *c.runs[i].alignment;
   const std::string channels = fmt::format("correlation of {}", fmt::join(a.channels, ", "));
   std::string by = a.event.empty() ? std::string(to_text(c.align)) : "event: " + a.event;
-  if (c.align == Align::correlation)
+  if (c.align == report::Align::correlation)
     by = channels;
   else if (!a.channels.empty())
     by += ", its clock by " + channels;
@@ -168,8 +168,19 @@ std::string verdicts_of(const Comparison& c, const std::string& key, bool color 
   return color && judged.size() > 1 ? red(text) : text;
 }
 
+// A run that lacks a figure does not differ in it.
 bool differs(const analysis::FigureRow& row) {
-  return std::ranges::any_of(row.values, [&](const auto& v) { return v != row.values.front(); });
+  std::optional<double> first;
+  for (const auto& value : row.values) {
+    if (!value) continue;
+    if (first && *value != *first) return true;
+    first = value;
+  }
+  return false;
+}
+
+bool is_of_one_alone(const analysis::FigureRow& row) {
+  return std::ranges::count_if(row.values, [](const auto& v) { return v.has_value(); }) < 2;
 }
 
 // What is judged first, then the largest relative differences; with `all`, the summary's order.
@@ -217,7 +228,9 @@ void print_rest(std::size_t rest, std::string_view what, const ComparisonText& h
 
 void print_figures(const Comparison& c, const ComparisonText& how, std::string& out) {
   const auto differing = std::ranges::count_if(c.figures, differs);
-  print(out, "\nFigures: {} of {} differ\n", differing, c.figures.size());
+  const auto alone = std::ranges::count_if(c.figures, is_of_one_alone);
+  print(out, "\nFigures: {} of {} differ{}\n", differing, c.figures.size(),
+        alone > 0 ? fmt::format(", {} of one run alone", alone) : "");
   std::vector<std::string> titles = {"", "A"};
   for (std::size_t i = 1; i < c.runs.size(); ++i) {
     titles.push_back(letter_of(i));
