@@ -25,6 +25,7 @@ namespace sinew::analysis {
 // How shifts are found; `known`: it is given.
 enum class AlignBy { known, event, correlation };
 
+// A wish how recordings are laid on each other.
 struct AlignRequest {
   std::string name = {};  // of the other recording, for errors
   AlignBy by = AlignBy::correlation;
@@ -36,6 +37,7 @@ struct AlignRequest {
   double atmosphere = units::atmosphere;                        // [Pa]
 };
 
+// How the other recording was laid on the first one.
 struct Alignment {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 

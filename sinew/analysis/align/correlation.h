@@ -30,6 +30,7 @@ namespace sinew::analysis {
 struct Clock {
   double shift = 0;  // what it shows where the first one shows 0 [s]
   double rate = 0;   // by how much faster it goes [-]
+  // Return the time of the other clock at one of the first, and the reverse  [s].
   double other(double first) const { return shift + (1 + rate) * first; }
   double first(double other) const { return (other - shift) / (1 + rate); }
 };
@@ -39,6 +40,7 @@ struct Interval {
   double from, to;  // [s]
 };
 
+// How alike two recordings are.
 struct Likeness {
   double r = 0;             // -1 to 1
   std::size_t samples = 0;  // that have a partner; of the channel with the most
@@ -67,6 +69,7 @@ std::optional<Found> search(std::span<const Pair> pairs, double most, bool rates
 // the later beginning, or to the earlier end, where one is on its way then. Nothing where both are.
 std::optional<double> likeness_at_rest(std::span<const Pair> pairs, const Clock& clock);
 
+// A shift at which both are most alike.
 struct Peak {
   Clock clock = {};
   double r = 0, uncertainty = 0;  // of the shift [s]; infinite where there is no peak

@@ -45,6 +45,7 @@ Event parse_event(const std::string& text);
 struct EventPair {
   Instant first, other;
   std::string words;  // "/joint/elbow/angle moves by 0.05 rad"
+  // Returns by how much later the other one has it, and how sure that is  [s].
   double shift() const { return other.time - first.time; }
   double uncertainty() const;
 };

@@ -19,6 +19,7 @@ struct Signal {
   std::string channel;              // "/joint/hip/angle"
   std::vector<double> time, value;  // [s], in the channel's SI unit
 
+  // Has it no samples? How long is it from the first to the last one  [s]?
   bool empty() const { return time.empty(); }
   double duration() const { return empty() ? 0 : time.back() - time.front(); }
   double step() const;  // between samples, on average [s]
@@ -30,7 +31,9 @@ Signal signal_of(std::string channel, Recording recording);
 // Where a signal is read at ascending times: each search goes on where the last one ended.
 class Reader {
  public:
+  // Reads this signal, which outlives it.
   explicit Reader(const Signal& signal) : signal_(signal) {}
+  // Does t lie within its times?
   bool holds(double t) const { return t >= signal_.time.front() && t <= signal_.time.back(); }
   // Returns x(t); t lies within the signal's times.
   double at(double t);
@@ -40,10 +43,12 @@ class Reader {
   std::size_t at_ = 0;
 };
 
+// How the values of a signal are spread.
 struct Spread {
   double mean = 0, variance = 0;
   double noise = 0;  // sigma
   double range = 0;  // greatest less least value
+  // Is it neither constant nor nothing but noise?
   bool moves() const { return variance > 0 && noise * noise < 0.25 * variance; }
 };
 // Returns how a signal's values are spread, and how much of that is noise.

@@ -26,7 +26,7 @@ std::optional<std::int64_t> sequence_start(const signals::Table& table,
   return record.time_ns()[record.first_row()];
 }
 
-// What follows from the samples at their new times.
+// Adds what follows from the samples at their new times.
 void describe(ComparedRun& run, const analysis::Machine& machine, const config::Node&) {
   run.derived = analysis::derive(run.logged, machine);
   const analysis::Record record(run.logged, machine, &run.derived);
@@ -48,7 +48,7 @@ void describe(ComparedRun& run, const analysis::StandFile& file, const config::N
   run.panels = panels_of_stand(channels, file.element);
 }
 
-// Of a machine or a stand; its times become those of the first run.
+// Opens a machine's or a stand's run; its times become those of the first run.
 template <class Machine>
 void open(ComparedRun& run, const Machine& machine, const config::Node& resolved,
           const analysis::Clock& clock) {
@@ -71,13 +71,13 @@ void open(ComparedRun& run, const Machine& machine, const config::Node& resolved
                "a run that goes through a sequence", "align=start");
 }
 
-// What runs are laid on: the first one, when it is there.
+// Holds what runs are laid on: the first one, when it is there.
 struct Base {
   const ComparedRun* run = nullptr;
   std::optional<std::int64_t> sequence;  // its start [ns]
 };
 
-// By how much the run's clock is ahead of the first one's, as it is wished.
+// Finds how the run's clock goes beside the first one's, as it is wished.
 analysis::Clock clock_of(ComparedRun& run, const AlignWish& wish, const Base& first,
                          std::optional<std::int64_t> sequence) {
   if (!first.run) return {};

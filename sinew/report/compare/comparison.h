@@ -39,6 +39,7 @@ std::string_view to_text(Align align);
 
 // How runs are laid on the first one.
 struct AlignWish {
+  // Lays runs on each other in this way; clocks are taken as they are.
   AlignWish(Align how = Align::start) : by(how) {}
 
   Align by;

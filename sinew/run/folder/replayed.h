@@ -15,9 +15,10 @@
 
 namespace sinew::run {
 
-// What is tried: the recorded readings are fed to the controller, or the commands to the plant.
+// The part that is tried: recorded readings are fed to the controller, or commands to the plant.
 enum class ReplayOf { controller, plant };
 
+// Which run is replayed, and how.
 struct ReplayRequest {
   std::string run;      // its folder, or its log
   std::string machine;  // what was run, in place of the folder's
@@ -28,6 +29,7 @@ struct ReplayRequest {
   double band = 0.05;                 // share of a channel's range beyond which it has parted
 };
 
+// Holds what came of a replay.
 struct Replayed {
   ReplayOf of = ReplayOf::controller;
   double duration = 0;                          // [s]

@@ -13,6 +13,7 @@
 
 namespace sinew::run {
 
+// Holds what came of it.
 struct PlantReplay {
   // The table holds the simulated readings, what only a simulation knows, and the recorded commands
   // in place of the controllers' own.

@@ -43,7 +43,8 @@ struct Switched {
   bool vents = false;  // at the start: an exhaust
 };
 
-// By the machine's valves. Of two joints that share a muscle the later law drives it.
+// Returns them by the machine's valves. The later law of two joints drives a muscle that they
+// share.
 std::vector<Switched> switched_valves(const std::vector<control::Board>& boards,
                                       std::size_t valves) {
   std::vector<Switched> out(valves);

@@ -15,6 +15,7 @@
 
 namespace sinew::run {
 
+// All that the valves of a machine were told.
 struct ValveCommands {
   std::vector<signals::Edge> edges;  // in ascending time
   std::vector<std::string> rebuilt;  // the topics of duties that edges were made from
