@@ -34,6 +34,7 @@ void add_valve(Command app, Action& action);
 void add_kinematics(Command app, Action& action);
 void add_identify(Command app, Action& action);
 void add_figures(Command app, Action& action);
+void add_film(Command app, Action& action);
 void add_view(Command app, Action& action);
 void add_bring_up(Command app, Action& action);
 void add_firmware(Command app, Action& action);

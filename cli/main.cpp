@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
   cli::add_kinematics(command, action);
   cli::add_identify(command, action);
   cli::add_figures(command, action);
+  cli::add_film(command, action);
   cli::add_fmu(command, action);
   cli::add_force_beam(command, action);
   cli::add_doctor(command, action);

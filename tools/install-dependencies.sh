@@ -50,6 +50,7 @@ list='
     check  -                   mkdocs-material                  builds the docs site, with MkDocs
     check  doxygen             doxygen                          reads the headers for its reference
     check  -                   libjs-katex                      sets its formulas
+    check  ffmpeg              ffmpeg                           makes videos of runs, in tests
     check  mpirun              openmpi-bin                      starts them in tests
     check  chromium            chromium                         opens that page in tests
     check  -                   fonts-dejavu-core                what its reference pictures are set in

@@ -65,6 +65,7 @@ layers='
     run/muscle      run/setup experiment/rig
     run/folder      run/simulation run/stand log analysis report recording
     run/bring_up    run/folder report
+    film            run/folder report
     tune            run/folder host
     tune/results    tune
     tune/mpi        tune/results

@@ -1,0 +1,137 @@
+// `film`: of a machine and of the stand, where there is a browser; and what it refuses.
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+
+#include "sinew/film/chromium.h"
+#include "sinew/film/process.h"
+#include "tests/cli/program.h"
+
+namespace sinew::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+namespace fs = std::filesystem;
+
+const std::string bench = "experiments/one-joint.toml";
+const std::string stand = "experiments/rig/feedback.toml";
+
+bool can_film() { return SINEW_HAS_PAGE && !film::find_chromium().empty(); }
+
+void run(const Workspace& w, const std::string& experiment, const std::string& folder) {
+  ASSERT_EQ(w.sinew({"run", experiment, "-o", folder, "--no-report"}).code, 0);
+}
+
+// What a GIF holds, read by its blocks.
+struct Gif {
+  int width = 0, height = 0, unlike = 0;
+  std::vector<int> delays;  // of each frame [ms]
+
+  explicit Gif(const std::string& bytes);
+};
+
+Gif::Gif(const std::string& bytes) {
+  const auto at = [&](std::size_t i) {
+    return static_cast<int>(static_cast<unsigned char>(bytes.at(i)));
+  };
+  const auto word = [&](std::size_t i) { return at(i) + 256 * at(i + 1); };
+  EXPECT_THAT(bytes, StartsWith("GIF89a"));
+  width = word(6);
+  height = word(8);
+  std::size_t i = 13 + 3 * (std::size_t{2} << (at(10) & 7));
+  std::string before;
+  while (at(i) != 0x3B) {
+    const bool image = at(i) == 0x2C;
+    if (!image && at(i + 1) == 0xF9) delays.push_back(10 * word(i + 4));
+    i += image ? 11 : 2;  // no table of its own
+    std::string data;
+    for (; at(i) != 0; i += static_cast<std::size_t>(at(i)) + 1)
+      data += bytes.substr(i + 1, static_cast<std::size_t>(at(i)));
+    ++i;
+    if (image && data != before) ++unlike;
+    if (image) before = data;
+  }
+}
+
+TEST(Film, OfAMachineIsAGifOfSoManyFrames) {
+  if (!can_film()) GTEST_SKIP() << "no chromium, or built without the page";
+  const Workspace w;
+  run(w, bench, "run");
+  const Words film{"film",  "run", "-o",      "a.gif", "--from",   "0.5 s", "--to",    "1 s",
+                   "--fps", "30",  "--width", "320",   "--height", "241",   "--speed", "0.5"};
+  const Result made = w.sinew(film);
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(made.out, "");
+  EXPECT_THAT(made.err, HasSubstr("a.gif, 30 frames, 1.0 s"));
+  const Gif gif(read_text(w / "a.gif"));
+  EXPECT_EQ(gif.width, 320);
+  EXPECT_EQ(gif.height, 241);
+  ASSERT_EQ(gif.delays.size(), 30u);
+  int all = 0;
+  for (const int delay : gif.delays) all += delay;
+  EXPECT_EQ(all, 1000) << "30 frames in a second, though a GIF counts hundredths";
+  EXPECT_GE(gif.unlike, 20) << "it moves";
+
+  EXPECT_THAT(w.sinew(film).err, HasSubstr("--force"));
+  Words again = film;
+  again[3] = "b.gif";
+  ASSERT_EQ(w.sinew(again).code, 0);
+  EXPECT_TRUE(read_text(w / "a.gif") == read_text(w / "b.gif")) << "the same bytes again";
+}
+
+TEST(Film, OfTheStandIsAVideo) {
+  if (!can_film()) GTEST_SKIP() << "no chromium, or built without the page";
+  if (film::find_program({"ffmpeg"}).empty()) GTEST_SKIP() << "ffmpeg is missing";
+  const Workspace w;
+  run(w, stand, "run");
+  const Result made = w.sinew({"film", "run", "-o", "stand.mp4", "--to", "0.4 s", "--width", "320",
+                               "--height", "240", "--dark"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(read_text(w / "stand.mp4").substr(4, 4), "ftyp");
+  EXPECT_FALSE(fs::exists(w / "stand.mp4.unfinished"));
+  if (film::find_program({"ffprobe"}).empty()) return;
+  const std::string ask =
+      "ffprobe -v error -count_frames -show_entries stream=width,nb_read_frames"
+      " -of csv=p=0 '" +
+      (w / "stand.mp4").string() + "' > '" + (w / "asked").string() + "'";
+  ASSERT_EQ(std::system(ask.c_str()), 0);
+  EXPECT_THAT(read_text(w / "asked"), StartsWith("320,10"));
+}
+
+TEST(Film, WrongWordsAreToldBeforeABrowserStarts) {
+  const Workspace w;
+  run(w, bench, "run");
+  EXPECT_EQ(w.sinew({"film", "run"}).code, 2);
+  EXPECT_THAT(w.sinew({"film", "run", "-o", "walk.avi"}).err,
+              AllOf(StartsWith("--output: found \"walk.avi\""), HasSubstr("\"walk.gif\"")));
+  EXPECT_THAT(w.sinew({"film", "run", "-o", "a.gif", "--from", "2 s", "--to", "1 s"}).err,
+              StartsWith("--from: found 2 s; expected a time before 1 s"));
+  EXPECT_THAT(w.sinew({"film", "run", "-o", "a.mp4", "--width", "321"}).err,
+              StartsWith("--width: found 321; expected an even number"));
+  EXPECT_THAT(w.sinew({"film", "run", "-o", "a.gif", "--fps", "80"}).err, StartsWith("--fps: "));
+  EXPECT_THAT(w.sinew({"film", "run", "-o", "nowhere/a.gif"}).err, HasSubstr("nowhere"));
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nowhere", 1);
+  const Result no_ffmpeg = w.sinew({"film", "run", "-o", "a.mp4"});
+  const Result no_browser = w.sinew({"film", "run", "-o", "a.gif"});
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_THAT(no_ffmpeg.err, HasSubstr("apt-get install ffmpeg"));
+  EXPECT_EQ(no_browser.code, 1);
+  if (SINEW_HAS_PAGE) {
+    EXPECT_THAT(no_browser.err, HasSubstr("apt-get install chromium"));
+  }
+  EXPECT_FALSE(fs::exists(w / "a.gif"));
+}
+
+TEST(Film, OfATimeThatTheRunDoesNotHaveIsRefused) {
+  if (!can_film()) GTEST_SKIP() << "no chromium, or built without the page";
+  const Workspace w;
+  run(w, bench, "run");
+  EXPECT_THAT(w.sinew({"film", "run", "-o", "a.gif", "--from", "1000 s"}).err,
+              AllOf(StartsWith("--from: "), HasSubstr("a time of the run")));
+}
+
+}  // namespace
+}  // namespace sinew::test

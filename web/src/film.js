@@ -1,0 +1,99 @@
+// The film of a run: `sinew film` runs this in the run's page, asks for one frame after the other,
+// and gets each as base64. What a frame shows follows from its time alone.
+import { GIFEncoder, applyPalette, quantize } from 'gifenc';
+
+function base64(bytes) {
+  let text = '';
+  for (let i = 0; i < bytes.length; i += 32768) text += String.fromCharCode(...bytes.subarray(i, i + 32768));
+  return btoa(text);
+}
+
+class Film {
+  // `size` in pixels; `still`: the camera stands, instead of going with the machine; `speed` is told
+  // where it is not 1.
+  constructor({ size, dark, still, speed }) {
+    const { page } = window.sinew;
+    this.page = page;
+    this.scene = page.scene;
+    this.speed = speed;
+    [this.width, this.height] = size;
+    page.look.set_theme(dark ? 'dark' : 'light');
+    this.scene.follow = !still;
+    // The page's own rules fit the drawing to a window, and there is none.
+    this.scene.canvas.setAttribute('style', 'position: fixed; left: 0; top: 0; max-width: none; max-height: none; ' +
+      `min-height: 0; width: ${this.width}px; height: ${this.height}px`);
+    this.sheet = new OffscreenCanvas(this.width, this.height);
+    this.ctx = this.sheet.getContext('2d', { willReadFrequently: true });
+    this.gif = GIFEncoder();
+    this.taken = 0;  // bytes of it that were handed out
+  }
+
+  draw(t) {
+    const { ctx, scene } = this, { look } = scene;
+    scene.draw(t);
+    ctx.fillStyle = look.paper;
+    ctx.fillRect(0, 0, this.width, this.height);
+    ctx.drawImage(scene.canvas, 0, 0, this.width, this.height);
+    ctx.textBaseline = 'top';
+    ctx.fillStyle = look.ink;
+    ctx.font = `600 15px ${look.sans}`;
+    const phase = this.page.phase_at(t);
+    ctx.fillText([`${t.toFixed(2)} s`, phase].filter(Boolean).join('  ·  '), 8, 7);
+    if (this.speed === 1) return;
+    ctx.fillStyle = look.quiet;
+    ctx.font = `13px ${look.sans}`;
+    ctx.textAlign = 'right';
+    ctx.fillText(`${this.speed} ×`, this.width - 8, 8);
+    ctx.textAlign = 'left';
+  }
+
+  pixels(t) {
+    this.draw(t);
+    return this.ctx.getImageData(0, 0, this.width, this.height).data;
+  }
+
+  async png(t) {
+    this.draw(t);
+    const file = await this.sheet.convertToBlob({ type: 'image/png' });
+    return base64(new Uint8Array(await file.arrayBuffer()));
+  }
+
+  // One palette for the whole film, of frames at some of its times: what stays, stays as it is.
+  choose_palette(times) {
+    const frames = times.map((t) => this.pixels(t));
+    const all = new Uint8Array(frames.length * frames[0].length);
+    frames.forEach((frame, i) => all.set(frame, i * frame.length));
+    this.colors = quantize(all, 255);
+    this.through = this.colors.length;  // a pixel that is as it was before
+    this.palette = [...this.colors, [255, 255, 255]];
+    return this.colors.length;
+  }
+
+  // What the frame adds to the file; `delay` in ms.
+  gif_frame(t, delay) {
+    const now = applyPalette(this.pixels(t), this.colors), { before } = this;
+    const shown = before ? now.map((color, i) => (color === before[i] ? this.through : color)) : now;
+    this.gif.writeFrame(shown, this.width, this.height, {
+      palette: before ? undefined : this.palette, delay, transparent: Boolean(before), transparentIndex: this.through,
+      dispose: 1, repeat: 0,
+    });
+    this.before = now;
+    return this.new_bytes();
+  }
+
+  gif_end() {
+    this.gif.finish();
+    return this.new_bytes();
+  }
+
+  new_bytes() {
+    const all = this.gif.bytesView(), out = base64(all.subarray(this.taken));
+    this.taken = all.length;
+    return out;
+  }
+}
+
+window.sinew_film = (options) => {
+  window.film = new Film(options);
+  return true;
+};
