@@ -1,8 +1,14 @@
-// cli/import.cpp - `sinew import`: the thesis's own log, out.dat, as the folder of a run.
+// cli/import.cpp - `sinew import`: somebody's recording as the folder of a run.
 #include <fmt/format.h>
 
+#include <fstream>
+
 #include "cli/run.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/config/text_file.h"
+#include "sinew/recording/number.h"
+#include "sinew/run/folder/imported_run.h"
+#include "sinew/run/folder/runnable.h"
 #include "thesis/out_dat/out_dat.h"
 
 namespace sinew::cli {
@@ -10,19 +16,84 @@ namespace sinew::cli {
 namespace {
 
 struct Options {
-  std::string file, experiment, folder;
-  std::vector<std::string> sets;
-  bool force = false, json = false, quiet = false;
+  run::ImportRequest request;
+  std::vector<std::string> maps, units, scales, offsets, where, shifts;  // "name=value"
+  std::string join = "side";
+  bool json = false, quiet = false;
 };
 
-ExitCode import_log(const Options& options) {
-  const Messages messages(options.quiet);
-  const experiment::Experiment e = experiment::load(options.experiment, options.sets);
-  const signals::Table table =
-      thesis::parse_out_dat(config::read_text_file(options.file, "a log out.dat"), options.file, e);
+struct Pair {
+  std::string name, value;
+};
 
-  const run::Kept<analysis::Machine> kept = run::keep_table(
-      table, e, {.folder = options.folder, .force = options.force}, messages.notices());
+// A unit or a value holds no "=", a column's name may.
+Pair pair_at(std::size_t equals, const std::string& text, const char* option,
+             const char* expected) {
+  if (equals == text.npos || equals == 0 || equals + 1 == text.size())
+    config::fail({option, 0, 0}, "", config::in_quotes(text), expected);
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+void take_pairs(Options& options) {
+  recording::Mapping& mapping = options.request.mapping;
+  for (const std::string& text : options.maps) {
+    const Pair p =
+        pair_at(text.find('='), text, "--map", "CHANNEL=COLUMN, /joint/elbow/angle=Winkel");
+    map_channel(mapping, p.name, p.value);
+  }
+  for (const std::string& text : options.units) {
+    const Pair p = pair_at(text.rfind('='), text, "--unit", "COLUMN=UNIT, Winkel=deg");
+    map_unit(mapping, p.name, p.value);
+  }
+  for (const std::string& text : options.scales) {
+    const Pair p = pair_at(text.rfind('='), text, "--scale", "COLUMN=NUMBER, Winkel=-1");
+    const auto number = recording::number_in(p.value);
+    if (!number) config::fail({"--scale", 0, 0}, "", config::in_quotes(p.value), "a number");
+    map_scale(mapping, p.name, *number);
+  }
+  for (const std::string& text : options.offsets) {
+    const Pair p = pair_at(text.rfind('='), text, "--offset", "COLUMN=VALUE, \"Winkel=90 deg\"");
+    map_offset(mapping, p.name, p.value);
+  }
+  for (const std::string& text : options.where) {
+    const Pair p = pair_at(text.find('='), text, "--where", "COLUMN=VALUE, test=3");
+    map_where(mapping, p.name, p.value);
+  }
+  for (const std::string& text : options.shifts) {
+    const Pair p = pair_at(text.rfind('='), text, "--shift", "FILE=TIME, \"force.csv=0.12 s\"");
+    options.request.shifts[p.name] = p.value;
+  }
+}
+
+bool is_out_dat(const std::string& path) {
+  std::string begin(16, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return thesis::is_out_dat(begin);
+}
+
+// The thesis's own log knows what its columns are.
+run::Kept<analysis::Machine> import_out_dat(const Options& options, const Messages& messages) {
+  const run::ImportRequest& request = options.request;
+  const std::string& path = request.files.front();
+  if (request.files.size() > 1)
+    config::fail({path, 0, 0}, "", "out.dat beside other files", "out.dat alone",
+                 "an import of each");
+  const experiment::Experiment e = experiment::load(request.experiment, request.sets);
+  const signals::Table table =
+      thesis::parse_out_dat(config::read_text_file(path, "a log out.dat"), path, e);
+  experiment::ImportedFile file = run::imported_file(path, "out.dat");
+  for (const signals::Series& s : table.series) {
+    file.rows = std::max(file.rows, static_cast<int>(s.time_ns.size()));
+    file.values += static_cast<int>(s.time_ns.size());
+  }
+  return run::keep_imported(table, e, {std::move(file)}, "",
+                            {.folder = request.folder, .force = request.force}, messages.notices());
+}
+
+template <class Machine>
+ExitCode tell_kept(const run::Kept<Machine>& kept, const Options& options,
+                   const Messages& messages) {
   for (const std::string& text : kept.summary.warnings) messages.warning(text);
   if (options.json)
     fmt::print("{}", kept.json);
@@ -33,21 +104,90 @@ ExitCode import_log(const Options& options) {
   return ok;
 }
 
+ExitCode import_recording(Options& options) {
+  const Messages messages(options.quiet);
+  take_pairs(options);
+  options.request.join_at_end = options.join == "end";
+  if (is_out_dat(options.request.files.front()))
+    return tell_kept(import_out_dat(options, messages), options, messages);
+  if (run::is_on_stand(options.request.experiment))
+    return tell_kept(run::import_stand_run(options.request, messages.notices()), options, messages);
+  return tell_kept(run::import_run(options.request, messages.notices()), options, messages);
+}
+
+void add_mapping_options(Command sub, Options& options) {
+  run::ImportRequest& request = options.request;
+  sub.add_option("--map", options.maps,
+                 "CHANNEL=COLUMN: what a column is, /joint/elbow/angle=Winkel; may be repeated")
+      .takes_one();
+  sub.add_option("--unit", options.units,
+                 "COLUMN=UNIT: of its numbers, where its header says none; may be repeated")
+      .takes_one();
+  sub.add_option("--scale", options.scales,
+                 "COLUMN=NUMBER: by which its numbers are multiplied; -1 turns the sign")
+      .takes_one();
+  sub.add_option("--offset", options.offsets, "COLUMN=VALUE: added then, in the channel's unit")
+      .takes_one();
+  sub.add_option("--where", options.where,
+                 "COLUMN=VALUE,...: only rows whose column has one of these values")
+      .takes_one();
+  sub.add_option("--mapping", request.mapping_file,
+                 "a file that says all of this, sinew.mapping/1");
+  sub.add_option("--save-mapping", request.save_mapping, "write such a file, for the next time");
+  sub.add_flag("--all", request.mapping.keep_others,
+               "keep columns that are no channel, as /recorded/NAME");
+}
+
+void add_clock_options(Command sub, Options& options) {
+  recording::ClockMapping& clock = options.request.mapping.clock;
+  sub.add_option("--time", clock.column, "the column with the times; else time, t or such");
+  sub.add_option("--time-unit", clock.unit, "of its numbers: ms");
+  sub.add_option("--rate", clock.rate, "of the rows, \"100 Hz\", in place of a column with times");
+  sub.add_option("--clock-scale", clock.scale,
+                 "true seconds in a second of the recording's clock: 0.997");
+  sub.add_option("--start", clock.start,
+                 "the recording's time that becomes 0, \"12.5 s\"; else its first sample");
+  sub.add_option("--join", options.join, "several files: side by side in time, or end to end")
+      .is_one_of({"side", "end"});
+  sub.add_option("--shift", options.shifts, "FILE=TIME: by which a file is later than it says")
+      .takes_one();
+}
+
+void add_table_options(Command sub, recording::TableSettings& table) {
+  sub.add_option("--columns", table.columns, "the header, name [unit],..., of a table without one")
+      .takes_one()
+      .split_at(',');
+  sub.add_option("--encoding", table.encoding, "of a table: utf-8, utf-16le, utf-16be, latin1");
+  sub.add_option("--decimal", table.decimal, "decimal mark of a table: . or ,");
+  sub.add_option("--thousands", table.thousands,
+                 "what parts thousands in a table: . , ' or a blank");
+  sub.add_option("--dates", table.dates, "of a table: day first, month first, or excel");
+  sub.add_flag("--spread-times", table.spread_times,
+               "rows that share a time are spread evenly up to the next");
+}
+
 }  // namespace
 
 void add_import(Command app, Action& action) {
   auto options = std::make_shared<Options>();
-  Command sub = app.subcommand("import", "the thesis's log, out.dat, as the folder of a run",
-                               "sinew import out.dat --experiment experiments/walk-test-1.toml");
-  sub.add_option("FILE", options->file, "out.dat, as B.1 or sinew export writes it").required();
-  sub.add_option("--experiment", options->experiment, "what was run: its robot, phases, scales")
+  run::ImportRequest& request = options->request;
+  Command sub = app.subcommand(
+      "import", "a recording of a laboratory as the folder of a run",
+      "sinew import rig.csv --experiment one-joint.toml --map /joint/elbow/angle=Winkel");
+  sub.add_option("FILE", request.files,
+                 "a table as CSV, a log as MCAP, a .mat of MATLAB, or the thesis's out.dat")
       .required();
-  sub.add_option("-o,--output", options->folder, "folder; else runs/<experiment>/<n>, counting up");
-  sub.add_flag("--force", options->force, "replace the run that is in the folder");
-  add_sets(sub, options->sets);
+  sub.add_option("--experiment", request.experiment, "what was run: its robot or stand, its phases")
+      .required();
+  add_mapping_options(sub, *options);
+  add_clock_options(sub, *options);
+  add_table_options(sub, request.mapping.table);
+  sub.add_option("-o,--output", request.folder, "folder; else runs/<experiment>/<n>, counting up");
+  sub.add_flag("--force", request.force, "replace the run that is in the folder");
+  add_sets(sub, request.sets);
   sub.add_flag("--json", options->json, "print summary.json");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");
-  sub.callback([=, &action] { action = [=] { return import_log(*options); }; });
+  sub.callback([=, &action] { action = [=] { return import_recording(*options); }; });
 }
 
 }  // namespace sinew::cli

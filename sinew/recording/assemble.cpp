@@ -31,7 +31,7 @@ struct Times {
 std::int64_t nanoseconds_of(const std::string& text, const std::string& key) {
   const config::Parsed parsed = config::parse_quantity(text, "s");
   if (parsed.mistake)
-    config::fail({}, key, parsed.mistake->found, parsed.mistake->expected,
+    config::fail({key, 0, 0}, "", parsed.mistake->found, parsed.mistake->expected,
                  parsed.mistake->try_this);
   return std::llround(nanoseconds * parsed.si);
 }
@@ -225,7 +225,9 @@ class Assembler {
     if (other)
       out_.notes.push_back(fmt::format("{}: {}: values of 0.5 and more were taken as open",
                                        files_[of.file].file, series.topic.name));
-    sampled_edges_ = sampled_edges_ || files_[of.file].kind != "MCAP";
+    if (files_[of.file].kind == "MCAP") return;
+    sampled_edges_ = true;
+    series.topic.description = "edges as the rows of a table show them";
   }
 
   double value(const Matched& m, std::size_t i) const {
@@ -256,7 +258,10 @@ class Assembler {
                         file.left_out, file.left_out + file.values));
     }
     if (sampled_edges_)
-      out_.notes.push_back("valves: their edges are those of a table, known to one of its rows");
+      out_.notes.push_back(
+          "valves: a table knows their edges to one of its rows; what they delivered, how often "
+          "they "
+          "switched and their energy follow these and are no measurements");
   }
 
   static std::string some(const std::vector<std::string>& names) {
@@ -279,7 +284,7 @@ class Assembler {
 
 // Every file once, every shift of a file that is there.
 void check_files(const std::vector<Recorded>& files, const Joining& joining) {
-  if (files.empty()) config::fail({}, "files", "none", "a recording");
+  if (files.empty()) config::fail({"files", 0, 0}, "", "none", "a recording");
   std::vector<std::string_view> names;
   for (const Recorded& file : files) {
     if (std::ranges::find(names, file.file) != names.end())
@@ -288,7 +293,7 @@ void check_files(const std::vector<Recorded>& files, const Joining& joining) {
   }
   for (const auto& [file, shift] : joining.shifts)
     if (std::ranges::find(names, file) == names.end())
-      config::fail({}, "shift", config::in_quotes(file), config::either(names),
+      config::fail({"shift", 0, 0}, "", config::in_quotes(file), config::either(names),
                    config::closest_in_quotes(file, names));
 }
 

@@ -28,41 +28,59 @@ Mapping load_mapping(const std::string& path) {
   return out;
 }
 
-void check_mapping(const Mapping& mapping, const std::string& file) {
-  std::vector<config::Problem> problems;
-  const auto wrong = [&](std::size_t i, const char* key, std::string found, std::string expected,
-                         std::string try_this = "") {
-    problems.push_back({{file, 0, 0},
-                        fmt::format("column[{}].{}", i, key),
-                        std::move(found),
-                        std::move(expected),
-                        std::move(try_this)});
-  };
-  for (std::size_t i = 0; i < mapping.columns.size(); ++i) {
-    const ColumnMapping& c = mapping.columns[i];
-    if (!c.channel.empty() && !c.channel.starts_with('/'))
-      wrong(i, "channel", config::in_quotes(c.channel), "a channel, which begins with /",
-            "\"/" + c.channel + "\"");
-    if (c.scale == 0 || !std::isfinite(c.scale))
-      wrong(i, "scale", config::format_number(c.scale), "a finite number that is not 0");
-    for (std::size_t k = 0; k < i; ++k)
-      if (mapping.columns[k].name == c.name)
-        wrong(i, "name", fmt::format("{} a second time", config::in_quotes(c.name)),
-              "one row for a column");
-    for (std::size_t k = 0; k < i; ++k)
-      if (!c.channel.empty() && mapping.columns[k].channel == c.channel)
-        wrong(i, "channel", fmt::format("{} a second time", c.channel),
-              fmt::format("one column for it: {} or {}", mapping.columns[k].name, c.name));
+namespace {
+
+// Collects what is wrong with a mapping.
+class Findings {
+ public:
+  explicit Findings(const std::string& file) : file_(file) {}
+
+  void add(std::string key, std::string found, std::string expected, std::string try_this = "") {
+    config::Problem& problem = list_.emplace_back();
+    problem.where.file = file_;
+    problem.key = std::move(key);
+    problem.found = std::move(found);
+    problem.expected = std::move(expected);
+    problem.try_this = std::move(try_this);
   }
+  void finish() const {
+    if (!list_.empty()) throw config::Error(list_);
+  }
+
+ private:
+  const std::string& file_;
+  std::vector<config::Problem> list_;
+};
+
+void check_row(const std::vector<ColumnMapping>& rows, std::size_t i, Findings& findings) {
+  const ColumnMapping& row = rows[i];
+  const std::string at = fmt::format("column[{}].", i);
+  if (!row.channel.empty() && !row.channel.starts_with('/'))
+    findings.add(at + "channel", config::in_quotes(row.channel), "a channel, which begins with /",
+                 "\"/" + row.channel + "\"");
+  if (row.scale == 0 || !std::isfinite(row.scale))
+    findings.add(at + "scale", config::format_number(row.scale), "a finite number that is not 0");
+  for (std::size_t k = 0; k < i; ++k) {
+    if (rows[k].name == row.name)
+      findings.add(at + "name", fmt::format("{} a second time", config::in_quotes(row.name)),
+                   "one row for a column");
+    if (!row.channel.empty() && rows[k].channel == row.channel)
+      findings.add(at + "channel", fmt::format("{} a second time", row.channel),
+                   fmt::format("one column for it: {} or {}", rows[k].name, row.name));
+  }
+}
+
+}  // namespace
+
+void check_mapping(const Mapping& mapping, const std::string& file) {
+  Findings findings(file);
+  for (std::size_t i = 0; i < mapping.columns.size(); ++i) check_row(mapping.columns, i, findings);
   if (!mapping.clock.column.empty() && !mapping.clock.rate.empty())
-    problems.push_back(
-        {{file, 0, 0},
-         "clock.rate",
-         fmt::format("{} beside clock.column {}", config::in_quotes(mapping.clock.rate),
-                     config::in_quotes(mapping.clock.column)),
-         "one of the two: a column with times, or a rate",
-         ""});
-  if (!problems.empty()) throw config::Error(problems);
+    findings.add("clock.rate",
+                 fmt::format("{} beside clock.column {}", config::in_quotes(mapping.clock.rate),
+                             config::in_quotes(mapping.clock.column)),
+                 "one of the two: a column with times, or a rate");
+  findings.finish();
 }
 
 namespace {
@@ -125,7 +143,7 @@ void map_channel(Mapping& mapping, const std::string& channel, const std::string
   }
   std::string& its = row_of(mapping, column).channel;
   if (!its.empty() && its != channel)
-    config::fail({}, "names", fmt::format("{} for {} and {}", column, its, channel),
+    config::fail({"names", 0, 0}, "", fmt::format("{} for {} and {}", column, its, channel),
                  "one channel for a column");
   its = channel;
 }

@@ -63,11 +63,12 @@ class Matcher {
  private:
   void problem(std::string file, std::string key, std::string found, std::string expected,
                std::string try_this = "") {
-    problems_.push_back({{std::move(file), 0, 0},
-                         std::move(key),
-                         std::move(found),
-                         std::move(expected),
-                         std::move(try_this)});
+    config::Problem& problem = problems_.emplace_back();
+    problem.where.file = std::move(file);
+    problem.key = std::move(key);
+    problem.found = std::move(found);
+    problem.expected = std::move(expected);
+    problem.try_this = std::move(try_this);
   }
 
   std::vector<std::string> all_columns() const {

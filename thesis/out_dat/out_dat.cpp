@@ -267,6 +267,10 @@ void check_heading(const std::string& found, const std::string& wanted, const st
 
 }  // namespace
 
+bool is_out_dat(std::string_view begin) {
+  return begin.starts_with("mode timer") || begin.starts_with("mode\ttimer");
+}
+
 std::string write_out_dat(const signals::Table& table, const experiment::Experiment& e) {
   const OutDatColumns columns = out_dat_columns(e);
   const TableReader read(table, e.path);

@@ -20,6 +20,9 @@
 
 namespace sinew::thesis {
 
+// Does a file begin as such a log does?
+bool is_out_dat(std::string_view begin);
+
 // Throws config::Error where the robot or the table lacks something that a column needs.
 std::string write_out_dat(const signals::Table& table, const experiment::Experiment& experiment);
 

@@ -20,7 +20,8 @@ namespace {
 // The only files that force=true may replace; and what a process that was killed leaves beside
 // them.
 constexpr std::string_view known_files[] = {log_name,     "log.mcap.tmp", resolved_name,
-                                            summary_name, measured_name,  "report.html"};
+                                            summary_name, measured_name,  mapping_name,
+                                            "report.html"};
 
 std::vector<std::string> known_names() {
   std::vector<std::string> names;

@@ -15,6 +15,7 @@ inline constexpr std::string_view log_name = "log.mcap";
 inline constexpr std::string_view resolved_name = "resolved.toml";
 inline constexpr std::string_view measured_name = "measured.csv";  // of a test stand
 inline constexpr std::string_view summary_name = "summary.json";
+inline constexpr std::string_view mapping_name = "mapping.toml";     // of an import
 inline constexpr std::string_view fault_log_name = "fault-log.csv";  // as a board has kept it
 inline constexpr std::string_view figures_name = "figures";          // a folder
 

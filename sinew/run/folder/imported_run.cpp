@@ -1,0 +1,235 @@
+#include "sinew/run/folder/imported_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "sinew/config/write/writer.h"
+#include "sinew/experiment/imported.fields.h"
+#include "sinew/experiment/rig/rig.h"
+#include "sinew/log/file.h"
+#include "sinew/recording/assemble.h"
+#include "sinew/recording/read.h"
+#include "sinew/robot/legs.h"
+#include "sinew/run/controllers/columns.h"
+#include "sinew/run/folder/files.h"
+#include "sinew/run/folder/filled_channels.h"
+#include "sinew/run/folder/page.h"
+#include "sinew/run/stand/run.h"
+
+namespace sinew::run {
+
+namespace {
+
+int whole(std::size_t count) {
+  return static_cast<int>(
+      std::min(count, static_cast<std::size_t>(std::numeric_limits<int>::max())));
+}
+
+// What would be refused when all is done.
+void refuse_early(const ImportRequest& request) {
+  if (request.files.empty()) config::fail({"files", 0, 0}, "", "none", "a recording");
+  if (request.save_mapping.empty()) return;
+  require_folder_of(request.save_mapping);
+  std::vector<std::filesystem::path> inputs(request.files.begin(), request.files.end());
+  inputs.emplace_back(request.experiment);
+  refuse_to_overwrite(request.save_mapping, request.force, inputs, ".toml");
+}
+
+void save_mapping(const ImportRequest& request, const recording::Assembled& of) {
+  if (!request.save_mapping.empty()) write_file(request.save_mapping, recording::text_of(of.used));
+}
+
+// A recording as its files have it, by the experiment's channels.
+recording::Assembled read(const ImportRequest& request, const std::vector<signals::Topic>& topics,
+                          double atmosphere) {
+  recording::Mapping mapping = request.mapping;
+  if (!request.mapping_file.empty())
+    mapping = recording::merged(recording::load_mapping(request.mapping_file), request.mapping);
+  recording::check_mapping(mapping, request.mapping_file);
+  std::vector<recording::Recorded> files;
+  for (const std::string& file : request.files) {
+    if (std::ranges::count(request.files, file) > 1)
+      config::fail({file, 0, 0}, "", "the same file a second time", "each file once");
+    files.push_back(recording::read_recording(file, mapping));
+  }
+  return recording::assemble(
+      files, mapping, topics,
+      {.at_end = request.join_at_end, .shifts = request.shifts, .atmosphere = atmosphere});
+}
+
+std::vector<experiment::ImportedFile> facts_of(const recording::Assembled& of) {
+  std::vector<experiment::ImportedFile> out;
+  for (const recording::Taken& taken : of.files) {
+    experiment::ImportedFile file = imported_file(taken.file, taken.kind);
+    file.started = taken.started.empty() ? "not known" : taken.started;
+    file.rows = whole(taken.rows);
+    file.values = whole(taken.values);
+    file.left_out = whole(taken.left_out);
+    out.push_back(std::move(file));
+  }
+  return out;
+}
+
+// The experiment as it was read, with the recordings behind it.
+std::string with_files(std::string resolved, std::vector<experiment::ImportedFile> files) {
+  config::Writer writer;
+  experiment::fields(writer, files);
+  return resolved + writer.text();
+}
+
+// What both kinds of experiments have.
+struct What {
+  const std::string& name;
+  int seed;
+  const std::string& resolved;
+  const config::Node& values;  // what it says
+  const std::string& mapping;
+  const RunRequest& where;
+  const Notices& notices;
+};
+
+template <class Machine>
+void keep_files(const signals::Table& table, const What& what, Kept<Machine>& kept) {
+  OutputFolder folder = run_folder(what.where.folder, what.where.force, what.name);
+  try {
+    kept.folder = folder.path();
+    write_into(folder, resolved_name, what.resolved);
+    if (!what.mapping.empty()) write_into(folder, mapping_name, what.mapping);
+    RunLog log(folder.work() / log_name, what.name, what.seed, what.resolved,
+               run::logged_topics(table));
+    log.write(table);
+    log.finish(what.resolved, "");
+    write_into(folder, summary_name, kept.json);
+    kept.page = write_report(folder, table, what.values, what.name, what.notices);
+    commit_run(folder);
+  } catch (const std::exception& problem) {
+    throw std::runtime_error(problem.what() + where_left(folder));
+  }
+}
+
+// Measured beside what a run logs, where it does not log it already.
+class Topics {
+ public:
+  explicit Topics(std::vector<signals::Topic> logged) : list_(std::move(logged)) {}
+
+  void add(std::string name, std::string unit, std::string description) {
+    add({std::move(name), std::move(description), {{"value", std::move(unit)}}});
+  }
+  void add(signals::Topic topic) {
+    if (std::ranges::find(list_, topic.name, &signals::Topic::name) == list_.end())
+      list_.push_back(std::move(topic));
+  }
+  std::vector<signals::Topic> take() { return std::move(list_); }
+
+ private:
+  std::vector<signals::Topic> list_;
+};
+
+double duration_of(const signals::Table& table) {
+  std::int64_t end = 0;
+  for (const signals::Series& s : table.series)
+    if (!s.time_ns.empty()) end = std::max(end, s.time_ns.back());
+  return 1e-9 * static_cast<double>(end);
+}
+
+void tell(const recording::Assembled& of, const std::vector<std::string>& filled,
+          const Notices& notices) {
+  for (const std::string& note : of.notes) notices.note(note);
+  for (const std::string& note : filled) notices.note(note);
+  if (!of.table.find("/plan/phase") && !of.table.find("/sweep/duty"))
+    notices.note("no plan in the recording: figures of its phases and steps are absent");
+}
+
+}  // namespace
+
+experiment::ImportedFile imported_file(const std::string& path, const std::string& kind) {
+  const log::Mapping bytes(path);
+  return {.file = path,
+          .kind = kind,
+          .size = std::to_string(bytes.bytes().size()),
+          .crc32 = fmt::format("{:08x}", bytes.crc(bytes.bytes().size()))};
+}
+
+std::vector<signals::Topic> importable_topics(const experiment::Experiment& e) {
+  Topics out(run::topics(e));
+  for (std::size_t j = 0; j < e.robot.joints.size(); ++j) {
+    const std::string at = robot::topic_of_joint(e.robot, j);
+    out.add(at + "/angle", "rad", "measured");
+    out.add(at + "/velocity", "rad/s", "measured");
+    out.add(at + "/torque", "N m", "measured; > 0 raises the angle");
+  }
+  for (std::size_t m = 0; m < e.robot.muscles.size(); ++m) {
+    const std::string at = robot::topic_of_muscle(e.robot, m);
+    out.add(at + "/tension", "N", "measured");
+    out.add(at + "/pressure", "Pa", "measured, absolute");
+    out.add(at + "/length", "m", "measured");
+  }
+  if (e.robot.trolley.present) {
+    out.add("/trolley/position", "m", "measured");
+    out.add("/trolley/velocity", "m/s", "measured");
+  }
+  if (e.robot.foot.present) {
+    out.add({"/foot/position", "measured, about the first joint", {{"x", "m"}, {"y", "m"}}});
+    out.add({"/foot/force", "measured, on the foot by the ground", {{"x", "N"}, {"y", "N"}}});
+  }
+  return out.take();
+}
+
+std::vector<signals::Topic> importable_topics(const rig::Experiment& e) {
+  Topics out(rig::topics(e));
+  out.add("/stand/length", "m", "measured, of the element");
+  out.add("/stand/force", "N", "measured, of the element");
+  out.add("/muscle/" + e.element.name + "/pressure", "Pa", "measured, absolute");
+  return out.take();
+}
+
+Kept<analysis::Machine> keep_imported(const signals::Table& table, const experiment::Experiment& e,
+                                      std::vector<experiment::ImportedFile> files,
+                                      const std::string& mapping, const RunRequest& where,
+                                      const Notices& notices) {
+  std::string resolved = experiment::resolved(e, SINEW_VERSION);
+  if (!files.empty()) resolved = with_files(std::move(resolved), std::move(files));
+  const config::Node values = config::parse_text(resolved, std::string(resolved_name));
+  Kept<analysis::Machine> kept{.machine = analysis::read_machine(values)};
+  kept.summary = analysis::summarize(table, kept.machine);
+  kept.json = to_json(kept.summary);
+  kept.duration = duration_of(table);
+  keep_files(table, {e.name, e.seed, resolved, values, mapping, where, notices}, kept);
+  return kept;
+}
+
+Kept<analysis::Machine> import_run(const ImportRequest& request, const Notices& notices) {
+  refuse_early(request);
+  const experiment::Experiment e = experiment::load(request.experiment, request.sets);
+  recording::Assembled read_in = read(request, importable_topics(e), e.air.atmosphere);
+  const auto filled = fill_channels(read_in.table, e.robot, e.air.atmosphere, run::topics(e));
+  tell(read_in, filled, notices);
+  auto kept = keep_imported(read_in.table, e, facts_of(read_in), recording::text_of(read_in.used),
+                            {.folder = request.folder, .force = request.force}, notices);
+  save_mapping(request, read_in);
+  return kept;
+}
+
+Kept<analysis::StandFile> import_stand_run(const ImportRequest& request, const Notices& notices) {
+  refuse_early(request);
+  const rig::Experiment e = rig::load(request.experiment, request.sets);
+  const recording::Assembled read_in = read(request, importable_topics(e), e.air.atmosphere);
+  tell(read_in, {}, notices);
+  const std::string resolved = with_files(rig::resolved(e, SINEW_VERSION), facts_of(read_in));
+  const config::Node values = config::parse_text(resolved, std::string(resolved_name));
+  Kept<analysis::StandFile> kept{.machine = analysis::read_stand(values)};
+  kept.summary = analysis::summarize(read_in.table, kept.machine);
+  kept.json = to_json(kept.summary);
+  kept.duration = duration_of(read_in.table);
+  const RunRequest where{.folder = request.folder, .force = request.force};
+  keep_files(read_in.table,
+             {e.name, e.seed, resolved, values, recording::text_of(read_in.used), where, notices},
+             kept);
+  save_mapping(request, read_in);
+  return kept;
+}
+
+}  // namespace sinew::run
