@@ -164,6 +164,7 @@ void add_table_options(Command sub, recording::TableSettings& table) {
   sub.add_option("--dates", table.dates, "of a table: day first, month first, or excel");
   sub.add_flag("--spread-times", table.spread_times,
                "rows that share a time are spread evenly up to the next");
+  sub.add_flag("--drop-incomplete", table.drop_incomplete, "leave out rows without a time");
 }
 
 }  // namespace

@@ -99,6 +99,16 @@ TEST_F(AssembleTest, AGaugePressureBecomesAnAbsoluteOne) {
   EXPECT_DOUBLE_EQ(s.columns[0][1], 3e5);
 }
 
+TEST_F(AssembleTest, UnitsAreReadAsOthersWriteThem) {
+  Mapping m;
+  map_channel(m, "/muscle/flexor/pressure", "p");
+  map_unit(m, "p", "psig");
+  const Assembled a = take({put("a.csv", "time [s],p\n0,0\n1,10\n")}, m, {.atmosphere = 1e5});
+  const signals::Series& s = series(a, "/muscle/flexor/pressure");
+  EXPECT_DOUBLE_EQ(s.columns[0][0], 1e5);
+  EXPECT_NEAR(s.columns[0][1], 1e5 + 68947.57, 0.1);
+}
+
 TEST_F(AssembleTest, AChannelsOwnNameAndUnitKeepEveryBit) {
   const Assembled a = take({put("a.csv",
                                 "time [s],/joint/elbow/angle [rad],/foot/position.x [m],"

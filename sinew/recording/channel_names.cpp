@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "sinew/config/quantity.h"
+#include "sinew/config/spelling.h"
 
 namespace sinew::recording {
 
@@ -48,7 +49,10 @@ bool has_unit(std::string_view unit, const signals::Topic& topic, std::size_t fi
   const std::string& channel_unit = topic.fields[field].unit;
   if (unit == channel_unit) return true;
   if (unit.empty()) return channel_unit == "1" || channel_unit == "count";
-  return !config::parse_quantity("1 " + std::string(unit), quantity_unit(topic, field)).mistake;
+  const std::string wanted = quantity_unit(topic, field);
+  return std::ranges::any_of(config::spellings(unit), [&](const config::Spelling& meant) {
+    return !config::parse_quantity("1 " + meant.unit, wanted).mistake;
+  });
 }
 
 }  // namespace

@@ -108,6 +108,7 @@ Mapping merged(Mapping first, const Mapping& second) {
   take(first.table.thousands, second.table.thousands);
   take(first.table.dates, second.table.dates);
   take(first.table.spread_times, second.table.spread_times);
+  take(first.table.drop_incomplete, second.table.drop_incomplete);
   take(first.table.columns, second.table.columns);
   // A rate stands in place of a column, and the other way round.
   if (!second.clock.rate.empty()) first.clock.column.clear();
@@ -205,7 +206,7 @@ class Lines {
 
 void put_table(const TableSettings& t, Lines& out) {
   if (t.encoding.empty() && t.decimal.empty() && t.thousands.empty() && t.dates.empty() &&
-      !t.spread_times && t.columns.empty())
+      !t.spread_times && !t.drop_incomplete && t.columns.empty())
     return;
   out.head("[table]  # how the file is written, where it does not show it");
   out.text("encoding", t.encoding);
@@ -213,6 +214,7 @@ void put_table(const TableSettings& t, Lines& out) {
   out.text("thousands", t.thousands);
   out.text("dates", t.dates);
   out.flag("spread_times", t.spread_times);
+  out.flag("drop_incomplete", t.drop_incomplete);
   std::string names;
   for (const std::string& name : t.columns) names += (names.empty() ? "" : ", ") + quoted(name);
   if (!names.empty()) out.put("columns", "[" + names + "]", "the file has no header");
@@ -235,7 +237,7 @@ std::string text_of(const Mapping& mapping) {
   Lines out;
   out.put("format", "\"sinew.mapping/1\"");
   out.comment("What the columns of a recording mean: value = scale x number [unit] + offset.");
-  out.comment("`sinew keys --kind mapping` tells every key.");
+  out.comment("docs/keys.md tells every key.");
   if (mapping.keep_others) out.head("keep_others = true  # columns without a channel: /recorded/…");
   put_table(mapping.table, out);
   put_clock(mapping.clock, out);

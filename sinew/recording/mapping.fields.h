@@ -18,6 +18,8 @@ void fields(Visitor& v, TableSettings& t) {
           .optional = true,
           .doc = "rows that share a time are spread evenly up to the next one"},
          t.spread_times);
+  v.flag({.name = "drop_incomplete", .optional = true, .doc = "leave out rows without a time"},
+         t.drop_incomplete);
   v.texts({.name = "columns",
            .optional = true,
            .doc = "the header, `name [unit]`, of a file that has none"},

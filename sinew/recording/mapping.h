@@ -29,6 +29,7 @@ namespace sinew::recording {
 struct TableSettings {
   std::string encoding, decimal, thousands, dates;
   bool spread_times = false;
+  bool drop_incomplete = false;      // leave out rows without a time
   std::vector<std::string> columns;  // the header, for a file that has none
 };
 

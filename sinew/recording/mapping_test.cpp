@@ -44,6 +44,7 @@ Mapping full() {
              .thousands = ".",
              .dates = "day first",
              .spread_times = true,
+             .drop_incomplete = true,
              .columns = {"t [s]", "a \"b\" [N]"}};
   m.clock = {.column = "Zeit", .unit = "ms", .scale = 0.997, .start = "12.5 s"};
   map_where(m, "Test", "fill, 3");

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "sinew/config/quantity.h"
+#include "sinew/config/spelling.h"
 
 namespace sinew::recording {
 
@@ -212,14 +213,17 @@ class Matcher {
   Scaling by_units(const Recorded& file, const RecordedColumn& column, const std::string& unit,
                    Target target) {
     const std::string wanted = quantity_unit(out_.topics[target.topic], target.field);
-    const auto parse = [&](int number) {
-      return config::parse_quantity(fmt::format("{} {}", number, unit), wanted, atmosphere_);
+    const auto parse = [&](int number, const std::string& in) {
+      return config::parse_quantity(fmt::format("{} {}", number, in), wanted, atmosphere_);
     };
-    const config::Parsed zero = parse(0), one = parse(1);
-    if (!zero.mistake) {
-      const double slope = one.si - zero.si;
+    // As it is written, or as others write it: psig.
+    for (const config::Spelling& meant : config::spellings(unit)) {
+      const config::Parsed zero = parse(0, meant.unit), one = parse(1, meant.unit);
+      if (zero.mistake) continue;
+      const double slope = (one.si - zero.si) * meant.factor;
       return {slope, zero.si, slope == 1 && zero.si == 0};
     }
+    const config::Parsed zero = parse(0, unit);
     const std::string expected =
         fmt::format("{}, for {}", config::describe_unit(wanted), name_of(target));
     if (unit.empty())
