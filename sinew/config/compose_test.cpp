@@ -195,7 +195,7 @@ TEST_F(Compose, SetReportsSlips) {
 
 TEST_F(Compose, TheFormatLineIsChecked) {
   write("x.toml", "seed = 1\n");
-  EXPECT_TRUE(contains(message("x.toml"), "x.toml:1:1: format: found nothing; expected \"sinew."));
+  EXPECT_TRUE(contains(message("x.toml"), "x.toml:1:1: format: missing; expected \"sinew."));
   write("x.toml", "format = \"sinew.robt/1\"\n");
   EXPECT_TRUE(contains(message("x.toml"), "try format = \"sinew.robot/1\""));
   write("x.toml", "format = \"sinew.robot/2\"\n");

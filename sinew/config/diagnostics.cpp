@@ -11,6 +11,7 @@ namespace sinew::config {
 namespace {
 
 constexpr std::size_t longest_quote = 60;
+constexpr std::string_view nothing = "nothing";  // is found of a key that is not there
 
 // Letters to change, add, drop or swap with their neighbour to get from a to b.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -49,9 +50,11 @@ std::string to_text(const Problem& problem) {
   if (problem.where.line > 0) {
     text += fmt::format(":{}:{}", problem.where.line, problem.where.column);
   }
-  text += ": ";
+  if (!text.empty()) text += ": ";
   if (!problem.key.empty()) text += problem.key + ": ";
-  text += fmt::format("found {}; expected {}", problem.found, problem.expected);
+  const bool missing = !problem.key.empty() && problem.found == nothing;
+  text += missing ? "missing" : "found " + problem.found;
+  text += "; expected " + problem.expected;
   if (!problem.try_this.empty()) text += "; try " + problem.try_this;
   return without_controls(text);
 }

@@ -6,54 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "sinew/config/field_words.h"
 #include "sinew/config/quantity.h"
-#include "sinew/units/ranges.h"
 
 namespace sinew::config {
-
-namespace {
-
-// A number that is none stands for a key without a value of its own.
-std::string default_text(double value, std::string_view unit) {
-  return std::isfinite(value) ? format_quantity(value, unit) : "not set";
-}
-
-std::string joined(const std::vector<double>& values, std::string_view unit) {
-  std::string text;
-  for (double v : values) text += (text.empty() ? "" : ", ") + default_text(v, unit);
-  return text;
-}
-
-std::string bounds_text(const units::Field& field) {
-  const std::string low = format_quantity(field.min, field.unit);
-  const std::string high = format_quantity(field.max, field.unit);
-  if (field.max == units::unbounded) return "at least " + low;
-  if (field.min == -units::unbounded) return "at most " + high;
-  return fmt::format("{} to {}", low, high);
-}
-
-std::string with_reason(std::string text, std::string_view why) {
-  return why.empty() ? text : fmt::format("{}: {}", text, why);
-}
-
-// Returns the range that the value breaks, the field's own or else its unit's; empty if it breaks
-// none.
-std::string out_of_bounds(const units::Field& field, double value) {
-  if (!(value >= field.min && value <= field.max)) {
-    return with_reason(bounds_text(field), field.why);
-  }
-  if (value != 0 && std::abs(value) < field.least) {
-    const std::string least = format_quantity(field.least, field.unit);
-    return with_reason("0, or at least " + least, field.why);
-  }
-  const units::Range& range = units::range_of(field.unit);
-  if (std::abs(value) <= range.most) return {};
-  const double end = std::copysign(range.most, value);
-  const std::string text = format_quantity(end, field.unit);
-  return with_reason((value > 0 ? "at most " : "at least ") + text, range.why);
-}
-
-}  // namespace
 
 double atmosphere_of(const Node& root) {
   Reader reader(root);
@@ -72,7 +28,7 @@ Reader::Reader(const Node& root, ReaderOptions options)
 // --- values ---
 
 void Reader::number(const Field& field, double& value) {
-  auto entry = open(field, default_text(value, field.unit), field.unit);
+  auto entry = open(field, default_text(value, field.unit), field.unit, number_text(field));
   if (!entry) return;
   const auto si = si_of(*entry->value, field.unit, entry->origin.path);
   if (si && in_bounds(field, *si, *entry->value, entry->origin.path)) {
@@ -84,7 +40,8 @@ void Reader::number(const Field& field, double& value) {
 }
 
 void Reader::numbers(const Field& field, std::vector<double>& values) {
-  auto entry = open(field, joined(values, field.unit), field.unit);
+  auto entry = open(field, joined(values, field.unit), field.unit,
+                    "a list, each of it " + number_text(field));
   if (!entry) return;
   if (expect_kind(*entry->value, Node::Kind::array, entry->origin.path)) {
     values.clear();
@@ -98,7 +55,9 @@ void Reader::numbers(const Field& field, std::vector<double>& values) {
 
 void Reader::polynomial(const Field& field, std::vector<double>& coefficients,
                         std::string_view per) {
-  auto entry = open(field, "", field.unit);
+  auto entry =
+      open(field, "", field.unit,
+           fmt::format("a list of coefficients, the first in {}", describe_unit(field.unit)));
   if (!entry) return;
   if (expect_kind(*entry->value, Node::Kind::array, entry->origin.path)) {
     coefficients.clear();
@@ -117,7 +76,7 @@ void Reader::polynomial(const Field& field, std::vector<double>& coefficients,
 }
 
 void Reader::integer(const Field& field, int& value) {
-  auto entry = open(field, std::to_string(value), "");
+  auto entry = open(field, std::to_string(value), "", whole_text(field));
   if (!entry) return;
   const Node& node = *entry->value;
   using Limits = std::numeric_limits<int>;
@@ -137,14 +96,14 @@ void Reader::integer(const Field& field, int& value) {
 }
 
 void Reader::flag(const Field& field, bool& value) {
-  auto entry = open(field, value ? "true" : "false", "");
+  auto entry = open(field, value ? "true" : "false", "", "true or false");
   if (!entry) return;
   if (expect_kind(*entry->value, Node::Kind::flag, entry->origin.path)) value = entry->value->flag;
   close(std::move(*entry), false);
 }
 
 void Reader::text(const Field& field, std::string& value) {
-  auto entry = open(field, value, "");
+  auto entry = open(field, value, "", "a text");
   if (!entry) return;
   if (expect_kind(*entry->value, Node::Kind::text, entry->origin.path)) value = entry->value->text;
   close(std::move(*entry), false);
@@ -152,7 +111,7 @@ void Reader::text(const Field& field, std::string& value) {
 
 void Reader::texts(const Field& field, std::vector<std::string>& values) {
   const std::vector<std::string_view> defaults(values.begin(), values.end());
-  auto entry = open(field, fmt::format("{}", fmt::join(defaults, ", ")), "");
+  auto entry = open(field, fmt::format("{}", fmt::join(defaults, ", ")), "", "a list of texts");
   if (!entry) return;
   if (expect_kind(*entry->value, Node::Kind::array, entry->origin.path)) {
     values.clear();
@@ -180,7 +139,7 @@ void Reader::named_numbers(const Field& field, std::map<std::string, double>& va
 std::optional<std::size_t> Reader::pick(const Field& field,
                                         const std::vector<std::string_view>& words,
                                         std::string_view default_word) {
-  auto entry = open(field, std::string(default_word), "");
+  auto entry = open(field, std::string(default_word), "", words_text(words));
   if (!entry) return std::nullopt;
   std::optional<std::size_t> index;
   const Node& node = *entry->value;
@@ -188,10 +147,7 @@ std::optional<std::size_t> Reader::pick(const Field& field,
   if (node.kind == Node::Kind::text && it != words.end()) {
     index = static_cast<std::size_t>(it - words.begin());
   } else {
-    std::vector<std::string> quoted_words;
-    for (auto word : words) quoted_words.push_back(in_quotes(word));
-    add_problem(node, entry->origin.path, shown(node),
-                either({quoted_words.begin(), quoted_words.end()}),
+    add_problem(node, entry->origin.path, shown(node), words_text(words),
                 closest_in_quotes(node.text, words));
   }
   close(std::move(*entry), false);
@@ -262,7 +218,7 @@ const Node* Reader::ask(const Field& field) {
 }
 
 std::optional<Reader::Entry> Reader::open(const Field& field, std::string default_text,
-                                          std::string_view unit) {
+                                          std::string_view unit, const std::string& expected) {
   const Node* node = ask(field);
   Entry entry{node, {}, scopes_.back().range, false};
   entry.origin.path = path_of(field.name);
@@ -273,9 +229,8 @@ std::optional<Reader::Entry> Reader::open(const Field& field, std::string defaul
       entry.origin.is_default = true;
       origins_.push_back(std::move(entry.origin));
     } else {
-      const std::string what = unit.empty() ? "a value" : describe_unit(unit);
       add_problem(*scopes_.back().table, entry.origin.path, "nothing",
-                  field.doc.empty() ? what : fmt::format("{}: {}", what, field.doc));
+                  with_reason(expected, field.doc));
     }
     return std::nullopt;
   }

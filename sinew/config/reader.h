@@ -107,7 +107,9 @@ class Reader {
 
   std::string path_of(std::string_view key) const;
   const Node* ask(const Field& field);
-  std::optional<Entry> open(const Field& field, std::string default_text, std::string_view unit);
+  // `expected` is what a message says of a key that is missing, before the field's own words.
+  std::optional<Entry> open(const Field& field, std::string default_text, std::string_view unit,
+                            const std::string& expected);
   void read_value_table(const Node& table, Entry& entry);
   void add_provenance(const Node& table, Entry& entry);
   void close(Entry entry, bool numeric);

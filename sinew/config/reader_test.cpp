@@ -135,7 +135,33 @@ TEST(Reader, TheCallersAtmosphereCounts) {
 
 TEST(Reader, AMissingKeyIsReportedWithItsMeaning) {
   EXPECT_EQ(Reading("ratio = 1").message,
-            "a.toml:1:1: length: found nothing; expected m (length): at rest");
+            "a.toml:1:1: length: missing; expected m (length), 0 m to 1 m: at rest");
+}
+
+// A key that is missing says what a wrong one would.
+TEST(Reader, AMissingKeySaysItsWordsAndItsKind) {
+  const Node root = parse_text("x = 1\n", "a.toml");
+  Reader reader(root);
+  Law law{};
+  int legs = 0;
+  bool runs = false;
+  std::string name;
+  std::vector<std::string> names;
+  std::vector<double> numbers;
+  reader.choice({.name = "law", .doc = "of friction"}, law,
+                {{"stop", Law::stop}, {"zero", Law::zero}});
+  reader.integer({.name = "legs", .min = 1, .max = 8, .doc = "of the robot"}, legs);
+  reader.flag({.name = "runs", .doc = "at once"}, runs);
+  reader.text({.name = "name", .doc = "for people"}, name);
+  reader.texts({.name = "names"}, names);
+  reader.numbers({.name = "numbers", .unit = "s", .min = 0}, numbers);
+  EXPECT_EQ(to_text(reader.problems()),
+            "a.toml:1:1: law: missing; expected \"stop\" or \"zero\": of friction\n"
+            "a.toml:1:1: legs: missing; expected a whole number, 1 to 8: of the robot\n"
+            "a.toml:1:1: runs: missing; expected true or false: at once\n"
+            "a.toml:1:1: name: missing; expected a text: for people\n"
+            "a.toml:1:1: names: missing; expected a list of texts\n"
+            "a.toml:1:1: numbers: missing; expected a list, each of it s (time), at least 0 s");
 }
 
 TEST(Reader, AWrongTypeIsReported) {

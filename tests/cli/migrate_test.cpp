@@ -157,8 +157,8 @@ TEST(Migrate, WrongInputsAreRefusedInWords) {
        {std::pair<const char*, const char*>{
             "none.toml", "none.toml: found no readable file; expected a TOML file"},
         {"dir.toml", "dir.toml: found a folder; expected a TOML file"},
-        {"empty.toml", "empty.toml:1:1: format: found nothing; expected \"sinew.<kind>/1\""},
-        {"keys.toml", "keys.toml:1:1: format: found nothing"},
+        {"empty.toml", "empty.toml:1:1: format: missing; expected \"sinew.<kind>/1\""},
+        {"keys.toml", "keys.toml:1:1: format: missing"},
         {"kind.toml", "found \"sinew.robt/1\"; expected \"sinew.<kind>/1\""},
         {"other.toml", "found \"ros/1\""},
         {"number.toml", "found \"sinew.robot/one\""},
@@ -170,7 +170,7 @@ TEST(Migrate, WrongInputsAreRefusedInWords) {
         {"json.toml", "json.toml:1:"},
         {"gain.dat", "gain.dat:1:1:"},
         {"table.dat", "table.dat:1:1:"},
-        {"base.toml", "format: found nothing"}}) {
+        {"base.toml", "format: missing"}}) {
     const std::string before = fs::is_regular_file(w / name) ? read_text(w / name) : "";
     const Result r = w.sinew({"migrate", name});
     EXPECT_EQ(r.code, 1) << name;

@@ -137,7 +137,7 @@ TEST(AirOfAFile, WhatDoesNotGoTogetherIsSaid) {
     const std::string text = refusal(sets);
     EXPECT_NE(text.find(words), std::string::npos) << text;
   };
-  says({"air.supply.kind=tank"}, "air.supply.volume: found nothing; expected m3 (volume)");
+  says({"air.supply.kind=tank"}, "air.supply.volume: missing; expected m3 (volume)");
   says({"air.supply.volume=1 L"},
        "air.supply.volume: found a key of kind = \"tank\"; expected pressure alone");
   says({"valve.inlet.kind=regulator"}, "valve.inlet.regulator: found no range");
@@ -161,7 +161,7 @@ TEST(AirOfAFile, WhatDoesNotGoTogetherIsSaid) {
        "joint.hip.pressure_law.bias: found a joint with 2-way valves");
   says({"joint.hip.pressure_law.angle_integral=1 %/(count s)"},
        "joint.hip.pressure_law.angle_integral: found a joint without regulators");
-  says({"joint.hip.spring=1 lbf in/rad"}, "joint.hip.spring_angle: found nothing");
+  says({"joint.hip.spring=1 lbf in/rad"}, "joint.hip.spring_angle: missing");
   says({"joint.hip.damper=1e6 lbf in s/rad"}, "plant_steps.body: found a machine that needs steps");
   says({R"(muscle.hip_flexor.cam={angle=["240 deg","320 deg"],radius=["0 in","0 in"]})"},
        "muscle.hip_flexor.cam.radius: found 0 at the joint's rest angle");
