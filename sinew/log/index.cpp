@@ -29,12 +29,14 @@ struct Span {  // of time; as the format wants it, zero to zero without messages
 // Copies the records of one file into another, the messages in chunks, and adds the summary.
 class Indexer {
  public:
-  Indexer(Output& output, const Pairs& metadata) : output_(output), run_(metadata) {}
+  Indexer(Output& output, const Pairs& metadata, const SteadyTopics& steady)
+      : output_(output), run_(metadata), steady_(steady) {}
 
   bool copy(const Mapping& source);
 
  private:
   void copy(const Record& record);
+  void copy_channel(const Record& record);
   void copy_metadata(const Record& record);
   void add_message(const Record& record);
   void end_chunk();
@@ -45,6 +47,7 @@ class Indexer {
   Output& output_;
   std::size_t chunk_bytes_ = kChunkBytes;
   const Pairs& run_;  // what was run, in place of what the file says; empty: that
+  const SteadyTopics& steady_;
 
   // The chunk being filled: its records, and per channel (time, offset) of each message.
   Bytes chunk_;
@@ -87,15 +90,29 @@ void Indexer::copy(const Record& record) {
       ++schema_count_;
       break;
     case Op::channel:
-      channels_.raw(record.whole);
-      ++channel_count_;
-      break;
+      return copy_channel(record);
     case Op::metadata:
       return copy_metadata(record);
     default:
       break;
   }
   output_.write(record.whole);  // only messages stand in chunks
+}
+
+// A steady one says so, and at whose times it stands.
+void Indexer::copy_channel(const Record& record) {
+  Bytes out;
+  auto channel = parse_channel(record.content);
+  const auto steady = channel ? steady_.find(channel->id) : steady_.end();
+  if (steady == steady_.end()) {
+    out.raw(record.whole);
+  } else {
+    channel->metadata.emplace_back(kSteady, steady->second);
+    put_channel(out, *channel);
+  }
+  channels_.raw(out.view());
+  ++channel_count_;
+  output_.write(out.view());
 }
 
 void Indexer::copy_metadata(const Record& record) {
@@ -117,6 +134,7 @@ void Indexer::copy_metadata(const Record& record) {
 void Indexer::add_message(const Record& record) {
   const auto message = parse_message(record.content);
   if (!message) return;
+  if (message->sequence > 0 && steady_.contains(message->channel)) return;
   chunk_time_.add(message->log_time);
   time_.add(message->log_time);
   ++message_counts_[message->channel];
@@ -233,7 +251,8 @@ void Indexer::put_summary() {
 
 }  // namespace
 
-void make_indexed(const Output& row, const std::filesystem::path& file, const Metadata& run) {
+void make_indexed(const Output& row, const std::filesystem::path& file, const Metadata& run,
+                  const SteadyTopics& steady) {
   const std::filesystem::path beside = file.string() + ".tmp";
   const auto fail = [&](const std::string& why) {
     std::error_code ignored;
@@ -243,7 +262,7 @@ void make_indexed(const Output& row, const std::filesystem::path& file, const Me
   };
   const Mapping source(row.descriptor(), file);
   Output output(beside);
-  if (!Indexer(output, run).copy(source) || !output.sync())
+  if (!Indexer(output, run, steady).copy(source) || !output.sync())
     fail(output.error() ? system_words(output.error()) : "the file is damaged");
 
   // By their names both could be somebody else's by now.

@@ -79,6 +79,16 @@ void put_pairs(Bytes& out, const Pairs& pairs) {
   out.close_list(list);
 }
 
+// Whether all of the list could be read.
+bool take_pairs(std::string_view list, Pairs& out) {
+  Fields f(list);
+  while (f.ok() && !f.rest().empty()) {
+    std::string key(f.text());
+    out.emplace_back(std::move(key), f.text());
+  }
+  return f.ok();
+}
+
 }  // namespace
 
 std::optional<Schema> parse_schema(std::string_view content) {
@@ -98,7 +108,8 @@ std::optional<Channel> parse_channel(std::string_view content) {
   c.schema = f.u16();
   c.topic = f.text();
   c.encoding = f.text();
-  f.text();  // its metadata
+  // What others write there may be of any form.
+  if (!take_pairs(f.text(), c.metadata)) c.metadata.clear();
   return if_ok(f, c);
 }
 
@@ -129,12 +140,7 @@ std::optional<std::pair<std::string, Pairs>> parse_metadata(std::string_view con
   Fields f(content);
   std::pair<std::string, Pairs> named;
   named.first = f.text();
-  Fields list(f.text());
-  while (list.ok() && !list.rest().empty()) {
-    std::string key(list.text());
-    named.second.emplace_back(std::move(key), list.text());
-  }
-  if (!list.ok()) return std::nullopt;
+  if (!take_pairs(f.text(), named.second)) return std::nullopt;
   return if_ok(f, std::move(named));
 }
 
@@ -160,7 +166,7 @@ void put_channel(Bytes& out, const Channel& channel) {
   out.u16(channel.schema);
   out.text(channel.topic);
   out.text(channel.encoding);
-  put_pairs(out, {});
+  put_pairs(out, channel.metadata);
   out.close(record);
 }
 

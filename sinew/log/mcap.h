@@ -122,6 +122,7 @@ struct Schema {
 struct Channel {
   std::uint16_t id = 0, schema = 0;
   std::string_view topic, encoding;
+  Pairs metadata = {};
 };
 struct Message {
   std::uint16_t channel = 0;

@@ -5,6 +5,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "sinew/log/names.h"
+
 namespace sinew::log {
 namespace {
 
@@ -76,6 +78,7 @@ std::string to_schema(const signals::Topic& topic) {
   Json required = Json::array();
   for (const signals::Field& field : topic.fields) {
     properties[field.name] = {{"type", "number"}, {"unit", field.unit}};
+    if (!field.unit.empty()) properties[field.name]["description"] = "in " + field.unit;
     required.push_back(field.name);
   }
   const Json schema = {{"type", "object"},
@@ -84,6 +87,13 @@ std::string to_schema(const signals::Topic& topic) {
                        {"properties", std::move(properties)},
                        {"required", std::move(required)}};
   return schema.dump();
+}
+
+std::vector<std::pair<std::string, std::string>> to_metadata(const signals::Topic& topic) {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const signals::Field& field : topic.fields)
+    out.emplace_back(std::string(kUnit) + field.name, field.unit);
+  return out;
 }
 
 std::optional<signals::Topic> from_schema(std::string_view schema, std::string_view topic) {

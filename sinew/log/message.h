@@ -9,14 +9,20 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sinew/signals/table.h"
 
 namespace sinew::log {
 
-// The JSON schema of a topic: its description, its fields in order, their units.
+// The JSON schema of a topic: its description, its fields in order, their units. JSON Schema has no
+// word for a unit and lets any other stand beside its own, so "unit" is for programs, and the
+// description, which viewers show, says it once more.
 std::string to_schema(const signals::Topic& topic);
+
+// The same units as metadata of its channel, for readers that do not look into schemas.
+std::vector<std::pair<std::string, std::string>> to_metadata(const signals::Topic& topic);
 
 // The topic that a schema describes; nothing where it has no field with a number. Fields of other
 // kinds, which foreign logs have, are left out; those of an object within it are called `pose.x`.

@@ -9,4 +9,9 @@ inline constexpr std::string_view kSchemaEncoding = "jsonschema";
 inline constexpr std::string_view kMessageEncoding = "json";
 inline constexpr std::string_view kRunMetadata = "sinew.run";  // the record that says what was run
 
+// Metadata of a channel: "unit.<field>" says in which unit a field is.
+inline constexpr std::string_view kUnit = "unit.";
+// Of one whose value never changes and which is written once: the topic at whose times it stands.
+inline constexpr std::string_view kSteady = "sinew.steady";
+
 }  // namespace sinew::log

@@ -11,6 +11,7 @@
 #include "sinew/log/mcap.h"
 #include "sinew/log/message.h"
 #include "sinew/log/names.h"
+#include "sinew/log/steady.h"
 
 namespace sinew::log {
 namespace {
@@ -45,6 +46,7 @@ class Collector {
   bool take_message(std::string_view content);
   bool take_chunk(std::string_view content);
   bool leave_out();
+  void repeat_steady();
   bool ends_properly(const Record& last) const;
 
   struct Source {  // of a channel that is read
@@ -60,6 +62,7 @@ class Collector {
   std::map<std::uint16_t, std::unique_ptr<Source>> sources_;
   const signals::PageFile pages_ = signals::PageFile::make();
   std::vector<signals::Series> series_;
+  std::vector<std::pair<std::size_t, std::string>> steady_;  // series, at whose times
   std::vector<double> values_;
   bool whole_ = true;  // no message was damaged
 };
@@ -75,7 +78,17 @@ signals::Table Collector::table() {
     if (!take(*record)) break;
     mapping_.forget_before(record->whole.data());
   }
+  repeat_steady();
   return {std::move(series_), ended && whole_};
+}
+
+void Collector::repeat_steady() {
+  for (const auto& [series, topic] : steady_) {
+    const auto times = std::ranges::find(
+        series_, topic,
+        [](const signals::Series& s) -> const std::string& { return s.topic.name; });
+    if (times != series_.end()) repeat(series_[series], *times);
+  }
 }
 
 bool Collector::take(const Record& record) {
@@ -114,6 +127,8 @@ bool Collector::take_channel(std::string_view content) {
   for (const signals::Series& series : series_)
     if (series.topic.name == topic->name) return true;
   source->second = std::make_unique<Source>(Source{series_.size(), MessageFormat(*topic)});
+  for (const auto& [key, value] : channel->metadata)
+    if (key == kSteady) steady_.emplace_back(series_.size(), value);
   const std::size_t fields = topic->fields.size();
   series_.push_back({std::move(*topic), signals::Times(pages_),
                      std::vector<signals::Column>(fields, signals::Column(pages_))});

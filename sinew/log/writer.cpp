@@ -16,6 +16,7 @@
 #include "sinew/log/message.h"
 #include "sinew/log/names.h"
 #include "sinew/log/ring.h"
+#include "sinew/log/steady.h"
 
 namespace sinew::log {
 namespace {
@@ -60,9 +61,15 @@ std::string front(const path& file, const Topics& topics, const Pairs& metadata,
       throw Error(file, fmt::format("topic {} has text that is not UTF-8", i + 1),
                   "write its name, description and units in UTF-8");
     }
-    put_channel(out, {id, id, topic.name, kMessageEncoding});
+    put_channel(out, {id, id, topic.name, kMessageEncoding, to_metadata(topic)});
   }
   return std::move(out.data());
+}
+
+std::vector<std::string> names_of(const Topics& topics) {
+  std::vector<std::string> out;
+  for (const signals::Topic& topic : topics) out.push_back(topic.name);
+  return out;
 }
 
 }  // namespace
@@ -83,7 +90,8 @@ struct Writer::Impl {
 
   const path file_;
   const Options options_;
-  std::vector<MessageFormat> formats_;  // per topic
+  const std::vector<std::string> topics_;  // their names
+  std::vector<MessageFormat> formats_;     // per topic
   Ring ring_;
   Output output_;
 
@@ -93,6 +101,7 @@ struct Writer::Impl {
   // The thread's.
   Bytes pending_;
   std::vector<std::uint32_t> sequence_;  // per topic
+  std::vector<Steadiness> steadiness_;   // per topic
 
   // Between the two. The mutex belongs to the thread's sleep alone; the loop never takes it.
   std::atomic<bool> stopping_{false};
@@ -110,10 +119,12 @@ Writer::Impl::Impl(path file_path, const Topics& topics, const Pairs& metadata,
                    const Options& options)
     : file_(std::move(file_path)),
       options_(options),
+      topics_(names_of(topics)),
       formats_(topics.begin(), topics.end()),
       ring_(options.ring),
       output_(file_),
-      sequence_(topics.size(), 0) {
+      sequence_(topics.size(), 0),
+      steadiness_(topics.size()) {
   if (!output_.write(front(file_, topics, metadata, options.version))) fail_unless_written();
   pending_.data().reserve(1 << 20);
   thread_ = std::thread([this] { run(); });
@@ -171,7 +182,9 @@ void Writer::Impl::encode(const Sample& sample) {
   const std::size_t record =
       open_message(pending_, static_cast<std::uint16_t>(sample.topic + 1),
                    sequence_[sample.topic]++, static_cast<std::uint64_t>(sample.time_ns));
+  const std::size_t begin = pending_.size();
   format.append(pending_.data(), std::span(sample.values).first(format.fields()));
+  steadiness_[sample.topic].add(sample.time_ns, pending_.view().substr(begin));
   pending_.close(record);
 }
 
@@ -199,7 +212,7 @@ void Writer::Impl::finish(const Pairs& metadata) {
   end.raw(footer.view());
   output_.write(end.view());
   fail_unless_written();
-  make_indexed(output_, file_, metadata);
+  make_indexed(output_, file_, metadata, steady_topics(topics_, steadiness_));
   output_.close();
 }
 

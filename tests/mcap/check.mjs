@@ -23,6 +23,7 @@ class Messages {
   #schemas = new Map();
   #channels = new Map();
   counts = new Map(); // channel -> messages
+  steady = new Map(); // channel whose value never changes -> the topic that has its times
   total = 0;
 
   addSchema(schema) {
@@ -34,14 +35,21 @@ class Messages {
       expect(property.type === "number", `${schema.name}.${name} is ${property.type}`);
       expect(typeof property.unit === "string", `${schema.name}.${name} has no unit`);
     }
-    this.#schemas.set(schema.id, Object.keys(json.properties));
+    this.#schemas.set(schema.id, json.properties);
   }
 
   addChannel(channel) {
-    const fields = this.#schemas.get(channel.schemaId);
-    expect(fields, `channel ${channel.topic} has no schema`);
+    const properties = this.#schemas.get(channel.schemaId);
+    expect(properties, `channel ${channel.topic} has no schema`);
     expect(channel.messageEncoding === "json", `${channel.topic} is ${channel.messageEncoding}`);
-    this.#channels.set(channel.id, { topic: channel.topic, fields });
+    // A reader that does not look into schemas finds the units beside the channel.
+    for (const [name, property] of Object.entries(properties)) {
+      const unit = channel.metadata.get(`unit.${name}`);
+      expect(unit === property.unit, `${channel.topic}.${name} is in ${property.unit} and in ${unit}`);
+    }
+    this.#channels.set(channel.id, { topic: channel.topic, fields: Object.keys(properties) });
+    const times = channel.metadata.get("sinew.steady");
+    if (times !== undefined) this.steady.set(channel.id, times);
   }
 
   addMessage(message) {
@@ -60,6 +68,10 @@ class Messages {
       expect(value === null || typeof value === "number", `${where}: ${name} is ${typeof value}`);
     this.counts.set(message.channelId, count + 1);
     ++this.total;
+  }
+
+  topicOf(id) {
+    return this.#channels.get(id).topic;
   }
 
   get channels() {
@@ -88,6 +100,17 @@ function checkStatistics(reader, messages, first, last) {
     same(`messages of channel ${channel}`, messages.counts.get(channel) ?? 0, count);
 }
 
+// What never changes is written once, and the topic at whose times it stands is there as a whole.
+function checkSteady(messages) {
+  const counts = new Map();
+  for (const [id, count] of messages.counts) counts.set(messages.topicOf(id), count);
+  for (const [id, times] of messages.steady) {
+    const topic = messages.topicOf(id);
+    expect(counts.get(topic) === 1, `${topic} never changes and is there ${counts.get(topic)} times`);
+    expect((counts.get(times) ?? 0) > 1, `${topic} has the times of ${times}, which has none`);
+  }
+}
+
 async function checkWhole(bytes) {
   const reader = await McapIndexedReader.Initialize({ readable: readable(bytes) });
   expect(/^sinew\b/.test(reader.header.library), `written by "${reader.header.library}"`);
@@ -104,6 +127,7 @@ async function checkWhole(bytes) {
     messages.addMessage(message);
   }
   checkStatistics(reader, messages, first, last);
+  checkSteady(messages);
   expect(
     crc32(bytes.subarray(0, Number(reader.dataEndOffset))) === reader.dataSectionCrc,
     "the data's checksum is wrong",
@@ -117,7 +141,7 @@ async function checkWhole(bytes) {
   const stream = readStream(bytes);
   expect(stream.done, "read as a stream it has no end");
   expect(stream.messages.total === messages.total, `as a stream ${stream.messages.total} messages`);
-  return `${messages.total} messages, ${messages.channels} channels, ${reader.chunkIndexes.length} chunks`;
+  return `${messages.total} messages, ${messages.channels} channels, ${messages.steady.size} of them steady, ${reader.chunkIndexes.length} chunks`;
 }
 
 function readStream(bytes) {
