@@ -28,6 +28,9 @@ ExitCode check_all(const Options& options) {
     report.push_back(
         {{"file", finding.file}, {"problems", finding.problems}, {"warnings", finding.warnings}});
     if (!finding.faults.empty()) report.back()["faults"] = finding.faults;
+    for (const files::Unsourced& one : finding.unsourced)
+      report.back()["unsourced"].push_back(
+          {{"key", one.key}, {"value", one.value}, {"file", one.file}, {"line", one.line}});
     if (!options.json) fmt::print("{}", files::text_of(finding));
   }
   if (options.json) fmt::print("{}\n", json_text(report, 2));

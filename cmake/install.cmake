@@ -74,6 +74,9 @@ install(TARGETS sinew_fmu_muscle_module sinew_fmu_machine_module LIBRARY DESTINA
 install(DIRECTORY ${PROJECT_BINARY_DIR}/${sinew_modules}/fmu_sources DESTINATION ${sinew_modules}
         COMPONENT program)
 install(DIRECTORY robots experiments studies DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew COMPONENT program)
+# `sinew list examples` finds them there. What a run of one leaves beside it is not of them.
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew COMPONENT program
+        PATTERN "__pycache__" EXCLUDE PATTERN "build" EXCLUDE PATTERN "runs" EXCLUDE)
 install(DIRECTORY data/templates DESTINATION ${CMAKE_INSTALL_DATADIR}/sinew/data COMPONENT program)
 install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT texts)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 
@@ -53,15 +54,32 @@ void check_run(const std::filesystem::path& folder, Finding& out) {
   add(experiment::load_machine_file(run::machine_of(run, "")).experiment.warnings, out.warnings);
 }
 
-// One line per file: an experiment's own choices need no more.
+// One sentence per file, and the values as rows of a table.
 void tell_of_sources(const Problems& unsourced, Finding& out) {
-  std::map<std::string, std::vector<std::string>> keys;
-  for (const config::Problem& p : unsourced)
-    keys[p.where.file].push_back(fmt::format("{} ({})", p.key, p.where.line));
-  for (const auto& [file, list] : keys)
-    out.warnings.push_back(fmt::format("{}: {} value{} without a source (line): {}", file,
-                                       list.size(), list.size() == 1 ? "" : "s",
-                                       fmt::join(list, ", ")));
+  std::map<std::string, int> counts;
+  for (const config::Problem& p : unsourced) {
+    ++counts[p.where.file];
+    const std::string value = p.found.substr(0, p.found.find(" without a source"));
+    out.unsourced.push_back({p.key, value, p.where.file, p.where.line});
+  }
+  for (const auto& [file, count] : counts)
+    out.warnings.push_back(
+        fmt::format("{}: {} value{} without a source", file, count, count == 1 ? "" : "s"));
+}
+
+// "  key  value  file:line", in columns.
+std::string table_of(const std::vector<Unsourced>& values) {
+  if (values.empty()) return "";
+  std::size_t key = std::string_view("key").size(), value = std::string_view("value").size();
+  for (const Unsourced& one : values) {
+    key = std::max(key, one.key.size());
+    value = std::max(value, one.value.size());
+  }
+  std::string out = fmt::format("  {:<{}}  {:<{}}  where\n", "key", key, "value", value);
+  for (const Unsourced& one : values)
+    out += fmt::format("  {:<{}}  {:<{}}  {}:{}\n", one.key, key, one.value, value, one.file,
+                       one.line);
+  return out;
 }
 
 // Tells what breaks and when, and warns of what changes nothing: why(fault).
@@ -142,6 +160,7 @@ std::string text_of(const Finding& finding) {
   std::string out;
   for (const std::string& text : finding.problems) out += text + "\n";
   for (const std::string& text : finding.warnings) out += "warning: " + text + "\n";
+  out += table_of(finding.unsourced);
   const auto count = [](std::size_t n, std::string_view what) {
     return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
   };

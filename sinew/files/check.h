@@ -7,11 +7,18 @@
 
 namespace sinew::files {
 
+// A value of which nobody says where it comes from.
+struct Unsourced {
+  std::string key, value, file;
+  int line = 0;
+};
+
 // Sentences as they are printed, each with its place.
 struct Finding {
   std::string file;
   std::vector<std::string> problems, warnings;
-  std::vector<std::string> faults;  // what the experiment breaks, and when
+  std::vector<std::string> faults;   // what the experiment breaks, and when
+  std::vector<Unsourced> unsourced;  // a warning tells how many, the text has them as a table
 };
 
 // Looks at an experiment, rig, plan, tuning, robot, actuator, valves or wiring file, predict.dat,
@@ -19,7 +26,8 @@ struct Finding {
 // with it: that is what it returns.
 Finding check(const std::string& path);
 
-// Returns lines of text: its sentences, then how many there are.
+// Returns lines of text: its sentences, a table of the values without a source, then how many
+// there are.
 std::string text_of(const Finding& finding);
 
 }  // namespace sinew::files

@@ -237,8 +237,7 @@ std::string text_of(const Listing& listing, const std::string& kind) {
     }
   }
   if (!out.empty()) return out;
-  return fmt::format("no {}{}\n", kind.empty() ? "files of Sinew" : kind,
-                     kind == "examples" ? ": they come with Sinew's sources" : "");
+  return fmt::format("no {}\n", kind.empty() ? "files of Sinew" : kind);
 }
 
 }  // namespace sinew::files

@@ -100,9 +100,16 @@ TEST(Check, WantsSources) {
   const Workspace w;
   const Result experiment = w.sinew({"check", "experiments/one-joint.toml"});
   EXPECT_EQ(experiment.code, 0);
-  EXPECT_THAT(experiment.out,
-              AllOf(HasSubstr("warning: experiments/one-joint.toml: "),
-                    HasSubstr("values without a source"), HasSubstr("phase.up.duration (")));
+  EXPECT_THAT(
+      experiment.out,
+      AllOf(HasSubstr("warning: experiments/one-joint.toml: "),
+            HasSubstr("values without a source"), HasSubstr("where\n  "),
+            ::testing::ContainsRegex(
+                "\n  phase.up.duration +\"[0-9.]+ s\" +experiments/one-joint.toml:[0-9]+\n")));
+  const Json rows =
+      Json::parse(w.sinew({"check", "experiments/one-joint.toml", "--json"}).out)[0]["unsourced"];
+  EXPECT_GT(rows.size(), 3U);
+  for (const Json& row : rows) EXPECT_GT(row["line"].get<int>(), 0) << row["key"];
 
   w.edit("robots/leg/robot.toml", R"({ value = "8.875 in", source = "5.3" })", R"("8.875 in")");
   const Result robot = w.sinew({"check", "robots/leg/robot.toml"});
