@@ -44,6 +44,7 @@ void add_doctor(Command app, Action& action);
 void add_list(Command app, Action& action);
 void add_new(Command app, Action& action);
 void add_completion(Command app, Action& action);
+void add_help(Command app, Action& action);
 
 // `--set key=value`, any number of times; one value each, so that what follows stays what it is.
 inline void add_sets(Command sub, std::vector<std::string>& sets) {

@@ -47,7 +47,7 @@ Words words_of(const CommandTree& command) {
       continue;
     }
     out.options.insert(out.options.end(), names.begin(), names.end());
-    if (!option.takes_value) continue;
+    if (!option.takes_value()) continue;
     out.valued.insert(out.valued.end(), names.begin(), names.end());
     if (!option.choices.empty()) out.chosen.emplace_back(names, option.choices);
   }
@@ -104,7 +104,7 @@ std::string fish_option(const std::string& at, const CommandTree::Shape& option)
     out += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
     has_keys = has_keys || fmt::format("|{}|", keyed).find("|" + name + "|") != std::string::npos;
   }
-  if (option.takes_value && !option.names.empty()) out += " -r";
+  if (option.takes_value() && !option.names.empty()) out += " -r";
   if (!option.choices.empty()) out += " -f -a " + in_shell_quotes(joined(option.choices), true);
   if (has_keys) out += " -f -a '(__sinew_keys)'";
   if (!option.names.empty()) out += " -d " + in_shell_quotes(option.description, true);

@@ -108,10 +108,11 @@ void add_figures(Command app, Action& action) {
   sub.callback([=, &action] {
     const RunFiguresRequest& of_runs = options->runs;
     if (!options->of_thesis && of_runs.runs.empty())
-      require("DIR, the folder of a run, or --thesis");
-    if (options->of_thesis && of_runs.out.empty()) require("-o with --thesis");
+      require("DIR", "the folder of a run, or --thesis in its place");
+    if (options->of_thesis && of_runs.out.empty())
+      require("--output", "the folder for the figures of --thesis");
     if (of_runs.overlaid() && !of_runs.labels_template && of_runs.out.empty())
-      require("-o with --overlay or --label");
+      require("--output", "a folder for the figures of --overlay or --label");
     action = [=] { return draw(*options); };
   });
 }

@@ -109,7 +109,7 @@ void print(const identify::Report& report) {
 }  // namespace
 
 void add_data_options(Command sub, DataOptions& options) {
-  sub.add_option("data", options.files, "measurements as CSV").required();
+  sub.add_option("DATA", options.files, "measurements as CSV").required();
   sub.add_option("--map", options.maps, "name=NAME: the file's name for a column; may be repeated")
       .takes_one()
       .split_at(',');

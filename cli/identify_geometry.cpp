@@ -45,7 +45,7 @@ void add_identify_geometry(Command identify, Action& action) {
       "geometry", "thread length and turns, from counted trapezoids or from lengths and diameters",
       "sinew identify geometry --trapezoids 37,16 --side \"0.057 in\"");
   add_data_options(sub, options->data);
-  sub.option("data").required(false);
+  sub.option("DATA").required(false);
   sub.add_option("--trapezoids", options->settings.trapezoids,
                  "LENGTHWISE,AROUND counted on the opened mesh, instead of data");
   sub.add_option("--side", options->settings.side, "of one trapezoid");
@@ -56,11 +56,12 @@ void add_identify_geometry(Command identify, Action& action) {
   add_result_options(sub, options->result);
   sub.callback([options, &action] {
     if (options->data.files.empty() == options->settings.trapezoids.empty())
-      refuse("data", "either a file of lengths and diameters, or --trapezoids");
+      refuse("DATA", options->data.files.empty() ? "no file" : "a file beside --trapezoids",
+             "either a file of lengths and diameters, or --trapezoids");
     if (!options->settings.trapezoids.empty() && !options->result.report.empty())
-      refuse("--report", "needs a file of lengths and diameters to show");
+      refuse("--report", "--trapezoids beside it", "a file of lengths and diameters, to show it");
     if (!options->settings.trapezoids.empty() && options->settings.side.empty())
-      refuse("--side", "is needed with --trapezoids");
+      require("--side", "the side of one trapezoid, beside --trapezoids");
     action = [options] {
       check_result_options(options->result);
       return options->settings.trapezoids.empty() ? from_pairs(*options)

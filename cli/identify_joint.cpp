@@ -109,7 +109,7 @@ void add_identify_joint(Command identify, Action& action) {
   add_result_options(sub, options->result);
   sub.callback([options, &action] {
     if (options->settings.keep_force && options->settings.model.ends_with("pressure"))
-      refuse("--model", "with --keep-force round or hinge");
+      refuse("--model", options->settings.model + " with --keep-force", "round or hinge beside it");
     action = [options] { return run_joint(*options); };
   });
 }

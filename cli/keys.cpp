@@ -21,6 +21,13 @@ struct Options {
   bool json = false, page = false;
 };
 
+// What all kinds have is in the schema of each.
+std::vector<std::string> kinds_with_a_schema() {
+  std::vector<std::string> out = files::key_kinds();
+  std::erase(out, "any");
+  return out;
+}
+
 ExitCode keys(const Options& options) {
   const bool all = options.words.empty() && options.kind.empty();
   if (options.page) {
@@ -47,12 +54,12 @@ void add_keys(Command app, Action& action) {
                                "sinew keys damping\n  sinew keys joint.hip.damping");
   sub.add_option("WORD", options->words,
                  "a key, how it begins, or words of its description; without one, the tables");
-  const Option kind = sub.add_option("--kind", options->kind,
-                                     "of one kind of file: robot, actuator, valves, wiring, "
-                                     "experiment, rig, plan, tuning or any");
+  const Option kind = sub.add_option("--kind", options->kind, "of one kind of file alone")
+                          .is_one_of(files::key_kinds());
   const Option json = sub.add_flag("--json", options->json, "as JSON");
   Option schema = sub.add_option("--schema", options->schema,
-                                 "a JSON schema of that kind of file, for an editor");
+                                 "a JSON schema of that kind of file, for an editor")
+                      .is_one_of(kinds_with_a_schema());
   Option page = sub.add_flag("--page", options->page, "all keys as Markdown, docs/keys.md");
   const Option words = sub.option("WORD");
   for (const Option& other : {kind, json, words}) {

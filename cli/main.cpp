@@ -4,30 +4,20 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/help.h"
 #include "cli/interrupt.h"
 #include "cli/terminal.h"
-#include "sinew/config/diagnostics.h"
+#include "cli/usage.h"
 
 namespace {
 
 using namespace sinew;
-
-// "sinew rnu": the word that was probably meant.
-void suggest_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::vector<std::string> names;
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
-    names.push_back(sub->get_name());
-  const std::string_view near =
-      config::closest(argv[1], std::vector<std::string_view>(names.begin(), names.end()));
-  if (near.empty() || near == argv[1]) return;
-  cli::error(fmt::format("no subcommand \"{}\"; did you mean {}?", argv[1], near));
-}
 
 cli::ExitCode run_safely(const cli::Action& action) {
   try {
@@ -46,12 +36,14 @@ cli::ExitCode run_safely(const cli::Action& action) {
 int main(int argc, char** argv) {
   cli::fill_closed_streams();
   cli::survive_file_limits();
-  CLI::App app("Sinew: robots driven by braided pneumatic actuators.");
+  CLI::App app(
+      "Sinew simulates, identifies, tunes and controls robots with braided pneumatic muscles.");
   app.set_version_flag("--version", std::string("sinew ") + SINEW_VERSION);
+  app.set_help_flag("-h,--help", "this text");
   app.require_subcommand(1);
-  app.footer("Example:\n  sinew run experiments/walk-test-1.toml");
 
-  const cli::Command command(app);
+  cli::Command command(app);
+  command.shows_help(cli::help_of);
   cli::Action action;
   cli::add_run(command, action);
   cli::add_analyze(command, action);
@@ -83,13 +75,16 @@ int main(int argc, char** argv) {
   cli::add_list(command, action);
   cli::add_new(command, action);
   cli::add_completion(command, action);
+  cli::add_help(command, action);
 
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> words(argv + 1, argv + argc);
+    words = cli::with_help_first(std::move(words), command.tree());
+    std::ranges::reverse(words);  // as CLI11 takes them
+    app.parse(std::move(words));
   } catch (const CLI::ParseError& e) {
-    const int code = app.exit(e);
-    if (code == 0) return cli::ok;
-    suggest_command(app, argc, argv);
+    if (e.get_exit_code() == 0) return app.exit(e);
+    cli::error(cli::problems_of_line(app, e));
     return cli::wrong_usage;
   }
   return run_safely(action);

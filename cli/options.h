@@ -40,12 +40,23 @@ class Option {
 // A command as it was described, with those below it: for what is made of descriptions.
 struct CommandTree {
   struct Shape {
-    std::vector<std::string> names;  // --json, -o; empty: a positional argument
+    std::vector<std::string> names;  // --json, -o; empty: a word without one
+    std::string value;               // what stands in its place in the help: FILE, N
     std::string description;
     std::vector<std::string> choices;  // the only words that it takes, where they are known
-    bool takes_value = false;
+    std::string default_text;          // empty: none that the help tells
+    std::string group;                 // of this group just one is to be given; empty: none
+    int least = 0, most = 0;           // how many words follow it, 0 for a flag; `many` for any
+    bool required = false;
+    bool repeats = false;  // may be named several times
+
+    bool takes_value() const { return most > 0; }
+    std::string name() const;  // --json; FILE where it has none
   };
+  static constexpr int many = 1000;
+
   std::string name, description;
+  std::string example;  // one line, or several with two blanks before each but the first
   std::vector<Shape> options;
   std::vector<CommandTree> commands;
 };
@@ -70,6 +81,11 @@ class Command {
 
   CommandTree tree() const;
 
+  // What --help says of it and of those below it: `help` of its tree and of the words that lead to
+  // it, "sinew identify static".
+  using Help = std::function<std::string(const CommandTree&, const std::string& words)>;
+  void shows_help(Help help);
+
   // `understood` is called once the line was read and has what is required. Where what it says does
   // not go together, it calls refuse.
   void callback(std::function<void()> understood);
@@ -78,9 +94,10 @@ class Command {
   CLI::App* app_;
 };
 
-// These end the program as wrong usage: with the words as they are, or "option: words" …
-[[noreturn]] void refuse(const std::string& option, const std::string& words);
-// … or "option is required".
-[[noreturn]] void require(const std::string& option);
+// These end the program as wrong usage: "option: found …; expected …" …
+[[noreturn]] void refuse(const std::string& option, const std::string& found,
+                         const std::string& expected);
+// … or, of what is not there, "option: missing; expected …".
+[[noreturn]] void require(const std::string& option, const std::string& expected);
 
 }  // namespace sinew::cli

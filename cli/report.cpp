@@ -61,8 +61,9 @@ void add_report(Command app, Action& action) {
   sub.callback([=, &action] {
     const bool study = tune::is_study(options->runs.front());
     if (!study && options->runs.size() > 1)
-      refuse("DIR", "two are of studies; runs beside each other are sinew compare's");
-    if (study && !options->machine.empty()) refuse("--machine", "a study has none");
+      refuse("DIR", "two runs", "one run, or studies; sinew compare shows runs beside each other");
+    if (study && !options->machine.empty())
+      refuse("--machine", "a study beside it", "a run: a study has no machine of its own");
     action = [=] { return study ? report_study(*options) : report_run(*options); };
   });
 }

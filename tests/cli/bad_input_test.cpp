@@ -307,7 +307,7 @@ TEST(Usage, WhatCannotBeUnderstoodIsExitCodeTwo) {
     EXPECT_THAT(result.err, ::testing::Not(IsEmpty()));
     EXPECT_THAT(result.out, IsEmpty());
   }
-  EXPECT_THAT(w.sinew({"rnu", walk}).err, HasSubstr("did you mean run?"));
+  EXPECT_THAT(w.sinew({"rnu", walk}).err, HasSubstr("try run"));
 }
 
 TEST(Usage, EverySubcommandHasAnExampleAtTheEndOfItsHelp) {

@@ -167,7 +167,7 @@ TEST(IdentifyPages, TakeNobodysFileAway) {
   const Result counted = w.sinew({"identify", "geometry", "--trapezoids", "37,16", "--side",
                                   "0.057 in", "--report", "d.html"});
   EXPECT_EQ(counted.code, 2);
-  EXPECT_THAT(counted.err, HasSubstr("needs a file of lengths"));
+  EXPECT_THAT(counted.err, HasSubstr("expected a file of lengths"));
 }
 
 }  // namespace

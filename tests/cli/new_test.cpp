@@ -183,9 +183,9 @@ TEST(New, WrongInputsAreRefusedInWords) {
     const char* says;
   };
   const Case cases[] = {
-      {{"robt", "x"}, 2, "robt not in"},
-      {{"robot"}, 2, "NAME is required"},
-      {{}, 2, "KIND is required"},
+      {{"robt", "x"}, 2, "KIND: found \"robt\""},
+      {{"robot"}, 2, "NAME: missing"},
+      {{}, 2, "KIND: missing"},
       {{"robot", ""}, 1, "expected a name"},
       {{"robot", "a/b"}, 1, "found \"a/b\"; expected a name"},
       {{"robot", ".."}, 1, "found \"..\""},
@@ -227,12 +227,11 @@ TEST(New, WrongInputsAreRefusedInWords) {
 // measured, on a load cell that reaches its force, at a supply within its pressures.
 TEST(New, RobotOfAMuscleOfOnesOwnIsValidAndRuns) {
   const Workspace w;
-  const std::string map =
-      SINEW_SOURCE_DIR "/data/martens_boblan_2017/DMSP-10-250_force_map.csv";
-  ASSERT_EQ(w.sinew({"identify", "static", map, "--map",
-                     "length=L_m,pressure=P_gauge_Pa,force=F_N", "--unit", "L_m=m", "--unit",
-                     "P_gauge_Pa=Pa gauge", "--unit", "F_N=N", "--rest-length", "250 mm", "--name",
-                     "dmsp", "-o", "dmsp.toml", "--no-report", "--quiet"})
+  const std::string map = SINEW_SOURCE_DIR "/data/martens_boblan_2017/DMSP-10-250_force_map.csv";
+  ASSERT_EQ(w.sinew({"identify", "static", map, "--map", "length=L_m,pressure=P_gauge_Pa,force=F_N",
+                     "--unit", "L_m=m", "--unit", "P_gauge_Pa=Pa gauge", "--unit", "F_N=N",
+                     "--rest-length", "250 mm", "--name", "dmsp", "-o", "dmsp.toml", "--no-report",
+                     "--quiet"})
                 .code,
             0);
   for (const bool metric : {false, true}) {
@@ -247,9 +246,9 @@ TEST(New, RobotOfAMuscleOfOnesOwnIsValidAndRuns) {
     EXPECT_EQ(w.sinew({"check", name + "/robot.toml"}).code, 0);
     expect_made(w, with_units({"new", "experiment", name + "-lifts", "--of", name + "/robot.toml"},
                               metric));
-    EXPECT_EQ(w.sinew({"run", name + "-lifts.toml", "-o", name + "-run", "--no-report", "--quiet"})
-                  .code,
-              0);
+    EXPECT_EQ(
+        w.sinew({"run", name + "-lifts.toml", "-o", name + "-run", "--no-report", "--quiet"}).code,
+        0);
     const Json summary = Json::parse(read_text(w / (name + "-run/summary.json")));
     EXPECT_LT(summary["joints"]["lever"]["tracking_rms_rad"].get<double>(), 0.12);
   }
