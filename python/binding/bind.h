@@ -34,6 +34,7 @@ void bind_muscle(py::module_& m);
 void bind_identify(py::module_& m);
 void bind_identify_tables(py::module_& m);
 void bind_fmu(py::module_& m);
+void bind_figures(py::module_& m);
 
 // Returns a new exception of the module, sinew.NAME, below `base`.
 py::handle new_exception(py::module_& m, const char* name, const char* doc, const py::handle& base);

@@ -18,5 +18,6 @@ PYBIND11_MODULE(_sinew, m) {
   sinew::python::bind_muscle(m);
   sinew::python::bind_identify(m);
   sinew::python::bind_fmu(m);
+  sinew::python::bind_figures(m);
   sinew::python::bind_identify_tables(m);
 }

@@ -237,6 +237,39 @@ def export_fmu(
     name: str = "",
     force: bool = False,
 ) -> Dict[str, Any]: ...
+def figures(
+    runs: Union[_Path, Sequence[_Path]],
+    folder: _Path,
+    *,
+    formats: Sequence[str] = ...,
+    only: Sequence[str] = ...,
+    channels: Sequence[str] = ...,
+    names: Sequence[str] = ...,
+    overlay: bool = False,
+    labels: Optional[_Path] = None,
+    units: str = "",
+    width: str = "",
+    height: str = "",
+    font: str = "",
+    title: str = "",
+    start: Optional[_Number] = None,
+    stop: Optional[_Number] = None,
+    force: bool = False,
+) -> Dict[str, Any]: ...
+def film(
+    run: _Path,
+    path: _Path,
+    *,
+    start: Optional[_Number] = None,
+    stop: Optional[_Number] = None,
+    speed: _Number = 1.0,
+    width: int = 880,
+    height: int = 470,
+    fps: int = 25,
+    dark: bool = False,
+    still: bool = False,
+    force: bool = False,
+) -> int: ...
 def migrate(path: _Path, *, folder: Optional[_Path] = None, write: bool = True) -> Dict[str, Any]: ...
 def keys(*words: str, kind: str = "") -> List[Dict[str, Any]]: ...
 def key_schema(kind: str) -> Dict[str, Any]: ...

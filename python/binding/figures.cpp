@@ -1,0 +1,121 @@
+// python/binding/figures.cpp - figures for print and films of runs that are kept.
+#include <pybind11/stl.h>
+
+#include "python/binding/bind.h"
+#include "sinew/film/film.h"
+#include "sinew/run/folder/drawn_run.h"
+#include "sinew/run/folder/files.h"
+
+namespace sinew::python {
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+std::vector<std::filesystem::path> paths_of(const py::object& runs) {
+  std::vector<std::filesystem::path> out;
+  if (!py::isinstance<py::list>(runs) && !py::isinstance<py::tuple>(runs)) return {path_of(runs)};
+  for (const py::handle& run : runs) out.emplace_back(path_of(run));
+  if (out.empty()) throw py::value_error("runs: found none; expected the folder of a run");
+  return out;
+}
+
+report::Picture picture_of(const std::string& word) {
+  for (const report::Picture p : {report::Picture::pdf, report::Picture::svg, report::Picture::png})
+    if (report::ending(p) == word) return p;
+  throw py::value_error("formats: found \"" + word + "\"; expected pdf, svg or png");
+}
+
+double time_of(const py::object& seconds, double otherwise) {
+  return seconds.is_none() ? otherwise : seconds.cast<double>();
+}
+
+py::object figures(const py::object& runs, const py::object& folder, const Names& formats,
+                   const Names& only, const Names& channels, const Names& names, bool overlay,
+                   const py::object& labels, const std::string& units, const std::string& width,
+                   const std::string& height, const std::string& font, const std::string& title,
+                   const py::object& start, const py::object& stop, bool force) {
+  run::OverlaidRuns asked{paths_of(runs), names};
+  overlay = overlay || !names.empty();
+  if (asked.runs.size() > 1 && !overlay)
+    throw py::value_error("runs: found several; expected one, or names or overlay=True");
+  run::DrawingRequest request{.units = units, .channels = channels, .only = only, .title = title};
+  request.options.from = time_of(start, request.options.from);
+  request.options.to = time_of(stop, request.options.to);
+  request.paper = report::read_paper(width, height, font);
+  request.files.force = force;
+  request.files.must_draw = true;
+  request.files.pictures.clear();
+  for (const std::string& word : formats) request.files.pictures.push_back(picture_of(word));
+  if (!labels.is_none()) request.files.labels = report::read_labels(path_of(labels));
+  const std::string out = path_of(folder);
+  Names warnings;
+  const run::Notices notices{
+      .on_warning = [&](std::string_view text) { warnings.emplace_back(text); }};
+  std::string index;
+  {
+    const py::gil_scoped_release unlocked;
+    index = overlay ? run::draw_runs(asked, out, request, notices)
+                    : run::draw_run(asked.runs[0], out, request, notices);
+  }
+  const py::object told = py::module_::import("json").attr("loads")(index);
+  told["warnings"] = warnings;
+  return told;
+}
+
+int film(const py::object& run, const py::object& path, const py::object& start,
+         const py::object& stop, double speed, int width, int height, int fps, bool dark,
+         bool still, bool force) {
+  film::FilmOptions options{.speed = speed,
+                            .width = width,
+                            .height = height,
+                            .frames_per_second = fps,
+                            .dark = dark,
+                            .still = still};
+  options.from = time_of(start, options.from);
+  options.to = time_of(stop, options.to);
+  const std::string of = path_of(run), file = path_of(path);
+  film::check(options, film::kind_of(file));
+  run::refuse_to_overwrite(file, force, {}, std::filesystem::path(file).extension().string());
+  run::require_folder_of(file);
+  std::atomic<bool> interrupted{false};
+  int frames = 0;
+  do_interruptibly(interrupted, [&] {
+    std::atomic<std::int64_t> done{0};
+    film::Filming filming(of, "", options, interrupted);
+    filming.make(file, done);
+    frames = filming.frames();
+  });
+  return frames;
+}
+
+}  // namespace
+
+void bind_figures(py::module_& m) {
+  m.def(
+      "figures", &figures, py::arg("runs"), py::arg("folder"), py::kw_only(),
+      py::arg("formats") = Names{"svg", "png"}, py::arg("only") = Names(),
+      py::arg("channels") = Names(), py::arg("names") = Names(), py::arg("overlay") = false,
+      py::arg("labels") = py::none(), py::arg("units") = "", py::arg("width") = "",
+      py::arg("height") = "", py::arg("font") = "", py::arg("title") = "",
+      py::arg("start") = py::none(), py::arg("stop") = py::none(), py::arg("force") = false,
+      "Draws the figures of a run into a folder, for print, with the CSV behind each; of several\n"
+      "runs in the same axes, which `names` call in the legend. `formats` are pdf, svg and png.\n"
+      "`only` are names of figures; `channels` are figures of your choice in their place:\n"
+      "\"/joint/*/angle,/muscle/*/tension\" is one with two plots. `labels` is a file with words\n"
+      "in your language. `width`, `height` and `font` are texts with units, \"84 mm\" and \"9 "
+      "pt\";\n"
+      "`units` is si, thesis, metric or metric,length=cm; `start` and `stop` are in s. Returns\n"
+      "what index.json says, with `warnings`. Raises InputError.");
+  m.def(
+      "film", &film, py::arg("run"), py::arg("path"), py::kw_only(), py::arg("start") = py::none(),
+      py::arg("stop") = py::none(), py::arg("speed") = 1.0, py::arg("width") = 880,
+      py::arg("height") = 470, py::arg("fps") = 25, py::arg("dark") = false,
+      py::arg("still") = false, py::arg("force") = false,
+      "Makes a film of the replay of a run that is kept: .gif, .mp4 or .webm. Chromium draws its\n"
+      "frames, ffmpeg makes MP4 and WebM of them. `start` and `stop` are in s of the run; `speed`\n"
+      "is how many of its seconds one of the film shows; `still` lets the camera stand. Returns\n"
+      "the number of frames. Raises InputError, and RuntimeError where a program is missing.");
+}
+
+}  // namespace sinew::python
