@@ -69,6 +69,18 @@ void add_run_options(Command sub, RunFiguresRequest& runs, Option thesis) {
   of_runs(sub.add_option("--label", runs.labels,
                          "what a run is called, in their order; the runs are in the same axes")
               .takes_one());
+  Option align = sub.add_option("--align", runs.align,
+                                "how the others are laid on the first run: start, event or "
+                                "correlation; start")
+                     .is_one_of({"start", "event", "correlation"});
+  of_runs(align);
+  of_runs(sub.add_option("--event", runs.event,
+                         "of --align event: '/joint/elbow/angle > 10 deg'; else the first motion")
+              .needs(align));
+  of_runs(sub.add_option("--clock", runs.clock,
+                         "fit: the rate of another run's clock is taken out, too; none")
+              .is_one_of({"none", "fit"})
+              .needs(align));
   of_runs(sub.add_option("--title", runs.title, "above the picture, of one figure"));
   of_runs(sub.add_option("--width", runs.width, "of the picture; \"89 mm\""));
   of_runs(sub.add_option("--height", runs.height, "of the picture; else as its plots want"));
@@ -112,7 +124,7 @@ void add_figures(Command app, Action& action) {
     if (options->of_thesis && of_runs.out.empty())
       require("--output", "the folder for the figures of --thesis");
     if (of_runs.overlaid() && !of_runs.labels_template && of_runs.out.empty())
-      require("--output", "a folder for the figures of --overlay or --label");
+      require("--output", "a folder for the figures of --overlay, --label or --align");
     action = [=] { return draw(*options); };
   });
 }

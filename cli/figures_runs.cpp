@@ -29,6 +29,16 @@ report::RunFigureOptions options_of(const RunFiguresRequest& request) {
   return out;
 }
 
+// None: the runs begin together.
+std::optional<analysis::AlignRequest> align_of(const RunFiguresRequest& request) {
+  if (request.align == "start") return std::nullopt;
+  const bool event = request.align == "event";
+  return analysis::AlignRequest{
+      .by = event ? analysis::AlignBy::event : analysis::AlignBy::correlation,
+      .event = request.event,
+      .fit_clock = request.clock == "fit"};
+}
+
 run::DrawingRequest drawing_of(const RunFiguresRequest& request) {
   run::DrawingRequest out{.machine = request.machine,
                           .units = request.units,
@@ -90,7 +100,8 @@ ExitCode draw_runs(const RunFiguresRequest& request) {
         {{"folder", folder.string()}, {"figures", Json::parse(index)["figures"]}});
   };
   if (request.overlaid()) {
-    const run::OverlaidRuns runs{{request.runs.begin(), request.runs.end()}, request.labels};
+    const run::OverlaidRuns runs{
+        {request.runs.begin(), request.runs.end()}, request.labels, align_of(request)};
     add(request.out, run::draw_runs(runs, request.out, drawing, messages.notices()));
   } else {
     for (const auto& [folder, named] : folders_of(request))

@@ -20,11 +20,12 @@ struct RunFiguresRequest {
   std::vector<std::string> labels;    // of runs in the same axes
   std::vector<std::string> channels;  // figures of these in place of the page's panels
   std::vector<std::string> only, formats;
+  std::string align = "start", event, clock = "none";  // of runs in the same axes
   bool overlay = false, labels_template = false;
   bool force = false, json = false, quiet = false;
 
   // Are the runs laid on each other?
-  bool overlaid() const { return overlay || !labels.empty(); }
+  bool overlaid() const { return overlay || !labels.empty() || align != "start"; }
 };
 
 // What --format and --force ask for: "svg,png,pdf,csv"; "csv" alone draws nothing. Throws

@@ -55,7 +55,8 @@ const Changes& changes() {
                                      {"plan"},
                                      {"tuning"},
                                      {"settings"},
-                                     {"mapping"}},
+                                     {"mapping"},
+                                     {"labels"}},
                            .keys = {}};
   return all;
 }

@@ -17,6 +17,7 @@
 #include "sinew/experiment/rig/rig.h"
 #include "sinew/log/reader.h"
 #include "sinew/recording/mapping.h"
+#include "sinew/report/figures/labels.h"
 #include "sinew/run/folder/run_folder.h"
 #include "sinew/run/folder/runnable.h"
 #include "sinew/run/setup/buildable.h"
@@ -139,6 +140,8 @@ Finding check(const std::string& path) {
       tune::check(tune::sweep_of(tune::load_study(path)));
     } else if (config::format_kind(root) == "mapping") {
       recording::load_mapping(path);
+    } else if (config::format_kind(root) == "labels") {
+      report::read_labels(path);
     } else if (config::format_kind(root) == "settings") {
       config::read_user_settings(path);
     } else if (config::format_kind(root) == "tuning") {

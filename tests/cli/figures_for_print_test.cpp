@@ -122,6 +122,26 @@ TEST(FiguresForPrint, ShowAnyChannelsBesideWhatWasDesired) {
   EXPECT_THAT(figures[1]["curves"][0]["y"].get<std::string>(), HasSubstr("[%]"));
 }
 
+// A run that begins a second later is laid on the other by its first motion.
+TEST(FiguresForPrint, LayRunsOnEachOther) {
+  const Workspace w;
+  for (const auto& [folder, settle] : {std::pair("one", "1 s"), std::pair("late", "2 s")})
+    ASSERT_EQ(w.sinew({"run", bench, "-o", folder, "--no-report", "--set",
+                       "start.settle=" + std::string(settle)})
+                  .code,
+              0);
+  const Result made = w.sinew({"figures", "one", "late", "--align", "event", "--only",
+                               "joint-angles", "--format", "csv", "-o", "both", "--json"});
+  ASSERT_EQ(made.code, 0) << made.err;
+  const std::string told = "late: laid on one by a shift of ";
+  const std::size_t at = made.err.find(told);
+  ASSERT_NE(at, std::string::npos) << made.err;
+  EXPECT_NEAR(std::stod(made.err.substr(at + told.size())), 1, 0.02);
+  const Json curves = Json::parse(made.out)["runs"][0]["figures"][0]["curves"];
+  EXPECT_EQ(curves[0]["curve"], "one");
+  EXPECT_THAT(w.sinew({"figures", "one", "late", "--event", "x", "-o", "x"}).code, 2);
+}
+
 TEST(FiguresForPrint, HaveAFileOfLabelsToBeginWith) {
   const Workspace w;
   run_both(w);

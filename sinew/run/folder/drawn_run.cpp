@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
@@ -174,6 +175,23 @@ std::vector<std::string> names_of(const OverlaidRuns& asked) {
   return out;
 }
 
+void lay_on_first(std::vector<Drawn>& runs, const OverlaidRuns& asked,
+                  const std::vector<std::string>& names, const Notices& notices) {
+  if (!asked.align) return;
+  for (std::size_t i = 1; i < runs.size(); ++i) {
+    analysis::AlignRequest request = *asked.align;
+    request.name = asked.runs[i].string();
+    const analysis::Alignment found = analysis::align(runs[0].table, runs[i].table, request);
+    analysis::reclock(runs[i].table, found.clock);
+    std::string how =
+        fmt::format("{}: laid on {} by a shift of {:.4g} s", names[i], names[0], found.clock.shift);
+    if (found.clock.rate != 0)
+      how += fmt::format(" and a clock that is {:.3g} % too {}", 100 * std::abs(found.clock.rate),
+                         found.clock.rate > 0 ? "fast" : "slow");
+    notices.note(how);
+  }
+}
+
 }  // namespace
 
 std::string draw_run(const fs::path& named, const fs::path& folder, const DrawingRequest& request,
@@ -189,6 +207,7 @@ std::string draw_runs(const OverlaidRuns& asked, const fs::path& folder,
   const std::vector<std::string> names = names_of(asked);
   std::vector<Drawn> runs;
   for (const fs::path& named : asked.runs) runs.push_back(read(named, request, notices));
+  lay_on_first(runs, asked, names, notices);
   std::vector<Figures> each = figures_of(runs, request);
   std::vector<report::LabelledRun> labelled;
   for (std::size_t i = 0; i < each.size(); ++i) labelled.push_back({names[i], std::move(each[i])});

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "sinew/analysis/align/align.h"
 #include "sinew/report/figures/paper.h"
 #include "sinew/report/figures/run_figures.h"
 #include "sinew/run/folder/figure_files.h"
@@ -32,6 +34,8 @@ struct DrawingRequest {
 struct OverlaidRuns {
   std::vector<std::filesystem::path> runs;  // folders, or logs
   std::vector<std::string> labels = {};     // of the first ones; else a run is called as its folder
+  // How the times of the others are laid on those of the first one; absent: they begin together.
+  std::optional<analysis::AlignRequest> align = {};
 };
 
 // Draws the figures of the run at `named`, its folder or its log, into `folder`; returns its
@@ -41,7 +45,8 @@ struct OverlaidRuns {
 std::string draw_run(const std::filesystem::path& named, const std::filesystem::path& folder,
                      const DrawingRequest& request, const Notices& notices = {});
 
-// The same of several runs in the same axes.
+// The same of several runs in the same axes; notes say how they were laid on the first one. Throws
+// config::Error, too, where there are no such labels, or the runs cannot be laid on each other.
 std::string draw_runs(const OverlaidRuns& runs, const std::filesystem::path& folder,
                       const DrawingRequest& request, const Notices& notices = {});
 
