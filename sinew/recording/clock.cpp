@@ -39,7 +39,7 @@ void StampClock::find_order(const Grid& grid, const Source& source) {
   if (source.dates == "month first") order_ = DateOrder::month_first;
   if (order_ != DateOrder::unknown) return;
   Body body(grid);
-  Row row, first;
+  Row row;
   std::string_view doubtful;
   int line = 0;
   while (body.next(row)) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"

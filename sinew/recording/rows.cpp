@@ -69,7 +69,8 @@ bool RowReader::quoted_cell(Row& row, int column) {
 
   std::string_view cell = text_.substr(at_ + 1, to - at_ - 1);
   if (doubled) {
-    std::string& mended = row.mended.emplace_back();
+    row.mended.push_back(std::make_unique<std::string>());
+    std::string& mended = *row.mended.back();
     for (std::size_t i = 0; i < cell.size(); ++i) {
       mended += cell[i];
       if (cell[i] == '"') ++i;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +19,9 @@ struct Row {
   int line = 0;
   std::size_t at = 0;  // where it begins in the text
   std::vector<Cell> cells;
-  std::deque<std::string> mended;  // cells whose text differs from the file's: "" for a quote
+  // The texts of cells that differ from the file's: "" for a quote. They stay where they are when
+  // a row is moved.
+  std::vector<std::unique_ptr<std::string>> mended;
 };
 
 // Reads rows from a text that outlives it. Empty lines are skipped, and those that begin with #.

@@ -1,10 +1,12 @@
 // A table of measurements that is read has a finite number for every row, within what such a
-// measurement can be, and written in SI it reads as the same bits.
+// measurement can be, and written in SI it reads as the same bits. All of its columns together have
+// a value or a gap for every row, and times that do not run backwards.
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "sinew/recording/measured.h"
+#include "sinew/recording/raw_table.h"
 #include "tests/fuzz/law.h"
 
 namespace sinew::fuzz {
@@ -38,9 +40,29 @@ std::string written(const Measured& m) {
   return text;
 }
 
+// The same bytes as a table of which nobody said what its columns mean.
+void all_columns(std::string_view input) {
+  recording::RawTable table;
+  try {
+    table = recording::read_table({.path = "a.csv", .text = std::string(input)});
+  } catch (const config::Error& error) {
+    return law_of_refusal(error, "a.csv");
+  }
+  law(table.time.empty() || table.time.size() == table.rows(), "a time for each row");
+  for (std::size_t i = 1; i < table.time.size(); ++i)
+    law(table.time[i] > table.time[i - 1], "times that rise");
+  for (const recording::RawColumn& c : table.columns) {
+    law(c.values.size() == table.rows(), "a value for each row: " + c.name);
+    std::size_t missing = 0;
+    for (const double v : c.values) missing += std::isnan(v) ? 1 : 0;
+    law(missing == c.missing, "gaps are counted: " + c.name);
+  }
+}
+
 }  // namespace
 
 void csv(std::string_view input) {
+  all_columns(input);
   Measured m;
   try {
     m = read(input, "a.csv");

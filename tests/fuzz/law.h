@@ -36,7 +36,7 @@ inline void law_of_refusal(const config::Error& error, std::string_view file) {
 void toml(std::string_view input);     // config::parse_text
 void migrate(std::string_view input);  // config::migrated
 void mcap(std::string_view input);     // log::read
-void csv(std::string_view input);      // recording::parse_measured
+void csv(std::string_view input);      // recording::parse_measured, read_table
 void predict(std::string_view input);  // config::parse_valve_timing
 void gain(std::string_view input);     // config::parse_gains
 void out(std::string_view input);      // thesis::parse_out_dat
