@@ -68,9 +68,9 @@ void add_view(Command app, Action& action) {
   auto options = std::make_shared<ViewOptions>();
   Command sub = app.subcommand("view", "a run or a study in the browser, recorded or while it goes",
                                "sinew view --live experiments/tune-in-air.toml");
-  Option dir =
-      sub.add_option("DIR", options->what,
-                     "a run's folder, a log file, one or two studies; else the newest of runs/");
+  Option dir = sub.add_option(
+      "DIR", options->what,
+      "a run's folder, a folder of runs, a log file, one or two studies; else the newest of runs/");
   sub.add_option("--machine", options->machine,
                  "what was run, in place of the folder's resolved.toml");
   Option live =

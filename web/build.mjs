@@ -62,6 +62,7 @@ if (out.endsWith('.cpp'))
     as_cpp('film_script', bundle('film.js')) +
     as_cpp('comparison_template', page_of('compare.html', 'compare.css', 'compare.js')) +
     as_cpp('fit_template', page_of('fit.html', 'style.css', 'fit.js')) +
-    as_cpp('study_template', page_of('study.html', 'study.css', 'study.js', '@connect@')));
+    as_cpp('study_template', page_of('study.html', 'study.css', 'study.js', '@connect@')) +
+    as_cpp('run_list_template', page_of('run_list.html', 'run_list.css', 'run_list.js', '@connect@')));
 else
   writeFileSync(out, run);

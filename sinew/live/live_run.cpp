@@ -77,7 +77,11 @@ class LiveRun::Impl {
         server_(
             options_.port,
             {.get = [this](std::string_view path) { return get(path); },
-             .tick = [this] { feed_.collect(); },
+             .tick =
+                 [this] {
+                   feed_.collect();
+                   if (!over()) show_.notice();
+                 },
              .frame = [this](Server::Watcher w) { return frame(w); },
              .message = [this](Server::Watcher,
                                std::string_view text) { return over() ? "" : show_.answer(text); },

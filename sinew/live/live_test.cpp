@@ -219,6 +219,32 @@ TEST(Show, EachPageGetsEverythingOnce) {
   }
 }
 
+// What the plan's list sets is marked as what a slider sets, once for each page, the release too.
+TEST(Show, WhatIsSetIsToldToEachPageOnce) {
+  Stage stage(in_air());
+  EXPECT_EQ(stage.show.answer(R"({"do":"set","key":"control.stiffness.knee","value":1.5})"), "");
+  stage.run();
+  stage.show.notice();
+  stage.show.notice();  // nothing is new
+  Show::Position early, late;
+  for (Show::Position* page : {&early, &late}) {
+    const Json first = Json::parse(stage.show.frame(*page));
+    ASSERT_EQ(first["changes"].size(), 1u);
+    const Json& change = first["changes"][0];
+    EXPECT_EQ(change["key"], "control.stiffness.knee");
+    EXPECT_EQ(change["value"], 1.5);
+    EXPECT_EQ(change["unit"], "N m/rad");
+    EXPECT_FALSE(Json::parse(stage.show.frame(*page)).contains("changes"));
+  }
+  const auto knee = static_cast<std::size_t>(
+      gait::find_setting(gait::settings(stage.e.plan), "control.stiffness.knee"));
+  stage.steering.show(knee, 2, false);
+  stage.show.notice();
+  const Json last = Json::parse(stage.show.frame(early))["changes"];
+  ASSERT_EQ(last.size(), 1u);
+  EXPECT_TRUE(last[0]["value"].is_null());
+}
+
 TEST(Show, WhatAPageAsksIsDoneAndKept) {
   Stage stage(in_air());
   EXPECT_EQ(stage.show.answer(R"({"do":"set","key":"control.stiffness.knee","value":1.5})"), "");

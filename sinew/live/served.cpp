@@ -26,22 +26,41 @@ Served of_studies(const std::vector<fs::path>& files, run::Notices notices) {
 
 }  // namespace
 
+namespace {
+
+Served of_runs(std::shared_ptr<RunsPages> pages) {
+  return {.get = [pages](std::string_view path) { return pages->get(path); },
+          .in_words =
+              [pages](const std::string& url) {
+                const std::size_t count = pages->runs().size();
+                return fmt::format("{}; Ctrl-C ends{}", pages->runs().front().string(),
+                                   count > 1 ? fmt::format("; {} runs at {}runs", count, url) : "");
+              }};
+}
+
+// A folder that is no run, with runs below it: their list is what is wanted.
+bool is_of_runs(const std::string& what) {
+  const fs::path folder(what);
+  return fs::is_directory(folder) && !fs::exists(folder / run::log_name) &&
+         !fs::exists(folder / run::unfinished_name) && !runs_below(folder).empty();
+}
+
+}  // namespace
+
 Served served(const std::string& what, const std::string& machine, run::Notices notices) {
   if (!what.empty() && tune::is_study(what)) return of_studies({what}, std::move(notices));
-  const std::vector<fs::path> runs =
-      what.empty() ? runs_below("runs") : std::vector<fs::path>{what};
-  if (runs.empty())
-    config::fail({"runs", 0, 0}, "", "no run", "folders with a log.mcap",
-                 "sinew run experiments/walk-test-1.toml, or the folder of a run");
-  if (!what.empty())
-    (void)run::page_of(run::recorded_run(what), machine);  // its errors belong here
-  return {.get = [=](std::string_view path) { return answer(path, runs, machine); },
-          .in_words =
-              [=](const std::string& url) {
-                return fmt::format(
-                    "{}; Ctrl-C ends{}", runs.front().string(),
-                    runs.size() > 1 ? fmt::format("; {} runs at {}runs", runs.size(), url) : "");
-              }};
+  if (what.empty() || is_of_runs(what)) {
+    const fs::path folder = what.empty() ? "runs" : what;
+    std::vector<fs::path> runs = runs_below(folder);
+    if (runs.empty())
+      config::fail({"runs", 0, 0}, "", "no run", "folders with a log.mcap",
+                   "sinew run experiments/walk-test-1.toml, or the folder of a run");
+    auto pages = std::make_shared<RunsPages>(folder, std::move(runs), machine);
+    if (!what.empty()) pages->list_first();
+    return of_runs(std::move(pages));
+  }
+  (void)run::page_of(run::recorded_run(what), machine);  // its errors belong here
+  return of_runs(std::make_shared<RunsPages>("", std::vector<fs::path>{what}, machine));
 }
 
 Served served(const std::vector<std::string>& what, const std::string& machine,

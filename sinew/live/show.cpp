@@ -97,7 +97,8 @@ Show::Show(const experiment::Experiment& e, const config::Node& resolved, run::S
       growing_(feed.topics(), {.resolved = resolved,
                                .name = e.name,
                                .duration = end_of(e),
-                               .foot_path = has_foot_path(e.plan)}) {}
+                               .foot_path = has_foot_path(e.plan)}),
+      set_(settings_.size()) {}
 
 std::string Show::controls() const {
   Json out = Json::array();
@@ -140,8 +141,30 @@ std::string Show::frame(Position& position) {
   feed_.collect();
   if (feed_.rows() == 0) return "";
   std::string out = "{\"state\":" + state();
-  if (feed_.rows() > position.rows) out += ",\"piece\":" + growing_.piece(feed_.since(position));
+  if (feed_.rows() > position.samples.rows)
+    out += ",\"piece\":" + growing_.piece(feed_.since(position.samples));
+  if (changes_.size() > position.changes) {
+    const auto from = changes_.begin() + static_cast<std::ptrdiff_t>(position.changes);
+    out += ",\"changes\":" + report::to_json(std::vector(from, changes_.end()));
+    position.changes = changes_.size();
+  }
   return out + "}";
+}
+
+void Show::notice() {
+  const double time =
+      static_cast<double>(tick_.load(std::memory_order_relaxed)) * signals::tick_seconds;
+  for (std::size_t i = 0; i < settings_.size(); ++i) {
+    std::optional<double> now;
+    if (steering_.overridden(i)) now = steering_.value(i);
+    if (now == set_[i]) continue;
+    set_[i] = now;
+    changes_.push_back({.time = time,
+                        .key = settings_[i].key,
+                        .release = !now,
+                        .value = now.value_or(0),
+                        .unit = std::string(settings_[i].unit)});
+  }
 }
 
 // A machine goes by its own clock, and a simulation has a plan that it goes through.

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "sinew/experiment/experiment.h"
 #include "sinew/live/feed.h"
 #include "sinew/live/request.h"
+#include "sinew/report/page/changes.h"
 #include "sinew/report/page/growing.h"
 #include "sinew/run/controllers/steering.h"
 
@@ -19,7 +21,10 @@ namespace sinew::live {
 class Show {
  public:
   // Where a page has got; each has its own.
-  using Position = Feed::Position;
+  struct Position {
+    Feed::Position samples;
+    std::size_t changes = 0;  // that it was told
+  };
 
   // All of them outlive this; `resolved` is what runs. `stop`: where a page's button stops a
   // machine that keeps its own time; nullptr for a simulation, which can be paused.
@@ -30,9 +35,13 @@ class Show {
   // The page without samples. `server`: where it may connect to, "127.0.0.1:8080".
   std::string page(std::string_view server) const;
 
-  // Returns what is new to a page: JSON with `piece` (report/page/growing.h), where there is any,
-  // and `state`.
-  // "" before the first row.
+  // Sees what was set since, by a page or by the plan's own list. To be called at every tick of the
+  // server: what is set is marked where it is seen, at most a few rows late; the page of the
+  // finished run marks it where it took effect.
+  void notice();
+
+  // Returns what is new to a page: JSON with `piece` (report/page/growing.h) and `changes`
+  // (report/page/changes.h), where there are any, and `state`. "" before the first row.
   std::string frame(Position& position);
 
   // Does what a page asks. JSON for it alone: {"error": …} where it was nothing to be done, else
@@ -51,6 +60,8 @@ class Show {
   std::atomic<bool>* stop_;
   std::vector<gait::Setting> settings_;
   report::Growing growing_;
+  std::vector<std::optional<double>> set_;   // of each setting, where it is not the plan's own
+  std::vector<report::PageChange> changes_;  // since the run began
 };
 
 // The largest value that the plan ever has for the setting  [its SI unit].

@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <sstream>
 
+#include "sinew/live/path_numbers.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/folder/page.h"
 
@@ -15,16 +14,6 @@ namespace sinew::live {
 namespace {
 
 constexpr const char* plain = "text/plain; charset=utf-8";
-
-// The number behind `begin`, which is the whole rest of the path.
-std::optional<std::size_t> number_in(std::string_view path, std::string_view begin) {
-  if (!path.starts_with(begin)) return std::nullopt;
-  path.remove_prefix(begin.size());
-  std::size_t out = 0;
-  const auto [end, error] = std::from_chars(path.data(), path.data() + path.size(), out);
-  if (error != std::errc{} || end != path.data() + path.size()) return std::nullopt;
-  return out;
-}
 
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);

@@ -74,6 +74,7 @@ export class Marks {
   // Under the curves of a plot: a dashed line at each.
   draw(u) {
     const { ctx, bbox } = u, px = devicePixelRatio || 1;
+    ctx.save();
     ctx.strokeStyle = this.plots.look.mark;
     ctx.lineWidth = px;
     ctx.setLineDash([3 * px, 3 * px]);
@@ -84,7 +85,7 @@ export class Marks {
       ctx.lineTo(x, bbox.top + bbox.height);
       ctx.stroke();
     }
-    ctx.setLineDash([]);
+    ctx.restore();
   }
 
   // Handles at the top of the lines, which tell what was set. They are made anew where the view is.

@@ -145,6 +145,7 @@ export class Panel {
       series: [{}, ...series],
       hooks: {
         drawClear: [(u) => this.plots.draw_phases(u)],
+        drawAxes: [(u) => this.plots.marks?.draw(u)],  // over the grid, under the curves
         setSelect: [(u) => this.zoom_to(u)],
         setCursor: [(u) => this.plots.hover(u)],
         setScale: [() => this.head && this.place(this.plots.time)],  // which comes after a zoom

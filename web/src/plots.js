@@ -79,7 +79,6 @@ export class Plots {
       for (const t of [f.from, f.to])
         if (t >= this.view[0] && t <= this.view[1]) ctx.fillRect(u.valToPos(t, 'x', true) - px / 2, bbox.top, px, bbox.height);
     }
-    this.marks?.draw(u);
     ctx.restore();
   }
 

@@ -89,6 +89,9 @@ test('a run is watched, paused, steered; its file repeats it', async () => {
     await page.keyboard.press('Enter');
     await until(page, () => window.sinew.live.state.values.includes(1.25));
     assert.match(await knee.getAttribute('class'), /by-hand/);
+    await until(page, () => document.querySelectorAll('#changes button').length >= 2);
+    assert.match((await page.locator('#changes button').allTextContents()).join(), /hip angle gain: .*knee desired stiffness: 1\.250 N m\/rad/);
+    assert.ok((await page.locator('.panel:visible .mark-handle').count()) >= 2);
     await picture(page, 'live-by-hand');
     await hip.locator('.release').click();
     await until(page, () => window.sinew.live.state.overridden.filter(Boolean).length === 1);
@@ -104,6 +107,7 @@ test('a run is watched, paused, steered; its file repeats it', async () => {
     await until(page, () => !window.sinew?.live && document.documentElement.dataset.ready);
     assert.ok((await page.locator('#numbers tr[data-key]').count()) > 20);
     assert.ok((await page.locator('#parameters tr[data-key^="change["]').count()) >= 6);
+    assert.ok((await page.locator('#changes button').count()) >= 3, 'marked as while it went, with the release');
   });
   run.child.kill('SIGINT');
   const { code, errors } = await run.ended;
@@ -156,8 +160,7 @@ test('a recorded run is served, of what kind it ever is, and nothing besides', a
   for (const path of ['', 'run/0', 'run/1'])
     await watch({ url }, async (page) => assert.ok((await page.locator('.panel').count()) > 0, path), {}, path);
   const list = await ask(url, '/runs');
-  assert.match(list.body, /runs\/stand\/1[^]*runs\/kick\/1/);
-  assert.match(list.body, /href="run\/0"/);  // below the token
+  assert.match(list.body, /"run":0,"folder":"runs\/stand\/1"[^]*"run":1,"folder":"runs\/kick\/1"/);
   for (const path of ['/run/2', '/run/-1', '/run/', '/run/0x', '/runs/kick/1/log.mcap', '/live'])
     assert.equal((await ask(url, path)).status, 404, path);
   assert.equal((await upgrade(url, new URL(url).origin)).status, 403);

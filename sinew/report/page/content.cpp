@@ -10,6 +10,7 @@
 #include "sinew/analysis/summary.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/quantity.h"
+#include "sinew/report/page/changes.h"
 #include "sinew/report/page/page.h"
 
 namespace sinew::report {
@@ -119,6 +120,8 @@ Content of_robot(const Run& run) {
   json.put("duration", config::format_number(end_of(channels)));
   json.put("phases", phases_of(record, machine));
   if (!summary.faults.empty()) json.put("faults", to_json(summary.faults, end_of(channels)));
+  if (const std::vector<PageChange> changes = changes_of(run.resolved); !changes.empty())
+    json.put("changes", to_json(changes));
   json.put("panels", to_json(panels(channels, machine.robot), columns));
   json.put("scene", to_json(scene_of_run, columns));
   std::vector<analysis::Warning> warnings = how_it_ended(run);

@@ -147,12 +147,14 @@ std::string to_json(const std::vector<Panel>& panels, Columns& columns) {
   Json out = Json::array();
   for (const Panel& p : panels) {
     Json lines = Json::array();
-    for (const Line& l : p.lines)
+    for (const Line& l : p.lines) {
       lines.push_back({{"label", l.label},
                        {"topic", l.channel.topic},
                        {"column", column_of(l.channel, columns, Blob::As::line)},
                        {"color", l.color},
                        {"style", word(l.style)}});
+      if (l.channel.field != "value") lines.back()["field"] = l.channel.field;
+    }
     out.push_back(
         {{"group", p.group}, {"title", p.title}, {"unit", p.unit}, {"lines", std::move(lines)}});
   }

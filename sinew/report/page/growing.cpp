@@ -115,7 +115,8 @@ Growing::Growing(const std::vector<signals::Topic>& topics, Of of)
   head["phases"]["stretches"] = Json::array();
   head["panels"] = Json::parse(to_json(panels(parts.channels, machine_.robot), columns));
   head["scene"] = Json::parse(to_json(parts.scene, columns));
-  head.erase("charts");  // of the whole run
+  head.erase("charts");   // of the whole run
+  head.erase("changes");  // the page is told of each when it takes effect
   head["warnings"] = head["verdicts"] = Json::array();
   head["summary"] = Json::object();
   Blob::Layout layout = blob.layout();

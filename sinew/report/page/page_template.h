@@ -10,6 +10,7 @@ std::string_view page_template();        // of one run
 std::string_view comparison_template();  // of several
 std::string_view fit_template();         // of an identification
 std::string_view study_template();       // of a sweep or a tuning, or of two
+std::string_view run_list_template();    // of the runs in a folder
 
 // Returns what makes a film of a run's page, to be run in it; empty as above.
 std::string_view film_script();

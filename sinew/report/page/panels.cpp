@@ -1,6 +1,7 @@
 #include "sinew/report/page/panels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -15,6 +16,11 @@ using Style = Line::Style;
 std::string words(std::string name) {
   std::ranges::replace(name, '_', ' ');
   return name;
+}
+
+// A channel that never had a number, as the desired path of a plan without one, is not shown.
+bool has_number(const Samples& samples) {
+  return std::ranges::any_of(*samples.values, [](double v) { return std::isfinite(v); });
 }
 
 class Panels {
@@ -37,6 +43,7 @@ class Panels {
     const Samples samples = channels_.find(channel);
     if (!samples) return;
     claimed_.insert(channel.topic);
+    if (!has_number(samples)) return;
     Panel& panel = list.back();
     if (panel.unit.empty()) panel.unit = samples.unit;
     // What would stand in for it is missing: nothing to hide behind.
@@ -265,7 +272,8 @@ void Panels::others(const std::string& group) {
     for (const signals::Series& series : table->series) {
       if (shown_elsewhere(series.topic.name)) continue;
       for (const signals::Field& field : series.topic.fields) {
-        if (!channels_.has({series.topic.name, field.name})) continue;
+        const Samples samples = channels_.find({series.topic.name, field.name});
+        if (!samples || !has_number(samples)) continue;
         Panel& panel = by_unit[field.unit];
         const std::string name = series.topic.name.substr(1);
         panel.lines.push_back({field.name == "value" ? name : name + " " + field.name,

@@ -15,7 +15,7 @@ namespace {
 using signals::Column;
 
 // What of the stand's file the drawing needs beside StandFile.
-struct Point {
+struct Corner {
   double at = 0, value = 0;  // [s], in the quantity's SI unit
 };
 struct Named {
@@ -28,7 +28,7 @@ struct File {
   std::string load = "hanging", charge = "sealed";
   double mass = 0, force = 0;                // [kg], [N]
   double gravity = units::standard_gravity;  // [m/s2]
-  std::vector<Point> weights, forces, lengths;
+  std::vector<Corner> weights, forces, lengths;
   std::vector<actuator::Actuator> actuators;
   std::vector<Named> sensors, valves;
 };
@@ -40,8 +40,8 @@ void amount(Visitor& v, std::string_view name, std::string_view unit, double& va
 
 template <class Visitor>
 void points(Visitor& v, std::string_view name, std::string_view what, std::string_view unit,
-            std::vector<Point>& list) {
-  v.list({.name = name, .optional = true}, list, [&](auto& g, Point& p) {
+            std::vector<Corner>& list) {
+  v.list({.name = name, .optional = true}, list, [&](auto& g, Corner& p) {
     g.number({.name = "at", .unit = "s"}, p.at);
     g.number({.name = what, .unit = unit}, p.value);
   });
@@ -86,24 +86,24 @@ File read_file(const config::Node& root, double atmosphere) {
 }
 
 // Straight between points, the later of two at one instant; held outside.
-double at(const std::vector<Point>& points, double t) {
-  const auto next = std::ranges::upper_bound(points, t, {}, &Point::at);
+double at(const std::vector<Corner>& points, double t) {
+  const auto next = std::ranges::upper_bound(points, t, {}, &Corner::at);
   if (next == points.begin()) return next->value;
   if (next == points.end()) return points.back().value;
-  const Point& before = *(next - 1);
+  const Corner& before = *(next - 1);
   return before.value + (next->value - before.value) * (t - before.at) / (next->at - before.at);
 }
 
 // From an instant on; before the first the first.
-double step_at(const std::vector<Point>& points, double t) {
-  const auto next = std::ranges::upper_bound(points, t, {}, &Point::at);
+double step_at(const std::vector<Corner>& points, double t) {
+  const auto next = std::ranges::upper_bound(points, t, {}, &Corner::at);
   return next == points.begin() ? next->value : (next - 1)->value;
 }
 
-class Maker {
+class StandMaker {
  public:
-  Maker(const Channels& channels, File file, const analysis::StandFile& stand,
-        signals::Table& drawn)
+  StandMaker(const Channels& channels, File file, const analysis::StandFile& stand,
+             signals::Table& drawn)
       : channels_(channels), file_(std::move(file)), stand_(stand), drawn_(drawn) {}
 
   Stand make() {
@@ -203,7 +203,7 @@ class Maker {
   // By which the schedules change what hangs; 0 where nothing changes  [N].
   double smallest_step() const {
     double least = 0;
-    const auto look = [&](const std::vector<Point>& points, double newtons) {
+    const auto look = [&](const std::vector<Corner>& points, double newtons) {
       for (std::size_t i = 1; i < points.size(); ++i) {
         const double step = newtons * std::abs(points[i].value - points[i - 1].value);
         if (step > 0 && (least == 0 || step < least)) least = step;
@@ -226,7 +226,7 @@ class Maker {
 
 Stand stand(const Channels& channels, const config::Node& resolved, const analysis::StandFile& file,
             signals::Table& drawn) {
-  return Maker(channels, read_file(resolved, file.atmosphere), file, drawn).make();
+  return StandMaker(channels, read_file(resolved, file.atmosphere), file, drawn).make();
 }
 
 }  // namespace sinew::report

@@ -1,0 +1,77 @@
+#include "sinew/report/page/changes.h"
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "sinew/config/quantity.h"
+
+namespace sinew::report {
+namespace {
+
+// Returns what a table says for the key, without where it comes from.
+const config::Node* node_at(const config::Node& table, std::string_view key) {
+  const config::Node* node = table.find(key);
+  if (node == nullptr) return nullptr;
+  const config::Node* value = node->find("value");
+  return value != nullptr ? value : node;
+}
+
+std::string written_at(const config::Node& table, std::string_view key) {
+  const config::Node* node = node_at(table, key);
+  return node != nullptr ? config::written(*node) : "";
+}
+
+// "0.004 1/count": the number, and its unit behind it.
+struct Number {
+  double value = 0;
+  std::string unit;
+};
+
+std::optional<Number> number_in(std::string_view text) {
+  Number out;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out.value);
+  if (error != std::errc{}) return std::nullopt;
+  out.unit = config::trimmed(text.substr(static_cast<std::size_t>(end - text.data())));
+  return out;
+}
+
+std::optional<PageChange> change_of(const config::Node& table) {
+  const std::optional<Number> time = number_in(written_at(table, "time"));
+  PageChange out{.key = written_at(table, "key"), .unit = "", .leg = written_at(table, "leg")};
+  if (!time || time->unit != "s" || out.key.empty()) return std::nullopt;
+  out.time = time->value;
+  out.release = written_at(table, "release") == "true";
+  if (out.release) return out;
+  const std::optional<Number> value = number_in(written_at(table, "value"));
+  if (!value) return std::nullopt;
+  out.value = value->value;
+  out.unit = value->unit.empty() ? "1" : value->unit;
+  return out;
+}
+
+}  // namespace
+
+std::vector<PageChange> changes_of(const config::Node& resolved) {
+  std::vector<PageChange> out;
+  const config::Node* list = resolved.find("change");
+  if (list == nullptr) return out;
+  for (const config::Node& table : list->children)
+    if (const std::optional<PageChange> change = change_of(table)) out.push_back(*change);
+  return out;
+}
+
+std::string to_json(const std::vector<PageChange>& changes) {
+  using Json = nlohmann::ordered_json;
+  Json out = Json::array();
+  for (const PageChange& c : changes) {
+    Json one = {{"time", c.time}, {"key", c.key}};
+    one["value"] = c.release ? Json() : Json(c.value);
+    if (!c.release) one["unit"] = c.unit;
+    if (!c.leg.empty()) one["leg"] = c.leg;
+    out.push_back(std::move(one));
+  }
+  return out.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace sinew::report

@@ -1,0 +1,76 @@
+// The list of runs in a folder: search, look at one, compare several. It is served by `sinew view`.
+import { Look } from './look.js';
+import { by_id, element } from './page.js';
+import { Units } from './units.js';
+
+class RunList {
+  constructor({ folder, most, runs }) {
+    this.most = most;
+    this.ticked = [];  // numbers of runs, in the order in which they were ticked
+    // The newest first; of the same minute the one that came later.
+    this.runs = [...runs].sort((a, b) => (a.date === b.date ? b.run - a.run : a.date < b.date ? 1 : -1));
+    by_id('title').textContent = 'Runs';
+    by_id('facts').textContent = [folder && `below ${folder}`, `${runs.length} run${runs.length === 1 ? '' : 's'}`, 'the newest first'].filter(Boolean).join(' · ');
+    this.items = this.runs.map((run) => this.item(run));
+    by_id('list').append(...this.items.map((i) => i.root));
+    by_id('search').addEventListener('input', () => this.search());
+    by_id('compare').addEventListener('click', () => (location.href = `compare/${this.ticked.join(',')}`));
+    by_id('clear').addEventListener('click', () => this.clear());
+    new Look(new Units(0), { on_units() {}, on_colors() {}, on_print() {} });
+    this.show_ticked();
+  }
+
+  item(run) {
+    const title = run.title || run.folder;
+    const box = element('input', { type: 'checkbox', 'aria-label': `Compare ${title}, ${run.folder}` });
+    const facts = [run.date, run.duration_s === undefined ? 'not finished' : `${run.duration_s.toFixed(2)} s`,
+                   run.robot && `robot ${run.robot}`, run.seed && `seed ${run.seed}`].filter(Boolean).join(' · ');
+    const root = element('li', { 'data-run': run.run },
+      box, element('img', { src: `picture/${run.run}`, alt: '', loading: 'lazy', width: 96, height: 96 }),
+      element('div', {}, element('h2', {}, element('a', { href: `run/${run.run}` }, title)),
+        run.about ? element('p', {}, run.about) : null,
+        element('p', { class: 'quiet' }, facts), element('p', { class: 'quiet' }, run.folder)));
+    box.addEventListener('change', () => this.tick(run.run, box.checked));
+    return { run, root, box, text: `${title} ${run.about} ${facts} ${run.folder}`.toLowerCase() };
+  }
+
+  search() {
+    const words = by_id('search').value.toLowerCase().split(/\s+/).filter(Boolean);
+    let found = 0;
+    for (const i of this.items) {
+      const wanted = words.every((w) => i.text.includes(w));
+      i.root.hidden = !wanted;
+      found += wanted;
+    }
+    by_id('found').textContent = words.length ? `${found} of ${this.items.length}` : '';
+  }
+
+  tick(run, on) {
+    this.ticked = this.ticked.filter((r) => r !== run);
+    if (on) this.ticked.push(run);
+    this.show_ticked();
+  }
+
+  clear() {
+    this.ticked = [];
+    this.show_ticked();
+  }
+
+  show_ticked() {
+    const count = this.ticked.length, full = count >= this.most;
+    for (const i of this.items) {
+      const on = this.ticked.includes(i.run.run);
+      i.box.checked = on;
+      i.box.disabled = full && !on;
+      i.root.classList.toggle('ticked', on);
+    }
+    by_id('compare').disabled = count < 2;
+    by_id('clear').hidden = !count;
+    const first = this.items.find((i) => i.run.run === this.ticked[0]);
+    by_id('chosen').textContent = !count ? 'Tick two runs or more to compare them.'
+      : `${count} ticked, beside ${first.run.folder}${full ? '; more do not fit' : ''}`;
+  }
+}
+
+window.sinew = { list: new RunList(JSON.parse(by_id('run-data').textContent)) };
+document.documentElement.dataset.ready = 'yes';

@@ -1,0 +1,82 @@
+// The list of runs that `sinew view FOLDER` serves: search, pictures, one run, several beside each
+// other. The program is what SINEW names.
+import assert from 'node:assert/strict';
+import { mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, test } from 'node:test';
+import { picture, runs } from './pages.mjs';
+import { serve, watch } from './served.mjs';
+
+const folder = mkdtempSync(join(tmpdir(), 'sinew-runs-'));
+after(() => rmSync(folder, { recursive: true, force: true }));
+
+// Runs that were made for other tests, and one that cannot be read.
+for (const name of ['walk-test-1', 'walk-test-2', 'one-joint', 'feedback']) {
+  mkdirSync(join(folder, name));
+  for (const file of ['log.mcap', 'resolved.toml', 'summary.json'])
+    symlinkSync(join(runs, name, file), join(folder, name, file));
+}
+mkdirSync(join(folder, 'broken'));
+writeFileSync(join(folder, 'broken', 'log.mcap'), 'nothing of a log');
+writeFileSync(join(folder, 'broken', 'resolved.toml'), 'title = "<b>Broken & bad</b>"\n[');
+
+const shown = (page) => page.locator('#list li:visible').evaluateAll((all) => all.map((li) => li.querySelector('h2').textContent));
+
+test('runs are listed with picture, date and title, found, and compared', async () => {
+  const run = await serve(['view', folder, '--no-open'], folder);
+  await watch(run, async (page) => {
+    const titles = await shown(page);
+    assert.equal(titles.length, 5);
+    assert.ok(titles.includes('Walking, test 1') && titles.includes('<b>Broken & bad</b>'), titles.join());
+    for (const li of await page.locator('#list li').all()) {
+      await li.scrollIntoViewIfNeeded();
+      await page.waitForFunction((i) => i.complete && i.naturalWidth > 0, await li.locator('img').elementHandle());
+      assert.match(await li.textContent(), /20\d\d-\d\d-\d\d \d\d:\d\d/);
+    }
+    await page.evaluate(() => scrollTo(0, 0));
+    await picture(page, 'runs');
+
+    await page.locator('#search').fill('leg walk-test-2');
+    assert.deepEqual(await shown(page), ['Walking, test 2']);
+    assert.equal(await page.locator('#found').textContent(), '1 of 5');
+    await page.locator('#search').fill('');
+
+    // One alone is nothing to compare.
+    assert.ok(await page.locator('#compare').isDisabled());
+    const tick = (title) => page.locator('#list li', { has: page.locator('h2', { hasText: title }) }).locator('input').check();
+    await tick('Walking, test 1');
+    assert.ok(await page.locator('#compare').isDisabled());
+    await tick('Walking, test 2');
+    await page.locator('#compare').click();
+    await page.waitForSelector('html[data-ready] #runs .run');
+    assert.equal(await page.locator('#runs .run').count(), 2);
+    await page.goBack();
+    await page.waitForSelector('html[data-ready] #list');
+    await page.locator('#list a', { hasText: 'Walking, test 1' }).click();
+    await page.waitForSelector('html[data-ready] #plots');
+    assert.equal(await page.locator('h1').textContent(), 'Walking, test 1');
+  });
+  for (const [width, colorScheme] of [[390, 'light'], [1440, 'dark']])
+    await watch(run, async (page) => {
+      assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width);
+      await picture(page, `runs-${width}-${colorScheme}`);
+      if (width === 390) return;
+      const pdf = await page.pdf({ format: 'A4' });
+      assert.ok(pdf.length > 5000);
+    }, { viewport: { width, height: 844 }, colorScheme });
+  const status = (path) => fetch(run.url + path).then((r) => r.status);
+  assert.equal(await status('compare/0'), 404);
+  assert.equal(await status('compare/0,99'), 404);
+  assert.equal(await status('compare/0,1,'), 404);
+  assert.equal(await status('compare/0,1,2,3,4,0,1,2,3'), 404);
+  assert.equal(await status('picture/99'), 404);
+  assert.equal(await status('run/0%20'), 404);
+
+  // A run that comes later is in the list when it is loaded again.
+  mkdirSync(join(folder, 'later'));
+  for (const file of ['log.mcap', 'resolved.toml', 'summary.json']) symlinkSync(join(runs, 'walk-test-1', file), join(folder, 'later', file));
+  await watch(run, async (page) => assert.equal((await shown(page)).length, 6), {}, 'runs');
+  run.child.kill('SIGINT');
+  assert.equal((await run.ended).code, 0);
+});
