@@ -9,17 +9,14 @@ help_of() { (exec -a sinew "$program" "$@" --help); }
 # Letters that roff would take for its own; what is aligned stays so.
 as_text() { sed -e 's/\\/\\e/g' -e 's/-/\\-/g' -e "s/^\([.']\)/\\\\\&\1/"; }
 
-subcommands_in() { awk '/^Subcommands:/ { on = 1; next } /^[^ ]/ { on = 0 } on && /^  [a-z]/ { print $1 }'; }
-
-section() {  # section WORDS...: a command, then those below it
-  local help name
+section() {  # section WORDS...: a command
+  local help
   help=$(help_of "$@")
   printf '.SS "sinew %s"\n' "$*"
   head -n 1 <<<"$help" | as_text
   printf '.PP\n.nf\n'
-  tail -n +2 <<<"$help" | grep -v '^  -h,--help' | as_text
+  tail -n +2 <<<"$help" | grep -v '^  -h, --help' | as_text
   printf '.fi\n'
-  for name in $(subcommands_in <<<"$help"); do section "$@" "$name"; done
 }
 
 cat <<END
@@ -35,7 +32,15 @@ Simulates, identifies, tunes and controls robots that are pulled by braided pneu
 called McKibben muscles. Results go to standard output, progress and messages to standard error.
 .SH SUBCOMMANDS
 END
-for name in $(help_of | subcommands_in); do section "$name"; done
+while read -ra words; do section "${words[@]}"; done < <("$program" help commands)
+cat <<'END'
+.SH TOPICS
+END
+for name in units files channels next; do
+  printf '.SS "sinew help %s"\n.nf\n' "$name"
+  "$program" help "$name" | as_text
+  printf '.fi\n'
+done
 cat <<'END'
 .SH EXIT STATUS
 0 done, 1 failed, 2 wrong usage.
