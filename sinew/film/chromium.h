@@ -21,6 +21,7 @@ namespace sinew::film {
 // on the PATH. Empty where there is none.
 std::filesystem::path find_chromium();
 
+// A browser that runs as long as this lives.
 class Chromium {
  public:
   // Starts it. Throws std::runtime_error, with what to do, where there is none or it does not
@@ -41,6 +42,7 @@ class Chromium {
   // A folder for files of this browser's life.
   const std::filesystem::path& folder() const;
 
+  // The work was interrupted.
   struct Stopped : std::runtime_error {
     Stopped() : std::runtime_error("interrupted") {}
   };

@@ -20,6 +20,7 @@
 
 namespace sinew::film {
 
+// What a film shows, and how.
 struct FilmOptions {
   // What is shown, in the run's time [s].
   double from = -std::numeric_limits<double>::infinity();
@@ -41,6 +42,7 @@ Kind kind_of(const std::filesystem::path& file);
 // be no film of that kind.
 void check(const FilmOptions& options, Kind kind);
 
+// A film that is being made of a run.
 class Filming {
  public:
   // Opens the run's page. `machine`: what was run, in place of the folder's resolved.toml; may be

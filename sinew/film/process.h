@@ -21,6 +21,7 @@ class End {
   End(End&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
   End& operator=(End&& other) noexcept;
 
+  // Returns its number; closes it before its time.
   int file() const { return file_; }
   void close();
 
@@ -28,6 +29,7 @@ class End {
   int file_;
 };
 
+// A way for bytes to a program, or from one.
 struct Pipe {
   End read, write;
   // Ends that programs which are started later do not inherit. Throws std::system_error.

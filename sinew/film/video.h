@@ -14,6 +14,7 @@ namespace sinew::film {
 // Throws std::runtime_error, with what to do, where there is no ffmpeg.
 void require_ffmpeg();
 
+// A video that is being made of frames.
 class Video {
  public:
   // `words`: a new file for what ffmpeg says. Until finish() the video stands beside `file`.

@@ -25,16 +25,18 @@
 
 namespace sinew::report {
 
+// Words of a figure, and what is to stand in their place.
 struct Label {
   std::string ours, yours;
   config::Location where;
 };
 
+// What a file of labels says.
 struct Labels {
   std::vector<Label> words, units;
   bool decimal_comma = false;
 
-  // Returns a text in the file's words.
+  // Returns a text, or a unit's name, in the file's words.
   std::string of(std::string_view text) const;
   std::string unit(std::string_view name) const;
 };
@@ -48,6 +50,7 @@ Figure labelled(Figure figure, const Labels& labels);
 // What figures say: words of axes and curves, and units.
 struct Phrases {
   std::set<std::string> words, units;
+  // Adds what a figure says.
   void add(const Figure& figure);
 };
 

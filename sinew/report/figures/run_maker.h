@@ -31,9 +31,11 @@ class Maker {
         double atmosphere)
       : channels_(channels), about_(std::move(about)), options_(options), atmosphere_(atmosphere) {}
 
+  // Shades where the foot stands.
   void shade(std::vector<Span> stance) { stance_ = std::move(stance); }
   // The faults that the run had, up to its end  [s].
   void shade(const std::vector<analysis::MachineFault>& faults, double end);
+  // Adds the figure of a panel, without the lines that wait to be asked for.
   void panel(const Panel& panel);
   // Lines of one unit as plots of that name, as many as the colors ask for; none of no samples.
   std::vector<Plot> plots(const Panel& panel) const;
