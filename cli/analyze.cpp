@@ -56,7 +56,7 @@ ExitCode analyze_run(const Options& options) {
   if (!table.complete)
     messages.warning(
         run.log.string() +
-        " was cut off or is damaged; the figures are of what stands before, without verdicts");
+        " was cut off or is damaged; the numbers are of what stands before, without verdicts");
 
   if (config::format_kind(file) == "rig")
     return tell(options, messages, table, analysis::read_stand(file));

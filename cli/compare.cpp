@@ -89,7 +89,7 @@ ExitCode compare_runs(const Options& options) {
 void add_compare(Command app, Action& action) {
   auto options = std::make_shared<Options>();
   Command sub =
-      app.subcommand("compare", "runs beside each other: figures, parameters, channels",
+      app.subcommand("compare", "runs beside each other: numbers, parameters, channels",
                      "sinew compare runs/walk-test-1/1 runs/walk-test-2/1 -o compare.html");
   sub.add_option("RUN", options->runs, "folders of runs, or log files; the first is compared with")
       .required()

@@ -38,7 +38,7 @@ TEST(Compare, OfARunWithItselfSaysSo) {
   run(w, walk, "a");
   const Result result = w.sinew({"compare", "a", "a/log.mcap"});
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_THAT(result.out, AllOf(HasSubstr("Figures: 0 of"), HasSubstr("Parameters: all equal")));
+  EXPECT_THAT(result.out, AllOf(HasSubstr("Numbers: 0 of"), HasSubstr("Parameters: all equal")));
   const Json both = compared(w, {"a", "a"});
   for (const Json& channel : both["channels"])
     EXPECT_TRUE(channel["differences"][1]["same"].get<bool>()) << channel["topic"];

@@ -54,7 +54,7 @@ void expect_no_figures_of(const Workspace& w, const std::string& run, const std:
     EXPECT_EQ(r.code, 1) << words[0];
     EXPECT_EQ(r.out, "") << words[0];
     EXPECT_THAT(r.err, AllOf(HasSubstr(run + "/log.mcap: the run was ended: "), HasSubstr(cause),
-                             HasSubstr("a run that was not finished has no figures; sinew report "
+                             HasSubstr("a run that was not finished has no numbers; sinew report "
                                        "shows what it did")));
   }
   const Result figures = w.sinew({"figures", run});

@@ -103,7 +103,7 @@ class ComparePage {
     const same = channels.filter((c) => c.differences.every((d) => !d || d.same)).length;
     const chip = (id, words, kind = '') => element('a', { href: `#${id}`, class: `chip ${kind}` }, words);
     by_id('chips').append(
-      chip('figures', `${differing} of ${figures.length} figures differ`),
+      chip('figures', `${differing} of ${figures.length} numbers differ`),
       ...(changed ? [chip('figures', `${changed} judged differently`, 'warn')] : []),
       chip('parameters', parameters.length ? several(parameters.length, 'parameter') : 'the same parameters'),
       chip('channels', same === channels.length ? 'the same samples in every channel'

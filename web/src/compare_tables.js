@@ -1,10 +1,10 @@
-// Figures beside each other, values that differ, and how far the channels are apart.
+// Numbers beside each other, values that differ, and how far the channels are apart.
 import { by_id, element } from './page.js';
 import { letter_of } from './runs.js';
 import { cell, heading, long_cell, searched, table } from './tables.js';
 import { difference_unit, number, signed, unit_of_key, words_of_key } from './units.js';
 
-// A run that lacks a figure does not differ in it.
+// A run that lacks a number does not differ in it.
 export function differ(values) {
   const there = values.filter((v) => v !== null);
   return there.some((v) => v !== there[0]);
@@ -72,7 +72,7 @@ export class ComparisonTables {
   figures() {
     this.figure_rows = this.data.figures.map((figure) => this.figure_row(figure));
     const heads = ['', 'A', ...this.others.flatMap((i) => [letter_of(i), `${letter_of(i)} − A`, '']), '', ''];
-    const list = table('Figures of the runs', heads, this.figure_rows.map((r) => r.row));
+    const list = table('Numbers of the runs', heads, this.figure_rows.map((r) => r.row));
     list.querySelectorAll('thead th').forEach((th, i) => i > 0 && i < heads.length - 2 && th.classList.add('number'));
     list.classList.add('only-differing');
     const buttons = [
@@ -80,8 +80,8 @@ export class ComparisonTables {
       pressed('Equal ones too', (on) => list.classList.toggle('only-differing', !on)),
     ];
     const differing = this.data.figures.filter((f) => differ(f.values)).length;
-    by_id('figures').append(heading('Figures', `${differing} of ${this.figure_rows.length} differ`),
-      with_tools(list, this.figure_rows, 'Search figures', buttons));
+    by_id('figures').append(heading('Numbers', `${differing} of ${this.figure_rows.length} differ`),
+      with_tools(list, this.figure_rows, 'Search numbers', buttons));
   }
 
   figure_row(figure) {

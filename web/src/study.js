@@ -1,5 +1,5 @@
-// The page of a study, or of two beside each other: history, all columns, two of them, what a figure
-// follows, a figure over two parameters, and every row with what runs it again.
+// The page of a study, or of two beside each other: history, all columns, two of them, what a number
+// follows, a number over two parameters, and every row with what runs it again.
 import { pressure_gradient } from './colors.js';
 import { Look } from './look.js';
 import { by_id, element } from './page.js';
@@ -40,7 +40,7 @@ class StudyPage {
     if (run.served) this.growing = new Growing(this);
   }
 
-  // Parameters first; what a person looks at first are objectives, then figures that vary. What both
+  // Parameters first; what a person looks at first are objectives, then numbers that vary. What both
   // studies have comes before what one has.
   sort_columns() {
     const rank = (c) => (['parameter', 'objective', 'constraint', 'figure'].indexOf(c.role) + 1 || 9) + (this.data.is_common(c) ? 0 : 0.5);

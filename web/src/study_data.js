@@ -7,7 +7,7 @@ export function heading_parts(heading) {
   return found ? { key: found[1], unit: found[2] } : { key: heading, unit: '' };
 }
 
-// Figures of which less is usually better. A person may say otherwise on the page.
+// Numbers of which less is usually better. A person may say otherwise on the page.
 export const usually_less = (heading) =>
   /rms|error|overshoot|oscillation|air|energy|switchings|duty|time|settling|violation/.test(heading);
 

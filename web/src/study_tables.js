@@ -19,12 +19,12 @@ export class Importance {
     this.list = element('ol', { class: 'shares' });
     this.hint = element('p', { class: 'hint' });
     this.root = element('section', { class: 'study-view', id: 'importance' },
-      element('header', {}, element('h2', {}, 'What a figure follows'), this.choices), this.list, this.hint);
+      element('header', {}, element('h2', {}, 'What a number follows'), this.choices), this.list, this.hint);
   }
 
   arrange() {
     const { page } = this;
-    this.choices.replaceChildren(chooser('figure', page.columns.filter((c) => c.role !== 'parameter'), this.of, (c) => {
+    this.choices.replaceChildren(chooser('number', page.columns.filter((c) => c.role !== 'parameter'), this.of, (c) => {
       this.of = c;
       page.redraw();
     }));
@@ -52,7 +52,7 @@ export class Importance {
   words() {
     const sum = this.shares.reduce((all, s) => all + s.share, 0);
     const drawn = this.page.data.studies.every((s) => s.kind === 'sweep') && !this.page.filter.is_on;
-    return 'Share of the figure’s variance that goes with one parameter alone: how far its mean differs between bins of that parameter, less what chance would give as many bins. ' +
+    return 'Share of the number’s variance that goes with one parameter alone: how far its mean differs between bins of that parameter, less what chance would give as many bins. ' +
       'The mark is what chance exceeds once in twenty. It depends on how far each was varied, and says nothing of what two do only together. ' +
       (drawn ? `What is left, ${percent(Math.max(0, 1 - sum))}, is of parameters together, of seeds, or within bins.`
         : 'These rows were chosen, by a tuner or a filter: parameters go together then, and their shares overlap.');
@@ -77,11 +77,11 @@ export class Chosen {
     this.root.replaceChildren(
       element('header', {}, element('h2', {}, `${kind} ${data.name_of(chosen)}`), this.steps()),
       this.state(chosen),
-      this.values('parameter', 'Parameters'), this.values('', 'Figures'),
+      this.values('parameter', 'Parameters'), this.values('', 'Numbers'),
       element('h3', {}, 'Run it again'), element('pre', { class: 'command', tabindex: '0' }, command),
       ...(study.cases ?? []).flatMap((one) => [element('h4', {}, `In the case “${one.name}”`),
         element('pre', { class: 'command', 'data-case': one.name, tabindex: '0' }, data.command_of(chosen, one))]),
-      study.kind === 'tune' ? element('p', { class: 'quiet' }, 'One run, with the experiment’s own seed; a candidate’s figures are over all of its runs.') : '',
+      study.kind === 'tune' ? element('p', { class: 'quiet' }, 'One run, with the experiment’s own seed; a candidate’s numbers are over all of its runs.') : '',
       this.buttons(study, command));
   }
 
@@ -97,7 +97,7 @@ export class Chosen {
   state(row) {
     const { data, filter } = this.page, words = [];
     if (data.generation[row] >= 0) words.push(`generation ${data.generation[row]}`);
-    if (!data.ok[row]) words.push('without figures');
+    if (!data.ok[row]) words.push('without numbers');
     if (data.violation[row] > 0) words.push(`beyond its limits by ${number(data.violation[row])}`);
     if (!filter.shown[row]) words.push('hidden by the filter');
     if (data.studies.length > 1) words.push(data.studies[data.study[row]].file);

@@ -66,7 +66,7 @@ export class View {
 
 export class History extends View {
   constructor(page) {
-    super(page, 'history', 'History', 'A figure of every row in the order of rows, and the best so far');
+    super(page, 'history', 'History', 'A number of every row in the order of rows, and the best so far');
     this.y = page.first_figures[0] ?? page.columns[0];
     this.by = page.data.generation.some((g) => g >= 0) ? 'generation' : 'row';
   }
@@ -76,7 +76,7 @@ export class History extends View {
   arrange() {
     const { page } = this, generations = page.data.generation.some((g) => g >= 0);
     const change = (y) => { this.y = y; this.arrange(); page.redraw(); };
-    this.choices.replaceChildren(chooser('figure', page.columns, this.y, change), direction(page, this.y),
+    this.choices.replaceChildren(chooser('number', page.columns, this.y, change), direction(page, this.y),
       ...(generations ? [chooser('by', [], this.by, (by) => { this.by = by; page.redraw(); }, [['row', 'row'], ['generation', 'generation']])] : []));
   }
 
@@ -90,7 +90,7 @@ export class History extends View {
     chart.marks(ctx, data, coloring(data, null, colors));
     const bests = data.studies.map((s) => this.best(ctx, s, xs, colors));
     const words = bests.filter(Boolean).map(({ row }) => `${data.name_of(row)} with ${value_text(y, y.values[row])}`);
-    this.hint.textContent = `Line: the best so far${words.length ? `, now row ${words.join(', row ')}` : ''}. Hollow: without figures, or beyond a limit.`;
+    this.hint.textContent = `Line: the best so far${words.length ? `, now row ${words.join(', row ')}` : ''}. Hollow: without numbers, or beyond a limit.`;
   }
 
   // The stair of the best so far of one study; returns where it ends.
@@ -168,7 +168,7 @@ export class Scatter extends View {
 
 export class Surface extends View {
   constructor(page) {
-    super(page, 'surface', 'A figure over two parameters', 'Lines of equal value of a figure over two parameters, with the rows');
+    super(page, 'surface', 'A number over two parameters', 'Lines of equal value of a number over two parameters, with the rows');
     const over = page.parameters.filter((c) => c.varies && c.number);
     [this.x, this.y] = [over[0] ?? page.columns[0], over[1] ?? page.columns[1] ?? page.columns[0]];
     this.z = page.first_figures[0] ?? page.columns[0];
@@ -179,7 +179,7 @@ export class Surface extends View {
 
   arrange() {
     const { page } = this, set = (name) => (c) => { this[name] = c; page.redraw(); };
-    this.choices.replaceChildren(chooser('figure', page.columns, this.z, set('z')),
+    this.choices.replaceChildren(chooser('number', page.columns, this.z, set('z')),
       chooser('over x', page.columns, this.x, set('x')), chooser('and y', page.columns, this.y, set('y')));
   }
 

@@ -199,7 +199,7 @@ test('stands are drawn over each other, too', () => compared('stand', async (pag
   assert.notEqual(await drawing_of(page), both);
 }));
 
-test('figures are those of both summaries, in either unit', () => compared('two', async (page) => {
+test('numbers are those of both summaries, in either unit', () => compared('two', async (page) => {
   const summaries = ['walk-test-1', 'walk-test-2'].map(summary_of);
   const at = (key, i) => key.split('.').reduce((node, part) => node?.[part], summaries[i]);
   const figures = await page.evaluate(() => window.sinew.data.figures);
@@ -237,7 +237,7 @@ test('a channel of the table leads to its plot and time', () => compared('two', 
 
 test('a run beside itself is said to be the same', () => compared('same', async (page) => {
   const words = await page.locator('.chip').allTextContents();
-  assert.match(words.join(' | '), /0 of \d+ figures differ \| the same parameters \| the same samples in every channel/);
+  assert.match(words.join(' | '), /0 of \d+ numbers differ \| the same parameters \| the same samples in every channel/);
   assert.match(await page.locator('.panel .line .value').nth(1).textContent(), /\(=\)$/);
   assert.equal(await page.locator('#channels tbody tr:visible').count(), 0);
   await page.locator('#channels button', { hasText: 'Equal ones too' }).click();

@@ -229,7 +229,7 @@ void print_rest(std::size_t rest, std::string_view what, const ComparisonText& h
 void print_figures(const Comparison& c, const ComparisonText& how, std::string& out) {
   const auto differing = std::ranges::count_if(c.figures, differs);
   const auto alone = std::ranges::count_if(c.figures, is_of_one_alone);
-  print(out, "\nFigures: {} of {} differ{}\n", differing, c.figures.size(),
+  print(out, "\nNumbers: {} of {} differ{}\n", differing, c.figures.size(),
         alone > 0 ? fmt::format(", {} of one run alone", alone) : "");
   std::vector<std::string> titles = {"", "A"};
   for (std::size_t i = 1; i < c.runs.size(); ++i) {
