@@ -239,8 +239,7 @@ class Assembler {
     config::fail({files_[f].file, 0, 0}, series.topic.name,
                  fmt::format("{} s after {} s", static_cast<double>(time) / nanoseconds,
                              static_cast<double>(series.time_ns.back()) / nanoseconds),
-                 "times that do not run backwards",
-                 "a cut where a new recording begins, or join=end for several");
+                 "times that do not run backwards", "a cut where a new recording begins");
   }
 
   void tell() {

@@ -225,7 +225,7 @@ TEST_F(AssembleTest, RecordingsThatFollowEachOtherAreOne) {
   ASSERT_EQ(s.time_ns.size(), 4u);
   EXPECT_EQ(s.time_ns[2], 20'000'000);
   EXPECT_EQ(s.columns[0][3], 4);
-  EXPECT_NE(error_of({a, b}).find("join=end"), std::string::npos);
+  EXPECT_NE(error_of({a, b}).find("join them at their ends"), std::string::npos);
 }
 
 TEST_F(AssembleTest, ARateStandsInPlaceOfAColumn) {

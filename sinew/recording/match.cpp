@@ -88,12 +88,12 @@ class Matcher {
         return file.find(c.name) || std::ranges::count(file.clocks, c.name, &Clock::column) > 0;
       });
       if (!there)
-        problem(files_.size() == 1 ? files_.front().file : "", "column",
+        problem(files_.size() == 1 ? files_.front().file : "names", "",
                 fmt::format("no column {} among {}", config::in_quotes(c.name), listed(all)),
                 "a column of the recording", near(c.name, all));
       if (c.channel.empty() || c.channel.starts_with("/recorded/") || names_.exact(c.channel))
         continue;
-      problem("", "channel", config::in_quotes(c.channel),
+      problem("names", "", config::in_quotes(c.channel),
               fmt::format("a channel of this machine, such as {}", some_channels()),
               near(c.channel, names_.all()));
     }
@@ -104,7 +104,7 @@ class Matcher {
     std::vector<std::string> some;
     for (const std::string& name : names_.all())
       if (name.starts_with("/joint/") || name.starts_with("/muscle/") ||
-          name.starts_with("/element/") || name.starts_with("/slide/"))
+          name.starts_with("/stand/"))
         some.push_back(name);
     if (some.size() > 8) some.resize(8);
     return listed(some.empty() ? names_.all() : some);
@@ -175,7 +175,7 @@ class Matcher {
         problem(files_[f].file, name_of(target),
                 fmt::format("a channel that {} has too", files_[other.file].file),
                 "recordings of different channels, side by side",
-                "join=end where one recording follows the other");
+                "to join them at their ends, where one follows the other");
       return false;
     }
     return true;

@@ -2,7 +2,6 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "tests/cli/program.h"
 
@@ -10,8 +9,6 @@ namespace sinew::test {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
-using Json = nlohmann::ordered_json;
 
 const std::string bench = "experiments/one-joint.toml";
 
@@ -75,7 +72,6 @@ TEST(Import, ATableBecomesARunThatEverythingTakes) {
     const Result again =
         w.sinew(import({"rig.csv"}, {"-o", "again", "--force", "--mapping", mapping, "--quiet"}));
     ASSERT_EQ(again.code, 0) << again.err;
-    EXPECT_EQ(read_text(w / "again/log.mcap").size(), read_text(w / "lab/log.mcap").size());
     EXPECT_EQ(w.sinew({"export", "again", "--csv"}).out, csv.out);
   }
 }
@@ -88,7 +84,6 @@ TEST(Import, OurOwnExportComesBackBitForBit) {
   ASSERT_EQ(r.code, 0) << r.err;
   ASSERT_EQ(w.sinew({"export", "back", "--csv", "-o", "back.csv"}).code, 0);
   EXPECT_TRUE(read_text(w / "ran.csv") == read_text(w / "back.csv"));
-  EXPECT_EQ(w.sinew({"replay", "back"}).code == 2, false);
   // A log is taken whole, edges and all.
   ASSERT_EQ(w.sinew(import({"ran/log.mcap"}, {"-o", "log"})).code, 0);
   EXPECT_EQ(w.sinew({"export", "log", "--csv"}).out, read_text(w / "ran.csv"));

@@ -139,8 +139,6 @@ void tell(const recording::Assembled& of, const std::vector<std::string>& filled
           const Notices& notices) {
   for (const std::string& note : of.notes) notices.note(note);
   for (const std::string& note : filled) notices.note(note);
-  if (!of.table.find("/plan/phase") && !of.table.find("/sweep/duty"))
-    notices.note("no plan in the recording: figures of its phases and steps are absent");
 }
 
 }  // namespace
@@ -207,6 +205,8 @@ Kept<analysis::Machine> import_run(const ImportRequest& request, const Notices& 
   recording::Assembled read_in = read(request, importable_topics(e), e.air.atmosphere);
   const auto filled = fill_channels(read_in.table, e.robot, e.air.atmosphere, run::topics(e));
   tell(read_in, filled, notices);
+  if (!read_in.table.find("/plan/phase") && e.robot.legs.empty())
+    notices.note("no plan in the recording: figures of its phases and steps are absent");
   auto kept = keep_imported(read_in.table, e, facts_of(read_in), recording::text_of(read_in.used),
                             {.folder = request.folder, .force = request.force}, notices);
   save_mapping(request, read_in);
