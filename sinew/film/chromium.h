@@ -44,6 +44,7 @@ class Chromium {
 
   // The work was interrupted.
   struct Stopped : std::runtime_error {
+    // Says so.
     Stopped() : std::runtime_error("interrupted") {}
   };
 

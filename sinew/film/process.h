@@ -16,8 +16,10 @@ std::filesystem::path find_program(const std::vector<std::string>& names);
 // A pipe's end, closed with this.
 class End {
  public:
+  // Takes the end of that number; -1: none.
   explicit End(int file = -1) : file_(file) {}
   ~End() { close(); }
+  // Takes what the other one had.
   End(End&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
   End& operator=(End&& other) noexcept;
 

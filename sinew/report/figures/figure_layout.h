@@ -12,6 +12,7 @@ namespace sinew::report {
 
 // Sizes in points, 72 to the inch: they grow with the letters.
 struct Print {
+  // Sizes for letters and width of that paper.
   explicit Print(const Paper& paper = {});
 
   double width, font;
