@@ -90,7 +90,10 @@ export class Marks {
 
   // Handles at the top of the lines, which tell what was set. They are made anew where the view is.
   place(panel) {
-    const of = `${this.plots.view} ${panel.plot.over.clientWidth} ${this.moves.length} ${this.units.system}`;
+    // The ends of the view count as well: a plot that is just being made knows them only later.
+    const [begin, end] = this.plots.view.map((t) => panel.plot.valToPos(t, 'x'));
+    if (!(end > begin)) return;
+    const of = `${this.plots.view} ${begin} ${end} ${this.moves.length} ${this.units.system}`;
     if (panel.marked === of && panel.plot.over.querySelector('.mark-handle, .no-marks')) return;
     panel.marked = of;
     panel.plot.over.querySelectorAll('.mark-handle, .no-marks').forEach((m) => m.remove());
