@@ -9,6 +9,7 @@ PYBIND11_MODULE(_sinew, m) {
   sinew::python::bind_files(m);
   sinew::python::bind_values(m);
   sinew::python::bind_recording(m);
+  sinew::python::bind_compare(m);
   sinew::python::bind_simulation(m);
   sinew::python::bind_loop(m);
   sinew::python::bind_episode(m);

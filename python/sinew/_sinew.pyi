@@ -198,6 +198,25 @@ def run(
     clear_fault: bool = False,
 ) -> Recording: ...
 def read_run(path: _Path) -> Recording: ...
+def compare(
+    runs: Sequence[Union[_Path, Recording]],
+    *,
+    align: str = "start",
+    event: str = "",
+    align_by: Sequence[str] = ...,
+    clock: str = "none",
+    within: float = ...,
+    channels: Sequence[str] = ...,
+) -> Dict[str, Any]: ...
+def replay(
+    path: _Path,
+    *,
+    of: str = "controller",
+    sets: _Sets = None,
+    band: float = 0.05,
+    folder: Optional[_Path] = None,
+    force: bool = False,
+) -> Dict[str, Any]: ...
 def sweep(
     experiment: Union[Experiment, _Path],
     vary: Union[Mapping[str, Union[str, numpy.typing.ArrayLike]], Sequence[str], str] = ...,

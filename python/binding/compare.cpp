@@ -1,0 +1,116 @@
+// python/binding/compare.cpp - kept runs beside each other, and replayed.
+#include <pybind11/stl.h>
+
+#include "python/binding/bind.h"
+#include "python/binding/recording.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/run/folder/compared.h"
+#include "sinew/run/folder/replayed.h"
+
+namespace sinew::python {
+
+namespace {
+
+py::object dict_of(const std::string& json) {
+  return py::module_::import("json").attr("loads")(json);
+}
+
+std::vector<std::string> paths_of(const py::sequence& runs) {
+  std::vector<std::string> out;
+  for (const py::handle& run : runs) {
+    const bool recorded = py::isinstance<Recording>(run);
+    out.push_back(recorded ? run.cast<std::shared_ptr<Recording>>()->folder : path_of(run));
+    if (recorded && out.back().empty())
+      throw py::value_error(
+          "compare: found a run that is kept nowhere; expected one with a folder");
+  }
+  if (out.size() < 2) throw py::value_error("compare: found fewer than two runs; expected 2 to 8");
+  return out;
+}
+
+report::AlignWish wish_of(const std::string& align, const std::string& event,
+                          const std::vector<std::string>& align_by, const std::string& clock,
+                          double within) {
+  using report::Align;
+  std::optional<Align> by;
+  for (const Align one : {Align::start, Align::sequence, Align::event, Align::correlation})
+    if (to_text(one) == align) by = one;
+  if (!by)
+    throw py::value_error("align: found " + config::in_quotes(align) +
+                          "; expected start, sequence, event or correlation");
+  if (clock != "none" && clock != "fit")
+    throw py::value_error("clock: found " + config::in_quotes(clock) + "; expected none or fit");
+  report::AlignWish wish(*by);
+  wish.event = event;
+  wish.channels = align_by;
+  wish.fit_clock = clock == "fit";
+  wish.most_shift = within;
+  return wish;
+}
+
+// Settings as texts; a dict's values are texts with their units.
+std::vector<std::string> texts_of(const py::object& sets) {
+  return sets_of(sets, []() -> const config::Origins& {
+    throw py::type_error(
+        "sets: found a number; expected a text with its unit, \"0.8 lbf in s/rad\"");
+  });
+}
+
+py::object compare(const py::sequence& runs, const std::string& align, const std::string& event,
+                   const std::vector<std::string>& align_by, const std::string& clock,
+                   double within, const std::vector<std::string>& channels) {
+  const std::vector<std::string> paths = paths_of(runs);
+  const report::AlignWish wish = wish_of(align, event, align_by, clock, within);
+  std::string json;
+  {
+    const py::gil_scoped_release others;
+    json = to_json(run::compare_runs(paths, wish, channels));
+  }
+  return dict_of(json);
+}
+
+py::object replay(const py::object& path, const std::string& of, const py::object& sets,
+                  double band, const py::object& folder, bool force) {
+  if (of != "controller" && of != "plant")
+    throw py::value_error("of: found " + config::in_quotes(of) + "; expected controller or plant");
+  run::ReplayRequest request{
+      .run = path_of(path), .sets = texts_of(sets), .force = force, .band = band};
+  if (of == "plant") request.of = run::ReplayOf::plant;
+  if (!folder.is_none()) request.folder = path_of(folder);
+  std::string json;
+  {
+    const py::gil_scoped_release others;
+    json = to_json(run::replay_run(request));
+  }
+  return dict_of(json);
+}
+
+}  // namespace
+
+void bind_compare(py::module_& m) {
+  m.def(
+      "compare", &compare, py::arg("runs"), py::kw_only(), py::arg("align") = "start",
+      py::arg("event") = "", py::arg("align_by") = std::vector<std::string>(),
+      py::arg("clock") = "none", py::arg("within") = std::numeric_limits<double>::infinity(),
+      py::arg("channels") = std::vector<std::string>(),
+      "Holds kept runs, by their folders or logs, against the first of them: `runs` with their\n"
+      "`alignment`, `figures`, `parameters` that differ, and `channels` with rms, bias, largest\n"
+      "difference and correlation, as `sinew compare --json` prints them; SI.\n"
+      "\n"
+      "`align`: start, sequence, event or correlation; `event`: \"/joint/elbow/angle > 10 deg\",\n"
+      "else the surest first motion; `align_by`: channels that are correlated, else chosen;\n"
+      "`clock`: fit finds the rate of each run's clock and takes it out; `within`: the largest\n"
+      "shift that is looked for, in s. Raises InputError, saying why, where runs cannot be laid\n"
+      "on each other so.");
+  m.def(
+      "replay", &replay, py::arg("path"), py::kw_only(), py::arg("of") = "controller",
+      py::arg("sets") = py::none(), py::arg("band") = 0.05, py::arg("folder") = py::none(),
+      py::arg("force") = false,
+      "Feeds the readings of a kept run to today's controller (`of` controller), or its valves'\n"
+      "commands to today's plant (plant), and returns where what comes out parts from what was\n"
+      "recorded, as `sinew replay --json` prints it. `sets`: \"key=value\" in place of the run's;\n"
+      "`band`: the share of a channel's range beyond which it has parted; `folder`: keeps the\n"
+      "replay as a run. Raises InputError, naming the topics, where the run lacks what is fed.");
+}
+
+}  // namespace sinew::python
