@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/json_text.h"
 #include "cli/terminal.h"
+#include "cli/units.h"
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/operating_point.h"
 #include "sinew/config/named.h"
@@ -23,7 +24,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string file, name, length, pressure, velocity, external_volume = "0 m3";
+  std::string file, name, length, pressure, velocity, external_volume = "0 m3", units;
   bool json = false, quiet = false;
 };
 
@@ -80,8 +81,11 @@ ExitCode run_actuator(const Options& options) {
     fmt::print("{}\n", json_text(out, 2));
     return ok;
   }
-  fmt::print("{}", points.size() == 1 ? run::text_of(points[0])
-                                      : run::table_of(points, lengths.display, pressures.display));
+  const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si);
+  const units::ShownUnits* shown = asked.asked ? &asked.units : nullptr;
+  fmt::print("{}", points.size() == 1
+                       ? run::text_of(points[0], shown)
+                       : run::table_of(points, lengths.display, pressures.display, shown));
   warn(points, Messages(options.quiet));
   return ok;
 }
@@ -102,6 +106,7 @@ void add_actuator(Command app, Action& action) {
   sub.add_option("--name", options->name, "which actuator, where the file has several");
   sub.add_option("--external-volume", options->external_volume,
                  "of hose and fittings, for the stiffness with valves shut; 0");
+  add_units(sub, options->units, "of what is printed, else SI and inches; --json is in SI");
   sub.add_flag("--json", options->json, "as JSON, SI");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");
   sub.callback([=, &action] { action = [=] { return run_actuator(*options); }; });

@@ -3,6 +3,7 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "cli/units.h"
 #include "cli/verdicts.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
@@ -17,7 +18,7 @@ namespace sinew::cli {
 namespace {
 
 struct Options {
-  std::string run, machine, out;
+  std::string run, machine, out, units;
   bool json = false, verdicts = false, force = false, quiet = false;
 };
 
@@ -25,7 +26,7 @@ struct Options {
 // a part of one.
 template <class Machine>
 ExitCode tell(const Options& options, const Messages& messages, const signals::Table& table,
-              Machine machine) {
+              Machine machine, const config::UnitsToShow& units) {
   if (!table.complete) machine.reported.clear();
   analysis::Summary summary = analysis::summarize(table, machine);
   summary.cut_off = !table.complete;
@@ -42,7 +43,7 @@ ExitCode tell(const Options& options, const Messages& messages, const signals::T
   } else if (options.json) {
     fmt::print("{}", json);
   } else {
-    print_verdicts(summary, machine);
+    print_verdicts(summary, machine, units.asked ? &units.units : nullptr);
   }
   return ok;
 }
@@ -58,9 +59,10 @@ ExitCode analyze_run(const Options& options) {
         run.log.string() +
         " was cut off or is damaged; the numbers are of what stands before, without verdicts");
 
+  const config::UnitsToShow units = units_asked(options.units, units::UnitSet::si, &file);
   if (config::format_kind(file) == "rig")
-    return tell(options, messages, table, analysis::read_stand(file));
-  return tell(options, messages, table, analysis::read_machine(file));
+    return tell(options, messages, table, analysis::read_stand(file), units);
+  return tell(options, messages, table, analysis::read_machine(file), units);
 }
 
 }  // namespace
@@ -77,6 +79,7 @@ void add_analyze(Command app, Action& action) {
   Option json = sub.add_flag("--json", options->json, "print the summary as JSON");
   sub.add_flag("--verdicts", options->verdicts, "print what is reported, with verdicts, as JSON")
       .excludes(json);
+  add_units(sub, options->units, "of what is printed, else the source's own; --json is in SI");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");
   sub.callback([=, &action] { action = [=] { return analyze_run(*options); }; });
 }

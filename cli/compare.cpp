@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "cli/units.h"
 #include "sinew/report/compare/comparison_text.h"
 #include "sinew/report/page/page.h"
 #include "sinew/run/folder/compared.h"
@@ -22,14 +23,14 @@ constexpr int most_runs = 8;  // colors that can be told apart
 struct Options {
   std::vector<std::string> runs, channels;
   std::vector<std::string> align_by;
-  std::string out, residuals, align = "start", clock = "none", event, units = "thesis";
+  std::string out, residuals, align = "start", clock = "none", event, units;
   double most_shift = std::numeric_limits<double>::infinity();
   bool json = false, all = false, force = false, quiet = false;
 };
 
 report::ComparisonText shown_as(const Options& options) {
-  using Units = report::ComparisonText::Units;
-  return {.units = options.units == "si" ? Units::si : Units::thesis,
+  const fs::path first = run::recorded_run(options.runs.front()).resolved;
+  return {.units = units_asked(options.units, units::UnitSet::thesis, first).units,
           .all = options.all,
           .width = width_of_output(),
           .see_all = "--all",
@@ -78,7 +79,9 @@ ExitCode compare_runs(const Options& options) {
     messages.note(options.residuals);
   }
   if (options.out.empty()) return ok;
-  const std::string page = report::page(comparison);
+  const fs::path first = run::recorded_run(options.runs.front()).resolved;
+  const std::string page =
+      report::page(comparison, units_asked(options.units, units::UnitSet::si, first).units);
   run::write_file(options.out, page);
   messages.note(fmt::format("{}, {:.1f} MB", options.out, 1e-6 * static_cast<double>(page.size())));
   return ok;
@@ -109,8 +112,7 @@ void add_compare(Command app, Action& action) {
       .is_one_of({"none", "fit"});
   sub.add_option("--within", options->most_shift, "largest shift that is looked for, in s");
   sub.add_option("--channels", options->channels, "only these: '/joint/*/angle'").takes_all();
-  sub.add_option("--units", options->units, "of the tables: thesis or si; --json is in SI")
-      .is_one_of({"thesis", "si"});
+  add_units(sub, options->units, "of the tables, else thesis, and of the page; --json is in SI");
   sub.add_flag("--all", options->all, "every figure and channel, equal ones too");
   sub.add_flag("--json", options->json, "all of it as JSON");
   sub.add_flag("--force", options->force, "replace the page");

@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "cli/units.h"
 #include "sinew/identify/sensor/transducer_settings.h"
 #include "sinew/identify/sensor/transducer_text.h"
 
@@ -15,6 +16,7 @@ namespace {
 
 struct Options {
   identify::TransducerSettings settings;
+  std::string units;
   bool json = false, quiet = false;
 };
 
@@ -25,10 +27,12 @@ ExitCode run_force_beam(const Options& options) {
     fmt::print("{}\n", json_of(s, wanted));
     return ok;
   }
-  fmt::print("{}", text_of(s));
+  const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si);
+  const units::ShownUnits* shown = asked.asked ? &asked.units : nullptr;
+  fmt::print("{}", text_of(s, shown));
   if (wanted)
     fmt::print("\n{} with the gages, from the load:\n{}", options.settings.sensitivity,
-               text_of_places(s, *wanted));
+               text_of_places(s, *wanted, shown));
   for (const std::string& doubt : doubts(s)) Messages(options.quiet).warning(doubt);
   return ok;
 }
@@ -72,6 +76,7 @@ void add_force_beam(Command app, Action& action) {
   sub.add_option("--load", options->settings.load, "at the free end").show_default();
   sub.add_option("--sensitivity", options->settings.sensitivity,
                  "wanted: tells where the gages must be");
+  add_units(sub, options->units, "of what is printed, else SI and inches; --json is in SI");
   sub.add_flag("--json", options->json, "as JSON, SI");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");
   sub.callback([=, &action] { action = [=] { return run_force_beam(*options); }; });

@@ -1,5 +1,6 @@
 // cli/kinematics.cpp - `sinew kinematics`: foot to joint angles and back, and the torques behind a
-// force. Lengths and angles are printed in the units of the robot's file.
+// force. Lengths and angles are printed in the units of the robot's file where nobody
+// asks for others.
 #include "sinew/robot/kinematics.h"
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "cli/arguments.h"
 #include "cli/command.h"
 #include "cli/json_text.h"
+#include "cli/units.h"
 #include "sinew/config/quantity.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/robot/legs.h"
@@ -24,7 +26,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string file, leg, foot, angles, force;
+  std::string file, leg, foot, angles, force, units;
   bool json = false;
 };
 
@@ -36,9 +38,15 @@ std::string unit_in(const config::Origins& origins, std::string_view table, std:
   return otherwise;
 }
 
-// The units in which the robot's file speaks, by its first link and its first joint; of the torques
-// by the force that is given.
-run::StanceUnits units_for(const experiment::Experiment& e, const std::string& force) {
+// Those that somebody asked for; else the units in which the robot's file speaks, by its first link
+// and its first joint, and of the torques by the force that is given.
+run::StanceUnits stance_units(const experiment::Experiment& e, const Options& options) {
+  const std::string& force = options.force;
+  const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si);
+  if (asked.asked) {
+    const std::string length = asked.units.of("m").name;
+    return {length, asked.units.of("rad").name, asked.units.of("N m").name, length + "/rad"};
+  }
   run::StanceUnits out;
   out.length = unit_in(e.origins, "link.", ".length", out.length);
   out.angle = unit_in(e.origins, "joint.", ".rest_angle", out.angle);
@@ -127,7 +135,7 @@ ExitCode run_kinematics(const Options& options) {
   const experiment::Experiment& e = file.experiment;
   if (e.robot.joints.empty())
     throw std::invalid_argument(options.file + ": has no joints; try a robot's file");
-  const run::StanceUnits units = units_for(e, options.force);
+  const run::StanceUnits units = stance_units(e, options);
   std::vector<run::Stance> branches = options.foot.empty()
                                           ? std::vector{branch_at(e, options.angles)}
                                           : branches_to(e, options.foot, units);
@@ -162,6 +170,7 @@ void add_kinematics(Command app, Action& action) {
   target.add_option("--angles", options->angles, "one per joint, in the robot's order");
   sub.add_option("--force", options->force,
                  "x, y of what the foot pushes with: the joints' torques for it, [71]");
+  add_units(sub, options->units, "of what is printed, else those of the robot's file");
   sub.add_flag("--json", options->json, "as JSON, SI");
   sub.callback([=, &action] { action = [=] { return run_kinematics(*options); }; });
 }

@@ -3,6 +3,7 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "cli/units.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/page.h"
 #include "sinew/tune/page/study_view.h"
@@ -13,7 +14,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> runs;
-  std::string machine, out;
+  std::string machine, out, units;
   bool force = false, quiet = false;
 };
 
@@ -40,7 +41,8 @@ ExitCode report_run(const Options& options) {
                                         ? recorded.log.parent_path() / run::report_name
                                         : std::filesystem::path(options.out);
   run::refuse_to_overwrite(out, options.force, {recorded.log, recorded.resolved, options.machine});
-  return write(out, run::page_of(recorded, options.machine, messages.notices()), messages);
+  return write(out, run::page_of(recorded, options.machine, messages.notices(), options.units),
+               messages);
 }
 
 }  // namespace
@@ -56,6 +58,7 @@ void add_report(Command app, Action& action) {
                  "the file to write; else report.html beside the log, STUDY.html beside STUDY.db");
   sub.add_option("--machine", options->machine,
                  "what was run, in place of the folder's resolved.toml");
+  add_units(sub, options->units, "in which the page of a run begins, else as set");
   sub.add_flag("--force", options->force, "replace the file");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");
   sub.callback([=, &action] {

@@ -37,7 +37,7 @@ ExitCode run_stand(const RunOptions& o, const Messages& messages) {
   if (o.pace > 0)
     config::fail({o.run.experiment, 0, 0}, "--pace", fmt::format("{}", o.pace),
                  "a run as fast as it goes: a stand has no live log");
-  tell(run::run_on_stand(o.run, messages.notices()), o.json, messages);
+  tell(run::run_on_stand(o.run, messages.notices()), o, messages);
   return ok;
 }
 
@@ -51,7 +51,7 @@ ExitCode run_experiment(const RunOptions& options) {
   Interrupt interrupt(run::is_elsewhere(options.run.port) ? Interrupt::Of::machine
                                                           : Interrupt::Of::work);
   run::KeptRun kept(options.run, messages.notices());
-  tell(kept.keep(run_logged(options, kept, interrupt)), options.json, messages);
+  tell(kept.keep(run_logged(options, kept, interrupt)), options, messages);
   return ok;
 }
 
@@ -82,6 +82,7 @@ void add_run_options(Command sub, const std::string& port, RunOptions& options) 
   sub.add_flag("--allow-unreachable", request.allow_unreachable,
                "aim at the nearest point where the foot path is out of reach");
   sub.add_flag("!--no-report", request.report, "leave report.html out");
+  add_units(sub, request.units, "of what is printed and of the page; --json is in SI");
   sub.add_flag("--json", options.json, "print summary.json");
   sub.add_flag("--quiet", options.quiet, "only errors on stderr");
 }

@@ -8,6 +8,7 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "cli/units.h"
 #include "cli/verdicts.h"
 #include "sinew/run/folder/kept_run.h"
 #include "sinew/run/folder/page.h"
@@ -20,7 +21,7 @@ struct RunOptions {
   bool json = false, quiet = false;
 };
 
-// EXPERIMENT, -o, --force, --set, --allow-unreachable, --no-report, --json, --quiet.
+// EXPERIMENT, -o, --force, --set, --allow-unreachable, --no-report, --units, --json, --quiet.
 void add_run_options(Command sub, const std::string& port, RunOptions& options);
 
 // Returns "" for what --pace may be, else what is wrong.
@@ -33,12 +34,14 @@ inline void note_page(const std::filesystem::path& folder, const Messages& messa
 
 // Verdicts or summary.json to stdout, where it is kept to stderr.
 template <class Machine>
-void tell(const run::Kept<Machine>& kept, bool json, const Messages& messages) {
-  if (json) {
+void tell(const run::Kept<Machine>& kept, const RunOptions& options, const Messages& messages) {
+  if (options.json) {
     fmt::print("{}", kept.json);
     messages.note(kept.folder.string());
   } else {
-    print_verdicts(kept.summary, kept.machine);
+    const config::UnitsToShow units =
+        units_asked(options.run.units, units::UnitSet::si, kept.folder / run::resolved_name);
+    print_verdicts(kept.summary, kept.machine, units.asked ? &units.units : nullptr);
     messages.note(fmt::format("{:.2f} s in {:.3f} s, kept in {}", kept.duration, kept.wall,
                               kept.folder.string()));
   }

@@ -108,7 +108,10 @@ void add_sensitivity(Command app, Action& action) {
   sub.add_flag("--force", options->force, "replace those files");
   sub.add_flag("--json", options->json, "print it as JSON");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");
-  sub.callback([=, &action] { action = [=] { return tell_sensitivity(*options); }; });
+  sub.callback([=, &action] {
+    if (options->json) options->study.units.clear();
+    action = [=] { return tell_sensitivity(*options); };
+  });
 }
 
 }  // namespace sinew::cli

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/units.h"
 #include "sinew/files/values.h"
 
 namespace sinew::cli {
@@ -15,15 +16,17 @@ struct Options {
   std::string file;
   std::vector<std::string> keys;
   std::vector<std::string> sets;
+  std::string units;
   bool json = false;
 };
 
 ExitCode show(const Options& options) {
   const files::Values values = files::values(options.file, options.sets, options.keys);
+  const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si, &values.in_si);
   if (options.json)
     fmt::print("{}\n", Json::parse(files::json_of(values)).dump(2));
   else
-    fmt::print("{}", files::text_of(values));
+    fmt::print("{}", files::text_of(values, asked.asked ? &asked.units : nullptr));
   return ok;
 }
 
@@ -37,6 +40,7 @@ void add_show(Command app, Action& action) {
       .required();
   sub.add_option("KEY", options->keys, "keys, or how they begin");
   add_sets(sub, options->sets);
+  add_units(sub, options->units, "of the column beside what is written, else SI");
   sub.add_flag("--json", options->json, "as JSON");
   sub.callback([=, &action] { action = [=] { return show(*options); }; });
 }

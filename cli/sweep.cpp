@@ -85,7 +85,10 @@ void add_sweep(Command app, Action& action) {
   sub.add_flag("--force", options->force, "replace that file");
   sub.add_flag("--json", options->json, "print the table as JSON");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");
-  sub.callback([=, &action] { action = [=] { return sweep_all(*options); }; });
+  sub.callback([=, &action] {
+    if (options->json) options->said.study.units.clear();
+    action = [=] { return sweep_all(*options); };
+  });
 }
 
 }  // namespace sinew::cli

@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/units.h"
 #include "sinew/tune/results/kept.h"
 
 namespace sinew::cli {
@@ -69,6 +70,7 @@ void add_runs(Command sub, tune::Study& study, RunOptions& options) {
             "KEY=from:to unit, sampled; with \"log\" or \"whole\" behind it; repeated");
   add_words(sub, "--report", study.report,
             "keys of summary.json, with commas: key, or key [unit]; else what is reported of it");
+  add_units(sub, study.units, "of figures that name none, else SI; --json is in SI");
   add_sets(sub, study.set);
   sub.add_flag("--allow-unreachable", study.allow_unreachable, "as in sinew run");
   add_keeping(sub, options);

@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/json_text.h"
 #include "cli/terminal.h"
+#include "cli/units.h"
 #include "sinew/config/named.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/gas/delay.h"
@@ -24,7 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct Options {
-  std::string file, name, upstream, downstream, volume, duty, frequency = "100 Hz";
+  std::string file, name, upstream, downstream, volume, duty, frequency = "100 Hz", units;
   bool json = false, quiet = false;
 };
 
@@ -65,7 +66,10 @@ ExitCode run_valve(const Options& options) {
     fmt::print("{}\n", json_text(Json::parse(run::json_of(valve, f, times, duties)), 2));
     return ok;
   }
-  fmt::print("{}{}{}", run::text_of(valve, f), run::text_of(times, volume, f),
+  const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si);
+  const units::ShownUnits* shown = asked.asked ? &asked.units : nullptr;
+  fmt::print("{}{}{}", run::text_of(valve, f, shown),
+             run::text_of(times, volume, f, shown, air.atmosphere),
              run::text_of(duties, options.frequency));
   return ok;
 }
@@ -85,6 +89,7 @@ void add_valve(Command app, Action& action) {
   sub.add_option("--volume", options->volume, "rigid, to be filled and vented");
   Option duty = sub.add_option("--duty", options->duty, "share of the period, or from:to:step");
   sub.add_option("--frequency", options->frequency, "of the pulses; 100 Hz").needs(duty);
+  add_units(sub, options->units, "of what is printed; --json is in SI");
   sub.add_flag("--json", options->json, "as JSON, SI");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");
   sub.callback([=, &action] { action = [=] { return run_valve(*options); }; });

@@ -39,12 +39,13 @@ report::TextTable verdict_table(const std::vector<analysis::Verdict>& verdicts, 
 }
 
 bool print_reported(const analysis::Summary& summary,
-                    const std::vector<analysis::Reported>& reported, double atmosphere) {
+                    const std::vector<analysis::Reported>& reported, double atmosphere,
+                    const units::ShownUnits* shown) {
   fmt::print("{}", summary.title);
   if (!summary.reproduces.empty()) fmt::print(" ({})", summary.reproduces);
   fmt::print("\n");
 
-  const std::vector<analysis::Verdict> verdicts = compare(summary, reported, atmosphere);
+  const std::vector<analysis::Verdict> verdicts = compare(summary, reported, atmosphere, shown);
   if (verdicts.empty()) return false;
   const std::size_t width = width_of_output();
   const report::TextTable table = verdict_table(verdicts, true);
@@ -55,18 +56,22 @@ bool print_reported(const analysis::Summary& summary,
 
 }  // namespace
 
-void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine) {
-  if (!print_reported(summary, machine.reported, machine.atmosphere))
-    fmt::print("{}", run::main_figures(summary, machine));
+void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine,
+                    const units::ShownUnits* shown) {
+  if (!print_reported(summary, machine.reported, machine.atmosphere, shown))
+    fmt::print("{}", run::main_figures(summary, machine, shown));
 }
 
-void print_verdicts(const analysis::Summary& summary, const analysis::StandFile& stand) {
-  if (print_reported(summary, stand.reported, stand.atmosphere)) return;
+void print_verdicts(const analysis::Summary& summary, const analysis::StandFile& stand,
+                    const units::ShownUnits* shown) {
+  if (print_reported(summary, stand.reported, stand.atmosphere, shown)) return;
   report::TextTable table({"", "Sinew"});
   for (const analysis::Entry& e : summary.entries()) {
-    const std::string unit = analysis::unit_of_key(e.key);
+    std::string unit = analysis::unit_of_key(e.key);
+    if (unit == "m") unit = "mm";
+    if (shown) unit = analysis::shown_unit(e.key, *shown, e.value);
     table.add({std::string(analysis::without_unit(e.key)),
-               analysis::show(e.value, e.key, unit == "m" ? "mm" : unit, stand.atmosphere)});
+               analysis::show(e.value, e.key, unit, stand.atmosphere)});
   }
   if (!table.empty()) fmt::print("{}", table.text());
 }

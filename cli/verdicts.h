@@ -4,11 +4,15 @@
 #include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/analysis/summary.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::cli {
 
-// Prints the title, and what the source reports beside what came out.
-void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine);
-void print_verdicts(const analysis::Summary& summary, const analysis::StandFile& stand);
+// Prints the title, and what the source reports beside what came out: in the source's own units, or
+// in `shown`, where somebody asked for some.
+void print_verdicts(const analysis::Summary& summary, const analysis::Machine& machine,
+                    const units::ShownUnits* shown = nullptr);
+void print_verdicts(const analysis::Summary& summary, const analysis::StandFile& stand,
+                    const units::ShownUnits* shown = nullptr);
 
 }  // namespace sinew::cli

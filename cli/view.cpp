@@ -45,7 +45,7 @@ ExitCode view_live(const ViewOptions& o) {
                      .once = o.once,
                      .kept =
                          [&](const auto& kept) {
-                           tell(kept, o.live.json, messages);
+                           tell(kept, o.live, messages);
                            std::fflush(stdout);
                          }},
                     messages.notices());
@@ -68,9 +68,10 @@ void add_view(Command app, Action& action) {
   auto options = std::make_shared<ViewOptions>();
   Command sub = app.subcommand("view", "a run or a study in the browser, recorded or while it goes",
                                "sinew view --live experiments/tune-in-air.toml");
-  Option dir = sub.add_option(
-      "DIR", options->what,
-      "a run's folder, a folder of runs, a log file, one or two studies; else the newest of runs/");
+  Option dir =
+      sub.add_option("DIR", options->what,
+                     "a run's folder, a folder of runs, a log file, one or two studies; else "
+                     "the newest of runs/");
   sub.add_option("--machine", options->machine,
                  "what was run, in place of the folder's resolved.toml");
   Option live =
@@ -87,7 +88,7 @@ void add_view(Command app, Action& action) {
   sub.add_flag("--once", options->once, "end with the run").needs(live);
   add_run_options(sub, "--place", options->live);
   for (const char* of_a_run : {"--place", "--clear-fault", "--output", "--force", "--set",
-                               "--allow-unreachable", "--no-report", "--json"})
+                               "--allow-unreachable", "--no-report", "--units", "--json"})
     sub.option(of_a_run).needs(live);
   sub.callback([=, &action] {
     action = [=] {

@@ -40,7 +40,7 @@ function page_of(main, style, script, connect = '') {
   page = page.replace('/*script*/', () => bundle(script));
 
   // What the program fills in must have one place each.
-  for (const mark of ['@title@', '@run@', '@samples@'])
+  for (const mark of ['@title@', '@units@', '@run@', '@samples@'])
     if (page.split(mark).length !== 2) throw new Error(`${mark}: not once in frame.html and ${main}`);
   return page;
 }

@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include "python/binding/numbers.h"
 #include "python/binding/values.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/lookup.h"
 #include "sinew/config/node.h"
 #include "sinew/config/quantity.h"
+#include "sinew/config/shown_units.h"
 #include "sinew/control/gait/change.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/run/setup/buildable.h"
@@ -103,6 +105,22 @@ double converted(double value, const std::string& unit, const std::string& displ
   return config::convert(value, unit, display);
 } catch (const std::exception& e) {
   throw std::invalid_argument(fmt::format("convert: {}; expected units of one kind", e.what()));
+}
+
+units::ShownUnits units_of(const std::string& units) {
+  return config::units_to_show({.now = units}).units;
+}
+
+std::string shown(double value, const std::string& unit, const std::string& units, int digits) {
+  if (digits < 1 || digits > 17)
+    throw std::invalid_argument(fmt::format("digits: found {}; expected 1 to 17", digits));
+  return units_of(units).text(value, unit, digits);
+}
+
+py::tuple in_units(const py::object& values, const std::string& unit, const std::string& units) {
+  const units::ShownUnit to = units_of(units).of(unit);
+  return py::make_tuple(
+      py::vectorize([&to](double v) { return to.of(v); })(numbers(values, "values")), to.label());
 }
 
 std::vector<std::string> keys_of(const HeldExperiment& held) {
@@ -249,6 +267,18 @@ void bind_experiment(py::module_& m) {
   m.def("convert", &converted, py::arg("value"), py::arg("unit"), py::arg("display"),
         "Returns a value of an SI unit in another: convert(0.0254, \"m\", \"in\"). Raises\n"
         "ValueError.");
+  m.def(
+      "shown", &shown, py::arg("value"), py::arg("unit"), py::arg("units") = "",
+      py::arg("digits") = 4,
+      "Returns a value of an SI unit as people see it: shown(0.08, \"m\", \"metric\") is \"80 "
+      "mm\".\n"
+      "`units` is si, thesis, metric, or a choice on top of one, \"metric,length=cm\"; without "
+      "it,\n"
+      "what SINEW_UNITS or your settings say, else si. Pressures in \"Pa\" are absolute ones, and\n"
+      "gauges count from 14.7 psi. Raises InputError.");
+  m.def("in_units", &in_units, py::arg("values"), py::arg("unit"), py::arg("units") = "",
+        "Returns numbers of an SI unit in that of such units, and what it is called, for an axis:\n"
+        "ys, label = in_units(pressure, \"Pa\", \"metric\"). Raises InputError.");
 }
 
 }  // namespace sinew::python

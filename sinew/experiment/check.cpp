@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sinew/config/quantity.h"
+#include "sinew/config/short_quantity.h"
 #include "sinew/config/valve_timing.h"
 #include "sinew/control/gait/legs.h"
 #include "sinew/experiment/faults.h"
@@ -14,7 +15,14 @@ namespace {
 
 using List = std::vector<robot::Contradiction>;
 
-std::string inches(double metres) { return config::format_quantity(metres, "m", "in"); }
+// In the unit in which the file has the value at that path.
+std::string length_like(const Experiment& e, std::string_view path, double metres) {
+  return config::quantity_like(e.origins, path, metres, "m", "in");
+}
+
+std::string pressure_like(const Experiment& e, std::string_view path, double pascals) {
+  return config::quantity_like(e.origins, path, pascals, "Pa abs", "psi abs", e.air.atmosphere);
+}
 
 // Names that lead from one table to another.
 template <class Items>
@@ -83,17 +91,16 @@ void check_pressure_law(const Experiment& e, List& out) {
 }
 
 void check_supply(const Experiment& e, List& out) {
-  using config::format_quantity;
+  const auto text = [&](const char* key, double pascals) { return pressure_like(e, key, pascals); };
   if (e.supply.kind == gas::Supply::Kind::tank && !(e.supply.initial_pressure > e.air.atmosphere))
     out.push_back({"air.supply.initial_pressure",
-                   format_quantity(e.supply.initial_pressure, "Pa abs", "psi abs"),
+                   text("air.supply.initial_pressure", e.supply.initial_pressure),
                    "above the atmosphere", "initial_pressure = \"150 psi gauge\""});
   const robot::Cylinder& c = e.robot.cylinder;
   if (c.present && c.mode == robot::Cylinder::Mode::regulator && c.pressure > e.supply.pressure)
-    out.push_back(
-        {"cylinder.pressure", format_quantity(c.pressure, "Pa abs", "psi abs"),
-         "at most the supply's, " + format_quantity(e.supply.pressure, "Pa abs", "psi abs"),
-         "pressure = \"20 psi gauge\""});
+    out.push_back({"cylinder.pressure", text("cylinder.pressure", c.pressure),
+                   "at most the supply's, " + text("cylinder.pressure", e.supply.pressure),
+                   "pressure = \"20 psi gauge\""});
 }
 
 void check_muscles(const Experiment& e, List& out) {
@@ -160,37 +167,46 @@ void check_measures(const Experiment& e, List& out) {
 void check_place(const Experiment& e, List& out) {
   const robot::Trolley& trolley = e.robot.trolley;
   if (trolley.present && (e.start.trolley < 0 || e.start.trolley > trolley.track_length))
-    out.push_back({"start.trolley", inches(e.start.trolley),
-                   "0 to the track's end, " + inches(trolley.track_length), ""});
+    out.push_back({"start.trolley", length_like(e, "start.trolley", e.start.trolley),
+                   "0 to the track's end, " + length_like(e, "start.trolley", trolley.track_length),
+                   ""});
   const robot::Cylinder& cylinder = e.robot.cylinder;
   const bool lifts = cylinder.present && cylinder.mode != robot::Cylinder::Mode::locked;
   const double top = lifts ? cylinder.stroke : 0.0;
   if (!lifts && e.start.lift > 0)
-    out.push_back({"start.lift", inches(e.start.lift), "0: no cylinder lifts the body",
-                   "cylinder.mode = \"regulator\" or \"valves\""});
+    out.push_back({"start.lift", length_like(e, "start.lift", e.start.lift),
+                   "0: no cylinder lifts the body", "cylinder.mode = \"regulator\" or \"valves\""});
   else if (e.start.lift > top)
-    out.push_back({"start.lift", inches(e.start.lift), "0 to the stroke, " + inches(top), ""});
+    out.push_back({"start.lift", length_like(e, "start.lift", e.start.lift),
+                   "0 to the stroke, " + length_like(e, "start.lift", top), ""});
   for (const robot::Joint& joint : e.robot.joints) {
     const double angle = e.start.joint_angles.count(joint.name)
                              ? e.start.joint_angles.at(joint.name)
                              : joint.rest_angle;
     const std::vector<double>& range = joint.stop.range;
-    if (joint.stop.present() && (angle < range[0] || angle > range[1]))
-      out.push_back({"start.joint_angles." + joint.name,
-                     config::format_quantity(angle, "rad", "deg"),
-                     "within its stops, " + config::format_quantity(range[0], "rad", "deg") +
-                         " to " + config::format_quantity(range[1], "rad", "deg"),
-                     ""});
+    if (!joint.stop.present() || (angle >= range[0] && angle <= range[1])) continue;
+    const std::string key = "start.joint_angles." + joint.name;
+    const auto text = [&](double rad) {
+      return config::quantity_like(e.origins, key, rad, "rad", "deg");
+    };
+    out.push_back(
+        {key, text(angle), "within its stops, " + text(range[0]) + " to " + text(range[1]), ""});
   }
-  for (const robot::Link& link : e.robot.links)
+  for (const robot::Link& link : e.robot.links) {
+    const std::string key = "link." + link.name + ".center_of_mass";
     if (link.center_of_mass > link.length)
-      out.push_back({"link." + link.name + ".center_of_mass", inches(link.center_of_mass),
-                     "within the link, " + inches(link.length), ""});
+      out.push_back({key, length_like(e, key, link.center_of_mass),
+                     "within the link, " + length_like(e, key, link.length), ""});
+  }
   for (const robot::Muscle& m : e.robot.muscles)
     for (const actuator::Actuator& a : e.actuators) {
       if (a.name != m.actuator || m.mount_length < a.braid.thread_length) continue;
-      out.push_back({"muscle." + m.name + ".mount_length", inches(m.mount_length),
-                     "less than the thread's length, " + inches(a.braid.thread_length), ""});
+      out.push_back(
+          {"muscle." + m.name + ".mount_length",
+           length_like(e, "muscle." + m.name + ".mount_length", m.mount_length),
+           "less than the thread's length, " +
+               length_like(e, "muscle." + m.name + ".mount_length", a.braid.thread_length),
+           ""});
     }
 }
 

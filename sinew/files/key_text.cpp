@@ -31,6 +31,8 @@ Title title_of(std::string_view kind) {
   if (kind == "experiment") return {"Experiment", "experiments/*.toml"};
   if (kind == "rig") return {"Rig, the test stand of one muscle", "experiments/rig/*.toml"};
   if (kind == "plan") return {"Plan of a sweep or a sensitivity", "studies/*.toml"};
+  if (kind == "mapping") return {"Mapping of a recording's columns", "*.toml"};
+  if (kind == "settings") return {"Settings of a person", "~/.config/sinew/settings.toml"};
   return {"Tuning", "studies/*.toml"};
 }
 

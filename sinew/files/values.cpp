@@ -8,7 +8,9 @@
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/lookup.h"
+#include "sinew/config/quantity.h"
 #include "sinew/config/reader.h"
+#include "sinew/config/short_quantity.h"
 #include "sinew/config/write/writer.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/experiment/rig/rig.h"
@@ -27,6 +29,34 @@ std::string si_text(const config::Node& values, const config::Origin& origin) {
   const config::Node* node = config::value_at(values, origin.path);
   if (!node) return "";
   return config::written(node->is_value_table() ? *node->find("value") : *node);
+}
+
+// The same for people: a single number without the digits that reading it left behind.
+std::string rounded_text(const config::Node& values, const config::Origin& origin) {
+  const std::string si = si_text(values, origin);
+  const config::Parsed parsed = config::parse_quantity(si, origin.unit.empty() ? "1" : origin.unit);
+  return origin.unit.empty() || parsed.mistake ? si
+                                               : config::rounded_quantity(parsed.si, origin.unit);
+}
+
+// An absolute pressure is shown as pressures are, from the room's where the set has gauges.
+std::string_view held(std::string_view unit) { return unit == "Pa abs" ? "Pa" : unit; }
+
+// The value in the units that are asked for; a list has each of its numbers.
+std::string shown_text(const config::Node& values, const config::Origin& origin,
+                       const units::ShownUnits& shown, double room) {
+  const config::Node* node = origin.unit.empty() ? nullptr : config::value_at(values, origin.path);
+  if (!node) return "";
+  if (node->is_value_table()) node = node->find("value");
+  const auto text = [&](const config::Node& number) {
+    const std::string si = config::written(number);
+    const config::Parsed parsed = config::parse_quantity(si, origin.unit, room);
+    return parsed.mistake ? si : shown.text(parsed.si, held(origin.unit), 6, room);
+  };
+  if (node->kind != config::Node::Kind::array) return text(*node);
+  std::vector<std::string> all;
+  for (const config::Node& number : node->children) all.push_back(text(number));
+  return fmt::format("{}", fmt::join(all, ", "));
 }
 
 std::string mark(const config::Origin& o) {
@@ -109,12 +139,15 @@ Values values(const std::string& path, const std::vector<std::string>& sets,
   return {experiment::values_in_si(file), chosen(file.experiment.origins, keys, path)};
 }
 
-std::string text_of(const Values& v) {
-  report::TextTable table({"key", "as written", "SI", "", "range", "where", "source"});
+std::string text_of(const Values& v, const units::ShownUnits* shown) {
+  const double room = config::atmosphere_of(v.in_si);
+  report::TextTable table(
+      {"key", "as written", shown ? shown->text() : "SI", "", "range", "where", "source"});
   for (const config::Origin& o : v.origins) {
-    const std::string si = si_text(v.in_si, o);
+    const std::string other =
+        shown ? shown_text(v.in_si, o, *shown, room) : rounded_text(v.in_si, o);
     const std::string range = fmt::format("{}", fmt::join(o.range, " to "));
-    table.add({o.path, o.text, si == o.text ? "" : si, mark(o), range, place(o), o.source});
+    table.add({o.path, o.text, other == o.text ? "" : other, mark(o), range, place(o), o.source});
   }
   return table.text();
 }

@@ -6,6 +6,7 @@
 
 #include "sinew/config/node.h"
 #include "sinew/config/origin.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::files {
 
@@ -21,8 +22,9 @@ struct Values {
 Values values(const std::string& path, const std::vector<std::string>& sets = {},
               const std::vector<std::string>& keys = {});
 
-// Returns a table, a line for each value: as written, in SI, where it stands, its source.
-std::string text_of(const Values& values);
+// Returns a table, a line for each value: as written, in SI or in `shown`, where it stands, its
+// source.
+std::string text_of(const Values& values, const units::ShownUnits* shown = nullptr);
 
 // Returns an array of JSON, an object for each value.
 std::string json_of(const Values& values);

@@ -28,6 +28,7 @@ Figure parse_figure(std::string_view text, std::string_view setting) {
            "\"trolley.distance_m [in]\"");
   if (bracket == text.npos) return out;
   if (!text.ends_with(']')) refuse(setting, text, "a bracket that closes");
+  out.named = true;
   out.unit = trimmed(text.substr(bracket + 1, text.size() - bracket - 2));
   const config::Parsed parsed = config::parse_quantity("1 " + out.unit, si);
   if (parsed.mistake)
@@ -53,6 +54,13 @@ std::vector<Figure> parse_figures(std::string_view text, std::string_view settin
   std::vector<Figure> out;
   for (const std::string_view part : list_of(text)) out.push_back(parse_figure(part, setting));
   return out;
+}
+
+void show_in(const units::ShownUnits& units, std::vector<Figure>& figures) {
+  // One unit for a whole column, whatever the size.
+  for (Figure& figure : figures)
+    if (!figure.named && figure.unit != "1")
+      figure.unit = analysis::shown_unit(figure.key, units, 0);
 }
 
 std::vector<Figure> reported_figures(const std::vector<config::Reported>& reported,

@@ -12,12 +12,14 @@
 #include "sinew/analysis/summary.h"
 #include "sinew/config/reported.h"
 #include "sinew/units/constants.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::tune {
 
 struct Figure {
-  std::string key;   // of summary.json
-  std::string unit;  // to be shown in; "1": none
+  std::string key;     // of summary.json
+  std::string unit;    // to be shown in; "1": none
+  bool named = false;  // somebody wrote the unit
 
   // "joints.hip.tracking_rms [deg]": the unit that ends the key is the summary's own.
   std::string heading() const;
@@ -28,6 +30,9 @@ struct Figure {
 
 // "key", "key [unit]", several with commas. Throws config::Error that begins with `setting`.
 std::vector<Figure> parse_figures(std::string_view text, std::string_view setting = "report");
+
+// Shows the figures that name no unit in those of `units`.
+void show_in(const units::ShownUnits& units, std::vector<Figure>& figures);
 
 // Returns the figures that sources report of an experiment, each key once, in the source's unit.
 std::vector<Figure> reported_figures(const std::vector<config::Reported>& reported,

@@ -38,6 +38,7 @@ Study load_study(const std::string& path, const Said& said) {
   if (!said.study.largest.empty()) out.largest = said.study.largest;
   if (said.study.seeds > 0) out.seeds = said.study.seeds;
   if (said.study.points > 0) out.points = said.study.points;
+  if (!said.study.units.empty()) out.units = said.study.units;
   if (said.sample == "sobol") out.sample = Sample::Kind::sobol;
   if (said.sample == "latin") out.sample = Sample::Kind::latin;
   if (said.sample == "random") out.sample = Sample::Kind::random;
@@ -111,6 +112,8 @@ Sweep words_of(const Study& study) {
 
 Sweep sweep_of(const Study& study) {
   Sweep out = words_of(study);
+  if (!study.units.empty())
+    show_in(config::parse_shown_units(study.units, {"units", 0, 0}, ""), out.report);
   if (!out.report.empty()) return out;
   const experiment::Experiment e = run::buildable(out.experiment, out.sets);
   out.report = reported_figures(e.reported, e.air.atmosphere);

@@ -1,6 +1,7 @@
 // tune/study.fields.h - the keys of studies/*.toml.
 #pragma once
 
+#include "sinew/config/shown_units.h"
 #include "sinew/tune/study.h"
 #include "sinew/units/field.h"
 
@@ -39,6 +40,11 @@ void fields(Visitor& v, Study& s) {
             s.halvings);
   v.texts({.name = "report", .optional = true, .doc = "keys of summary.json: key [unit]"},
           s.report);
+  v.text({.name = "units",
+          .optional = true,
+          .doc = "of figures that name none: si, thesis, metric, or metric,length=cm"},
+         s.units);
+  config::complain_of_units(v, s.units);
   v.flag({.name = "allow_unreachable", .optional = true, .doc = "as sinew run's"},
          s.allow_unreachable);
 }

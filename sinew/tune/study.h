@@ -30,6 +30,7 @@ struct Study {
   int halvings = 6;
   int seeds = 0;  // 0: the experiment's own seed
   bool allow_unreachable = false;
+  std::string units;  // of figures that name none (units/shown.h); empty: SI, or as reported
 };
 
 // What is said besides a plan: lists are added to the plan's, the others stand in place of its own

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include "sinew/units/shown_table.h"
 
@@ -111,6 +114,23 @@ TEST(ShownUnits, ChoicesWithoutASetStandOnTopOfWhatWouldHold) {
   const ShownUnits units = read_shown_units("force=kN", below).units;
   EXPECT_EQ(units.text(), "metric,length=cm,force=kN");
   EXPECT_EQ(read_shown_units("thesis", below).units.text(), "thesis") << "a set begins anew";
+}
+
+// docs/units.md has the table, row for row.
+TEST(ShownUnits, AreThoseOfTheDocs) {
+  std::ifstream file(SINEW_SOURCE_DIR "/docs/units.md");
+  const std::string docs(std::istreambuf_iterator<char>(file), {});
+  const auto cell = [](const ShownChoice& c) {
+    std::string out;
+    for (const std::string_view unit : {c.small, c.usual, c.large})
+      if (!unit.empty()) out += (out.empty() ? "`" : ", `") + std::string(unit) + "`";
+    return out;
+  };
+  for (const ShownQuantity& q : shown_quantities) {
+    const std::string row = "| " + std::string(q.name) + " | " + cell(q.si) + " | " +
+                            cell(q.thesis) + " | " + cell(q.metric) + " |\n";
+    EXPECT_NE(docs.find(row), docs.npos) << "docs/units.md lacks " << row;
+  }
 }
 
 TEST(ShownUnits, WrongWordsNameTheChoices) {

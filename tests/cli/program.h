@@ -17,7 +17,7 @@ struct Result {
 };
 
 // A folder that is removed afterwards, with the shipped robots/ and experiments/ in it; the program
-// runs there.
+// runs there, with the settings of config/sinew/settings.toml in it alone.
 class Workspace {
  public:
   Workspace();

@@ -4,14 +4,6 @@ import { number } from './units.js';
 
 const send_every = 100;  // while a slider is dragged [ms]
 
-// Gains as the thesis has them, in percent of duty.
-const per_stiffness = 0.1129848290276167;  // [N m/rad] in a lbf in/rad
-const gain_units = {
-  '1/count': { si: ['%/count', 100], thesis: ['%/count', 100] },
-  's/count': { si: ['% s/count', 100], thesis: ['% s/count', 100] },
-  '1/(N m/rad)': { si: ['% rad/(N m)', 100], thesis: ['% rad/(lbf in)', 100 * per_stiffness] },
-};
-
 const paces = [['0.1', '0.1×'], ['0.25', '0.25×'], ['0.5', '0.5×'], ['1', '1×'], ['2', '2×'], ['4', '4×'], ['0', 'full speed']];
 
 // One gain, desired angle or stiffness: a slider, a field, and the way back to the plan's own.
@@ -58,10 +50,7 @@ class Control {
   }
 
   in_unit() {
-    const { units } = this.panel;
-    const own = gain_units[this.spec.unit];
-    if (own) return own[units.system];
-    const u = units.of(this.spec.unit);
+    const u = this.panel.units.of(this.spec.unit);
     return [u.label, u.scale];
   }
 

@@ -1,13 +1,12 @@
 // How a page looks: units, light or dark, paper. The same buttons on every page.
-import { by_id, set_icon } from './page.js';
+import { by_id, element, set_icon } from './page.js';
 
 export class Look {
   // `on_units` and `on_colors` draw again; `on_print(begins)` prepares for paper, and for the screen
   // again.
   constructor(units, { on_units, on_colors, on_print }) {
     Object.assign(this, { units, on_units, on_colors, on_print });
-    by_id('units-si').addEventListener('click', () => this.set_units('si'));
-    by_id('units-thesis').addEventListener('click', () => this.set_units('thesis'));
+    this.offer_units();
     by_id('theme').addEventListener('click', () => this.set_theme(this.is_dark() ? 'light' : 'dark'));
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.recolor());
     addEventListener('beforeprint', () => this.print(true));
@@ -15,10 +14,24 @@ export class Look {
     this.set_icon();
   }
 
-  set_units(system) {
-    this.units.system = system;
-    by_id('units-si').setAttribute('aria-pressed', String(system === 'si'));
-    by_id('units-thesis').setAttribute('aria-pressed', String(system === 'thesis'));
+  // A button for each set.
+  offer_units() {
+    this.buttons = this.units.table.sets.map(({ name, title, about }) => {
+      const button = element('button', { type: 'button', id: `units-${name}`, title: about }, title);
+      button.addEventListener('click', () => this.set_units(name));
+      return button;
+    });
+    by_id('units').replaceChildren(...this.buttons);
+    this.show_units();
+  }
+
+  show_units() {
+    for (const b of this.buttons) b.setAttribute('aria-pressed', String(b.id === `units-${this.units.system}`));
+  }
+
+  set_units(name) {
+    this.units.keep(name);
+    this.show_units();
     this.on_units();
   }
 

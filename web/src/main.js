@@ -14,7 +14,7 @@ import { as_scene, StandScene } from './stand.js';
 import {
   count_verdicts, counts_in_words, faults_at, mark_faults, Numbers, show_faults, show_parameters, show_results, show_warnings,
 } from './tables.js';
-import { Units } from './units.js';
+import { short_number, Units } from './units.js';
 
 const paper_scene = 'width: 640px; height: 330px;';  // of the drawing, whatever the screen's is
 
@@ -119,7 +119,7 @@ class Page {
     if (scene.has_pressure()) {
       const ramp = element('span', { class: 'ramp' });
       ramp.style.background = pressure_gradient;
-      const [low, high] = scene.pressures.map((p) => Math.round(this.units.convert(p, 'Pa')).toFixed(0));
+      const [low, high] = scene.pressures.map((p) => short_number(this.units.convert(p, 'Pa')));
       out.push(element('span', { class: 'key' }, `pressure ${low}`, ramp, `${high} ${this.units.of('Pa').label}`));
     }
     if (run.scene.muscles.some((m) => m.inlet !== null)) out.push(item('inlet', 'inlet open'));
@@ -194,7 +194,7 @@ class Page {
       if (m.spec.pressure !== null) {
         const p = held(this.columns[m.spec.pressure], t);
         m.bar.style.width = `${(100 * Math.max(0, p - low)) / (high - low)}%`;
-        m.pressure.textContent = `${Math.round(this.units.convert(p, 'Pa'))} ${this.units.of('Pa').label.split(' ')[0]}`;
+        m.pressure.textContent = `${short_number(this.units.convert(p, 'Pa'))} ${this.units.of('Pa').label.split(' ')[0]}`;
       }
       ['inlet', 'exhaust'].forEach((which, i) =>
         m.lights[i]?.classList.toggle('open', open_within(this.columns[m.spec[which]], t - 0.01, t)));

@@ -106,10 +106,17 @@ export class StandScene {
              x: (m) => left + scale * m, y: (m) => top + scale * m, px: (m) => scale * m, reach };
   }
 
+  // An element is small: in the place of metres it has millimetres.
+  length_unit() {
+    const unit = this.units.of('m');
+    return unit.label === 'm' ? { label: 'mm', scale: 1e3 } : unit;
+  }
+
+  // To a tenth of a millimetre, or about that.
   length_text(meters, sign = false) {
-    const thesis = this.units.system === 'thesis';
-    const words = (thesis ? meters / 0.0254 : 1e3 * meters).toFixed(thesis ? 3 : 1);
-    return `${sign && meters >= 0 ? '+' : ''}${words} ${thesis ? 'in' : 'mm'}`.replace('-', '−');
+    const { label, scale } = this.length_unit();
+    const words = (meters * scale).toFixed(Math.max(0, Math.ceil(4 - Math.log10(scale))));
+    return `${sign && meters >= 0 ? '+' : ''}${words} ${label}`.replace('-', '−');
   }
 
   force_text(newtons) {
@@ -118,11 +125,11 @@ export class StandScene {
   }
 
   draw_ruler(ctx, v, state) {
-    const thesis = this.units.system === 'thesis';
+    const { label, scale } = this.length_unit();
     const { spec, look } = this;
     const x = v.x(-0.74 * this.reach);
     parts.ruler(ctx, v, x, { to: Math.max(spec.most, spec.longest), shortest: spec.shortest, longest: spec.longest,
-                             unit: thesis ? 0.0254 : 1e-3, label: thesis ? 'in' : 'mm' }, look);
+                             unit: 1 / scale, label }, look);
     if (Number.isFinite(this.start) && spec.most > spec.least)
       parts.pointer(ctx, v, x, this.start, look.quiet, [1, 3], '', look, -1);
     // As much as there is room for beside the element.

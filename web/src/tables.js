@@ -117,10 +117,9 @@ export class Numbers {
   refresh() {
     for (const r of this.rows) {
       const unit = /share|passiveness|duty/.test(r.key) ? 'share' : unit_of_key(r.key);
-      const u = this.units.of(unit);
-      const value = this.units.convert(r.value, unit);
+      const { value, label } = this.units.words(r.value, unit);
       r.shown.textContent = unit === '1' && Number.isInteger(value) ? String(value) : number(value);
-      r.unit.textContent = u.label;
+      r.unit.textContent = label;
     }
   }
 }

@@ -1,40 +1,45 @@
 // Units in which the page shows what the log holds in SI.
 
-const si = {
-  share: { label: '%', scale: 100 },
-  Pa: { label: 'kPa abs', scale: 1e-3 },
-  'Pa diff': { label: 'kPa', scale: 1e-3 },
-  'Pa abs': { label: 'kPa abs', scale: 1e-3 },
-  'Pa gauge': { label: 'kPa gauge', scale: 1e-3 },
-  kg: { label: 'g', scale: 1e3 },
-};
+import { recall, remember } from './memory.js';
 
-const thesis = {
-  share: { label: '%', scale: 100 },
-  m: { label: 'in', scale: 1 / 0.0254 },
-  'm/s': { label: 'in/s', scale: 1 / 0.0254 },
-  N: { label: 'lbf', scale: 1 / 4.4482216152605 },
-  Pa: { label: 'psi gauge', scale: 1 / 6894.757293168361, gauge: true },
-  'Pa diff': { label: 'psi', scale: 1 / 6894.757293168361 },
-  'Pa abs': { label: 'psi abs', scale: 1 / 6894.757293168361 },
-  'Pa gauge': { label: 'psi gauge', scale: 1 / 6894.757293168361 },
-  rad: { label: 'deg', scale: 180 / Math.PI },
-  'rad/s': { label: 'deg/s', scale: 180 / Math.PI },
-  'N m': { label: 'lbf in', scale: 1 / 0.1129848290276167 },
-  'N m/rad': { label: 'lbf in/rad', scale: 1 / 0.1129848290276167 },
-  kg: { label: 'g', scale: 1e3 },
-};
+// Without a table everything stays in SI.
+const none = { start: 'si', sets: [{ name: 'si', title: 'SI', about: '', units: {} }] };
+
+// The table that the library wrote into the page (sinew/report/page/content.h).
+export function page_units() {
+  const text = globalThis.document?.getElementById('units-data')?.textContent;
+  return text ? JSON.parse(text) : none;
+}
 
 export class Units {
-  constructor(atmosphere) {
-    this.atmosphere = atmosphere;
-    this.system = 'si';
+  // Gauges count from `atmosphere` [Pa]. What a reader chose before holds for every page that begins
+  // in the same units; one that somebody made to begin in others does.
+  constructor(atmosphere, table = page_units()) {
+    Object.assign(this, { atmosphere, table });
+    this.choose(table.start);
+    this.choose(recall(`units of ${table.start}`));
   }
 
-  of(unit) {
-    const table = this.system === 'thesis' ? thesis : si;
-    const found = table[unit] ?? { label: unit === '1' ? '' : unit, scale: 1 };
-    return { ...found, offset: found.gauge ? -this.atmosphere : 0 };
+  // Shows everything in the units of that set; one that is not there changes nothing.
+  choose(name) {
+    this.set = this.table.sets.find((s) => s.name === name) ?? this.set ?? this.table.sets[0];
+  }
+
+  // The same, and from now on.
+  keep(name) {
+    this.choose(name);
+    remember(`units of ${this.table.start}`, name);
+  }
+
+  get system() {
+    return this.set.name;
+  }
+
+  // `value`: a single number that stands alone, which may have a larger unit than an axis.
+  of(unit, value) {
+    let found = this.set.units[unit] ?? { label: unit === '1' ? '' : unit, scale: 1 };
+    if (found.large && Math.abs(value) * found.scale >= 1000) found = found.large;
+    return { ...found, offset: found.gauge ? -this.atmosphere : found.offset ?? 0 };
   }
 
   convert(value, unit) {
@@ -42,9 +47,15 @@ export class Units {
     return (value + u.offset) * u.scale;
   }
 
+  // A number and its unit, apart: what a row of a table shows.
+  words(value, unit) {
+    const u = this.of(unit, value);
+    return { value: (value + u.offset) * u.scale, label: u.label };
+  }
+
   text(value, unit) {
-    const label = this.of(unit).label;
-    return `${number(this.convert(value, unit))}${label ? ' ' + label : ''}`;
+    const shown = this.words(value, unit);
+    return `${number(shown.value)}${shown.label ? ' ' + shown.label : ''}`;
   }
 }
 
@@ -55,6 +66,11 @@ export function number(value) {
   if (size !== 0 && (size < 1e-3 || size >= 1e6)) return value.toExponential(2).replaceAll('-', '−');
   const decimals = size >= 1000 ? 0 : size >= 100 ? 1 : size >= 10 ? 2 : 3;
   return value.toFixed(decimals).replace(/^-(0\.?0*)$/, '$1').replace('-', '−');
+}
+
+// Where there is little room: whole numbers, and one decimal of what is as small as bars are.
+export function short_number(value) {
+  return value.toFixed(Math.abs(value) < 20 ? 1 : 0).replace(/^-(0\.?0*)$/, '$1').replace('-', '−');
 }
 
 // Of an axis: as many digits as a tick has.

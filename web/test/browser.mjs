@@ -4,6 +4,7 @@ import './live_page.mjs';
 import './run_page.mjs';
 import './plots_page.mjs';
 import './run_list_page.mjs';
+import './units_page.mjs';
 import './stand_page.mjs';
 import './compare_page.mjs';
 import './gallery_page.mjs';

@@ -6,7 +6,7 @@ import { append_stretches, GrowingColumns } from '../src/growing.js';
 import { bucket_size, level_for, pyramid } from '../src/pyramid.js';
 import { between, held, index_at, open_within, read_samples } from '../src/samples.js';
 import { Slices } from '../src/slices.js';
-import { number, unit_of_key, Units, words_of_key } from '../src/units.js';
+import { number, short_number, unit_of_key, Units, words_of_key } from '../src/units.js';
 
 // Repeatable numbers in 0 … 1.
 function random_from(seed) {
@@ -111,19 +111,47 @@ test('a plot gets all samples where there is room, else at most two per pixel', 
 
 // --- units ---
 
-test("the thesis's units are those of the standards", () => {
-  const units = new Units(101325);
-  units.system = 'thesis';
+// As the library writes them into a page (sinew/report/page/units_test.cpp holds their numbers).
+const unit_table = {
+  start: 'own',
+  sets: [
+    { name: 'si', units: { Pa: { label: 'kPa abs', scale: 1e-3 }, share: { label: '%', scale: 100 } } },
+    { name: 'thesis', units: { m: { label: 'in', scale: 1 / 0.0254 },
+                               Pa: { label: 'psi gauge', scale: 1 / 6894.757293168361, gauge: true } } },
+    { name: 'own', units: { m: { label: 'cm', scale: 100 }, K: { label: 'degC', scale: 1, offset: -273.15 },
+                            kg: { label: 'g', scale: 1e3, large: { label: 'kg', scale: 1 } } } },
+  ],
+};
+
+test('a page shows numbers in the units of its table', () => {
+  const units = new Units(95000, unit_table);
   const near = (value, expected) => assert.ok(Math.abs(value - expected) < 1e-9 * Math.max(1, Math.abs(expected)), `${value}`);
-  near(units.convert(0.0254, 'm'), 1);
-  near(units.convert(4.4482216152605, 'N'), 1);
-  near(units.convert(101325 + 6894.757293168361 * 62, 'Pa'), 62);
-  near(units.convert(4.4482216152605 * 0.0254, 'N m'), 1);
-  near(units.convert(Math.PI, 'rad'), 180);
-  near(units.convert(0.25, 'share'), 25);
-  units.system = 'si';
-  near(units.convert(0.0254, 'm'), 0.0254);
+  assert.equal(units.system, 'own', 'it begins in those that somebody asked for');
+  near(units.convert(0.0254, 'm'), 2.54);
+  near(units.convert(293.15, 'K'), 20);
+  assert.equal(units.text(0.75, 'kg'), '750.0 g');
+  assert.equal(units.text(2.5, 'kg'), '2.500 kg', 'a single number has a larger unit');
+  assert.equal(units.of('kg').label, 'g', 'an axis keeps the usual one');
+  units.choose('thesis');
+  near(units.convert(95000 + 62 * 6894.757293168361, 'Pa'), 62);
+  units.choose('si');
   near(units.convert(101325, 'Pa'), 101.325);
+  near(units.convert(0.25, 'share'), 25);
+  assert.equal(units.text(3, 'furlong'), '3.000 furlong', 'a unit that no table knows stays');
+  assert.equal(units.text(3, '1'), '3.000');
+  units.choose('parsec');
+  assert.equal(units.system, 'si', 'a set that is not there changes nothing');
+});
+
+test('without a table numbers stay in SI', () => {
+  const units = new Units(101325);
+  assert.equal(units.text(0.0254, 'm'), '0.025 m');
+  assert.deepEqual(units.table.sets.map((s) => s.name), ['si']);
+});
+
+test('where there is little room, bars keep a decimal and kilopascals none', () => {
+  for (const [value, text] of [[4.2137, '4.2'], [421.37, '421'], [0, '0.0'], [-0.01, '0.0'], [-0.6, '−0.6']])
+    assert.equal(short_number(value), text);
 });
 
 test('numbers keep about four digits', () => {

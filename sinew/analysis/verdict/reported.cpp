@@ -156,10 +156,9 @@ std::string_view after_last_number(std::string_view text) {
   return unit == text.npos ? std::string_view{} : text.substr(unit);
 }
 
-// "53 in to 60 in", "at most 6 in"; as the file has it where it has it.
+// "53 in to 60 in", "at most 6 in".
 std::string accept_text(const Reported& r, const Band& band, const std::string& unit,
                         double atmosphere) {
-  if (!r.accept.empty()) return fmt::format("{} to {}", r.accept[0], r.accept[1]);
   const auto number = [&](double si) {
     return config::convert(si, unit_of_key(r.key), unit, atmosphere);
   };
@@ -178,10 +177,13 @@ std::string accept_text(const Reported& r, const Band& band, const std::string& 
   return fmt::format("{} to {}", end(band.lowest), end(band.highest));
 }
 
-Verdict judge(const Summary& summary, const Reported& r, double atmosphere) {
+Verdict judge(const Summary& summary, const Reported& r, double atmosphere,
+              const units::ShownUnits* shown) {
   Verdict v{.key = r.key, .reported = r.value, .ours = {}, .accept = {}, .source = r.source};
   v.statement_class = r.statement_class;
-  const std::string unit = spoken_unit(r, atmosphere);
+  const double* ours = summary.find(r.key);
+  const std::string unit =
+      shown ? shown_unit(r.key, *shown, ours ? *ours : 0) : spoken_unit(r, atmosphere);
   std::optional<Band> band;
   if (config::is_judged(r)) {
     const BandOrMistake read = read_band(r, atmosphere);
@@ -191,12 +193,12 @@ Verdict judge(const Summary& summary, const Reported& r, double atmosphere) {
       config::fail({"reported", 0, 0}, r.key + key, m.found, m.expected, m.try_this);
     }
     band = read.band;
-    v.accept = accept_text(r, *band, unit, atmosphere);
+    v.accept = !shown && !r.accept.empty() ? fmt::format("{} to {}", r.accept[0], r.accept[1])
+                                           : accept_text(r, *band, unit, atmosphere);
     v.wording = band->wording;
     v.band_reason = r.band_reason;
   }
 
-  const double* ours = summary.find(r.key);
   if (!ours) return v;
   // A narrow band asks for digits that lie in it.
   const auto spoken_in = [&](double si) {
@@ -260,10 +262,21 @@ std::string_view to_text(Verdict::Is is) {
 }
 
 std::vector<Verdict> compare(const Summary& summary, const std::vector<Reported>& reported,
-                             double atmosphere) {
+                             double atmosphere, const units::ShownUnits* shown) {
   std::vector<Verdict> out;
-  for (const Reported& r : reported) out.push_back(judge(summary, r, atmosphere));
+  for (const Reported& r : reported) out.push_back(judge(summary, r, atmosphere, shown));
   return out;
+}
+
+std::string shown_unit(std::string_view key, const units::ShownUnits& shown, double value) {
+  const std::string unit = unit_of_key(key);
+  const bool share = key.find("share") != key.npos || key.find("passiveness") != key.npos ||
+                     key.find("duty") != key.npos;
+  if (unit == "1") return share ? "%" : unit;
+  // A summary's pressures are absolute ones, which each set has a unit for.
+  const std::string_view held = unit == "Pa abs" ? "Pa" : std::string_view(unit);
+  const units::ShownUnit usual = shown.of(held);
+  return usual.scale * std::abs(value) < 1000 ? usual.name : shown.of(held, std::abs(value)).name;
 }
 
 std::string show(double si, std::string_view key, std::string_view unit, double atmosphere,

@@ -23,6 +23,7 @@
 #include "sinew/config/quantity.h"
 #include "sinew/config/reported.h"
 #include "sinew/units/constants.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::analysis {
 
@@ -61,10 +62,15 @@ struct Verdict {
 
 std::string_view to_text(Verdict::Is is);  // "agrees", "differs as known", …
 
-// One verdict each, in the order of the file. Throws config::Error for an `accept` that cannot be
-// read.
+// One verdict each, in the order of the file. Our figure and the band are in the unit in which the
+// source speaks, or in `shown`, where there are some. Throws config::Error for an `accept` that
+// cannot be read.
 std::vector<Verdict> compare(const Summary&, const std::vector<Reported>&,
-                             double atmosphere = units::atmosphere);
+                             double atmosphere = units::atmosphere,
+                             const units::ShownUnits* shown = nullptr);
+
+// Returns the unit in which `shown` has a figure of that key, for show(): "mm", "bar gauge".
+std::string shown_unit(std::string_view key, const units::ShownUnits& shown, double value);
 
 // For people, in another unit of the key's kind: one decimal from 1 on, two digits below; more
 // where a judgement hangs on them: `resolution` in that unit is a difference that must show.

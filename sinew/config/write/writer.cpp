@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sinew/config/quantity.h"
+#include "sinew/config/short_quantity.h"
 #include "sinew/config/utf8.h"
 
 namespace sinew::config {
@@ -104,8 +105,12 @@ void print_table(const Node& table, const std::string& path, std::string& out) {
 
 // --- values and where they came from ---
 
-Node quantity_node(std::string_view key, double si, std::string_view unit) {
-  return unit == "1" ? make_number(key, si) : make_text(key, format_quantity(si, unit));
+// `plain`: in SI, whatever digits that takes; else without those that nobody wrote.
+Node quantity_node(std::string_view key, double si, std::string_view unit, bool plain) {
+  if (plain) return unit == "1" ? make_number(key, si) : make_text(key, format_quantity(si, unit));
+  std::string text = short_quantity(si, unit);
+  return unit == "1" && !text.ends_with('%') ? make_number(key, si)
+                                             : make_text(key, std::move(text));
 }
 
 Node make_array(std::string_view key) {
@@ -151,12 +156,12 @@ void Writer::format(std::string_view kind) {
 }
 
 void Writer::number(const Field& field, double& value) {
-  if (std::isfinite(value)) add(quantity_node(field.name, value, field.unit));
+  if (std::isfinite(value)) add(quantity_node(field.name, value, field.unit, !origins_));
 }
 
 void Writer::numbers(const Field& field, std::vector<double>& values) {
   Node list = make_array(field.name);
-  for (double v : values) list.children.push_back(quantity_node("", v, field.unit));
+  for (double v : values) list.children.push_back(quantity_node("", v, field.unit, !origins_));
   add(std::move(list));
 }
 
@@ -166,7 +171,7 @@ void Writer::polynomial(const Field& field, std::vector<double>& coefficients,
   Node list = make_array(field.name);
   for (std::size_t k = 0; k < coefficients.size(); ++k) {
     const std::string unit = coefficient_unit(field.unit, per, static_cast<int>(k));
-    list.children.push_back(quantity_node("", coefficients[k], unit));
+    list.children.push_back(quantity_node("", coefficients[k], unit, !origins_));
   }
   add(std::move(list));
 }
@@ -186,7 +191,7 @@ void Writer::texts(const Field& field, std::vector<std::string>& values) {
 void Writer::named_numbers(const Field& field, std::map<std::string, double>& values) {
   enter(field.name, Node::Kind::table);
   for (const auto& [name, value] : values) {
-    if (std::isfinite(value)) add(quantity_node(name, value, field.unit));
+    if (std::isfinite(value)) add(quantity_node(name, value, field.unit, !origins_));
   }
   leave();
 }

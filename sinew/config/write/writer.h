@@ -6,7 +6,8 @@
 //   fields(writer, robot);
 //   file << writer.text();
 //
-// Quantities come out in SI with as many digits as bring back the same bits. A number that is not
+// Quantities come out in SI with as many digits as bring back the same bits; with origins, which
+// people read, in the unit in which they are short (config/short_quantity.h). A number that is not
 // finite means "not set" and is left out.
 #pragma once
 

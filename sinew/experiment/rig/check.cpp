@@ -7,6 +7,7 @@
 
 #include "sinew/actuator/body.h"
 #include "sinew/config/quantity.h"
+#include "sinew/config/short_quantity.h"
 #include "sinew/experiment/faults.h"
 #include "sinew/experiment/rig/fault_parts.h"
 #include "sinew/plant/slide/stand.h"
@@ -51,8 +52,6 @@ class Findings {
   const Experiment& e_;
   std::vector<config::Problem> problems_;
 };
-
-std::string inches(double metres) { return config::format_quantity(metres, "m", "in"); }
 
 bool whole_ticks(double seconds) {
   const double ticks = seconds / signals::tick_seconds;
@@ -127,17 +126,20 @@ void check_volumes(const Experiment& e, Findings& out) {
     for (const actuator::Actuator& a : e.actuators) {
       if (a.name != e.element.actuator) continue;
       const double longest = 1.5 * a.braid.thread_length;
+      const auto text = [&](double metres) {
+        return config::quantity_like(e.origins, key, metres, "m", "in");
+      };
       if (length > longest) {
-        out.add(key, inches(length), "at most " + inches(longest) + ", 1.5 threads of the muscle",
+        out.add(key, text(length), "at most " + text(longest) + ", 1.5 threads of the muscle",
                 "a length that it can have");
         continue;
       }
       if (length > a.caps.length && actuator::volume(a, length) + e.element.external_volume > 0)
         continue;
-      out.add(key, "a chamber without volume: the muscle is " + inches(length) + " long",
-              "above " + inches(a.caps.length) + " and below the thread's " +
-                  inches(a.braid.thread_length),
-              "an element.external_volume above 0 where it is longer");
+      out.add(
+          key, "a chamber without volume: the muscle is " + text(length) + " long",
+          "above " + text(a.caps.length) + " and below the thread's " + text(a.braid.thread_length),
+          "an element.external_volume above 0 where it is longer");
     }
   };
   if (e.element.cylinder.bore > 0) return;

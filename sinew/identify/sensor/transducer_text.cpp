@@ -56,8 +56,17 @@ std::vector<std::pair<std::string_view, std::optional<double>>> places(const Tra
 
 }  // namespace
 
-std::string text_of(const Transducer& s) {
+std::string text_of(const Transducer& s, const units::ShownUnits* shown) {
   using Align = report::TextTable::Align;
+  if (shown) {
+    report::TextTable table({"", ""}, {Align::left, Align::right});
+    for (const Line& line : answer(s)) {
+      const bool is_own = std::string_view(line.unit) == "1" || std::string_view(line.unit) == "V";
+      table.add({line.words, is_own ? config::format_quantity(line.value, line.unit, line.display)
+                                    : shown->text(line.value, line.unit, 6)});
+    }
+    return table.text().substr(1);
+  }
   report::TextTable table({"", "SI", "in, lbf, psi"}, {Align::left, Align::right, Align::right});
   for (const Line& line : answer(s))
     table.add({line.words, config::format_quantity(line.value, line.unit, line.unit),
@@ -67,13 +76,15 @@ std::string text_of(const Transducer& s) {
   return table.text();
 }
 
-std::string text_of_places(const Transducer& s, double wanted) {
+std::string text_of_places(const Transducer& s, double wanted, const units::ShownUnits* shown) {
+  const auto text = [&](double m) {
+    return shown ? shown->text(m, "m", 5)
+                 : config::format_quantity(m, "m", "m", 5) + "  " +
+                       config::format_quantity(m, "m", "in", 4);
+  };
   std::string out;
   for (const auto& [name, distance] : places(s, wanted))
-    out += fmt::format("  {:8}  {}\n", name,
-                       distance ? config::format_quantity(*distance, "m", "m", 5) + "  " +
-                                      config::format_quantity(*distance, "m", "in", 4)
-                                : "beyond the mount");
+    out += fmt::format("  {:8}  {}\n", name, distance ? text(*distance) : "beyond the mount");
   return out;
 }
 

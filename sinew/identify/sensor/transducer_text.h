@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "sinew/identify/sensor/transducer.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::identify {
 
@@ -19,12 +20,14 @@ inline constexpr Arrangement arrangements[] = {{"quarter", Bridge::Arms::quarter
                                                {"poisson", Bridge::Arms::poisson},
                                                {"bending", Bridge::Arms::bending}};
 
-// Returns lines of text: strain, stress, safety, output, in SI and in the thesis's units.
-std::string text_of(const Transducer& transducer);
+// Returns lines of text: strain, stress, safety, output, in SI and in the thesis's units; or in
+// `shown` alone, where somebody asked for some.
+std::string text_of(const Transducer& transducer, const units::ShownUnits* shown = nullptr);
 
 // Returns a line for each arrangement: how far from the load the gages have to be for the wanted
 // sensitivity [V/N].
-std::string text_of_places(const Transducer& transducer, double wanted);
+std::string text_of_places(const Transducer& transducer, double wanted,
+                           const units::ShownUnits* shown = nullptr);
 
 // Returns both as JSON, in SI.
 std::string json_of(const Transducer& transducer, std::optional<double> wanted);

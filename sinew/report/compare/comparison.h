@@ -27,6 +27,7 @@
 #include "sinew/report/page/scene.h"
 #include "sinew/report/page/stand.h"
 #include "sinew/signals/table.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::report {
 
@@ -117,6 +118,7 @@ std::string residuals_csv(const Comparison& comparison);
 Content content(const Comparison& comparison);
 
 // Throws std::runtime_error, with what to do, where the program was built without its page.
-std::string page(const Comparison& comparison);
+// It begins in `units`.
+std::string page(const Comparison& comparison, const units::ShownUnits& units = {});
 
 }  // namespace sinew::report

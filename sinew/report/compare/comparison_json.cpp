@@ -268,9 +268,11 @@ Content content(const Comparison& comparison) {
   return {title, text_of(out, -1), samples.blob().base64()};
 }
 
-std::string page(const Comparison& comparison) {
+std::string page(const Comparison& comparison, const units::ShownUnits& units) {
   require_page("compare.html");
-  return fill(comparison_template(), content(comparison));
+  Content filled = content(comparison);
+  filled.units = units_json(units);
+  return fill(comparison_template(), filled);
 }
 
 }  // namespace sinew::report

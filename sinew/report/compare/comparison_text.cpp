@@ -9,7 +9,6 @@
 #include <set>
 #include <string_view>
 
-#include "sinew/config/quantity.h"
 #include "sinew/report/text/text_table.h"
 
 namespace sinew::report {
@@ -17,7 +16,8 @@ namespace sinew::report {
 namespace {
 
 using Align = TextTable::Align;
-using Units = ComparisonText::Units;
+using units::ShownUnit;
+using units::ShownUnits;
 
 // Prints into a text.
 template <class... Args>
@@ -29,24 +29,6 @@ std::string letter_of(std::size_t run) { return {static_cast<char>('A' + run)}; 
 
 constexpr std::size_t most_figures = 12, most_parameters = 15, most_channels = 12;
 constexpr std::size_t most_letters = 32;  // of a parameter's value
-
-// In which unit people see a quantity of that SI unit.
-std::string_view shown_unit(std::string_view unit, Units units) {
-  struct Shown {
-    std::string_view unit, thesis, si;
-  };
-  static constexpr Shown all[] = {
-      {"m", "in", "m"},           {"m/s", "in/s", "m/s"},
-      {"rad", "deg", "rad"},      {"rad/s", "deg/s", "rad/s"},
-      {"N", "lbf", "N"},          {"N m", "lbf in", "N m"},
-      {"kg", "g", "g"},           {"N m/rad", "lbf in/rad", "N m/rad"},
-      {"N/m", "lbf/in", "N/m"},   {"Pa abs", "psi gauge", "kPa abs"},
-      {"Pa", "psi gauge", "kPa"}, {"Pa diff", "psi diff", "kPa diff"},
-  };
-  for (const Shown& s : all)
-    if (s.unit == unit) return units == Units::thesis ? s.thesis : s.si;
-  return unit;
-}
 
 bool is_share(std::string_view key) {
   return key.find("share") != key.npos || key.find("passiveness") != key.npos ||
@@ -70,35 +52,42 @@ std::string percent(const std::optional<double>& relative) {
   return std::abs(p) >= 9.95 ? fmt::format("{:+.0f} %", p) : fmt::format("{:+.2g} %", p);
 }
 
-// A figure's value and difference in the unit that is shown.
+// A number with its unit, which may be none.
+std::string with_unit(double number, int digits, const ShownUnit& unit) {
+  return fmt::format("{:.{}g}{}{}", number, digits, unit.name.empty() ? "" : " ", unit.name);
+}
+
+// A figure's value and difference in the units that are shown.
 class Figure {
  public:
-  Figure(std::string_view key, Units units, double atmosphere)
-      : unit_(analysis::unit_of_key(key)),
-        shown_(is_share(key) && unit_ == "1" ? "%" : shown_unit(unit_, units)),
-        difference_(config::difference_unit(unit_)),
-        shown_difference_(difference_ == unit_ ? shown_ : shown_unit(difference_, units)),
-        atmosphere_(atmosphere) {}
+  Figure(std::string_view key, const ShownUnits& units, double atmosphere)
+      : unit_(unit_of(key)), units_(units), atmosphere_(atmosphere) {}
 
   std::string value(const std::optional<double>& si) const {
-    return si ? config::format_quantity(*si, unit_, shown_, 4, atmosphere_) : "-";
+    return si ? units_.text(*si, unit_, 4, atmosphere_) : "-";
   }
   std::string difference(double first, double other) const {
     if (other == first) return "=";
     const double d = other - first;
-    if (shown_ == "%") return signed_text(fmt::format("{:.3g} points", 100 * d), d);
-    const int digits = digits_of(config::convert(d, difference_, shown_difference_));
-    return signed_text(config::format_quantity(d, difference_, shown_difference_, digits), d);
+    if (unit_ == "share") return signed_text(fmt::format("{:.3g} points", 100 * d), d);
+    const ShownUnit shown = units_.of_difference(unit_);
+    return signed_text(with_unit(shown.of(d), digits_of(shown.of(d)), shown), d);
   }
   // Beside a gauge pressure, whose zero is the room's, a share of the absolute one would mislead.
   std::string relative(double first, double other) const {
-    if (shown_.ends_with("gauge")) return other == first ? "=" : "";
+    if (units_.of(unit_).gauge) return other == first ? "=" : "";
     return percent(analysis::relative_difference(first, other));
   }
 
  private:
+  // A summary's pressures are absolute ones, for which every set has a unit.
+  static std::string unit_of(std::string_view key) {
+    const std::string unit = analysis::unit_of_key(key);
+    return unit == "1" && is_share(key) ? "share" : unit == "Pa abs" ? "Pa" : unit;
+  }
+
   std::string unit_;
-  std::string_view shown_, difference_, shown_difference_;
+  const ShownUnits& units_;
   double atmosphere_;
 };
 
@@ -295,16 +284,13 @@ std::string note_of(const analysis::Difference& d) {
 }
 
 // A log may hold units that only its maker knows: they are shown as they are.
-std::string difference_text(double si, const std::string& of, Units units) {
-  const std::string unit = of == "Pa" ? "Pa diff" : of;
-  const std::string_view shown = shown_unit(unit, units);
-  const double value = shown == unit ? si : config::convert(si, unit, shown);
-  return fmt::format("{:.{}g}{}{}", value, digits_of(value), of == "1" ? "" : " ",
-                     of == "1" ? "" : shown);
+std::string difference_text(double si, const std::string& unit, const ShownUnits& units) {
+  const ShownUnit shown = units.of_difference(unit);
+  return with_unit(shown.of(si), digits_of(shown.of(si)), shown);
 }
 
 std::vector<std::string> channel_cells(const ChannelRow& row, const analysis::Difference& d,
-                                       Units units) {
+                                       const ShownUnits& units) {
   if (d.same) return {name_of(row), "same samples"};
   if (d.equal()) return {name_of(row), "equal", "", "", "", "", "", note_of(d)};
   if (d.samples == 0) return {name_of(row), "never meet"};

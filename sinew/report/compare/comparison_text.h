@@ -5,18 +5,16 @@
 #include <string>
 
 #include "sinew/report/compare/comparison.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::report {
 
 struct ComparisonText {
-  // In whose units the tables are.
-  enum class Units { thesis, si };
-
-  Units units = Units::thesis;
-  bool all = false;          // what is equal too
-  std::size_t width = 0;     // letters of a line; 0: any
-  std::string see_all = {};  // where a table is cut: how to see all of it
-  bool color = false;        // verdicts that changed are red, by the escapes of a terminal
+  units::ShownUnits units = units::UnitSet::thesis;  // of the tables
+  bool all = false;                                  // what is equal too
+  std::size_t width = 0;                             // letters of a line; 0: any
+  std::string see_all = {};                          // where a table is cut: how to see all of it
+  bool color = false;  // verdicts that changed are red, by the escapes of a terminal
 };
 
 // Returns runs, figures, parameters and channels that differ.

@@ -69,7 +69,11 @@ Content finish(Object json, const Run& run, const analysis::Summary& summary,
   json.put("summary", analysis::to_json(summary));
   json.put("parameters", to_json(parameters(run.resolved)));
   json.put("samples", to_json(blob.layout()));
-  return {summary.title.empty() ? run.name : summary.title, json.text(), blob.base64()};
+  const config::UnitsToShow shown = config::units_to_show({.now = run.units, .run = &run.resolved});
+  return {.title = summary.title.empty() ? run.name : summary.title,
+          .json = json.text(),
+          .samples = blob.base64(),
+          .units = units_json(shown.units)};
 }
 
 // Returns the warning at the top of the page of a run that was ended.

@@ -7,6 +7,7 @@
 #include "sinew/analysis/record/machine.h"
 #include "sinew/analysis/record/record.h"
 #include "sinew/analysis/warnings.h"
+#include "sinew/config/shown_units.h"
 #include "sinew/report/page/blob.h"
 #include "sinew/report/page/charts.h"
 #include "sinew/report/page/panels.h"
@@ -60,5 +61,21 @@ std::string to_json(const std::string& text);
 std::string phases_of(const analysis::Record& record, const analysis::Machine& machine);
 
 inline constexpr std::size_t most_stretches = 4000;
+
+// Returns the table of units that a page carries, so that its switch shows numbers in any set, and
+// in the reader's own:
+//
+//   {"start": "metric", "sets": [{"name": "si", "title": "SI", "about": "…", "units":
+//      {"m": {"label": "m", "scale": 1}, "Pa": {"label": "psi gauge", "scale": …, "gauge": true},
+//       "kg": {"label": "g", "scale": 1000, "large": {"label": "kg", "scale": 1}}, …}}, …]}
+//
+// shown = (value + offset) * scale, and less the room's pressure where it says gauge. `large` is
+// the unit in which a single number stands from 1000 of the usual one on. The three sets are always
+// there; one with choices is a fourth, "own".
+std::string units_json(const units::ShownUnits& start);
+
+// The same for a page of which nobody asked for anything but what the environment and the person's
+// settings say.
+std::string units_json();
 
 }  // namespace sinew::report

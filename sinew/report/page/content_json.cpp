@@ -302,4 +302,46 @@ std::string phases_of(const analysis::Record& record, const analysis::Machine& m
   return text_of({{"names", machine.phases}, {"stretches", std::move(stretches)}});
 }
 
+// --- units ---
+
+namespace {
+
+Json json_of(const units::ShownUnit& unit) {
+  Json out = {{"label", unit.label()}, {"scale", unit.scale}};
+  if (unit.gauge)
+    out["gauge"] = true;
+  else if (unit.offset != 0)
+    out["offset"] = unit.offset;
+  return out;
+}
+
+Json json_of(std::string_view name, std::string_view title, const units::ShownUnits& units) {
+  Json out = {{"name", name}, {"title", title}, {"about", units.text()}, {"units", Json::object()}};
+  std::string about;
+  for (const units::ShownEntry& entry : units::shown_entries(units)) {
+    Json one = json_of(entry.shown[entry.usual]);
+    if (entry.usual + 1 < entry.shown.size()) one["large"] = json_of(entry.shown[entry.usual + 1]);
+    for (const std::string_view told : {"length", "force", "pressure", "angle", "time"})
+      if (entry.quantity == told && entry.unit.find(' ') == entry.unit.npos)
+        about += (about.empty() ? "" : ", ") + entry.shown[entry.usual].name;
+    out["units"][std::string(entry.unit)] = std::move(one);
+  }
+  out["about"] = about;
+  return out;
+}
+
+}  // namespace
+
+std::string units_json(const units::ShownUnits& start) {
+  Json sets = Json::array();
+  sets.push_back(json_of("si", "SI", units::UnitSet::si));
+  sets.push_back(json_of("thesis", "in · lbf · psi", units::UnitSet::thesis));
+  sets.push_back(json_of("metric", "mm · N · bar", units::UnitSet::metric));
+  if (start.has_choices()) sets.push_back(json_of("own", "own", start));
+  const std::string_view name = start.has_choices() ? "own" : units::to_text(start.set());
+  return Json{{"start", name}, {"sets", std::move(sets)}}.dump();
+}
+
+std::string units_json() { return units_json(config::units_to_show({}).units); }
+
 }  // namespace sinew::report

@@ -107,8 +107,12 @@ Growing::Growing(const std::vector<signals::Topic>& topics, Of of)
 
   Blob blob;
   Columns columns(parts.channels, blob);
-  Json head = Json::parse(
-      report::content({.table = prototype.table, .resolved = of_.resolved, .name = of_.name}).json);
+  const report::Content whole = report::content({.table = prototype.table,
+                                                 .resolved = of_.resolved,
+                                                 .name = of_.name,
+                                                 .units = of_.units});
+  units_ = whole.units;
+  Json head = Json::parse(whole.json);
   head["duration"] = of_.duration;
   if (!machine_.faults.empty())
     head["faults"] = Json::parse(to_json(machine_.faults, of_.duration));
@@ -127,9 +131,10 @@ Growing::Growing(const std::vector<signals::Topic>& topics, Of of)
 }
 
 Content Growing::content(const std::string& live) const {
-  return {machine_.title.empty() ? of_.name : machine_.title,
-          head_.substr(0, head_.size() - 1) + ",\"live\":" + live + "}",
-          to_base64(log::deflated(""))};
+  return {.title = machine_.title.empty() ? of_.name : machine_.title,
+          .json = head_.substr(0, head_.size() - 1) + ",\"live\":" + live + "}",
+          .samples = to_base64(log::deflated("")),
+          .units = units_};
 }
 
 std::string Growing::piece(const Table& table) const {

@@ -27,6 +27,7 @@ class Growing {
     std::string name;              // of the experiment
     double duration = 0;           // at the latest [s]
     bool foot_path = false;        // the plan has one
+    std::string units{};           // asked for now, as config/shown_units.h reads it
   };
 
   // `topics`: all that will be recorded; /valve/… are edges, the others rows of one clock. Throws
@@ -48,6 +49,7 @@ class Growing {
   Of of_;
   analysis::Machine machine_;
   std::string head_;                     // JSON of the page
+  std::string units_;                    // JSON: those that it begins in, and the others
   std::vector<Columns::Asked> columns_;  // of the page
 };
 

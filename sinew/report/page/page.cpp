@@ -48,7 +48,9 @@ std::string fill(std::string_view page_template, const Content& content) {
   std::vector<Place> places = {{"@title@", escaped(content.title)},
                                {"@run@", harmless(content.json)},
                                {"@samples@", content.samples}};
-  constexpr std::string_view connect = "@connect@";
+  constexpr std::string_view connect = "@connect@", units = "@units@";
+  if (page_template.find(units) != page_template.npos)
+    places.push_back({units, harmless(content.units.empty() ? units_json() : content.units)});
   if (!content.connect.empty() || page_template.find(connect) != page_template.npos)
     places.push_back({connect, content.connect});
   std::size_t size = page_template.size();

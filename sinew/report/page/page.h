@@ -20,6 +20,7 @@ struct Run {
   const config::Node& resolved;  // resolved.toml
   std::string name;              // of the experiment; empty where nobody knows
   std::string ended{};           // why it was not finished: then no verdicts; empty where it was
+  std::string units{};           // asked for now, as config/shown_units.h reads it
 };
 
 // Was the program built with its page? Without npm there is none.
@@ -38,13 +39,15 @@ struct Content {
   std::string json;
   std::string samples;
   std::string connect{};  // ends the page's security policy: "; connect-src ws://127.0.0.1:8080"
+  std::string units{};    // JSON (content.h); empty: by environment and the person's settings
 };
 Content content(const Run& run);
 
 // A template has @title@, @run@ and @samples@ once each: in its <title>, in a script element of
 // type application/json and in one of another type. Whatever the texts hold cannot leave its
 // element. Throws std::invalid_argument for a template that lacks one. A page that is to connect to
-// somewhere has @connect@, too, at the end of its policy.
+// somewhere has @connect@, too, at the end of its policy, and one that shows quantities @units@, in
+// a script element of type application/json.
 std::string fill(std::string_view page_template, const Content& content);
 
 }  // namespace sinew::report

@@ -122,7 +122,7 @@ Kept<analysis::Machine> KeptRun::keep_files(run::Outcome& outcome, analysis::Mac
   write_into(*folder_, summary_name, kept.json);
   if (log_ && request_.report)
     kept.page = write_report(*folder_, run::logged_part(std::move(outcome.table), logged_), values_,
-                             experiment_.name, notices_);
+                             experiment_.name, notices_, request_.units);
   commit_run(*folder_);
   kept.machine = std::move(machine);
   return kept;

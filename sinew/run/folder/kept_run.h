@@ -27,6 +27,7 @@ struct RunRequest {
   bool force = false;              // replace the run that is in the folder
   bool allow_unreachable = false;  // aim at the nearest point where the foot path is out of reach
   bool report = true;              // leave report.html
+  std::string units;               // in which it begins (config/shown_units.h); empty: as set
   std::string port;                // where it runs (place.h); empty: simulated
   bool clear_fault = false;        // a board's fault that has to be looked into has been
 };

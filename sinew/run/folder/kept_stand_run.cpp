@@ -31,7 +31,7 @@ void write_log(const rig::Experiment& e, const What& what, const rig::Outcome& o
 }
 
 Kept<analysis::StandFile> keep(const rig::Experiment& e, const What& what, OutputFolder& folder,
-                               bool report, const Notices& notices) {
+                               const RunRequest& request, const Notices& notices) {
   rig::Outcome outcome = rig::run(e);
   const bool early = outcome.failure || outcome.status != signals::Status::ok;
   const std::string ended = early ? rig::cause_of(e, outcome) : "";
@@ -55,9 +55,9 @@ Kept<analysis::StandFile> keep(const rig::Experiment& e, const What& what, Outpu
   write_into(folder, summary_name, kept.json);
   for (const std::string& text : kept.summary.warnings) notices.warning(text);
   for (const std::string& text : idle) notices.warning(text);
-  if (e.log.enabled && report)
+  if (e.log.enabled && request.report)
     kept.page = write_report(folder, run::logged_part(std::move(outcome.table), what.logged),
-                             what.values, e.name, notices);
+                             what.values, e.name, notices, request.units);
   commit_run(folder);
   return kept;
 }
@@ -73,8 +73,7 @@ Kept<analysis::StandFile> run_on_stand(const RunRequest& request, const Notices&
   const analysis::StandFile stand = analysis::read_stand(values);
   OutputFolder folder = run_folder(request.folder, request.force, e.name);
   try {
-    return keep(e, {resolved, values, stand, rig::logged_topics(e)}, folder, request.report,
-                notices);
+    return keep(e, {resolved, values, stand, rig::logged_topics(e)}, folder, request, notices);
   } catch (const std::exception& problem) {
     throw std::runtime_error(problem.what() + where_left(folder));
   }

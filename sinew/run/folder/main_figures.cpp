@@ -26,7 +26,8 @@ void add_joint(const robot::Robot& robot, std::size_t joint, Keys& keys) {
 
 }  // namespace
 
-std::string main_figures(const analysis::Summary& summary, const analysis::Machine& machine) {
+std::string main_figures(const analysis::Summary& summary, const analysis::Machine& machine,
+                         const units::ShownUnits* shown) {
   Keys keys = {{"sequence_duration_s", "s"},
                {"trolley.distance_m", "mm"},
                {"trolley.mean_speed_m_per_s", "mm/s"}};
@@ -38,8 +39,11 @@ std::string main_figures(const analysis::Summary& summary, const analysis::Machi
   report::TextTable table({"", "Sinew"});
   for (const auto& [key, unit] : keys)
     if (const double* value = summary.find(key))
-      table.add({std::string(analysis::without_unit(key)),
-                 analysis::show(*value, key, unit, machine.atmosphere)});
+      table.add(
+          {std::string(analysis::without_unit(key)),
+           analysis::show(*value, key,
+                          shown ? analysis::shown_unit(key, *shown, *value) : std::string(unit),
+                          machine.atmosphere)});
   return table.empty() ? "" : table.text();
 }
 

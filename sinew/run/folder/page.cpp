@@ -7,12 +7,16 @@
 
 namespace sinew::run {
 
-std::string page_of(const RecordedRun& run, const std::string& machine, const Notices& notices) {
+std::string page_of(const RecordedRun& run, const std::string& machine, const Notices& notices,
+                    const std::string& units) {
   const config::Node resolved = config::compose(machine_of(run, machine).string());
   const signals::Table table = log::read(run.log);
   const std::string ended = ended_in(run.log);
-  std::string page = report::page(
-      {.table = table, .resolved = resolved, .name = experiment_in(run.log), .ended = ended});
+  std::string page = report::page({.table = table,
+                                   .resolved = resolved,
+                                   .name = experiment_in(run.log),
+                                   .ended = ended,
+                                   .units = units});
   if (!ended.empty())
     notices.warning(run.log.string() + ": the run was ended: " + ended +
                     "; the page shows it until then");
@@ -23,13 +27,14 @@ std::string page_of(const RecordedRun& run, const std::string& machine, const No
 }
 
 bool write_report(const OutputFolder& folder, const signals::Table& logged,
-                  const config::Node& values, const std::string& name, const Notices& notices) {
+                  const config::Node& values, const std::string& name, const Notices& notices,
+                  const std::string& units) {
   if (!report::has_page()) {
     notices.note("no report.html: this sinew was built without npm; docs/dependencies.md");
     return false;
   }
   write_into(folder, report_name,
-             report::page({.table = logged, .resolved = values, .name = name}));
+             report::page({.table = logged, .resolved = values, .name = name, .units = units}));
   return true;
 }
 

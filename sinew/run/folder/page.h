@@ -14,15 +14,17 @@ namespace sinew::run {
 inline constexpr std::string_view report_name = "report.html";
 
 // Writes the page of a run of that name beside its log, of what the log holds: the same bytes as
-// page_of() makes of the folder. `values`: what resolved.toml says. Returns false, with a note and
-// no file, where the library was built without its page. Throws log::Error.
+// page_of() makes of the folder. `values`: what resolved.toml says; `units`: those in which it
+// begins (config/shown_units.h), as asked for now. Returns false, with a note and no file, where
+// the library was built without its page. Throws log::Error.
 bool write_report(const OutputFolder& folder, const signals::Table& logged,
-                  const config::Node& values, const std::string& name, const Notices& notices);
+                  const config::Node& values, const std::string& name, const Notices& notices,
+                  const std::string& units = "");
 
 // Returns the page of a recorded run, by `machine` where it is not empty, else by its
 // resolved.toml. Warns where the run was ended, or its log is cut off. Throws where there is no
 // such run, or no page in the library.
-std::string page_of(const RecordedRun& run, const std::string& machine,
-                    const Notices& notices = {});
+std::string page_of(const RecordedRun& run, const std::string& machine, const Notices& notices = {},
+                    const std::string& units = "");
 
 }  // namespace sinew::run

@@ -55,53 +55,81 @@ struct Cell {
   std::function<std::string(const Point&)> text;
 };
 
-std::vector<Cell> cells_for(bool moves, const std::string& length, const std::string& pressure) {
-  const auto in = [](double Point::*value, const char* unit, std::string display,
-                     const char* format) {
-    return [=](const Point& p) { return shown(config::convert(p.*value, unit, display), format); };
+// The units of a table's columns, where nobody asked for others.
+struct ColumnUnits {
+  std::string length, pressure, force = "N", stiffness = "N/m", volume = "mL", diameter = "mm",
+                                angle = "deg";
+};
+
+ColumnUnits in_units(const units::ShownUnits& shown) {
+  const std::string length = shown.of("m").name;
+  return {length,
+          shown.of("Pa gauge").name,
+          shown.of("N").name,
+          shown.of("N/m").name,
+          shown.of("m3").name,
+          length,
+          shown.of("rad").name};
+}
+
+std::vector<Cell> cells_for(bool moves, const ColumnUnits& u) {
+  std::vector<Cell> out;
+  const auto add = [&](const char* title, double Point::*value, const char* unit,
+                       const std::string& display, const char* format) {
+    out.push_back({fmt::format("{} [{}]", title, display), [=](const Point& p) {
+                     return shown(config::convert(p.*value, unit, display), format);
+                   }});
   };
-  const auto plain = [](double Point::*value, const char* format) {
-    return [=](const Point& p) { return shown(p.*value, format); };
-  };
-  std::vector<Cell> out = {
-      {"length [" + length + "]", in(&Point::length, "m", length, "{:.5g}")},
-      {"pressure [" + pressure + "]", in(&Point::gauge_pressure, "Pa gauge", pressure, "{:.5g}")},
-      {"tension [N]", plain(&Point::tension, "{:.3f}")},
-      {"Eff", plain(&Point::effectiveness, "{:.4f}")},
-      {"k at p [N/m]", plain(&Point::stiffness_at_constant_pressure, "{:.1f}")},
-      {"k sealed [N/m]", plain(&Point::stiffness_sealed, "{:.1f}")},
-      {"friction [N]", plain(&Point::coulomb_bound, "{:.3f}")}};
-  if (moves) out.push_back({"sliding [N]", plain(&Point::sliding_tension, "{:.3f}")});
-  out.push_back({"volume [mL]", in(&Point::volume, "m3", "mL", "{:.3f}")});
-  out.push_back({"diameter [mm]", in(&Point::diameter, "m", "mm", "{:.3f}")});
-  out.push_back({"angle [deg]", in(&Point::braid_angle, "rad", "deg", "{:.3f}")});
+  add("length", &Point::length, "m", u.length, "{:.5g}");
+  add("pressure", &Point::gauge_pressure, "Pa gauge", u.pressure, "{:.5g}");
+  add("tension", &Point::tension, "N", u.force, "{:.3f}");
+  out.push_back({"Eff", [](const Point& p) { return shown(p.effectiveness, "{:.4f}"); }});
+  const char* digits = u.stiffness == "N/m" ? "{:.1f}" : "{:.4g}";
+  add("k at p", &Point::stiffness_at_constant_pressure, "N/m", u.stiffness, digits);
+  add("k sealed", &Point::stiffness_sealed, "N/m", u.stiffness, digits);
+  add("friction", &Point::coulomb_bound, "N", u.force, "{:.3f}");
+  if (moves) add("sliding", &Point::sliding_tension, "N", u.force, "{:.3f}");
+  add("volume", &Point::volume, "m3", u.volume, u.volume == "m3" ? "{:.4g}" : "{:.3f}");
+  add("diameter", &Point::diameter, "m", u.diameter, u.diameter == "m" ? "{:.4g}" : "{:.3f}");
+  add("angle", &Point::braid_angle, "rad", u.angle, "{:.3f}");
   return out;
+}
+
+// What stands in a point's lines only where it was asked for.
+bool is_on_request(const Row& row) {
+  return row.value == &Point::velocity || row.value == &Point::sliding_tension ||
+         row.value == &Point::viscous_loss;
 }
 
 }  // namespace
 
-std::string text_of(const Point& p) {
-  report::TextTable table({"", "SI", "in, lbf, psi"},
-                          {report::TextTable::Align::left, report::TextTable::Align::right,
-                           report::TextTable::Align::right});
+std::string text_of(const Point& p, const units::ShownUnits* units) {
+  using enum report::TextTable::Align;
+  const std::vector<std::string> titles =
+      units ? std::vector<std::string>{"", ""} : std::vector<std::string>{"", "SI", "in, lbf, psi"};
+  report::TextTable table(titles, {left, right, right});
   for (const Row& row : rows) {
     const double value = p.*row.value;
-    const bool plain = std::string_view(row.unit) == "1";
     if (!std::isfinite(value)) {
-      if (row.value != &Point::velocity && row.value != &Point::sliding_tension &&
-          row.value != &Point::viscous_loss)
-        table.add({row.words, "-"});
-      continue;
+      if (!is_on_request(row)) table.add({row.words, "-"});
+    } else if (units) {
+      const std::string_view unit = row.unit;
+      table.add({row.words, unit == "1" ? config::format_quantity(value, "1", "1")
+                                        : units->text(value, unit, 6)});
+    } else {
+      const bool plain = std::string_view(row.unit) == "1";
+      table.add({row.words, config::format_quantity(value, row.unit, row.unit),
+                 plain ? "" : config::format_quantity(value, row.unit, row.display)});
     }
-    table.add({row.words, config::format_quantity(value, row.unit, row.unit),
-               plain ? "" : config::format_quantity(value, row.unit, row.display)});
   }
-  return table.text();
+  return units ? table.text().substr(1) : table.text();
 }
 
 std::string table_of(const std::vector<Point>& points, const std::string& length,
-                     const std::string& pressure) {
-  const std::vector<Cell> cells = cells_for(std::isfinite(points[0].velocity), length, pressure);
+                     const std::string& pressure, const units::ShownUnits* units) {
+  const std::vector<Cell> cells =
+      cells_for(std::isfinite(points[0].velocity),
+                units ? in_units(*units) : ColumnUnits{.length = length, .pressure = pressure});
   std::vector<std::string> titles;
   for (const Cell& cell : cells) titles.push_back(cell.title);
   titles.emplace_back("");

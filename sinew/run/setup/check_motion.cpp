@@ -7,6 +7,7 @@
 
 #include "sinew/air/network.h"
 #include "sinew/config/quantity.h"
+#include "sinew/config/short_quantity.h"
 #include "sinew/control/gait/legs.h"
 #include "sinew/plant/machine/machine.h"
 #include "sinew/plant/planar/muscle_routing.h"
@@ -88,14 +89,17 @@ void check_volumes(const Experiment& e, const plant::Setup& setup, List& out) {
       const std::string key = "muscle." + muscle.name;
       if (std::ranges::any_of(out, [&](const auto& c) { return c.key.starts_with(key + "."); }))
         continue;
+      const auto text = [&](double metres) {
+        return config::quantity_like(e.origins, key + ".mount_length", metres, "m", "in");
+      };
       out.push_back(
           {key + (none ? ".mount_length" : ".external_volume"),
            "a chamber without volume: with joint " + joint + " at " +
-               config::format_quantity(at, "rad", "deg") + " the muscle is " +
-               config::format_quantity(length[i], "m", "in") + " long",
+               config::quantity_like(e.origins, "joint." + joint + ".rest_angle", at, "rad",
+                                     "deg") +
+               " the muscle is " + text(length[i]) + " long",
            none ? "a length above 0 wherever the plan takes the joint"
-                : "less than the thread's " +
-                      config::format_quantity(a.braid.thread_length, "m", "in") +
+                : "less than the thread's " + text(a.braid.thread_length) +
                       ", or an external volume",
            none ? "a smaller joint." + joint + ".moment_arm, or another rest_angle"
                 : "an external_volume above 0, or a smaller joint." + joint + ".moment_arm"});

@@ -30,10 +30,13 @@ std::string text_of(const robot::Robot& robot, const Stance& s, const StanceUnit
     table.add({m.name, length(m.length), length(m.shortest), length(m.longest),
                m.within() ? "" : "beyond"});
   out += table.text("  ");
-  if (s.jacobian)
-    out += fmt::format(
-        "  Jacobian [m/rad]  x: {:9.5f} {:9.5f}\n                    y: {:9.5f} {:9.5f}\n",
-        s.jacobian->x1, s.jacobian->x2, s.jacobian->y1, s.jacobian->y2);
+  if (s.jacobian) {
+    const auto per = [&](double si) { return config::convert(si, "m/rad", units.jacobian); };
+    const std::string head = fmt::format("  Jacobian [{}]  ", units.jacobian);
+    out +=
+        fmt::format("{}x: {:9.5f} {:9.5f}\n{:{}}y: {:9.5f} {:9.5f}\n", head, per(s.jacobian->x1),
+                    per(s.jacobian->x2), "", head.size(), per(s.jacobian->y1), per(s.jacobian->y2));
+  }
   for (std::size_t j = 0; j < s.torques.size(); ++j)
     out += fmt::format("  torque {:<7} {}\n", robot.joints[j].name,
                        shown(s.torques[j], "N m", units.torque));

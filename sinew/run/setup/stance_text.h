@@ -9,7 +9,7 @@ namespace sinew::run {
 
 // The units in which people read it.
 struct StanceUnits {
-  std::string length = "m", angle = "deg", torque = "N m";
+  std::string length = "m", angle = "deg", torque = "N m", jacobian = "m/rad";
 };
 
 // Returns lines of text: foot, joints, muscles, Jacobian, torques.

@@ -10,9 +10,10 @@
 
 namespace sinew::run {
 
-std::string text_of(const gas::Valve& valve, const gas::ValveFlow& f) {
-  const auto show = [](double si, std::string_view unit, std::string_view display) {
-    return config::format_quantity(si, unit, display, 5);
+std::string text_of(const gas::Valve& valve, const gas::ValveFlow& f,
+                    const units::ShownUnits* shown) {
+  const auto show = [&](double si, std::string_view unit, std::string_view display) {
+    return shown ? shown->text(si, unit, 5) : config::format_quantity(si, unit, display, 5);
   };
   report::TextTable table({"", "", ""});
   table.add({"mass flow", show(f.mass_flow, "kg/s", "kg/s"),
@@ -24,20 +25,24 @@ std::string text_of(const gas::Valve& valve, const gas::ValveFlow& f) {
        : f.linear ? "free, linear"
                   : "free",
        fmt::format("ratio {:.{}f}, critical {:.4f}", f.ratio, f.linear ? 6 : 4, f.critical_ratio)});
-  table.add({"effective area", show(f.area, "m2", "mm2"), show(f.area, "m2", "in2")});
+  table.add({"effective area", show(f.area, "m2", "mm2"), shown ? "" : show(f.area, "m2", "in2")});
   table.add({"sonic conductance C", show(f.sonic_conductance, "m3/(s Pa)", "L/(s bar)"), ""});
   table.add({"delays", "opens after " + show(gas::delays(valve).opening, "s", "ms"),
              "shuts after " + show(gas::delays(valve).closing, "s", "ms")});
   return table.text().substr(1);
 }
 
-std::string text_of(const std::vector<gas::Transfer>& times, double volume,
-                    const gas::ValveFlow& f) {
+std::string text_of(const std::vector<gas::Transfer>& times, double volume, const gas::ValveFlow& f,
+                    const units::ShownUnits* shown, double room) {
   if (times.empty()) return "";
-  const auto bar = [](double p) { return config::format_quantity(p, "Pa abs", "psi abs", 4); };
-  std::string out =
-      fmt::format("\n{} between {} and {}, valve open:\n",
-                  config::format_quantity(volume, "m3", "in3"), bar(f.downstream), bar(f.upstream));
+  const auto bar = [&](double p) {
+    return shown ? shown->text(p, "Pa", 4, room)
+                 : config::format_quantity(p, "Pa abs", "psi abs", 4);
+  };
+  std::string out = fmt::format(
+      "\n{} between {} and {}, valve open:\n",
+      shown ? shown->text(volume, "m3", 6) : config::format_quantity(volume, "m3", "in3"),
+      bar(f.downstream), bar(f.upstream));
   using enum report::TextTable::Align;
   report::TextTable table({"of the way", "fill [ms]", "vent [ms]"}, {right, right, right});
   for (const gas::Transfer& t : times)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sinew/gas/valve_flow.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::run {
 
@@ -15,10 +16,13 @@ struct Delivered {
 
 // Return lines of text: its flow and delays; how long a volume [m3] takes between the pressures of
 // `flow`; what it makes of duties at a frequency, in the words that were asked with. Of none there
-// is no text.
-std::string text_of(const gas::Valve& valve, const gas::ValveFlow& flow);
+// is no text. `shown`: in whose units, where somebody asked for some; gauges count from the `room`
+// [Pa].
+std::string text_of(const gas::Valve& valve, const gas::ValveFlow& flow,
+                    const units::ShownUnits* shown = nullptr);
 std::string text_of(const std::vector<gas::Transfer>& times, double volume,
-                    const gas::ValveFlow& flow);
+                    const gas::ValveFlow& flow, const units::ShownUnits* shown = nullptr,
+                    double room = units::atmosphere);
 std::string text_of(const std::vector<Delivered>& duties, const std::string& frequency);
 
 // Returns a sentence where the flow is the straight line that is there for integration: near equal

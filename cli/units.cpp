@@ -1,0 +1,30 @@
+#include "cli/units.h"
+
+#include <fmt/format.h>
+
+namespace sinew::cli {
+
+Option add_units(Command sub, std::string& units, const std::string& of) {
+  return sub
+      .add_option("--units", units, "si, thesis, metric, or with choices, metric,length=cm: " + of)
+      .check([](const std::string& text) {
+        const units::ShownUnitsReading read = units::read_shown_units(text);
+        return read.ok() ? std::string()
+                         : fmt::format("found {}; expected {}; try {}", read.found, read.expected,
+                                       read.try_this);
+      });
+}
+
+config::UnitsToShow units_asked(const std::string& option, units::UnitSet otherwise,
+                                const config::Node* run) {
+  return config::units_to_show({.now = option, .now_is = "--units", .run = run}, otherwise);
+}
+
+config::UnitsToShow units_asked(const std::string& option, units::UnitSet otherwise,
+                                const std::filesystem::path& resolved) {
+  if (!std::filesystem::exists(resolved)) return units_asked(option, otherwise);
+  const config::Node run = config::parse_file(resolved.string());
+  return units_asked(option, otherwise, &run);
+}
+
+}  // namespace sinew::cli

@@ -1,0 +1,69 @@
+// config/short_quantity_test.cpp - what nobody wrote is not shown, and no bit is lost.
+#include "sinew/config/short_quantity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "sinew/config/quantity.h"
+
+namespace sinew::config {
+namespace {
+
+double read(std::string_view text, std::string_view unit) { return quantity(text, unit); }
+
+TEST(ShortQuantity, IsWhatWasWrittenWhereSIHasDigitsOfItsOwn) {
+  EXPECT_EQ(format_quantity(read("0.035 %/count", "1/count"), "1/count"),
+            "0.00035000000000000005 1/count");
+  EXPECT_EQ(short_quantity(read("0.035 %/count", "1/count"), "1/count"), "0.035 %/count");
+  EXPECT_EQ(short_quantity(read("278 deg", "rad"), "rad"), "278 deg");
+  EXPECT_EQ(short_quantity(read("100 psi abs", "Pa abs"), "Pa abs"), "100 psi abs");
+}
+
+TEST(ShortQuantity, ReadsBackToTheSameBits) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(0.001, 999);
+  const char* units[] = {"1",      "m",       "m3",  "1/count", "s/count",
+                         "Pa abs", "Pa diff", "rad", "N m/rad"};
+  for (const char* unit : units)
+    for (int i = 0; i < 2000; ++i) {
+      // As people write it, and any double.
+      const double short_one = std::round(number(random) * 100) / 100;
+      for (const std::string& other : usual_units(unit)) {
+        const double si = read(format_number(short_one) + (other == "1" ? "" : " " + other), unit);
+        EXPECT_EQ(read(short_quantity(si, unit), unit), si) << unit << " " << other;
+      }
+      const double any = number(random);
+      EXPECT_EQ(read(short_quantity(any, unit), unit), any) << unit;
+    }
+}
+
+TEST(ShortQuantity, WhatIsShortInSIStaysSI) {
+  EXPECT_EQ(short_quantity(0.08001, "m"), "0.08001 m");
+  EXPECT_EQ(short_quantity(0.55, "1"), "0.55");
+  EXPECT_EQ(short_quantity(0, "Pa abs"), "0 Pa abs");
+}
+
+TEST(RoundedQuantity, HasNoDigitsThatNobodyWrote) {
+  EXPECT_EQ(rounded_quantity(read("0.035 %/count", "1/count"), "1/count"), "0.00035 1/count");
+  EXPECT_EQ(rounded_quantity(0.1 + 0.2, "m"), "0.3 m");
+  EXPECT_EQ(rounded_quantity(1.0 / 3, "m"), "0.333333333333333 m");
+}
+
+TEST(QuantityLike, SpeaksInTheUnitThatSomebodyWrote) {
+  EXPECT_EQ(quantity_like("80 mm", 0.127, "m", "in"), "127 mm");
+  EXPECT_EQ(quantity_like("3.2in", 0.127, "m", "mm"), "5 in");
+  EXPECT_EQ(quantity_like("", 0.127, "m", "in"), "5 in");
+  EXPECT_EQ(quantity_like("rest", 0.127, "m", "in"), "5 in");
+  EXPECT_EQ(quantity_like("4 bar gauge", 1e5 + 2e5, "Pa abs", "psi abs", 1e5), "2 bar gauge");
+  const Origins origins = {
+      {.path = "start.lift", .unit = "m", .text = "2 cm"},
+      {.path = "start.trolley", .unit = "m", .text = "0 m", .is_default = true}};
+  EXPECT_EQ(quantity_like(origins, "start.lift", 0.03, "m", "in"), "3 cm");
+  EXPECT_EQ(quantity_like(origins, "start.trolley", 0.0254, "m", "in"), "1 in");
+  EXPECT_EQ(quantity_like(origins, "start.other", 0.0254, "m", "in"), "1 in");
+}
+
+}  // namespace
+}  // namespace sinew::config
