@@ -94,7 +94,7 @@ TEST(Labels, ThatNoFigureSaysAreToldWithTheNearest) {
 }
 
 TEST(Labels, OfAFileThatIsNoneAreRefusedWithTheLine) {
-  EXPECT_THAT(refusal("x = 1\n"), HasSubstr("format: found nothing; expected \"sinew.labels/1\""));
+  EXPECT_THAT(refusal("x = 1\n"), HasSubstr("format: missing; expected \"sinew.labels/1\""));
   EXPECT_THAT(refusal("format = \"sinew.robot/1\"\n"), HasSubstr("\"sinew.labels/1\""));
   EXPECT_THAT(refusal("format = \"sinew.labels/1\"\n[wrods]\n"),
               AllOf(HasSubstr(":2:"), HasSubstr("\"words\"")));
