@@ -2,11 +2,12 @@
 // axes; the curves, which need not go from left to right, are drawn here.
 import uPlot from 'uplot';
 import { pressure_color } from './colors.js';
+import { Enlarged } from './enlarged.js';
 import { between } from './samples.js';
 import { number, tick_text } from './units.js';
 import { element } from './page.js';
 
-const height = 270;
+const usual_height = 270;
 const paper_width = 330;  // half of A4 and of Letter, between their margins [px]
 const near = 24;  // a point that the cursor finds [px]
 
@@ -37,12 +38,21 @@ class Chart {
     this.value = element('span', { class: 'value', 'aria-live': 'off' });
     this.lines = element('div', { class: 'lines' });
     this.box = element('div', { class: 'box' });
-    this.box.style.height = `${height}px`;
+    this.set_height(usual_height);
     this.root = element('article', { class: 'chart' },
-      element('header', {}, this.title, this.lines), this.box,
+      element('header', {}, this.title, this.lines, charts.enlarged.button_of(this)), this.box,
       element('p', { class: 'hint' }, this.value, spec.note));
     this.value.hidden = true;
     this.keys();
+  }
+
+  set_height(pixels) {
+    this.height = pixels;
+    this.box.style.height = `${pixels}px`;
+  }
+
+  resize() {
+    this.plot.setSize({ width: this.box.clientWidth || 480, height: this.height });
   }
 
   keys() {
@@ -103,7 +113,7 @@ class Chart {
     this.title.textContent = this.spec.title;
     this.buttons?.forEach((b) => b.button.style.setProperty('--line', b.color === null ? look.ink : this.color(b.color)));
     this.plot = new uPlot({
-      width, height,
+      width, height: this.height,
       legend: { show: false },
       padding: [8, 14, 0, 0],
       cursor: { y: false, x: false, points: { show: false }, drag: { x: true, y: true, setScale: false, dist: 5 } },
@@ -241,6 +251,7 @@ function stroke_line(ctx, c, at) {
 export class Charts {
   constructor(root, specs, columns, units) {
     Object.assign(this, { root, units });
+    this.enlarged = new Enlarged();
     this.read_look();
     this.list = specs.map((spec) => new Chart(spec, columns, this));
     root.append(element('div', { class: 'charts' }, ...this.list.map((c) => c.root)));
@@ -258,7 +269,7 @@ export class Charts {
   }
 
   resize() {
-    for (const c of this.list) c.plot.setSize({ width: c.box.clientWidth || 480, height });
+    for (const c of this.list) c.resize();
   }
 
   // Other units or colors.

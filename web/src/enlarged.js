@@ -1,16 +1,29 @@
-// A plot as large as the window, until Escape or its button: the same plot, with the same zoom.
-import { element } from './page.js';
+// A plot or a chart as large as the window, until Escape or its button: the same one, with its zoom.
+import { element, set_icon } from './page.js';
 
 export class Enlarged {
-  // `before` and `after` are told when one goes and comes back.
-  constructor(plots, changed) {
-    Object.assign(this, { plots, changed, panel: null });
+  constructor() {
+    this.panel = null;
     this.dialog = element('dialog', { class: 'enlarged', 'aria-label': 'Enlarged plot' });
     document.body.append(this.dialog);
     this.dialog.addEventListener('close', () => this.back());
     this.dialog.addEventListener('click', (event) => event.target === this.dialog && this.dialog.close());
     addEventListener('resize', () => this.fit());
     addEventListener('beforeprint', () => this.panel && this.dialog.close());
+  }
+
+  // For the heading of a plot, which has root, box, height, plot, build(), set_height() and resize().
+  button_of(panel) {
+    const button = element('button', { type: 'button', class: 'icon small enlarge no-print' });
+    button.addEventListener('click', () => this.toggle(panel));
+    this.show(button, false);
+    return button;
+  }
+
+  show(button, large) {
+    button.setAttribute('aria-label', large ? 'Back into the page' : 'Enlarge');
+    button.title = large ? 'Back into the page (Escape)' : 'As large as the window (Escape ends it)';
+    set_icon(button, large ? 'shrink' : 'enlarge');
   }
 
   toggle(panel) {
@@ -22,17 +35,17 @@ export class Enlarged {
     panel.root.replaceWith(this.place);
     this.dialog.append(panel.root);
     this.dialog.showModal();
-    this.changed(panel, true);
+    this.show(panel.root.querySelector('.enlarge'), true);
     this.fit();
-    panel.root.querySelector('.enlarge')?.focus();
+    panel.root.querySelector('.enlarge').focus();
   }
 
   fit() {
     const { panel, dialog } = this;
     if (!panel) return;
-    const head = panel.root.querySelector('header').offsetHeight, style = getComputedStyle(dialog);
+    const style = getComputedStyle(dialog), around = panel.root.offsetHeight - panel.box.offsetHeight;
     panel.visible = true;
-    panel.set_height(Math.max(160, dialog.clientHeight - head - parseFloat(style.paddingTop) - parseFloat(style.paddingBottom) - 14));
+    panel.set_height(Math.max(160, dialog.clientHeight - around - parseFloat(style.paddingTop) - parseFloat(style.paddingBottom)));
     if (!panel.plot) panel.build();
     panel.resize();
   }
@@ -44,7 +57,8 @@ export class Enlarged {
     this.place.replaceWith(panel.root);
     panel.set_height(this.usual);
     panel.resize();
-    this.changed(panel, false);
-    panel.root.querySelector('.enlarge')?.focus({ preventScroll: true });
+    const button = panel.root.querySelector('.enlarge');
+    this.show(button, false);
+    button.focus({ preventScroll: true });
   }
 }

@@ -6,7 +6,7 @@ import { Enlarged } from './enlarged.js';
 import { open_formula_sheet } from './formula_sheet.js';
 import { menu_button } from './menu.js';
 import { own_group, OwnPlots } from './own_plots.js';
-import { by_id, element, set_icon } from './page.js';
+import { by_id, element } from './page.js';
 import { file_name, png_of, save_as, svg_of } from './plot_picture.js';
 import { open_sheet, tell } from './sheet.js';
 
@@ -16,7 +16,7 @@ export class PlotDesk {
   constructor(run, plots, columns) {
     Object.assign(this, { run, plots });
     this.channels = new ChannelList(run, columns);
-    this.enlarged = new Enlarged(plots, (panel, large) => this.show_large(panel, large));
+    this.enlarged = new Enlarged();
     this.drawer = new ChannelDrawer(by_id('channels'), this.channels, plots.units, {
       entries_for: (channel) => this.places_for([channel.id]),
       on_formula: () => this.write_formula(null),
@@ -82,11 +82,8 @@ export class PlotDesk {
   // --- a plot's tools ---
 
   equip(panel) {
-    const large = element('button', { type: 'button', class: 'icon small enlarge no-print', 'aria-label': 'Enlarge', title: 'As large as the window (Escape ends it)' });
-    set_icon(large, 'enlarge');
-    large.addEventListener('click', () => this.enlarged.toggle(panel));
     const more = menu_button('⋯', 'More of this plot', () => this.entries(panel));
-    panel.tools = element('div', { class: 'panel-tools' }, large, more);
+    panel.tools = element('div', { class: 'panel-tools' }, this.enlarged.button_of(panel), more);
     panel.root.querySelector('header').append(panel.tools);
     panel.title.draggable = true;
     dragged.from(panel.title, () => panel.spec.lines.filter((l, i) => panel.shown[i]).map(in_layout));
@@ -98,12 +95,6 @@ export class PlotDesk {
     if (button.draggable) return;
     button.draggable = true;
     dragged.from(button, () => [in_layout(panel.spec.lines[i])]);
-  }
-
-  show_large(panel, large) {
-    const button = panel.root.querySelector('.enlarge');
-    button.setAttribute('aria-label', large ? 'Back into the page' : 'Enlarge');
-    set_icon(button, large ? 'shrink' : 'enlarge');
   }
 
   entries(panel) {

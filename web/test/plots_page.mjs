@@ -17,6 +17,7 @@ test('a plot becomes as large as the window; Escape brings it back', () => with_
   const angles = panel(page, 'Joint angles'), over = angles.locator('.u-over');
   const small = await over.boundingBox();
   await angles.locator('.enlarge').click();
+  await page.waitForFunction(() => document.querySelector('dialog.enlarged[open] .u-over').clientHeight > 500);
   const large = await over.boundingBox();
   assert.ok(large.width > 1.8 * small.width && large.height > 5 * small.height, JSON.stringify(large));
   // It plays and zooms as ever.
@@ -29,6 +30,7 @@ test('a plot becomes as large as the window; Escape brings it back', () => with_
   await seek(page, view[0] + 1);
   await picture(page, 'enlarged');
   await page.keyboard.press('Escape');
+  await page.waitForFunction(() => document.querySelector('.panel .u-over').clientHeight < 200);
   assert.deepEqual(await over.boundingBox(), small);
   assert.equal(await page.locator('dialog[open]').count(), 0);
   assert.equal(await page.locator('.panel').first().locator('h3').textContent().then((t) => t.startsWith('Joint angles')), true);

@@ -73,3 +73,17 @@ test('a sweep is charts over its duties, without a replay', () => with_page('dut
   assert.deepEqual(charts.map((c) => c[0]), ['Length', 'Ripple of the length', 'Pressure', 'Tension']);
   assert.ok(Math.abs(charts[0][2][39] - summary_of('duty-sweep').sweep['40'].length_m) < 1e-6);
 }));
+
+test('a chart becomes as large as the window, and comes back', () => with_page('weights-60', async (page) => {
+  const chart = page.locator('.chart').first(), over = chart.locator('.u-over');
+  const small = await over.boundingBox();
+  await chart.locator('.enlarge').click();
+  await page.waitForFunction(() => document.querySelector('dialog.enlarged[open] .u-over').clientHeight > 500);
+  const large = await page.locator('dialog.enlarged .u-over').boundingBox();
+  assert.ok(large.width > 1.5 * small.width && large.height > 2 * small.height, JSON.stringify(large));
+  await picture(page, 'chart-enlarged');
+  await page.keyboard.press('Escape');
+  await page.waitForFunction(() => document.querySelector('.chart .u-over').clientHeight < 300);
+  const again = await over.boundingBox();
+  assert.ok(Math.abs(again.width - small.width) < 1 && Math.abs(again.height - small.height) < 1, JSON.stringify(again));
+}));
