@@ -73,7 +73,8 @@ class LiveRun::Impl {
         values_(kept_.values()),
         shown_(shown_of(kept_.experiment(), !run::is_elsewhere(request.port))),
         feed_(shown_.topics),
-        show_(kept_.experiment(), values_, steering_, feed_, tick_, machine() ? &stop_ : nullptr),
+        show_(kept_.experiment(), values_, steering_, feed_, tick_, machine() ? &stop_ : nullptr,
+              request.units),
         server_(
             options_.port,
             {.get = [this](std::string_view path) { return get(path); },

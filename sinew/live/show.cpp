@@ -87,7 +87,8 @@ double largest(const gait::Plan& plan, const gait::Setting& s) {
 }
 
 Show::Show(const experiment::Experiment& e, const config::Node& resolved, run::Steering& steering,
-           Feed& feed, const std::atomic<std::int64_t>& tick, std::atomic<bool>* stop)
+           Feed& feed, const std::atomic<std::int64_t>& tick, std::atomic<bool>* stop,
+           const std::string& units)
     : experiment_(e),
       steering_(steering),
       feed_(feed),
@@ -97,7 +98,8 @@ Show::Show(const experiment::Experiment& e, const config::Node& resolved, run::S
       growing_(feed.topics(), {.resolved = resolved,
                                .name = e.name,
                                .duration = end_of(e),
-                               .foot_path = has_foot_path(e.plan)}),
+                               .foot_path = has_foot_path(e.plan),
+                               .units = units}),
       set_(settings_.size()) {}
 
 std::string Show::controls() const {

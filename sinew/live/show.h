@@ -27,10 +27,11 @@ class Show {
   };
 
   // All of them outlive this; `resolved` is what runs. `stop`: where a page's button stops a
-  // machine that keeps its own time; nullptr for a simulation, which can be paused.
+  // machine that keeps its own time; nullptr for a simulation, which can be paused. `units`: in
+  // which the page begins (config/shown_units.h), as asked for now.
   Show(const experiment::Experiment& experiment, const config::Node& resolved,
        run::Steering& steering, Feed& feed, const std::atomic<std::int64_t>& tick,
-       std::atomic<bool>* stop = nullptr);
+       std::atomic<bool>* stop = nullptr, const std::string& units = "");
 
   // The page without samples. `server`: where it may connect to, "127.0.0.1:8080".
   std::string page(std::string_view server) const;
