@@ -30,13 +30,24 @@ double time_of(const py::object& seconds, double otherwise) {
   return seconds.is_none() ? otherwise : seconds.cast<double>();
 }
 
+std::optional<analysis::AlignRequest> align_of(const std::string& word, bool fit_clock) {
+  if (word.empty() || word == "start") return std::nullopt;
+  if (word != "event" && word != "correlation")
+    throw py::value_error("align: found \"" + word + "\"; expected start, event or correlation");
+  const bool event = word == "event";
+  return analysis::AlignRequest{
+      .by = event ? analysis::AlignBy::event : analysis::AlignBy::correlation,
+      .fit_clock = fit_clock};
+}
+
 py::object figures(const py::object& runs, const py::object& folder, const Names& formats,
                    const Names& only, const Names& channels, const Names& names, bool overlay,
-                   const py::object& labels, const std::string& units, const std::string& width,
-                   const std::string& height, const std::string& font, const std::string& title,
-                   const py::object& start, const py::object& stop, bool force) {
-  run::OverlaidRuns asked{paths_of(runs), names};
-  overlay = overlay || !names.empty();
+                   const std::string& align, bool fit_clock, const py::object& labels,
+                   const std::string& units, const std::string& width, const std::string& height,
+                   const std::string& font, const std::string& title, const py::object& start,
+                   const py::object& stop, bool force) {
+  run::OverlaidRuns asked{paths_of(runs), names, align_of(align, fit_clock)};
+  overlay = overlay || !names.empty() || asked.align;
   if (asked.runs.size() > 1 && !overlay)
     throw py::value_error("runs: found several; expected one, or names or overlay=True");
   run::DrawingRequest request{.units = units, .channels = channels, .only = only, .title = title};
@@ -96,11 +107,14 @@ void bind_figures(py::module_& m) {
       "figures", &figures, py::arg("runs"), py::arg("folder"), py::kw_only(),
       py::arg("formats") = Names{"svg", "png"}, py::arg("only") = Names(),
       py::arg("channels") = Names(), py::arg("names") = Names(), py::arg("overlay") = false,
-      py::arg("labels") = py::none(), py::arg("units") = "", py::arg("width") = "",
-      py::arg("height") = "", py::arg("font") = "", py::arg("title") = "",
-      py::arg("start") = py::none(), py::arg("stop") = py::none(), py::arg("force") = false,
+      py::arg("align") = "start", py::arg("fit_clock") = false, py::arg("labels") = py::none(),
+      py::arg("units") = "", py::arg("width") = "", py::arg("height") = "", py::arg("font") = "",
+      py::arg("title") = "", py::arg("start") = py::none(), py::arg("stop") = py::none(),
+      py::arg("force") = false,
       "Draws the figures of a run into a folder, for print, with the CSV behind each; of several\n"
-      "runs in the same axes, which `names` call in the legend. `formats` are pdf, svg and png.\n"
+      "runs in the same axes, which `names` call in the legend. `align` lays the others on the\n"
+      "first run: start, event or correlation; `fit_clock` takes out their clocks' rates, too.\n"
+      "`formats` are pdf, svg and png.\n"
       "`only` are names of figures; `channels` are figures of your choice in their place:\n"
       "\"/joint/*/angle,/muscle/*/tension\" is one with two plots. `labels` is a file with words\n"
       "in your language. `width`, `height` and `font` are texts with units, \"84 mm\" and \"9 "

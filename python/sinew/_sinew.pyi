@@ -265,6 +265,8 @@ def figures(
     channels: Sequence[str] = ...,
     names: Sequence[str] = ...,
     overlay: bool = False,
+    align: str = "start",
+    fit_clock: bool = False,
     labels: Optional[_Path] = None,
     units: str = "",
     width: str = "",

@@ -42,6 +42,17 @@ class Figures(Refusals):
         self.assertTrue((out / told["figures"][0]["pdf"]).read_bytes().startswith(b"%PDF"))
         self.assertTrue(any(curve["curve"].endswith("b") for curve in told["figures"][0]["curves"]))
 
+    def test_runs_are_laid_on_each_other(self) -> None:
+        late = Path(self.folder.name) / "late"
+        sinew.run(sinew.shipped("experiments/one-joint.toml"), sets={"start.settle": "2 s"}, folder=late)
+        out = Path(self.folder.name) / "laid"
+        told = sinew.figures([self.run_folder, late], out, formats=[], only=["joint-angles"], align="event")
+        curves = {curve["curve"]: curve for curve in told["figures"][0]["curves"]}
+        times = {name: (out / curves[name]["file"]).read_text().splitlines()[1] for name in ("run", "late")}
+        self.assertLess(float(times["late"].split(",")[0]), -0.5)
+        with self.assertRaisesRegex(ValueError, "start, event or correlation"):
+            sinew.figures([self.run_folder, late], out, align="phase")
+
     def test_wrong_words_are_told(self) -> None:
         out = Path(self.folder.name) / "none"
         with self.assertRaisesRegex(sinew.InputError, "nearest|joint"):
