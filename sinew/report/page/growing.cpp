@@ -107,10 +107,8 @@ Growing::Growing(const std::vector<signals::Topic>& topics, Of of)
 
   Blob blob;
   Columns columns(parts.channels, blob);
-  const report::Content whole = report::content({.table = prototype.table,
-                                                 .resolved = of_.resolved,
-                                                 .name = of_.name,
-                                                 .units = of_.units});
+  const report::Content whole = report::content(
+      {.table = prototype.table, .resolved = of_.resolved, .name = of_.name, .units = of_.units});
   units_ = whole.units;
   Json head = Json::parse(whole.json);
   head["duration"] = of_.duration;
