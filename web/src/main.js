@@ -220,7 +220,7 @@ class Page {
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const tag = event.target.tagName;
-    if (['search', 'text', 'number', 'checkbox'].includes(event.target.type) || event.target.closest?.('.control') || tag === 'SELECT' || tag === 'TEXTAREA') return;
+    if (['search', 'text', 'number', 'checkbox'].includes(event.target.type) || event.target.closest?.('.control, .panel-tools, .channels') || tag === 'SELECT' || tag === 'TEXTAREA') return;
     const big = event.shiftKey ? 10 : 1;
     const does = {
       ' ': () => this.player.toggle(),
