@@ -219,8 +219,9 @@ class Page {
 
   key(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const tag = event.target.tagName;
-    if (['search', 'text', 'number', 'checkbox'].includes(event.target.type) || event.target.closest?.('.control, .panel-tools, .channels') || tag === 'SELECT' || tag === 'TEXTAREA') return;
+    const { target } = event;
+    if (['search', 'text', 'number', 'checkbox'].includes(target.type) || ['SELECT', 'TEXTAREA'].includes(target.tagName)) return;
+    if (target.closest?.('.control, .panel-tools, .channels')) return;
     const big = event.shiftKey ? 10 : 1;
     const does = {
       ' ': () => this.player.toggle(),
