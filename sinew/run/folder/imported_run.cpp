@@ -81,7 +81,7 @@ std::string with_files(std::string resolved, std::vector<experiment::ImportedFil
 }
 
 // What both kinds of experiments have.
-struct What {
+struct Keeping {
   const std::string& name;
   int seed;
   const std::string& resolved;
@@ -92,7 +92,7 @@ struct What {
 };
 
 template <class Machine>
-void keep_files(const signals::Table& table, const What& what, Kept<Machine>& kept) {
+void keep_files(const signals::Table& table, const Keeping& what, Kept<Machine>& kept) {
   OutputFolder folder = run_folder(what.where.folder, what.where.force, what.name);
   try {
     kept.folder = folder.path();

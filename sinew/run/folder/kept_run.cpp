@@ -4,6 +4,7 @@
 
 #include "sinew/analysis/warnings.h"
 #include "sinew/config/node.h"
+#include "sinew/run/folder/imported_run.h"
 #include "sinew/run/folder/outcome.h"
 #include "sinew/run/folder/page.h"
 #include "sinew/run/folder/run_folder.h"
@@ -157,22 +158,7 @@ Kept<analysis::Machine> run_and_keep(RunRequest request, Notices notices) {
 
 Kept<analysis::Machine> keep_table(const signals::Table& table, const experiment::Experiment& e,
                                    const RunRequest& where, const Notices& notices) {
-  const std::string resolved = experiment::resolved(e, SINEW_VERSION);
-  const config::Node values = config::parse_text(resolved, std::string(resolved_name));
-  Kept<analysis::Machine> kept{.machine = analysis::read_machine(values)};
-  kept.summary = analysis::summarize(table, kept.machine);
-  kept.json = to_json(kept.summary);
-
-  OutputFolder folder = run_folder(where.folder, where.force, e.name);
-  kept.folder = folder.path();
-  write_into(folder, resolved_name, resolved);
-  RunLog log(folder.work() / log_name, e.name, e.seed, resolved, run::logged_topics(table));
-  log.write(table);
-  log.finish(resolved, "");
-  write_into(folder, summary_name, kept.json);
-  kept.page = write_report(folder, table, values, e.name, notices);
-  commit_run(folder);
-  return kept;
+  return keep_imported(table, e, {}, "", where, notices);
 }
 
 }  // namespace sinew::run
