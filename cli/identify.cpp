@@ -106,6 +106,22 @@ void print(const identify::Report& report) {
   for (const std::string& note : report.best().notes) fmt::print("note: {}\n", as_options(note));
 }
 
+// What a file may leave open; most files show all of it.
+void add_dialect_options(Command sub, DataOptions& options) {
+  sub.add_option("--encoding", options.encoding, "of files whose letters do not show it: latin1")
+      .is_one_of({"utf-8", "utf-16le", "utf-16be", "latin1"});
+  sub.add_option("--decimal", options.decimal, "the mark, where the numbers do not show it")
+      .is_one_of({".", ","});
+  sub.add_option("--thousands", options.thousands, "what parts them")
+      .is_one_of({".", ",", " ", "'"});
+  sub.add_option("--dates", options.dates, "what comes first in 11/03/2026; excel: days since 1900")
+      .is_one_of({"day first", "month first", "excel"});
+  sub.add_option("--rate", options.rate,
+                 "\"100 Hz\" or \"10 ms\": of the rows, in place of a column of times");
+  sub.add_flag("--spread-times", options.spread_times,
+               "spread rows that share a time evenly up to the next one");
+}
+
 }  // namespace
 
 void add_data_options(Command sub, DataOptions& options) {
@@ -125,6 +141,7 @@ void add_data_options(Command sub, DataOptions& options) {
   sub.add_option("--atmosphere", options.atmosphere, "that gauges read against").show_default();
   sub.add_flag("--drop-incomplete", options.drop_incomplete,
                "leave out rows with cells that are empty or no numbers");
+  add_dialect_options(sub, options);
 }
 
 std::vector<identify::Source> sources_of(const DataOptions& options) {
@@ -134,6 +151,12 @@ std::vector<identify::Source> sources_of(const DataOptions& options) {
   for (const std::string& where : options.where) add_pair("--where", where, how.where);
   how.columns = config::at_commas(options.columns);
   how.drop_incomplete = options.drop_incomplete;
+  how.encoding = options.encoding;
+  how.decimal = options.decimal;
+  how.thousands = options.thousands;
+  how.dates = options.dates;
+  how.rate = options.rate;
+  how.spread_times = options.spread_times;
   how.atmosphere = identify::atmosphere_setting(options.atmosphere);
   return identify::sources_of(options.files, how);
 }

@@ -32,6 +32,8 @@ struct DataOptions {
   std::string columns;                   // "force [N],pressure [kPa gauge]"
   std::string atmosphere = "14.7 psi";
   bool drop_incomplete = false;
+  std::string encoding, decimal, thousands, dates, rate;  // what a file leaves open
+  bool spread_times = false;
 };
 void add_data_options(Command sub, DataOptions& options);
 

@@ -17,11 +17,11 @@ constexpr Renamed renamed[] = {{"names", "map"}, {"units", "unit"}};
 // The settings that messages of the library name. A word that is not here stays a word: "time=0" is
 // no option.
 constexpr std::string_view settings =
-    " actuator align base bits candidate columns conductance down drop_incomplete exponent "
-    "external_volume flexion flexor_length force frequency full_scale hold_out keep_force "
-    "known largest length lever load machine model moment_arm names per_volume points "
-    "port pressure range report rest rest_length root sensors shard units vary volume "
-    "where label only ";
+    " actuator align base bits candidate columns conductance dates decimal down drop_incomplete "
+    "encoding exponent external_volume flexion flexor_length force frequency full_scale hold_out "
+    "keep_force known label largest length lever load machine model moment_arm names only "
+    "per_volume points port pressure range rate report rest rest_length root sensors shard "
+    "spread_times thousands units vary volume where ";
 
 // Settings that can be the subject of a problem: at the begin of a line, or behind a file without a
 // line of it. What has a line is a key of that file.
@@ -30,13 +30,12 @@ constexpr std::string_view subjects =
 
 // Settings that are so at the begin of a line alone: a file may have a column of that name.
 constexpr std::string_view quantities =
-    " channels font fps from label output speed title to "
-    "atmosphere base bits branch bridge concentration conductance count down excitation "
-    "exponent extensor_length external_volume fit_where flexion flexor_length frequency "
-    "full_scale gage_factor gages gain height hold_out kind length lever limb limb_lever "
-    "load mass modulus moment_arm name poisson port predict_dat pressure rest rest_angle "
-    "rest_length sensitivity side temperature thread_thickness trapezoids volume width "
-    "yield ";
+    " atmosphere base bits branch bridge channels concentration conductance count dates decimal "
+    "down encoding excitation exponent extensor_length external_volume fit_where flexion "
+    "flexor_length font fps frequency from full_scale gage_factor gages gain height hold_out kind "
+    "label length lever limb limb_lever load mass modulus moment_arm name output poisson port "
+    "predict_dat pressure rate rest rest_angle rest_length sensitivity side speed temperature "
+    "thousands thread_thickness title to trapezoids volume width yield ";
 
 // Words between blanks, " one two ".
 bool is_one_of(std::string_view word, std::string_view words) {

@@ -133,6 +133,13 @@ identify::Source source_of(const py::handle& parts) {
     }
   }
   settings.flag("drop_incomplete", out.drop_incomplete);
+  for (const auto& [name, to] : {std::pair{"encoding", &out.encoding},
+                                 {"decimal", &out.decimal},
+                                 {"thousands", &out.thousands},
+                                 {"dates", &out.dates},
+                                 {"rate", &out.rate}})
+    settings.text(name, *to);
+  settings.flag("spread_times", out.spread_times);
   std::string atmosphere;
   settings.quantity("atmosphere", "Pa", atmosphere);
   if (!atmosphere.empty()) out.atmosphere = identify::atmosphere_setting(atmosphere);

@@ -21,6 +21,10 @@ class Table:
     where: only rows with these values, {"phase": "fill"}. columns: the header of a file without one,
         ["force [N]", "time [s]"]. atmosphere: that gauges read against [Pa], absolute.
     drop_incomplete: leave out rows with cells that are no numbers.
+
+    What a file may leave open: encoding "latin1"; decimal "." or ","; thousands ".", ",", " " or "'"; dates
+    "day first", "month first" or "excel" (days since 1900); rate "100 Hz" of the rows, in place of a column
+    of times; spread_times: rows that share a time are spread evenly up to the next one.
     """
 
     data: Any
@@ -30,6 +34,12 @@ class Table:
     columns: Union[str, Sequence[str], None] = None
     atmosphere: Union[float, int, str, None] = None
     drop_incomplete: bool = False
+    encoding: Optional[str] = None
+    decimal: Optional[str] = None
+    thousands: Optional[str] = None
+    dates: Optional[str] = None
+    rate: Optional[str] = None
+    spread_times: bool = False
 
 
 def names_of(data: Any) -> "Optional[List[str]]":
@@ -108,6 +118,12 @@ def parts_of(data: Any, units: "Mapping[str, str]", label: str) -> "Dict[str, An
         "columns": header_of(table.columns),
         "atmosphere": table.atmosphere,
         "drop_incomplete": table.drop_incomplete,
+        "encoding": table.encoding,
+        "decimal": table.decimal,
+        "thousands": table.thousands,
+        "dates": table.dates,
+        "rate": table.rate,
+        "spread_times": table.spread_times,
     }
     if isinstance(table.data, (str, os.PathLike)):
         parts["path"] = os.fspath(table.data)
