@@ -29,6 +29,7 @@ void bind_episode(py::module_& m);
 void bind_recording(py::module_& m);
 void bind_compare(py::module_& m);
 void bind_run(py::module_& m);
+void bind_imported(py::module_& m);
 void bind_sweep(py::module_& m);
 void bind_laws(py::module_& m);
 void bind_muscle(py::module_& m);
