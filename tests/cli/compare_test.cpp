@@ -193,6 +193,7 @@ TEST(Compare, WhatCannotBeLaidOnEachOtherIsRefusedWithAReason) {
   run(w, bench, "b", {"--set", "joint.lever.damping=1.6 lbf in s/rad"});
   for (const auto& [words, found] :
        {std::pair{Words{"--event", "/joint/lever/angle > 900 deg"}, "never crosses 900 deg"},
+        {Words{"--align", "correlation", "--within", "0"}, "a largest shift of 0 s"},
         {Words{"--align-by", "/joint/leverr/angle"}, "try \"/joint/lever/angle\""},
         {Words{"--align-by", "/desired/joint/lever/stiffness"}, "constant or nothing but noise"}}) {
     Words all = {"compare", "a", "b"};
@@ -222,12 +223,15 @@ TEST(Replay, OfThePlantShowsWhereItPartsAndIsKept) {
   EXPECT_FALSE(json["agrees"].get<bool>());
   EXPECT_TRUE(json["channels"][0]["parts_at_s"].is_number());
   EXPECT_EQ(w.sinew({"compare", "a", "c"}).code, 0);
+  EXPECT_THAT(w.sinew({"replay", "a", "--of", "plant", "--band", "-3"}).err,
+              HasSubstr("band: found -3 %"));
 }
 
 TEST(Replay, OfTheControllerTellsOfEachValve) {
   const Workspace w;
   run(w, bench, "a");
-  const Result other = w.sinew({"replay", "a", "--set", "joint.lever.angle_gain=0.15 %/count"});
+  const Result other =
+      w.sinew({"replay", "a", "--set", "control.gains.lever.velocity=0.0004 s/count"});
   EXPECT_EQ(other.code, 1) << other.err;
   EXPECT_THAT(other.out, AllOf(HasSubstr("first difference at"), HasSubstr("only in the replay"),
                                HasSubstr("/valve/")));

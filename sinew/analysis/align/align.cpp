@@ -262,6 +262,9 @@ Alignment aligned(const signals::Table& first, const signals::Table& other,
   }
   double half_width = 0;
   if (request.by == AlignBy::correlation) {
+    if (!(request.most_shift > 0))
+      refuse(fmt::format("a largest shift of {:g} s", request.most_shift), "a time above 0 s",
+             "1 s");
     const auto found = search(pairs, request.most_shift, request.fit_clock);
     if (!found)
       refuse("recordings that overlap by less than half of the shorter one at every shift",

@@ -61,6 +61,9 @@ bool Replayed::agrees() const {
 }
 
 Replayed replay_run(const ReplayRequest& request, const Notices& notices) {
+  if (!(request.band >= 0 && request.band <= 1))
+    config::fail({"replay", 0, 0}, "band", fmt::format("{:g} %", 100 * request.band),
+                 "a share of a channel's range, 0 to 100 %", "5 %");
   const RecordedRun run = recorded_run(request.run);
   const auto e = buildable(machine_of(run, request.machine).string(), request.sets);
   const signals::Table recorded = log::read(run.log);
