@@ -21,6 +21,7 @@
 
 namespace sinew::config {
 
+// The variable of the environment.
 inline constexpr const char* units_variable = "SINEW_UNITS";
 
 // What is said about units beside the environment and the person's settings.
@@ -30,6 +31,7 @@ struct UnitsAsked {
   const Node* run = nullptr;     // an experiment's tree, or a run's resolved.toml; null: none
 };
 
+// The units that come of it.
 struct UnitsToShow {
   units::ShownUnits units;
   bool asked = false;  // somebody said so: `units` is not just what the caller has

@@ -21,6 +21,7 @@
 
 namespace sinew::units {
 
+// The sets of units.
 enum class UnitSet { si, thesis, metric };
 
 // Returns the word for a set, as files and options say it.
@@ -64,6 +65,7 @@ class ShownUnits {
   std::string text(double value, std::string_view unit, int digits = 4,
                    double room = atmosphere) const;
 
+  // Returns the set, and whether there are choices on top of it.
   UnitSet set() const { return set_; }
   bool has_choices() const { return !choices_.empty(); }
   // Returns what read_shown_units reads: "metric,pressure=kPa gauge".
@@ -72,8 +74,10 @@ class ShownUnits {
   // Shows a quantity of that name in this unit; both are known to be right.
   void choose(std::string_view quantity, std::string_view unit);
 
+  // Are set and choices the same?
   bool operator==(const ShownUnits&) const = default;
 
+  // As a size: nobody knows it.
   static constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
  private:

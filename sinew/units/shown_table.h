@@ -23,6 +23,7 @@ struct ShownQuantity {
 };
 
 // clang-format off
+// Every quantity that has units to be shown in.
 inline constexpr std::array shown_quantities = {
     //            quantity               in SI          si                     thesis            metric
     ShownQuantity{"length",              "m",           {"m", "mm"},           {"in"},           {"mm"}},
