@@ -4,6 +4,7 @@
 
 #include "cli/command.h"
 #include "cli/terminal.h"
+#include "cli/units.h"
 #include "sinew/run/folder/replayed.h"
 
 namespace sinew::cli {
@@ -12,14 +13,10 @@ namespace {
 
 struct Options {
   run::ReplayRequest request;
-  std::string of = "controller", folder, units = "thesis";
+  std::string of = "controller", folder, units;
   double band = 5;  // [%]
   bool json = false, quiet = false;
 };
-
-units::ShownUnits units_of(const Options& options) {
-  return options.units == "si" ? units::UnitSet::si : units::UnitSet::thesis;
-}
 
 ExitCode replay_run(Options options) {
   const Messages messages(options.quiet);
@@ -30,7 +27,8 @@ ExitCode replay_run(Options options) {
   if (options.json)
     fmt::print("{}", to_json(replayed));
   else
-    fmt::print("{}", text_of(replayed, units_of(options), width_of_output()));
+    fmt::print("{}", text_of(replayed, units_for(options.units, units::UnitSet::thesis),
+                             width_of_output()));
   if (replayed.folder) messages.note(replayed.folder->string());
   // A plant that parts from a measurement is a result; a controller that does is a change.
   const bool bad =
@@ -54,8 +52,7 @@ void add_replay(Command app, Action& action) {
                  "of a plant: has parted beyond this share of a channel's range, in %");
   sub.add_option("-o,--output", options->folder, "keep the replay in this folder, as a run");
   sub.add_flag("--force", options->request.force, "replace the run that is in the folder");
-  sub.add_option("--units", options->units, "of the table: thesis or si; --json is in SI")
-      .is_one_of({"thesis", "si"});
+  add_units(sub, options->units, "of the table; --json is in SI");
   sub.add_flag("--json", options->json, "as JSON");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");
   sub.callback([=, &action] { action = [=] { return replay_run(*options); }; });
