@@ -7,6 +7,7 @@
 
 namespace sinew::experiment {
 
+// One recording that a run was made of.
 struct ImportedFile {
   std::string file;                   // as it was named
   std::string kind;                   // CSV, MCAP, MATLAB, out.dat

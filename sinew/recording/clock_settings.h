@@ -5,6 +5,7 @@
 
 namespace sinew::recording {
 
+// Says where the times are.
 struct ClockSettings {
   std::string column;  // with the times; empty: `time`, or what else is clearly meant
   std::string unit;    // of its numbers; empty: the file's, or else s

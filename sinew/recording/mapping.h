@@ -33,6 +33,7 @@ struct TableSettings {
   std::vector<std::string> columns;  // the header, for a file that has none
 };
 
+// How the recording tells time.
 struct ClockMapping {
   std::string column;  // with the times; empty: the one that is clearly meant
   std::string unit;    // of its numbers; empty: as the file says
@@ -46,6 +47,7 @@ struct WhereMapping {
   std::string column, values;
 };
 
+// Tells what one column means.
 struct ColumnMapping {
   std::string name;     // the file's
   std::string channel;  // ours: "/joint/elbow/angle", "/foot/position.x"
@@ -54,6 +56,7 @@ struct ColumnMapping {
   std::string offset;  // added after the scale, "90 deg"; empty: nothing
 };
 
+// All that a file of format sinew.mapping/1 says.
 struct Mapping {
   TableSettings table;
   ClockMapping clock;

@@ -27,6 +27,7 @@ struct Matched {
   Scaling conversion;
 };
 
+// All columns that have a channel, and those that have none.
 struct Matches {
   std::vector<Matched> columns;
   std::vector<std::vector<std::string>> unused;  // columns' names, by file

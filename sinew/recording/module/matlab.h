@@ -18,6 +18,7 @@ struct SinewMatlabSink {
   void (*other)(void* object, const char* name, const char* what);
 };
 
+// Holds the functions of the module.
 struct SinewMatlab {
   // False: the file cannot be opened, or ends within a variable; `words` says why.
   bool (*read)(const char* path, const SinewMatlabSink* sink);

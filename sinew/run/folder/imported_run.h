@@ -22,6 +22,7 @@
 
 namespace sinew::run {
 
+// A request: recordings, what they are of, and where the run is kept.
 struct ImportRequest {
   std::vector<std::string> files;             // recordings: CSV, MCAP, MATLAB
   std::string experiment;                     // what was run: its robot, or its test stand
