@@ -341,7 +341,7 @@ std::vector<Spelling> spellings(std::string_view unit) {
     const std::string_view bare = without_blanks(text.substr(0, text.size() - ending.size()));
     std::vector<Spelling> out = bare_spellings(bare);
     if (out.empty() || !is_pressure(out.front().unit)) continue;
-    out.front().unit += " " + std::string(reference);
+    out.front().unit.append(1, ' ').append(reference);
     return out;
   }
   return bare_spellings(text);
