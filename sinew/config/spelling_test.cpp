@@ -1,4 +1,4 @@
-// What a laboratory writes for a unit means the same as Sinew's own spelling, or nothing at all.
+// A laboratory's word for a unit means the same as Sinew's own spelling, or nothing at all.
 #include "sinew/config/spelling.h"
 
 #include <gtest/gtest.h>

@@ -15,7 +15,7 @@ namespace sinew::recording {
 
 namespace {
 
-// What a quantity is told to try, for a unit alone: "0 kPa gauge" -> "kPa gauge".
+// Returns a hint about a quantity as one about its unit alone: "0 kPa gauge" -> "kPa gauge".
 std::string without_number(std::string text) {
   for (std::size_t at = 0; (at = text.find("\"0 ", at)) != text.npos;) text.erase(at + 1, 2);
   return text;

@@ -13,7 +13,7 @@
 
 namespace sinew::recording {
 
-// What the cells of a column are.
+// A column holds cells of one kind.
 enum class ColumnKind { words, numbers, stamps, dates, times_of_day };
 
 struct Dialect {

@@ -1,4 +1,4 @@
-// The same table means the same numbers, whoever's program wrote it.
+// A table means the same numbers, whoever's program wrote it.
 #include <gtest/gtest.h>
 
 #include <string>

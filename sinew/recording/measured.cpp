@@ -192,7 +192,7 @@ class Table {
                                     dropped_, rows, columns));
   }
 
-  // In the file's own unit, as whoever wrote it knows these numbers.
+  // Tells sizes in the file's own unit, as whoever wrote it knows these numbers.
   void check_sizes(const Measured& data) {
     for (std::size_t i = 0; i < found_.size(); ++i) {
       const Found& f = found_[i];

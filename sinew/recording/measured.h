@@ -62,7 +62,7 @@ struct Measured {
 // seconds since the first row.
 Measured read_measured(const Source& source, std::span<const Wanted> wanted);
 
-// The same from a text, for tests and tools; `source.path` is what messages call it.
+// Reads a text in place of the file, for tests and tools; messages call it `source.path`.
 Measured parse_measured(std::string_view text, const Source& source,
                         std::span<const Wanted> wanted);
 

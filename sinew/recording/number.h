@@ -21,7 +21,7 @@ std::optional<double> number_in(std::string_view text, NumberStyle style = {});
 // such.
 bool is_missing(std::string_view text);
 
-// What the commas and points of a text can be.
+// Marks tell what the commas and points of a text can be.
 struct Marks {
   bool number = false;     // a number in one style or another
   bool comma = false;      // and its comma can only be the decimal mark
@@ -31,7 +31,8 @@ struct Marks {
 };
 Marks marks_in(std::string_view text);
 
-// What can be done about a cell that is no number in the table's style; empty where nobody knows.
+// Says what can be done about a cell that is no number in the table's style; empty where nobody
+// knows.
 std::string hint_for(std::string_view text, NumberStyle style);
 
 }  // namespace sinew::recording

@@ -31,7 +31,7 @@ std::string small_letters(std::string_view text) {
   return out;
 }
 
-// What a column of times is usually called, in small letters, and the unit that the name says.
+// Names that a column of times usually has, in small letters, and the unit that each one says.
 struct ClockName {
   std::string_view name, unit;
 };

@@ -13,7 +13,7 @@ namespace {
 // Enough to see commas, units and clocks; little enough to be read once for each separator.
 constexpr std::size_t most_rows = 400, most_bytes = 1 << 20;
 
-// In the order in which they are preferred, where two make as much sense.
+// Where two make as much sense, the earlier one is preferred.
 constexpr std::array separators{'\t', ';', ',', ' '};
 
 // A first line that tells spreadsheets the separator, and where the table begins behind it.
@@ -91,8 +91,8 @@ ColumnKind kind_of_column(const Sample& sample, std::size_t column) {
   return counts[ColumnKind::words] > values ? ColumnKind::words : best;
 }
 
-// Of the cells of usual rows, the share that are values; of one column a quarter as much, as every
-// text makes one.
+// Returns the share of values among the cells of usual rows; a quarter of it for one column, as
+// every text makes one.
 double sense_of(const Sample& sample) {
   std::size_t values = 0, others = 0, rows = 0;
   for (std::size_t i = later_half(sample); i < sample.rows.size(); ++i) {

@@ -31,7 +31,7 @@ struct Sample {
   bool fits(const Row& row) const;
 };
 
-// What a cell holds; nothing where its value is missing.
+// Returns the kind of what a cell holds; nothing where its value is missing.
 std::optional<ColumnKind> kind_of(std::string_view cell);
 
 // A line `sep=;` says the separator; without it, it is the one by which most cells are values.

@@ -22,7 +22,8 @@ struct Source {
   bool drop_incomplete = false;           // leave out rows with cells that are no numbers
   double atmosphere = units::atmosphere;  // [Pa]
 
-  // What a file leaves open. Empty: by what the file shows, and a refusal where it shows nothing.
+  // A file may leave these open. Empty: they are read off the file, and it is refused where it does
+  // not show them.
   std::string encoding;       // "utf-8", "utf-16le", "utf-16be" or "latin1"
   std::string decimal;        // "." or ","
   std::string thousands;      // what parts them: ".", ",", " " or "'"

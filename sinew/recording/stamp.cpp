@@ -165,7 +165,7 @@ std::optional<Stamp> stamp_in(std::string_view text) {
 
 std::optional<std::int64_t> days_of(const Stamp& stamp, DateOrder order) {
   if (stamp.order != DateOrder::unknown) order = stamp.order;
-  // What 64 bits of nanoseconds hold, and nobody measured before.
+  // Nobody measured before, and 64 bits of nanoseconds hold no more.
   const bool year = stamp.year >= 1900 && stamp.year <= 2200;
   if (order == DateOrder::unknown || !year) return std::nullopt;
   const bool day_first = order == DateOrder::day_first;

@@ -195,8 +195,8 @@ void refuse_other_encodings(const std::string& utf8, const std::string& file) {
                "a table in UTF-8", "encoding=latin1, or iconv -f LATIN1 -t UTF-8");
 }
 
-// What numbers and text of a file of that size take at most: the text, and 8 bytes for each of its
-// cells, which are shorter than that in few files.
+// A table takes memory for its text, and 8 bytes for each of its cells, which are shorter than that
+// in few files.
 void refuse_too_large(const std::string& path) {
   std::error_code none;
   const auto size = std::filesystem::file_size(path, none);

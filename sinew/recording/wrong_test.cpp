@@ -1,4 +1,4 @@
-// What cannot be read for certain is refused by its line, with what to do; nothing is lost
+// A table that cannot be read for certain is refused by its line, with what to do; nothing is lost
 // silently.
 #include <gtest/gtest.h>
 
