@@ -136,8 +136,7 @@ TEST(Load, AJudgedFigureNeedsItsClassAndItsBandAReason) {
   EXPECT_NE(with(R"(, class = "proven", wording = "range")").find("found \"proven\""),
             std::string::npos);
   const std::string band = R"(, class = "fitted", accept = ["53 in", "60 in"])";
-  EXPECT_NE(with(band).find("band_reason: missing; expected why the band of"),
-            std::string::npos)
+  EXPECT_NE(with(band).find("band_reason: missing; expected why the band of"), std::string::npos)
       << with(band);
   EXPECT_EQ(with(band + R"(, band_reason = "read from a plot")"), "nothing");
   EXPECT_NE(with(band + R"(, wording = "range", band_reason = "x")").find("one of the two"),
