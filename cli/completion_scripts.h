@@ -48,6 +48,13 @@ constexpr std::string_view bash_script =
     R"script(# bash completion of sinew, made by `sinew completion bash`
 
 @functions@
+# The words that the key $2 can have, as the program $1 says; one with a blank is left out.
+_sinew_choices() {
+  [[ $2 =~ ^[][A-Za-z0-9_.-]+$ ]] || return
+  "$1" keys "$2" --json 2>/dev/null |
+    sed -n '/"choices"/,/]/s/^ *"\([A-Za-z0-9_.-]*\)",*$/\1/p' | sort -u
+}
+
 _sinew() {
   local at='' commands='' options='' valued='' choices=''
   local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
@@ -61,9 +68,16 @@ _sinew() {
       return ;;
   esac
   [[ $before == -* && " $valued " == *" $before "* ]] && return  # a file, or a word of one's own
-  [[ $before == = || $current == = ]] && return                  # a value behind its key
-  if [[ $current == -* ]]; then
+  if [[ $before == = || $current == = ]]; then  # a value behind its key
+    local last=$((COMP_CWORD - 1))
+    [[ $current == = ]] && last=$COMP_CWORD current=''
+    case ${COMP_WORDS[last - 2]} in
+      @keyed@) choices=$(_sinew_choices "$1" "${COMP_WORDS[last - 1]}") ;;
+    esac
+  elif [[ $current == -* ]]; then
     choices=$options
+  elif [[ $at == show ]]; then
+    choices=$(_sinew_keys "$1" "${COMP_WORDS[@]:1:COMP_CWORD-1}")
   elif [[ $commands ]]; then
     choices=$commands
   fi

@@ -82,6 +82,18 @@ TEST(Completion, OffersKeysOfTheFileInTheLine) {
               ElementsAre("sequence.repeat="));
   EXPECT_GT(offered(w, {"run", file, "--set", ""}).size(), 100U);
   EXPECT_THAT(offered(w, {"run", file, "--set", "joint.hip"}), IsEmpty());
+  EXPECT_THAT(offered(w, {"show", file, "joint.lever.damp"}),
+              ElementsAre("joint.lever.damping", "joint.lever.damper"));
+  EXPECT_THAT(offered(w, {"show", "robots"}), IsEmpty());  // bash's own: files
+}
+
+TEST(Completion, OffersTheWordsOfAKeyBehindIt) {
+  const Workspace w;
+  const std::string file = "experiments/one-joint.toml";
+  EXPECT_THAT(offered(w, {"run", file, "--set", "air.supply.kind", "=", "t"}), ElementsAre("tank"));
+  EXPECT_THAT(offered(w, {"run", file, "--set", "air.supply.kind", "="}), Contains("tank"));
+  EXPECT_THAT(offered(w, {"run", file, "--set", "joint.lever.damping", "=", ""}), IsEmpty());
+  EXPECT_THAT(offered(w, {"run", file, "--output", "x", "=", ""}), IsEmpty());
 }
 
 // Nothing of a file is run, whatever its keys are; a file that is wrong has none.
