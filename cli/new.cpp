@@ -27,6 +27,10 @@ std::vector<std::string> next_commands(const Options& options, const std::string
   if (kind == "experiment")
     out.push_back(fmt::format("sinew new plan {}-gains --of {}", name, file));
   if (kind == "plan") out.push_back(fmt::format("sinew sweep {} -o {}.csv", file, name));
+  if (kind == "tuning") out.push_back(fmt::format("sinew tune {} -o {}.csv", file, name));
+  if (kind == "mapping")
+    out.push_back(
+        fmt::format("sinew import RECORDING.csv --mapping {} --experiment EXPERIMENT.toml", file));
   return out;
 }
 
@@ -59,9 +63,10 @@ void add_new(Command app, Action& action) {
       .required();
   sub.add_option("-o,--output", options->how.folder,
                  "folder in which it is written; else this one");
-  sub.add_option("--of", options->how.of,
-                 "experiment: the robot's file; plan: the experiment's; else one that comes with "
-                 "Sinew");
+  sub.add_option(
+      "--of", options->how.of,
+      "experiment: the robot's file; plan and tuning: the experiment's; else one that comes with "
+      "Sinew");
   sub.add_option("--actuator", options->how.actuator,
                  "robot: the file of its muscles, as sinew identify static writes it");
   sub.add_flag("--metric", options->how.metric,

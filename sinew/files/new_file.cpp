@@ -23,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 5> kinds{"robot", "actuator", "experiment", "plan", "rig"};
+constexpr std::array<std::string_view, 8> kinds{"robot", "actuator", "valves", "experiment",
+                                                "plan",  "tuning",   "rig",    "mapping"};
 constexpr std::size_t longest_name = 64;
 
 // The joint of the templates, and the angle about which it moves there.
@@ -173,19 +174,23 @@ std::vector<Joint> joints_of(const config::Node& root) {
   return out;
 }
 
+// A study, which runs an experiment many times.
+bool is_study(std::string_view kind) { return kind == "plan" || kind == "tuning"; }
+
 // What it is of: the file that was named, or one that comes with Sinew.
 Subject subject_of(const std::string& kind, const NewOptions& options) {
-  const bool is_plan = kind == "plan";
-  if (kind != "experiment" && !is_plan) {
+  const bool study = is_study(kind);
+  if (kind != "experiment" && !study) {
     if (options.of.empty()) return {};
-    config::fail({options.of, 0, 0}, "", fmt::format("a file for a new {} to be of", kind),
-                 "an experiment, which is of a robot, or a plan, which is of an experiment");
+    config::fail(
+        {options.of, 0, 0}, "", fmt::format("a file for a new {} to be of", kind),
+        "an experiment, which is of a robot, or a plan or tuning, which is of an experiment");
   }
   if (options.of.empty())
     return {shipped_folder() /
-            (is_plan ? "experiments/one-joint.toml" : "robots/one-joint/robot.toml")};
+            (study ? "experiments/one-joint.toml" : "robots/one-joint/robot.toml")};
   const config::Node root = config::compose(options.of);
-  const std::string_view wanted = is_plan ? "experiment" : "robot";
+  const std::string_view wanted = study ? "experiment" : "robot";
   if (const std::string_view found = config::format_kind(root); found != wanted)
     config::fail(
         {options.of, 0, 0}, "", fmt::format("format = \"sinew.{}/1\"", found),
@@ -230,9 +235,9 @@ Draft draft(const Task& task, const std::string& part, const fs::path& file) {
   if (task.kind == "actuator") replace_all(out.text, "= \"bpa\"", "= \"NEW\"");
   name_joints(out.text, task.subject.joints);
   put_name(out.text, task.name, in_comment(file));
-  if (part == "experiment" || part == "plan") {
-    const std::string key = part == "plan" ? "experiment = " : "robot  = ";
-    const std::string quoted = part == "plan" ? "\"experiment.toml\"" : "\"robot.toml\"";
+  if (part == "experiment" || is_study(part)) {
+    const std::string key = is_study(part) ? "experiment = " : "robot  = ";
+    const std::string quoted = is_study(part) ? "\"experiment.toml\"" : "\"robot.toml\"";
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
     replace_all(out.text, key + quoted,
                 key + in_toml(reference(task.subject, folder, !task.options.of.empty())));
