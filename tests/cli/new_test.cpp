@@ -37,12 +37,16 @@ TEST(New, RobotExperimentAndPlanAreValidAndRun) {
     EXPECT_THAT(robot.err, HasSubstr("sinew new experiment arm-moves --of arm/robot.toml"));
     expect_made(w, with_units({"new", "experiment", "lift", "--of", "arm/robot.toml"}, metric));
     expect_made(w, with_units({"new", "plan", "gains", "--of", "lift.toml", "-o", "a/b"}, metric));
+    expect_made(w, with_units({"new", "tuning", "best", "--of", "lift.toml"}, metric));
+    expect_made(w, with_units({"new", "valves", "fast"}, metric));
+    expect_made(w, with_units({"new", "mapping", "daq"}, metric));
     expect_made(w, with_units({"new", "actuator", "muscle-2"}, metric));
     expect_made(w, with_units({"new", "rig", "stand"}, metric));
 
     const Result checked =
         w.sinew({"check", "arm/robot.toml", "arm/actuator.toml", "arm/valves.toml", "lift.toml",
-                 "a/b/gains.toml", "muscle-2.toml", "stand/rig.toml"});
+                 "a/b/gains.toml", "muscle-2.toml", "stand/rig.toml", "best.toml", "fast.toml",
+                 "daq.toml"});
     EXPECT_EQ(checked.code, 0) << checked.out;
     const Result run = w.sinew({"run", "lift.toml", "-o", "run", "--no-report", "--quiet"});
     EXPECT_EQ(run.code, 0) << run.err;
@@ -109,7 +113,8 @@ TEST(New, BothSetsOfUnitsDescribeTheSameMachine) {
 TEST(New, AFileKeepsToItsUnits) {
   for (const bool metric : {false, true}) {
     const Workspace w;
-    for (const char* kind : {"robot", "rig", "actuator", "experiment", "plan"}) {
+    for (const char* kind :
+         {"robot", "rig", "actuator", "experiment", "plan", "tuning", "valves", "mapping"}) {
       expect_made(w, with_units({"new", kind, std::string("x-") + kind}, metric));
     }
     const std::vector<const char*> others =
@@ -133,6 +138,7 @@ TEST(New, AnExperimentIsOfEveryShippedRobot) {
     const std::string name = entry.path().filename().string();
     expect_made(w, {"new", "experiment", name, "--of", robot});
     expect_made(w, {"new", "plan", name + "-plan", "--of", name + ".toml"});
+    expect_made(w, {"new", "tuning", name + "-tuning", "--of", name + ".toml"});
     ++count;
   }
   EXPECT_GE(count, 10);
