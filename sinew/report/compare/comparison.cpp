@@ -7,6 +7,7 @@
 #include "sinew/analysis/record/derived.h"
 #include "sinew/analysis/stand.h"
 #include "sinew/config/compose.h"
+#include "sinew/report/compare/perfect_sensors.h"
 #include "sinew/report/page/content.h"
 #include "sinew/report/page/stand.h"
 
@@ -172,6 +173,9 @@ std::string_view to_text(Align align) {
 Comparison compare(std::vector<RecordedRun> runs, const AlignWish& wish) {
   Comparison out{.align = wish.by, .clocks_fitted = wish.fit_clock};
   out.runs.reserve(runs.size());  // the first one stays where it is
+  std::vector<signals::Table*> tables;
+  for (RecordedRun& run : runs) tables.push_back(&run.logged);
+  add_perfect_sensors(tables);
   Base first;
   for (RecordedRun& run : runs) {
     out.runs.push_back(opened(std::move(run), wish, first));

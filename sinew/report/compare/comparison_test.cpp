@@ -129,8 +129,9 @@ TEST(Comparison, SaysWhatCannotBeCompared) {
 
 TEST(Comparison, HasAPlotForEveryLineThatBothHave) {
   signals::Table b = table();
-  std::erase_if(b.series,
-                [](const signals::Series& s) { return s.topic.name == "/joint/hip/angle"; });
+  std::erase_if(b.series, [](const signals::Series& s) {  // and what would stand in for it
+    return s.topic.name == "/joint/hip/angle" || s.topic.name == "/true/joint/hip/angle";
+  });
   const Json page = Json::parse(content(two(table(), std::move(b))).json);
   EXPECT_THROW(panel(page, "/joint/hip/angle"), std::invalid_argument);
   EXPECT_EQ(panel(page, "/joint/knee/angle")["columns"].size(), 2u);
@@ -201,6 +202,29 @@ TEST(Comparison, KeepsTheChosenTopics) {
   const Json page = Json::parse(content(c).json);
   EXPECT_EQ(page["panels"].size(), 1u);
   EXPECT_EQ(Json::parse(to_json(c))["channels"][0]["topic"], "/joint/hip/angle");
+}
+
+// A laboratory measured a pressure for which the simulated robot has no sensor: it is held against
+// the true one, on either side, and differs from it by what was added.
+TEST(Comparison, WhatOnlyASimulationKnowsStandsForASensorWithoutError) {
+  const std::string plain = "/muscle/hip_flexor/pressure", known = "/true" + plain;
+  for (const bool measured_first : {true, false}) {
+    signals::Table measured = table(), simulated = table();
+    ASSERT_NE(simulated.find(known), nullptr);
+    ASSERT_EQ(simulated.find(plain), nullptr);
+    add(1000, values(measured, known));
+    std::erase_if(measured.series, [&](const signals::Series& s) {
+      return s.topic.name.starts_with("/true/") && s.topic.name != known;
+    });
+    for (signals::Series& s : measured.series)
+      if (s.topic.name == known) s.topic.name = plain;
+    const Comparison c = measured_first ? two(std::move(measured), std::move(simulated))
+                                        : two(std::move(simulated), std::move(measured));
+    const auto row = std::ranges::find_if(
+        c.channels, [&](const ChannelRow& r) { return r.channel.topic == plain; });
+    ASSERT_NE(row, c.channels.end());
+    EXPECT_NEAR(row->differences[1]->rms, 1000, 1e-6);
+  }
 }
 
 }  // namespace

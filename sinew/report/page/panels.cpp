@@ -117,10 +117,14 @@ void muscles(Panels& p) {
   p.open("Muscles", "Tension");
   p.per_muscle("/muscle/", "/tension");
   p.per_muscle("/true/muscle/", "/tension", " true", Style::hidden);
-  p.open("Muscles", "Pressure");
-  p.per_muscle("/true/muscle/", "/pressure");
-  p.open("Muscles", "Length");
-  p.per_muscle("/true/muscle/", "/length");
+  // Sensors of these are rare: where there is none, the true one stands alone.
+  for (const auto& [title, after] :
+       {std::pair("Pressure", "/pressure"), std::pair("Length", "/length")}) {
+    p.open("Muscles", title);
+    p.per_muscle("/muscle/", after);
+    const bool measured = !p.list.back().lines.empty();
+    p.per_muscle("/true/muscle/", after, measured ? " true" : "", Style::hidden);
+  }
 }
 
 void valves(Panels& p) {

@@ -82,7 +82,8 @@ std::vector<ParameterRow> differing(const std::vector<const std::vector<Paramete
       rows[at->second].values[run] = p.value;
     }
   std::erase_if(rows, [](const ParameterRow& row) {
-    return row.key == "title" || row.key == "reproduces" ||
+    // Which files a recording came from is no parameter of the machine.
+    return row.key == "title" || row.key == "reproduces" || row.key.starts_with("imported[") ||
            std::ranges::all_of(row.values, [&](const auto& v) { return v == row.values.front(); });
   });
   return rows;
