@@ -1,8 +1,10 @@
-// python/binding/files.cpp - files: an older format becomes today's, and the keys that they can
-// have.
+// python/binding/files.cpp - files: which there are, a new one to begin with, an older format that
+// becomes today's, and the keys that they can have.
 #include "sinew/files/key_text.h"
 #include "sinew/files/keys.h"
+#include "sinew/files/list.h"
 #include "sinew/files/migrate.h"
+#include "sinew/files/new_file.h"
 
 #include <pybind11/stl.h>
 
@@ -39,6 +41,32 @@ py::object key_schema(const std::string& kind) {
   return py::module_::import("json").attr("loads")(files::schema_of(kind));
 }
 
+py::list list_files(const std::string& kind, const py::object& folder) {
+  const std::string here = folder.is_none() ? "." : path_of(folder);
+  const files::Listing found = files::list(kind, here);
+  py::list out;
+  for (const files::Listed& one : found.files) {
+    py::dict row;
+    row["kind"] = one.kind;
+    row["path"] = one.path;
+    row["title"] = one.title;
+    row["problem"] = one.problem;
+    row["shipped"] = one.shipped;
+    out.append(row);
+  }
+  return out;
+}
+
+std::vector<std::string> new_file(const std::string& kind, const std::string& name,
+                                  const py::object& folder, const py::object& of,
+                                  const py::object& actuator, bool metric) {
+  files::NewOptions options{.metric = metric};
+  if (!folder.is_none()) options.folder = path_of(folder);
+  if (!of.is_none()) options.of = path_of(of);
+  if (!actuator.is_none()) options.actuator = path_of(actuator);
+  return files::write_new(kind, name, options).files;
+}
+
 }  // namespace
 
 void bind_files(py::module_& m) {
@@ -56,6 +84,22 @@ void bind_files(py::module_& m) {
         "or any. Raises InputError, with the nearest key, where there is none.");
   m.def("key_schema", &key_schema, py::arg("kind"),
         "Returns the JSON schema of files of that kind, for editors that complete TOML.");
+  m.def(
+      "list_files", &list_files, py::arg("kind") = "", py::kw_only(),
+      py::arg("folder") = py::none(),
+      "Returns the robots, experiments, rigs, studies and examples that come with Sinew and that\n"
+      "stand in `folder`, this one without it: a dict each, with `kind`, `path`, `title`,\n"
+      "`problem` (why it cannot be read) and `shipped`. `kind` is one of these words, or all.\n"
+      "Raises InputError.");
+  m.def(
+      "new_file", &new_file, py::arg("kind"), py::arg("name"), py::kw_only(),
+      py::arg("folder") = py::none(), py::arg("of") = py::none(), py::arg("actuator") = py::none(),
+      py::arg("metric") = false,
+      "Writes a commented file to begin with, valid as written, and returns the paths of what\n"
+      "was written, the one that was asked for first. `kind` is robot, actuator, valves,\n"
+      "experiment, plan, rig, tuning or mapping; `of` the file that it is about; `actuator` that\n"
+      "of a robot's muscles; `metric` has mm, N and bar in place of in, lbf and psi. Nothing is\n"
+      "overwritten. Raises InputError.");
 }
 
 }  // namespace sinew::python
