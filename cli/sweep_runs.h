@@ -41,8 +41,8 @@ bool is_worker_of(const tune::Ranks& ranks, const RunOptions& options,
 // of the share's points, config::Error where a figure has no row; both say what holds the rows.
 std::vector<tune::Row> run_rows(const tune::Sweep& sweep, const SweepRuns& how);
 
-// --range, --set, --report, --units, --allow-unreachable, --threads, --results: what every command with runs
-// takes.
+// --range, --set, --report, --units, --allow-unreachable, --threads, --results: what every command
+// with runs takes.
 void add_runs(Command sub, tune::Study& study, RunOptions& options);
 
 // --threads and --results alone.
