@@ -37,7 +37,7 @@ list='
     quick  clang-format-14     clang-format-14                  one layout of code; versions differ
     check  -                   libopenmpi-dev                   sweeps over the processes of mpirun
     check  -                   libcomedi-dev                    a machine at a card
-    check  -                   libmatio-dev                     recordings in MATLAB's files
+    check  -                   libmatio-dev                     recordings in files of MATLAB
     check  -                   pybind11-dev                     the Python package
     check  -                   python3-dev                      what that is compiled with
     check  -                   python3-numpy                    its arrays

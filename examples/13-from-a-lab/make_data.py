@@ -15,6 +15,7 @@ import random
 import subprocess
 import sys
 import tempfile
+from typing import List, Union
 
 SINEW = str(pathlib.Path(sys.argv[1]).resolve())
 HERE = pathlib.Path(__file__).resolve().parent
@@ -31,20 +32,20 @@ CLOCK = 1.003  # the recorder counts 1.003 s in a second
 STARTED = 1.37  # it was switched on so long before the machine [s]
 
 
-def sinew(*words, cwd):
+def sinew(*words: str, cwd: Union[str, pathlib.Path]) -> str:
     return subprocess.run([SINEW, *words], cwd=cwd, check=True, capture_output=True, text=True).stdout
 
 
-def german(value, digits):
+def german(value: float, digits: int) -> str:
     return f"{value:.{digits}f}".replace(".", ",")
 
 
-def write(name, lines):
+def write(name: str, lines: List[str]) -> None:
     # Excel's own way: a byte order mark, CR LF, semicolons.
     (HERE / name).write_bytes(("\ufeff" + "\r\n".join(lines) + "\r\n").encode())
 
 
-def force_map():
+def force_map() -> None:
     """Seven pressures, each with twelve lengths there and back."""
     lengths = [150 + 5 * i for i in range(12)]
     rows = []
@@ -61,7 +62,7 @@ def force_map():
     write("kennlinie.csv", lines)
 
 
-def recording():
+def recording() -> None:
     """The machine at 100 Hz, ten times up and down: angle, and pressures as gauges read them."""
     with tempfile.TemporaryDirectory() as work:
         # The robot is built around the muscle that the lesson finds, and then gets the true one.
@@ -79,7 +80,7 @@ def recording():
             table = list(csv.DictReader(file))
     names = list(table[0])
 
-    def column(begin):
+    def column(begin: str) -> str:
         return next(n for n in names if n.startswith(begin))
 
     time = column("time")
