@@ -30,6 +30,7 @@ class RunsPages {
   Reply get(std::string_view path);
   void list_first() { list_first_ = true; }
 
+  // Returns the runs by their numbers, as they were found so far.
   const std::vector<std::filesystem::path>& runs() const { return runs_; }
 
  private:

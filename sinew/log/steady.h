@@ -18,8 +18,10 @@ namespace sinew::log {
 // What is learned of a topic while its messages are written.
 class Steadiness {
  public:
+  // Looks at the next message of the topic.
   void add(std::int64_t time_ns, std::string_view message);
 
+  // Have all messages been the same so far, two of them at least?
   bool is_steady() const { return steady_ && count_ > 1; }
   // Has the other one the very times? (Of so many times as there are, in their order, by a hash of
   // 64 bits.)

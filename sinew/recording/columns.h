@@ -17,6 +17,7 @@ namespace sinew::recording {
 // Numbers of a file's unit to SI: a pressure may have an offset.
 struct ToSi {
   double slope = 1, offset = 0;
+  // Returns a number of the file in SI, and the number that stands for a value of SI.
   double operator()(double number) const { return offset + slope * number; }
   double back(double si) const { return (si - offset) / slope; }
 };
@@ -34,6 +35,7 @@ struct Found {
 // Finds columns of one grid. What it cannot find goes to `problems`.
 class ColumnFinder {
  public:
+  // Looks in `grid` for what `source` says of its columns; all three outlive it.
   ColumnFinder(const Grid& grid, const Source& source, Problems& problems)
       : grid_(grid), source_(source), problems_(problems) {}
 

@@ -21,6 +21,7 @@ struct Grid {
   Dialect dialect;
   std::vector<std::string> notes;
 
+  // Returns the columns, in the order of the file.
   const std::vector<Heading>& headings() const { return dialect.headings; }
   int header_line() const { return dialect.header_line; }  // 0: the header came from elsewhere
 
@@ -34,6 +35,7 @@ Grid read_grid(std::string bytes, const Source& source);
 // Reads the rows of a grid, which outlives it. Each has as many cells as the header.
 class Body {
  public:
+  // Stands before the first row of the grid.
   explicit Body(const Grid& grid);
 
   // Reads the next row; rows with other numbers of cells are counted and passed over.

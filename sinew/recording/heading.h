@@ -25,6 +25,7 @@ struct Heading {
   bool is_called(std::string_view text) const { return name == text || written == text; }
 };
 
+// Reads the cell of a header: its name, its unit, and the condition behind an @.
 Heading heading_of(const Cell& cell);
 
 // Gives the heading a unit as somebody wrote it.

@@ -17,6 +17,7 @@ struct Scaling {
   double slope = 1, offset = 0;
   bool same = true;  // bit for bit
 
+  // Returns the value that the channel has for a number of the file.
   double operator()(double number) const { return same ? number : offset + slope * number; }
 };
 

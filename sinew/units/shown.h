@@ -92,6 +92,7 @@ struct ShownUnitsReading {
   ShownUnits units;
   std::string found, expected, try_this;  // all empty where the text was understood
 
+  // Was the text understood?
   bool ok() const { return found.empty(); }
 };
 

@@ -28,6 +28,7 @@ struct ValveEdges {
   std::size_t only_recorded = 0, only_replayed = 0;
   double mean_move = 0, largest_move = 0;  // replayed - recorded; in magnitude, with sign [s]
 
+  // How many edges the two do not have in common.
   std::size_t differing() const { return moved + only_recorded + only_replayed; }
 };
 
