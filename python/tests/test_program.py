@@ -23,7 +23,7 @@ class Program(unittest.TestCase):
     def test_ends_as_the_program_does(self) -> None:
         self.assertEqual(self.run_module("rnu").returncode, 2)
         self.assertEqual(self.run_module("run", "nowhere.toml").returncode, 1)
-        self.assertIn("did you mean run?", self.run_module("rnu").stderr)
+        self.assertIn("try run", self.run_module("rnu").stderr)
 
     def test_where_there_is_none_is_said(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
