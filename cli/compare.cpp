@@ -41,7 +41,7 @@ report::AlignWish wish_of(const Options& options) {
   report::AlignWish wish;
   for (const auto by : {report::Align::sequence, report::Align::event, report::Align::correlation})
     if (to_text(by) == options.align) wish.by = by;
-  // What is said of an event or of channels is a wish for them.
+  // An event or channels that are named are wished for.
   if (!options.event.empty()) wish.by = report::Align::event;
   if (!options.align_by.empty() && wish.by == report::Align::start)
     wish.by = report::Align::correlation;

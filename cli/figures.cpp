@@ -57,7 +57,7 @@ run::FigureFiles files_of(const std::vector<std::string>& formats, bool force) {
 
 namespace {
 
-// What is only of runs.
+// These options are for runs alone.
 void add_run_options(Command sub, RunFiguresRequest& runs, Option thesis) {
   const auto of_runs = [&](Option option) { option.excludes(thesis); };
   of_runs(sub.add_option("--only", runs.only, "of runs: these figures alone"));

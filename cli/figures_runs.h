@@ -28,7 +28,7 @@ struct RunFiguresRequest {
   bool overlaid() const { return overlay || !labels.empty() || align != "start"; }
 };
 
-// What --format and --force ask for: "svg,png,pdf,csv"; "csv" alone draws nothing. Throws
+// Returns what --format and --force ask for: "svg,png,pdf,csv"; "csv" alone draws nothing. Throws
 // config::Error for another word.
 run::FigureFiles files_of(const std::vector<std::string>& formats, bool force);
 

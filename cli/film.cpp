@@ -29,7 +29,7 @@ film::FilmOptions film_of(const Options& options) {
 ExitCode make(const Options& options) {
   const Messages messages(options.quiet);
   const film::FilmOptions film = film_of(options);
-  // What can be wrong without a look at the run comes first: a browser takes its time.
+  // Mistakes that show without a look at the run are told first: a browser takes its time.
   const film::Kind kind = film::kind_of(options.out);
   film::check(film, kind);
   run::refuse_to_overwrite(options.out, options.force, {},

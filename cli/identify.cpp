@@ -106,7 +106,7 @@ void print(const identify::Report& report) {
   for (const std::string& note : report.best().notes) fmt::print("note: {}\n", as_options(note));
 }
 
-// What a file may leave open; most files show all of it.
+// A file may leave these open; most files show them all.
 void add_dialect_options(Command sub, DataOptions& options) {
   sub.add_option("--encoding", options.encoding, "of files whose letters do not show it: latin1")
       .is_one_of({"utf-8", "utf-16le", "utf-16be", "latin1"});

@@ -21,7 +21,7 @@ struct Options {
   bool json = false, page = false;
 };
 
-// What all kinds have is in the schema of each.
+// The schema of each kind has what all kinds have.
 std::vector<std::string> kinds_with_a_schema() {
   std::vector<std::string> out = files::key_kinds();
   std::erase(out, "any");

@@ -127,7 +127,7 @@ void tell_of_leftovers(const CLI::App& command, const CLI::App& program, Problem
   if (out.empty() && !words.empty()) out.push_back(unknown_word(words.front(), command));
 }
 
-// What a missing option or word is, "a file: the robot's".
+// Returns the words for a missing option or word, "a file: the robot's".
 std::string meaning_of(const CLI::Option& option) {
   const CommandTree::Shape shape = shape_of(option);
   std::string out = shape.description;
@@ -203,7 +203,7 @@ std::string problems_of_line(const CLI::App& program, const CLI::ParseError& err
   const CLI::App& command = asked(program);
   const std::string more =
       fmt::format("\n{} tells what {} takes", help_command(words_to(command)), words_to(command));
-  // What a check of ours, or an action, says of a value stands as it is.
+  // The words of our own checks and actions about a value stay as they are.
   if (dynamic_cast<const CLI::ValidationError*>(&error)) return error.what() + more;
   Problems out;
   tell_of_leftovers(command, program, out);

@@ -15,7 +15,7 @@ namespace {
 
 using Texts = std::map<std::string, std::string>;
 
-// What is said of columns.
+// Reads what a caller says of columns.
 struct Said {
   Texts map, units, offset, where;
   std::map<std::string, double> scale;

@@ -11,7 +11,7 @@ from common import Refusals
 
 class ShownUnits(Refusals):
     def setUp(self) -> None:
-        # Of nobody's own settings.
+        # Nobody's own settings are read.
         patch = mock.patch.dict(os.environ, {"XDG_CONFIG_HOME": os.path.join(os.sep, "nowhere")})
         patch.start()
         self.addCleanup(patch.stop)

@@ -19,7 +19,7 @@ using signals::Column;
 
 constexpr double seconds_per_ns = 1e-9;
 
-// What a simulation knows, "/true/stand/length", or else what instruments have measured,
+// Returns what a simulation knows, "/true/stand/length", or else what instruments have measured,
 // "/stand/length".
 const signals::Series* known(const signals::Table& table, const std::string& topic) {
   const signals::Series* series = table.find("/true" + topic);

@@ -14,10 +14,11 @@ namespace sinew::config {
 std::string default_text(double value, std::string_view unit);
 std::string joined(const std::vector<double>& values, std::string_view unit);
 
-// What a number has to be, with the ends that the field itself has: "m (length), at least 0 m".
+// Says what a number has to be, with the ends that the field itself has: "m (length), at least 0
+// m".
 std::string number_text(const units::Field& field);
 
-// The same for a whole number: "a whole number, 1 to 8".
+// Says it for a whole number: "a whole number, 1 to 8".
 std::string whole_text(const units::Field& field);
 
 // The words of a choice: `"raises angle" or "lowers angle"`.

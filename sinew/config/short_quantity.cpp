@@ -29,7 +29,7 @@ std::vector<std::string> other_units(std::string_view unit) {
   const std::string_view held = unit == "Pa abs" ? "Pa" : unit;
   for (const units::UnitSet set : {units::UnitSet::thesis, units::UnitSet::metric}) {
     std::string shown = units::ShownUnits(set).of(held).name;
-    // What a gauge says depends on the room.
+    // A gauge's number depends on the room.
     if (shown.ends_with(" gauge")) shown.replace(shown.size() - 5, 5, "abs");
     out.push_back(std::move(shown));
   }

@@ -24,7 +24,7 @@ namespace sinew::config {
 // The variable of the environment.
 inline constexpr const char* units_variable = "SINEW_UNITS";
 
-// What is said about units beside the environment and the person's settings.
+// Holds what is said about units beside the environment and the person's settings.
 struct UnitsAsked {
   std::string now;               // empty: nothing
   std::string now_is = "units";  // what messages call it

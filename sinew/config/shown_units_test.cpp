@@ -39,7 +39,7 @@ class UnitsAskedOf : public testing::Test {
   static std::string shown(const UnitsAsked& asked) {
     return units_to_show(asked, UnitSet::thesis).units.text();
   }
-  // What is wrong, as one text.
+  // Returns what is wrong, as one text.
   static std::string wrong(const UnitsAsked& asked) {
     try {
       units_to_show(asked);

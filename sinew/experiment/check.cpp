@@ -15,7 +15,7 @@ namespace {
 
 using List = std::vector<robot::Contradiction>;
 
-// In the unit in which the file has the value at that path.
+// Returns the value in the unit in which the file has the one at that path.
 std::string length_like(const Experiment& e, std::string_view path, double metres) {
   return config::quantity_like(e.origins, path, metres, "m", "in");
 }

@@ -18,7 +18,7 @@ namespace sinew::files {
 
 namespace {
 
-// What the rest of the robot has to know of the muscle.
+// Holds what the rest of the robot has to know of the muscle.
 struct Muscle {
   std::string name;
   double mount = 0;     // [m]

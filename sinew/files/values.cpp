@@ -31,7 +31,7 @@ std::string si_text(const config::Node& values, const config::Origin& origin) {
   return config::written(node->is_value_table() ? *node->find("value") : *node);
 }
 
-// The same for people: a single number without the digits that reading it left behind.
+// Returns it for people: a single number without the digits that reading it left behind.
 std::string rounded_text(const config::Node& values, const config::Origin& origin) {
   const std::string si = si_text(values, origin);
   const config::Parsed parsed = config::parse_quantity(si, origin.unit.empty() ? "1" : origin.unit);
@@ -110,7 +110,7 @@ Json to_json(const config::Origin& o, const config::Node& values) {
   return out;
 }
 
-// Of a mapping, whose rows are tables in a list.
+// A mapping's rows are tables in a list.
 Values mapping_values(const std::string& path, const std::vector<std::string>& sets,
                       const std::vector<std::string>& keys) {
   const config::Node root = config::compose(path, sets);

@@ -148,7 +148,7 @@ std::string Chromium::Impl::next_message() {
   }
 }
 
-// What it says of itself in between is left out.
+// Its own messages in between are left out.
 Json Chromium::Impl::ask(const char* method, Json parameters) {
   Json command{{"id", ++last}, {"method", method}, {"params", std::move(parameters)}};
   if (!session.empty()) command["sessionId"] = session;

@@ -20,9 +20,9 @@
 
 namespace sinew::film {
 
-// What a film shows, and how.
+// Says what a film shows, and how.
 struct FilmOptions {
-  // What is shown, in the run's time [s].
+  // The part that is shown, in the run's time [s].
   double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();
   double speed = 1;               // seconds of the run in one of the film
@@ -32,7 +32,7 @@ struct FilmOptions {
   bool still = false;  // the camera stands, and shows the whole way
 };
 
-// What a film is kept as.
+// The kind of file that keeps a film.
 enum class Kind { gif, mp4, webm };
 
 // Returns the kind that a file's ending says. Throws config::Error for another ending.

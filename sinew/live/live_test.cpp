@@ -219,7 +219,7 @@ TEST(Show, EachPageGetsEverythingOnce) {
   }
 }
 
-// What the plan's list sets is marked as what a slider sets, once for each page, the release too.
+// A change of the plan's list is marked as one of a slider is, once for each page, the release too.
 TEST(Show, WhatIsSetIsToldToEachPageOnce) {
   Stage stage(in_air());
   EXPECT_EQ(stage.show.answer(R"({"do":"set","key":"control.stiffness.knee","value":1.5})"), "");

@@ -47,7 +47,7 @@ Reply not_found() { return {404, "Nothing is here; the runs are at runs.\n", pla
 // The folder of a run that may be named by its log.
 fs::path folder_of(const fs::path& run) { return fs::is_directory(run) ? run : run.parent_path(); }
 
-// In the time of this computer: "2026-11-25 02:10".
+// Returns it in the time of this computer: "2026-11-25 02:10".
 std::string date_of(fs::file_time_type written) {
   const auto when = std::chrono::file_clock::to_sys(written);
   const std::time_t seconds = std::chrono::system_clock::to_time_t(
@@ -72,7 +72,7 @@ std::string text_at(const config::Node& node, std::string_view key) {
   return found != nullptr ? config::written(*found) : "";
 }
 
-// What summary.json says; nothing where the run was not finished.
+// Returns what summary.json says; nothing where the run was not finished.
 Json summary_in(const fs::path& folder) {
   std::ifstream in(folder / run::summary_name);
   Json out = in ? Json::parse(in, nullptr, false) : Json();

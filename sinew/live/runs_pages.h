@@ -34,7 +34,7 @@ class RunsPages {
   const std::vector<std::filesystem::path>& runs() const { return runs_; }
 
  private:
-  // What the list tells of a run, as JSON; kept until its files change.
+  // Holds what the list tells of a run, as JSON; kept until its files change.
   struct Told {
     std::filesystem::file_time_type written;
     std::string json;

@@ -108,7 +108,7 @@ std::optional<Channel> parse_channel(std::string_view content) {
   c.schema = f.u16();
   c.topic = f.text();
   c.encoding = f.text();
-  // What others write there may be of any form.
+  // Other programs may write anything there.
   if (!take_pairs(f.text(), c.metadata)) c.metadata.clear();
   return if_ok(f, c);
 }

@@ -21,7 +21,8 @@ namespace sinew::log {
 // description, which viewers show, says it once more.
 std::string to_schema(const signals::Topic& topic);
 
-// The same units as metadata of its channel, for readers that do not look into schemas.
+// Returns these units as metadata of the topic's channel, for readers that do not look into
+// schemas.
 std::vector<std::pair<std::string, std::string>> to_metadata(const signals::Topic& topic);
 
 // The topic that a schema describes; nothing where it has no field with a number. Fields of other

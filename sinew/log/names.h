@@ -11,7 +11,8 @@ inline constexpr std::string_view kRunMetadata = "sinew.run";  // the record tha
 
 // Metadata of a channel: "unit.<field>" says in which unit a field is.
 inline constexpr std::string_view kUnit = "unit.";
-// Of one whose value never changes and which is written once: the topic at whose times it stands.
+// A topic whose value never changes is written once, and says here: the topic at whose times it
+// stands.
 inline constexpr std::string_view kSteady = "sinew.steady";
 
 }  // namespace sinew::log

@@ -15,7 +15,7 @@
 
 namespace sinew::log {
 
-// What is learned of a topic while its messages are written.
+// Learns of a topic while its messages are written.
 class Steadiness {
  public:
   // Looks at the next message of the topic.

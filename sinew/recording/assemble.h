@@ -24,7 +24,7 @@ struct Joining {
   double atmosphere = units::atmosphere;      // between gauge and absolute pressures [Pa]
 };
 
-// What became of one file.
+// Says what became of one file.
 struct Taken {
   std::string file, kind;
   std::string started;              // on the clock on the wall; empty: not known

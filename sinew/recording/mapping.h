@@ -17,7 +17,7 @@
 //
 //   value = scale x number [unit] + offset
 //
-// What a column's name says by itself needs no row: a channel's own name, or `elbow_angle`.
+// A column whose name says it by itself needs no row: a channel's own name, or `elbow_angle`.
 #pragma once
 
 #include <string>

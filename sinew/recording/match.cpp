@@ -235,7 +235,7 @@ class Matcher {
     return {};
   }
 
-  // What a quantity is told to try, for a unit alone: "0 kPa gauge" -> "kPa gauge".
+  // Turns what a quantity is told to try into words for a unit alone: "0 kPa gauge" -> "kPa gauge".
   static std::string without_number(std::string text) {
     for (std::size_t at = 0; (at = text.find("\"0 ", at)) != text.npos;) text.erase(at + 1, 2);
     return text;

@@ -24,7 +24,7 @@ struct Matrix {
   std::vector<double> values;  // column by column
 };
 
-// What a file holds, as the module hands it over.
+// Holds what is in a file, as the module hands it over.
 struct Variables {
   std::vector<Matrix> matrices;
   std::map<std::string, std::string> texts;  // by name

@@ -117,7 +117,7 @@ Recorded read_mcap(const std::string& path) {
   return out;
 }
 
-// What only a table of text can be told.
+// Refuses settings that only a table of text can be told.
 void refuse_table_settings(const std::string& path, const char* kind, const Mapping& mapping) {
   if (!mapping.where.empty())
     config::fail({path, 0, 0}, "where", fmt::format("rows of {}", kind),

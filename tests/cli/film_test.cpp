@@ -24,7 +24,7 @@ void run(const Workspace& w, const std::string& experiment, const std::string& f
   ASSERT_EQ(w.sinew({"run", experiment, "-o", folder, "--no-report"}).code, 0);
 }
 
-// What a GIF holds, read by its blocks.
+// Holds what is in a GIF, read by its blocks.
 struct Gif {
   int width = 0, height = 0, unlike = 0;
   std::vector<int> delays;  // of each frame [ms]

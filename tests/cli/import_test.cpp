@@ -67,7 +67,7 @@ TEST(Import, ATableBecomesARunThatEverythingTakes) {
   EXPECT_EQ(compared.code, 0) << compared.err;
   EXPECT_THAT(compared.out, HasSubstr("/joint/lever/angle"));
 
-  // The same by the file that was saved, and by the one in the folder.
+  // The file that was saved gives the same run, and so does the one in the folder.
   for (const char* mapping : {"rig.toml", "lab/mapping.toml"}) {
     const Result again =
         w.sinew(import({"rig.csv"}, {"-o", "again", "--force", "--mapping", mapping, "--quiet"}));

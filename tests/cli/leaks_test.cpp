@@ -12,7 +12,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// What only somebody who wrote the program could understand.
+// Only somebody who wrote the program could understand these words.
 constexpr const char* internal[] = {
     "std::",        "basic_string",   "vector",      "invalid_argument",
     "out_of_range", "bad_alloc",      "json.exc",    "[json",
@@ -23,7 +23,7 @@ constexpr const char* internal[] = {
     "unique_ptr",   "not expected: ", "is required", "not in {",
     "TEXT",         "errno"};
 
-// Of each command a line that is right but for FILE.
+// Each line of a command is right but for FILE.
 constexpr const char* lines[] = {
     "run FILE -o out --quiet",
     "analyze FILE",

@@ -155,7 +155,7 @@ TEST(Units, ASweepShowsFiguresThatNameNoUnitInThem) {
             w.sinew(with(sweep, {"--json"})).out);
 }
 
-// What nobody wrote is not shown, and no bit is lost on the way through resolved.toml.
+// Digits that nobody wrote are not shown, and no bit is lost on the way through resolved.toml.
 TEST(Units, ValuesAreShownAsTheyWereWritten) {
   const Workspace w;
   run_lever(w, {"--set", "joint.lever.angle_gain=0.035 %/count", "--no-report"});

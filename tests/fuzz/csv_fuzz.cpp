@@ -40,7 +40,7 @@ std::string written(const Measured& m) {
   return text;
 }
 
-// The same bytes as a table of which nobody said what its columns mean.
+// Reads the same bytes as a table of which nobody said what its columns mean.
 void all_columns(std::string_view input) {
   recording::RawTable table;
   try {

@@ -100,7 +100,7 @@ function checkStatistics(reader, messages, first, last) {
     same(`messages of channel ${channel}`, messages.counts.get(channel) ?? 0, count);
 }
 
-// What never changes is written once, and the topic at whose times it stands is there as a whole.
+// A value that never changes is written once, and the topic at whose times it stands is there as a whole.
 function checkSteady(messages) {
   const counts = new Map();
   for (const [id, count] of messages.counts) counts.set(messages.topicOf(id), count);

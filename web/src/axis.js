@@ -1,4 +1,4 @@
-// What an axis shows of its values: never noise alone, never a first sample alone, round ticks.
+// An axis shows this of its values: never noise alone, never a first sample alone, round ticks.
 
 // Below that a quantity is at rest, whatever its last digits do: [the unit], in SI.
 const least_span = {

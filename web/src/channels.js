@@ -23,7 +23,7 @@ export class ChannelList {
     return this.columns[this.by_id.get(id).column];
   }
 
-  // Of those that have a number by now.
+  // Counts those that have a number by now.
   with_samples() {
     return this.list.filter((c) => (c.has ||= this.columns[c.column].values.some((v) => v === v)));
   }

@@ -133,7 +133,7 @@ class ComparePage {
     this.plots.on_view = () => this.draw_view();
     this.plots.on_values = (t) => this.show(t);
     document.querySelector('.stage').classList.toggle('without-plots', !specs.length);
-    // What is laid on each other is looked at by what is left.
+    // Runs that are laid on each other are looked at by what is left.
     this.apart = data.align === 'event' || data.align === 'correlation';
     by_id('show-differences').setAttribute('aria-pressed', String(this.apart));
     this.all = false;
@@ -261,7 +261,7 @@ class ComparePage {
     this.player.seek(t);
   }
 
-  // What the player says.
+  // Shows what the player says.
   go(time) {
     this.plots.set_time(time);
     this.plots.keep_in_view(time);

@@ -10,7 +10,7 @@ import * as parts from './stand_parts.js';
 
 const solid = 0.45;  // of a ghost
 
-// What a ghost is drawn on before it is laid over the picture, so that its parts do not shine
+// A ghost is drawn on this before it is laid over the picture, so that its parts do not shine
 // through each other.
 class Veil {
   constructor() {
@@ -74,7 +74,7 @@ class Ghost extends Scene {
 class GhostStand extends StandScene {
   draw() {}
 
-  // In the first stand's place.
+  // It stands in the first stand's place.
   paint(ctx, v, t, color) {
     const state = { ...this.state(t), color, inlet: false, exhaust: false };
     if (!Number.isFinite(state.length)) return;

@@ -48,7 +48,7 @@ export function dims_of(unit) {
   return out;
 }
 
-// What results are called where there is a name, the log's spelling first.
+// Results are called so where there is a name, the log's spelling first.
 const named = ['1', 'm', 'm/s', 'm/s^2', 'N', 'Pa', 'N/m', 'N/s', 'Pa/s', 'kg', 'kg/s', 'rad', 'rad/s', 'rad/s^2', 'N m',
   'N m/rad', 'N m s/rad', 'count', 'count/s', 's', '1/s', 'm^2', 'm^3', 'W', 'V', 'K', 'A'].map((name) => [name, dims_of(name)]);
 

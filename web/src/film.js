@@ -69,7 +69,7 @@ class Film {
     return this.colors.length;
   }
 
-  // What the frame adds to the file; `delay` in ms.
+  // Returns what the frame adds to the file; `delay` in ms.
   gif_frame(t, delay) {
     const now = applyPalette(this.pixels(t), this.colors), { before } = this;
     const shown = before ? now.map((color, i) => (color === before[i] ? this.through : color)) : now;

@@ -256,7 +256,7 @@ function unit_of(node, channels) {
   }
 }
 
-// In the spelling by which pages know it: "Pa" where it has a zero of its own, as a channel.
+// Returns it in the spelling by which pages know it: "Pa" where it has a zero of its own, as a channel.
 function word_of(unit) {
   if (!unit.dims) return '1';
   if (unit.name && !(is_pressure(unit.dims) && unit.zeros !== 1 && /^Pa( abs)?$/.test(unit.name))) return unit.name;

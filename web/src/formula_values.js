@@ -1,4 +1,4 @@
-// What a formula gives: a column at the times of its channel with the most samples. Of a channel with
+// A formula gives a column at the times of its channel with the most samples. Of a channel with
 // other times the value counts that was last known then.
 
 const apply = {
@@ -31,7 +31,7 @@ function derivative(time, v) {
   return out;
 }
 
-// By trapezoids; a gap adds nothing.
+// Integrates by trapezoids; a gap adds nothing.
 function integral(time, v) {
   const out = new Float64Array(v.length);
   for (let i = 0, sum = 0; i < v.length; ++i) {

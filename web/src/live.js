@@ -64,7 +64,7 @@ export class Live {
     if (this.page) this.grow();
   }
 
-  // What was set since, by a slider or the file's list.
+  // Marks what was set since, by a slider or the file's list.
   take_changes(changes) {
     (this.run.changes ??= []).push(...changes);
     this.page?.marks.refresh();

@@ -1,4 +1,4 @@
-// What was set while the run went, by the file's list or by a slider: a mark on the time axis of every
+// These mark what was set while the run went, by the file's list or by a slider: a mark on the time axis of every
 // plot. A slider that is dragged sends many values; what follows within a moment is one move.
 import { element } from './page.js';
 

@@ -1,4 +1,4 @@
-// What a reader chose, kept in this browser for all pages. A browser that keeps nothing is no trouble.
+// This keeps what a reader chose in this browser, for all pages. A browser that keeps nothing is no trouble.
 
 const prefix = 'sinew: ';
 

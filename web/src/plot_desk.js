@@ -1,4 +1,4 @@
-// What a person does with the plots of a run: groups, enlarging, saving, arranging, formulas.
+// This is for what a person does with the plots of a run: groups, enlarging, saving, arranging, formulas.
 import { ChannelDrawer } from './channel_drawer.js';
 import { ChannelList } from './channels.js';
 import { dragged } from './dragging.js';
@@ -171,7 +171,7 @@ export class PlotDesk {
     });
   }
 
-  // Of a run that goes: samples have come.
+  // A run that goes has new samples.
   grow() {
     this.own.recompute();
     for (const panel of this.plots.panels) panel.renew();

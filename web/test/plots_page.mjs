@@ -1,4 +1,4 @@
-// What a person does with the plots of a run: as large as the window, channels together, formulas,
+// These tests do what a person does with the plots of a run: as large as the window, channels together, formulas,
 // an own arrangement that the browser keeps, pictures of plots, marks of what was set.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';

@@ -42,7 +42,7 @@ struct Lone {
   bool opens;
 };
 
-// What is left of both trains without the edges that are equal.
+// Holds what is left of both trains without the edges that are equal.
 void leave_out_equal(const signals::Series& a, std::size_t of_a, const signals::Series& b,
                      std::size_t of_b, std::vector<Lone>& lone_a, std::vector<Lone>& lone_b) {
   std::size_t i = 0, k = 0;

@@ -1,4 +1,5 @@
-// What a column gives away about its sensor: an end that was met, a slip of the pen, no change.
+// A column gives away something about its sensor: an end that was met, a slip of the pen, no
+// change.
 #include "sinew/identify/data/quality.h"
 
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@ struct SinewMatlabSink {
   void (*matrix)(void* object, const char* name, std::size_t rows, std::size_t columns,
                  const double* values);
   void (*text)(void* object, const char* name, const char* text);
-  // What is neither: "a cell array", "complex numbers".
+  // Names what is neither: "a cell array", "complex numbers".
   void (*other)(void* object, const char* name, const char* what);
 };
 

@@ -98,7 +98,7 @@ class Part {
     return channel.field == "value" ? name : name + " " + channel.field;
   }
 
-  // What all channels of a unit are called: as their panel, or as the end of their topics.
+  // Returns what all channels of a unit are called: as their panel, or as the end of their topics.
   Panel& panel_for(const Known& at, const Channel& channel, const std::string& unit) {
     const std::string title = at.panel && at.panel->title.find("channels") == std::string::npos
                                   ? at.panel->title

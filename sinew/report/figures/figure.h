@@ -16,7 +16,7 @@
 
 namespace sinew::report {
 
-// What a figure is printed on.
+// Says what a figure is printed on.
 struct Paper {
   double width = 252;          // of the picture [pt], 72 to the inch: 89 mm, a journal's column
   double height = 0;           // [pt]; 0: as high as the plots want to be

@@ -149,7 +149,7 @@ void Script::begin(const std::vector<Picture>& pictures) {
   add("set multiplot");
 }
 
-// Of each picture: sizes are in points of 72 to the inch, however large the terminal's own are.
+// Sizes of each picture are in points of 72 to the inch, however large the terminal's own are.
 void Script::terminals(const std::vector<Picture>& pictures) {
   const auto pixels = [&](double dots, double points) {
     return fmt::format("{:.0f}", points * dots / 72);

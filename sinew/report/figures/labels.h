@@ -31,7 +31,7 @@ struct Label {
   config::Location where;
 };
 
-// What a file of labels says.
+// Holds what a file of labels says.
 struct Labels {
   std::vector<Label> words, units;
   bool decimal_comma = false;
@@ -47,7 +47,7 @@ Labels read_labels(const std::string& path);
 // Returns the figure with these labels.
 Figure labelled(Figure figure, const Labels& labels);
 
-// What figures say: words of axes and curves, and units.
+// Lists what figures say: words of axes and curves, and units.
 struct Phrases {
   std::set<std::string> words, units;
   // Adds what a figure says.

@@ -35,7 +35,7 @@ void convert(std::vector<double>& values, const Axis& from, const Axis& to) {
   for (double& value : values) value *= to.scale / from.scale;
 }
 
-// In the order in which they come; the label of a lone curve is its axis's name.
+// Keeps the order in which they come; the label of a lone curve is its axis's name.
 std::vector<std::string> channels_of(const Stack& stack) {
   std::vector<std::string> out;
   for (const Entry& e : stack.entries)

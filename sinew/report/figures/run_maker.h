@@ -13,7 +13,7 @@
 
 namespace sinew::report {
 
-// What captions and curves say of a run.
+// Holds what captions and curves say of a run.
 struct RunWords {
   std::string run;     // "Walking, test 1" (walk-test-1)
   std::string source;  // of every curve: "simulated, robot …, seed 1, sinew 0.1.0"
@@ -39,7 +39,7 @@ class Maker {
   void panel(const Panel& panel);
   // Lines of one unit as plots of that name, as many as the colors ask for; none of no samples.
   std::vector<Plot> plots(const Panel& panel) const;
-  // What all captions of the run end with: stance, faults, and how the lines are defined.
+  // Returns what all captions of the run end with: stance, faults, and how the lines are defined.
   std::string notes(const Panel& panel) const;
   // Adds it, by a name of its own, unless there is nothing in it.
   void finish(Figure figure);

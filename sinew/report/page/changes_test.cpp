@@ -1,4 +1,5 @@
-// What was set while a run went, and the picture by which a run is told in a list.
+// These tests are of what was set while a run went, and of the picture by which a run is told in a
+// list.
 #include "sinew/report/page/changes.h"
 
 #include <gtest/gtest.h>

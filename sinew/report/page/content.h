@@ -74,8 +74,8 @@ inline constexpr std::size_t most_stretches = 4000;
 // there; one with choices is a fourth, "own".
 std::string units_json(const units::ShownUnits& start);
 
-// The same for a page of which nobody asked for anything but what the environment and the person's
-// settings say.
+// Returns it for a page of which nobody asked for anything but what the environment and the
+// person's settings say.
 std::string units_json();
 
 }  // namespace sinew::report

@@ -45,7 +45,7 @@ struct OverlaidRuns {
 std::string draw_run(const std::filesystem::path& named, const std::filesystem::path& folder,
                      const DrawingRequest& request, const Notices& notices = {});
 
-// The same of several runs in the same axes; notes say how they were laid on the first one. Throws
+// Draws several runs in the same axes; notes say how they were laid on the first one. Throws
 // config::Error, too, where there are no such labels, or the runs cannot be laid on each other.
 std::string draw_runs(const OverlaidRuns& runs, const std::filesystem::path& folder,
                       const DrawingRequest& request, const Notices& notices = {});

@@ -83,7 +83,7 @@ class Filler {
     measured_.push_back(line.topic);
   }
 
-  // What does not move has the counts of its rest, at the times of the first sensor.
+  // A joint that does not move has the counts of its rest, at the times of the first sensor.
   void constant(const robot::Sensor& sensor) {
     const signals::Series* first = nullptr;
     for (const robot::Sensor& other : robot_.sensors)

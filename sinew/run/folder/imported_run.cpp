@@ -28,7 +28,7 @@ int whole(std::size_t count) {
       std::min(count, static_cast<std::size_t>(std::numeric_limits<int>::max())));
 }
 
-// What would be refused when all is done.
+// Refuses now what would be refused when all is done.
 void refuse_early(const ImportRequest& request) {
   if (request.files.empty()) config::fail({"files", 0, 0}, "", "none", "a recording");
   if (request.save_mapping.empty()) return;
@@ -80,7 +80,7 @@ std::string with_files(std::string resolved, std::vector<experiment::ImportedFil
   return resolved + writer.text();
 }
 
-// What both kinds of experiments have.
+// Holds what both kinds of experiments have.
 struct Keeping {
   const std::string& name;
   int seed;

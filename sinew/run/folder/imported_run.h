@@ -42,11 +42,12 @@ Kept<analysis::Machine> import_run(const ImportRequest& request, const Notices& 
 Kept<analysis::StandFile> import_stand_run(const ImportRequest& request,
                                            const Notices& notices = {});
 
-// What a recording can hold of that machine: what a run logs, and what instruments measure besides.
+// Returns what a recording can hold of that machine: what a run logs, and what instruments measure
+// besides.
 std::vector<signals::Topic> importable_topics(const experiment::Experiment& experiment);
 std::vector<signals::Topic> importable_topics(const rig::Experiment& experiment);
 
-// What [[imported]] says of a file, without what was taken of it. Throws log::Error.
+// Returns what [[imported]] says of a file, without what was taken of it. Throws log::Error.
 experiment::ImportedFile imported_file(const std::string& path, const std::string& kind);
 
 // Keeps a table that came from these files as a run of `e`. `mapping`: the text of mapping.toml;

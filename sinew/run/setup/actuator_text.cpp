@@ -95,7 +95,7 @@ std::vector<Cell> cells_for(bool moves, const ColumnUnits& u) {
   return out;
 }
 
-// What stands in a point's lines only where it was asked for.
+// Adds the lines of a point that stand there only where they were asked for.
 bool is_on_request(const Row& row) {
   return row.value == &Point::velocity || row.value == &Point::sliding_tension ||
          row.value == &Point::viscous_loss;
