@@ -61,7 +61,7 @@ class States(unittest.TestCase):
             here = self.drive(slave, count // 2, count)
             slave.free()
             script = (
-                "import sys, pickle; from test_bits import States; from importer import Fmu\n"
+                "import sys, pickle; from test_states import States; from importer import Fmu\n"
                 "path, names, saved, begin, end = pickle.load(sys.stdin.buffer)\n"
                 "test = States('test_a_state_is_gone_back_to'); test.names = names\n"
                 "slave = Fmu(path).instantiate(); slave.back_to(slave.deserialized(saved))\n"
