@@ -57,6 +57,10 @@ function with_uncertainty(value, uncertainty, unit) {
   return `${text} ${unit} ± ${uncertainty.toFixed(digits)} ${unit}`;
 }
 
+// "0.29 % ± 0.11 % faster", or slower.
+const pace = (rate, uncertainty) =>
+  `${with_uncertainty(100 * Math.abs(rate), uncertainty && 100 * uncertainty, '%').slice(1)} ${rate < 0 ? 'slower' : 'faster'}`;
+
 // How a run was laid on the first one.
 function alignment_words(run, i, fitted) {
   const a = run.alignment;
@@ -64,9 +68,9 @@ function alignment_words(run, i, fitted) {
   if (a.same) return `${letter_of(i)} holds the same samples: nothing is moved`;
   const by = [a.event && `event: ${a.event}`, a.channels.length && `correlation of ${a.channels.join(', ')}`].filter(Boolean).join('; ');
   return `${letter_of(i)}'s clock shows ${with_uncertainty(a.shift_s, a.shift_uncertainty_s, 's')} at A's 0` +
-    (fitted ? ` and goes ${with_uncertainty(100 * a.rate, a.rate_uncertainty && 100 * a.rate_uncertainty, '%')} faster` : '') +
+    (fitted ? ` and goes ${pace(a.rate, a.rate_uncertainty)}` : '') +
     (a.correlation === null ? '' : `, r ${a.correlation.toFixed(4)}`) + ` (${by})` +
-    (a.rate_seen ? `; it seems to go ${with_uncertainty(100 * a.rate_seen, 100 * a.rate_seen_uncertainty, '%')} faster, which is not taken out` : '');
+    (a.rate_seen ? `; it seems to go ${pace(a.rate_seen, a.rate_seen_uncertainty)}, which is not taken out` : '');
 }
 
 class ComparePage {

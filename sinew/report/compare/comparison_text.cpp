@@ -100,6 +100,12 @@ std::string with_uncertainty(double value, double uncertainty, std::string_view 
   return fmt::format("{:+.{}f} {} ± {:.{}f} {}", value, digits, unit, uncertainty, digits, unit);
 }
 
+// "0.29 % ± 0.11 % faster", or slower.
+std::string pace(double rate, double uncertainty) {
+  const std::string words = with_uncertainty(100 * std::abs(rate), 100 * uncertainty, "%");
+  return words.substr(1) + (rate < 0 ? " slower" : " faster");  // without its sign
+}
+
 // How a run was laid on the first one, and what that says of its clock.
 std::string alignment_text(const Comparison& c, std::size_t i) {
   if (!c.runs[i].alignment) return "";
@@ -115,13 +121,11 @@ std::string alignment_text(const Comparison& c, std::size_t i) {
   out += fmt::format("  its clock shows {} where A's shows 0\n",
                      with_uncertainty(a.clock.shift, a.shift_uncertainty, "s"));
   if (c.clocks_fitted)
-    out +=
-        fmt::format("  its clock goes {} faster, by {} pieces of the motion\n",
-                    with_uncertainty(100 * a.clock.rate, 100 * a.rate_uncertainty, "%"), a.pieces);
+    out += fmt::format("  its clock goes {}, by {} pieces of the motion\n",
+                       pace(a.clock.rate, a.rate_uncertainty), a.pieces);
   if (a.rate_seen != 0)
-    out +=
-        fmt::format("  its clock seems to go {} faster, which is not taken out: clock=fit does\n",
-                    with_uncertainty(100 * a.rate_seen, 100 * a.rate_seen_uncertainty, "%"));
+    out += fmt::format("  its clock seems to go {}, which is not taken out: clock=fit does\n",
+                       pace(a.rate_seen, a.rate_seen_uncertainty));
   if (std::isfinite(a.correlation)) out += fmt::format("  correlation {:.4f}\n", a.correlation);
   return out;
 }
