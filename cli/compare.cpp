@@ -34,6 +34,7 @@ report::ComparisonText shown_as(const Options& options) {
           .all = options.all,
           .width = width_of_output(),
           .see_all = "--all",
+          .fit_clock = "--clock fit",
           .color = output_has_color()};
 }
 

@@ -107,7 +107,7 @@ std::string pace(double rate, double uncertainty) {
 }
 
 // How a run was laid on the first one, and what that says of its clock.
-std::string alignment_text(const Comparison& c, std::size_t i) {
+std::string alignment_text(const Comparison& c, std::size_t i, const std::string& fit_clock) {
   if (!c.runs[i].alignment) return "";
   const analysis::Alignment& a = *c.runs[i].alignment;
   const std::string channels = fmt::format("correlation of {}", fmt::join(a.channels, ", "));
@@ -124,13 +124,13 @@ std::string alignment_text(const Comparison& c, std::size_t i) {
     out += fmt::format("  its clock goes {}, by {} pieces of the motion\n",
                        pace(a.clock.rate, a.rate_uncertainty), a.pieces);
   if (a.rate_seen != 0)
-    out += fmt::format("  its clock seems to go {}, which is not taken out: clock=fit does\n",
-                       pace(a.rate_seen, a.rate_seen_uncertainty));
+    out += fmt::format("  its clock seems to go {}, which is not taken out: {} does\n",
+                       pace(a.rate_seen, a.rate_seen_uncertainty), fit_clock);
   if (std::isfinite(a.correlation)) out += fmt::format("  correlation {:.4f}\n", a.correlation);
   return out;
 }
 
-void print_runs(const Comparison& c, std::string& out) {
+void print_runs(const Comparison& c, const std::string& fit_clock, std::string& out) {
   TextTable table({"", "", "", "", ""}, {Align::left, Align::left, Align::left, Align::right});
   for (std::size_t i = 0; i < c.runs.size(); ++i) {
     const ComparedRun& run = c.runs[i];
@@ -139,7 +139,7 @@ void print_runs(const Comparison& c, std::string& out) {
   }
   const std::string text = table.text();
   print(out, "{}", text.substr(text.find('\n') + 1));  // without titles
-  for (std::size_t i = 1; i < c.runs.size(); ++i) out += alignment_text(c, i);
+  for (std::size_t i = 1; i < c.runs.size(); ++i) out += alignment_text(c, i, fit_clock);
 }
 
 // --- figures ---
@@ -344,7 +344,7 @@ void print_channels(const Comparison& c, std::size_t run, const ComparisonText& 
 
 std::string text_of(const Comparison& comparison, const ComparisonText& how) {
   std::string out;
-  print_runs(comparison, out);
+  print_runs(comparison, how.fit_clock, out);
   print_figures(comparison, how, out);
   print_parameters(comparison, how, out);
   for (std::size_t i = 1; i < comparison.runs.size(); ++i) print_channels(comparison, i, how, out);
