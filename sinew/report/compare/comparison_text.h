@@ -14,6 +14,7 @@ struct ComparisonText {
   bool all = false;                                  // what is equal too
   std::size_t width = 0;                             // letters of a line; 0: any
   std::string see_all = {};                          // where a table is cut: how to see all of it
+  std::string fit_clock = "clock=fit";               // how a clock's rate is taken out
   bool color = false;  // verdicts that changed are red, by the escapes of a terminal
 };
 
