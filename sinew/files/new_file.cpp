@@ -12,6 +12,7 @@
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/text_file.h"
+#include "sinew/config/write/toml_text.h"
 #include "sinew/files/check.h"
 #include "sinew/files/new_muscle.h"
 #include "sinew/files/shipped.h"
@@ -231,7 +232,8 @@ Draft draft(const Task& task, const std::string& part, const fs::path& file) {
   choose_units(out.text, task.options.metric);
   if (const std::string& muscle = task.options.actuator; part == "robot" && !muscle.empty())
     out.text = with_muscle(std::move(out.text), muscle,
-                           in_toml(relative_to(file.parent_path(), muscle)), task.options.metric);
+                           config::toml_string(relative_to(file.parent_path(), muscle)),
+                           task.options.metric);
   if (task.kind == "actuator") replace_all(out.text, "= \"bpa\"", "= \"NEW\"");
   name_joints(out.text, task.subject.joints);
   put_name(out.text, task.name, in_comment(file));
@@ -239,8 +241,9 @@ Draft draft(const Task& task, const std::string& part, const fs::path& file) {
     const std::string key = is_study(part) ? "experiment = " : "robot  = ";
     const std::string quoted = is_study(part) ? "\"experiment.toml\"" : "\"robot.toml\"";
     const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-    replace_all(out.text, key + quoted,
-                key + in_toml(reference(task.subject, folder, !task.options.of.empty())));
+    replace_all(
+        out.text, key + quoted,
+        key + config::toml_string(reference(task.subject, folder, !task.options.of.empty())));
   }
   return out;
 }

@@ -11,6 +11,7 @@
 #include "sinew/actuator/operating_point.h"
 #include "sinew/config/compose.h"
 #include "sinew/config/diagnostics.h"
+#include "sinew/config/write/toml_text.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/units/constants.h"
 
@@ -89,18 +90,6 @@ std::string rounded(double value, std::string_view unit) {
 
 }  // namespace
 
-std::string in_toml(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if ((c >= 0 && c < 0x20) || c == 0x7F)
-      out += fmt::format("\\u{:04X}", static_cast<int>(c));
-    else
-      out += c;
-  }
-  return "\"" + out + "\"";
-}
-
 std::string with_muscle(std::string text, const std::string& file, const std::string& reference,
                         bool metric) {
   const Muscle m = muscle_of(file);
@@ -117,7 +106,7 @@ std::string with_muscle(std::string text, const std::string& file, const std::st
       fmt::format("{{ actuator = {}, valves = \"valves.toml\" }}   # the muscle "
                   "that you identified, and valves",
                   reference));
-  set(text, "actuator", in_toml(m.name));
+  set(text, "actuator", config::toml_string(m.name));
   set(text, "mount_length",
       guessed(length(m.mount), "replace: half way between the lengths that the muscle knows"));
   set(text, "moment_arm",

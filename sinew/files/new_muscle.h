@@ -14,7 +14,4 @@ namespace sinew::files {
 std::string with_muscle(std::string text, const std::string& file, const std::string& reference,
                         bool metric);
 
-// Returns a text between the double quotes of TOML.
-std::string in_toml(const std::string& text);
-
 }  // namespace sinew::files

@@ -8,6 +8,7 @@
 #include "sinew/config/quantity.h"
 #include "sinew/config/short_quantity.h"
 #include "sinew/config/utf8.h"
+#include "sinew/config/write/toml_text.h"
 
 namespace sinew::config {
 
@@ -21,23 +22,6 @@ bool is_bare(std::string_view key) {
            c == '-';
   };
   return !key.empty() && std::all_of(key.begin(), key.end(), plain);
-}
-
-// TOML is UTF-8: of a file's name in a source, what is none is replaced.
-std::string toml_string(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : in_utf8(text)) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (byte < 0x20 || byte == 0x7F) {
-      out += fmt::format("\\u{:04X}", byte);
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
 }
 
 std::string toml_key(std::string_view key) {
@@ -144,6 +128,22 @@ Node with_origin(Node value, const Origin& origin) {
 }
 
 }  // namespace
+
+std::string toml_string(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : in_utf8(text)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out += '\\';
+      out += c;
+    } else if (byte < 0x20 || byte == 0x7F) {
+      out += fmt::format("\\u{:04X}", byte);
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
+}
 
 std::string to_toml(const Node& root) {
   std::string out;
