@@ -52,7 +52,31 @@ export function spoiling_start({ values }, unit) {
 export function ticks(low, high, about) {
   const raw = (high - low) / Math.max(1, about), size = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].map((k) => k * size).find((k) => k >= raw * (1 - 1e-9));
+  return ticks_by(low, high, step);
+}
+
+const fewest = 3;       // numbers at an axis that a value can be read from
+const closest = 13;     // of two numbers on an upright axis [px]
+const round = [1, 2, 5], less_round = [1, 1.5, 2, 2.5, 3, 4, 5, 6, 8];
+
+function ticks_by(low, high, step) {
   const out = [];
-  for (let k = Math.ceil(low / step - 1e-9); k <= high / step + 1e-9; ++k) out.push(+(k * step).toPrecision(12));
+  for (let k = Math.ceil(low / step - 1e-9); k <= high / step + 1e-9; ++k) out.push(+(k * step).toPrecision(12) || 0);
   return out;
+}
+
+// The largest step of such mantissas that gives enough numbers, which may not stand too close.
+function step_for(low, high, pixels, mantissas) {
+  const size = 10 ** Math.floor(Math.log10(high - low));
+  const steps = [size, size / 10].flatMap((s) => mantissas.map((m) => m * s)).sort((a, b) => b - a);
+  return steps.find((s) => ticks_by(low, high, s).length >= fewest && (s / (high - low)) * pixels >= closest);
+}
+
+// What an upright axis of `pixels` is numbered with: at the usual step, or at a smaller one where that
+// leaves fewer than three numbers, as on a low plot. A less round step comes last.
+export function upright_ticks(low, high, usual_step, pixels) {
+  const usual = ticks_by(low, high, usual_step);
+  if (usual.length >= fewest || !(high > low)) return usual;
+  const step = step_for(low, high, pixels, round) ?? step_for(low, high, pixels, less_round);
+  return step ? ticks_by(low, high, step) : usual;
 }

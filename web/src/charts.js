@@ -1,9 +1,12 @@
 // One quantity against another: points and lines under axes of their own. uPlot draws the
 // axes; the curves, which need not go from left to right, are drawn here.
 import uPlot from 'uplot';
+import { chart_picture } from './chart_picture.js';
 import { pressure_color } from './colors.js';
 import { Enlarged } from './enlarged.js';
+import { menu_button } from './menu.js';
 import { between } from './samples.js';
+import { save_entries } from './saving.js';
 import { number, tick_text } from './units.js';
 import { element } from './page.js';
 
@@ -40,7 +43,7 @@ class Chart {
     this.box = element('div', { class: 'box' });
     this.set_height(usual_height);
     this.root = element('article', { class: 'chart' },
-      element('header', {}, this.title, this.lines, charts.enlarged.button_of(this)), this.box,
+      element('header', {}, this.title, this.lines, this.tools()), this.box,
       element('p', { class: 'hint' }, this.value, spec.note));
     this.value.hidden = true;
     this.keys();
@@ -55,11 +58,23 @@ class Chart {
     this.plot.setSize({ width: this.box.clientWidth || 480, height: this.height });
   }
 
-  keys() {
+  tools() {
+    const { enlarged, name } = this.charts;
+    const more = menu_button('⋯', 'More of this chart', () => save_entries(name, () => this.spec.title, () => chart_picture(this)));
+    return element('div', { class: 'panel-tools' }, enlarged.button_of(this), more);
+  }
+
+  // The curves that a legend tells apart, one of each name; none where there is nothing to tell apart.
+  named() {
     const order = { points: 0, 'held out': 1, line: 2 };
     const named = [...new Map(this.spec.curves.map((c) => [c.label, c])).values()].filter((c) => c.label)
       .sort((a, b) => order[a.style] - order[b.style]);
-    if (named.length < 2) return;
+    return named.length < 2 ? [] : named;
+  }
+
+  keys() {
+    const named = this.named();
+    if (!named.length) return;
     this.buttons = named.map((c) => {
       const kind = c.style === 'line' ? 'full' : c.style === 'points' ? 'dots' : 'rings';
       const pressed = String(this.shown.has(c.label));
@@ -79,8 +94,7 @@ class Chart {
   }
 
   // Of the palette; of more curves than it has, in their order from one end of a scale to the other.
-  color(place) {
-    const { palette, dark } = this.charts;
+  color(place, palette = this.charts.palette, dark = this.charts.dark) {
     if (this.most < palette.length) return palette[place];
     const share = place / this.most;
     return pressure_color(dark ? 0.3 + 0.7 * share : 0.9 * share);
@@ -99,14 +113,16 @@ class Chart {
     this.view = this.whole;
   }
 
+  // "length [mm]"
+  axis_name(axis) {
+    const unit = this.charts.units.of(axis.unit).label;
+    return unit ? `${axis.label} [${unit}]` : axis.label;
+  }
+
   build(width = this.box.clientWidth || 480) {
     this.plot?.destroy();
-    const { units, look } = this.charts, { x, y } = this.spec;
+    const { look } = this.charts, { x, y } = this.spec;
     this.convert();
-    const name = (axis) => {
-      const unit = units.of(axis.unit).label;
-      return unit ? `${axis.label} [${unit}]` : axis.label;
-    };
     const axis = { stroke: look.ink, grid: { stroke: look.grid, width: 1 }, ticks: { show: false },
                    font: look.font, labelFont: look.font, labelSize: 18, gap: 4,
                    values: (u, ticks) => ticks.map(tick_text) };
@@ -118,7 +134,7 @@ class Chart {
       padding: [8, 14, 0, 0],
       cursor: { y: false, x: false, points: { show: false }, drag: { x: true, y: true, setScale: false, dist: 5 } },
       scales: { x: { time: false, range: () => this.view.x }, y: { range: () => this.view.y } },
-      axes: [{ ...axis, label: name(x), size: 26 }, { ...axis, label: name(y), size: 52, space: 32 }],
+      axes: [{ ...axis, label: this.axis_name(x), size: 26 }, { ...axis, label: this.axis_name(y), size: 52, space: 32 }],
       series: [{}, { show: true, stroke: 'transparent', points: { show: false } }],
       hooks: {
         draw: [(u) => this.draw(u)],
@@ -249,8 +265,9 @@ function stroke_line(ctx, c, at) {
 
 // All charts of a page, in a grid.
 export class Charts {
-  constructor(root, specs, columns, units) {
-    Object.assign(this, { root, units });
+  // `name`: what a picture of a chart is called after.
+  constructor(root, specs, columns, units, name) {
+    Object.assign(this, { root, units, name });
     this.enlarged = new Enlarged();
     this.read_look();
     this.list = specs.map((spec) => new Chart(spec, columns, this));

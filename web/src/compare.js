@@ -196,7 +196,7 @@ class ComparePage {
                curves: chart.curves.map((c) => ({ ...c, ...line_of(c.run), style: c.style, label: name(c) })) };
     });
     by_id('foot').setAttribute('aria-label', 'Charts');
-    return new Charts(by_id('foot'), specs, columns, this.units);
+    return new Charts(by_id('foot'), specs, columns, this.units, runs.map((r) => r.label).join('-'));
   }
 
   groups() {
@@ -349,7 +349,7 @@ function specs_of(panel, { values, differences }, columns, runs) {
   return {
     values: { ...common, title, unit: panel.unit,
               lines: lines(values, (run) => ({ difference: run ? differences[run] ?? none : null })) },
-    differences: { ...common, title: 'less the first run', unit: difference_unit(panel.unit), height: 84, difference: true,
+    differences: { ...common, title: 'less the first run', unit: difference_unit(panel.unit), height: 96, difference: true,
                    lines: lines(differences, () => ({})) },
   };
 }

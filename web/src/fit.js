@@ -31,7 +31,7 @@ class Part {
     const charts = element('div', {});
     this.root = element('section', { class: 'block fit' }, head, this.verdict(), charts, this.values, this.models(),
                         this.remarks());
-    this.show = () => (this.charts = spec.charts.length ? new Charts(charts, spec.charts, [], page.units) : null);
+    this.show = () => (this.charts = spec.charts.length ? new Charts(charts, spec.charts, [], page.units, report.subject) : null);
     this.refresh();
   }
 

@@ -28,7 +28,7 @@ class Page {
     this.plots.on_view = () => this.draw_phases();
     this.desk = new PlotDesk(run, this.plots, columns);
     this.marks = new Marks(by_id('changes'), run, this.plots, this.units, (t) => this.seek(t));
-    this.charts = run.charts?.length ? new Charts(by_id('charts'), run.charts, columns, this.units) : null;
+    this.charts = run.charts?.length ? new Charts(by_id('charts'), run.charts, columns, this.units, run.name || run.title) : null;
     this.replay();
     this.player = new Player(run.duration, this.clock(), (t) => this.show(t));
     this.tables();

@@ -1,6 +1,6 @@
 // One plot with its heading: its lines' names, which show and hide them, and their values.
 import uPlot from 'uplot';
-import { range_of, spoiling_start } from './axis.js';
+import { range_of, spoiling_start, upright_ticks } from './axis.js';
 import { element } from './page.js';
 import { held } from './samples.js';
 import { Slices } from './slices.js';
@@ -157,7 +157,8 @@ export class Panel {
   axes() {
     const { ink, grid, font } = this.plots.look;
     const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { show: false }, font, gap: 4 };
-    const upright = { ...axis, size: axis_width, space: 26, values: (u, ticks) => ticks.map(tick_text) };
+    const splits = (u, i, low, high, step) => upright_ticks(low, high, step, u.bbox.height / (devicePixelRatio || 1));
+    const upright = { ...axis, size: axis_width, space: 26, splits, values: (u, ticks) => ticks.map(tick_text) };
     const right = { ...upright, scale: 'y2', side: 1, grid: { show: false } };
     return [{ ...axis, size: 22, values: (u, ticks) => ticks.map((t) => `${+t.toFixed(6)} s`) }, { ...upright, scale: 'y' },
             ...(this.units.length > 1 ? [right] : [])];

@@ -7,7 +7,8 @@ import { open_formula_sheet } from './formula_sheet.js';
 import { menu_button } from './menu.js';
 import { own_group, OwnPlots } from './own_plots.js';
 import { by_id, element } from './page.js';
-import { file_name, png_of, save_as, svg_of } from './plot_picture.js';
+import { plot_picture } from './plot_picture.js';
+import { save_entries } from './saving.js';
 import { open_sheet, tell } from './sheet.js';
 
 const in_layout = (line) => line.kept ?? line.id;
@@ -101,8 +102,7 @@ export class PlotDesk {
     const { own } = this, shown = panel.spec.lines.filter((l, i) => panel.shown[i]);
     const large = this.enlarged.panel === panel;
     return [
-      ['Save as SVG', () => this.save(panel, 'svg')],
-      ['Save as PNG', () => this.save(panel, 'png')],
+      ...save_entries(this.run.name || this.run.title, () => panel.spec.title, () => plot_picture(panel)),
       ['Add a formula…', () => this.write_formula(panel)],
       !large && shown.length && ['Add its lines to…', () => this.choose_place(panel, shown.map(in_layout))],
       panel.own && ['Rename…', () => this.rename(panel)],
@@ -117,15 +117,6 @@ export class PlotDesk {
     const { title } = panel.spec, { own } = panel;
     this.own.put_away(panel);
     if (!own) tell(`${title} is put away; "Usual plots" brings it back.`);
-  }
-
-  async save(panel, kind) {
-    const name = `${file_name(this.run, panel)}.${kind}`;
-    try {
-      save_as(name, kind === 'svg' ? new Blob([svg_of(panel)], { type: 'image/svg+xml' }) : await png_of(panel));
-    } catch (error) {
-      tell(`${name} was not saved: ${error.message}`);
-    }
   }
 
   rename(panel) {

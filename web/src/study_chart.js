@@ -1,7 +1,12 @@
 // A canvas with two axes and marks for rows: what history, scatter and surface share. What stands is
 // drawn once; the row under the pointer and the chosen one come on top.
 import { pressure_color } from './colors.js';
+import { menu_button } from './menu.js';
+import { element } from './page.js';
+import { on_paper } from './picture.js';
+import { save_entries } from './saving.js';
 import { round_values } from './study_math.js';
+import { SvgContext } from './svg_context.js';
 import { number, tick_text } from './units.js';
 
 export const color_steps = 16;
@@ -43,11 +48,46 @@ export function axis_of(column, room = 0.04) {
 export const value_text = (column, value) =>
   (value !== value || value === undefined ? '–' : column.number ? number(value) : column.words[value]);
 
+// Empties a canvas and what stands on it, at a size on the page; returns where the latter is drawn.
+export function fresh_context(canvas, still, width, height) {
+  const ratio = window.devicePixelRatio || 1;
+  canvas.style.height = `${height}px`;
+  for (const c of [canvas, still]) {
+    c.width = Math.round(width * ratio);
+    c.height = Math.round(height * ratio);
+  }
+  const ctx = still.getContext('2d');
+  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+  return ctx;
+}
+
+// The menu of a view: it is drawn once more, as a picture on paper, and then as before. `view`: has a
+// `title`, a `canvas`, draw(colors), and a `chart` whose `instead` it then draws on, and its `height`.
+export function picture_menu(page, view) {
+  const drawn = () => {
+    const ctx = new SvgContext(), { chart } = view;
+    chart.instead = ctx;
+    try {
+      const colors = on_paper(colors_now);
+      view.draw(colors);
+      return ctx.svg(view.title, view.canvas.clientWidth, chart.height, colors.sans);
+    } finally {
+      chart.instead = null;
+      view.draw(colors_now());
+      page.mark();
+    }
+  };
+  const of = page.data.studies.map((s) => s.title).join('-');
+  return element('div', { class: 'panel-tools' },
+    menu_button('⋯', 'More of this chart', () => save_entries(of, () => view.title, drawn)));
+}
+
 export class Chart {
   // `on_pick(row)` and `on_over(row)` with the row at the pointer, -1 where there is none.
   constructor(canvas, { on_pick, on_over, height = 320 }) {
     Object.assign(this, { canvas, on_pick, on_over, height });
     this.still = document.createElement('canvas');
+    this.instead = null;  // of its canvas: where it is drawn for a picture
     this.rows = [];
     canvas.tabIndex = 0;
     canvas.addEventListener('pointermove', (e) => on_over(this.row_at(e)));
@@ -57,16 +97,10 @@ export class Chart {
 
   // Begins a drawing with these axes; null while there is no room.
   begin(x_axis, y_axis, colors) {
-    const ratio = window.devicePixelRatio || 1, width = this.canvas.clientWidth;
+    const width = this.canvas.clientWidth;
     if (!width) return null;
-    this.canvas.style.height = `${this.height}px`;
-    for (const c of [this.canvas, this.still]) {
-      c.width = Math.round(width * ratio);
-      c.height = Math.round(this.height * ratio);
-    }
+    const ctx = this.instead ?? fresh_context(this.canvas, this.still, width, this.height);
     this.box = { left: margin.left, right: width - margin.right, top: margin.top, bottom: this.height - margin.bottom };
-    const ctx = this.still.getContext('2d');
-    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
     const { left, right, top, bottom } = this.box;
     const [x0, x1] = x_axis.span, [y0, y1] = y_axis.span;
     this.x = (v) => left + ((v - x0) / (x1 - x0)) * (right - left);

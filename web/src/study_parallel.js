@@ -1,7 +1,7 @@
 // Parallel coordinates: an axis for each column, a line for each row. A range that is drawn on an axis
 // filters every view.
 import { element } from './page.js';
-import { axis_of, coloring, outlined, value_text } from './study_chart.js';
+import { axis_of, coloring, fresh_context, outlined, picture_menu, value_text } from './study_chart.js';
 import { number } from './units.js';
 
 const pad = { top: 12, bottom: 12 };  // [px]
@@ -10,11 +10,12 @@ const narrowest = 84;  // between two axes; more of them scroll
 const near_enough = 14;
 const lines_at_once = 250;  // of one path: longer ones are slower than several
 
+const name_of = (column) => column.key.split('.').slice(-2).join('.');
 const thin = (rows, most) => rows.filter((_, i) => i % Math.ceil(rows.length / most) === 0);
 
 export class Parallel {
   constructor(page) {
-    this.page = page;
+    Object.assign(this, { page, title: 'All columns', chart: { instead: null, height: height + 10 } });
     this.choose_first();
     this.canvas = element('canvas', { id: 'parallel-canvas', role: 'img', 'aria-label': 'A line for each row across the axes of its columns' });
     this.still = document.createElement('canvas');
@@ -23,7 +24,7 @@ export class Parallel {
     this.inner = element('div', { class: 'parallel-inner' }, this.names, this.canvas, this.handles);
     this.toggles = element('div', { class: 'groups no-print', role: 'group', 'aria-label': 'Axes' });
     this.root = element('section', { class: 'study-view', id: 'parallel' },
-      element('header', {}, element('h2', {}, 'All columns'), this.toggles),
+      element('header', {}, element('h2', {}, this.title), this.toggles, picture_menu(page, this)),
       element('div', { class: 'parallel-scroll' }, this.inner),
       element('p', { class: 'hint' }, 'Drag along an axis to keep a range, tap it to let go; with the keyboard ↑ ↓ move its lower end, with shift its upper end, Delete lets go. ',
         'Click a line to choose its row.'));
@@ -43,7 +44,7 @@ export class Parallel {
   arrange() {
     const { page } = this;
     this.toggles.replaceChildren(...page.columns.filter((c) => c.varies).map((c) => {
-      const button = element('button', { type: 'button', 'aria-pressed': String(this.shown.has(c)), title: c.heading }, c.key.split('.').slice(-2).join('.'));
+      const button = element('button', { type: 'button', 'aria-pressed': String(this.shown.has(c)), title: c.heading }, name_of(c));
       button.addEventListener('click', () => {
         this.chosen_by_hand = true;
         if (!this.shown.delete(c)) this.shown.add(c);
@@ -56,7 +57,7 @@ export class Parallel {
     this.columns = page.columns.filter((c) => this.shown.has(c));
     this.inner.style.minWidth = `${narrowest * this.columns.length}px`;
     this.names.replaceChildren(...this.columns.map((c) => element('div', { class: 'axis-name', title: c.heading },
-      element('b', {}, c.key.split('.').slice(-2).join('.')), c.unit ? ` ${c.unit}` : '')));
+      element('b', {}, name_of(c)), c.unit ? ` ${c.unit}` : '')));
     this.handles.replaceChildren(...this.columns.map((c, i) => this.handle(c, i)));
   }
 
@@ -114,15 +115,9 @@ export class Parallel {
   }
 
   draw(colors) {
-    const ratio = window.devicePixelRatio || 1, width = this.canvas.clientWidth;
+    const width = this.canvas.clientWidth;
     if (!width || !this.columns.length) return;
-    this.canvas.style.height = `${height}px`;
-    for (const c of [this.canvas, this.still]) {
-      c.width = Math.round(width * ratio);
-      c.height = Math.round(height * ratio);
-    }
-    const ctx = this.still.getContext('2d');
-    ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const ctx = this.chart.instead ?? fresh_context(this.canvas, this.still, width, height);
     this.at_x = this.columns.map((_, i) => (width * (i + 0.5)) / this.columns.length);
     this.at_y = this.columns.map((c) => {
       const { span: [low, high] } = axis_of(c), scale = (height - pad.top - pad.bottom) / (high - low);
@@ -131,6 +126,7 @@ export class Parallel {
     this.colors = colors;
     this.lines(ctx, colors);
     this.axes(ctx, colors);
+    if (this.chart.instead) this.write_names(ctx, colors);
     this.bands();
   }
 
@@ -198,6 +194,13 @@ export class Parallel {
         ctx.fillText(words, this.at_x[i] + 6, y);
       }
     });
+  }
+
+  // In a picture; on the page they are words above the canvas.
+  write_names(ctx, colors) {
+    ctx.textAlign = 'center';
+    ctx.fillStyle = colors.ink;
+    this.columns.forEach((c, i) => ctx.fillText(`${name_of(c)} ${c.unit ?? ''}`.trim(), this.at_x[i], i % 2 ? height + 1 : 3));
   }
 
   bands() {

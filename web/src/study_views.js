@@ -1,6 +1,6 @@
 // History, scatter and surface of a study: each a canvas with what a person chooses above it.
 import { element } from './page.js';
-import { axis_of, Chart, coloring, color_steps, value_text } from './study_chart.js';
+import { axis_of, Chart, coloring, color_steps, picture_menu, value_text } from './study_chart.js';
 import { best_so_far, level_lines, pareto_front, round_values, surface } from './study_math.js';
 import { number, tick_text } from './units.js';
 
@@ -31,12 +31,12 @@ export function direction(page, column) {
 // The frame of a view: heading, choices, canvas, a sentence.
 export class View {
   constructor(page, id, title, label, height) {
-    this.page = page;
+    Object.assign(this, { page, title });
     this.choices = element('div', { class: 'choices no-print' });
     this.canvas = element('canvas', { id: `${id}-canvas`, role: 'img', 'aria-label': label });
     this.hint = element('p', { class: 'hint' });
     this.root = element('section', { class: 'study-view', id },
-      element('header', {}, element('h2', {}, title), this.choices), this.canvas, this.hint);
+      element('header', {}, element('h2', {}, title), this.choices, picture_menu(page, this)), this.canvas, this.hint);
     this.chart = new Chart(this.canvas, { on_pick: (row) => page.choose(row), on_over: (row) => page.over(row), height });
     this.canvas.addEventListener('keydown', (e) => this.key(e));
   }

@@ -3,7 +3,7 @@
 // of another one's angle alone, laid on it by correlation, and of two runs of 10 min.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { drawing_of, picture, seek, summary_of, time_of, with_page } from './pages.mjs';
+import { drawing_of, picture, seek, summary_of, time_of, vectors_of, with_page } from './pages.mjs';
 
 const opens_within = 5000, generous = 5;  // [ms]; times that, where others work too
 
@@ -226,6 +226,32 @@ test('numbers are those of both summaries, in either unit', () => compared('two'
     ['phase.swing.duration', 'phase.propulsion.duration']);
 }));
 
+for (const [file, options] of [['two', {}], ['measured', {}], ['two', { viewport: { width: 390, height: 844 } }]])
+  test(`what is left can be read from its axis: ${file}, ${options.viewport?.width ?? 1440} px`, () => compared(file, async (page) => {
+    if (!(await page.evaluate(() => window.sinew.page.apart))) await page.locator('#show-differences').click();
+    for (const units of ['si', 'thesis', 'metric']) {
+      const button = page.locator(`#units-${units}`);
+      if (!(await button.count())) continue;
+      await button.click();
+      const axes = await page.evaluate(async () => {
+        const panels = window.sinew.page.plots.panels.filter((p) => p.spec.difference && !p.root.hidden);
+        for (const p of panels) p.visible = true, p.refresh();
+        await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+        return panels.map((p) => {
+          const { plot } = p, at = plot.axes[1]._splits, places = at.map((v) => plot.valToPos(v, 'y'));
+          return { of: p.spec.lines[0].topic, at, close: Math.min(...places.slice(1).map((y, i) => Math.abs(y - places[i]))) };
+        });
+      });
+      assert.ok(axes.length > (file === 'two' ? 5 : 0), `${axes.length} plots of differences`);
+      for (const { of, at, close } of axes) {
+        assert.ok(at.length >= 3, `${of}, ${units}: ${at}`);
+        assert.ok(close >= 12.5, `${of}, ${units}: ${close} px between ${at}`);
+      }
+    }
+    await page.evaluate(() => window.sinew.page.plots.panels.find((p) => p.spec.difference && !p.root.hidden).root.scrollIntoView({ block: 'center' }));
+    await picture(page, `differences-${file}-${options.viewport?.width ?? 1440}`);
+  }, options));
+
 test('a channel of the table leads to its plot and time', () => compared('two', async (page) => {
   const row = page.locator('#channels tr[data-key="/true/joint/hip/angle"]');
   const at = await page.evaluate(() =>
@@ -253,6 +279,8 @@ test('the test stand has its charts, a curve per run', () => compared('stand', a
     assert.ok(curves.every((c) => c[3] && c[4]));
     assert.notEqual(curves[0][1], curves.at(-1)[1]);
   }
+  const { text } = await vectors_of(page, page.locator('.chart').first());
+  for (const words of ['>A<', '>B<']) assert.ok(text.includes(words), words);
   await page.keyboard.press('2');
   const shown = await page.evaluate(() => window.sinew.page.charts.list.map((c) => [...c.shown]));
   for (const labels of shown) assert.deepEqual(labels, ['A']);

@@ -1,7 +1,7 @@
 // The page of an identification: `static`, of a map that somebody else measured.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { picture, with_page } from './pages.mjs';
+import { picture, saved, vectors_of, with_page } from './pages.mjs';
 
 const number_of = (text) => Number(text.replaceAll('−', '-'));
 
@@ -47,4 +47,21 @@ test('a curve is shown and hidden by its name', () => with_page('static', async 
   assert.equal(await name.getAttribute('aria-pressed'), 'false');
   await page.waitForTimeout(100);
   assert.notEqual(await chart(), before);
+}));
+
+test('charts are saved with their rings, dots and lines, also when they are enlarged', () => with_page('static', async (page) => {
+  const { text } = await vectors_of(page, page.locator('.chart').first());
+  const { points, held } = await page.evaluate(() => {
+    const { fit, held_out } = window.sinew.run.parts[0].report;
+    return { points: fit.points, held: held_out.points };
+  });
+  const drawn = text.split('clip-path=')[1];
+  assert.equal([...drawn.matchAll(/<circle [^>]*fill="#fff"/g)].length, held, 'rings');
+  assert.equal([...drawn.matchAll(/<circle /g)].length, points + held);
+  for (const words of ['>held out<', '>pressure [kPa gauge]<', '>force [N]<']) assert.ok(text.includes(words), words);
+  const left = page.locator('.chart').nth(1);
+  await left.locator('.enlarge').click();
+  const png = await saved(page, page.locator('dialog.enlarged .chart'), 'PNG');
+  assert.equal(png.bytes.readUInt32BE(16), 2160);
+  assert.match(png.name, /-model-less-measured\.png$/);
 }));

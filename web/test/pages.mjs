@@ -31,6 +31,30 @@ export async function with_page(name, does, options, file = 'report.html') {
   }
 }
 export const picture = async (page, name) => pictures && page.screenshot({ path: join(pictures, `${name}.png`) });
+// The picture that an entry of a menu saves, `of`: a plot, a chart or a view with a menu; `kind`: SVG or PNG.
+export async function saved(page, of, kind) {
+  await of.locator('button[aria-haspopup]').click();
+  const [download] = await Promise.all([page.waitForEvent('download'),
+    page.getByRole('menuitem', { name: `Save as ${kind}`, exact: true }).click()]);
+  return { name: download.suggestedFilename(), bytes: readFileSync(await download.path()) };
+}
+
+// An SVG that was saved, as text: it is whole, on white, of paths and words alone.
+export async function vectors_of(page, of) {
+  const { name, bytes } = await saved(page, of, 'SVG'), text = bytes.toString('utf8');
+  assert.match(name, /\.svg$/);
+  assert.doesNotMatch(text, /<image|data:|<script|NaN|undefined/);
+  assert.ok(text.includes('fill="#fff"'));
+  assert.ok(await page.evaluate((t) => !new DOMParser().parseFromString(t, 'image/svg+xml').querySelector('parsererror'), text), 'well formed');
+  if (pictures) {
+    const sheet = await page.context().newPage();
+    await sheet.setContent(text);
+    await sheet.screenshot({ path: join(pictures, `saved-${name.replace('.svg', '')}.png`) });
+    await sheet.close();
+  }
+  return { name, text };
+}
+
 export const summary_of = (name) => JSON.parse(readFileSync(join(runs, name, 'summary.json'), 'utf8'));
 
 export const time_of = (page) => page.evaluate(() => window.sinew.page.player.time);

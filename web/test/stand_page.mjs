@@ -2,7 +2,7 @@
 // isometric and duty-sweep.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { drawing_of, picture, seek, summary_of, with_page } from './pages.mjs';
+import { drawing_of, picture, saved, seek, summary_of, vectors_of, with_page } from './pages.mjs';
 
 for (const [name, at] of [['feedback', 7], ['weights-60', 20.2], ['sealed-cylinder', 12], ['isometric', 8.2]])
   test(`${name}: the stand is drawn and moves`, () => with_page(name, async (page) => {
@@ -87,3 +87,38 @@ test('a chart becomes as large as the window, and comes back', () => with_page('
   const again = await over.boundingBox();
   assert.ok(Math.abs(again.width - small.width) < 1 && Math.abs(again.height - small.height) < 1, JSON.stringify(again));
 }));
+
+for (const colorScheme of ['light', 'dark'])
+  test(`a chart is saved as vectors and as pixels, as it is zoomed, on white: ${colorScheme}`, () => with_page('isometric', async (page) => {
+    await page.locator('#units-thesis').click();
+    const chart = page.locator('.chart').first();
+    const spec = await page.evaluate(() => {
+      const [c] = window.sinew.page.charts.list;
+      return { title: c.spec.title, x: c.axis_name(c.spec.x), y: c.axis_name(c.spec.y), named: c.named().map((n) => n.label),
+               points: c.curves.filter((k) => k.style !== 'line').reduce((n, k) => n + k.x.filter((x, i) => Number.isFinite(x) && Number.isFinite(k.y[i])).length, 0),
+               lines: c.curves.filter((k) => k.style === 'line').length, middle: (c.whole.x[0] + c.whole.x[1]) / 2 };
+    });
+    const { name, text } = await vectors_of(page, chart);
+    assert.match(name, /^isometric-/);
+    for (const words of [spec.title, spec.x, spec.y, ...spec.named]) assert.ok(text.includes(`>${words}<`), `${words} in ${text.slice(0, 900)}`);
+    assert.match(spec.y, /\[(lbf|psi gauge|in)\]/);
+    const count = (all, pattern) => [...all.matchAll(pattern)].length;
+    assert.equal(count(text.split('clip-path=')[1], /<circle /g), spec.points);
+    assert.equal(count(text, /class="line"/g), spec.lines);
+    assert.ok(text.includes('#0072b2') || spec.points + spec.lines > 8, 'a color for paper');
+    const png = await saved(page, chart, 'PNG');
+    assert.equal(png.bytes.subarray(1, 4).toString(), 'PNG');
+    assert.equal(png.bytes.readUInt32BE(16), 2160);
+
+    // Of a part that is zoomed to, and without a curve that is hidden.
+    await page.evaluate((middle) => {
+      const [c] = window.sinew.page.charts.list;
+      c.set_view({ ...c.view, x: [c.view.x[0], middle] });
+    }, spec.middle);
+    const zoomed = (await vectors_of(page, chart)).text;
+    assert.notEqual(zoomed, text);
+    const key = chart.locator('.line').first();
+    if (!(await key.count())) return;
+    await key.click();
+    assert.ok(!(await vectors_of(page, chart)).text.includes(`>${spec.named[0]}<`));
+  }, { colorScheme }));

@@ -8,7 +8,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { picture, runs, with_page } from './pages.mjs';
+import { picture, runs, saved, vectors_of, with_page } from './pages.mjs';
 import { program, serve, watch } from './served.mjs';
 
 const draws_within = 1500, generous = 5;  // 10,000 rows [ms]; times that, where others work too
@@ -52,6 +52,27 @@ test('a study: every row of the table, its columns by what they are', () => stud
   assert.match(await page.locator('#facts').textContent(), new RegExp(`${rows.length} of ${rows.length} points`));
   await picture(page, 'study');
 }));
+
+for (const colorScheme of ['light', 'dark'])
+  test(`every view is saved on white, and stays as it was: ${colorScheme}`, () => study('walk', async (page) => {
+    await settle(page);
+    const rows = await page.evaluate(() => window.sinew.page.filter.rows.length);
+    for (const view of ['history', 'scatter', 'surface', 'parallel']) {
+      const root = page.locator(`#${view}`), before = await drawn(page, view);
+      const { name, text } = await vectors_of(page, root);
+      assert.equal(await drawn(page, view), before, view);
+      const title = await root.locator('h2').textContent();
+      assert.ok(text.includes(`<title>${title}</title>`) && name.includes(title.toLowerCase().replaceAll(' ', '-')), `${name}: ${title}`);
+      const words = [...text.matchAll(/<text [^>]*>([^<]+)</g)].map((m) => m[1]);
+      assert.ok(words.length > 6 && words.some((w) => /\d/.test(w)), words.join('; '));
+      const lines = [...text.matchAll(/ d="([^"]+)"/g)].map((m) => m[1].split('M').length - 1).reduce((sum, n) => sum + n, 0);
+      const marks = view === 'surface' ? [...text.matchAll(/<rect [^>]*width="2" height="2"/g)].length : lines;
+      assert.ok(marks >= rows, `${view}: ${marks} marks of ${rows} rows`);
+    }
+    const png = await saved(page, page.locator('#scatter'), 'PNG');
+    const wide = await page.locator('#scatter-canvas').evaluate((c) => c.clientWidth);
+    assert.ok(Math.abs(png.bytes.readUInt32BE(16) - 3 * wide) <= 3);
+  }, { colorScheme }));
 
 test('a range that is drawn on an axis filters every view, and a tap lets go', () => study('walk', async (page) => {
   const rows = table('walk'), views = ['history', 'scatter', 'surface', 'parallel'];

@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { deflateSync } from 'node:zlib';
+import { ticks, upright_ticks } from '../src/axis.js';
 import { append_stretches, GrowingColumns } from '../src/growing.js';
 import { bucket_size, level_for, pyramid } from '../src/pyramid.js';
 import { between, held, index_at, open_within, read_samples } from '../src/samples.js';
@@ -227,4 +228,22 @@ test('a phase that goes on in the next piece stays one', () => {
   append_stretches(all, [{ phase: 0, step: 0, from: 0.1, to: 0.2 }, { phase: 1, step: 0, from: 0.2, to: 0.3 }]);
   append_stretches(all, [{ phase: 1, step: 1, from: 0.3, to: 0.4 }]);
   assert.deepEqual(all.map((s) => [s.phase, s.step, s.from, s.to]), [[0, 0, 0, 0.2], [1, 0, 0.2, 0.3], [1, 1, 0.3, 0.4]]);
+});
+
+// --- axes ---
+
+test('an upright axis has three numbers or more, which do not touch', () => {
+  const random = random_from(7);
+  for (let i = 0; i < 5000; ++i) {
+    const low = (random() - 0.5) * 10 ** (8 * random() - 4), high = low + 10 ** (6 * random() - 3), pixels = 62 + 300 * random();
+    // The step as it would be otherwise: the least of 1, 2 or 5 that leaves 26 px, where there may be one number.
+    const least = (26 / pixels) * (high - low), size = 10 ** Math.floor(Math.log10(least));
+    const usual = [1, 2, 5, 10].map((k) => k * size).find((k) => k >= least);
+    const at = upright_ticks(low, high, usual, pixels), y = at.map((v) => ((v - low) / (high - low)) * pixels);
+    assert.ok(at.length >= 3, `${low} … ${high}, ${pixels} px: ${at}`);
+    y.slice(1).forEach((v, k) => assert.ok(v - y[k] >= 12.9, `${at}: ${v - y[k]} px`));
+    assert.ok(y[0] > -1e-6 && y.at(-1) < pixels + 1e-6);
+    if (ticks(low, high, (high - low) / usual).length >= 3) assert.equal(Math.round((at[1] - at[0]) / usual), 1, 'the usual step where it does');
+  }
+  assert.deepEqual(upright_ticks(-0.35, 0.35, 0.5, 70), [-0.2, 0, 0.2]);
 });
