@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <optional>
 
 #include "cli/emergency.h"
@@ -18,15 +19,22 @@ namespace {
 struct ViewOptions {
   std::vector<std::string> what;  // recorded: a run, a study or two
   std::string machine;
-  RunOptions live;  // .run.experiment empty: a recorded one
-  int port = 0;     // 0: a free one
+  RunOptions live;          // .run.experiment empty: a recorded one
+  std::optional<int> port;  // 0: a free one
   bool open = true, once = false, paused = false;
 };
+
+// The one that is asked for, or else the one of the folder in which somebody works: a browser finds
+// there what a reader arranged the last time.
+live::Port port_of(const ViewOptions& o) {
+  if (o.port) return {.number = static_cast<std::uint16_t>(*o.port)};
+  return live::folder_port(std::filesystem::current_path());
+}
 
 ExitCode view_recorded(const ViewOptions& o) {
   const Messages messages(o.live.quiet);
   const live::Served served = live::served(o.what, o.machine, messages.notices());
-  live::Server server(static_cast<std::uint16_t>(o.port), {.get = served.get});
+  live::Server server(port_of(o), {.get = served.get});
   fmt::print("{}\n", server.url());
   std::fflush(stdout);
   messages.note(served.in_words(server.url()));
@@ -39,7 +47,7 @@ ExitCode view_recorded(const ViewOptions& o) {
 ExitCode view_live(const ViewOptions& o) {
   const Messages messages(o.live.quiet);
   live::LiveRun run(o.live.run,
-                    {.port = static_cast<std::uint16_t>(o.port),
+                    {.port = port_of(o),
                      .pace = o.live.pace,
                      .paused = o.paused,
                      .once = o.once,
@@ -77,7 +85,9 @@ void add_view(Command app, Action& action) {
   Option live =
       sub.add_option("--live", options->live.run.experiment, "run this experiment and watch it");
   live.excludes(dir);
-  sub.add_option("--port", options->port, "on 127.0.0.1; 0: a free one").is_between(0, 65535);
+  sub.add_option("--port", options->port,
+                 "on 127.0.0.1; 0: a free one; else the one that this folder has each time")
+      .is_between(0, 65535);
   sub.add_flag("!--no-open", options->open, "only print where it is");
   options->live.pace = 1;
   sub.add_option("--pace", options->live.pace,

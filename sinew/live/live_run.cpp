@@ -202,7 +202,7 @@ class LiveRun::Impl {
 namespace {
 
 // Refuses what can be refused before there is a folder.
-void require_live(const std::string& experiment, std::uint16_t port) {
+void require_live(const std::string& experiment, Port port) {
   if (run::is_on_stand(experiment))
     config::fail({experiment, 0, 0}, "", "an experiment on the stand",
                  "one of a robot: a stand's run is over in a moment and is not steered",
@@ -211,7 +211,7 @@ void require_live(const std::string& experiment, std::uint16_t port) {
     throw std::runtime_error(
         "sinew view: this sinew was built without its page, which npm bundles; try: install npm, "
         "then run npm ci in web/ and build again");
-  if (port > 0) Server(port, {});
+  if (port.number > 0) Server(port, {});
 }
 
 }  // namespace

@@ -4,21 +4,21 @@
 // steering alone, so that the loop waits for nobody.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
 
 #include "sinew/analysis/record/machine.h"
+#include "sinew/live/port.h"
 #include "sinew/run/folder/kept_run.h"
 
 namespace sinew::live {
 
 struct LiveOptions {
-  std::uint16_t port = 0;  // on 127.0.0.1; 0: a free one
-  double pace = 1;         // simulated seconds per second of wall time; 0: no limit
-  bool paused = false;     // the run waits for a page's button
-  bool once = false;       // end with the run; else its page stays until Ctrl-C
+  Port port = {};       // on 127.0.0.1
+  double pace = 1;      // simulated seconds per second of wall time; 0: no limit
+  bool paused = false;  // the run waits for a page's button
+  bool once = false;    // end with the run; else its page stays until Ctrl-C
 
   // Called on the run's thread with what it left, before its page is that of a run that is over.
   std::function<void(const run::Kept<analysis::Machine>&)> kept = {};

@@ -130,16 +130,23 @@ bool Server::Impl::has_token(std::string_view target) const {
   return same_token(shown, token) && (rest.empty() || rest[0] == '/');
 }
 
-void Server::Impl::listen(std::uint16_t wanted) {
-  const tcp::endpoint here(asio::ip::address_v4::loopback(), wanted);
-  Error error;
+Error Server::Impl::try_to_listen(std::uint16_t number) {
+  const tcp::endpoint here(asio::ip::address_v4::loopback(), number);
+  Error error, ignored;
+  acceptor.close(ignored);
   acceptor.open(here.protocol(), error);
   if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
   if (!error) acceptor.bind(here, error);
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+  return error;
+}
+
+void Server::Impl::listen(Port wanted) {
+  Error error = try_to_listen(wanted.number);
+  if (error && wanted.or_free) error = try_to_listen(0);
   if (error)
     throw std::runtime_error(fmt::format("port: found {}: {}; expected a free port; try port=0",
-                                         wanted, error.message()));
+                                         wanted.number, error.message()));
   port = acceptor.local_endpoint().port();
   accept();
 }
@@ -180,8 +187,7 @@ void Server::Impl::tick() {
   });
 }
 
-Server::Server(std::uint16_t port, Handlers handlers)
-    : impl_(std::make_shared<Impl>(std::move(handlers))) {
+Server::Server(Port port, Handlers handlers) : impl_(std::make_shared<Impl>(std::move(handlers))) {
   impl_->listen(port);
   impl_->signals.add(SIGINT);
   impl_->signals.add(SIGTERM);

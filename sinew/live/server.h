@@ -19,6 +19,8 @@
 #include <string_view>
 #include <vector>
 
+#include "sinew/live/port.h"
+
 namespace sinew::live {
 
 // The answer to a request over HTTP.
@@ -43,8 +45,8 @@ class Server {
     std::vector<int> signals = {};           // that are as Ctrl-C, SIGTERM and SIGHUP to it
   };
 
-  // Listens from now on. `port` 0: a free one. Throws std::runtime_error where it is taken.
-  Server(std::uint16_t port, Handlers handlers);
+  // Listens from now on. Throws std::runtime_error where the port is taken and none but it will do.
+  Server(Port port, Handlers handlers);
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;

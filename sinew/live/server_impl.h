@@ -41,7 +41,8 @@ struct Server::Impl : std::enable_shared_from_this<Server::Impl> {
   void send_frames();    // to each that is done with the last one
   void leave_sockets();  // without another word
 
-  void listen(std::uint16_t port);
+  void listen(Port wanted);
+  Error try_to_listen(std::uint16_t port);
   void accept();
   void tick();
   bool make_room();

@@ -5,7 +5,7 @@ import { mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from 'node
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
-import { picture, runs } from './pages.mjs';
+import { new_context, picture, runs } from './pages.mjs';
 import { serve, watch } from './served.mjs';
 
 const folder = mkdtempSync(join(tmpdir(), 'sinew-runs-'));
@@ -79,4 +79,48 @@ test('runs are listed with picture, date and title, found, and compared', async 
   await watch(run, async (page) => assert.equal((await shown(page)).length, 6), {}, 'runs');
   run.child.kill('SIGINT');
   assert.equal((await run.ended).code, 0);
+});
+
+test('the next server of a folder has its port, and so the arrangement that a reader left', async () => {
+  const start = (cwd) => serve(['view', join(folder, 'walk-test-1'), '--no-open'], cwd);
+  const stop = async ({ child, ended }) => {
+    child.kill('SIGINT');
+    assert.equal((await ended).code, 0);
+  };
+  const port_of = ({ url }) => new URL(url).port;
+  const context = await new_context();
+  const own = async (run, does) => {
+    const page = await context.newPage();
+    await page.goto(run.url);
+    await page.waitForSelector('html[data-ready]');
+    await does(page);
+    await page.close();
+  };
+  try {
+    const first = await start(folder);
+    await own(first, async (page) => {
+      const panel = page.locator('.panel:visible').filter({ has: page.locator('h3', { hasText: 'Joint stiffness' }) }).first();
+      await panel.locator('button[aria-haspopup]').click();
+      await page.getByRole('menuitem', { name: 'Put this plot away' }).click();
+      assert.ok(await page.locator('#reset-layout').isVisible());
+    });
+    // While it has its port, another one serves at a free one.
+    const beside = await start(folder);
+    assert.notEqual(port_of(beside), port_of(first));
+    await stop(beside);
+    await stop(first);
+
+    const again = await start(folder), elsewhere = await start(join(folder, 'walk-test-1'));
+    assert.equal(port_of(again), port_of(first));
+    assert.notEqual(again.url, first.url, 'a token of its own');
+    assert.notEqual(port_of(elsewhere), port_of(first));
+    await own(again, async (page) => {
+      assert.ok(await page.locator('#reset-layout').isVisible());
+      assert.equal(await page.locator('.panel:visible h3', { hasText: 'Joint stiffness' }).count(), 0);
+    });
+    await stop(again);
+    await stop(elsewhere);
+  } finally {
+    await context.close();
+  }
 });
