@@ -1,8 +1,7 @@
 // cli/compare.cpp - `sinew compare`: runs beside each other, as tables and as one page.
 #include <fmt/format.h>
 
-#include <limits>
-
+#include "cli/alignment.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
 #include "cli/units.h"
@@ -18,13 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_runs = 8;  // colors that can be told apart
-
 struct Options {
   std::vector<std::string> runs, channels;
-  std::vector<std::string> align_by;
-  std::string out, residuals, align = "start", clock = "none", event, units;
-  double most_shift = std::numeric_limits<double>::infinity();
+  Alignment alignment;
+  std::string out, residuals, units;
   bool json = false, all = false, force = false, quiet = false;
 };
 
@@ -36,21 +32,6 @@ report::ComparisonText shown_as(const Options& options) {
           .see_all = "--all",
           .fit_clock = "--clock fit",
           .color = output_has_color()};
-}
-
-report::AlignWish wish_of(const Options& options) {
-  report::AlignWish wish;
-  for (const auto by : {report::Align::sequence, report::Align::event, report::Align::correlation})
-    if (to_text(by) == options.align) wish.by = by;
-  // An event or channels that are named are wished for.
-  if (!options.event.empty()) wish.by = report::Align::event;
-  if (!options.align_by.empty() && wish.by == report::Align::start)
-    wish.by = report::Align::correlation;
-  wish.event = options.event;
-  wish.channels = options.align_by;
-  wish.fit_clock = options.clock == "fit";
-  wish.most_shift = options.most_shift;
-  return wish;
 }
 
 // Nothing that was there is written over unasked, nor a run that is read.
@@ -68,8 +49,8 @@ void refuse_outputs(const Options& options) {
 ExitCode compare_runs(const Options& options) {
   const Messages messages(options.quiet);
   refuse_outputs(options);
-  const report::Comparison comparison =
-      run::compare_runs(options.runs, wish_of(options), options.channels, messages.notices());
+  const report::Comparison comparison = run::compare_runs(options.runs, options.alignment.wish(),
+                                                          options.channels, messages.notices());
 
   if (options.json)
     fmt::print("{}", to_json(comparison));
@@ -101,17 +82,7 @@ void add_compare(Command app, Action& action) {
   sub.add_option("-o,--output", options->out, "also write a page with overlaid plots");
   sub.add_option("--residuals", options->residuals,
                  "also write what each run differs by, a column per channel, as CSV");
-  sub.add_option("--align", options->align,
-                 "how times are laid on the first run's: start, sequence, event, correlation")
-      .is_one_of({"start", "sequence", "event", "correlation"});
-  sub.add_option("--event", options->event,
-                 "of --align event: '/joint/elbow/angle > 10 deg'; else the surest first motion");
-  sub.add_option("--align-by", options->align_by, "channels that are correlated; else chosen")
-      .takes_all();
-  sub.add_option("--clock", options->clock,
-                 "fit: the rate of a run's clock is found and taken out; none")
-      .is_one_of({"none", "fit"});
-  sub.add_option("--within", options->most_shift, "largest shift that is looked for, in s");
+  add_alignment(sub, options->alignment);
   sub.add_option("--channels", options->channels, "only these: '/joint/*/angle'").takes_all();
   add_units(sub, options->units, "of the tables, else thesis, and of the page; --json is in SI");
   sub.add_flag("--all", options->all, "every figure and channel, equal ones too");

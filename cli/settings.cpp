@@ -30,12 +30,13 @@ constexpr std::string_view subjects =
 
 // Settings that are so at the begin of a line alone: a file may have a column of that name.
 constexpr std::string_view quantities =
-    " atmosphere base bits branch bridge channels concentration conductance count dates decimal "
-    "down encoding excitation exponent extensor_length external_volume fit_where flexion "
+    " align align_by atmosphere base bits branch bridge channels clock concentration conductance "
+    "count dates decimal down encoding event excitation exponent extensor_length external_volume "
+    "fit_where flexion "
     "flexor_length font fps frequency from full_scale gage_factor gages gain height hold_out kind "
-    "label length lever limb limb_lever load mass modulus moment_arm name output poisson port "
-    "predict_dat pressure rate rest rest_angle rest_length sensitivity side speed temperature "
-    "thousands thread_thickness title to trapezoids volume width yield ";
+    "label length lever limb limb_lever load machine mass modulus moment_arm name output poisson "
+    "port predict_dat pressure rate rest rest_angle rest_length sensitivity side speed temperature "
+    "thousands thread_thickness title to trapezoids volume width within yield ";
 
 // Words between blanks, " one two ".
 bool is_one_of(std::string_view word, std::string_view words) {

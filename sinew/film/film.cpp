@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include "sinew/film/video.h"
 #include "sinew/report/page/page.h"
 #include "sinew/report/page/page_template.h"
+#include "sinew/run/folder/compared.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/run/folder/page.h"
 
@@ -92,6 +94,11 @@ std::vector<double> times_of(const FilmOptions& options, double begin, double en
   return out;
 }
 
+[[noreturn]] void without_drawing(const std::string& run) {
+  config::fail({run, 0, 0}, "", "a run without a drawing",
+               "a run of a robot or of the test stand whose file says where its parts are");
+}
+
 std::string number(double value) { return Json(value).dump(); }
 
 }  // namespace
@@ -128,24 +135,40 @@ Filming::Filming(const fs::path& run, const std::string& machine, const FilmOpti
     : options_(options), stop_(stop) {
   report::require_page("the film");
   const run::RecordedRun recorded = run::recorded_run(run);
-  const std::string page = run::page_of(recorded, machine, notices);
-  browser_ = std::make_unique<Chromium>(stop);
+  open(run::page_of(recorded, machine, notices));
+  if (browser_->evaluate("Boolean(window.sinew.page.scene)") != "true")
+    without_drawing(run.string());
+  prepare();
+}
+
+Filming::Filming(const std::vector<std::string>& runs, const report::AlignWish& wish,
+                 const FilmOptions& options, const std::atomic<bool>& stop,
+                 const run::Notices& notices)
+    : options_(options), stop_(stop) {
+  report::require_page("the film");
+  open(report::page(run::compare_runs(runs, wish, {}, notices)));
+  const Json drawn = Json::parse(browser_->evaluate("window.sinew.page.machines.drawn"));
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    if (std::ranges::find(drawn, Json(i)) == drawn.end()) without_drawing(runs[i]);
+  prepare();
+}
+
+void Filming::open(const std::string& page) {
+  browser_ = std::make_unique<Chromium>(stop_);
   run::write_file(browser_->folder() / "run.html", page, log::Replacement::Sync::later);
   browser_->open(browser_->folder() / "run.html");
   wait_until_ready(*browser_);
-  if (browser_->evaluate("Boolean(window.sinew.page.scene)") != "true")
-    config::fail({run.string(), 0, 0}, "", "a run without a drawing",
-                 "a run of a robot or of the test stand whose file says where its parts are");
-  const double end = Json::parse(browser_->evaluate("window.sinew.run.duration"));
-  const double begin =
-      Json::parse(browser_->evaluate("window.sinew.run.phases.stretches[0]?.from ?? 0"));
-  times_ = times_of(options, begin, end);
+}
+
+void Filming::prepare() {
   browser_->evaluate(report::film_script());
+  const Json span = Json::parse(browser_->evaluate("window.sinew_span()"));
+  times_ = times_of(options_, span[0], span[1]);
   browser_->evaluate(
-      fmt::format("window.sinew_film({})", Json{{"size", {options.width, options.height}},
-                                                {"dark", options.dark},
-                                                {"still", options.still},
-                                                {"speed", options.speed}}
+      fmt::format("window.sinew_film({})", Json{{"size", {options_.width, options_.height}},
+                                                {"dark", options_.dark},
+                                                {"still", options_.still},
+                                                {"speed", options_.speed}}
                                                .dump()));
 }
 

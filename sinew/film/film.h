@@ -1,4 +1,5 @@
-// film/film.h - the replay of a run as a film: the drawing of its page, frame by frame.
+// film/film.h - the replay of a run, or of several over each other, as a film: the drawing of their
+// page, frame by frame.
 //
 //   Filming filming("runs/walk-test-1/1", "", options, stop);
 //   filming.make("walk.gif", done);
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "sinew/film/chromium.h"
+#include "sinew/report/compare/comparison.h"
 #include "sinew/run/folder/notices.h"
 
 namespace sinew::film {
@@ -52,6 +54,14 @@ class Filming {
   Filming(const std::filesystem::path& run, const std::string& machine, const FilmOptions& options,
           const std::atomic<bool>& stop, const run::Notices& notices = {});
 
+  // Opens the page of runs beside each other (run/folder/compared.h): the first one's machine as it
+  // is, the others as ghosts over it in their colors, as `wish` lays them on it. Times are the
+  // first one's; the film shows all that any of them has. Throws as above, also where one of them
+  // cannot be drawn, and what the comparison throws.
+  Filming(const std::vector<std::string>& runs, const report::AlignWish& wish,
+          const FilmOptions& options, const std::atomic<bool>& stop,
+          const run::Notices& notices = {});
+
   // How many frames the film has.
   int frames() const { return static_cast<int>(times_.size()); }
 
@@ -60,6 +70,8 @@ class Filming {
   void make(const std::filesystem::path& file, std::atomic<std::int64_t>& done);
 
  private:
+  void open(const std::string& page);
+  void prepare();
   void make_gif(const std::filesystem::path& file, std::atomic<std::int64_t>& done);
   void make_video(const std::filesystem::path& file, Kind kind, std::atomic<std::int64_t>& done);
 

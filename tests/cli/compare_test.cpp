@@ -204,7 +204,7 @@ TEST(Compare, WhatCannotBeLaidOnEachOtherIsRefusedWithAReason) {
     EXPECT_THAT(result.err, StartsWith("b: align"));
   }
   EXPECT_THAT(w.sinew({"compare", "a", "b", "--event", "/joint/lever/angle"}).err,
-              StartsWith("event: found \"/joint/lever/angle\", without > or <"));
+              StartsWith("--event: found \"/joint/lever/angle\", without > or <"));
   EXPECT_EQ(w.sinew({"compare", "a", "b", "--align", "middle"}).code, 2);
 }
 

@@ -1,4 +1,5 @@
-// `film`: of a machine and of the stand, where there is a browser; and what it refuses.
+// `film`: of a machine, of the stand and of several runs, where there is a browser; and what it
+// refuses.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -98,6 +99,78 @@ TEST(Film, OfTheStandIsAVideo) {
       (w / "stand.mp4").string() + "' > '" + (w / "asked").string() + "'";
   ASSERT_EQ(std::system(ask.c_str()), 0);
   EXPECT_THAT(read_text(w / "asked"), StartsWith("320,10"));
+}
+
+// A recording of angles alone, of a bench that swings otherwise, over the simulation.
+void run_both(const Workspace& w) {
+  run(w, bench, "simulated");
+  ASSERT_EQ(w.sinew({"run", bench, "-o", "measured", "--no-report", "--set",
+                     "log.channels=[\"/joint/*/angle\"]", "--set",
+                     "joint.lever.damping=0.7 lbf in s/rad"})
+                .code,
+            0);
+}
+
+TEST(Film, OfAComparisonShowsTheGhostAndWhoIsWho) {
+  if (!can_film()) GTEST_SKIP() << "no chromium, or built without the page";
+  const Workspace w;
+  run_both(w);
+  const auto film = [&](Words of, const std::string& file) {
+    of.insert(of.begin(), "film");
+    for (const char* more : {"--from", "0.5 s", "--to", "0.9 s", "--fps", "20", "--width", "320",
+                             "--height", "240", "-o", file.c_str()})
+      of.emplace_back(more);
+    return w.sinew(of);
+  };
+  const Result made = film({"simulated", "measured", "--align", "correlation"}, "both.gif");
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_THAT(made.err, HasSubstr("both.gif, 8 frames, 0.4 s"));
+  const Gif gif(read_text(w / "both.gif"));
+  EXPECT_EQ(gif.width, 320);
+  EXPECT_EQ(gif.delays.size(), 8u);
+  EXPECT_GE(gif.unlike, 6) << "it moves";
+
+  // Another film than one of the first run beside itself, whose ghost is hidden behind nothing.
+  ASSERT_EQ(film({"simulated", "measured"}, "start.gif").code, 0);
+  ASSERT_EQ(film({"simulated", "simulated/log.mcap"}, "same.gif").code, 0);
+  ASSERT_EQ(film({"simulated"}, "alone.gif").code, 0);
+  const std::string both = read_text(w / "start.gif");
+  EXPECT_FALSE(both == read_text(w / "same.gif"));
+  EXPECT_FALSE(both == read_text(w / "alone.gif"));
+  ASSERT_EQ(film({"simulated", "measured"}, "again.gif").code, 0);
+  EXPECT_TRUE(both == read_text(w / "again.gif")) << "the same bytes again";
+}
+
+TEST(Film, OfAComparisonRefusesARunThatCannotBeDrawn) {
+  if (!can_film()) GTEST_SKIP() << "no chromium, or built without the page";
+  const Workspace w;
+  run(w, bench, "run");
+  ASSERT_EQ(w.sinew({"run", bench, "-o", "blind", "--no-report", "--set",
+                     "log.channels=[\"/muscle/*/tension\"]"})
+                .code,
+            0);
+  EXPECT_THAT(w.sinew({"film", "run", "blind", "-o", "a.gif"}).err,
+              AllOf(StartsWith("blind: "), HasSubstr("a run without a drawing")));
+}
+
+TEST(Film, OfAComparisonTellsWhatDoesNotFitBeforeABrowserStarts) {
+  const Workspace w;
+  run_both(w);
+  EXPECT_THAT(w.sinew({"film", "simulated", "-o", "a.gif", "--align", "correlation"}).err,
+              StartsWith("--align: found one run; expected two runs or more"));
+  EXPECT_THAT(w.sinew({"film", "simulated", "-o", "a.gif", "--clock", "fit"}).err,
+              StartsWith("--clock: found one run"));
+  EXPECT_THAT(w.sinew({"film", "simulated", "measured", "-o", "a.gif", "--machine", bench}).err,
+              AllOf(StartsWith("--machine: "), HasSubstr("each says itself")));
+  EXPECT_EQ(w.sinew({"film", "simulated", "measured", "-o", "a.gif", "--align", "luck"}).code, 2);
+  if (SINEW_HAS_PAGE) {
+    EXPECT_THAT(w.sinew({"film", "simulated", "nothing", "-o", "a.gif"}).err, HasSubstr("nothing"));
+    EXPECT_THAT(w.sinew({"film", "simulated", "measured", "-o", "a.gif", "--event",
+                         "/joint/lever/angle > 1000 rad"})
+                    .err,
+                HasSubstr("/joint/lever/angle"));
+  }
+  EXPECT_FALSE(fs::exists(w / "a.gif"));
 }
 
 TEST(Film, WrongWordsAreToldBeforeABrowserStarts) {

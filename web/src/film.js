@@ -1,6 +1,7 @@
-// The film of a run: `sinew film` runs this in the run's page, asks for one frame after the other,
+// The film of a run, or of runs over each other: `sinew film` runs this in their page, asks for one frame after the other,
 // and gets each as base64. What a frame shows follows from its time alone.
 import { GIFEncoder, applyPalette, quantize } from 'gifenc';
+import { palette_of_runs } from './runs.js';
 
 function base64(bytes) {
   let text = '';
@@ -14,7 +15,8 @@ class Film {
   constructor({ size, dark, still, speed }) {
     const { page } = window.sinew;
     this.page = page;
-    this.scene = page.scene;
+    this.machines = page.machines;  // of several runs
+    this.scene = page.scene ?? page.machines.first;
     this.speed = speed;
     [this.width, this.height] = size;
     page.look.set_theme(dark ? 'dark' : 'light');
@@ -30,21 +32,32 @@ class Film {
 
   draw(t) {
     const { ctx, scene } = this, { look } = scene;
-    scene.draw(t);
+    (this.machines ?? scene).draw(t);
     ctx.fillStyle = look.paper;
     ctx.fillRect(0, 0, this.width, this.height);
     ctx.drawImage(scene.canvas, 0, 0, this.width, this.height);
     ctx.textBaseline = 'top';
     ctx.fillStyle = look.ink;
     ctx.font = `600 15px ${look.sans}`;
-    const phase = this.page.phase_at(t);
-    ctx.fillText([`${t.toFixed(2)} s`, phase].filter(Boolean).join('  ·  '), 8, 7);
+    const phase = this.page.phase_at?.(t);
+    ctx.fillText([`${t.toFixed(2).replace('-', '−')} s`, phase].filter(Boolean).join('  ·  '), 8, 7);
+    if (this.machines) this.draw_names();
     if (this.speed === 1) return;
     ctx.fillStyle = look.quiet;
     ctx.font = `13px ${look.sans}`;
     ctx.textAlign = 'right';
     ctx.fillText(`${this.speed} ×`, this.width - 8, 8);
     ctx.textAlign = 'left';
+  }
+
+  // Who is who: the first one's name as it is drawn, the others' in their colors.
+  draw_names() {
+    const { ctx, scene: { look } } = this, palette = palette_of_runs();
+    ctx.font = `600 13px ${look.sans}`;
+    this.machines.runs.forEach((run, i) => {
+      ctx.fillStyle = i ? palette[i % palette.length] : look.ink;
+      ctx.fillText(run.label, 8, 29 + 18 * i);
+    });
   }
 
   pixels(t) {
@@ -92,6 +105,12 @@ class Film {
     return out;
   }
 }
+
+// The time that there is something of [s].
+window.sinew_span = () => {
+  const { run, page } = window.sinew;
+  return run ? [run.phases.stretches[0]?.from ?? 0, run.duration] : page.whole;
+};
 
 window.sinew_film = (options) => {
   window.film = new Film(options);
