@@ -74,9 +74,21 @@ py::object figures(const py::object& runs, const py::object& folder, const Names
   return told;
 }
 
-int film(const py::object& run, const py::object& path, const py::object& start,
+report::AlignWish wish_of(const std::string& word, bool fit_clock) {
+  for (const auto by : {report::Align::start, report::Align::sequence, report::Align::event,
+                        report::Align::correlation}) {
+    if (report::to_text(by) != word) continue;
+    report::AlignWish wish(by);
+    wish.fit_clock = fit_clock;
+    return wish;
+  }
+  throw py::value_error("align: found \"" + word +
+                        "\"; expected start, sequence, event or correlation");
+}
+
+int film(const py::object& runs, const py::object& path, const py::object& start,
          const py::object& stop, double speed, int width, int height, int fps, bool dark,
-         bool still, bool force) {
+         bool still, const std::string& align, bool fit_clock, bool force) {
   film::FilmOptions options{.speed = speed,
                             .width = width,
                             .height = height,
@@ -85,7 +97,12 @@ int film(const py::object& run, const py::object& path, const py::object& start,
                             .still = still};
   options.from = time_of(start, options.from);
   options.to = time_of(stop, options.to);
-  const std::string of = path_of(run), file = path_of(path);
+  Names of;
+  for (const std::filesystem::path& run : paths_of(runs)) of.push_back(run.string());
+  const report::AlignWish wish = wish_of(align, fit_clock);
+  if (of.size() == 1 && (wish.by != report::Align::start || fit_clock))
+    throw py::value_error("align: found one run; expected several, which are laid on each other");
+  const std::string file = path_of(path);
   film::check(options, film::kind_of(file));
   run::refuse_to_overwrite(file, force, {}, std::filesystem::path(file).extension().string());
   run::require_folder_of(file);
@@ -93,7 +110,8 @@ int film(const py::object& run, const py::object& path, const py::object& start,
   int frames = 0;
   do_interruptibly(interrupted, [&] {
     std::atomic<std::int64_t> done{0};
-    film::Filming filming(of, "", options, interrupted);
+    film::Filming filming = of.size() == 1 ? film::Filming(of[0], "", options, interrupted)
+                                           : film::Filming(of, wish, options, interrupted);
     filming.make(file, done);
     frames = filming.frames();
   });
@@ -122,12 +140,17 @@ void bind_figures(py::module_& m) {
       "`units` is si, thesis, metric or metric,length=cm; `start` and `stop` are in s. Returns\n"
       "what index.json says, with `warnings`. Raises InputError.");
   m.def(
-      "film", &film, py::arg("run"), py::arg("path"), py::kw_only(), py::arg("start") = py::none(),
+      "film", &film, py::arg("runs"), py::arg("path"), py::kw_only(), py::arg("start") = py::none(),
       py::arg("stop") = py::none(), py::arg("speed") = 1.0, py::arg("width") = 880,
       py::arg("height") = 470, py::arg("fps") = 25, py::arg("dark") = false,
-      py::arg("still") = false, py::arg("force") = false,
-      "Makes a film of the replay of a run that is kept: .gif, .mp4 or .webm. Chromium draws its\n"
-      "frames, ffmpeg makes MP4 and WebM of them. `start` and `stop` are in s of the run; `speed`\n"
+      py::arg("still") = false, py::arg("align") = "start", py::arg("fit_clock") = false,
+      py::arg("force") = false,
+      "Makes a film of the replay of a run that is kept, or of several over each other, the "
+      "others\n"
+      "as ghosts over the first: .gif, .mp4 or .webm. `align` lays these on the first run: start,\n"
+      "sequence, event or correlation; `fit_clock` takes out their clocks' rates. Chromium draws\n"
+      "its frames, ffmpeg makes MP4 and WebM of them. `start` and `stop` are in s of the run; "
+      "`speed`\n"
       "is how many of its seconds one of the film shows; `still` lets the camera stand. Returns\n"
       "the number of frames. Raises InputError, and RuntimeError where a program is missing.");
 }

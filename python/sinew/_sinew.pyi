@@ -308,7 +308,7 @@ def figures(
     force: bool = False,
 ) -> Dict[str, Any]: ...
 def film(
-    run: _Path,
+    runs: Union[_Path, Sequence[_Path]],
     path: _Path,
     *,
     start: Optional[_Number] = None,
@@ -319,6 +319,8 @@ def film(
     fps: int = 25,
     dark: bool = False,
     still: bool = False,
+    align: str = "start",
+    fit_clock: bool = False,
     force: bool = False,
 ) -> int: ...
 def migrate(path: _Path, *, folder: Optional[_Path] = None, write: bool = True) -> Dict[str, Any]: ...

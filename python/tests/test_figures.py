@@ -2,12 +2,37 @@
 
 import os
 import shutil
+import struct
 import tempfile
 import unittest
 from pathlib import Path
+from typing import List
 
 import sinew
 from common import Refusals
+
+
+def missing_for_films() -> str:
+    """Return what is missing to make a GIF; nothing where all is there."""
+    if "CHROMIUM" in os.environ:
+        return "" if shutil.which(os.environ["CHROMIUM"]) else f"CHROMIUM={os.environ['CHROMIUM']} is not there"
+    names = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"]
+    return "" if any(map(shutil.which, names)) else "chromium is missing: apt-get install chromium"
+
+
+def delays_of(gif: bytes) -> "List[int]":
+    """Return how long each frame of a GIF is shown [ms], by its blocks."""
+    delays: "List[int]" = []
+    at = 13 + 3 * (2 << (gif[10] & 7))
+    while gif[at] != 0x3B:
+        image = gif[at] == 0x2C
+        if not image and gif[at + 1] == 0xF9:
+            delays.append(10 * struct.unpack_from("<H", gif, at + 4)[0])
+        at += 11 if image else 2  # no table of its own
+        while gif[at]:
+            at += gif[at] + 1
+        at += 1
+    return delays
 
 
 class Figures(Refusals):
@@ -65,7 +90,41 @@ class Figures(Refusals):
             sinew.figures([self.run_folder, self.run_folder], out)
         with self.assertRaisesRegex(sinew.InputError, "gif, .mp4 or .webm"):
             sinew.film(self.run_folder, out / "walk.avi")
+        with self.assertRaisesRegex(ValueError, "found one run; expected several"):
+            sinew.film(self.run_folder, out / "walk.gif", align="correlation")
+        with self.assertRaisesRegex(ValueError, 'found "luck"; expected start, sequence, event or correlation'):
+            sinew.film([self.run_folder, self.run_folder], out / "walk.gif", align="luck")
+        with self.assertRaisesRegex(ValueError, "found none"):
+            sinew.film([], out / "walk.gif")
         self.assertFalse(os.path.exists(out))
+
+    @unittest.skipIf(missing_for_films(), missing_for_films())
+    def test_a_film_is_a_gif_of_so_many_frames(self) -> None:
+        file = Path(self.folder.name) / "walk.gif"
+        try:
+            frames = sinew.film(self.run_folder, file, start=0.5, stop=0.9, fps=20, width=320, height=240)
+        except RuntimeError as why:
+            if "built without its page" in str(why):
+                self.skipTest(str(why))
+            raise
+        self.assertEqual(frames, 8)
+        gif = file.read_bytes()
+        self.assertEqual((gif[:6], *struct.unpack_from("<HH", gif, 6)), (b"GIF89a", 320, 240))
+        self.assertEqual(delays_of(gif), [50] * 8)
+        with self.assertRaisesRegex(sinew.InputError, "force"):
+            sinew.film(self.run_folder, file)
+        # Another run over it is another film.
+        both = Path(self.folder.name) / "both.gif"
+        measured = Path(self.folder.name) / "measured"
+        other = {"joint.lever.damping": "0.7 lbf in s/rad"}
+        sinew.run(sinew.shipped("experiments/one-joint.toml"), folder=measured, sets=other)
+        runs = [self.run_folder, measured]
+        frames = sinew.film(
+            runs, both, start=0.5, stop=0.9, fps=20, width=320, height=240, align="correlation", fit_clock=True
+        )
+        self.assertEqual(frames, 8)
+        self.assertEqual(delays_of(both.read_bytes()), [50] * 8)
+        self.assertNotEqual(both.read_bytes(), gif)
 
 
 if __name__ == "__main__":
