@@ -122,3 +122,16 @@ for (const colorScheme of ['light', 'dark'])
     await key.click();
     assert.ok(!(await vectors_of(page, chart)).text.includes(`>${spec.named[0]}<`));
   }, { colorScheme }));
+
+test('the menu of a chart fits on a phone, in the dark, and Escape closes it', () => with_page('isometric', async (page) => {
+  const more = page.locator('.chart').first().locator('button[aria-haspopup]');
+  await more.scrollIntoViewIfNeeded();
+  await more.click();
+  assert.deepEqual(await page.getByRole('menuitem').allTextContents(), ['Save as SVG', 'Save as PNG']);
+  const box = await page.locator('.menu').boundingBox();
+  assert.ok(box.x >= 0 && box.x + box.width <= 390, JSON.stringify(box));
+  assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)) <= 0);
+  await picture(page, 'chart-phone-menu');
+  await page.keyboard.press('Escape');
+  assert.equal(await page.locator('.menu').count(), 0);
+}, { viewport: { width: 390, height: 844 }, colorScheme: 'dark' }));
