@@ -139,13 +139,22 @@ void check_order(const std::vector<double>& time, const std::vector<int>& lines,
   if (back == time.end()) return;
   const auto row = static_cast<std::size_t>(back - time.begin());
   problems.add(lines[row], 1, "time", fmt::format("{} s after {} s", time[row], time[row - 1]),
-               "times that do not run backwards", "to cut the file where a new recording begins");
+               "times that do not run backwards",
+               "to sort the rows by their time, or a file for each recorder's own rows");
 }
 
-std::size_t repeated(const std::vector<double>& time) {
-  std::size_t out = 0;
-  for (std::size_t i = 1; i < time.size(); ++i) out += time[i] == time[i - 1] ? 1 : 0;
-  return out;
+void refuse_repeated(const std::vector<double>& time, const std::vector<int>& lines,
+                     Problems& problems) {
+  std::size_t count = 0, first = 0;
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    if (time[i] != time[i - 1] || lines[i] == lines[i - 1]) continue;  // a line may give many rows
+    if (count++ == 0) first = i;
+  }
+  if (count == 0) return;
+  problems.add(lines[first], 1, "time",
+               fmt::format("{} rows with the time of the row above, as the clock is coarse", count),
+               "a time of its own for each row",
+               "spread_times=true to spread such rows evenly up to the next time");
 }
 
 }  // namespace sinew::recording

@@ -57,7 +57,8 @@ std::size_t spread_times(std::vector<double>& time);
 void check_order(const std::vector<double>& time, const std::vector<int>& lines,
                  Problems& problems);
 
-// Returns how many times are the same as the one above them.
-std::size_t repeated(const std::vector<double>& time);
+// Adds a problem if rows of different lines have the same time as the one above them.
+void refuse_repeated(const std::vector<double>& time, const std::vector<int>& lines,
+                     Problems& problems);
 
 }  // namespace sinew::recording

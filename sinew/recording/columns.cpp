@@ -60,7 +60,7 @@ void ColumnFinder::find_one(const Wanted& w, std::vector<Found>& out) {
     return;
   }
   if (w.optional && !said) return;
-  const std::string near = config::closest_in_quotes(name, names());
+  const std::string near = near_name(name);
   problems_.add(grid_.header_line(), 1, std::string(w.name),
                 fmt::format("no column {} among {}", config::in_quotes(name), all_names()),
                 fmt::format("`{} [{}]`, {}", w.name, w.unit, w.doc),
@@ -76,6 +76,15 @@ void ColumnFinder::refuse_twice(const std::string& name, std::size_t first) {
       problems_.add(grid_.header_line(), h.column, name, "a second column of this name", "one",
                     "another name for it in the header");
   }
+}
+
+// The only channel whose last part is the name, or else a name that differs by a few letters.
+std::string ColumnFinder::near_name(const std::string& name) const {
+  std::vector<std::string_view> channels;
+  for (const std::string_view one : names())
+    if (one.starts_with('/') && one.ends_with("/" + name)) channels.push_back(one);
+  if (channels.size() == 1) return std::string(channels.front());
+  return config::closest_in_quotes(name, names());
 }
 
 std::string ColumnFinder::all_names() const {

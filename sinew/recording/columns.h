@@ -49,6 +49,7 @@ class ColumnFinder {
   void find_one(const Wanted& w, std::vector<Found>& out);
   std::vector<std::string_view> names() const;
   std::string all_names() const;
+  std::string near_name(const std::string& name) const;
   void refuse_twice(const std::string& name, std::size_t first);
   void check_names(std::span<const Wanted> wanted);
   void convert(const Heading& h, const Wanted& w, Found& f);

@@ -31,6 +31,8 @@ struct TableSettings {
   bool spread_times = false;
   bool drop_incomplete = false;      // leave out rows without a time
   std::vector<std::string> columns;  // the header, for a file that has none
+  int part =
+      0;  // of several recordings in the file; 0: there is but one. No mapping's file says it
 };
 
 // How the recording tells time.

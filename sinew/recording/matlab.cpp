@@ -46,6 +46,12 @@ void take_other(void* to, const char* name, const char* what) {
   static_cast<Variables*>(to)->other.push_back(fmt::format("{}: {}", name, what));
 }
 
+bool is_level_7_3(const std::string& path) {
+  constexpr std::string_view begin = "MATLAB 7.3 MAT-file";
+  const log::Mapping file(path);
+  return std::string_view(file.bytes()).starts_with(begin);
+}
+
 Variables variables_of(const std::string& path) {
   void* const module = host::open_module("sinew_matlab.so");
   using Functions = const SinewMatlab* (*)();
@@ -57,8 +63,16 @@ Variables variables_of(const std::string& path) {
                  "writetable(…) in MATLAB; docs/dependencies.md");
   Variables out;
   const SinewMatlabSink sink{&out, take_matrix, take_text, take_other};
-  if (functions()->read(path.c_str(), &sink)) return out;
+  const bool whole = functions()->read(path.c_str(), &sink);
+  const bool empty = out.matrices.empty() && out.texts.empty() && out.other.empty();
+  const bool of_hdf5 = is_level_7_3(path);
+  if (whole && !(empty && of_hdf5)) return out;
   const std::string words = functions()->words();
+  if (of_hdf5)
+    config::fail({path, 0, 0}, "",
+                 "a MAT file of version 7.3 (HDF5) that cannot be read" +
+                     (words.empty() ? "" : ": " + words),
+                 "a whole one, or version 7", "save('file.mat', '-v7') in MATLAB");
   config::fail({path, 0, 0}, "", words.empty() ? "a MAT file that is damaged" : words,
                "a whole MAT file", "save(…, '-v7') anew");
 }

@@ -80,6 +80,9 @@ bool is_matlab(std::string_view bytes) {
 void check_matlab_bytes(std::string_view bytes, const std::string& path) {
   if (bytes.starts_with("MATLAB 5.0 MAT-file")) return check_level_5(bytes, path);
   if (is_matlab(bytes) || is_level_4(bytes)) return;
+  if (bytes.starts_with("\x89HDF"))
+    config::fail({path, 0, 0}, "", "an HDF5 file, without MATLAB's words before it",
+                 "a MAT file of level 4, 5 or 7.3", "save('file.mat', '-v7') in MATLAB");
   std::string begin;
   for (const char c : bytes.substr(0, 24)) begin += c >= ' ' && c <= '~' ? c : '.';
   config::fail({path, 0, 0}, "",

@@ -178,6 +178,23 @@ TEST_F(MatlabTest, WhatIsNoWholeMatFileIsNamed) {
   EXPECT_NE(error_of(broken), "no error");
 }
 
+// MATLAB puts 512 bytes of its own before the signature of HDF5; here nothing follows it.
+TEST_F(MatlabTest, AVersion73ThatCannotBeReadIsNamedWithTheWayOut) {
+  std::string bytes = "MATLAB 7.3 MAT-file, Platform: GLNXA64, HDF5 schema 1.00 .";
+  bytes.resize(124, ' ');
+  bytes += std::string("\x00\x02IM", 4);
+  bytes.resize(512, '\0');
+  bytes += "\x89HDF\r\n\x1a\n";
+  const std::string said = error_of(bytes);
+  EXPECT_NE(said.find("a MAT file of version 7.3 (HDF5) that cannot be read"), std::string::npos)
+      << said;
+  EXPECT_NE(said.find("save('file.mat', '-v7') in MATLAB"), std::string::npos) << said;
+
+  const std::string bare = error_of("\x89HDF\r\n\x1a\n");
+  EXPECT_NE(bare.find("an HDF5 file"), std::string::npos) << bare;
+  EXPECT_NE(bare.find("'-v7'"), std::string::npos) << bare;
+}
+
 TEST_F(MatlabTest, Level4HasVectorsToo) {
   const auto four = [](const std::string& name, const std::vector<double>& v) {
     std::string out =

@@ -15,6 +15,7 @@
 #include "sinew/recording/clock.h"
 #include "sinew/recording/columns.h"
 #include "sinew/recording/grid.h"
+#include "sinew/recording/parts.h"
 
 namespace sinew::recording {
 
@@ -227,6 +228,7 @@ class Table {
         data.notes.push_back(
             fmt::format("{} rows shared the time of another: spread evenly", count));
     }
+    refuse_repeated(at->values, data.lines, problems_);
   }
 
   const Grid& grid_;
@@ -244,6 +246,31 @@ class Table {
   std::map<std::string_view, std::size_t> missing_;
   std::size_t dropped_ = 0;
 };
+
+// The column of the wanted times, where the file has one.
+std::optional<std::size_t> clock_of(const Grid& grid, const Source& source) {
+  const auto said = source.names.find("time");
+  const std::string name = said != source.names.end() ? said->second : "time";
+  for (std::size_t i = 0; i < grid.headings().size(); ++i)
+    if (grid.headings()[i].is_called(name)) return i;
+  return std::nullopt;
+}
+
+bool wants_time(std::span<const Wanted> wanted) {
+  return std::ranges::find(wanted, "time", &Wanted::name) != wanted.end();
+}
+
+Measured read_rows(std::string bytes, const Source& source, std::span<const Wanted> wanted) {
+  Grid grid = read_grid(std::move(bytes), source);
+  const auto clock = wants_time(wanted) ? clock_of(grid, source) : std::nullopt;
+  if (source.part != 0) keep_part(grid, source, clock);
+  try {
+    return Table(grid, source).read(wanted);
+  } catch (const config::Error&) {  // several recordings are the better reason, where it is that
+    if (source.where.empty()) refuse_parts(grid, source, clock);
+    throw;
+  }
+}
 
 }  // namespace
 
@@ -271,13 +298,11 @@ Measured Measured::subset(std::span<const std::size_t> keep) const {
 
 Measured parse_measured(std::string_view text, const Source& source,
                         std::span<const Wanted> wanted) {
-  const Grid grid = read_grid(std::string(text), source);
-  return Table(grid, source).read(wanted);
+  return read_rows(std::string(text), source, wanted);
 }
 
 Measured read_measured(const Source& source, std::span<const Wanted> wanted) {
-  const Grid grid = read_grid(text_of(source, "measurements as CSV"), source);
-  return Table(grid, source).read(wanted);
+  return read_rows(text_of(source, "measurements as CSV"), source, wanted);
 }
 
 }  // namespace sinew::recording

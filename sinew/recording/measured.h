@@ -58,8 +58,8 @@ struct Measured {
   Measured subset(std::span<const std::size_t> keep) const;
 };
 
-// Throws config::Error. A wanted `time` must not run backwards; dates and times of day become
-// seconds since the first row.
+// Throws config::Error. A wanted `time` must not run backwards or repeat itself; dates and times of
+// day become seconds since the first row.
 Measured read_measured(const Source& source, std::span<const Wanted> wanted);
 
 // Reads a text in place of the file, for tests and tools; messages call it `source.path`.

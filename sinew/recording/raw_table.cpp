@@ -15,6 +15,7 @@
 #include "sinew/config/spelling.h"
 #include "sinew/recording/clock.h"
 #include "sinew/recording/grid.h"
+#include "sinew/recording/parts.h"
 #include "sinew/recording/text.h"
 
 namespace sinew::recording {
@@ -57,6 +58,11 @@ class RawReader {
  public:
   RawReader(const Grid& grid, const Source& source)
       : grid_(grid), source_(source), problems_(grid.file) {}
+
+  // The column of times, as far as it can be known.
+  std::optional<std::size_t> clock() {
+    return source_.rate.empty() ? clock_column() : std::nullopt;
+  }
 
   RawTable read() {
     RawTable out{.file = grid_.file, .notes = grid_.notes};
@@ -296,7 +302,7 @@ class RawReader {
             fmt::format("{} rows shared the time of another: spread evenly", count));
     }
     check_order(out.time, out.lines, problems_);
-    refuse_repeated(out);
+    refuse_repeated(out.time, out.lines, problems_);
     note_seconds(out);
   }
 
@@ -312,18 +318,6 @@ class RawReader {
     }
     out.first = first * slope;
     for (double& t : out.time) t = (t - first) * slope;
-  }
-
-  void refuse_repeated(const RawTable& out) {
-    const std::size_t count = repeated(out.time);
-    if (count == 0) return;
-    const auto at = std::ranges::adjacent_find(out.time);
-    const auto row = static_cast<std::size_t>(at - out.time.begin()) + 1;
-    problems_.add(
-        out.lines[row], 1, "time",
-        fmt::format("{} rows with the time of the row above, as the clock is coarse", count),
-        "a time of its own for each row",
-        "spread_times=true to spread such rows evenly up to the next time");
   }
 
   // A second in which nothing but whole seconds pass may be a millisecond.
@@ -365,8 +359,14 @@ class RawReader {
 }  // namespace
 
 RawTable read_table(const Source& source) {
-  const Grid grid = read_grid(text_of(source, "measurements as CSV"), source);
-  return RawReader(grid, source).read();
+  Grid grid = read_grid(text_of(source, "measurements as CSV"), source);
+  if (source.part != 0) keep_part(grid, source, RawReader(grid, source).clock());
+  try {
+    return RawReader(grid, source).read();
+  } catch (const config::Error&) {  // several recordings are the better reason, where it is that
+    refuse_parts(grid, source, RawReader(grid, source).clock());
+    throw;
+  }
 }
 
 }  // namespace sinew::recording

@@ -135,6 +135,7 @@ Source source_of(const std::string& path, const Mapping& mapping) {
   out.dates = mapping.table.dates;
   out.spread_times = mapping.table.spread_times;
   out.drop_incomplete = mapping.table.drop_incomplete;
+  out.part = mapping.table.part;
   out.rate = mapping.clock.rate;
   if (!mapping.clock.column.empty()) {
     out.names["time"] = mapping.clock.column;

@@ -10,8 +10,10 @@
 
 #include "sinew/log/csv.h"
 #include "sinew/log/mcap.h"
+#include "sinew/log/reader.h"
 #include "sinew/log/writer.h"
 #include "sinew/recording/assemble.h"
+#include "sinew/recording/measured.h"
 
 namespace sinew::recording {
 namespace {
@@ -163,6 +165,55 @@ TEST_F(ReadTest, OurOwnLogComesBackBitForBit) {
   }
   const Assembled back = assemble({read_recording(file, {})}, {}, topics);
   EXPECT_EQ(csv_of(back.table), csv_of(table));
+}
+
+// A run's folder is the table that its log exports, bit for bit.
+TEST_F(ReadTest, ARunsFolderIsReadAsItsExportedTable) {
+  const fs::path folder = folder_;
+  {
+    log::Writer writer(folder / "log.mcap",
+                       {{"/muscle/flexor/pressure", "inside", {{"value", "Pa abs"}}},
+                        {"/muscle/flexor/tension", "it pulls with", {{"value", "N"}}}});
+    for (int i = 0; i < 50; ++i) {
+      writer.push(0, 10'000'000LL * i, std::vector<double>{2e5 + 1e5 / (i + 3)});
+      writer.push(1, 10'000'000LL * i, std::vector<double>{100.0 / (i + 7)});
+    }
+    writer.finish();
+  }
+  log::write_csv(log::read(folder / "log.mcap"), folder / "run.csv");
+  constexpr Wanted wanted[] = {{.name = "time", .unit = "s", .doc = "of it"},
+                               {.name = "pressure", .unit = "Pa gauge", .doc = "inside"},
+                               {.name = "force", .unit = "N", .doc = "it pulls with"}};
+  Source source{
+      .path = folder.string(),
+      .names = {{"pressure", "/muscle/flexor/pressure"}, {"force", "/muscle/flexor/tension"}}};
+  const Measured run = read_measured(source, wanted);
+  source.path = (folder / "run.csv").string();
+  const Measured csv = read_measured(source, wanted);
+  ASSERT_EQ(run.rows(), 50u);
+  for (const Wanted& w : wanted) EXPECT_EQ(run[w.name], csv[w.name]) << w.name;
+
+  const auto said_of = [](const Source& asked, std::span<const Wanted> columns) {
+    try {
+      (void)read_measured(asked, columns);
+    } catch (const std::exception& e) {
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  source = {.path = folder.string(), .names = {{"force", "/muscle/flexor/tension"}}};
+  const std::string said = said_of(source, wanted);
+  EXPECT_NE(said.find("pressure: found no column \"pressure\" among time, "
+                      "/muscle/flexor/pressure, /muscle/flexor/tension"),
+            std::string::npos)
+      << said;
+  EXPECT_NE(said.find("try names.pressure=/muscle/flexor/pressure"), std::string::npos) << said;
+  std::filesystem::remove(folder / "log.mcap");
+  const std::string none = said_of(source, wanted);
+  EXPECT_NE(
+      none.find("found a folder; expected measurements as CSV, or a run's folder with log.mcap"),
+      std::string::npos)
+      << none;
 }
 
 }  // namespace

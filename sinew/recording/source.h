@@ -12,7 +12,7 @@
 namespace sinew::recording {
 
 struct Source {
-  std::string path;
+  std::string path;                          // a file, or the folder of a run
   std::optional<std::string> text;           // in place of the file's; `path` is what it is called
   std::vector<std::string> columns;          // "force [N]", ... for a file without a header
   std::map<std::string, std::string> names;  // wanted name -> the file's name for it
@@ -30,6 +30,8 @@ struct Source {
   std::string dates;          // "day first", "month first", or "excel" for days since 1900
   std::string rate;           // "100 Hz" or "10 ms": of the rows, in place of a clock
   bool spread_times = false;  // rows that share a time are spread evenly up to the next one
+  int part = 0;        // of several recordings in the file, 1 for the first; 0: there is but one
+  double largest = 0;  // bytes that are read at most; 0: what this computer's memory can take
 };
 
 // Throws config::Error for a setting whose words are none of these.

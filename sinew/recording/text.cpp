@@ -8,10 +8,14 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
+#include <utility>
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/text_file.h"
 #include "sinew/config/utf8.h"
+#include "sinew/log/csv.h"
+#include "sinew/log/reader.h"
 
 namespace sinew::recording {
 
@@ -196,25 +200,33 @@ void refuse_other_encodings(const std::string& utf8, const std::string& file) {
 }
 
 // A table takes memory for its text, and 8 bytes for each of its cells, which are shorter than that
-// in few files.
-void refuse_too_large(const std::string& path) {
+// in few files. 0: nobody knows.
+double most_of_memory() {
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  if (pages <= 0 || page <= 0) return 0;
+  return 0.4 * static_cast<double>(pages) * static_cast<double>(page);
+}
+
+std::string size_text(double bytes) {
+  return bytes < 1e8 ? fmt::format("{:.1f} MB", bytes / 1e6)
+                     : fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
+void refuse_too_large(const std::string& path, double largest) {
   std::error_code none;
   const auto size = std::filesystem::file_size(path, none);
-  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-  if (none || pages <= 0 || page <= 0) return;
-  const double most = 0.4 * static_cast<double>(pages) * static_cast<double>(page);
-  if (static_cast<double>(size) <= most) return;
-  config::fail({path, 0, 0}, "",
-               fmt::format("a file of {:.1f} GB", static_cast<double>(size) / 1e9),
-               fmt::format("at most {:.1f} GB, which this computer's memory can take", most / 1e9),
+  const double most = largest > 0 ? largest : most_of_memory();
+  if (none || most <= 0 || static_cast<double>(size) <= most) return;
+  config::fail({path, 0, 0}, "", "a file of " + size_text(static_cast<double>(size)),
+               fmt::format("at most {}, which this computer's memory can take", size_text(most)),
                "every tenth row (awk 'NR == 1 || NR % 10 == 0'), or the part that matters");
 }
 
-std::string bytes_of_file(const std::string& path, std::string_view what) {
+std::string bytes_of_file(const std::string& path, std::string_view what, double largest) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(path, none))
     return config::read_text_file(path, std::string(what));  // a pipe, or nothing that is there
-  refuse_too_large(path);
+  refuse_too_large(path, largest);
   std::ifstream file(path, std::ios::binary);
   std::string bytes;
   if (file) {
@@ -224,6 +236,20 @@ std::string bytes_of_file(const std::string& path, std::string_view what) {
   }
   if (!file && bytes.empty()) return config::read_text_file(path, std::string(what));
   return bytes;
+}
+
+// The table that `sinew export` writes of the run; of a test stand the one that it has left.
+std::string text_of_run(const std::filesystem::path& folder, std::string_view what) {
+  const std::filesystem::path mcap = folder / "log.mcap", table = folder / "measured.csv";
+  if (std::filesystem::exists(mcap)) {
+    std::ostringstream out;
+    log::write_csv(log::read(mcap), out);
+    return std::move(out).str();
+  }
+  if (std::filesystem::exists(table))
+    return bytes_of_file(table.string(), "measurements of a test stand", 0);
+  return config::read_text_file(folder.string(),
+                                fmt::format("{}, or a run's folder with log.mcap", what));
 }
 
 }  // namespace
@@ -248,7 +274,10 @@ Text text_of_bytes(std::string bytes, const std::string& file, std::string_view 
 }
 
 std::string text_of(const Source& source, std::string_view what) {
-  return source.text ? *source.text : bytes_of_file(source.path, what);
+  if (source.text) return *source.text;
+  const std::filesystem::path path(source.path);
+  if (std::filesystem::is_directory(path)) return text_of_run(path, what);
+  return bytes_of_file(source.path, what, source.largest);
 }
 
 }  // namespace sinew::recording

@@ -19,7 +19,8 @@ struct Text {
 // a workbook, an archive - with what it is, and for bytes of another encoding with their place.
 Text text_of_bytes(std::string bytes, const std::string& file, std::string_view encoding = {});
 
-// Returns the bytes of the source's text, or of its file; `what` it holds. Throws config::Error,
+// Returns the bytes of the source's text, or of its file; `what` it holds. Of a run's folder it is
+// the table that `sinew export` writes, its columns called as the channels. Throws config::Error,
 // before reading where a file is larger than this computer's memory can take.
 std::string text_of(const Source& source, std::string_view what);
 

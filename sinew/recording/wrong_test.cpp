@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "sinew/config/diagnostics.h"
@@ -87,7 +88,8 @@ TEST(Wrong, FilesThatAreNotThereAreToldBeforeReading) {
             "nowhere.csv: found no readable file; expected measurements as CSV");
   const std::string folder = std::filesystem::temp_directory_path().string();
   EXPECT_EQ(said(folder), folder +
-                              ": found a folder; expected measurements as CSV; try one of the "
+                              ": found a folder; expected measurements as CSV, or a run's folder "
+                              "with log.mcap; try one of the "
                               "files in it");
 }
 
@@ -156,6 +158,67 @@ TEST(Wrong, ClocksThatCannotBeAreTold) {
        "first\" or \"excel\"; try \"day first\"",
        {.dates = "day-first"}},
   });
+}
+
+TEST(Wrong, MeasurementsWhoseTimeRepeatsOrRunsBackwardsAreRefused) {
+  const std::string header = "time [s],pressure [barg],force [N]\n";
+  expect_refused({{header + "0,2,20\n1,2,21\n1,2,22\n2,2,23\n",
+                   "lab.csv:4:1: time: found 1 rows with the time of the row above"},
+                  {header + "0,2,20\n2,2,21\n1,2,22\n3,2,23\n",
+                   "lab.csv:4:1: time: found 1 s after 2 s; expected times that do not run "
+                   "backwards; try to sort the rows by their time"}},
+                 [](const Source& s) { read_measured(s, wanted); });
+  Source spread{.path = "lab.csv", .spread_times = true};
+  const Measured m = parse_measured(header + "0,2,20\n1,2,21\n1,2,22\n2,2,23\n", spread, wanted);
+  EXPECT_EQ(m["time"], (std::vector<double>{0, 1, 1.5, 2}));
+}
+
+// A maker's table gives several rows a line, which share a time.
+TEST(Wrong, RowsOfOneLineMayShareATime) {
+  const Measured m = parse_measured(
+      "time [s],force [N] @ pressure = 1 bar gauge,force [N] @ pressure = 2 bar gauge\n"
+      "0,10,20\n1,11,21\n",
+      {.path = "lab.csv"}, wanted);
+  EXPECT_EQ(m["time"], (std::vector<double>{0, 0, 1, 1}));
+}
+
+TEST(Wrong, SeveralRecordingsInATableAreCountedAndOneCanBeRead) {
+  const std::string header = "time [s],pressure [barg],force [N]\n";
+  const std::string first = "0,2,20\n1,2,21\n2,2,22\n", second = "0,2,30\n1,2,31\n";
+  const std::string said =
+      "lab.csv:5:1: found 2 recordings one after the other, the second from this line; expected "
+      "one recording; try part=1 to part=2";
+  const std::string again = "lab.csv:6:1: found 2 recordings";
+  expect_table_refused({{header + first + second, said},
+                        {header + first + header + second, again},
+                        {header + first + second, "part: found 3; expected 1 to 2", {.part = 3}},
+                        {header + first, "expected 1: the file holds one", {.part = 2}}});
+  const auto measured = [](const Source& s) { read_measured(s, wanted); };
+  expect_refused({{header + first + second, said}, {header + first + header + second, again}},
+                 measured);
+  for (const std::string& text : {header + first + second, header + first + header + second}) {
+    const Source source{.path = "lab.csv", .text = text, .part = 2};
+    const RawTable table = read_table(source);
+    EXPECT_EQ(table.time, (std::vector<double>{0, 1}));
+    EXPECT_EQ(table.columns.at(1).values, (std::vector<double>{30, 31}));
+    EXPECT_EQ(read_measured(source, wanted)["force"], (std::vector<double>{30, 31}));
+  }
+}
+
+TEST(Wrong, AFileBeyondTheMemoryIsRefusedBeforeItIsRead) {
+  const std::string path = ::testing::TempDir() + "sinew_large.csv";
+  std::ofstream(path) << std::string(3'000'000, '#');
+  std::string said;
+  try {
+    read_table({.path = path, .largest = 2e6});
+  } catch (const config::Error& e) {
+    said = e.what();
+  }
+  std::filesystem::remove(path);
+  EXPECT_EQ(said, path +
+                      ": found a file of 3.0 MB; expected at most 2.0 MB, which this computer's "
+                      "memory can take; try every tenth row (awk 'NR == 1 || NR % 10 == 0'), or "
+                      "the part that matters");
 }
 
 TEST(Wrong, RowsAndCellsAreToldByTheirPlace) {
