@@ -162,6 +162,9 @@ void add_table_options(Command sub, recording::TableSettings& table) {
   sub.add_option("--thousands", table.thousands,
                  "what parts thousands in a table: . , ' or a blank");
   sub.add_option("--dates", table.dates, "of a table: day first, month first, or excel");
+  sub.add_option("--part", table.part,
+                 "N: of several recordings in a table, one after the other, the first is 1")
+      .is_between(1, 1000000);
   sub.add_flag("--spread-times", table.spread_times,
                "rows that share a time are spread evenly up to the next");
   sub.add_flag("--drop-incomplete", table.drop_incomplete, "leave out rows without a time");

@@ -1,6 +1,7 @@
 // cli/main.cpp - the program `sinew`: understands the command line and runs one subcommand.
 //
-// Results go to stdout, everything else to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage.
+// Results go to stdout, everything else to stderr. Exit codes: 0 done, 1 failed, 2 wrong usage, to
+// which a wrong value behind an option belongs.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +13,7 @@
 #include "cli/command.h"
 #include "cli/help.h"
 #include "cli/interrupt.h"
+#include "cli/settings.h"
 #include "cli/terminal.h"
 #include "cli/usage.h"
 
@@ -27,6 +29,7 @@ cli::ExitCode run_safely(const cli::Action& action) {
   } catch (const std::exception& e) {
     std::fflush(stdout);
     cli::error(e.what());
+    if (cli::is_of_option(e)) return cli::wrong_usage;
   }
   return cli::failed;
 }

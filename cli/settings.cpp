@@ -4,6 +4,8 @@
 #include <cctype>
 #include <iterator>
 
+#include "sinew/config/diagnostics.h"
+
 namespace sinew::cli {
 
 namespace {
@@ -19,14 +21,14 @@ constexpr Renamed renamed[] = {{"names", "map"}, {"units", "unit"}};
 constexpr std::string_view settings =
     " actuator align base bits candidate columns conductance dates decimal down drop_incomplete "
     "encoding exponent external_volume flexion flexor_length force frequency full_scale hold_out "
-    "keep_force known label largest length lever load machine model moment_arm names only "
+    "keep_force known label largest length lever load machine model moment_arm names only part "
     "per_volume points port pressure range rate report rest rest_length root sensors shard "
     "spread_times thousands units vary volume where ";
 
 // Settings that can be the subject of a problem: at the begin of a line, or behind a file without a
 // line of it. What has a line is a key of that file.
 constexpr std::string_view subjects =
-    " candidate known model names points range report sensors shard units vary where ";
+    " candidate known model names part points range report sensors shard units vary where ";
 
 // Settings that are so at the begin of a line alone: a file may have a column of that name.
 constexpr std::string_view quantities =
@@ -108,6 +110,18 @@ std::string as_options(std::string_view text) {
     begins_word = false;
   }
   return out;
+}
+
+bool is_of_option(const std::exception& error) {
+  const auto* all = dynamic_cast<const config::Error*>(&error);
+  // "--width: found …", "rig.csv: --part: found …"; what has a line is a mistake of that file.
+  const auto of_option = [](const config::Problem& problem) {
+    std::string text = as_options(config::to_text(problem));
+    const std::string file = problem.where.file + ": ";
+    if (problem.where.line == 0 && text.starts_with(file + "--")) text.erase(0, file.size());
+    return text.starts_with("--") && text.find(':') < text.find(' ');
+  };
+  return all && std::ranges::all_of(all->problems(), of_option);
 }
 
 }  // namespace sinew::cli

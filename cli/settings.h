@@ -4,6 +4,7 @@
 // V"`, `names.load=NAME`, and a problem with a setting begins with its name, `units: found …`.
 #pragma once
 
+#include <exception>
 #include <string>
 #include <string_view>
 
@@ -12,5 +13,8 @@ namespace sinew::cli {
 // Returns the text with each setting as its option: `--force`, `--full-scale "10 V"`,
 // `--map load=NAME`, `--unit: found …`. What stands between double quotes stays: a user wrote it.
 std::string as_options(std::string_view text);
+
+// Is the error about words behind options, and nothing else?
+bool is_of_option(const std::exception& error);
 
 }  // namespace sinew::cli

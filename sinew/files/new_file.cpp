@@ -24,8 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 8> kinds{"robot", "actuator", "valves", "experiment",
-                                                "plan",  "tuning",   "rig",    "mapping"};
+constexpr std::array<std::string_view, 9> kinds{
+    "robot", "actuator", "valves", "wiring", "experiment", "plan", "tuning", "rig", "mapping"};
 constexpr std::size_t longest_name = 64;
 
 // The joint of the templates, and the angle about which it moves there.

@@ -14,7 +14,7 @@
 
 namespace sinew::files {
 
-// Returns the kinds: robot, actuator, valves, experiment, plan, tuning, rig, mapping.
+// Returns the kinds: robot, actuator, valves, wiring, experiment, plan, tuning, rig, mapping.
 std::span<const std::string_view> new_kinds();
 
 // How a new file is to be.

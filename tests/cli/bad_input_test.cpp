@@ -335,7 +335,7 @@ TEST(Usage, AStepOfPressureIsADifference) {
   const Workspace w;
   const Result r = w.sinew({"actuator", "robots/leg/actuator.toml", "--length", "3 in",
                             "--pressure", "20 psi gauge:100 psi gauge:25 psi gauge"});
-  EXPECT_EQ(r.code, 1);
+  EXPECT_EQ(r.code, 2);
   EXPECT_EQ(r.err,
             "--pressure: found \"25 psi gauge\"; expected a step, which is a difference of two "
             "pressures; try \"25 psi\"\n");

@@ -105,7 +105,7 @@ TEST(Actuator, RefusesWhatIsNoQuantity) {
   const auto said = [&](const std::string& length, const std::string& pressure) {
     const Result r =
         w.sinew({"actuator", actuator_file, "--length", length, "--pressure", pressure});
-    EXPECT_EQ(r.code, 1) << length << " " << pressure;
+    EXPECT_EQ(r.code, 2) << length << " " << pressure;
     EXPECT_THAT(r.out, IsEmpty());
     return r.err;
   };
@@ -129,7 +129,7 @@ void expect_refused(const std::vector<Impossible>& all) {
   const Workspace w;
   for (const Impossible& one : all) {
     const Result r = w.sinew(one.words);
-    EXPECT_EQ(r.code, 1) << testing::PrintToString(one.words);
+    EXPECT_EQ(r.code, 2) << testing::PrintToString(one.words);
     EXPECT_THAT(r.out, IsEmpty()) << testing::PrintToString(one.words);
     EXPECT_THAT(r.err, HasSubstr(one.says));
     EXPECT_THAT(r.err, ::testing::AnyOf(HasSubstr("; expected more than "), HasSubstr(" to ")));
@@ -279,7 +279,7 @@ TEST(Valve, NamesTheValvesThereAre) {
                                 HasSubstr("try \"inlet\"")));
   const Result vacuum =
       w.sinew({"valve", valves, "inlet", "--upstream", "2 bar abs", "--downstream", "0 bar abs"});
-  EXPECT_EQ(vacuum.code, 1);
+  EXPECT_EQ(vacuum.code, 2);
   EXPECT_THAT(vacuum.err, HasSubstr("--downstream: "));
 }
 

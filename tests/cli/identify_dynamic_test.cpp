@@ -102,11 +102,11 @@ TEST(IdentifyDynamic, RefusesWhatItCannotUse) {
   EXPECT_THAT(result.err, HasSubstr("at the measured length it holds 2."));
 
   result = with({"--mass", "6 lbf"});
-  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(result.code, 2);
   EXPECT_THAT(result.err, HasSubstr("--mass"));
 
   result = with({"--mass", "6 lb, 11 lb"});
-  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(result.code, 2);
   EXPECT_THAT(result.err, HasSubstr("found 2 values; expected one, or 1"));
 
   result = with({"--mass", "6 lb", "--model", "magic"});
@@ -117,7 +117,7 @@ TEST(IdentifyDynamic, RefusesWhatItCannotUse) {
   EXPECT_THAT(result.err, HasSubstr("no measured pressure"));
 
   result = with({"--mass", "6 lb", "--exponent", "0"});
-  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(result.code, 2);
   EXPECT_THAT(
       result.err,
       HasSubstr("--exponent: found \"0\"; expected 1 to 1.66667: from isothermal to adiabatic"));

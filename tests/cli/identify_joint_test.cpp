@@ -92,7 +92,7 @@ TEST(IdentifyJoint, RefusesWithoutAKnownLoad) {
   EXPECT_THAT(result.err, HasSubstr("no known load"));
 
   result = identified(w, {"--base", "robots/leg/robot.toml"});
-  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(result.code, 2);
   EXPECT_THAT(result.err, HasSubstr("--base: found no --out"));
 
   result = identified(w, {"--keep-force", "--model", "round_pressure"});

@@ -161,7 +161,7 @@ TEST(IdentifyPages, TakeNobodysFileAway) {
   EXPECT_EQ(geometry({"-o", "mine.toml", "--no-report"}).code, 0);
 
   const Result same = geometry({"-o", "both.html"});
-  EXPECT_EQ(same.code, 1);
+  EXPECT_EQ(same.code, 2);
   EXPECT_THAT(same.err, AllOf(HasSubstr("the page's name too"), HasSubstr("--no-report")));
   EXPECT_EQ(geometry({"--report", "c.html", "--no-report"}).code, 2);
   const Result counted = w.sinew({"identify", "geometry", "--trapezoids", "37,16", "--side",

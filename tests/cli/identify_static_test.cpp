@@ -86,11 +86,11 @@ TEST(IdentifyStatic, RefusesWhatItCannotUse) {
   EXPECT_EQ(model.code, 1);
   EXPECT_THAT(model.err, AllOf(HasSubstr("cubik"), HasSubstr("elastic-cubic")));
   const Result where = w.sinew(words(map, {"--where", "phase=fill"}));
-  EXPECT_EQ(where.code, 1);
+  EXPECT_EQ(where.code, 2);
   EXPECT_THAT(where.err, AllOf(HasSubstr("--where"), HasSubstr("phase")));
   EXPECT_EQ(w.sinew(words(map, {"--branch", "sideways"})).code, 2);
   const Result hold_out = w.sinew(words(map, {"--hold-out", "nonsense"}));
-  EXPECT_EQ(hold_out.code, 1);
+  EXPECT_EQ(hold_out.code, 2);
   EXPECT_THAT(hold_out.err, HasSubstr("expected pressure, length or a file that is there"));
   EXPECT_THAT(w.sinew(words(map, {"--hold-out", map})).err, HasSubstr("expected another file"));
 }

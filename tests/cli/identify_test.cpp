@@ -198,11 +198,11 @@ TEST(BrokenInput, TimeRunningBackwards) {
   expect_refused({"a swing that was recorded twice",
                   {"dynamic", "--actuator", "robots/leg/actuator.toml", "--mass", "6 lb"},
                   "time [s],length [mm]\n0,80\n0.1,81\n0.2,80\n0,80\n0.1,81\n",
-                  {"data.csv:5:1: time: found 0 s after 0.2 s"}});
+                  {"data.csv:5:1: found 2 recordings one after the other"}});
   expect_refused({"two recordings in one file",
                   {"sensor"},
                   "time [s],load [N],gage [V]\n0,0,0\n1,10,0.4\n0,0,0\n1,20,0.8\n",
-                  {"data.csv:4:1: time: found 0 s after 1 s", "cut the file"}});
+                  {"data.csv:4:1: found 2 recordings one after the other", "try --part 1"}});
 }
 
 TEST(BrokenInput, SeveralThingsAreToldAtOnce) {

@@ -39,6 +39,20 @@ Words with(Words words, const Words& more) {
   return words;
 }
 
+TEST(Import, OneOfSeveralRecordingsIsNamedByItsNumber) {
+  const Workspace w;
+  write_text(w / "two.csv", "time [s],lever_angle [deg]\n0,270\n1,271\n2,272\n0,280\n1,281\n");
+  const Result both = w.sinew(import({"two.csv"}, {"-o", "both"}));
+  EXPECT_EQ(both.code, 1);
+  EXPECT_THAT(both.err, HasSubstr("two.csv:5:1: found 2 recordings one after the other"));
+  EXPECT_THAT(both.err, HasSubstr("try --part 1 to --part 2"));
+  const Result second = w.sinew(import({"two.csv"}, {"--part", "2", "-o", "second"}));
+  EXPECT_EQ(second.code, 0) << second.err;
+  EXPECT_THAT(second.err, HasSubstr("recording 2 of 2 in the file, from line 5"));
+  EXPECT_THAT(read_text(w / "second/resolved.toml"), HasSubstr("rows = 2"));
+  EXPECT_EQ(w.sinew(import({"two.csv"}, {"--part", "3", "-o", "third"})).code, 2);
+}
+
 TEST(Import, ATableBecomesARunThatEverythingTakes) {
   const Workspace w;
   write_text(w / "rig.csv", table());
@@ -97,7 +111,7 @@ TEST(Import, WhatIsWrongIsToldAndLeavesNothing) {
   write_text(w / "text.mat", table());
   const auto refused = [&](const Words& words, const Words& parts) {
     const Result r = w.sinew(words);
-    EXPECT_EQ(r.code, 1) << r.out << r.err;
+    EXPECT_EQ(r.code, r.err.starts_with("--") ? 2 : 1) << r.out << r.err;
     for (const std::string& part : parts) EXPECT_THAT(r.err, HasSubstr(part));
     EXPECT_FALSE(std::filesystem::exists(w / "lab")) << r.err;
   };

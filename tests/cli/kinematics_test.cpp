@@ -43,7 +43,7 @@ TEST(Kinematics, RefusesWhatNoJointIs) {
     Words all = {"kinematics", robot};
     all.insert(all.end(), words.begin(), words.end());
     const Result r = w.sinew(all);
-    EXPECT_EQ(r.code, 1);
+    EXPECT_EQ(r.code, 2);
     EXPECT_THAT(r.out, IsEmpty());
     EXPECT_THAT(r.err, AllOf(HasSubstr(says), HasSubstr("; expected "), HasSubstr(" to ")));
   }
@@ -52,7 +52,7 @@ TEST(Kinematics, RefusesWhatNoJointIs) {
 TEST(Kinematics, SaysHowFarAFootCannotReach) {
   const Workspace w;
   const Result result = w.sinew({"kinematics", robot, "--foot", "-2 in, -23 in"});
-  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(result.code, 2);
   EXPECT_THAT(result.out, IsEmpty());
   EXPECT_THAT(result.err,
               AllOf(HasSubstr("23.087 in from the first joint"), HasSubstr("2.625 in to 15.125 in"),

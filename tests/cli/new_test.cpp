@@ -64,6 +64,32 @@ TEST(New, RobotExperimentAndPlanAreValidAndRun) {
   }
 }
 
+// The wiring names the sensors and muscles of a new robot; a name that is none of them is told.
+TEST(New, AWiringFitsTheNewRobotAndARefusedNameIsTold) {
+  const Workspace w;
+  expect_made(w, {"new", "robot", "arm"});
+  expect_made(w, {"new", "wiring", "bench", "-o", "arm"});
+  EXPECT_EQ(w.sinew({"check", "arm/bench.toml"}).code, 0);
+  std::string robot = read_text(w / "arm/robot.toml");
+  const std::string valves = "valves = \"valves.toml\"";
+  robot.replace(robot.find(valves), valves.size(), valves + ", wiring = \"bench.toml\"");
+  write_text(w / "arm/robot.toml", robot);
+  const Result fits = w.sinew({"check", "arm/robot.toml"});
+  EXPECT_EQ(fits.code, 0) << fits.out << fits.err;
+  std::string wiring = read_text(w / "arm/bench.toml");
+  wiring.replace(wiring.find("\"extensor\""), 10, "\"extenser\"");
+  write_text(w / "arm/bench.toml", wiring);
+  const Result other = w.sinew({"check", "arm/robot.toml"});
+  EXPECT_NE(other.code, 0);
+  EXPECT_THAT(other.out + other.err, HasSubstr("extenser"));
+
+  EXPECT_EQ(w.sinew({"new", "wiring", "two words"}).code, 1);
+  EXPECT_THAT(w.sinew({"new", "wiring", "two words"}).err, HasSubstr("a name of a to z"));
+  EXPECT_THAT(w.sinew({"new", "wiring", "bench", "-o", "arm"}).err, HasSubstr("there already"));
+  EXPECT_THAT(w.sinew({"new", "wiring", "x", "--of", "arm/robot.toml"}).err,
+              HasSubstr("a file for a new wiring to be of"));
+}
+
 // Numbers of a text such as "[0.9969, 7.25e-08 1/Pa]".
 std::vector<double> numbers_in(std::string text) {
   for (char& c : text)
@@ -113,8 +139,8 @@ TEST(New, BothSetsOfUnitsDescribeTheSameMachine) {
 TEST(New, AFileKeepsToItsUnits) {
   for (const bool metric : {false, true}) {
     const Workspace w;
-    for (const char* kind :
-         {"robot", "rig", "actuator", "experiment", "plan", "tuning", "valves", "mapping"}) {
+    for (const char* kind : {"robot", "rig", "actuator", "experiment", "plan", "tuning", "valves",
+                             "wiring", "mapping"}) {
       expect_made(w, with_units({"new", kind, std::string("x-") + kind}, metric));
     }
     const std::vector<const char*> others =

@@ -104,7 +104,7 @@ TEST(Rig, BothSetsOfConstantsAreOneSetApart) {
 TEST(Rig, MessagesNameWhatIsWrong) {
   const Workspace w;
   const Result pace = w.sinew({"run", trapped, "--pace", "1"});
-  EXPECT_EQ(pace.code, 1);
+  EXPECT_EQ(pace.code, 2);
   EXPECT_THAT(pace.err, HasSubstr("--pace"));
   const int line = w.edit(trapped, "external_volume = ", "external_volum = ");
   const Result check = w.sinew({"check", trapped});

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <string_view>
 
+#include "sinew/config/diagnostics.h"
 #include "tests/cli/program.h"
 
 namespace sinew::test {
@@ -34,6 +36,17 @@ TEST(Settings, BeginAProblemOrDoNot) {
             "--mass: found \"-1 kg\"\n--rest-length: found \"1 s\"");
   EXPECT_EQ(as_options("a.csv: pressure: found none"), "a.csv: pressure: found none")
       << "a column of that name";
+}
+
+TEST(Settings, AProblemIsAnOptionsOrAFiles) {
+  const auto is_of_option = [](config::Location where, const char* key) {
+    return cli::is_of_option(config::Error(config::Problem{std::move(where), key, "9", "1", ""}));
+  };
+  EXPECT_TRUE(is_of_option({"width", 0, 0}, ""));
+  EXPECT_TRUE(is_of_option({"--set", 0, 0}, "joint.hip.damping"));
+  EXPECT_FALSE(is_of_option({"rig.csv", 3, 1}, "part"));
+  EXPECT_FALSE(is_of_option({"run/1", 0, 0}, "align=sequence")) << "the run lacks it";
+  EXPECT_FALSE(cli::is_of_option(std::runtime_error("--width: found")));
 }
 
 TEST(Settings, WhatAUserWroteStays) {

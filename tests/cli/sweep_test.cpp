@@ -120,7 +120,7 @@ TEST(Sweep, WithoutFiguresReplacesNoTable) {
 TEST(Sweep, RefusesAWholeNumberThatIsNone) {
   const Workspace w;
   const Result r = w.sinew({"sweep", bench, "--vary", "seed=1,9223372036854775808"});
-  EXPECT_EQ(r.code, 1);
+  EXPECT_EQ(r.code, 2);
   EXPECT_EQ(r.out, "");
   EXPECT_THAT(r.err, AllOf(HasSubstr("seed: found 9"), HasSubstr("expected 0 to 2147483647")));
 }
@@ -151,7 +151,7 @@ TEST(Sweep, OfMoreThanMemoryHoldsIsRefused) {
   const Result r =
       w.sinew({"sweep", bench, "--vary", "joint.lever.angle_gain=0.01:0.1:1000 %/count", "--vary",
                "seed=1:1000:1000", "--vary", "phase.up.duration=1:2:1000 s", "-o", "t.csv"});
-  EXPECT_EQ(r.code, 1);
+  EXPECT_EQ(r.code, 2);
   EXPECT_THAT(r.err, AllOf(HasSubstr("found 1000 x 1000 x 1000 = 1e+09 points"),
                            HasSubstr("expected at most 1000000"), HasSubstr("try fewer values")));
   EXPECT_FALSE(fs::exists(w / "t.csv"));

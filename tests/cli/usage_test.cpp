@@ -118,6 +118,24 @@ TEST(Usage, EveryCommandHasAHelpWithAnExample) {
   }
 }
 
+// A value is as much of the line as its option: scripts need no second code for it.
+TEST(Usage, AWrongValueIsWrongUsageAsAWrongOptionIs) {
+  const Workspace w;
+  ASSERT_EQ(w.sinew({"run", "experiments/one-joint.toml", "-o", "a", "--no-report"}).code, 0);
+  for (const Words& words :
+       {Words{"figures", "a", "--width", "9 cats", "-o", "figs"},
+        Words{"figures", "a", "--widht", "9 cm", "-o", "figs"},
+        Words{"compare", "a", "a", "--align", "foo"},
+        Words{"run", "experiments/one-joint.toml", "--set", "joint.lever.damping=3 cats"},
+        Words{"import", "a/log.mcap", "--experiment", "experiments/one-joint.toml", "--scale",
+              "x=cats"}}) {
+    const Result r = w.sinew(words);
+    EXPECT_EQ(r.code, 2) << words[0] << " " << words.back() << r.err;
+    EXPECT_THAT(r.err, HasSubstr("--")) << words[0];
+  }
+  EXPECT_EQ(w.sinew({"figures", "no-such-run", "-o", "figs"}).code, 1) << "a file's fault";
+}
+
 TEST(Usage, TopicsSayWhatAllCommandsShare) {
   const Workspace w;
   const auto page = [&](const char* word) {

@@ -62,6 +62,7 @@ std::vector<std::string> words_of(const std::vector<Source>& sources) {
                                  {"dates: ", &how.dates},
                                  {"rate ", &how.rate}})
     if (!is->empty()) out.push_back(what + (*is == " " ? "blanks" : *is));
+  if (how.part != 0) out.push_back("recording " + std::to_string(how.part) + " of the file");
   if (how.spread_times) out.emplace_back("rows that share a time spread evenly");
   return out;
 }
