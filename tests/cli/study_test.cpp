@@ -140,7 +140,7 @@ TEST_F(Study, RefusesWhatItCannotTake) {
   EXPECT_THAT(refused({"--results", "none/s.db"}), HasSubstr("mkdir -p none"));
   EXPECT_THAT(refused({"--results", "/sys/s.db"}), HasSubstr("/sys/s.db: cannot be written: "));
   EXPECT_THAT(refused({"--shard", "1/2"}, 2), HasSubstr("--results"));
-  EXPECT_THAT(refused({"--shard", "3/2", "--results", "s.db"}),
+  EXPECT_THAT(refused({"--shard", "3/2", "--results", "s.db"}, 2),
               HasSubstr("--shard: found \"3/2\"; expected i/n, i from 1 to n"));
   // A mistake that the first run shows leaves no file.
   EXPECT_THAT(refused({"--results", "s.db", "--report", "durations_s"}), HasSubstr("duration_s"));
