@@ -118,6 +118,9 @@ void add_dialect_options(Command sub, DataOptions& options) {
       .is_one_of({"day first", "month first", "excel"});
   sub.add_option("--rate", options.rate,
                  "\"100 Hz\" or \"10 ms\": of the rows, in place of a column of times");
+  sub.add_option("--part", options.part,
+                 "N: of several recordings in a file, one after the other, the first is 1")
+      .is_between(1, 1000000);
   sub.add_flag("--spread-times", options.spread_times,
                "spread rows that share a time evenly up to the next one");
 }
@@ -125,7 +128,7 @@ void add_dialect_options(Command sub, DataOptions& options) {
 }  // namespace
 
 void add_data_options(Command sub, DataOptions& options) {
-  sub.add_option("DATA", options.files, "measurements as CSV").required();
+  sub.add_option("DATA", options.files, "measurements as CSV, or the folder of a run").required();
   sub.add_option("--map", options.maps, "name=NAME: the file's name for a column; may be repeated")
       .takes_one()
       .split_at(',');
@@ -157,6 +160,7 @@ std::vector<identify::Source> sources_of(const DataOptions& options) {
   how.dates = options.dates;
   how.rate = options.rate;
   how.spread_times = options.spread_times;
+  how.part = options.part;
   how.atmosphere = identify::atmosphere_setting(options.atmosphere);
   return identify::sources_of(options.files, how);
 }

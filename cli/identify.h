@@ -34,6 +34,7 @@ struct DataOptions {
   bool drop_incomplete = false;
   std::string encoding, decimal, thousands, dates, rate;  // what a file leaves open
   bool spread_times = false;
+  int part = 0;  // of several recordings in a file; 0: there is but one
 };
 void add_data_options(Command sub, DataOptions& options);
 
