@@ -12,6 +12,7 @@
 #include "cli/json_text.h"
 #include "cli/settings.h"
 #include "cli/terminal.h"
+#include "cli/units.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/config/setting.h"
@@ -78,31 +79,35 @@ void print_models(const identify::Report& report) {
   fmt::print("{}", table.text());
 }
 
-// The value and half its interval to the digits that mean something.
-std::string interval(const identify::Estimate& e) {
+// The value and half its interval to the digits that mean something, multiplied with `scale`.
+std::string interval(const identify::Estimate& e, double scale) {
   if (e.at_bound) return "at the bound of its range";
   if (!std::isfinite(e.high)) return e.identifiable ? "no interval" : "not identifiable";
-  return fmt::format("+- {:.2g}{}", 0.5 * (e.high - e.low),
+  return fmt::format("+- {:.2g}{}", 0.5 * scale * (e.high - e.low),
                      e.identifiable ? "" : ", not identifiable");
 }
 
-void print_parameters(const identify::Fit& fit) {
+void print_parameters(const identify::Fit& fit, const config::UnitsToShow& asked, double room) {
   report::TextTable table({"parameter", "value", "unit", "95 %"},
                           {report::TextTable::Align::left, report::TextTable::Align::right});
-  for (const identify::Estimate& e : fit.parameters)
-    table.add({e.name, fmt::format("{:.6g}", e.value), e.unit == "1" ? "" : e.unit, interval(e)});
+  for (const identify::Estimate& e : fit.parameters) {
+    const Retold shown = retold(e.value, e.unit, asked, room);
+    table.add({e.name, fmt::format("{:.6g}", shown.number), shown.unit == "1" ? "" : shown.unit,
+               interval(e, shown.scale)});
+  }
   fmt::print("{}", table.text());
 }
 
-void print(const identify::Report& report) {
+void print(const identify::Report& report, const config::UnitsToShow& asked, double room) {
+  const Retold whole = retold(report.full_scale, report.unit, asked, room);
   fmt::print("{}\n", report.subject);
-  fmt::print("errors of the {} in % of {}, {}\n\n", report.quantity, report.full_scale_is,
-             config::format_quantity(report.full_scale, report.unit, report.unit, 5));
+  fmt::print("errors of the {} in % of {}, {:.5g}{}{}\n\n", report.quantity, report.full_scale_is,
+             whole.number, whole.unit == "1" ? "" : " ", whole.unit == "1" ? "" : whole.unit);
   print_models(report);
   if (!report.held_out_is.empty()) fmt::print("\nheld out: {}\n", report.held_out_is);
   if (report.fits.size() > 1) fmt::print("chosen: {}\n", report.rule);
   fmt::print("\n{}: {}  {}\n", report.best().model, report.best().law, report.best().source);
-  print_parameters(report.best());
+  print_parameters(report.best(), asked, room);
   for (const std::string& note : report.best().notes) fmt::print("note: {}\n", as_options(note));
 }
 
@@ -178,6 +183,7 @@ void add_report_options(Command sub, ResultOptions& options) {
       sub.add_option("--report", options.report,
                      "FILE.html: a page with the data beside the models; absent: beside --out");
   sub.add_flag("--no-report", options.no_report, "no page").excludes(page);
+  add_units(sub, options.units, "of what is printed, else SI; --json and files are in SI");
 }
 
 std::string page_of(const ResultOptions& options) {
@@ -219,7 +225,8 @@ void tell(const identify::Report& report, const std::string& parameter_file,
   if (options.json) {
     fmt::print("{}\n", json_text(json.is_null() ? to_json(report) : json, 2));
   } else {
-    print(report);
+    print(report, units_asked(options.units, units::UnitSet::si),
+          identify::atmosphere_setting(data.atmosphere));
   }
   write_parameter_file(parameter_file, options);
   leave_page(report.subject, {&report}, parameter_file, data, options);

@@ -45,6 +45,7 @@ std::vector<identify::Source> sources_of(const DataOptions& options);
 struct ResultOptions {
   std::string out;     // the parameter file
   std::string report;  // the page; empty: beside `out`
+  std::string units;   // of what is printed; empty: SI
   bool json = false, force = false, quiet = false, no_report = false;
 };
 void add_result_options(Command sub, ResultOptions& options);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "cli/identify.h"
+#include "cli/units.h"
 #include "sinew/identify/task/dynamic_task.h"
 #include "sinew/report/text/text_table.h"
 
@@ -18,23 +19,31 @@ struct Options {
 };
 
 // Methods that know no muscle beside the trajectories.
-void print_methods(const identify::DynamicResult& found) {
+void print_methods(const identify::DynamicResult& found, const config::UnitsToShow& asked) {
+  const units::ShownUnit length = asked.asked ? asked.units.of("m") : units::ShownUnit{"mm", 1e3};
+  const units::ShownUnit force = asked.units.of("N"), damping = asked.units.of("N s/m");
+  // In units that nobody chose the columns have decimals of their own.
+  const auto in = [&](const units::ShownUnit& unit, double si, int decimals = 4) {
+    return asked.asked ? fmt::format("{:.4g}", unit.of(si))
+                       : fmt::format("{:.{}f}", unit.of(si), decimals);
+  };
   report::TextTable table(
-      {"file", "method", "Q [mm]", "friction at rest [N]", "c [N s/m]", "zeta [53]"},
+      {"file", "method", "Q [" + length.name + "]", "friction at rest [" + force.name + "]",
+       "c [" + damping.name + "]", "zeta [53]"},
       {Align::left, Align::left, Align::right, Align::right, Align::right, Align::right});
   const auto row = [&](const identify::DecaySummary& s, const char* method,
                        const identify::Damping& d) {
-    table.add({s.file, method, fmt::format("{:.5f}", 1e3 * d.coulomb_length),
-               fmt::format("{:.4f}", d.coulomb_length * s.stiffness),
-               fmt::format("{:.4f}", d.viscous), fmt::format("{:.4f}", d.ratio)});
+    table.add({s.file, method, in(length, d.coulomb_length, 5),
+               in(force, d.coulomb_length * s.stiffness), in(damping, d.viscous),
+               fmt::format("{:.4f}", d.ratio)});
   };
   for (const identify::DecaySummary& s : found.records) {
     if (s.printed) row(s, "two points, [45] as printed", *s.printed);
     if (s.exact) row(s, "two points, exact", *s.exact);
     row(s, "all turns", s.all.damping);
     table.add({s.file, "trajectory, " + found.report.best().model,
-               fmt::format("{:.5f}", 1e3 * found.loss.coulomb_length),
-               fmt::format("{:.4f}", s.friction), fmt::format("{:.4f}", found.loss.viscous), ""});
+               in(length, found.loss.coulomb_length, 5), in(force, s.friction),
+               in(damping, found.loss.viscous), ""});
   }
   fmt::print("\n{}", table.text());
   for (const identify::DecaySummary& s : found.records)
@@ -51,7 +60,8 @@ ExitCode run_dynamic(const Options& options) {
   }
   const identify::DynamicFound found = identify::find_dynamic(sources, settings);
   tell(found.result.report, found.file, options.data, options.result, to_json(found));
-  if (!options.result.json) print_methods(found.result);
+  if (!options.result.json)
+    print_methods(found.result, units_asked(options.result.units, units::UnitSet::si));
   return ok;
 }
 

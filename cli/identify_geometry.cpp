@@ -3,6 +3,7 @@
 
 #include "cli/identify.h"
 #include "cli/json_text.h"
+#include "cli/units.h"
 #include "sinew/actuator/braid.h"
 #include "sinew/config/quantity.h"
 #include "sinew/identify/task/geometry_task.h"
@@ -28,10 +29,12 @@ ExitCode from_trapezoids(const Options& options) {
   if (options.result.json) {
     fmt::print("{}\n", json_text(to_json(found), 2));
   } else {
+    const config::UnitsToShow asked = units_asked(options.result.units, units::UnitSet::si);
+    const std::string unit = asked.asked ? asked.units.of("m").name : "mm";
     fmt::print("thread_length  {}  [17]\nturns          {}  [18]\nshortest       {}  [5], [6]\n",
-               config::format_quantity(found.braid.thread_length, "m", "mm"),
+               config::format_quantity(found.braid.thread_length, "m", unit),
                config::format_number(found.braid.turns),
-               config::format_quantity(actuator::shortest_length(found.braid), "m", "mm"));
+               config::format_quantity(actuator::shortest_length(found.braid), "m", unit));
   }
   write_parameter_file(found.file, options.result);
   return ok;

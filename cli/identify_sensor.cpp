@@ -7,6 +7,7 @@
 #include "cli/identify_page.h"
 #include "cli/json_text.h"
 #include "cli/terminal.h"
+#include "cli/units.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/quantity.h"
 #include "sinew/identify/sensor/sensor_file.h"
@@ -34,10 +35,21 @@ std::string digits(double value, const char* format) {
 
 std::string percent(double share) { return digits(100 * share, "{:.2f} %"); }
 
+// The unit of a scale: one that was asked for, else one of what was set, as the files have it.
+std::string shown_scale(const Calibration& c, const std::string& display,
+                        const ResultOptions& options) {
+  const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si);
+  if (!asked.asked) return scale_unit_for(c, display);
+  const std::string unit = scale_unit(c);
+  if (units::told_unit(unit)) return asked.units.of(unit).name;
+  const auto told = units::told_unit(display);
+  return scale_unit_for(c, told ? asked.units.of(told->held).name : display);
+}
+
 // Table 4-1, and what else one calibration tells of each sensor.
-void print_table(const Calibration& c, const std::string& display) {
+void print_table(const Calibration& c, const std::string& shown) {
   using enum report::TextTable::Align;
-  const std::string unit = scale_unit(c), shown = scale_unit_for(c, display);
+  const std::string unit = scale_unit(c);
   report::TextTable table(
       {"sensor", "scale [" + shown + "]", "95 %", "at rest [V]", "model", "held out", "linearity",
        "hysteresis", "noise [mV]", "step [mV]", "error from average"},
@@ -68,7 +80,7 @@ void print(const Calibration& c, const std::string& display, const ResultOptions
     tell(c.sensors[0].report, "", {}, report_only);
     fmt::print("\n");
   }
-  print_table(c, display);
+  print_table(c, shown_scale(c, display, options));
   if (c.sensors.size() == 1) return;
   for (const SensorResult& r : c.sensors)
     for (const std::string& note : r.report.notes) Messages(options.quiet).note(note);

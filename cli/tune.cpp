@@ -1,12 +1,14 @@
 // cli/tune.cpp - `sinew tune`: the best candidates of a tuning's file.
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <memory>
 #include <stdexcept>
 
 #include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/sweep_runs.h"
+#include "cli/units.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/run/folder/files.h"
 #include "sinew/tune/optimizer/candidate_file.h"
@@ -20,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  std::string file, out, best;
+  std::string file, out, best, units;
   std::vector<std::string> sets;
   RunOptions runs;
   int generations = 0, candidate = -1;
@@ -62,6 +64,17 @@ void write_table(const tune::Tuning& tuning, const tune::Tuned& tuned, const Opt
   csv.take_place();
 }
 
+// What was said now is stronger than the units that the file names, and these than what the person
+// always has.
+void print_text(const tune::Tuning& tuning, const tune::Tuned& tuned, const Options& options) {
+  const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si);
+  const char* session = std::getenv(config::units_variable);
+  const tune::TableUnits shown{asked.units, !options.units.empty() || (session && *session)};
+  fmt::print("{}", tune::text_of(tuning, tuned, asked.asked ? &shown : nullptr));
+  if (tuned.best.size() == 1)
+    fmt::print("{}\n", command_of(tuning, tuned.candidates[tuned.best.front()]));
+}
+
 // The one that was asked for, or the only best one.
 const tune::Candidate& chosen(const tune::Tuned& tuned, const Options& options) {
   const std::size_t all = tuned.candidates.size();
@@ -91,9 +104,10 @@ ExitCode tune_all(const Options& given) {
   if (!options.best.empty()) run::refuse_to_overwrite(options.best, options.force, inputs, ".toml");
 
   const tune::Tuned tuned = run_tuning(tuning, options, master, messages);
-  fmt::print("{}", options.json ? tune::json_of(tuning, tuned) : tune::text_of(tuning, tuned));
-  if (!options.json && tuned.best.size() == 1)
-    fmt::print("{}\n", command_of(tuning, tuned.candidates[tuned.best.front()]));
+  if (options.json)
+    fmt::print("{}", tune::json_of(tuning, tuned));
+  else
+    print_text(tuning, tuned, options);
   messages.note(options.runs.results);
   if (tuned.stopped)
     throw std::runtime_error(
@@ -125,6 +139,7 @@ void add_tune(Command app, Action& action) {
       .is_between(0, 1000000)
       .needs(sub.option("--best"));
   sub.add_option("-o,--output", options->out, "also write all candidates to this CSV file");
+  add_units(sub, options->units, "of the table, else the file's; what is written keeps the file's");
   sub.add_flag("--force", options->force, "replace those files");
   sub.add_flag("--json", options->json, "print the result as JSON");
   sub.add_flag("--quiet", options->quiet, "only errors on stderr");

@@ -27,4 +27,12 @@ config::UnitsToShow units_asked(const std::string& option, units::UnitSet otherw
   return units_asked(option, otherwise, &run);
 }
 
+Retold retold(double number, const std::string& unit, const config::UnitsToShow& asked,
+              double room) {
+  const auto told = asked.asked ? units::told_unit(unit, room) : std::nullopt;
+  if (!told) return {number, unit, 1};
+  const units::ShownUnit to = asked.units.of(told->held, units::ShownUnits::not_known, room);
+  return {to.of(told->unit.back(number)), to.name, to.scale / told->unit.scale};
+}
+
 }  // namespace sinew::cli

@@ -29,4 +29,16 @@ inline units::ShownUnits units_for(const std::string& option, units::UnitSet oth
   return units_asked(option, otherwise, run).units;
 }
 
+// A number that is told in some unit, as it is shown.
+struct Retold {
+  double number;
+  std::string unit;  // its name; "1": none
+  double scale;      // what differences of it are multiplied with
+};
+
+// Returns it in the units that were asked for; as it is told where nobody did, or where there is no
+// unit for it to be shown in. Gauges count from the `room` [Pa].
+Retold retold(double number, const std::string& unit, const config::UnitsToShow& asked,
+              double room);
+
 }  // namespace sinew::cli

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 #include <vector>
 
 #include "sinew/config/quantity.h"
@@ -13,6 +15,15 @@ namespace sinew::config {
 namespace {
 
 constexpr int people_digits = 15;  // what a double keeps of any decimal number
+
+// In one of a hundred units any double has a text of 14 digits; what somebody wrote has fewer.
+constexpr int digits_somebody_wrote = 10;
+
+// A word of SI, and what people write in its place.
+struct Words {
+  std::string_view si;
+  std::initializer_list<std::string_view> others;
+};
 
 int digits_of_text(std::string_view number) {
   const std::string_view mantissa = number.substr(0, number.find('e'));
@@ -38,23 +49,74 @@ std::vector<std::string> other_units(std::string_view unit) {
   return out;
 }
 
+// The words for one of a unit's, "m2": itself first, then "mm2", "cm2" and so on.
+std::vector<std::string> words_for(std::string_view word) {
+  static const std::initializer_list<Words> all = {{"m", {"mm", "cm", "in", "ft"}},
+                                                   {"kg", {"g", "mg", "lb"}},
+                                                   {"N", {"kN", "lbf"}},
+                                                   {"Pa", {"kPa", "MPa", "bar", "psi"}},
+                                                   {"s", {"ms", "min"}},
+                                                   {"rad", {"deg"}},
+                                                   {"V", {"mV"}},
+                                                   {"A", {"mA"}},
+                                                   {"1", {"%"}}};
+  std::vector<std::string> out{std::string(word)};
+  if (word == "m3") out.insert(out.end(), {"mL", "L"});
+  const std::size_t letters =
+      word == "1" ? 1 : std::min(word.find_first_of("0123456789"), word.size());
+  for (const Words& w : all)
+    if (w.si == word.substr(0, letters))
+      for (const std::string_view other : w.others)
+        out.push_back(std::string(other) + std::string(word.substr(letters)));
+  return out;
+}
+
+// Every unit that differs from that one in some of its words: "kg mm2", "g m2", "g mm2" and so on.
+std::vector<std::string> mixed_units(std::string_view unit) {
+  std::vector<std::string> out{""};
+  for (std::size_t at = 0; at < unit.size();) {
+    const std::size_t end = std::min(unit.find_first_of(" /()", at), unit.size());
+    std::vector<std::string> longer;
+    for (const std::string& begun : out)
+      for (const std::string& word : words_for(unit.substr(at, end - at)))
+        longer.push_back(begun + word + std::string(unit.substr(end, 1)));
+    out = std::move(longer);
+    at = end + 1;
+  }
+  std::erase_if(out, [&](const std::string& other) {
+    return other == unit || parse_quantity("1 " + other, unit).mistake;
+  });
+  return out;
+}
+
+// The shortest text so far, and how many digits it has.
+struct Shortest {
+  std::string text;
+  int digits;
+};
+
+// Takes the text in another unit where it is shorter and reads back to the same bits.
+void try_unit(double si, std::string_view unit, const std::string& other, Shortest& best) {
+  const std::string number = fmt::format("{:.{}g}", convert(si, unit, other), people_digits);
+  const int digits = digits_of_text(number);
+  if (digits >= best.digits) return;
+  std::string text = fmt::format("{} {}", number, other);
+  const Parsed read = parse_quantity(text, unit);
+  if (!read.mistake && read.si == si) best = {std::move(text), digits};
+}
+
 }  // namespace
 
 std::string short_quantity(double si, std::string_view unit) {
-  std::string best = format_quantity(si, unit);
-  const int needed = digits_of_text(format_number(si));
-  if (needed <= people_digits || !std::isfinite(si)) return best;
-  int fewest = needed;
-  for (const std::string& other : other_units(unit)) {
-    const std::string number = fmt::format("{:.{}g}", convert(si, unit, other), people_digits);
-    const int digits = digits_of_text(number);
-    const std::string text = fmt::format("{} {}", number, other);
-    const Parsed read = parse_quantity(text, unit);
-    if (digits >= fewest || read.mistake || read.si != si) continue;
-    fewest = digits;
-    best = text;
-  }
-  return best;
+  Shortest best{format_quantity(si, unit), digits_of_text(format_number(si))};
+  if (best.digits <= digits_somebody_wrote || !std::isfinite(si)) return best.text;
+  const bool nobody_wrote_it = best.digits > people_digits;
+  Shortest written{best.text, nobody_wrote_it ? best.digits : digits_somebody_wrote + 1};
+  for (const std::string& other : other_units(unit)) try_unit(si, unit, other, written);
+  if (written.digits <= digits_somebody_wrote) return written.text;
+  Shortest mixed{written.text, digits_somebody_wrote + 1};
+  for (const std::string& other : mixed_units(unit)) try_unit(si, unit, other, mixed);
+  return mixed.text;
 }
 
 std::string rounded_quantity(double si, std::string_view unit) {

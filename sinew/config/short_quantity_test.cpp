@@ -21,11 +21,19 @@ TEST(ShortQuantity, IsWhatWasWrittenWhereSIHasDigitsOfItsOwn) {
   EXPECT_EQ(short_quantity(read("100 psi abs", "Pa abs"), "Pa abs"), "100 psi abs");
 }
 
+TEST(ShortQuantity, IsWhatWasWrittenInAUnitOfMixedWords) {
+  EXPECT_EQ(format_quantity(read("263.4 kg mm2", "kg m2"), "kg m2"),
+            "0.00026339999999999995 kg m2");
+  EXPECT_EQ(short_quantity(read("263.4 kg mm2", "kg m2"), "kg m2"), "263.4 kg mm2");
+  EXPECT_EQ(short_quantity(read("0.9 lb in2", "kg m2"), "kg m2"), "0.9 lb in2");
+  EXPECT_EQ(short_quantity(read("6.3 N mm/deg", "N m/rad"), "N m/rad"), "6.3 N mm/deg");
+}
+
 TEST(ShortQuantity, ReadsBackToTheSameBits) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> number(0.001, 999);
   const char* units[] = {"1",      "m",       "m3",  "1/count", "s/count",
-                         "Pa abs", "Pa diff", "rad", "N m/rad"};
+                         "Pa abs", "Pa diff", "rad", "N m/rad", "kg m2"};
   for (const char* unit : units)
     for (int i = 0; i < 2000; ++i) {
       // As people write it, and any double.

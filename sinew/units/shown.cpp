@@ -209,6 +209,19 @@ ShownUnitsReading read_shown_units(std::string_view text, const ShownUnits& belo
   return {units, "", "", ""};
 }
 
+std::optional<ToldUnit> told_unit(std::string_view unit, double room) {
+  const auto [text, reference] = unit_and_reference(unit);
+  if (text.empty() || !read_unit(text).ok) return std::nullopt;
+  for (const ShownQuantity& q : shown_quantities) {
+    // Without a word for what it counts from, N/m2 is no pressure but a stress.
+    const std::string_view wanted = q.unit == "Pa diff" ? "diff" : "";
+    const bool pressure = q.unit == "Pa";
+    const bool said = pressure ? reference == "gauge" || reference == "abs" : reference == wanted;
+    if (said && measures(text, q.unit)) return ToldUnit{q.unit, made(unit, q.unit, room)};
+  }
+  return std::nullopt;
+}
+
 std::vector<ShownEntry> shown_entries(const ShownUnits& units) {
   std::vector<ShownEntry> out{{"share", "share", {units.of("share")}, 0}};
   const auto add = [&](const ShownQuantity& q, std::string_view unit) {

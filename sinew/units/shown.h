@@ -12,6 +12,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -99,6 +100,16 @@ struct ShownUnitsReading {
 // Reads "thesis", "metric,pressure=kPa gauge" or "length=cm": the set and then choices. Where no
 // set is named, the choices stand on top of `below`.
 ShownUnitsReading read_shown_units(std::string_view text, const ShownUnits& below = {});
+
+// A unit as somebody told it, "psi gauge", and what the library holds such a quantity in, "Pa".
+struct ToldUnit {
+  std::string_view held;
+  ShownUnit unit;  // unit.back(62) is 62 psi gauge in SI
+};
+
+// Reads a unit of one of the table's quantities; nullopt where it has none. Gauges count from the
+// `room` [Pa].
+std::optional<ToldUnit> told_unit(std::string_view unit, double room = atmosphere);
 
 // One row of what a page needs: a unit of SI and the one in which it is shown, the usual one first.
 struct ShownEntry {

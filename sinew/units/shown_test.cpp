@@ -161,5 +161,20 @@ TEST(ShownUnits, WrongWordsNameTheChoices) {
   EXPECT_FALSE(read_shown_units("length=").ok());
 }
 
+TEST(ToldUnit, IsReadWithWhatAPressureCountsFrom) {
+  const auto back = [](const char* unit, double number) {
+    const auto told = told_unit(unit, 1e5);
+    return told ? std::string(told->held) + " " + std::to_string(told->unit.back(number)) : "none";
+  };
+  EXPECT_EQ(back("bar gauge", 2), "Pa 300000.000000");
+  EXPECT_EQ(back("bar abs", 2), "Pa 200000.000000");
+  EXPECT_EQ(back("kPa diff", 2), "Pa diff 2000.000000");
+  EXPECT_EQ(back("MPa", 2), "N/m2 2000000.000000") << "a stress";
+  EXPECT_EQ(back("in", 2), "m 0.050800");
+  EXPECT_EQ(back("degC", 0), "K 273.150000");
+  EXPECT_EQ(back("kg m2", 1), "none");
+  EXPECT_EQ(back("1", 1), "none");
+}
+
 }  // namespace
 }  // namespace sinew::units

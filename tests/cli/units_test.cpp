@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <sstream>
 
 #include "tests/cli/json.h"
 
@@ -140,6 +141,33 @@ TEST(Units, WrongWordsSayWhereTheyStand) {
       HasSubstr("page.units: found \"inch\""));
 }
 
+TEST(Units, WhatIsSaidNowIsStrongerThanATuningsFile) {
+  const Workspace w;
+  write_text(w / "lever.toml",
+             "format = \"sinew.tuning/1\"\ntitle = \"A lever\"\n"
+             "experiment = \"experiments/one-joint.toml\"\n"
+             "tune = [\"joint.lever.angle_gain=0.05:0.3 %/count log\"]\n"
+             "minimize = [\"joints.lever.tracking_rms_rad\"]\n"
+             "where = [\"joints.lever.excursion_rad <= 3 rad\"]\n"
+             "population = 6\ngenerations = 1\n");
+  const Words tune = {"tune", "lever.toml", "--quiet"};
+  const Result plain = w.sinew(tune);
+  EXPECT_THAT(plain.out, AllOf(HasSubstr("minimize  joints.lever.tracking_rms [rad]"),
+                               HasSubstr("where     joints.lever.excursion_rad <= 3 rad")));
+  EXPECT_THAT(w.sinew(with(tune, {"--units", "metric"})).out,
+              AllOf(HasSubstr("minimize  joints.lever.tracking_rms [deg]"),
+                    HasSubstr("where     joints.lever.excursion <= 171.9 deg"),
+                    HasSubstr("joint.lever.angle_gain [%/count]")));
+  // Those of the person leave the units that the file names.
+  std::filesystem::create_directories(w / "config/sinew");
+  write_text(w / "config/sinew/settings.toml",
+             "format = \"sinew.settings/1\"\nunits = \"metric\"\n");
+  EXPECT_THAT(w.sinew(tune).out, AllOf(HasSubstr("minimize  joints.lever.tracking_rms [deg]"),
+                                       HasSubstr("joints.lever.excursion_rad <= 3 rad")));
+  EXPECT_EQ(w.sinew(with(tune, {"--json"})).out,
+            w.sinew(with(tune, {"--json", "--units", "thesis"})).out);
+}
+
 TEST(Units, ASweepShowsFiguresThatNameNoUnitInThem) {
   const Workspace w;
   const Words sweep = {
@@ -153,6 +181,32 @@ TEST(Units, ASweepShowsFiguresThatNameNoUnitInThem) {
                     HasSubstr("joints.lever.excursion [rad]")));
   EXPECT_EQ(w.sinew(with(sweep, {"--units", "metric", "--json"})).out,
             w.sinew(with(sweep, {"--json"})).out);
+}
+
+TEST(Units, AnIdentificationShowsWhatItFoundInThem) {
+  const Workspace w;
+  write_text(w / "mesh.csv", "length [mm],diameter [mm]\n65,11.7\n75,10.5\n85,9.0\n95,6.8\n");
+  const Words mesh = {"identify", "geometry", "mesh.csv", "--quiet"};
+  const auto unit_of_length = [](const std::string& out) {
+    const std::string row = out.substr(out.find("\nthread_length") + 1);
+    std::istringstream words(row);
+    std::string name, unit;
+    double value = 0;
+    words >> name >> value >> unit;
+    return unit;
+  };
+  EXPECT_EQ(unit_of_length(w.sinew(mesh).out), "m");
+  EXPECT_EQ(unit_of_length(w.sinew(with(mesh, {"--units", "thesis"})).out), "in");
+  EXPECT_EQ(w.sinew(with(mesh, {"--units", "thesis", "--json"})).out,
+            w.sinew(with(mesh, {"--json"})).out);
+  setenv("SINEW_UNITS", "length=cm", 1);
+  EXPECT_EQ(unit_of_length(w.sinew(mesh).out), "cm");
+  unsetenv("SINEW_UNITS");
+  write_text(w / "weights.csv",
+             "load [lbf],a [V],b [V]\n0,0.1,0.1\n1,0.6,0.4\n2,1.1,0.7\n3,1.6,1.0\n4,2.1,1.3\n");
+  const Words weights = {"identify", "sensor", "weights.csv", "--quiet"};
+  EXPECT_THAT(w.sinew(weights).out, HasSubstr("scale [V/lbf]"));
+  EXPECT_THAT(w.sinew(with(weights, {"--units", "metric"})).out, HasSubstr("scale [mV/N]"));
 }
 
 // Digits that nobody wrote are not shown, and no bit is lost on the way through resolved.toml.

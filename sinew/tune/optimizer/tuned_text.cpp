@@ -6,7 +6,9 @@
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "sinew/analysis/verdict/reported.h"
 #include "sinew/report/text/text_table.h"
 
 namespace sinew::tune {
@@ -34,14 +36,45 @@ std::string cell(double number) {
   return std::isfinite(number) ? fmt::format("{:.4g}", number) : "-";
 }
 
-std::string cell(const Value& value) {
+double number_of(const Value& value) {
   double number = 0;
   std::from_chars(value.cell.data(), value.cell.data() + value.cell.size(), number);
-  return fmt::format("{:.5g}", number);
+  return number;
+}
+
+// From the unit of a row's numbers to the one in which they are shown.
+struct RowUnit {
+  std::string name;  // empty: no unit
+  units::ShownUnit from, to;
+
+  double of(double number) const { return to.of(from.back(number)); }
+};
+
+// `named`: by the file.
+RowUnit row_unit(const std::string& unit, bool named, const TableUnits* shown, double room) {
+  RowUnit out{unit, {}, {}};
+  if (!shown || (named && !shown->of_all)) return out;
+  const std::optional<units::ToldUnit> told = units::told_unit(unit, room);
+  if (!told) return out;
+  const units::ShownUnit to = shown->units.of(told->held, units::ShownUnits::not_known, room);
+  return {to.name, told->unit, to};
+}
+
+std::string heading_of(const std::string& key, const std::string& unit) {
+  return unit.empty() || unit == "1" ? key : fmt::format("{} [{}]", key, unit);
+}
+
+// "trolley.mean_speed >= 76.2 mm/s"; as written where it is shown so.
+std::string text_of(const Limit& limit, const RowUnit& unit) {
+  if (unit.to.name.empty()) return limit.text;
+  const char* const signs[] = {"<", "<=", ">", ">="};
+  return fmt::format("{} {} {:.4g} {}", analysis::without_unit(limit.figure.key),
+                     signs[static_cast<int>(limit.is)], unit.of(limit.limit), unit.name);
 }
 
 // A line for each goal, limit and tuned key, a column for each candidate.
-std::string table_of(const Tuning& tuning, const std::vector<const Candidate*>& candidates) {
+std::string table_of(const Tuning& tuning, const std::vector<const Candidate*>& candidates,
+                     const TableUnits* shown) {
   using report::TextTable;
   std::vector<std::string> titles{""};
   for (const Candidate* c : candidates)
@@ -55,17 +88,29 @@ std::string table_of(const Tuning& tuning, const std::vector<const Candidate*>& 
     table.add(std::move(row));
   };
   const Goals& goals = tuning.goals;
-  for (std::size_t i = 0; i < goals.goals.size(); ++i)
-    add((goals.goals[i].maximize ? "maximize  " : "minimize  ") + goals.goals[i].figure.heading(),
-        [&](const Candidate& c) { return cell(c.judged.goals[i]); });
-  for (std::size_t i = 0; i < goals.limits.size(); ++i)
-    add("where     " + goals.limits[i].text,
-        [&](const Candidate& c) { return cell(c.judged.limits[i]); });
+  const double room = tuning.atmosphere;
+  for (std::size_t i = 0; i < goals.goals.size(); ++i) {
+    const Figure& figure = goals.goals[i].figure;
+    const RowUnit unit = row_unit(figure.unit, figure.named, shown, room);
+    const bool plain = figure.unit == "1";
+    add((goals.goals[i].maximize ? "maximize  " : "minimize  ") +
+            (plain ? figure.key
+                   : heading_of(std::string(analysis::without_unit(figure.key)), unit.name)),
+        [&](const Candidate& c) { return cell(unit.of(c.judged.goals[i])); });
+  }
+  for (std::size_t i = 0; i < goals.limits.size(); ++i) {
+    const RowUnit unit = row_unit(goals.limits[i].figure.unit, true, shown, room);
+    add("where     " + text_of(goals.limits[i], unit),
+        [&](const Candidate& c) { return cell(unit.of(c.judged.limits[i])); });
+  }
   if (!goals.limits.empty())
     add("          holds [%]", [](const Candidate& c) { return cell(100 * c.judged.holds); });
-  for (std::size_t i = 0; i < tuning.tuned; ++i)
-    add("          " + tuning.runs.sample->ranges[i].axis.heading(),
-        [&](const Candidate& c) { return cell(c.values[i]); });
+  for (std::size_t i = 0; i < tuning.tuned; ++i) {
+    const Axis& axis = tuning.runs.sample->ranges[i].axis;
+    const RowUnit unit = row_unit(axis.unit, true, shown, room);
+    add("          " + heading_of(axis.key, unit.name),
+        [&](const Candidate& c) { return fmt::format("{:.5g}", unit.of(number_of(c.values[i]))); });
+  }
   return table.text();
 }
 
@@ -90,25 +135,25 @@ std::string count(std::size_t n, const char* what) {
 
 }  // namespace
 
-std::string text_of(const Tuning& tuning, const Tuned& tuned) {
+std::string text_of(const Tuning& tuning, const Tuned& tuned, const TableUnits* shown) {
   if (tuned.candidates.empty()) return "no generation is whole\n";
   std::string out = fmt::format("{}: {} in {}, {} each{}\n", tuning.title,
                                 count(tuned.candidates.size(), "candidate"),
                                 count(tuned.candidates.back().generation + 1, "generation"),
                                 count(tuning.runs_of_candidate(), "run"),
                                 tuned.converged ? "; the method has converged" : "");
-  std::vector<const Candidate*> shown{&tuned.candidates.front()};
+  std::vector<const Candidate*> columns{&tuned.candidates.front()};
   if (tuned.best.empty()) {
     out += "nothing keeps every limit; the closest:\n";
-    shown.push_back(&closest(tuned.candidates));
-    return out + table_of(tuning, shown);
+    columns.push_back(&closest(tuned.candidates));
+    return out + table_of(tuning, columns, shown);
   }
   if (tuning.goals.goals.size() > 1)
     out += fmt::format("{} on the front{}\n", count(tuned.best.size(), "candidate"),
                        tuned.best.size() > most_shown ? ", of which these" : "");
   for (const std::size_t i : shown_of(tuned.best))
-    if (i != 0) shown.push_back(&tuned.candidates[i]);
-  return out + table_of(tuning, shown);
+    if (i != 0) columns.push_back(&tuned.candidates[i]);
+  return out + table_of(tuning, columns, shown);
 }
 
 std::string json_of(const Tuning& tuning, const Tuned& tuned) {

@@ -4,12 +4,20 @@
 #include <string>
 
 #include "sinew/tune/optimizer/optimize.h"
+#include "sinew/units/shown.h"
 
 namespace sinew::tune {
 
+// In whose units a table is shown.
+struct TableUnits {
+  units::ShownUnits units;
+  bool of_all = false;  // also of goals, limits and keys for which the file names a unit
+};
+
 // Returns the best candidate of one goal beside what the experiment has, or the front of several:
 // a column for each candidate. Where nothing is feasible, the candidate that is closest to it.
-std::string text_of(const Tuning& tuning, const Tuned& tuned);
+// Without `shown` the units are those of the file, and SI where it names none.
+std::string text_of(const Tuning& tuning, const Tuned& tuned, const TableUnits* shown = nullptr);
 
 // Returns the same as JSON, format sinew.tuned/1, with every candidate of the front.
 std::string json_of(const Tuning& tuning, const Tuned& tuned);

@@ -187,21 +187,20 @@ std::optional<double> number_of(const Range& range, const config::Origins& origi
                                  : config::convert(parsed.si, unit, range.axis.unit, atmosphere);
 }
 
-// Returns the shares of the tuned ranges at which the experiment stands; the middle where that is
-// no number between the ends.
-std::vector<double> start_of(const Tuning& tuning) {
+// Tells the room's pressure, and the shares of the tuned ranges at which the experiment stands; the
+// middle where that is no number between the ends.
+void add_start(Tuning& tuning) {
   const config::Node root = config::compose(tuning.runs.experiment, tuning.runs.sets);
   const experiment::Experiment e = run::buildable(root, tuning.runs.experiment);
-  std::vector<double> out;
+  tuning.atmosphere = e.air.atmosphere;
   for (std::size_t i = 0; i < tuning.tuned; ++i) {
     const Range& range = tuning.runs.sample->ranges[i];
     const std::optional<double> number = range.axis.key.ends_with(']')
                                              ? element_of(range, root)
                                              : number_of(range, e.origins, e.air.atmosphere);
     const double share = number ? range.share_of(*number) : 0.5;
-    out.push_back(share >= 0 && share <= 1 ? std::min(share, below_one) : 0.5);
+    tuning.start.push_back(share >= 0 && share <= 1 ? std::min(share, below_one) : 0.5);
   }
-  return out;
 }
 
 }  // namespace
@@ -241,7 +240,7 @@ Tuning tuning_of(const std::string& path, const TuningFile& file) {
   out.runs.sample->points = out.generations * out.method.population * out.draws;
 
   check(out.runs);
-  out.start = start_of(out);
+  add_start(out);
   return out;
 }
 

@@ -52,7 +52,8 @@ struct Tuning {
   Goals goals;
   MethodAsked method;
   std::size_t generations = 0;
-  std::vector<double> start = {};  // shares of what the experiment has; the first candidate
+  std::vector<double> start = {};         // shares of what the experiment has; the first candidate
+  double atmosphere = units::atmosphere;  // of the experiment, for gauges [Pa]
 
   // How many runs a candidate has, and a generation.
   std::size_t runs_of_candidate() const { return points(runs) / (generations * method.population); }
