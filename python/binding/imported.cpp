@@ -106,13 +106,20 @@ void bind_imported(py::module_& m) {
          const std::string& rate, double clock_scale, const std::string& start,
          const std::string& join, const Texts& shift, const std::vector<std::string>& columns,
          const std::string& encoding, const std::string& decimal, const std::string& thousands,
-         const std::string& dates, bool spread_times, bool drop_incomplete, const py::object& sets,
-         const py::object& folder, bool force) {
-        return import_recording(
-            files, experiment, map, units, scale, offset, where, mapping, save_mapping, keep_others,
-            {time, time_unit, rate, start, clock_scale}, join, shift,
-            {encoding, decimal, thousands, dates, spread_times, drop_incomplete, columns}, sets,
-            folder, force);
+         const std::string& dates, bool spread_times, bool drop_incomplete, int part,
+         const py::object& sets, const py::object& folder, bool force) {
+        return import_recording(files, experiment, map, units, scale, offset, where, mapping,
+                                save_mapping, keep_others,
+                                {time, time_unit, rate, start, clock_scale}, join, shift,
+                                {.encoding = encoding,
+                                 .decimal = decimal,
+                                 .thousands = thousands,
+                                 .dates = dates,
+                                 .spread_times = spread_times,
+                                 .drop_incomplete = drop_incomplete,
+                                 .columns = columns,
+                                 .part = part},
+                                sets, folder, force);
       },
       py::arg("files"), py::arg("experiment"), py::kw_only(), py::arg("map") = Texts{},
       py::arg("units") = Texts{}, py::arg("scale") = std::map<std::string, double>{},
@@ -122,7 +129,7 @@ void bind_imported(py::module_& m) {
       py::arg("start") = "", py::arg("join") = "side", py::arg("shift") = Texts{},
       py::arg("columns") = std::vector<std::string>{}, py::arg("encoding") = "",
       py::arg("decimal") = "", py::arg("thousands") = "", py::arg("dates") = "",
-      py::arg("spread_times") = false, py::arg("drop_incomplete") = false,
+      py::arg("spread_times") = false, py::arg("drop_incomplete") = false, py::arg("part") = 0,
       py::arg("sets") = py::none(), py::arg("folder") = py::none(), py::arg("force") = false,
       "Keeps recordings of a laboratory - CSV, MCAP, MATLAB's .mat - as a run, and returns it.\n"
       "`experiment` is the file of what was run: its robot, or its test stand.\n"

@@ -140,6 +140,7 @@ identify::Source source_of(const py::handle& parts) {
                                  {"rate", &out.rate}})
     settings.text(name, *to);
   settings.flag("spread_times", out.spread_times);
+  settings.integer("part", out.part);
   std::string atmosphere;
   settings.quantity("atmosphere", "Pa", atmosphere);
   if (!atmosphere.empty()) out.atmosphere = identify::atmosphere_setting(atmosphere);

@@ -243,6 +243,7 @@ def import_recording(
     dates: str = "",
     spread_times: bool = False,
     drop_incomplete: bool = False,
+    part: int = 0,
     sets: _Sets = None,
     folder: Optional[_Path] = None,
     force: bool = False,

@@ -24,7 +24,8 @@ class Table:
 
     What a file may leave open: encoding "latin1"; decimal "." or ","; thousands ".", ",", " " or "'"; dates
     "day first", "month first" or "excel" (days since 1900); rate "100 Hz" of the rows, in place of a column
-    of times; spread_times: rows that share a time are spread evenly up to the next one.
+    of times; spread_times: rows that share a time are spread evenly up to the next one; part 2: of
+        several recordings in the file the second one alone.
     """
 
     data: Any
@@ -40,6 +41,7 @@ class Table:
     dates: Optional[str] = None
     rate: Optional[str] = None
     spread_times: bool = False
+    part: int = 0
 
 
 def names_of(data: Any) -> "Optional[List[str]]":
@@ -124,6 +126,7 @@ def parts_of(data: Any, units: "Mapping[str, str]", label: str) -> "Dict[str, An
         "dates": table.dates,
         "rate": table.rate,
         "spread_times": table.spread_times,
+        "part": table.part,
     }
     if isinstance(table.data, (str, os.PathLike)):
         parts["path"] = os.fspath(table.data)

@@ -395,6 +395,19 @@ class Columns(unittest.TestCase):
         for table in (identify.Table(bare, rate="0.2 Hz"), identify.Table(coarse, spread_times=True)):
             same_creep(identify.creep(table).report["creep"], plain, 1e-6)
 
+    def test_one_of_several_recordings_in_a_file(self) -> None:
+        one = settling()
+        plain = identify.creep(one).report["creep"]
+        names = ("time", "force", "pressure")
+        rows = ["%r,%r,%r\n" % tuple(float(one[name][i]) for name in names) for i in range(one["time"].size)]
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "two.csv")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write("time [s],force [N],pressure [Pa gauge]\n" + "".join(rows[:9] + rows))
+            with self.assertRaisesRegex(sinew.InputError, "2 recordings one after the other.*part=1"):
+                identify.creep(path)
+            same_creep(identify.creep(identify.Table(path, part=2)).report["creep"], plain, 1e-6)
+
     def test_dates_are_read_as_it_is_said(self) -> None:
         one = settling()
         days = numpy.arange(one["time"].size) * 5 / 86400

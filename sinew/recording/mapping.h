@@ -31,8 +31,7 @@ struct TableSettings {
   bool spread_times = false;
   bool drop_incomplete = false;      // leave out rows without a time
   std::vector<std::string> columns;  // the header, for a file that has none
-  int part =
-      0;  // of several recordings in the file; 0: there is but one. No mapping's file says it
+  int part = 0;  // of several recordings in the file; 0: there is but one; not in a mapping's file
 };
 
 // How the recording tells time.

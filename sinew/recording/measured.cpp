@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -218,17 +219,51 @@ class Table {
     }
   }
 
+  // Rows of recorders that were joined block by block stand a little out of order, and a coarse
+  // clock gives several rows one time: both are put right and told. A jump back over much of the
+  // recording is none of it.
   void check_time(Measured& data) {
-    const auto at = std::ranges::find(data.columns, "time", &Column::name);
-    if (at == data.columns.end()) return;
+    const auto is_time = [&] { return std::ranges::find(data.columns, "time", &Column::name); };
+    if (is_time() == data.columns.end()) return;
+    sort_by_time(data, is_time()->values);
+    const auto at = is_time();  // sorting has made the columns anew
     check_order(at->values, data.lines, problems_);
-    if (source_.spread_times) {
+    if (source_.spread_times || !lines_share_times(data, at->values)) {
       const std::size_t count = spread_times(at->values);
       if (count > 0)
         data.notes.push_back(
             fmt::format("{} rows shared the time of another: spread evenly", count));
     }
     refuse_repeated(at->values, data.lines, problems_);
+  }
+
+  // Sorts all rows by their times where no row is further back than a share of the recording.
+  static void sort_by_time(Measured& data, const std::vector<double>& time) {
+    constexpr double most = 0.02;
+    if (time.empty() || std::ranges::is_sorted(time)) return;
+    const auto [first, last] = std::ranges::minmax(time);
+    double latest = time[0], back = 0;
+    std::size_t late = 0;
+    for (const double t : time) {
+      back = std::max(back, latest - t);
+      late += t < latest ? 1 : 0;
+      latest = std::max(latest, t);
+    }
+    if (back > most * (last - first)) return;
+    std::vector<std::size_t> order(time.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return time[i]; });
+    auto notes = std::move(data.notes);
+    data = data.subset(order);
+    data.notes = std::move(notes);
+    data.notes.push_back(fmt::format("{} rows stood after later ones: sorted by their time", late));
+  }
+
+  // Does a line of the file give several rows, which have its time in common?
+  static bool lines_share_times(const Measured& data, const std::vector<double>& time) {
+    for (std::size_t i = 1; i < time.size(); ++i)
+      if (time[i] == time[i - 1] && data.lines[i] == data.lines[i - 1]) return true;
+    return false;
   }
 
   const Grid& grid_;

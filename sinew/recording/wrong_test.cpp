@@ -1,5 +1,6 @@
 // A table that cannot be read for certain is refused by its line, with what to do; nothing is lost
 // silently.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -160,17 +161,39 @@ TEST(Wrong, ClocksThatCannotBeAreTold) {
   });
 }
 
-TEST(Wrong, MeasurementsWhoseTimeRepeatsOrRunsBackwardsAreRefused) {
+TEST(Wrong, MeasurementsWhoseTimeRunsFarBackwardsAreRefused) {
   const std::string header = "time [s],pressure [barg],force [N]\n";
-  expect_refused({{header + "0,2,20\n1,2,21\n1,2,22\n2,2,23\n",
-                   "lab.csv:4:1: time: found 1 rows with the time of the row above"},
-                  {header + "0,2,20\n2,2,21\n1,2,22\n3,2,23\n",
-                   "lab.csv:4:1: time: found 1 s after 2 s; expected times that do not run "
-                   "backwards; try to sort the rows by their time"}},
-                 [](const Source& s) { read_measured(s, wanted); });
-  Source spread{.path = "lab.csv", .spread_times = true};
-  const Measured m = parse_measured(header + "0,2,20\n1,2,21\n1,2,22\n2,2,23\n", spread, wanted);
+  expect_refused(
+      {{header + "0,2,20\n2,2,21\n1,2,22\n3,2,23\n",
+        "lab.csv:4:1: time: found 1 s after 2 s; expected times that do not run "
+        "backwards; try to sort the rows by their time"},
+       {header + "0,2,20\n1,2,21\n2,2,22\n2,2,23\n2,2,24\n2,2,25\n0.9,2,24\n", "0.9 s after"}},
+      [](const Source& s) { read_measured(s, wanted); });
+}
+
+TEST(Wrong, MeasurementsThatShareATimeAreSpreadAndTold) {
+  const Measured m =
+      parse_measured("time [s],pressure [barg],force [N]\n0,2,20\n1,2,21\n1,2,22\n2,2,23\n",
+                     {.path = "lab.csv"}, wanted);
   EXPECT_EQ(m["time"], (std::vector<double>{0, 1, 1.5, 2}));
+  ASSERT_EQ(m.notes.size(), 1u);
+  EXPECT_EQ(m.notes[0], "1 rows shared the time of another: spread evenly");
+}
+
+// Two recorders whose rows were joined in blocks of a few: rows keep what belongs to them.
+TEST(Wrong, MeasurementsThatAreInterleavedAreSortedAndTold) {
+  std::string text = "time [s],pressure [barg],force [N]\n";
+  for (int block = 0; block < 100; ++block)
+    for (const int i : {2 * block + 1, 2 * block}) text += fmt::format("{},2,{}\n", i, 20 + i);
+  const Measured m = parse_measured(text, {.path = "lab.csv"}, wanted);
+  ASSERT_EQ(m.rows(), 200u);
+  for (std::size_t i = 0; i < m.rows(); ++i) {
+    EXPECT_EQ(m["time"][i], static_cast<double>(i));
+    EXPECT_EQ(m["force"][i], 20.0 + static_cast<double>(i));
+    EXPECT_EQ(m.lines[i], static_cast<int>(i % 2 == 0 ? i + 3 : i + 1));
+  }
+  ASSERT_EQ(m.notes.size(), 1u);
+  EXPECT_EQ(m.notes[0], "100 rows stood after later ones: sorted by their time");
 }
 
 // A maker's table gives several rows a line, which share a time.

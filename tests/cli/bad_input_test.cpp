@@ -237,15 +237,15 @@ TEST(BadValveTiming, NotMonotone) {
 TEST(BadSet, TyposAreSuggestedRight) {
   const Workspace w;
   const Result table = w.sinew({"run", walk, "--set", "troley.drag=1 lbf"});
-  EXPECT_EQ(table.code, 1);
+  EXPECT_EQ(table.code, 2);
   EXPECT_THAT(table.err, AllOf(HasSubstr("--set: troley.drag"), HasSubstr("try \"trolley\"")));
 
   const Result key = w.sinew({"run", walk, "--set", "trolley.darg=1 lbf"});
-  EXPECT_EQ(key.code, 1);
+  EXPECT_EQ(key.code, 2);
   EXPECT_THAT(key.err, AllOf(HasSubstr("--set: trolley.darg"), HasSubstr("try drag")));
 
   const Result form = w.sinew({"run", walk, "--set", "trolley.drag"});
-  EXPECT_EQ(form.code, 1);
+  EXPECT_EQ(form.code, 2);
   EXPECT_THAT(form.err, HasSubstr("expected key=value"));
   EXPECT_FALSE(std::filesystem::exists(w / "runs"));
 }
@@ -255,7 +255,7 @@ TEST(BadSet, NumbersThatNothingHolds) {
   const Workspace w;
   const auto said = [&](const std::string& set) {
     const Result r = w.sinew({"run", walk, "--set", set});
-    EXPECT_EQ(r.code, 1) << set;
+    EXPECT_EQ(r.code, 2) << set;
     return r.err;
   };
   for (const char* seed : {"9223372036854775808", "-9223372036854775809", "18446744073709551616",
@@ -271,7 +271,7 @@ TEST(BadSet, NumbersThatNothingHolds) {
 TEST(BadSet, AnUnknownChannelIsSuggestedRight) {
   const Workspace w;
   const Result result = w.sinew({"run", walk, "--set", R"(log.channels=["/jiont/*"])"});
-  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(result.code, 2);
   EXPECT_THAT(result.err,
               AllOf(HasSubstr("log.channels: found \"/jiont/*\""), HasSubstr("try \"/joint/*\"")));
   EXPECT_FALSE(std::filesystem::exists(w / "runs"));
@@ -358,7 +358,7 @@ TEST(BadBringUp, IsRefusedBeforeAnythingIsOpenedOrWritten) {
     EXPECT_THAT(r.err + r.out, HasSubstr(std::string("found \"") + place + "\"; expected a board"));
   }
   const Result yes = w.sinew({"bring-up", robot, "--port", "serial:/dev/null", "--yes"});
-  EXPECT_EQ(yes.code, 1);
+  EXPECT_EQ(yes.code, 2);
   EXPECT_THAT(yes.err, HasSubstr("expected a person who answers"));
   EXPECT_FALSE(std::filesystem::exists(w / "bring-up"));
 }

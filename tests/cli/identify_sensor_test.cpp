@@ -98,9 +98,9 @@ TEST(ForceBeam, SaysWhereItEndsAndWhatItDoesNotTake) {
   const Workspace w;
   EXPECT_THAT(w.sinew({"force-beam", "--load", "61 lbf"}).err, HasSubstr("the beam yields"));
   const Result beyond = w.sinew({"force-beam", "--gages", "0.8 in"});
-  EXPECT_EQ(beyond.code, 1);
+  EXPECT_EQ(beyond.code, 2);
   EXPECT_THAT(beyond.err, AllOf(HasSubstr("--gages: found \"0.8 in\""), HasSubstr("0.75 in")));
-  EXPECT_EQ(w.sinew({"force-beam", "--height", "0 in"}).code, 1);
+  EXPECT_EQ(w.sinew({"force-beam", "--height", "0 in"}).code, 2);
   EXPECT_EQ(w.sinew({"force-beam", "--bridge", "wheatstone"}).code, 2);
 }
 

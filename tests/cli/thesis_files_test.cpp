@@ -74,7 +74,7 @@ TEST(Ports, HaveTheBitsOfTheCodeOrOfTheTable) {
   EXPECT_THAT(w.sinew({"export", "table", "--format", "ports"}).out,
               HasSubstr("\n0.0000,255,195\n0.6000,255,255\n"));
   const Result twice = w.sinew({"run", walk, "--set", "muscle.hip_extensor.inlet.bit=0"});
-  EXPECT_EQ(twice.code, 1);
+  EXPECT_EQ(twice.code, 2);
   EXPECT_THAT(twice.err, HasSubstr("bit 0, which muscle.hip_flexor.inlet.bit has"));
 }
 
