@@ -6,7 +6,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
 #include <string_view>
+#include <utility>
 
 #include "cli/command.h"
 #include "cli/completion_scripts.h"
@@ -17,6 +20,20 @@ namespace {
 
 // Their values begin with a key of the file in the line.
 constexpr std::string_view keyed = "--set|--vary|--range|--largest";
+
+// Options that take more than some words, and the words that they begin with.
+constexpr std::pair<std::string_view, std::string_view> begun[] = {{"--units", "si thesis metric"}};
+
+std::vector<std::string> choices_for(const CommandTree::Shape& option) {
+  std::vector<std::string> out;  // without marks, which a shell would take for its own
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; };
+  for (const std::string& word : option.choices)
+    if (!word.empty() && std::ranges::all_of(word, plain)) out.push_back(word);
+  if (!option.choices.empty()) return out;
+  for (const auto& [name, words] : begun)
+    if (std::ranges::find(option.names, name) != option.names.end()) return {std::string(words)};
+  return {};
+}
 
 // A command with the words that lead to it: "identify static"; empty for the program's own.
 struct Place {
@@ -49,7 +66,8 @@ Words words_of(const CommandTree& command) {
     out.options.insert(out.options.end(), names.begin(), names.end());
     if (!option.takes_value()) continue;
     out.valued.insert(out.valued.end(), names.begin(), names.end());
-    if (!option.choices.empty()) out.chosen.emplace_back(names, option.choices);
+    if (auto choices = choices_for(option); !choices.empty())
+      out.chosen.emplace_back(names, std::move(choices));
   }
   return out;
 }
@@ -105,7 +123,8 @@ std::string fish_option(const std::string& at, const CommandTree::Shape& option)
     has_keys = has_keys || fmt::format("|{}|", keyed).find("|" + name + "|") != std::string::npos;
   }
   if (option.takes_value() && !option.names.empty()) out += " -r";
-  if (!option.choices.empty()) out += " -f -a " + in_shell_quotes(joined(option.choices), true);
+  if (const auto choices = choices_for(option); !choices.empty())
+    out += " -f -a " + in_shell_quotes(joined(choices), true);
   if (has_keys) out += " -f -a '(__sinew_keys)'";
   if (!option.names.empty()) out += " -d " + in_shell_quotes(option.description, true);
   return out + "\n";

@@ -42,19 +42,19 @@ _sinew_keys() {
     fi
   done
 }
+
+# The words that the key $2 can have, as the program $1 says; one with a blank is left out.
+_sinew_choices() {
+  [[ $2 == *[!A-Za-z0-9_.-]* ]] && return
+  "$1" keys "$2" --json 2>/dev/null |
+    sed -n '/"choices"/,/]/s/^ *"\([A-Za-z0-9_.-]*\)",*$/\1/p' | sort -u
+}
 )script";
 
 constexpr std::string_view bash_script =
     R"script(# bash completion of sinew, made by `sinew completion bash`
 
 @functions@
-# The words that the key $2 can have, as the program $1 says; one with a blank is left out.
-_sinew_choices() {
-  [[ $2 =~ ^[][A-Za-z0-9_.-]+$ ]] || return
-  "$1" keys "$2" --json 2>/dev/null |
-    sed -n '/"choices"/,/]/s/^ *"\([A-Za-z0-9_.-]*\)",*$/\1/p' | sort -u
-}
-
 _sinew() {
   local at='' commands='' options='' valued='' choices=''
   local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}
@@ -97,6 +97,10 @@ _sinew() {
   _sinew_words "$at" "$before"
   case $before in
     @keyed@)
+      if compset -P '*='; then  # a value behind its key
+        compadd -- ${(f)"$(_sinew_choices "${words[1]}" "${current%%=*}")"}
+        return
+      fi
       compadd -S = -- ${(f)"$(_sinew_keys "${(@)words}")"}
       return ;;
   esac
@@ -133,9 +137,14 @@ function __sinew_at
     test "$at" = "$argv[1]"
 end
 
-# Keys of the first file in the line, each with its "=".
+# Keys of the first file in the line, each with its "="; behind the "=" the words that the key can have.
 function __sinew_keys
     set -l words (commandline -opc)
+    set -l key (string match -r '^[A-Za-z0-9_.-]+(?==)' -- (commandline -ct))
+    if test -n "$key"
+        $words[1] keys $key --json 2>/dev/null | sed -n '/"choices"/,/]/s/^ *"\([A-Za-z0-9_.-]*\)",*$/'$key'=\1/p' | sort -u
+        return
+    end
     for word in $words[2..-1]
         if string match -q '*.toml' -- $word; and test -f $word
             $words[1] show $word --json 2>/dev/null | sed -n 's/^ *"key": "\([][A-Za-z0-9_.-]*\)",*$/\1=/p'

@@ -1,9 +1,12 @@
 // cli/import.cpp - `sinew import`: somebody's recording as the folder of a run.
 #include <fmt/format.h>
 
+#include <atomic>
+#include <filesystem>
 #include <fstream>
 
 #include "cli/run.h"
+#include "cli/terminal.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/config/text_file.h"
 #include "sinew/recording/number.h"
@@ -104,12 +107,24 @@ ExitCode tell_kept(const run::Kept<Machine>& kept, const Options& options,
   return ok;
 }
 
+// Returns the size of a recording that takes a while to read, 0 for any other and for several.
+std::int64_t bytes_to_show(const std::vector<std::string>& files) {
+  constexpr std::uintmax_t large = 50'000'000;
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(files.front(), none);
+  return files.size() == 1 && !none && size > large ? static_cast<std::int64_t>(size) : 0;
+}
+
 ExitCode import_recording(Options& options) {
   const Messages messages(options.quiet);
   take_pairs(options);
   options.request.join_at_end = options.join == "end";
   if (is_out_dat(options.request.files.front()))
     return tell_kept(import_out_dat(options, messages), options, messages);
+  std::atomic<std::int64_t> read{0};
+  options.request.read = &read;
+  const ProgressBar bar(read, bytes_to_show(options.request.files),
+                        {.each = 1e-6, .unit = "MB", .decimals = 0}, options.quiet);
   if (run::is_on_stand(options.request.experiment))
     return tell_kept(run::import_stand_run(options.request, messages.notices()), options, messages);
   return tell_kept(run::import_run(options.request, messages.notices()), options, messages);

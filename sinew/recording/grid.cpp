@@ -51,6 +51,7 @@ Grid read_grid(std::string bytes, const Source& source) {
             .dialect = {},
             .notes = std::move(text.notes)};
   grid.dialect = dialect_of(*grid.text, source);
+  grid.read = source.read;
   grid.notes.insert(grid.notes.end(), grid.dialect.notes.begin(), grid.dialect.notes.end());
   return grid;
 }
@@ -68,6 +69,7 @@ bool Body::fits(Row& row) {
 
 bool Body::next(Row& row) {
   while (reader_.next(row)) {
+    if (grid_.read) grid_.read->store(static_cast<std::int64_t>(row.at), std::memory_order_relaxed);
     if (fits(row)) {
       ++count_;
       return true;

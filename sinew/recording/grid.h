@@ -1,7 +1,9 @@
 // recording/grid.h - a table as cells of text under a header, before anybody asks what they mean.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -20,6 +22,7 @@ struct Grid {
   std::unique_ptr<const std::string> text;  // in UTF-8
   Dialect dialect;
   std::vector<std::string> notes;
+  std::atomic<std::int64_t>* read = nullptr;  // the source's
 
   // Returns the columns, in the order of the file.
   const std::vector<Heading>& headings() const { return dialect.headings; }

@@ -46,8 +46,10 @@ std::string column_of(const std::string& clock) {
 }
 
 // The table; read again where the mapping gives the column that turned out to be the clock a unit.
-RawTable read_table(const std::string& path, const Mapping& mapping) {
+RawTable read_table(const std::string& path, const Mapping& mapping,
+                    std::atomic<std::int64_t>* read) {
   Source source = source_of(path, mapping);
+  source.read = read;
   RawTable table = recording::read_table(source);
   const std::string column = column_of(table.clock);
   const auto row = std::ranges::find(mapping.columns, column, &ColumnMapping::name);
@@ -57,8 +59,9 @@ RawTable read_table(const std::string& path, const Mapping& mapping) {
   return recording::read_table(source);
 }
 
-Recorded read_text(const std::string& path, const Mapping& mapping) {
-  RawTable table = read_table(path, mapping);
+Recorded read_text(const std::string& path, const Mapping& mapping,
+                   std::atomic<std::int64_t>* read) {
+  RawTable table = read_table(path, mapping, read);
   if (table.time.empty())
     config::fail({path, 0, 0}, "time", "no column of times",
                  "one that is called time, t or Zeit, or dates",
@@ -145,7 +148,8 @@ Source source_of(const std::string& path, const Mapping& mapping) {
   return out;
 }
 
-Recorded read_recording(const std::string& path, const Mapping& mapping) {
+Recorded read_recording(const std::string& path, const Mapping& mapping,
+                        std::atomic<std::int64_t>* read) {
   const std::string bytes = first_bytes(path);
   if (bytes.starts_with(log::kMagic)) {
     refuse_table_settings(path, "an MCAP log", mapping);
@@ -155,7 +159,7 @@ Recorded read_recording(const std::string& path, const Mapping& mapping) {
     refuse_table_settings(path, "a MAT file", mapping);
     return read_matlab(path, {mapping.clock.column, mapping.clock.unit, mapping.clock.rate});
   }
-  return read_text(path, mapping);
+  return read_text(path, mapping, read);
 }
 
 }  // namespace sinew::recording

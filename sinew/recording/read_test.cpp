@@ -1,5 +1,6 @@
 #include "sinew/recording/read.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -214,6 +215,14 @@ TEST_F(ReadTest, ARunsFolderIsReadAsItsExportedTable) {
       none.find("found a folder; expected measurements as CSV, or a run's folder with log.mcap"),
       std::string::npos)
       << none;
+}
+
+TEST_F(ReadTest, CountsTheBytesOfATableForWhoeverLooks) {
+  std::string csv = "time [s],force [N]\n";
+  for (int i = 0; i < 1000; ++i) csv += fmt::format("{},{}\n", i, 2 * i);
+  std::atomic<std::int64_t> read{-1};
+  EXPECT_EQ(read_recording(put("counted.csv", csv), {}, &read).columns.at(0).values.size(), 1000u);
+  EXPECT_EQ(read, static_cast<std::int64_t>(csv.rfind("999,")));
 }
 
 }  // namespace

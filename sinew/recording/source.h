@@ -2,6 +2,8 @@
 // what the file itself does not say.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -32,6 +34,7 @@ struct Source {
   bool spread_times = false;  // rows that share a time are spread evenly up to the next one
   int part = 0;        // of several recordings in the file, 1 for the first; 0: there is but one
   double largest = 0;  // bytes that are read at most; 0: what this computer's memory can take
+  std::atomic<std::int64_t>* read = nullptr;  // counts the bytes of the text, where somebody looks
 };
 
 // Throws config::Error for a setting whose words are none of these.

@@ -14,6 +14,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 // What bash offers for the last of the words.
 std::vector<std::string> offered(const Workspace& w, const Words& words) {
@@ -94,6 +95,31 @@ TEST(Completion, OffersTheWordsOfAKeyBehindIt) {
   EXPECT_THAT(offered(w, {"run", file, "--set", "air.supply.kind", "="}), Contains("tank"));
   EXPECT_THAT(offered(w, {"run", file, "--set", "joint.lever.damping", "=", ""}), IsEmpty());
   EXPECT_THAT(offered(w, {"run", file, "--output", "x", "=", ""}), IsEmpty());
+}
+
+// Sets of units may be followed by more, which no shell can list.
+TEST(Completion, OffersTheSetsOfUnits) {
+  const Workspace w;
+  EXPECT_THAT(offered(w, {"run", "--units", ""}), ElementsAre("si", "thesis", "metric"));
+  EXPECT_THAT(offered(w, {"identify", "static", "--units", "t"}), ElementsAre("thesis"));
+}
+
+TEST(Completion, FishOffersTheSame) {
+  if (std::system("command -v fish >/dev/null") != 0) GTEST_SKIP() << "fish is not installed";
+  const Workspace w;
+  write_text(w / "script", w.sinew({"completion", "fish"}).out);
+  const auto offered_by_fish = [&](const std::string& line) {
+    write_text(w / "ask", "set -x PATH " + fs::path(SINEW_PROGRAM).parent_path().string() +
+                              " $PATH; source script; complete -C '" + line + "'\n");
+    const std::string where = "cd '" + w.path().string() + "' && fish ask >out 2>&1";
+    EXPECT_EQ(std::system(where.c_str()), 0);
+    return read_text(w / "out");
+  };
+  EXPECT_THAT(offered_by_fish("sinew run --units t"), StartsWith("thesis"));
+  EXPECT_THAT(offered_by_fish("sinew run experiments/one-joint.toml --set air.supply.kind=t"),
+              StartsWith("air.supply.kind=tank"));
+  EXPECT_THAT(offered_by_fish("sinew run experiments/one-joint.toml --set joint.lever.dampi"),
+              StartsWith("joint.lever.damping="));
 }
 
 // Nothing of a file is run, whatever its keys are; a file that is wrong has none.

@@ -53,7 +53,7 @@ recording::Assembled read(const ImportRequest& request, const std::vector<signal
   for (const std::string& file : request.files) {
     if (std::ranges::count(request.files, file) > 1)
       config::fail({file, 0, 0}, "", "the same file a second time", "each file once");
-    files.push_back(recording::read_recording(file, mapping));
+    files.push_back(recording::read_recording(file, mapping, request.read));
   }
   return recording::assemble(
       files, mapping, topics,

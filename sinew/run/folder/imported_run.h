@@ -10,6 +10,8 @@
 // has otherwise is filled in (filled_channels.h).
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -34,6 +36,7 @@ struct ImportRequest {
   std::string save_mapping;  // a file for what the columns were taken for; empty: none
   std::string folder;        // as RunRequest's
   bool force = false;
+  std::atomic<std::int64_t>* read = nullptr;  // counts the bytes of a table while it is read
 };
 
 // Keeps recordings of a machine, or of a test stand (is_on_stand says which), as a run. Throws
