@@ -60,21 +60,41 @@ bool is_parameter_file(const std::string& path) {
 
 void print_models(const identify::Report& report) {
   using enum report::TextTable::Align;
-  report::TextTable table(
-      {"model", "parameters", "fit rmse", "max", "held out rmse", "max", "cross-validated", ""},
-      {left, right, right, right, right, right, right, left});
-  const auto percent = [](double x) { return fmt::format("{:.2f} %", x); };
+  const bool ends = std::ranges::any_of(
+      report.fits, [](const identify::Fit& f) { return f.extrapolated.has_value(); });
+  std::vector<std::string> head = {"model",         "parameters", "fit rmse",       "max",
+                                   "held out rmse", "max",        "cross-validated"};
+  if (ends) head.emplace_back("at the ends");
+  head.emplace_back();
+  std::vector<report::TextTable::Align> align(head.size(), right);
+  align.front() = align.back() = left;
+  report::TextTable table(head, align);
+
+  const auto rmse = [](const std::optional<identify::Score>& score) {
+    return score ? fmt::format("{:.2f} %", score->rmse_percent) : std::string("-");
+  };
+  const auto most = [](const std::optional<identify::Score>& score) {
+    return score ? fmt::format("{:.2f} %", score->max_percent) : std::string("-");
+  };
   for (std::size_t i = 0; i < report.fits.size(); ++i) {
     const identify::Fit& f = report.fits[i];
     if (!f.refused.empty()) {
-      table.add({f.model, "-", "-", "-", "-", "-", "-", as_options(f.refused)});
+      std::vector<std::string> row(head.size(), "-");
+      row.front() = f.model;
+      row.back() = as_options(f.refused);
+      table.add(row);
       continue;
     }
-    table.add({f.model, std::to_string(f.parameters.size()), percent(f.fit.rmse_percent),
-               percent(f.fit.max_percent), f.held_out ? percent(f.held_out->rmse_percent) : "-",
-               f.held_out ? percent(f.held_out->max_percent) : "-",
-               f.cross_validated ? percent(f.cross_validated->rmse_percent) : "-",
-               i == report.chosen ? "<- chosen" : ""});
+    std::vector<std::string> row = {f.model,
+                                    std::to_string(f.parameters.size()),
+                                    rmse(f.fit),
+                                    most(f.fit),
+                                    rmse(f.held_out),
+                                    most(f.held_out),
+                                    rmse(f.cross_validated)};
+    if (ends) row.push_back(rmse(f.extrapolated));
+    row.push_back(i == report.chosen ? "<- chosen" : f.not_chosen);
+    table.add(row);
   }
   fmt::print("{}", table.text());
 }

@@ -45,12 +45,12 @@ class Part {
       element('div', { class: 'chosen' }, element('span', { class: 'quiet' }, 'chosen'), element('b', {}, report.chosen),
         element('code', {}, best.law), element('span', { class: 'quiet' }, best.source)),
       figure('error of the fit, rms', best.fit), figure('held out', best.held_out),
-      figure('cross-validated', best.cross_validated));
+      figure('cross-validated', best.cross_validated), figure('lengths at the ends, not seen', best.extrapolated));
   }
 
   models() {
     const { report } = this;
-    const kinds = [['fit', 'fit, rms'], ['held_out', 'held out, rms'], ['cross_validated', 'cross-validated']]
+    const kinds = [['fit', 'fit, rms'], ['held_out', 'held out, rms'], ['cross_validated', 'cross-validated'], ['extrapolated', 'at the ends']]
       .filter(([key]) => report.models.some((m) => m[key]));
     const score = (s) => [cell(percent(s?.rmse_percent), 'number'), cell(percent(s?.max_percent), 'number quiet')];
     const rows = report.models.map((m) => {
@@ -60,7 +60,7 @@ class Part {
           element('td', {}));
       return element('tr', { class: m.model === report.chosen ? 'is-chosen' : null }, head, cell(String(m.parameters.length), 'number'),
         ...kinds.flatMap(([key]) => score(m[key])),
-        element('td', {}, m.model === report.chosen ? element('span', { class: 'tag fit' }, 'chosen') : ''));
+        element('td', {}, m.model === report.chosen ? element('span', { class: 'tag fit' }, 'chosen') : m.not_chosen ?? ''));
     });
     const why = [report.models.length > 1 && report.rule && `Chosen: ${report.rule}.`,
                  report.held_out_is && `Held out: ${report.held_out_is}.`].filter(Boolean).join(' ');

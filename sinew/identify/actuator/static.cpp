@@ -20,6 +20,11 @@ using Points = std::vector<StaticPoint>;
 
 constexpr int pressure_parts = 4;
 
+// At their bounds these do not make another law of a law. Zero is an answer for branches that lie
+// on each other and for ends that take nothing. The braid's thread at the shortest that a braid can
+// have still fits where the data are; describe() tells it.
+constexpr std::string_view may_be_at_bound[] = {"half_width", "end_loss", "thread_length"};
+
 template <class Keep>
 StaticSplit split(const Points& points, Keep keep) {
   StaticSplit out;
@@ -117,44 +122,84 @@ double mean_square(std::span<const double> residuals) {
   return residuals.empty() ? 0 : sum / static_cast<double>(residuals.size());
 }
 
-// Pressures in four parts, lengths each on its own; both kinds count alike.
-Score cross_validate(const Tried& model, const Points& points, const StaticFit& whole,
-                     double full_scale, std::vector<std::string>& notes) {
+// Parts of the points: -1 for those at the ends, which are always fitted. Fewer than three groups
+// have nothing between their ends: each is a part then.
+std::vector<int> interior_pressures(const Points& points) {
   std::vector<int> part = pressure_groups(points);
-  const int pressures = count_of(part);
-  for (int& p : part) p %= pressure_parts;
-  std::vector<double> all = model.cross(points, part, pressure_parts, whole);
-  double square = mean_square(all);
-  notes.push_back(fmt::format("pressures that it did not see, {} groups in {} parts: {:.2f} % rmse",
-                              pressures, pressure_parts, 100 * std::sqrt(square) / full_scale));
+  const int last = *std::max_element(part.begin(), part.end());
+  if (last < 2) return part;
+  for (int& p : part) p = p == 0 || p == last ? -1 : p % pressure_parts;
+  return part;
+}
 
-  const std::vector<int> length = length_groups(points);
-  const int lengths = count_of(length);
-  if (lengths >= 3) {
-    std::vector<double> left_out;
-    std::string each;
-    for (int k = 0; k < lengths; ++k) {
-      std::vector<int> mine(points.size(), 1);
-      double at = 0;
-      for (std::size_t i = 0; i < points.size(); ++i)
-        if (length[i] == k) {
-          mine[i] = 0;
-          at = points[i].length;
-        }
-      const std::vector<double> r = model.cross(points, mine, 1, whole);
-      const Score s = score(r, full_scale);
-      each += fmt::format("{}{:.4g} mm {:.2f}/{:.2f}", k ? ", " : "", 1e3 * at, s.rmse_percent,
-                          s.max_percent);
-      left_out.insert(left_out.end(), r.begin(), r.end());
-    }
-    notes.push_back("lengths that it did not see, rmse/max %: " + each);
-    square = 0.5 * (square + mean_square(left_out));
-    all.insert(all.end(), left_out.begin(), left_out.end());
+// A length of one muscle.
+struct Mount {
+  double length = 0, rest_length = 0;
+  int group = 0;
+  bool at_end = false;  // the longest or the shortest of its muscle
+};
+
+std::vector<Mount> mounts_of(const Points& points, const std::vector<int>& group) {
+  std::vector<Mount> out;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (std::ranges::find(out, group[i], &Mount::group) == out.end())
+      out.push_back({points[i].length, points[i].rest_length, group[i]});
+  for (Mount& m : out) {
+    const auto beyond = [&](int sign) {
+      return std::ranges::any_of(out, [&](const Mount& other) {
+        return other.rest_length == m.rest_length && sign * (other.length - m.length) > 0;
+      });
+    };
+    m.at_end = !beyond(1) || !beyond(-1);
   }
-  Score out = score(all, full_scale);
-  out.rmse = std::sqrt(square);
-  out.rmse_percent = 100 * out.rmse / full_scale;
   return out;
+}
+
+// What the other lengths make of some of them, each left out on its own.
+std::vector<double> cross_lengths(const Tried& model, const Points& points, const StaticFit& whole,
+                                  bool at_end, double full_scale, std::string& each) {
+  const std::vector<int> group = length_groups(points);
+  std::vector<double> out;
+  for (const Mount& mount : mounts_of(points, group)) {
+    if (mount.at_end != at_end) continue;
+    std::vector<int> mine(points.size(), 1);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (group[i] == mount.group) mine[i] = 0;
+    const std::vector<double> r = model.cross(points, mine, 1, whole);
+    const Score s = score(r, full_scale);
+    each += fmt::format("{}{:.4g} mm {:.2f}/{:.2f}", each.empty() ? "" : ", ", 1e3 * mount.length,
+                        s.rmse_percent, s.max_percent);
+    out.insert(out.end(), r.begin(), r.end());
+  }
+  return out;
+}
+
+// Pressures between the lowest and the highest in parts, lengths between the ends of each muscle
+// one by one; both kinds count alike. To leave out an end is to extrapolate, which is told apart.
+void cross_validate(const Tried& model, const Points& points, const StaticFit& whole,
+                    double full_scale, Fit& fit) {
+  const std::vector<int> part = interior_pressures(points);
+  const int parts = 1 + *std::max_element(part.begin(), part.end());
+  std::vector<double> all = model.cross(points, part, parts, whole);
+  double square = mean_square(all);
+  fit.notes.push_back(fmt::format("pressures between the ends that it did not see: {:.2f} % rmse",
+                                  100 * std::sqrt(square) / full_scale));
+
+  std::string inside, ends;
+  const auto between = cross_lengths(model, points, whole, false, full_scale, inside);
+  if (!between.empty()) {
+    fit.notes.push_back("lengths between the ends that it did not see, rmse/max %: " + inside);
+    square = 0.5 * (square + mean_square(between));
+    all.insert(all.end(), between.begin(), between.end());
+  }
+  fit.cross_validated = score(all, full_scale);
+  fit.cross_validated->rmse = std::sqrt(square);
+  fit.cross_validated->rmse_percent = 100 * fit.cross_validated->rmse / full_scale;
+
+  if (count_of(length_groups(points)) < 3) return;
+  const auto beyond = cross_lengths(model, points, whole, true, full_scale, ends);
+  fit.extrapolated = score(beyond, full_scale);
+  fit.notes.push_back("lengths at the ends that it did not see, rmse/max %: " + ends);
 }
 
 // A law that is used elsewhere must grow with the pressure.
@@ -178,6 +223,11 @@ void describe(const StaticFit& fit, Fit& out) {
       if (fit.knobs[i] == knob)
         out.notes.push_back(fmt::format("{} leans on other muscles: these data say little about it",
                                         out.parameters[i].name));
+  for (const Estimate& e : out.parameters)
+    if (e.name == "thread_length" && e.at_bound)
+      out.notes.push_back(
+          "thread_length stands at the shortest that a braid can have: the law holds for the "
+          "lengths that were measured, and says little of the air in the muscle");
   for (const std::string& unseen : fit.solution.unseen)
     out.notes.push_back("not determined: " + unseen);
   if (fit.outliers > 0)
@@ -221,7 +271,8 @@ Fit try_model(const StaticModel& model, const StaticSplit& s, const StaticScales
     const std::vector<double> unseen = misses(fit.setting, own, s.held_out);
     out.residuals.insert(out.residuals.end(), unseen.begin(), unseen.end());
     out.held_out = held_out(tried, fit, s, hold_out, full_scale);
-    out.cross_validated = cross_validate(tried, s.fitted, fit, full_scale, out.notes);
+    cross_validate(tried, s.fitted, fit, full_scale, out);
+    keep_off_bounds(out, may_be_at_bound);
     found = {fit, own};
   } catch (const Refusal& refusal) {
     out.refused = refusal.what();

@@ -1,10 +1,12 @@
 // identify/actuator/static.h - the static law of an actuator from force, length and pressure: every
 // model is tried, the data choose.
 //
-// Choice: each model predicts parts of the data it was not fitted to - every pressure once in four
-// parts, every length once on its own - and the one with the fewest parameters within 10 % of the
-// smallest error (root mean square over both kinds, alike) is taken. What is held out by the user
-// (StaticPoint::fitted) has no part in it and tells how good the result is.
+// Choice: each model predicts parts of the data it was not fitted to - pressures in four parts,
+// lengths one by one, the lowest and the highest of both left in - and the one with the fewest
+// parameters within 10 % of the smallest error (root mean square over both kinds, alike) is taken.
+// A law of which a parameter stands at the bound of its range is none for the data and is not
+// chosen. The end lengths, predicted by the others, are told apart: that is extrapolation. What is
+// held out by the user (StaticPoint::fitted) has no part in it and tells how good the result is.
 #pragma once
 
 #include <optional>

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sinew/identify/fit/refusal.h"
@@ -45,6 +46,32 @@ By measure(const Report& report) {
   return cross ? By::cross_validation : held_out ? By::held_out : By::fit;
 }
 
+// Those that may be chosen. Where each has a reason not to be, all of them.
+std::vector<const Fit*> eligible(const Report& report) {
+  std::vector<const Fit*> all, out;
+  for (const Fit& fit : report.fits) {
+    if (!usable(fit)) continue;
+    all.push_back(&fit);
+    if (fit.not_chosen.empty()) out.push_back(&fit);
+  }
+  if (!out.empty() || all.empty()) return out;
+  return all;
+}
+
+// How close those behind the chosen one are; the errors are in ascending order.
+std::string runners_up(const std::vector<const Fit*>& fits, const Fit& chosen, By by) {
+  constexpr std::size_t most = 3;
+  std::string out;
+  std::size_t count = 0;
+  for (const Fit* fit : fits) {
+    if (fit == &chosen || count == most) continue;
+    const double ratio = error_of(*fit, by) / error_of(chosen, by);
+    out += fmt::format("{}{} {:.2f} times its error", count++ == 0 ? "; next: " : ", ", fit->model,
+                       ratio);
+  }
+  return error_of(chosen, by) > 0 ? out : "";
+}
+
 // Each reason once, with the models that it stands for.
 [[noreturn]] void refuse_all(const Report& report) {
   std::string all;
@@ -67,30 +94,39 @@ By measure(const Report& report) {
 
 void choose(Report& report, double tolerance, double negligible) {
   const By by = measure(report);
-  const Fit* smallest = nullptr;
-  for (const Fit& fit : report.fits)
-    if (usable(fit) && (!smallest || error_of(fit, by) < error_of(*smallest, by))) smallest = &fit;
-  if (!smallest) refuse_all(report);
+  std::vector<const Fit*> fits = eligible(report);
+  if (fits.empty()) refuse_all(report);
+  std::ranges::stable_sort(fits, {}, [&](const Fit* fit) { return error_of(*fit, by); });
 
-  const double near = (1 + tolerance) * error_of(*smallest, by);
-  const double limit = std::max(near, negligible);
-  const Fit* chosen = smallest;
-  for (const Fit& fit : report.fits)
-    if (usable(fit) && error_of(fit, by) <= limit &&
-        fit.parameters.size() < chosen->parameters.size())
-      chosen = &fit;
+  const double smallest = error_of(*fits.front(), by);
+  const double near = (1 + tolerance) * smallest, limit = std::max(near, negligible);
+  const Fit* chosen = fits.front();
+  for (const Fit* fit : fits)
+    if (error_of(*fit, by) <= limit && fit->parameters.size() < chosen->parameters.size())
+      chosen = fit;
 
+  if (!chosen->not_chosen.empty())
+    report.warnings.push_back(fmt::format("no law is free of a reason not to choose it; {}: {}",
+                                          chosen->model, chosen->not_chosen));
   report.chosen = static_cast<std::size_t>(chosen - report.fits.data());
   report.rule = fmt::format(
       "fewest parameters among those whose {} error is {}: {} has {} and {:.3g} %, the smallest is "
-      "{:.3g} % ({})",
+      "{:.3g} % ({}){}",
       by == By::cross_validation ? "cross-validated"
       : by == By::held_out       ? "held-out"
                                  : "fit",
       near < negligible ? fmt::format("below {:.2g} %, where it says nothing", negligible)
                         : fmt::format("within {:.0f} % of the smallest", 100 * tolerance),
-      chosen->model, chosen->parameters.size(), error_of(*chosen, by), error_of(*smallest, by),
-      smallest->model);
+      chosen->model, chosen->parameters.size(), error_of(*chosen, by), smallest,
+      fits.front()->model, runners_up(fits, *chosen, by));
+}
+
+void keep_off_bounds(Fit& fit, std::span<const std::string_view> but_for) {
+  std::string names;
+  for (const Estimate& e : fit.parameters)
+    if (e.at_bound && std::ranges::find(but_for, e.name) == but_for.end())
+      names += (names.empty() ? "" : ", ") + e.name;
+  if (!names.empty()) fit.not_chosen = names + " at the bound of its range";
 }
 
 void refuse_unexplained(const Report& report, double percent, const std::string& try_this) {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sinew/identify/fit/least_squares.h"
@@ -31,9 +33,13 @@ struct Fit {
   std::optional<Score> held_out;
   // Parts of what was fitted, predicted by the rest; a method's own way, told in `notes`.
   std::optional<Score> cross_validated;
+  // The ends of the data, predicted by what lies between them. It has no part in the choice: a
+  // law that ends badly may be the best one where it is used.
+  std::optional<Score> extrapolated;
   std::vector<double> residuals;   // predicted - measured, of Report::rows; none: not told
   std::vector<std::string> notes;  // what one should know about this fit
   std::string refused;             // why this model cannot be had from the data; empty: it can
+  std::string not_chosen;          // why it is shown and not chosen: a parameter at its bound
 };
 
 // What was measured, for a picture of it: the report's quantity at another one.
@@ -72,9 +78,15 @@ struct Report {
 // The simplest model (fewest parameters) whose cross-validated error - without one the held-out
 // error, without that its fit - is within `tolerance` (relative) of the smallest, or within
 // `negligible` [%]: errors below it say nothing, for instance the converter's steps. Refused models
-// do not count. Writes `chosen` and `rule`.
+// do not count, those with a reason not to be chosen only where no other is left, which is warned
+// of. Writes `chosen` and `rule`, which tells how close the next ones are.
 // Throws Refusal where every model was refused.
 void choose(Report& report, double tolerance = 0.1, double negligible = 0);
+
+// Writes into `not_chosen` which of the fit's parameters stand at the bounds of their ranges, but
+// for those that are named: there the law is not the one that its name says, or the data know
+// nothing of it.
+void keep_off_bounds(Fit& fit, std::span<const std::string_view> but_for = {});
 
 // Throws Refusal if the chosen model leaves a larger error than that where it was fitted: then the
 // data are of something else, or not what their columns say.

@@ -39,6 +39,37 @@ TEST(Choice, IsTheFewestParametersAmongTheGoodOnes) {
   EXPECT_EQ(r.best().model, "five");
 }
 
+TEST(Choice, TellsHowCloseTheNextOnesAre) {
+  Report r{.fits = {model("one", 1, 3.0), model("two", 2, 1.05), model("five", 5, 1.0),
+                    model("six", 6, 1.26), model("seven", 7, 9)}};
+  choose(r);
+  EXPECT_NE(r.rule.find("two has 2 and 1.05 %, the smallest is 1 % (five); next: five 0.95 times "
+                        "its error, six 1.20 times its error, one 2.86 times its error"),
+            std::string::npos)
+      << r.rule;
+}
+
+// A law with a parameter at the end of its range is another law, or the data say nothing of it.
+TEST(Choice, LeavesOutWhatStandsAtItsBounds) {
+  Report r{.fits = {model("one", 1, 2.0), model("two", 2, 1.0)}};
+  r.fits[1].parameters[0] = {.name = "gain", .at_bound = true};
+  Fit free_of_it = r.fits[1];
+  keep_off_bounds(free_of_it, std::vector<std::string_view>{"gain"});
+  EXPECT_EQ(free_of_it.not_chosen, "");
+  keep_off_bounds(r.fits[1]);
+  EXPECT_EQ(r.fits[1].not_chosen, "gain at the bound of its range");
+  choose(r);
+  EXPECT_EQ(r.best().model, "one");
+  EXPECT_TRUE(r.warnings.empty());
+
+  r.fits[0].not_chosen = "slope at the bound of its range";
+  choose(r);  // something is better than nothing, and it is told
+  EXPECT_EQ(r.best().model, "two");
+  ASSERT_EQ(r.warnings.size(), 1u);
+  EXPECT_EQ(r.warnings[0],
+            "no law is free of a reason not to choose it; two: gain at the bound of its range");
+}
+
 TEST(Choice, RefusesWhenNothingIsLeftAndSaysEachReasonOnce) {
   Report r{.subject = "law", .fits = {model("a", 1, 1), model("b", 2, 1), model("c", 3, 1)}};
   r.fits[0].refused = r.fits[2].refused = "one length only";

@@ -37,6 +37,8 @@ Json to_json(const Fit& fit) {
   out["fit"] = to_json(fit.fit);
   if (fit.held_out) out["held_out"] = to_json(*fit.held_out);
   if (fit.cross_validated) out["cross_validated"] = to_json(*fit.cross_validated);
+  if (fit.extrapolated) out["extrapolated"] = to_json(*fit.extrapolated);
+  if (!fit.not_chosen.empty()) out["not_chosen"] = fit.not_chosen;
   if (!fit.notes.empty()) out["notes"] = fit.notes;
   return out;
 }
@@ -61,7 +63,8 @@ Json to_json(const Report& report) {
 
   // The chosen one once more, where a program looks first.
   const Json best = to_json(report.best());
-  for (const char* key : {"model", "parameters", "fit", "held_out", "cross_validated"})
+  for (const char* key :
+       {"model", "parameters", "fit", "held_out", "cross_validated", "extrapolated"})
     if (best.contains(key)) out[key] = best[key];
   return out;
 }
