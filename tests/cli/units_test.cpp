@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <regex>
 #include <sstream>
 
 #include "tests/cli/json.h"
@@ -207,6 +208,18 @@ TEST(Units, AnIdentificationShowsWhatItFoundInThem) {
   const Words weights = {"identify", "sensor", "weights.csv", "--quiet"};
   EXPECT_THAT(w.sinew(weights).out, HasSubstr("scale [V/lbf]"));
   EXPECT_THAT(w.sinew(with(weights, {"--units", "metric"})).out, HasSubstr("scale [mV/N]"));
+}
+
+// Metric times are in ms; a difference of some seconds is not.
+TEST(Units, ALongTimesDifferenceIsInSeconds) {
+  const Workspace w;
+  const Words run = {"run", "experiments/one-joint.toml", "--quiet", "--no-report", "-o"};
+  ASSERT_EQ(w.sinew(with(run, {"once"})).code, 0);
+  ASSERT_EQ(w.sinew(with(run, {"twice", "--set", "sequence.repeat=2"})).code, 0);
+  const std::string out = w.sinew({"compare", "once", "twice", "--units", "metric", "--quiet"}).out;
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(out, found, std::regex("\n *duration_s +([^\n]*)"))) << out;
+  EXPECT_THAT(found[1].str(), AllOf(HasSubstr(" s "), Not(HasSubstr(" ms")))) << out;
 }
 
 // Digits that nobody wrote are not shown, and no bit is lost on the way through resolved.toml.

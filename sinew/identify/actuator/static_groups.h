@@ -14,6 +14,15 @@ struct StaticSplit {
   std::vector<StaticPoint> fitted, held_out;
 };
 
+// Parts the points: those whose index `keep` takes are fitted.
+template <class Keep>
+StaticSplit split(const std::vector<StaticPoint>& points, Keep keep) {
+  StaticSplit out;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    (keep(i) ? out.fitted : out.held_out).push_back(points[i]);
+  return out;
+}
+
 // Of each point its group, counted from the smallest.
 std::vector<int> pressure_groups(const std::vector<StaticPoint>& points);
 // Lengths of different muscles are different lengths.

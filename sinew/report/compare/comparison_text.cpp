@@ -57,6 +57,13 @@ std::string with_unit(double number, int digits, const ShownUnit& unit) {
   return fmt::format("{:.{}g}{}{}", number, digits, unit.name.empty() ? "" : " ", unit.name);
 }
 
+// The usual unit of a difference; from 1000 of it on a larger one where there is one: 26.6 s
+// instead of 26582 ms.
+ShownUnit unit_of_difference(const ShownUnits& units, const std::string& unit, double si) {
+  const ShownUnit usual = units.of_difference(unit);
+  return std::abs(usual.of(si)) < 1000 ? usual : units.of_difference(unit, std::abs(si));
+}
+
 // A figure's value and difference in the units that are shown.
 class Figure {
  public:
@@ -70,7 +77,7 @@ class Figure {
     if (other == first) return "=";
     const double d = other - first;
     if (unit_ == "share") return signed_text(fmt::format("{:.3g} points", 100 * d), d);
-    const ShownUnit shown = units_.of_difference(unit_);
+    const ShownUnit shown = unit_of_difference(units_, unit_, d);
     return signed_text(with_unit(shown.of(d), digits_of(shown.of(d)), shown), d);
   }
   // Beside a gauge pressure, whose zero is the room's, a share of the absolute one would mislead.
@@ -289,7 +296,7 @@ std::string note_of(const analysis::Difference& d) {
 
 // A log may hold units that only its maker knows: they are shown as they are.
 std::string difference_text(double si, const std::string& unit, const ShownUnits& units) {
-  const ShownUnit shown = units.of_difference(unit);
+  const ShownUnit shown = unit_of_difference(units, unit, si);
   return with_unit(shown.of(si), digits_of(shown.of(si)), shown);
 }
 
