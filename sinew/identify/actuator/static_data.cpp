@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "sinew/config/quantity.h"
+#include "sinew/identify/actuator/static_settled.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/refusal.h"
 
@@ -20,6 +21,7 @@ constexpr int bins = 25;           // over the range of pressures
 constexpr std::size_t fewest = 3;  // samples in a bin
 constexpr double largest_zero_force = 0.25;     // of the range of forces: more is no zero
 constexpr double largest_zero_pressure = 0.05;  // of the range of pressures
+constexpr int fewest_rests = 6;                 // of a recording that goes from level to level
 
 constexpr std::pair<std::string_view, double> branch_words[] = {{"fill", 1.0}, {"vent", -1.0}};
 
@@ -178,11 +180,13 @@ Zero vented_start(const std::vector<double>& p, const std::vector<double>& f, St
   return zero;
 }
 
-// One branch, rows from ... to: its bins.
-void add_branch(const std::vector<double>& p, const std::vector<double>& f, std::size_t from,
-                std::size_t to, double width, const StaticPoint& like, StaticData& data) {
+// One branch, rows from ... to: its bins, of samples that have settled.
+void add_branch(const std::vector<double>& p, const std::vector<double>& f,
+                const std::vector<bool>& settled, std::size_t from, std::size_t to, double width,
+                const StaticPoint& like, StaticData& data) {
   std::vector<std::vector<double>> pressures, forces;
   for (std::size_t i = from; i < to; ++i) {
+    if (!settled[i]) continue;
     const auto bin = static_cast<std::size_t>(std::max(0.0, std::floor(p[i] / width + 0.5)));
     if (bin >= pressures.size()) pressures.resize(bin + 1), forces.resize(bin + 1);
     pressures[bin].push_back(p[i]);
@@ -195,6 +199,26 @@ void add_branch(const std::vector<double>& p, const std::vector<double>& f, std:
     point.force = median(forces[bin]);
     data.points.push_back(point);
   }
+}
+
+// Samples at rest, of a recording that goes from level to level. One whose pressure moves slowly
+// all the way has no levels: all of its samples are used, which is told.
+std::vector<bool> choose_samples(const Measured& m, const std::vector<double>& p,
+                                 StaticData& data) {
+  const Settled settled = settled_samples(m["time"], p);
+  if (settled.moving() == 0) return settled.sample;
+  if (settled.rests < fewest_rests) {
+    data.notes.push_back(
+        fmt::format("{}: the pressure moves without resting at levels: every sample is used, and "
+                    "the force may lag behind",
+                    m.file));
+    return std::vector<bool>(p.size(), true);
+  }
+  data.notes.push_back(
+      fmt::format("{}: {} of {} samples left out, as the pressure moves by more than {:.2g} kPa in "
+                  "{:.2g} s",
+                  m.file, settled.moving(), p.size(), settled.most / 1e3, settled.window));
+  return settled.sample;
 }
 
 Zero add_recording(const Measured& m, const StaticInput& input, StaticData& data) {
@@ -210,11 +234,12 @@ Zero add_recording(const Measured& m, const StaticInput& input, StaticData& data
 
   const double range = largest(p) - smallest(p);
   const std::vector<std::size_t> turns = turns_of(smooth(p), turn * range);
+  const std::vector<bool> settled = choose_samples(m, p, data);
   StaticPoint like{.length = length, .rest_length = input.rest_length, .fitted = input.fitted};
   for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
     const std::size_t last = std::min(turns[i + 1], p.size() - 1);
     like.branch = p[last] > p[turns[i]] ? Branch::fill : Branch::vent;
-    add_branch(p, f, turns[i], turns[i + 1], range / bins, like, data);
+    add_branch(p, f, settled, turns[i], turns[i + 1], range / bins, like, data);
   }
   data.notes.push_back(fmt::format("{}: {} branches; zeros {:.3g} N, {:.3g} kPa from {}", m.file,
                                    turns.size() - 1, zero.force, zero.pressure / 1e3,

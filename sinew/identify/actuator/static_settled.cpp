@@ -1,0 +1,76 @@
+#include "sinew/identify/actuator/static_settled.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/identify/data/quality.h"
+
+namespace sinew::identify {
+
+namespace {
+
+constexpr double shortest_window = 0.12;  // [s]
+constexpr double of_range = 0.005;        // of the range of pressures
+constexpr double of_scatter = 6;
+constexpr std::size_t median_reach =
+    7;  // samples on each side that a smoothed one is the median of
+
+std::vector<double> smooth_pressure(std::span<const double> values) {
+  std::vector<double> out(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::size_t reach = std::min({median_reach, i, values.size() - 1 - i});
+    out[i] = median(values.subspan(i - reach, 2 * reach + 1));
+  }
+  return out;
+}
+
+double middle_interval(std::span<const double> time) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
+  return median(steps);
+}
+
+// Of single samples about the smoothed ones.
+double scatter_about(std::span<const double> values, std::span<const double> smooth) {
+  std::vector<double> off;
+  for (std::size_t i = 0; i < values.size(); ++i) off.push_back(std::abs(values[i] - smooth[i]));
+  return 1.4826 * median(off);
+}
+
+// Runs of settled samples that last for a window.
+int rests_of(const std::vector<bool>& settled, std::span<const double> time, double window) {
+  int out = 0;
+  for (std::size_t i = 0; i < settled.size();) {
+    std::size_t end = i;
+    while (end < settled.size() && settled[end] == settled[i]) ++end;
+    if (settled[i] && time[end - 1] - time[i] >= window) ++out;
+    i = end;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::size_t Settled::moving() const {
+  return static_cast<std::size_t>(std::ranges::count(sample, false));
+}
+
+Settled settled_samples(std::span<const double> time, std::span<const double> pressure) {
+  Settled out{.sample = std::vector<bool>(time.size(), true), .window = shortest_window};
+  if (time.size() < 3) return out;
+  const std::vector<double> p = smooth_pressure(pressure);
+  const auto [lowest, highest] = std::ranges::minmax(p);
+  out.window = std::max(shortest_window, 3 * middle_interval(time));
+  out.most = std::max(of_range * (highest - lowest), of_scatter * scatter_about(pressure, p));
+
+  std::size_t from = 0, to = 0;
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    while (time[from] < time[i] - 0.5 * out.window) ++from;
+    while (to + 1 < time.size() && time[to + 1] <= time[i] + 0.5 * out.window) ++to;
+    out.sample[i] = std::abs(p[to] - p[from]) <= out.most;
+  }
+  out.rests = rests_of(out.sample, time, out.window);
+  return out;
+}
+
+}  // namespace sinew::identify
