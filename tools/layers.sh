@@ -43,6 +43,7 @@ layers='
     identify/fit    actuator config
     identify/data   identify/fit recording
     identify/actuator  identify/data
+    identify/check  identify/actuator
     identify/motion identify/data
     identify/joint  identify/data robot
     identify/valve  identify/data gas signals

@@ -1,0 +1,98 @@
+#include "sinew/identify/check/curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace sinew::identify {
+
+namespace {
+
+// Adds a run of points at one pressure as one.
+void add(const std::vector<StaticPoint>& at_one, Curve& curve) {
+  double pressure = 0, force = 0, low = at_one[0].force, high = low;
+  for (const StaticPoint& p : at_one) {
+    pressure += p.pressure / static_cast<double>(at_one.size());
+    force += p.force / static_cast<double>(at_one.size());
+    low = std::min(low, p.force);
+    high = std::max(high, p.force);
+  }
+  curve.pressure.push_back(pressure);
+  curve.force.push_back(force);
+  curve.gap.push_back(high - low);
+}
+
+Curve curve_of(std::vector<StaticPoint> points, double near) {
+  std::stable_sort(points.begin(), points.end(), [](const StaticPoint& a, const StaticPoint& b) {
+    return a.pressure < b.pressure;
+  });
+  Curve out{points[0].rest_length, points[0].length, points[0].branch, {}, {}, {}};
+  std::vector<StaticPoint> at_one;
+  for (const StaticPoint& p : points) {
+    if (!at_one.empty() && p.pressure - at_one[0].pressure > near) {
+      add(at_one, out);
+      at_one.clear();
+    }
+    at_one.push_back(p);
+  }
+  add(at_one, out);
+  return out;
+}
+
+}  // namespace
+
+std::vector<Curve> curves_of(std::vector<StaticPoint> points) {
+  std::vector<Curve> out;
+  if (points.empty()) return out;
+  double longest = 0, top = 0;
+  for (const StaticPoint& p : points) {
+    longest = std::max(longest, p.length);
+    top = std::max(top, p.pressure);
+  }
+  std::vector<double> lengths;
+  for (const StaticPoint& p : points) lengths.push_back(p.length);
+  const std::vector<int> group = groups_of(lengths, 0.002 * longest, 1e9);
+
+  std::vector<std::tuple<double, int, int, std::size_t>> order;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    order.emplace_back(points[i].rest_length, static_cast<int>(points[i].branch), group[i], i);
+  std::sort(order.begin(), order.end());
+  for (std::size_t i = 0; i < order.size();) {
+    const auto [rest, branch, g, first] = order[i];
+    std::vector<StaticPoint> own;
+    for (; i < order.size(); ++i) {
+      const auto [r, b, h, at] = order[i];
+      if (r != rest || b != branch || h != g) break;
+      own.push_back(points[at]);
+    }
+    out.push_back(curve_of(own, 0.01 * top));
+  }
+  return out;
+}
+
+std::optional<double> force_at(const Curve& curve, double pressure) {
+  const std::vector<double>& p = curve.pressure;
+  if (p.size() < 2 || pressure < p.front() || pressure > p.back()) return {};
+  std::size_t i = 1;
+  while (i + 1 < p.size() && p[i] < pressure) ++i;
+  const double share = (pressure - p[i - 1]) / (p[i] - p[i - 1]);
+  return curve.force[i - 1] + share * (curve.force[i] - curve.force[i - 1]);
+}
+
+std::optional<double> threshold_of(const Curve& curve) {
+  const double most = *std::max_element(curve.force.begin(), curve.force.end());
+  double n = 0, p = 0, f = 0, pp = 0, pf = 0;
+  for (std::size_t i = 0; i < curve.force.size(); ++i) {
+    if (!(curve.force[i] > 0.1 * most) || curve.force[i] > 0.7 * most) continue;
+    n += 1;
+    p += curve.pressure[i];
+    f += curve.force[i];
+    pp += curve.pressure[i] * curve.pressure[i];
+    pf += curve.pressure[i] * curve.force[i];
+  }
+  const double slope = (n * pf - p * f) / (n * pp - p * p);
+  if (n < 3 || !(slope > 0)) return {};
+  return (p - f / slope) / n;
+}
+
+}  // namespace sinew::identify

@@ -1,0 +1,180 @@
+// How the curves of the mounts lie to each other, and how much they can tell.
+#include "sinew/identify/check/plausible.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "sinew/identify/check/curves.h"
+
+namespace sinew::identify {
+
+namespace {
+
+double strongest(const std::vector<Curve>& curves) {
+  double out = 0;
+  for (const Curve& c : curves)
+    out = std::max(out, *std::max_element(c.force.begin(), c.force.end()));
+  return out;
+}
+
+// Of pressures that two curves share: how many, at how many the second pulls more by `least`, and
+// by how much less it pulls on the average.
+struct Between {
+  int shared = 0, above = 0, below = 0;
+  double mean = 0;  // second minus first [N]
+};
+
+Between between(const Curve& first, const Curve& second, double least) {
+  Between out;
+  for (std::size_t i = 0; i < first.pressure.size(); ++i) {
+    const auto other = force_at(second, first.pressure[i]);
+    if (!other || std::max(*other, first.force[i]) < 3 * least) continue;
+    ++out.shared;
+    out.above += *other - first.force[i] > least;
+    out.below += *other - first.force[i] < -least;
+    out.mean += *other - first.force[i];
+  }
+  if (out.shared > 0) out.mean /= out.shared;
+  return out;
+}
+
+// A muscle pulls less where it is shorter, at every pressure.
+Check mounts_in_order(const std::vector<Curve>& curves) {
+  const double least = 0.02 * strongest(curves);
+  Check worst{"mounts in order", Light::green, "At every pressure a longer mount pulls more.", ""};
+  for (std::size_t i = 0; i + 1 < curves.size(); ++i) {
+    const Curve &a = curves[i], &b = curves[i + 1];
+    if (a.rest_length != b.rest_length || a.branch != b.branch) continue;
+    const Between d = between(a, b, least);
+    if (d.below == 0) continue;
+    const bool swapped = 2 * d.below > d.shared;
+    if (worst.light == Light::red) continue;
+    worst = {"mounts in order", swapped ? Light::red : Light::yellow,
+             fmt::format("The mount of {:.4g} mm pulls less than that of {:.4g} mm at {} of {} "
+                         "pressures.",
+                         1e3 * b.length, 1e3 * a.length, d.below, d.shared),
+             "Look whether the lengths of the two are exchanged, or their muscles differ."};
+  }
+  return worst;
+}
+
+// Two thirds of full scale between the longest and the shortest pulling length say how far it
+// contracts; by more than four tenths none does.
+Check contraction(const std::vector<Curve>& curves) {
+  std::map<double, std::pair<double, double>> pulling;  // of each muscle: shortest, longest [m]
+  const double least = 0.05 * strongest(curves);
+  for (const Curve& c : curves) {
+    auto& [shortest, longest] = pulling.try_emplace(c.rest_length, 1e300, 0.0).first->second;
+    longest = std::max(longest, c.length);
+    if (*std::max_element(c.force.begin(), c.force.end()) > least)
+      shortest = std::min(shortest, c.length);
+  }
+  double most = 0;
+  for (const auto& [rest, ends] : pulling)
+    if (ends.first < 1e300) most = std::max(most, 1 - ends.first / std::max(rest, ends.second));
+  const std::string text =
+      fmt::format("The muscle still pulls when it is {:.3g} % shorter than at rest.", 100 * most);
+  if (most > 0.42)
+    return {"contraction", Light::red, text,
+            "No braid contracts by that much: give muscles of different lengths a rest_length "
+            "column, and check the unit of the lengths."};
+  if (most > 0.36)
+    return {"contraction", Light::yellow, text, "Check the lengths and the rest length."};
+  return {"contraction", Light::green, text, ""};
+}
+
+// Venting pulls more than filling did at the same pressure.
+Check branches(const std::vector<Curve>& curves) {
+  double difference = 0;
+  int pairs = 0;
+  for (const Curve& a : curves)
+    for (const Curve& b : curves)
+      if (a.branch == Branch::vent && b.branch == Branch::fill && a.length == b.length &&
+          a.rest_length == b.rest_length) {
+        const Between d = between(b, a, 0.005 * strongest(curves));
+        if (d.shared == 0) continue;
+        difference += d.mean;
+        ++pairs;
+      }
+  if (pairs > 0 && difference / pairs < -0.005 * strongest(curves))
+    return {"branches", Light::red,
+            fmt::format("Rows called vent pull {:.3g} N less than those called fill; friction of "
+                        "the braid does the opposite.",
+                        -difference / pairs),
+            "The words of the branch column are exchanged."};
+  double gap = 0, force = 0;
+  for (const Curve& c : curves)
+    for (std::size_t i = 0; i < c.gap.size(); ++i)
+      if (c.gap[i] > 0 && c.force[i] > 0) gap += c.gap[i], force += c.force[i];
+  if (gap > 0.03 * force)
+    return {"branches", Light::yellow,
+            fmt::format("Readings of one length, pressure and branch are {:.2g} % apart.",
+                        100 * gap / force),
+            "Say in a column branch which rows are fill and which are vent."};
+  return {"branches", Light::green, "Readings of one branch agree.", ""};
+}
+
+Check curves_rise(const std::vector<Curve>& curves) {
+  const double most = strongest(curves);
+  int flat = 0, told = 0;
+  for (const Curve& c : curves) {
+    const double high = *std::max_element(c.force.begin(), c.force.end());
+    if (c.force.size() < 4 || high < 0.2 * most) continue;
+    ++told;
+    std::size_t ends = 0;
+    for (const double f : c.force) ends += f > 0.998 * high;
+    flat += ends >= 3 && 4 * ends >= c.force.size();
+  }
+  if (flat > 0)
+    return {"clipped sensor", Light::red,
+            fmt::format("In {} of {} curves the force stays at its highest value while the "
+                        "pressure rises.",
+                        flat, told),
+            "The sensor or its converter is at its end: leave those rows out."};
+  return {"clipped sensor", Light::green, "The force rises up to the highest pressure.", ""};
+}
+
+Check count(const char* name, std::size_t n, std::size_t red, std::size_t yellow,
+            const char* advice) {
+  const Light light = n < red ? Light::red : n < yellow ? Light::yellow : Light::green;
+  return {name, light, fmt::format("There are {}.", n), light == Light::green ? "" : advice};
+}
+
+}  // namespace
+
+void add_curve_checks(const StaticData& data, std::vector<Check>& out) {
+  const std::vector<Curve> curves = curves_of(data.points);
+  out.push_back(mounts_in_order(curves));
+  out.push_back(contraction(curves));
+  out.push_back(branches(curves));
+  out.push_back(curves_rise(curves));
+}
+
+void add_reach_checks(const StaticData& data, std::vector<Check>& out) {
+  std::set<double> lengths;
+  std::size_t pressures = 0;
+  bool fill = false, vent = false;
+  for (const Curve& c : curves_of(data.points)) {
+    lengths.insert(c.length);
+    pressures = std::max(pressures, c.pressure.size());
+    fill = fill || c.branch == Branch::fill;
+    vent = vent || c.branch == Branch::vent;
+  }
+  out.push_back(count("lengths", lengths.size(), 2, 3,
+                      "Measure more mounts: five tell the braid from the bladder."));
+  out.push_back(count("pressures", pressures, 3, 5, "Measure more pressures: ten are good."));
+  if (fill && vent)
+    out.push_back({"both ways", Light::green, "It was filled and vented.", ""});
+  else
+    out.push_back({"both ways", Light::yellow,
+                   fill   ? "It was only filled."
+                   : vent ? "It was only vented."
+                          : "No column says whether it was filled or vented.",
+                   "The hysteresis stays unknown; measure on the way up and down."});
+}
+
+}  // namespace sinew::identify
