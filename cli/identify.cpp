@@ -263,6 +263,7 @@ void add_identify(Command app, Action& action) {
   add_identify_valve(sub, action);
   add_identify_static(sub, action);
   add_identify_creep(sub, action);
+  add_identify_check(sub, action);
 }
 
 }  // namespace sinew::cli

@@ -45,6 +45,7 @@ constexpr const char* lines[] = {
     "valve FILE --upstream 60_psi_gauge",
     "kinematics FILE --angles 0_rad",
     "identify static FILE",
+    "identify check FILE",
     "identify creep FILE",
     "identify dynamic FILE",
     "identify joint FILE",

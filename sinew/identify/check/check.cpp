@@ -58,8 +58,7 @@ std::vector<Check> check_static(const std::vector<CheckedTable>& tables, double 
     }
   if (out.empty())
     out.push_back({"readable", Light::green,
-                   fmt::format("{} points come from {} files.", data.points.size(), tables.size()),
-                   ""});
+                   fmt::format("{} points; files: {}.", data.points.size(), tables.size()), ""});
   for (const std::string& warning : data.warnings)
     out.push_back({"recording", Light::yellow, warning, "Look at the beginning of the recording."});
   out.push_back(repeated(tables));

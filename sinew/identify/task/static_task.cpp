@@ -53,13 +53,19 @@ void refuse_lengths_of_no_file(const std::vector<std::string>& lengths,
   }
 }
 
-// Rows that fit_where names are fitted; the others are held out.
-void read_table(const StaticSettings& settings, const Source& source, bool fitted,
-                StaticData& data) {
+// What the settings say of a file's points.
+StaticInput input_for(const StaticSettings& settings, const Source& source, bool fitted) {
   StaticInput input{.length = length_for(settings.lengths, source), .fitted = fitted};
   if (!settings.rest_length.empty())
     input.rest_length = config::quantity_setting("rest_length", settings.rest_length, "m",
                                                  source.atmosphere, actuator_length);
+  return input;
+}
+
+// Rows that fit_where names are fitted; the others are held out.
+void read_table(const StaticSettings& settings, const Source& source, bool fitted,
+                StaticData& data) {
+  const StaticInput input = input_for(settings, source, fitted);
   const Measured all = read_measured(source, static_columns());
   const std::size_t before = data.points.size();
   add_points(all, input, data);
@@ -133,6 +139,27 @@ StaticFound find_static(const std::vector<Source>& sources, const StaticSettings
   for (std::size_t i = 0; i < out.result.muscles.size(); ++i)
     out.files.push_back(static_file(out.result, i, settings.name,
                                     "sinew identify static " + sources[0].path, settings.actuator));
+  return out;
+}
+
+std::vector<Check> check_before_static(const std::vector<Source>& sources,
+                                       const StaticSettings& settings,
+                                       const std::string& diameter) {
+  if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
+  double across = 0;
+  if (!diameter.empty())
+    across = config::quantity_setting("diameter", diameter, "m", sources[0].atmosphere,
+                                      config::above_zero(1, "of a muscle"));
+  std::vector<CheckedTable> tables;
+  for (const Source& source : sources)
+    tables.push_back({read_measured(source, static_columns()), input_for(settings, source, true)});
+  std::vector<Check> out = check_static(tables, across);
+  try {
+    refuse_lengths_of_no_file(settings.lengths, sources);
+  } catch (const config::Error& error) {
+    out.insert(out.begin(), {"lengths of files", Light::red, error.what(),
+                             "Name a part that one of the files has."});
+  }
   return out;
 }
 

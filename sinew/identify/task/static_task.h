@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sinew/identify/actuator/static.h"
+#include "sinew/identify/check/check.h"
 
 namespace sinew::identify {
 
@@ -31,5 +32,12 @@ struct StaticFound {
 
 // Throws config::Error and Refusal.
 StaticFound find_static(const std::vector<Source>& sources, const StaticSettings& settings);
+
+// Asks the tables what a fit would not: see identify/check/check.h. `diameter` is that of the
+// muscle without pressure, "10 mm"; empty: not known. A length of no file is a red check, too.
+// Throws config::Error for tables that cannot be read.
+std::vector<Check> check_before_static(const std::vector<Source>& sources,
+                                       const StaticSettings& settings,
+                                       const std::string& diameter = "");
 
 }  // namespace sinew::identify

@@ -49,6 +49,27 @@ std::string refusal(const std::function<void()>& ask) {
   return "nothing";
 }
 
+// A length that belongs to no file, and a diameter that the force cannot be of, are told.
+TEST(Task, CheckTellsALengthOfNoFileAndAForceThatIsNotOfTheDiameter) {
+  std::string text = "length [mm],pressure [kPa gauge],force [N]\n";
+  for (const int length : {250, 240, 230})
+    for (int p = 50; p <= 600; p += 50)
+      text += std::to_string(length) + "," + std::to_string(p) + "," +
+              std::to_string(0.9 * p - 3.0 * (250 - length)) + "\n";
+  const auto light_of = [&](const StaticSettings& settings, const std::string& diameter,
+                            const std::string& name) {
+    for (const Check& c : check_before_static(table(text, "rig.csv"), settings, diameter))
+      if (c.name == name) return std::string(word(c.light));
+    return std::string("absent");
+  };
+  EXPECT_EQ(light_of({.lengths = {"other=205 mm"}}, "", "lengths of files"), "red");
+  EXPECT_EQ(light_of({.lengths = {"rig=205 mm"}}, "", "lengths of files"), "absent");
+  EXPECT_EQ(light_of({}, "11 mm", "force unit"), "green");
+  EXPECT_EQ(light_of({}, "40 mm", "force unit"), "red");
+  EXPECT_NE(refusal([&] { check_before_static(table(text), {}, "11 kg"); }).find("diameter"),
+            std::string::npos);
+}
+
 void expect_begins(const std::string& said, const std::string& begin) {
   EXPECT_EQ(said.substr(0, begin.size()), begin);
 }
