@@ -9,7 +9,7 @@ namespace sinew::identify {
 namespace {
 
 // Adds a run of points at one pressure as one.
-void add(const std::vector<StaticPoint>& at_one, Curve& curve) {
+void add(const std::vector<StaticPoint>& at_one, ForceCurve& curve) {
   double pressure = 0, force = 0, low = at_one[0].force, high = low;
   for (const StaticPoint& p : at_one) {
     pressure += p.pressure / static_cast<double>(at_one.size());
@@ -22,11 +22,11 @@ void add(const std::vector<StaticPoint>& at_one, Curve& curve) {
   curve.gap.push_back(high - low);
 }
 
-Curve curve_of(std::vector<StaticPoint> points, double near) {
+ForceCurve curve_of(std::vector<StaticPoint> points, double near) {
   std::stable_sort(points.begin(), points.end(), [](const StaticPoint& a, const StaticPoint& b) {
     return a.pressure < b.pressure;
   });
-  Curve out{points[0].rest_length, points[0].length, points[0].branch, {}, {}, {}};
+  ForceCurve out{points[0].rest_length, points[0].length, points[0].branch, {}, {}, {}};
   std::vector<StaticPoint> at_one;
   for (const StaticPoint& p : points) {
     if (!at_one.empty() && p.pressure - at_one[0].pressure > near) {
@@ -41,8 +41,8 @@ Curve curve_of(std::vector<StaticPoint> points, double near) {
 
 }  // namespace
 
-std::vector<Curve> curves_of(std::vector<StaticPoint> points) {
-  std::vector<Curve> out;
+std::vector<ForceCurve> curves_of(std::vector<StaticPoint> points) {
+  std::vector<ForceCurve> out;
   if (points.empty()) return out;
   double longest = 0, top = 0;
   for (const StaticPoint& p : points) {
@@ -70,7 +70,7 @@ std::vector<Curve> curves_of(std::vector<StaticPoint> points) {
   return out;
 }
 
-std::optional<double> force_at(const Curve& curve, double pressure) {
+std::optional<double> force_at(const ForceCurve& curve, double pressure) {
   const std::vector<double>& p = curve.pressure;
   if (p.size() < 2 || pressure < p.front() || pressure > p.back()) return {};
   std::size_t i = 1;
@@ -79,7 +79,7 @@ std::optional<double> force_at(const Curve& curve, double pressure) {
   return curve.force[i - 1] + share * (curve.force[i] - curve.force[i - 1]);
 }
 
-std::optional<double> threshold_of(const Curve& curve) {
+std::optional<double> threshold_of(const ForceCurve& curve) {
   const double most = *std::max_element(curve.force.begin(), curve.force.end());
   double n = 0, p = 0, f = 0, pp = 0, pf = 0;
   for (std::size_t i = 0; i < curve.force.size(); ++i) {

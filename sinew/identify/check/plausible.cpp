@@ -14,9 +14,9 @@ namespace sinew::identify {
 
 namespace {
 
-double strongest(const std::vector<Curve>& curves) {
+double strongest(const std::vector<ForceCurve>& curves) {
   double out = 0;
-  for (const Curve& c : curves)
+  for (const ForceCurve& c : curves)
     out = std::max(out, *std::max_element(c.force.begin(), c.force.end()));
   return out;
 }
@@ -28,7 +28,7 @@ struct Between {
   double mean = 0;  // second minus first [N]
 };
 
-Between between(const Curve& first, const Curve& second, double least) {
+Between between(const ForceCurve& first, const ForceCurve& second, double least) {
   Between out;
   for (std::size_t i = 0; i < first.pressure.size(); ++i) {
     const auto other = force_at(second, first.pressure[i]);
@@ -43,11 +43,11 @@ Between between(const Curve& first, const Curve& second, double least) {
 }
 
 // A muscle pulls less where it is shorter, at every pressure.
-Check mounts_in_order(const std::vector<Curve>& curves) {
+Check mounts_in_order(const std::vector<ForceCurve>& curves) {
   const double least = 0.02 * strongest(curves);
   Check worst{"mounts in order", Light::green, "At every pressure a longer mount pulls more.", ""};
   for (std::size_t i = 0; i + 1 < curves.size(); ++i) {
-    const Curve &a = curves[i], &b = curves[i + 1];
+    const ForceCurve &a = curves[i], &b = curves[i + 1];
     if (a.rest_length != b.rest_length || a.branch != b.branch) continue;
     const Between d = between(a, b, least);
     if (d.below == 0) continue;
@@ -64,10 +64,10 @@ Check mounts_in_order(const std::vector<Curve>& curves) {
 
 // Two thirds of full scale between the longest and the shortest pulling length say how far it
 // contracts; by more than four tenths none does.
-Check contraction(const std::vector<Curve>& curves) {
+Check contraction(const std::vector<ForceCurve>& curves) {
   std::map<double, std::pair<double, double>> pulling;  // of each muscle: shortest, longest [m]
   const double least = 0.05 * strongest(curves);
-  for (const Curve& c : curves) {
+  for (const ForceCurve& c : curves) {
     auto& [shortest, longest] = pulling.try_emplace(c.rest_length, 1e300, 0.0).first->second;
     longest = std::max(longest, c.length);
     if (*std::max_element(c.force.begin(), c.force.end()) > least)
@@ -88,11 +88,11 @@ Check contraction(const std::vector<Curve>& curves) {
 }
 
 // Venting pulls more than filling did at the same pressure.
-Check branches(const std::vector<Curve>& curves) {
+Check branches(const std::vector<ForceCurve>& curves) {
   double difference = 0;
   int pairs = 0;
-  for (const Curve& a : curves)
-    for (const Curve& b : curves)
+  for (const ForceCurve& a : curves)
+    for (const ForceCurve& b : curves)
       if (a.branch == Branch::vent && b.branch == Branch::fill && a.length == b.length &&
           a.rest_length == b.rest_length) {
         const Between d = between(b, a, 0.005 * strongest(curves));
@@ -107,7 +107,7 @@ Check branches(const std::vector<Curve>& curves) {
                         -difference / pairs),
             "The words of the branch column are exchanged."};
   double gap = 0, force = 0;
-  for (const Curve& c : curves)
+  for (const ForceCurve& c : curves)
     for (std::size_t i = 0; i < c.gap.size(); ++i)
       if (c.gap[i] > 0 && c.force[i] > 0) gap += c.gap[i], force += c.force[i];
   if (gap > 0.03 * force)
@@ -118,10 +118,10 @@ Check branches(const std::vector<Curve>& curves) {
   return {"branches", Light::green, "Readings of one branch agree.", ""};
 }
 
-Check curves_rise(const std::vector<Curve>& curves) {
+Check curves_rise(const std::vector<ForceCurve>& curves) {
   const double most = strongest(curves);
   int flat = 0, told = 0;
-  for (const Curve& c : curves) {
+  for (const ForceCurve& c : curves) {
     const double high = *std::max_element(c.force.begin(), c.force.end());
     if (c.force.size() < 4 || high < 0.2 * most) continue;
     ++told;
@@ -147,7 +147,7 @@ Check count(const char* name, std::size_t n, std::size_t red, std::size_t yellow
 }  // namespace
 
 void add_curve_checks(const StaticData& data, std::vector<Check>& out) {
-  const std::vector<Curve> curves = curves_of(data.points);
+  const std::vector<ForceCurve> curves = curves_of(data.points);
   out.push_back(mounts_in_order(curves));
   out.push_back(contraction(curves));
   out.push_back(branches(curves));
@@ -158,7 +158,7 @@ void add_reach_checks(const StaticData& data, std::vector<Check>& out) {
   std::set<double> lengths;
   std::size_t pressures = 0;
   bool fill = false, vent = false;
-  for (const Curve& c : curves_of(data.points)) {
+  for (const ForceCurve& c : curves_of(data.points)) {
     lengths.insert(c.length);
     pressures = std::max(pressures, c.pressure.size());
     fill = fill || c.branch == Branch::fill;

@@ -62,7 +62,7 @@ Check pressure_unit(const Reach& r) {
 Check gauge_or_absolute(const StaticData& data, const Reach& r) {
   double longest = 0, threshold = -1e300, first = 0, rest = 0;
   for (const StaticPoint& p : data.points) rest = std::max(rest, p.rest_length);
-  for (const Curve& c : curves_of(data.points))
+  for (const ForceCurve& c : curves_of(data.points))
     if (const auto start = threshold_of(c); start && c.length >= longest) {
       longest = c.length;
       threshold = std::max(threshold, *start);
