@@ -45,7 +45,7 @@ _sinew_keys() {
 
 # The words that the key $2 can have, as the program $1 says; one with a blank is left out.
 _sinew_choices() {
-  [[ $2 == *[!A-Za-z0-9_.-]* ]] && return
+  [[ -n $2 && $2 != *[!][A-Za-z0-9_.-]* ]] || return
   "$1" keys "$2" --json 2>/dev/null |
     sed -n '/"choices"/,/]/s/^ *"\([A-Za-z0-9_.-]*\)",*$/\1/p' | sort -u
 }

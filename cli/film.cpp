@@ -31,7 +31,7 @@ film::FilmOptions film_of(const Options& options) {
   return out;
 }
 
-// What is of one run alone, or of several alone.
+// Refuses options that are for one run alone where there are several, and the other way round.
 void check_runs(const Options& options) {
   const auto wrong = [](const std::string& name, std::string found, std::string expected) {
     config::fail({name, 0, 0}, "", std::move(found), std::move(expected));

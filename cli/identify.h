@@ -39,6 +39,9 @@ struct DataOptions {
 };
 void add_data_options(Command sub, DataOptions& options);
 
+// The lengths of a muscle that its files do not say, of `static` and `check`.
+void add_length_options(Command sub, std::string& rest_length, std::vector<std::string>& lengths);
+
 // One source per file. Throws config::Error for what is no name=value.
 std::vector<identify::Source> sources_of(const DataOptions& options);
 

@@ -55,12 +55,7 @@ void add_identify_check(Command identify, Action& action) {
       "sinew identify check map.csv --map force=F_N,pressure=P_gauge_Pa,length=L_m --unit F_N=N "
       "--unit \"P_gauge_Pa=Pa gauge\" --unit L_m=m --rest-length \"250 mm\"");
   add_data_options(sub, options->data);
-  sub.add_option("--rest-length", options->settings.rest_length,
-                 "of the muscle without pressure and load; without it the longest length");
-  sub.add_option("--length", options->settings.lengths,
-                 "of files without a column of it: \"205 mm\", or PART=\"205 mm\" for files with "
-                 "PART in their name; may be repeated")
-      .takes_one();
+  add_length_options(sub, options->settings.rest_length, options->settings.lengths);
   sub.add_option("--diameter", options->diameter,
                  "of the muscle without pressure and load, to compare its force with");
   sub.add_flag("--json", options->json, "print the checks as JSON");

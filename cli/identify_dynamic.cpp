@@ -22,7 +22,7 @@ struct Options {
 void print_methods(const identify::DynamicResult& found, const config::UnitsToShow& asked) {
   const units::ShownUnit length = asked.asked ? asked.units.of("m") : units::ShownUnit{"mm", 1e3};
   const units::ShownUnit force = asked.units.of("N"), damping = asked.units.of("N s/m");
-  // In units that nobody chose the columns have decimals of their own.
+  // The columns keep decimals of their own in units that nobody chose.
   const auto in = [&](const units::ShownUnit& unit, double si, int decimals = 4) {
     return asked.asked ? fmt::format("{:.4g}", unit.of(si))
                        : fmt::format("{:.{}f}", unit.of(si), decimals);

@@ -48,12 +48,7 @@ void add_identify_static(Command identify, Action& action) {
       "sinew identify static map.csv --map force=F_N,pressure=P_gauge_Pa,length=L_m --unit F_N=N "
       "--unit \"P_gauge_Pa=Pa gauge\" --unit L_m=m --rest-length \"250 mm\" -o my-actuator.toml");
   add_data_options(sub, options->data);
-  sub.add_option("--rest-length", options->settings.rest_length,
-                 "of the muscle without pressure and load; without it the longest length");
-  sub.add_option("--length", options->settings.lengths,
-                 "of files without a column of it: \"205 mm\", or PART=\"205 mm\" for files with "
-                 "PART in their name; may be repeated")
-      .takes_one();
+  add_length_options(sub, options->settings.rest_length, options->settings.lengths);
   sub.add_option("--actuator", options->settings.actuator, "a file whose braid is taken as known");
   sub.add_option("--branch", options->settings.branch, "fill, vent or both")
       .is_one_of({"fill", "vent", "both"})

@@ -64,8 +64,8 @@ void write_table(const tune::Tuning& tuning, const tune::Tuned& tuned, const Opt
   csv.take_place();
 }
 
-// What was said now is stronger than the units that the file names, and these than what the person
-// always has.
+// Prints the table. Units that were asked for now are stronger than those that the file names, and
+// these are stronger than the units of the person's settings.
 void print_text(const tune::Tuning& tuning, const tune::Tuned& tuned, const Options& options) {
   const config::UnitsToShow asked = units_asked(options.units, units::UnitSet::si);
   const char* session = std::getenv(config::units_variable);

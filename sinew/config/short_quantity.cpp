@@ -16,7 +16,8 @@ namespace {
 
 constexpr int people_digits = 15;  // what a double keeps of any decimal number
 
-// In one of a hundred units any double has a text of 14 digits; what somebody wrote has fewer.
+// Any double has a text of 14 digits in one of a hundred units; a text that somebody wrote has
+// fewer.
 constexpr int digits_somebody_wrote = 10;
 
 // A word of SI, and what people write in its place.

@@ -159,7 +159,7 @@ TEST(Units, WhatIsSaidNowIsStrongerThanATuningsFile) {
               AllOf(HasSubstr("minimize  joints.lever.tracking_rms [deg]"),
                     HasSubstr("where     joints.lever.excursion <= 171.9 deg"),
                     HasSubstr("joint.lever.angle_gain [%/count]")));
-  // Those of the person leave the units that the file names.
+  // The units of the person's settings leave those that the file names.
   std::filesystem::create_directories(w / "config/sinew");
   write_text(w / "config/sinew/settings.toml",
              "format = \"sinew.settings/1\"\nunits = \"metric\"\n");

@@ -72,7 +72,7 @@ function step_for(low, high, pixels, mantissas) {
   return steps.find((s) => ticks_by(low, high, s).length >= fewest && (s / (high - low)) * pixels >= closest);
 }
 
-// What an upright axis of `pixels` is numbered with: at the usual step, or at a smaller one where that
+// Returns the numbers of an upright axis of `pixels`: at the usual step, or at a smaller one where that
 // leaves fewer than three numbers, as on a low plot. A less round step comes last.
 export function upright_ticks(low, high, usual_step, pixels) {
   const usual = ticks_by(low, high, usual_step);

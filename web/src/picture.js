@@ -10,7 +10,7 @@ const font = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 export const escaped = (text) => String(text).replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
 export const at = (v) => (Math.round(100 * v) / 100).toString();
 
-// What `does` finds while the page has the colors for paper, whatever the screen's are.
+// Returns what `does` finds while the page has the colors for paper, whatever the screen's are.
 export function on_paper(does) {
   const root = document.documentElement, before = root.dataset.theme;
   root.dataset.theme = 'light';

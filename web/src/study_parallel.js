@@ -196,7 +196,7 @@ export class Parallel {
     });
   }
 
-  // In a picture; on the page they are words above the canvas.
+  // A picture has them too; on the page they are words above the canvas.
   write_names(ctx, colors) {
     ctx.textAlign = 'center';
     ctx.fillStyle = colors.ink;

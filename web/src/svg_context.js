@@ -1,4 +1,4 @@
-// What a page draws on a canvas, as SVG: those parts of a canvas's context that the views of a study
+// An SVG of what a page draws on a canvas: those parts of a canvas's context that the views of a study
 // use, in coordinates of the page. A small canvas that is drawn becomes a rectangle for each pixel.
 import { at, escaped } from './picture.js';
 

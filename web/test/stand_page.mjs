@@ -110,7 +110,7 @@ for (const colorScheme of ['light', 'dark'])
     assert.equal(png.bytes.subarray(1, 4).toString(), 'PNG');
     assert.equal(png.bytes.readUInt32BE(16), 2160);
 
-    // Of a part that is zoomed to, and without a curve that is hidden.
+    // The picture is of the part that is zoomed to, without a curve that is hidden.
     await page.evaluate((middle) => {
       const [c] = window.sinew.page.charts.list;
       c.set_view({ ...c.view, x: [c.view.x[0], middle] });

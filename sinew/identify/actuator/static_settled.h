@@ -7,7 +7,7 @@
 
 namespace sinew::identify {
 
-// Which samples have settled, and by which measure.
+// Says which samples have settled, and by which measure.
 struct Settled {
   std::vector<bool> sample;  // of each one: has it?
   double window = 0;         // over which the pressure is looked at  [s]

@@ -9,23 +9,15 @@
 #include <random>
 
 #include "sinew/actuator/tension.h"
+#include "sinew/identify/actuator/test_muscle.h"
 #include "sinew/identify/fit/refusal.h"
 
 namespace sinew::identify {
 namespace {
 
-constexpr double bar = 1e5, rest = 0.25;
+constexpr double bar = 1e5, rest = test_rest_length;
 
-// A muscle like the ones on the market: 10 mm, a bladder that saturates, a threshold.
-StaticSetting truth() {
-  StaticSetting s = setting_of({.rest_length = rest, .full_scale = 540, .top_pressure = 6.5 * bar});
-  s.actuator.braid = {.thread_length = 0.28, .turns = 3.0};
-  s.actuator.effectiveness.threshold = 0.4 * bar;
-  s.actuator.bladder.stiffness = 900;
-  s.actuator.bladder.saturating_tension = 110;
-  s.actuator.bladder.saturation_length = 0.006;
-  return s;
-}
+StaticSetting truth() { return test_muscle(); }
 
 struct Noise {
   double force = 0, pressure = 0, length = 0;

@@ -23,8 +23,8 @@ double mean_square(std::span<const double> residuals) {
   return residuals.empty() ? 0 : sum / static_cast<double>(residuals.size());
 }
 
-// Parts of the points: -1 for those at the ends, which are always fitted. Fewer than three groups
-// have nothing between their ends: each is a part then.
+// Returns a part for each point: -1 for those at the ends, which are always fitted. Fewer than
+// three groups have nothing between their ends: each is a part then.
 std::vector<int> interior_pressures(const Points& points) {
   std::vector<int> part = pressure_groups(points);
   const int last = *std::max_element(part.begin(), part.end());
@@ -56,7 +56,8 @@ std::vector<Mount> mounts_of(const Points& points, const std::vector<int>& group
   return out;
 }
 
-// What the other lengths make of some of them, each left out on its own.
+// Returns predicted - measured of the end lengths or of those between, each predicted by all other
+// lengths  [N]. Adds a text for each length to `each`.
 std::vector<double> cross_lengths(const Tried& model, const Points& points, const StaticFit& whole,
                                   bool at_end, double full_scale, std::string& each) {
   const std::vector<int> group = length_groups(points);

@@ -4,8 +4,12 @@
 // A wrong unit, a wrong label or two muscles in one table fit some law, too; the parameters are
 // then wrong without a word. What a braided muscle cannot do gives most of it away: pull harder
 // when it is shorter, contract by half, pull without pressure, or more than its braid turns
-// pressure into (the ideal law: F = pi D^2 p / 4 (a (1 - e)^2 - b), a = 3 / tan^2, b = 1 / sin^2 of
-// the angle).
+// pressure into by the ideal law, [22] in the form of Tondu & Lopez 2000:
+//
+//   F = pi D^2 p / 4 (a (1 - e)^2 - b)     a = 3/tan^2(theta), b = 1/sin^2(theta)
+//
+//   F  tension [N]   D, theta  diameter [m] and angle of the braid at rest   p  gauge pressure [Pa]
+//   e  contraction [-]
 #pragma once
 
 #include <string>
@@ -39,10 +43,10 @@ struct CheckedTable {
 // check, "readable".
 std::vector<Check> check_static(const std::vector<CheckedTable>& tables, double diameter = 0);
 
-// "green", "yellow", "red"
+// Returns "green", "yellow" or "red".
 std::string_view word(Light light);
 
-// Whether one of them is red.
+// Returns true if one of them is red.
 bool has_red(const std::vector<Check>& checks);
 
 }  // namespace sinew::identify

@@ -13,22 +13,14 @@
 
 #include "sinew/config/diagnostics.h"
 #include "sinew/identify/actuator/static_fit.h"
+#include "sinew/identify/actuator/test_muscle.h"
 
 namespace sinew::identify {
 namespace {
 
-constexpr double rest = 0.25, kpa = 1e3;
+constexpr double rest = test_rest_length, kpa = 1e3;
 
-// A muscle of 10 mm on our own rig.
-StaticSetting truth() {
-  StaticSetting s = setting_of({.rest_length = rest, .full_scale = 540, .top_pressure = 650 * kpa});
-  s.actuator.braid = {.thread_length = 0.28, .turns = 3.0};
-  s.actuator.effectiveness.threshold = 40 * kpa;
-  s.actuator.bladder.stiffness = 900;
-  s.actuator.bladder.saturating_tension = 110;
-  s.actuator.bladder.saturation_length = 0.006;
-  return s;
-}
+StaticSetting truth() { return test_muscle(); }
 
 // A row as a person writes it: mm, kPa, N.
 struct Row {
@@ -36,7 +28,7 @@ struct Row {
   std::string branch;
 };
 
-// What is given to the check.
+// An input of the check: a table with its units.
 struct Input {
   std::vector<Row> rows;
   std::string length = "mm", pressure = "kPa gauge", force = "N";
@@ -78,7 +70,7 @@ std::string text_of(const Input& in) {
   return out;
 }
 
-// What the reader of tables refuses already is told as "readable", as by the command.
+// Tables that the reader refuses already are told as "readable", as by the command.
 std::vector<Check> checked(const Input& in) {
   std::vector<CheckedTable> tables;
   try {

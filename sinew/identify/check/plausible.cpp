@@ -1,4 +1,4 @@
-// How the curves of the mounts lie to each other, and how much they can tell.
+// Checks how the curves of the mounts lie to each other, and counts what they can tell.
 #include "sinew/identify/check/plausible.h"
 
 #include <fmt/format.h>
@@ -21,8 +21,8 @@ double strongest(const std::vector<ForceCurve>& curves) {
   return out;
 }
 
-// Of pressures that two curves share: how many, at how many the second pulls more by `least`, and
-// by how much less it pulls on the average.
+// Two curves at the pressures that they share: how many there are, at how many the second pulls
+// more or less by at least a given force, and the mean of second minus first.
 struct Between {
   int shared = 0, above = 0, below = 0;
   double mean = 0;  // second minus first [N]
@@ -62,8 +62,9 @@ Check mounts_in_order(const std::vector<ForceCurve>& curves) {
   return worst;
 }
 
-// Two thirds of full scale between the longest and the shortest pulling length say how far it
-// contracts; by more than four tenths none does.
+// The shortest length at which it still pulls with 5 % of its largest force says how far it
+// contracts. The tension of [22] ends at a contraction of 1 - 1/(sqrt 3 cos(theta)), which is below
+// 0.423 for every angle theta of a braid.
 Check contraction(const std::vector<ForceCurve>& curves) {
   std::map<double, std::pair<double, double>> pulling;  // of each muscle: shortest, longest [m]
   const double least = 0.05 * strongest(curves);

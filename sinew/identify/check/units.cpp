@@ -1,4 +1,4 @@
-// Units, signs, zeros and lengths, by the size of what was read.
+// Checks units, signs, zeros and lengths by the size of what was read.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr double highest_pressure = 1.2e6;  // pneumatic muscles end at 0.6 to 1 MPa [Pa]
 constexpr double low_pressure = 1.5e5;      // 20 psi; few muscles are measured below [Pa]
 constexpr double ambient = 101325;          // [Pa]
-constexpr double braid_factor = 8.2;        // a - b of a braid at 25 degrees
+constexpr double braid_factor = 8.2;        // a - b in check.h, of a braid at 25 degrees [-]
 
 // Extremes of the points.
 struct Reach {
@@ -91,7 +91,7 @@ Check sign_of_force(const StaticData& data, const Reach& r) {
   return {"sign of force", Light::green, "The muscle pulls.", ""};
 }
 
-// What is read at the lowest pressure, where a muscle hardly pulls.
+// A muscle hardly pulls at the lowest pressure: a force there is a zero that was not taken off.
 Check zero_of_force(const StaticData& data, const Reach& r, double taken_off) {
   if (std::abs(taken_off) > 0.02 * (r.strongest - r.weakest))
     return {

@@ -46,7 +46,7 @@ By measure(const Report& report) {
   return cross ? By::cross_validation : held_out ? By::held_out : By::fit;
 }
 
-// Those that may be chosen. Where each has a reason not to be, all of them.
+// Returns the fits that may be chosen; all that are usable where each has a reason not to be.
 std::vector<const Fit*> eligible(const Report& report) {
   std::vector<const Fit*> all, out;
   for (const Fit& fit : report.fits) {
@@ -58,7 +58,7 @@ std::vector<const Fit*> eligible(const Report& report) {
   return all;
 }
 
-// How close those behind the chosen one are; the errors are in ascending order.
+// Says how close the fits behind the chosen one are; `fits` are in ascending order of their errors.
 std::string runners_up(const std::vector<const Fit*>& fits, const Fit& chosen, By by) {
   constexpr std::size_t most = 3;
   std::string out;

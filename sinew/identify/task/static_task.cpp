@@ -53,7 +53,7 @@ void refuse_lengths_of_no_file(const std::vector<std::string>& lengths,
   }
 }
 
-// What the settings say of a file's points.
+// Returns what the settings say of a file's points.
 StaticInput input_for(const StaticSettings& settings, const Source& source, bool fitted) {
   StaticInput input{.length = length_for(settings.lengths, source), .fitted = fitted};
   if (!settings.rest_length.empty())

@@ -8,7 +8,7 @@
 
 namespace sinew::tune {
 
-// In whose units a table is shown.
+// The units in which a table is shown, and whether they stand above those that the file names.
 struct TableUnits {
   units::ShownUnits units;
   bool of_all = false;  // also of goals, limits and keys for which the file names a unit
