@@ -23,7 +23,7 @@ class Program(unittest.TestCase):
             ([ROBOT, "--joint", "hip", "--without-valves"], 1, "joints without valves"),
             ([ROBOT, "--actuator", "bpa"], 1, "expected an actuator file"),
             ([ROBOT, "--fmi", "4"], 2, "--fmi"),
-            ([ROBOT, "--set", "joint.hip.moment_arm=-1 in"], 1, "moment_arm"),
+            ([ROBOT, "--set", "joint.hip.moment_arm=-1 in"], 2, "moment_arm"),
             ([ROBOT, "--set", "air.supply.kind=tank", "--set", "air.supply.volume=10 L",
               "--set", "air.supply.initial_pressure=200 psi abs"], 1, "empty together"),
             ([ACTUATOR, "--muscle", "x"], 1, "expected a robot"),
