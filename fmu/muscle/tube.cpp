@@ -104,7 +104,7 @@ double Tube::output(std::size_t place) const {
   }
   if (place == at_.stiffness)
     return n * (actuator::stiffness_at_constant_pressure(a, length, pressure, room) +
-                actuator::passive_stiffness(a, length));
+                actuator::passive_stiffness(a, length, pressure, room));
   double sealed = 0;
   if (a.loss.coulomb_scale == actuator::Loss::Scale::sealed)
     sealed = actuator::stiffness_sealed(a, length, pressure + room, room, external_volume_ / n,

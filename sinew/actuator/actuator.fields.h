@@ -287,6 +287,77 @@ void fields(Visitor& v, Wall& wall) {
            wall.thickness);
 }
 
+// Reads or shows two ends, the lower first.
+template <class Visitor>
+void ends(Visitor& v, const char* name, const char* unit, const char* doc, const char* example,
+          double& low, double& high) {
+  std::vector<double> both{low, high};
+  v.numbers({.name = name, .unit = unit, .doc = doc}, both);
+  if (both.size() != 2 || !(both[0] <= both[1]))
+    units::complain(v, name, "no range", "the lower end and the upper one", example);
+  both.resize(2);
+  low = both[0];
+  high = both[1];
+}
+
+template <class Visitor>
+void fields(Visitor& v, Prediction& p) {
+  v.number({.name = "rest_length", .unit = "m", .min = 0, .doc = "L_0 of the muscle"},
+           p.rest_length);
+  ends(v, "lengths", "m", "shortest and longest length that were measured",
+       R"(["80 mm", "100 mm"])", p.shortest, p.longest);
+  ends(v, "pressures", "Pa gauge", "lowest and highest pressure that were measured",
+       R"(["0 kPa gauge", "600 kPa gauge"])", p.lowest, p.highest);
+  v.number({.name = "inside_68",
+            .unit = "N",
+            .min = 0,
+            .doc = "two of three measured forces lie as close to the law's, between these ends"},
+           p.inside_68);
+  v.number({.name = "inside_95", .unit = "N", .min = 0, .doc = "19 of 20 lie as close"},
+           p.inside_95);
+  v.number({.name = "beyond_68",
+            .unit = "N",
+            .min = 0,
+            .optional = true,
+            .doc = "the same a fifth of the range beyond an end; 0: not known"},
+           p.beyond_68);
+  v.number({.name = "beyond_95",
+            .unit = "N",
+            .min = 0,
+            .optional = true,
+            .doc = "19 of 20 there; 0: not known"},
+           p.beyond_95);
+  v.number(
+      {.name = "other_68",
+       .unit = "1",
+       .min = 0,
+       .optional = true,
+       .doc = "of the greatest force: the same for muscles of other rest lengths; 0: not known"},
+      p.other_68);
+  v.number({.name = "other_95",
+            .unit = "1",
+            .min = 0,
+            .optional = true,
+            .doc = "19 of 20 there; 0: not known"},
+           p.other_95);
+  v.number({.name = "other_reach",
+            .unit = "1",
+            .min = 0,
+            .optional = true,
+            .doc = "|ln(L/L_0)| over which muscles of other rest lengths L were tried"},
+           p.other_reach);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Series& series) {
+  v.number({.name = "compliance",
+            .unit = "m/N",
+            .min = 0,
+            .max = 0.01,
+            .doc = "C, what both ends together give way by; 0: nothing"},
+           series.compliance);
+}
+
 template <class Visitor>
 void fields(Visitor& v, Hysteresis& h) {
   v.number({.name = "half_width",
@@ -374,6 +445,8 @@ void fields(Visitor& v, Actuator& a) {
           [&](auto& g) { fields(g, a.taper); });
   v.group({.name = "wall", .optional = true, .doc = "of the tube, by Chou and Hannaford"},
           [&](auto& g) { fields(g, a.wall); });
+  v.group({.name = "series", .optional = true, .doc = "ends that give way under the tension"},
+          [&](auto& g) { fields(g, a.series); });
   if (tapers(a.taper) && !(a.taper.rest_length > a.caps.length)) {
     units::complain(v, "taper", "no rest_length", "that of the muscle without pressure and load");
   } else if (a.long_end.length < shortest_length(a)) {
@@ -384,6 +457,10 @@ void fields(Visitor& v, Actuator& a) {
           [&](auto& g) { fields(g, a.hysteresis); });
   v.group({.name = "creep", .optional = true, .doc = "tension that comes late"},
           [&](auto& g) { fields(g, a.creep); });
+  v.group({.name = "prediction",
+           .optional = true,
+           .doc = "how far measured forces lie from the law's, as an identification found it"},
+          [&](auto& g) { fields(g, a.prediction); });
 }
 
 // All of a file's actuators.

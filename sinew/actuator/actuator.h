@@ -1,8 +1,8 @@
 // actuator/actuator.h - one braided pneumatic actuator (McKibben muscle): its parameters.
 //
-// The laws stand in braid.h (geometry), body.h, bladder.h, tension.h, loss.h, hysteresis.h, creep.h
-// and stiffness.h. Everything is SI; pressure is absolute unless a name says gauge. Sources:
-// Colbrunn (2000), equation numbers in brackets.
+// The laws stand in braid.h (geometry), body.h, bladder.h, pull.h, series.h, tension.h, loss.h,
+// hysteresis.h, creep.h and stiffness.h. Everything is SI; pressure is absolute unless a name says
+// gauge. Sources: Colbrunn (2000), equation numbers in brackets.
 #pragma once
 
 #include <array>
@@ -100,6 +100,23 @@ struct Creep {
   std::array<double, most> time{};   // tau_i [s]
 };
 
+// What gives way between a muscle's clamps and its braid; not in the thesis, see series.h.
+struct Series {
+  double compliance = 0;  // C [m/N]
+};
+
+// How far a measured force lies from the law's, as an identification left it in the actuator's
+// file; no part of any law, see prediction.h. 0: not known.
+struct Prediction {
+  double rest_length = 0;               // L_0 of the muscle [m]
+  double shortest = 0, longest = 0;     // lengths that were measured [m]
+  double lowest = 0, highest = 0;       // gauge pressures that were measured [Pa]
+  double inside_68 = 0, inside_95 = 0;  // half-widths between these [N]
+  double beyond_68 = 0, beyond_95 = 0;  // a fifth of their range beyond them [N]
+  double other_68 = 0, other_95 = 0;    // of muscles of other rest lengths, of the force [-]
+  double other_reach = 0;               // |ln(L/L_0)| over which that was tried [-]
+};
+
 struct Actuator {
   std::string name;
   Braid braid;
@@ -111,8 +128,10 @@ struct Actuator {
   Caps caps;
   Taper taper;
   Wall wall;
+  Series series;
   Hysteresis hysteresis;
   Creep creep;
+  Prediction prediction;
 };
 
 }  // namespace sinew::actuator

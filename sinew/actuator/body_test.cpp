@@ -33,6 +33,7 @@ Actuator full(std::mt19937_64& random) {
              .extra_pressure = uniform(random, 5e4, 3e5),
              .rest_length = 0.098};
   a.wall.thickness = uniform(random, 0, 1e-3);
+  a.series.compliance = uniform(random, 0, 2e-5);
   a.bladder = {.stiffness = uniform(random, 0, 400),
                .rest_length = 0.098,
                .quadratic = uniform(random, -1e3, 1e3),
@@ -51,14 +52,14 @@ TEST(Body, NeutralIsTheBraidToTheBit) {
     EXPECT_EQ(working_length(a, l, p), l);
     EXPECT_EQ(volume(a, l), volume(a.braid, l));
     EXPECT_EQ(volume_slope(a, l), volume_slope(a.braid, l));
-    EXPECT_EQ(braid_tension(a, l, p, atmosphere),
+    EXPECT_EQ(braid_pull(a, l, p, atmosphere),
               ideal_tension(a.braid, l, p) * effectiveness(a.effectiveness, p, atmosphere));
   }
   EXPECT_EQ(shortest_length(a), shortest_length(a.braid));
 }
 
 TEST(Body, EachTermIsNoLongerPlain) {
-  for (int term = 0; term < 8; ++term) {
+  for (int term = 0; term < 9; ++term) {
     Actuator a = thesis_actuator();
     if (term == 0) a.effectiveness.threshold = 1;
     if (term == 1) a.caps.length = 1e-3;
@@ -68,6 +69,7 @@ TEST(Body, EachTermIsNoLongerPlain) {
     if (term == 5) a.bladder.quadratic = 1;
     if (term == 6) a.bladder.saturating_tension = 1;
     if (term == 7) a.bladder.valid_to = 0.1;
+    if (term == 8) a.series.compliance = 1e-6;
     EXPECT_FALSE(is_plain(a)) << term;
   }
 }
@@ -92,7 +94,7 @@ TEST(Body, TensionIsTheVirtualWorkOfTheAirWithin) {
     const double l = uniform(random, 0.07, 0.1), p = uniform(random, 1e4, 7e5), h = 1e-6;
     const double slope = (volume(a, l + h) - volume(a, l - h)) / (2 * h);
     EXPECT_NEAR(volume_slope(a, l), slope, 1e-10);
-    EXPECT_NEAR(braid_tension(a, l, p, atmosphere), -p * slope, 1e-10 * p);
+    EXPECT_NEAR(braid_pull(a, l, p, atmosphere), -p * slope, 1e-10 * p);
   }
 }
 
@@ -103,7 +105,7 @@ TEST(Body, CapsMoveTheBraidAlong) {
   capped.caps.length = 0.007;
   for (int i = 0; i < 100; ++i) {
     const double l = uniform(random, 0.064, 0.099), p = uniform(random, 0, 7e5);
-    EXPECT_NEAR(braid_tension(capped, l + 0.007, p, atmosphere), braid_tension(a, l, p, atmosphere),
+    EXPECT_NEAR(braid_pull(capped, l + 0.007, p, atmosphere), braid_pull(a, l, p, atmosphere),
                 1e-9);
   }
   EXPECT_DOUBLE_EQ(shortest_length(capped), shortest_length(a) + 0.007);
@@ -114,9 +116,9 @@ TEST(Body, TaperEndsThePullAtALongerLength) {
   a.taper = {.gain = 1.25, .rest_length = 0.098};
   const double shortest = shortest_length(a), p = 4e5;
   EXPECT_NEAR(0.098 - shortest, (0.098 - shortest_length(a.braid)) / 1.25, 1e-15);
-  EXPECT_NEAR(braid_tension(a, shortest, p, atmosphere), 0, 1e-9);
-  EXPECT_DOUBLE_EQ(braid_tension(a, 0.098, p, atmosphere),
-                   braid_tension(thesis_actuator(), 0.098, p, atmosphere));
+  EXPECT_NEAR(braid_pull(a, shortest, p, atmosphere), 0, 1e-9);
+  EXPECT_DOUBLE_EQ(braid_pull(a, 0.098, p, atmosphere),
+                   braid_pull(thesis_actuator(), 0.098, p, atmosphere));
 }
 
 TEST(Body, ThresholdTakesFromThePressureAndLeavesVacuum) {
@@ -164,7 +166,7 @@ TEST(Body, StiffnessIsTheSlopeOfTheWholeTension) {
     const auto at = [&](double x, double pressure) {
       return tension(a, x, 0, pressure - atmosphere, atmosphere);
     };
-    const double passive = passive_stiffness(a, l);
+    const double passive = passive_stiffness(a, l, gauge, atmosphere);
     const double k = (at(l + h, p) - at(l - h, p)) / (2 * h);
     EXPECT_NEAR(stiffness_at_constant_pressure(a, l, gauge, atmosphere) + passive, k,
                 1e-4 + 1e-6 * std::abs(k));

@@ -37,7 +37,7 @@ OperatingPoint operating_point(const Actuator& a, double length, double gauge,
   p.stiffness_at_constant_pressure = stiffness_at_constant_pressure(a, length, gauge, atmosphere);
   p.stiffness_sealed = stiffness_sealed(a, length, gauge + atmosphere, atmosphere,
                                         around.external_volume, around.polytropic_exponent);
-  p.passive_stiffness = passive_stiffness(a, length);
+  p.passive_stiffness = passive_stiffness(a, length, gauge, atmosphere);
   p.coulomb_bound = coulomb_bound(a, length, gauge, atmosphere, p.stiffness_sealed);
   if (std::isfinite(velocity)) {
     p.velocity = velocity;

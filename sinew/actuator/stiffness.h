@@ -26,19 +26,12 @@ namespace sinew::actuator {
 // Does Eff move with the pressure while the length changes, as in [30], or is it a constant?
 enum class EffectivenessSlope { included, neglected };
 
-// [26] as printed, without Eff  [N/m].
-constexpr double ideal_stiffness(const Braid& braid, double length, double gauge_pressure) {
-  return 6.0 * gauge_pressure * length * braid_factor(braid);
-}
-
-// [26] of the effective tension [31]  [N/m].
+// [26] of the effective tension [31]; what the braid has of the muscle's  [N/m].
 inline double stiffness_at_constant_pressure(const Actuator& a, double length,
                                              double gauge_pressure, double atmosphere) {
-  const double acting = acting_pressure(a.effectiveness, gauge_pressure);
-  const double x = working_length(a, length, gauge_pressure);
-  return (ideal_stiffness(a.braid, x, acting) + acting * wall_area_slope(a, x)) *
-         taper_gain(a.taper, gauge_pressure) *
-         effectiveness(a.effectiveness, gauge_pressure, atmosphere);
+  const double x = braid_length(a, length, gauge_pressure, atmosphere);
+  return braid_pull_slope(a, x, gauge_pressure, atmosphere) *
+         share_of_stiffness(a, x, gauge_pressure, atmosphere);
 }
 
 // [27]: the same from the tension, without knowing the pressure  [N/m].
@@ -64,7 +57,8 @@ constexpr double effectiveness_slope(const Effectiveness& e, double gauge_pressu
 // dF/dP of what the braid pulls with, at a given length  [m2]. Zero up to the threshold.
 inline double tension_per_pressure(const Actuator& a, double length, double gauge_pressure,
                                    double atmosphere, EffectivenessSlope slope) {
-  const double x = working_length(a, length, gauge_pressure);
+  const double braid = braid_length(a, length, gauge_pressure, atmosphere);
+  const double x = working_length(a, braid, gauge_pressure);
   const double acting = acting_pressure(a.effectiveness, gauge_pressure);
   const double eff = effectiveness(a.effectiveness, gauge_pressure, atmosphere);
   const double eff_slope = slope == EffectivenessSlope::included
@@ -72,15 +66,17 @@ inline double tension_per_pressure(const Actuator& a, double length, double gaug
                                : 0.0;
 
   // F = P_act g(x) Eff(P_g), so dF/dP_g = g (Eff + P_act Eff'), and g moves where a taper gives
-  // way.
+  // way. Ends that give way take the same share of it as of a stiffness.
   const double g = ideal_tension(a.braid, x, 1.0) + wall_area(a, x);
   const double idle = gauge_pressure > 0 && acting == 0 ? 0.0 : 1.0;
+  const double left = share_of_stiffness(a, braid, gauge_pressure, atmosphere);
   const double held_length = g * (idle * eff + acting * eff_slope);
-  if (!(a.taper.extra_gain != 0) || gauge_pressure < 0) return held_length;
+  if (!(a.taper.extra_gain != 0) || gauge_pressure < 0) return left * held_length;
   const double gain_slope =
       -(taper_gain(a.taper, gauge_pressure) - a.taper.gain) / a.taper.extra_pressure;
   const double g_slope = ideal_stiffness(a.braid, x, 1.0) + wall_area_slope(a, x);
-  return held_length + acting * eff * g_slope * gain_slope * (length - a.taper.rest_length);
+  const double moved = acting * eff * g_slope * gain_slope * (braid - a.taper.rest_length);
+  return left * (held_length + moved);
 }
 
 // dP/dL of air that can neither come nor go, [40] with m' = 0  [Pa/m]; volume and its slope of one
@@ -111,8 +107,11 @@ inline double stiffness_sealed(const Actuator& a, double length, double pressure
 
 // dF/dL of what pulls without air: stretched threads, end stop, bladder  [N/m]. Together with one
 // of the above it is the slope of tension(), except below the short end with ShortEnd::Law::zero.
-inline double passive_stiffness(const Actuator& a, double length) {
-  double k = bladder_stiffness(a.bladder, length);
+// The pressure matters only where ends give way.
+inline double passive_stiffness(const Actuator& a, double length, double gauge_pressure,
+                                double atmosphere) {
+  const double x = braid_length(a, length, gauge_pressure, atmosphere);
+  double k = bladder_stiffness(a.bladder, x) * share_of_stiffness(a, x, gauge_pressure, atmosphere);
   if (length > a.long_end.length) k += a.long_end.stiffness;
   if (length < shortest_length(a) && a.short_end.law == ShortEnd::Law::stop) {
     k += a.short_end.stiffness;

@@ -161,7 +161,8 @@ TEST(Stiffness, PassivePartCompletesTheSlope) {
   for (double l : {0.058, 0.07, 0.09, 0.102}) {
     const double slope =
         (tension(a, l + h, 0, p, atmosphere) - tension(a, l - h, 0, p, atmosphere)) / (2 * h);
-    EXPECT_NEAR(stiffness_at_constant_pressure(a, l, p, atmosphere) + passive_stiffness(a, l),
+    EXPECT_NEAR(stiffness_at_constant_pressure(a, l, p, atmosphere) +
+                    passive_stiffness(a, l, p, atmosphere),
                 slope, 1e-5 * slope);
   }
 }

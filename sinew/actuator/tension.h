@@ -5,7 +5,8 @@
 //   P_g  gauge pressure [Pa]        L  length [m]         v  dL/dt [m/s]
 //
 // Beyond the thesis, all of it neutral where nothing is set: a threshold of the pressure (here),
-// caps, taper and wall (body.h), a bladder that is no linear spring (bladder.h):
+// caps, taper and wall (body.h), a bladder that is no linear spring (bladder.h), ends that give way
+// (series.h):
 //
 //   F = P_act Eff(p) (b^2/(4 pi n^2) (3 x^2/b^2 - 1) + A_t(x)) + ...
 //
@@ -20,32 +21,13 @@
 #include "sinew/actuator/bladder.h"
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/braid.h"
+#include "sinew/actuator/pull.h"
+#include "sinew/actuator/series.h"
 
 namespace sinew::actuator {
 
-// [30]  [-]. Constant outside the fitted range of pressures: a polynomial is no law there.
-constexpr double effectiveness(const Effectiveness& e, double gauge_pressure, double atmosphere) {
-  const double low = gauge_pressure < e.valid_from ? e.valid_from : gauge_pressure;
-  const double inside = low > e.valid_to ? e.valid_to : low;
-  const double p = e.argument == Effectiveness::Argument::absolute ? inside + atmosphere : inside;
-  return e.scale * (e.c0 + p * (e.c1 + p * e.c2));
-}
-
 // ShortEnd::Law::empirical: times the pull, and times viscous and dry friction  [-].
 inline constexpr double empirical_pull = 5, empirical_loss = 15;
-
-// P_act, what is left of the gauge pressure to widen the mesh: the bladder takes the threshold
-// before it touches. Vacuum pulls the mesh in at once  [Pa].
-constexpr double acting_pressure(const Effectiveness& e, double gauge_pressure) {
-  if (gauge_pressure > e.threshold) return gauge_pressure - e.threshold;
-  return gauge_pressure < 0 ? gauge_pressure : 0.0;
-}
-
-// [22]: the ideal tension  [N].
-constexpr double ideal_tension(const Braid& braid, double length, double gauge_pressure) {
-  const double b2 = braid.thread_length * braid.thread_length;
-  return gauge_pressure * (3.0 * length * length - b2) * braid_factor(braid);
-}
 
 // [32], [35]: the stretched threads  [N], zero up to L_max.
 constexpr double long_end_tension(const LongEnd& end, double length, double velocity) {
@@ -53,29 +35,21 @@ constexpr double long_end_tension(const LongEnd& end, double length, double velo
   return length > end.length ? force : 0.0;
 }
 
-// Of the braid and its body, [22] times Eff  [N].
-inline double braid_tension(const Actuator& a, double length, double gauge_pressure,
-                            double atmosphere) {
-  const double acting = acting_pressure(a.effectiveness, gauge_pressure);
-  const double x = working_length(a, length, gauge_pressure);
-  return (ideal_tension(a.braid, x, acting) + acting * wall_area(a, x)) *
-         effectiveness(a.effectiveness, gauge_pressure, atmosphere);
-}
-
 // Is there nothing but the thesis's law and a linear bladder?
 constexpr bool is_plain(const Actuator& a) {
   const Bladder none;
   return a.effectiveness.threshold == 0 && a.caps.length == 0 && !tapers(a.taper) &&
-         a.wall.thickness == 0 && a.bladder.quadratic == 0 && a.bladder.cubic == 0 &&
-         a.bladder.saturating_tension == 0 && a.bladder.valid_from == none.valid_from &&
-         a.bladder.valid_to == none.valid_to;
+         a.wall.thickness == 0 && a.series.compliance == 0 && a.bladder.quadratic == 0 &&
+         a.bladder.cubic == 0 && a.bladder.saturating_tension == 0 &&
+         a.bladder.valid_from == none.valid_from && a.bladder.valid_to == none.valid_to;
 }
 
 // [31], [33] without dry friction: an actuator clamped at both ends, so the result may push  [N].
 inline double tension(const Actuator& a, double length, double velocity, double gauge_pressure,
                       double atmosphere) {
-  const double pull = braid_tension(a, length, gauge_pressure, atmosphere);
-  const double passive = bladder_tension(a.bladder, length) + a.loss.viscous * velocity;
+  const double x = braid_length(a, length, gauge_pressure, atmosphere);
+  const double pull = braid_pull(a, x, gauge_pressure, atmosphere);
+  const double passive = bladder_tension(a.bladder, x) + a.loss.viscous * velocity;
   const double inside = pull + passive + long_end_tension(a.long_end, length, velocity);
 
   const double shortest = shortest_length(a);

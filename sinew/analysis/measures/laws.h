@@ -32,8 +32,9 @@ inline double turn_between(double a, double b) {
 inline double true_stiffness(const actuator::Actuator& a, double length, double pressure,
                              double atmosphere, double tension) {
   if (tension <= 0) return 0;
-  return actuator::stiffness_at_constant_pressure(a, length, pressure - atmosphere, atmosphere) +
-         actuator::passive_stiffness(a, length);
+  const double gauge = pressure - atmosphere;
+  return actuator::stiffness_at_constant_pressure(a, length, gauge, atmosphere) +
+         actuator::passive_stiffness(a, length, gauge, atmosphere);
 }
 
 // One muscle's part in its joint's stiffness: r^2 times that of its actuators in parallel, [60]

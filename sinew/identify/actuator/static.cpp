@@ -20,19 +20,10 @@ namespace {
 using Points = std::vector<StaticPoint>;
 
 // At their bounds these do not make another law of a law. Zero is an answer for branches that lie
-// on each other and for ends that take nothing. The braid's thread at the shortest that a braid can
-// have still fits where the data are; describe() tells it.
-constexpr std::string_view may_be_at_bound[] = {"half_width", "end_loss", "thread_length"};
-
-StaticScales scales_of(const Points& points, const StaticOptions& options) {
-  StaticScales out{.atmosphere = options.atmosphere, .braid = options.braid};
-  for (const StaticPoint& p : points) {
-    out.rest_length = std::max(out.rest_length, p.rest_length);
-    out.full_scale = std::max(out.full_scale, p.force);
-    out.top_pressure = std::max(out.top_pressure, p.pressure);
-  }
-  return out;
-}
+// on each other and for ends that take nothing or do not give way. The braid's thread at the
+// shortest that a braid can have still fits where the data are; describe() tells it.
+constexpr std::string_view may_be_at_bound[] = {"half_width", "end_loss", "thread_length",
+                                                "series_compliance"};
 
 // A muscle whose rest length nobody said: its longest length.
 void give_rest_length(Points& points, Report& report) {
@@ -91,7 +82,14 @@ std::optional<Score> held_out(const Tried& model, const StaticFit& fit, const St
                               HoldOut which, double full_scale) {
   if (which == HoldOut::length) {
     const std::vector<int> group = length_groups(s.fitted);
-    return score(model.cross(s.fitted, group, count_of(group), fit), full_scale);
+    return score(model.cross(s.fitted, group, count_of(group), fit).residuals, full_scale);
+  }
+  if (which == HoldOut::muscle) {
+    std::vector<double> shares;
+    for (const LeftOut& m : model.leave_out_muscles(s.fitted)) {
+      for (const double r : m.unseen.residuals) shares.push_back(r * full_scale / m.largest);
+    }
+    return score(shares, full_scale);
   }
   if (s.held_out.empty()) return std::nullopt;
   return score(misses(fit.setting, model.scales_of_fit(fit), s.held_out), full_scale);
@@ -100,6 +98,7 @@ std::optional<Score> held_out(const Tried& model, const StaticFit& fit, const St
 struct Best {
   std::optional<StaticFit> fit;
   StaticScales scales;
+  StaticSpread spread;
 };
 
 Fit try_model(const StaticModel& model, const StaticSplit& s, const StaticScales& scales,
@@ -120,9 +119,9 @@ Fit try_model(const StaticModel& model, const StaticSplit& s, const StaticScales
     const std::vector<double> unseen = misses(fit.setting, own, s.held_out);
     out.residuals.insert(out.residuals.end(), unseen.begin(), unseen.end());
     out.held_out = held_out(tried, fit, s, hold_out, full_scale);
-    cross_validate(tried, s.fitted, fit, full_scale, out);
+    const StaticSpread spread = cross_validate(tried, s.fitted, fit, full_scale, out);
     keep_off_bounds(out, may_be_at_bound);
-    found = {fit, own};
+    found = {fit, own, spread};
   } catch (const Refusal& refusal) {
     out.refused = refusal.what();
   }
@@ -136,6 +135,14 @@ StaticSplit split_by(const Points& points, HoldOut hold_out, Report& report) {
     report.held_out_is = "each length once, all others fitted";
     if (count_of(length_groups(s.fitted)) < 3)
       throw Refusal("hold_out=length", "fewer than three lengths", "at least three", "");
+  }
+  if (hold_out == HoldOut::muscle) {
+    report.held_out_is = "each muscle once, all others fitted, in % of its own largest force";
+    std::set<double> muscles;
+    for (const StaticPoint& p : s.fitted) muscles.insert(p.rest_length);
+    if (muscles.size() < 2)
+      throw Refusal("hold_out=muscle", "one muscle", "at least two rest lengths",
+                    "a column rest_length, or files of several muscles");
   }
   if (hold_out == HoldOut::pressure) {
     const std::vector<int> group = pressure_groups(s.fitted);
@@ -152,7 +159,8 @@ StaticSplit split_by(const Points& points, HoldOut hold_out, Report& report) {
 
 // Points that no law explains have no say in which is chosen.
 void drop_gross_outliers(Points& points, const StaticOptions& options, Report& report) {
-  const std::vector<std::size_t> wild = gross_outliers(points, scales_of(points, options));
+  const std::vector<std::size_t> wild =
+      gross_outliers(points, scales_of(points, options.atmosphere, options.braid));
   if (wild.empty()) return;
   std::string list;
   for (std::size_t k = 0; k < std::min<std::size_t>(wild.size(), 5); ++k) {
@@ -242,8 +250,8 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   points = s.fitted;
   points.insert(points.end(), s.held_out.begin(), s.held_out.end());
   sort_points(points);
-  report.full_scale = scales_of(points, options).full_scale;
-  out.scales = scales_of(s.fitted, options);
+  report.full_scale = scales_of(points, options.atmosphere, options.braid).full_scale;
+  out.scales = scales_of(s.fitted, options.atmosphere, options.braid);
   if (!(out.scales.full_scale > 0))
     throw Refusal("force", "no force above zero among what is to be fitted", "a muscle that pulls",
                   "the sign of the force");
@@ -262,6 +270,7 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
         report, 15,
         "names.COLUMN=NAME or units.NAME=UNIT: columns may be swapped or in other units");
   out.fit = *found[report.chosen].fit;
+  out.spread = found[report.chosen].spread;
   out.scales = found[report.chosen].scales;
   out.muscles = muscles_of(out.fit, out.scales, s.fitted);
   note_muscles(out.fit, out.scales, points, report);

@@ -3,7 +3,8 @@
 //
 // Choice: each model predicts parts of the data it was not fitted to - pressures in four parts,
 // lengths one by one, the lowest and the highest of both left in - and the one with the fewest
-// parameters within 10 % of the smallest error (root mean square over both kinds, alike) is taken.
+// parameters within 10 % of the smallest error (root mean square over all kinds, alike) is taken.
+// Of three muscles or more, each muscle is left out once, too: that is the third kind.
 // A law of which a parameter stands at the bound of its range is none for the data and is not
 // chosen. The end lengths, predicted by the others, are told apart: that is extrapolation. What is
 // held out by the user (StaticPoint::fitted) has no part in it and tells how good the result is.
@@ -15,13 +16,14 @@
 
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/actuator/static_fit.h"
+#include "sinew/identify/actuator/static_spread.h"
 #include "sinew/identify/fit/fit.h"
 
 namespace sinew::identify {
 
 // Which points judge the models: none; every second pressure, which is not fitted; each length
-// once, all others fitted.
-enum class HoldOut { none, pressure, length };
+// once, all others fitted; each muscle once.
+enum class HoldOut { none, pressure, length, muscle };
 
 // Holds what is known besides the points, and which models are tried.
 struct StaticOptions {
@@ -45,7 +47,8 @@ struct StaticResult {
   Report report;
   std::vector<StaticMuscle> muscles;  // the reference, the longest, first
   StaticScales scales;
-  StaticFit fit;  // the chosen one, to all points that were to be fitted
+  StaticFit fit;        // the chosen one, to all points that were to be fitted
+  StaticSpread spread;  // how far it was off where it had not seen the points
 };
 
 // Throws Refusal where the data support no model, std::invalid_argument for a model that there is

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "sinew/actuator/body.h"
+#include "sinew/actuator/series.h"
 #include "sinew/identify/actuator/static.h"
+#include "sinew/identify/actuator/static_predict.h"
 #include "sinew/identify/fit/provenance.h"
 
 namespace sinew::identify {
@@ -76,7 +78,8 @@ std::string static_file(const StaticResult& result, std::size_t index, const std
   // Outside what was measured the laws are held.
   a.effectiveness.valid_from = std::max(0.0, muscle.lowest);
   a.effectiveness.valid_to = muscle.highest;
-  a.bladder.valid_from = muscle.shortest;
+  a.bladder.valid_from =  // the braid is shorter than the muscle where ends give way
+      actuator::braid_length(a, muscle.shortest, muscle.highest, result.scales.atmosphere);
   a.bladder.valid_to = std::max(muscle.longest, muscle.shortest * 1.0001);
   provenance.given(path + "effectiveness.valid", "pressures in " + source);
   provenance.given(path + "bladder.valid", "lengths in " + source);
@@ -84,6 +87,12 @@ std::string static_file(const StaticResult& result, std::size_t index, const std
   if (!actuator::tapers(a.taper)) a.taper = {};
   if (!(a.taper.extra_gain > 0)) a.taper.extra_pressure = 0;
   add_ends(muscle, path, a, provenance);
+  a.prediction = prediction_of(result, muscle);
+  for (const char* key : {"rest_length", "lengths", "pressures"})
+    provenance.given(path + "prediction." + key, source);
+  for (const char* key :
+       {"inside_68", "inside_95", "beyond_68", "beyond_95", "other_68", "other_95", "other_reach"})
+    provenance.given(path + "prediction." + key, source + "; points that a fit had not seen");
   return actuator_file(a, provenance);
 }
 

@@ -35,6 +35,17 @@ std::string branch_of(const StaticPoint& p, double length, bool several) {
 
 }  // namespace
 
+StaticScales scales_of(const Points& points, double atmosphere,
+                       const std::optional<actuator::Braid>& braid) {
+  StaticScales out{.atmosphere = atmosphere, .braid = braid};
+  for (const StaticPoint& p : points) {
+    out.rest_length = std::max(out.rest_length, p.rest_length);
+    out.full_scale = std::max(out.full_scale, p.force);
+    out.top_pressure = std::max(out.top_pressure, p.pressure);
+  }
+  return out;
+}
+
 std::vector<int> pressure_groups(const Points& points) {
   std::vector<double> p;
   for (const StaticPoint& point : points) p.push_back(point.pressure);

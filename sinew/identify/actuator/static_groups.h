@@ -2,9 +2,11 @@
 // pressure, of one length; and how they are shown.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sinew/identify/actuator/static_data.h"
+#include "sinew/identify/actuator/static_model.h"
 #include "sinew/identify/fit/fit.h"
 
 namespace sinew::identify {
@@ -22,6 +24,10 @@ StaticSplit split(const std::vector<StaticPoint>& points, Keep keep) {
     (keep(i) ? out.fitted : out.held_out).push_back(points[i]);
   return out;
 }
+
+// Returns the sizes that start values and bounds go by: those of the points.
+StaticScales scales_of(const std::vector<StaticPoint>& points, double atmosphere,
+                       const std::optional<actuator::Braid>& braid);
 
 // Of each point its group, counted from the smallest.
 std::vector<int> pressure_groups(const std::vector<StaticPoint>& points);

@@ -62,6 +62,14 @@ const StaticModel models[] = {
      "F = (p - P0) f (3 (L - d)^2 - b^2) + k u - S (1 - exp(u/lambda))",
      "the same with what does not contract",
      {threshold, stiffness, saturating_tension, saturation_length, caps}},
+    {"saturating-series",
+     "F = (p - P0) f (3 x^2 - b^2) - S (1 - exp(u/lambda)), x = L - C F, u = x - L0",
+     "saturating, with ends that give way",
+     {threshold, saturating_tension, saturation_length, series}},
+    {"saturating-elastic-series",
+     "F = (p - P0) f (3 x^2 - b^2) + k u - S (1 - exp(u/lambda)), x = L - C F, u = x - L0",
+     "saturating-elastic, with ends that give way",
+     {threshold, stiffness, saturating_tension, saturation_length, series}},
 };
 
 struct Info {
@@ -87,6 +95,7 @@ constexpr std::array infos = {
     Info{"wall_thickness", "wall.thickness", "m"},
     Info{"half_width", "hysteresis.half_width", "Pa diff"},
     Info{"end_loss", "", "m"},
+    Info{"series_compliance", "series.compliance", "m/N"},
 };
 
 const Info& info(Knob knob) { return infos[static_cast<std::size_t>(knob)]; }
@@ -154,6 +163,8 @@ double& value_of(StaticSetting& setting, Knob knob) {
       return a.wall.thickness;
     case half_width:
       return a.hysteresis.half_width;
+    case series:
+      return a.series.compliance;
     case end_loss:
       break;
   }
@@ -210,6 +221,8 @@ Parameter parameter_of(Knob knob, const StaticScales& s) {
       return make(0.01 * p, 0, 0.3 * p, 0.01 * p);
     case end_loss:
       return make(0, -0.3 * l, 0.15 * l, 0.02 * l);
+    case series:
+      return make(0.005 * l / f, 0, 0.2 * l / f, 0.01 * l / f);
   }
   return {};
 }
@@ -245,6 +258,7 @@ bool needs_lengths(Knob knob) {
     case taper_extra_gain:
     case taper_extra_pressure:
     case wall:
+    case series:
       return true;
     default:
       return false;
@@ -265,19 +279,27 @@ StaticSetting setting_of(const StaticScales& s) {
   return out;
 }
 
-actuator::Actuator scaled(const StaticSetting& setting, const StaticScales& scales,
-                          double rest_length) {
-  actuator::Actuator a = setting.actuator;
-  if (setting.end_loss != 0) a.effectiveness.scale = 1 - setting.end_loss / rest_length;
-  const double r = rest_length / scales.rest_length;
+actuator::Actuator like(const actuator::Actuator& actuator, double from, double to) {
+  actuator::Actuator a = actuator;
+  const double r = to / from;
   if (r == 1) return a;
+  // What the ends take is the same length of every muscle: 1 - scale is c/L_0.
+  a.effectiveness.scale = 1 - (1 - a.effectiveness.scale) / r;
   for (double* size : {&a.braid.thread_length, &a.braid.turns, &a.bladder.saturation_length,
-                       &a.bladder.rest_length, &a.taper.rest_length})
+                       &a.bladder.rest_length, &a.taper.rest_length, &a.long_end.length,
+                       &a.bladder.valid_from, &a.bladder.valid_to})
     *size *= r;
   a.bladder.stiffness /= r;
   a.bladder.quadratic /= r * r;
   a.bladder.cubic /= r * r * r;
   return a;
+}
+
+actuator::Actuator scaled(const StaticSetting& setting, const StaticScales& scales,
+                          double rest_length) {
+  actuator::Actuator a = setting.actuator;
+  a.effectiveness.scale = 1 - setting.end_loss / scales.rest_length;
+  return like(a, scales.rest_length, rest_length);
 }
 
 }  // namespace sinew::identify

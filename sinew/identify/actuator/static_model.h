@@ -9,7 +9,8 @@
 //   b, n, lambda ~ L_0     k ~ 1/L_0   k2 ~ 1/L_0^2   k3 ~ 1/L_0^3     Eff x (1 - c/L_0)
 //
 // c, the rest length's own effect, is what the ends take from every muscle alike; no geometric law
-// gives it.
+// gives it. Laws whose ends give way (actuator/series.h) need no c: C is that of the ends, the same
+// for every muscle, and takes more from a short one by itself.
 //
 // Priors: a term that the data do not determine stays where three Festo muscles of 20 mm put it
 // (rest lengths 98, 225, 398 mm; docs/theory/static-models.md), instead of anywhere. Where the data
@@ -47,7 +48,8 @@ enum class Knob {
   taper_extra_pressure,
   wall,
   half_width,
-  end_loss
+  end_loss,
+  series
 };
 
 // What a set of knobs comes to.
@@ -94,6 +96,9 @@ bool needs_lengths(Knob knob);
 
 // What every search begins with.
 StaticSetting setting_of(const StaticScales& scales);
+
+// Returns the like of an actuator whose muscle has the rest length `from`, with `to`  [m].
+actuator::Actuator like(const actuator::Actuator& actuator, double from, double to);
 
 // The like of the reference muscle with another rest length.
 actuator::Actuator scaled(const StaticSetting& setting, const StaticScales& scales,

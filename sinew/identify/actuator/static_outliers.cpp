@@ -30,6 +30,7 @@ std::vector<double> from_the_closest(const std::vector<StaticPoint>& points,
   for (const StaticModel& model : static_models()) {
     if (model.name == "effectiveness-by-ratio") continue;
     std::vector<Knob> knobs = knobs_of(model, scales);
+    if (std::ranges::find(knobs, Knob::series) != knobs.end()) continue;  // its kin stands for it
     if (muscles.size() > 1) knobs.push_back(Knob::end_loss);
     try {
       const std::vector<double> d = distances(fit_static(knobs, points, scales), scales, points);

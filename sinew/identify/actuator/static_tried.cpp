@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "sinew/identify/actuator/static_groups.h"
@@ -17,10 +18,16 @@ using Points = std::vector<StaticPoint>;
 
 constexpr int pressure_parts = 4;
 
-double mean_square(std::span<const double> residuals) {
+double mean_square(const std::vector<double>& residuals) {
   double sum = 0;
   for (const double r : residuals) sum += r * r;
   return residuals.empty() ? 0 : sum / static_cast<double>(residuals.size());
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return sum / static_cast<double>(values.size());
 }
 
 // Returns a part for each point: -1 for those at the ends, which are always fitted. Fewer than
@@ -56,24 +63,67 @@ std::vector<Mount> mounts_of(const Points& points, const std::vector<int>& group
   return out;
 }
 
-// Returns predicted - measured of the end lengths or of those between, each predicted by all other
-// lengths  [N]. Adds a text for each length to `each`.
-std::vector<double> cross_lengths(const Tried& model, const Points& points, const StaticFit& whole,
-                                  bool at_end, double full_scale, std::string& each) {
+// Returns a part for each point: those of the lowest and of the highest pressure.
+std::vector<int> end_pressures(const Points& points) {
+  std::vector<int> part = pressure_groups(points);
+  const int last = *std::max_element(part.begin(), part.end());
+  for (int& p : part) p = p == 0 ? 0 : p == last ? 1 : -1;
+  return part;
+}
+
+// Returns the end lengths or those between, each predicted by all other lengths. Adds a text for
+// each length to `each`.
+Unseen cross_lengths(const Tried& model, const Points& points, const StaticFit& whole, bool at_end,
+                     double full_scale, std::string& each) {
   const std::vector<int> group = length_groups(points);
-  std::vector<double> out;
+  Unseen out;
   for (const Mount& mount : mounts_of(points, group)) {
     if (mount.at_end != at_end) continue;
     std::vector<int> mine(points.size(), 1);
     for (std::size_t i = 0; i < points.size(); ++i)
       if (group[i] == mount.group) mine[i] = 0;
-    const std::vector<double> r = model.cross(points, mine, 1, whole);
-    const Score s = score(r, full_scale);
+    const Unseen one = model.cross(points, mine, 1, whole);
+    const Score s = score(one.residuals, full_scale);
     each += fmt::format("{}{:.4g} mm {:.2f}/{:.2f}", each.empty() ? "" : ", ", 1e3 * mount.length,
                         s.rmse_percent, s.max_percent);
-    out.insert(out.end(), r.begin(), r.end());
+    out.add(one);
   }
   return out;
+}
+
+// Writes the quantiles of the muscle that was missed by most.
+void add_the_worst(const std::vector<LeftOut>& muscles, StaticSpread& spread) {
+  for (const LeftOut& m : muscles) {
+    const Quantiles q = quantiles(m.unseen);
+    Quantiles& worst = spread.other_muscle;
+    worst = worst.points == 0 ? q : wider(worst, q);
+    Unseen shares = m.unseen;
+    std::ranges::fill(shares.widths, m.largest);
+    const Quantiles share = quantiles(shares);
+    spread.other_share_68 = std::max(spread.other_share_68, share.q68);
+    spread.other_share_95 = std::max(spread.other_share_95, share.q95);
+    double next = std::numeric_limits<double>::infinity();
+    for (const LeftOut& other : muscles)
+      if (&other != &m)
+        next = std::min(next, std::abs(std::log(other.rest_length / m.rest_length)));
+    spread.other_reach = std::max(spread.other_reach, next);
+  }
+}
+
+// Adds what leaving out muscles says to the notes. Returns its mean square, each muscle in shares
+// of its own largest force  [-].
+double tell_muscles(const std::vector<LeftOut>& muscles, Fit& fit) {
+  std::string each;
+  double square = 0;
+  for (const LeftOut& m : muscles) {
+    each += fmt::format("{}{:.4g} mm {:.2f}/{:.2f}", each.empty() ? "" : ", ", 1e3 * m.rest_length,
+                        m.score.rmse_percent, m.score.max_percent);
+    square += std::pow(m.score.rmse_percent / 100, 2) / static_cast<double>(muscles.size());
+  }
+  if (!muscles.empty())
+    fit.notes.push_back("muscles that it did not see, rmse/max % of their own largest force: " +
+                        each);
+  return square;
 }
 
 }  // namespace
@@ -87,7 +137,8 @@ Tried::Tried(const StaticModel& model, const StaticScales& scales, const Points&
     fill |= p.branch == Branch::fill;
     vent |= p.branch == Branch::vent;
   }
-  if (muscles.size() > 1) knobs_.push_back(Knob::end_loss);
+  const bool gives_way = std::ranges::find(knobs_, Knob::series) != knobs_.end();
+  if (muscles.size() > 1 && !gives_way) knobs_.push_back(Knob::end_loss);
   if (fill && vent) knobs_.push_back(Knob::half_width);
   if (count_of(length_groups(points)) > 1) return;
   if (!scales.braid)
@@ -104,15 +155,36 @@ StaticFit Tried::fit(const Points& points, const StaticFit* start) const {
   return fit_static(knobs_, points, scales_, start);
 }
 
-std::vector<double> Tried::cross(const Points& points, const std::vector<int>& part, int parts,
-                                 const StaticFit& whole) const {
-  std::vector<double> out;
+Unseen Tried::cross(const Points& points, const std::vector<int>& part, int parts,
+                    const StaticFit& whole) const {
+  Unseen out;
   for (int k = 0; k < parts; ++k) {
     const StaticSplit s = split(points, [&](std::size_t i) { return part[i] != k; });
     if (s.held_out.empty()) continue;
     const StaticFit one = fit(s.fitted, &whole);
-    const std::vector<double> r = misses(one.setting, scales_of_fit(one), s.held_out);
-    out.insert(out.end(), r.begin(), r.end());
+    const StaticScales own = scales_of_fit(one);
+    out.add({misses(one.setting, own, s.held_out), widths(one, own, s.held_out)});
+  }
+  return out;
+}
+
+std::vector<LeftOut> Tried::leave_out_muscles(const Points& points) const {
+  std::set<double> muscles;
+  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+  std::vector<LeftOut> out;
+  if (muscles.size() < 2) return out;
+  for (const double muscle : muscles) {
+    const StaticSplit s =
+        split(points, [&](std::size_t i) { return points[i].rest_length != muscle; });
+    const StaticScales scales = scales_of(s.fitted, scales_.atmosphere, scales_.braid);
+    const Tried others(model_, scales, s.fitted);
+    const StaticFit one = others.fit(s.fitted);
+    const StaticScales own = others.scales_of_fit(one);
+    LeftOut left{.rest_length = muscle,
+                 .unseen = {misses(one.setting, own, s.held_out), widths(one, own, s.held_out)}};
+    for (const StaticPoint& p : s.held_out) left.largest = std::max(left.largest, p.force);
+    left.score = score(left.unseen.residuals, left.largest);
+    out.push_back(std::move(left));
   }
   return out;
 }
@@ -123,30 +195,41 @@ StaticScales Tried::scales_of_fit(const StaticFit& fit) const {
   return out;
 }
 
-void cross_validate(const Tried& model, const Points& points, const StaticFit& whole,
-                    double full_scale, Fit& fit) {
+StaticSpread cross_validate(const Tried& model, const Points& points, const StaticFit& whole,
+                            double full_scale, Fit& fit) {
   const std::vector<int> part = interior_pressures(points);
   const int parts = 1 + *std::max_element(part.begin(), part.end());
-  std::vector<double> all = model.cross(points, part, parts, whole);
-  double square = mean_square(all);
+  Unseen inside = model.cross(points, part, parts, whole);
+  std::vector<double> squares{mean_square(inside.residuals)};
   fit.notes.push_back(fmt::format("pressures between the ends that it did not see: {:.2f} % rmse",
-                                  100 * std::sqrt(square) / full_scale));
+                                  100 * std::sqrt(squares[0]) / full_scale));
 
-  std::string inside, ends;
-  const auto between = cross_lengths(model, points, whole, false, full_scale, inside);
-  if (!between.empty()) {
-    fit.notes.push_back("lengths between the ends that it did not see, rmse/max %: " + inside);
-    square = 0.5 * (square + mean_square(between));
-    all.insert(all.end(), between.begin(), between.end());
+  std::string between, ends;
+  const Unseen lengths = cross_lengths(model, points, whole, false, full_scale, between);
+  if (!lengths.residuals.empty()) {
+    fit.notes.push_back("lengths between the ends that it did not see, rmse/max %: " + between);
+    squares.push_back(mean_square(lengths.residuals));
+    inside.add(lengths);
   }
-  fit.cross_validated = score(all, full_scale);
-  fit.cross_validated->rmse = std::sqrt(square);
-  fit.cross_validated->rmse_percent = 100 * fit.cross_validated->rmse / full_scale;
+  const std::vector<LeftOut> muscles = model.leave_out_muscles(points);
+  const double of_muscles = tell_muscles(muscles, fit) * full_scale * full_scale;
+  if (muscles.size() > 2) squares.push_back(of_muscles);
 
-  if (count_of(length_groups(points)) < 3) return;
-  const auto beyond = cross_lengths(model, points, whole, true, full_scale, ends);
-  fit.extrapolated = score(beyond, full_scale);
+  fit.cross_validated = score(inside.residuals, full_scale);
+  fit.cross_validated->rmse = std::sqrt(mean(squares));
+  fit.cross_validated->rmse_percent = 100 * fit.cross_validated->rmse / full_scale;
+  StaticSpread out;
+  out.inside = quantiles(inside);
+  add_the_worst(muscles, out);
+
+  if (count_of(length_groups(points)) < 3) return out;
+  Unseen beyond = cross_lengths(model, points, whole, true, full_scale, ends);
+  fit.extrapolated = score(beyond.residuals, full_scale);
   fit.notes.push_back("lengths at the ends that it did not see, rmse/max %: " + ends);
+  if (count_of(pressure_groups(points)) > 3)
+    beyond.add(model.cross(points, end_pressures(points), 2, whole));
+  out.beyond = wider(out.inside, quantiles(beyond));
+  return out;
 }
 
 }  // namespace sinew::identify

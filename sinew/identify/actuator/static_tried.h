@@ -7,9 +7,18 @@
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/actuator/static_model.h"
+#include "sinew/identify/actuator/static_spread.h"
 #include "sinew/identify/fit/fit.h"
 
 namespace sinew::identify {
+
+// A muscle that was predicted by a fit to all others.
+struct LeftOut {
+  double rest_length = 0;  // [m]
+  double largest = 0;      // force [N]
+  Unseen unseen;
+  Score score;  // in % of its own largest force
+};
 
 // A law that is fitted to points of these muscles, by its own way. Model and scales outlive it.
 class Tried {
@@ -22,10 +31,14 @@ class Tried {
   // Returns the fit; `start` is one of more points, whose scatter is kept.
   StaticFit fit(const std::vector<StaticPoint>& points, const StaticFit* start = nullptr) const;
 
-  // Returns predicted - measured of every part 0 ... parts - 1 of the points, predicted by a fit to
-  // all others  [N]. `part` has a number for each point; -1 is always fitted.
-  std::vector<double> cross(const std::vector<StaticPoint>& points, const std::vector<int>& part,
-                            int parts, const StaticFit& whole) const;
+  // Returns every part 0 ... parts - 1 of the points as a fit to all others predicts it. `part` has
+  // a number for each point; -1 is always fitted.
+  Unseen cross(const std::vector<StaticPoint>& points, const std::vector<int>& part, int parts,
+               const StaticFit& whole) const;
+
+  // Returns each muscle as a fit to all others predicts it; none where there is but one muscle. The
+  // law is set up anew each time, as if the muscle had never been there.
+  std::vector<LeftOut> leave_out_muscles(const std::vector<StaticPoint>& points) const;
 
   // Returns the scales that a fit is computed with: 2.3 has found its own braid.
   StaticScales scales_of_fit(const StaticFit& fit) const;
@@ -40,8 +53,9 @@ class Tried {
 
 // Writes into `fit` what the law makes of points that it did not see, in % of full_scale: pressures
 // between the lowest and the highest in parts, lengths between the ends of each muscle one by one,
-// both kinds alike (cross_validated). To leave out an end is to extrapolate: that is told apart.
-void cross_validate(const Tried& model, const std::vector<StaticPoint>& points,
-                    const StaticFit& whole, double full_scale, Fit& fit);
+// and, of three muscles or more, each muscle once; all kinds alike (cross_validated). To leave out
+// an end is to extrapolate: that is told apart. Returns how far off it was.
+StaticSpread cross_validate(const Tried& model, const std::vector<StaticPoint>& points,
+                            const StaticFit& whole, double full_scale, Fit& fit);
 
 }  // namespace sinew::identify

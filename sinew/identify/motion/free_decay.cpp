@@ -133,9 +133,10 @@ std::optional<double> rest_length(const Hanging& h) {
 }
 
 double sealed_frequency(const Hanging& h, double length) {
-  const double k = actuator::stiffness_sealed(h.actuator, length, h.pressure, h.atmosphere,
-                                              h.external_volume, h.polytropic_exponent) +
-                   actuator::passive_stiffness(h.actuator, length);
+  const double k =
+      actuator::stiffness_sealed(h.actuator, length, h.pressure, h.atmosphere, h.external_volume,
+                                 h.polytropic_exponent) +
+      actuator::passive_stiffness(h.actuator, length, h.pressure - h.atmosphere, h.atmosphere);
   return k > 0 ? std::sqrt(k / h.mass) : 0;
 }
 

@@ -1,0 +1,155 @@
+#include "sinew/identify/actuator/static_predict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "sinew/actuator/tension.h"
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+
+namespace {
+
+constexpr double a_fifth = 0.2;  // of the range, prediction.h's beyond
+constexpr int nodes = 5;         // of lengths and of pressures
+
+const StaticMuscle* fitted(const StaticResult& result, double rest_length) {
+  for (const StaticMuscle& m : result.muscles)
+    if (std::abs(m.rest_length - rest_length) < 1e-6) return &m;
+  return nullptr;
+}
+
+bool within(double x, double low, double high) {
+  const double slip = 1e-6 * std::max(std::abs(low), std::abs(high));
+  return x >= low - slip && x <= high + slip;
+}
+
+// Returns the roots of the means of the squares of both half-widths.
+std::array<double, 2> mean_widths(const StaticResult& result,
+                                  const std::vector<StaticPoint>& points) {
+  std::array<double, 2> sum{};
+  for (const StaticPoint& p : points) {
+    const StaticForce f = predict(result, p);
+    sum[0] += f.half_68 * f.half_68 / static_cast<double>(points.size());
+    sum[1] += f.half_95 * f.half_95 / static_cast<double>(points.size());
+  }
+  return {std::sqrt(sum[0]), std::sqrt(sum[1])};
+}
+
+double known(double width) { return std::isfinite(width) ? width : 0.0; }
+
+}  // namespace
+
+StaticMuscle muscle_of(const StaticResult& result, double rest_length) {
+  if (const StaticMuscle* m = fitted(result, rest_length)) return *m;
+  StaticMuscle out = result.muscles.front();
+  const double ratio = rest_length / out.rest_length;
+  out.actuator = scaled(result.fit.setting, result.scales, rest_length);
+  out.rest_length = rest_length;
+  out.shortest *= ratio;
+  out.longest *= ratio;
+  return out;
+}
+
+StaticForce predict(const StaticResult& result, const StaticPoint& point) {
+  const std::vector<StaticPoint> one{point};
+  StaticForce out{.force = predicted(result.fit.setting, result.scales, point)};
+  const StaticMuscle muscle = muscle_of(result, point.rest_length);
+  const bool inside = within(point.length, muscle.shortest, muscle.longest) &&
+                      within(point.pressure, muscle.lowest, muscle.highest);
+  Quantiles q = inside ? result.spread.inside : result.spread.beyond;
+  out.guess = inside ? Guess::inside : Guess::beyond;
+  if (!fitted(result, point.rest_length)) {
+    q = wider(q, result.spread.other_muscle);
+    out.guess = Guess::other_muscle;
+  }
+  const double w = widths(result.fit, result.scales, one)[0];
+  out.half_68 = q.q68 * w;
+  out.half_95 = q.q95 * w;
+  return out;
+}
+
+actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscle& m) {
+  std::vector<StaticPoint> inside, beyond;
+  const double length = m.longest - m.shortest, pressure = m.highest - m.lowest;
+  for (int i = 0; i < nodes; ++i)
+    for (int k = 0; k < nodes; ++k) {
+      const double x = i / (nodes - 1.0), y = k / (nodes - 1.0);
+      const auto at = [&](double along, double up) {
+        return StaticPoint{.length = m.shortest + along * length,
+                           .pressure = m.lowest + up * pressure,
+                           .rest_length = m.rest_length};
+      };
+      inside.push_back(at(x, y));
+      if (i == 0 && length > 0) beyond.insert(beyond.end(), {at(-a_fifth, y), at(1 + a_fifth, y)});
+      if (k == 0 && pressure > 0) beyond.insert(beyond.end(), {at(x, 1 + a_fifth)});
+    }
+  actuator::Prediction out{.rest_length = m.rest_length,
+                           .shortest = m.shortest,
+                           .longest = m.longest,
+                           .lowest = m.lowest,
+                           .highest = m.highest};
+  const auto in = mean_widths(result, inside);
+  out.inside_68 = known(in[0]);
+  out.inside_95 = known(in[1]);
+  if (!beyond.empty()) {
+    const auto off = mean_widths(result, beyond);
+    out.beyond_68 = std::max(out.inside_68, known(off[0]));
+    out.beyond_95 = std::max(out.inside_95, known(off[1]));
+    if (!std::isfinite(off[1])) out.beyond_68 = out.beyond_95 = 0;
+  }
+  out.other_68 = result.spread.other_share_68;
+  out.other_95 = result.spread.other_share_95;
+  out.other_reach = result.spread.other_reach;
+  return out;
+}
+
+actuator::Actuator corrected(actuator::Actuator a, const ForceReading& r, double atmosphere) {
+  const double force = actuator::tension(a, r.length, 0, r.gauge_pressure, atmosphere);
+  const double ratio = force > 0 ? r.force / force : 0;
+  if (!(ratio > 0.5 && ratio < 2))
+    throw Refusal("reading", fmt::format("{:.4g} N", r.force),
+                  fmt::format("a force near the {:.4g} N that the law has at {:.4g} mm and {:.4g} "
+                              "kPa gauge",
+                              std::max(force, 0.0), 1e3 * r.length, 1e-3 * r.gauge_pressure),
+                  "a reading well within the range of the muscle, in these units");
+  // Everything that pulls is as much stronger, so that the shape stays.
+  a.effectiveness.scale *= ratio;
+  for (double* spring : {&a.bladder.stiffness, &a.bladder.quadratic, &a.bladder.cubic,
+                         &a.bladder.saturating_tension})
+    *spring *= ratio;
+  a.series.compliance /= ratio;
+  return a;
+}
+
+actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double rest_length,
+                                    double atmosphere) {
+  const double from = actuator.prediction.rest_length;
+  if (!(from > 0))
+    throw Refusal("actuator", "no prediction.rest_length", "one, as `identify static` writes it",
+                  "a file of `identify static`, or prediction.rest_length in it");
+  actuator::Actuator a = like(actuator, from, rest_length);
+  const double ratio = rest_length / from;
+  const actuator::Prediction old = actuator.prediction;
+  actuator::Prediction& p = a.prediction;
+  p.rest_length = rest_length;
+  p.shortest *= ratio;
+  p.longest *= ratio;
+  const double most = std::max(0.0, actuator::tension(a, p.longest, 0, p.highest, atmosphere));
+  const double away = std::abs(std::log(ratio));
+  const double stretch = old.other_reach > 0 ? std::max(1.0, away / old.other_reach) : 1.0;
+  const auto inside = [&](double share, double of_fit) {
+    return share > 0 ? std::max(share * stretch * most, of_fit) : 0.0;
+  };
+  p.inside_68 = inside(old.other_68, old.inside_68);
+  p.inside_95 = inside(old.other_95, old.inside_95);
+  const double grows = old.inside_95 > 0 ? old.beyond_95 / old.inside_95 : 0;
+  p.beyond_68 = p.inside_68 * grows;
+  p.beyond_95 = p.inside_95 * grows;
+  return a;
+}
+
+}  // namespace sinew::identify

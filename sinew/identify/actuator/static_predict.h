@@ -1,0 +1,54 @@
+// identify/actuator/static_predict.h - forces, and muscles, that nobody measured: the chosen law
+// somewhere else, with the intervals that it has earned there.
+//
+// A muscle of another rest length is the like of those that were fitted (static_model.h). One
+// reading of its force corrects it: the law is multiplied by the ratio of the force read to the
+// force predicted, as the braid's winding and the rest length's label are what differs most from
+// muscle to muscle.
+#pragma once
+
+#include <optional>
+
+#include "sinew/actuator/actuator.h"
+#include "sinew/identify/actuator/static.h"
+
+namespace sinew::identify {
+
+// A force that was predicted, and the half-widths about it that hold 68 and 95 % of measured ones.
+// Infinite where nothing of the kind was tried.
+struct StaticForce {
+  double force = 0;                 // [N]
+  double half_68 = 0, half_95 = 0;  // [N]
+  Guess guess = Guess::inside;
+};
+
+// Returns the force at a point of a muscle of any rest length.
+StaticForce predict(const StaticResult& result, const StaticPoint& point);
+
+// Returns the muscle of a rest length: one of those that were fitted, or their like with lengths
+// in the same proportion  [m].
+StaticMuscle muscle_of(const StaticResult& result, double rest_length);
+
+// Returns what a file tells of how far measured forces lie from the muscle's law: the root mean
+// square of the half-widths over its lengths and pressures, and a fifth beyond them.
+actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscle& muscle);
+
+// One reading of a muscle at rest.
+struct ForceReading {
+  double length = 0, gauge_pressure = 0, force = 0;  // [m], [Pa], [N]
+};
+
+// Returns the actuator with its law multiplied so that it pulls as was read. Throws Refusal where
+// it does not pull at that length and pressure, or twice or half as much as was read: then the
+// reading is of something else.
+actuator::Actuator corrected(actuator::Actuator actuator, const ForceReading& reading,
+                             double atmosphere);
+
+// Returns the like of an identified actuator with another rest length, and what is known of how
+// far it is off: the share of the force that muscles were missed by that the fit had not seen,
+// more beyond the ratio of lengths over which that was tried. Throws Refusal where the actuator
+// does not tell its own rest length.
+actuator::Actuator with_rest_length(const actuator::Actuator& actuator, double rest_length,
+                                    double atmosphere);
+
+}  // namespace sinew::identify

@@ -1,0 +1,88 @@
+#include "sinew/identify/actuator/static_spread.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew::identify {
+
+namespace {
+
+constexpr std::size_t few = 20;  // points below which an order says little of the 95th percentile
+constexpr double gradient_step = 1e-4;  // of a parameter's scale
+
+// The smallest of the sorted values that a further one lies below with this chance.
+double conformal(const std::vector<double>& sorted, double level) {
+  const double rank = std::ceil(level * static_cast<double>(sorted.size() + 1));
+  const auto at = std::min(static_cast<std::size_t>(rank), sorted.size());
+  return sorted[at - 1];
+}
+
+// Returns the variance of the mean force by the parameters, g' Cov g  [N2].
+double by_parameters(const std::vector<std::vector<double>>& gradient, std::size_t point,
+                     const std::vector<double>& covariance) {
+  const std::size_t n = gradient.size();
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < n; ++k)
+      if (const double c = covariance[i * n + k]; std::isfinite(c))
+        sum += c * gradient[i][point] * gradient[k][point];
+  return std::max(sum, 0.0);
+}
+
+}  // namespace
+
+const Quantiles& StaticSpread::of(Guess guess) const {
+  if (guess == Guess::other_muscle) return other_muscle;
+  return guess == Guess::inside ? inside : beyond;
+}
+
+void Unseen::add(const Unseen& other) {
+  residuals.insert(residuals.end(), other.residuals.begin(), other.residuals.end());
+  widths.insert(widths.end(), other.widths.begin(), other.widths.end());
+}
+
+std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
+                           std::span<const StaticPoint> points) {
+  std::vector<std::vector<double>> gradient;
+  for (const Knob knob : fit.knobs) {
+    const double step = gradient_step * parameter_of(knob, scales).scale;
+    StaticSetting up = fit.setting, down = fit.setting;
+    value_of(up, knob) += step;
+    value_of(down, knob) -= step;
+    std::vector<double> above = misses(up, scales, points);
+    const std::vector<double> below = misses(down, scales, points);
+    for (std::size_t i = 0; i < above.size(); ++i) above[i] = (above[i] - below[i]) / (2 * step);
+    gradient.push_back(std::move(above));
+  }
+  std::vector<double> out;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    out.push_back(
+        std::sqrt(fit.scatter * fit.scatter + by_parameters(gradient, i, fit.solution.covariance)));
+  return out;
+}
+
+Quantiles quantiles(const Unseen& unseen) {
+  Quantiles out{.points = unseen.residuals.size()};
+  if (out.points == 0) return out;
+  std::vector<double> z;
+  double square = 0;
+  for (std::size_t i = 0; i < out.points; ++i) {
+    z.push_back(std::abs(unseen.residuals[i]) / unseen.widths[i]);
+    square += z.back() * z.back() / static_cast<double>(out.points);
+  }
+  if (out.points < few) {
+    out.q95 = std::sqrt(square) * t_quantile(static_cast<int>(out.points));
+    out.q68 = std::sqrt(square);
+    return out;
+  }
+  std::ranges::sort(z);
+  out.q68 = conformal(z, 0.68);
+  out.q95 = conformal(z, 0.95);
+  return out;
+}
+
+Quantiles wider(const Quantiles& a, const Quantiles& b) {
+  return {std::max(a.q68, b.q68), std::max(a.q95, b.q95), a.points + b.points};
+}
+
+}  // namespace sinew::identify
