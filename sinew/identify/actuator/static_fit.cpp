@@ -128,7 +128,7 @@ std::vector<double> misses(const StaticSetting& setting, const StaticScales& sca
 }
 
 StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint> points,
-                     const StaticScales& scales, const StaticFit* start) {
+                     const StaticScales& scales, const StaticFit* start, double tolerance) {
   if (points.size() < knobs.size() + 2)
     throw Refusal("data", fmt::format("{} points", points.size()),
                   fmt::format("at least {} for {} parameters", knobs.size() + 2, knobs.size()),
@@ -140,13 +140,15 @@ StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint
     out.scatter = start->scatter;
     for (std::size_t i = 0; i < from.size(); ++i) from[i].start = start->solution.values[i];
   } else {
-    const Solution first = least_squares_from(problem.residuals(first_scatter * scales.full_scale),
-                                              problem.count(), from, starts_of(from, knobs));
+    const Solution first =
+        least_squares_from(problem.residuals(first_scatter * scales.full_scale), problem.count(),
+                           from, starts_of(from, knobs), {.tolerance = std::max(tolerance, 1e-9)});
     out.scatter = scatter_of(first.residuals, points, scales);
     for (std::size_t i = 0; i < from.size(); ++i) from[i].start = first.values[i];
   }
-  out.solution = least_squares(problem.residuals(out.scatter), problem.count(), from,
-                               {.outlier = outlier * out.scatter, .correlated = true});
+  out.solution =
+      least_squares(problem.residuals(out.scatter), problem.count(), from,
+                    {.outlier = outlier * out.scatter, .correlated = true, .tolerance = tolerance});
   out.setting = problem.setting(out.solution.values);
   if (!start)
     widen(problem.residuals(out.scatter), problem.parameters(), problem.count(), points.size(),

@@ -35,8 +35,10 @@ std::vector<double> misses(const StaticSetting& setting, const StaticScales& sca
                            std::span<const StaticPoint> points);
 
 // Throws Refusal where there are too few points. `start`: a solution of the same knobs.
+// `tolerance`: see SolverOptions.
 StaticFit fit_static(const std::vector<Knob>& knobs, std::span<const StaticPoint> points,
-                     const StaticScales& scales, const StaticFit* start = nullptr);
+                     const StaticScales& scales, const StaticFit* start = nullptr,
+                     double tolerance = 1e-14);
 
 // 2.3: the effectiveness of each nominal pressure by the ratio of sums, a parabola through them;
 // the braid is the given one, or that of an ideal fit.

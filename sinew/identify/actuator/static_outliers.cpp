@@ -33,7 +33,8 @@ std::vector<double> from_the_closest(const std::vector<StaticPoint>& points,
     if (std::ranges::find(knobs, Knob::series) != knobs.end()) continue;  // its kin stands for it
     if (muscles.size() > 1) knobs.push_back(Knob::end_loss);
     try {
-      const std::vector<double> d = distances(fit_static(knobs, points, scales), scales, points);
+      const std::vector<double> d =
+          distances(fit_static(knobs, points, scales, nullptr, 1e-7), scales, points);
       if (closest.empty() || median(d) < median(closest)) closest = d;
     } catch (const Refusal&) {
       continue;  // too few points for this one

@@ -113,7 +113,7 @@ Solution least_squares(const Residuals& residuals, std::size_t count,
     ceres::Solver::Options solver;
     solver.linear_solver_type = ceres::DENSE_QR;
     solver.max_num_iterations = options.most_steps;
-    solver.function_tolerance = 1e-14;
+    solver.function_tolerance = options.tolerance;
     solver.gradient_tolerance = 1e-14;
     solver.parameter_tolerance = 1e-10;
     solver.logging_type = ceres::SILENT;

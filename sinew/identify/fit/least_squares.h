@@ -43,6 +43,9 @@ struct SolverOptions {
   double outlier = 0;
   bool correlated = false;  // residuals are a time series
   int most_steps = 200;
+  // The search ends where a step makes the sum of squares smaller by less than this share of it.
+  // Whoever asks for many fits of little weight, for instance to leave points out, takes more.
+  double tolerance = 1e-14;
   // A parameter whose interval is wider than this share of the larger of its value and its scale is
   // not identifiable.
   double widest_interval = 1.0;
