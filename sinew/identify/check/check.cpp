@@ -103,9 +103,10 @@ void heed(const std::vector<Check>& checks, bool anyway, std::vector<std::string
       ++count;
     }
   if (count > 0 && !anyway)
-    throw Refusal(reds + fmt::format("{} red: a fit would be wrong; mend what the data say, or "
-                                     "try anyway=true to fit them as they are",
-                                     count == 1 ? "this check is" : "these checks are"));
+    throw Refusal(reds + fmt::format("check: found {} red, above; expected what a fit can be right "
+                                     "about; try what is said there, or anyway=true to fit it as "
+                                     "it is",
+                                     count));
   for (const Check& c : checks)
     if (c.light == Light::red || (c.light == Light::yellow && !c.told_by_fit))
       warnings.push_back(all_words(c));

@@ -57,7 +57,7 @@ class LabelProblem {
   const std::vector<Parameter>& parameters() const { return parameters_; }
   std::size_t count() const { return points_.size() + parameters_.size(); }
 
-  // Where a fit with fewer unknowns has ended.
+  // Where the fit that believes the labels has ended.
   std::vector<std::vector<double>> starts(const LabelFit& from) const {
     std::vector<double> out = from.law;
     if (doubted_) out.push_back(0);

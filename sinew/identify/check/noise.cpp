@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "sinew/identify/actuator/static_settled.h"
@@ -21,21 +22,21 @@ struct Squares {
   std::size_t readings = 0;
 };
 
-// Adds what values leave of a straight line through them.
-void add_about_line(const double* y, std::size_t n, Squares& out) {
-  double sy = 0, sxy = 0, sxx = 0;
-  const double middle = 0.5 * static_cast<double>(n - 1);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double x = static_cast<double>(i) - middle;
-    sy += y[i];
-    sxy += x * y[i];
-    sxx += x * x;
+// Adds what values leave of a straight line over x; of their mean where all x are one.
+void add_about_line(std::span<const double> x, std::span<const double> y, Squares& out) {
+  const auto n = static_cast<double>(y.size());
+  double mx = 0, my = 0, sxy = 0, sxx = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) mx += x[i] / n, my += y[i] / n;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    sxy += (x[i] - mx) * (y[i] - my);
+    sxx += (x[i] - mx) * (x[i] - mx);
   }
-  const double mean = sy / static_cast<double>(n), slope = sxy / sxx;
-  for (std::size_t i = 0; i < n; ++i)
-    out.sum += std::pow(y[i] - mean - slope * (static_cast<double>(i) - middle), 2);
-  out.freedom += static_cast<double>(n) - 2;
-  out.readings += n;
+  const bool leans = sxx > 1e-12 * mx * mx && n > 2;
+  const double slope = leans ? sxy / sxx : 0;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    out.sum += std::pow(y[i] - my - slope * (x[i] - mx), 2);
+  out.freedom += n - (leans ? 2 : 1);
+  out.readings += y.size();
 }
 
 // Samples that rest together, in windows.
@@ -47,7 +48,9 @@ void add_rests(const Measured& m, Squares& out) {
   for (std::size_t i = 0; i < force.size();) {
     std::size_t end = i;
     while (end < force.size() && rests[end] && end - i < rest_window) ++end;
-    if (end - i >= 5) add_about_line(&force[i], end - i, own);
+    if (end - i >= 5)
+      add_about_line(std::span(m["time"]).subspan(i, end - i), std::span(force).subspan(i, end - i),
+                     own);
     i = std::max(end, i + 1);
   }
   const double unit = weighs ? units::standard_gravity : 1;
@@ -61,15 +64,12 @@ void add_rests(const Measured& m, Squares& out) {
 void add_repeated(const std::vector<StaticPoint>& sorted, double near, Squares& out) {
   for (std::size_t i = 0; i < sorted.size();) {
     std::size_t end = i;
-    std::vector<double> force;
-    for (; end < sorted.size() && sorted[end].pressure - sorted[i].pressure <= near; ++end)
+    std::vector<double> pressure, force;
+    for (; end < sorted.size() && sorted[end].pressure - sorted[i].pressure <= near; ++end) {
+      pressure.push_back(sorted[end].pressure);
       force.push_back(sorted[end].force);
-    if (force.size() >= 3) add_about_line(force.data(), force.size(), out);
-    if (force.size() == 2) {
-      out.sum += 0.5 * std::pow(force[1] - force[0], 2);
-      out.freedom += 1;
-      out.readings += 2;
     }
+    if (force.size() >= 2) add_about_line(pressure, force, out);
     i = end;
   }
 }
