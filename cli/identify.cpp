@@ -152,15 +152,6 @@ void add_dialect_options(Command sub, DataOptions& options) {
 
 }  // namespace
 
-void add_length_options(Command sub, std::string& rest_length, std::vector<std::string>& lengths) {
-  sub.add_option("--rest-length", rest_length,
-                 "of the muscle without pressure and load; without it the longest length");
-  sub.add_option("--length", lengths,
-                 "of files without a column of it: \"205 mm\", or PART=\"205 mm\" for files with "
-                 "PART in their name; may be repeated")
-      .takes_one();
-}
-
 void add_data_options(Command sub, DataOptions& options) {
   sub.add_option("DATA", options.files, "measurements as CSV, or the folder of a run").required();
   sub.add_option("--map", options.maps, "name=NAME: the file's name for a column; may be repeated")

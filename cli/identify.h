@@ -14,6 +14,10 @@
 #include "sinew/identify/data/measured.h"
 #include "sinew/identify/fit/fit.h"
 
+namespace sinew::identify {
+struct StaticSettings;
+}
+
 namespace sinew::cli {
 
 void add_identify_geometry(Command identify, Action& action);
@@ -39,8 +43,9 @@ struct DataOptions {
 };
 void add_data_options(Command sub, DataOptions& options);
 
-// The lengths of a muscle that its files do not say, of `static` and `check`.
-void add_length_options(Command sub, std::string& rest_length, std::vector<std::string>& lengths);
+// What files do not say of a muscle and its measurement, and which of their points are fitted: of
+// `static` and `check`.
+void add_static_data_options(Command sub, identify::StaticSettings& settings);
 
 // One source per file. Throws config::Error for what is no name=value.
 std::vector<identify::Source> sources_of(const DataOptions& options);

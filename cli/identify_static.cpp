@@ -41,6 +41,27 @@ ExitCode run_static(const Options& options) {
 
 }  // namespace
 
+void add_static_data_options(Command sub, identify::StaticSettings& settings) {
+  sub.add_option("--rest-length", settings.rest_length,
+                 "of the muscle without pressure and load; without it the longest length");
+  sub.add_option("--length", settings.lengths,
+                 "of files without a column of it: \"205 mm\", or PART=\"205 mm\" for files with "
+                 "PART in their name; may be repeated")
+      .takes_one();
+  sub.add_option("--actuator", settings.actuator, "a file whose braid is taken as known");
+  sub.add_option("--branch", settings.branch, "fill, vent or both")
+      .is_one_of({"fill", "vent", "both"})
+      .show_default();
+  sub.add_option("--fit-where", settings.fit_where,
+                 "NAME=VALUE,...: only such rows are fitted, the others held out; may be repeated")
+      .takes_one();
+  sub.add_option("--hold-out", settings.hold_out,
+                 "pressure (every second), length (each once) or another FILE, to score what was "
+                 "not seen");
+  sub.add_option("--diameter", settings.diameter,
+                 "of the muscle without pressure and load, to compare its force with");
+}
+
 void add_identify_static(Command identify, Action& action) {
   auto options = std::make_shared<Options>();
   Command sub = identify.subcommand(
@@ -48,17 +69,9 @@ void add_identify_static(Command identify, Action& action) {
       "sinew identify static map.csv --map force=F_N,pressure=P_gauge_Pa,length=L_m --unit F_N=N "
       "--unit \"P_gauge_Pa=Pa gauge\" --unit L_m=m --rest-length \"250 mm\" -o my-actuator.toml");
   add_data_options(sub, options->data);
-  add_length_options(sub, options->settings.rest_length, options->settings.lengths);
-  sub.add_option("--actuator", options->settings.actuator, "a file whose braid is taken as known");
-  sub.add_option("--branch", options->settings.branch, "fill, vent or both")
-      .is_one_of({"fill", "vent", "both"})
-      .show_default();
-  sub.add_option("--fit-where", options->settings.fit_where,
-                 "NAME=VALUE,...: only such rows are fitted, the others held out; may be repeated")
-      .takes_one();
-  sub.add_option("--hold-out", options->settings.hold_out,
-                 "pressure (every second), length (each once) or another FILE, to score what was "
-                 "not seen");
+  add_static_data_options(sub, options->settings);
+  sub.add_flag("--anyway", options->settings.anyway,
+               "fit where a check is red, too; see `sinew identify check`");
   sub.add_option("--model", options->settings.model, "this one alone");
   sub.add_option("--name", options->settings.name, "of the actuator").show_default();
   add_result_options(sub, options->result);

@@ -9,14 +9,13 @@
 #include "python/binding/numbers.h"
 #include "sinew/identify/actuator/static.h"
 #include "sinew/identify/actuator/static_data.h"
+#include "sinew/identify/check/check.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/fit/report_json.h"
 
 namespace sinew::python {
 
 namespace {
-
-using identify::StaticData;
 
 // Returns the numbers of an argument: as many as there are points, or one for all.
 std::vector<double> each(const py::object& given, const char* name, py::ssize_t points) {
@@ -42,9 +41,10 @@ identify::HoldOut hold_out_of(const std::string& word) {
 }
 
 // As the rows of a table with these columns would be.
-StaticData data_of(const py::object& length, const py::object& pressure, const py::object& force,
-                   const py::object& rest_length, const py::object& fitted,
-                   const std::string& source) {
+identify::CheckInput input_of(const py::object& length, const py::object& pressure,
+                              const py::object& force, const py::object& rest_length,
+                              const py::object& fitted, double diameter,
+                              const std::string& source) {
   const py::ssize_t points = numbers(force, "force").size();
   identify::Measured table{.file = source};
   table.columns = {{"force", "N", each(force, "force", points)},
@@ -54,9 +54,10 @@ StaticData data_of(const py::object& length, const py::object& pressure, const p
     table.columns.push_back({"rest_length", "m", each(rest_length, "rest_length", points)});
   for (int row = 1; row <= points; ++row) table.lines.push_back(row);
   const std::vector<double> fit = each(fitted, "fitted", points);
-  StaticData out;
-  identify::add_points(table, {}, out);
-  for (std::size_t i = 0; i < out.points.size(); ++i) out.points[i].fitted = fit[i] != 0;
+  identify::CheckInput out{.diameter = diameter};
+  out.add({std::move(table), {}});
+  std::vector<identify::StaticPoint>& all = out.data.points;
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].fitted = fit[i] != 0;
   return out;
 }
 
@@ -65,13 +66,20 @@ py::tuple identify_static(const py::object& length, const py::object& pressure,
                           const py::object& force, const py::object& rest_length,
                           const py::object& fitted, const std::string& model,
                           const std::string& hold_out, const std::string& name,
-                          const std::string& source) {
-  const StaticData data = data_of(length, pressure, force, rest_length, fitted, source);
+                          const std::string& source, std::optional<double> diameter, bool anyway) {
+  if (diameter && !(*diameter > 0 && *diameter < 1))
+    throw std::invalid_argument(
+        fmt::format("diameter: found {}; expected one of a muscle [m]", *diameter));
+  identify::CheckInput input =
+      input_of(length, pressure, force, rest_length, fitted, diameter.value_or(0), source);
   identify::StaticOptions options{.model = model, .hold_out = hold_out_of(hold_out)};
   options.subject = "static law from " + source;
   std::optional<identify::StaticResult> found;
   std::atomic<bool> unstoppable = false;
-  do_interruptibly(unstoppable, [&] { found = identify::identify_static(data, options); });
+  do_interruptibly(unstoppable, [&] {
+    identify::heed(identify::check_static(input), anyway, input.data.warnings);
+    found = identify::identify_static(input.data, options);
+  });
   py::list files;
   for (std::size_t i = 0; i < found->muscles.size(); ++i)
     files.append(identify::static_file(*found, i, name, source, ""));
@@ -94,7 +102,8 @@ void bind_identify(py::module_& m) {
   });
   m.def("identify_static", &identify_static, py::arg("length"), py::arg("pressure"),
         py::arg("force"), py::arg("rest_length"), py::arg("fitted"), py::arg("model"),
-        py::arg("hold_out"), py::arg("name"), py::arg("source"));
+        py::arg("hold_out"), py::arg("name"), py::arg("source"), py::arg("diameter"),
+        py::arg("anyway"));
 }
 
 }  // namespace sinew::python

@@ -75,7 +75,7 @@ Identified geometry(const Sources& sources, const Settings& given) {
   return out;
 }
 
-Identified of_static(const Sources& sources, const Settings& given) {
+identify::StaticSettings static_settings(const Settings& given) {
   identify::StaticSettings s;
   given.text("name", s.name);
   given.text("model", s.model);
@@ -86,10 +86,23 @@ Identified of_static(const Sources& sources, const Settings& given) {
   given.texts("fit_where", s.fit_where);
   given.text("hold_out", s.hold_out);
   given.table("held_out", s.held_out);
+  given.quantity("diameter", "m", s.diameter);
+  given.flag("anyway", s.anyway);
+  return s;
+}
+
+Identified of_static(const Sources& sources, const Settings& given) {
+  const identify::StaticSettings s = static_settings(given);
   const auto found = away([&] { return identify::find_static(sources, s); });
   Identified out{.report = to_json(found.result.report).dump(), .reports = {found.result.report}};
   for (const std::string& file : found.files) out.files.push_back(fixed(file));
   return out;
+}
+
+Identified check_of(const Sources& sources, const Settings& given) {
+  const identify::StaticSettings s = static_settings(given);
+  return {.report =
+              to_json(away([&] { return identify::check_before_static(sources, s); })).dump()};
 }
 
 Identified dynamic(const Sources& sources, const Settings& given) {
@@ -199,6 +212,7 @@ struct Method {
   std::span<const identify::Wanted> (*columns)();  // null: named by whoever measured
 };
 constexpr Method methods[] = {{"static", of_static, identify::static_columns},
+                              {"check", check_of, identify::static_columns},
                               {"dynamic", dynamic, identify::decay_columns},
                               {"creep", creep, identify::creep_columns},
                               {"joint", joint, identify::joint_columns},

@@ -109,3 +109,37 @@ class Static:
         _write(path, self.files[muscle], force)
 
 
+@dataclasses.dataclass(frozen=True)
+class Checked:
+    """What measurements are, what is wrong with them, and what a static law could find in them.
+
+    report: as `sinew identify check --json` prints it: what was recognised, noise of the force, which
+        parameters the data determine, and the checks.
+    """
+
+    report: Dict[str, Any]
+
+    @property
+    def red(self) -> bool:
+        """Whether a check is red: then a fit would be wrong."""
+        return bool(self.report["red"])
+
+    @property
+    def checks(self) -> Sequence[Dict[str, str]]:
+        """The checks: each its name, light ("green", "yellow" or "red"), evidence and advice."""
+        return tuple(self.report["checks"])
+
+    def lights(self) -> Dict[str, str]:
+        """Return the light of each check by its name; of several with one name the worst."""
+        out: Dict[str, str] = {}
+        for light in ("green", "yellow", "red"):
+            out.update({check["name"]: light for check in self.checks if check["light"] == light})
+        return out
+
+    def __str__(self) -> str:
+        """Return what is not green, a line each."""
+        return "\n".join(
+            f"{check['light']}: {check['name']}: {check['evidence']} {check.get('advice', '')}".rstrip()
+            for check in self.checks
+            if check["light"] != "green"
+        )

@@ -436,6 +436,8 @@ def identify_static(
     hold_out: str,
     name: str,
     source: str,
+    diameter: Optional[float],
+    anyway: bool,
 ) -> Tuple[Dict[str, Any], List[str]]: ...
 
 class Identified:

@@ -7,6 +7,8 @@
     found.write("my-actuator.toml")
     sinew.Actuator("my-actuator.toml").tension(0.22, 3e5)
 
+    print(identify.check("forces.csv", rest_length="102 mm", diameter="10 mm"))
+
     identify.valve("fill.csv", volume="0.5 L").write("my-valve.toml")
     identify.valve({"time": t, "pressure": p}, volume=5e-4)
 
@@ -27,16 +29,18 @@ import numpy.typing
 
 from sinew import _sinew
 from sinew._sinew import RefusalError
-from sinew._found import Found, Joint, Static, Valve
+from sinew._found import Checked, Found, Joint, Static, Valve
 from sinew._tables import Table, held_out_of, like, tables_of
 
 __all__ = [
+    "Checked",
     "Found",
     "Joint",
     "RefusalError",
     "Static",
     "Table",
     "Valve",
+    "check",
     "creep",
     "dynamic",
     "force_beam",
@@ -65,6 +69,8 @@ def static(
     hold_out: str = "",
     name: str = "bpa",
     source: str = "arrays of Python",
+    diameter: Optional[float] = None,
+    anyway: bool = False,
 ) -> Static:
     """Return the static law of an actuator from forces [N] at lengths [m] and gauge pressures [Pa].
 
@@ -72,13 +78,15 @@ def static(
     pressure and load (None: the longest length; several say which points are of which muscle). fitted:
     False for points that are held out, to score what was not seen; hold_out does that with every second
     "pressure" or each "length" once. model: that law alone; else the data choose. source: where the data
-    are from, for the file.
+    are from, for the file. diameter [m] without pressure, to compare the force with. The points are checked
+    first, as by check(): what is red is refused, unless they are to be fitted anyway; then it is among the
+    report's warnings, as suspicions are.
 
-    Raises RefusalError where the data support no law, and ValueError for arrays that do not belong
-    together or a model that there is not.
+    Raises RefusalError where the data support no law or a check is red, and ValueError for arrays that do
+    not belong together or a model that there is not.
     """
     report, files = _sinew.identify_static(
-        length, pressure, force, rest_length, fitted, model, hold_out, name, source
+        length, pressure, force, rest_length, fitted, model, hold_out, name, source, diameter, anyway
     )
     texts: List[str] = files
     return Static(report, tuple(texts))
@@ -95,6 +103,8 @@ def static_from(
     hold_out: Any = "",
     model: str = "",
     name: str = "bpa",
+    diameter: Optional[_Quantity] = None,
+    anyway: bool = False,
 ) -> Static:
     """Return the static law of an actuator from tables, or recordings with a column of time.
 
@@ -102,23 +112,41 @@ def static_from(
     are such. data: a table, or several. lengths: of files without that column, "205 mm", or "PART=205 mm"
     for those with PART in their name. actuator: a file whose braid is known. branch: "fill", "vent" or
     "both". fit_where: only rows with "NAME=VALUE,..." are fitted, the others held out. hold_out: "pressure"
-    (every second), "length" (each once), or another table.
+    (every second), "length" (each once), or another table. diameter [m] without pressure, and anyway: as
+    static() has them.
     """
-    settings: Dict[str, Any] = {
-        "rest_length": rest_length,
-        "lengths": lengths,
-        "actuator": actuator,
-        "branch": branch,
-        "fit_where": fit_where,
-        "model": model,
-        "name": name,
-    }
-    if isinstance(hold_out, str):
-        settings["hold_out"] = hold_out
-    else:
-        settings["held_out"] = held_out_of("static", data, hold_out)
+    settings = _static_settings(data, dict(locals()))
     found = _sinew.identify_tables("static", tables_of("static", data), settings)
     return Static(found.report, tuple(found.text(i, "") for i in range(found.files)))
+
+
+def check(
+    data: Any,
+    *,
+    rest_length: Optional[_Quantity] = None,
+    lengths: Union[str, Sequence[str]] = (),
+    actuator: Optional[_Path] = None,
+    branch: str = "both",
+    fit_where: Union[str, Sequence[str]] = (),
+    hold_out: Any = "",
+    diameter: Optional[_Quantity] = None,
+) -> Checked:
+    """Return what static_from() would find in the same tables, and what speaks against it.
+
+    Arguments are those of static_from(). What no method can read is a red check, too.
+    """
+    settings = _static_settings(data, dict(locals()))
+    return Checked(_sinew.identify_tables("check", tables_of("check", data), settings).report)
+
+
+def _static_settings(data: Any, given: Dict[str, Any]) -> Dict[str, Any]:
+    """Return the settings of a call; what is held out may be a word or a table."""
+    settings = {name: value for name, value in given.items() if name not in ("data", "hold_out")}
+    if isinstance(given["hold_out"], str):
+        settings["hold_out"] = given["hold_out"]
+    else:
+        settings["held_out"] = held_out_of("static", data, given["hold_out"])
+    return settings
 
 
 def geometry(data: Any, *, thread_thickness: _Quantity = 0.0, name: str = "bpa") -> Found:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "sinew/identify/check/label.h"
 #include "sinew/identify/check/plausible.h"
 #include "sinew/identify/fit/refusal.h"
 
@@ -44,29 +45,44 @@ Check whole_numbers(const std::vector<CheckedTable>& tables) {
           "If they are counts, `sinew identify sensor` makes newtons of them."};
 }
 
+std::string all_words(const Check& check) {
+  return fmt::format("{}: {}{}{}", check.name, check.evidence, check.advice.empty() ? "" : " ",
+                     check.advice);
+}
+
 }  // namespace
 
-std::vector<Check> check_static(const std::vector<CheckedTable>& tables, double diameter) {
-  std::vector<Check> out;
-  StaticData data;
-  double zero = 0;  // the largest that was taken off [N]
-  for (const CheckedTable& t : tables) try {
-      const double force = add_points(t.table, t.known, data).force;
-      if (std::abs(force) > std::abs(zero)) zero = force;
-    } catch (const Refusal& refusal) {
-      out.push_back({"readable", Light::red, refusal.what(), "Nothing can be fitted to it."});
-    }
+void CheckInput::add(CheckedTable table) {
+  const double force = add_points(table.table, table.known, data).force;
+  if (std::abs(force) > std::abs(zero)) zero = force;
+  tables.push_back(std::move(table));
+}
+
+void CheckInput::add_or_tell(CheckedTable table) try {
+  add(table);
+} catch (const Refusal& refusal) {
+  unreadable.push_back(
+      {"readable", Light::red, refusal.what(), "Nothing can be fitted to it.", false});
+  tables.push_back(std::move(table));
+}
+
+std::vector<Check> check_static(const CheckInput& input) {
+  std::vector<Check> out = input.unreadable;
+  const StaticData& data = input.data;
   if (out.empty())
     out.push_back({"readable", Light::green,
-                   fmt::format("{} points; files: {}.", data.points.size(), tables.size()), ""});
+                   fmt::format("{} points; files: {}.", data.points.size(), input.tables.size()),
+                   ""});
   for (const std::string& warning : data.warnings)
-    out.push_back({"recording", Light::yellow, warning, "Look at the beginning of the recording."});
-  out.push_back(repeated(tables));
-  out.push_back(whole_numbers(tables));
+    out.push_back(
+        {"recording", Light::yellow, warning, "Look at the beginning of the recording.", true});
+  out.push_back(repeated(input.tables));
+  out.push_back(whole_numbers(input.tables));
   if (data.points.empty()) return out;
-  add_unit_checks(data, diameter, zero, out);
+  add_unit_checks(data, input.diameter, input.zero, out);
   add_curve_checks(data, out);
-  add_reach_checks(data, out);
+  add_reach_checks(data, input.braid.has_value(), out);
+  if (!has_red(out)) add_label_checks(data, input.atmosphere, out);
   return out;
 }
 
@@ -76,6 +92,24 @@ std::string_view word(Light light) {
 
 bool has_red(const std::vector<Check>& checks) {
   return std::ranges::any_of(checks, [](const Check& c) { return c.light == Light::red; });
+}
+
+void heed(const std::vector<Check>& checks, bool anyway, std::vector<std::string>& warnings) {
+  std::string reds;
+  int count = 0;
+  for (const Check& c : checks)
+    if (c.light == Light::red) {
+      reds += all_words(c) + "\n";
+      ++count;
+    }
+  if (count > 0 && !anyway)
+    throw Refusal(reds + fmt::format("check: found {} red, above; expected what a fit can be right "
+                                     "about; try what is said there, or anyway=true to fit it as "
+                                     "it is",
+                                     count));
+  for (const Check& c : checks)
+    if (c.light == Light::red || (c.light == Light::yellow && !c.told_by_fit))
+      warnings.push_back(all_words(c));
 }
 
 }  // namespace sinew::identify

@@ -10,13 +10,19 @@
 //
 //   F  tension [N]   D, theta  diameter [m] and angle of the braid at rest   p  gauge pressure [Pa]
 //   e  contraction [-]
+//
+// Forces that are all too small by one factor look like those of a thinner muscle: nothing in the
+// law has a size of its own but D. The diameter alone tells lbf from N.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "sinew/actuator/actuator.h"
 #include "sinew/identify/actuator/static_data.h"
+#include "sinew/units/constants.h"
 
 namespace sinew::identify {
 
@@ -30,6 +36,9 @@ struct Check {
   Light light = Light::green;
   std::string evidence;  // a sentence
   std::string advice;    // what to do; empty where it is green
+
+  // A fit's own report tells it, too, by its notes and intervals.
+  bool told_by_fit = false;
 };
 
 // One file, and what is known beside its columns.
@@ -38,15 +47,36 @@ struct CheckedTable {
   StaticInput known;
 };
 
-// Answers every question that the tables allow. `diameter` is that of the muscle without pressure
-// [m], 0: not known. Throws nothing for what the tables hold: what no method can read is a red
-// check, "readable".
-std::vector<Check> check_static(const std::vector<CheckedTable>& tables, double diameter = 0);
+// What is asked: tables, and the points that a fit would take from them.
+struct CheckInput {
+  std::vector<CheckedTable> tables;
+  StaticData data;
+  double zero = 0;                        // the largest force that was taken off [N]
+  std::vector<Check> unreadable;          // red
+  double diameter = 0;                    // of the muscle without pressure [m]; 0: not known
+  double atmosphere = units::atmosphere;  // [Pa]
+  std::optional<actuator::Braid> braid;   // known from elsewhere: then one length will do
+
+  // Adds a table with its points. Throws Refusal where no method can read it.
+  void add(CheckedTable table);
+
+  // The same, but what no method can read becomes a red check, "readable".
+  void add_or_tell(CheckedTable table);
+};
+
+// Answers every question that the points allow. Those that are held out are asked, too, but do not
+// count where it is about how much was measured.
+std::vector<Check> check_static(const CheckInput& input);
 
 // Returns "green", "yellow" or "red".
 std::string_view word(Light light);
 
 // Returns true if one of them is red.
 bool has_red(const std::vector<Check>& checks);
+
+// Throws Refusal where checks are red, with the evidence of each and what to do, unless they are to
+// be fitted `anyway`: then they are added to the warnings of the fit's report. So are suspicions;
+// what the report tells anyway is not said twice.
+void heed(const std::vector<Check>& checks, bool anyway, std::vector<std::string>& warnings);
 
 }  // namespace sinew::identify

@@ -72,13 +72,13 @@ std::string text_of(const Input& in) {
 
 // Tables that the reader refuses already are told as "readable", as by the command.
 std::vector<Check> checked(const Input& in) {
-  std::vector<CheckedTable> tables;
+  CheckInput asked{.diameter = in.diameter};
   try {
     const auto add = [&](const Input& one, const std::string& name) {
       Source source;
       source.path = name;
-      tables.push_back({parse_measured(text_of(one), source, static_columns()),
-                        {.rest_length = one.known_rest}});
+      asked.add_or_tell({parse_measured(text_of(one), source, static_columns()),
+                         {.rest_length = one.known_rest}});
     };
     add(in, "rig.csv");
     for (std::size_t i = 0; i < in.others.size(); ++i)
@@ -86,7 +86,7 @@ std::vector<Check> checked(const Input& in) {
   } catch (const config::Error& error) {
     return {{"readable", Light::red, error.what(), ""}};
   }
-  return check_static(tables, in.diameter);
+  return check_static(asked);
 }
 
 std::string words(const std::vector<Check>& checks) {
@@ -247,7 +247,9 @@ TEST(Check, GoodRigsHaveNoRed) {
 // A table from the shelf.
 std::vector<Check> checked_file(const std::string& path, Source source) {
   source.path = path;
-  return check_static({{read_measured(source, static_columns()), {}}});
+  CheckInput asked;
+  asked.add_or_tell({read_measured(source, static_columns()), {}});
+  return check_static(asked);
 }
 
 TEST(Check, TheShippedMapHasNoRed) {

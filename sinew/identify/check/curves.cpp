@@ -8,18 +8,28 @@ namespace sinew::identify {
 
 namespace {
 
+constexpr double one_length = 2e-4;  // of a length: readings that differ by their noise alone
+
+// How far readings of the very same length are apart; others differ by their lengths, too.
+double gap_of(const std::vector<StaticPoint>& points) {
+  double out = 0;
+  for (const StaticPoint& a : points)
+    for (const StaticPoint& b : points)
+      if (std::abs(a.length - b.length) < one_length * a.length)
+        out = std::max(out, a.force - b.force);
+  return out;
+}
+
 // Adds a run of points at one pressure as one.
 void add(const std::vector<StaticPoint>& at_one, ForceCurve& curve) {
-  double pressure = 0, force = 0, low = at_one[0].force, high = low;
+  double pressure = 0, force = 0;
   for (const StaticPoint& p : at_one) {
     pressure += p.pressure / static_cast<double>(at_one.size());
     force += p.force / static_cast<double>(at_one.size());
-    low = std::min(low, p.force);
-    high = std::max(high, p.force);
   }
   curve.pressure.push_back(pressure);
   curve.force.push_back(force);
-  curve.gap.push_back(high - low);
+  curve.gap.push_back(gap_of(at_one));
 }
 
 ForceCurve curve_of(std::vector<StaticPoint> points, double near) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/check/curves.h"
 
 namespace sinew::identify {
@@ -111,11 +112,15 @@ Check branches(const std::vector<ForceCurve>& curves) {
   for (const ForceCurve& c : curves)
     for (std::size_t i = 0; i < c.gap.size(); ++i)
       if (c.gap[i] > 0 && c.force[i] > 0) gap += c.gap[i], force += c.force[i];
-  if (gap > 0.03 * force)
+  // Where both branches are told, readings are apart by their noise alone.
+  const double usual = pairs > 0 ? 0.15 : 0.03;
+  if (gap > usual * force)
     return {"branches", Light::yellow,
             fmt::format("Readings of one length, pressure and branch are {:.2g} % apart.",
                         100 * gap / force),
-            "Say in a column branch which rows are fill and which are vent."};
+            pairs > 0
+                ? "Look whether all of them are of one muscle, and of the branch that is told."
+                : "Say in a column branch which rows are fill and which are vent."};
   return {"branches", Light::green, "Readings of one branch agree.", ""};
 }
 
@@ -139,10 +144,29 @@ Check curves_rise(const std::vector<ForceCurve>& curves) {
   return {"clipped sensor", Light::green, "The force rises up to the highest pressure.", ""};
 }
 
+auto is_of(Branch branch) {
+  return [=](const StaticPoint& p) { return p.branch == branch; };
+}
+
+// How many pressures there are on the way up or down, whichever has more.
+std::size_t pressures_of(const std::vector<StaticPoint>& points) {
+  int most = 0;
+  for (const Branch branch : {Branch::vent, Branch::unknown, Branch::fill}) {
+    std::vector<StaticPoint> own;
+    std::ranges::copy_if(points, std::back_inserter(own), is_of(branch));
+    if (!own.empty()) most = std::max(most, count_of(pressure_groups(own)));
+  }
+  return static_cast<std::size_t>(most);
+}
+
 Check count(const char* name, std::size_t n, std::size_t red, std::size_t yellow,
             const char* advice) {
   const Light light = n < red ? Light::red : n < yellow ? Light::yellow : Light::green;
-  return {name, light, fmt::format("There are {}.", n), light == Light::green ? "" : advice};
+  std::string_view one = name;  // "lengths"
+  one.remove_suffix(1);
+  const std::string text =
+      n == 1 ? fmt::format("There is one {} only.", one) : fmt::format("There are {} {}.", n, name);
+  return {name, light, text, light == Light::green ? "" : advice, light == Light::yellow};
 }
 
 }  // namespace
@@ -155,19 +179,19 @@ void add_curve_checks(const StaticData& data, std::vector<Check>& out) {
   out.push_back(curves_rise(curves));
 }
 
-void add_reach_checks(const StaticData& data, std::vector<Check>& out) {
-  std::set<double> lengths;
-  std::size_t pressures = 0;
-  bool fill = false, vent = false;
-  for (const ForceCurve& c : curves_of(data.points)) {
-    lengths.insert(c.length);
-    pressures = std::max(pressures, c.pressure.size());
-    fill = fill || c.branch == Branch::fill;
-    vent = vent || c.branch == Branch::vent;
-  }
-  out.push_back(count("lengths", lengths.size(), 2, 3,
-                      "Measure more mounts: five tell the braid from the bladder."));
-  out.push_back(count("pressures", pressures, 3, 5, "Measure more pressures: ten are good."));
+void add_reach_checks(const StaticData& data, bool braid_is_known, std::vector<Check>& out) {
+  std::vector<StaticPoint> fitted;
+  for (const StaticPoint& p : data.points)
+    if (p.fitted) fitted.push_back(p);
+  if (fitted.empty()) return;
+  const bool fill = std::ranges::any_of(fitted, is_of(Branch::fill)),
+             vent = std::ranges::any_of(fitted, is_of(Branch::vent));
+  const auto lengths = static_cast<std::size_t>(count_of(length_groups(fitted)));
+  out.push_back(count("lengths", lengths, braid_is_known ? 1 : 2, 3,
+                      "Measure more mounts: five tell the braid from the bladder. Of one length "
+                      "actuator=FILE has to give the braid's geometry."));
+  out.push_back(
+      count("pressures", pressures_of(fitted), 3, 5, "Measure more pressures: ten are good."));
   if (fill && vent)
     out.push_back({"both ways", Light::green, "It was filled and vented.", ""});
   else
@@ -175,7 +199,7 @@ void add_reach_checks(const StaticData& data, std::vector<Check>& out) {
                    fill   ? "It was only filled."
                    : vent ? "It was only vented."
                           : "No column says whether it was filled or vented.",
-                   "The hysteresis stays unknown; measure on the way up and down."});
+                   "The hysteresis stays unknown; measure on the way up and down.", true});
 }
 
 }  // namespace sinew::identify

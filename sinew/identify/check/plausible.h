@@ -12,7 +12,8 @@ namespace sinew::identify {
 void add_unit_checks(const StaticData& data, double diameter, double zero, std::vector<Check>& out);
 void add_curve_checks(const StaticData& data, std::vector<Check>& out);
 
-// Adds what the points can determine: how many lengths, pressures and branches there are.
-void add_reach_checks(const StaticData& data, std::vector<Check>& out);
+// Adds how many lengths, pressures and branches there are among what is to be fitted. One length is
+// enough where the braid is known from elsewhere.
+void add_reach_checks(const StaticData& data, bool braid_is_known, std::vector<Check>& out);
 
 }  // namespace sinew::identify

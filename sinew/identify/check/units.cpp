@@ -14,8 +14,9 @@ namespace {
 
 constexpr double highest_pressure = 1.2e6;  // pneumatic muscles end at 0.6 to 1 MPa [Pa]
 constexpr double low_pressure = 1.5e5;      // 20 psi; few muscles are measured below [Pa]
-constexpr double ambient = 101325;          // [Pa]
-constexpr double braid_factor = 8.2;        // a - b in check.h, of a braid at 25 degrees [-]
+constexpr double newtons_per_lbf = 4.448222;
+constexpr double ambient = 101325;    // [Pa]
+constexpr double braid_factor = 8.2;  // a - b in check.h, of a braid at 25 degrees [-]
 
 // Extremes of the points.
 struct Reach {
@@ -98,7 +99,7 @@ Check zero_of_force(const StaticData& data, const Reach& r, double taken_off) {
         "zero of force", Light::yellow,
         fmt::format("The force cell read {:.4g} N where the muscle is slack; that is taken off.",
                     taken_off),
-        "Zero the cell before a measurement, and look whether it drifts."};
+        "Zero the cell before a measurement, and look whether it drifts.", true};
   double sum = 0, n = 0;
   for (const StaticPoint& p : data.points)
     if (p.pressure < 0.03 * r.top) sum += p.force, n += 1;
@@ -136,7 +137,12 @@ Check cross_section(const Reach& r, double diameter) {
     return {"force unit", Light::green, against, ""};
   }
   if (implied < 0.002 || implied > 0.09) return {"force unit", Light::red, text + ".", advice};
-  return {"force unit", Light::green, text + "; a known diameter would be compared with it.", ""};
+  // Nothing but the diameter tells a thick muscle in lbf from a thin one in N: see check.h.
+  return {"force unit", Light::green,
+          fmt::format("{}, of {:.3g} mm if the numbers are lbf; a known diameter would be compared "
+                      "with it.",
+                      text, 1e3 * implied * std::sqrt(newtons_per_lbf)),
+          ""};
 }
 
 Check length_unit(const Reach& r, double diameter) {
@@ -163,7 +169,7 @@ Check rest_length(const StaticData& data) {
   if (most == 0)
     return {"rest length", Light::yellow,
             "No rest length is given; the longest length is taken for it.",
-            "Measure it, and give it as rest_length, a setting or a column."};
+            "Measure it, and give it as rest_length, a setting or a column.", true};
   const std::string text = fmt::format(
       "The longest mount, {:.4g} mm, is {:.4g} % of the rest "
       "length, {:.4g} mm.",

@@ -15,6 +15,7 @@ namespace sinew::identify {
 namespace {
 
 constexpr config::Range actuator_length = config::above_zero(1000, "of an actuator");
+constexpr config::Range across_a_muscle = config::above_zero(1, "of a muscle");
 
 // "Kinked19=206 mm" is for files with Kinked19 in their name, "205 mm" for all.
 struct LengthOf {
@@ -62,15 +63,9 @@ StaticInput input_for(const StaticSettings& settings, const Source& source, bool
   return input;
 }
 
-// Rows that fit_where names are fitted; the others are held out.
-void read_table(const StaticSettings& settings, const Source& source, bool fitted,
-                StaticData& data) {
-  const StaticInput input = input_for(settings, source, fitted);
-  const Measured all = read_measured(source, static_columns());
-  const std::size_t before = data.points.size();
-  add_points(all, input, data);
-  if (settings.fit_where.empty() || !fitted) return;
-
+// Which rows of a table fit_where names; the others are held out.
+std::vector<bool> named_rows(const StaticSettings& settings, const Source& source,
+                             const Measured& all) {
   Source some = source;
   for (const std::string& text : settings.fit_where) {
     const std::size_t equals = text.find('=');
@@ -82,8 +77,27 @@ void read_table(const StaticSettings& settings, const Source& source, bool fitte
     config::fail({"fit_where", 0, 0}, "", "a recording", "a table; of recordings, hold_out=FILE");
   const Measured few = read_measured(some, static_columns());
   const std::set<int> lines(few.lines.begin(), few.lines.end());
-  for (std::size_t i = 0; i < all.rows(); ++i)
-    data.points[before + i].fitted = lines.contains(all.lines[i]);
+  std::vector<bool> out;
+  for (const int line : all.lines) out.push_back(lines.contains(line));
+  return out;
+}
+
+// What is done with a table that no method can read.
+enum class Unreadable { is_refused, is_red };
+
+void read_table(const StaticSettings& settings, const Source& source, bool fitted,
+                Unreadable unreadable, CheckInput& out) {
+  const Measured all = read_measured(source, static_columns());
+  const std::size_t before = out.data.points.size();
+  CheckedTable table{all, input_for(settings, source, fitted)};
+  if (unreadable == Unreadable::is_red)
+    out.add_or_tell(std::move(table));
+  else
+    out.add(std::move(table));
+  if (settings.fit_where.empty() || !fitted) return;
+  const std::vector<bool> named = named_rows(settings, source, all);
+  for (std::size_t i = 0; before + i < out.data.points.size(); ++i)
+    out.data.points[before + i].fitted = named[i];
 }
 
 // Points of one branch only; what has none stays.
@@ -95,16 +109,20 @@ void keep_branch(const std::string& word, StaticData& data) {
   std::erase_if(data.points, [=](const StaticPoint& p) { return p.branch == other; });
 }
 
-StaticOptions options_of(const std::vector<Source>& sources, const StaticSettings& settings) {
-  StaticOptions out{.atmosphere = sources[0].atmosphere, .model = settings.model};
+// The braid that is known from elsewhere.
+std::optional<actuator::Braid> braid_of(const StaticSettings& settings) {
+  if (settings.actuator.empty()) return {};
+  const auto file = experiment::load_machine_file(settings.actuator);
+  return config::named(file.experiment.actuators, "", "actuator", "actuator").braid;
+}
+
+StaticOptions options_of(const std::vector<Source>& sources, const StaticSettings& settings,
+                         const std::optional<actuator::Braid>& braid) {
+  StaticOptions out{.atmosphere = sources[0].atmosphere, .braid = braid, .model = settings.model};
   out.subject = "static law from " + sources[0].path;
   if (sources.size() > 1) out.subject += " and " + std::to_string(sources.size() - 1) + " more";
   if (settings.hold_out == "pressure") out.hold_out = HoldOut::pressure;
   if (settings.hold_out == "length") out.hold_out = HoldOut::length;
-  if (!settings.actuator.empty()) {
-    const auto file = experiment::load_machine_file(settings.actuator);
-    out.braid = config::named(file.experiment.actuators, "", "actuator", "actuator").braid;
-  }
   return out;
 }
 
@@ -121,44 +139,49 @@ std::optional<Source> held_out_of(const std::vector<Source>& sources,
   return other;
 }
 
+// All tables, those that are held out last.
+CheckInput read_tables(const std::vector<Source>& sources, const StaticSettings& settings,
+                       Unreadable unreadable) {
+  CheckInput out{.atmosphere = sources[0].atmosphere, .braid = braid_of(settings)};
+  if (!settings.diameter.empty())
+    out.diameter = config::quantity_setting("diameter", settings.diameter, "m",
+                                            sources[0].atmosphere, across_a_muscle);
+  for (const Source& source : sources) read_table(settings, source, true, unreadable, out);
+  if (const std::optional<Source> other = held_out_of(sources, settings))
+    read_table(settings, *other, false, unreadable, out);
+  keep_branch(settings.branch, out.data);
+  return out;
+}
+
+void refuse_lengths_of_no_file(const std::vector<Source>& sources, const StaticSettings& settings) {
+  std::vector<Source> all = sources;
+  if (const std::optional<Source> other = held_out_of(sources, settings)) all.push_back(*other);
+  refuse_lengths_of_no_file(settings.lengths, all);
+}
+
 }  // namespace
 
 StaticFound find_static(const std::vector<Source>& sources, const StaticSettings& settings) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
-  const std::optional<Source> other = held_out_of(sources, settings);
-  std::vector<Source> all = sources;
-  if (other) all.push_back(*other);
-  refuse_lengths_of_no_file(settings.lengths, all);
+  refuse_lengths_of_no_file(sources, settings);
+  CheckInput read = read_tables(sources, settings, Unreadable::is_refused);
+  heed(check_static(read), settings.anyway, read.data.warnings);
 
-  StaticData data;
-  for (const Source& source : sources) read_table(settings, source, true, data);
-  if (other) read_table(settings, *other, false, data);
-  keep_branch(settings.branch, data);
-
-  StaticFound out{identify_static(data, options_of(sources, settings)), {}};
+  StaticFound out{identify_static(read.data, options_of(sources, settings, read.braid)), {}};
   for (std::size_t i = 0; i < out.result.muscles.size(); ++i)
     out.files.push_back(static_file(out.result, i, settings.name,
                                     "sinew identify static " + sources[0].path, settings.actuator));
   return out;
 }
 
-std::vector<Check> check_before_static(const std::vector<Source>& sources,
-                                       const StaticSettings& settings,
-                                       const std::string& diameter) {
+Checkup check_before_static(const std::vector<Source>& sources, const StaticSettings& settings) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
-  double across = 0;
-  if (!diameter.empty())
-    across = config::quantity_setting("diameter", diameter, "m", sources[0].atmosphere,
-                                      config::above_zero(1, "of a muscle"));
-  std::vector<CheckedTable> tables;
-  for (const Source& source : sources)
-    tables.push_back({read_measured(source, static_columns()), input_for(settings, source, true)});
-  std::vector<Check> out = check_static(tables, across);
+  Checkup out = check_up(read_tables(sources, settings, Unreadable::is_red));
   try {
-    refuse_lengths_of_no_file(settings.lengths, sources);
+    refuse_lengths_of_no_file(sources, settings);
   } catch (const config::Error& error) {
-    out.insert(out.begin(), {"lengths of files", Light::red, error.what(),
-                             "Name a part that one of the files has."});
+    out.checks.insert(out.checks.begin(), {"lengths of files", Light::red, error.what(),
+                                           "Name a part that one of the files has."});
   }
   return out;
 }

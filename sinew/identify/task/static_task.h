@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sinew/identify/actuator/static.h"
-#include "sinew/identify/check/check.h"
+#include "sinew/identify/check/checkup.h"
 
 namespace sinew::identify {
 
@@ -22,6 +22,9 @@ struct StaticSettings {
   std::vector<std::string> fit_where;  // "NAME=VALUE,...": only such rows are fitted
   std::string hold_out;                // pressure, length or another file, beside fit_where
   std::optional<Source> held_out;      // another table in place of a file
+  std::string diameter;  // without pressure, "10 mm", to compare its force with; empty:
+                         // not known
+  bool anyway = false;   // fit where a check is red, too
 };
 
 // Holds what was found, with the actuators' files.
@@ -30,14 +33,13 @@ struct StaticFound {
   std::vector<std::string> files;  // the actuator's, of each muscle; the longest first
 };
 
-// Throws config::Error and Refusal.
+// Checks the tables first (identify/check/check.h): what is red is refused unless it is to be
+// fitted anyway, suspicions become warnings of the report. Throws config::Error and Refusal.
 StaticFound find_static(const std::vector<Source>& sources, const StaticSettings& settings);
 
-// Asks the tables what a fit would not: see identify/check/check.h. `diameter` is that of the
-// muscle without pressure, "10 mm"; empty: not known. A length of no file is a red check, too.
-// Throws config::Error for tables that cannot be read.
-std::vector<Check> check_before_static(const std::vector<Source>& sources,
-                                       const StaticSettings& settings,
-                                       const std::string& diameter = "");
+// Asks the tables what a fit would not, and tells what it could find: see identify/check/checkup.h.
+// A length of no file is a red check, too. Throws config::Error for tables that cannot be read and
+// settings that are none.
+Checkup check_before_static(const std::vector<Source>& sources, const StaticSettings& settings);
 
 }  // namespace sinew::identify

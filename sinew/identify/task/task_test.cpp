@@ -56,18 +56,18 @@ TEST(Task, CheckTellsALengthOfNoFileAndAForceThatIsNotOfTheDiameter) {
     for (int p = 50; p <= 600; p += 50)
       text += std::to_string(length) + "," + std::to_string(p) + "," +
               std::to_string(0.9 * p - 3.0 * (250 - length)) + "\n";
-  const auto light_of = [&](const StaticSettings& settings, const std::string& diameter,
-                            const std::string& name) {
-    for (const Check& c : check_before_static(table(text, "rig.csv"), settings, diameter))
+  const auto light_of = [&](const StaticSettings& settings, const std::string& name) {
+    for (const Check& c : check_before_static(table(text, "rig.csv"), settings).checks)
       if (c.name == name) return std::string(word(c.light));
     return std::string("absent");
   };
-  EXPECT_EQ(light_of({.lengths = {"other=205 mm"}}, "", "lengths of files"), "red");
-  EXPECT_EQ(light_of({.lengths = {"rig=205 mm"}}, "", "lengths of files"), "absent");
-  EXPECT_EQ(light_of({}, "11 mm", "force unit"), "green");
-  EXPECT_EQ(light_of({}, "40 mm", "force unit"), "red");
-  EXPECT_NE(refusal([&] { check_before_static(table(text), {}, "11 kg"); }).find("diameter"),
-            std::string::npos);
+  EXPECT_EQ(light_of({.lengths = {"other=205 mm"}}, "lengths of files"), "red");
+  EXPECT_EQ(light_of({.lengths = {"rig=205 mm"}}, "lengths of files"), "absent");
+  EXPECT_EQ(light_of({.diameter = "11 mm"}, "force unit"), "green");
+  EXPECT_EQ(light_of({.diameter = "40 mm"}, "force unit"), "red");
+  EXPECT_NE(
+      refusal([&] { check_before_static(table(text), {.diameter = "11 kg"}); }).find("diameter"),
+      std::string::npos);
 }
 
 void expect_begins(const std::string& said, const std::string& begin) {

@@ -1,0 +1,224 @@
+#include "sinew/identify/check/label.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "sinew/identify/check/label_fit.h"
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+
+namespace {
+
+using enum Knob;
+using Points = std::vector<StaticPoint>;
+
+constexpr double least_shift = 0.01;     // of a rest length; less is a ruler's error
+constexpr double own_explains = 0.35;    // of what is left, squared: within a muscle
+constexpr double make_supports = 0.25;   // the same among muscles, where the muscle itself says so
+constexpr double make_explains = 0.5;    // where it does not
+constexpr double rest_mount = 0.002;     // of a rest length: a mount that is labelled as it
+constexpr double least_misfit = 0.0005;  // of the largest force; what is left below it says nothing
+
+// Beside branches and what several muscles need.
+const std::vector<Knob> label_laws[] = {
+    {thread_length, turns, threshold, stiffness, saturating_tension, saturation_length},
+    {thread_length, turns, threshold, eff_linear, stiffness, saturating_tension, saturation_length},
+    {thread_length, turns, threshold, stiffness, saturating_tension, saturation_length, series},
+};
+
+// What becomes of the misfit when a label is not believed; the best of the laws on either side.
+struct Doubt {
+  DoubtedLabel label;
+  double believed = 0, doubted = 0;  // what is left, root mean square in shares of the force [-]
+  double shift = 0, error = 0;       // [m]
+
+  double explained() const { return 1 - std::pow(doubted / believed, 2); }
+  double labelled() const { return label.mount.value_or(label.rest_length); }
+
+  bool speaks(double least) const {
+    return believed > least_misfit && explained() > least && std::abs(shift) > 2 * error &&
+           std::abs(shift) > least_shift * label.rest_length;
+  }
+  std::string words() const {
+    return fmt::format("{:.4g} +- {:.2g} mm", 1e3 * (labelled() + shift), 2e3 * error);
+  }
+};
+
+std::vector<Knob> law_for(std::vector<Knob> law, const Points& points) {
+  bool fill = false, vent = false;
+  for (const StaticPoint& p : points) {
+    fill |= p.branch == Branch::fill;
+    vent |= p.branch == Branch::vent;
+  }
+  if (fill && vent) law.push_back(half_width);
+  if (points.front().rest_length != points.back().rest_length) law.push_back(end_loss);
+  return law;
+}
+
+// One muscle or several, and what is left where every label is believed.
+struct Believed {
+  Points points;
+  double atmosphere = 0;       // [Pa]
+  std::vector<LabelFit> fits;  // of each law
+  double rms = 1e300;          // the best law's
+
+  Believed(Points all, double outside) : points(std::move(all)), atmosphere(outside) {
+    for (const std::vector<Knob>& law : label_laws) {
+      fits.push_back(fit_labels(points, law_for(law, points), atmosphere));
+      rms = std::min(rms, fits.back().rms);
+    }
+  }
+};
+
+// Laws that do about as well as the best one tell the shift; how far they are apart is part of its
+// error.
+Doubt ask(const Believed& all, const DoubtedLabel& label) {
+  std::vector<LabelFit> fits;
+  double best = 1e300;
+  for (std::size_t i = 0; i < all.fits.size(); ++i) {
+    fits.push_back(fit_labels(all.points, law_for(label_laws[i], all.points), all.atmosphere, label,
+                              all.fits[i]));
+    best = std::min(best, fits.back().rms);
+  }
+  Doubt out{.label = label, .believed = all.rms, .doubted = best};
+  double low = 1e300, high = -1e300, n = 0;
+  for (const LabelFit& f : fits) {
+    if (f.rms > 1.1 * best) continue;
+    out.shift += f.shift;
+    out.error = std::max(out.error, f.error);
+    low = std::min(low, f.shift);
+    high = std::max(high, f.shift);
+    n += 1;
+  }
+  out.shift /= n;
+  out.error = std::hypot(out.error, 0.5 * (high - low));
+  return out;
+}
+
+Points of_muscle(const Points& points, double rest_length) {
+  Points out;
+  for (const StaticPoint& p : points)
+    if (p.rest_length == rest_length) out.push_back(p);
+  return out;
+}
+
+std::set<double> mounts_of_muscle(const Points& points) {
+  std::set<double> out;
+  for (const StaticPoint& p : points) out.insert(p.length);
+  return out;
+}
+
+// A muscle that its own mounts can be asked about: three of them, the longest labelled as its rest
+// length.
+bool can_be_asked(const Points& own) {
+  const std::set<double> mounts = mounts_of_muscle(own);
+  const double rest = own.front().rest_length;
+  return rest > 0 && mounts.size() >= 3 && own.size() >= 15 &&
+         std::abs(*mounts.rbegin() / rest - 1) < rest_mount;
+}
+
+// Which other mount, if it were off alone, would explain as much.
+std::string others_that_explain(const Believed& own, const Doubt& doubt) {
+  std::string out;
+  const std::set<double> mounts = mounts_of_muscle(own.points);
+  for (const double mount : mounts) {
+    if (mount == *mounts.rbegin()) continue;
+    const Doubt other = ask(own, {.rest_length = doubt.label.rest_length, .mount = mount});
+    if (other.doubted < 1.15 * doubt.doubted)
+      out += fmt::format("{}that of {:.4g} mm is {}", out.empty() ? "" : ", or ", 1e3 * mount,
+                         other.words());
+  }
+  return out;
+}
+
+Check suspicion_of(const Doubt* own, const Doubt* make, const std::string& others) {
+  const double label = (own ? own : make)->label.rest_length;
+  std::string text = fmt::format("The muscle labelled {:.4g} mm behaves like ", 1e3 * label);
+  if (own)
+    text += fmt::format(
+        "{}: so its mount at rest goes with its others, and what they leave falls from {:.2g} to "
+        "{:.2g} % of the largest force",
+        own->words(), 100 * own->believed, 100 * own->doubted);
+  if (own && make) text += "; among the muscles of its make it behaves like ";
+  if (make)
+    text += fmt::format("{}: what all leave falls from {:.2g} to {:.2g} %", make->words(),
+                        100 * make->believed, 100 * make->doubted);
+  std::string advice = "Measure its length without pressure and load again.";
+  if (!others.empty()) advice += " Or its rest length is right, and " + others + ".";
+  return {"labels", Light::yellow, text + ".", advice};
+}
+
+// Which muscles of a make follow the others with another rest length only.
+std::vector<Doubt> doubts_of_make(const Points& points, double atmosphere) {
+  std::set<double> muscles;
+  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+  std::vector<Doubt> out;
+  if (muscles.size() < 3 || *muscles.begin() <= 0) return out;
+  const Believed all(points, atmosphere);
+  for (const double m : muscles) out.push_back(ask(all, {.rest_length = m}));
+  return out;
+}
+
+// Muscles of whom any one would explain what is left.
+Check one_of_them(const std::vector<const Doubt*>& doubts) {
+  std::string text = "The muscles do not follow one law. ";
+  for (std::size_t i = 0; i < doubts.size(); ++i)
+    text +=
+        fmt::format("{} labelled {:.4g} mm behaves like {}", i ? ", or the one" : "Either the one",
+                    1e3 * doubts[i]->label.rest_length, doubts[i]->words());
+  return {"labels", Light::yellow, text + ".",
+          "Measure the lengths of these muscles without pressure and load again."};
+}
+
+}  // namespace
+
+void add_label_checks(const StaticData& data, double atmosphere, std::vector<Check>& out) {
+  const Points points = few_points(data.points);
+  if (points.empty()) return;
+  if (!(points.front().rest_length > 0)) {
+    out.push_back({"labels", Light::green, "No rest length is given that could be wrong.", ""});
+    return;
+  }
+  const std::vector<Doubt> make = doubts_of_make(points, atmosphere);
+  std::set<double> muscles;
+  for (const StaticPoint& p : points) muscles.insert(p.rest_length);
+  int asked = make.empty() ? 0 : 1;
+  bool named = false;
+  for (const double m : muscles) {
+    const Points mine = of_muscle(points, m);
+    if (!can_be_asked(mine)) continue;
+    ++asked;
+    const Believed own(mine, atmosphere);
+    const Doubt doubt = ask(own, {.rest_length = m});
+    if (!doubt.speaks(own_explains)) continue;
+    const auto same = std::ranges::find_if(make, [&](const Doubt& d) {
+      return d.label.rest_length == m && d.speaks(make_supports) && d.shift * doubt.shift > 0;
+    });
+    out.push_back(suspicion_of(&doubt, same == make.end() ? nullptr : &*same,
+                               others_that_explain(own, doubt)));
+    named = true;
+  }
+  if (named) return;
+  std::vector<const Doubt*> likely;
+  bool sure = false;
+  for (const Doubt& d : make) {
+    if (d.speaks(make_supports)) likely.push_back(&d);
+    sure = sure || d.speaks(make_explains);
+  }
+  if (sure && likely.size() == 1) {
+    out.push_back(suspicion_of(nullptr, likely[0], ""));
+  } else if (sure) {
+    out.push_back(one_of_them(likely));
+  } else {
+    out.push_back({"labels", Light::green,
+                   asked > 0 ? "The lengths of the mounts go with each other."
+                             : "Too few lengths to ask whether one is labelled wrong.",
+                   ""});
+  }
+}
+
+}  // namespace sinew::identify
