@@ -264,6 +264,7 @@ void add_identify(Command app, Action& action) {
   add_identify_static(sub, action);
   add_identify_creep(sub, action);
   add_identify_check(sub, action);
+  add_identify_scale(sub, action);
 }
 
 }  // namespace sinew::cli

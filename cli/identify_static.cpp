@@ -23,19 +23,27 @@ std::string file_of_muscle(const std::string& out, const identify::StaticMuscle&
       .string();
 }
 
+// Writes the file of a muscle beside that of the first one.
+void write_muscle(const identify::StaticMuscle& muscle, const std::string& text,
+                  const ResultOptions& result) {
+  if (result.out.empty()) return;
+  ResultOptions other = result;
+  other.no_report = true;
+  other.out = file_of_muscle(result.out, muscle);
+  check_result_options(other);
+  write_parameter_file(text, other);
+}
+
 ExitCode run_static(const Options& options) {
   const identify::StaticFound found =
       identify::find_static(sources_of(options.data), options.settings);
   tell(found.result.report, found.files[0], options.data, options.result);
 
   // Others of its make, each in a file of its own.
-  for (std::size_t i = 1; i < found.files.size() && !options.result.out.empty(); ++i) {
-    ResultOptions other = options.result;
-    other.no_report = true;
-    other.out = file_of_muscle(options.result.out, found.result.muscles[i]);
-    check_result_options(other);
-    write_parameter_file(found.files[i], other);
-  }
+  for (std::size_t i = 1; i < found.files.size(); ++i)
+    write_muscle(found.result.muscles[i], found.files[i], options.result);
+  for (std::size_t i = 0; i < found.predicted.size(); ++i)
+    write_muscle(found.predicted[i], found.predicted_files[i], options.result);
   return ok;
 }
 
@@ -56,8 +64,8 @@ void add_static_data_options(Command sub, identify::StaticSettings& settings) {
                  "NAME=VALUE,...: only such rows are fitted, the others held out; may be repeated")
       .takes_one();
   sub.add_option("--hold-out", settings.hold_out,
-                 "pressure (every second), length (each once) or another FILE, to score what was "
-                 "not seen");
+                 "pressure (every second), length or muscle (each once) or another FILE, to score "
+                 "what was not seen");
   sub.add_option("--diameter", settings.diameter,
                  "of the muscle without pressure and load, to compare its force with");
 }
@@ -72,6 +80,11 @@ void add_identify_static(Command identify, Action& action) {
   add_static_data_options(sub, options->settings);
   sub.add_flag("--anyway", options->settings.anyway,
                "fit where a check is red, too; see `sinew identify check`");
+  sub.add_option(
+         "--predict", options->settings.predict,
+         "rest_length=LENGTH: also a muscle that nobody measured, in a file of its own; may "
+         "be repeated")
+      .takes_one();
   sub.add_option("--model", options->settings.model, "this one alone");
   sub.add_option("--name", options->settings.name, "of the actuator").show_default();
   add_result_options(sub, options->result);

@@ -82,7 +82,7 @@ py::tuple identify_static(const py::object& length, const py::object& pressure,
   });
   py::list files;
   for (std::size_t i = 0; i < found->muscles.size(); ++i)
-    files.append(identify::static_file(*found, i, name, source, ""));
+    files.append(identify::static_file(*found, found->muscles[i], name, source, ""));
   return py::make_tuple(
       py::module_::import("json").attr("loads")(identify::to_json(found->report).dump()), files);
 }

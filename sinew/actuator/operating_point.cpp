@@ -5,6 +5,7 @@
 #include "sinew/actuator/body.h"
 #include "sinew/actuator/braid.h"
 #include "sinew/actuator/loss.h"
+#include "sinew/actuator/prediction.h"
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
 
@@ -47,6 +48,10 @@ OperatingPoint operating_point(const Actuator& a, double length, double gauge,
   p.volume = volume(a, length);
   p.diameter = diameter(a.braid, length - a.caps.length);
   p.braid_angle = braid_angle(a.braid, length - a.caps.length);
+  if (const ForceInterval f = force_interval(a.prediction, length, gauge); f.known) {
+    p.half_68 = f.half_68;
+    p.half_95 = f.half_95;
+  }
   p.beyond = beyond(a, length, gauge);
   return p;
 }

@@ -29,6 +29,8 @@ struct OperatingPoint {
   double stiffness_at_constant_pressure = 0;           // [26] [N/m]
   double stiffness_sealed = 0, passive_stiffness = 0;  // valves shut, and without air [N/m]
   double volume = 0, diameter = 0, braid_angle = 0;    // [m3], [m], [rad]; NaN: there is none
+  double half_68 = not_asked, half_95 = not_asked;     // of the measured force about it [N]; NaN:
+                                                       // nobody knows, see prediction.h
   std::vector<std::string> beyond;                     // where the model ends, in words
 };
 

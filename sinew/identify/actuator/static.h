@@ -55,8 +55,10 @@ struct StaticResult {
 // not.
 StaticResult identify_static(const StaticData& data, const StaticOptions& options);
 
-// The file of one muscle, sinew.actuator/1. `source` says where the data are from.
-std::string static_file(const StaticResult& result, std::size_t muscle, const std::string& name,
-                        const std::string& source, const std::string& braid_source);
+// Returns the file of one muscle, sinew.actuator/1: one of those that were fitted, or their like
+// (static_predict.h). `source` says where the data are from.
+std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
+                        const std::string& name, const std::string& source,
+                        const std::string& braid_source);
 
 }  // namespace sinew::identify

@@ -51,9 +51,9 @@ void add_ends(const StaticMuscle& muscle, const std::string& path, actuator::Act
 
 }  // namespace
 
-std::string static_file(const StaticResult& result, std::size_t index, const std::string& name,
-                        const std::string& source, const std::string& braid_source) {
-  const StaticMuscle& muscle = result.muscles.at(index);
+std::string static_file(const StaticResult& result, const StaticMuscle& muscle,
+                        const std::string& name, const std::string& source,
+                        const std::string& braid_source) {
   actuator::Actuator a = muscle.actuator;
   a.name = name;
   const std::string path = "actuator." + name + ".";

@@ -107,7 +107,8 @@ actuator::Prediction prediction_of(const StaticResult& result, const StaticMuscl
   return out;
 }
 
-actuator::Actuator corrected(actuator::Actuator a, const ForceReading& r, double atmosphere) {
+actuator::Actuator corrected(actuator::Actuator a, const ForceReading& r, double atmosphere,
+                             double half_68) {
   const double force = actuator::tension(a, r.length, 0, r.gauge_pressure, atmosphere);
   const double ratio = force > 0 ? r.force / force : 0;
   if (!(ratio > 0.5 && ratio < 2))
@@ -116,12 +117,15 @@ actuator::Actuator corrected(actuator::Actuator a, const ForceReading& r, double
                               "kPa gauge",
                               std::max(force, 0.0), 1e3 * r.length, 1e-3 * r.gauge_pressure),
                   "a reading well within the range of the muscle, in these units");
+  const double muscles = a.prediction.other_68, noise = half_68 / force;
+  const double trust = muscles > 0 ? muscles * muscles / (muscles * muscles + noise * noise) : 1;
+  const double factor = 1 + (ratio - 1) * trust;
   // Everything that pulls is as much stronger, so that the shape stays.
-  a.effectiveness.scale *= ratio;
+  a.effectiveness.scale *= factor;
   for (double* spring : {&a.bladder.stiffness, &a.bladder.quadratic, &a.bladder.cubic,
                          &a.bladder.saturating_tension})
-    *spring *= ratio;
-  a.series.compliance /= ratio;
+    *spring *= factor;
+  a.series.compliance /= factor;
   return a;
 }
 

@@ -2,9 +2,13 @@
 // somewhere else, with the intervals that it has earned there.
 //
 // A muscle of another rest length is the like of those that were fitted (static_model.h). One
-// reading of its force corrects it: the law is multiplied by the ratio of the force read to the
-// force predicted, as the braid's winding and the rest length's label are what differs most from
-// muscle to muscle.
+// reading of its force corrects it: the law is multiplied towards the ratio of the force read to
+// the force predicted, as far as the reading is surer than the law:
+//
+//   factor = 1 + (F_read/F - 1) t^2/(t^2 + (h/F)^2)
+//
+//   t  share of the force that two of three muscles are within [-]   h  half-width that two of
+//      three readings of a fitted muscle are within [N]; where a file tells neither, the ratio
 #pragma once
 
 #include <optional>
@@ -38,11 +42,12 @@ struct ForceReading {
   double length = 0, gauge_pressure = 0, force = 0;  // [m], [Pa], [N]
 };
 
-// Returns the actuator with its law multiplied so that it pulls as was read. Throws Refusal where
+// Returns the actuator with its law multiplied by the factor above: t is its prediction.other_68,
+// h is `half_68`. Throws Refusal where
 // it does not pull at that length and pressure, or twice or half as much as was read: then the
 // reading is of something else.
 actuator::Actuator corrected(actuator::Actuator actuator, const ForceReading& reading,
-                             double atmosphere);
+                             double atmosphere, double half_68 = 0);
 
 // Returns the like of an identified actuator with another rest length, and what is known of how
 // far it is off: the share of the force that muscles were missed by that the fit had not seen,

@@ -1,5 +1,7 @@
 #include "sinew/identify/task/static_task.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -8,6 +10,7 @@
 #include "sinew/config/named.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/identify/actuator/static_predict.h"
 #include "sinew/identify/task/tables.h"
 
 namespace sinew::identify {
@@ -123,6 +126,7 @@ StaticOptions options_of(const std::vector<Source>& sources, const StaticSetting
   if (sources.size() > 1) out.subject += " and " + std::to_string(sources.size() - 1) + " more";
   if (settings.hold_out == "pressure") out.hold_out = HoldOut::pressure;
   if (settings.hold_out == "length") out.hold_out = HoldOut::length;
+  if (settings.hold_out == "muscle") out.hold_out = HoldOut::muscle;
   return out;
 }
 
@@ -130,13 +134,48 @@ StaticOptions options_of(const std::vector<Source>& sources, const StaticSetting
 std::optional<Source> held_out_of(const std::vector<Source>& sources,
                                   const StaticSettings& settings) {
   const std::string& word = settings.hold_out;
-  if (settings.held_out || word.empty() || word == "pressure" || word == "length")
+  const std::string_view ways[] = {"", "pressure", "length", "muscle"};
+  if (settings.held_out || std::ranges::find(ways, word) != std::end(ways))
     return settings.held_out;
   Source other = beside(sources, "hold_out", word);
   if (!std::filesystem::exists(word))
     config::fail({"hold_out", 0, 0}, "", config::in_quotes(word),
-                 "pressure, length or a file that is there");
+                 "pressure, length, muscle or a file that is there");
   return other;
+}
+
+// "rest_length=120 mm", or the length alone  [m].
+double predicted_length(const std::string& setting, double atmosphere) {
+  const std::size_t equals = setting.find('=');
+  if (equals != setting.npos && setting.substr(0, equals) != "rest_length")
+    config::fail({"predict", 0, 0}, "", config::in_quotes(setting), "rest_length=LENGTH");
+  return config::quantity_setting("predict",
+                                  equals == setting.npos ? setting : setting.substr(equals + 1),
+                                  "m", atmosphere, actuator_length);
+}
+
+// Adds the muscles that nobody measured, and says how far off they may be.
+void add_predicted(const std::vector<double>& lengths, const StaticSettings& settings,
+                   const std::string& source, StaticFound& found) {
+  for (const double length : lengths) {
+    const StaticMuscle muscle = muscle_of(found.result, length);
+    const actuator::Prediction p = prediction_of(found.result, muscle);
+    const std::string what = fmt::format("a muscle of {:.4g} mm, from the others: ", 1e3 * length);
+    if (p.inside_95 > 0)
+      found.result.report.notes.push_back(
+          what + fmt::format("68 % of its forces are expected within {:.3g} N of the law, 95 % "
+                             "within {:.3g} N, between {:.4g} and {:.4g} mm",
+                             p.inside_68, p.inside_95, 1e3 * p.shortest, 1e3 * p.longest));
+    else
+      found.result.report.warnings.push_back(
+          what +
+          "how far off it is cannot be told, as no muscle could be left out; "
+          "measure muscles of two rest lengths, or one force of this muscle");
+    found.predicted.push_back(muscle);
+    found.predicted_files.push_back(static_file(found.result, muscle, settings.name,
+                                                source + ", of another rest length",
+                                                settings.actuator));
+  }
 }
 
 // All tables, those that are held out last.
@@ -165,12 +204,17 @@ StaticFound find_static(const std::vector<Source>& sources, const StaticSettings
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
   refuse_lengths_of_no_file(sources, settings);
   CheckInput read = read_tables(sources, settings, Unreadable::is_refused);
+  std::vector<double> lengths;
+  for (const std::string& setting : settings.predict)
+    lengths.push_back(predicted_length(setting, sources[0].atmosphere));
   heed(check_static(read), settings.anyway, read.data.warnings);
 
-  StaticFound out{identify_static(read.data, options_of(sources, settings, read.braid)), {}};
-  for (std::size_t i = 0; i < out.result.muscles.size(); ++i)
-    out.files.push_back(static_file(out.result, i, settings.name,
-                                    "sinew identify static " + sources[0].path, settings.actuator));
+  StaticFound out{
+      identify_static(read.data, options_of(sources, settings, read.braid)), {}, {}, {}};
+  const std::string source = "sinew identify static " + sources[0].path;
+  for (const StaticMuscle& muscle : out.result.muscles)
+    out.files.push_back(static_file(out.result, muscle, settings.name, source, settings.actuator));
+  add_predicted(lengths, settings, source, out);
   return out;
 }
 

@@ -20,17 +20,22 @@ struct StaticSettings {
   std::string actuator;                // a file whose braid is taken as known; empty: none
   std::string branch = "both";         // fill, vent or both
   std::vector<std::string> fit_where;  // "NAME=VALUE,...": only such rows are fitted
-  std::string hold_out;                // pressure, length or another file, beside fit_where
+  std::string hold_out;                // pressure, length, muscle or another file
   std::optional<Source> held_out;      // another table in place of a file
-  std::string diameter;  // without pressure, "10 mm", to compare its force with; empty:
-                         // not known
-  bool anyway = false;   // fit where a check is red, too
+  std::string diameter;              // without pressure, "10 mm", to compare its force with; empty:
+                                     // not known
+  bool anyway = false;               // fit where a check is red, too
+  std::vector<std::string> predict;  // rest lengths nobody measured: "rest_length=120 mm"
 };
 
 // Holds what was found, with the actuators' files.
 struct StaticFound {
   StaticResult result;
   std::vector<std::string> files;  // the actuator's, of each muscle; the longest first
+
+  // Muscles of the rest lengths that `predict` asked for, and their files.
+  std::vector<StaticMuscle> predicted;
+  std::vector<std::string> predicted_files;
 };
 
 // Checks the tables first (identify/check/check.h): what is red is refused unless it is to be

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -28,6 +29,8 @@ constexpr Row rows[] = {
     {"length_m", "length", &Point::length, "m", "in"},
     {"gauge_pressure_Pa", "pressure", &Point::gauge_pressure, "Pa gauge", "psi gauge"},
     {"tension_N", "tension, at rest", &Point::tension, "N", "lbf"},
+    {"half_68_N", "68 % of measured, +-", &Point::half_68, "N", "lbf"},
+    {"half_95_N", "95 % of measured, +-", &Point::half_95, "N", "lbf"},
     {"effectiveness", "effectiveness", &Point::effectiveness, "1", "1"},
     {"coulomb_bound_N", "dry friction, at most", &Point::coulomb_bound, "N", "lbf"},
     {"velocity_m_per_s", "velocity", &Point::velocity, "m/s", "in/s"},
@@ -72,7 +75,7 @@ ColumnUnits in_units(const units::ShownUnits& shown) {
           shown.of("rad").name};
 }
 
-std::vector<Cell> cells_for(bool moves, const ColumnUnits& u) {
+std::vector<Cell> cells_for(bool moves, bool predicts, const ColumnUnits& u) {
   std::vector<Cell> out;
   const auto add = [&](const char* title, double Point::*value, const char* unit,
                        const std::string& display, const char* format) {
@@ -83,6 +86,7 @@ std::vector<Cell> cells_for(bool moves, const ColumnUnits& u) {
   add("length", &Point::length, "m", u.length, "{:.5g}");
   add("pressure", &Point::gauge_pressure, "Pa gauge", u.pressure, "{:.5g}");
   add("tension", &Point::tension, "N", u.force, "{:.3f}");
+  if (predicts) add("+- 95 %", &Point::half_95, "N", u.force, "{:.3g}");
   out.push_back({"Eff", [](const Point& p) { return shown(p.effectiveness, "{:.4f}"); }});
   const char* digits = u.stiffness == "N/m" ? "{:.1f}" : "{:.4g}";
   add("k at p", &Point::stiffness_at_constant_pressure, "N/m", u.stiffness, digits);
@@ -98,7 +102,8 @@ std::vector<Cell> cells_for(bool moves, const ColumnUnits& u) {
 // Adds the lines of a point that stand there only where they were asked for.
 bool is_on_request(const Row& row) {
   return row.value == &Point::velocity || row.value == &Point::sliding_tension ||
-         row.value == &Point::viscous_loss;
+         row.value == &Point::viscous_loss || row.value == &Point::half_68 ||
+         row.value == &Point::half_95;
 }
 
 }  // namespace
@@ -127,9 +132,10 @@ std::string text_of(const Point& p, const units::ShownUnits* units) {
 
 std::string table_of(const std::vector<Point>& points, const std::string& length,
                      const std::string& pressure, const units::ShownUnits* units) {
-  const std::vector<Cell> cells =
-      cells_for(std::isfinite(points[0].velocity),
-                units ? in_units(*units) : ColumnUnits{.length = length, .pressure = pressure});
+  const std::vector<Cell> cells = cells_for(
+      std::isfinite(points[0].velocity),
+      std::ranges::any_of(points, [](const Point& p) { return std::isfinite(p.half_95); }),
+      units ? in_units(*units) : ColumnUnits{.length = length, .pressure = pressure});
   std::vector<std::string> titles;
   for (const Cell& cell : cells) titles.push_back(cell.title);
   titles.emplace_back("");

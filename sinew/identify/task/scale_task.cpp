@@ -1,0 +1,77 @@
+#include "sinew/identify/task/scale_task.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "sinew/actuator/tension.h"
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/named.h"
+#include "sinew/config/setting.h"
+#include "sinew/experiment/machine_file.h"
+#include "sinew/identify/actuator/static_predict.h"
+#include "sinew/identify/fit/provenance.h"
+#include "sinew/identify/task/tables.h"
+
+namespace sinew::identify {
+
+namespace {
+
+constexpr config::Range new_length = config::above_zero(1000, "of a muscle");
+constexpr config::Range new_pressure{0, 1e7, "gauge, of a muscle's air"};
+constexpr config::Range new_force = config::above_zero(1e6, "of a muscle");
+
+// "115 mm, 4 bar gauge, 210 N".
+ForceReading reading_of(const std::string& text, double atmosphere) {
+  const std::size_t first = text.find(','), second = text.find(',', first + 1);
+  if (first == text.npos || second == text.npos || text.find(',', second + 1) != text.npos)
+    config::fail({"reading", 0, 0}, "", config::in_quotes(text),
+                 "length, pressure and force, two commas between them",
+                 "\"115 mm, 4 bar gauge, 210 N\"");
+  const std::string length = text.substr(0, first), force = text.substr(second + 1);
+  const std::string pressure = text.substr(first + 1, second - first - 1);
+  return {config::quantity_setting("reading", length, "m", atmosphere, new_length),
+          config::quantity_setting("reading", pressure, "Pa gauge", atmosphere, new_pressure),
+          config::quantity_setting("reading", force, "N", atmosphere, new_force)};
+}
+
+std::string file_of(const ScaleFound& found, const ScaleSettings& s) {
+  const std::string path = "actuator." + found.actuator.name + ".";
+  Provenance provenance({}, s.file + ", with another rest length");
+  const std::string source = fmt::format("sinew identify scale {} {}", s.file, s.rest_length);
+  for (const char* key : {"braid.thread_length", "braid.turns", "prediction.rest_length",
+                          "prediction.inside_68", "prediction.inside_95"})
+    provenance.given(path + key, source);
+  provenance.given(path + "effectiveness.scale",
+                   found.corrected_by == 1 ? source
+                                           : fmt::format("{}; times {:.4f} by its reading, {}",
+                                                         source, found.corrected_by, s.reading));
+  return actuator_file(found.actuator, provenance);
+}
+
+}  // namespace
+
+ScaleFound find_scaled(const ScaleSettings& s) {
+  const double atmosphere = atmosphere_setting(s.atmosphere);
+  const auto file = experiment::load_machine_file(s.file);
+  const actuator::Actuator old =
+      config::named(file.experiment.actuators, s.actuator, "actuator", "actuator");
+  const double rest_length =
+      config::quantity_setting("rest_length", s.rest_length, "m", atmosphere, new_length);
+  ScaleFound out{.actuator = with_rest_length(old, rest_length, atmosphere),
+                 .from = old.prediction.rest_length,
+                 .file = {}};
+  if (!s.reading.empty()) {
+    const double before = out.actuator.effectiveness.scale;
+    out.actuator = corrected(out.actuator, reading_of(s.reading, atmosphere), atmosphere,
+                             old.prediction.inside_68);
+    out.corrected_by = out.actuator.effectiveness.scale / before;
+  }
+  if (!s.name.empty()) out.actuator.name = s.name;
+  const actuator::Prediction& p = out.actuator.prediction;
+  out.largest = std::max(0.0, actuator::tension(out.actuator, p.longest, 0, p.highest, atmosphere));
+  out.file = file_of(out, s);
+  return out;
+}
+
+}  // namespace sinew::identify
