@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 #include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/data/quality.h"
@@ -21,16 +22,26 @@ std::vector<double> distances(const StaticFit& fit, const StaticScales& scales,
   return out;
 }
 
-// Distances from the law that most points are closest to; empty where there is none.
-std::vector<double> from_the_closest(const std::vector<StaticPoint>& points,
-                                     const StaticScales& scales) {
+// Every other law is one of these with a term left out, or the kin of one (series).
+constexpr std::string_view freest[] = {"wall",
+                                       "taper",
+                                       "elastic-linear",
+                                       "elastic-cubic",
+                                       "saturating-effectiveness",
+                                       "saturating-end-caps"};
+
+// Distances from the law that most points are closest to, among the freest or among all others;
+// empty where there is none.
+std::vector<double> closest_of(bool free, const std::vector<StaticPoint>& points,
+                               const StaticScales& scales) {
   std::set<double> muscles;
   for (const StaticPoint& p : points) muscles.insert(p.rest_length);
   std::vector<double> closest;
   for (const StaticModel& model : static_models()) {
     if (model.name == "effectiveness-by-ratio") continue;
+    if ((std::ranges::find(freest, model.name) != std::end(freest)) != free) continue;
     std::vector<Knob> knobs = knobs_of(model, scales);
-    if (std::ranges::find(knobs, Knob::series) != knobs.end()) continue;  // its kin stands for it
+    if (std::ranges::find(knobs, Knob::series) != knobs.end()) continue;
     if (muscles.size() > 1) knobs.push_back(Knob::end_loss);
     try {
       const std::vector<double> d =
@@ -41,6 +52,13 @@ std::vector<double> from_the_closest(const std::vector<StaticPoint>& points,
     }
   }
   return closest;
+}
+
+// The same; the simpler laws only where the data are too few for the freest.
+std::vector<double> from_the_closest(const std::vector<StaticPoint>& points,
+                                     const StaticScales& scales) {
+  const std::vector<double> free = closest_of(true, points, scales);
+  return free.empty() ? closest_of(false, points, scales) : free;
 }
 
 // The largest force that is not alone: what one wild point says does not count.

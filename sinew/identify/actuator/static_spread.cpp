@@ -8,6 +8,7 @@ namespace sinew::identify {
 namespace {
 
 constexpr std::size_t few = 20;  // points below which an order says little of the 95th percentile
+constexpr double slack_share = 0.005;   // of the largest force: less is no pull
 constexpr double gradient_step = 1e-4;  // of a parameter's scale
 
 // The smallest of the sorted values that a further one lies below with this chance.
@@ -61,15 +62,27 @@ std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
   return out;
 }
 
+Unseen unseen_by(const StaticFit& fit, const StaticScales& scales,
+                 std::span<const StaticPoint> points) {
+  Unseen out{misses(fit.setting, scales, points), widths(fit, scales, points)};
+  const double slack = slack_share * scales.full_scale;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].force < slack && points[i].force + out.residuals[i] < slack)
+      out.widths[i] = std::nan("");
+  return out;
+}
+
 Quantiles quantiles(const Unseen& unseen) {
-  Quantiles out{.points = unseen.residuals.size()};
-  if (out.points == 0) return out;
   std::vector<double> z;
   double square = 0;
-  for (std::size_t i = 0; i < out.points; ++i) {
+  for (std::size_t i = 0; i < unseen.residuals.size(); ++i) {
+    if (!std::isfinite(unseen.widths[i])) continue;
     z.push_back(std::abs(unseen.residuals[i]) / unseen.widths[i]);
-    square += z.back() * z.back() / static_cast<double>(out.points);
+    square += z.back() * z.back();
   }
+  Quantiles out{.points = z.size()};
+  if (out.points == 0) return out;
+  square /= static_cast<double>(out.points);
   if (out.points < few) {
     out.q95 = std::sqrt(square) * t_quantile(static_cast<int>(out.points));
     out.q68 = std::sqrt(square);

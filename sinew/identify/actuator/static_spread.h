@@ -51,12 +51,17 @@ struct Unseen {
   void add(const Unseen& other);
 };
 
+// Returns what a fit makes of points that it had not seen. A slack point, measured and predicted,
+// has no width (NaN): that it was guessed right says nothing of points that pull.
+Unseen unseen_by(const StaticFit& fit, const StaticScales& scales,
+                 std::span<const StaticPoint> points);
+
 // Returns w of each point  [N]. Directions that the data do not determine do not count: q does.
 std::vector<double> widths(const StaticFit& fit, const StaticScales& scales,
                            std::span<const StaticPoint> points);
 
-// Returns the quantiles of |residual|/w. Fewer than 20 points have none of their own: Student's
-// factor times the root mean square stands for them.
+// Returns the quantiles of |residual|/w, of points that have a width. Fewer than 20 points have
+// none of their own: Student's factor times the root mean square stands for them.
 Quantiles quantiles(const Unseen& unseen);
 
 // Returns the larger of both in each place.

@@ -243,7 +243,7 @@ TEST(Static, OutsideTheDataItStaysBoundedAndMonotone) {
   const auto points = measured(truth(), 13, real_noise(), many);
   for (const char* model : {"effectiveness-quadratic", "taper", "elastic-cubic", "saturating"}) {
     const StaticResult found = identify(points, model);
-    const std::string file = static_file(found, 0, "m", "a test", "");
+    const std::string file = static_file(found, found.muscles[0], "m", "a test", "");
     EXPECT_NE(file.find("valid"), file.npos);
     actuator::Actuator a = found.muscles[0].actuator;
     a.effectiveness.valid_from = found.muscles[0].lowest;

@@ -99,7 +99,7 @@ void add_the_worst(const std::vector<LeftOut>& muscles, StaticSpread& spread) {
     Quantiles& worst = spread.other_muscle;
     worst = worst.points == 0 ? q : wider(worst, q);
     Unseen shares = m.unseen;
-    std::ranges::fill(shares.widths, m.largest);
+    for (double& w : shares.widths) w = std::isfinite(w) ? m.largest : w;
     const Quantiles share = quantiles(shares);
     spread.other_share_68 = std::max(spread.other_share_68, share.q68);
     spread.other_share_95 = std::max(spread.other_share_95, share.q95);
@@ -164,7 +164,7 @@ Unseen Tried::cross(const Points& points, const std::vector<int>& part, int part
     if (s.held_out.empty()) continue;
     const StaticFit one = fit(s.fitted, &whole);
     const StaticScales own = scales_of_fit(one);
-    out.add({misses(one.setting, own, s.held_out), widths(one, own, s.held_out)});
+    out.add(unseen_by(one, own, s.held_out));
   }
   return out;
 }
@@ -181,8 +181,7 @@ std::vector<LeftOut> Tried::leave_out_muscles(const Points& points) const {
     const Tried others(model_, scales, s.fitted);
     const StaticFit one = others.fit(s.fitted);
     const StaticScales own = others.scales_of_fit(one);
-    LeftOut left{.rest_length = muscle,
-                 .unseen = {misses(one.setting, own, s.held_out), widths(one, own, s.held_out)}};
+    LeftOut left{.rest_length = muscle, .unseen = unseen_by(one, own, s.held_out)};
     for (const StaticPoint& p : s.held_out) left.largest = std::max(left.largest, p.force);
     left.score = score(left.unseen.residuals, left.largest);
     out.push_back(std::move(left));

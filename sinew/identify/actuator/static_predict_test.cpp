@@ -1,0 +1,110 @@
+// Muscles that nobody measured: the likes of those that were, and one reading that corrects them.
+#include "sinew/identify/actuator/static_predict.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sinew/actuator/tension.h"
+#include "sinew/identify/actuator/test_muscle.h"
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+namespace {
+
+actuator::Actuator measured_muscle() {
+  actuator::Actuator a = test_muscle().actuator;
+  a.prediction = {.rest_length = test_rest_length,
+                  .shortest = 0.2,
+                  .longest = 0.25,
+                  .lowest = 1e5,
+                  .highest = 6e5,
+                  .inside_68 = 2,
+                  .inside_95 = 4,
+                  .beyond_68 = 4,
+                  .beyond_95 = 10,
+                  .other_68 = 0.02,
+                  .other_95 = 0.05,
+                  .other_reach = 0.5};
+  return a;
+}
+
+double force(const actuator::Actuator& a, double length, double pressure) {
+  return actuator::tension(a, length, 0, pressure, units::atmosphere);
+}
+
+// Strains, not lengths, make the force: a like muscle pulls the same at the same share of its rest
+// length, as long as nothing but the braid and the first part of the bladder pulls.
+TEST(Predict, ALikeMusclePullsTheSameAtTheSameStrain) {
+  actuator::Actuator a = measured_muscle();
+  a.bladder.stiffness = 0;
+  const actuator::Actuator half = with_rest_length(a, 0.5 * test_rest_length, units::atmosphere);
+  for (const double strain : {0.8, 0.9, 1.0})
+    for (const double p : {2e5, 5e5})
+      EXPECT_NEAR(force(half, 0.5 * strain * test_rest_length, p),
+                  force(a, strain * test_rest_length, p), 1e-9);
+}
+
+// The ends are the same for every muscle: their compliance does not scale, a short one loses more.
+TEST(Predict, EndsThatGiveWayTakeMoreFromAShortMuscle) {
+  actuator::Actuator a = measured_muscle();
+  a.series.compliance = 1e-5;
+  const actuator::Actuator half = with_rest_length(a, 0.5 * test_rest_length, units::atmosphere);
+  EXPECT_EQ(half.series.compliance, a.series.compliance);
+  EXPECT_LT(force(half, 0.5 * test_rest_length, 5e5), force(a, test_rest_length, 5e5));
+}
+
+TEST(Predict, ThereAndBackIsTheSameMuscle) {
+  const actuator::Actuator a = measured_muscle();
+  const actuator::Actuator there = with_rest_length(a, 0.17, units::atmosphere);
+  const actuator::Actuator back = with_rest_length(there, test_rest_length, units::atmosphere);
+  for (const double l : {0.2, 0.22, 0.25}) EXPECT_NEAR(force(back, l, 4e5), force(a, l, 4e5), 1e-9);
+}
+
+// Nobody tried so far: the interval grows with the distance, never below that of the fit.
+TEST(Predict, IntervalsGrowBeyondTheRatioThatWasTried) {
+  const actuator::Actuator a = measured_muscle();
+  const auto share = [&](double rest_length) {
+    const actuator::Actuator b = with_rest_length(a, rest_length, units::atmosphere);
+    return b.prediction.inside_95 / force(b, b.prediction.longest, b.prediction.highest);
+  };
+  EXPECT_NEAR(share(0.25 * std::exp(0.4)), 0.05, 1e-9);
+  EXPECT_NEAR(share(0.25 * std::exp(-1.0)), 0.10, 1e-9);
+}
+
+TEST(Predict, AReadingThatIsSurePutsTheLawThroughIt) {
+  const actuator::Actuator a = measured_muscle();
+  const double f = force(a, 0.23, 4e5);
+  const actuator::Actuator b =
+      corrected(a, {0.23, 4e5, 1.1 * f}, units::atmosphere);  // no scatter is told: it is sure
+  EXPECT_NEAR(force(b, 0.23, 4e5), 1.1 * f, 1e-9 * f);
+  EXPECT_NEAR(force(b, 0.21, 5e5), 1.1 * force(a, 0.21, 5e5), 1e-9 * f);
+}
+
+// As unsure as the muscles are: half the way.
+TEST(Predict, AReadingCountsAsFarAsItIsSurerThanTheLaw) {
+  const actuator::Actuator a = measured_muscle();
+  const double f = force(a, 0.23, 4e5);
+  const actuator::Actuator b = corrected(a, {0.23, 4e5, 1.1 * f}, units::atmosphere, 0.02 * f);
+  EXPECT_NEAR(force(b, 0.23, 4e5), 1.05 * f, 1e-9 * f);
+}
+
+TEST(Predict, AReadingOfSomethingElseIsRefused) {
+  const actuator::Actuator a = measured_muscle();
+  const double f = force(a, 0.23, 4e5);
+  for (const double read : {0.4 * f, 2.5 * f, 4.448 * f, -f})
+    EXPECT_THROW(corrected(a, {0.23, 4e5, read}, units::atmosphere), Refusal) << read;
+  EXPECT_THROW(corrected(a, {0.1, 0, f}, units::atmosphere), Refusal);
+}
+
+TEST(Predict, AFileWithoutItsRestLengthIsRefused) {
+  try {
+    with_rest_length(test_muscle().actuator, 0.1, units::atmosphere);
+    FAIL();
+  } catch (const Refusal& refusal) {
+    EXPECT_NE(std::string(refusal.what()).find("prediction.rest_length"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace sinew::identify

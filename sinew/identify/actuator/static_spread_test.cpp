@@ -1,0 +1,130 @@
+// Intervals of predicted forces hold the share of measured ones that they say.
+#include "sinew/identify/actuator/static_spread.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "sinew/identify/actuator/static_predict.h"
+#include "sinew/identify/actuator/test_muscle.h"
+
+namespace sinew::identify {
+namespace {
+
+// Measures muscles of some rest lengths: seven lengths, ten pressures, noise in N.
+std::vector<StaticPoint> measure(const std::vector<double>& rest_lengths, double noise,
+                                 unsigned seed, double offset = 0) {
+  const StaticSetting truth = test_muscle();
+  const StaticScales scales{.rest_length = test_rest_length, .atmosphere = units::atmosphere};
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> scatter(0, noise);
+  std::vector<StaticPoint> out;
+  for (const double rest : rest_lengths)
+    for (int i = 0; i < 7; ++i)
+      for (int k = 0; k < 10; ++k) {
+        StaticPoint p{.length = rest * (0.82 + 0.03 * (i + offset)),
+                      .pressure = 1e5 + 5e4 * (k + offset),
+                      .rest_length = rest};
+        p.force = std::max(0.0, predicted(truth, scales, p) + scatter(random));
+        out.push_back(p);
+      }
+  return out;
+}
+
+StaticResult fit_of(const std::vector<StaticPoint>& points, const std::string& model) {
+  StaticData data;
+  data.points = points;
+  return identify_static(data, {.model = model});
+}
+
+TEST(Spread, QuantilesAreThoseOfTheNormalDistribution) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal(0, 3);
+  Unseen u;
+  for (int i = 0; i < 20000; ++i) {
+    u.residuals.push_back(normal(random));
+    u.widths.push_back(3);
+  }
+  const Quantiles q = quantiles(u);
+  EXPECT_NEAR(q.q68, 0.9945, 0.02);
+  EXPECT_NEAR(q.q95, 1.96, 0.045);  // 3.4 standard errors
+}
+
+// An order of few points says little of their 95th percentile; none say nothing.
+TEST(Spread, FewPointsTakeStudentsFactorAndNoneAreInfinite) {
+  const Quantiles q = quantiles({.residuals = {1, -1, 1, -1}, .widths = {2, 2, 2, 2}});
+  EXPECT_NEAR(q.q95, 0.5 * t_quantile(4), 1e-12);
+  EXPECT_TRUE(std::isinf(quantiles({}).q95));
+}
+
+// Of forces measured anew between the old ones, in 12 rigs: 92 to 98 % lie within 95 %.
+TEST(Spread, IntervalsHoldTheShareTheySay) {
+  int all = 0, in_68 = 0, in_95 = 0;
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const StaticResult found = fit_of(measure({0.25}, 3, seed), "saturating-elastic");
+    for (const StaticPoint& p : measure({0.25}, 3, 1000 + seed, 0.5)) {
+      if (p.length > 0.25 || p.pressure > 5.5e5 || !(p.force > 0)) continue;
+      const StaticForce f = predict(found, p);
+      const double off = std::abs(f.force - p.force);
+      ++all;
+      in_68 += off <= f.half_68;
+      in_95 += off <= f.half_95;
+    }
+  }
+  EXPECT_GT(all, 500);
+  EXPECT_NEAR(100.0 * in_95 / all, 95, 3);
+  EXPECT_NEAR(100.0 * in_68 / all, 68, 6);
+}
+
+TEST(Spread, IntervalsGrowOutsideTheData) {
+  const StaticResult found = fit_of(measure({0.25}, 3, 7), "saturating-elastic");
+  const auto half = [&](double length, double pressure) {
+    return predict(found, {.length = length, .pressure = pressure, .rest_length = 0.25});
+  };
+  const StaticForce inside = half(0.23, 3e5);
+  double before = inside.half_95;
+  EXPECT_EQ(inside.guess, Guess::inside);
+  for (const double length : {0.255, 0.265, 0.28}) {
+    const StaticForce f = half(length, 3e5);
+    EXPECT_EQ(f.guess, Guess::beyond);
+    EXPECT_GT(f.half_95, before);
+    EXPECT_GT(f.half_95, f.half_68);
+    before = f.half_95;
+  }
+}
+
+// Leaving out a muscle leaves no trace of it: three muscles of one make are each predicted.
+TEST(Spread, MusclesOfOneMakePredictEachOther) {
+  const auto points = measure({0.15, 0.25, 0.35}, 2, 3);
+  StaticData data;
+  data.points = points;
+  const StaticResult found =
+      identify_static(data, {.model = "saturating-elastic", .hold_out = HoldOut::muscle});
+  ASSERT_TRUE(found.report.best().held_out);
+  EXPECT_EQ(found.report.best().held_out->points, points.size());
+  EXPECT_LT(found.report.best().held_out->rmse_percent, 1.5);
+  EXPECT_GT(found.spread.other_share_95, 0);
+  EXPECT_NEAR(found.spread.other_reach, std::log(0.25 / 0.15), 1e-9);
+
+  // A muscle between them was not measured: its truth lies in the interval.
+  const auto unseen = measure({0.2}, 0, 1);
+  int in = 0;
+  for (const StaticPoint& p : unseen) {
+    const StaticForce f = predict(found, p);
+    EXPECT_EQ(f.guess, Guess::other_muscle);
+    in += std::abs(f.force - p.force) <= f.half_95;
+  }
+  EXPECT_GE(in, 65);  // of 70
+}
+
+TEST(Spread, OneMuscleTellsNothingOfOthers) {
+  const StaticResult found = fit_of(measure({0.25}, 3, 7), "saturating");
+  const StaticForce f = predict(found, {.length = 0.17, .pressure = 3e5, .rest_length = 0.18});
+  EXPECT_GT(f.force, 0);
+  EXPECT_TRUE(std::isinf(f.half_95));
+  EXPECT_EQ(prediction_of(found, muscle_of(found, 0.18)).inside_95, 0);
+}
+
+}  // namespace
+}  // namespace sinew::identify
