@@ -96,15 +96,16 @@ class Checks(unittest.TestCase):
         columns = {"length": length, "pressure": pressure, "force": force}
         static, tables = sinew.identify.static, sinew.identify.static_from
         refusal = sinew.identify.RefusalError
-        for ask in (
-            lambda anyway: static(
-                length, pressure, force, rest_length=0.23, model="saturating", anyway=anyway
-            ),
-            lambda anyway: tables(columns, rest_length=0.23, model="saturating", anyway=anyway),
+        told = "(?s)rest length: The longest mount.*anyway=true"
+        with self.assertRaisesRegex(refusal, told):
+            static(length, pressure, force, rest_length=0.23)
+        with self.assertRaisesRegex(refusal, told):
+            tables(columns, rest_length=0.23)
+        for found in (
+            static(length, pressure, force, rest_length=0.23, model="saturating", anyway=True),
+            tables(columns, rest_length=0.23, model="saturating", anyway=True),
         ):
-            with self.assertRaisesRegex(refusal, "(?s)rest length: The longest mount.*anyway=true"):
-                ask(False)
-            (warning,) = ask(True).report["warnings"]
+            (warning,) = found.report["warnings"]
             self.assertIn("108.7 %", warning)
         with self.assertRaisesRegex(refusal, "force unit"):
             static(length, pressure, force, rest_length=0.25, diameter=0.04)
