@@ -197,9 +197,29 @@ Check one_of_them(const std::vector<const Doubt*>& doubts) {
           "Measure the lengths of these muscles without pressure and load again."};
 }
 
+// What the muscles of a make say of each other, where none has said anything of itself.
+void add_make(const std::vector<Doubt>& make, bool asked, std::vector<Check>& out) {
+  std::vector<const Doubt*> likely;
+  bool sure = false;
+  for (const Doubt& d : make) {
+    if (d.speaks(make_supports)) likely.push_back(&d);
+    sure = sure || d.speaks(make_explains);
+  }
+  if (sure && likely.size() == 1) {
+    out.push_back(suspicion_of(nullptr, likely[0], ""));
+  } else if (sure) {
+    out.push_back(one_of_them(likely));
+  } else {
+    out.push_back({"labels", Light::green,
+                   asked ? "The lengths of the mounts go with each other."
+                         : "Too few mounts, or none at rest, to ask whether a length is wrong.",
+                   ""});
+  }
+}
+
 }  // namespace
 
-void add_label_checks(const StaticData& data, double atmosphere, std::vector<Check>& out) {
+void add_label_checks(const StaticData& data, double atmosphere, std::vector<Check>& out) try {
   const Points points = few_points(data.points);
   if (points.empty()) return;
   if (!(points.front().rest_length > 0)) {
@@ -229,22 +249,9 @@ void add_label_checks(const StaticData& data, double atmosphere, std::vector<Che
     named = true;
   }
   if (named) return;
-  std::vector<const Doubt*> likely;
-  bool sure = false;
-  for (const Doubt& d : make) {
-    if (d.speaks(make_supports)) likely.push_back(&d);
-    sure = sure || d.speaks(make_explains);
-  }
-  if (sure && likely.size() == 1) {
-    out.push_back(suspicion_of(nullptr, likely[0], ""));
-  } else if (sure) {
-    out.push_back(one_of_them(likely));
-  } else {
-    out.push_back({"labels", Light::green,
-                   asked > 0 ? "The lengths of the mounts go with each other."
-                             : "Too few mounts, or none at rest, to ask whether a length is wrong.",
-                   ""});
-  }
+  add_make(make, asked > 0, out);
+} catch (const Refusal& refusal) {
+  out.push_back({"labels", Light::green, std::string("Not asked: ") + refusal.what(), ""});
 }
 
 }  // namespace sinew::identify
