@@ -148,7 +148,9 @@ std::string about_next() {
               {"sinew run … --set air.supply.pressure=\"80 psi gauge\"", "the same with less air"},
               {"sinew compare RUN RUN -o compare.html", "what that changed"}}) +
          "\n" + wrapped("A muscle of your own:") +
-         table({{"sinew identify static forces.csv …",
+         table({{"sinew identify check forces.csv …",
+                 "can they be a muscle's, and what do they tell"},
+                {"sinew identify static forces.csv …",
                  "from a CSV of lengths, pressures and "
                  "forces to the file of a muscle"},
                 {"sinew actuator FILE --length … --pressure …", "what it pulls"},

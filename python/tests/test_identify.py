@@ -68,6 +68,51 @@ class Static(unittest.TestCase):
         self.assertLess(float(numpy.sqrt((error**2).mean())), 0.2)
 
 
+class Checks(unittest.TestCase):
+    def test_are_the_programs(self) -> None:
+        table = sinew.identify.Table(
+            MAP,
+            names={"force": "F_N", "pressure": "P_gauge_Pa", "length": "L_m"},
+            units={"F_N": "N", "P_gauge_Pa": "Pa gauge", "L_m": "m"},
+        )
+        said = program_json(
+            "identify", "check", MAP, "--map", "force=F_N,pressure=P_gauge_Pa,length=L_m",
+            "--unit", "F_N=N", "--unit", "P_gauge_Pa=Pa gauge", "--unit", "L_m=m",
+            "--rest-length", "250 mm", "--diameter", "10 mm", "--json",
+        )  # fmt: skip
+        found = sinew.identify.check(table, rest_length=0.25, diameter="10 mm")
+        self.assertEqual(found.report, said)
+        self.assertFalse(found.red)
+        self.assertEqual(found.lights()["force unit"], "green")
+        self.assertEqual(found.lights()["both ways"], "yellow")
+        self.assertTrue(str(found).startswith("yellow: both ways: "))
+        self.assertEqual(len(found.report["recognised"]["mounts"]), 5)
+        wrong = sinew.identify.check(table, rest_length=0.23, hold_out="pressure")
+        self.assertTrue(wrong.red)
+        self.assertEqual(wrong.lights()["rest length"], "red")
+
+    def test_red_is_refused_unless_it_is_to_be_fitted_anyway(self) -> None:
+        length, pressure, force = measured()
+        columns = {"length": length, "pressure": pressure, "force": force}
+        static, tables = sinew.identify.static, sinew.identify.static_from
+        refusal = sinew.identify.RefusalError
+        told = "(?s)rest length: The longest mount.*anyway=true"
+        with self.assertRaisesRegex(refusal, told):
+            static(length, pressure, force, rest_length=0.23)
+        with self.assertRaisesRegex(refusal, told):
+            tables(columns, rest_length=0.23)
+        for found in (
+            static(length, pressure, force, rest_length=0.23, model="saturating", anyway=True),
+            tables(columns, rest_length=0.23, model="saturating", anyway=True),
+        ):
+            (warning,) = found.report["warnings"]
+            self.assertIn("108.7 %", warning)
+        with self.assertRaisesRegex(refusal, "force unit"):
+            static(length, pressure, force, rest_length=0.25, diameter=0.04)
+        with self.assertRaisesRegex(ValueError, "diameter: found -1"):
+            static(length, pressure, force, diameter=-1.0)
+
+
 class Wrong(Refusals):
     def test_inputs_are_refused_in_words(self) -> None:
         length, pressure, force = measured()

@@ -49,8 +49,8 @@ struct CheckedTable {
 
 // What is asked: tables, and the points that a fit would take from them.
 struct CheckInput {
-  std::vector<CheckedTable> tables;
-  StaticData data;
+  std::vector<CheckedTable> tables;       // as they were read
+  StaticData data;                        // their points
   double zero = 0;                        // the largest force that was taken off [N]
   std::vector<Check> unreadable;          // red
   double diameter = 0;                    // of the muscle without pressure [m]; 0: not known

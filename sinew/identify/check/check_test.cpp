@@ -244,6 +244,22 @@ TEST(Check, GoodRigsHaveNoRed) {
   EXPECT_FALSE(has_red(checked(rig(1, 7, 250, 100, {0.05, 0.08, 0.11, 0.14}))));
 }
 
+// Forces in lbf that are called N are those of a thinner muscle: the check cannot know, but tells
+// the diameter that the numbers would have in lbf, and that is the one of the forces in N.
+TEST(Check, TellsTheDiameterInCaseTheForcesAreLbf) {
+  const auto evidence = [](double scale) {
+    Input in = rig(scale);
+    in.known_rest = rest;
+    for (const Check& c : checked(in))
+      if (c.name == "force unit") return c.evidence;
+    return std::string();
+  };
+  const std::string newtons = evidence(1), pounds = evidence(1 / 4.448222);
+  const std::string diameter = newtons.substr(newtons.find("a braid of ") + 11, 4);
+  EXPECT_NE(pounds.find("of " + diameter + " mm if the numbers are lbf"), std::string::npos)
+      << diameter << " is not in " << pounds;
+}
+
 // A table from the shelf.
 std::vector<Check> checked_file(const std::string& path, Source source) {
   source.path = path;

@@ -11,12 +11,18 @@ namespace {
 constexpr double one_length = 2e-4;  // of a length: readings that differ by their noise alone
 
 // How far readings of the very same length are apart; others differ by their lengths, too.
-double gap_of(const std::vector<StaticPoint>& points) {
+double gap_of(std::vector<StaticPoint> points) {
+  std::ranges::stable_sort(points, {}, &StaticPoint::length);
   double out = 0;
-  for (const StaticPoint& a : points)
-    for (const StaticPoint& b : points)
-      if (std::abs(a.length - b.length) < one_length * a.length)
-        out = std::max(out, a.force - b.force);
+  for (std::size_t i = 0; i < points.size();) {
+    const double first = points[i].length;
+    double low = points[i].force, high = low;
+    for (; i < points.size() && points[i].length - first < one_length * first; ++i) {
+      low = std::min(low, points[i].force);
+      high = std::max(high, points[i].force);
+    }
+    out = std::max(out, high - low);
+  }
   return out;
 }
 

@@ -28,7 +28,7 @@ struct Determined {
 
 // The richest law, on these data.
 struct DeterminedLaw {
-  std::string model, law;
+  std::string model, law;  // "saturating-effectiveness", and its equation
   std::vector<Determined> parameters;
   std::string refused;  // why nothing can be said; empty: it can
 };

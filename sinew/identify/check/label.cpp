@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "sinew/identify/check/label_fit.h"
@@ -16,12 +17,13 @@ namespace {
 using enum Knob;
 using Points = std::vector<StaticPoint>;
 
-constexpr double least_shift = 0.01;     // of a rest length; less is a ruler's error
-constexpr double own_explains = 0.35;    // of what is left, squared: within a muscle
-constexpr double make_supports = 0.25;   // the same among muscles, where the muscle itself says so
-constexpr double make_explains = 0.5;    // where it does not
-constexpr double rest_mount = 0.002;     // of a rest length: a mount that is labelled as it
-constexpr double least_misfit = 0.0005;  // of the largest force; what is left below it says nothing
+constexpr double least_shift = 0.01;    // of a rest length; less is a ruler's error
+constexpr double own_explains = 0.35;   // of what is left, squared: within a muscle
+constexpr double make_supports = 0.25;  // the same among muscles, where the muscle itself says so
+constexpr double make_explains = 0.5;   // where it does not
+constexpr double rest_mount = 0.002;    // of a rest length: a mount that is labelled as it
+constexpr double mount_explains = 0.6;  // where one mount among four or more is doubted
+constexpr double least_misfit = 0.002;  // of the largest force: less is left by right labels
 
 // Beside branches and what several muscles need.
 const std::vector<Knob> label_laws[] = {
@@ -152,6 +154,27 @@ Check suspicion_of(const Doubt* own, const Doubt* make, const std::string& other
   return {"labels", Light::yellow, text + ".", advice};
 }
 
+// The mount that, with another length, goes with all others best; nothing where none does, or
+// several do alike. At the ends it is rather the law that is wrong.
+std::optional<Check> mount_off(const Believed& own) {
+  const std::set<double> mounts = mounts_of_muscle(own.points);
+  if (mounts.size() < 4 || mounts.size() > 12 || own.rms < least_misfit) return {};
+  std::vector<Doubt> doubts;
+  for (const double mount : mounts)
+    doubts.push_back(ask(own, {.rest_length = own.points.front().rest_length, .mount = mount}));
+  std::ranges::sort(doubts, {}, &Doubt::doubted);
+  const Doubt& best = doubts[0];
+  const bool at_end = best.labelled() == *mounts.begin() || best.labelled() == *mounts.rbegin();
+  if (at_end || !best.speaks(mount_explains) || best.doubted > 0.75 * doubts[1].doubted) return {};
+  return Check{
+      "labels", Light::yellow,
+      fmt::format("The mount labelled {:.4g} mm behaves like {} beside the others of its "
+                  "muscle: what they leave falls from {:.2g} to {:.2g} % of the largest "
+                  "force.",
+                  1e3 * best.labelled(), best.words(), 100 * best.believed, 100 * best.doubted),
+      "Measure that length again."};
+}
+
 // Which muscles of a make follow the others with another rest length only.
 std::vector<Doubt> doubts_of_make(const Points& points, double atmosphere) {
   std::set<double> muscles;
@@ -174,9 +197,29 @@ Check one_of_them(const std::vector<const Doubt*>& doubts) {
           "Measure the lengths of these muscles without pressure and load again."};
 }
 
+// What the muscles of a make say of each other, where none has said anything of itself.
+void add_make(const std::vector<Doubt>& make, bool asked, std::vector<Check>& out) {
+  std::vector<const Doubt*> likely;
+  bool sure = false;
+  for (const Doubt& d : make) {
+    if (d.speaks(make_supports)) likely.push_back(&d);
+    sure = sure || d.speaks(make_explains);
+  }
+  if (sure && likely.size() == 1) {
+    out.push_back(suspicion_of(nullptr, likely[0], ""));
+  } else if (sure) {
+    out.push_back(one_of_them(likely));
+  } else {
+    out.push_back({"labels", Light::green,
+                   asked ? "The lengths of the mounts go with each other."
+                         : "Too few mounts, or none at rest, to ask whether a length is wrong.",
+                   ""});
+  }
+}
+
 }  // namespace
 
-void add_label_checks(const StaticData& data, double atmosphere, std::vector<Check>& out) {
+void add_label_checks(const StaticData& data, double atmosphere, std::vector<Check>& out) try {
   const Points points = few_points(data.points);
   if (points.empty()) return;
   if (!(points.front().rest_length > 0)) {
@@ -194,7 +237,10 @@ void add_label_checks(const StaticData& data, double atmosphere, std::vector<Che
     ++asked;
     const Believed own(mine, atmosphere);
     const Doubt doubt = ask(own, {.rest_length = m});
-    if (!doubt.speaks(own_explains)) continue;
+    if (!doubt.speaks(own_explains)) {
+      if (const auto mount = mount_off(own)) out.push_back(*mount), named = true;
+      continue;
+    }
     const auto same = std::ranges::find_if(make, [&](const Doubt& d) {
       return d.label.rest_length == m && d.speaks(make_supports) && d.shift * doubt.shift > 0;
     });
@@ -203,22 +249,9 @@ void add_label_checks(const StaticData& data, double atmosphere, std::vector<Che
     named = true;
   }
   if (named) return;
-  std::vector<const Doubt*> likely;
-  bool sure = false;
-  for (const Doubt& d : make) {
-    if (d.speaks(make_supports)) likely.push_back(&d);
-    sure = sure || d.speaks(make_explains);
-  }
-  if (sure && likely.size() == 1) {
-    out.push_back(suspicion_of(nullptr, likely[0], ""));
-  } else if (sure) {
-    out.push_back(one_of_them(likely));
-  } else {
-    out.push_back({"labels", Light::green,
-                   asked > 0 ? "The lengths of the mounts go with each other."
-                             : "Too few lengths to ask whether one is labelled wrong.",
-                   ""});
-  }
+  add_make(make, asked > 0, out);
+} catch (const Refusal& refusal) {
+  out.push_back({"labels", Light::green, std::string("Not asked: ") + refusal.what(), ""});
 }
 
 }  // namespace sinew::identify

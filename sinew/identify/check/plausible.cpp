@@ -188,7 +188,7 @@ void add_reach_checks(const StaticData& data, bool braid_is_known, std::vector<C
              vent = std::ranges::any_of(fitted, is_of(Branch::vent));
   const auto lengths = static_cast<std::size_t>(count_of(length_groups(fitted)));
   out.push_back(count("lengths", lengths, braid_is_known ? 1 : 2, 3,
-                      "Measure more mounts: five tell the braid from the bladder. Of one length "
+                      "Measure more mounts: five tell the braid from the bladder. With one alone "
                       "actuator=FILE has to give the braid's geometry."));
   out.push_back(
       count("pressures", pressures_of(fitted), 3, 5, "Measure more pressures: ten are good."));

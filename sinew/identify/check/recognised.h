@@ -49,6 +49,7 @@ struct Recognised {
   ForceNoise noise;
 };
 
+// Returns what the tables and their points are. Throws nothing for what they hold.
 Recognised recognise(const CheckInput& input);
 
 }  // namespace sinew::identify
