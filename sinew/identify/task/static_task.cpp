@@ -123,6 +123,15 @@ std::optional<Source> held_out_of(const std::vector<Source>& sources,
 
 }  // namespace
 
+StaticData read_static(const std::vector<Source>& sources, const StaticSettings& settings) {
+  if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
+  refuse_lengths_of_no_file(settings.lengths, sources);
+  StaticData data;
+  for (const Source& source : sources) read_table(settings, source, true, data);
+  keep_branch(settings.branch, data);
+  return data;
+}
+
 StaticFound find_static(const std::vector<Source>& sources, const StaticSettings& settings) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
   const std::optional<Source> other = held_out_of(sources, settings);

@@ -30,6 +30,10 @@ struct StaticFound {
   std::vector<std::string> files;  // the actuator's, of each muscle; the longest first
 };
 
+// Returns the points of the tables, as a static law would be fitted to them. Throws config::Error
+// and Refusal.
+StaticData read_static(const std::vector<Source>& sources, const StaticSettings& settings);
+
 // Throws config::Error and Refusal.
 StaticFound find_static(const std::vector<Source>& sources, const StaticSettings& settings);
 
