@@ -96,7 +96,7 @@ class PlanReader {
   double room_;
 };
 
-double noise_of(const PlanReader& read, const std::string& text, const char* otherwise) {
+double planned_noise(const PlanReader& read, const std::string& text, const char* otherwise) {
   return read.value("noise", text.empty() ? otherwise : text, "N",
                     config::above_zero(1e4, "of a force"));
 }
@@ -146,7 +146,7 @@ nlohmann::ordered_json json_of_error(const PlanError& error) {
 PlanFound find_plan(const PlanSettings& settings, double atmosphere) {
   const PlanReader read(settings, atmosphere);
   PlanFound out{.options = read.options()};
-  out.options.noise = noise_of(read, settings.noise, "2 N");
+  out.options.noise = planned_noise(read, settings.noise, "2 N");
   const double pressure = read.needed("pressure", settings.pressure, "Pa gauge", plan_pressure,
                                       "the highest one that will be measured");
   if (settings.actuator.empty()) {
@@ -190,7 +190,8 @@ PlanFound find_next(const std::vector<Source>& sources, const StaticSettings& ho
     fitted.muscle.scales.top_pressure =
         read.value("pressure", settings.pressure, "Pa gauge", plan_pressure);
   out.muscle = fitted.muscle;
-  out.options.noise = settings.noise.empty() ? fitted.scatter : noise_of(read, settings.noise, "");
+  out.options.noise =
+      settings.noise.empty() ? fitted.scatter : planned_noise(read, settings.noise, "");
   out.subject = fmt::format("what {} readings in {}{} leave open", data.points.size(),
                             sources[0].path, sources.size() > 1 ? " and others" : "");
   return planned(std::move(out), read, mounts_of(data.points));

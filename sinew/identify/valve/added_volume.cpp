@@ -36,7 +36,7 @@ struct JointCurve {
 struct ChamberLine {
   double conductance = 0, volume = 0;
 };
-ChamberLine line_through(std::span<const double> inverse, std::span<const double> added) {
+ChamberLine chamber_line(std::span<const double> inverse, std::span<const double> added) {
   const auto n = static_cast<double>(inverse.size());
   double x = 0, y = 0, xx = 0, xy = 0;
   for (std::size_t i = 0; i < inverse.size(); ++i) {
@@ -61,7 +61,7 @@ class JointFill {
       inverse.push_back(1 / alone[i].fit.parameters.front().value);
       added.push_back(curves_[i].added);
     }
-    const ChamberLine line = line_through(inverse, added);
+    const ChamberLine line = chamber_line(inverse, added);
     const double most = *std::ranges::max_element(added);
     if (!(line.conductance > 0))
       throw Refusal("added_volume", "a chamber that fills no slower with more volume joined to it",
@@ -174,8 +174,9 @@ void leave_out_far_worse(std::vector<Alone>& alone) {
                               std::sqrt(a.squares / least));
 }
 
-Tried join(const FillModel& model, std::span<const AddedFill> fills, std::span<const Curve> curves,
-           const Alone& alone, const ValveOptions& options, double range) {
+Tried fit_joined(const FillModel& model, std::span<const AddedFill> fills,
+                 std::span<const Curve> curves, const Alone& alone, const ValveOptions& options,
+                 double range) {
   Tried out;
   out.fit = {.model = std::string(model.name),
              .law = std::string(model.law),
@@ -302,7 +303,7 @@ Tried try_added(const FillModel& model, std::span<const AddedFill> fills,
   double range = 0;
   for (const AddedFill& fill : fills)
     range = std::max(range, curves.emplace_back(curve_of(fill.data)).range());
-  return join(model, fills, curves, fit_alone(model, curves, options), options, range);
+  return fit_joined(model, fills, curves, fit_alone(model, curves, options), options, range);
 }
 
 ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions& options) {
@@ -332,7 +333,8 @@ ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions&
   leave_out_far_worse(alone);
   std::vector<Tried> tried;
   for (std::size_t i = 0; i < alone.size(); ++i)
-    tried.push_back(join(fill_models()[i], fills, curves, alone[i], options, report.full_scale));
+    tried.push_back(
+        fit_joined(fill_models()[i], fills, curves, alone[i], options, report.full_scale));
   for (const Tried& t : tried) report.fits.push_back(t.fit);
   choose(report);
   refuse_poor_fit(fills.front().data, report, options.worst_fit);
@@ -343,7 +345,7 @@ ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions&
   return out;
 }
 
-std::vector<std::string> ways_to_separate(double half) {
+std::vector<std::string> ways_to_separate(double half, double over_models) {
   const auto percent = [](double share) { return fmt::format("{:.2g} %", 100 * share); };
   const Separation equal = expected_separation(half, 1), fifth = expected_separation(half, 0.2);
   std::vector<std::string> out;
@@ -358,6 +360,12 @@ std::vector<std::string> ways_to_separate(double half) {
       "Or weigh the chamber full of water, to 0.5 %: volume=V gives C to +- {}. Or a flow meter at "
       "one choked flow, to 2 %: conductance=C gives V to +- {}.",
       percent(water), percent(meter)));
+  if (over_models > 1.5 * half)
+    out.push_back(fmt::format(
+        "What the chamber may be otherwise, an exponent above all, leaves C/V open by +- {} "
+        "beside that. It moves both fillings alike: it stays in C, and not in a volume from two "
+        "fillings.",
+        percent(over_models)));
   return out;
 }
 

@@ -43,8 +43,9 @@ Tried try_added(const FillModel& model, std::span<const AddedFill> fills,
 // Returns what these fillings tell. Throws Refusal for fewer than two different volumes.
 ValveResult identify_added(std::span<const AddedFill> fills, const ValveOptions& options);
 
-// Returns what further measurement would tell C from V, and how well, in sentences, for a curve
-// that knows C/V to `half` of its value  [-].
-std::vector<std::string> ways_to_separate(double half);
+// Returns what further measurement would tell C from V, and how well, in sentences: for a curve
+// that knows C/V to `half` of its value by its noise, and to `over_models` whatever the chamber is
+// taken for  [-].
+std::vector<std::string> ways_to_separate(double half, double over_models);
 
 }  // namespace sinew::identify

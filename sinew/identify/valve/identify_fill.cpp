@@ -207,7 +207,7 @@ void describe(const Curve& c, const ValveOptions& options, const Estimate& alone
   if (options.volume) r.notes.emplace_back("the volume is taken as exact");
   const Estimate& k = r.best().parameters.front();
   if (!options.volume && !options.conductance && !options.per_volume) {
-    const std::vector<std::string> ways = ways_to_separate(half_of(alone));
+    const std::vector<std::string> ways = ways_to_separate(half_of(alone), half_of(k));
     r.notes.insert(r.notes.end(), ways.begin(), ways.end());
     out.refused = fmt::format(
         "sonic conductance: found C/V = {} alone; expected the volume beside it: one curve does "
