@@ -18,6 +18,7 @@ std::vector<double> round_steps(double low, double high, int count);
 // Holds what a plan is chosen from, and what a choice is worth.
 class DesignSpace {
  public:
+  // The muscle and the options must outlive it.
   DesignSpace(const ExpectedMuscle& muscle, const PlanRegion& region, const PlanOptions& options);
 
   // Returns the lengths and the pressures that may be chosen  [m], [Pa gauge], rising.
@@ -28,10 +29,13 @@ class DesignSpace {
   // where there are no more.
   std::vector<double> even_pressures(double length, std::size_t count) const;
 
-  Knowledge before() const;  // anything is measured
+  // Returns what is known before anything is measured, what a mount with these pressures tells, up
+  // and down again, and what a measured one has told.
+  Knowledge before() const;
   Knowledge of(double length, std::span<const double> pressures) const;
   Knowledge of(const MeasuredMount& mount) const;
 
+  // Returns the error over the region where that is known.
   PlanError error(const Knowledge& knowledge) const;
 
  private:

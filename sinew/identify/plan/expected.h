@@ -32,12 +32,14 @@ ExpectedMuscle muscle_by_size(double rest_length, double diameter, double top_pr
 ExpectedMuscle muscle_by_actuator(const actuator::Actuator& actuator, double rest_length,
                                   double top_pressure, double atmosphere);
 
-// Returns the muscle that points of one muscle, fitted, tell, and how far they scatter about its
-// law [N]. Throws Refusal where they are too few, or of several rest lengths.
+// A muscle whose law was fitted, and how far its points scatter about it  [N].
 struct FittedMuscle {
   ExpectedMuscle muscle;
   double scatter = 0;
 };
+
+// Returns the muscle that these points tell. Throws Refusal where they are too few, or of several
+// rest lengths.
 FittedMuscle muscle_by_points(std::span<const StaticPoint> points, double atmosphere,
                               const std::optional<actuator::Braid>& braid);
 

@@ -35,8 +35,10 @@ class Knowledge {
   static Knowledge of_mount(std::span<const PlannedReading> readings, double noise,
                             std::size_t parameters);
 
+  // Adds what other readings tell.
   Knowledge& operator+=(const Knowledge& other);
 
+  // Returns how many parameters there are.
   std::size_t parameters() const { return size_; }
 
   // Returns the variance of the force at each place, whose slopes are told  [N2]. Infinite in all

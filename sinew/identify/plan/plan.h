@@ -32,6 +32,7 @@ struct PlanRegion {
   double lowest = 0, highest = 0;
 };
 
+// Holds what a rig can do and what is wanted of it.
 struct PlanOptions {
   double noise = 1;            // of one reading of the force, a standard deviation [N]
   double length_error = 1e-4;  // of a mount's length, the same for all of its readings [m]
@@ -49,6 +50,7 @@ struct PlanError {
   double rms = 0;         // over the region, with the law's own
   double half_width = 0;  // 95 %, at the worst place of the region
 
+  // Returns the one that decides.
   double of(PlanCriterion criterion) const {
     return criterion == PlanCriterion::mean ? rms : half_width;
   }
@@ -71,19 +73,21 @@ struct MeasuredMount {
   std::vector<StaticPoint> points;  // at that length
 };
 
+// Mounts in the order in which each helps most, and what is known before and after them.
 struct MeasurementPlan {
   PlanRegion region;
   PlanError before;  // with what is there already, or with nothing
   std::vector<PlannedMount> mounts;
   bool reached = false;  // the wanted error
 
+  // Returns the error when all is measured, the time that it takes [s], and the number of readings.
   PlanError after() const { return mounts.empty() ? before : mounts.back().after; }
-  double time() const;  // [s]
+  double time() const;
   std::size_t readings() const;
 };
 
-// Returns all lengths between a tenth of the way from free contraction and the rest length, and all
-// pressures of which the muscle needs a sixth of the top one, at least.
+// Returns all lengths from a tenth of the way between free contraction and the rest length up to
+// that, and all pressures from a sixth of the top one up to that.
 PlanRegion region_of(const ExpectedMuscle& muscle);
 
 // Returns the parts of the points that have a length in common.
