@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "cli/identify_columns.h"
 #include "cli/identify_page.h"
 #include "cli/json_text.h"
 #include "cli/settings.h"
@@ -165,7 +166,10 @@ void add_data_options(Command sub, DataOptions& options) {
                  "repeated")
       .takes_one();
   sub.add_option("--columns", options.columns,
-                 "\"force [N],time [s]\": the header of a file without one");
+                 "\"force [N],time [s]\": the header of a file without one; alone: tells which "
+                 "columns are read, without DATA");
+  sub.add_option("--template", options.template_file,
+                 "FILE.csv: writes a table to fill in, without DATA");
   sub.add_option("--atmosphere", options.atmosphere, "that gauges read against").show_default();
   sub.add_flag("--drop-incomplete", options.drop_incomplete,
                "leave out rows with cells that are empty or no numbers");
@@ -265,6 +269,8 @@ void add_identify(Command app, Action& action) {
   add_identify_creep(sub, action);
   add_identify_check(sub, action);
   add_identify_scale(sub, action);
+  add_identify_plan(sub, action);
+  add_identify_columns(sub, action);
 }
 
 }  // namespace sinew::cli

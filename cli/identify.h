@@ -29,6 +29,7 @@ void add_identify_static(Command identify, Action& action);
 void add_identify_creep(Command identify, Action& action);
 void add_identify_check(Command identify, Action& action);
 void add_identify_scale(Command identify, Action& action);
+void add_identify_plan(Command identify, Action& action);
 
 // How files of measurements are read.
 struct DataOptions {
@@ -36,6 +37,7 @@ struct DataOptions {
   std::vector<std::string> maps, units;  // "force=F_N"
   std::vector<std::string> where;        // "phase=fill"
   std::string columns;                   // "force [N],pressure [kPa gauge]"
+  std::string template_file;             // of the help alone: see cli/identify_columns.h
   std::string atmosphere = "14.7 psi";
   bool drop_incomplete = false;
   std::string encoding, decimal, thousands, dates, rate;  // what a file leaves open

@@ -68,6 +68,10 @@ void add_identify_valve(Command identify, Action& action) {
                  "fill, pulses: of the chamber, hoses included");
   sub.add_option("--conductance", options->settings.conductance,
                  "fill, pulses: of the valve, for the volume instead");
+  sub.add_option("--added-volume", options->settings.added_volume,
+                 "fill: joined to the chamber, of each file: \"0 L,0.5 L\"; two fillings tell "
+                 "conductance and volume apart")
+      .takes_one();
   sub.add_flag("--per-volume", options->settings.per_volume, "fill, pulses: C/V is enough");
   sub.add_option("--supply,--port", options->settings.port,
                  "pressure on the valve's other side, the room's when venting; fitted without");

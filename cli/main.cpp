@@ -12,6 +12,7 @@
 
 #include "cli/command.h"
 #include "cli/help.h"
+#include "cli/identify_columns.h"
 #include "cli/interrupt.h"
 #include "cli/settings.h"
 #include "cli/terminal.h"
@@ -83,6 +84,7 @@ int main(int argc, char** argv) {
   try {
     std::vector<std::string> words(argv + 1, argv + argc);
     words = cli::with_help_first(std::move(words), command.tree());
+    words = cli::with_columns_first(std::move(words));
     std::ranges::reverse(words);  // as CLI11 takes them
     app.parse(std::move(words));
   } catch (const CLI::ParseError& e) {

@@ -19,10 +19,12 @@ constexpr Renamed renamed[] = {{"names", "map"}, {"units", "unit"}};
 // The settings that messages of the library name. A word that is not here stays a word: "time=0" is
 // no option.
 constexpr std::string_view settings =
-    " actuator align anyway base bits candidate columns conductance dates decimal down "
-    "drop_incomplete "
+    " actuator added_volume align anyway base bits candidate columns conductance dates "
+    "decimal diameter down drop_incomplete "
     "encoding exponent external_volume flexion flexor_length force frequency full_scale hold_out "
-    "keep_force known label largest length lever load machine model moment_arm names only part "
+    "keep_force known label largest law_error length lever load machine model moment_arm names "
+    "only "
+    "part "
     "per_volume points port pressure range rate report rest rest_length root sensors shard "
     "spread_times thousands units vary volume where ";
 
@@ -33,13 +35,17 @@ constexpr std::string_view subjects =
 
 // Settings that are so at the begin of a line alone: a file may have a column of that name.
 constexpr std::string_view quantities =
-    " align align_by atmosphere base bits branch bridge channels clock concentration conductance "
-    "count dates decimal diameter down encoding event excitation exponent extensor_length "
-    "external_volume "
+    " added_volume align align_by atmosphere base bits branch bridge channels clock "
+    "concentration conductance count criterion dates decimal diameter down encoding error "
+    "event excitation exponent extensor_length external_volume "
     "fit_where flexion "
     "flexor_length font fps frequency from full_scale gage_factor gages gain height hold_out kind "
-    "label length lever limb limb_lever load machine mass modulus moment_arm name output poisson "
-    "port predict_dat pressure rate rest rest_angle rest_length sensitivity side speed temperature "
+    "label law_error length length_error lever limb limb_lever load longest lowest machine mass "
+    "modulus moment_arm most mount_time name noise output poisson predict "
+    "port predict_dat pressure rate reading rest rest_angle rest_length sensitivity shortest side "
+    "speed "
+    "step_time "
+    "temperature "
     "thousands thread_thickness title to trapezoids volume width within yield ";
 
 // Words between blanks, " one two ".

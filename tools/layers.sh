@@ -44,6 +44,7 @@ layers='
     identify/data   identify/fit recording
     identify/actuator  identify/data
     identify/check  identify/actuator
+    identify/plan   identify/actuator
     identify/motion identify/data
     identify/joint  identify/data robot
     identify/valve  identify/data gas signals

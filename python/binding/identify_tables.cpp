@@ -187,6 +187,7 @@ Identified valve(const Sources& sources, const Settings& given) {
   given.quantity("volume", "m3", s.volume);
   given.quantity("conductance", "m3/(s Pa)", s.conductance);
   given.flag("per_volume", s.per_volume);
+  given.quantities("added_volume", "m3", s.added_volume);
   given.quantity("port", "Pa abs", s.port);
   given.quantity("exponent", "1", s.exponent);
   given.quantity("temperature", "K", s.temperature);

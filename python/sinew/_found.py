@@ -143,3 +143,23 @@ class Checked:
             for check in self.checks
             if check["light"] != "green"
         )
+
+
+@dataclasses.dataclass(frozen=True)
+class Plan:
+    """Which lengths and pressures to measure: the plan, and the table to fill in."""
+
+    report: Dict[str, Any]
+    """As `sinew identify plan --json` prints it: mounts in order, each with the error after it, in percent."""
+
+    table: str
+    """CSV with a row for each reading, whose force is empty."""
+
+    @property
+    def minutes(self) -> float:
+        """How long it takes."""
+        return float(self.report["time_s"]) / 60
+
+    def write(self, path: Path, force: bool = False) -> None:
+        """Write the table. Raises FileExistsError, unless `force` replaces it."""
+        _write(path, self.table, force)

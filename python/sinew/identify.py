@@ -29,27 +29,31 @@ import numpy.typing
 
 from sinew import _sinew
 from sinew._sinew import RefusalError
-from sinew._found import Checked, Found, Joint, Static, Valve
+from sinew._found import Checked, Found, Joint, Plan, Static, Valve
 from sinew._tables import Table, held_out_of, like, tables_of
 
 __all__ = [
     "Checked",
     "Found",
     "Joint",
+    "Plan",
     "RefusalError",
     "Static",
     "Table",
     "Valve",
     "check",
+    "columns",
     "creep",
     "dynamic",
     "force_beam",
     "geometry",
     "geometry_from_trapezoids",
     "joint",
+    "plan",
     "sensor",
     "static",
     "static_from",
+    "template",
     "valve",
 ]
 
@@ -147,6 +151,77 @@ def _static_settings(data: Any, given: Dict[str, Any]) -> Dict[str, Any]:
     else:
         settings["held_out"] = held_out_of("static", data, given["hold_out"])
     return settings
+
+
+def columns(method: str) -> Dict[str, Any]:
+    """Return which columns a method of `sinew identify` reads, as `--columns --json` prints it.
+
+    method: "static", "dynamic", ... For each column its quantity, accepted units, meaning, and whether it is
+    needed; for each kind of table what a row is. Raises sinew.InputError for a method that there is not.
+    """
+    return dict(_sinew.identify_inputs(method))
+
+
+def template(method: str, kind: str = "") -> str:
+    """Return a table to fill in, as `--template` writes it: CSV that the method reads as it is.
+
+    kind: of table, where a method takes several, "chart"; else the usual one.
+    """
+    return str(_sinew.identify_template(method, kind))
+
+
+def plan(
+    data: Any = None,
+    *,
+    rest_length: Optional[_Quantity] = None,
+    diameter: Optional[_Quantity] = None,
+    actuator: Optional[_Path] = None,
+    pressure: Optional[_Quantity] = None,
+    noise: Optional[_Quantity] = None,
+    length_error: _Quantity = 1e-4,
+    law_error: _Quantity = 0.01,
+    error: _Quantity = 0.02,
+    mount_time: _Quantity = 600.0,
+    step_time: _Quantity = 30.0,
+    shortest: Optional[_Quantity] = None,
+    longest: Optional[_Quantity] = None,
+    lowest: Optional[_Quantity] = None,
+    criterion: str = "mean",
+    most: int = 12,
+    lengths: Union[str, Sequence[str]] = (),
+    branch: str = "both",
+) -> Plan:
+    """Return which lengths and pressures to measure so that a static law is known well enough.
+
+    Without data for a muscle that nobody has measured: its rest_length and diameter [m], or an actuator's
+    file with one like it, and the highest pressure [Pa gauge]. With data, as of static_from(), what to
+    measure next and what it buys; actuator's braid is then known. noise [N] of a reading (None: 2 N, or
+    what the data scatter), length_error [m] of a mount, law_error that no measurement lowers and error that
+    is wanted, both shares of the largest force; mount_time and step_time [s]. shortest and longest [m],
+    lowest [Pa gauge]: where the law is wanted. criterion: "mean", error is a root mean square over that
+    region; "worst", half of the 95 % interval at its worst place. most: mounts.
+    """
+    settings = {
+        "rest_length": rest_length,
+        "diameter": diameter,
+        "actuator": actuator,
+        "pressure": pressure,
+        "noise": noise,
+        "length_error": length_error,
+        "law_error": law_error,
+        "error": error,
+        "mount_time": mount_time,
+        "step_time": step_time,
+        "shortest": shortest,
+        "longest": longest,
+        "lowest": lowest,
+        "criterion": criterion,
+        "most": most,
+        "lengths": lengths,
+        "branch": branch,
+    }
+    report, table = _sinew.identify_plan([] if data is None else tables_of("static", data), settings)
+    return Plan(report, table)
 
 
 def geometry(data: Any, *, thread_thickness: _Quantity = 0.0, name: str = "bpa") -> Found:
@@ -314,6 +389,7 @@ def valve(
     volume: Optional[_Quantity] = None,
     conductance: Optional[_Quantity] = None,
     per_volume: bool = False,
+    added_volume: Optional[_Quantities] = None,
     port: Optional[_Quantity] = None,
     exponent: Optional[_Quantity] = None,
     temperature: _Quantity = "20 degC",
@@ -328,10 +404,11 @@ def valve(
     mass_flow [kg/s]; "fill" time [s] and pressure [Pa abs]; "pulses" command [1] beside; "coil" time and
     current [A]; "duty" duty [1], delivered [1] or flow, and frequency [Hz]. Of a filling or pulses: the
     chamber's volume [m3], or the valve's conductance [m3/(s Pa)], or per_volume where their ratio is
-    enough; port: pressure on the valve's other side [Pa abs], fitted without; exponent of the chamber,
-    tried without. temperature [K] of the air. frequency [Hz] of the pulses of a map of duties. hold_out:
-    a table that scores the model of a filling. name: of the valve; base: a valves file with it, whose
-    values stay where none was found.
+    enough; or fillings with known volumes joined to the chamber, a table for each, whose added_volume [m3]
+    is told here or in a column of that name: then both come out. port: pressure on the valve's other side
+    [Pa abs], fitted without; exponent of the chamber, tried without. temperature [K] of the air. frequency
+    [Hz] of the pulses of a map of duties. hold_out: a table that scores the model of a filling. name: of
+    the valve; base: a valves file with it, whose values stay where none was found.
     """
     settings = {
         "name": name,
@@ -340,6 +417,7 @@ def valve(
         "volume": volume,
         "conductance": conductance,
         "per_volume": per_volume,
+        "added_volume": added_volume,
         "port": port,
         "exponent": exponent,
         "temperature": temperature,

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "sinew/signals/pulse.h"
 #include "tests/cli/program.h"
@@ -32,18 +33,24 @@ std::string duties() {
   return text;
 }
 
-// Isothermal, ISO 6358 with C/V = 2 1/(s bar) and b = 0.3, from 7 bar abs; in steps of 50 us.
-std::string filling() {
-  std::string text = "time [s],pressure [kPa gauge]\n";
+// Isothermal, ISO 6358 with C/V = 2 1/(s bar) and b = 0.3, from 7 bar abs; in steps of 50 us, or
+// longer ones where the chamber is larger. Rows without the header, `more` at their ends.
+std::string rows_of_filling(double larger = 1, const std::string& more = "") {
+  std::string text;
   double p = 1.013e5;
   for (int i = 0; i < 20000; ++i) {
     if (i % 100 == 0)
-      text += std::to_string(5e-5 * i) + "," + std::to_string(1e-3 * (p - 1.01325e5)) + "\n";
+      text += std::to_string(5e-5 * larger * i) + "," + std::to_string(1e-3 * (p - 1.01325e5)) +
+              more + "\n";
     const double x = std::max(0.0, (p / 7e5 - 0.3) / 0.7);
     if (i > 2000)
       p += 5e-5 * 287 * 293.15 * 2e-5 * 1.185 * 7e5 * std::sqrt(std::max(0.0, 1 - x * x));
   }
   return text;
+}
+
+std::string filling(double larger = 1) {
+  return "time [s],pressure [kPa gauge]\n" + rows_of_filling(larger);
 }
 
 TEST(IdentifyValve, AChartBecomesAValveThatSinewValveReads) {
@@ -95,6 +102,94 @@ TEST(IdentifyValve, AFillingWithoutAVolumeFailsAndSaysWhatIsMissing) {
   EXPECT_EQ(file.code, 0) << file.err;
   EXPECT_THAT(file.out, HasSubstr("sonic_conductance"));
   EXPECT_EQ(w.sinew({"check", "v.toml"}).code, 0);
+}
+
+// A chamber of 0.5 L, and the same with a bottle of 0.5 L joined to it: C = 1e-8, from two files,
+// or from one with a column of the volumes.
+TEST(IdentifyValve, TwoFillingsWithAKnownVolumeJoinedTellConductanceAndVolume) {
+  const Workspace w;
+  write_text(w / "a.csv", filling());
+  write_text(w / "b.csv", filling(2));
+  write_text(w / "both.csv", "time [s],pressure [kPa gauge],added_volume [L]\n" +
+                                 rows_of_filling(1, ",0") + rows_of_filling(2, ",0.5"));
+  const std::vector<Words> ways{{"a.csv", "b.csv", "--added-volume", "0 L,0.5 L"}, {"both.csv"}};
+  for (const Words& way : ways) {
+    Words words{"identify", "valve", "--exponent", "1", "--json", "--quiet"};
+    words.insert(words.end(), way.begin(), way.end());
+    const Result result = w.sinew(words);
+    ASSERT_EQ(result.code, 0) << result.err;
+    const Json json = Json::parse(result.out);
+    EXPECT_EQ(json["parameters"][0]["name"], "sonic_conductance");
+    EXPECT_NEAR(json["parameters"][0]["value"].get<double>() / 1e-8, 1, 0.02);
+    EXPECT_EQ(json["parameters"][1]["name"], "volume");
+    EXPECT_NEAR(json["parameters"][1]["value"].get<double>() / 5e-4, 1, 0.02);
+  }
+  const Result file = w.sinew({"identify", "valve", "both.csv", "--exponent", "1", "-o", "v.toml"});
+  ASSERT_EQ(file.code, 0) << file.err;
+  EXPECT_EQ(w.sinew({"check", "v.toml"}).code, 0);
+
+  const Result few = w.sinew({"identify", "valve", "a.csv", "b.csv", "--added-volume", "0 L"});
+  EXPECT_EQ(few.code, 2);
+  EXPECT_THAT(few.err, HasSubstr("--added-volume: found 1 volumes; expected one for each of 2"));
+  const Result known = w.sinew({"identify", "valve", "both.csv", "--volume", "0.5 L"});
+  EXPECT_EQ(known.code, 2);
+  EXPECT_THAT(known.err, HasSubstr("--volume: found \"0.5 L\""));
+}
+
+// What one filling lacks, and how well each way to get it would do.
+TEST(IdentifyValve, AFillingTellsWhatWouldSeparateConductanceAndVolume) {
+  const Workspace w;
+  write_text(w / "fill.csv", filling());
+  const Result result = w.sinew({"identify", "valve", "fill.csv", "--exponent", "1"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("--added-volume \"0 L,0.5 L\""));
+  EXPECT_THAT(result.err, HasSubstr("weigh the chamber full of water"));
+}
+
+// Rows of two valves that take turns in one table; of a chart their times mean nothing.
+TEST(IdentifyValve, RowsOfTwoValvesInOneTableArePartedByWhere) {
+  const Workspace w;
+  std::string text = "time [s],pressure [kPa gauge],valve\n";
+  std::istringstream a(rows_of_filling()), b(rows_of_filling());
+  for (std::string first, second; std::getline(a, first) && std::getline(b, second);)
+    text += first + ",inlet\n" + second.substr(0, second.find(',')) + ",600,exhaust\n";
+  write_text(w / "mixed.csv", text);
+  const Result mixed = w.sinew({"identify", "valve", "mixed.csv", "--per-volume"});
+  EXPECT_EQ(mixed.code, 1);
+  EXPECT_THAT(mixed.err, HasSubstr("2 curves whose rows take turns"));
+  EXPECT_THAT(mixed.err, HasSubstr("--where \"valve=inlet\""));
+  const Result one = w.sinew({"identify", "valve", "mixed.csv", "--per-volume", "--exponent", "1",
+                              "--where", "valve=inlet", "--json"});
+  ASSERT_EQ(one.code, 0) << one.err;
+  EXPECT_NEAR(Json::parse(one.out)["parameters"][0]["value"].get<double>() / 2e-5, 1, 0.02);
+
+  std::string timed = "time [s],";
+  std::istringstream rows(chart());
+  std::string line;
+  std::getline(rows, line);
+  timed += line + "\n";
+  for (int time = 90; std::getline(rows, line); time -= 10)
+    timed += std::to_string(time) + "," + line + "\n";
+  write_text(w / "chart.csv", timed);
+  const Result chart = w.sinew({"identify", "valve", "chart.csv", "--json"});
+  ASSERT_EQ(chart.code, 0) << chart.err;
+  EXPECT_NEAR(Json::parse(chart.out)["parameters"][0]["value"].get<double>(), 3e-8, 3e-11);
+  EXPECT_THAT(chart.err, HasSubstr("times are out of order"));
+}
+
+// Two valves in one chart are no valve.
+TEST(IdentifyValve, AChartOfTwoValvesIsRefused) {
+  const Workspace w;
+  std::string text = chart();
+  for (const double down : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 6.5}) {
+    const double x = std::max(0.0, (down / 7 - 0.3) / 0.7);
+    text += "7," + std::to_string(down) + "," +
+            std::to_string(0.4 * 60 * 3 * 7 * std::sqrt(1 - x * x)) + "\n";
+  }
+  write_text(w / "two.csv", text);
+  const Result result = w.sinew({"identify", "valve", "two.csv"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("if rows of several valves stand in one table"));
 }
 
 TEST(IdentifyValve, WrongUnitsAndTimesThatRunBackwardsAreToldWithTheirLine) {

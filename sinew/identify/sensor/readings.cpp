@@ -41,6 +41,9 @@ constexpr std::array names_of_known{
     Known{SensorKind::pressure, {"pressure", "Pa gauge", 100, 1e8, false, "in the muscle"}},
     Known{SensorKind::velocity, {"velocity", "rad/s", 1e-3, 1e4, false, "of the joint"}}};
 
+constexpr Wanted time_of_reading{
+    .name = "time", .unit = "s", .optional = true, .doc = "of the reading"};
+
 struct Layout {
   const Known* known = nullptr;
   const Heading* known_heading = nullptr;
@@ -164,6 +167,13 @@ const KindFacts& facts_of(SensorKind kind) {
   return *std::ranges::find(kinds, kind, &KindFacts::kind);
 }
 
+std::vector<Wanted> sensor_columns() {
+  std::vector<Wanted> out;
+  for (const Known& known : names_of_known) out.push_back(known.wanted);
+  out.push_back(time_of_reading);
+  return out;
+}
+
 SensorData parse_sensor_data(std::string_view text, const Source& source,
                              const CountScale& converter, const std::string& known,
                              const std::vector<std::string>& sensors) {
@@ -183,8 +193,7 @@ SensorData parse_sensor_data(std::string_view text, const Source& source,
     first.most /= units::standard_gravity;
   }
 
-  std::vector<Wanted> wanted{
-      first, {.name = "time", .unit = "s", .optional = true, .doc = "of the reading"}};
+  std::vector<Wanted> wanted{first, time_of_reading};
   for (const Heading* h : layout.sensors) {
     const bool counts =
         units::read_unit(finder.unit_of(*h)).unit.dimension == units::dimension::count;

@@ -57,6 +57,10 @@ struct SensorData {
   std::vector<std::string> notes;
 };
 
+// Returns the columns that may hold the known quantity, and beside it the time. Every other one in
+// volts or counts is a sensor.
+std::vector<Wanted> sensor_columns();
+
 // `known`: the column of the known quantity, by one of the names above; empty where the file has
 // one only. `sensors`: names of the sensors' columns; empty: all. Throws config::Error.
 SensorData read_sensor_data(const Source& source, const CountScale& converter,

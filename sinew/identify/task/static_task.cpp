@@ -200,6 +200,12 @@ void refuse_lengths_of_no_file(const std::vector<Source>& sources, const StaticS
 
 }  // namespace
 
+StaticData read_static(const std::vector<Source>& sources, const StaticSettings& settings) {
+  if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
+  refuse_lengths_of_no_file(sources, settings);
+  return read_tables(sources, settings, Unreadable::is_refused).data;
+}
+
 StaticFound find_static(const std::vector<Source>& sources, const StaticSettings& settings) {
   if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
   refuse_lengths_of_no_file(sources, settings);

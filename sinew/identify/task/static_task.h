@@ -38,6 +38,10 @@ struct StaticFound {
   std::vector<std::string> predicted_files;
 };
 
+// Returns the points of the tables, as a static law would be fitted to them. Throws config::Error
+// and Refusal.
+StaticData read_static(const std::vector<Source>& sources, const StaticSettings& settings);
+
 // Checks the tables first (identify/check/check.h): what is red is refused unless it is to be
 // fitted anyway, suspicions become warnings of the report. Throws config::Error and Refusal.
 StaticFound find_static(const std::vector<Source>& sources, const StaticSettings& settings);

@@ -10,6 +10,8 @@
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/task/tables.h"
+#include "sinew/identify/task/valve_tables.h"
+#include "sinew/identify/valve/added_volume.h"
 #include "sinew/identify/valve/timing.h"
 
 namespace sinew::identify {
@@ -81,12 +83,34 @@ ValveResult identified(const Measured& data, const ValveOptions& how,
   return identify_fill(data, how, &unseen);
 }
 
+// With fillings that tell volume and conductance, neither is known beforehand.
+void refuse_beside_added(const ValveSettings& s) {
+  const auto refuse = [](const char* name, const std::string& found, const char* expected) {
+    config::fail({name, 0, 0}, "", found, expected);
+  };
+  if (!s.kind.empty() && s.kind != "fill")
+    refuse("kind", config::in_quotes(s.kind), "fill: volumes are joined to a chamber that fills");
+  if (!s.volume.empty())
+    refuse("volume", config::in_quotes(s.volume), "none beside added volumes: they tell it");
+  if (!s.conductance.empty())
+    refuse("conductance", config::in_quotes(s.conductance),
+           "none beside added volumes: they tell it");
+  if (s.held_out)
+    refuse("hold_out", config::in_quotes(s.held_out->path),
+           "none beside added volumes: every second tenth of each curve is held out");
+}
+
 }  // namespace
 
 ValveFound find_valve(const std::vector<Source>& sources, const ValveSettings& settings) {
-  const Source& source = only_of(sources);
-  const Measured data = read_measured(source, valve_columns());
-  return {identified(data, options_of(settings, source.atmosphere), settings)};
+  if (sources.empty()) config::fail({"data", 0, 0}, "", "no files", "one at least");
+  const ValveOptions options = options_of(settings, sources.front().atmosphere);
+  if (const std::vector<AddedFill> fills = added_fills(sources, settings.added_volume);
+      !fills.empty()) {
+    refuse_beside_added(settings);
+    return {identify_added(fills, options)};
+  }
+  return {identified(read_valve(only_of(sources)), options, settings)};
 }
 
 std::string ValveFound::file(const std::string& out) const {

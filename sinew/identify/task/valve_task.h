@@ -18,6 +18,7 @@ struct ValveSettings {
   std::string kind;                     // chart, fill, pulses, coil, duty; empty: by the columns
   std::string volume, conductance;      // fill, pulses: of the chamber, or of the valve
   bool per_volume = false;              // fill, pulses: C/V is enough
+  std::string added_volume;             // fill: joined to the chamber, of each table: "0 L,0.5 L"
   std::string port;                     // pressure on the valve's other side
   std::string exponent;                 // fill: polytropic, of the chamber
   std::string temperature = "20 degC";  // of the air

@@ -13,6 +13,8 @@ namespace sinew::identify {
 
 namespace {
 
+constexpr double worst_chart = 10;  // of the largest flow, left by the best law [%]
+
 struct Chart {
   std::vector<double> up, down, flow;  // [Pa abs], [Pa abs], [kg/s]
 
@@ -139,6 +141,8 @@ ValveResult identify_chart(const Measured& data, const ValveOptions& options) {
   for (const bool iso : {false, true}) report.fits.push_back(try_law(iso, c, options.air));
   report.rows = rows_of(c);
   choose(report);
+  refuse_unexplained(report, worst_chart,
+                     "where=\"valve=inlet\", if rows of several valves stand in one table");
   tell_choking(c, report);
 
   const bool iso = report.chosen == 1;

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t fewest_on_the_way = 8;  // samples between 10 and 90 %
 constexpr double smallest_range = 5e3;        // [Pa]
+constexpr std::size_t most_alternating = 8;   // curves in one table
 
 std::string pressure_text(double p) { return config::format_quantity(p, "Pa abs", "kPa abs", 4); }
 
@@ -79,6 +80,23 @@ void refuse_saturated(const Measured& data, const Curve& c) {
                 "a sensor with a larger range, or a lower pressure");
 }
 
+// Rows of several curves in turn: a sample is nearer to the one a few rows before it than to its
+// neighbour.
+void refuse_alternating(const Measured& data, const Curve& c) {
+  const auto way = [&](std::size_t lag) {
+    double sum = 0;
+    for (std::size_t i = lag; i < c.pressure.size(); ++i)
+      sum += std::abs(c.pressure[i] - c.pressure[i - lag]);
+    return sum / static_cast<double>(c.pressure.size() - lag);
+  };
+  const double next = way(1);
+  for (std::size_t lag = 2; lag <= most_alternating && 4 * lag < c.pressure.size(); ++lag)
+    if (next > 4 * way(lag))
+      throw Refusal(data.file + ": pressure", fmt::format("{} curves whose rows take turns", lag),
+                    "the rows of one filling or venting",
+                    "where=\"valve=inlet\", with the column that says whose a row is");
+}
+
 void refuse_to_and_fro(const Measured& data, const Curve& c) {
   double most = c.start;  // the farthest on the way so far
   std::size_t where = 0;
@@ -87,10 +105,13 @@ void refuse_to_and_fro(const Measured& data, const Curve& c) {
     if (c.share(most) - c.share(c.pressure[i]) > 0.15 && where == 0) where = i;
   }
   if (where == 0) return;
-  throw Refusal(fmt::format("{}:{}: pressure", data.file, data.lines[where]),
-                fmt::format("a fall back by more than 15 % of the way, to {}",
-                            pressure_text(c.pressure[where])),
-                "one filling or one venting", "the rows of one; or a column `command`, for pulses");
+  throw Refusal(
+      fmt::format("{}:{}: pressure", data.file, data.lines[where]),
+      fmt::format("a fall back by more than 15 % of the way, to {}",
+                  pressure_text(c.pressure[where])),
+      "one filling or one venting",
+      "where=\"valve=inlet\", if a column says whose a row is; or a column `command`, for "
+      "pulses");
 }
 
 // What comes long after the pressure has settled would only flatter the fit.
@@ -127,6 +148,7 @@ Curve curve_of(const Measured& data) {
   if (data.rows() < 2 * fewest_on_the_way)
     throw Refusal(data.file, fmt::format("{} rows", data.rows()),
                   fmt::format("at least {}", 2 * fewest_on_the_way), "a longer record");
+  refuse_alternating(data, c);
   find_ends(data, c);
   find_rate(data, c);
   refuse_saturated(data, c);

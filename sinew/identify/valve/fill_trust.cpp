@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "sinew/identify/fit/refusal.h"
-#include "sinew/identify/valve/fill.h"
 
 namespace sinew::identify {
 

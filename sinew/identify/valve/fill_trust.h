@@ -5,6 +5,7 @@
 #include <span>
 
 #include "sinew/identify/fit/fit.h"
+#include "sinew/identify/valve/fill.h"
 
 namespace sinew::identify {
 
@@ -18,6 +19,14 @@ struct Tried {
 constexpr double well_known = 0.25;  // half an interval of C/V, of its value
 // Returns half an estimate's interval, as a share of its value.
 inline double half_of(const Estimate& e) { return 0.5 * (e.high - e.low) / e.value; }
+
+// Fits one model to a curve; `other` scores it where there is one.
+Tried try_fill(const FillModel& model, const Curve& curve, const ValveOptions& options,
+               const Curve* other);
+
+// Throw Refusal for a curve that still moves at its end, and for one that no model meets.
+void refuse_unsettled(const Measured& data, const Curve& curve, const ValveOptions& options);
+void refuse_poor_fit(const Measured& data, const Report& report, double worst);
 
 // Throws Refusal where the curve does not tell C/V at all.
 void refuse_undetermined(const Solution& solution);

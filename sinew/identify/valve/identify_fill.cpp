@@ -7,6 +7,7 @@
 #include "sinew/config/quantity.h"
 #include "sinew/gas/orifice.h"
 #include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/valve/added_volume.h"
 #include "sinew/identify/valve/fill.h"
 #include "sinew/identify/valve/fill_trust.h"
 
@@ -157,8 +158,77 @@ void divide(const FillModel& model, const ValveOptions& options, Fit& fit) {
   }
 }
 
-Tried try_model(const FillModel& model, const Curve& c, const ValveOptions& options,
-                const Curve* other) {
+// What the exponent is, where the chosen model has it fixed: from its sister that fits it.
+void tell_exponent(Report& report) {
+  const std::span<const FillModel> models = fill_models();
+  const FillModel& chosen = models[report.chosen];
+  if (chosen.exponent == 0 || !report.fits[report.chosen].refused.empty()) return;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const FillModel& m = models[i];
+    if (m.shape != chosen.shape || m.flow != chosen.flow || m.exponent != 0 || m.leak) continue;
+    for (const Estimate& e : report.fits[i].parameters) {
+      if (e.name != "polytropic_exponent") continue;
+      report.fits[report.chosen].notes.push_back(
+          fmt::format("polytropic_exponent is {:g} by the model; fitted it is {:.3f}{}",
+                      chosen.exponent, e.value,
+                      e.at_bound ? ", the bound of its range"
+                                 : fmt::format(" +- {:.2g}", 0.5 * (e.high - e.low))));
+    }
+  }
+}
+
+void set_valve(const FillModel& model, const ValveOptions& options, const std::string& source,
+               ValveResult& out) {
+  const std::string flow = "valve." + options.name + ".flow.";
+  const Fit& fit = out.report.best();
+  if (options.volume) replace_flow(model.flow, source + ", model " + fit.model, out);
+  for (const Estimate& e : fit.parameters) {
+    if (!options.volume) break;
+    if (e.name == "sonic_conductance") out.valve.flow.sonic_conductance = e.value;
+    if (e.name == "area") out.valve.flow.area = e.value;
+    if (e.name == "critical_pressure_ratio") out.valve.flow.critical_pressure_ratio = e.value;
+    if (e.name == "sonic_conductance" || e.name == "area" || e.name == "critical_pressure_ratio") {
+      out.provenance.fitted(flow + e.name, e, source + ", model " + fit.model);
+      out.flow_known = options.volume.has_value();
+    }
+  }
+}
+
+// `alone`: C/V by the chosen model, without what other models would make of it.
+void describe(const Curve& c, const ValveOptions& options, const Estimate& alone,
+              ValveResult& out) {
+  Report& r = out.report;
+  r.notes.insert(r.notes.end(), c.notes.begin(), c.notes.end());
+  if (!options.port)
+    r.notes.push_back(fmt::format(
+        "the pressure on the valve's other side is fitted as a constant, {}; a supply that droops "
+        "or an unknown zero of the sensor looks like another b or n",
+        c.fills() ? "for a supply" : "for a room"));
+  if (options.volume) r.notes.emplace_back("the volume is taken as exact");
+  const Estimate& k = r.best().parameters.front();
+  if (!options.volume && !options.conductance && !options.per_volume) {
+    const std::vector<std::string> ways = ways_to_separate(half_of(alone), half_of(k));
+    r.notes.insert(r.notes.end(), ways.begin(), ways.end());
+    out.refused = fmt::format(
+        "sonic conductance: found C/V = {} alone; expected the volume beside it: one curve does "
+        "not tell C from V; try volume=\"0.5 L\", conductance=C in place of the volume, "
+        "added_volume=\"0 L,0.5 L\" with a second file, or per_volume=true where C/V is enough",
+        config::format_quantity(k.value, "1/(s Pa)", "1/(s bar)", 4));
+  }
+  if (half_of(k) <= well_known) return;
+  out.refused += fmt::format(
+      "{}{}: found an interval of +- {:.0f} %; expected at most +- {:.0f} %; try {}{}a rigid "
+      "chamber "
+      "near the valve, less noise",
+      out.refused.empty() ? "" : "\n", k.name, 100 * half_of(k), 100 * well_known,
+      options.port ? "" : "port=PRESSURE on the valve's other side, ",
+      options.exponent ? "" : "exponent=N where it is known (1 in a chamber full of wire wool), ");
+}
+
+}  // namespace
+
+Tried try_fill(const FillModel& model, const Curve& c, const ValveOptions& options,
+               const Curve* other) {
   Tried out;
   Fit& fit = out.fit;
   fit.model = model.name;
@@ -213,70 +283,6 @@ void refuse_poor_fit(const Measured& data, const Report& report, double worst) {
       "a rigid chamber near the valve, the pressure of the supply beside it");
 }
 
-// What the exponent is, where the chosen model has it fixed: from its sister that fits it.
-void tell_exponent(Report& report) {
-  const std::span<const FillModel> models = fill_models();
-  const FillModel& chosen = models[report.chosen];
-  if (chosen.exponent == 0 || !report.fits[report.chosen].refused.empty()) return;
-  for (std::size_t i = 0; i < models.size(); ++i) {
-    const FillModel& m = models[i];
-    if (m.shape != chosen.shape || m.flow != chosen.flow || m.exponent != 0 || m.leak) continue;
-    for (const Estimate& e : report.fits[i].parameters) {
-      if (e.name != "polytropic_exponent") continue;
-      report.fits[report.chosen].notes.push_back(
-          fmt::format("polytropic_exponent is {:g} by the model; fitted it is {:.3f}{}",
-                      chosen.exponent, e.value,
-                      e.at_bound ? ", the bound of its range"
-                                 : fmt::format(" +- {:.2g}", 0.5 * (e.high - e.low))));
-    }
-  }
-}
-
-void set_valve(const FillModel& model, const ValveOptions& options, const std::string& source,
-               ValveResult& out) {
-  const std::string flow = "valve." + options.name + ".flow.";
-  const Fit& fit = out.report.best();
-  if (options.volume) replace_flow(model.flow, source + ", model " + fit.model, out);
-  for (const Estimate& e : fit.parameters) {
-    if (!options.volume) break;
-    if (e.name == "sonic_conductance") out.valve.flow.sonic_conductance = e.value;
-    if (e.name == "area") out.valve.flow.area = e.value;
-    if (e.name == "critical_pressure_ratio") out.valve.flow.critical_pressure_ratio = e.value;
-    if (e.name == "sonic_conductance" || e.name == "area" || e.name == "critical_pressure_ratio") {
-      out.provenance.fitted(flow + e.name, e, source + ", model " + fit.model);
-      out.flow_known = options.volume.has_value();
-    }
-  }
-}
-
-void describe(const Curve& c, const ValveOptions& options, ValveResult& out) {
-  Report& r = out.report;
-  r.notes.insert(r.notes.end(), c.notes.begin(), c.notes.end());
-  if (!options.port)
-    r.notes.push_back(fmt::format(
-        "the pressure on the valve's other side is fitted as a constant, {}; a supply that droops "
-        "or an unknown zero of the sensor looks like another b or n",
-        c.fills() ? "for a supply" : "for a room"));
-  if (options.volume) r.notes.emplace_back("the volume is taken as exact");
-  const Estimate& k = r.best().parameters.front();
-  if (!options.volume && !options.conductance && !options.per_volume)
-    out.refused = fmt::format(
-        "sonic conductance: found C/V = {} alone; expected the volume beside it: one curve does "
-        "not tell C from V; try volume=\"0.5 L\", conductance=C in place of the volume, or "
-        "per_volume=true where C/V is enough",
-        config::format_quantity(k.value, "1/(s Pa)", "1/(s bar)", 4));
-  if (half_of(k) <= well_known) return;
-  out.refused += fmt::format(
-      "{}{}: found an interval of +- {:.0f} %; expected at most +- {:.0f} %; try {}{}a rigid "
-      "chamber "
-      "near the valve, less noise",
-      out.refused.empty() ? "" : "\n", k.name, 100 * half_of(k), 100 * well_known,
-      options.port ? "" : "port=PRESSURE on the valve's other side, ",
-      options.exponent ? "" : "exponent=N where it is known (1 in a chamber full of wire wool), ");
-}
-
-}  // namespace
-
 ValveResult identify_fill(const Measured& data, const ValveOptions& options,
                           const Measured* other) {
   const Curve c = curve_of(data);
@@ -296,20 +302,21 @@ ValveResult identify_fill(const Measured& data, const ValveOptions& options,
                              : "every second tenth of the way, 10 to 20 % up to 70 to 80 %";
   std::vector<Tried> tried;
   for (const FillModel& model : fill_models())
-    tried.push_back(try_model(model, c, options, unseen ? &*unseen : nullptr));
+    tried.push_back(try_fill(model, c, options, unseen ? &*unseen : nullptr));
   reach_for_fixed(tried);
   refuse_open(tried, options.worst_fit);
   for (const Tried& t : tried) report.fits.push_back(t.fit);
   report.rows = {
       .x = "time", .x_unit = "s", .unit = "Pa abs", .at = c.time, .measured = c.pressure};
   choose(report);
+  const Estimate alone = report.best().parameters.front();
   reach_over_models(tried, report);
   for (std::size_t i = 0; i < report.fits.size(); ++i)
     if (report.fits[i].refused.empty()) divide(fill_models()[i], options, report.fits[i]);
   refuse_poor_fit(data, report, options.worst_fit);
   tell_exponent(report);
   set_valve(fill_models()[report.chosen], options, "sinew identify valve " + data.file, out);
-  describe(c, options, out);
+  describe(c, options, alone, out);
   return out;
 }
 

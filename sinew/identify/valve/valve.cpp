@@ -67,7 +67,12 @@ constexpr std::array columns{
            .least = 0.1,
            .most = 1e4,
            .optional = true,
-           .doc = "of the pulses"}};
+           .doc = "of the pulses"},
+    Wanted{.name = "added_volume",
+           .unit = "m3",
+           .most = 1000,
+           .optional = true,
+           .doc = "known volume that was joined to the chamber; the same in all rows of a file"}};
 
 }  // namespace
 

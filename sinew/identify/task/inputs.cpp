@@ -1,0 +1,147 @@
+// What each method takes, one row a method, and an example of each kind of table.
+#include "sinew/identify/task/inputs.h"
+
+#include <array>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/identify/actuator/creep.h"
+#include "sinew/identify/actuator/geometry.h"
+#include "sinew/identify/actuator/static_data.h"
+#include "sinew/identify/joint/joint.h"
+#include "sinew/identify/motion/swing.h"
+#include "sinew/identify/sensor/readings.h"
+#include "sinew/identify/valve/valve.h"
+
+namespace sinew::identify {
+
+namespace {
+
+template <std::span<const Wanted> (*columns)()>
+std::vector<Wanted> columns_in() {
+  const std::span<const Wanted> all = columns();
+  return {all.begin(), all.end()};
+}
+
+constexpr std::array point_tables{
+    TableKind{"points", "a muscle at rest: held at a length, filled to a pressure",
+              "pressure,force|load",
+              "length [mm],pressure [kPa gauge],force [N],branch,rest_length [mm]",
+              "250,200,155,fill,250\n250,400,352,fill,250\n250,400,361,vent,250\n"
+              "230,200,41,fill,250\n230,400,182,fill,250\n230,400,190,vent,250\n"
+              "210,200,2,fill,250\n210,400,96,fill,250\n210,400,103,vent,250\n"},
+    TableKind{"recording", "a sample of a muscle at one length, from vented to filled and back",
+              "time,pressure,force|load", "time [s],length [mm],pressure [kPa gauge],force [N]",
+              "0,250,0,0.2\n0.1,250,1,0.1\n0.2,250,40,12\n0.3,250,180,133\n0.4,250,290,240\n"
+              "0.5,250,301,252\n0.6,250,302,253\n0.7,250,160,120\n0.8,250,20,4\n"}};
+
+constexpr std::array swing_tables{
+    TableKind{"", "a sample of a mass that hangs on the muscle and swings", "time,length",
+              "time [s],length [mm],pressure [kPa gauge]",
+              "0,212.0,301\n0.01,211.2,303\n0.02,209.6,306\n0.03,208.1,309\n0.04,207.5,310\n"}};
+
+constexpr std::array hold_tables{
+    TableKind{"", "a sample at one length, from before the pressure rises on",
+              "time,force,pressure", "time [s],force [N],pressure [kPa gauge]",
+              "0,0.1,0\n0.5,60,310\n1,118,600\n10,131,612\n60,137,612\n"}};
+
+constexpr std::array mesh_tables{TableKind{
+    "", "the mesh without pressure, pulled or pushed to another length", "length,diameter",
+    "length [mm],diameter [mm]", "210,16.9\n225,15.4\n240,13.5\n255,11.2\n"}};
+
+constexpr std::array pose_tables{
+    TableKind{"", "the joint at rest", "angle,flexor_pressure|extensor_pressure",
+              "angle [deg],flexor_pressure [kPa gauge],extensor_pressure [kPa gauge],load [kg]",
+              "-20,150,300,0\n0,200,250,0\n0,260,250,1\n20,300,150,0\n20,370,150,1\n"}};
+
+constexpr std::array calibration_tables{
+    TableKind{"force", "a known load, and what the sensors make of it", "load|force|tension",
+              "load [kg],gage_1 [V],gage_2 [V]",
+              "0,0.52,0.49\n2,1.10,1.06\n4,1.69,1.64\n2,1.11,1.07\n0,0.52,0.49\n"},
+    TableKind{"angle", "a known angle, and the converter's counts", "angle",
+              "angle [deg],hip_angle [count]", "-40,612\n-20,1130\n0,1648\n20,2166\n40,2684\n"},
+    TableKind{"pressure", "a known pressure, and what the sensor makes of it", "pressure",
+              "pressure [kPa gauge],pressure_1 [V]", "0,0.50\n200,1.30\n400,2.11\n600,2.91\n"}};
+
+constexpr std::array valve_tables{
+    TableKind{"fill", "a sample of a chamber that the valve fills or vents", "time,pressure",
+              "time [s],pressure [kPa gauge],added_volume [L]",
+              "0,0,0\n0.01,0,0\n0.02,31,0\n0.03,64,0\n0.04,97,0\n0.05,129,0\n"},
+    TableKind{"chart", "a flow at two pressures", "upstream,flow|mass_flow",
+              "upstream [bar abs],downstream [bar abs],flow [L/min]",
+              "7,1,1260\n7,3,1245\n7,4,1186\n7,5,1065\n7,6,838\n"},
+    TableKind{"pulses", "a sample of a chamber while the valve is pulsed", "time,pressure,command",
+              "time [s],pressure [kPa gauge],command",
+              "0,0,0\n0.001,0,1\n0.002,0,1\n0.003,4,1\n0.004,9,0\n0.005,12,0\n"},
+    TableKind{"coil", "a sample of the coil's current as it is switched on", "time,current",
+              "time [s],current [A],command",
+              "0,0,0\n0.0005,0.04,1\n0.001,0.09,1\n0.0015,0.12,1\n0.002,0.11,1\n0.0025,0.14,1\n"},
+    TableKind{"duty", "a duty that was commanded, and what came of it",
+              "duty,delivered|flow|mass_flow", "duty [%],delivered [%],frequency [Hz]",
+              "5,0,25\n10,1.2,25\n20,11.1,25\n50,41,25\n90,81.2,25\n98,100,25\n"}};
+
+constexpr std::string_view advice_of_length =
+    "length may be missing where one holds for the whole file: length=\"250 mm\".";
+constexpr std::string_view advice_of_rest =
+    "rest_length is needed where a file holds several muscles; else rest_length=\"250 mm\" says "
+    "it, "
+    "or the longest length stands for it.";
+constexpr std::string_view advice_of_time =
+    "A column time makes a table a recording: its rows follow each other, begin vented, and stay "
+    "at "
+    "one length.";
+
+// --- one row a method ---
+
+const std::array all_inputs{
+    MethodInputs{"geometry",
+                 columns_in<geometry_columns>,
+                 mesh_tables,
+                 {"Counted trapezoids need no table: trapezoids=37,16."}},
+    MethodInputs{"sensor",
+                 sensor_columns,
+                 calibration_tables,
+                 {"One known column; every other column in V or count is a sensor."}},
+    MethodInputs{"dynamic",
+                 columns_in<decay_columns>,
+                 swing_tables,
+                 {"Without pressure, pressure=\"60 psi gauge\" says it."}},
+    MethodInputs{"joint",
+                 columns_in<joint_columns>,
+                 pose_tables,
+                 {"Where one load hangs all the time, load=\"1 kg\" says it."}},
+    MethodInputs{"valve",
+                 columns_in<valve_columns>,
+                 valve_tables,
+                 {"Rows of several valves in one table: where=\"valve=inlet\" takes those of one.",
+                  "added_volume is the same in all rows of a file: two fillings with different "
+                  "ones tell conductance and volume apart."}},
+    MethodInputs{"static",
+                 columns_in<static_columns>,
+                 point_tables,
+                 {advice_of_length, advice_of_rest, advice_of_time}},
+    MethodInputs{"creep", columns_in<creep_columns>, hold_tables, {}},
+    MethodInputs{"check",
+                 columns_in<static_columns>,
+                 point_tables,
+                 {advice_of_length, advice_of_rest, advice_of_time}},
+    MethodInputs{"plan",
+                 columns_in<static_columns>,
+                 point_tables,
+                 {"A table is not needed: with one, it says what to measure next.",
+                  advice_of_length, advice_of_rest, advice_of_time}}};
+
+}  // namespace
+
+std::span<const MethodInputs> method_inputs() { return all_inputs; }
+
+const MethodInputs& inputs_of(std::string_view method) {
+  std::vector<std::string_view> names;
+  for (const MethodInputs& inputs : all_inputs) {
+    if (inputs.method == method) return inputs;
+    names.push_back(inputs.method);
+  }
+  config::fail({"method", 0, 0}, "", config::in_quotes(method), config::either(names),
+               config::closest_in_quotes(method, names));
+}
+
+}  // namespace sinew::identify
