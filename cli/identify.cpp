@@ -101,10 +101,12 @@ void print_models(const identify::Report& report) {
 
 // The value and half its interval to the digits that mean something, multiplied with `scale`.
 std::string interval(const identify::Estimate& e, double scale) {
+  if (!e.free && e.low == e.high) return e.known;
   if (e.at_bound) return "at the bound of its range";
   if (!std::isfinite(e.high)) return e.identifiable ? "no interval" : "not identifiable";
-  return fmt::format("+- {:.2g}{}", 0.5 * scale * (e.high - e.low),
-                     e.identifiable ? "" : ", not identifiable");
+  return fmt::format("+- {:.2g}{}{}{}", 0.5 * scale * (e.high - e.low),
+                     e.identifiable ? "" : ", not identifiable", e.known.empty() ? "" : "; ",
+                     e.known);
 }
 
 void print_parameters(const identify::Fit& fit, const config::UnitsToShow& asked, double room) {
