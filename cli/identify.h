@@ -13,6 +13,7 @@
 #include "cli/command.h"
 #include "sinew/identify/data/measured.h"
 #include "sinew/identify/fit/fit.h"
+#include "sinew/identify/fit/wish.h"
 
 namespace sinew::cli {
 
@@ -20,6 +21,7 @@ void add_identify_geometry(Command identify, Action& action);
 void add_identify_sensor(Command identify, Action& action);
 void add_identify_dynamic(Command identify, Action& action);
 void add_identify_joint(Command identify, Action& action);
+void add_identify_pair(Command identify, Action& action);
 void add_identify_valve(Command identify, Action& action);
 void add_identify_static(Command identify, Action& action);
 void add_identify_creep(Command identify, Action& action);
@@ -41,6 +43,9 @@ void add_data_options(Command sub, DataOptions& options);
 
 // The lengths of a muscle that its files do not say, of `static` and `check`.
 void add_length_options(Command sub, std::string& rest_length, std::vector<std::string>& lengths);
+
+// What is known of parameters before they are fitted: frozen, prior, tied.
+void add_wish_options(Command sub, identify::WishTexts& wishes);
 
 // One source per file. Throws config::Error for what is no name=value.
 std::vector<identify::Source> sources_of(const DataOptions& options);

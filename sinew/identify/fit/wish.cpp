@@ -56,11 +56,17 @@ Wish parse_wish(Wish::Kind kind, const std::string& text) {
 // In SI; "0.3 SI" is in the unit already.
 double number_of(const Wish& wish, const std::string& text, std::string_view unit,
                  const config::Range& range) {
-  const std::string name = setting_of(wish.kind) + ": " + wish.name;
-  if (text.ends_with(" SI"))
-    return config::number_setting(
-        name, config::quantity(text.substr(0, text.size() - 3), "1", name), range);
-  return config::quantity_setting(name, text, unit, units::atmosphere, range);
+  const std::string name = setting_of(wish.kind);
+  try {
+    if (text.ends_with(" SI"))
+      return config::number_setting(
+          name, config::quantity(text.substr(0, text.size() - 3), "1", name), range);
+    return config::quantity_setting(name, text, unit, units::atmosphere, range);
+  } catch (const config::Error& e) {
+    const config::Problem& p = e.problems().front();
+    config::fail({name, 0, 0}, "", fmt::format("{} for {}", p.found, wish.name), p.expected,
+                 p.try_this);
+  }
 }
 
 double value_of(const Wish& wish, const Parameter& p) {
@@ -235,6 +241,14 @@ void Wishes::check(std::span<const Parameter> all) const {
     if (const Wish* more = of(other.name); more && more->kind == Wish::Kind::tie)
       fail_wish(wish, "a parameter that is not tied itself");
   }
+}
+
+Wishes Wishes::with_frozen(const std::string& parameter, double value) const {
+  Wishes out = *this;
+  std::erase_if(out.all_, [&](const Wish& wish) { return wish.name == parameter; });
+  out.all_.push_back(
+      {.name = parameter, .value = fmt::format("{:.17g} SI", value), .deviation = ""});
+  return out;
 }
 
 const Wish* Wishes::of(std::string_view parameter) const {

@@ -52,6 +52,9 @@ class Wishes {
   // Returns the wish for the parameter: its own, else that of its kind; null: none.
   const Wish* of(std::string_view parameter) const;
 
+  // Returns the same wishes, and that the parameter is frozen at the value [SI].
+  Wishes with_frozen(const std::string& parameter, double value) const;
+
   bool empty() const { return all_.empty(); }
 
  private:

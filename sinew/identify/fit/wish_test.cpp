@@ -132,11 +132,12 @@ TEST(Wish, WhatIsNoneIsToldBySettingAndName) {
             "tie: found \"a=b\"; expected one wish for a parameter");
   EXPECT_EQ(checked({.freeze = {"c=3 N"}}),
             "freeze: found \"c\"; expected a parameter: a or b of x.csv");
-  EXPECT_EQ(checked({.freeze = {"a=3 m"}}),
-            "freeze: a: found \"3 m\", m (length); expected N (force); try a quantity such as \"1 "
-            "N\"");
+  EXPECT_EQ(
+      checked({.freeze = {"a=3 m"}}),
+      "freeze: found \"3 m\", m (length) for a; expected N (force); try a quantity such as \"1 "
+      "N\"");
   EXPECT_EQ(checked({.freeze = {"a=300 N"}}),
-            "freeze: a: found \"300 N\"; expected -100 N to 100 N: the range of the parameter");
+            "freeze: found \"300 N\" for a; expected -100 N to 100 N: the range of the parameter");
   EXPECT_NE(checked({.prior = {"a=3 N ± 0 N"}}).find("a standard deviation"), std::string::npos);
   EXPECT_EQ(checked({.tie = {"a=b"}}), "tie: found \"a=b\"; expected another parameter in N");
 }

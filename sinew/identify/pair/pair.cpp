@@ -18,6 +18,10 @@ using Selection = std::vector<PairRows>;  // of each recording
 
 constexpr const char* effort_of(bool rotary) { return rotary ? "torque" : "force"; }
 
+double square_sum(const Solution& s) {
+  return s.rms * s.rms * static_cast<double>(s.residuals.size());
+}
+
 // A law that was fitted, with what comes of it.
 struct Fitted {
   Fit fit;
@@ -61,6 +65,31 @@ class Pair {
     return out;
   }
 
+  // A delay shifts kinks over samples: what is left of the effort is rough in it, and its slope at
+  // the best place says too little. The interval has every delay of a grid with which the others
+  // leave hardly more.
+  void widen_delays(const PairLaw& law, Fitted& fitted) const {
+    constexpr double most = 0.1, step = 0.02;
+    PairProblem thinned(law, thinned_);
+    for (std::size_t i = 0; i < fitted.values.size(); ++i) {
+      Estimate& e = fitted.fit.parameters[i];
+      if (!e.name.starts_with("delay") || !e.free || e.at_bound) continue;
+      const Solution best = thinned.solve(thinned_rows_, {{fitted.values}}, options_.wishes, true);
+      const double t = t_quantile(std::max(1, best.freedom));
+      const double more = t * t * std::pow(best.standard_deviation, 2) * best.inflation;
+      for (int k = -5; k <= 5; ++k) {
+        const double delay = std::clamp(k * step, -most, most);
+        if (delay > e.low && delay < e.high) continue;
+        const Solution at =
+            thinned.solve_with(thinned_rows_, fitted.values, options_.wishes, i, delay);
+        if (square_sum(at) - square_sum(best) > more) continue;
+        e.low = std::min(e.low, delay);
+        e.high = std::max(e.high, delay);
+      }
+      e.identifiable = e.high - e.low < most;
+    }
+  }
+
   // Recordings that are held out follow those that are fitted.
   Rows rows() const {
     Rows out{.x = "time", .x_unit = "s"};
@@ -80,9 +109,11 @@ class Pair {
 
   std::string held_out_is() const {
     std::string out;
-    if (options_.held_out_from <= options_.held_out_to)
-      out = fmt::format("{:g} to {:g} s of each recording", options_.held_out_from,
-                        options_.held_out_to);
+    const double from = options_.held_out_from, to = options_.held_out_to;
+    if (from <= to)
+      out = !std::isfinite(to)     ? fmt::format("each recording from {:g} s on", from)
+            : !std::isfinite(from) ? fmt::format("each recording up to {:g} s", to)
+                                   : fmt::format("{:g} to {:g} s of each recording", from, to);
     for (const PairRecord& r : others_) out += (out.empty() ? "" : ", ") + r.file;
     return out;
   }
@@ -311,7 +342,9 @@ PairResult identify_pair(std::span<const PairRecord> records, const PairOptions&
   report.rows = pair.rows();
   choose(report);
 
-  const Fitted& best = fitted[report.chosen];
+  Fitted& best = fitted[report.chosen];
+  pair.widen_delays(*laws[report.chosen], best);
+  report.fits[report.chosen] = best.fit;
   out.law = *laws[report.chosen];
   const PairProblem problem(out.law, pair.fitted());
   out.values = problem.values(best.values);

@@ -238,6 +238,11 @@ std::vector<double> PairProblem::settled(std::span<const PairRows> rows, const S
   return all;
 }
 
+Solution PairProblem::solve_with(std::span<const PairRows> rows, const std::vector<double>& start,
+                                 const Wishes& wishes, std::size_t i, double value) {
+  return solve(rows, {{start}}, wishes.with_frozen(parameters_[i].name, value), false);
+}
+
 // Their size is known from a start only.
 bool PairProblem::scaled_by_start(std::size_t i) const {
   return i < physics_.size() &&

@@ -34,6 +34,10 @@ class PairProblem {
   Solution solve(std::span<const PairRows> rows, std::span<const std::vector<double>> starts,
                  const Wishes& wishes, bool correlated);
 
+  // Returns the best of one start with the i-th parameter at that value.
+  Solution solve_with(std::span<const PairRows> rows, const std::vector<double>& start,
+                      const Wishes& wishes, std::size_t i, double value);
+
   // Returns the parameters of which `known` has those of its names, and the others are fitted.
   std::vector<double> settled(std::span<const PairRows> rows, const Solution& known);
 
