@@ -14,7 +14,8 @@ namespace sinew::cli {
 
 namespace {
 
-constexpr std::size_t few = 8;  // words that a message may list
+constexpr std::size_t few = 8;             // words that a message may list
+constexpr std::size_t commands_told = 14;  // so that all methods of `sinew identify` are
 
 using Problems = std::vector<config::Problem>;
 
@@ -54,8 +55,9 @@ std::vector<std::string> names_of_commands(const CLI::App& command) {
   return out;
 }
 
-std::string one_of(const std::vector<std::string>& names, const std::string& else_words) {
-  if (names.size() > few) return else_words;
+std::string one_of(const std::vector<std::string>& names, const std::string& else_words,
+                   std::size_t most = few) {
+  if (names.size() > most) return else_words;
   return config::either({names.begin(), names.end()});
 }
 
@@ -109,7 +111,7 @@ config::Problem unknown_word(const std::string& word, const CLI::App& command) {
   const std::vector<std::string> names = names_of_commands(command);
   if (!names.empty() && command.get_subcommands().empty())
     return problem(word, "no such command of " + words_to(command),
-                   one_of(names, "one that its help names"),
+                   one_of(names, "one that its help names", commands_told),
                    std::string(config::closest(word, {names.begin(), names.end()})));
   const std::string near = near_option(word.substr(0, word.find('=')), command);
   const std::size_t at = word.find('=');
@@ -155,8 +157,8 @@ void tell_of_missing(const CLI::App& command, Problems& out) {
   }
   const std::vector<std::string> names = names_of_commands(command);
   if (!names.empty() && command.get_subcommands().empty())
-    out.push_back(
-        problem(words_to(command), "no command", one_of(names, "one that its help names")));
+    out.push_back(problem(words_to(command), "no command",
+                          one_of(names, "one that its help names", commands_told)));
 }
 
 void tell_of_pairs(const CLI::App& command, Problems& out) {

@@ -20,6 +20,7 @@
 #include "sinew/identify/task/dynamic_task.h"
 #include "sinew/identify/task/geometry_task.h"
 #include "sinew/identify/task/joint_task.h"
+#include "sinew/identify/task/pair_task.h"
 #include "sinew/identify/task/sensor_task.h"
 #include "sinew/identify/task/static_task.h"
 #include "sinew/identify/task/tables.h"
@@ -144,6 +145,31 @@ Identified joint(const Sources& sources, const Settings& given) {
           .reports = {found->result.report}};
 }
 
+void wishes_of(const Settings& given, identify::WishTexts& out) {
+  given.texts("freeze", out.freeze);
+  given.texts("prior", out.prior);
+  given.texts("tie", out.tie);
+}
+
+Identified pair(const Sources& sources, const Settings& given) {
+  identify::PairSettings s;
+  given.text("rigs", s.rigs);
+  given.text("hold_out", s.hold_out);
+  given.tables("held_out", s.held_out);
+  given.quantity("window", "s", s.window);
+  wishes_of(given, s.wishes);
+  given.text("model", s.model);
+  given.text("joint", s.joint);
+  given.path("base", s.base);
+  const auto found =
+      std::make_shared<identify::PairFound>(away([&] { return identify::find_pair(sources, s); }));
+  Identified out{.report = to_json(*found).dump(),
+                 .files = {[found](const std::string& at) { return found->file(at); }},
+                 .reports = {found->result.report}};
+  if (found->result.air) out.reports.push_back(found->result.air->report);
+  return out;
+}
+
 Identified sensor(const Sources& sources, const Settings& given) {
   identify::SensorSettings s;
   given.text("known", s.known);
@@ -202,6 +228,7 @@ constexpr Method methods[] = {{"static", of_static, identify::static_columns},
                               {"dynamic", dynamic, identify::decay_columns},
                               {"creep", creep, identify::creep_columns},
                               {"joint", joint, identify::joint_columns},
+                              {"pair", pair, identify::pair_columns},
                               {"geometry", geometry, identify::geometry_columns},
                               {"sensor", sensor, nullptr},
                               {"valve", valve, identify::valve_columns}};

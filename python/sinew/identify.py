@@ -21,7 +21,7 @@ docs/how-to-characterise.md and the pages of docs/theory that it names.
 """
 
 import os
-from typing import Any, Dict, List, Optional, Sequence, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
 
 import numpy.typing
 
@@ -43,6 +43,7 @@ __all__ = [
     "geometry",
     "geometry_from_trapezoids",
     "joint",
+    "pair",
     "sensor",
     "static",
     "static_from",
@@ -52,6 +53,29 @@ __all__ = [
 _Path = Union[str, "os.PathLike[str]"]
 _Quantity = Union[float, int, str]
 _Quantities = Union[_Quantity, Sequence[_Quantity]]
+_Prior = Union[str, Sequence[_Quantity]]
+
+
+def _with_unit(value: Any) -> str:
+    """Return text as it is, and a number as one in the SI unit of whatever it is of."""
+    return value if isinstance(value, str) else f"{float(value)!r} SI"
+
+
+def _wishes(
+    freeze: Optional[Mapping[str, _Quantity]],
+    prior: Optional[Mapping[str, _Prior]],
+    tie: Optional[Mapping[str, str]],
+) -> "Dict[str, List[str]]":
+    """Return what is known of parameters, as the program's options have it."""
+
+    def belief(of: _Prior) -> str:
+        return of if isinstance(of, str) else "±".join(_with_unit(one) for one in of)
+
+    return {
+        "freeze": [f"{name}={_with_unit(value)}" for name, value in (freeze or {}).items()],
+        "prior": [f"{name}={belief(of)}" for name, of in (prior or {}).items()],
+        "tie": [f"{name}={other}" for name, other in (tie or {}).items()],
+    }
 
 
 def static(
@@ -244,6 +268,44 @@ def joint(
         "base": base,
     }
     return Joint(_sinew.identify_tables("joint", tables_of("joint", data), settings))
+
+
+def pair(
+    data: Any,
+    *,
+    rigs: Union[str, Sequence[str]] = "",
+    hold_out: Any = (),
+    window: _Quantity = 0.02,
+    freeze: Optional[Mapping[str, _Quantity]] = None,
+    prior: Optional[Mapping[str, _Prior]] = None,
+    tie: Optional[Mapping[str, str]] = None,
+    model: str = "",
+    joint_name: str = "joint",
+    base: Optional[_Path] = None,
+) -> Found:
+    """Return stiffness, friction, losses and trapped air of a sealed pair that is moved by hand or motor.
+
+    data: a table for each recording, with columns time [s], force [N] and displacement [m], or torque [N m]
+    and angle [rad], and pressure_1, pressure_2 [Pa abs] where they were measured. rigs: of each table;
+    recordings of one have delay and gain in common. hold_out: times that score the laws and are not
+    fitted, "7 s..14 s" or "7 s..", or tables. window [s] of the parabolas that give rates. freeze: {name:
+    value} of parameters that are known; prior: {name: (value, standard deviation)}; tie: {name: other
+    name}; numbers in SI. model: that law alone. joint_name: in the robot's file; base: that file, which the
+    written one adds to.
+    """
+    times = hold_out if isinstance(hold_out, str) and ".." in hold_out else ""
+    tables = [] if times else hold_out if isinstance(hold_out, (list, tuple)) else [hold_out]
+    settings = {
+        "rigs": rigs if isinstance(rigs, str) else ",".join(rigs),
+        "hold_out": times,
+        "held_out": tables_of("pair", [like(data, one) for one in tables], "held out arrays of Python"),
+        "window": window,
+        **_wishes(freeze, prior, tie),
+        "model": model,
+        "joint": joint_name,
+        "base": base,
+    }
+    return Found(_sinew.identify_tables("pair", tables_of("pair", data), settings))
 
 
 def sensor(
