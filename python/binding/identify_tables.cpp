@@ -62,6 +62,12 @@ Identified::File fixed(std::string text) {
   return [text = std::move(text)](const std::string&) { return text; };
 }
 
+void wishes_of(const Settings& given, identify::WishTexts& out) {
+  given.texts("freeze", out.freeze);
+  given.texts("prior", out.prior);
+  given.texts("tie", out.tie);
+}
+
 Identified geometry(const Sources& sources, const Settings& given) {
   identify::GeometrySettings s;
   given.text("name", s.name);
@@ -104,6 +110,7 @@ Identified dynamic(const Sources& sources, const Settings& given) {
   given.integer("count", s.count);
   given.tables("held_out", s.held_out);
   given.text("model", s.model);
+  wishes_of(given, s.wishes);
   const auto found = away([&] { return identify::find_dynamic(sources, s); });
   return {.report = to_json(found).dump(),
           .files = {fixed(found.file)},
@@ -136,6 +143,7 @@ Identified joint(const Sources& sources, const Settings& given) {
   given.flag("keep_force", s.keep_force);
   given.table("held_out", s.held_out);
   given.text("model", s.model);
+  wishes_of(given, s.wishes);
   given.path("base", s.base);
   const auto found = std::make_shared<identify::JointFound>(
       away([&] { return identify::find_joint(sources, s); }));
@@ -143,12 +151,6 @@ Identified joint(const Sources& sources, const Settings& given) {
           .files = {[found](const std::string& out) { return found->file(out); },
                     fixed(found->actuator_file)},
           .reports = {found->result.report}};
-}
-
-void wishes_of(const Settings& given, identify::WishTexts& out) {
-  given.texts("freeze", out.freeze);
-  given.texts("prior", out.prior);
-  given.texts("tie", out.tie);
 }
 
 Identified pair(const Sources& sources, const Settings& given) {

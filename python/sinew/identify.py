@@ -184,6 +184,9 @@ def dynamic(
     exponent: Optional[_Quantity] = None,
     count: int = 1,
     hold_out: Any = (),
+    freeze: Optional[Mapping[str, _Quantity]] = None,
+    prior: Optional[Mapping[str, _Prior]] = None,
+    tie: Optional[Mapping[str, str]] = None,
     model: str = "",
     name: str = "",
 ) -> Found:
@@ -194,7 +197,8 @@ def dynamic(
     moves, pressure [Pa abs] of the air as it hangs (None: the measured one) and external_volume [m3] of
     hose and fittings up to the shut valve: one, or one for each table. exponent of the trapped air (None:
     from the pressure, else 1.4). count: actuators in parallel. hold_out: tables that score the laws and
-    are not fitted; else each table in turn, or the last third of the only one. model: that law alone.
+    are not fitted; else each table in turn, or the last third of the only one. freeze, prior, tie: of
+    parameters, as pair() has them. model: that law alone.
     """
     others = [like(data, one) for one in (hold_out if isinstance(hold_out, (list, tuple)) else [hold_out])]
     settings = {
@@ -206,6 +210,7 @@ def dynamic(
         "exponent": exponent,
         "count": count,
         "held_out": tables_of("dynamic", others, "held out arrays of Python"),
+        **_wishes(freeze, prior, tie),
         "model": model,
     }
     return Found(_sinew.identify_tables("dynamic", tables_of("dynamic", data), settings))
@@ -228,6 +233,9 @@ def joint(
     count: int = 1,
     flexion: str = "raises angle",
     hold_out: Any = None,
+    freeze: Optional[Mapping[str, _Quantity]] = None,
+    prior: Optional[Mapping[str, _Prior]] = None,
+    tie: Optional[Mapping[str, str]] = None,
     model: str = "",
     name: str = "",
     joint_name: str = "joint",
@@ -242,8 +250,9 @@ def joint(
     parallel. load [kg] at the lever [m], which points straight down at the angle down [rad]; limb [kg] at
     limb_lever [m]. moment_arm, flexor_length, extensor_length [m] at rest_angle [rad], where they are
     known; keep_force: the actuator's effectiveness is right. flexion: what a shorter flexor does, "raises
-    angle" or "lowers angle". hold_out: a table that scores the models; else every third row. joint_name,
-    flexor, extensor: in the robot's file; base: that file, which the written one adds to.
+    angle" or "lowers angle". hold_out: a table that scores the models; else every third row. freeze,
+    prior, tie: of parameters, as pair() has them. joint_name, flexor, extensor: in the robot's file; base:
+    that file, which the written one adds to.
     """
     settings = {
         "actuator": actuator,
@@ -264,6 +273,7 @@ def joint(
         "extensor_length": extensor_length,
         "keep_force": keep_force,
         "held_out": held_out_of("joint", data, hold_out),
+        **_wishes(freeze, prior, tie),
         "model": model,
         "base": base,
     }

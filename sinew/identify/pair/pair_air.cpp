@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/data/series.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/pair/pair_rows.h"
 
@@ -107,7 +108,7 @@ class TrappedAir {
     const double delay = p[common() - 1];
     for (std::size_t k = 0; k < records_.size(); ++k) {
       const PairRecord& r = records_[k];
-      pair_delayed(r.time, r.at, delay, delayed_[k]);
+      delayed(r.time, r.at, delay, delayed_[k]);
       for (std::size_t m = 0; m < muscles_; ++m) {
         const double s = signs[m] * p[law_.each ? m : 0], p0 = p[common() + k * muscles_ + m];
         const double leak = law_.leaks ? p[slopes() + m] : 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/identify/data/series.h"
+
 namespace sinew::identify {
 
 namespace {
@@ -92,7 +94,7 @@ void pair_effort(const PairLaw& law, const PairValues& v, double start, double d
     if (law.air) inside[i] += v.area * pressure[i];
   }
   if (delay != 0)
-    pair_delayed(record.time, inside, delay, out);
+    delayed(record.time, inside, delay, out);
   else
     std::ranges::copy(inside, out.begin());
 }

@@ -70,16 +70,6 @@ TEST(PairRecord, RatesAreThoseOfTheMotionAndDoNotLag) {
   }
 }
 
-TEST(PairRecord, ADelayIsAShiftInTime) {
-  std::vector<double> time, values, out(500);
-  for (int i = 0; i < 500; ++i) {
-    time.push_back(0.01 * i + 0.002 * (i % 2));  // no even steps
-    values.push_back(std::sin(time.back()));
-  }
-  pair_delayed(time, values, 0.0234, out);
-  for (std::size_t i = 5; i < 500; ++i) EXPECT_NEAR(out[i], std::sin(time[i] - 0.0234), 1e-5);
-}
-
 std::string refused(std::vector<Column> columns) {
   Measured data{.file = "x.csv", .columns = std::move(columns)};
   data.lines.resize(data.columns[0].values.size());

@@ -38,9 +38,4 @@ struct PairRecord {
 // kinds, with fewer than 100 samples, that does not move, or whose sensors are at their ends.
 PairRecord pair_record(const Measured& data, double window = 0.02);
 
-// Returns values at `time` - `delay` of a series that is sampled at `time`: cubic between samples,
-// constant beyond its ends.
-void pair_delayed(std::span<const double> time, std::span<const double> values, double delay,
-                  std::span<double> out);
-
 }  // namespace sinew::identify
