@@ -102,10 +102,12 @@ void print_models(const identify::Report& report) {
 
 // The value and half its interval to the digits that mean something, multiplied with `scale`.
 std::string interval(const identify::Estimate& e, double scale) {
+  if (!e.free && e.low == e.high) return e.known;
   if (e.at_bound) return "at the bound of its range";
   if (!std::isfinite(e.high)) return e.identifiable ? "no interval" : "not identifiable";
-  return fmt::format("+- {:.2g}{}", 0.5 * scale * (e.high - e.low),
-                     e.identifiable ? "" : ", not identifiable");
+  return fmt::format("+- {:.2g}{}{}{}", 0.5 * scale * (e.high - e.low),
+                     e.identifiable ? "" : ", not identifiable", e.known.empty() ? "" : "; ",
+                     e.known);
 }
 
 void print_parameters(const identify::Fit& fit, const config::UnitsToShow& asked, double room) {
@@ -194,6 +196,18 @@ std::vector<identify::Source> sources_of(const DataOptions& options) {
   return identify::sources_of(options.files, how);
 }
 
+void add_wish_options(Command sub, identify::WishTexts& wishes) {
+  sub.add_option("--freeze", wishes.freeze,
+                 "NAME=VALUE: a parameter that is known and not fitted; may be repeated")
+      .takes_one();
+  sub.add_option(
+         "--prior", wishes.prior,
+         "NAME=VALUE±DEVIATION: what is known of a parameter, and how well; may be repeated")
+      .takes_one();
+  sub.add_option("--tie", wishes.tie, "NAME=OTHER: two parameters that are one; may be repeated")
+      .takes_one();
+}
+
 void add_result_options(Command sub, ResultOptions& options) {
   sub.add_option("-o,--out", options.out, "the parameter file to write");
   sub.add_flag("--force", options.force, "replace the parameter file and the page");
@@ -264,6 +278,7 @@ void add_identify(Command app, Action& action) {
   add_identify_sensor(sub, action);
   add_identify_dynamic(sub, action);
   add_identify_joint(sub, action);
+  add_identify_pair(sub, action);
   add_identify_valve(sub, action);
   add_identify_static(sub, action);
   add_identify_creep(sub, action);

@@ -13,6 +13,7 @@
 #include "cli/command.h"
 #include "sinew/identify/data/measured.h"
 #include "sinew/identify/fit/fit.h"
+#include "sinew/identify/fit/wish.h"
 
 namespace sinew::identify {
 struct StaticSettings;
@@ -24,6 +25,7 @@ void add_identify_geometry(Command identify, Action& action);
 void add_identify_sensor(Command identify, Action& action);
 void add_identify_dynamic(Command identify, Action& action);
 void add_identify_joint(Command identify, Action& action);
+void add_identify_pair(Command identify, Action& action);
 void add_identify_valve(Command identify, Action& action);
 void add_identify_static(Command identify, Action& action);
 void add_identify_creep(Command identify, Action& action);
@@ -49,6 +51,9 @@ void add_data_options(Command sub, DataOptions& options);
 // What files do not say of a muscle and its measurement, and which of their points are fitted: of
 // `static` and `check`.
 void add_static_data_options(Command sub, identify::StaticSettings& settings);
+
+// What is known of parameters before they are fitted: frozen, prior, tied.
+void add_wish_options(Command sub, identify::WishTexts& wishes);
 
 // One source per file. Throws config::Error for what is no name=value.
 std::vector<identify::Source> sources_of(const DataOptions& options);

@@ -96,6 +96,7 @@ void add_identify_dynamic(Command identify, Action& action) {
       .takes_one();
   sub.add_option("--model", options->settings.model, "only this law")
       .is_one_of(identify::dynamic_models());
+  add_wish_options(sub, options->settings.wishes);
   add_result_options(sub, options->result);
   sub.callback([options, &action] { action = [options] { return run_dynamic(*options); }; });
 }

@@ -106,6 +106,7 @@ void add_identify_joint(Command identify, Action& action) {
   sub.add_option("--base", options->settings.base,
                  "robot whose joint it is, named in the file of --out");
   sub.add_option("--actuator-out", options->actuator_out, "the actuator's file to write");
+  add_wish_options(sub, options->settings.wishes);
   add_result_options(sub, options->result);
   sub.callback([options, &action] {
     if (options->settings.keep_force && options->settings.model.ends_with("pressure"))

@@ -31,7 +31,9 @@ constexpr std::string_view settings =
 // Settings that can be the subject of a problem: at the begin of a line, or behind a file without a
 // line of it. What has a line is a key of that file.
 constexpr std::string_view subjects =
-    " candidate known model names part points range report sensors shard units vary where ";
+    " candidate freeze known model names part points prior range report rigs sensors shard tie "
+    "units "
+    "vary where ";
 
 // Settings that are so at the begin of a line alone: a file may have a column of that name.
 constexpr std::string_view quantities =
@@ -46,7 +48,7 @@ constexpr std::string_view quantities =
     "speed "
     "step_time "
     "temperature "
-    "thousands thread_thickness title to trapezoids volume width within yield ";
+    "thousands thread_thickness title to trapezoids volume width window within yield ";
 
 // Words between blanks, " one two ".
 bool is_one_of(std::string_view word, std::string_view words) {

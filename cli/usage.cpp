@@ -15,7 +15,7 @@ namespace sinew::cli {
 namespace {
 
 constexpr std::size_t few = 8;            // words that a message may list
-constexpr std::size_t few_commands = 16;  // commands, which are what one came for
+constexpr std::size_t few_commands = 18;  // commands, which are what one came for
 
 using Problems = std::vector<config::Problem>;
 

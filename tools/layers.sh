@@ -47,6 +47,7 @@ layers='
     identify/plan   identify/actuator
     identify/motion identify/data
     identify/joint  identify/data robot
+    identify/pair   identify/data
     identify/valve  identify/data gas signals
     identify/sensor identify/data robot report/text
     identify/page   identify/fit report

@@ -20,6 +20,7 @@
 #include "sinew/identify/task/dynamic_task.h"
 #include "sinew/identify/task/geometry_task.h"
 #include "sinew/identify/task/joint_task.h"
+#include "sinew/identify/task/pair_task.h"
 #include "sinew/identify/task/sensor_task.h"
 #include "sinew/identify/task/static_task.h"
 #include "sinew/identify/task/tables.h"
@@ -59,6 +60,12 @@ auto away(Ask ask) {
 
 Identified::File fixed(std::string text) {
   return [text = std::move(text)](const std::string&) { return text; };
+}
+
+void wishes_of(const Settings& given, identify::WishTexts& out) {
+  given.texts("freeze", out.freeze);
+  given.texts("prior", out.prior);
+  given.texts("tie", out.tie);
 }
 
 Identified geometry(const Sources& sources, const Settings& given) {
@@ -116,6 +123,7 @@ Identified dynamic(const Sources& sources, const Settings& given) {
   given.integer("count", s.count);
   given.tables("held_out", s.held_out);
   given.text("model", s.model);
+  wishes_of(given, s.wishes);
   const auto found = away([&] { return identify::find_dynamic(sources, s); });
   return {.report = to_json(found).dump(),
           .files = {fixed(found.file)},
@@ -148,6 +156,7 @@ Identified joint(const Sources& sources, const Settings& given) {
   given.flag("keep_force", s.keep_force);
   given.table("held_out", s.held_out);
   given.text("model", s.model);
+  wishes_of(given, s.wishes);
   given.path("base", s.base);
   const auto found = std::make_shared<identify::JointFound>(
       away([&] { return identify::find_joint(sources, s); }));
@@ -155,6 +164,25 @@ Identified joint(const Sources& sources, const Settings& given) {
           .files = {[found](const std::string& out) { return found->file(out); },
                     fixed(found->actuator_file)},
           .reports = {found->result.report}};
+}
+
+Identified pair(const Sources& sources, const Settings& given) {
+  identify::PairSettings s;
+  given.text("rigs", s.rigs);
+  given.text("hold_out", s.hold_out);
+  given.tables("held_out", s.held_out);
+  given.quantity("window", "s", s.window);
+  wishes_of(given, s.wishes);
+  given.text("model", s.model);
+  given.text("joint", s.joint);
+  given.path("base", s.base);
+  const auto found =
+      std::make_shared<identify::PairFound>(away([&] { return identify::find_pair(sources, s); }));
+  Identified out{.report = to_json(*found).dump(),
+                 .files = {[found](const std::string& at) { return found->file(at); }},
+                 .reports = {found->result.report}};
+  if (found->result.air) out.reports.push_back(found->result.air->report);
+  return out;
 }
 
 Identified sensor(const Sources& sources, const Settings& given) {
@@ -217,6 +245,7 @@ constexpr Method methods[] = {{"static", of_static, identify::static_columns},
                               {"dynamic", dynamic, identify::decay_columns},
                               {"creep", creep, identify::creep_columns},
                               {"joint", joint, identify::joint_columns},
+                              {"pair", pair, identify::pair_columns},
                               {"geometry", geometry, identify::geometry_columns},
                               {"sensor", sensor, nullptr},
                               {"valve", valve, identify::valve_columns}};

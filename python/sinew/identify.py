@@ -23,7 +23,7 @@ docs/how-to-characterise.md and the pages of docs/theory that it names.
 """
 
 import os
-from typing import Any, Dict, List, Optional, Sequence, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Union
 
 import numpy.typing
 
@@ -49,6 +49,7 @@ __all__ = [
     "geometry",
     "geometry_from_trapezoids",
     "joint",
+    "pair",
     "plan",
     "sensor",
     "static",
@@ -60,6 +61,29 @@ __all__ = [
 _Path = Union[str, "os.PathLike[str]"]
 _Quantity = Union[float, int, str]
 _Quantities = Union[_Quantity, Sequence[_Quantity]]
+_Prior = Union[str, Sequence[_Quantity]]
+
+
+def _with_unit(value: Any) -> str:
+    """Return text as it is, and a number as one in the SI unit of whatever it is of."""
+    return value if isinstance(value, str) else f"{float(value)!r} SI"
+
+
+def _wishes(
+    freeze: Optional[Mapping[str, _Quantity]],
+    prior: Optional[Mapping[str, _Prior]],
+    tie: Optional[Mapping[str, str]],
+) -> "Dict[str, List[str]]":
+    """Return what is known of parameters, as the program's options have it."""
+
+    def belief(of: _Prior) -> str:
+        return of if isinstance(of, str) else "±".join(_with_unit(one) for one in of)
+
+    return {
+        "freeze": [f"{name}={_with_unit(value)}" for name, value in (freeze or {}).items()],
+        "prior": [f"{name}={belief(of)}" for name, of in (prior or {}).items()],
+        "tie": [f"{name}={other}" for name, other in (tie or {}).items()],
+    }
 
 
 def static(
@@ -263,6 +287,9 @@ def dynamic(
     exponent: Optional[_Quantity] = None,
     count: int = 1,
     hold_out: Any = (),
+    freeze: Optional[Mapping[str, _Quantity]] = None,
+    prior: Optional[Mapping[str, _Prior]] = None,
+    tie: Optional[Mapping[str, str]] = None,
     model: str = "",
     name: str = "",
 ) -> Found:
@@ -273,7 +300,8 @@ def dynamic(
     moves, pressure [Pa abs] of the air as it hangs (None: the measured one) and external_volume [m3] of
     hose and fittings up to the shut valve: one, or one for each table. exponent of the trapped air (None:
     from the pressure, else 1.4). count: actuators in parallel. hold_out: tables that score the laws and
-    are not fitted; else each table in turn, or the last third of the only one. model: that law alone.
+    are not fitted; else each table in turn, or the last third of the only one. freeze, prior, tie: of
+    parameters, as pair() has them. model: that law alone.
     """
     others = [like(data, one) for one in (hold_out if isinstance(hold_out, (list, tuple)) else [hold_out])]
     settings = {
@@ -285,6 +313,7 @@ def dynamic(
         "exponent": exponent,
         "count": count,
         "held_out": tables_of("dynamic", others, "held out arrays of Python"),
+        **_wishes(freeze, prior, tie),
         "model": model,
     }
     return Found(_sinew.identify_tables("dynamic", tables_of("dynamic", data), settings))
@@ -307,6 +336,9 @@ def joint(
     count: int = 1,
     flexion: str = "raises angle",
     hold_out: Any = None,
+    freeze: Optional[Mapping[str, _Quantity]] = None,
+    prior: Optional[Mapping[str, _Prior]] = None,
+    tie: Optional[Mapping[str, str]] = None,
     model: str = "",
     name: str = "",
     joint_name: str = "joint",
@@ -321,8 +353,9 @@ def joint(
     parallel. load [kg] at the lever [m], which points straight down at the angle down [rad]; limb [kg] at
     limb_lever [m]. moment_arm, flexor_length, extensor_length [m] at rest_angle [rad], where they are
     known; keep_force: the actuator's effectiveness is right. flexion: what a shorter flexor does, "raises
-    angle" or "lowers angle". hold_out: a table that scores the models; else every third row. joint_name,
-    flexor, extensor: in the robot's file; base: that file, which the written one adds to.
+    angle" or "lowers angle". hold_out: a table that scores the models; else every third row. freeze,
+    prior, tie: of parameters, as pair() has them. joint_name, flexor, extensor: in the robot's file; base:
+    that file, which the written one adds to.
     """
     settings = {
         "actuator": actuator,
@@ -343,10 +376,49 @@ def joint(
         "extensor_length": extensor_length,
         "keep_force": keep_force,
         "held_out": held_out_of("joint", data, hold_out),
+        **_wishes(freeze, prior, tie),
         "model": model,
         "base": base,
     }
     return Joint(_sinew.identify_tables("joint", tables_of("joint", data), settings))
+
+
+def pair(
+    data: Any,
+    *,
+    rigs: Union[str, Sequence[str]] = "",
+    hold_out: Any = (),
+    window: _Quantity = 0.02,
+    freeze: Optional[Mapping[str, _Quantity]] = None,
+    prior: Optional[Mapping[str, _Prior]] = None,
+    tie: Optional[Mapping[str, str]] = None,
+    model: str = "",
+    joint_name: str = "joint",
+    base: Optional[_Path] = None,
+) -> Found:
+    """Return stiffness, friction, losses and trapped air of a sealed pair that is moved by hand or motor.
+
+    data: a table for each recording, with columns time [s], force [N] and displacement [m], or torque [N m]
+    and angle [rad], and pressure_1, pressure_2 [Pa abs] where they were measured. rigs: of each table;
+    recordings of one have delay and gain in common. hold_out: times that score the laws and are not
+    fitted, "7 s..14 s" or "7 s..", or tables. window [s] of the parabolas that give rates. freeze: {name:
+    value} of parameters that are known; prior: {name: (value, standard deviation)}; tie: {name: other
+    name}; numbers in SI. model: that law alone. joint_name: in the robot's file; base: that file, which the
+    written one adds to.
+    """
+    times = hold_out if isinstance(hold_out, str) and ".." in hold_out else ""
+    tables = [] if times else hold_out if isinstance(hold_out, (list, tuple)) else [hold_out]
+    settings = {
+        "rigs": rigs if isinstance(rigs, str) else ",".join(rigs),
+        "hold_out": times,
+        "held_out": tables_of("pair", [like(data, one) for one in tables], "held out arrays of Python"),
+        "window": window,
+        **_wishes(freeze, prior, tie),
+        "model": model,
+        "joint": joint_name,
+        "base": base,
+    }
+    return Found(_sinew.identify_tables("pair", tables_of("pair", data), settings))
 
 
 def sensor(

@@ -57,6 +57,21 @@ def poses() -> "Dict[str, Any]":
     }
 
 
+def moved_pairs() -> "List[Dict[str, Any]]":
+    """Return a joint with two sealed muscles, moved by hand twice: a spring, dry friction, a zero."""
+    out = []
+    for phase, zero in ((0.0, 0.3), (1.0, -0.2)):
+        time = numpy.arange(0, 4.0, 0.01)
+        angle = 0.2 * numpy.sin(2 * time + phase) + 0.05 * numpy.sin(7 * time)
+        share, held = numpy.zeros(time.size), 0.0
+        for i in range(1, time.size):
+            held = min(1.0, max(-1.0, held + (angle[i] - angle[i - 1]) / 0.01))
+            share[i] = held
+        torque = 12 * angle + 0.8 * share + zero + 0.01 * numpy.sin(977 * time)
+        out.append({"time": time, "torque": torque, "angle": angle, "pressure_1": 4e5 * numpy.exp(-0.3 * angle)})
+    return out
+
+
 def weights() -> "Dict[str, Any]":
     """Return a calibration of a gage, up and down."""
     load = numpy.array([0.0, 2, 4, 6, 8, 10, 8, 6, 4, 2, 0])
@@ -112,6 +127,8 @@ UNITS = {
     "pressure": "Pa gauge",
     "angle": "rad",
     "load": "kg",
+    "torque": "N m",
+    "pressure_1": "Pa abs",
 }
 
 
@@ -220,6 +237,23 @@ class SameAsTheProgram(unittest.TestCase):
         found.write_actuator(os.path.join(self.folder, "mine.toml"))
         with open(os.path.join(self.folder, "theirs.toml"), encoding="utf-8") as file:
             self.assertEqual(file.read(), found.actuator_text())
+
+    def test_pair(self) -> None:
+        def ask(data: Any) -> Any:
+            return identify.pair(
+                data, model="spring_bristle", freeze={"delay": 0.0}, prior={"friction": (0.8, "0.1 N m")},
+                hold_out="3 s..", joint_name="knee", base=ROBOT,
+            )  # fmt: skip
+
+        found = self.compare(
+            "pair", moved_pairs(), ask, "--model", "spring_bristle", "--freeze", "delay=0 s", "--prior",
+            "friction=0.8 N m ± 0.1 N m", "--hold-out", "3 s..", "--joint", "knee", "--base", ROBOT,
+        )  # fmt: skip
+        named = {one["name"]: one for one in found.report["parameters"]}
+        self.assertAlmostEqual(named["friction"]["value"], 0.8, 1)
+        self.assertEqual(named["delay"]["known"], "frozen")
+        self.assertEqual(len(found.report["air"]["muscles"]), 1)
+        self.assertRaises(ValueError, identify.pair, moved_pairs(), model="none")
 
     def test_sensor(self) -> None:
         def ask(data: Any) -> Any:

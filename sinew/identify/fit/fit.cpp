@@ -26,6 +26,10 @@ Score score(std::span<const double> residuals, double full_scale) {
 
 namespace {
 
+std::size_t free_in(const Fit& fit) {
+  return static_cast<std::size_t>(std::ranges::count_if(fit.parameters, &Estimate::free));
+}
+
 bool usable(const Fit& fit) { return fit.refused.empty(); }
 
 enum class By { cross_validation, held_out, fit };
@@ -102,8 +106,7 @@ void choose(Report& report, double tolerance, double negligible) {
   const double near = (1 + tolerance) * smallest, limit = std::max(near, negligible);
   const Fit* chosen = fits.front();
   for (const Fit* fit : fits)
-    if (error_of(*fit, by) <= limit && fit->parameters.size() < chosen->parameters.size())
-      chosen = fit;
+    if (error_of(*fit, by) <= limit && free_in(*fit) < free_in(*chosen)) chosen = fit;
 
   if (!chosen->not_chosen.empty())
     report.warnings.push_back(fmt::format("no law is free of a reason not to choose it; {}: {}",
@@ -117,8 +120,8 @@ void choose(Report& report, double tolerance, double negligible) {
                                  : "fit",
       near < negligible ? fmt::format("below {:.2g} %, where it says nothing", negligible)
                         : fmt::format("within {:.0f} % of the smallest", 100 * tolerance),
-      chosen->model, chosen->parameters.size(), error_of(*chosen, by), smallest,
-      fits.front()->model, runners_up(fits, *chosen, by));
+      chosen->model, free_in(*chosen), error_of(*chosen, by), smallest, fits.front()->model,
+      runners_up(fits, *chosen, by));
 }
 
 void keep_off_bounds(Fit& fit, std::span<const std::string_view> but_for) {

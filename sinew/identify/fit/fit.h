@@ -2,6 +2,7 @@
 // what it saw and what it did not see, and which one was chosen by which rule.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,6 +20,9 @@ struct Score {
 
   // Of `full_scale`, for instance the muscle's largest force  [%].
   double rmse_percent = 0, max_percent = 0;
+
+  // R^2, the share of the variance of what was measured that is explained; NaN: not told.
+  double explained = std::numeric_limits<double>::quiet_NaN();
 };
 
 // Returns it; `full_scale` is what 100 % are, in the residuals' unit.
@@ -75,12 +79,12 @@ struct Report {
   const Fit& best() const { return fits[chosen]; }
 };
 
-// The simplest model (fewest parameters) whose cross-validated error - without one the held-out
-// error, without that its fit - is within `tolerance` (relative) of the smallest, or within
-// `negligible` [%]: errors below it say nothing, for instance the converter's steps. Refused models
-// do not count, those with a reason not to be chosen only where no other is left, which is warned
-// of. Writes `chosen` and `rule`, which tells how close the next ones are.
-// Throws Refusal where every model was refused.
+// The simplest model (fewest free parameters) whose cross-validated error - without one the
+// held-out error, without that its fit - is within `tolerance` (relative) of the smallest, or
+// within `negligible` [%]: errors below it say nothing, for instance the converter's steps. Refused
+// models do not count, those with a reason not to be chosen only where no other is left, which is
+// warned of. Writes `chosen` and `rule`, which tells how close the next ones are. Throws Refusal
+// where every model was refused.
 void choose(Report& report, double tolerance = 0.1, double negligible = 0);
 
 // Writes into `not_chosen` which of the fit's parameters stand at the bounds of their ranges, but

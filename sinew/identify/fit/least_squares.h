@@ -62,6 +62,8 @@ struct Estimate {
   double low = 0, high = 0;   // 95 %
   bool identifiable = true;
   bool at_bound = false;  // no interval: it would like to be elsewhere
+  bool free = true;       // false: frozen, or tied to another parameter
+  std::string known;      // what was known beforehand, in words: "frozen"; empty: nothing
 };
 
 // Where the search has ended.

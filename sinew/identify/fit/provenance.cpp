@@ -21,6 +21,8 @@ config::Origin& Provenance::put(std::string_view path) {
 
 void Provenance::fitted(std::string_view path, const Estimate& estimate, std::string_view source) {
   std::string text(source);
+  if (!estimate.known.empty()) text += "; " + estimate.known;
+  if (!estimate.free && estimate.low == estimate.high) return given(path, text);
   if (estimate.at_bound) text += "; at the bound of its range";
   if (!estimate.identifiable && !estimate.at_bound) text += "; not identifiable from these data";
   fitted(path, estimate.unit, 0.5 * (estimate.high - estimate.low), text);

@@ -10,11 +10,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const Score& score) {
-  return {{"points", score.points},
-          {"rmse", score.rmse},
-          {"max", score.max},
-          {"rmse_percent", score.rmse_percent},
-          {"max_percent", score.max_percent}};
+  Json out{{"points", score.points},
+           {"rmse", score.rmse},
+           {"max", score.max},
+           {"rmse_percent", score.rmse_percent},
+           {"max_percent", score.max_percent}};
+  if (std::isfinite(score.explained)) out["r_squared"] = score.explained;
+  return out;
 }
 
 Json to_json(const Estimate& e) {
@@ -23,6 +25,7 @@ Json to_json(const Estimate& e) {
   out["high"] = e.at_bound ? Json() : finite_or_null(e.high);
   out["identifiable"] = e.identifiable;
   if (e.at_bound) out["at_bound"] = true;
+  if (!e.known.empty()) out["known"] = e.known;
   return out;
 }
 

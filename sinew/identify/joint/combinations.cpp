@@ -12,7 +12,8 @@ std::vector<Combination> combinations_of(const Solution& s) {
   std::vector<Eigen::Index> which;
   const std::size_t n = s.estimates.size();
   for (std::size_t i = 0; i < n; ++i)
-    if (s.estimates[i].value > 0 && !s.estimates[i].at_bound && s.estimates[i].name != "c1")
+    if (s.estimates[i].value > 0 && s.estimates[i].free && !s.estimates[i].at_bound &&
+        s.estimates[i].name != "c1")
       which.push_back(static_cast<Eigen::Index>(i));
   const auto m = static_cast<Eigen::Index>(which.size());
   Eigen::MatrixXd relative(m, m);

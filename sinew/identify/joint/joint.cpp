@@ -86,6 +86,14 @@ std::vector<Slot> slots_of(const Law& law, const JointTorque& joint, const Joint
   return out;
 }
 
+// Throws config::Error for a wish of what no law has.
+void check_wishes(const JointTorque& joint, const JointSetup& setup, const Wishes& wishes) {
+  std::vector<Parameter> all;
+  for (const Law& law : laws)
+    for (Slot& slot : slots_of(law, joint, setup)) all.push_back(std::move(slot.parameter));
+  if (!wishes.empty()) wishes.check(all);
+}
+
 Values known_values(const JointSetup& setup) {
   Values v;
   if (std::isfinite(setup.moment_arm)) v.moment_arm = setup.moment_arm;
@@ -145,7 +153,8 @@ std::string another_answer(const Solution& best, const Solution& other) {
   return "";
 }
 
-Solved solve(const Law& law, const JointTorque& joint, const JointSetup& setup) {
+Solved solve(const Law& law, const JointTorque& joint, const JointSetup& setup,
+             const Wishes& wishes) {
   const std::vector<Slot> slots = slots_of(law, joint, setup);
   std::vector<Parameter> parameters;
   for (const Slot& s : slots) parameters.push_back(s.parameter);
@@ -158,8 +167,8 @@ Solved solve(const Law& law, const JointTorque& joint, const JointSetup& setup) 
   for (const std::vector<double>& start : starts_of(slots, setup)) {
     for (std::size_t i = 0; i < parameters.size(); ++i)
       parameters[i].start = std::clamp(start[i], parameters[i].low, parameters[i].high);
-    all.push_back(
-        least_squares(residuals, joint.rows(), parameters, {.widest_interval = widest_interval}));
+    all.push_back(least_squares(residuals, joint.rows(), parameters, wishes,
+                                {.widest_interval = widest_interval}));
   }
   const auto best = std::min_element(all.begin(), all.end(), [](const auto& x, const auto& y) {
     return square_sum(x) < square_sum(y);
@@ -181,7 +190,8 @@ std::string inseparable(const Solved& solved) {
   std::string which;
   for (const Estimate& e : s.estimates) {
     const bool matters = !e.name.starts_with("origin");
-    if (matters && (e.at_bound || !e.identifiable)) which += (which.empty() ? "" : ", ") + e.name;
+    if (matters && e.free && (e.at_bound || !e.identifiable))
+      which += (which.empty() ? "" : ", ") + e.name;
   }
   if (which.empty() && solved.ambiguous.empty()) return "";
   std::string out = which.empty() ? solved.ambiguous : which + " cannot be told apart";
@@ -239,16 +249,16 @@ std::vector<double> residuals_of(const Law& law, const JointTorque& joint, const
 
 // One law, fitted to all rows and scored on what is held out.
 Fit tried_fit(const Law& law, const JointTorque& joint, const JointTorque& some,
-              const JointTorque& others, bool refit, const JointSetup& setup, double full_scale,
-              Solved& solved) {
+              const JointTorque& others, bool refit, const JointSetup& setup, const Wishes& wishes,
+              double full_scale, Solved& solved) {
   Fit fit{.model = law.name, .law = law.law, .source = law.source};
   try {
-    solved = solve(law, joint, setup);
+    solved = solve(law, joint, setup, wishes);
     fit.parameters = solved.solution.estimates;
     fit.refused = inseparable(solved);
     fit.fit = score(solved.solution.residuals, full_scale);
     fit.residuals = told_from(solved.solution.residuals);
-    const Values values = refit ? solve(law, some, setup).values : solved.values;
+    const Values values = refit ? solve(law, some, setup, wishes).values : solved.values;
     const std::vector<double> unseen = residuals_of(law, others, values);
     fit.held_out = score(unseen, full_scale);
     const std::vector<double> told = told_from(unseen);
@@ -302,10 +312,11 @@ std::vector<std::string> joint_models() {
 }
 
 JointResult identify_joint(const Measured& data, const std::optional<Measured>& held_out,
-                           const JointSetup& setup, std::string_view model) {
+                           const JointSetup& setup, std::string_view model, const Wishes& wishes) {
   const JointTorque joint(data, setup);
   refuse_unusable(data, joint, setup);
   if (held_out) refuse_other_columns(data, *held_out);
+  check_wishes(joint, setup, wishes);
   const auto [seen, unseen] = held_out ? std::pair(data, *held_out) : every_third(data);
   const JointTorque some(seen, setup), others(unseen, setup);
 
@@ -327,8 +338,8 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
     if (setup.keep_force && law.pressure) continue;  // the force is what it is
     tried.push_back(&law);
     solved.emplace_back();
-    report.fits.push_back(
-        tried_fit(law, joint, some, others, !held_out, setup, report.full_scale, solved.back()));
+    report.fits.push_back(tried_fit(law, joint, some, others, !held_out, setup, wishes,
+                                    report.full_scale, solved.back()));
   }
   if (tried.empty()) throw std::invalid_argument(fmt::format("no model {}", model));
   refuse_if_all_are(report, data.file);

@@ -27,6 +27,7 @@
 #include "sinew/actuator/actuator.h"
 #include "sinew/identify/data/measured.h"
 #include "sinew/identify/fit/fit.h"
+#include "sinew/identify/fit/wish.h"
 
 namespace sinew::identify {
 
@@ -68,10 +69,13 @@ struct JointResult {
   Report report;
 };
 
-// Held out: `held_out`, or else every third row. `model`: only that one; empty: all. Throws
-// Refusal, and std::invalid_argument for an unknown model.
+// Held out: `held_out`, or else every third row. `model`: only that one; empty: all. `wishes` are
+// for moment_arm, origin_ratio, origin_angle, flexor_length, extensor_length, c0 and c1. Throws
+// Refusal, config::Error for a wish of a parameter that there is not, and std::invalid_argument for
+// an unknown model.
 JointResult identify_joint(const Measured& data, const std::optional<Measured>& held_out,
-                           const JointSetup& setup, std::string_view model = "");
+                           const JointSetup& setup, std::string_view model = "",
+                           const Wishes& wishes = {});
 std::vector<std::string> joint_models();
 
 }  // namespace sinew::identify

@@ -196,6 +196,22 @@ TEST(Joint, SmallExcursionsDetermineAProductOnlyAndItSaysSo) {
   EXPECT_NEAR(with_force.moment_arm, t.arm, 0.1 * t.arm);
 }
 
+// Small excursions tell one product only; what is known of the arm tells the rest.
+TEST(Joint, APriorOnTheArmTellsWhatTorquesCannot) {
+  const Truth t{.c1 = 0, .half_range = 0.06};
+  const Measured data = poses(t, false, 0.002, 9);
+  EXPECT_NE(refused(data, setup_of(t), "round"), "not refused");
+  const JointResult r = identify_joint(
+      data, {}, setup_of(t), "round",
+      Wishes({.prior = {"moment_arm=22 mm ± 0.5 mm", "flexor_length=83 mm ± 0.5 mm"}}));
+  EXPECT_NEAR(r.effectiveness.c0, t.c0, 0.1 * t.c0);
+  EXPECT_NEAR(r.moment_arm, t.arm, 1.5e-3);
+  const JointResult frozen = identify_joint(data, {}, setup_of(t), "round",
+                                            Wishes({.freeze = {"moment_arm=22 mm", "c0=0.97"}}));
+  EXPECT_EQ(frozen.moment_arm, 0.022);
+  EXPECT_NEAR(frozen.flexor_length, t.flexor, 1e-3 * t.flexor);
+}
+
 TEST(Joint, WhatIsWellDeterminedComesFirst) {
   const Truth t;
   const JointResult r =

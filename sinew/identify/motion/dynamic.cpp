@@ -117,8 +117,8 @@ struct Start {
 
 class Dynamic {
  public:
-  Dynamic(std::span<const Swing> swings, std::span<const DecayRecord> records)
-      : swings_(swings), stiffness_(middle_stiffness(swings)) {
+  Dynamic(std::span<const Swing> swings, std::span<const DecayRecord> records, const Wishes& wishes)
+      : swings_(swings), wishes_(wishes), stiffness_(middle_stiffness(swings)) {
     for (std::size_t i = 0; i < records.size(); ++i)
       (records[i].held_out ? held_out_ : fitted_).push_back(i);
   }
@@ -135,6 +135,14 @@ class Dynamic {
                     .coulomb_length = start_.coulomb_length,
                     .coulomb_scale = Scale::sealed};
     for (const Swing& s : swings_) start_.nuisance.push_back(s.settle(loss));
+  }
+
+  // Throws config::Error for a wish of what no law has.
+  void check_wishes() const {
+    std::vector<Parameter> all;
+    for (const Law& law : laws)
+      for (Parameter& p : parameters_of(law, fitted_, start_)) all.push_back(std::move(p));
+    if (!wishes_.empty()) wishes_.check(all);
   }
 
   Fit fit(const Law& law, double full_scale) const {
@@ -174,7 +182,9 @@ class Dynamic {
  private:
   using Which = std::vector<std::size_t>;  // of the records
 
-  Solution solve(const Law& law, const Which& which, const Start& start, double share = 1) const {
+  // Of the law and of these records.
+  std::vector<Parameter> parameters_of(const Law& law, const Which& which,
+                                       const Start& start) const {
     std::vector<Parameter> parameters;
     if (law.viscous)
       parameters.push_back({.name = "viscous",
@@ -188,18 +198,22 @@ class Dynamic {
                             .start = start.coulomb_length,
                             .low = 0,
                             .scale = start_.coulomb_length});
-    std::vector<Part> parts;
-    for (const std::size_t i : which) {
-      const Swing& swing = swings_[i];
-      parts.push_back({&swing, share < 1 ? swing.samples_until(share) : swing.time.size()});
-      for (Parameter p : swing.parameters(start.nuisance[i])) {
-        if (swings_.size() > 1) p.name += " of " + swing.file;
+    for (const std::size_t i : which)
+      for (Parameter p : swings_[i].parameters(start.nuisance[i])) {
+        if (swings_.size() > 1) p.name += " of " + swings_[i].file;
         parameters.push_back(std::move(p));
       }
-    }
+    return parameters;
+  }
+
+  Solution solve(const Law& law, const Which& which, const Start& start, double share = 1) const {
+    std::vector<Part> parts;
+    for (const std::size_t i : which)
+      parts.push_back(
+          {&swings_[i], share < 1 ? swings_[i].samples_until(share) : swings_[i].time.size()});
     Trajectories trajectories(law, parts, stiffness_);
-    return least_squares(std::ref(trajectories), trajectories.size(), parameters,
-                         {.correlated = true});
+    return least_squares(std::ref(trajectories), trajectories.size(),
+                         parameters_of(law, which, start), wishes_, {.correlated = true});
   }
 
   // Residuals of what was not fitted.
@@ -251,6 +265,7 @@ class Dynamic {
   }
 
   std::span<const Swing> swings_;
+  const Wishes& wishes_;
   Which fitted_, held_out_;
   double stiffness_;
   Start start_;
@@ -305,7 +320,8 @@ std::vector<std::string> dynamic_models() {
   return out;
 }
 
-DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string_view model) {
+DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string_view model,
+                               const Wishes& wishes) {
   if (records.empty()) throw Refusal("data", "no record", "one free decay at least", "");
   std::vector<Swing> swings;
   std::size_t marked = 0;
@@ -329,8 +345,9 @@ DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string
     report.full_scale = std::max(report.full_scale, s.amplitude);
     report.notes.insert(report.notes.end(), s.notes.begin(), s.notes.end());
   }
-  Dynamic dynamic(swings, records);
+  Dynamic dynamic(swings, records, wishes);
   dynamic.start_from(out.records);
+  dynamic.check_wishes();
   std::vector<const Law*> tried;
   for (const Law& law : laws)
     if (model.empty() || model == law.name) tried.push_back(&law);

@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "sinew/identify/fit/fit.h"
+#include "sinew/identify/fit/wish.h"
 #include "sinew/identify/motion/decay.h"
 #include "sinew/identify/motion/swing.h"
 
@@ -48,9 +49,12 @@ struct DynamicResult {
   std::vector<DecaySummary> records;
 };
 
-// `model`: only that law; empty: all. Throws Refusal, and std::invalid_argument for a name that no
-// law has.
-DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string_view model = "");
+// `model`: only that law; empty: all. `wishes` are for the parameters of the laws, viscous and
+// coulomb_length, and for those of the records that are fitted: start_length, start_velocity,
+// offset and tension, each " of FILE" where there are several. Throws Refusal, config::Error for a
+// wish of a parameter that there is not, and std::invalid_argument for a name that no law has.
+DynamicResult identify_dynamic(std::span<const DecayRecord> records, std::string_view model = "",
+                               const Wishes& wishes = {});
 std::vector<std::string> dynamic_models();
 
 }  // namespace sinew::identify

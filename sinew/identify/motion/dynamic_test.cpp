@@ -10,6 +10,7 @@
 #include <random>
 
 #include "sinew/actuator/thesis_actuator.h"
+#include "sinew/config/diagnostics.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/plant/slide/stand.h"
 #include "sinew/units/constants.h"
@@ -104,6 +105,22 @@ TEST(Dynamic, TheLawIsToldFromTheOthersByWhatItDidNotSee) {
     EXPECT_EQ(r.report.best().model, name) << r.report.rule;
     EXPECT_NEAR(r.loss.viscous, loss.viscous, 0.05 * loss.viscous) << name;
   }
+}
+
+// One loss is known from elsewhere: what is left is found, and counts as one parameter less.
+TEST(Dynamic, AFrozenLossStaysAndTheOtherIsFound) {
+  const DecayRecord r = noisy(record({60, 6}, secant_loss, 1.6), noise, 5);
+  const DynamicResult found =
+      identify_dynamic({&r, 1}, "secant", Wishes({.freeze = {"viscous=3.5 N s/m"}}));
+  EXPECT_EQ(found.loss.viscous, 3.5);
+  EXPECT_FALSE(found.report.best().parameters[0].free);
+  EXPECT_NEAR(found.loss.coulomb_length, secant_loss.coulomb_length,
+              0.01 * secant_loss.coulomb_length);
+  const DynamicResult free = identify_dynamic({&r, 1}, "secant");
+  EXPECT_LT(found.report.best().parameters[1].standard_error,
+            free.report.best().parameters[1].standard_error);
+  EXPECT_THROW(identify_dynamic({&r, 1}, "secant", Wishes({.freeze = {"viscos=3.5 N s/m"}})),
+               config::Error);
 }
 
 TEST(Dynamic, IntervalsCoverTheTruthIn200Trials) {

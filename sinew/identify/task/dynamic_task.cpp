@@ -78,7 +78,9 @@ DynamicFound find_dynamic(const std::vector<Source>& sources, const DynamicSetti
   const experiment::MachineFile start = experiment::load_machine_file(settings.actuator);
   const actuator::Actuator& a =
       config::named(start.experiment.actuators, settings.name, "name", "actuator");
-  DynamicFound out{identify_dynamic(records_of(sources, settings, a), settings.model), ""};
+  DynamicFound out{
+      identify_dynamic(records_of(sources, settings, a), settings.model, Wishes(settings.wishes)),
+      ""};
   std::vector<std::string> files;
   for (const Source& source : sources) files.push_back(source.path);
   out.file = loss_file(start.experiment.origins, settings.actuator, a, out.result, files);

@@ -21,6 +21,7 @@ struct DynamicSettings {
   int count = 1;                         // actuators in parallel
   std::vector<Source> held_out;          // score the laws; may be among the tables
   std::string model;                     // this law alone; empty: all
+  WishTexts wishes;                      // frozen, tied, prior
 };
 
 // Holds what was found, with the actuator's file.

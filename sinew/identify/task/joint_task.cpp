@@ -69,7 +69,7 @@ JointFound find_joint(const std::vector<Source>& sources, const JointSettings& s
   std::optional<Measured> held_out;
   if (settings.held_out) held_out = read_measured(*settings.held_out, joint_columns());
   JointFound out{.result = identify_joint(read_measured(source, joint_columns()), held_out, setup,
-                                          settings.model),
+                                          settings.model, Wishes(settings.wishes)),
                  .setup = setup,
                  .names = names,
                  .base = settings.base};

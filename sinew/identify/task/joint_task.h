@@ -26,6 +26,7 @@ struct JointSettings {
   bool keep_force = false;         // the effectiveness of the actuator's file is right
   std::optional<Source> held_out;  // scores the models; else every third row
   std::string model;               // this one alone; empty: all
+  WishTexts wishes;                // frozen, tied, prior
   std::string base;                // the robot's file whose joint it is; empty: none
 };
 

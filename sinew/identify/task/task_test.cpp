@@ -2,6 +2,7 @@
 // is told by its name.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "sinew/identify/task/dynamic_task.h"
 #include "sinew/identify/task/geometry_task.h"
 #include "sinew/identify/task/joint_task.h"
+#include "sinew/identify/task/pair_task.h"
 #include "sinew/identify/task/sensor_task.h"
 #include "sinew/identify/task/static_task.h"
 #include "sinew/identify/task/tables.h"
@@ -101,6 +103,52 @@ TEST(Task, WantsItsTables) {
   expect_begins(refusal([] { refuse_fitted({{.path = actuator}}, "hold_out", actuator); }),
                 "hold_out: found ");
   expect_begins(refusal([] { atmosphere_setting("14.7 in"); }), "atmosphere: found ");
+}
+
+// A joint with a spring of 12 N m/rad and 0.8 N m of dry friction, moved by hand.
+std::vector<Source> moved_pair(const std::string& name = "pair.csv") {
+  std::string text = "time [s],torque [N m],angle [rad]\n";
+  double share = 0, before = 0;
+  for (int i = 0; i < 500; ++i) {
+    const double t = 0.01 * i, angle = 0.2 * std::sin(2 * t) + 0.05 * std::sin(7 * t);
+    share = std::clamp(share + (angle - before) / 0.01, -1.0, 1.0);
+    before = angle;
+    const double torque = 12 * angle + 0.8 * share + 0.01 * std::sin(977 * t);
+    text += std::to_string(t) + "," + std::to_string(torque) + "," + std::to_string(angle) + "\n";
+  }
+  return table(text, name);
+}
+
+TEST(Task, FindsAPairAndWritesItsJoint) {
+  const PairFound found = find_pair(moved_pair(), {.hold_out = "4 s..",
+                                                   .wishes = {.freeze = {"delay=0 s"}},
+                                                   .model = "spring_bristle",
+                                                   .joint = "knee"});
+  EXPECT_NEAR(found.result.values.stiffness, 12, 0.1);
+  EXPECT_NEAR(found.result.values.friction, 0.8, 0.03);
+  EXPECT_EQ(found.result.report.held_out_is, "each recording from 4 s on");
+  EXPECT_GT(found.result.report.best().held_out->explained, 0.999);
+  const std::string file = found.file("");
+  EXPECT_NE(file.find("dry_friction"), std::string::npos) << file;
+  EXPECT_NE(file.find("knee"), std::string::npos) << file;
+  EXPECT_EQ(file.find("damping"), std::string::npos) << file;
+  const nlohmann::ordered_json json = to_json(found);
+  EXPECT_FALSE(json.contains("stiffness_N_per_m"));
+  EXPECT_EQ(json["stiffness_Nm_per_rad"], found.result.stiffness.value);
+  EXPECT_TRUE(json["held_out"].contains("r_squared"));
+}
+
+TEST(Task, TellsWhatAPairCannotBeAskedByItsName) {
+  const auto asked = [&](const PairSettings& s) {
+    return refusal([&] { (void)find_pair(moved_pair(), s); });
+  };
+  expect_begins(asked({.rigs = "a,b"}), "rigs: found 2 names; expected 1");
+  expect_begins(asked({.hold_out = "9 s..4 s"}), "hold_out: found \"9 s..4 s\"; expected a time");
+  expect_begins(asked({.hold_out = "late"}), "hold_out: found \"late\"; expected times");
+  expect_begins(asked({.window = "0 s"}), "window: found");
+  expect_begins(asked({.wishes = {.freeze = {"delay=1 m"}}}), "freeze: found \"1 m\"");
+  EXPECT_TRUE(is_time_range("7 s..") && is_time_range("..3 s") && is_time_range("1 s..2 s"));
+  EXPECT_FALSE(is_time_range("../other.csv") || is_time_range("a.csv") || is_time_range(".."));
 }
 
 TEST(Task, TellsASettingByItsName) {

@@ -1,0 +1,280 @@
+#include "sinew/identify/fit/wish.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/config/quantity.h"
+#include "sinew/config/setting.h"
+
+namespace sinew::identify {
+
+namespace {
+
+constexpr std::string_view names_of_kinds[] = {"freeze", "prior", "tie"};
+constexpr std::string_view forms[] = {"NAME=VALUE", "NAME=VALUE±DEVIATION", "NAME=OTHER NAME"};
+
+std::string setting_of(Wish::Kind kind) {
+  return std::string(names_of_kinds[static_cast<std::size_t>(kind)]);
+}
+
+[[noreturn]] void fail_wish(const Wish& wish, const std::string& expected,
+                            const std::string& try_this = "") {
+  config::fail({setting_of(wish.kind), 0, 0}, "", config::in_quotes(wish.text), expected, try_this);
+}
+
+// "3.5±0.2 N s/m" and "3.5 N s/m ± 0.2 N s/m" mean the same.
+void split_prior(Wish& wish) {
+  for (const std::string_view mark : {"±", "+-", "+/-"}) {
+    const std::size_t at = wish.value.find(mark);
+    if (at == wish.value.npos) continue;
+    wish.deviation = config::trimmed(std::string_view(wish.value).substr(at + mark.size()));
+    wish.value = config::trimmed(std::string_view(wish.value).substr(0, at));
+    const std::size_t unit = wish.deviation.find_first_not_of("0123456789.eE+-");
+    if (wish.value.find_first_not_of("0123456789.eE+-") == wish.value.npos &&
+        unit != wish.deviation.npos)
+      wish.value += wish.deviation.substr(unit);
+    return;
+  }
+}
+
+Wish parse_wish(Wish::Kind kind, const std::string& text) {
+  Wish out{.kind = kind, .text = text};
+  const std::string form(forms[static_cast<std::size_t>(kind)]);
+  const std::size_t equals = text.find('=');
+  if (equals == text.npos) fail_wish(out, form);
+  out.name = config::trimmed(std::string_view(text).substr(0, equals));
+  out.value = config::trimmed(std::string_view(text).substr(equals + 1));
+  if (kind == Wish::Kind::prior) split_prior(out);
+  const bool incomplete = kind == Wish::Kind::prior && (out.deviation.empty() || out.value.empty());
+  if (out.name.empty() || out.value.empty() || incomplete) fail_wish(out, form);
+  return out;
+}
+
+// In SI; "0.3 SI" is in the unit already.
+double number_of(const Wish& wish, const std::string& text, std::string_view unit,
+                 const config::Range& range) {
+  const std::string name = setting_of(wish.kind);
+  try {
+    if (text.ends_with(" SI"))
+      return config::number_setting(
+          name, config::quantity(text.substr(0, text.size() - 3), "1", name), range);
+    return config::quantity_setting(name, text, unit, units::atmosphere, range);
+  } catch (const config::Error& e) {
+    const config::Problem& p = e.problems().front();
+    config::fail({name, 0, 0}, "", fmt::format("{} for {}", p.found, wish.name), p.expected,
+                 p.try_this);
+  }
+}
+
+double value_of(const Wish& wish, const Parameter& p) {
+  return number_of(wish, wish.value, p.unit, {p.low, p.high, "the range of the parameter"});
+}
+
+double deviation_of(const Wish& wish, const Parameter& p) {
+  return number_of(wish, wish.deviation, config::difference_unit(p.unit),
+                   config::above_zero(unbounded, "a standard deviation"));
+}
+
+// Is the name the parameter's, or that of its kind: "delay" for "delay of a.csv"?
+bool names(std::string_view name, std::string_view parameter) {
+  return parameter == name ||
+         (parameter.starts_with(name) && parameter.substr(name.size()).starts_with(" of "));
+}
+
+const Parameter& named(const Wish& wish, std::string_view name, std::span<const Parameter> all) {
+  for (const Parameter& p : all)
+    if (names(name, p.name)) return p;
+  std::vector<std::string_view> there;
+  for (const Parameter& p : all)
+    if (std::ranges::find(there, p.name) == there.end()) there.push_back(p.name);
+  config::fail({setting_of(wish.kind), 0, 0}, "", config::in_quotes(name),
+               "a parameter: " + config::either(there), config::closest_in_quotes(name, there));
+}
+
+// The problem that is left for the solver, and the way back.
+struct Reduced {
+  std::vector<Parameter> parameters;
+  std::vector<int> place;  // of each parameter in the above; -1: frozen
+  std::vector<double> frozen;
+  std::vector<std::string> known;  // what is wished, in words
+  struct Prior {
+    std::size_t place;
+    double value, deviation;
+  };
+  std::vector<Prior> priors;
+
+  std::vector<double> all(std::span<const double> p) const {
+    std::vector<double> out = frozen;
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (place[i] >= 0) out[i] = p[static_cast<std::size_t>(place[i])];
+    return out;
+  }
+};
+
+void add_prior(const Wish& wish, Parameter p, std::size_t i, Reduced& out) {
+  const Reduced::Prior prior{out.parameters.size(), value_of(wish, p), deviation_of(wish, p)};
+  out.priors.push_back(prior);
+  out.known[i] = fmt::format("prior {:.4g} +- {:.2g}", prior.value, prior.deviation);
+  p.start = prior.value;
+  out.place[i] = static_cast<int>(out.parameters.size());
+  out.parameters.push_back(std::move(p));
+}
+
+Reduced reduce(std::span<const Parameter> parameters, const Wishes& wishes) {
+  const std::size_t n = parameters.size();
+  Reduced out{.place = std::vector<int>(n, -1),
+              .frozen = std::vector<double>(n),
+              .known = std::vector<std::string>(n)};
+  const auto index_of = [&](std::string_view name) {
+    for (std::size_t i = 0; i < n; ++i)
+      if (names(name, parameters[i].name)) return i;
+    return n;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const Wish* wish = wishes.of(parameters[i].name);
+    const bool alone = wish && wish->kind == Wish::Kind::tie && index_of(wish->value) == n;
+    if (!wish || alone) {
+      out.place[i] = static_cast<int>(out.parameters.size());
+      out.parameters.push_back(parameters[i]);
+    } else if (wish->kind == Wish::Kind::freeze) {
+      out.frozen[i] = value_of(*wish, parameters[i]);
+      out.known[i] = "frozen";
+    } else if (wish->kind == Wish::Kind::prior) {
+      add_prior(*wish, parameters[i], i, out);
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const Wish* wish = wishes.of(parameters[i].name);
+    if (!wish || wish->kind != Wish::Kind::tie) continue;
+    const std::size_t other = index_of(wish->value);
+    if (other == n) continue;
+    out.place[i] = out.place[other];
+    out.frozen[i] = out.frozen[other];
+    out.known[i] = "tied to " + parameters[other].name;
+  }
+  return out;
+}
+
+Solution solve_reduced(const Residuals& residuals, std::size_t count, const Reduced& reduced,
+                       double weight, const SolverOptions& options) {
+  const std::size_t priors = weight > 0 ? reduced.priors.size() : 0;
+  const Residuals all = [&](std::span<const double> p, std::span<double> r) {
+    if (!residuals(reduced.all(p), r.first(count))) return false;
+    for (std::size_t i = 0; i < priors; ++i) {
+      const Reduced::Prior& prior = reduced.priors[i];
+      r[count + i] = weight * (p[prior.place] - prior.value) / prior.deviation;
+    }
+    return true;
+  };
+  return least_squares(all, count + priors, reduced.parameters, options);
+}
+
+// How the prior and what the data made of it compare.
+std::string compared(const Reduced::Prior& prior, const Estimate& e) {
+  const double away = std::abs(e.value - prior.value) / prior.deviation;
+  if (away > 3) return fmt::format(", {:.1f} of its deviations away", away);
+  if (e.standard_error > 0.9 * prior.deviation) return ", which the data do not narrow";
+  return "";
+}
+
+// The solution in all parameters.
+Solution restored(Solution s, std::size_t count, std::span<const Parameter> parameters,
+                  const Reduced& reduced) {
+  Solution out = s;
+  const std::size_t n = parameters.size(), m = reduced.parameters.size();
+  out.values = reduced.all(s.values);
+  out.residuals.resize(count);
+  double sum = 0;
+  for (const double r : out.residuals) sum += r * r;
+  out.rms = count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0;
+  out.estimates.clear();
+  out.covariance.assign(n * n, 0.0);
+  std::vector<bool> taken(m, false);
+  for (std::size_t i = 0; i < n; ++i) {
+    const int at = reduced.place[i];
+    const bool tied = reduced.known[i].starts_with("tied");
+    Estimate e{.value = out.values[i], .low = out.values[i], .high = out.values[i]};
+    if (at >= 0) e = s.estimates[static_cast<std::size_t>(at)];
+    e.name = parameters[i].name;
+    e.unit = parameters[i].unit;
+    e.free = at >= 0 && !tied;
+    e.known = reduced.known[i];
+    for (const Reduced::Prior& prior : reduced.priors)
+      if (e.free && static_cast<int>(prior.place) == at) e.known += compared(prior, e);
+    out.estimates.push_back(std::move(e));
+    for (std::size_t k = 0; k < n; ++k)
+      if (at >= 0 && reduced.place[k] >= 0)
+        out.covariance[i * n + k] = s.covariance[static_cast<std::size_t>(at) * m +
+                                                 static_cast<std::size_t>(reduced.place[k])];
+  }
+  return out;
+}
+
+}  // namespace
+
+Wishes::Wishes(const WishTexts& texts) {
+  const std::vector<std::string>* lists[] = {&texts.freeze, &texts.prior, &texts.tie};
+  for (std::size_t kind = 0; kind < std::size(lists); ++kind)
+    for (const std::string& text : *lists[kind]) {
+      Wish wish = parse_wish(static_cast<Wish::Kind>(kind), text);
+      if (std::ranges::find(all_, wish.name, &Wish::name) != all_.end())
+        fail_wish(wish, "one wish for a parameter");
+      all_.push_back(std::move(wish));
+    }
+}
+
+void Wishes::check(std::span<const Parameter> all) const {
+  for (const Wish& wish : all_) {
+    const Parameter& p = named(wish, wish.name, all);
+    if (wish.kind != Wish::Kind::tie) {
+      (void)value_of(wish, p);
+      if (wish.kind == Wish::Kind::prior) (void)deviation_of(wish, p);
+      continue;
+    }
+    const Parameter& other = named(wish, wish.value, all);
+    if (other.unit != p.unit) fail_wish(wish, "another parameter in " + p.unit);
+    if (names(wish.name, other.name) || names(wish.value, p.name))
+      fail_wish(wish, "another parameter");
+    if (const Wish* more = of(other.name); more && more->kind == Wish::Kind::tie)
+      fail_wish(wish, "a parameter that is not tied itself");
+  }
+}
+
+Wishes Wishes::with_frozen(const std::string& parameter, double value) const {
+  Wishes out = *this;
+  std::erase_if(out.all_, [&](const Wish& wish) { return wish.name == parameter; });
+  out.all_.push_back(
+      {.name = parameter, .value = fmt::format("{:.17g} SI", value), .deviation = ""});
+  return out;
+}
+
+const Wish* Wishes::of(std::string_view parameter) const {
+  const Wish* of_kind = nullptr;
+  for (const Wish& wish : all_) {
+    if (wish.name == parameter) return &wish;
+    if (names(wish.name, parameter)) of_kind = &wish;
+  }
+  return of_kind;
+}
+
+Solution least_squares(const Residuals& residuals, std::size_t count,
+                       std::span<const Parameter> parameters, const Wishes& wishes,
+                       const SolverOptions& options) {
+  if (wishes.empty()) return least_squares(residuals, count, parameters, options);
+  const Reduced reduced = reduce(parameters, wishes);
+  Solution s = solve_reduced(residuals, count, reduced, 0, options);
+  // How much a residual weighs shows only once the data were fitted, without the prior.
+  const double weight = s.standard_deviation * std::sqrt(s.inflation);
+  if (weight > 0 && !reduced.priors.empty())
+    s = solve_reduced(residuals, count, reduced, weight, options);
+  return restored(std::move(s), count, parameters, reduced);
+}
+
+std::size_t free_count(std::span<const Estimate> estimates) {
+  return static_cast<std::size_t>(std::ranges::count_if(estimates, &Estimate::free));
+}
+
+}  // namespace sinew::identify

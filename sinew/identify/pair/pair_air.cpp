@@ -1,0 +1,249 @@
+#include "sinew/identify/pair/pair_air.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "sinew/identify/data/quality.h"
+#include "sinew/identify/data/series.h"
+#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/pair/pair_rows.h"
+
+namespace sinew::identify {
+
+namespace {
+
+struct AirLaw {
+  const char* name;
+  const char* law;
+  bool each, leaks;
+};
+
+constexpr std::array air_laws{AirLaw{"alike", "P = P_0 exp(-+ s (x - x_0)), one s", false, false},
+                              AirLaw{"each", "P = P_0 exp(-+ s (x - x_0))", true, false},
+                              AirLaw{"leaking", "P = P_0 exp(-+ s (x - x_0) - l t)", true, true}};
+
+using Records = std::span<const PairRecord>;
+using Selection = std::vector<PairRows>;  // of each recording
+
+std::string of(std::string name, Records records, std::size_t i) {
+  return records.size() > 1 ? name + " of " + records[i].file : name;
+}
+
+double mean_of(const std::vector<double>& values, const PairRows& rows) {
+  double sum = 0;
+  for (const std::size_t i : rows) sum += values[i];
+  return sum / static_cast<double>(rows.size());
+}
+
+// Slope of the pressure over the position, by least squares, over all recordings.
+double slope_of(Records records, std::size_t muscle, const Selection& selection) {
+  double xy = 0, xx = 0;
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    const PairRecord& r = records[k];
+    const double x0 = mean_of(r.at, selection[k]), p0 = mean_of(r.pressure[muscle], selection[k]);
+    for (const std::size_t i : selection[k]) {
+      xy += (r.at[i] - x0) * (r.pressure[muscle][i] - p0);
+      xx += (r.at[i] - x0) * (r.at[i] - x0);
+    }
+  }
+  return xx > 0 ? xy / xx : 0;
+}
+
+// One law on all recordings. Parameters: s by muscle, leaks by muscle, the pressures' delay, then
+// P_0 of each muscle of each recording.
+class TrappedAir {
+ public:
+  TrappedAir(const AirLaw& law, Records records) : law_(law), records_(records) {
+    muscles_ = records[0].pressure.size();
+    for (const PairRecord& r : records) {
+      center_.push_back(0);
+      for (const double x : r.at) center_.back() += x / static_cast<double>(r.size());
+      delayed_.emplace_back(r.size());
+    }
+  }
+
+  std::size_t slopes() const { return law_.each ? muscles_ : 1; }
+  std::size_t common() const { return slopes() + (law_.leaks ? muscles_ : 0) + 1; }
+
+  std::vector<Parameter> parameters(const Selection& rows) const {
+    const std::string per = records_[0].rotary ? "1/rad" : "1/m";
+    std::vector<Parameter> out;
+    const auto name = [](const char* what, std::size_t m) {
+      return fmt::format("{}_{}", what, m + 1);
+    };
+    for (std::size_t m = 0; m < slopes(); ++m) {
+      const double slope = slope_of(records_, m, rows) / mean_of(records_[0].pressure[m], rows[0]);
+      out.push_back({.name = law_.each ? name("slope", m) : "slope",
+                     .unit = per,
+                     .start = slope * sign(m, rows),
+                     .scale = std::max(std::abs(slope), 1e-6)});
+    }
+    for (std::size_t m = 0; law_.leaks && m < muscles_; ++m)
+      out.push_back({.name = name("leak", m), .unit = "1/s", .scale = 1e-3});
+    out.push_back({.name = "pressure_delay", .unit = "s", .low = -0.2, .high = 0.2, .scale = 0.01});
+    for (std::size_t k = 0; k < records_.size(); ++k)
+      for (std::size_t m = 0; m < muscles_; ++m) {
+        const double p = mean_of(records_[k].pressure[m], rows[k]);
+        out.push_back({.name = of(name("pressure", m), records_, k),
+                       .unit = "Pa abs",
+                       .start = p,
+                       .low = 0.5 * p,
+                       .high = 2 * p,
+                       .scale = 0.01 * p});
+      }
+    return out;
+  }
+
+  // +1 where the muscle's pressure rises with the position.
+  double sign(std::size_t m, const Selection& rows) const {
+    return slope_of(records_, m, rows) < 0 ? -1 : 1;
+  }
+
+  // Predicted less measured, muscle by muscle, at these rows.
+  void residuals(std::span<const double> p, const Selection& rows, std::span<const double> signs,
+                 std::vector<double>& out) {
+    out.clear();
+    const double delay = p[common() - 1];
+    for (std::size_t k = 0; k < records_.size(); ++k) {
+      const PairRecord& r = records_[k];
+      delayed(r.time, r.at, delay, delayed_[k]);
+      for (std::size_t m = 0; m < muscles_; ++m) {
+        const double s = signs[m] * p[law_.each ? m : 0], p0 = p[common() + k * muscles_ + m];
+        const double leak = law_.leaks ? p[slopes() + m] : 0;
+        for (const std::size_t i : rows[k])
+          out.push_back(
+              p0 * std::exp(s * (delayed_[k][i] - center_[k]) - leak * (r.time[i] - r.time[0])) -
+              r.pressure[m][i]);
+      }
+    }
+  }
+
+  std::size_t muscles() const { return muscles_; }
+
+ private:
+  const AirLaw& law_;
+  Records records_;
+  std::size_t muscles_ = 0;
+  std::vector<double> center_;
+  std::vector<std::vector<double>> delayed_;
+};
+
+std::vector<double> signs_of(const TrappedAir& air, const Selection& rows) {
+  std::vector<double> out;
+  for (std::size_t m = 0; m < air.muscles(); ++m) out.push_back(air.sign(m, rows));
+  return out;
+}
+
+Solution solve_air(TrappedAir& air, const Selection& rows, bool correlated, const Wishes& wishes) {
+  const std::vector<double> signs = signs_of(air, rows);
+  std::vector<double> r;
+  const std::vector<Parameter> parameters = air.parameters(rows);
+  std::vector<double> start;
+  for (const Parameter& p : parameters) start.push_back(p.start);
+  air.residuals(start, rows, signs, r);
+  const auto residuals = [&](std::span<const double> p, std::span<double> out) {
+    air.residuals(p, rows, signs, r);
+    std::ranges::copy(r, out.begin());
+    return true;
+  };
+  return least_squares(residuals, r.size(), parameters, wishes, {.correlated = correlated});
+}
+
+Fit fit_air(const AirLaw& law, Records records, const Selection& rows, const Wishes& wishes,
+            double full_scale) {
+  Fit out{.model = law.name, .law = law.law, .source = "P V^n constant, to first order"};
+  TrappedAir air(law, records);
+  const std::vector<double> signs = signs_of(air, rows);
+  const Solution s = solve_air(air, rows, true, wishes);
+  out.parameters = s.estimates;
+  air.residuals(s.values, rows, signs, out.residuals);
+  out.fit = score(out.residuals, full_scale);
+  std::vector<double> unseen, some;
+  for (std::size_t k = 0; k < pair_blocks; ++k) {
+    Selection others, block;
+    for (const PairRows& r : rows) {
+      others.push_back(pair_block(r, k, false));
+      block.push_back(pair_block(r, k, true));
+    }
+    air.residuals(solve_air(air, others, false, wishes).values, block, signs, some);
+    unseen.insert(unseen.end(), some.begin(), some.end());
+  }
+  out.cross_validated = score(unseen, full_scale);
+  return out;
+}
+
+Rows rows_of(Records records, const Selection& selection) {
+  Rows out{.x = records[0].rotary ? "angle" : "displacement",
+           .x_unit = records[0].rotary ? "rad" : "m",
+           .unit = "Pa abs"};
+  for (std::size_t k = 0; k < records.size(); ++k)
+    for (std::size_t m = 0; m < records[k].pressure.size(); ++m)
+      for (const std::size_t i : selection[k]) {
+        out.at.push_back(records[k].at[i]);
+        out.measured.push_back(records[k].pressure[m][i]);
+        out.group.push_back(of(fmt::format("muscle {}", m + 1), records, k));
+      }
+  return out;
+}
+
+void read_off(Records records, const Selection& rows, PairAir& out) {
+  const Fit& best = out.report.best();
+  const std::size_t muscles = records[0].pressure.size();
+  const bool each = best.model != air_laws[0].name;
+  for (std::size_t m = 0; m < muscles; ++m) {
+    out.slope.push_back(best.parameters[each ? m : 0].value);
+    out.falls.push_back(slope_of(records, m, rows) < 0);
+    double mean = 0;
+    const std::size_t first = best.parameters.size() - records.size() * muscles;
+    for (std::size_t k = 0; k < records.size(); ++k)
+      mean += best.parameters[first + k * muscles + m].value / static_cast<double>(records.size());
+    out.pressure.push_back(mean);
+    out.per_position += (muscles == 1 ? 2 : 1) * out.slope[m] * mean;
+  }
+  if (muscles == 2 && out.falls[0] == out.falls[1])
+    out.report.warnings.push_back(
+        "both pressures go the same way with the position: one muscle of a pair is stretched as "
+        "the other shortens; look at the columns");
+}
+
+}  // namespace
+
+std::vector<Parameter> pair_air_parameters(Records records) {
+  Selection rows;
+  for (const PairRecord& r : records) rows.push_back(pair_rows(r, -unbounded, unbounded, true));
+  std::vector<Parameter> out;
+  for (const AirLaw& law : air_laws)
+    for (Parameter& p : TrappedAir(law, records).parameters(rows)) out.push_back(std::move(p));
+  return out;
+}
+
+PairAir identify_pair_air(Records records, std::span<const PairRows> fitted, const Wishes& wishes) {
+  for (const PairRecord& r : records)
+    if (r.pressure.empty() || r.pressure.size() != records[0].pressure.size())
+      throw Refusal(r.file, fmt::format("{} pressures", r.pressure.size()),
+                    "as many in each recording, one or two",
+                    "names.pressure_1=NAME, names.pressure_2=NAME");
+  const Selection rows(fitted.begin(), fitted.end());
+  PairAir out;
+  Report& report = out.report;
+  report.subject = "air trapped by the pair";
+  report.quantity = "pressure";
+  report.unit = "Pa diff";
+  report.full_scale_is = "the change of a pressure";
+  for (std::size_t k = 0; k < records.size(); ++k)
+    for (const std::vector<double>& p : records[k].pressure)
+      report.full_scale = std::max(report.full_scale, largest(p) - smallest(p));
+  if (!(report.full_scale > 0))
+    throw Refusal(records[0].file, "pressures that do not change",
+                  "those of sealed muscles that are moved", "the columns");
+  for (const AirLaw& law : air_laws)
+    report.fits.push_back(fit_air(law, records, rows, wishes, report.full_scale));
+  report.rows = rows_of(records, rows);
+  choose(report);
+  read_off(records, rows, out);
+  return out;
+}
+
+}  // namespace sinew::identify

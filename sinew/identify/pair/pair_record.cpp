@@ -1,0 +1,115 @@
+#include "sinew/identify/pair/pair_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "sinew/identify/data/quality.h"
+#include "sinew/identify/data/series.h"
+#include "sinew/identify/fit/refusal.h"
+
+namespace sinew::identify {
+
+namespace {
+
+constexpr std::array columns{Wanted{.name = "time", .unit = "s", .doc = "of the sample"},
+                             Wanted{.name = "force",
+                                    .unit = "N",
+                                    .least = 1e-3,
+                                    .most = 1e6,
+                                    .optional = true,
+                                    .doc = "that moves the slide, along the displacement"},
+                             Wanted{.name = "displacement",
+                                    .unit = "m",
+                                    .least = 1e-6,
+                                    .most = 2,
+                                    .optional = true,
+                                    .doc = "of the slide from anywhere"},
+                             Wanted{.name = "torque",
+                                    .unit = "N m",
+                                    .least = 1e-5,
+                                    .most = 1e5,
+                                    .optional = true,
+                                    .doc = "that moves the joint, along the angle"},
+                             Wanted{.name = "angle",
+                                    .unit = "rad",
+                                    .least = 1e-5,
+                                    .most = 7,
+                                    .optional = true,
+                                    .doc = "of the joint from anywhere"},
+                             Wanted{.name = "pressure_1",
+                                    .unit = "Pa abs",
+                                    .least = 5e4,
+                                    .most = 5e6,
+                                    .optional = true,
+                                    .doc = "of the trapped air of one muscle"},
+                             Wanted{.name = "pressure_2",
+                                    .unit = "Pa abs",
+                                    .least = 5e4,
+                                    .most = 5e6,
+                                    .optional = true,
+                                    .doc = "of the trapped air of the other"}};
+
+constexpr std::size_t least_samples = 100;
+
+// Is the recording one of a joint? Throws Refusal where it is of neither kind, or of both.
+bool is_rotary(const Measured& data) {
+  const bool slide = data.has("force") && data.has("displacement");
+  const bool joint = data.has("torque") && data.has("angle");
+  if (slide != joint) return joint;
+  throw Refusal(data.file,
+                slide ? "force and displacement, and torque and angle too"
+                      : "neither force and displacement nor torque and angle",
+                "the one or the other", "names.force=NAME, names.displacement=NAME");
+}
+
+double smallest_step(std::span<const double> values) {
+  double out = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double step = std::abs(values[i] - values[i - 1]);
+    if (step > 0) out = std::min(out, step);
+  }
+  return out;
+}
+
+// Something is missing where a step is much longer than the others.
+void tell_gaps(PairRecord& r) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < r.size(); ++i) steps.push_back(r.time[i] - r.time[i - 1]);
+  const double usual = median(steps);
+  const auto gaps = std::ranges::count_if(steps, [&](double s) { return s > 10 * usual; });
+  if (gaps > 0)
+    r.notes.push_back(fmt::format("{}: {} gaps of more than ten samples", r.file, gaps));
+}
+
+}  // namespace
+
+std::span<const Wanted> pair_columns() { return columns; }
+
+PairRecord pair_record(const Measured& data, double window) {
+  PairRecord out{.file = data.file, .rotary = is_rotary(data), .notes = data.notes};
+  const char* at = out.rotary ? "angle" : "displacement";
+  const char* effort = out.rotary ? "torque" : "force";
+  if (data.rows() < least_samples)
+    throw Refusal(data.file, fmt::format("{} samples", data.rows()),
+                  fmt::format("at least {} of a motion", least_samples), "a longer recording");
+  refuse_constant(data, at, 1e-7, "a pair that is moved", "the column, or the sensor");
+  refuse_constant(data, effort, 1e-9, "what moves it", "the column, or the sensor");
+  refuse_clipped(data, effort, "a smaller motion, or a sensor for larger loads");
+  out.time = data["time"];
+  out.at = data[at];
+  out.effort = data[effort];
+  for (const char* name : {"pressure_1", "pressure_2"})
+    if (data.has(name)) out.pressure.push_back(data[name]);
+  out.resolution = smallest_step(out.at);
+  Rates rates = rates_of(out.time, out.at, window);
+  out.rate = std::move(rates.first);
+  out.acceleration = std::move(rates.second);
+  tell_gaps(out);
+  return out;
+}
+
+}  // namespace sinew::identify
