@@ -9,6 +9,7 @@
 #include "cli/json_text.h"
 #include "cli/settings.h"
 #include "cli/terminal.h"
+#include "cli/units.h"
 #include "sinew/config/diagnostics.h"
 #include "sinew/identify/task/plan_task.h"
 #include "sinew/identify/task/tables.h"
@@ -23,7 +24,7 @@ struct Options {
   DataOptions data;
   identify::StaticSettings how;
   identify::PlanSettings settings;
-  std::string out;
+  std::string out, units;
   bool json = false, force = false, quiet = false;
 };
 
@@ -32,17 +33,33 @@ std::string percent(double share) {
   return share > 1 ? "> 100 %" : fmt::format("{:.2g} %", 100 * share);
 }
 
-std::string kilopascals(const std::vector<double>& pressures) {
+// Numbers in the units that somebody asked for; else in those of a ruler and a regulator.
+struct PlanUnits {
+  config::UnitsToShow asked;
+  double room = 0;  // that gauges read against [Pa]
+
+  Retold of(double si, const std::string& unit, const Retold& otherwise) const {
+    return asked.asked ? retold(si, unit, asked, room) : otherwise;
+  }
+  Retold length(double x) const { return of(x, "m", {1e3 * x, "mm", 1e3}); }
+  Retold pressure(double x) const { return of(x, "Pa gauge", {1e-3 * x, "kPa gauge", 1e-3}); }
+  Retold force(double x) const { return of(x, "N", {x, "N", 1}); }
+};
+
+std::string text_of(const Retold& r) { return fmt::format("{:.4g} {}", r.number, r.unit); }
+
+std::string numbers_of(const std::vector<double>& pressures, const PlanUnits& units) {
   std::vector<double> out;
-  for (const double p : pressures) out.push_back(1e-3 * p);
+  for (const double p : pressures) out.push_back(units.pressure(p).number);
   return fmt::format("{:.4g}", fmt::join(out, " "));
 }
 
-void print_mounts(const identify::PlanFound& found) {
+void print_mounts(const identify::PlanFound& found, const PlanUnits& units) {
   using enum report::TextTable::Align;
-  report::TextTable table({"mount", "length", "up and down over [kPa gauge]", "readings", "minutes",
-                           "error rms", "95 % at worst"},
-                          {right, right, left, right, right, right, right});
+  const std::string over = fmt::format("up and down over [{}]", units.pressure(0).unit);
+  report::TextTable table(
+      {"mount", "length", over, "readings", "minutes", "error rms", "95 % at worst"},
+      {right, right, left, right, right, right, right});
   const identify::MeasurementPlan& plan = found.plan;
   table.add({found.measured > 0 ? "before" : "none", "", "", std::to_string(found.measured), "0",
              percent(plan.before.rms), percent(plan.before.half_width)});
@@ -50,25 +67,24 @@ void print_mounts(const identify::PlanFound& found) {
   for (std::size_t i = 0; i < plan.mounts.size(); ++i) {
     const identify::PlannedMount& m = plan.mounts[i];
     time += m.time;
-    table.add({std::to_string(i + 1), fmt::format("{:.4g} mm", 1e3 * m.length),
-               kilopascals(m.pressures), std::to_string(m.readings()),
+    table.add({std::to_string(i + 1), text_of(units.length(m.length)),
+               numbers_of(m.pressures, units), std::to_string(m.readings()),
                fmt::format("{:.0f}", time / 60), percent(m.after.rms),
                percent(m.after.half_width)});
   }
   fmt::print("{}", table.text());
 }
 
-void print(const identify::PlanFound& found) {
+void print(const identify::PlanFound& found, const PlanUnits& units) {
   const identify::MeasurementPlan& plan = found.plan;
   const identify::PlanRegion& r = plan.region;
   const bool worst = found.options.criterion == identify::PlanCriterion::worst;
   fmt::print("plan for {}\n", found.subject);
-  fmt::print(
-      "errors of the force in % of the largest, {:.4g} N, over {:.4g} to {:.4g} mm and {:.4g} to "
-      "{:.4g} kPa gauge\n\n",
-      found.muscle.scales.full_scale, 1e3 * r.shortest, 1e3 * r.longest, 1e-3 * r.lowest,
-      1e-3 * r.highest);
-  print_mounts(found);
+  fmt::print("errors of the force in % of the largest, {}, over {:.4g} to {} and {:.4g} to {}\n\n",
+             text_of(units.force(found.muscle.scales.full_scale)), units.length(r.shortest).number,
+             text_of(units.length(r.longest)), units.pressure(r.lowest).number,
+             text_of(units.pressure(r.highest)));
+  print_mounts(found, units);
   if (plan.mounts.empty()) {
     fmt::print("\nnothing more to measure: {} was wanted\n", percent(found.options.error));
     return;
@@ -115,7 +131,7 @@ ExitCode run_plan(const Options& options) {
   if (options.json)
     fmt::print("{}\n", json_text(to_json(found), 2));
   else
-    print(found);
+    print(found, {units_asked(options.units, units::UnitSet::metric), atmosphere});
   if (options.out.empty()) return ok;
   run::write_file(options.out, plan_table(found));
   messages.note(fmt::format("{}: written", options.out));
@@ -167,6 +183,7 @@ void add_identify_plan(Command identify, Action& action) {
       .show_default();
   add_plan_options(sub, options->settings);
   sub.add_option("-o,--out", options->out, "FILE.csv: a row for each reading, to fill in");
+  add_units(sub, options->units, "of what is printed, else mm and kPa; --json is in SI");
   sub.add_flag("--force", options->force, "replace it");
   sub.add_flag("--json", options->json, "print the plan as JSON");
   sub.add_flag("--quiet", options->quiet, "only the plan and errors");

@@ -125,6 +125,8 @@ TEST(IdentifyPlan, PrintsMountsPressuresAndMinutesInOrder) {
   EXPECT_THAT(result.out, AllOf(HasSubstr("plan for a muscle of 250 mm, 12 mm wide"),
                                 HasSubstr("up and down over [kPa gauge]"), HasSubstr("minutes"),
                                 HasSubstr("(2 % wanted, rms)")));
+  const Result inches = w.sinew(plan({"--quiet", "--units", "thesis"}));
+  EXPECT_THAT(inches.out, AllOf(HasSubstr("9.843 in"), HasSubstr("up and down over [psi gauge]")));
 }
 
 // Five lengths leave the steep end open: the next mounts are there, and buy what they say.

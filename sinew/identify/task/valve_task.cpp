@@ -110,7 +110,11 @@ ValveFound find_valve(const std::vector<Source>& sources, const ValveSettings& s
     refuse_beside_added(settings);
     return {identify_added(fills, options)};
   }
-  return {identified(read_valve(only_of(sources)), options, settings)};
+  if (sources.size() > 1)
+    config::fail({"data", 0, 0}, "", std::to_string(sources.size()) + " files",
+                 "one, or fillings with known volumes joined to the chamber",
+                 "added_volume=\"0 L,0.5 L\"");
+  return {identified(read_valve(sources.front()), options, settings)};
 }
 
 std::string ValveFound::file(const std::string& out) const {
