@@ -48,6 +48,9 @@ struct DataOptions {
 };
 void add_data_options(Command sub, DataOptions& options);
 
+// The lengths of a muscle that its files do not say, of `static`, `check` and `plan`.
+void add_length_options(Command sub, std::string& rest_length, std::vector<std::string>& lengths);
+
 // What files do not say of a muscle and its measurement, and which of their points are fitted: of
 // `static` and `check`.
 void add_static_data_options(Command sub, identify::StaticSettings& settings);

@@ -49,13 +49,17 @@ ExitCode run_static(const Options& options) {
 
 }  // namespace
 
-void add_static_data_options(Command sub, identify::StaticSettings& settings) {
-  sub.add_option("--rest-length", settings.rest_length,
+void add_length_options(Command sub, std::string& rest_length, std::vector<std::string>& lengths) {
+  sub.add_option("--rest-length", rest_length,
                  "of the muscle without pressure and load; without it the longest length");
-  sub.add_option("--length", settings.lengths,
+  sub.add_option("--length", lengths,
                  "of files without a column of it: \"205 mm\", or PART=\"205 mm\" for files with "
                  "PART in their name; may be repeated")
       .takes_one();
+}
+
+void add_static_data_options(Command sub, identify::StaticSettings& settings) {
+  add_length_options(sub, settings.rest_length, settings.lengths);
   sub.add_option("--actuator", settings.actuator, "a file whose braid is taken as known");
   sub.add_option("--branch", settings.branch, "fill, vent or both")
       .is_one_of({"fill", "vent", "both"})

@@ -9,6 +9,7 @@
 #include "sinew/identify/actuator/static_data.h"
 #include "sinew/identify/joint/joint.h"
 #include "sinew/identify/motion/swing.h"
+#include "sinew/identify/pair/pair_record.h"
 #include "sinew/identify/sensor/readings.h"
 #include "sinew/identify/valve/valve.h"
 
@@ -52,6 +53,16 @@ constexpr std::array pose_tables{
     TableKind{"", "the joint at rest", "angle,flexor_pressure|extensor_pressure",
               "angle [deg],flexor_pressure [kPa gauge],extensor_pressure [kPa gauge],load [kg]",
               "-20,150,300,0\n0,200,250,0\n0,260,250,1\n20,300,150,0\n20,370,150,1\n"}};
+
+constexpr std::array pair_tables{
+    TableKind{"slide", "a sample of two sealed muscles on a slide that is moved",
+              "time,force,displacement",
+              "time [s],force [N],displacement [mm],pressure_1 [kPa gauge],pressure_2 [kPa gauge]",
+              "0,0.2,0,350,351\n0.001,1.1,0.02,350,351\n0.002,2.3,0.05,349,352\n"},
+    TableKind{"joint", "a sample of two sealed muscles on a joint that is turned",
+              "time,torque,angle",
+              "time [s],torque [N m],angle [deg],pressure_1 [kPa gauge],pressure_2 [kPa gauge]",
+              "0,0.01,0,350,351\n0.001,0.05,0.1,350,351\n0.002,0.11,0.3,349,352\n"}};
 
 constexpr std::array calibration_tables{
     TableKind{"force", "a known load, and what the sensors make of it", "load|force|tension",
@@ -109,6 +120,10 @@ const std::array all_inputs{
                  columns_in<joint_columns>,
                  pose_tables,
                  {"Where one load hangs all the time, load=\"1 kg\" says it."}},
+    MethodInputs{"pair",
+                 columns_in<pair_columns>,
+                 pair_tables,
+                 {"A recording has at least 100 samples, which follow each other."}},
     MethodInputs{"valve",
                  columns_in<valve_columns>,
                  valve_tables,
