@@ -174,6 +174,26 @@ TEST(Checkup, WeightsOnAMuscleAreGoodData) {
   EXPECT_TRUE(warnings.empty()) << warnings.at(0);
 }
 
+// What cannot be a length comes from Python's arrays, which nobody has read before: it is red.
+TEST(Checkup, LengthsBelowZeroAreRed) {
+  for (const double sign : {-1.0, 0.0}) {
+    std::vector<StaticPoint> points;
+    add_rig({}, points);
+    Measured table{.file = "arrays"};
+    table.columns = {
+        {"force", "N", {}, ""}, {"pressure", "Pa gauge", {}, ""}, {"length", "m", {}, ""}};
+    for (const StaticPoint& p : points) {
+      table.columns[0].values.push_back(p.force);
+      table.columns[1].values.push_back(p.pressure);
+      table.columns[2].values.push_back(sign * p.length);
+      table.lines.push_back(1 + static_cast<int>(table.lines.size()));
+    }
+    CheckInput input;
+    input.add_or_tell({table, {}});
+    EXPECT_TRUE(has_red(check_up(input).checks)) << sign;
+  }
+}
+
 TEST(Checkup, JsonHasAllOfIt) {
   const auto json = to_json(check_up(table_of(TestRig{})));
   EXPECT_EQ(json["format"], "sinew.check/1");

@@ -17,7 +17,7 @@ double gap_of(std::vector<StaticPoint> points) {
   for (std::size_t i = 0; i < points.size();) {
     const double first = points[i].length;
     double low = points[i].force, high = low;
-    for (; i < points.size() && points[i].length - first < one_length * first; ++i) {
+    for (; i < points.size() && points[i].length - first <= one_length * std::abs(first); ++i) {
       low = std::min(low, points[i].force);
       high = std::max(high, points[i].force);
     }

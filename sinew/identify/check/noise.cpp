@@ -87,7 +87,7 @@ Squares of_tables(const std::vector<StaticPoint>& points) {
     std::size_t end = i;
     while (end < sorted.size() && sorted[end].rest_length == sorted[i].rest_length &&
            sorted[end].branch == sorted[i].branch &&
-           sorted[end].length - sorted[i].length < same_length * longest)
+           sorted[end].length - sorted[i].length <= same_length * longest)
       ++end;
     std::vector<StaticPoint> own(sorted.begin() + static_cast<std::ptrdiff_t>(i),
                                  sorted.begin() + static_cast<std::ptrdiff_t>(end));
