@@ -281,6 +281,8 @@ DecaySummary summary_of(const Swing& swing) {
                    .amplitude = swing.amplitude,
                    .stiffness = swing.stiffness(),
                    .turns = o.turns.size(),
+                   .exponent = swing.stand.polytropic_exponent,
+                   .pressure_delay = swing.pressure_delay,
                    .all = decay_fit(o, mass)};
   try {
     const TwoPoints p = two_points(o, swing.rest, swing.file);

@@ -37,7 +37,8 @@ struct DecaySummary {
   double stiffness = 0;                                   // of the sealed muscle at rest [N/m]
   double friction = 0;  // at rest, by the chosen law [N]; by the others Q times `stiffness`
   std::size_t turns = 0;
-  std::optional<Damping> printed, exact;  // two points, [45]-[53]; none: see `why_not`
+  double exponent = 0, pressure_delay = 0;  // of the trapped air [1]; NaN: no pressure was used [s]
+  std::optional<Damping> printed, exact;    // two points, [45]-[53]; none: see `why_not`
   std::string why_not;
   DecayFit all;  // of all turns
 };

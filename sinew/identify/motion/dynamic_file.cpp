@@ -1,5 +1,6 @@
 #include "sinew/identify/motion/dynamic_file.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "sinew/identify/fit/provenance.h"
@@ -29,7 +30,9 @@ Json describe(const DynamicResult& found) {
            {"rest_length_m", s.rest},
            {"first_amplitude_m", s.amplitude},
            {"sealed_stiffness_N_per_m", s.stiffness},
-           {"friction_at_rest_N", s.friction}};
+           {"friction_at_rest_N", s.friction},
+           {"exponent", s.exponent}};
+    if (std::isfinite(s.pressure_delay)) r["pressure_delay_s"] = s.pressure_delay;
     if (s.printed) r["two_point_printed"] = describe(*s.printed);
     if (s.exact) r["two_point_exact"] = describe(*s.exact);
     if (!s.exact) r["two_point_refused"] = s.why_not;

@@ -107,6 +107,18 @@ TEST(Dynamic, TheLawIsToldFromTheOthersByWhatItDidNotSee) {
   }
 }
 
+// A sensor that lags flattens pressure over volume, and the exponent with it.
+TEST(Dynamic, APressureThatComesLateIsPutRight) {
+  DecayRecord r = record({60, 6}, secant_loss, 1.6, 0.001);
+  r.stand.pressure = r.stand.polytropic_exponent = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> pressure = r.data["pressure"];
+  for (std::size_t i = 25; i < pressure.size(); ++i) r.data.columns[2].values[i] = pressure[i - 25];
+  const DynamicResult found = identify_dynamic({&r, 1}, "secant");
+  EXPECT_NEAR(found.records[0].pressure_delay, 0.025, 2e-4);
+  EXPECT_NEAR(found.records[0].exponent, 1.4, 5e-3);
+  EXPECT_NEAR(found.loss.viscous, secant_loss.viscous, 0.01 * secant_loss.viscous);
+}
+
 // One loss is known from elsewhere: what is left is found, and counts as one parameter less.
 TEST(Dynamic, AFrozenLossStaysAndTheOtherIsFound) {
   const DecayRecord r = noisy(record({60, 6}, secant_loss, 1.6), noise, 5);

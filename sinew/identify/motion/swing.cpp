@@ -11,6 +11,7 @@
 #include "sinew/actuator/stiffness.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/data/series.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/motion/decay.h"
 
@@ -52,6 +53,45 @@ Line line_through(std::span<const double> x, std::span<const double> y) {
   return out;
 }
 
+// The line of y over x, which it comes behind.
+struct LateLine {
+  Line line;
+  double delay = 0, left = 0;  // [s], and what it leaves of y [y^2]
+};
+
+// Of the samples that are `margin` [s] from either end, where nothing is known of x before.
+LateLine late_line(std::span<const double> t, std::span<const double> x, std::span<const double> y,
+                   double delay, double margin) {
+  std::vector<double> late(x.size());
+  delayed(t, x, delay, late);
+  const auto from = std::lower_bound(t.begin(), t.end(), t.front() + margin) - t.begin();
+  const auto to = std::upper_bound(t.begin(), t.end(), t.back() - margin) - t.begin();
+  const auto n = static_cast<std::size_t>(std::max<std::ptrdiff_t>(to - from, 0));
+  const std::span<const double> u =
+      std::span<const double>(late).subspan(static_cast<std::size_t>(from), n);
+  const std::span<const double> v = y.subspan(static_cast<std::size_t>(from), n);
+  LateLine out{line_through(u, v), delay};
+  for (std::size_t i = 0; i < n; ++i)
+    out.left += std::pow(v[i] - out.line.at_mean - out.line.slope * (u[i] - out.line.mean), 2);
+  return out;
+}
+
+// The best delay of a sixth of a period either way, by golden section.
+LateLine best_line(std::span<const double> t, std::span<const double> x, std::span<const double> y,
+                   double period) {
+  constexpr double golden = 0.6180339887498949;
+  const double margin = period / 6;
+  double low = -margin, high = margin;
+  for (int i = 0; i < 30; ++i) {
+    const double a = high - golden * (high - low), b = low + golden * (high - low);
+    if (late_line(t, x, y, a, margin).left < late_line(t, x, y, b, margin).left)
+      high = b;
+    else
+      low = a;
+  }
+  return late_line(t, x, y, 0.5 * (low + high), margin);
+}
+
 }  // namespace
 
 std::span<const Wanted> decay_columns() { return columns; }
@@ -91,12 +131,16 @@ void Swing::take_pressure(const Measured& data) {
   const auto air = [&](double l) {
     return std::log(actuator::volume(stand.actuator.braid, l) + stand.external_volume);
   };
-  std::vector<double> x, y;
+  std::vector<double> t, x, y;
   for (std::size_t i = oscillation.falls; i < data.rows() && data["time"][i] <= end; ++i) {
+    t.push_back(data["time"][i]);
     x.push_back(air(data["length"][i]));
     y.push_back(std::log(data["pressure"][i]));
   }
-  const Line line = line_through(x, y);
+  // A sensor that lags would make the slope too flat.
+  const LateLine best = best_line(t, x, y, oscillation.period);
+  const Line& line = best.line;
+  pressure_delay = best.delay;
   if (exponent) stand.polytropic_exponent = -line.slope;
   if (at_rest) stand.pressure = std::exp(line.at_mean + line.slope * (air(rest) - line.mean));
   if (!(stand.polytropic_exponent >= 0.9 && stand.polytropic_exponent <= 1.6))
@@ -104,8 +148,11 @@ void Swing::take_pressure(const Measured& data) {
                   fmt::format("it goes with the volume to the power {:.3g}", line.slope),
                   "trapped air: between -0.9 and -1.6",
                   "external_volume=VOLUME, exponent=N, or the pressure's zero");
-  notes.push_back(fmt::format("{}: the measured pressure gives {:.5g} Pa at rest, exponent {:.3f}",
-                              file, stand.pressure, stand.polytropic_exponent));
+  notes.push_back(
+      fmt::format("{}: the measured pressure gives {:.5g} Pa at rest, exponent {:.3f}; it comes "
+                  "{:.1f} ms behind "
+                  "the length",
+                  file, stand.pressure, stand.polytropic_exponent, 1e3 * pressure_delay));
 }
 
 void Swing::refuse_another_muscle() const {

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -61,6 +62,9 @@ class Swing {
   Oscillation oscillation;
   double rest = 0;       // measured, or the center of the turns where the record ends before [m]
   double amplitude = 0;  // of the first half swing [m]
+  double pressure_delay =
+      std::numeric_limits<double>::quiet_NaN();  // of the measured pressure behind the length [s];
+                                                 // NaN: none was used
   std::vector<double> time, length;
   std::vector<std::string> notes;
 
