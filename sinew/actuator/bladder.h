@@ -48,4 +48,25 @@ constexpr double bladder_stiffness(const Bladder& bladder, double length) {
   return k + bladder.saturating_tension / bladder.saturation_length * early;
 }
 
+// Both at once, with one exponential.
+struct BladderPull {
+  double tension = 0, stiffness = 0;  // [N], [N/m]
+};
+
+// Returns bladder_tension() and bladder_stiffness()  [N], [N/m].
+constexpr BladderPull bladder_pull(const Bladder& bladder, double length) {
+  const double u = held(bladder, length) - bladder.rest_length;
+  const bool is_held = length < bladder.valid_from || length > bladder.valid_to;
+  BladderPull out{bladder.stiffness * u + u * u * (bladder.quadratic + bladder.cubic * u),
+                  bladder.stiffness + u * (2.0 * bladder.quadratic + 3.0 * bladder.cubic * u)};
+  if (bladder.saturating_tension != 0) {
+    const double x = u / bladder.saturation_length;
+    const double e = x < 0 ? units::exp(x > -700 ? x : -700) : 1.0;
+    out.tension += bladder.saturating_tension * (x < 0 ? e - 1.0 : x);
+    out.stiffness += bladder.saturating_tension / bladder.saturation_length * e;
+  }
+  if (is_held) out.stiffness = 0.0;
+  return out;
+}
+
 }  // namespace sinew::actuator

@@ -22,16 +22,23 @@ inline double braid_length(const Actuator& a, double length, double gauge_pressu
                            double atmosphere) {
   const double c = a.series.compliance;
   if (!(c > 0)) return length;
+  const double acting = acting_pressure(a.effectiveness, gauge_pressure);
+  const double eff = effectiveness(a.effectiveness, gauge_pressure, atmosphere);
+  const double gain = taper_gain(a.taper, gauge_pressure);
   double x = length;
   for (int i = 0; i < 30; ++i) {
+    const double w = working_length(a, x, gauge_pressure);
+    const BladderPull bladder = bladder_pull(a.bladder, x);
     const double pull =
-        braid_pull(a, x, gauge_pressure, atmosphere) + bladder_tension(a.bladder, x);
+        (ideal_tension(a.braid, w, acting) + acting * wall_area(a, w)) * eff + bladder.tension;
     const double slope =
-        braid_pull_slope(a, x, gauge_pressure, atmosphere) + bladder_stiffness(a.bladder, x);
+        (ideal_stiffness(a.braid, w, acting) + acting * wall_area_slope(a, w)) * gain * eff +
+        bladder.stiffness;
     const double grows = c * slope > -0.5 ? c * slope : -0.5;
     const double step = (c * pull - (length - x)) / (1.0 + grows);
     x -= step;
-    if (step < 1e-13 * length && step > -1e-13 * length) break;
+    // What is left is of the order of the square of the last step.
+    if (step < 1e-9 * length && step > -1e-9 * length) break;
   }
   return x;
 }

@@ -39,6 +39,14 @@ TEST(Series, TheSpringIsStretchedByTheTension) {
   }
 }
 
+TEST(Series, TheBladderIsOneWhetherAskedOnceOrTwice) {
+  const Bladder b = steep().bladder;
+  for (const double l : {0.06, 0.09, 0.0975, 0.1}) {
+    EXPECT_DOUBLE_EQ(bladder_pull(b, l).tension, bladder_tension(b, l));
+    EXPECT_DOUBLE_EQ(bladder_pull(b, l).stiffness, bladder_stiffness(b, l));
+  }
+}
+
 TEST(Series, NothingGivesWayWithoutCompliance) {
   const Actuator a = steep();
   for (const double l : {0.065, 0.08, 0.1}) {
