@@ -230,6 +230,9 @@ def joint(
     flexor_length: Optional[_Quantity] = None,
     extensor_length: Optional[_Quantity] = None,
     keep_force: bool = False,
+    torque_bias: bool = False,
+    torque_gain: bool = False,
+    moving: bool = False,
     count: int = 1,
     flexion: str = "raises angle",
     hold_out: Any = None,
@@ -249,7 +252,9 @@ def joint(
     where there is one. actuator: file with the braid, a start; name: which one in it; count: actuators in
     parallel. load [kg] at the lever [m], which points straight down at the angle down [rad]; limb [kg] at
     limb_lever [m]. moment_arm, flexor_length, extensor_length [m] at rest_angle [rad], where they are
-    known; keep_force: the actuator's effectiveness is right. flexion: what a shorter flexor does, "raises
+    known; keep_force: the actuator's effectiveness is right. data: a table, or several recordings;
+    torque_bias: the torque of each has a zero of its own; torque_gain: and a gain; moving: the joint moves
+    over time [s], and friction, damping and the torque's delay are found as well. flexion: what a shorter flexor does, "raises
     angle" or "lowers angle". hold_out: a table that scores the models; else every third row. freeze,
     prior, tie: of parameters, as pair() has them. joint_name, flexor, extensor: in the robot's file; base:
     that file, which the written one adds to.
@@ -272,6 +277,9 @@ def joint(
         "flexor_length": flexor_length,
         "extensor_length": extensor_length,
         "keep_force": keep_force,
+        "torque_bias": torque_bias,
+        "torque_gain": torque_gain,
+        "moving": moving,
         "held_out": held_out_of("joint", data, hold_out),
         **_wishes(freeze, prior, tie),
         "model": model,
