@@ -67,6 +67,13 @@ void add_known_options(Command sub, identify::JointSettings& o) {
   sub.add_option("--flexor-length", o.flexor_length, "is known, at the rest angle");
   sub.add_option("--extensor-length", o.extensor_length, "is known, at the rest angle");
   sub.add_flag("--keep-force", o.keep_force, "the effectiveness of the actuator's file is right");
+  sub.add_flag("--torque-bias", o.torque_bias,
+               "the torque of each file has a zero of its own, which is to be found");
+  sub.add_flag("--torque-gain", o.torque_gain,
+               "and a gain in that of the first file; with --keep-force the first has one, too");
+  sub.add_flag("--moving", o.moving,
+               "the joint moves, over a column time: its dry friction and damping, and how far the "
+               "torque comes behind");
 }
 
 }  // namespace

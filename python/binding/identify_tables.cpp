@@ -154,6 +154,9 @@ Identified joint(const Sources& sources, const Settings& given) {
   given.quantity("flexor_length", "m", s.flexor_length);
   given.quantity("extensor_length", "m", s.extensor_length);
   given.flag("keep_force", s.keep_force);
+  given.flag("torque_bias", s.torque_bias);
+  given.flag("torque_gain", s.torque_gain);
+  given.flag("moving", s.moving);
   given.table("held_out", s.held_out);
   given.text("model", s.model);
   wishes_of(given, s.wishes);
@@ -244,7 +247,7 @@ constexpr Method methods[] = {{"static", of_static, identify::static_columns},
                               {"check", check_of, identify::static_columns},
                               {"dynamic", dynamic, identify::decay_columns},
                               {"creep", creep, identify::creep_columns},
-                              {"joint", joint, identify::joint_columns},
+                              {"joint", joint, [] { return identify::joint_columns(true); }},
                               {"pair", pair, identify::pair_columns},
                               {"geometry", geometry, identify::geometry_columns},
                               {"sensor", sensor, nullptr},

@@ -74,10 +74,10 @@ class Part {
     const { report } = this, { units } = this.page;
     this.scale.textContent = `errors of the ${report.quantity} in % of ${report.full_scale_is}, ${units.text(report.full_scale, report.unit)}`;
     const rows = report.parameters.map((p) => {
-      const u = units.of(p.unit), half = p.high === null ? NaN : 0.5 * (p.high - p.low) * u.scale;
+      const u = units.of(p.unit), half = p.high === null || p.high === p.low ? NaN : 0.5 * (p.high - p.low) * u.scale;
       const value = units.convert(p.value, p.unit);
       const note = p.at_bound ? 'at the bound of its range' : !p.identifiable ? 'these data do not tell it'
-        : !Number.isFinite(half) ? 'no interval' : '';
+        : p.known || (!Number.isFinite(half) ? 'no interval' : '');
       const [shown, interval] = precise(value, half);
       return element('tr', { 'data-name': p.name, 'data-value': p.value }, element('th', { scope: 'row', class: 'key' }, p.name),
         cell(shown, 'number ours'), cell(interval, 'number'),

@@ -5,15 +5,27 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace sinew::identify {
+
+namespace {
+
+// Not of its sensors, and not of its friction.
+bool of_the_joint(std::string_view name) {
+  for (const std::string_view other : {"torque_", "friction", "damping", "delay"})
+    if (name.starts_with(other)) return false;
+  return true;
+}
+
+}  // namespace
 
 std::vector<Combination> combinations_of(const Solution& s) {
   std::vector<Eigen::Index> which;
   const std::size_t n = s.estimates.size();
   for (std::size_t i = 0; i < n; ++i)
-    if (s.estimates[i].value > 0 && s.estimates[i].free && !s.estimates[i].at_bound &&
-        s.estimates[i].name != "c1")
+    if (s.estimates[i].value > 0 && s.estimates[i].free && of_the_joint(s.estimates[i].name) &&
+        !s.estimates[i].at_bound && s.estimates[i].name != "c1")
       which.push_back(static_cast<Eigen::Index>(i));
   const auto m = static_cast<Eigen::Index>(which.size());
   Eigen::MatrixXd relative(m, m);

@@ -12,6 +12,7 @@
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/joint/combinations.h"
+#include "sinew/identify/joint/joint_slots.h"
 #include "sinew/identify/joint/rows.h"
 #include "sinew/identify/joint/torque.h"
 
@@ -37,10 +38,13 @@ constexpr std::array columns{
            .unit = "N m",
            .optional = true,
            .doc = "of all loads on the joint, raises the angle > 0"},
-    Wanted{.name = "load", .unit = "kg", .optional = true, .doc = "hanging at the lever"}};
+    Wanted{.name = "load", .unit = "kg", .optional = true, .doc = "hanging at the lever"},
+    Wanted{.name = "time", .unit = "s", .optional = true, .doc = "of a joint that moves"}};
 
 // A parameter with a wider 95 % interval, relative to itself, counts as not determined.
 constexpr double widest_interval = 0.25;
+// Steps of the derivatives of a joint that moves, whose dry friction has edges.
+constexpr double across_kinks = 0.01;
 // Excursion below which arm and force are one.
 constexpr double least_excursion = 5 * std::numbers::pi / 180;
 
@@ -56,76 +60,12 @@ constexpr std::array laws{
 using Law = JointLaw;
 using Values = JointValues;
 
-struct Slot {
-  Parameter parameter;
-  double Values::*place;
-};
-
-std::vector<Slot> slots_of(const Law& law, const JointTorque& joint, const JointSetup& setup) {
-  const double longest = setup.actuator.braid.thread_length;
-  const double shortest = actuator::shortest_length(setup.actuator.braid);
-  std::vector<Slot> out;
-  const auto add = [&](bool wanted, const char* name, const char* unit, double low, double high,
-                       double scale, double Values::*place) {
-    if (wanted)
-      out.push_back(
-          {{.name = name, .unit = unit, .low = low, .high = high, .scale = scale}, place});
-  };
-  const auto unknown = [](double known) { return !std::isfinite(known); };
-  add(unknown(setup.moment_arm), "moment_arm", "m", 1e-4, 2 * longest, 0.1 * longest,
-      &Values::moment_arm);
-  add(law.hinge, "origin_ratio", "1", 1.02, 100, 1, &Values::origin_ratio);
-  add(law.hinge, "origin_angle", "rad", 0.05, 3.1, 1, &Values::origin_angle);
-  add(joint.has_flexor() && unknown(setup.flexor_length), "flexor_length", "m", 0.5 * shortest,
-      1.5 * longest, 0.1 * longest, &Values::flexor_length);
-  add(joint.has_extensor() && unknown(setup.extensor_length), "extensor_length", "m",
-      0.5 * shortest, 1.5 * longest, 0.1 * longest, &Values::extensor_length);
-  add(!setup.keep_force, "c0", "1", 0.01, 10, 0.5, &Values::c0);
-  add(!setup.keep_force && law.pressure, "c1", "1/Pa", -1e-5, 1e-5,
-      0.5 / std::max(joint.highest_gauge(), 1e4), &Values::c1);
-  return out;
-}
-
 // Throws config::Error for a wish of what no law has.
 void check_wishes(const JointTorque& joint, const JointSetup& setup, const Wishes& wishes) {
   std::vector<Parameter> all;
   for (const Law& law : laws)
-    for (Slot& slot : slots_of(law, joint, setup)) all.push_back(std::move(slot.parameter));
+    for (JointSlot& slot : joint_slots(law, joint, setup)) all.push_back(std::move(slot.parameter));
   if (!wishes.empty()) wishes.check(all);
-}
-
-Values known_values(const JointSetup& setup) {
-  Values v;
-  if (std::isfinite(setup.moment_arm)) v.moment_arm = setup.moment_arm;
-  if (std::isfinite(setup.flexor_length)) v.flexor_length = setup.flexor_length;
-  if (std::isfinite(setup.extensor_length)) v.extensor_length = setup.extensor_length;
-  return v;
-}
-
-Values with(Values v, const std::vector<Slot>& slots, std::span<const double> p) {
-  for (std::size_t i = 0; i < slots.size(); ++i) v.*slots[i].place = p[i];
-  return v;
-}
-
-// Short and long arms, short and long muscles.
-std::vector<std::vector<double>> starts_of(const std::vector<Slot>& slots,
-                                           const JointSetup& setup) {
-  const double longest = setup.actuator.long_end.length > 0 ? setup.actuator.long_end.length
-                                                            : setup.actuator.braid.thread_length;
-  std::vector<std::vector<double>> out;
-  for (const double arm : {0.1, 0.25, 0.6})
-    for (const double mount : {0.8, 0.95}) {
-      Values v{.moment_arm = arm * longest,
-               .origin_ratio = 4,
-               .origin_angle = 1.5,
-               .flexor_length = mount * longest,
-               .extensor_length = mount * longest,
-               .c0 = 0.9};
-      std::vector<double> p;
-      for (const Slot& s : slots) p.push_back(v.*s.place);
-      out.push_back(std::move(p));
-    }
-  return out;
 }
 
 struct Solved {
@@ -133,6 +73,13 @@ struct Solved {
   Solution solution;
   std::string ambiguous;  // another answer that fits as well
 };
+
+// Is it one that a muscle's force or arm hangs on?
+bool of_muscles(std::string_view name) {
+  for (const std::string_view one : {"moment_arm", "flexor_length", "extensor_length", "c0", "c1"})
+    if (name == one) return true;
+  return false;
+}
 
 double square_sum(const Solution& s) {
   return s.rms * s.rms * static_cast<double>(s.residuals.size());
@@ -145,7 +92,7 @@ std::string another_answer(const Solution& best, const Solution& other) {
   if (square_sum(other) - square_sum(best) > 10 * s2 + 1e-9 * square_sum(best)) return "";
   for (const Estimate& e : best.estimates) {
     const double there = other[e.name].value;
-    const bool matters = !e.name.starts_with("origin") && e.name != "c1";
+    const bool matters = of_muscles(e.name) && e.name != "c1";
     if (matters && std::abs(there - e.value) > widest_interval * std::abs(e.value))
       return fmt::format("{} {:.4g} {} and {:.4g} {} fit alike", e.name, e.value, e.unit, there,
                          e.unit);
@@ -155,25 +102,28 @@ std::string another_answer(const Solution& best, const Solution& other) {
 
 Solved solve(const Law& law, const JointTorque& joint, const JointSetup& setup,
              const Wishes& wishes) {
-  const std::vector<Slot> slots = slots_of(law, joint, setup);
+  const std::vector<JointSlot> slots = joint_slots(law, joint, setup);
   std::vector<Parameter> parameters;
-  for (const Slot& s : slots) parameters.push_back(s.parameter);
-  const Values known = known_values(setup);
+  for (const JointSlot& s : slots) parameters.push_back(s.parameter);
+  const Values known = joint_known(joint, setup);
   const auto residuals = [&](std::span<const double> p, std::span<double> r) {
-    joint.residuals(law, with(known, slots, p), r);
+    joint.residuals(law, joint_with(known, slots, p), r);
     return true;
   };
   std::vector<Solution> all;
-  for (const std::vector<double>& start : starts_of(slots, setup)) {
+  for (const std::vector<double>& start : joint_starts(slots, joint, setup)) {
     for (std::size_t i = 0; i < parameters.size(); ++i)
       parameters[i].start = std::clamp(start[i], parameters[i].low, parameters[i].high);
-    all.push_back(least_squares(residuals, joint.rows(), parameters, wishes,
-                                {.widest_interval = widest_interval}));
+    all.push_back(
+        least_squares(residuals, joint.rows(), parameters, wishes,
+                      {.correlated = setup.moving,
+                       .widest_interval = widest_interval,
+                       .difference = setup.moving ? across_kinks : SolverOptions{}.difference}));
   }
   const auto best = std::min_element(all.begin(), all.end(), [](const auto& x, const auto& y) {
     return square_sum(x) < square_sum(y);
   });
-  Solved out{with(known, slots, best->values), *best, ""};
+  Solved out{joint_with(known, slots, best->values), *best, ""};
   for (const Solution& other : all)
     if (out.ambiguous.empty()) out.ambiguous = another_answer(*best, other);
   return out;
@@ -189,7 +139,7 @@ std::string inseparable(const Solved& solved) {
   const Solution& s = solved.solution;
   std::string which;
   for (const Estimate& e : s.estimates) {
-    const bool matters = !e.name.starts_with("origin");
+    const bool matters = of_muscles(e.name);
     if (matters && e.free && (e.at_bound || !e.identifiable))
       which += (which.empty() ? "" : ", ") + e.name;
   }
@@ -233,6 +183,34 @@ void refuse_unusable(const Measured& data, const JointTorque& joint, const Joint
   if (joint.has_flexor() != joint.has_extensor() && pulls * mean > 0)
     throw Refusal(data.file, "a load that pulls the way the muscle pulls", "one against it",
                   "the sign of torque, the other flexion=SENSE, or down=ANGLE");
+}
+
+// What the sensors' settings ask for is there.
+void refuse_without_torque(const Measured& data, const JointSetup& setup) {
+  if ((setup.torque_bias || setup.torque_gain || setup.moving) && !data.has("torque"))
+    throw Refusal(data.file, "no torque", "one, whose sensor has a bias, a gain or a delay",
+                  "a column torque, or a joint at rest");
+  if (setup.moving && !data.has("time"))
+    throw Refusal(data.file, "no time", "it, of a joint that moves", "names.time=NAME");
+  const bool one = !data.has("recording") || largest(data["recording"]) == 0;
+  if (setup.torque_gain && one && !setup.keep_force)
+    throw Refusal(data.file, "one recording whose gain is asked for",
+                  "a force that is known: the gain of a torque is that of the force",
+                  "keep_force=true, or another recording");
+}
+
+// The last third of each recording: of a motion, samples beside each other say the same.
+std::pair<Measured, Measured> last_thirds(const Measured& data) {
+  std::vector<std::size_t> keep, out;
+  const std::vector<double>* of = data.has("recording") ? &data["recording"] : nullptr;
+  for (std::size_t from = 0; from < data.rows();) {
+    std::size_t to = from;
+    while (to < data.rows() && (!of || (*of)[to] == (*of)[from])) ++to;
+    for (std::size_t i = from; i < to; ++i)
+      (3 * (i - from) < 2 * (to - from) ? keep : out).push_back(i);
+    from = to;
+  }
+  return {data.subset(keep), data.subset(out)};
 }
 
 std::pair<Measured, Measured> every_third(const Measured& data) {
@@ -294,6 +272,16 @@ void refuse_if_all_are(const Report& report, const std::string& file) {
                 "larger excursions, moment_arm=LENGTH, flexor_length=LENGTH, or keep_force=true");
 }
 
+// A recording that is held out has a number that no fitted one has.
+std::optional<Measured> as_another(std::optional<Measured> held_out, std::size_t number) {
+  if (!held_out) return held_out;
+  held_out->columns.push_back(
+      {.name = "recording",
+       .unit = "1",
+       .values = std::vector<double>(held_out->rows(), static_cast<double>(number))});
+  return held_out;
+}
+
 void refuse_other_columns(const Measured& data, const Measured& held_out) {
   for (const Column& c : data.columns)
     if (!held_out.has(c.name))
@@ -303,7 +291,9 @@ void refuse_other_columns(const Measured& data, const Measured& held_out) {
 
 }  // namespace
 
-std::span<const Wanted> joint_columns() { return columns; }
+std::span<const Wanted> joint_columns(bool moving) {
+  return std::span<const Wanted>(columns).first(columns.size() - (moving ? 0 : 1));
+}
 
 std::vector<std::string> joint_models() {
   std::vector<std::string> out;
@@ -311,13 +301,17 @@ std::vector<std::string> joint_models() {
   return out;
 }
 
-JointResult identify_joint(const Measured& data, const std::optional<Measured>& held_out,
+JointResult identify_joint(const Measured& data, const std::optional<Measured>& other,
                            const JointSetup& setup, std::string_view model, const Wishes& wishes) {
   const JointTorque joint(data, setup);
+  const std::optional<Measured> held_out = as_another(other, joint.recordings());
+  refuse_without_torque(data, setup);
   refuse_unusable(data, joint, setup);
   if (held_out) refuse_other_columns(data, *held_out);
   check_wishes(joint, setup, wishes);
-  const auto [seen, unseen] = held_out ? std::pair(data, *held_out) : every_third(data);
+  const auto [seen, unseen] = held_out       ? std::pair(data, *held_out)
+                              : setup.moving ? last_thirds(data)
+                                             : every_third(data);
   const JointTorque some(seen, setup), others(unseen, setup);
 
   JointResult out;
@@ -328,7 +322,9 @@ JointResult identify_joint(const Measured& data, const std::optional<Measured>& 
   for (const double t : joint.torque())
     report.full_scale = std::max(report.full_scale, std::abs(t));
   report.full_scale_is = "the largest torque of the load";
-  report.held_out_is = held_out ? held_out->file : "every third row";
+  report.held_out_is = held_out       ? held_out->file
+                       : setup.moving ? "the last third of each recording"
+                                      : "every third row";
   report.notes = data.notes;
 
   std::vector<const Law*> tried;

@@ -8,6 +8,9 @@
 //
 //   theta  joint's angle [rad]         T     torque of the load, raises the angle > 0 [N m]
 //   r, s   hinge.h                     L_m   lengths at the rest angle [m]
+// A joint that moves, and sensors that are not told: T = bias + gain G(t - delay), where G is the
+// torque that holds the above and D sign(d theta/dt) + c d theta/dt besides.
+//
 //   sign   +1 if flexion raises the angle, else -1      N  actuators side by side
 //   m, l   load [kg] and its lever [m], straight down at theta_down
 //
@@ -45,6 +48,12 @@ struct JointSetup {
   double lever = 0, down = 0;       // l [m], theta_down [rad]
   double limb = 0, limb_lever = 0;  // [kg], [m]
 
+  // Of the torque's sensor, where it is asked for: each recording's zero; a gain of each recording
+  // but the first, or of each with `keep_force`. A joint that moves, over `time`: its dry friction
+  // and damping, and how far the torque comes behind angle and pressures.
+  bool torque_bias = false, torque_gain = false, moving = false;
+  std::vector<std::string> recordings;  // their names, by the number in a column `recording`
+
   // What is known is not fitted.
   double moment_arm = to_be_found;                                    // at the rest angle [m]
   double flexor_length = to_be_found, extensor_length = to_be_found;  // [m]
@@ -52,7 +61,8 @@ struct JointSetup {
 };
 
 // angle, flexor_pressure, extensor_pressure (one of them at least), torque or load if there is one.
-std::span<const Wanted> joint_columns();
+// With `moving` also time; of poses at rest it may run as it likes.
+std::span<const Wanted> joint_columns(bool moving);
 
 // A product of powers of parameters and how well the data determine it.
 struct Combination {

@@ -45,6 +45,16 @@ std::string joint_file(const JointResult& found, const JointSetup& setup, const 
   provenance.given(path + "rest_angle", "given to " + source);
   note_origin(found, "moment_arm", path + "moment_arm", source, provenance);
 
+  double friction = std::nan(""), damping = friction;  // of a joint that was at rest: not told
+  if (const Estimate* e = parameter(found, "friction")) {
+    friction = e->value;
+    provenance.fitted(path + "dry_friction", *e, source);
+  }
+  if (const Estimate* e = parameter(found, "damping")) {
+    damping = e->value;
+    provenance.fitted(path + "damping", *e, source);
+  }
+
   std::vector<Muscle> muscles;
   const auto add = [&](const std::string& name, const char* what, double length,
                        const std::vector<double>& radii) {
@@ -66,6 +76,8 @@ std::string joint_file(const JointResult& found, const JointSetup& setup, const 
     std::string flexion = names.flexion;
     v.text({.name = "flexion"}, flexion);
     v.number({.name = "moment_arm", .unit = "m"}, j.moment_arm);
+    v.number({.name = "dry_friction", .unit = "N m"}, friction);
+    v.number({.name = "damping", .unit = "N m s/rad"}, damping);
   });
   writer.each({.name = "muscle"}, muscles, [](auto& v, Muscle& m) {
     v.number({.name = "mount_length", .unit = "m"}, m.mount_length);

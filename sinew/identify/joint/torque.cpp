@@ -8,6 +8,7 @@
 #include "sinew/actuator/braid.h"
 #include "sinew/actuator/tension.h"
 #include "sinew/identify/data/quality.h"
+#include "sinew/identify/data/series.h"
 #include "sinew/identify/fit/least_squares.h"
 
 namespace sinew::identify {
@@ -24,7 +25,32 @@ JointTorque::JointTorque(const Measured& data, const JointSetup& setup)
                           ? data["torque"][i]
                           : -setup.gravity * lever * std::sin(angle_[i] - setup.down));
   }
+  put_recordings(data);
 }
+
+void JointTorque::put_recordings(const Measured& data) {
+  recording_.assign(rows(), 0.0);
+  if (data.has("recording")) recording_ = data["recording"];
+  recordings_ = std::max<std::size_t>(
+      {setup_.recordings.size(), static_cast<std::size_t>(largest(recording_)) + 1, 1});
+  if (!setup_.moving || !data.has("time")) return;
+  constexpr double window = 0.04;
+  time_ = data["time"];
+  for (std::size_t from = 0; from < rows();) {
+    std::size_t to = from;
+    while (to < rows() && recording_[to] == recording_[from]) ++to;
+    const std::span<const double> t(time_), q(angle_);
+    const Rates rates = rates_of(t.subspan(from, to - from), q.subspan(from, to - from), window);
+    rate_.insert(rate_.end(), rates.first.begin(), rates.first.end());
+    from = to;
+  }
+}
+
+double JointTorque::largest_torque() const {
+  return std::max({largest(torque_), -smallest(torque_), 1e-9});
+}
+
+double JointTorque::fastest() const { return std::max({largest(rate_), -smallest(rate_), 1e-9}); }
 
 double JointTorque::highest_gauge() const {
   return std::max(largest(flexor_), largest(extensor_)) - setup_.atmosphere;
@@ -54,13 +80,42 @@ void JointTorque::residuals(const JointLaw& law, const JointValues& v, std::span
   actuator::Actuator a = setup_.actuator;
   a.effectiveness = effectiveness(v);
   a.long_end.stiffness = 0;  // threads that stretch have a scale of their own, not these torques'
+  std::vector<double> needed(rows());  // of the load, to hold the muscles
   for (std::size_t i = 0; i < rows(); ++i) {
     const double q = sign_ * (angle_[i] - setup_.rest_angle);
     double pull = 0;
     if (has_flexor()) pull += cord.arm(q) * force(a, cord, v.flexor_length, q, flexor_[i]);
     if (has_extensor()) pull -= cord.arm(-q) * force(a, cord, v.extensor_length, -q, extensor_[i]);
-    r[i] = torque_[i] + sign_ * setup_.count * pull;
+    needed[i] = -sign_ * setup_.count * pull;
+    if (rate_.empty()) continue;
+    const double way = rate_[i] > 0 ? 1 : rate_[i] < 0 ? -1 : 0;
+    needed[i] += v.friction * way + v.damping * rate_[i];
   }
+  for (std::size_t from = 0; from < rows();) {
+    std::size_t to = from;
+    while (to < rows() && recording_[to] == recording_[from]) ++to;
+    const std::span<double> part = std::span(needed).subspan(from, to - from);
+    if (v.delay != 0 && !time_.empty()) {
+      const std::vector<double> before(part.begin(), part.end());
+      delayed(std::span(time_).subspan(from, part.size()), before, v.delay, part);
+    }
+    const auto k = static_cast<std::size_t>(recording_[from]);
+    const double gain = k < v.gain.size() ? v.gain[k] : 1;
+    for (double& x : part) x *= gain;
+    const double bias = bias_of(v, from, to, k, needed);
+    for (std::size_t i = from; i < to; ++i) r[i] = torque_[i] - bias - needed[i];
+    from = to;
+  }
+}
+
+// A recording that nobody fitted has a zero of its own.
+double JointTorque::bias_of(const JointValues& v, std::size_t from, std::size_t to,
+                            std::size_t recording, std::span<const double> needed) const {
+  if (recording < v.bias.size()) return v.bias[recording];
+  if (!setup_.torque_bias) return 0;
+  double sum = 0;
+  for (std::size_t i = from; i < to; ++i) sum += torque_[i] - needed[i];
+  return sum / static_cast<double>(to - from);
 }
 
 void JointTorque::warn_of_ends(const JointLaw& law, const JointValues& v,

@@ -26,6 +26,8 @@ struct JointValues {
   double moment_arm = 0, origin_ratio = 0, origin_angle = 0;  // hinge.h
   double flexor_length = 0, extensor_length = 0;              // [m]
   double c0 = 1, c1 = 0;                                      // [1], [1/Pa]
+  double friction = 0, damping = 0, delay = 0;                // [N m], [N m s/rad], [s]
+  std::vector<double> bias, gain;  // of the torque of each recording [N m], [1]
 };
 
 // The measured joint: what its load asks for, and what a model's muscles give.
@@ -41,7 +43,10 @@ class JointTorque {
   // Returns 1 where flexion raises the angle, else -1; and how many rows there are.
   double sign() const { return sign_; }
   std::size_t rows() const { return angle_.size(); }
-  double highest_gauge() const;  // [Pa]
+  double highest_gauge() const;   // [Pa]
+  double largest_torque() const;  // of either sign [N m]
+  double fastest() const;         // of a joint that moves [rad/s]
+  std::size_t recordings() const { return recordings_; }
 
   // Returns what the values mean: how the muscles are led, and which share of their tension
   // arrives.
@@ -59,8 +64,14 @@ class JointTorque {
   double force(const actuator::Actuator& a, const Hinge& cord, double mount, double q,
                double pressure) const;
 
+  void put_recordings(const Measured& data);
+  double bias_of(const JointValues& v, std::size_t from, std::size_t to, std::size_t recording,
+                 std::span<const double> needed) const;
+
   const JointSetup& setup_;
   double sign_ = 1;
+  std::size_t recordings_ = 1;
+  std::vector<double> recording_, time_, rate_;  // of each row; empty: one, at rest
   std::vector<double> angle_, flexor_, extensor_, torque_;
 };
 

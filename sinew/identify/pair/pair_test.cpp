@@ -144,6 +144,7 @@ TEST(Pair, IntervalsHoldTheTruthUnderNoiseThatRemembers) {
     }
   }
   EXPECT_GE(held, 0.88 * all) << held << " of " << all;
+  RecordProperty("held", held);
 }
 
 TEST(Pair, PredictsTheUnseenHalfOfAMeasuredRecording) {

@@ -7,6 +7,7 @@
 #include "sinew/config/named.h"
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
+#include "sinew/identify/fit/refusal.h"
 #include "sinew/identify/fit/report_json.h"
 #include "sinew/identify/fit/robot_over.h"
 #include "sinew/identify/task/tables.h"
@@ -40,6 +41,9 @@ JointSetup setup_of(const JointSettings& settings, const actuator::Actuator& a, 
   s.flexor_length = value("flexor_length", settings.flexor_length, "m", size);
   s.extensor_length = value("extensor_length", settings.extensor_length, "m", size);
   s.keep_force = settings.keep_force;
+  s.torque_bias = settings.torque_bias;
+  s.torque_gain = settings.torque_gain;
+  s.moving = settings.moving;
   return s;
 }
 
@@ -53,10 +57,31 @@ JointNames names_of(const JointSettings& settings) {
   return names;
 }
 
+// All tables as one, whose rows know theirs by a column `recording`; one table stays as it is.
+Measured joined(const std::vector<Source>& sources, bool moving) {
+  Measured out = read_measured(sources[0], joint_columns(moving));
+  if (sources.size() == 1) return out;
+  std::vector<double> recording(out.rows(), 0.0);
+  for (std::size_t k = 1; k < sources.size(); ++k) {
+    const Measured more = read_measured(sources[k], joint_columns(moving));
+    for (Column& c : out.columns) {
+      if (!more.has(c.name))
+        throw Refusal(more.file, "no column " + c.name, "the columns of " + sources[0].path, "");
+      c.values.insert(c.values.end(), more[c.name].begin(), more[c.name].end());
+    }
+    out.lines.insert(out.lines.end(), more.lines.begin(), more.lines.end());
+    out.notes.insert(out.notes.end(), more.notes.begin(), more.notes.end());
+    out.file += ", " + more.file;
+    recording.resize(out.rows(), static_cast<double>(k));
+  }
+  out.columns.push_back({.name = "recording", .unit = "1", .values = recording});
+  return out;
+}
+
 }  // namespace
 
 JointFound find_joint(const std::vector<Source>& sources, const JointSettings& settings) {
-  const Source& source = only_of(sources);
+  if (sources.empty()) (void)only_of(sources);
   (void)config::number_setting("count", settings.count, {1, 100, "actuators in parallel"});
   if (settings.keep_force && settings.model.ends_with("pressure"))
     config::fail({"model", 0, 0}, "", config::in_quotes(settings.model),
@@ -65,15 +90,21 @@ JointFound find_joint(const std::vector<Source>& sources, const JointSettings& s
   const experiment::MachineFile start = experiment::load_machine_file(settings.actuator);
   const actuator::Actuator& a =
       config::named(start.experiment.actuators, settings.name, "name", "actuator");
-  const JointSetup setup = setup_of(settings, a, source.atmosphere);
+  JointSetup setup = setup_of(settings, a, sources[0].atmosphere);
+  for (const Source& source : sources)
+    if (sources.size() > 1) setup.recordings.push_back(source.path);
+  const Measured data = joined(sources, settings.moving);
   std::optional<Measured> held_out;
-  if (settings.held_out) held_out = read_measured(*settings.held_out, joint_columns());
-  JointFound out{.result = identify_joint(read_measured(source, joint_columns()), held_out, setup,
-                                          settings.model, Wishes(settings.wishes)),
-                 .setup = setup,
-                 .names = names,
-                 .base = settings.base};
-  out.source = "sinew identify joint " + source.path + ": " + out.result.report.best().model;
+  if (settings.held_out)
+    held_out = read_measured(*settings.held_out, joint_columns(settings.moving));
+  JointFound out{
+      .result = identify_joint(data, held_out, setup, settings.model, Wishes(settings.wishes)),
+      .setup = setup,
+      .names = names,
+      .base = settings.base};
+  out.source = "sinew identify joint";
+  for (const Source& source : sources) out.source += " " + source.path;
+  out.source += ": " + out.result.report.best().model;
   out.actuator_file = effectiveness_file(start.experiment.origins, settings.actuator, a, out.result,
                                          settings.keep_force, out.source);
   return out;

@@ -23,7 +23,10 @@ struct JointSettings {
   std::string down = "270 deg";                    // angle at which the lever points straight down
   std::string limb = "0 kg", limb_lever = "0 m";   // the limb's own mass and where it is
   std::string moment_arm, flexor_length, extensor_length;  // known, at the rest angle
-  bool keep_force = false;         // the effectiveness of the actuator's file is right
+  bool torque_bias = false;  // each table's torque has a zero of its own, to be found
+  bool torque_gain = false;  // and a gain, of the first table's where the force is kept only
+  bool moving = false;       // over time: dry friction, damping and the torque's delay as well
+  bool keep_force = false;   // the effectiveness of the actuator's file is right
   std::optional<Source> held_out;  // scores the models; else every third row
   std::string model;               // this one alone; empty: all
   WishTexts wishes;                // frozen, tied, prior
