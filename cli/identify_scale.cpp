@@ -11,24 +11,10 @@ namespace sinew::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct Options {
   identify::ScaleSettings settings;
   ResultOptions result;
 };
-
-Json json_of(const identify::ScaleFound& found) {
-  const actuator::Prediction& p = found.actuator.prediction;
-  Json out{{"format", "sinew.scaled/1"},
-           {"rest_length_m", p.rest_length},
-           {"from_rest_length_m", found.from},
-           {"largest_force_N", found.largest},
-           {"corrected_by", found.corrected_by}};
-  out["half_68_N"] = p.inside_68 > 0 ? Json(p.inside_68) : Json();
-  out["half_95_N"] = p.inside_95 > 0 ? Json(p.inside_95) : Json();
-  return out;
-}
 
 void print_scaled(const identify::ScaleFound& found) {
   const actuator::Prediction& p = found.actuator.prediction;
@@ -47,7 +33,7 @@ ExitCode run_scale(const Options& options) {
   check_result_options(options.result);
   const identify::ScaleFound found = identify::find_scaled(options.settings);
   if (options.result.json)
-    fmt::print("{}\n", json_text(json_of(found), 2));
+    fmt::print("{}\n", json_text(identify::to_json(found), 2));
   else
     print_scaled(found);
   if (!(found.actuator.prediction.inside_95 > 0))

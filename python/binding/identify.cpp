@@ -36,8 +36,9 @@ identify::HoldOut hold_out_of(const std::string& word) {
   if (word.empty()) return identify::HoldOut::none;
   if (word == "pressure") return identify::HoldOut::pressure;
   if (word == "length") return identify::HoldOut::length;
-  throw std::invalid_argument(
-      fmt::format("hold_out: found \"{}\"; expected \"pressure\", \"length\" or \"\"", word));
+  if (word == "muscle") return identify::HoldOut::muscle;
+  throw std::invalid_argument(fmt::format(
+      "hold_out: found \"{}\"; expected \"pressure\", \"length\", \"muscle\" or \"\"", word));
 }
 
 // As the rows of a table with these columns would be.

@@ -21,6 +21,7 @@
 #include "sinew/identify/task/geometry_task.h"
 #include "sinew/identify/task/joint_task.h"
 #include "sinew/identify/task/pair_task.h"
+#include "sinew/identify/task/scale_task.h"
 #include "sinew/identify/task/sensor_task.h"
 #include "sinew/identify/task/static_task.h"
 #include "sinew/identify/task/tables.h"
@@ -95,6 +96,7 @@ identify::StaticSettings static_settings(const Settings& given) {
   given.table("held_out", s.held_out);
   given.quantity("diameter", "m", s.diameter);
   given.flag("anyway", s.anyway);
+  given.texts("predict", s.predict);
   return s;
 }
 
@@ -103,7 +105,19 @@ Identified of_static(const Sources& sources, const Settings& given) {
   const auto found = away([&] { return identify::find_static(sources, s); });
   Identified out{.report = to_json(found.result.report).dump(), .reports = {found.result.report}};
   for (const std::string& file : found.files) out.files.push_back(fixed(file));
+  for (const std::string& file : found.predicted_files) out.files.push_back(fixed(file));
   return out;
+}
+
+Identified scaled(const Sources&, const Settings& given) {
+  identify::ScaleSettings s;
+  given.path("file", s.file);
+  given.text("actuator", s.actuator);
+  given.quantity("rest_length", "m", s.rest_length);
+  given.text("reading", s.reading);
+  given.text("name", s.name);
+  const auto found = away([&] { return identify::find_scaled(s); });
+  return {.report = to_json(found).dump(), .files = {fixed(found.file)}};
 }
 
 Identified check_of(const Sources& sources, const Settings& given) {
@@ -245,6 +259,7 @@ struct Method {
 };
 constexpr Method methods[] = {{"static", of_static, identify::static_columns},
                               {"check", check_of, identify::static_columns},
+                              {"scale", scaled, nullptr},
                               {"dynamic", dynamic, identify::decay_columns},
                               {"creep", creep, identify::creep_columns},
                               {"joint", joint, [] { return identify::joint_columns(true); }},

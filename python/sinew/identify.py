@@ -7,6 +7,8 @@
     found.write("my-actuator.toml")
     sinew.Actuator("my-actuator.toml").tension(0.22, 3e5)
 
+    print(identify.check("forces.csv", rest_length="102 mm", diameter="10 mm"))
+
     identify.valve("fill.csv", volume="0.5 L").write("my-valve.toml")
     identify.valve({"time": t, "pressure": p}, volume=5e-4)
 
@@ -27,16 +29,20 @@ import numpy.typing
 
 from sinew import _sinew
 from sinew._sinew import RefusalError
-from sinew._found import Found, Joint, Static, Valve
+from sinew._found import Checked, Found, Joint, Plan, Static, Valve
 from sinew._tables import Table, held_out_of, like, tables_of
 
 __all__ = [
+    "Checked",
     "Found",
     "Joint",
+    "Plan",
     "RefusalError",
     "Static",
     "Table",
     "Valve",
+    "check",
+    "columns",
     "creep",
     "dynamic",
     "force_beam",
@@ -44,9 +50,12 @@ __all__ = [
     "geometry_from_trapezoids",
     "joint",
     "pair",
+    "plan",
+    "scale",
     "sensor",
     "static",
     "static_from",
+    "template",
     "valve",
 ]
 
@@ -59,6 +68,11 @@ _Prior = Union[str, Sequence[_Quantity]]
 def _with_unit(value: Any) -> str:
     """Return text as it is, and a number as one in the SI unit of whatever it is of."""
     return value if isinstance(value, str) else f"{float(value)!r} SI"
+
+
+def _in_meters(value: Any) -> str:
+    """Return text as it is, and a number as a length."""
+    return value if isinstance(value, str) else f"{float(value)!r} m"
 
 
 def _wishes(
@@ -89,6 +103,8 @@ def static(
     hold_out: str = "",
     name: str = "bpa",
     source: str = "arrays of Python",
+    diameter: Optional[float] = None,
+    anyway: bool = False,
 ) -> Static:
     """Return the static law of an actuator from forces [N] at lengths [m] and gauge pressures [Pa].
 
@@ -96,13 +112,15 @@ def static(
     pressure and load (None: the longest length; several say which points are of which muscle). fitted:
     False for points that are held out, to score what was not seen; hold_out does that with every second
     "pressure" or each "length" once. model: that law alone; else the data choose. source: where the data
-    are from, for the file.
+    are from, for the file. diameter [m] without pressure, to compare the force with. The points are checked
+    first, as by check(): what is red is refused, unless they are to be fitted anyway; then it is among the
+    report's warnings, as suspicions are.
 
-    Raises RefusalError where the data support no law, and ValueError for arrays that do not belong
-    together or a model that there is not.
+    Raises RefusalError where the data support no law or a check is red, and ValueError for arrays that do
+    not belong together or a model that there is not.
     """
     report, files = _sinew.identify_static(
-        length, pressure, force, rest_length, fitted, model, hold_out, name, source
+        length, pressure, force, rest_length, fitted, model, hold_out, name, source, diameter, anyway
     )
     texts: List[str] = files
     return Static(report, tuple(texts))
@@ -119,6 +137,9 @@ def static_from(
     hold_out: Any = "",
     model: str = "",
     name: str = "bpa",
+    diameter: Optional[_Quantity] = None,
+    anyway: bool = False,
+    predict: Union[_Quantity, Sequence[_Quantity]] = (),
 ) -> Static:
     """Return the static law of an actuator from tables, or recordings with a column of time.
 
@@ -126,23 +147,143 @@ def static_from(
     are such. data: a table, or several. lengths: of files without that column, "205 mm", or "PART=205 mm"
     for those with PART in their name. actuator: a file whose braid is known. branch: "fill", "vent" or
     "both". fit_where: only rows with "NAME=VALUE,..." are fitted, the others held out. hold_out: "pressure"
-    (every second), "length" (each once), or another table.
+    (every second), "length" or "muscle" (each once), or another table. diameter [m] without pressure, and
+    anyway: as static() has them. predict: rest lengths [m] that nobody measured; their files follow those
+    of the muscles that were.
     """
-    settings: Dict[str, Any] = {
-        "rest_length": rest_length,
-        "lengths": lengths,
-        "actuator": actuator,
-        "branch": branch,
-        "fit_where": fit_where,
-        "model": model,
-        "name": name,
-    }
-    if isinstance(hold_out, str):
-        settings["hold_out"] = hold_out
-    else:
-        settings["held_out"] = held_out_of("static", data, hold_out)
+    unseen = [predict] if isinstance(predict, (str, float, int)) else predict
+    settings = _static_settings(data, {**locals(), "predict": [_in_meters(one) for one in unseen]})
+    del settings["unseen"]
     found = _sinew.identify_tables("static", tables_of("static", data), settings)
     return Static(found.report, tuple(found.text(i, "") for i in range(found.files)))
+
+
+def scale(
+    file: _Path,
+    rest_length: _Quantity,
+    *,
+    reading: Union[str, Sequence[float]] = "",
+    actuator: str = "",
+    name: str = "",
+) -> Found:
+    """Return the actuator of a muscle that nobody measured, from the file of one of its make.
+
+    file: as static_from() writes it; actuator: which one in it. rest_length [m] of the new muscle. reading:
+    one of it at rest, (length [m], pressure [Pa gauge], force [N]) or "115 mm, 400 kPa gauge, 210 N", which
+    corrects the law. The report tells the largest force and within what 68 and 95 % of forces are expected;
+    None where no muscle was left out when the file was made. name: of the new actuator.
+    """
+    if not isinstance(reading, str):
+        length, pressure, force = (float(one) for one in reading)
+        reading = f"{length!r} m, {pressure!r} Pa gauge, {force!r} N"
+    settings = {
+        "file": file,
+        "actuator": actuator,
+        "rest_length": rest_length,
+        "reading": reading,
+        "name": name,
+    }
+    return Found(_sinew.identify_tables("scale", [], settings))
+
+
+def check(
+    data: Any,
+    *,
+    rest_length: Optional[_Quantity] = None,
+    lengths: Union[str, Sequence[str]] = (),
+    actuator: Optional[_Path] = None,
+    branch: str = "both",
+    fit_where: Union[str, Sequence[str]] = (),
+    hold_out: Any = "",
+    diameter: Optional[_Quantity] = None,
+) -> Checked:
+    """Return what static_from() would find in the same tables, and what speaks against it.
+
+    Arguments are those of static_from(). What no method can read is a red check, too.
+    """
+    settings = _static_settings(data, dict(locals()))
+    return Checked(_sinew.identify_tables("check", tables_of("check", data), settings).report)
+
+
+def _static_settings(data: Any, given: Dict[str, Any]) -> Dict[str, Any]:
+    """Return the settings of a call; what is held out may be a word or a table."""
+    settings = {name: value for name, value in given.items() if name not in ("data", "hold_out")}
+    if isinstance(given["hold_out"], str):
+        settings["hold_out"] = given["hold_out"]
+    else:
+        settings["held_out"] = held_out_of("static", data, given["hold_out"])
+    return settings
+
+
+def columns(method: str) -> Dict[str, Any]:
+    """Return which columns a method of `sinew identify` reads, as `--columns --json` prints it.
+
+    method: "static", "dynamic", ... For each column its quantity, accepted units, meaning, and whether it is
+    needed; for each kind of table what a row is. Raises sinew.InputError for a method that there is not.
+    """
+    return dict(_sinew.identify_inputs(method))
+
+
+def template(method: str, kind: str = "") -> str:
+    """Return a table to fill in, as `--template` writes it: CSV that the method reads as it is.
+
+    kind: of table, where a method takes several, "chart"; else the usual one.
+    """
+    return str(_sinew.identify_template(method, kind))
+
+
+def plan(
+    data: Any = None,
+    *,
+    rest_length: Optional[_Quantity] = None,
+    diameter: Optional[_Quantity] = None,
+    actuator: Optional[_Path] = None,
+    pressure: Optional[_Quantity] = None,
+    noise: Optional[_Quantity] = None,
+    length_error: _Quantity = 1e-4,
+    law_error: _Quantity = 0.01,
+    error: _Quantity = 0.02,
+    mount_time: _Quantity = 600.0,
+    step_time: _Quantity = 30.0,
+    shortest: Optional[_Quantity] = None,
+    longest: Optional[_Quantity] = None,
+    lowest: Optional[_Quantity] = None,
+    criterion: str = "mean",
+    most: int = 12,
+    lengths: Union[str, Sequence[str]] = (),
+    branch: str = "both",
+) -> Plan:
+    """Return which lengths and pressures to measure so that a static law is known well enough.
+
+    Without data for a muscle that nobody has measured: its rest_length and diameter [m], or an actuator's
+    file with one like it, and the highest pressure [Pa gauge]. With data, as of static_from(), what to
+    measure next and what it buys; actuator's braid is then known. noise [N] of a reading (None: 2 N, or
+    what the data scatter), length_error [m] of a mount, law_error that no measurement lowers and error that
+    is wanted, both shares of the largest force; mount_time and step_time [s]. shortest and longest [m],
+    lowest [Pa gauge]: where the law is wanted. criterion: "mean", error is a root mean square over that
+    region; "worst", half of the 95 % interval at its worst place. most: mounts.
+    """
+    settings = {
+        "rest_length": rest_length,
+        "diameter": diameter,
+        "actuator": actuator,
+        "pressure": pressure,
+        "noise": noise,
+        "length_error": length_error,
+        "law_error": law_error,
+        "error": error,
+        "mount_time": mount_time,
+        "step_time": step_time,
+        "shortest": shortest,
+        "longest": longest,
+        "lowest": lowest,
+        "criterion": criterion,
+        "most": most,
+        "lengths": lengths,
+        "branch": branch,
+    }
+    report, table = _sinew.identify_plan([] if data is None else tables_of("static", data), settings)
+    return Plan(report, table)
 
 
 def geometry(data: Any, *, thread_thickness: _Quantity = 0.0, name: str = "bpa") -> Found:
@@ -366,6 +507,7 @@ def valve(
     volume: Optional[_Quantity] = None,
     conductance: Optional[_Quantity] = None,
     per_volume: bool = False,
+    added_volume: Optional[_Quantities] = None,
     port: Optional[_Quantity] = None,
     exponent: Optional[_Quantity] = None,
     temperature: _Quantity = "20 degC",
@@ -380,10 +522,11 @@ def valve(
     mass_flow [kg/s]; "fill" time [s] and pressure [Pa abs]; "pulses" command [1] beside; "coil" time and
     current [A]; "duty" duty [1], delivered [1] or flow, and frequency [Hz]. Of a filling or pulses: the
     chamber's volume [m3], or the valve's conductance [m3/(s Pa)], or per_volume where their ratio is
-    enough; port: pressure on the valve's other side [Pa abs], fitted without; exponent of the chamber,
-    tried without. temperature [K] of the air. frequency [Hz] of the pulses of a map of duties. hold_out:
-    a table that scores the model of a filling. name: of the valve; base: a valves file with it, whose
-    values stay where none was found.
+    enough; or fillings with known volumes joined to the chamber, a table for each, whose added_volume [m3]
+    is told here or in a column of that name: then both come out. port: pressure on the valve's other side
+    [Pa abs], fitted without; exponent of the chamber, tried without. temperature [K] of the air. frequency
+    [Hz] of the pulses of a map of duties. hold_out: a table that scores the model of a filling. name: of
+    the valve; base: a valves file with it, whose values stay where none was found.
     """
     settings = {
         "name": name,
@@ -392,6 +535,7 @@ def valve(
         "volume": volume,
         "conductance": conductance,
         "per_volume": per_volume,
+        "added_volume": added_volume,
         "port": port,
         "exponent": exponent,
         "temperature": temperature,

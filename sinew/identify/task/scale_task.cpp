@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "sinew/actuator/tension.h"
 #include "sinew/config/diagnostics.h"
@@ -71,6 +72,19 @@ ScaleFound find_scaled(const ScaleSettings& s) {
   const actuator::Prediction& p = out.actuator.prediction;
   out.largest = std::max(0.0, actuator::tension(out.actuator, p.longest, 0, p.highest, atmosphere));
   out.file = file_of(out, s);
+  return out;
+}
+
+nlohmann::ordered_json to_json(const ScaleFound& found) {
+  using Json = nlohmann::ordered_json;
+  const actuator::Prediction& p = found.actuator.prediction;
+  Json out{{"format", "sinew.scaled/1"},
+           {"rest_length_m", p.rest_length},
+           {"from_rest_length_m", found.from},
+           {"largest_force_N", found.largest},
+           {"corrected_by", found.corrected_by}};
+  out["half_68_N"] = p.inside_68 > 0 ? Json(p.inside_68) : Json();
+  out["half_95_N"] = p.inside_95 > 0 ? Json(p.inside_95) : Json();
   return out;
 }
 

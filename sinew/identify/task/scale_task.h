@@ -2,6 +2,7 @@
 // measured, from the file of one of its make and another rest length.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "sinew/actuator/actuator.h"
@@ -30,5 +31,8 @@ struct ScaleFound {
 // Throws config::Error for a file or a value that is none, Refusal where the file does not tell
 // the muscle's rest length or the reading is of something else.
 ScaleFound find_scaled(const ScaleSettings& settings);
+
+// Returns it as `--json` prints it, in SI; null where nobody knows.
+nlohmann::ordered_json to_json(const ScaleFound& found);
 
 }  // namespace sinew::identify
