@@ -273,6 +273,7 @@ void add_identify(Command app, Action& action) {
   add_identify_static(sub, action);
   add_identify_creep(sub, action);
   add_identify_check(sub, action);
+  add_identify_run(sub, action);
 }
 
 }  // namespace sinew::cli

@@ -24,6 +24,7 @@ void add_identify_valve(Command identify, Action& action);
 void add_identify_static(Command identify, Action& action);
 void add_identify_creep(Command identify, Action& action);
 void add_identify_check(Command identify, Action& action);
+void add_identify_run(Command identify, Action& action);
 
 // How files of measurements are read.
 struct DataOptions {

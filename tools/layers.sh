@@ -48,8 +48,9 @@ layers='
     identify/joint  identify/data robot
     identify/valve  identify/data gas signals
     identify/sensor identify/data robot report/text
+    identify/machine  identify/data run/simulation robot
     identify/page   identify/fit report
-    identify/task   identify experiment
+    identify/task   identify experiment run/folder
     analysis/verdict   signals config
     analysis/align     analysis/verdict signals config
     analysis/measures  signals robot gas actuator
