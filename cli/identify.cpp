@@ -284,6 +284,7 @@ void add_identify(Command app, Action& action) {
   add_identify_creep(sub, action);
   add_identify_check(sub, action);
   add_identify_scale(sub, action);
+  add_identify_run(sub, action);
   add_identify_plan(sub, action);
   add_identify_columns(sub, action);
 }

@@ -32,6 +32,7 @@ void add_identify_creep(Command identify, Action& action);
 void add_identify_check(Command identify, Action& action);
 void add_identify_scale(Command identify, Action& action);
 void add_identify_plan(Command identify, Action& action);
+void add_identify_run(Command identify, Action& action);
 
 // How files of measurements are read.
 struct DataOptions {

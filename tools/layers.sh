@@ -50,8 +50,9 @@ layers='
     identify/pair   identify/data
     identify/valve  identify/data gas signals
     identify/sensor identify/data robot report/text
+    identify/machine  identify/data run/simulation robot
     identify/page   identify/fit report
-    identify/task   identify experiment
+    identify/task   identify experiment run/folder
     analysis/verdict   signals config
     analysis/align     analysis/verdict signals config
     analysis/measures  signals robot gas actuator

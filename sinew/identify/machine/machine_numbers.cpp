@@ -1,0 +1,187 @@
+#include "sinew/identify/machine/machine_numbers.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <type_traits>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/experiment/experiment.fields.h"
+
+namespace sinew::identify {
+
+namespace {
+
+using experiment::Experiment;
+
+constexpr std::array<std::string_view, 5> group_names = {"friction", "damping", "dead-time",
+                                                         "volume", "leak"};
+
+// The visitor of units/field.h that notes where numbers stand.
+class NumberFinder {
+ public:
+  using Field = units::Field;
+
+  std::vector<MachineNumber> found;
+
+  void number(const Field& f, double& value) {
+    found.push_back({path_ + std::string(f.name), std::string(f.unit), f.min, f.max, &value});
+  }
+  void named_numbers(const Field& f, std::map<std::string, double>& values) {
+    for (auto& [name, value] : values)
+      found.push_back(
+          {fmt::format("{}{}.{}", path_, f.name, name), std::string(f.unit), f.min, f.max, &value});
+  }
+  template <class Visit>
+  void group(const Field& f, Visit visit) {
+    within(f.name, [&] { visit(*this); });
+  }
+  template <class T, class Visit>
+  void each(const Field& f, std::vector<T>& items, Visit visit) {
+    within(f.name, [&] {
+      for (T& item : items) within(item.name, [&] { visit(*this, item); });
+    });
+  }
+
+  // These hold no number that a fit could change by itself.
+  void numbers(const Field&, std::vector<double>&) {}
+  void polynomial(const Field&, std::vector<double>&, std::string_view) {}
+  void integer(const Field&, int&) {}
+  void flag(const Field&, bool&) {}
+  void text(const Field&, std::string&) {}
+  void texts(const Field&, std::vector<std::string>&) {}
+  template <class Enum>
+  void choice(const Field&, Enum&,
+              std::initializer_list<units::Choice<std::type_identity_t<Enum>>>) {}
+  template <class T, class Visit>
+  void list(const Field&, std::vector<T>&, Visit) {}
+
+ private:
+  template <class Inside>
+  void within(std::string_view name, Inside inside) {
+    const std::size_t before = path_.size();
+    path_ += std::string(name) + ".";
+    inside();
+    path_.resize(before);
+  }
+
+  std::string path_;
+};
+
+void friction_keys(const Experiment& e, std::vector<std::string>& out) {
+  for (const robot::Joint& j : e.robot.joints)
+    if (j.kind == robot::Joint::Kind::driven)
+      out.push_back(fmt::format("joint.{}.dry_friction", j.name));
+  if (e.robot.trolley.present) out.emplace_back("trolley.drag");
+  if (e.robot.cylinder.present && e.robot.cylinder.mode != robot::Cylinder::Mode::locked)
+    out.emplace_back("cylinder.friction");
+}
+
+void damping_keys(const Experiment& e, std::vector<std::string>& out) {
+  for (const robot::Joint& j : e.robot.joints)
+    if (j.kind == robot::Joint::Kind::driven)
+      out.push_back(fmt::format("joint.{}.damping", j.name));
+  if (e.robot.cylinder.present && e.robot.cylinder.mode != robot::Cylinder::Mode::locked)
+    out.emplace_back("cylinder.damping");
+}
+
+void dead_time_keys(const Experiment& e, std::vector<std::string>& out) {
+  for (const gas::Valve& v : e.valves) {
+    const bool used = std::ranges::any_of(e.robot.muscles, [&](const robot::Muscle& m) {
+      return m.inlet == v.name || m.exhaust == v.name;
+    });
+    if (!used || v.kind == gas::Valve::Kind::regulator || v.profile == gas::Valve::Profile::ideal)
+      continue;
+    const std::string of = fmt::format("valve.{}.{}", v.name,
+                                       v.drive == gas::Valve::Drive::speed_up ? "speed_up." : "");
+    out.push_back(of + "opening_delay");
+    out.push_back(of + "closing_delay");
+  }
+}
+
+void volume_keys(const Experiment& e, std::vector<std::string>& out) {
+  for (const robot::Muscle& m : e.robot.muscles)
+    out.push_back(fmt::format("muscle.{}.external_volume", m.name));
+}
+
+void leak_keys(const Experiment& e, std::vector<std::string>& out) {
+  for (const robot::Muscle& m : e.robot.muscles)
+    out.push_back(
+        fmt::format("muscle.{}.leak.{}", m.name, m.leak.area > 0 ? "area" : "conductance"));
+}
+
+std::vector<std::string> keys_of_group(std::string_view group, const Experiment& e) {
+  std::vector<std::string> out;
+  if (group == "friction") friction_keys(e, out);
+  if (group == "damping") damping_keys(e, out);
+  if (group == "dead-time") dead_time_keys(e, out);
+  if (group == "volume") volume_keys(e, out);
+  if (group == "leak") leak_keys(e, out);
+  return out;
+}
+
+[[noreturn]] void refuse_word(const std::string& word, const std::vector<MachineNumber>& numbers) {
+  std::vector<std::string_view> known(group_names.begin(), group_names.end());
+  for (const MachineNumber& n : numbers) known.push_back(n.key);
+  config::fail({"fit", 0, 0}, "", config::in_quotes(word),
+               fmt::format("a number's key of this robot, or {}", fmt::join(group_names, ", ")),
+               config::closest_in_quotes(word, known));
+}
+
+}  // namespace
+
+std::vector<MachineNumber> machine_numbers(Experiment& e) {
+  NumberFinder finder;
+  experiment::machine_fields(finder, e);
+  finder.group({.name = "start"}, [&](auto& g) { experiment::fields(g, e.start); });
+  return std::move(finder.found);
+}
+
+std::span<const std::string_view> machine_groups() { return group_names; }
+
+std::vector<std::string> machine_keys(Experiment& e, const std::vector<std::string>& asked) {
+  const std::vector<MachineNumber> numbers = machine_numbers(e);
+  std::vector<std::string> out;
+  const auto add = [&](const std::string& key) {
+    if (std::ranges::find(out, key) == out.end()) out.push_back(key);
+  };
+  if (asked.empty())
+    for (const std::string_view group : group_names)
+      for (const std::string& key : keys_of_group(group, e)) add(key);
+  for (const std::string& word : asked) {
+    if (std::ranges::find(group_names, word) != group_names.end()) {
+      const std::vector<std::string> keys = keys_of_group(word, e);
+      if (keys.empty())
+        config::fail({"fit", 0, 0}, "", config::in_quotes(word) + ", of which this robot has none",
+                     "a group with keys of this robot", "its keys by name");
+      for (const std::string& key : keys) add(key);
+    } else if (std::ranges::find(numbers, word, &MachineNumber::key) != numbers.end()) {
+      add(word);
+    } else {
+      refuse_word(word, numbers);
+    }
+  }
+  return out;
+}
+
+double machine_scale(const Experiment& e, const MachineNumber& number) {
+  if (number.unit == "rad") return 0.1;
+  const double value = std::abs(*number.value);
+  if (value > 0 && std::isfinite(value)) return value;
+  // A leak that would empty ten cubic centimetres in about two minutes, by wall or by hole.
+  constexpr double volume = 1e-5, time = 100;
+  const double conductance = volume / (287.0 * e.air.temperature * time);
+  if (number.key.ends_with("leak.conductance")) return conductance;
+  if (number.key.ends_with("leak.area")) return conductance * 400;
+  if (number.unit == "s") return 1e-3;
+  if (number.unit == "m3") return 1e-6;
+  if (number.unit == "N m" || number.unit == "N m s/rad") return 0.02;
+  if (number.unit == "m") return 1e-3;
+  return 1;
+}
+
+}  // namespace sinew::identify

@@ -1,0 +1,186 @@
+#include "sinew/identify/machine/run_fit.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "sinew/config/diagnostics.h"
+#include "sinew/identify/fit/refusal.h"
+#include "sinew/identify/machine/machine_numbers.h"
+#include "sinew/identify/machine/run_search.h"
+
+namespace sinew::identify {
+
+namespace {
+
+using experiment::Experiment;
+
+constexpr double more_than_noise = 1.5;  // rms of what is left, in noises
+
+std::vector<Parameter> parameters_of(Experiment& e, const std::vector<std::string>& keys) {
+  const std::vector<MachineNumber> all = machine_numbers(e);
+  std::vector<Parameter> out;
+  for (const std::string& key : keys) {
+    const MachineNumber& n = *std::ranges::find(all, key, &MachineNumber::key);
+    if (!std::isfinite(*n.value))
+      config::fail({"fit", 0, 0}, key, "no value in the robot's file", "where the search begins",
+                   "set=" + key + "=…");
+    out.push_back({.name = key,
+                   .unit = n.unit,
+                   .start = *n.value,
+                   .low = n.low,
+                   .high = n.high,
+                   .scale = machine_scale(e, n)});
+  }
+  return out;
+}
+
+void check_options(const RunFitOptions& options, const std::vector<std::string>& keys) {
+  if (!(options.hold_out >= 0 && options.hold_out < 0.9))
+    config::fail({"hold_out", 0, 0}, "", fmt::format("{:g} %", 100 * options.hold_out),
+                 "a share of the run, from 0 to below 90 %", "20 %");
+  for (const RunPrior& prior : options.priors)
+    if (std::ranges::find(keys, prior.key) == keys.end())
+      config::fail({"prior", 0, 0}, prior.key, "a number that is not fitted",
+                   fmt::format("one of {}", fmt::join(keys, ", ")), "fit=" + prior.key);
+}
+
+double rms_of(std::span<const double> r) {
+  double sum = 0;
+  for (const double x : r) sum += x * x;
+  return r.empty() ? 0 : std::sqrt(sum / static_cast<double>(r.size()));
+}
+
+// Rows of the page, and how well each channel is met.
+void score_channels(const DrivenRun& run, double until, double from,
+                    const std::vector<double>& mean, RunFitResult& out) {
+  Rows& rows = out.report.rows;
+  rows = {.x = "time", .x_unit = "s", .unit = "1"};
+  std::vector<double> fitted, held_out;
+  std::size_t sample = 0;
+  for (const RunChannel& c : run.channels()) {
+    std::vector<double> in, beyond;
+    for (std::size_t i = 0; i < c.value.size(); ++i, ++sample) {
+      const double t = run.time(sample), left = mean[sample] - c.value[i];
+      if (t < from) continue;
+      const bool held = t > until;
+      (held ? beyond : in).push_back(left);
+      (held ? held_out : fitted).push_back(left / c.noise);
+      rows.at.push_back(t);
+      rows.measured.push_back(c.value[i] / c.noise);
+      rows.group.push_back(c.name);
+      rows.held_out.push_back(held);
+      out.report.fits[0].residuals.push_back(left / c.noise);
+    }
+    out.channels.push_back(
+        {c.name, c.unit, in.size() + beyond.size(), c.noise, rms_of(in), rms_of(beyond)});
+  }
+  out.report.fits[0].fit = score(fitted, 1);
+  if (!held_out.empty()) out.report.fits[0].held_out = score(held_out, 1);
+}
+
+void tell_channels(const RunFitResult& out, Fit& fit) {
+  for (const ChannelScore& c : out.channels)
+    fit.notes.push_back(fmt::format(
+        "{}: {:.3g} {} left of {:.3g} {} noise{}", c.name, c.fitted, c.unit, c.noise, c.unit,
+        c.held_out > 0 ? fmt::format(", held out {:.3g}", c.held_out) : std::string()));
+}
+
+// What stands in the way of believing it.
+void warn(const RunFitResult& out, Report& report, double rms) {
+  if (rms > more_than_noise)
+    report.warnings.push_back(
+        fmt::format("what is left is {:.3g} times the sensors' noise: this machine is not quite "
+                    "the one that was measured, and the intervals know only what they see of that",
+                    rms));
+  const Fit& fit = report.fits[0];
+  if (fit.held_out && fit.held_out->rmse > 1.5 * fit.fit.rmse)
+    report.warnings.push_back(
+        fmt::format("the end of the run, held out, is missed by {:.3g} times the noise, what was "
+                    "fitted by {:.3g}: something changed, or the fit follows what is not there",
+                    fit.held_out->rmse, fit.fit.rmse));
+  for (const std::string& direction : out.undetermined)
+    report.warnings.push_back("not determined by this run: " + direction);
+}
+
+// Numbers that no reading depends on as far as they are large are not searched.
+std::vector<Parameter> felt(const RunResiduals& residuals, std::vector<Parameter> all,
+                            std::vector<std::string>& not_felt) {
+  std::vector<double> p, at(residuals.count()), there(residuals.count());
+  for (const Parameter& one : all) p.push_back(one.start);
+  if (!residuals(p, at))
+    throw Refusal("the machine at the start of the search",
+                  "that it does not get to the end of the run in finite numbers",
+                  "a machine that can do what was recorded", "other start values");
+  std::vector<Parameter> out;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::vector<double> q = p;
+    q[i] = all[i].start + 0.3 * all[i].scale > all[i].high ? all[i].start - 0.3 * all[i].scale
+                                                           : all[i].start + 0.3 * all[i].scale;
+    double moved = 0;
+    if (residuals(q, there))
+      for (std::size_t k = 0; k < at.size(); ++k) moved += (there[k] - at[k]) * (there[k] - at[k]);
+    if (moved > 0.1)
+      out.push_back(all[i]);
+    else
+      not_felt.push_back(all[i].name + ": no reading depends on it");
+  }
+  return out;
+}
+
+}  // namespace
+
+RunFitResult fit_run(const Experiment& e, const DrivenRun& run, const RunFitOptions& options) {
+  Experiment copy = e;
+  const std::vector<std::string> keys = machine_keys(copy, options.fit);
+  check_options(options, keys);
+  const double until = options.from + (1 - options.hold_out) * (run.duration() - options.from);
+  const double beginning = std::min(until, std::max(options.from + 4, until / 3));
+  const int threads = options.threads > 0
+                          ? options.threads
+                          : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  RunFitResult out;
+  std::vector<Parameter> parameters = parameters_of(copy, keys);
+  parameters = felt(RunResiduals(e, run, parameters, options, until), parameters, out.undetermined);
+  if (parameters.empty())
+    throw Refusal("the run", "readings that depend on none of the numbers",
+                  "a run in which they matter", "other numbers to fit");
+
+  const RunResiduals first(e, run, parameters, options, beginning);
+  const RunResiduals whole(e, run, parameters, options, until);
+  std::vector<double> start;
+  for (const Parameter& p : parameters) start.push_back(p.start);
+  out.at_start = std::sqrt(2 * whole.cost(start) / static_cast<double>(whole.count()));
+  const RunSearched found = search_run(first, whole, parameters, options, threads);
+  RunJudged s = judge_run(whole, parameters, found, threads);
+  for (std::string& direction : open_directions(s, parameters))
+    out.undetermined.push_back(std::move(direction));
+  out.machine = whole.machine(found.p);
+
+  Report& report = out.report;
+  report = {.subject = fmt::format("{} from a run of {:.4g} s", e.robot.name, run.duration()),
+            .quantity = "readings",
+            .unit = "1",
+            .full_scale = 1,
+            .full_scale_is = "each sensor's noise"};
+  if (options.hold_out > 0) report.held_out_is = fmt::format("the run from {:.4g} s on", until);
+  report.fits.push_back({.model = "plant",
+                         .law = "the machine in simulation, driven by the recorded valve commands",
+                         .parameters = s.estimates});
+  std::vector<double> mean(run.samples());
+  (void)run.predict(out.machine, mean, run.duration());
+  score_channels(run, until, options.from, mean, out);
+  tell_channels(out, report.fits[0]);
+  out.simulations = first.simulations() + whole.simulations();
+  report.fits[0].notes.push_back(
+      fmt::format("with the numbers as they stood {:.4g} times the noise was left; {} simulations",
+                  out.at_start, out.simulations));
+  report.rule = "the only one";
+  warn(out, report, s.rms);
+  return out;
+}
+
+}  // namespace sinew::identify

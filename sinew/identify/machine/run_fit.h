@@ -1,0 +1,72 @@
+// identify/machine/run_fit.h - numbers of a machine from a run of it: valve commands, angles,
+// tensions, pressures -> friction, damping, dead times, volumes, leaks, by simulating the machine
+// with the recorded valve commands until it reads what was read.
+//
+//   minimise  sum ((reading_i - mean_i(p))/noise_i)^2     over the numbers p
+//
+//   mean_i    what the simulated machine's sensor reads on average at that instant (driven_run.h)
+//   noise_i   the sensor's own noise and its rounding
+//
+// The whole run is one simulation from its start: under recorded valve commands a machine in the
+// air forgets where it was, and its readings change smoothly with its numbers. Two kinds of jump
+// remain:
+//
+//   dead times   valves are switched at ticks of 0.1 ms, and a pulse no longer than the opening
+//                delay is lost (gas/delay.h): where the delay passes a tick, pulses come or go
+//   contact      a foot that touches down a little earlier leaves everything after it elsewhere: of
+//                a walk the fit is told where it ends, not by how much it errs
+//
+// So the search begins with a coarse scan, each number by itself, dead times by whole ticks, and
+// goes on by Gauss-Newton (fit/least_squares.h); where what is left is more than noise, both again.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sinew/experiment/experiment.h"
+#include "sinew/identify/fit/fit.h"
+#include "sinew/identify/machine/driven_run.h"
+
+namespace sinew::identify {
+
+// What is known of a number besides the run.
+struct RunPrior {
+  std::string key;
+  double value = 0, standard_deviation = 0;  // in SI
+};
+
+struct RunFitOptions {
+  std::vector<std::string> fit;  // keys and groups (machine_numbers.h); empty: all groups
+  double hold_out = 0.2;         // share of the run, at its end, that scores what was found
+  std::vector<RunPrior> priors;
+  int threads = 0;  // simulations at once; 0: as many as the computer has processors
+  int rounds = 12;  // of trying other dead times, at most
+  double from = 0;  // samples before it are not compared [s]
+  std::function<void(const std::string&)> progress;  // told what is being done
+};
+
+// How well a channel is met.
+struct ChannelScore {
+  std::string name, unit;
+  std::size_t samples = 0;
+  double noise = 0;                 // that its sensor has, in `unit`
+  double fitted = 0, held_out = 0;  // rms of what is left, in `unit`
+};
+
+struct RunFitResult {
+  Report report;
+  std::vector<ChannelScore> channels;
+  std::vector<std::string> undetermined;  // combinations of numbers, in words
+  experiment::Experiment machine;         // with what was found
+  int simulations = 0;
+  double at_start = 0;  // rms of what is left with the numbers as they stood, in noises
+};
+
+// Finds them. The experiment says where the search begins and what is not searched.
+// Throws config::Error for keys that the robot does not have, and Refusal where the run cannot
+// support the fit.
+RunFitResult fit_run(const experiment::Experiment& experiment, const DrivenRun& run,
+                     const RunFitOptions& options);
+
+}  // namespace sinew::identify

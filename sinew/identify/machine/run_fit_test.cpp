@@ -1,0 +1,95 @@
+#include "sinew/identify/machine/run_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "sinew/identify/machine/test_runs.h"
+
+namespace sinew::identify {
+namespace {
+
+const Estimate& estimate(const RunFitResult& found, const std::string& key) {
+  for (const Estimate& e : found.report.best().parameters)
+    if (e.name == key) return e;
+  throw std::out_of_range(key);
+}
+
+// A truth that is injected is found again, in noisy counts of three sensors, and held by intervals
+// that are no wider than they have to be.
+TEST(RunFit, FindsFrictionAndADeadTimeOfOneJoint) {
+  const experiment::Experiment start = shipped("one-joint");
+  const std::map<std::string, double> truth = {{"joint.lever.dry_friction", 0.07},
+                                               {"valve.inlet.closing_delay", 0.37e-3}};
+  experiment::Experiment machine = start;
+  for (const auto& [key, value] : truth) set_number(machine, key, value);
+  machine.seed = 3;
+  const DrivenRun driven(start, recorded(machine), false);
+  const RunFitResult found =
+      fit_run(start, driven, {.fit = {"joint.lever.dry_friction", "valve.inlet.closing_delay"}});
+  for (const auto& [key, value] : truth) {
+    const Estimate& e = estimate(found, key);
+    EXPECT_LE(e.low, value) << key;
+    EXPECT_GE(e.high, value) << key;
+    EXPECT_LT(e.high - e.low, 0.01 * value) << key;
+    EXPECT_TRUE(e.identifiable) << key;
+  }
+  EXPECT_NEAR(found.report.best().fit.rmse, 1, 0.05);
+  EXPECT_NEAR(found.report.best().held_out->rmse, 1, 0.1);
+  EXPECT_GT(found.at_start, 10);
+  EXPECT_TRUE(found.undetermined.empty());
+}
+
+// A leg that hangs in the air moves its trolley by nothing that a sensor reads.
+TEST(RunFit, SaysWhatNoReadingDependsOn) {
+  const experiment::Experiment e = shipped("leg-in-air");
+  const DrivenRun driven(e, recorded(e), false);
+  const RunFitResult found =
+      fit_run(e, driven, {.fit = {"trolley.drag", "joint.hip.damping"}, .rounds = 0});
+  EXPECT_EQ(found.undetermined, std::vector<std::string>{"trolley.drag: no reading depends on it"});
+  EXPECT_EQ(found.report.best().parameters.size(), 1u);
+}
+
+TEST(RunFit, IsTheSameWithAnyNumberOfThreads) {
+  experiment::Experiment start = shipped("one-joint");
+  const DrivenRun driven(start, recorded(start), false);
+  set_number(start, "joint.lever.damping", 0.06);
+  RunFitOptions options{.fit = {"friction", "damping"}, .threads = 1};
+  const RunFitResult one = fit_run(start, driven, options);
+  options.threads = 3;
+  const RunFitResult three = fit_run(start, driven, options);
+  for (std::size_t i = 0; i < one.report.best().parameters.size(); ++i) {
+    const Estimate &a = one.report.best().parameters[i], &b = three.report.best().parameters[i];
+    EXPECT_EQ(a.value, b.value);
+    EXPECT_EQ(a.low, b.low);
+    EXPECT_EQ(a.high, b.high);
+  }
+  EXPECT_EQ(one.simulations, three.simulations);
+}
+
+// What is known beforehand is one reading more: it pulls, and narrows.
+TEST(RunFit, APriorNarrowsWhatTheRunLeavesWide) {
+  const experiment::Experiment e = shipped("one-joint");
+  const DrivenRun driven(e, recorded(e), false);
+  RunFitOptions options{.fit = {"valve.inlet.opening_delay", "valve.inlet.closing_delay"}};
+  const Estimate wide = estimate(fit_run(e, driven, options), "valve.inlet.opening_delay");
+  options.priors = {{"valve.inlet.opening_delay", 0.169e-3, 2e-6}};
+  const Estimate narrow = estimate(fit_run(e, driven, options), "valve.inlet.opening_delay");
+  EXPECT_GT(wide.high - wide.low, 30e-6);
+  EXPECT_NEAR(narrow.high - narrow.low, 2 * 1.96 * 2e-6, 0.5e-6);
+}
+
+TEST(RunFit, RefusesWhatItCannotFit) {
+  const experiment::Experiment e = shipped("one-joint");
+  const DrivenRun driven(e, recorded(e), false);
+  EXPECT_EQ(refusal([&] { fit_run(e, driven, {.fit = {"damping"}, .hold_out = 0.95}); }),
+            "hold_out: found 95 %; expected a share of the run, from 0 to below 90 %; try 20 %");
+  EXPECT_EQ(refusal([&] {
+              fit_run(e, driven, {.fit = {"damping"}, .priors = {{"trolley.drag", 1, 1}}});
+            }),
+            "prior: trolley.drag: found a number that is not fitted; expected one of "
+            "joint.lever.damping; try fit=trolley.drag");
+}
+
+}  // namespace
+}  // namespace sinew::identify
