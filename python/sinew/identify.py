@@ -259,7 +259,7 @@ def joint(
     prior, tie: of parameters, as pair() has them. joint_name, flexor, extensor: in the robot's file; base:
     that file, which the written one adds to.
     """
-    settings = {
+    settings: Dict[str, Any] = {
         "actuator": actuator,
         "name": name,
         "count": count,
