@@ -87,7 +87,7 @@ void print_models(const identify::Report& report) {
       continue;
     }
     std::vector<std::string> row = {f.model,
-                                    std::to_string(f.parameters.size()),
+                                    std::to_string(identify::free_count(f.parameters)),
                                     rmse(f.fit),
                                     most(f.fit),
                                     rmse(f.held_out),

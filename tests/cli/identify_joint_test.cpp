@@ -121,5 +121,46 @@ TEST(IdentifyJoint, LeavesAPageOfItsPoses) {
   EXPECT_NEAR(std::sqrt(square), part["report"]["fit"]["rmse"], 1e-4 * std::sqrt(square));
 }
 
+// The same knee held by hand at a torque cell whose zero is another one in each file.
+std::string held(double zero) {
+  std::string out = "angle [deg],flexor_pressure [kPa gauge],torque [N m]\n";
+  for (int i = 0; i < 40; ++i) {
+    const double q = 0.45 * std::sin(2.4 * i), gauge = 150e3 + 400e3 * (i % 7) / 6.0;
+    const double tension =
+        share * actuator::ideal_tension(actuator::thesis_actuator().braid, mount - arm * q, gauge);
+    const double torque = 2 * arm * tension + zero + 0.005 * std::sin(31.0 * i);
+    out += std::to_string(310 - q / units::degree) + "," + std::to_string(1e-3 * gauge) + "," +
+           std::to_string(torque) + "\n";
+  }
+  return out;
+}
+
+TEST(IdentifyJoint, SeveralRecordingsHaveTheirZerosAndWhatIsKnownIsFrozen) {
+  const Workspace w;
+  write_text(w / "a.csv", held(0.4));
+  write_text(w / "b.csv", held(-0.3));
+  const auto asked = [&](const std::string& freeze) {
+    return w.sinew({"identify", "joint", "a.csv", "b.csv", "--actuator", "robots/leg/actuator.toml",
+                    "--count", "2", "--flexion", "lowers angle", "--rest-angle", "310 deg",
+                    "--torque-bias", "--freeze", freeze, "--model", "round", "--json"});
+  };
+  const Result result = asked("moment_arm=3 cm");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const Json out = Json::parse(result.out);
+  EXPECT_EQ(out["moment_arm_m"], arm);
+  EXPECT_NEAR(out["flexor_length_m"], mount, 0.01 * mount);
+  const auto named = [&](const std::string& name) {
+    for (const Json& p : out["parameters"])
+      if (p["name"] == name) return p;
+    return Json();
+  };
+  EXPECT_EQ(named("moment_arm")["known"], "frozen");
+  EXPECT_NEAR(named("torque_bias of a.csv")["value"], 0.4, 0.02);
+  EXPECT_NEAR(named("torque_bias of b.csv")["value"], -0.3, 0.02);
+  const Result wrong = asked("arm=3 cm");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("--freeze: found \"arm\"; expected a parameter"));
+}
+
 }  // namespace
 }  // namespace sinew::test

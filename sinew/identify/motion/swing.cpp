@@ -76,10 +76,11 @@ LateLine late_line(std::span<const double> t, std::span<const double> x, std::sp
   return out;
 }
 
-// The best delay of a sixth of a period either way, by golden section.
+// The best delay of a sixth of a period either way, by golden section; none where it gains no more
+// than noise does.
 LateLine best_line(std::span<const double> t, std::span<const double> x, std::span<const double> y,
                    double period) {
-  constexpr double golden = 0.6180339887498949;
+  constexpr double golden = 0.6180339887498949, significant = 9;  // three standard errors
   const double margin = period / 6;
   double low = -margin, high = margin;
   for (int i = 0; i < 30; ++i) {
@@ -89,7 +90,10 @@ LateLine best_line(std::span<const double> t, std::span<const double> x, std::sp
     else
       low = a;
   }
-  return late_line(t, x, y, 0.5 * (low + high), margin);
+  const LateLine best = late_line(t, x, y, 0.5 * (low + high), margin);
+  const double gained = late_line(t, x, y, 0, margin).left - best.left;
+  const bool shows = gained > significant * best.left / static_cast<double>(t.size());
+  return shows ? best : late_line(t, x, y, 0, 0);
 }
 
 }  // namespace
@@ -148,11 +152,11 @@ void Swing::take_pressure(const Measured& data) {
                   fmt::format("it goes with the volume to the power {:.3g}", line.slope),
                   "trapped air: between -0.9 and -1.6",
                   "external_volume=VOLUME, exponent=N, or the pressure's zero");
-  notes.push_back(
-      fmt::format("{}: the measured pressure gives {:.5g} Pa at rest, exponent {:.3f}; it comes "
-                  "{:.1f} ms behind "
-                  "the length",
-                  file, stand.pressure, stand.polytropic_exponent, 1e3 * pressure_delay));
+  notes.push_back(fmt::format("{}: the measured pressure gives {:.5g} Pa at rest, exponent {:.3f}",
+                              file, stand.pressure, stand.polytropic_exponent));
+  if (pressure_delay != 0)
+    notes.push_back(fmt::format("{}: the measured pressure comes {:.1f} ms behind the length", file,
+                                1e3 * pressure_delay));
 }
 
 void Swing::refuse_another_muscle() const {

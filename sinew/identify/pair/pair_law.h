@@ -13,8 +13,7 @@
 //
 // Nothing that stands still tells how it is loaded: its friction may be anything within +-D, and a
 // motion does not say what. `fading` has the best guess go to zero with time T; a slow steady slip
-// v then has D v T/d, up to D. Maxwell slip with one element [Al-Bender 2004], LuGre without
-// Stribeck's effect [Canudas de Wit 1995].
+// v then has D v T/d, up to D. `bristle` is one element of Maxwell's slip model.
 #pragma once
 
 #include <array>

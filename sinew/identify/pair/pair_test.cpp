@@ -54,10 +54,10 @@ TEST(Pair, IsFoundAgainWithItsDelay) {
 }
 
 TEST(Pair, ChoosesTheLawThatItWasMadeWith) {
-  const PairResult bristle = identify_pair({{test_record({.mass = 0}, 2)}});
+  const PairResult bristle = identify_pair({{test_record({.mass = 0}, 2, false, 5)}});
   EXPECT_EQ(bristle.report.best().model, "spring_viscous_bristle") << bristle.report.rule;
   const PairResult without =
-      identify_pair({{test_record({.viscous = 0, .mass = 0, .friction = 0}, 3)}});
+      identify_pair({{test_record({.viscous = 0, .mass = 0, .friction = 0}, 3, false, 5)}});
   EXPECT_EQ(without.report.best().model, "spring") << without.report.rule;
 }
 
