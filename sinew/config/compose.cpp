@@ -105,11 +105,17 @@ void put_actuator(Node& root, Node actuator) {
   all.put(std::move(actuator));
 }
 
-// Valves and wiring have the tables that the namespace has.
+// Valves and wiring have the tables that the namespace has. What the robot says there itself, or a
+// robot that has it for its base, is the last word.
 void put_tables(Node& root, Node tables) {
   tables.erase("format");
   tables.erase("name");
+  Node own = make_table("");
+  for (const Node& table : tables.children)
+    if (const Node* there = root.find(table.key)) own.put(*there);
+  for (const Node& table : own.children) root.erase(table.key);
   merge(root, tables);
+  merge(root, own);
 }
 
 void add_actuators(Node& root, const Node& entry) {

@@ -9,6 +9,9 @@
 //                   ── files.gains         joint.<name>.angle_gain … (gains.h); an experiment's too
 //              ── --set key=value          last word
 //
+// A robot that writes keys of its valves or its wiring itself has them in place of the file's: a
+// robot with a `base` may so change a delay alone.
+//
 // The result holds what `--set` and messages call a key: joint.hip.damping, valve.inlet.area,
 // phase.swing.duration. A name in a file is relative to the file in which it is written. Robot,
 // actuator and valves files compose alone too, and so does a resolved.toml.

@@ -65,6 +65,16 @@ bool contains(const std::string& text, std::string_view part) {
   return text.find(part) != std::string::npos;
 }
 
+// A robot over another one changes a key of a valve, and nothing else of the valves' file.
+TEST_F(Compose, ARobotsOwnKeyOfAValveIsTheLastWord) {
+  write("leg/slow.toml",
+        "format = \"sinew.robot/1\"\nbase = \"robot.toml\"\n"
+        "[valve.inlet]\nopening_delay = \"3 ms\"\n");
+  const Node root = compose(path("leg/slow.toml"));
+  EXPECT_EQ(at(root, "valve.inlet.opening_delay")->text, "3 ms");
+  EXPECT_EQ(at(root, "valve.inlet.kind")->text, "2-way");
+}
+
 TEST_F(Compose, AnExperimentHoldsItsRobotAndTheRobotsFiles) {
   const Node root = compose(path("tests/walk.toml"));
   EXPECT_EQ(format_kind(root), "experiment");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 
@@ -188,11 +189,13 @@ std::vector<RunChannel> run_channels(const Experiment& e, const signals::Table& 
       add_samples(*quantity, nullptr, *c);
     }
     leave_out_ends(*c);
-    if (!c->at.empty()) out.push_back(std::move(*c));
+    // Counts that are always the same are of something that stands still: they say nothing.
+    if (std::ranges::adjacent_find(c->value, std::not_equal_to<>()) != c->value.end())
+      out.push_back(std::move(*c));
   }
   add_instruments(e, recorded, out);
   if (out.empty())
-    config::fail({name, 0, 0}, "", "no channel of a sensor",
+    config::fail({name, 0, 0}, "", "no channel of a sensor that moves",
                  "counts of sensors, or angles, tensions, pressures",
                  "a mapping that names their columns, as sinew import makes it");
   return out;

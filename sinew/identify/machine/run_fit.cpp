@@ -102,6 +102,12 @@ void warn(const RunFitResult& out, Report& report, double rms) {
         fmt::format("the end of the run, held out, is missed by {:.3g} times the noise, what was "
                     "fitted by {:.3g}: something changed, or the fit follows what is not there",
                     fit.held_out->rmse, fit.fit.rmse));
+  if (out.rough)
+    report.warnings.push_back(
+        "the readings jump where a number changes a little, as where a foot touches the ground: "
+        "the "
+        "search has ended near what it looked for, and the intervals are too narrow; a run in the "
+        "air has no such jumps");
   for (const std::string& direction : out.undetermined)
     report.warnings.push_back("not determined by this run: " + direction);
 }
@@ -158,6 +164,8 @@ RunFitResult fit_run(const Experiment& e, const DrivenRun& run, const RunFitOpti
   RunJudged s = judge_run(whole, parameters, found, threads);
   for (std::string& direction : open_directions(s, parameters))
     out.undetermined.push_back(std::move(direction));
+  constexpr double smooth = 0.2;
+  out.rough = s.roughness > smooth;
   out.machine = whole.machine(found.p);
 
   Report& report = out.report;

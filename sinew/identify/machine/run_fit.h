@@ -59,6 +59,7 @@ struct RunFitResult {
   std::vector<ChannelScore> channels;
   std::vector<std::string> undetermined;  // combinations of numbers, in words
   experiment::Experiment machine;         // with what was found
+  bool rough = false;  // readings jump with the numbers: the intervals are too narrow
   int simulations = 0;
   double at_start = 0;  // rms of what is left with the numbers as they stood, in noises
 };

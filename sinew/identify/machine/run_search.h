@@ -99,6 +99,7 @@ struct RunJudged {
   std::vector<double> covariance;  // row by row; of numbers that nothing is known of infinite
   double rms = 0;
   double standard_deviation = 0;  // of the residuals
+  double roughness = 0;           // share by which derivatives over a longer step are others
 };
 RunJudged judge_run(const RunResiduals& residuals, std::span<const Parameter> parameters,
                     const RunSearched& at, int threads);

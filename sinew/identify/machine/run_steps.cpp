@@ -13,7 +13,9 @@ namespace sinew::identify {
 
 namespace {
 
-constexpr double difference = 1e-4;  // of derivatives, in the parameters' scales
+// Steps of derivatives, in the parameters' scales: the search's, and a longer one that has to
+// agree.
+constexpr double difference = 1e-4, longer = 2e-3;
 
 // The residuals about a point, by the scaled parameters.
 struct Tangent {
@@ -25,7 +27,7 @@ struct Tangent {
 // where the next step comes anyway.
 bool tangent_at(const RunResiduals& residuals, std::span<const Parameter> parameters,
                 std::span<const RunCell> cells, const std::vector<double>& p, int threads,
-                Tangent& out) {
+                Tangent& out, double by = difference) {
   const auto rows = static_cast<Eigen::Index>(residuals.count());
   const std::size_t n = parameters.size();
   out.r.resize(rows);
@@ -37,7 +39,7 @@ bool tangent_at(const RunResiduals& residuals, std::span<const Parameter> parame
     std::vector<double> q = p;
     if (i < n) {
       const double high = std::min(parameters[i].high, cells[i].high);
-      step[i] = difference * parameters[i].scale;
+      step[i] = by * parameters[i].scale;
       if (p[i] + step[i] > high) step[i] = -step[i];
       q[i] += step[i];
     }
@@ -95,6 +97,23 @@ std::vector<double> stepped(const Tangent& t, std::span<const Parameter> paramet
 }
 
 double half_square(const Eigen::VectorXd& r) { return 0.5 * r.squaredNorm(); }
+
+// By how much the readings' derivatives over a longer step differ from these, as a share of them;
+// the median of the numbers.
+double roughness(const RunResiduals& residuals, std::span<const Parameter> parameters,
+                 const RunSearched& at, int threads, const Tangent& near) {
+  Tangent far;
+  if (!tangent_at(residuals, parameters, at.cells, at.p, threads, far, longer)) return unbounded;
+  std::vector<double> share;
+  for (Eigen::Index i = 0; i < near.j.cols(); ++i) {
+    const double norm = near.j.col(i).norm();
+    if (norm > 0) share.push_back((far.j.col(i) - near.j.col(i)).norm() / norm);
+  }
+  if (share.empty()) return 0;
+  const auto middle = share.begin() + static_cast<std::ptrdiff_t>(share.size() / 2);
+  std::ranges::nth_element(share, middle);
+  return *middle;
+}
 
 // What two numbers that the run binds together leave each other: a cell of the one is one of the
 // other.
@@ -211,6 +230,7 @@ RunJudged judge_run(const RunResiduals& residuals, std::span<const Parameter> pa
   const double left = t.r.squaredNorm() - along.squaredNorm();  // after the last step
   out.rms = std::sqrt(t.r.squaredNorm() / static_cast<double>(residuals.count()));
   out.standard_deviation = freedom > 0 ? std::sqrt(std::max(0.0, left) / freedom) : 0;
+  out.roughness = roughness(residuals, parameters, at, threads, t);
   const double s2 = out.standard_deviation * out.standard_deviation;
 
   Eigen::VectorXd step = Eigen::VectorXd::Zero(m);
@@ -242,9 +262,11 @@ RunJudged judge_run(const RunResiduals& residuals, std::span<const Parameter> pa
     const Parameter& p = parameters[i];
     Estimate e{.name = p.name, .unit = p.unit, .value = at.p[i]};
     e.standard_error = std::sqrt(out.covariance[i * n + i]);
-    const RunCell cut = cut_interval(middle[i], e.standard_error, width, reach[i]);
-    e.low = std::min(e.value, std::clamp(cut.low, p.low, p.high));
-    e.high = std::max(e.value, std::clamp(cut.high, p.low, p.high));
+    e.at_bound = e.value <= p.low || e.value >= p.high;
+    const RunCell cell = e.at_bound ? RunCell{p.low, p.high} : reach[i];
+    const RunCell cut = cut_interval(middle[i], e.standard_error, width, cell);
+    e.low = e.value <= p.low ? p.low : std::min(e.value, std::clamp(cut.low, p.low, p.high));
+    e.high = e.value >= p.high ? p.high : std::max(e.value, std::clamp(cut.high, p.low, p.high));
     out.estimates.push_back(e);
   }
   return out;
