@@ -23,6 +23,11 @@ std::vector<Wanted> columns_in() {
   return {all.begin(), all.end()};
 }
 
+std::vector<Wanted> columns_of_joint() {
+  const auto all = joint_columns(true);
+  return {all.begin(), all.end()};
+}
+
 constexpr std::array point_tables{
     TableKind{"points", "a muscle at rest: held at a length, filled to a pressure",
               "pressure,force|load",
@@ -117,7 +122,7 @@ const std::array all_inputs{
                  swing_tables,
                  {"Without pressure, pressure=\"60 psi gauge\" says it."}},
     MethodInputs{"joint",
-                 columns_in<joint_columns>,
+                 columns_of_joint,
                  pose_tables,
                  {"Where one load hangs all the time, load=\"1 kg\" says it."}},
     MethodInputs{"pair",
