@@ -21,6 +21,7 @@
 #include "sinew/identify/task/geometry_task.h"
 #include "sinew/identify/task/joint_task.h"
 #include "sinew/identify/task/pair_task.h"
+#include "sinew/identify/task/run_task.h"
 #include "sinew/identify/task/scale_task.h"
 #include "sinew/identify/task/sensor_task.h"
 #include "sinew/identify/task/static_task.h"
@@ -118,6 +119,23 @@ Identified scaled(const Sources&, const Settings& given) {
   given.text("name", s.name);
   const auto found = away([&] { return identify::find_scaled(s); });
   return {.report = to_json(found).dump(), .files = {fixed(found.file)}};
+}
+
+Identified of_run(const Sources&, const Settings& given) {
+  identify::RunFitSettings s;
+  given.path("run", s.run);
+  given.path("machine", s.machine);
+  given.texts("sets", s.sets);
+  given.texts("fit", s.fit);
+  given.texts("priors", s.priors);
+  given.text("hold_out", s.hold_out);
+  given.quantity("from", "s", s.from);
+  given.integer("threads", s.threads);
+  given.path("base", s.base);
+  const auto found = away([&] { return identify::find_run_fit(s); });
+  return {.report = to_json(found).dump(),
+          .reports = {found.result.report},
+          .files = {fixed(found.file(""))}};
 }
 
 Identified check_of(const Sources& sources, const Settings& given) {
@@ -260,6 +278,7 @@ struct Method {
 constexpr Method methods[] = {{"static", of_static, identify::static_columns},
                               {"check", check_of, identify::static_columns},
                               {"scale", scaled, nullptr},
+                              {"run", of_run, nullptr},
                               {"dynamic", dynamic, identify::decay_columns},
                               {"creep", creep, identify::creep_columns},
                               {"joint", joint, [] { return identify::joint_columns(true); }},

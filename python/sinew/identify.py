@@ -51,6 +51,7 @@ __all__ = [
     "joint",
     "pair",
     "plan",
+    "run",
     "scale",
     "sensor",
     "static",
@@ -156,6 +157,41 @@ def static_from(
     del settings["unseen"]
     found = _sinew.identify_tables("static", tables_of("static", data), settings)
     return Static(found.report, tuple(found.text(i, "") for i in range(found.files)))
+
+
+def run(
+    run: _Path,
+    *,
+    fit: Union[str, Sequence[str]] = (),
+    machine: Optional[_Path] = None,
+    sets: Union[str, Sequence[str]] = (),
+    priors: Union[str, Sequence[str]] = (),
+    hold_out: str = "20 %",
+    begin: _Quantity = 0.0,
+    threads: int = 0,
+    base: Optional[_Path] = None,
+) -> Found:
+    """Return friction, damping, dead times, volumes and leaks of a robot from a run of it.
+
+    run: its folder or log; an imported recording's too. fit: keys, and groups of them: "friction",
+    "damping", "dead-time", "volume", "leak"; else all groups. machine: what was run, in place of the
+    folder's. sets: "KEY=VALUE", where the search begins or what is known; priors: "KEY=VALUE +- DEVIATION".
+    hold_out: share of the run, at its end, that scores and is not fitted; begin [s]: what is before is not
+    compared. threads: simulations at once, 0: one for each processor; the result is the same. base: the
+    robot's file that the written one adds to.
+    """
+    settings = {
+        "run": run,
+        "fit": fit,
+        "machine": machine,
+        "sets": sets,
+        "priors": priors,
+        "hold_out": hold_out,
+        "from": begin,
+        "threads": threads,
+        "base": base,
+    }
+    return Found(_sinew.identify_tables("run", [], settings))
 
 
 def scale(
