@@ -134,8 +134,8 @@ Identified of_run(const Sources&, const Settings& given) {
   given.path("base", s.base);
   const auto found = away([&] { return identify::find_run_fit(s); });
   return {.report = to_json(found).dump(),
-          .reports = {found.result.report},
-          .files = {fixed(found.file(""))}};
+          .files = {fixed(found.file(""))},
+          .reports = {found.result.report}};
 }
 
 Identified check_of(const Sources& sources, const Settings& given) {

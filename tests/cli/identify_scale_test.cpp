@@ -77,7 +77,7 @@ TEST(IdentifyScale, WhatIsWrongIsSaidAndNothingIsLost) {
   EXPECT_THAT(taken.err, HasSubstr("make.toml"));
   const Result predict = w.sinew({"identify", "static", "two.csv", "--predict", "length=3 mm"});
   EXPECT_EQ(predict.code, 2) << predict.err;
-  EXPECT_THAT(predict.err, HasSubstr("rest_length=LENGTH"));
+  EXPECT_THAT(predict.err, HasSubstr("expected a rest length; try \"120 mm\""));
   for (const char* reading : {"110 mm, 4 bar gauge", "110 mm, 4 bar, 200 N", "a, b, c"}) {
     const Result result = w.sinew(
         {"identify", "scale", "make.toml", "--rest-length", "120 mm", "--reading", reading});

@@ -91,7 +91,7 @@ TEST(IdentifyStatic, RefusesWhatItCannotUse) {
   EXPECT_EQ(w.sinew(words(map, {"--branch", "sideways"})).code, 2);
   const Result hold_out = w.sinew(words(map, {"--hold-out", "nonsense"}));
   EXPECT_EQ(hold_out.code, 2);
-  EXPECT_THAT(hold_out.err, HasSubstr("expected pressure, length or a file that is there"));
+  EXPECT_THAT(hold_out.err, HasSubstr("expected pressure, length, muscle or a file that is there"));
   EXPECT_THAT(w.sinew(words(map, {"--hold-out", map})).err, HasSubstr("expected another file"));
 }
 

@@ -58,7 +58,8 @@ Check mounts_in_order(const std::vector<ForceCurve>& curves) {
              fmt::format("The mount of {:.4g} mm pulls less than that of {:.4g} mm at {} of {} "
                          "pressures.",
                          1e3 * b.length, 1e3 * a.length, d.below, d.shared),
-             "Look whether the lengths of the two are exchanged, or their muscles differ."};
+             "Look whether the lengths of the two are exchanged, or the columns of force and "
+             "pressure, or their muscles differ."};
   }
   return worst;
 }

@@ -112,9 +112,6 @@ Solution least_squares(const Residuals& residuals, std::size_t count,
     }
     ceres::Solver::Options solver;
     solver.linear_solver_type = ceres::DENSE_QR;
-    // At a bound a step is searched along a line: without this each of its points asks for all
-    // derivatives, which are differences here.
-    solver.line_search_interpolation_type = ceres::QUADRATIC;
     solver.max_num_iterations = options.most_steps;
     solver.function_tolerance = options.tolerance;
     solver.gradient_tolerance = 1e-14;

@@ -148,7 +148,7 @@ std::optional<Source> held_out_of(const std::vector<Source>& sources,
 double predicted_length(const std::string& setting, double atmosphere) {
   const std::size_t equals = setting.find('=');
   if (equals != setting.npos && setting.substr(0, equals) != "rest_length")
-    config::fail({"predict", 0, 0}, "", config::in_quotes(setting), "rest_length=LENGTH");
+    config::fail({"predict", 0, 0}, "", config::in_quotes(setting), "a rest length", "\"120 mm\"");
   return config::quantity_setting("predict",
                                   equals == setting.npos ? setting : setting.substr(equals + 1),
                                   "m", atmosphere, actuator_length);
