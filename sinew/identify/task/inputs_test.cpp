@@ -93,6 +93,8 @@ TEST(Inputs, WithoutAColumnThatIsNeededAMethodDoesNotReadItsTable) {
         if (inputs.method == "joint" && names.size() > 1) continue;
         if (kind.name == "recording" && group == "time") continue;
         if (kind.name == "pulses" && group == "command") continue;
+        // A pair's two kinds of table have one list of columns: pair_record() tells which is whole.
+        if (inputs.method == "pair" && group != "time") continue;
         EXPECT_ANY_THROW(rows_read(inputs, kind, without(kind, names)))
             << inputs.method << " " << kind.name << " without " << group;
       }
