@@ -14,8 +14,6 @@
 #include "sinew/identify/motion/decay.h"
 #include "sinew/identify/page/fit_page.h"
 #include "sinew/identify/sensor/sensor_file.h"
-#include "sinew/identify/sensor/transducer_settings.h"
-#include "sinew/identify/sensor/transducer_text.h"
 #include "sinew/identify/task/creep_task.h"
 #include "sinew/identify/task/dynamic_task.h"
 #include "sinew/identify/task/geometry_task.h"
@@ -314,30 +312,6 @@ py::dict identify_columns(const std::string& name) {
   return out;
 }
 
-// What `sinew force-beam --json` prints.
-py::object force_beam(const py::dict& given) {
-  identify::TransducerSettings s;
-  const Settings settings(given);
-  settings.quantity("length", "m", s.length);
-  settings.quantity("width", "m", s.width);
-  settings.quantity("height", "m", s.height);
-  settings.quantity("gages", "m", s.gages);
-  settings.quantity("modulus", "N/m2", s.modulus);
-  settings.quantity("yield_stress", "N/m2", s.yield);
-  settings.number("poisson", s.poisson);
-  settings.number("concentration", s.concentration);
-  settings.text("bridge", s.bridge);
-  settings.number("gage_factor", s.gage_factor);
-  settings.quantity("excitation", "V", s.excitation);
-  settings.number("gain", s.gain);
-  settings.quantity("full_scale", "V", s.full_scale);
-  settings.integer("bits", s.bits);
-  settings.quantity("load", "N", s.load);
-  settings.quantity("sensitivity", "V/N", s.sensitivity);
-  return py::module_::import("json").attr("loads")(
-      identify::json_of(identify::transducer_of(s), identify::wanted_sensitivity(s)));
-}
-
 std::string text_of(const Identified& found, std::size_t which, const std::string& out) {
   if (which >= found.files.size())
     throw py::index_error(
@@ -404,7 +378,6 @@ void bind_identify_tables(py::module_& m) {
   m.def("identify_tables", &identify_tables, py::arg("method"), py::arg("tables"),
         py::arg("settings"));
   m.def("identify_columns", &identify_columns, py::arg("method"));
-  m.def("force_beam", &force_beam, py::arg("settings"));
 }
 
 }  // namespace sinew::python
