@@ -76,7 +76,8 @@ void characterise(const std::string& share, const fs::path& folder) {
   show_models(found.report);
 
   const fs::path file = folder / "my-actuator.toml";
-  std::ofstream(file) << identify::static_file(found, 0, "bpa", "a stand of ours", "");
+  std::ofstream(file) << identify::static_file(found, found.muscles[0], "bpa", "a stand of ours",
+                                               "");
   compare(file, share + "/robots/stand/equations.toml");
 }
 

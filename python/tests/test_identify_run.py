@@ -9,7 +9,7 @@ from sinew import identify
 
 
 class Run(unittest.TestCase):
-    def test_friction_that_was_changed_is_found_again(self):
+    def test_friction_that_was_changed_is_found_again(self) -> None:
         with tempfile.TemporaryDirectory() as place:
             folder = pathlib.Path(place) / "bench"
             experiment = sinew.shipped("experiments/one-joint.toml")

@@ -16,36 +16,40 @@ MAP = identify.Table(
 
 
 class Scale(unittest.TestCase):
+    folder: "tempfile.TemporaryDirectory[str]"
+    file: pathlib.Path
+    found: identify.Static
+
     @classmethod
-    def setUpClass(cls):
+    def setUpClass(cls) -> None:
         cls.folder = tempfile.TemporaryDirectory()
         cls.file = pathlib.Path(cls.folder.name) / "muscle.toml"
         cls.found = identify.static_from(MAP, rest_length=0.25, model="saturating", predict=0.18)
         cls.found.write(cls.file)
 
     @classmethod
-    def tearDownClass(cls):
+    def tearDownClass(cls) -> None:
         cls.folder.cleanup()
 
-    def test_one_muscle_tells_nobody_how_far_off_its_like_is(self):
+    def test_one_muscle_tells_nobody_how_far_off_its_like_is(self) -> None:
         short = identify.scale(self.file, 0.18)
         self.assertEqual(short.report["rest_length_m"], 0.18)
         self.assertIsNone(short.report["half_95_N"])
         self.assertEqual(short.report["corrected_by"], 1)
 
-    def test_predicted_muscles_follow_those_that_were_fitted(self):
+    def test_predicted_muscles_follow_those_that_were_fitted(self) -> None:
         self.assertEqual(len(self.found.files), 2)
         self.assertIn("of another rest length", self.found.files[1])
         self.assertTrue(any("180 mm" in text for text in self.found.report["warnings"]))
 
-    def test_a_reading_corrects_the_law(self):
+    def test_a_reading_corrects_the_law(self) -> None:
         plain = identify.scale(self.file, "180 mm")
         force = 0.5 * plain.report["largest_force_N"]
         strong = identify.scale(self.file, 0.18, reading=(0.18, 6.5e5, 1.1 * 2 * force))
         self.assertAlmostEqual(strong.report["corrected_by"], 1.1, 6)
         self.assertAlmostEqual(strong.report["largest_force_N"], 2.2 * force, 3)
 
-    def test_what_is_refused(self):
+    def test_what_is_refused(self) -> None:
         with self.assertRaisesRegex(identify.RefusalError, "prediction.rest_length"):
             identify.scale(ROOT / "robots/leg/actuator.toml", 0.1)
         with self.assertRaisesRegex(identify.RefusalError, "reading: found"):
