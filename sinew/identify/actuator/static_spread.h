@@ -41,6 +41,7 @@ struct StaticSpread {
   // force, and |ln| of the greatest ratio to the rest length that was next to it  [-]. 0: none was.
   double other_share_68 = 0, other_share_95 = 0, other_reach = 0;
 
+  // Returns those of a kind.
   const Quantiles& of(Guess guess) const;
 };
 
@@ -48,6 +49,7 @@ struct StaticSpread {
 struct Unseen {
   std::vector<double> residuals, widths;  // predicted - measured; w  [N]
 
+  // Adds the points of the other to its own.
   void add(const Unseen& other);
 };
 

@@ -15,6 +15,7 @@ namespace sinew::identify {
 // Returns the value that a parameter is.
 using JointPlace = std::function<double&(JointValues&)>;
 
+// A parameter that is searched, and where its value belongs.
 struct JointSlot {
   Parameter parameter;
   JointPlace place;

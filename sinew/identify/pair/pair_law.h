@@ -27,6 +27,8 @@
 
 namespace sinew::identify {
 
+// How dry friction acts: not at all; by the sign of the rate; over a way of presliding; so, and
+// forgotten at rest.
 enum class PairFriction { none, dry, bristle, fading };
 
 // Which terms a law has.

@@ -11,6 +11,7 @@
 
 namespace sinew::identify {
 
+// The settings of `sinew identify run`, as texts.
 struct RunFitSettings {
   std::string run;                  // its folder, or its log
   std::string machine;              // what was run, in place of the folder's

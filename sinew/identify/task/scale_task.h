@@ -9,6 +9,7 @@
 
 namespace sinew::identify {
 
+// The settings of `sinew identify scale`, as texts.
 struct ScaleSettings {
   std::string file;         // with the actuator that was identified
   std::string actuator;     // its name; empty: the only one
