@@ -30,7 +30,7 @@ struct WishTexts {
 
 // One of them. A value is a quantity in a unit of its own, or "0.3 SI" in the parameter's SI unit.
 struct Wish {
-  // What is wished: a value that stays, one that is likely, or one parameter equal to another.
+  // A wish is a value that stays, one that is likely, or another parameter to be equal to.
   enum class Kind { freeze, prior, tie };
   Kind kind = Kind::freeze;
   std::string text;       // as it was written

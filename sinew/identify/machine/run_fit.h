@@ -36,7 +36,7 @@ struct RunPrior {
   double value = 0, standard_deviation = 0;  // in SI
 };
 
-// What is fitted of a run, and with how much work.
+// Says which numbers a fit to a run searches, and how hard.
 struct RunFitOptions {
   std::vector<std::string> fit;  // keys and groups (machine_numbers.h); empty: all groups
   double hold_out = 0.2;         // share of the run, at its end, that scores what was found
@@ -55,7 +55,7 @@ struct ChannelScore {
   double fitted = 0, held_out = 0;  // rms of what is left, in `unit`
 };
 
-// What a run told of its machine.
+// Holds the numbers that a run told of its machine.
 struct RunFitResult {
   Report report;
   std::vector<ChannelScore> channels;
