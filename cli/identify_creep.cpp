@@ -1,4 +1,4 @@
-// cli/identify_creep.cpp - `sinew identify creep`: shares and times of creep from a hold.
+// cli/identify_creep.cpp - `sinew identify creep`: creep and dry friction from fill, hold and vent.
 #include "cli/identify.h"
 #include "sinew/identify/task/creep_task.h"
 
@@ -12,8 +12,9 @@ void add_identify_creep(Command identify, Action& action) {
   auto options = std::make_shared<Options>();
   Command sub =
       identify.subcommand("creep",
-                          "creep from force that goes on growing at one length; its shares and "
-                          "times belong into an actuator's [creep]",
+                          "creep and dry friction from force at one length while the muscle is "
+                          "filled, held and vented; they belong into an actuator's [creep] and "
+                          "[hysteresis]",
                           "sinew identify creep hold.csv");
   add_data_options(sub, options->data);
   sub.add_flag("--json", options->result.json, "print the report as JSON");

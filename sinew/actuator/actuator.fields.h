@@ -306,6 +306,9 @@ void fields(Visitor& v, Prediction& p) {
            p.rest_length);
   ends(v, "lengths", "m", "shortest and longest length that were measured",
        R"(["80 mm", "100 mm"])", p.shortest, p.longest);
+  if (p.shortest < 0)
+    units::complain(v, "lengths", "a length below zero", "the shortest and the longest",
+                    R"(["80 mm", "100 mm"])");
   ends(v, "pressures", "Pa gauge", "lowest and highest pressure that were measured",
        R"(["0 kPa gauge", "600 kPa gauge"])", p.lowest, p.highest);
   v.number({.name = "inside_68",
@@ -356,6 +359,16 @@ void fields(Visitor& v, Series& series) {
             .max = 0.01,
             .doc = "C, what both ends together give way by; 0: nothing"},
            series.compliance);
+}
+
+template <class Visitor>
+void fields(Visitor& v, Toe& toe) {
+  v.number({.name = "tension",
+            .unit = "N",
+            .min = 0,
+            .max = 1e4,
+            .doc = "s, about which a slack muscle straightens and begins to pull; 0: at once"},
+           toe.tension);
 }
 
 template <class Visitor>
@@ -447,6 +460,8 @@ void fields(Visitor& v, Actuator& a) {
           [&](auto& g) { fields(g, a.wall); });
   v.group({.name = "series", .optional = true, .doc = "ends that give way under the tension"},
           [&](auto& g) { fields(g, a.series); });
+  v.group({.name = "toe", .optional = true, .doc = "a slack muscle that begins to pull softly"},
+          [&](auto& g) { fields(g, a.toe); });
   if (tapers(a.taper) && !(a.taper.rest_length > a.caps.length)) {
     units::complain(v, "taper", "no rest_length", "that of the muscle without pressure and load");
   } else if (a.long_end.length < shortest_length(a)) {

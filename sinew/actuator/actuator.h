@@ -1,8 +1,8 @@
 // actuator/actuator.h - one braided pneumatic actuator (McKibben muscle): its parameters.
 //
-// The laws stand in braid.h (geometry), body.h, bladder.h, pull.h, series.h, tension.h, loss.h,
-// hysteresis.h, creep.h and stiffness.h. Everything is SI; pressure is absolute unless a name says
-// gauge. Sources: Colbrunn (2000), equation numbers in brackets.
+// The laws stand in braid.h (geometry), body.h, bladder.h, pull.h, toe.h, series.h, tension.h,
+// loss.h, hysteresis.h, creep.h and stiffness.h. Everything is SI; pressure is absolute unless a
+// name says gauge. Sources: Colbrunn (2000), equation numbers in brackets.
 #pragma once
 
 #include <array>
@@ -105,6 +105,11 @@ struct Series {
   double compliance = 0;  // C [m/N]
 };
 
+// Softens where a slack muscle begins to pull; not in the thesis, see toe.h.
+struct Toe {
+  double tension = 0;  // s [N], 0: it begins at once
+};
+
 // How far a measured force lies from the law's, as an identification left it in the actuator's
 // file; no part of any law, see prediction.h. 0: not known.
 struct Prediction {
@@ -129,6 +134,7 @@ struct Actuator {
   Taper taper;
   Wall wall;
   Series series;
+  Toe toe;
   Hysteresis hysteresis;
   Creep creep;
   Prediction prediction;

@@ -34,6 +34,7 @@ Actuator full(std::mt19937_64& random) {
              .rest_length = 0.098};
   a.wall.thickness = uniform(random, 0, 1e-3);
   a.series.compliance = uniform(random, 0, 2e-5);
+  a.toe.tension = uniform(random, 0, 10);
   a.bladder = {.stiffness = uniform(random, 0, 400),
                .rest_length = 0.098,
                .quadratic = uniform(random, -1e3, 1e3),
@@ -59,7 +60,7 @@ TEST(Body, NeutralIsTheBraidToTheBit) {
 }
 
 TEST(Body, EachTermIsNoLongerPlain) {
-  for (int term = 0; term < 9; ++term) {
+  for (int term = 0; term < 10; ++term) {
     Actuator a = thesis_actuator();
     if (term == 0) a.effectiveness.threshold = 1;
     if (term == 1) a.caps.length = 1e-3;
@@ -70,6 +71,7 @@ TEST(Body, EachTermIsNoLongerPlain) {
     if (term == 6) a.bladder.saturating_tension = 1;
     if (term == 7) a.bladder.valid_to = 0.1;
     if (term == 8) a.series.compliance = 1e-6;
+    if (term == 9) a.toe.tension = 1;
     EXPECT_FALSE(is_plain(a)) << term;
   }
 }

@@ -1,19 +1,21 @@
 // actuator/series.h - ends and bladder that give way: a spring between the clamps and the braid.
 //
-//   B(x) = (L - x)/C          F = B(x)          dF/dL = B'/(1 + C B')
+//   T(x) = (L - x)/C          F = T(x)          dF/dL = T'/(1 + C T')
 //
-//   L  length of the muscle [m]   x  of its braid [m]   B  what braid and bladder pull with, pull.h
+//   L  length of the muscle [m]   x  of its braid [m]   T  what braid and bladder pull with, pull.h
+//   and toe.h; T = B and T' = B' without a toe
 //   C  compliance of both ends together [m/N], 0: they do not give way
 //
 // One pair of ends has one C, whatever the rest length: short muscles lose a larger share of their
 // stiffness to it. Festo muscles of 10 mm have some 0.011 mm/N (docs/theory/static-models.md).
 //
-// Newton's iteration from x = L: B is convex and grows with x, so every step but the first comes
+// Newton's iteration from x = L: T is convex and grows with x, so every step but the first comes
 // from above the solution and none goes past it. The air keeps the volume of the whole length: C F
 // is 2 to 4 % of the length, and of the volume at the highest force some 5 %. Not in the thesis.
 #pragma once
 
 #include "sinew/actuator/pull.h"
+#include "sinew/actuator/toe.h"
 
 namespace sinew::actuator {
 
@@ -29,11 +31,13 @@ inline double braid_length(const Actuator& a, double length, double gauge_pressu
   for (int i = 0; i < 30; ++i) {
     const double w = working_length(a, x, gauge_pressure);
     const BladderPull bladder = bladder_pull(a.bladder, x);
-    const double pull =
+    const double hard =
         (ideal_tension(a.braid, w, acting) + acting * wall_area(a, w)) * eff + bladder.tension;
+    const double pull = toe_tension(a.toe, hard);
     const double slope =
-        (ideal_stiffness(a.braid, w, acting) + acting * wall_area_slope(a, w)) * gain * eff +
-        bladder.stiffness;
+        ((ideal_stiffness(a.braid, w, acting) + acting * wall_area_slope(a, w)) * gain * eff +
+         bladder.stiffness) *
+        toe_share(a.toe, hard);
     const double grows = c * slope > -0.5 ? c * slope : -0.5;
     const double step = (c * pull - (length - x)) / (1.0 + grows);
     x -= step;
@@ -44,13 +48,17 @@ inline double braid_length(const Actuator& a, double length, double gauge_pressu
 }
 
 // Returns the share of a stiffness of braid and bladder that is left of it at the muscle's ends,
-// 1/(1 + C B')  [-].
+// t/(1 + C t B') with t = dT/dB of the toe  [-].
 inline double share_of_stiffness(const Actuator& a, double x, double gauge_pressure,
                                  double atmosphere) {
   const double c = a.series.compliance;
-  if (!(c > 0)) return 1.0;
-  return 1.0 / (1.0 + c * (braid_pull_slope(a, x, gauge_pressure, atmosphere) +
-                           bladder_stiffness(a.bladder, x)));
+  if (!(c > 0) && !(a.toe.tension > 0)) return 1.0;
+  const BladderPull bladder = bladder_pull(a.bladder, x);
+  const double share =
+      toe_share(a.toe, braid_pull(a, x, gauge_pressure, atmosphere) + bladder.tension);
+  if (!(c > 0)) return share;
+  const double slope = braid_pull_slope(a, x, gauge_pressure, atmosphere) + bladder.stiffness;
+  return share / (1.0 + c * share * slope);
 }
 
 }  // namespace sinew::actuator

@@ -5,8 +5,8 @@
 //   P_g  gauge pressure [Pa]        L  length [m]         v  dL/dt [m/s]
 //
 // Beyond the thesis, all of it neutral where nothing is set: a threshold of the pressure (here),
-// caps, taper and wall (body.h), a bladder that is no linear spring (bladder.h), ends that give way
-// (series.h):
+// caps, taper and wall (body.h), a bladder that is no linear spring (bladder.h), a soft beginning
+// (toe.h), ends that give way (series.h):
 //
 //   F = P_act Eff(p) (b^2/(4 pi n^2) (3 x^2/b^2 - 1) + A_t(x)) + ...
 //
@@ -39,9 +39,15 @@ constexpr double long_end_tension(const LongEnd& end, double length, double velo
 constexpr bool is_plain(const Actuator& a) {
   const Bladder none;
   return a.effectiveness.threshold == 0 && a.caps.length == 0 && !tapers(a.taper) &&
-         a.wall.thickness == 0 && a.series.compliance == 0 && a.bladder.quadratic == 0 &&
-         a.bladder.cubic == 0 && a.bladder.saturating_tension == 0 &&
+         a.wall.thickness == 0 && a.series.compliance == 0 && a.toe.tension == 0 &&
+         a.bladder.quadratic == 0 && a.bladder.cubic == 0 && a.bladder.saturating_tension == 0 &&
          a.bladder.valid_from == none.valid_from && a.bladder.valid_to == none.valid_to;
+}
+
+// Returns what bladder and toe add to what the braid pulls with  [N].
+inline double beside_the_braid(const Actuator& a, double x, double pull) {
+  const double bladder = bladder_tension(a.bladder, x);
+  return a.toe.tension > 0 ? toe_tension(a.toe, pull + bladder) - pull : bladder;
 }
 
 // [31], [33] without dry friction: an actuator clamped at both ends, so the result may push  [N].
@@ -49,7 +55,7 @@ inline double tension(const Actuator& a, double length, double velocity, double 
                       double atmosphere) {
   const double x = braid_length(a, length, gauge_pressure, atmosphere);
   const double pull = braid_pull(a, x, gauge_pressure, atmosphere);
-  const double passive = bladder_tension(a.bladder, x) + a.loss.viscous * velocity;
+  const double passive = beside_the_braid(a, x, pull) + a.loss.viscous * velocity;
   const double inside = pull + passive + long_end_tension(a.long_end, length, velocity);
 
   const double shortest = shortest_length(a);

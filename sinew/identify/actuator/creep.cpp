@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sinew/actuator/hysteresis.h"
+#include "sinew/identify/actuator/static_settled.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/refusal.h"
 
@@ -18,8 +20,46 @@ const Wanted creep_wanted[] = {
     {.name = "pressure", .unit = "Pa gauge", .least = 1e4, .most = 5e6, .doc = "in the muscle"},
 };
 
-// The pressure that comes late, at every row; straight lines between rows, so it is exact.
-std::vector<double> late(const std::vector<double>& t, const std::vector<double>& p, double tau) {
+// What is searched: how many elements of creep, and is there friction?
+struct Form {
+  std::string_view name;
+  int elements = 0;
+  bool friction = false;
+};
+constexpr Form forms[] = {{"none", 0, false},
+                          {"one", 1, false},
+                          {"two", 2, false},
+                          {"friction", 0, true},
+                          {"friction-and-one", 1, true},
+                          {"friction-and-two", 2, true}};
+
+constexpr int stretches = 10;           // of time, left out by turns
+constexpr std::size_t least_rows = 12;  // that creep can be had from
+constexpr int least_rests = 2;  // fewer tell that the pressure is let in slowly: all is fitted
+
+// Holds a recording, and which of its rows are fitted.
+struct Held {
+  std::span<const double> time, force, pressure;
+  std::vector<std::size_t> rows;  // at which the pressure rests
+  double top = 0, pull = 0;       // largest pressure and force [Pa], [N]
+
+  // Returns the stretch of time that a row lies in.
+  int stretch(std::size_t row) const {
+    const double share = (time[row] - time.front()) / (time.back() - time.front());
+    return std::min(static_cast<int>(stretches * share), stretches - 1);
+  }
+};
+
+// Returns what the mesh feels of the pressure, which it drags behind it, at every row.
+std::vector<double> felt(std::span<const double> pressure, double half_width) {
+  std::vector<double> out;
+  double f = pressure[0];
+  for (const double p : pressure) out.push_back(f = actuator::play(f, p, half_width));
+  return out;
+}
+
+// Returns the pressure that comes late, at every row; straight lines between rows, so it is exact.
+std::vector<double> late(std::span<const double> t, std::span<const double> p, double tau) {
   std::vector<double> z{p[0]};
   for (std::size_t i = 1; i < t.size(); ++i) {
     const double dt = t[i] - t[i - 1];
@@ -30,21 +70,22 @@ std::vector<double> late(const std::vector<double>& t, const std::vector<double>
   return z;
 }
 
-// A, P0, then c and tau of each element.
-std::vector<double> force(const Measured& m, std::span<const double> x) {
-  const std::vector<double>&t = m["time"], &p = m["pressure"];
+// Returns the force at every row; `x` holds A, P0, w where there is friction, then c and tau of
+// each element.
+std::vector<double> force(const Held& held, const Form& form, std::span<const double> x) {
+  const std::vector<double> f = felt(held.pressure, form.friction ? x[2] : 0.0);
   std::vector<double> out;
-  for (const double each : p) out.push_back(x[0] * std::max(each - x[1], 0.0));
-  for (std::size_t k = 2; k + 1 < x.size(); k += 2) {
-    const std::vector<double> z = late(t, p, x[k + 1]);
+  for (const double each : f) out.push_back(x[0] * std::max(each - x[1], 0.0));
+  for (std::size_t k = form.friction ? 3 : 2; k + 1 < x.size(); k += 2) {
+    const std::vector<double> z = late(held.time, f, x[k + 1]);
     for (std::size_t i = 0; i < out.size(); ++i) out[i] += x[0] * x[k] * std::max(z[i] - x[1], 0.0);
   }
   return out;
 }
 
-std::vector<Parameter> parameters(const Measured& m, int elements) {
-  const double top = largest(m["pressure"]), pull = largest(m["force"]);
-  const double span = m["time"].back() - m["time"].front();
+std::vector<Parameter> parameters(const Held& held, const Form& form) {
+  const double top = held.top, pull = held.pull;
+  const double span = held.time.back() - held.time.front();
   std::vector<Parameter> out{
       {.name = "slope", .unit = "N/Pa", .start = 2 * pull / top, .low = 0, .scale = pull / top},
       {.name = "threshold",
@@ -53,10 +94,17 @@ std::vector<Parameter> parameters(const Measured& m, int elements) {
        .low = 0,
        .high = 0.999 * top,
        .scale = 0.1 * top}};
+  if (form.friction)
+    out.push_back({.name = "half_width",
+                   .unit = "Pa diff",
+                   .start = 0.01 * top,
+                   .low = 0,
+                   .high = 0.3 * top,
+                   .scale = 0.01 * top});
   constexpr std::string_view shares[] = {"share_1", "share_2"};
   constexpr std::string_view times[] = {"time_1", "time_2"};
-  for (int k = 0; k < elements; ++k) {
-    const double tau = span * (elements == 1 ? 0.1 : k == 0 ? 0.02 : 0.3);
+  for (int k = 0; k < form.elements; ++k) {
+    const double tau = span * (form.elements == 1 ? 0.1 : k == 0 ? 0.02 : 0.3);
     out.push_back({.name = std::string(shares[k]),
                    .unit = "1",
                    .start = 0.05,
@@ -73,48 +121,63 @@ std::vector<Parameter> parameters(const Measured& m, int elements) {
   return out;
 }
 
-// Rows i with i % 2 == part, or all for part < 0.
-Solution fit(const Measured& m, int elements, int part) {
-  const std::vector<double>& measured = m["force"];
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < m.rows(); ++i)
-    if (part < 0 || static_cast<int>(i % 2) == part) rows.push_back(i);
+// Fits these rows, from `start` or, without one, from the best of three thresholds.
+Solution fit(const Held& held, const Form& form, const std::vector<std::size_t>& rows,
+             const Solution* start) {
   const Residuals residuals = [&](std::span<const double> x, std::span<double> r) {
-    const std::vector<double> f = force(m, x);
-    for (std::size_t k = 0; k < rows.size(); ++k) r[k] = f[rows[k]] - measured[rows[k]];
+    const std::vector<double> f = force(held, form, x);
+    for (std::size_t k = 0; k < rows.size(); ++k) r[k] = f[rows[k]] - held.force[rows[k]];
     return true;
   };
-  std::vector<Parameter> from = parameters(m, elements);
+  std::vector<Parameter> from = parameters(held, form);
   std::vector<std::vector<double>> starts;
   for (const double threshold : {0.0, 0.5, 0.9}) {
-    std::vector<double> start;
-    for (const Parameter& p : from) start.push_back(p.start);
-    const double top = largest(m["pressure"]);
-    start[1] = threshold * top;
-    start[0] = largest(measured) / (top - start[1]);
-    starts.push_back(start);
+    if (start) break;
+    std::vector<double> each;
+    for (const Parameter& p : from) each.push_back(p.start);
+    each[1] = threshold * held.top;
+    each[0] = held.pull / (held.top - each[1]);
+    starts.push_back(each);
   }
-  return least_squares_from(residuals, rows.size(), from, starts);
+  const Solution first =
+      start ? *start
+            : least_squares_from(residuals, rows.size(), from, starts, {.tolerance = 1e-6});
+  for (std::size_t i = 0; i < from.size(); ++i) from[i].start = first.values[i];
+  return least_squares(residuals, rows.size(), from,
+                       {.correlated = true, .tolerance = start ? 1e-9 : 1e-12});
 }
 
-Fit try_elements(const Measured& m, int elements) {
-  constexpr std::string_view names[] = {"none", "one", "two"};
-  Fit out{.model = std::string(names[elements]),
-          .law = "F = A (max(p - P0, 0) + sum c_i max(z_i - P0, 0)), z_i' = (p - z_i)/tau_i",
-          .source = "actuator/creep.h"};
-  const Solution whole = fit(m, elements, -1);
+Fit try_form(const Held& held, const Form& form) {
+  Fit out{.model = std::string(form.name),
+          .law = "F = A (max(f - P0, 0) + sum c_i max(z_i - P0, 0)), z_i' = (f - z_i)/tau_i",
+          .source = form.friction ? "actuator/creep.h, actuator/hysteresis.h" : "actuator/creep.h"};
+  const Solution whole = fit(held, form, held.rows, nullptr);
   out.parameters = whole.estimates;
-  const double full = largest(m["force"]);
-  out.fit = score(whole.residuals, full);
-  out.residuals = whole.residuals;
+  out.fit = score(whole.residuals, held.pull);
+  const std::vector<double> every = force(held, form, whole.values);
+  for (std::size_t i = 0; i < every.size(); ++i) out.residuals.push_back(every[i] - held.force[i]);
   std::vector<double> unseen;
-  for (int part = 0; part < 2; ++part) {
-    const std::vector<double> f = force(m, fit(m, elements, part).values);
-    for (std::size_t i = 0; i < m.rows(); ++i)
-      if (static_cast<int>(i % 2) != part) unseen.push_back(f[i] - m["force"][i]);
+  for (int parity = 0; parity < 2; ++parity) {
+    std::vector<std::size_t> seen, left;
+    for (const std::size_t row : held.rows)
+      (held.stretch(row) % 2 == parity ? left : seen).push_back(row);
+    const std::vector<double> f = force(held, form, fit(held, form, seen, &whole).values);
+    for (const std::size_t row : left) unseen.push_back(f[row] - held.force[row]);
   }
-  out.cross_validated = score(unseen, full);
+  out.cross_validated = score(unseen, held.pull);
+  constexpr std::string_view may_be_zero[] = {"threshold"};
+  keep_off_bounds(out, may_be_zero);
   return out;
+}
+
+// Does the pressure go down again by more than a tenth of its range?
+bool vents(std::span<const double> pressure) {
+  double highest = pressure[0], fall = 0;
+  for (const double p : pressure) {
+    highest = std::max(highest, p);
+    fall = std::max(fall, highest - p);
+  }
+  return fall > 0.1 * (highest - *std::ranges::min_element(pressure));
 }
 
 // From one time constant of the slowest element on: what the pressure's own rise adds meanwhile.
@@ -135,13 +198,31 @@ void warn_of_pressure(const Measured& m, const actuator::Creep& creep, Report& r
       report.fits[0].fit.rmse_percent));
 }
 
+// Takes a recording apart, and tells what of it is not fitted.
+Held held_of(const Measured& data, Report& report) {
+  Held out{.time = data["time"], .force = data["force"], .pressure = data["pressure"]};
+  out.top = largest(data["pressure"]);
+  out.pull = largest(data["force"]);
+  const Settled settled = settled_samples(out.time, out.pressure);
+  const bool all = settled.rests < least_rests || data.rows() - settled.moving() < least_rows;
+  for (std::size_t i = 0; i < data.rows(); ++i)
+    if (all || settled.sample[i]) out.rows.push_back(i);
+  if (out.rows.size() < data.rows())
+    report.notes.push_back(fmt::format(
+        "{} of {} samples are followed and not fitted, as the pressure moves by more than {:.2g} "
+        "kPa in {:.2g} s",
+        data.rows() - out.rows.size(), data.rows(), 1e-3 * settled.most, settled.window));
+  return out;
+}
+
 }  // namespace
 
 std::span<const Wanted> creep_columns() { return creep_wanted; }
 
 CreepResult identify_creep(const Measured& data) {
-  if (data.rows() < 12)
-    throw Refusal(data.file, fmt::format("{} rows", data.rows()), "at least 12", "a longer hold");
+  if (data.rows() < least_rows)
+    throw Refusal(data.file, fmt::format("{} rows", data.rows()),
+                  fmt::format("at least {}", least_rows), "a longer hold");
   CreepResult out;
   Report& report = out.report;
   report = {.subject = "creep from " + data.file,
@@ -150,14 +231,19 @@ CreepResult identify_creep(const Measured& data) {
             .full_scale = largest(data["force"]),
             .full_scale_is = "the largest force",
             .notes = data.notes};
-  for (int elements = 0; elements <= actuator::Creep::most; ++elements)
-    report.fits.push_back(try_elements(data, elements));
+  const Held held = held_of(data, report);
+  const bool both = vents(held.pressure);
+  for (const Form& form : forms)
+    if (both || !form.friction) report.fits.push_back(try_form(held, form));
   report.rows = {.x = "time", .x_unit = "s", .at = data["time"], .measured = data["force"]};
   choose(report);
-  const std::vector<Estimate>& best = report.best().parameters;
-  for (std::size_t k = 2; k + 1 < best.size(); k += 2) {
-    out.creep.share[(k - 2) / 2] = best[k].value;
-    out.creep.time[(k - 2) / 2] = best[k + 1].value;
+  const Form& best = *std::ranges::find(forms, report.best().model, &Form::name);
+  const std::vector<Estimate>& found = report.best().parameters;
+  const std::size_t first = best.friction ? 3 : 2;
+  if (best.friction) out.hysteresis.half_width = found[2].value;
+  for (std::size_t k = first; k + 1 < found.size(); k += 2) {
+    out.creep.share[(k - first) / 2] = found[k].value;
+    out.creep.time[(k - first) / 2] = found[k + 1].value;
   }
   warn_of_pressure(data, out.creep, report);
   return out;

@@ -1,11 +1,18 @@
-// identify/actuator/creep.h - shares and times of creep, from force that goes on growing at one
-// length.
+// identify/actuator/creep.h - creep and dry friction together, from force at one length while a
+// muscle is filled, held and vented.
 //
-//   F = A (max(p - P0, 0) + sum c_i max(z_i - P0, 0))      z_i' = (p - z_i)/tau_i
+//   F = A (max(f - P0, 0) + sum c_i max(z_i - P0, 0))      z_i' = (f - z_i)/tau_i
+//   f = play of half-width w behind p: |p - f| <= w, and f moves only where p drags it
 //
-// The law of actuator/creep.h with a static law that is a straight line over pressure, A and P0 of
-// this length. While the pressure still moves, a slow creep and a threshold that is a little off
-// look alike: the report says how much of the growth a law without creep explains.
+//   p  gauge pressure [Pa]   f  what the mesh feels of it [Pa]   A  slope at this length [N/Pa]
+//   P0  threshold [Pa]   c_i  share that comes late [-]   tau_i  its time [s]   w  [Pa]
+//
+// The laws of actuator/creep.h and actuator/hysteresis.h with a static law that is a straight line
+// over pressure, A and P0 of this length. Each looks like the other where there is only a part of
+// the data: after a fill creep lifts the force, and friction holds it down; the vent parts them, as
+// friction then holds it up at once and creep only for a while. So they are searched together.
+// While the pressure still moves, a slow creep and a threshold that is a little off look alike: the
+// report says how much of the growth a law without creep explains.
 #pragma once
 
 #include <span>
@@ -16,17 +23,20 @@
 
 namespace sinew::identify {
 
-// time, force, pressure.
+// Returns the columns that are read: time, force, pressure.
 std::span<const Wanted> creep_columns();
 
-// The creep that was found, and how well it fits.
+// Holds the creep and the friction that were found, and how well they fit.
 struct CreepResult {
   Report report;
-  actuator::Creep creep;  // of the chosen model
+  actuator::Creep creep;            // of the chosen model
+  actuator::Hysteresis hysteresis;  // its half_width alone; 0: the chosen model has none
 };
 
-// None, one and two elements are tried; every second row is held out to choose. Throws Refusal for
-// fewer than 12 rows.
+// Tries none, one and two elements of creep; of a recording that is filled and vented each without
+// and with friction. To choose, ten stretches of time are left out by turns. Samples at which the
+// pressure moves (static_settled.h) are followed and not fitted. Throws Refusal for fewer than 12
+// rows.
 CreepResult identify_creep(const Measured& data);
 
 }  // namespace sinew::identify

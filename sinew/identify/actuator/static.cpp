@@ -77,16 +77,18 @@ void describe(const StaticFit& fit, Fit& out) {
                     fit.outliers, fit.solution.residuals.size(), fit.scatter));
 }
 
-// Held out by the points themselves, or every second pressure, or each length once.
+// Returns what was held out by the points themselves, or every second pressure, or each length or
+// muscle once.
 std::optional<Score> held_out(const Tried& model, const StaticFit& fit, const StaticSplit& s,
-                              HoldOut which, double full_scale) {
+                              const std::vector<LeftOut>& muscles, HoldOut which,
+                              double full_scale) {
   if (which == HoldOut::length) {
     const std::vector<int> group = length_groups(s.fitted);
     return score(model.cross(s.fitted, group, count_of(group), fit).residuals, full_scale);
   }
   if (which == HoldOut::muscle) {
     std::vector<double> shares;
-    for (const LeftOut& m : model.leave_out_muscles(s.fitted)) {
+    for (const LeftOut& m : muscles) {
       for (const double r : m.unseen.residuals) shares.push_back(r * full_scale / m.largest);
     }
     return score(shares, full_scale);
@@ -118,8 +120,9 @@ Fit try_model(const StaticModel& model, const StaticSplit& s, const StaticScales
     out.fit = score(out.residuals, full_scale);
     const std::vector<double> unseen = misses(fit.setting, own, s.held_out);
     out.residuals.insert(out.residuals.end(), unseen.begin(), unseen.end());
-    out.held_out = held_out(tried, fit, s, hold_out, full_scale);
-    const StaticSpread spread = cross_validate(tried, s.fitted, fit, full_scale, out);
+    const std::vector<LeftOut> muscles = tried.leave_out_muscles(s.fitted);
+    out.held_out = held_out(tried, fit, s, muscles, hold_out, full_scale);
+    const StaticSpread spread = cross_validate(tried, s.fitted, fit, muscles, full_scale, out);
     keep_off_bounds(out, may_be_at_bound);
     found = {fit, own, spread};
   } catch (const Refusal& refusal) {

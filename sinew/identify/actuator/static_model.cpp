@@ -70,6 +70,14 @@ const StaticModel models[] = {
      "F = (p - P0) f (3 x^2 - b^2) + k u - S (1 - exp(u/lambda)), x = L - C F, u = x - L0",
      "saturating-elastic, with ends that give way",
      {threshold, stiffness, saturating_tension, saturation_length, series}},
+    {"saturating-toe",
+     "F = s ln(1 + exp(B/s)), B = (p - P0) f (3 L^2 - b^2) - S (1 - exp(u/lambda)), u = L - L0",
+     "saturating, with a slack muscle that begins to pull softly",
+     {threshold, saturating_tension, saturation_length, toe}},
+    {"saturating-series-toe",
+     "F = s ln(1 + exp(B/s)), B = (p - P0) f (3 x^2 - b^2) - S (1 - exp(u/lambda)), x = L - C F",
+     "saturating-series, with a slack muscle that begins to pull softly",
+     {threshold, saturating_tension, saturation_length, series, toe}},
 };
 
 struct Info {
@@ -96,6 +104,7 @@ constexpr std::array infos = {
     Info{"half_width", "hysteresis.half_width", "Pa diff"},
     Info{"end_loss", "", "m"},
     Info{"series_compliance", "series.compliance", "m/N"},
+    Info{"toe_tension", "toe.tension", "N"},
 };
 
 const Info& info(Knob knob) { return infos[static_cast<std::size_t>(knob)]; }
@@ -165,6 +174,8 @@ double& value_of(StaticSetting& setting, Knob knob) {
       return a.hysteresis.half_width;
     case series:
       return a.series.compliance;
+    case toe:
+      return a.toe.tension;
     case end_loss:
       break;
   }
@@ -222,7 +233,9 @@ Parameter parameter_of(Knob knob, const StaticScales& s) {
     case end_loss:
       return make(0, -0.3 * l, 0.15 * l, 0.02 * l);
     case series:
-      return make(0.005 * l / f, 0, 0.2 * l / f, 0.01 * l / f);
+      return make(0.005 * l / f, 1e-5 * l / f, 0.2 * l / f, 0.01 * l / f);
+    case toe:
+      return make(0.04 * f, 0.002 * f, 0.3 * f, 0.01 * f);
   }
   return {};
 }
@@ -239,6 +252,10 @@ std::optional<Prior> prior_of(Knob knob, const StaticScales& s) {
       return Prior{0.022 * s.rest_length, 0.35, true};
     case caps:
       return Prior{0, 0.1 * s.rest_length};
+    case toe:
+      return Prior{0.03 * s.full_scale, 0.7, true};
+    case series:
+      return Prior{0.015 * s.rest_length / s.full_scale, 1.2, true};
     default:
       return std::nullopt;
   }
@@ -290,6 +307,7 @@ actuator::Actuator like(const actuator::Actuator& actuator, double from, double 
                        &a.bladder.valid_from, &a.bladder.valid_to})
     *size *= r;
   a.bladder.stiffness /= r;
+  a.toe.tension /= r;
   a.bladder.quadratic /= r * r;
   a.bladder.cubic /= r * r * r;
   return a;

@@ -6,7 +6,7 @@
 // the longest is the reference; the others are its like: same braid angle, same diameter, same
 // strains,
 //
-//   b, n, lambda ~ L_0     k ~ 1/L_0   k2 ~ 1/L_0^2   k3 ~ 1/L_0^3     Eff x (1 - c/L_0)
+//   b, n, lambda ~ L_0     k, s ~ 1/L_0   k2 ~ 1/L_0^2   k3 ~ 1/L_0^3     Eff x (1 - c/L_0)
 //
 // c, the rest length's own effect, is what the ends take from every muscle alike; no geometric law
 // gives it. Laws whose ends give way (actuator/series.h) need no c: C is that of the ends, the same
@@ -49,7 +49,8 @@ enum class Knob {
   wall,
   half_width,
   end_loss,
-  series
+  series,
+  toe
 };
 
 // What a set of knobs comes to.

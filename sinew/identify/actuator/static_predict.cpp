@@ -123,7 +123,7 @@ actuator::Actuator corrected(actuator::Actuator a, const ForceReading& r, double
   // Everything that pulls is as much stronger, so that the shape stays.
   a.effectiveness.scale *= factor;
   for (double* spring : {&a.bladder.stiffness, &a.bladder.quadratic, &a.bladder.cubic,
-                         &a.bladder.saturating_tension})
+                         &a.bladder.saturating_tension, &a.toe.tension})
     *spring *= factor;
   a.series.compliance /= factor;
   return a;

@@ -196,7 +196,7 @@ StaticScales Tried::scales_of_fit(const StaticFit& fit) const {
 }
 
 StaticSpread cross_validate(const Tried& model, const Points& points, const StaticFit& whole,
-                            double full_scale, Fit& fit) {
+                            const std::vector<LeftOut>& muscles, double full_scale, Fit& fit) {
   const std::vector<int> part = interior_pressures(points);
   const int parts = 1 + *std::max_element(part.begin(), part.end());
   Unseen inside = model.cross(points, part, parts, whole);
@@ -211,10 +211,10 @@ StaticSpread cross_validate(const Tried& model, const Points& points, const Stat
     squares.push_back(mean_square(lengths.residuals));
     inside.add(lengths);
   }
-  const std::vector<LeftOut> muscles = model.leave_out_muscles(points);
   const double of_muscles = tell_muscles(muscles, fit) * full_scale * full_scale;
   if (muscles.size() > 2) squares.push_back(of_muscles);
 
+  for (const double square : squares) fit.kinds.push_back(100 * std::sqrt(square) / full_scale);
   fit.cross_validated = score(inside.residuals, full_scale);
   fit.cross_validated->rmse = std::sqrt(mean(squares));
   fit.cross_validated->rmse_percent = 100 * fit.cross_validated->rmse / full_scale;

@@ -34,7 +34,15 @@ bool usable(const Fit& fit) { return fit.refused.empty(); }
 
 enum class By { cross_validation, held_out, fit };
 
+// Errors below this are one, so that a kind that a law meets exactly does not decide alone  [%].
+constexpr double exact = 1e-3;
+
 double error_of(const Fit& fit, By by) {
+  if (by == By::cross_validation && !fit.kinds.empty()) {
+    double logarithms = 0;
+    for (const double kind : fit.kinds) logarithms += std::log(std::max(kind, exact));
+    return std::exp(logarithms / static_cast<double>(fit.kinds.size()));
+  }
   if (by == By::cross_validation) return fit.cross_validated->rmse_percent;
   return by == By::held_out ? fit.held_out->rmse_percent : fit.fit.rmse_percent;
 }
@@ -60,6 +68,14 @@ std::vector<const Fit*> eligible(const Report& report) {
   }
   if (!out.empty() || all.empty()) return out;
   return all;
+}
+
+// Is it about as good as the best one at every kind of parts?
+bool costs_no_kind(const Fit& fit, const Fit& best, By by, double tolerance, double negligible) {
+  if (by != By::cross_validation) return true;
+  for (std::size_t k = 0; k < std::min(fit.kinds.size(), best.kinds.size()); ++k)
+    if (fit.kinds[k] > std::max({(1 + tolerance) * best.kinds[k], negligible, exact})) return false;
+  return true;
 }
 
 // Says how close the fits behind the chosen one are; `fits` are in ascending order of their errors.
@@ -105,19 +121,25 @@ void choose(Report& report, double tolerance, double negligible) {
   const double smallest = error_of(*fits.front(), by);
   const double near = (1 + tolerance) * smallest, limit = std::max(near, negligible);
   const Fit* chosen = fits.front();
-  for (const Fit* fit : fits)
-    if (error_of(*fit, by) <= limit && free_in(*fit) < free_in(*chosen)) chosen = fit;
+  for (const Fit* fit : fits) {
+    const bool is_near = error_of(*fit, by) <= limit;
+    if (is_near && free_in(*fit) < free_in(*chosen) &&
+        costs_no_kind(*fit, *fits.front(), by, tolerance, negligible))
+      chosen = fit;
+  }
 
   if (!chosen->not_chosen.empty())
     report.warnings.push_back(fmt::format("no law is free of a reason not to choose it; {}: {}",
                                           chosen->model, chosen->not_chosen));
   report.chosen = static_cast<std::size_t>(chosen - report.fits.data());
   report.rule = fmt::format(
-      "fewest parameters among those whose {} error is {}: {} has {} and {:.3g} %, the smallest is "
+      "fewest parameters among those whose {} is {}: {} has {} and {:.3g} %, the smallest is "
       "{:.3g} % ({}){}",
-      by == By::cross_validation ? "cross-validated"
-      : by == By::held_out       ? "held-out"
-                                 : "fit",
+      by == By::cross_validation && !chosen->kinds.empty()
+          ? "cross-validated error (geometric mean of all kinds of parts) and that of each kind"
+      : by == By::cross_validation ? "cross-validated error"
+      : by == By::held_out         ? "held-out error"
+                                   : "fit error",
       near < negligible ? fmt::format("below {:.2g} %, where it says nothing", negligible)
                         : fmt::format("within {:.0f} % of the smallest", 100 * tolerance),
       chosen->model, free_in(*chosen), error_of(*chosen, by), smallest, fits.front()->model,

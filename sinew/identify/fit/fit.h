@@ -37,6 +37,10 @@ struct Fit {
   std::optional<Score> held_out;
   // Parts of what was fitted, predicted by the rest; a method's own way, told in `notes`.
   std::optional<Score> cross_validated;
+  // Errors of each kind of parts: pressures, lengths, muscles [%]; none: there is one kind. Each
+  // kind has a scatter of its own in every law (a length that is a little off, say), so the choice
+  // goes by their geometric mean, as the likelihood of unknown scatters does.
+  std::vector<double> kinds;
   // The ends of the data, predicted by what lies between them. It has no part in the choice: a
   // law that ends badly may be the best one where it is used.
   std::optional<Score> extrapolated;
@@ -81,7 +85,9 @@ struct Report {
 
 // The simplest model (fewest free parameters) whose cross-validated error - without one the
 // held-out error, without that its fit - is within `tolerance` (relative) of the smallest, or
-// within `negligible` [%]: errors below it say nothing, for instance the converter's steps. Refused
+// within `negligible` [%]: errors below it say nothing, for instance the converter's steps. Where
+// there are kinds of parts, it is within the tolerance of that model in each of them as well: what
+// is simpler must not cost one kind what it gains in another. Refused
 // models do not count, those with a reason not to be chosen only where no other is left, which is
 // warned of. Writes `chosen` and `rule`, which tells how close the next ones are. Throws Refusal
 // where every model was refused.

@@ -39,6 +39,25 @@ TEST(Choice, IsTheFewestParametersAmongTheGoodOnes) {
   EXPECT_EQ(r.best().model, "five");
 }
 
+// Pressures are told to 1 %, lengths to 3 %, by laws that are alike there: what halves the first
+// counts, and a simpler law that is as good in the mean is not taken if it loses that.
+TEST(Choice, CountsEveryKindOfPartsByItsOwnScatter) {
+  Report r{.fits = {model("two", 2, 2.2), model("three", 3, 2.2), model("four", 4, 2.2)}};
+  for (Fit& fit : r.fits) fit.cross_validated = fit.fit;
+  r.fits[0].kinds = {1.0, 3.0};
+  r.fits[1].kinds = {0.5, 3.1};
+  r.fits[2].kinds = {0.48, 3.05};
+  choose(r);
+  EXPECT_EQ(r.best().model, "three");
+  r.fits[1].kinds = {0.65, 2.35};  // the same mean, but lengths at the cost of pressures
+  choose(r);
+  EXPECT_EQ(r.best().model, "four");
+  r.fits[0].kinds = {1e-9, 1.5};  // what is met exactly does not decide alone
+  r.fits[1].kinds = {1e-12, 1.5};
+  choose(r);
+  EXPECT_EQ(r.best().model, "two");
+}
+
 TEST(Choice, TellsHowCloseTheNextOnesAre) {
   Report r{.fits = {model("one", 1, 3.0), model("two", 2, 1.05), model("five", 5, 1.0),
                     model("six", 6, 1.26), model("seven", 7, 9)}};

@@ -14,6 +14,7 @@ CreepResult find_creep(const std::vector<Source>& sources) {
 nlohmann::ordered_json to_json(const CreepResult& found) {
   nlohmann::ordered_json out = to_json(found.report);
   out["creep"] = {{"share", found.creep.share}, {"time_s", found.creep.time}};
+  out["hysteresis"] = {{"half_width_Pa", found.hysteresis.half_width}};
   return out;
 }
 

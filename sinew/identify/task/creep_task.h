@@ -1,4 +1,5 @@
-// identify/task/creep_task.h - `sinew identify creep`: shares and times of creep from a hold.
+// identify/task/creep_task.h - `sinew identify creep`: creep and dry friction from fill, hold and
+// vent.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,7 +12,7 @@ namespace sinew::identify {
 // Throws config::Error and Refusal.
 CreepResult find_creep(const std::vector<Source>& sources);
 
-// Returns the report with the shares and times [s], as `--json` prints it.
+// Returns the report with the shares, times [s] and half-width [Pa], as `--json` prints it.
 nlohmann::ordered_json to_json(const CreepResult& found);
 
 }  // namespace sinew::identify
