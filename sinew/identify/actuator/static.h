@@ -49,6 +49,7 @@ struct StaticResult {
   StaticScales scales;
   StaticFit fit;        // the chosen one, to all points that were to be fitted
   StaticSpread spread;  // how far it was off where it had not seen the points
+  std::vector<StaticPoint> points;  // that were fitted
 };
 
 // Throws Refusal where the data support no model, std::invalid_argument for a model that there is
