@@ -172,7 +172,8 @@ StaticOmitted drop_gross_outliers(Points& points, const StaticOptions& options, 
   for (const Outlier& o : wild.points) {
     const StaticPoint& p = points[o.point];
     out.points.push_back(p);
-    out.why.push_back(fmt::format("{:.4g} N where the law has {:.4g} N: {}", p.force, o.law, o.why));
+    out.why.push_back(
+        fmt::format("{:.4g} N where the law has {:.4g} N: {}", p.force, o.law, o.why));
     if (out.points.size() <= 5)
       list += fmt::format("{}at {:.4g} mm, {:.4g} kPa {}", list.empty() ? "" : "; ", 1e3 * p.length,
                           1e-3 * p.pressure, out.why.back());

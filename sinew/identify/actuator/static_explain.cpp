@@ -11,7 +11,7 @@ namespace sinew::identify {
 namespace {
 
 constexpr double near_scatters = 3, near_share = 0.01;  // of the largest force
-constexpr double other_mount = 0.004;         // of the longest length: less is the same one
+constexpr double other_mount = 0.004;  // of the longest length: less is the same one
 
 // One thing that may have happened to a number.
 struct Slip {
@@ -20,17 +20,16 @@ struct Slip {
 };
 
 // The force that was written down is the true one times this.
-constexpr Slip of_force[] = {
-    {-1, "its sign is the other one"},
-    {10, "ten times what the law has: a slipped decimal"},
-    {0.1, "a tenth of what the law has: a slipped decimal"},
-    {100, "a hundred times what the law has: a slipped decimal"},
-    {0.01, "a hundredth of what the law has: a slipped decimal"},
-    {2, "twice what the law has: counted double"},
-    {0.5, "half of what the law has: counted for one of two"},
-    {4.4482216, "4.45 times what the law has: N in place of lbf"},
-    {1 / 4.4482216, "what the law has over 4.45: lbf in place of N"},
-    {1 / 9.80665, "what the law has over 9.81: kg in place of N"}};
+constexpr Slip of_force[] = {{-1, "its sign is the other one"},
+                             {10, "ten times what the law has: a slipped decimal"},
+                             {0.1, "a tenth of what the law has: a slipped decimal"},
+                             {100, "a hundred times what the law has: a slipped decimal"},
+                             {0.01, "a hundredth of what the law has: a slipped decimal"},
+                             {2, "twice what the law has: counted double"},
+                             {0.5, "half of what the law has: counted for one of two"},
+                             {4.4482216, "4.45 times what the law has: N in place of lbf"},
+                             {1 / 4.4482216, "what the law has over 4.45: lbf in place of N"},
+                             {1 / 9.80665, "what the law has over 9.81: kg in place of N"}};
 
 // The pressure that was written down is the true one times this.
 constexpr Slip of_pressure[] = {

@@ -13,11 +13,11 @@ namespace {
 
 using Points = std::vector<StaticPoint>;
 
-constexpr int curve_nodes = 33;             // of a curve, between the ends of its points
-constexpr int nodes_beyond = 4;      // on each side
-constexpr double room_beyond = 0.08;  // of the range of all points
-constexpr std::size_t most_shown = 240;    // left out for one reason
-constexpr double off_branch = 1000;   // of another branch: further than any length  [m]
+constexpr int curve_nodes = 33;          // of a curve, between the ends of its points
+constexpr int nodes_beyond = 4;          // on each side
+constexpr double room_beyond = 0.08;     // of the range of all points
+constexpr std::size_t most_shown = 240;  // left out for one reason
+constexpr double off_branch = 1000;      // of another branch: further than any length  [m]
 
 // What the picture's axis goes over.
 bool over_pressure(const Rows& rows) { return rows.x == "pressure"; }

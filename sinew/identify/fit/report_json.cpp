@@ -97,7 +97,8 @@ Json to_json(const Further& further) {
 // Adds what there is beside the models; a key that does not apply is absent.
 void add_evidence(const Report& report, Json& out) {
   for (const ErrorBy& by : report.errors) out["errors"].push_back(to_json(by));
-  for (const Omitted& omitted : report.left_out) out["left_out"].push_back(to_json(omitted, report));
+  for (const Omitted& omitted : report.left_out)
+    out["left_out"].push_back(to_json(omitted, report));
   for (const Further& further : report.further) out["further"].push_back(to_json(further));
 }
 

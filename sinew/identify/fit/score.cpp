@@ -36,9 +36,10 @@ ErrorBy error_by(std::string what, std::string unit, std::span<const double> res
   }
   ErrorBy out{.what = std::move(what), .unit = std::move(unit), .parts = {}};
   for (const auto& [number, rows] : parts)
-    out.parts.push_back({.name = "",
-                         .value = rows.first + rows.sum / static_cast<double>(rows.residuals.size()),
-                         .score = score(rows.residuals, full_scale)});
+    out.parts.push_back(
+        {.name = "",
+         .value = rows.first + rows.sum / static_cast<double>(rows.residuals.size()),
+         .score = score(rows.residuals, full_scale)});
   return out;
 }
 

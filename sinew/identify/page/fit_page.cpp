@@ -26,8 +26,8 @@ constexpr std::size_t most_of_other = 40;  // points of a line that waits until 
 
 // Strokes that differ without their colors, too; further ones are as these with a longer first one.
 const std::vector<double> dashes[] = {
-    {7, 3},       {2, 2},          {8, 3, 2, 3},    {13, 4},      {4, 5},    {9, 3, 2, 3, 2, 3},
-    {1.5, 4},     {13, 3, 4, 3},   {5, 2, 5, 6},    {16, 3, 1, 3}, {3, 3, 1, 3}, {6, 6}};
+    {7, 3},   {2, 2},        {8, 3, 2, 3}, {13, 4},       {4, 5},       {9, 3, 2, 3, 2, 3},
+    {1.5, 4}, {13, 3, 4, 3}, {5, 2, 5, 6}, {16, 3, 1, 3}, {3, 3, 1, 3}, {6, 6}};
 
 std::vector<double> dash_of(std::size_t law) {
   std::vector<double> out = dashes[law % std::size(dashes)];
@@ -121,9 +121,9 @@ class Maker {
                            .x = x,
                            .y = pick(group, [&](std::size_t i) { return measured(i); })});
     if (!told(best)) return;
-    add_line(name, color, {.x = x, .y = pick(group, [&](std::size_t i) {
-                                     return measured(i) + best.residuals[i];
-                                   })});
+    add_line(
+        name, color,
+        {.x = x, .y = pick(group, [&](std::size_t i) { return measured(i) + best.residuals[i]; })});
     left_.curves.push_back({.label = label,
                             .style = style,
                             .color = color,
@@ -131,8 +131,8 @@ class Maker {
                             .y = pick(group, [&](std::size_t i) { return best.residuals[i]; })});
   }
 
-  // The chosen model's line: along its curve with its bands where it tells one, once for each group;
-  // else through the rows.
+  // The chosen model's line: along its curve with its bands where it tells one, once for each
+  // group; else through the rows.
   void add_line(const std::string& name, int color, Curve rows) {
     rows.label = report_.best().model;
     rows.color = color;

@@ -20,8 +20,8 @@ Further further_of(const std::vector<StaticPoint>& points, double atmosphere,
   const FittedMuscle fitted = muscle_by_points(points, atmosphere, braid);
   PlanOptions options{.noise = fitted.scatter, .most = mounts};
   options.error = wanted * options.law_error;
-  const MeasurementPlan plan = plan_measurements(fitted.muscle, region_of(fitted.muscle), options,
-                                                 mounts_of(points));
+  const MeasurementPlan plan =
+      plan_measurements(fitted.muscle, region_of(fitted.muscle), options, mounts_of(points));
   Further out{.of = "",
               .readings = points.size(),
               .rms = percent(plan.before.rms),

@@ -143,7 +143,10 @@ std::string title_of(const std::vector<Source>& sources, const StaticSettings& s
                      const std::vector<StaticMuscle>& muscles) {
   std::string lengths;
   for (std::size_t i = muscles.size(); i-- > 0;)
-    lengths += fmt::format("{}{:.4g}", lengths.empty() ? "" : i == 0 ? " and " : ", ",
+    lengths += fmt::format("{}{:.4g}",
+                           lengths.empty() ? ""
+                           : i == 0        ? " and "
+                                           : ", ",
                            1e3 * muscles[i].rest_length);
   return fmt::format(
       "Static law of {}, identified from {}",
