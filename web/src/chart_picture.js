@@ -52,7 +52,7 @@ class ChartPicture extends Picture {
     const [range] = this.ranges;
     for (const [label, path] of this.chart.bands((v) => this.x(v), (v) => this.y(v, range)))
       this.add(`<path d="${path}" ${this.area(label)}/>`);
-    for (const kind of ['left out', 'other line', 'line', 'points', 'held out'])
+    for (const kind of ['left out', 'line', 'other line', 'points', 'held out'])
       for (const c of this.shown) {
         if (c.style !== kind) continue;
         if (kind === 'left out') {

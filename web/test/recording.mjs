@@ -28,8 +28,8 @@ function rows() {
   for (const p of levels.slice(1))
     for (const branch of [1, -1]) {
       let measured = force(225, p, branch);
-      if (p === 240 && branch > 0) measured *= 10;
-      if (p === 540 && branch < 0) measured = force(200, p, branch);
+      if (p === 240 && branch < 0) measured *= 10;
+      if (p === 540 && branch > 0) measured = force(200, p, branch);
       out.push([225, p, measured.toFixed(3), branch > 0 ? 'fill' : 'vent'].join());
     }
   return out;
