@@ -23,15 +23,16 @@ class ChartPicture extends Picture {
 
   // The mark of a legend has no color where it stands for curves of several.
   key(curve, x, y) {
-    const several = curve.style === 'held out', color = several ? '#444' : this.color(curve);
+    const several = curve.style === 'held out' || (curve.bold && this.chart.has_several_colors(curve.label));
+    const color = several ? '#444' : this.color(curve);
     if (curve.style === 'band') this.add(`<rect x="${at(x)}" y="${at(y - 5)}" width="24" height="10" ${this.area(curve.label)}/>`);
     else if (curve.style === 'left out') this.mark(curve, x + 12, y, 4);
-    else if (curve.style === 'line' || curve.style === 'other line') this.add(`<path d="M${at(x)} ${at(y)}h24" fill="none" ${this.stroke(curve)}/>`);
+    else if (curve.style === 'line' || curve.style === 'other line') this.add(`<path d="M${at(x)} ${at(y)}h24" fill="none" ${this.stroke(curve, color)}/>`);
     else this.dot(curve.style, x + 12, y, 3.2, color);
   }
 
-  stroke(curve) {
-    return `stroke="${this.color(curve)}" stroke-width="${curve.bold ? 2.4 : 1.6}"${curve.dash ? ` stroke-dasharray="${curve.dash.join(' ')}"` : ''}`;
+  stroke(curve, color = this.color(curve)) {
+    return `stroke="${color}" stroke-width="${curve.bold ? 2.4 : 1.6}"${curve.dash ? ` stroke-dasharray="${curve.dash.join(' ')}"` : ''}`;
   }
 
   dot(style, x, y, r, color) {

@@ -110,6 +110,11 @@ class Chart {
     if (others.length) this.others.append(element('span', { class: 'quiet' }, 'other laws'), ...others.map((b) => b.button));
   }
 
+  // Are the curves of a name in several colors?
+  has_several_colors(label) {
+    return new Set(this.spec.curves.filter((c) => c.label === label).map((c) => c.color)).size > 1;
+  }
+
   // Of a curve; null where it stands for several colors.
   color_of(curve, palette = this.charts.palette, dark = this.charts.dark) {
     if (curve.style === 'held out') return null;
@@ -128,7 +133,7 @@ class Chart {
   color(place, palette = this.charts.palette, dark = this.charts.dark) {
     if (this.most < palette.length) return palette[place];
     const share = place / this.most;
-    return pressure_color(dark ? 0.3 + 0.7 * share : 0.9 * share);
+    return pressure_color(dark ? 0.4 + 0.6 * share : 0.64 * share);
   }
 
   // In the page's units.
@@ -172,7 +177,7 @@ class Chart {
                    font: look.font, labelFont: look.font, labelSize: 18, gap: 4,
                    values: (u, ticks) => ticks.map(tick_text) };
     this.title.textContent = this.spec.title;
-    this.buttons?.forEach((b) => b.button.style.setProperty('--line', this.color_of(b.curve) ?? look.ink));
+    this.buttons?.forEach((b) => b.button.style.setProperty('--line', b.curve.bold && this.has_several_colors(b.curve.label) ? look.strong : this.color_of(b.curve) ?? look.ink));
     this.plot = new uPlot({
       width, height: this.height,
       legend: { show: false },

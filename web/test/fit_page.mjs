@@ -45,7 +45,7 @@ test('an identification in other units, in the dark, on a phone, on paper', () =
 test('a curve is shown and hidden by its name', () => with_page('static', async (page) => {
   const chart = () => page.locator('.chart canvas').first().evaluate((c) => c.toDataURL());
   const before = await chart();
-  const name = page.locator('.chart').first().locator('.line').last();
+  const name = page.locator('.chart').first().locator('.line').first();
   await name.click();
   assert.equal(await name.getAttribute('aria-pressed'), 'false');
   await page.waitForTimeout(100);
@@ -178,7 +178,7 @@ test('a page says what a further measurement would buy, in the units that are ch
   assert.ok(next.mounts[0].after.rms_percent < next.before.rms_percent);
   assert.equal(await page.locator('tr[data-length]').count(), next.mounts.length);
   const words = () => page.locator('tr[data-length]').first().textContent();
-  assert.match(await words(), /246\.0 mm/);
+  assert.match(await words(), /0\.246 m/);
   await page.locator('#units-thesis').click();
   assert.match(await words(), /9\.685 in/);
 }));
@@ -187,7 +187,7 @@ test('the title of a fit is a sentence of words', () => with_page('static', asyn
   assert.equal(await page.locator('h1').textContent(), 'Static law of the muscle bpa, identified from DMSP-10-250_force_map.csv');
 }));
 
-// Contrast as WCAG counts it; marks, strokes and bars need 3.
+// Contrast with the paper as WCAG counts it. The lightest of the palette, meant for broad strokes, has 2.8.
 const contrast_of = (page, of) => page.evaluate((of) => {
   const lit = (color) => {
     const sheet = document.createElement('canvas').getContext('2d');
@@ -205,7 +205,7 @@ const contrast_of = (page, of) => page.evaluate((of) => {
 
 for (const colorScheme of ['light', 'dark'])
   test(`strokes and marks are seen on ${colorScheme} paper`, () => with_page('static-left', async (page) => {
-    for (const ratio of await contrast_of(page, ['left out', 'other line', 'line'])) assert.ok(ratio >= 2.4, `${ratio}`);
+    for (const ratio of await contrast_of(page, ['left out', 'other line', 'line'])) assert.ok(ratio >= 2.7, `${ratio}`);
     await picture(page, `static-left-${colorScheme}`);
   }, { colorScheme }));
 
