@@ -29,7 +29,9 @@ StaticData good_data() {
   return out;
 }
 
-std::size_t place_of(int mount, int step) { return static_cast<std::size_t>(12 * mount + step - 1); }
+std::size_t place_of(int mount, int step) {
+  return static_cast<std::size_t>(12 * mount + step - 1);
+}
 
 // What is told of the only point that is wrong.
 std::string told_of(const StaticData& data) {

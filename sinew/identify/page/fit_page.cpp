@@ -22,7 +22,8 @@ using Curve = report::ChartCurve;
 
 // More make a page slow and a picture no better.
 constexpr std::size_t most_rows = 20000;
-constexpr std::size_t most_of_other = 40;  // points of a line that waits until it is asked for
+// Points of a model that waits until it is asked for, and of each of its lines at least.
+constexpr std::size_t most_of_other = 1200, least_of_line = 40;
 
 // Strokes that differ without their colors, too; further ones are as these with a longer first one.
 const std::vector<double> dashes[] = {
@@ -205,12 +206,13 @@ class Maker {
   // They wait until they are asked for: most eyes follow one.
   void add_other_models() {
     std::size_t law = 0;
+    const std::size_t most = std::max(least_of_line, most_of_other / colors_.size());
     for (std::size_t k = 0; k < report_.fits.size(); ++k) {
       const Fit& other = report_.fits[k];
       if (k == report_.chosen || !told(other)) continue;
       for (const auto& [name, group] : groups_of(rows_, false)) {
         Group some;
-        const std::size_t stride = 1 + group.size() / most_of_other;
+        const std::size_t stride = 1 + group.size() / most;
         for (std::size_t i = 0; i < group.size(); i += stride) some.push_back(group[i]);
         if (!some.empty() && some.back() != group.back()) some.push_back(group.back());
         Curve curve{.label = other.model,
