@@ -267,7 +267,8 @@ void tell(const identify::Report& report, const std::string& parameter_file,
           identify::atmosphere_setting(data.atmosphere));
   }
   write_parameter_file(parameter_file, options);
-  leave_page(report.subject, {&report}, parameter_file, data, options);
+  leave_page(report.title.empty() ? report.subject : report.title, {&report}, parameter_file, data,
+             options);
 }
 
 void add_identify(Command app, Action& action) {

@@ -332,7 +332,9 @@ std::string page_of(const Identified& found) {
     throw std::invalid_argument("page: found a braid that was counted; expected a table to show");
   std::vector<const identify::Report*> reports;
   for (const identify::Report& report : found.reports) reports.push_back(&report);
-  return identify::page({.title = found.title.empty() ? found.reports[0].subject : found.title,
+  const identify::Report& first = *reports[0];
+  const std::string of_first = first.title.empty() ? first.subject : first.title;
+  return identify::page({.title = found.title.empty() ? of_first : found.title,
                          .version = SINEW_VERSION,
                          .data = found.read,
                          .atmosphere = found.atmosphere,

@@ -2,6 +2,7 @@
 // axes; the curves, which need not go from left to right, are drawn here.
 import uPlot from 'uplot';
 import { chart_picture } from './chart_picture.js';
+import { band_opacity, band_path, mark_path, sample_of } from './chart_shapes.js';
 import { pressure_color } from './colors.js';
 import { Enlarged } from './enlarged.js';
 import { menu_button } from './menu.js';
@@ -18,15 +19,33 @@ const near = 24;  // a point that the cursor finds [px]
 const numbers_of = (source, columns) =>
   Array.isArray(source) ? Float64Array.from(source, (v) => v ?? NaN) : columns[source].values;
 
-function range_of(curves, which) {
+// What an axis must show, and what it makes room for up to a share of that: else a wild point or a
+// law that fails would leave no height to what matters.
+const beside = { band: 0.2, 'other line': 0.1, 'left out': 0.35 };
+
+function ends_of(curves, keys) {
   let low = Infinity, high = -Infinity;
   for (const c of curves)
-    for (let i = 0; i < c[which].length; ++i) {
-      const v = c[which][i];
-      if (v < low) low = v;
-      if (v > high) high = v;
-    }
+    for (const key of keys)
+      for (const v of c[key] ?? []) {
+        if (v < low) low = v;
+        if (v > high) high = v;
+      }
+  return [low, high];
+}
+
+function range_of(curves, which) {
+  const keys = which === 'y' ? ['y', 'y_high'] : ['x'];
+  let [low, high] = ends_of(curves.filter((c) => !(c.style in beside)), keys);
+  if (!(low <= high)) [low, high] = ends_of(curves, keys);
   if (!(low <= high)) return [0, 1];
+  const whole = high - low, inner = [low, high];
+  for (const [style, share] of Object.entries(beside)) {
+    const [least, most] = ends_of(curves.filter((c) => c.style === style), keys);
+    if (!(least <= most)) continue;
+    low = Math.min(low, Math.max(least, inner[0] - share * whole));
+    high = Math.max(high, Math.min(most, inner[1] + share * whole));
+  }
   const room = high > low ? 0.05 * (high - low) : Math.max(1e-9, 0.1 * Math.abs(high));
   return [low - room, high + room];
 }
@@ -36,15 +55,16 @@ class Chart {
     Object.assign(this, { spec, columns, charts });
     this.shown = new Set(spec.curves.filter((c) => !c.hidden).map((c) => c.label));
     this.time = null;
-    this.most = Math.max(0, ...spec.curves.map((c) => c.color));
+    this.most = Math.max(0, ...spec.curves.filter((c) => !(c.style in beside)).map((c) => c.color));
     this.title = element('h3', {});
     this.value = element('span', { class: 'value', 'aria-live': 'off' });
     this.lines = element('div', { class: 'lines' });
+    this.others = element('div', { class: 'lines others' });
     this.box = element('div', { class: 'box' });
     this.set_height(usual_height);
     this.root = element('article', { class: 'chart' },
       element('header', {}, this.title, this.lines, this.tools()), this.box,
-      element('p', { class: 'hint' }, this.value, spec.note));
+      element('p', { class: 'hint' }, this.value, spec.note), this.others);
     this.value.hidden = true;
     this.keys();
   }
@@ -66,9 +86,9 @@ class Chart {
 
   // The curves that a legend tells apart, one of each name; none where there is nothing to tell apart.
   named() {
-    const order = { points: 0, 'held out': 1, line: 2 };
+    const order = { points: 0, 'held out': 1, line: 2, band: 3, 'left out': 4, 'other line': 5 };
     const named = [...new Map(this.spec.curves.map((c) => [c.label, c])).values()].filter((c) => c.label)
-      .sort((a, b) => order[a.style] - order[b.style]);
+      .sort((a, b) => order[a.style] - order[b.style] || (a.style === 'band' ? a.label.localeCompare(b.label) : 0));
     return named.length < 2 ? [] : named;
   }
 
@@ -76,14 +96,30 @@ class Chart {
     const named = this.named();
     if (!named.length) return;
     this.buttons = named.map((c) => {
-      const kind = c.style === 'line' ? 'full' : c.style === 'points' ? 'dots' : 'rings';
+      const kind = c.style in beside ? 'drawn' : c.style === 'line' ? 'full' : c.style === 'points' ? 'dots' : 'rings';
       const pressed = String(this.shown.has(c.label));
-      const button = element('button', { type: 'button', class: `line ${kind}`, 'aria-pressed': pressed },
-        element('span', { class: 'mark' }), element('span', {}, c.label));
+      const mark = element('span', { class: 'mark' });
+      if (kind === 'drawn') mark.innerHTML = sample_of(c);
+      const button = element('button', { type: 'button', class: `line ${kind}${c.bold ? ' bold' : ''}`, 'aria-pressed': pressed },
+        mark, element('span', {}, c.label));
       button.addEventListener('click', () => this.toggle(c.label, button));
-      return { button, color: c.style === 'held out' ? null : c.color };
+      return { button, curve: c };
     });
-    this.lines.append(...this.buttons.map((b) => b.button));
+    const is_other = (b) => b.curve.style === 'other line', others = this.buttons.filter(is_other);
+    this.lines.append(...this.buttons.filter((b) => !is_other(b)).map((b) => b.button));
+    if (others.length) this.others.append(element('span', { class: 'quiet' }, 'other laws'), ...others.map((b) => b.button));
+  }
+
+  // Are the curves of a name in several colors?
+  has_several_colors(label) {
+    return new Set(this.spec.curves.filter((c) => c.label === label).map((c) => c.color)).size > 1;
+  }
+
+  // Of a curve; null where it stands for several colors.
+  color_of(curve, palette = this.charts.palette, dark = this.charts.dark) {
+    if (curve.style === 'held out') return null;
+    if (curve.style in beside) return palette[curve.color % palette.length];
+    return this.color(curve.color, palette, dark);
   }
 
   toggle(label, button) {
@@ -97,7 +133,7 @@ class Chart {
   color(place, palette = this.charts.palette, dark = this.charts.dark) {
     if (this.most < palette.length) return palette[place];
     const share = place / this.most;
-    return pressure_color(dark ? 0.3 + 0.7 * share : 0.9 * share);
+    return pressure_color(dark ? 0.4 + 0.6 * share : 0.64 * share);
   }
 
   // In the page's units.
@@ -108,9 +144,23 @@ class Chart {
       ...c,
       x: all(numbers_of(c.x, this.columns), x.unit),
       y: all(numbers_of(c.y, this.columns), y.unit),
+      ...(c.y_high && { y_high: all(numbers_of(c.y_high), y.unit) }),
     }));
     this.whole = { x: range_of(this.curves, 'x'), y: range_of(this.curves, 'y') };
+    this.keep_marks_in_sight();
     this.view = this.whole;
+  }
+
+  // What was left out and lies beyond the axes stands at their ends; its value is told as it is.
+  keep_marks_in_sight() {
+    for (const c of this.curves) {
+      if (c.style !== 'left out') continue;
+      for (const key of ['x', 'y']) {
+        const [low, high] = this.whole[key], edge = 0.02 * (high - low);
+        c[`true_${key}`] = c[key];
+        c[key] = c[key].map((v) => Math.min(high - edge, Math.max(low + edge, v)));
+      }
+    }
   }
 
   // "length [mm]"
@@ -127,7 +177,7 @@ class Chart {
                    font: look.font, labelFont: look.font, labelSize: 18, gap: 4,
                    values: (u, ticks) => ticks.map(tick_text) };
     this.title.textContent = this.spec.title;
-    this.buttons?.forEach((b) => b.button.style.setProperty('--line', b.color === null ? look.ink : this.color(b.color)));
+    this.buttons?.forEach((b) => b.button.style.setProperty('--line', b.curve.bold && this.has_several_colors(b.curve.label) ? look.strong : this.color_of(b.curve) ?? look.ink));
     this.plot = new uPlot({
       width, height: this.height,
       legend: { show: false },
@@ -170,19 +220,40 @@ class Chart {
     ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
     ctx.clip();
     const at = { x: (v) => u.valToPos(v, 'x', true), y: (v) => u.valToPos(v, 'y', true) };
-    for (const kind of ['line', 'points', 'held out'])
+    this.draw_bands(ctx, at);
+    for (const kind of ['left out', 'line', 'other line', 'points', 'held out'])
       for (const c of this.curves)
         if (c.style === kind && this.shown.has(c.label)) this.draw_curve(ctx, c, at, ratio);
     this.draw_now(ctx, at, ratio);
     ctx.restore();
   }
 
+  // Curves of one name are one area: where they overlap it is no darker.
+  draw_bands(ctx, at) {
+    for (const [label, path] of this.bands(at.x, at.y)) {
+      ctx.save();
+      ctx.fillStyle = this.color_of(this.curves.find((c) => c.label === label));
+      ctx.globalAlpha = band_opacity(label);
+      ctx.fill(new Path2D(path));
+      ctx.restore();
+    }
+  }
+
+  // Their paths, by name.
+  bands(at_x, at_y) {
+    const out = new Map();
+    for (const c of this.curves)
+      if (c.style === 'band' && this.shown.has(c.label)) out.set(c.label, (out.get(c.label) ?? '') + band_path(c, at_x, at_y));
+    return out;
+  }
+
   draw_curve(ctx, c, at, ratio) {
     const { look } = this.charts;
-    ctx.strokeStyle = ctx.fillStyle = this.color(c.color);
-    ctx.lineWidth = 1.5 * ratio;
+    ctx.strokeStyle = ctx.fillStyle = this.color_of(c) ?? this.color(c.color);
+    ctx.lineWidth = (c.bold ? 2.2 : 1.5) * ratio;
     ctx.lineJoin = 'round';
-    if (c.style === 'line') return stroke_line(ctx, c, at);
+    if (c.style === 'line' || c.style === 'other line') return stroke_line(ctx, c, at);
+    if (c.style === 'left out') return stroke_marks(ctx, c, at, ratio);
     const many = c.x.length > 400, r = (many ? 1.7 : 2.9) * ratio;
     ctx.lineWidth = 1.3 * ratio;
     for (let i = 0; i < c.x.length; ++i) {
@@ -228,7 +299,7 @@ class Chart {
     if (left < 0) return this.point_out(null);
     let best = null, least = near * near;
     for (const c of this.curves) {
-      if (!this.shown.has(c.label)) continue;
+      if (!this.shown.has(c.label) || c.style === 'band') continue;
       for (let i = 0; i < c.x.length; ++i) {
         const dx = u.valToPos(c.x[i], 'x') - left, dy = u.valToPos(c.y[i], 'y') - top;
         const away = dx * dx + dy * dy;
@@ -243,7 +314,7 @@ class Chart {
     if (!found) return;
     const { c, i } = found, { units } = this.charts, { x, y } = this.spec;
     const words = (v, unit) => `${number(v)} ${units.of(unit).label}`.trim();
-    this.value.textContent = `${c.label ? c.label + ': ' : ''}${words(c.y[i], y.unit)} at ${words(c.x[i], x.unit)}`;
+    this.value.textContent = `${c.label ? c.label + ': ' : ''}${words((c.true_y ?? c.y)[i], y.unit)} at ${words((c.true_x ?? c.x)[i], x.unit)}`;
     this.mark.style.transform =
       `translate(${this.plot.valToPos(c.x[i], 'x')}px, ${this.plot.valToPos(c.y[i], 'y')}px)`;
   }
@@ -261,6 +332,13 @@ function stroke_line(ctx, c, at) {
   }
   ctx.stroke();
   ctx.setLineDash([]);
+}
+
+function stroke_marks(ctx, c, at, ratio) {
+  const many = c.x.length > 60;
+  ctx.lineWidth = (many ? 0.9 : 1.6) * ratio;
+  for (let i = 0; i < c.x.length; ++i)
+    if (Number.isFinite(c.y[i])) ctx.stroke(new Path2D(mark_path(c.mark ?? 0, at.x(c.x[i]), at.y(c.y[i]), (many ? 2.4 : 4) * ratio)));
 }
 
 // All charts of a page, in a grid.

@@ -1,12 +1,12 @@
 // The page of an identification: what was measured beside what every model says of it, why one was
 // chosen, and its values.
 import { Charts } from './charts.js';
+import { errors, further, left_out, percent } from './fit_evidence.js';
 import { Look } from './look.js';
 import { by_id, element } from './page.js';
 import { cell, heading, show_parameters, table } from './tables.js';
 import { number, Units } from './units.js';
 
-const percent = (x) => (x === undefined ? '–' : x < 0.005 ? '< 0.01 %' : `${x.toFixed(2)} %`);
 const words = (text) => text.replace(/-/g, '−');
 const rank = (x) => Math.floor(Math.log10(Math.abs(x)));
 
@@ -29,8 +29,11 @@ class Part {
     head.append(this.scale);
     this.values = element('div', {});
     const charts = element('div', {});
-    this.root = element('section', { class: 'block fit' }, head, this.verdict(), charts, this.values, this.models(),
-                        this.remarks());
+    this.spec = spec;
+    this.evidence = element('div', {});
+    this.plan = element('div', {});
+    this.root = element('section', { class: 'block fit' }, head, this.verdict(), charts, this.evidence, this.values, this.models(),
+                        this.plan, this.remarks());
     this.show = () => (this.charts = spec.charts.length ? new Charts(charts, spec.charts, [], page.units, report.subject) : null);
     this.refresh();
   }
@@ -77,12 +80,14 @@ class Part {
       const u = units.of(p.unit), half = p.high === null || p.high === p.low ? NaN : 0.5 * (p.high - p.low) * u.scale;
       const value = units.convert(p.value, p.unit);
       const note = p.at_bound ? 'at the bound of its range' : !p.identifiable ? 'these data do not tell it'
-        : p.known || (!Number.isFinite(half) ? 'no interval' : '');
+        : p.known?.replace('+-', '±') || (!Number.isFinite(half) ? 'no interval' : '');
       const [shown, interval] = precise(value, half);
       return element('tr', { 'data-name': p.name, 'data-value': p.value }, element('th', { scope: 'row', class: 'key' }, p.name),
         cell(shown, 'number ours'), cell(interval, 'number'),
         cell(u.label, 'unit'), element('td', {}, note ? element('span', { class: 'tag guess' }, note) : ''));
     });
+    this.evidence.replaceChildren(left_out(report, this.spec.charts[0], units), errors(report, units));
+    this.plan.replaceChildren(further(report, units));
     this.values.replaceChildren(element('h3', {}, `Values of ${report.chosen}`),
       table('Values', ['', 'value', '95 %', '', ''], rows));
   }

@@ -9,6 +9,7 @@
 
 #include "sinew/identify/actuator/static_groups.h"
 #include "sinew/identify/actuator/static_outliers.h"
+#include "sinew/identify/actuator/static_shown.h"
 #include "sinew/identify/actuator/static_tried.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/refusal.h"
@@ -161,21 +162,31 @@ StaticSplit split_by(const Points& points, HoldOut hold_out, Report& report) {
 }
 
 // Points that no law explains have no say in which is chosen.
-void drop_gross_outliers(Points& points, const StaticOptions& options, Report& report) {
-  const std::vector<std::size_t> wild =
+StaticOmitted drop_gross_outliers(Points& points, const StaticOptions& options, Report& report) {
+  const Outliers wild =
       gross_outliers(points, scales_of(points, options.atmosphere, options.braid));
-  if (wild.empty()) return;
+  StaticOmitted out{.reason = "outlier",
+                    .told_by = fmt::format("further than {:.3g} N from the law that the others lie "
+                                           "on, which scatter by {:.2g} N",
+                                           wild.limit, wild.scatter),
+                    .count = wild.points.size()};
+  if (wild.points.empty()) return out;
   std::string list;
-  for (std::size_t k = 0; k < std::min<std::size_t>(wild.size(), 5); ++k) {
-    const StaticPoint& p = points[wild[k]];
-    list += fmt::format("{}{:.4g} N at {:.4g} mm, {:.4g} kPa", k ? "; " : "", p.force,
-                        1e3 * p.length, 1e-3 * p.pressure);
+  for (const Outlier& o : wild.points) {
+    const StaticPoint& p = points[o.point];
+    out.points.push_back(p);
+    out.why.push_back(
+        fmt::format("{:.4g} N where the law has {:.4g} N: {}", p.force, o.law, o.why));
+    if (out.points.size() <= 5)
+      list += fmt::format("{}at {:.4g} mm, {:.4g} kPa {}", list.empty() ? "" : "; ", 1e3 * p.length,
+                          1e-3 * p.pressure, out.why.back());
   }
   report.warnings.push_back(
       fmt::format("{} of {} points left out, far from the law that the others lie on: {}{}",
-                  wild.size(), points.size(), list, wild.size() > 5 ? "; …" : ""));
-  for (auto i = wild.rbegin(); i != wild.rend(); ++i)
-    points.erase(points.begin() + static_cast<std::ptrdiff_t>(*i));
+                  out.count, points.size(), list, out.count > 5 ? "; …" : ""));
+  for (auto o = wild.points.rbegin(); o != wild.points.rend(); ++o)
+    points.erase(points.begin() + static_cast<std::ptrdiff_t>(o->point));
+  return out;
 }
 
 std::vector<StaticMuscle> muscles_of(const StaticFit& fit, const StaticScales& scales,
@@ -249,9 +260,9 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   give_rest_length(points, report);
   sort_points(points);
   StaticSplit s = split_by(points, options.hold_out, report);
-  drop_gross_outliers(s.fitted, options, report);
-  points = s.fitted;
-  points.insert(points.end(), s.held_out.begin(), s.held_out.end());
+  std::vector<StaticOmitted> left_out = data.left_out;
+  left_out.push_back(drop_gross_outliers(s.fitted, options, report));
+  points = all_points(s);
   sort_points(points);
   report.full_scale = scales_of(points, options.atmosphere, options.braid).full_scale;
   out.scales = scales_of(s.fitted, options.atmosphere, options.braid);
@@ -276,7 +287,9 @@ StaticResult identify_static(const StaticData& data, const StaticOptions& option
   out.spread = found[report.chosen].spread;
   out.scales = found[report.chosen].scales;
   out.muscles = muscles_of(out.fit, out.scales, s.fitted);
+  out.points = s.fitted;
   note_muscles(out.fit, out.scales, points, report);
+  show_static(s, left_out, out);
   return out;
 }
 

@@ -47,8 +47,9 @@ struct StaticResult {
   Report report;
   std::vector<StaticMuscle> muscles;  // the reference, the longest, first
   StaticScales scales;
-  StaticFit fit;        // the chosen one, to all points that were to be fitted
-  StaticSpread spread;  // how far it was off where it had not seen the points
+  StaticFit fit;                    // the chosen one, to all points that were to be fitted
+  StaticSpread spread;              // how far it was off where it had not seen the points
+  std::vector<StaticPoint> points;  // that were fitted
 };
 
 // Throws Refusal where the data support no model, std::invalid_argument for a model that there is

@@ -22,6 +22,7 @@ constexpr std::size_t fewest = 3;  // samples in a bin
 constexpr double largest_zero_force = 0.25;     // of the range of forces: more is no zero
 constexpr double largest_zero_pressure = 0.05;  // of the range of pressures
 constexpr int fewest_rests = 6;                 // of a recording that goes from level to level
+constexpr std::size_t most_omitted = 60;        // samples of a recording that are kept to be shown
 
 constexpr std::pair<std::string_view, double> branch_words[] = {{"fill", 1.0}, {"vent", -1.0}};
 
@@ -193,11 +194,19 @@ void add_branch(const std::vector<double>& p, const std::vector<double>& f,
     forces[bin].push_back(f[i]);
   }
   for (std::size_t bin = 0; bin < pressures.size(); ++bin) {
-    if (pressures[bin].size() < fewest) continue;
+    if (pressures[bin].empty()) continue;
     StaticPoint point = like;
     point.pressure = median(pressures[bin]);
     point.force = median(forces[bin]);
-    data.points.push_back(point);
+    if (pressures[bin].size() >= fewest) {
+      data.points.push_back(point);
+      continue;
+    }
+    StaticOmitted& few = data.omitted(
+        "too few samples at a pressure",
+        fmt::format("fewer than {} at rest in a step of 1/{} of the pressures", fewest, bins));
+    few.count += pressures[bin].size();
+    few.points.insert(few.points.end(), pressures[bin].size(), point);
   }
 }
 
@@ -221,6 +230,25 @@ std::vector<bool> choose_samples(const Measured& m, const std::vector<double>& p
   return settled.sample;
 }
 
+// Keeps some of the samples that were left out, evenly, to be shown.
+void omit_moving(const std::vector<double>& p, const std::vector<double>& f,
+                 const std::vector<bool>& settled, const StaticPoint& like, StaticData& data) {
+  const auto count = static_cast<std::size_t>(std::ranges::count(settled, false));
+  if (count == 0) return;
+  StaticOmitted& moving =
+      data.omitted("pressure still moving",
+                   "the pressure, smoothed, changes within 0.12 s by more than 0.5 % of its range, "
+                   "or than 6 of its scatters where that is more");
+  moving.count += count;
+  const std::size_t stride = 1 + (count - 1) / most_omitted;
+  for (std::size_t i = 0, k = 0; i < settled.size(); ++i) {
+    if (settled[i] || k++ % stride != 0) continue;
+    moving.points.push_back(like);
+    moving.points.back().pressure = p[i];
+    moving.points.back().force = f[i];
+  }
+}
+
 Zero add_recording(const Measured& m, const StaticInput& input, StaticData& data) {
   std::vector<double> p = m["pressure"], f = force_of(m);
   const std::vector<double> lengths = length_of(m, input);
@@ -236,6 +264,7 @@ Zero add_recording(const Measured& m, const StaticInput& input, StaticData& data
   const std::vector<std::size_t> turns = turns_of(smooth(p), turn * range);
   const std::vector<bool> settled = choose_samples(m, p, data);
   StaticPoint like{.length = length, .rest_length = input.rest_length, .fitted = input.fitted};
+  omit_moving(p, f, settled, like, data);
   for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
     const std::size_t last = std::min(turns[i + 1], p.size() - 1);
     like.branch = p[last] > p[turns[i]] ? Branch::fill : Branch::vent;
@@ -300,6 +329,12 @@ Zero add_table(const Measured& m, const StaticInput& input, StaticData& data) {
 }
 
 }  // namespace
+
+StaticOmitted& StaticData::omitted(const std::string& reason, const std::string& told_by) {
+  const auto at = std::ranges::find(left_out, reason, &StaticOmitted::reason);
+  if (at != left_out.end()) return *at;
+  return left_out.emplace_back(StaticOmitted{.reason = reason, .told_by = told_by});
+}
 
 std::span<const Wanted> static_columns() { return static_wanted; }
 

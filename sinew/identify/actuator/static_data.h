@@ -34,9 +34,21 @@ struct Zero {
   std::string from;                // "the vented start", empty: not taken off
 };
 
+// Readings that are not among the points, for one reason.
+struct StaticOmitted {
+  std::string reason, told_by;      // as in identify/fit/evidence.h
+  std::size_t count = 0;            // how many they are
+  std::vector<StaticPoint> points;  // some of them, where they are many
+  std::vector<std::string> why;     // of each of these; may be empty
+};
+
 struct StaticData {
   std::vector<StaticPoint> points;
+  std::vector<StaticOmitted> left_out;
   std::vector<std::string> notes, warnings;
+
+  // Returns those of a reason, which may be new.
+  StaticOmitted& omitted(const std::string& reason, const std::string& told_by);
 };
 
 // Holds what is known of a file's points beside its columns.

@@ -65,9 +65,14 @@ int count_of(const std::vector<int>& groups) {
   return static_cast<int>(std::set<int>(groups.begin(), groups.end()).size());
 }
 
-Rows rows_of(const StaticSplit& s) {
+std::vector<StaticPoint> all_points(const StaticSplit& s) {
   Points points = s.fitted;
   points.insert(points.end(), s.held_out.begin(), s.held_out.end());
+  return points;
+}
+
+Rows rows_of(const StaticSplit& s) {
+  const Points points = all_points(s);
   std::set<double> muscles;
   for (const StaticPoint& p : points) muscles.insert(p.rest_length);
   const std::vector<int> pressure = pressure_groups(points), length = length_groups(points);

@@ -35,6 +35,9 @@ std::vector<int> pressure_groups(const std::vector<StaticPoint>& points);
 std::vector<int> length_groups(const std::vector<StaticPoint>& points);
 int count_of(const std::vector<int>& groups);
 
+// The fitted points, then the others.
+std::vector<StaticPoint> all_points(const StaticSplit& split);
+
 // The fitted ones, then the others: over pressure with a curve per length, or over length with a
 // curve per pressure, whichever makes fewer.
 Rows rows_of(const StaticSplit& split);

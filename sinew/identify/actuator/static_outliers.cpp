@@ -5,6 +5,7 @@
 #include <set>
 #include <string_view>
 
+#include "sinew/identify/actuator/static_explain.h"
 #include "sinew/identify/actuator/static_fit.h"
 #include "sinew/identify/data/quality.h"
 #include "sinew/identify/fit/refusal.h"
@@ -30,13 +31,17 @@ constexpr std::string_view freest[] = {"wall",
                                        "saturating-effectiveness",
                                        "saturating-end-caps"};
 
-// Distances from the law that most points are closest to, among the freest or among all others;
-// empty where there is none.
-std::vector<double> closest_of(bool free, const std::vector<StaticPoint>& points,
-                               const StaticScales& scales) {
+// A law, and how far each point lies from it.
+struct Closest {
+  StaticFit fit;
+  std::vector<double> distances;  // empty: there is none
+};
+
+// The law that most points are closest to, among the freest or among all others.
+Closest closest_of(bool free, const std::vector<StaticPoint>& points, const StaticScales& scales) {
   std::set<double> muscles;
   for (const StaticPoint& p : points) muscles.insert(p.rest_length);
-  std::vector<double> closest;
+  Closest closest;
   for (const StaticModel& model : static_models()) {
     if (model.name == "effectiveness-by-ratio") continue;
     if ((std::ranges::find(freest, model.name) != std::end(freest)) != free) continue;
@@ -44,9 +49,9 @@ std::vector<double> closest_of(bool free, const std::vector<StaticPoint>& points
     if (std::ranges::find(knobs, Knob::series) != knobs.end()) continue;
     if (muscles.size() > 1) knobs.push_back(Knob::end_loss);
     try {
-      const std::vector<double> d =
-          distances(fit_static(knobs, points, scales, nullptr, 1e-7), scales, points);
-      if (closest.empty() || median(d) < median(closest)) closest = d;
+      const StaticFit fit = fit_static(knobs, points, scales, nullptr, 1e-7);
+      const std::vector<double> d = distances(fit, scales, points);
+      if (closest.distances.empty() || median(d) < median(closest.distances)) closest = {fit, d};
     } catch (const Refusal&) {
       continue;  // too few points for this one
     }
@@ -55,10 +60,9 @@ std::vector<double> closest_of(bool free, const std::vector<StaticPoint>& points
 }
 
 // The same; the simpler laws only where the data are too few for the freest.
-std::vector<double> from_the_closest(const std::vector<StaticPoint>& points,
-                                     const StaticScales& scales) {
-  const std::vector<double> free = closest_of(true, points, scales);
-  return free.empty() ? closest_of(false, points, scales) : free;
+Closest the_closest(const std::vector<StaticPoint>& points, const StaticScales& scales) {
+  const Closest free = closest_of(true, points, scales);
+  return free.distances.empty() ? closest_of(false, points, scales) : free;
 }
 
 // The largest force that is not alone: what one wild point says does not count.
@@ -72,19 +76,21 @@ double common_force(const std::vector<StaticPoint>& points) {
 
 }  // namespace
 
-std::vector<std::size_t> gross_outliers(const std::vector<StaticPoint>& points,
-                                        const StaticScales& scales) {
+Outliers gross_outliers(const std::vector<StaticPoint>& points, const StaticScales& scales) {
   if (points.empty()) return {};
   StaticScales common = scales;
   common.full_scale = common_force(points);
   if (!(common.full_scale > 0)) return {};
-  const std::vector<double> d = from_the_closest(points, common);
-  const double limit =
-      std::max(scatters * 1.4826 * (d.empty() ? 0 : median(d)), share * common.full_scale);
-  std::vector<std::size_t> out;
+  const auto [fit, d] = the_closest(points, common);
+  Outliers out{.points = {}, .scatter = d.empty() ? 0 : 1.4826 * median(d)};
+  out.limit = std::max(scatters * out.scatter, share * common.full_scale);
   for (std::size_t i = 0; i < d.size(); ++i)
-    if (d[i] > limit) out.push_back(i);
-  if (static_cast<double>(out.size()) > most * static_cast<double>(points.size())) return {};
+    if (d[i] > out.limit) out.points.push_back({.point = i, .law = 0, .why = ""});
+  if (static_cast<double>(out.points.size()) > most * static_cast<double>(points.size())) return {};
+  for (Outlier& o : out.points) {
+    o.law = predicted(fit.setting, common, points[o.point]);
+    o.why = explanation_of(points[o.point], fit, common, points, out.scatter);
+  }
   return out;
 }
 

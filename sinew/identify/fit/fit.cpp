@@ -9,21 +9,6 @@
 
 namespace sinew::identify {
 
-Score score(std::span<const double> residuals, double full_scale) {
-  Score out{.points = residuals.size()};
-  double sum = 0;
-  for (const double r : residuals) {
-    sum += r * r;
-    out.max = std::max(out.max, std::abs(r));
-  }
-  if (!residuals.empty()) out.rmse = std::sqrt(sum / static_cast<double>(residuals.size()));
-  if (full_scale > 0) {
-    out.rmse_percent = 100 * out.rmse / full_scale;
-    out.max_percent = 100 * out.max / full_scale;
-  }
-  return out;
-}
-
 namespace {
 
 std::size_t free_in(const Fit& fit) {

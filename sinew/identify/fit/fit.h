@@ -2,31 +2,17 @@
 // what it saw and what it did not see, and which one was chosen by which rule.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "sinew/identify/fit/evidence.h"
 #include "sinew/identify/fit/least_squares.h"
+#include "sinew/identify/fit/score.h"
 
 namespace sinew::identify {
-
-// How large residuals are.
-struct Score {
-  std::size_t points = 0;
-  double rmse = 0, max = 0;  // of the residuals, in the report's unit
-
-  // Of `full_scale`, for instance the muscle's largest force  [%].
-  double rmse_percent = 0, max_percent = 0;
-
-  // R^2, the share of the variance of what was measured that is explained; NaN: not told.
-  double explained = std::numeric_limits<double>::quiet_NaN();
-};
-
-// Returns it; `full_scale` is what 100 % are, in the residuals' unit.
-Score score(std::span<const double> residuals, double full_scale);
 
 struct Fit {
   std::string model;   // its name, as the setting model takes it
@@ -68,6 +54,7 @@ struct Rows {
 // Models of one quantity beside each other, and which one was chosen.
 struct Report {
   std::string subject;        // "static model of DMSP-10-250"
+  std::string title;          // of its page, in words; empty: the subject
   std::string quantity;       // what the residuals are: "force"
   std::string unit;           // and their SI unit
   double full_scale = 0;      // what 100 % is, in `unit`
@@ -77,6 +64,10 @@ struct Report {
   std::size_t chosen = 0;
   std::string rule;  // by which it was chosen, with the numbers that decided
   Rows rows;
+  std::vector<PredictedCurve> curves;  // of the chosen one; empty: its intervals are not known
+  std::vector<Omitted> left_out;       // by reason
+  std::vector<ErrorBy> errors;         // of the chosen one, over all rows
+  std::vector<Further> further;        // of each muscle that a plan can be made for
   std::vector<std::string> notes, warnings;
 
   // Returns the chosen one.

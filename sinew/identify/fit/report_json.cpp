@@ -46,6 +46,62 @@ Json to_json(const Fit& fit) {
   return out;
 }
 
+// A part by its name, or by its value in the unit that stands above.
+Json to_json(const ErrorBy& by) {
+  Json out{{"by", by.what}};
+  if (!by.unit.empty()) out["unit"] = by.unit;
+  out["parts"] = Json::array();
+  for (const PartError& part : by.parts) {
+    Json one = part.name.empty() ? Json{{"value", part.value}} : Json{{"name", part.name}};
+    one.update(to_json(part.score));
+    out["parts"].push_back(std::move(one));
+  }
+  return out;
+}
+
+// Rows that have an explanation of their own; the others are but counted.
+Json to_json(const Omitted& omitted, const Report& report) {
+  Json out{{"reason", omitted.reason},
+           {"told_by", omitted.told_by},
+           {"count", omitted.count},
+           {"shown", omitted.rows.size()}};
+  for (const OmittedRow& row : omitted.rows)
+    if (!row.why.empty())
+      out["rows"].push_back({{report.rows.x, row.at},
+                             {report.quantity, row.measured},
+                             {"group", row.group},
+                             {"why", row.why}});
+  return out;
+}
+
+Json error_of(double rms, double half) {
+  return {{"rms_percent", rms}, {"half_width_95_percent", half}};
+}
+
+Json to_json(const Further& further) {
+  Json out = Json::object();
+  if (!further.of.empty()) out["of"] = further.of;
+  out["readings"] = further.readings;
+  out["before"] = error_of(further.rms, further.half);
+  out["mounts"] = Json::array();
+  for (const FurtherMount& m : further.mounts)
+    out["mounts"].push_back({{"length_m", m.length},
+                             {"gauge_pressures_Pa", m.pressures},
+                             {"readings", m.readings},
+                             {"time_s", m.time},
+                             {"after", error_of(m.rms, m.half)}});
+  out["note"] = further.note;
+  return out;
+}
+
+// Adds what there is beside the models; a key that does not apply is absent.
+void add_evidence(const Report& report, Json& out) {
+  for (const ErrorBy& by : report.errors) out["errors"].push_back(to_json(by));
+  for (const Omitted& omitted : report.left_out)
+    out["left_out"].push_back(to_json(omitted, report));
+  for (const Further& further : report.further) out["further"].push_back(to_json(further));
+}
+
 }  // namespace
 
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
@@ -61,6 +117,7 @@ Json to_json(const Report& report) {
   out["rule"] = report.rule;
   out["models"] = Json::array();
   for (const Fit& fit : report.fits) out["models"].push_back(to_json(fit));
+  add_evidence(report, out);
   out["notes"] = report.notes;
   out["warnings"] = report.warnings;
 

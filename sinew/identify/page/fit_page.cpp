@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <set>
 
 #include "sinew/config/compose.h"
 #include "sinew/identify/fit/report_json.h"
@@ -21,6 +22,19 @@ using Curve = report::ChartCurve;
 
 // More make a page slow and a picture no better.
 constexpr std::size_t most_rows = 20000;
+// Points of a model that waits until it is asked for, and of each of its lines at least.
+constexpr std::size_t most_of_other = 1200, least_of_line = 40;
+
+// Strokes that differ without their colors, too; further ones are as these with a longer first one.
+const std::vector<double> dashes[] = {
+    {7, 3},   {2, 2},        {8, 3, 2, 3}, {13, 4},       {4, 5},       {9, 3, 2, 3, 2, 3},
+    {1.5, 4}, {13, 3, 4, 3}, {5, 2, 5, 6}, {16, 3, 1, 3}, {3, 3, 1, 3}, {6, 6}};
+
+std::vector<double> dash_of(std::size_t law) {
+  std::vector<double> out = dashes[law % std::size(dashes)];
+  out[0] += 6 * static_cast<double>(law / std::size(dashes));
+  return out;
+}
 
 // Rows of one curve, in ascending x.
 using Group = std::vector<std::size_t>;
@@ -53,7 +67,8 @@ std::vector<double> pick(const Group& group, Value value) {
   return out;
 }
 
-// All curves of both charts: points as measured, a line by the model, points of what it leaves.
+// All curves of both charts: points as measured, a line by the model with its bands, points of what
+// it leaves; what was left out, and the other models' lines.
 class Maker {
  public:
   explicit Maker(const Report& report) : report_(report), rows_(report.rows) {
@@ -75,11 +90,11 @@ class Maker {
     if (rows_.scattered) return {against_measured(), left_};
     const std::size_t stride = 1 + rows_.size() / most_rows;
     if (stride > 1) fit_.note = fmt::format("One row of {} is shown.", stride);
-    if (colors_.size() == 1) {
+    if (colors_.size() == 1)
       for (Curve& c : fit_.curves)
         if (c.style == Curve::Style::line) c.color = 1;
-      add_other_models();
-    }
+    add_left_out();
+    add_other_models();
     return {fit_, left_};
   }
 
@@ -107,15 +122,63 @@ class Maker {
                            .x = x,
                            .y = pick(group, [&](std::size_t i) { return measured(i); })});
     if (!told(best)) return;
-    fit_.curves.push_back(
-        {.label = best.model, .color = color, .x = x, .y = pick(group, [&](std::size_t i) {
-                                                        return measured(i) + best.residuals[i];
-                                                      })});
+    add_line(
+        name, color,
+        {.x = x, .y = pick(group, [&](std::size_t i) { return measured(i) + best.residuals[i]; })});
     left_.curves.push_back({.label = label,
                             .style = style,
                             .color = color,
                             .x = x,
                             .y = pick(group, [&](std::size_t i) { return best.residuals[i]; })});
+  }
+
+  // The chosen model's line: along its curve with its bands where it tells one, once for each
+  // group; else through the rows.
+  void add_line(const std::string& name, int color, Curve rows) {
+    rows.label = report_.best().model;
+    rows.color = color;
+    rows.bold = true;
+    const auto curve = std::ranges::find(report_.curves, name, &PredictedCurve::group);
+    if (curve == report_.curves.end()) {
+      fit_.curves.push_back(std::move(rows));
+      return;
+    }
+    if (!drawn_.insert(name).second) return;
+    rows.x = curve->at;
+    rows.y = curve->value;
+    add_band("95 % band", *curve, curve->half_95);
+    add_band("68 % band", *curve, curve->half_68);
+    fit_.curves.push_back(std::move(rows));
+  }
+
+  void add_band(const std::string& label, const PredictedCurve& curve,
+                const std::vector<double>& half) {
+    Curve about{.label = label, .style = Curve::Style::band, .color = 6, .x = curve.at};
+    Curve apart = about;
+    for (std::size_t i = 0; i < half.size(); ++i) {
+      about.y.push_back(curve.value[i] - half[i]);
+      about.y_high.push_back(curve.value[i] + half[i]);
+      apart.y.push_back(-half[i]);
+      apart.y_high.push_back(half[i]);
+    }
+    fit_.curves.push_back(std::move(about));
+    left_.curves.push_back(std::move(apart));
+  }
+
+  // What no fit has seen, each reason with a mark of its own.
+  void add_left_out() {
+    int mark = 0;
+    for (const Omitted& omitted : report_.left_out) {
+      Curve curve{.label = "left out: " + omitted.reason,
+                  .style = Curve::Style::left_out,
+                  .color = 6,
+                  .mark = mark++};
+      for (const OmittedRow& row : omitted.rows) {
+        curve.x.push_back(row.at);
+        curve.y.push_back(row.measured);
+      }
+      fit_.curves.push_back(std::move(curve));
+    }
   }
 
   // The chosen model's answers against the measured values; right is the diagonal.
@@ -140,19 +203,28 @@ class Maker {
     return out;
   }
 
-  // The eye can follow the other curves from one; they wait until they are asked for.
+  // They wait until they are asked for: most eyes follow one.
   void add_other_models() {
-    int color = 2;
+    std::size_t law = 0;
+    const std::size_t most = std::max(least_of_line, most_of_other / colors_.size());
     for (std::size_t k = 0; k < report_.fits.size(); ++k) {
       const Fit& other = report_.fits[k];
       if (k == report_.chosen || !told(other)) continue;
       for (const auto& [name, group] : groups_of(rows_, false)) {
-        Curve curve{.label = other.model, .color = color, .hidden = true};
-        curve.x = pick(group, [&](std::size_t i) { return rows_.at[i]; });
-        curve.y = pick(group, [&](std::size_t i) { return measured(i) + other.residuals[i]; });
+        Group some;
+        const std::size_t stride = 1 + group.size() / most;
+        for (std::size_t i = 0; i < group.size(); i += stride) some.push_back(group[i]);
+        if (!some.empty() && some.back() != group.back()) some.push_back(group.back());
+        Curve curve{.label = other.model,
+                    .style = Curve::Style::other,
+                    .color = static_cast<int>(law),
+                    .dash = dash_of(law),
+                    .hidden = true};
+        curve.x = pick(some, [&](std::size_t i) { return rows_.at[i]; });
+        curve.y = pick(some, [&](std::size_t i) { return measured(i) + other.residuals[i]; });
         fit_.curves.push_back(std::move(curve));
       }
-      ++color;
+      ++law;
     }
   }
 
@@ -160,6 +232,7 @@ class Maker {
   const Rows& rows_;
   Chart fit_, left_;
   std::map<std::string, int> colors_;
+  std::set<std::string> drawn_;  // groups whose curve there is
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "sinew/config/setting.h"
 #include "sinew/experiment/machine_file.h"
 #include "sinew/identify/actuator/static_predict.h"
+#include "sinew/identify/task/further.h"
 #include "sinew/identify/task/tables.h"
 
 namespace sinew::identify {
@@ -109,7 +110,14 @@ void keep_branch(const std::string& word, StaticData& data) {
   if (word != "fill" && word != "vent")
     config::fail({"branch", 0, 0}, "", config::in_quotes(word), "fill, vent or both");
   const auto other = word == "fill" ? Branch::vent : Branch::fill;
+  std::vector<StaticPoint> left_out;
+  for (const StaticPoint& p : data.points)
+    if (p.branch == other) left_out.push_back(p);
   std::erase_if(data.points, [=](const StaticPoint& p) { return p.branch == other; });
+  if (left_out.empty()) return;
+  StaticOmitted& omitted = data.omitted("of the other branch", "branch=" + word + " was asked for");
+  omitted.count = left_out.size();
+  omitted.points = std::move(left_out);
 }
 
 // The braid that is known from elsewhere.
@@ -128,6 +136,24 @@ StaticOptions options_of(const std::vector<Source>& sources, const StaticSetting
   if (settings.hold_out == "length") out.hold_out = HoldOut::length;
   if (settings.hold_out == "muscle") out.hold_out = HoldOut::muscle;
   return out;
+}
+
+// "Static law of the muscle bpa, identified from forces.csv".
+std::string title_of(const std::vector<Source>& sources, const StaticSettings& settings,
+                     const std::vector<StaticMuscle>& muscles) {
+  std::string lengths;
+  for (std::size_t i = muscles.size(); i-- > 0;)
+    lengths += fmt::format("{}{:.4g}",
+                           lengths.empty() ? ""
+                           : i == 0        ? " and "
+                                           : ", ",
+                           1e3 * muscles[i].rest_length);
+  return fmt::format(
+      "Static law of {}, identified from {}",
+      muscles.size() == 1 ? fmt::format("the muscle {}", settings.name)
+                          : fmt::format("{}: muscles of {} mm", settings.name, lengths),
+      sources.size() == 1 ? std::filesystem::path(sources[0].path).filename().string()
+                          : fmt::format("{} files", sources.size()));
 }
 
 // The table that is not fitted, where there is one.
@@ -217,6 +243,9 @@ StaticFound find_static(const std::vector<Source>& sources, const StaticSettings
 
   StaticFound out{
       identify_static(read.data, options_of(sources, settings, read.braid)), {}, {}, {}};
+  Report& report = out.result.report;
+  report.title = title_of(sources, settings, out.result.muscles);
+  report.further = further_measurements(out.result, sources[0].atmosphere, read.braid);
   const std::string source = "sinew identify static " + sources[0].path;
   for (const StaticMuscle& muscle : out.result.muscles)
     out.files.push_back(static_file(out.result, muscle, settings.name, source, settings.actuator));

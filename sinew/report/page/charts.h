@@ -1,4 +1,4 @@
-// report/page/charts.h - one quantity against another: points, or lines.
+// report/page/charts.h - one quantity against another: points, lines and bands.
 #pragma once
 
 #include <string>
@@ -16,14 +16,24 @@ struct ChartAxis {
 
 // Either numbers, or two channels of one clock. A number that is none breaks a line.
 struct ChartCurve {
-  enum class Style { points, line, held_out };  // held_out: points that a fit did not see
+  enum class Style {
+    points,
+    line,
+    held_out,  // points that a fit did not see
+    left_out,  // points that none was to see, hollow: each `mark` has a shape
+    other,     // a line of a model that was not chosen
+    band       // from y to y_high
+  };
 
   std::string label;
   Style style = Style::line;
   int color = 0;  // place in the page's palette
-  std::vector<double> x, y;
+  std::vector<double> x, y, y_high;
   Channel x_channel, y_channel;  // in place of numbers
-  bool hidden = false;           // until it is asked for
+  std::vector<double> dash;      // of a line: lengths of its strokes and gaps; empty: none [px]
+  int mark = 0;
+  bool bold = false;
+  bool hidden = false;  // until it is asked for
 };
 
 // A quantity against another, in one picture.

@@ -37,9 +37,13 @@ std::string_view word(Line::Style style) {
 }
 
 std::string_view word(ChartCurve::Style style) {
-  return style == ChartCurve::Style::line     ? "line"
-         : style == ChartCurve::Style::points ? "points"
-                                              : "held out";
+  using enum ChartCurve::Style;
+  return style == line       ? "line"
+         : style == points   ? "points"
+         : style == held_out ? "held out"
+         : style == left_out ? "left out"
+         : style == other    ? "other line"
+                             : "band";
 }
 
 std::string_view word(Stand::Load load) {
@@ -70,6 +74,10 @@ Json curve_of(const ChartCurve& c, Columns& columns) {
   Json out = {{"label", c.label}, {"style", word(c.style)}, {"color", c.color}};
   out["x"] = numbers_of(c.x, c.x_channel, columns);
   out["y"] = numbers_of(c.y, c.y_channel, columns);
+  if (!c.y_high.empty()) out["y_high"] = numbers_of(c.y_high, {}, columns);
+  if (!c.dash.empty()) out["dash"] = c.dash;
+  if (c.mark != 0) out["mark"] = c.mark;
+  if (c.bold) out["bold"] = true;
   if (c.hidden) out["hidden"] = true;
   return out;
 }

@@ -1,0 +1,46 @@
+#include "sinew/identify/fit/score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sinew::identify {
+
+Score score(std::span<const double> residuals, double full_scale) {
+  Score out{.points = residuals.size()};
+  double sum = 0;
+  for (const double r : residuals) {
+    sum += r * r;
+    out.max = std::max(out.max, std::abs(r));
+  }
+  if (!residuals.empty()) out.rmse = std::sqrt(sum / static_cast<double>(residuals.size()));
+  if (full_scale > 0) {
+    out.rmse_percent = 100 * out.rmse / full_scale;
+    out.max_percent = 100 * out.max / full_scale;
+  }
+  return out;
+}
+
+ErrorBy error_by(std::string what, std::string unit, std::span<const double> residuals,
+                 std::span<const int> part, std::span<const double> value, double full_scale) {
+  struct Part {
+    std::vector<double> residuals;
+    double first = 0, sum = 0;  // of the values; the sum is that of what they differ by
+  };
+  std::map<int, Part> parts;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    Part& rows = parts[part[i]];
+    rows.residuals.push_back(residuals[i]);
+    if (rows.residuals.size() == 1) rows.first = value[i];
+    rows.sum += value[i] - rows.first;
+  }
+  ErrorBy out{.what = std::move(what), .unit = std::move(unit), .parts = {}};
+  for (const auto& [number, rows] : parts)
+    out.parts.push_back(
+        {.name = "",
+         .value = rows.first + rows.sum / static_cast<double>(rows.residuals.size()),
+         .score = score(rows.residuals, full_scale)});
+  return out;
+}
+
+}  // namespace sinew::identify

@@ -1,0 +1,46 @@
+// identify/fit/score.h - how large residuals are, all together and by parts: an error that is large
+// at one length only says where to look.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sinew::identify {
+
+// How large residuals are.
+struct Score {
+  std::size_t points = 0;
+  double rmse = 0, max = 0;  // of the residuals, in the report's unit
+
+  // Of `full_scale`, for instance the muscle's largest force  [%].
+  double rmse_percent = 0, max_percent = 0;
+
+  // R^2, the share of the variance of what was measured that is explained; NaN: not told.
+  double explained = std::numeric_limits<double>::quiet_NaN();
+};
+
+// Returns it; `full_scale` is what 100 % are, in the residuals' unit.
+Score score(std::span<const double> residuals, double full_scale);
+
+// The error of one part of the rows: those of a length, or of a branch, which has a name.
+struct PartError {
+  std::string name;  // empty: its value tells it
+  double value = 0;  // the mean of its rows, in ErrorBy::unit
+  Score score;
+};
+
+// The error by one thing that was varied.
+struct ErrorBy {
+  std::string what, unit;        // "length", "m"
+  std::vector<PartError> parts;  // each row is in one of them
+};
+
+// Returns the error of each part, in the order of the parts' numbers; `part` and `value` are those
+// of each residual.
+ErrorBy error_by(std::string what, std::string unit, std::span<const double> residuals,
+                 std::span<const int> part, std::span<const double> value, double full_scale);
+
+}  // namespace sinew::identify
