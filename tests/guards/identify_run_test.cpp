@@ -4,7 +4,7 @@
 // known noise of the sensors.
 //
 //   one-joint    friction, damping, dead times, volumes, leaks: all groups
-//   leg-in-air   the same of robots/leg
+//   leg-in-air   the same of robots/leg, one step
 //
 // SINEW_GUARD_COUNT: trials of each; what can be asked of fewer is that most are held.
 #include <gmock/gmock.h>
@@ -144,9 +144,9 @@ std::vector<Trial> try_side_by_side(const Experiment& shipped, const std::vector
   return out;
 }
 
-void try_all(const std::string& name, int trials) {
+void try_all(const std::string& name, int trials, const std::vector<std::string>& sets = {}) {
   Experiment shipped =
-      experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml");
+      experiment::load(std::string(SINEW_SOURCE_DIR) + "/experiments/" + name + ".toml", sets);
   std::vector<Number> numbers;
   for (const std::string& key : identify::machine_keys(shipped, {})) {
     if (key == "trolley.drag") continue;  // in the air no reading depends on it
@@ -178,7 +178,9 @@ void try_all(const std::string& name, int trials) {
 
 TEST(IdentifyRun, HoldsWhatWasInjectedIntoOneJoint) { try_all("one-joint", tries(3)); }
 
-TEST(IdentifyRun, HoldsWhatWasInjectedIntoTheLeg) { try_all("leg-in-air", tries(1)); }
+TEST(IdentifyRun, HoldsWhatWasInjectedIntoTheLeg) {
+  try_all("leg-in-air", tries(1), {"sequence.repeat=1"});
+}
 
 }  // namespace
 }  // namespace sinew::guards
