@@ -81,19 +81,18 @@ bool DrivenRun::predict(const Experiment& e, std::span<double> out, double until
   });
 }
 
-int DrivenRun::landings(const Experiment& e, double from, double until) const {
+int DrivenRun::landings(const Experiment& e, double until) const {
   std::array<bool, robot::max_legs> foot{};
   std::array<bool, robot::max_discs> disc{};
   int out = 0;
-  const auto note = [&](bool& down, double force, bool compared) {
-    out += compared && force > 0 && !down ? 1 : 0;
+  bool first = true;
+  const auto note = [&](bool& down, double force) {
+    out += !first && force > 0 && !down ? 1 : 0;
     down = force > 0;
   };
-  bool first = true;
-  (void)drive(e, until, [&](const Instant& i, const plant::Truth& truth) {
-    const bool compared = !first && time_[i.sample] >= from;
-    for (std::size_t k = 0; k < foot.size(); ++k) note(foot[k], truth.foot[k].force_y, compared);
-    for (std::size_t k = 0; k < disc.size(); ++k) note(disc[k], truth.disc_force[k], compared);
+  (void)drive(e, until, [&](const Instant&, const plant::Truth& truth) {
+    for (std::size_t k = 0; k < foot.size(); ++k) note(foot[k], truth.foot[k].force_y);
+    for (std::size_t k = 0; k < disc.size(); ++k) note(disc[k], truth.disc_force[k]);
     first = false;
     return true;
   });

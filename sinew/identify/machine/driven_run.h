@@ -44,9 +44,9 @@ class DrivenRun {
   // robot that no plant can hold.
   bool predict(const experiment::Experiment& machine, std::span<double> out, double until) const;
 
-  // Returns how often a foot or a disc of that machine comes down on the ground after `from` [s],
-  // as far as samples up to `until` [s] see it; one that stands on it from the beginning does not.
-  int landings(const experiment::Experiment& machine, double from, double until) const;
+  // Returns how often a foot or a disc of that machine comes down on the ground, as far as samples
+  // up to `until` [s] see it; one that stands on it from the beginning does not.
+  int landings(const experiment::Experiment& machine, double until) const;
 
  private:
   // Simulates the machine, and calls visit(instant, truth) for each sample in ascending time. False

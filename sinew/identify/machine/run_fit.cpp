@@ -114,12 +114,12 @@ void warn(const RunFitResult& out, Report& report, double rms) {
 // Takes the intervals away where they would be false. In the air and on a bench derivatives over
 // both steps agree within 0.005; of walks of two steps they differed by 0.03 to 0.9, and no search
 // of six ended where the truth is, by how little they differed ever.
-void judge_intervals(const DrivenRun& run, const RunFitOptions& options, double until,
-                     double roughness, RunFitResult& out, std::vector<Estimate>& estimates) {
+void judge_intervals(const DrivenRun& run, double until, double roughness, RunFitResult& out,
+                     std::vector<Estimate>& estimates) {
   constexpr double smooth = 0.015;
   out.roughness = roughness;
   out.rough = !(roughness <= smooth);
-  out.landings = run.landings(out.machine, options.from, until);
+  out.landings = run.landings(out.machine, until);
   if (!out.rough && out.landings == 0) return;
   out.no_intervals =
       out.landings > 0
@@ -194,7 +194,7 @@ RunFitResult fit_run(const Experiment& e, const DrivenRun& run, const RunFitOpti
   for (std::string& direction : open_directions(s, parameters))
     out.undetermined.push_back(std::move(direction));
   out.machine = whole.machine(found.p);
-  judge_intervals(run, options, until, s.roughness, out, s.estimates);
+  judge_intervals(run, until, s.roughness, out, s.estimates);
 
   Report& report = out.report;
   report = {.subject = fmt::format("{} from a run of {:.4g} s", e.robot.name, run.duration()),

@@ -71,7 +71,7 @@ struct RunFitResult {
   std::string no_intervals;
   bool rough = false;    // derivatives over a longer step are others
   double roughness = 0;  // by that share of them
-  int landings = 0;      // of feet on the ground, in what was compared
+  int landings = 0;      // of feet on the ground, up to the end of what was fitted
 
   int simulations = 0;
   double at_start = 0;  // rms of what is left with the numbers as they stood, in noises
